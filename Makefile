@@ -1,0 +1,43 @@
+# Two commands do everything: `make run` and `make test`. Needs Rust (rustup, stable) and a C compiler; a cmake new enough for
+# the bundled HDF5 is looked for, or put under .tools, by .ci/provide-cmake.
+
+STUDY  ?= configs/quick.toml
+OUTPUT ?= results/$(basename $(notdir $(STUDY))).h5
+
+TOOLS := $(shell .ci/provide-cmake)
+ifeq ($(TOOLS),)
+$(error cmake 3.26 or newer is needed: see the lines above)
+endif
+export PATH := $(TOOLS):$(PATH)
+
+UPLIFT := target/release/uplift
+
+.PHONY: run build test lint docs python bench clean
+
+run: build
+	$(UPLIFT) run $(STUDY) -o $(OUTPUT)
+
+build:
+	cargo build --release --locked --package uplift
+
+# Formatting, lints, documentation, then every test: crates, the built program, its result file from Python.
+test: lint docs python
+	cargo test --locked --workspace
+
+lint:
+	cargo fmt --all --check
+	cargo clippy --locked --workspace --all-targets -- -D warnings
+
+docs:
+	RUSTDOCFLAGS="-D warnings" cargo doc --locked --workspace --no-deps
+
+# Python reads the result files in the tests; without it those tests say that they were skipped.
+python:
+	.ci/provide-python
+
+bench:
+	cargo bench --locked --workspace
+
+clean:
+	cargo clean
+	rm -rf .venv .tools results

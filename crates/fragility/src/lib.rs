@@ -1,0 +1,35 @@
+//! Fragility: the probability that a structure exceeds a displacement, given the intensity of the ground motion.
+//!
+//! The demands of one oscillator come as [`Stripes`]: every record scaled to every level of an intensity measure.
+//! The fragility of record is the empirical one, Eq. 4.7 of the dissertation: the share of the records that exceed
+//! the threshold, level by level ([`exceedance_probabilities`] for one threshold, [`EmpiricalFragility`] for many).
+//! No curve is inverted: the response of rocking structures weaves, so a record may exceed a threshold at one
+//! level and stay below it at the next.
+//!
+//! Beside it, never instead of it, [`fit_lognormal`] gives the maximum-likelihood lognormal fragility.
+//!
+//! ```
+//! use uplift_fragility::{Stripes, exceedance_probabilities};
+//!
+//! let levels_cm_s = [10.0, 20.0, 40.0];
+//! let edp_m = [0.001, 0.02, f64::INFINITY, // record 0 overturns at the last level
+//!              0.000, 0.03, 0.1];          // record 1
+//! let stripes = Stripes::new(&levels_cm_s, &edp_m)?;
+//! assert_eq!(exceedance_probabilities(&stripes, 0.02)?, [0.0, 0.5, 1.0]);
+//! # Ok::<(), uplift_fragility::FragilityError>(())
+//! ```
+//!
+//! # Source
+//! N. Reggiani Manzo, dissertation, Section 4.3.3.
+
+mod empirical;
+mod error;
+mod lognormal;
+mod normal;
+mod stripes;
+
+pub use empirical::{EmpiricalFragility, check_threshold, exceedance_counts, exceedance_probabilities};
+pub use error::FragilityError;
+pub use lognormal::{LognormalFit, LognormalFragility, StripeCount, fit_lognormal, stripe_counts};
+pub use normal::{ln_normal_cdf, normal_cdf};
+pub use stripes::Stripes;

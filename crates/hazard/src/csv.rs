@@ -1,0 +1,293 @@
+//! Two-column text into a hazard curve.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use crate::curve::HazardCurve;
+pub use crate::declaration::SecondColumn;
+use crate::declaration::{self, Column, Declaration};
+use crate::error::{HazardError, Place};
+use crate::probability::rate_from_probability;
+use crate::unit::same_unit;
+
+/// Largest file that [`read_path`] takes, bytes: a hazard curve has some kilobytes.
+pub const MAX_FILE_BYTES: u64 = 4 << 20;
+
+/// What the caller (the study file) says the table holds; a file that says otherwise is refused.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Declared {
+    /// Intensity measure, e.g. "PGV".
+    pub measure: String,
+    /// Unit of the levels, e.g. "cm/s".
+    pub unit: String,
+}
+
+/// How to read a table.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CsvOptions {
+    /// Measure and unit of the first column.
+    pub declared: Declared,
+    /// What the second column holds; needed only for a table without column names.
+    pub second_column: Option<SecondColumn>,
+    /// Period that probabilities refer to, years; needed only for probabilities.
+    pub years: Option<f64>,
+}
+
+impl CsvOptions {
+    /// Options for a table with column names that holds annual rates.
+    pub fn new(measure: impl Into<String>, unit: impl Into<String>) -> Self {
+        let declared = Declared { measure: measure.into(), unit: unit.into() };
+        Self { declared, second_column: None, years: None }
+    }
+}
+
+/// A curve read from text, and what was left out.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CsvCurve {
+    /// The curve, in the declared unit.
+    pub curve: HazardCurve,
+    /// Rows at the end with a rate or probability of zero, which exporters write where the curve has run out.
+    pub dropped_zeros: usize,
+    /// Rows at the beginning with a probability of 1, to which no rate belongs.
+    pub dropped_certain: usize,
+}
+
+struct Row {
+    line: usize,
+    im: f64,
+    /// Rate or probability.
+    value: f64,
+}
+
+/// Reads a hazard curve from a file; see [`read_csv`].
+///
+/// # Errors
+/// [`HazardError::File`] for a file that is missing, larger than [`MAX_FILE_BYTES`] or not UTF-8; else as [`read_csv`].
+pub fn read_path(path: &Path, options: &CsvOptions) -> Result<CsvCurve, HazardError> {
+    let name = path.display().to_string();
+    let fail = |reason: String| HazardError::File { file: name.clone(), reason };
+    let io = |error: std::io::Error| fail(format!("cannot be read: {error}"));
+    if !std::fs::metadata(path).map_err(io)?.is_file() {
+        return Err(fail("not a file; name a CSV file with two columns".to_owned()));
+    }
+    let mut bytes = Vec::new();
+    File::open(path).map_err(io)?.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes).map_err(io)?;
+    if bytes.len() as u64 > MAX_FILE_BYTES {
+        return Err(fail(format!(
+            "larger than {MAX_FILE_BYTES} bytes: not one hazard curve; keep two columns of one site"
+        )));
+    }
+    let text = String::from_utf8(bytes).map_err(|_| fail("not UTF-8 text; save it as \"CSV UTF-8\"".to_owned()))?;
+    read_csv(&text, &name, options)
+}
+
+/// Reads a hazard curve from `text`; `name` is the file's name for messages.
+///
+/// Two columns, separated by comma, semicolon, tab or blanks: the level, in the declared unit, and the annual rate of
+/// exceedance (1/yr) or the probability of exceedance in [`CsvOptions::years`]. A first row of column names, in any
+/// order and case, says which is which (`iml`, `im_g`, `pgv_cm_s`, `PGV [cm/s]`; `maf`, `afe`, `rate`; `poe`); without it
+/// [`CsvOptions::second_column`] decides. Lines that begin with `#` are kept as the curve's source; where they say
+/// `IM: PGV [cm/s]` or `unit: cm/s` they must agree with the declaration.
+///
+/// Two kinds of rows carry no information and are dropped and counted: zeros at the end, and probabilities of 1 at the
+/// beginning (the rate is only known to be large; no value is put in its place, and the curve starts at the next row).
+///
+/// # Errors
+/// [`HazardError`] naming file and line for everything else.
+pub fn read_csv(text: &str, name: &str, options: &CsvOptions) -> Result<CsvCurve, HazardError> {
+    let Table { mut rows, content, source } = Table::parse(text, name, options)?;
+    let place = |line: usize| Place::Line { file: name.to_owned(), line };
+
+    let before = rows.len();
+    while rows.pop_if(|row| row.value == 0.0).is_some() {}
+    let dropped_zeros = before - rows.len();
+    if let Some(pair) = rows.windows(2).find(|pair| pair[0].value == 0.0) {
+        let (place, later_place, later) = (place(pair[0].line), place(pair[1].line), pair[1].value);
+        return Err(HazardError::ZeroInside { place, later_place, later });
+    }
+
+    let mut dropped_certain = 0;
+    if content == SecondColumn::Probability {
+        dropped_certain = rows.iter().take_while(|row| row.value == 1.0).count();
+        rows.drain(..dropped_certain);
+        for row in &mut rows {
+            row.value = rate_of_row(row, options.years, || place(row.line))?;
+        }
+    }
+    if rows.len() < 2 {
+        return Err(HazardError::TooFewPoints { name: name.to_owned(), found: rows.len() });
+    }
+    let Declared { measure, unit } = options.declared.clone();
+    let (im, maf) = rows.iter().map(|row| (row.im, row.value)).unzip();
+    let curve = HazardCurve::new_at(measure, unit, source, im, maf, |index| place(rows[index].line))?;
+    Ok(CsvCurve { curve, dropped_zeros, dropped_certain })
+}
+
+fn rate_of_row(row: &Row, years: Option<f64>, place: impl Fn() -> Place) -> Result<f64, HazardError> {
+    let years = years.ok_or_else(|| HazardError::YearsMissing { place: place() })?;
+    if row.value > 0.0 && row.value < 1.0 {
+        return rate_from_probability(row.value, years);
+    }
+    let hint = if row.value == 1.0 {
+        "probabilities of 1 are dropped at the beginning only: correct or remove this row"
+    } else if row.value > 1.0 {
+        "divide by 100 if these are per cent, or name the column maf if they are annual rates"
+    } else {
+        "correct or remove this row"
+    };
+    Err(HazardError::Probability { place: place(), value: row.value, hint })
+}
+
+/// The text taken apart: numbers in file order, nothing about hazard checked yet.
+struct Table {
+    rows: Vec<Row>,
+    content: SecondColumn,
+    source: String,
+}
+
+impl Table {
+    fn parse(text: &str, name: &str, options: &CsvOptions) -> Result<Self, HazardError> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let mut comments = Vec::new();
+        let mut rows: Vec<Row> = Vec::new();
+        // Which column is the level, and what the other holds; known from the first row on.
+        let mut columns: Option<(usize, SecondColumn)> = None;
+        // `split` and not `lines`: old spreadsheets end lines with a carriage return alone.
+        let unified = text.replace("\r\n", "\n").replace('\r', "\n");
+        for (index, line) in unified.split('\n').enumerate() {
+            let place = Place::Line { file: name.to_owned(), line: index + 1 };
+            let line = line.trim();
+            // Spreadsheets put a line with commas into quotes.
+            let unquoted = line.trim_start_matches('"');
+            if let Some(comment) = unquoted.strip_prefix('#') {
+                check_declaration(&declaration::comment(comment), &options.declared, place)?;
+                comments.push(comment.trim().trim_end_matches([',', ';', '"']).to_owned());
+                continue;
+            }
+            let Some(fields) = two_fields(line, &place)? else {
+                continue;
+            };
+            let header = columns.is_none() && fields.iter().all(|field| field.parse::<f64>().is_err());
+            if header {
+                columns = Some(read_header(fields, options, &place)?);
+                continue;
+            }
+            let (level, _) = match columns {
+                Some(columns) => columns,
+                None => *columns.insert((0, content_without_header(options, &place)?)),
+            };
+            let im = number(fields[level], &place)?;
+            let value = number(fields[1 - level], &place)?;
+            rows.push(Row { line: index + 1, im, value });
+        }
+        let Some((_, content)) = columns else {
+            return Err(HazardError::TooFewPoints { name: name.to_owned(), found: 0 });
+        };
+        let source = if comments.is_empty() { name.to_owned() } else { comments.join("\n") };
+        Ok(Self { rows, content, source })
+    }
+}
+
+/// The two fields of a row, without quotes; none for an empty line.
+fn two_fields<'a>(line: &'a str, place: &Place) -> Result<Option<[&'a str; 2]>, HazardError> {
+    let separator = [';', '\t', ','].into_iter().find(|&separator| line.contains(separator));
+    let mut fields: Vec<&str> = match separator {
+        Some(separator) => line.split(separator).take(9).map(|field| field.trim().trim_matches('"').trim()).collect(),
+        None => line.split_whitespace().take(9).collect(),
+    };
+    // Spreadsheets pad short rows with separators.
+    while fields.pop_if(|field| field.is_empty()).is_some() {}
+    match fields[..] {
+        [] => Ok(None),
+        [a, b] => Ok(Some([a, b])),
+        _ => {
+            let numeric = fields.iter().all(|field| field.parse::<f64>().is_ok());
+            let hint = if separator == Some(',') && matches!(fields.len(), 3 | 4) && numeric {
+                "; if these are decimal commas, write decimal points"
+            } else {
+                "; keep one column of intensity levels and one of annual rates or probabilities"
+            };
+            let count = if fields.len() > 8 { "more than 8".to_owned() } else { fields.len().to_string() };
+            Err(HazardError::Row {
+                place: place.clone(),
+                reason: format!("{count} columns where 2 are expected{hint}"),
+            })
+        }
+    }
+}
+
+fn number(field: &str, place: &Place) -> Result<f64, HazardError> {
+    let reason = match field.parse::<f64>() {
+        Ok(value) if value.is_finite() => return Ok(value),
+        Ok(_) => format!("{} is not a finite number", excerpt(field)),
+        Err(_) if field.replace(',', ".").parse::<f64>().is_ok() => {
+            format!("{} has a decimal comma: write a decimal point", excerpt(field))
+        }
+        Err(_) => format!("{} is not a number", excerpt(field)),
+    };
+    Err(HazardError::Row { place: place.clone(), reason })
+}
+
+/// The beginning of a field for a message, with everything unprintable escaped.
+fn excerpt(field: &str) -> String {
+    let head: String = field.chars().take(40).collect();
+    if head.len() < field.len() { format!("{head:?}...") } else { format!("{head:?}") }
+}
+
+/// Which of the two columns is the level, and what the other holds.
+fn read_header(fields: [&str; 2], options: &CsvOptions, place: &Place) -> Result<(usize, SecondColumn), HazardError> {
+    let fail = |reason: String| Err(HazardError::Row { place: place.clone(), reason });
+    let mut level = None;
+    let mut content = None;
+    for (index, field) in fields.into_iter().enumerate() {
+        match declaration::column(field, &options.declared.measure) {
+            Some(Column::Intensity(found)) => {
+                check_declaration(&found, &options.declared, place.clone())?;
+                level = Some(index);
+            }
+            Some(Column::Hazard(found)) => content = Some(found),
+            None => {
+                let field = excerpt(field);
+                return fail(format!(
+                    "column name {field} is not known: use iml (or the measure, e.g. pgv_cm_s) and maf or poe"
+                ));
+            }
+        }
+    }
+    let (Some(level), Some(content)) = (level, content) else {
+        let [a, b] = fields.map(excerpt);
+        return fail(format!(
+            "columns {a} and {b}: one must hold levels (iml) and the other annual rates (maf) or probabilities (poe)"
+        ));
+    };
+    match options.second_column {
+        Some(declared) if declared != content => Err(HazardError::Contradiction {
+            place: place.clone(),
+            what: "second column",
+            found: content.name().to_owned(),
+            declared: declared.name().to_owned(),
+        }),
+        _ => Ok((level, content)),
+    }
+}
+
+fn content_without_header(options: &CsvOptions, place: &Place) -> Result<SecondColumn, HazardError> {
+    options.second_column.ok_or_else(|| {
+        let reason = "no column names before the first numbers; add the line \"iml,maf\" or \"iml,poe\", or declare what the second column holds";
+        HazardError::Row { place: place.clone(), reason: reason.to_owned() }
+    })
+}
+
+fn check_declaration(found: &Declaration, declared: &Declared, place: Place) -> Result<(), HazardError> {
+    let contradiction = |what, found: &str, declared: &str| {
+        Err(HazardError::Contradiction { place, what, found: excerpt(found), declared: excerpt(declared) })
+    };
+    match (&found.measure, &found.unit) {
+        (Some(measure), _) if !declaration::same_measure(measure, &declared.measure) => {
+            contradiction("measure", measure, &declared.measure)
+        }
+        (_, Some(unit)) if !same_unit(unit, &declared.unit) => contradiction("unit", unit, &declared.unit),
+        _ => Ok(()),
+    }
+}

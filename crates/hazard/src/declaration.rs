@@ -1,0 +1,169 @@
+//! What a table says about itself: measure and unit in a comment or a column name.
+
+use crate::unit::Unit;
+
+/// Measure and unit as far as a text names them.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub(crate) struct Declaration {
+    pub(crate) measure: Option<String>,
+    pub(crate) unit: Option<String>,
+}
+
+/// What the second column holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SecondColumn {
+    /// Mean annual frequency of exceedance, 1/yr.
+    AnnualRate,
+    /// Probability of exceedance within [`crate::CsvOptions::years`].
+    Probability,
+}
+
+impl SecondColumn {
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::AnnualRate => "annual rates",
+            Self::Probability => "probabilities of exceedance",
+        }
+    }
+}
+
+/// A column recognised by its name.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Column {
+    Intensity(Declaration),
+    Hazard(SecondColumn),
+}
+
+/// Names of intensity columns that say nothing about the measure.
+const GENERIC: [&str; 5] = ["iml", "im", "imls", "level", "intensity"];
+/// Measures accepted as column names; the declared measure is always accepted beside them.
+const MEASURES: [&str; 4] = ["pgv", "pga", "sa", "psa"];
+const RATES: [&str; 8] =
+    ["maf", "mafe", "afe", "rate", "annual_rate", "lambda", "annual_frequency", "annual_frequency_of_exceedance"];
+const PROBABILITIES: [&str; 4] = ["poe", "probability", "probability_of_exceedance", "prob"];
+
+/// Recognises a column name such as `iml`, `im_g`, `pgv_cm_s`, `PGV [cm/s]`, `maf`, `maf_1_yr`, `poe`.
+pub(crate) fn column(name: &str, declared_measure: &str) -> Option<Column> {
+    let (plain, unit) = split_unit(name.trim());
+    let key = plain.to_ascii_lowercase().replace([' ', '-'], "_");
+    let is = |names: &[&str]| names.contains(&key.as_str());
+    // Rates per anything but a year and probabilities in per cent are not what the column would be read as.
+    if is(&RATES) {
+        return unit.is_none_or(is_per_year).then_some(Column::Hazard(SecondColumn::AnnualRate));
+    }
+    if is(&PROBABILITIES) {
+        return unit.is_none().then_some(Column::Hazard(SecondColumn::Probability));
+    }
+    let unit = unit.map(str::to_owned);
+    if is(&GENERIC) {
+        return Some(Column::Intensity(Declaration { measure: None, unit }));
+    }
+    (is(&MEASURES) || key.starts_with("sa(") || same_measure(plain, declared_measure))
+        .then(|| Column::Intensity(Declaration { measure: Some(plain.to_owned()), unit }))
+}
+
+/// Reads `IM: PGV [cm/s]` and `unit: cm/s` out of a comment, among other text separated by `;` or `,`.
+///
+/// Accepted keys: `im`, `imt`, `measure`, `intensity measure`; `unit`, `units`. Prose after a key is no declaration: a
+/// measure is one word, and a unit outside brackets must be a known one.
+pub(crate) fn comment(text: &str) -> Declaration {
+    let mut found = Declaration::default();
+    for part in text.split([';', ',']) {
+        let Some((key, value)) = part.split_once(':') else {
+            continue;
+        };
+        match key.trim().to_ascii_lowercase().as_str() {
+            "im" | "imt" | "measure" | "intensity measure" => {
+                let (measure, unit) = split_unit(value.trim());
+                if !measure.is_empty() && !measure.contains(char::is_whitespace) {
+                    found.measure = Some(measure.to_owned());
+                    found.unit = unit.map(str::to_owned).or(found.unit);
+                }
+            }
+            "unit" | "units" if Unit::parse(value).is_some() => {
+                found.unit = Some(value.trim().to_owned());
+            }
+            _ => {}
+        }
+    }
+    found
+}
+
+/// Whether two texts name the same measure.
+pub(crate) fn same_measure(a: &str, b: &str) -> bool {
+    let plain = |text: &str| text.to_ascii_lowercase().replace([' ', '_'], "");
+    plain(a) == plain(b)
+}
+
+/// Splits `PGV [cm/s]`, `PGV (cm/s)`, `pgv_cm_s` and `maf_1_yr` into name and unit. Only brackets may hold an unknown unit.
+fn split_unit(name: &str) -> (&str, Option<&str>) {
+    if let Some((plain, unit)) = name.strip_suffix(']').and_then(|rest| rest.split_once('[')) {
+        return (plain.trim_end(), Some(unit.trim()));
+    }
+    let is_unit = |unit: &str| Unit::parse(unit).is_some() || is_per_year(unit);
+    if let Some((plain, unit)) = name.strip_suffix(')').and_then(|rest| rest.split_once('('))
+        && is_unit(unit)
+    {
+        return (plain.trim_end(), Some(unit));
+    }
+    // The longest suffix first: `im_cm_s` is in cm/s, not in "s".
+    let at = name.match_indices('_').map(|(at, _)| at).find(|&at| at > 0 && is_unit(&name[at + 1..]));
+    at.map_or((name, None), |at| (&name[..at], Some(&name[at + 1..])))
+}
+
+fn is_per_year(unit: &str) -> bool {
+    matches!(unit, "1/yr" | "1/year" | "1_yr" | "yr-1" | "per_yr" | "per_year")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn named(measure: Option<&str>, unit: Option<&str>) -> Declaration {
+        Declaration { measure: measure.map(str::to_owned), unit: unit.map(str::to_owned) }
+    }
+
+    #[test]
+    fn column_names() {
+        for (name, measure, unit) in [
+            ("iml", None, None),
+            ("IM_s", None, None),
+            ("iml_g", None, Some("g")),
+            ("pgv_cm_s", Some("pgv"), Some("cm_s")),
+            ("PGV [cm/s]", Some("PGV"), Some("cm/s")),
+            ("PGA (g)", Some("PGA"), Some("g")),
+            ("SA(1.0)", Some("SA(1.0)"), None),
+            ("SA(1.0)_g", Some("SA(1.0)"), Some("g")),
+            ("pga_m_s2", Some("pga"), Some("m_s2")),
+            ("PGV [furlong/fortnight]", Some("PGV"), Some("furlong/fortnight")),
+            ("arias_intensity", Some("arias_intensity"), None),
+        ] {
+            let expected = (name != "IM_s").then(|| Column::Intensity(named(measure, unit)));
+            assert_eq!(column(name, "Arias intensity"), expected, "{name}");
+        }
+        for (name, what) in [
+            ("maf", SecondColumn::AnnualRate),
+            ("AFE", SecondColumn::AnnualRate),
+            ("maf_1_yr", SecondColumn::AnnualRate),
+            ("MAF [1/yr]", SecondColumn::AnnualRate),
+            ("annual rate", SecondColumn::AnnualRate),
+            ("PoE", SecondColumn::Probability),
+        ] {
+            assert_eq!(column(name, "PGV"), Some(Column::Hazard(what)), "{name}");
+        }
+        for name in ["", "lon", "poe-0.1", "_g", "[g]", "sigma", "maf [1/day]", "poe [%]"] {
+            assert_eq!(column(name, "PGV"), None, "{name}");
+        }
+    }
+
+    #[test]
+    fn comments() {
+        let line = " site: Athens, Greece; longitude 23.7; IM: PGV [cm/s], geometric mean (GMRotI50), rock";
+        assert_eq!(comment(line), named(Some("PGV"), Some("cm/s")));
+        assert_eq!(comment("imt: PGA; units: m/s2"), named(Some("PGA"), Some("m/s2")));
+        assert_eq!(comment("measure: SA(1.0) [g]"), named(Some("SA(1.0)"), Some("g")));
+        assert_eq!(comment("units: see the report"), named(None, None));
+        assert_eq!(comment("im: the geometric mean was used"), named(None, None));
+        assert_eq!(comment("maf: mean annual frequency [1/yr]"), named(None, None));
+    }
+}

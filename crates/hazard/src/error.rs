@@ -1,0 +1,231 @@
+//! Everything that can be wrong with a hazard curve.
+
+use std::fmt;
+
+/// Where a value stands: a point of arrays handed over, or a line of a file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Place {
+    /// Index into the arrays, counted from 0.
+    Point(usize),
+    /// Line of a text, counted from 1.
+    Line {
+        /// Name of the file as the caller gave it.
+        file: String,
+        /// Line number.
+        line: usize,
+    },
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Point(index) => write!(f, "point {index} (counted from 0)"),
+            Self::Line { file, line } => write!(f, "{file}, line {line}"),
+        }
+    }
+}
+
+/// Why a hazard curve could not be built, read or evaluated.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum HazardError {
+    // The curve
+    /// Fewer than two points.
+    #[error("{name}: a hazard curve needs at least 2 points with a positive rate, found {found}")]
+    TooFewPoints {
+        /// The curve's measure, or the file.
+        name: String,
+        /// Points left.
+        found: usize,
+    },
+    /// `im` and `maf` differ in length.
+    #[error("hazard curve: {im} intensity levels but {maf} rates; give one rate per level")]
+    LengthMismatch {
+        /// Number of levels.
+        im: usize,
+        /// Number of rates.
+        maf: usize,
+    },
+    /// The measure or the unit is an empty text.
+    #[error("hazard curve: the {what} is empty; name it, e.g. measure \"PGV\" in unit \"cm/s\"")]
+    EmptyLabel {
+        /// "measure" or "unit".
+        what: &'static str,
+    },
+    /// A level or rate that is not a finite number above zero.
+    #[error("{place}: {what} is {value}, it must be a finite number above 0")]
+    NotPositive {
+        /// Where.
+        place: Place,
+        /// The quantity with its unit.
+        what: String,
+        /// The value found.
+        value: f64,
+    },
+    /// Levels that do not increase.
+    #[error(
+        "{place}: intensity {value} {unit} does not exceed {previous} {unit} at {previous_place}; sort the rows by intensity and remove repeated ones"
+    )]
+    LevelsNotIncreasing {
+        /// Where the offending level stands.
+        place: Place,
+        /// Where the level before it stands.
+        previous_place: Place,
+        /// The offending level.
+        value: f64,
+        /// The level before it.
+        previous: f64,
+        /// Unit of both.
+        unit: String,
+    },
+    /// Rates that do not decrease.
+    #[error(
+        "{place}: annual rate {value} 1/yr is not below {previous} 1/yr at {previous_place}; a hazard curve must fall strictly: correct the rates, export them with more digits, or remove the row"
+    )]
+    RatesNotDecreasing {
+        /// Where the offending rate stands.
+        place: Place,
+        /// Where the rate before it stands.
+        previous_place: Place,
+        /// The offending rate, 1/yr.
+        value: f64,
+        /// The rate before it, 1/yr.
+        previous: f64,
+    },
+    /// The unit is not one of the measure's dimension.
+    #[error("measure {measure} cannot be in \"{unit}\": use {expected}")]
+    UnitOfMeasure {
+        /// The measure.
+        measure: String,
+        /// The unit given.
+        unit: String,
+        /// Units that fit.
+        expected: &'static str,
+    },
+    /// No conversion is known between two units.
+    #[error(
+        "hazard curve of {measure}: cannot convert \"{from}\" to \"{to}\"; known are cm/s and m/s, and g, m/s2 and cm/s2"
+    )]
+    Conversion {
+        /// The measure.
+        measure: String,
+        /// Unit of the curve.
+        from: String,
+        /// Unit asked for.
+        to: String,
+    },
+
+    // Evaluation
+    /// An intensity outside the curve, extrapolation refused.
+    #[error(
+        "{measure} = {value} {unit} lies outside the hazard curve, which spans {first} to {last} {unit}; give a curve that covers it, or choose log-log extrapolation (extrapolate = \"loglog\")"
+    )]
+    LevelOutside {
+        /// The measure.
+        measure: String,
+        /// Level asked for.
+        value: f64,
+        /// Unit of the levels.
+        unit: String,
+        /// First level of the curve.
+        first: f64,
+        /// Last level of the curve.
+        last: f64,
+    },
+    /// A rate outside the curve, extrapolation refused.
+    #[error(
+        "annual rate {value} 1/yr lies outside the hazard curve of {measure}, which spans {first} down to {last} 1/yr; give a curve that covers it, or choose log-log extrapolation (extrapolate = \"loglog\")"
+    )]
+    RateOutside {
+        /// The measure.
+        measure: String,
+        /// Rate asked for, 1/yr.
+        value: f64,
+        /// Rate of the first point, 1/yr.
+        first: f64,
+        /// Rate of the last point, 1/yr.
+        last: f64,
+    },
+    /// An argument that is not a finite number in its range.
+    #[error("{what} is {value}, it must be {must_be}")]
+    Argument {
+        /// The argument with its unit.
+        what: &'static str,
+        /// The value given.
+        value: f64,
+        /// The range allowed.
+        must_be: &'static str,
+    },
+    /// An extrapolated value too large or too small for a number.
+    #[error(
+        "extrapolating the hazard curve of {measure} to {value} {unit} leaves the range of numbers; stay nearer to the curve"
+    )]
+    ExtrapolationRange {
+        /// The measure.
+        measure: String,
+        /// Value asked for.
+        value: f64,
+        /// Its unit.
+        unit: String,
+    },
+
+    // Text
+    /// The file cannot be read.
+    #[error("{file}: {reason}")]
+    File {
+        /// The path as given.
+        file: String,
+        /// What went wrong and what to do.
+        reason: String,
+    },
+    /// A line that cannot be understood.
+    #[error("{place}: {reason}")]
+    Row {
+        /// File and line.
+        place: Place,
+        /// What is wrong and what to do.
+        reason: String,
+    },
+    /// The file says something else than the caller.
+    #[error("{place}: the file says {what} {found}, but {declared} is declared; correct the one that is wrong")]
+    Contradiction {
+        /// File and line.
+        place: Place,
+        /// "measure", "unit" or "second column".
+        what: &'static str,
+        /// What the file says.
+        found: String,
+        /// What the caller declared.
+        declared: String,
+    },
+    /// A table of probabilities without the period they belong to.
+    #[error(
+        "{place}: probabilities of exceedance need the period they refer to; give years (the engine's investigation time, often 1 or 50)"
+    )]
+    YearsMissing {
+        /// File and line.
+        place: Place,
+    },
+    /// A probability that no rate belongs to.
+    #[error("{place}: probability of exceedance {value} has no annual rate, -ln(1 - p) needs 0 < p < 1; {hint}")]
+    Probability {
+        /// File and line.
+        place: Place,
+        /// The value found.
+        value: f64,
+        /// What to do.
+        hint: &'static str,
+    },
+    /// A rate or probability of zero before the end of the table.
+    #[error(
+        "{place}: zero here, but {later_place} has {later} again; only zeros at the end can be dropped, so correct or remove this row"
+    )]
+    ZeroInside {
+        /// Where the zero stands.
+        place: Place,
+        /// Where the next positive value stands.
+        later_place: Place,
+        /// That value.
+        later: f64,
+    },
+}

@@ -1,0 +1,175 @@
+//! Tables as they come, and what is said about those that cannot be used.
+#![allow(clippy::unwrap_used)]
+
+use std::path::Path;
+
+use uplift_hazard::{CsvCurve, CsvOptions, HazardError, SecondColumn, read_csv, read_path};
+
+fn read(text: &str) -> Result<CsvCurve, HazardError> {
+    read_csv(text, "site.csv", &CsvOptions::new("PGV", "cm/s"))
+}
+
+fn message(text: &str) -> String {
+    read(text).unwrap_err().to_string()
+}
+
+#[test]
+fn the_same_table_in_many_dresses() {
+    let plain = read("iml,maf\n1,0.2\n2,0.1\n").unwrap().curve;
+    assert_eq!((plain.im(), plain.maf()), (&[1.0, 2.0][..], &[0.2, 0.1][..]));
+    assert_eq!((plain.measure(), plain.unit(), plain.source()), ("PGV", "cm/s", "site.csv"));
+    for text in [
+        "\u{feff}iml,maf\r\n1,0.2\r\n2,0.1\r\n",
+        "iml,maf\r1,0.2\r2,0.1",
+        "IML ; MAF\n\n 1 ; 0.2 \n2;0.1\n\n",
+        "pgv_cm_s\tafe\n1\t2e-1\n2\t1e-1",
+        "PGV [cm/s], MAF [1/yr]\n1, 0.2\n2, 0.1",
+        "maf,im\n0.2,1\n0.1,2",
+        "\"iml\",\"maf\"\n\"1\",\"0.2\"\n2,0.1,,,",
+        "im rate\n1 0.2\n2   0.1",
+    ] {
+        assert_eq!(read(text).unwrap().curve, plain, "{text:?}");
+    }
+}
+
+#[test]
+fn comments_become_the_source() {
+    let curve =
+        read("# site: X; IM: PGV [cm/s], geometric mean\n#second\niml,maf\n1,0.2\n# late\n2,0.1\n").unwrap().curve;
+    assert_eq!(curve.source(), "site: X; IM: PGV [cm/s], geometric mean\nsecond\nlate");
+}
+
+#[test]
+fn probabilities_need_their_period() {
+    let text = "iml,poe\n1,0.5\n2,0.02\n";
+    assert_eq!(
+        message(text),
+        "site.csv, line 2: probabilities of exceedance need the period they refer to; give years (the engine's \
+         investigation time, often 1 or 50)"
+    );
+    let options = CsvOptions { years: Some(50.0), ..CsvOptions::new("PGV", "cm/s") };
+    let curve = read_csv(text, "site.csv", &options).unwrap().curve;
+    assert_eq!(curve.maf()[0], std::f64::consts::LN_2 / 50.0);
+    assert!((curve.maf()[1] - 0.000_404_05).abs() < 5e-9);
+    let options = CsvOptions { years: Some(-1.0), ..CsvOptions::new("PGV", "cm/s") };
+    assert!(matches!(read_csv(text, "site.csv", &options), Err(HazardError::Argument { .. })));
+}
+
+#[test]
+fn a_table_without_names_needs_a_declaration() {
+    let text = "1,0.2\n2,0.1\n";
+    assert!(message(text).contains("site.csv, line 1: no column names before the first numbers"));
+    let with = |second_column| CsvOptions {
+        second_column: Some(second_column),
+        years: Some(1.0),
+        ..CsvOptions::new("PGV", "cm/s")
+    };
+    let rates = read_csv(text, "site.csv", &with(SecondColumn::AnnualRate)).unwrap().curve;
+    assert_eq!(rates.maf(), [0.2, 0.1]);
+    let poes = read_csv(text, "site.csv", &with(SecondColumn::Probability)).unwrap().curve;
+    assert_eq!(poes.maf()[0], -(-0.2_f64).ln_1p());
+    let against =
+        read_csv("iml,poe\n1,0.2\n2,0.1", "site.csv", &with(SecondColumn::AnnualRate)).unwrap_err().to_string();
+    assert_eq!(
+        against,
+        "site.csv, line 1: the file says second column probabilities of exceedance, but annual rates is declared; \
+         correct the one that is wrong"
+    );
+}
+
+#[test]
+fn rows_without_information_are_dropped_and_counted() {
+    let read = read("iml,maf\n1,0.2\n2,0.1\n3,0\n4,0.0\n5,0e0\n").unwrap();
+    assert_eq!((read.curve.len(), read.dropped_zeros, read.dropped_certain), (2, 3, 0));
+    let options = CsvOptions { years: Some(1.0), ..CsvOptions::new("PGV", "cm/s") };
+    let read = read_csv("iml,poe\n1,1\n2,1.000000\n3,0.9\n4,0.5\n5,0\n", "site.csv", &options).unwrap();
+    assert_eq!((read.curve.im(), read.dropped_zeros, read.dropped_certain), (&[3.0, 4.0][..], 1, 2));
+
+    assert_eq!(
+        message("iml,maf\n1,0.2\n2,0\n3,0.1\n"),
+        "site.csv, line 3: zero here, but site.csv, line 4 has 0.1 again; only zeros at the end can be dropped, so \
+         correct or remove this row"
+    );
+    assert!(message("iml,maf\n1,0\n2,0\n").contains("at least 2 points with a positive rate, found 0"));
+    let certain_later = read_csv("iml,poe\n1,0.9\n2,1\n3,0.5\n", "site.csv", &options).unwrap_err().to_string();
+    assert!(
+        certain_later.starts_with("site.csv, line 3: probability of exceedance 1 has no annual rate"),
+        "{certain_later}"
+    );
+    let per_cent = read_csv("iml,poe\n1,90\n2,50\n", "site.csv", &options).unwrap_err().to_string();
+    assert!(per_cent.ends_with("divide by 100 if these are per cent, or name the column maf if they are annual rates"));
+    assert!(read_csv("iml,poe\n1,0.9\n2,-0.1\n", "site.csv", &options).unwrap_err().to_string().contains("line 3"));
+}
+
+#[test]
+fn contradictions_name_both_sides() {
+    assert_eq!(
+        message("# IM: PGV [m/s], geometric mean\niml,maf\n1,0.2\n2,0.1\n"),
+        "site.csv, line 1: the file says unit \"m/s\", but \"cm/s\" is declared; correct the one that is wrong"
+    );
+    assert_eq!(
+        message("iml,maf\n1,0.2\n2,0.1\n# IM: PGA [g]"),
+        "site.csv, line 4: the file says measure \"PGA\", but \"PGV\" is declared; correct the one that is wrong"
+    );
+    assert!(message("pgv_m_s,maf\n1,0.2\n2,0.1\n").contains("unit \"m_s\", but \"cm/s\""));
+    assert!(message("pga,maf\n1,0.2\n2,0.1\n").contains("measure \"pga\", but \"PGV\""));
+    // The same unit in another spelling is no contradiction.
+    assert!(read("# IM: pgv [cm s-1]\niml_cm_s,maf\n1,0.2\n2,0.1\n").is_ok());
+}
+
+#[test]
+fn every_broken_line_is_named() {
+    for (text, expected) in [
+        (
+            "iml,maf\n0,1,0,2\n",
+            "site.csv, line 2: 4 columns where 2 are expected; if these are decimal commas, write decimal points",
+        ),
+        ("iml;maf\n0,1;0.2\n", "site.csv, line 2: \"0,1\" has a decimal comma: write a decimal point"),
+        ("iml,maf\n1,0.2\n2,x\n", "site.csv, line 3: \"x\" is not a number"),
+        ("iml,maf\n1,0.2\n2,nan\n", "site.csv, line 3: \"nan\" is not a finite number"),
+        ("iml,maf\n1,0.2\n2\n", "site.csv, line 3: 1 columns where 2 are expected; keep one column"),
+        ("lon,lat,depth,poe-0.1,poe-0.2\n", "site.csv, line 1: 5 columns where 2 are expected; keep one column"),
+        ("iml,sigma\n1,0.2\n", "site.csv, line 1: column name \"sigma\" is not known"),
+        ("maf,poe\n1,0.2\n", "site.csv, line 1: columns \"maf\" and \"poe\": one must hold levels"),
+        ("iml,maf\n1,0.2\n1,0.1\n", "site.csv, line 3: intensity 1 cm/s does not exceed 1 cm/s at site.csv, line 2"),
+        (
+            "iml,maf\n\n1,0.2\n# c\n2,0.2\n",
+            "site.csv, line 5: annual rate 0.2 1/yr is not below 0.2 1/yr at site.csv, line 3",
+        ),
+        ("iml,maf\n1,0.2\n2,-0.1\n", "site.csv, line 3: annual rate [1/yr] is -0.1"),
+        ("iml,maf\n1,0.2\n", "site.csv: a hazard curve needs at least 2 points"),
+        ("", "site.csv: a hazard curve needs at least 2 points with a positive rate, found 0"),
+        ("# only a comment", "site.csv: a hazard curve needs at least 2 points"),
+    ] {
+        let message = message(text);
+        assert!(message.starts_with(expected), "{text:?}: {message}");
+    }
+}
+
+#[test]
+fn messages_stay_short_and_printable() {
+    let long = format!("iml,maf\n1,{}\u{7}\n", "x".repeat(100_000));
+    assert!(message(&long).len() < 150);
+    assert!(message("iml,maf\n1,\u{1b}[31m\n").contains("\\u{1b}"));
+    assert!(message(&format!("iml,maf\n{}\n", "1,".repeat(100_000))).contains("more than 8 columns"));
+}
+
+#[test]
+fn files_that_cannot_be_read() {
+    let options = CsvOptions::new("PGV", "cm/s");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let error = read_path(&folder.join("missing.csv"), &options).unwrap_err().to_string();
+    assert!(error.contains("missing.csv: cannot be read"), "{error}");
+    assert!(read_path(folder, &options).unwrap_err().to_string().contains("not a file"));
+    let file = std::env::temp_dir().join(format!("uplift-hazard-{}.csv", std::process::id()));
+    std::fs::write(&file, b"iml,maf\n1,0.2\n2,0.1 \xff\n").unwrap();
+    let latin = read_path(&file, &options);
+    std::fs::write(&file, vec![b'\n'; (4 << 20) + 1]).unwrap();
+    let large = read_path(&file, &options);
+    std::fs::write(&file, b"iml,maf\n1,0.2\n2,0.1\n").unwrap();
+    let good = read_path(&file, &options);
+    std::fs::remove_file(&file).unwrap();
+    assert!(latin.unwrap_err().to_string().ends_with("not UTF-8 text; save it as \"CSV UTF-8\""));
+    assert!(large.unwrap_err().to_string().contains("larger than 4194304 bytes"));
+    assert_eq!(good.unwrap().curve.len(), 2);
+}

@@ -1,0 +1,21 @@
+//! Incremental dynamic analysis: every record, scaled to every intensity level, through every oscillator (Section 4.3.3
+//! of Reggiani Manzo's dissertation).
+//!
+//! | room | what is in it |
+//! |---|---|
+//! | [`plan`] | records, oscillators and levels, checked |
+//! | [`analysis`] | the plan carried out on all cores |
+//! | [`edp`] | the array of engineering demand parameters it leaves |
+//! | [`watch`] | progress and cancellation |
+
+pub mod analysis;
+pub mod edp;
+mod error;
+pub mod plan;
+pub mod watch;
+
+pub use analysis::analyse;
+pub use edp::EdpArray;
+pub use error::IdaError;
+pub use plan::{Plan, StripeRecord};
+pub use watch::{Unwatched, Watch};

@@ -1,0 +1,227 @@
+//! The errors of this crate.
+
+use std::path::PathBuf;
+
+/// What can be wrong with ground motions given from outside.
+///
+/// In every variant `name` is the file (or record) as the caller called it, and `line` counts
+/// from one.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum MotionError {
+    /// The time step is not a finite number above zero.
+    #[error("time step is {dt_s} s; it must be finite and above zero")]
+    TimeStep {
+        /// The step given \[s\].
+        dt_s: f64,
+    },
+    /// There are fewer than two samples.
+    #[error("accelerogram has {count} sample(s); it needs at least 2")]
+    TooFewSamples {
+        /// Number of samples given.
+        count: usize,
+    },
+    /// A sample is not finite.
+    #[error("acceleration sample {index} (counted from 0) is {value} m/s2; all must be finite")]
+    Sample {
+        /// Index of the sample, from zero.
+        index: usize,
+        /// Its value \[m/s²\].
+        value: f64,
+    },
+    /// The acceleration of gravity is not a finite number above zero.
+    #[error("gravity is {gravity_m_s2} m/s2; it must be finite and above zero")]
+    Gravity {
+        /// The value given \[m/s²\].
+        gravity_m_s2: f64,
+    },
+    /// A pair cannot be scaled to a level of its intensity measure.
+    #[error(
+        "cannot scale a record whose intensity measure is {measure} to {level}: \
+         the measure must be finite and above zero, the level finite and not negative"
+    )]
+    Scale {
+        /// The level to reach, in the unit of the measure.
+        level: f64,
+        /// The measure of the unscaled pair, in the same unit.
+        measure: f64,
+    },
+    /// A word is not among those accepted.
+    #[error("unknown {what} \"{given}\"; use one of: {accepted}")]
+    UnknownWord {
+        /// What the word should have named.
+        what: &'static str,
+        /// The word given.
+        given: String,
+        /// The accepted words.
+        accepted: &'static str,
+    },
+    /// A file cannot be opened or read.
+    #[error("cannot read {}: {reason}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system says.
+        reason: std::io::Error,
+    },
+    /// A file is far larger than any accelerogram.
+    #[error("{name}: more than {limit_bytes} bytes; this cannot be one accelerogram")]
+    TooLarge {
+        /// The file.
+        name: String,
+        /// The largest size accepted \[bytes\].
+        limit_bytes: u64,
+    },
+    /// No line of the head gives number of points and time step.
+    #[error(
+        "{name}: no line with NPTS and DT among the first {searched}; \
+         line 4 of an AT2 file reads like \"NPTS= 4000, DT= .0050 SEC\""
+    )]
+    NoPointCount {
+        /// The file.
+        name: String,
+        /// Number of lines searched.
+        searched: usize,
+    },
+    /// The number of points or the time step in the head cannot be read.
+    #[error(
+        "{name}, line {line}: cannot read {key} in \"{text}\"; \
+         expected e.g. \"NPTS= 4000, DT= .0050 SEC\", with a decimal point"
+    )]
+    HeaderValue {
+        /// The file.
+        name: String,
+        /// The line.
+        line: usize,
+        /// `NPTS` or `DT`.
+        key: &'static str,
+        /// The line's text.
+        text: String,
+    },
+    /// The file holds something else than acceleration.
+    #[error("{name}, line {line}: \"{text}\": not an acceleration; give the acceleration (.AT2) file")]
+    NotAcceleration {
+        /// The file.
+        name: String,
+        /// The line.
+        line: usize,
+        /// The line's text.
+        text: String,
+    },
+    /// The head names a unit that is not known.
+    #[error("{name}, line {line}: unknown acceleration unit in \"{text}\"; known units: {accepted}")]
+    HeaderUnit {
+        /// The file.
+        name: String,
+        /// The line.
+        line: usize,
+        /// The line's text.
+        text: String,
+        /// The accepted words.
+        accepted: &'static str,
+    },
+    /// Neither the file nor the caller says the unit.
+    #[error("{name}: the file does not say its unit of acceleration; give the unit, one of: {accepted}")]
+    MissingUnit {
+        /// The file.
+        name: String,
+        /// The accepted words.
+        accepted: &'static str,
+    },
+    /// Neither the file nor the caller says the time step.
+    #[error(
+        "{name}: one column of accelerations and no time step; give the time step in seconds, or a file with two columns (time, acceleration)"
+    )]
+    MissingTimeStep {
+        /// The file.
+        name: String,
+    },
+    /// The number of values differs from the head.
+    #[error("{name}: header says {declared} points, file has {found}: the file is damaged or cut; get it again")]
+    PointCount {
+        /// The file.
+        name: String,
+        /// NPTS of the head.
+        declared: u64,
+        /// Values found.
+        found: usize,
+    },
+    /// A piece of text is not a finite number.
+    #[error("{name}, line {line}: \"{token}\" {reason}")]
+    Number {
+        /// The file.
+        name: String,
+        /// The line.
+        line: usize,
+        /// The text, shortened where it is long.
+        token: String,
+        /// What is wrong with it.
+        reason: &'static str,
+    },
+    /// A line has a wrong number of columns.
+    #[error("{name}, line {line}: {found} column(s), expected {expected}{hint}")]
+    ColumnCount {
+        /// The file.
+        name: String,
+        /// The line.
+        line: usize,
+        /// Columns found.
+        found: usize,
+        /// What was expected.
+        expected: &'static str,
+        /// A further hint, or nothing.
+        hint: &'static str,
+    },
+    /// The times of a two-column file are not equally spaced.
+    #[error(
+        "{name}, line {line}: time {time_s} s, expected {expected_s} s at a uniform step of \
+         {dt_s} s (tolerance a quarter of it); resample the record to a uniform step{hint}"
+    )]
+    UnevenTime {
+        /// The file.
+        name: String,
+        /// The line.
+        line: usize,
+        /// Time found \[s\].
+        time_s: f64,
+        /// Time expected \[s\].
+        expected_s: f64,
+        /// Mean time step of the file \[s\].
+        dt_s: f64,
+        /// A further hint, or nothing.
+        hint: &'static str,
+    },
+    /// What a file holds is no accelerogram.
+    #[error("{name}: {reason}")]
+    InFile {
+        /// The file.
+        name: String,
+        /// What is wrong.
+        reason: Box<MotionError>,
+    },
+    /// An option of the synthetic record set is out of its range.
+    #[error("synthetic record set: {option} is {value}; it must be {allowed}")]
+    SyntheticOption {
+        /// Name of the option, with its unit.
+        option: &'static str,
+        /// The value given.
+        value: f64,
+        /// The values allowed, in words.
+        allowed: &'static str,
+    },
+    /// Too few of the candidate pairs reach the least peak ground acceleration.
+    #[error(
+        "synthetic record set: {kept} of {tried} candidate pairs reach the geometric-mean PGA of \
+         {minimum_pga_g} g, {wanted} were asked for: lower minimum_pga_g or ask for fewer pairs"
+    )]
+    SyntheticCandidates {
+        /// Pairs kept.
+        kept: usize,
+        /// Candidates tried.
+        tried: u64,
+        /// Pairs asked for.
+        wanted: usize,
+        /// Least geometric-mean peak ground acceleration \[g\].
+        minimum_pga_g: f64,
+    },
+}

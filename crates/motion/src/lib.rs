@@ -1,0 +1,32 @@
+//! Ground motions: accelerograms, their readers and their measures.
+//!
+//! - [`Accelerogram`]: uniformly sampled ground acceleration, with its peaks (PGA, PGV, PGD),
+//!   Arias intensity and significant durations;
+//! - [`RecordPair`]: the two horizontal components of a ground motion, and [`Component`], the
+//!   choice of those that a planar model receives;
+//! - [`IntensityMeasure`]: PGV and PGA of a pair as geometric means (Eq. 4.5, 4.6), and the
+//!   [`scale_factor`] to a level;
+//! - [`read_path`], [`read_auto`], [`read_at2`], [`read_columns`]: the readers;
+//! - [`synthetic`]: record pairs from a stochastic model, for studies without real records.
+//!
+//! Inside, everything is in m and s. Measures of a pair are in the units of the field: cm/s for
+//! PGV, g for PGA. Equation numbers are those of N. Reggiani Manzo's dissertation.
+
+mod accelerogram;
+mod arias;
+mod error;
+mod measure;
+mod pair;
+mod peaks;
+mod read;
+pub mod synthetic;
+mod unit;
+
+pub use accelerogram::Accelerogram;
+pub use error::MotionError;
+pub use measure::{IntensityMeasure, geometric_mean, scale_factor};
+pub use pair::{Component, Horizontal, RecordPair};
+pub use read::at2::{At2Header, At2Record, read_at2};
+pub use read::columns::read_columns;
+pub use read::{ReadOptions, read_auto, read_path};
+pub use unit::{AccelerationUnit, STANDARD_GRAVITY_M_S2};

@@ -1,0 +1,74 @@
+//! One linear branch of the restoring force and the motion on it.
+
+use crate::stumpff::Stumpff;
+
+/// A branch `r(u) = offset + k u` of the restoring force per mass.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Branch {
+    /// Tangent stiffness over the mass `k`, 1/s²: positive, zero or negative.
+    pub stiffness_per_s2: f64,
+    /// Force per mass that the branch would have at `u = 0`, m/s².
+    pub offset_m_s2: f64,
+}
+
+impl Branch {
+    /// Restoring force per mass at the displacement `u`, m/s², on the side `sign` (±1, or 0 where the branch is attached).
+    pub fn restoring(&self, sign: f64, u: f64) -> f64 {
+        sign * self.offset_m_s2 + self.stiffness_per_s2 * u
+    }
+}
+
+/// The motion on one branch while the ground acceleration is linear in time: `ü + k u = f0 + f1 τ`.
+///
+/// In terms of the initial displacement, velocity, acceleration `w0` and the rate `j0 = f1 − k v0`,
+/// `u(τ) = u0 + v0 τ + w0 τ² c2(kτ²) + j0 τ³ c3(kτ²)`: increments on the initial state, so nothing cancels for short times.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LinearMotion {
+    /// Displacement at `τ = 0`, m.
+    pub u0: f64,
+    /// Velocity at `τ = 0`, m/s.
+    pub v0: f64,
+    /// Acceleration at `τ = 0`, m/s².
+    pub w0: f64,
+    /// Rate of the acceleration at `τ = 0`, m/s³.
+    pub j0: f64,
+    /// Stiffness of the branch, 1/s².
+    pub k: f64,
+}
+
+impl LinearMotion {
+    /// Displacement and velocity at `τ` seconds, given the Stumpff functions at `k τ²`.
+    pub fn state_with(&self, tau: f64, s: &Stumpff) -> (f64, f64) {
+        let u = self.u0 + tau * (self.v0 + tau * (self.w0 * s.c2 + tau * self.j0 * s.c3));
+        let v = self.v0 + tau * (self.w0 * s.c1 + tau * self.j0 * s.c2);
+        (u, v)
+    }
+
+    /// Displacement (m) and velocity (m/s) at `τ` seconds.
+    pub fn state(&self, tau: f64) -> (f64, f64) {
+        self.state_with(tau, &Stumpff::at(self.k * tau * tau))
+    }
+
+    /// Velocity (m/s) and acceleration (m/s²) at `τ` seconds.
+    pub fn rates(&self, tau: f64) -> (f64, f64) {
+        let s = Stumpff::at(self.k * tau * tau);
+        let v = self.v0 + tau * (self.w0 * s.c1 + tau * self.j0 * s.c2);
+        (v, self.w0 * s.c0 + tau * self.j0 * s.c1)
+    }
+
+    /// A bound on `abs(ü)` over `[0, h]` given the acceleration `w1` at its end, m/s².
+    ///
+    /// The acceleration obeys `ẅ = −k w`, so it is convex towards zero where `k ≤ 0` (its largest magnitude is at an end), at
+    /// most `max(abs(w0), abs(w1))/(1 − k h²/8)` where `k h²` is small, and never above its amplitude.
+    pub fn acceleration_bound(&self, h: f64, w1: f64) -> f64 {
+        let ends = self.w0.abs().max(w1.abs());
+        let x = self.k * h * h;
+        if x <= 0.0 {
+            ends
+        } else if x < 4.0 {
+            ends / (1.0 - 0.125 * x)
+        } else {
+            (self.w0 * self.w0 + self.j0 * self.j0 / self.k).sqrt()
+        }
+    }
+}

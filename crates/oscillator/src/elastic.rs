@@ -1,0 +1,86 @@
+//! The attached response to a unit-scale record: linear, so it serves every scale.
+//!
+//! Until the first uplift the response is this one times the scale factor. Later, whenever the system is attached, it differs from it
+//! by a free vibration of constant amplitude. Both facts settle long stretches of a record, or all of it, by one comparison.
+
+use crate::branch::{Branch, LinearMotion};
+use crate::free_vibration::{FreePeak, first_peak};
+use crate::ground_motion::{GroundMotion, halvings};
+use crate::nodes::Nodes;
+use crate::stumpff::Stumpff;
+
+/// The attached response at every sample, with its extremes.
+#[derive(Debug, Clone)]
+pub(crate) struct ElasticResponse {
+    pub(crate) displacement_m: Vec<f64>,
+    pub(crate) velocity_m_s: Vec<f64>,
+    /// `(interval, largest abs(u) up to its end)` for each interval that holds a new one.
+    highs: Vec<(usize, f64)>,
+    /// Bounds on `abs(u)` over blocks of `2^l` intervals.
+    pub(crate) bounds: Vec<Vec<f64>>,
+    /// Largest deviation of `u` from the chord in each interval, m.
+    pub(crate) sags: Vec<f64>,
+    /// Bound on `abs(u)` from a sample on, the free vibration after the record included.
+    pub(crate) bound_from: Vec<f64>,
+    /// Largest `abs(u)` of the whole response, m.
+    pub(crate) peak_m: f64,
+}
+
+impl ElasticResponse {
+    /// The response on `attached` alone, as if the system never uplifted.
+    pub(crate) fn new(attached: &Branch, ground: &GroundMotion<'_>, with_free_peak: bool) -> Self {
+        let dt = ground.excitation.dt_s();
+        let k = attached.stiffness_per_s2;
+        let whole = Stumpff::at(k * dt * dt);
+        let n = ground.intervals();
+        let (mut u, mut v, mut peak_m) = (0.0, 0.0, 0.0_f64);
+        let mut displacement_m = Vec::with_capacity(n + 1);
+        let mut velocity_m_s = Vec::with_capacity(n + 1);
+        let mut singles = Vec::with_capacity(n);
+        let mut sags = Vec::with_capacity(n);
+        let mut highs = Vec::new();
+        displacement_m.push(u);
+        velocity_m_s.push(v);
+        for (i, pair) in ground.excitation.acceleration_m_s2().windows(2).enumerate() {
+            let slope = (pair[1] - pair[0]) / dt;
+            let motion = LinearMotion { u0: u, v0: v, w0: -k * u - pair[0], j0: -slope - k * v, k };
+            (u, v) = motion.state_with(dt, &whole);
+            let sag = 0.125 * dt * dt * motion.acceleration_bound(dt, -k * u - pair[1]);
+            let bound = motion.u0.abs().max(u.abs()) + sag;
+            sags.push(sag);
+            singles.push(bound);
+            if bound > peak_m {
+                let high = Nodes::new(&motion, dt).fold(peak_m, |high, node| high.max(node.u.abs()));
+                if high > peak_m {
+                    peak_m = high;
+                    highs.push((i, high));
+                }
+            }
+            displacement_m.push(u);
+            velocity_m_s.push(v);
+        }
+        // the amplitude bounds the free vibration even where its first peak is not asked for
+        let free_m = if k > 0.0 { u.hypot(v / k.sqrt()) } else { u.abs() };
+        if with_free_peak
+            && k > 0.0
+            && let FreePeak::At { displacement_m: free_peak_m, .. } =
+                first_peak(attached, attached, f64::INFINITY, 1.0, (0.0, u, v))
+            && free_peak_m > peak_m
+        {
+            peak_m = free_peak_m;
+            highs.push((n, free_peak_m));
+        }
+        let mut bound_from = vec![free_m; n + 1];
+        for i in (0..n).rev() {
+            bound_from[i] = singles[i].max(bound_from[i + 1]);
+        }
+        let bounds = halvings(singles, f64::max);
+        Self { displacement_m, velocity_m_s, highs, bounds, sags, bound_from, peak_m }
+    }
+
+    /// The first interval in which `abs(u)` exceeds `level_m`; the number of intervals if only the free vibration does.
+    pub(crate) fn first_interval_above(&self, level_m: f64) -> Option<usize> {
+        let position = self.highs.partition_point(|&(_, high)| high <= level_m);
+        self.highs.get(position).map(|&(interval, _)| interval)
+    }
+}

@@ -1,0 +1,173 @@
+//! Parameters of an uplifting oscillator, checked once.
+
+use crate::branch::Branch;
+use crate::error::OscillatorError;
+
+/// Standard acceleration of gravity, m/s².
+pub const STANDARD_GRAVITY_M_S2: f64 = 9.806_65;
+
+/// Slope of the restoring force after uplift.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum PostUplift {
+    /// Constant force: the ZSBE system (`u_cap = ∞`).
+    Zero,
+    /// Falling force that vanishes at the displacement capacity: the NSBE system (Eq. 4.2 with the sign mended).
+    Negative {
+        /// Displacement of zero restoring force `u_cap`, m; above the uplift displacement.
+        capacity_m: f64,
+    },
+    /// Rising force.
+    Positive {
+        /// Stiffness after uplift over the mass, 1/s²; positive.
+        stiffness_per_s2: f64,
+    },
+}
+
+/// A mass-normalised oscillator that uplifts at a given strength (Eq. 4.1–4.3).
+///
+/// | branch | restoring force per mass `r(u)` |
+/// |---|---|
+/// | attached, `abs(u) ≤ u_up` | `η g u/u_up` |
+/// | uplifted, ZSBE | `sgn(u) η g` |
+/// | uplifted, NSBE | `sgn(u) η g (u_cap − abs(u))/(u_cap − u_up)` |
+/// | uplifted, positive stiffness | `sgn(u) (η g + k (abs(u) − u_up))` |
+///
+/// When `abs(u)` comes down to `u_up` the velocity is multiplied by the coefficient of restitution (Eq. 4.3). Strength zero
+/// without post-uplift stiffness is a free mass: no force, no uplift, no impact, so its peak is the peak ground displacement.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Oscillator {
+    strength: f64,
+    gravity_m_s2: f64,
+    uplift_displacement_m: f64,
+    restitution: f64,
+    post_uplift: PostUplift,
+}
+
+fn require(
+    holds: bool,
+    name: &'static str,
+    value: f64,
+    unit: &'static str,
+    requirement: &'static str,
+) -> Result<(), OscillatorError> {
+    if holds { Ok(()) } else { Err(OscillatorError::OutOfRange { name, value, unit, requirement }) }
+}
+
+impl Oscillator {
+    /// A ZSBE oscillator of strength `η = f_up/(m g)` with the dissertation's `u_up = 0.5 mm`, `r_c = 0.95` and standard gravity.
+    ///
+    /// # Errors
+    /// The strength must be finite and not negative.
+    pub fn zsbe(strength: f64) -> Result<Self, OscillatorError> {
+        Self::new(strength, STANDARD_GRAVITY_M_S2, 0.0005, 0.95, PostUplift::Zero)
+    }
+
+    /// An oscillator from all of its parameters.
+    ///
+    /// * `strength` — `η = f_up/(m g)`, finite and ≥ 0
+    /// * `gravity_m_s2` — acceleration of gravity, m/s², > 0
+    /// * `uplift_displacement_m` — `u_up`, m, > 0
+    /// * `restitution` — `r_c`, in \[0, 1\]
+    ///
+    /// # Errors
+    /// A parameter outside its range is named with its value.
+    pub fn new(
+        strength: f64,
+        gravity_m_s2: f64,
+        uplift_displacement_m: f64,
+        restitution: f64,
+        post_uplift: PostUplift,
+    ) -> Result<Self, OscillatorError> {
+        let positive = |x: f64| x.is_finite() && x > 0.0;
+        require(strength.is_finite() && strength >= 0.0, "strength", strength, "", "finite and not negative")?;
+        require(positive(gravity_m_s2), "gravity_m_s2", gravity_m_s2, "m/s²", "finite and positive")?;
+        require(
+            positive(uplift_displacement_m),
+            "uplift_displacement_m",
+            uplift_displacement_m,
+            "m",
+            "finite and positive",
+        )?;
+        require((0.0..=1.0).contains(&restitution), "restitution", restitution, "", "between 0 and 1")?;
+        match post_uplift {
+            PostUplift::Zero => {}
+            PostUplift::Negative { capacity_m } => {
+                require(positive(capacity_m), "capacity_m", capacity_m, "m", "finite and positive")?;
+                if capacity_m <= uplift_displacement_m {
+                    return Err(OscillatorError::CapacityBelowUplift { capacity_m, uplift_displacement_m });
+                }
+            }
+            PostUplift::Positive { stiffness_per_s2 } => require(
+                positive(stiffness_per_s2),
+                "post_uplift_stiffness_per_s2",
+                stiffness_per_s2,
+                "1/s²",
+                "finite and positive",
+            )?,
+        }
+        Ok(Self { strength, gravity_m_s2, uplift_displacement_m, restitution, post_uplift })
+    }
+
+    /// Strength `η = f_up/(m g)`.
+    pub fn strength(&self) -> f64 {
+        self.strength
+    }
+
+    /// Restoring force per mass at uplift, `η g`, m/s².
+    pub fn uplift_acceleration_m_s2(&self) -> f64 {
+        self.strength * self.gravity_m_s2
+    }
+
+    /// Uplift displacement `u_up`, m.
+    pub fn uplift_displacement_m(&self) -> f64 {
+        self.uplift_displacement_m
+    }
+
+    /// Coefficient of restitution `r_c` (Eq. 4.3).
+    pub fn restitution(&self) -> f64 {
+        self.restitution
+    }
+
+    /// Slope after uplift.
+    pub fn post_uplift(&self) -> PostUplift {
+        self.post_uplift
+    }
+
+    /// Displacement of zero restoring force, m: infinite unless the post-uplift stiffness is negative.
+    pub fn capacity_m(&self) -> f64 {
+        match self.post_uplift {
+            PostUplift::Negative { capacity_m } => capacity_m,
+            PostUplift::Zero | PostUplift::Positive { .. } => f64::INFINITY,
+        }
+    }
+
+    /// True where no force ever acts on the mass: strength zero and no stiffness after uplift.
+    pub fn is_free_mass(&self) -> bool {
+        self.strength == 0.0 && !matches!(self.post_uplift, PostUplift::Positive { .. })
+    }
+
+    /// The displacement at which the branch changes, m: infinite for the free mass, which has no branches.
+    pub(crate) fn boundary_m(&self) -> f64 {
+        if self.is_free_mass() { f64::INFINITY } else { self.uplift_displacement_m }
+    }
+
+    /// The branch `abs(u) ≤ u_up`.
+    pub(crate) fn attached(&self) -> Branch {
+        Branch { stiffness_per_s2: self.uplift_acceleration_m_s2() / self.uplift_displacement_m, offset_m_s2: 0.0 }
+    }
+
+    /// The branch `abs(u) > u_up` on the positive side; on the negative one the offset changes its sign.
+    pub(crate) fn uplifted(&self) -> Branch {
+        let at_uplift = self.uplift_acceleration_m_s2();
+        match self.post_uplift {
+            PostUplift::Zero => Branch { stiffness_per_s2: 0.0, offset_m_s2: at_uplift },
+            PostUplift::Negative { capacity_m } => {
+                let fall = at_uplift / (capacity_m - self.uplift_displacement_m);
+                Branch { stiffness_per_s2: -fall, offset_m_s2: fall * capacity_m }
+            }
+            PostUplift::Positive { stiffness_per_s2 } => {
+                Branch { stiffness_per_s2, offset_m_s2: at_uplift - stiffness_per_s2 * self.uplift_displacement_m }
+            }
+        }
+    }
+}

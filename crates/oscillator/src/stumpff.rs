@@ -1,0 +1,107 @@
+//! Stumpff functions: one formula for harmonic, parabolic and hyperbolic motion.
+//!
+//! `c_n(x) = Σ_j (−x)^j/(2j + n)!`, so with `x = k t²` and `z = √x`: `c0 = cos z`, `c1 = sin z/z`, `c2 = (1 − cos z)/z²`,
+//! `c3 = (z − sin z)/z³` where `k > 0`; `cosh` and `sinh` where `k < 0`; `1, 1, 1/2, 1/6` where `k = 0`. They stay accurate where
+//! the differences of trigonometric functions cancel.
+//!
+//! # Source
+//! K. Stumpff, Himmelsmechanik I (1959), as used in universal-variable orbit propagation.
+
+/// The functions `c0…c3` at one argument.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stumpff {
+    /// `cos z`.
+    pub c0: f64,
+    /// `sin z/z`.
+    pub c1: f64,
+    /// `(1 − cos z)/z²`.
+    pub c2: f64,
+    /// `(z − sin z)/z³`.
+    pub c3: f64,
+}
+
+/// Terms of the series at `abs(x) = 4`.
+const TERMS: usize = 13;
+/// Largest argument of the series; beyond it the closed forms lose at most two bits.
+const SERIES_LIMIT: f64 = 4.0;
+
+/// `1/(2j + 2)!` and `1/(2j + 3)!` for `j = 0 … TERMS − 1`.
+const INVERSE_FACTORIALS: [(f64, f64); TERMS] = inverse_factorials();
+
+const fn inverse_factorials() -> [(f64, f64); TERMS] {
+    let mut table = [(0.0, 0.0); TERMS];
+    let mut factorial = 1.0; // n! is exact up to 22!, and its inverse is rounded once
+    let mut j = 0;
+    let mut n = 1.0;
+    while j < TERMS {
+        n += 1.0;
+        factorial *= n;
+        let even = 1.0 / factorial;
+        n += 1.0;
+        factorial *= n;
+        table[j] = (even, 1.0 / factorial);
+        j += 1;
+    }
+    table
+}
+
+impl Stumpff {
+    /// The functions at `x = k t²`.
+    pub fn at(x: f64) -> Self {
+        if x == 0.0 {
+            return Self { c0: 1.0, c1: 1.0, c2: 0.5, c3: 1.0 / 6.0 };
+        }
+        // the first term left out is below 2e-17 of the sum in each case
+        match x.abs() {
+            size if size <= 0.1 => return Self::series::<6>(x),
+            size if size <= 1.0 => return Self::series::<9>(x),
+            size if size <= SERIES_LIMIT => return Self::series::<TERMS>(x),
+            _ => {}
+        }
+        let z = x.abs().sqrt();
+        let (c0, c1) = if x > 0.0 { (z.cos(), z.sin() / z) } else { (z.cosh(), z.sinh() / z) };
+        Self { c0, c1, c2: (1.0 - c0) / x, c3: (1.0 - c1) / x }
+    }
+
+    fn series<const N: usize>(x: f64) -> Self {
+        let (mut c2, mut c3) = INVERSE_FACTORIALS[N - 1];
+        for &(even, odd) in INVERSE_FACTORIALS[..N - 1].iter().rev() {
+            c2 = even - x * c2;
+            c3 = odd - x * c3;
+        }
+        Self { c0: 1.0 - x * c2, c1: 1.0 - x * c3, c2, c3 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn series_meets_closed_forms_at_the_limit() {
+        for x in [0.1, -0.1, 1.0, -1.0, SERIES_LIMIT, -SERIES_LIMIT] {
+            let series = Stumpff::at(x);
+            let closed = Stumpff::at(x * (1.0 + f64::EPSILON));
+            for (a, b) in
+                [(series.c0, closed.c0), (series.c1, closed.c1), (series.c2, closed.c2), (series.c3, closed.c3)]
+            {
+                assert!((a - b).abs() < 1e-15, "{a} {b}");
+            }
+        }
+    }
+
+    proptest! {
+        // Identities that hold for every x: c0 + x c2 = 1, c1 + x c3 = 1, c0² + x c1² = 1 and c2 = c1(x/4)²/2.
+        #[test]
+        fn identities(x in -30.0_f64..60.0) {
+            let s = Stumpff::at(x);
+            let size = s.c0.abs().max(1.0);
+            prop_assert!((s.c0 * s.c0 + x * s.c1 * s.c1 - 1.0).abs() < 1e-14 * size * size);
+            prop_assert!((s.c0 + x * s.c2 - 1.0).abs() < 1e-14 * size);
+            prop_assert!((s.c1 + x * s.c3 - 1.0).abs() < 1e-14 * size);
+            let half = Stumpff::at(x / 4.0).c1;
+            prop_assert!((s.c2 - 0.5 * half * half).abs() < 4e-15 * size);
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! The fast solver against the readable one.
+#![allow(clippy::unwrap_used)]
+
+use proptest::prelude::*;
+use uplift_oscillator::problems::{shaped_noise, symmetric_ricker_pulse};
+use uplift_oscillator::{Excitation, FreeVibration, GroundMotion, Oscillator, PostUplift, Sweep, respond};
+
+const G: f64 = 9.806_65;
+
+fn post_uplift() -> impl Strategy<Value = PostUplift> {
+    prop_oneof![
+        3 => Just(PostUplift::Zero),
+        1 => (0.05_f64..2.0).prop_map(|capacity_m| PostUplift::Negative { capacity_m }),
+        1 => (0.1_f64..50.0).prop_map(|stiffness_per_s2| PostUplift::Positive { stiffness_per_s2 }),
+    ]
+}
+
+/// How much a relative change of the scale by 1e-10 changes the peak, relative to that change: the conditioning of this very run.
+fn amplification(oscillator: &Oscillator, excitation: &Excitation<'_>, after: FreeVibration) -> f64 {
+    let peak = |factor: f64| respond(oscillator, &excitation.scaled(factor).unwrap(), after).peak_displacement_m;
+    let (low, middle, high) = (peak(1.0 - 1e-10), peak(1.0), peak(1.0 + 1e-10));
+    (high - middle).abs().max((low - middle).abs()) / (1e-10 * middle)
+}
+
+fn compare(
+    oscillator: &Oscillator,
+    dt_s: f64,
+    record: &[f64],
+    scale: f64,
+    with_free_peak: bool,
+) -> Result<bool, TestCaseError> {
+    let excitation = Excitation::new(dt_s, record).unwrap();
+    let ground = GroundMotion::new(excitation);
+    let fast = Sweep::new(oscillator, &ground, with_free_peak).peak(scale);
+    let after = if with_free_peak { FreeVibration::FirstPeak } else { FreeVibration::None };
+    let scaled = excitation.scaled(scale).unwrap();
+    let exact = respond(oscillator, &scaled, after);
+    if exact.peak_displacement_m == 0.0 {
+        prop_assert_eq!(fast.displacement_m, 0.0);
+        return Ok(true);
+    }
+    let amplification = amplification(oscillator, &scaled, after);
+    if !(amplification < 1e6) {
+        return Ok(false); // chaotic, or on the brink of overturning: rounding decides
+    }
+    if exact.overturned {
+        prop_assert_eq!(fast.displacement_m, f64::INFINITY);
+        return Ok(true);
+    }
+    let error = (fast.displacement_m - exact.peak_displacement_m).abs() / exact.peak_displacement_m;
+    let allowed = 1e-12 * amplification.max(10.0);
+    prop_assert!(error <= allowed, "{:?} {:?} error {} of {}", fast, exact, error, allowed);
+    Ok(true)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(400))]
+
+    #[test]
+    fn noise(
+        seed in any::<u64>(), strength in prop_oneof![0.0_f64..0.1, 0.1_f64..1.0, Just(0.0)], scale in prop_oneof![0.01_f64..1.0, 1.0_f64..10.0, -2.0_f64..0.0],
+        post_uplift in post_uplift(), restitution in 0.0_f64..=1.0, dt_s in prop_oneof![Just(0.005), Just(0.01), 0.002_f64..0.025],
+        samples in 2_usize..700, with_free_peak in any::<bool>(),
+    ) {
+        let oscillator = Oscillator::new(strength, G, 0.0005, restitution, post_uplift).unwrap();
+        compare(&oscillator, dt_s, &shaped_noise(4.0, samples, seed), scale, with_free_peak)?;
+    }
+
+    #[test]
+    fn pulses(
+        period_s in 0.1_f64..3.0, strength in 0.001_f64..1.0, scale in 0.05_f64..20.0, u_up in prop_oneof![Just(0.0005), 1e-5_f64..0.1],
+        post_uplift in post_uplift(), dt_s in 0.002_f64..0.02, with_free_peak in any::<bool>(),
+    ) {
+        let post_uplift = match post_uplift {
+            PostUplift::Negative { capacity_m } => PostUplift::Negative { capacity_m: capacity_m + u_up },
+            other => other,
+        };
+        let oscillator = Oscillator::new(strength, G, u_up, 0.95, post_uplift).unwrap();
+        let record = symmetric_ricker_pulse(2.0, period_s, dt_s, 801);
+        compare(&oscillator, dt_s, &record, scale, with_free_peak)?;
+    }
+}
+
+// A test that skips chaotic runs must show that it does not skip them all.
+#[test]
+fn most_runs_are_judged() {
+    let (mut judged, mut runs, mut impacts) = (0, 0, 0);
+    for seed in 0..40 {
+        let record = shaped_noise(4.0, 1500, seed);
+        for strength in [0.02, 0.1, 0.3, 0.8] {
+            for scale in [0.3, 1.0, 4.0] {
+                let oscillator = Oscillator::zsbe(strength).unwrap();
+                judged += u32::from(compare(&oscillator, 0.01, &record, scale, true).unwrap());
+                runs += 1;
+                let ground = GroundMotion::new(Excitation::new(0.01, &record).unwrap());
+                impacts += Sweep::new(&oscillator, &ground, true).peak(scale).impacts;
+            }
+        }
+    }
+    println!("{judged} of {runs} runs judged, {impacts} impacts");
+    assert!(judged * 10 > runs * 8, "{judged} of {runs}");
+    assert!(impacts > 10 * runs);
+}

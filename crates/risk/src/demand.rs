@@ -1,0 +1,139 @@
+//! All demands of one oscillator in one sorted pool.
+
+use uplift_fragility::Stripes;
+
+use crate::RiskError;
+
+/// One run: which record at which level.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Run {
+    pub(crate) record: u16,
+    pub(crate) level: u16,
+}
+
+/// All runs of one oscillator, sorted once by falling demand; shared by all sites, probabilities and resamples.
+///
+/// Runs without displacement are left out: they exceed no threshold.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PooledDemand {
+    /// Demands, m, falling; all above 0, overturned ones (+∞) first.
+    edp_m: Vec<f64>,
+    /// The run behind each demand.
+    runs: Vec<Run>,
+    /// Positions of the runs at the first and at the last level, rising: what the tails act on.
+    first_level: Vec<u32>,
+    last_level: Vec<u32>,
+    record_count: u16,
+    level_count: u16,
+}
+
+impl PooledDemand {
+    /// Pools and sorts the demands.
+    ///
+    /// # Errors
+    /// More than 65 535 records or levels, or more than `u32::MAX` runs.
+    pub fn new(stripes: &Stripes) -> Result<Self, RiskError> {
+        let record_count = index_range("records", stripes.record_count())?;
+        let level_count = index_range("levels", stripes.level_count())?;
+        let mut pool: Vec<(f64, Run)> = Vec::with_capacity(stripes.record_count() * stripes.level_count());
+        for record in 0..record_count {
+            let row = stripes.record(usize::from(record));
+            pool.extend((0..level_count).zip(row).filter(|&(_, &edp)| edp > 0.0).map(|(level, &edp)| {
+                let run = Run { record, level };
+                (edp, run)
+            }));
+        }
+        // The order among ties does not matter: rates are added exactly.
+        pool.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
+
+        let at_level = |level: u16| {
+            // At most 65 535² runs: a position fits u32.
+            (0_u32..).zip(&pool).filter(|(_, (_, run))| run.level == level).map(|(position, _)| position).collect()
+        };
+        Ok(Self {
+            first_level: at_level(0),
+            last_level: at_level(level_count - 1),
+            edp_m: pool.iter().map(|&(edp, _)| edp).collect(),
+            runs: pool.iter().map(|&(_, run)| run).collect(),
+            record_count,
+            level_count,
+        })
+    }
+
+    /// Number of records.
+    pub fn record_count(&self) -> usize {
+        usize::from(self.record_count)
+    }
+
+    /// Number of stripe levels.
+    pub fn level_count(&self) -> usize {
+        usize::from(self.level_count)
+    }
+
+    /// All demands above zero, m, falling; overturned runs (+∞) come first.
+    pub fn edp_m(&self) -> &[f64] {
+        &self.edp_m
+    }
+
+    /// The runs in the order of [`PooledDemand::edp_m`].
+    pub(crate) fn runs(&self) -> &[Run] {
+        &self.runs
+    }
+
+    /// Number of runs with a demand above `threshold_m`: they are the first ones.
+    pub(crate) fn exceeding(&self, threshold_m: f64) -> usize {
+        self.edp_m.partition_point(|&edp| edp > threshold_m)
+    }
+
+    /// Records of the first `count` runs that are at the first level.
+    pub(crate) fn records_at_first_level(&self, count: usize) -> impl Iterator<Item = u16> {
+        self.records_at(&self.first_level, count)
+    }
+
+    /// Records of the first `count` runs that are at the last level.
+    pub(crate) fn records_at_last_level(&self, count: usize) -> impl Iterator<Item = u16> {
+        self.records_at(&self.last_level, count)
+    }
+
+    fn records_at(&self, positions: &[u32], count: usize) -> impl Iterator<Item = u16> {
+        positions
+            .iter()
+            .map(|&position| position as usize)
+            .take_while(move |&position| position < count)
+            .map(|position| self.runs[position].record)
+    }
+}
+
+/// Fits a number of records or levels into an index.
+fn index_range(what: &'static str, found: usize) -> Result<u16, RiskError> {
+    u16::try_from(found).map_err(|_| RiskError::TooMany { what, found, limit: usize::from(u16::MAX) })
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn sorts_by_falling_demand_and_leaves_out_zeros() {
+        let inf = f64::INFINITY;
+        let levels = [1.0, 2.0, 3.0];
+        let edp = [0.0, 0.2, inf, 0.1, 0.0, 0.3];
+        let pool = PooledDemand::new(&Stripes::new(&levels, &edp).unwrap()).unwrap();
+        assert_eq!(pool.edp_m(), [inf, 0.3, 0.2, 0.1]);
+        let runs: Vec<_> = pool.runs().iter().map(|run| (run.record, run.level)).collect();
+        assert_eq!(runs, [(0, 2), (1, 2), (0, 1), (1, 0)]);
+        assert_eq!((pool.exceeding(0.2), pool.exceeding(0.0), pool.exceeding(9.0)), (2, 4, 1));
+        assert_eq!(pool.records_at_last_level(4).collect::<Vec<_>>(), [0, 1]);
+        assert_eq!(pool.records_at_first_level(3).count(), 0);
+        assert_eq!(pool.records_at_first_level(4).collect::<Vec<_>>(), [1]);
+    }
+
+    #[test]
+    fn too_many_records_are_refused() {
+        let levels = [1.0];
+        let edp = vec![0.1; 65_536];
+        let error = PooledDemand::new(&Stripes::new(&levels, &edp).unwrap()).unwrap_err();
+        assert!(matches!(error, RiskError::TooMany { found: 65_536, limit: 65_535, .. }));
+    }
+}

@@ -1,0 +1,94 @@
+//! What can be wrong on the way from stripes and hazard to an ordinate.
+
+use thiserror::Error;
+use uplift_fragility::FragilityError;
+use uplift_hazard::HazardError;
+
+use crate::fixed_point::{MAX_RATE_PER_YEAR, MAX_SAMPLE_SIZE};
+
+/// Why a risk could not be computed.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum RiskError {
+    /// The hazard curve refused a level.
+    #[error(transparent)]
+    Hazard(#[from] HazardError),
+    /// A threshold or a fragility was refused.
+    #[error(transparent)]
+    Fragility(#[from] FragilityError),
+    /// No stripe level at all.
+    #[error("hazard rates: none given: one is needed for each stripe level")]
+    NoLevels,
+    /// A hazard rate is not positive, too large, or above the rate of the level before it.
+    #[error(
+        "level {index}: hazard rate {rate} per year: rates must be positive, at most {MAX_RATE_PER_YEAR}, \
+         and must not rise from one level to the next"
+    )]
+    Rate {
+        /// Position of the level, counted from 0.
+        index: usize,
+        /// The offending rate, 1/yr.
+        rate: f64,
+    },
+    /// The rate at the first abscissa of the hazard curve is below the rate of the first stripe, or out of range.
+    #[error(
+        "first abscissa of the hazard curve: rate {rate} per year: it must be at least the rate {first_stripe} \
+         of the first stripe and at most {MAX_RATE_PER_YEAR}"
+    )]
+    FirstAbscissaRate {
+        /// The offending rate, 1/yr.
+        rate: f64,
+        /// Rate of the first stripe, 1/yr.
+        first_stripe: f64,
+    },
+    /// Two inputs speak of different numbers of levels or records.
+    #[error("{found} {what} given, {expected} expected: the inputs do not belong together")]
+    Count {
+        /// What was counted.
+        what: &'static str,
+        /// How many were given.
+        found: usize,
+        /// How many the other input has.
+        expected: usize,
+    },
+    /// More levels or records than the pooled demands can index.
+    #[error("{what}: {found} are more than the {limit} that can be pooled: split the study")]
+    TooMany {
+        /// What there are too many of.
+        what: &'static str,
+        /// How many were given.
+        found: usize,
+        /// The largest number allowed.
+        limit: usize,
+    },
+    /// A probability is outside 0 to 1.
+    #[error("level {index}: probability of exceedance {probability}: it must lie between 0 and 1")]
+    Probability {
+        /// Position of the level, counted from 0.
+        index: usize,
+        /// The offending probability.
+        probability: f64,
+    },
+    /// A sample of records is empty or too large.
+    #[error("record sample: {size} draws: between 1 and {MAX_SAMPLE_SIZE} are possible")]
+    SampleSize {
+        /// Number of draws.
+        size: u64,
+    },
+    /// A target rate is not positive and finite.
+    #[error("target rate {rate} per year: it must be positive and finite, for example 0.000404 (2 % in 50 years)")]
+    Target {
+        /// The offending rate, 1/yr.
+        rate: f64,
+    },
+    /// A grid of thresholds does not start at 0 or does not rise.
+    #[error(
+        "threshold {index} is {value} m: thresholds must be finite, start at 0 and increase strictly; \
+         two at least are needed"
+    )]
+    Grid {
+        /// Position of the threshold, counted from 0.
+        index: usize,
+        /// The offending threshold, m (NaN where it is missing).
+        value: f64,
+    },
+}

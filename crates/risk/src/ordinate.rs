@@ -1,0 +1,40 @@
+//! An ordinate of the uniform risk spectrum, and whether it exists.
+
+/// From this share of the risk on, a tail of the hazard is worth a warning.
+pub const TAIL_SHARE_LIMIT: f64 = 0.01;
+
+/// What kind of ordinate it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum OrdinateFlag {
+    /// An ordinate like any other: positive and finite.
+    Regular,
+    /// The structure moves at all no more often than the target rate, λ(0) ≤ target: the ordinate is 0.
+    NoExceedance,
+    /// There is no ordinate: every displacement considered is exceeded more often than the target rate. Either
+    /// overturning alone is more frequent than that, or the ordinate lies beyond the last threshold of a grid.
+    Censored,
+}
+
+/// The displacement of a target rate: one point of a uniform risk spectrum.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ordinate {
+    /// Displacement, m; 0 for [`OrdinateFlag::NoExceedance`], +∞ for [`OrdinateFlag::Censored`].
+    pub displacement_m: f64,
+    /// Whether the ordinate exists.
+    pub flag: OrdinateFlag,
+    /// Share of the risk that comes from below the first stripe, 0 to 1.
+    ///
+    /// The risk meant, in both shares, is that of the runs that fix the ordinate u. Exact: λ just below u, of all runs
+    /// with EDP ≥ u. Grid: λ at the threshold below u. Without exceedance: λ(0). Censored: the overturned runs, or λ at
+    /// the last threshold. Zero where that risk is zero.
+    pub lower_tail_share: f64,
+    /// Share of the same risk that comes from above the last stripe, 0 to 1.
+    pub upper_tail_share: f64,
+}
+
+impl Ordinate {
+    /// Whether one of the tails makes up more than [`TAIL_SHARE_LIMIT`] of the risk: the stripes should reach further.
+    pub fn has_significant_tail(&self) -> bool {
+        self.lower_tail_share > TAIL_SHARE_LIMIT || self.upper_tail_share > TAIL_SHARE_LIMIT
+    }
+}

@@ -1,0 +1,49 @@
+//! Which records count, and how often.
+
+use crate::RiskError;
+use crate::fixed_point::MAX_SAMPLE_SIZE;
+
+/// A sample of the records, drawn with replacement: how often each record was drawn.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RecordSample {
+    multiplicities: Vec<u32>,
+    size: u32,
+}
+
+impl RecordSample {
+    /// From the multiplicity of each record, `[record]`; their sum is the sample size.
+    ///
+    /// # Errors
+    /// A sample of no draws, or of more than 2²⁴.
+    pub fn new(multiplicities: Vec<u32>) -> Result<Self, RiskError> {
+        let total: u64 = multiplicities.iter().map(|&count| u64::from(count)).sum();
+        match u32::try_from(total) {
+            Ok(size) if (1..=MAX_SAMPLE_SIZE).contains(&total) => Ok(Self { multiplicities, size }),
+            _ => Err(RiskError::SampleSize { size: total }),
+        }
+    }
+
+    /// How often each record was drawn, `[record]`.
+    pub fn multiplicities(&self) -> &[u32] {
+        &self.multiplicities
+    }
+
+    /// Number of draws n.
+    pub fn size(&self) -> u32 {
+        self.size
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn counts_the_draws_and_refuses_none_or_too_many() {
+        assert_eq!(RecordSample::new(vec![2, 0, 1]).unwrap().size(), 3);
+        assert_eq!(RecordSample::new(vec![0, 0]).unwrap_err(), RiskError::SampleSize { size: 0 });
+        assert_eq!(RecordSample::new(vec![1 << 24, 1]).unwrap_err(), RiskError::SampleSize { size: (1 << 24) + 1 });
+        assert!(RecordSample::new(vec![u32::MAX; 3]).is_err());
+    }
+}

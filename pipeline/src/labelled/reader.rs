@@ -1,0 +1,353 @@
+//! Reading a file of labelled arrays.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use hdf5::types::{FloatSize, IntSize, TypeDescriptor};
+use hdf5::{Container, Dataset, File, H5Type, LocationType, MinorErrorCode};
+
+use super::aside::{io_error, require_file};
+use super::error::{LabelledError, reason};
+use super::{AXES, dimension_scale, text};
+
+/// Deflate cannot pack more than 1032 bytes into one: a file that claims more lies, and is not given the memory.
+const GREATEST_COMPRESSION: u64 = 1032;
+
+/// An array with the names of its dimensions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LabelledArray<T> {
+    /// Names of the axes, one per dimension.
+    pub dims: Vec<String>,
+    /// Lengths of the axes.
+    pub shape: Vec<usize>,
+    /// Values, row by row (the last dimension runs fastest).
+    pub values: Vec<T>,
+}
+
+/// Reads a file written by [`LabelledWriter`](super::LabelledWriter).
+pub struct LabelledReader {
+    file: File,
+    path: PathBuf,
+    bytes: u64,
+}
+
+impl LabelledReader {
+    /// Opens `path` for reading.
+    ///
+    /// # Errors
+    /// [`LabelledError::Io`] where the file is missing or may not be read, [`LabelledError::NotAFile`],
+    /// [`LabelledError::NotHdf5`] and [`LabelledError::Truncated`] where it is something else, [`LabelledError::Locked`]
+    /// where another program is writing to it.
+    pub fn open(path: &Path) -> Result<Self, LabelledError> {
+        let metadata = fs::metadata(path).map_err(io_error(path, "open the file"))?;
+        require_file(path, &metadata)?;
+        // The operating system gives the reason in its own words; HDF5 would bury it.
+        fs::File::open(path).map_err(io_error(path, "open the file"))?;
+        let (owned, bytes) = (path.to_owned(), metadata.len());
+        let file = File::open(path).map_err(|error| {
+            if error.contains_minor(MinorErrorCode::NotHdf5) {
+                LabelledError::NotHdf5 { path: owned.clone(), bytes }
+            } else if error.contains_minor(MinorErrorCode::Truncated) {
+                LabelledError::Truncated { path: owned.clone(), bytes }
+            } else if error.contains_minor(MinorErrorCode::CantLockFile) {
+                LabelledError::Locked { path: owned.clone() }
+            } else {
+                LabelledError::Hdf5 { path: owned.clone(), action: "open", object: "/".into(), reason: reason(&error) }
+            }
+        })?;
+        Ok(Self { file, path: owned, bytes })
+    }
+
+    /// Whether the file has a group or array at `path`.
+    pub fn exists(&self, path: &str) -> bool {
+        self.file.loc_type_by_name(path).is_ok()
+    }
+
+    /// Names of the arrays and groups in `group`, sorted; the links to its axes are left out.
+    ///
+    /// # Errors
+    /// [`LabelledError::Missing`] where there is no such group, [`LabelledError::WrongType`] where it is an array.
+    pub fn children(&self, group: &str) -> Result<Vec<String>, LabelledError> {
+        self.require(group, LocationType::Group, "a group")?;
+        let mut names = self.check(self.file.group(group).and_then(|group| group.member_names()), group)?;
+        if group != AXES {
+            names.retain(|name| !self.is_axis_link(group, name));
+        }
+        names.sort();
+        Ok(names)
+    }
+
+    /// The text attribute `name` of `object`.
+    ///
+    /// # Errors
+    /// [`LabelledError::Missing`] or [`LabelledError::WrongType`].
+    pub fn attribute_text(&self, object: &str, name: &str) -> Result<String, LabelledError> {
+        let label = attribute_label(object, name);
+        match <[String; 1]>::try_from(self.attribute_texts(object, name)?) {
+            Ok([text]) => Ok(text),
+            Err(texts) => Err(self.wrong(&label, format!("a list of {} texts", texts.len()), "one text")),
+        }
+    }
+
+    /// The list of texts in the attribute `name` of `object`.
+    ///
+    /// # Errors
+    /// [`LabelledError::Missing`] or [`LabelledError::WrongType`].
+    pub fn attribute_texts(&self, object: &str, name: &str) -> Result<Vec<String>, LabelledError> {
+        let label = attribute_label(object, name);
+        self.texts(&self.attribute(object, name)?, &label)
+    }
+
+    /// The number in the attribute `name` of `object`.
+    ///
+    /// # Errors
+    /// [`LabelledError::Missing`] or [`LabelledError::WrongType`].
+    pub fn attribute_f64(&self, object: &str, name: &str) -> Result<f64, LabelledError> {
+        self.attribute_number(object, name)
+    }
+
+    /// The integer in the attribute `name` of `object`.
+    ///
+    /// # Errors
+    /// [`LabelledError::Missing`] or [`LabelledError::WrongType`].
+    pub fn attribute_i64(&self, object: &str, name: &str) -> Result<i64, LabelledError> {
+        self.attribute_number(object, name)
+    }
+
+    /// The unsigned integer in the attribute `name` of `object`.
+    ///
+    /// # Errors
+    /// [`LabelledError::Missing`] or [`LabelledError::WrongType`].
+    pub fn attribute_u64(&self, object: &str, name: &str) -> Result<u64, LabelledError> {
+        self.attribute_number(object, name)
+    }
+
+    /// The list of numbers in the attribute `name` of `object`.
+    ///
+    /// # Errors
+    /// [`LabelledError::Missing`] or [`LabelledError::WrongType`].
+    pub fn attribute_f64s(&self, object: &str, name: &str) -> Result<Vec<f64>, LabelledError> {
+        self.values(&self.attribute(object, name)?, &attribute_label(object, name))
+    }
+
+    /// The list of integers in the attribute `name` of `object`.
+    ///
+    /// # Errors
+    /// [`LabelledError::Missing`] or [`LabelledError::WrongType`].
+    pub fn attribute_i64s(&self, object: &str, name: &str) -> Result<Vec<i64>, LabelledError> {
+        self.values(&self.attribute(object, name)?, &attribute_label(object, name))
+    }
+
+    /// Values of the axis `name`.
+    ///
+    /// # Errors
+    /// As [`LabelledReader::array_f64`].
+    pub fn axis_f64(&self, name: &str) -> Result<Vec<f64>, LabelledError> {
+        self.axis(name)
+    }
+
+    /// Values of the axis `name`.
+    ///
+    /// # Errors
+    /// As [`LabelledReader::array_f64`].
+    pub fn axis_u32(&self, name: &str) -> Result<Vec<u32>, LabelledError> {
+        self.axis(name)
+    }
+
+    /// Values of the axis `name`.
+    ///
+    /// # Errors
+    /// As [`LabelledReader::array_f64`].
+    pub fn axis_i64(&self, name: &str) -> Result<Vec<i64>, LabelledError> {
+        self.axis(name)
+    }
+
+    /// Values of the axis `name`.
+    ///
+    /// # Errors
+    /// As [`LabelledReader::array_f64`].
+    pub fn axis_text(&self, name: &str) -> Result<Vec<String>, LabelledError> {
+        let path = format!("{AXES}/{name}");
+        self.texts(&*self.dataset(&path)?, &path)
+    }
+
+    /// Reads the array at `path`; single precision is widened.
+    ///
+    /// # Errors
+    /// [`LabelledError::Missing`] where there is none, [`LabelledError::WrongType`] where it is a group, holds another
+    /// kind of values or has no axes, [`LabelledError::Hdf5`] where the file is damaged.
+    pub fn array_f64(&self, path: &str) -> Result<LabelledArray<f64>, LabelledError> {
+        self.array(path, Self::values)
+    }
+
+    /// Reads the array of single precision at `path`.
+    ///
+    /// # Errors
+    /// As [`LabelledReader::array_f64`].
+    pub fn array_f32(&self, path: &str) -> Result<LabelledArray<f32>, LabelledError> {
+        self.array(path, Self::values)
+    }
+
+    /// Reads the array of counts at `path`.
+    ///
+    /// # Errors
+    /// As [`LabelledReader::array_f64`].
+    pub fn array_u32(&self, path: &str) -> Result<LabelledArray<u32>, LabelledError> {
+        self.array(path, Self::values)
+    }
+
+    /// Reads the array of flags at `path`.
+    ///
+    /// # Errors
+    /// As [`LabelledReader::array_f64`].
+    pub fn array_u8(&self, path: &str) -> Result<LabelledArray<u8>, LabelledError> {
+        self.array(path, Self::values)
+    }
+
+    /// Reads the array of texts at `path`.
+    ///
+    /// # Errors
+    /// As [`LabelledReader::array_f64`].
+    pub fn array_text(&self, path: &str) -> Result<LabelledArray<String>, LabelledError> {
+        self.array(path, Self::texts)
+    }
+
+    fn array<T>(
+        &self,
+        path: &str,
+        read: impl Fn(&Self, &Container, &str) -> Result<Vec<T>, LabelledError>,
+    ) -> Result<LabelledArray<T>, LabelledError> {
+        let dataset = self.dataset(path)?;
+        let shape = dataset.shape();
+        let values = read(self, &dataset, path)?;
+        let Some(dims) = self.check(dimension_scale::names(&self.file, &dataset), path)? else {
+            return Err(self.wrong(path, "an array whose dimensions have no names".into(), "an array over named axes"));
+        };
+        Ok(LabelledArray { dims, shape, values })
+    }
+
+    fn axis<T: Number>(&self, name: &str) -> Result<Vec<T>, LabelledError> {
+        let path = format!("{AXES}/{name}");
+        self.values(&*self.dataset(&path)?, &path)
+    }
+
+    fn attribute_number<T: Number>(&self, object: &str, name: &str) -> Result<T, LabelledError> {
+        let label = attribute_label(object, name);
+        let values = self.values::<T>(&self.attribute(object, name)?, &label)?;
+        match values[..] {
+            [value] => Ok(value),
+            _ => Err(self.wrong(&label, format!("a list of {} numbers", values.len()), "one number")),
+        }
+    }
+
+    fn dataset(&self, path: &str) -> Result<Dataset, LabelledError> {
+        self.require(path, LocationType::Dataset, "an array")?;
+        self.check(self.file.dataset(path), path)
+    }
+
+    fn attribute(&self, object: &str, name: &str) -> Result<Container, LabelledError> {
+        let found = match self.file.loc_type_by_name(object) {
+            Ok(LocationType::Group) => self.file.group(object).and_then(|group| group.attr(name)),
+            Ok(LocationType::Dataset) => self.file.dataset(object).and_then(|dataset| dataset.attr(name)),
+            _ => return Err(self.missing(object.to_owned())),
+        };
+        found.map(|attribute| Container::clone(&attribute)).map_err(|_| self.missing(attribute_label(object, name)))
+    }
+
+    fn values<T: Number>(&self, container: &Container, object: &str) -> Result<Vec<T>, LabelledError> {
+        let found = self.check(container.dtype().and_then(|datatype| datatype.to_descriptor()), object)?;
+        if !T::TYPES.contains(&found) {
+            return Err(self.wrong(object, format!("of type {found}"), T::WANTED));
+        }
+        self.require_room(container, object)?;
+        self.check(container.read_raw(), object)
+    }
+
+    fn texts(&self, container: &Container, object: &str) -> Result<Vec<String>, LabelledError> {
+        self.require_room(container, object)?;
+        match self.check(text::read(container), object)? {
+            Some(texts) => Ok(texts),
+            None => Err(self.wrong(object, "no text".into(), "text")),
+        }
+    }
+
+    /// Refuses an array that claims more than its file can hold, before memory is taken for it.
+    fn require_room(&self, container: &Container, object: &str) -> Result<(), LabelledError> {
+        let element = self.check(container.dtype(), object)?.size();
+        let claimed =
+            container.shape().iter().try_fold(element, |bytes, &length| bytes.checked_mul(length)).map(|b| b as u64);
+        if claimed.is_some_and(|claimed| claimed <= self.bytes.saturating_mul(GREATEST_COMPRESSION)) {
+            return Ok(());
+        }
+        Err(LabelledError::Hdf5 {
+            path: self.path.clone(),
+            action: "read",
+            object: object.to_owned(),
+            reason: format!("its shape {:?} does not fit into a file of {} bytes", container.shape(), self.bytes),
+        })
+    }
+
+    fn require(&self, path: &str, kind: LocationType, wanted: &'static str) -> Result<(), LabelledError> {
+        match self.file.loc_type_by_name(path) {
+            Ok(found) if found == kind => Ok(()),
+            Ok(LocationType::Group) => Err(self.wrong(path, "a group".into(), wanted)),
+            Ok(_) => Err(self.wrong(path, "an array".into(), wanted)),
+            Err(_) => Err(self.missing(path.to_owned())),
+        }
+    }
+
+    fn is_axis_link(&self, group: &str, name: &str) -> bool {
+        self.exists(&format!("{AXES}/{name}"))
+            && self
+                .file
+                .dataset(&format!("{}/{name}", group.trim_end_matches('/')))
+                .is_ok_and(|dataset| dimension_scale::is_marked(&dataset))
+    }
+
+    fn check<T>(&self, result: hdf5::Result<T>, object: &str) -> Result<T, LabelledError> {
+        result.map_err(|error| LabelledError::Hdf5 {
+            path: self.path.clone(),
+            action: "read",
+            object: object.to_owned(),
+            reason: reason(&error),
+        })
+    }
+
+    fn missing(&self, object: String) -> LabelledError {
+        LabelledError::Missing { path: self.path.clone(), object }
+    }
+
+    fn wrong(&self, object: &str, found: String, wanted: &'static str) -> LabelledError {
+        LabelledError::WrongType { path: self.path.clone(), object: object.to_owned(), found, wanted }
+    }
+}
+
+fn attribute_label(object: &str, name: &str) -> String {
+    format!("attribute {name:?} of {object}")
+}
+
+/// A number in memory and the types in a file that it can take without loss.
+trait Number: H5Type + Copy {
+    const TYPES: &'static [TypeDescriptor];
+    const WANTED: &'static str;
+}
+
+macro_rules! number {
+    ($($type:ty, $wanted:literal, [$($descriptor:expr),+];)+) => {
+        $(impl Number for $type {
+            const TYPES: &'static [TypeDescriptor] = &[$($descriptor),+];
+            const WANTED: &'static str = $wanted;
+        })+
+    };
+}
+number! {
+    f64, "float64", [TypeDescriptor::Float(FloatSize::U8), TypeDescriptor::Float(FloatSize::U4)];
+    f32, "float32", [TypeDescriptor::Float(FloatSize::U4)];
+    u32, "uint32", [TypeDescriptor::Unsigned(IntSize::U4)];
+    u8, "uint8", [TypeDescriptor::Unsigned(IntSize::U1)];
+    i64, "int64", [TypeDescriptor::Integer(IntSize::U8)];
+    u64, "uint64", [TypeDescriptor::Unsigned(IntSize::U8)];
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,44 @@
+//! The study file: what a user writes, checked as a whole before anything is computed.
+//!
+//! A study file is TOML. It is parsed into a [`Study`], in which every key and value knows its
+//! place in the file, and resolved into a [`ResolvedStudy`]: every default filled in, every path
+//! found, every unit checked. All mistakes are reported at once, each with its line, its value
+//! and what to do ([`StudyError`]).
+//!
+//! ```no_run
+//! use std::path::Path;
+//! use uplift::study::Study;
+//!
+//! let study = Study::load(Path::new("configs/europe.toml"), &["risk.years=100".to_owned()])?;
+//! assert_eq!(study.risk.years, 100.0);
+//! # Ok::<(), uplift::study::StudyError>(())
+//! ```
+
+mod document;
+mod error;
+mod form;
+mod grid;
+mod measures;
+mod notation;
+mod overrides;
+mod paths;
+mod reader;
+mod records;
+mod resolve;
+mod resolved;
+mod sites;
+mod source;
+mod suggestion;
+mod warnings;
+
+#[cfg(test)]
+mod tests;
+
+pub use error::{Place, StudyError, StudyMistake};
+pub use grid::Grid;
+pub use notation::MOST_GRID_VALUES;
+pub use resolved::{
+    Contour, CurveFile, CurveKind, CurveUnit, DEFAULT_SYNTHETIC_PAIRS, DEFAULT_SYNTHETIC_SEED, Extrapolate,
+    MeasurePlan, Oscillator, Output, RecordSource, Records, Regression, ResolvedStudy, Risk, Site, Uplifted,
+};
+pub use source::Study;

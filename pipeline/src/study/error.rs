@@ -1,0 +1,144 @@
+//! What a study file can have wrong, told with the place, the reason and the remedy.
+
+use std::fmt;
+use std::ops::Range;
+use std::path::Path;
+
+use miette::{Diagnostic, LabeledSpan, NamedSource};
+
+/// Where a mistake lies.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Place {
+    /// In the study file.
+    File {
+        /// Bytes of the text, from zero, end excluded.
+        span: Range<usize>,
+        /// Line, from one.
+        line: usize,
+        /// Column in characters, from one.
+        column: usize,
+    },
+    /// In an override of the command line, as given, without `--set`.
+    Override(String),
+    /// In the study as a whole: something is missing that has no place yet.
+    Study,
+}
+
+/// One mistake of a study file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct StudyMistake {
+    /// The key as a dotted path with list positions from zero, e.g. `risk.poe[1]`; empty for a
+    /// mistake of TOML syntax.
+    pub key: String,
+    /// Where it lies.
+    pub place: Place,
+    /// What is wrong, with the value and its unit.
+    pub message: String,
+    /// What to do about it.
+    pub help: Option<String>,
+}
+
+impl fmt::Display for StudyMistake {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Place::Override(text) = &self.place {
+            write!(formatter, "--set {text}: ")?;
+        }
+        if !self.key.is_empty() {
+            write!(formatter, "{}: ", self.key)?;
+        }
+        formatter.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for StudyMistake {}
+
+impl Diagnostic for StudyMistake {
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        self.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display>)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        match &self.place {
+            Place::File { span, .. } => {
+                let label = LabeledSpan::underline(span.clone());
+                Some(Box::new(std::iter::once(label)))
+            }
+            Place::Override(_) | Place::Study => None,
+        }
+    }
+}
+
+/// Why a study cannot be run.
+///
+/// It is a [`miette::Diagnostic`]: every mistake is shown with its line and a caret below it.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum StudyError {
+    /// The file cannot be read.
+    #[error("cannot read the study file {file}: {reason}")]
+    Unreadable {
+        /// The file as given.
+        file: String,
+        /// The reason, as the system or this program puts it.
+        reason: String,
+    },
+    /// The file is read, and holds mistakes.
+    #[error("{file}: {}", count(mistakes.len(), *left_out))]
+    Mistakes {
+        /// The file as given.
+        file: String,
+        /// Its text.
+        text: Box<NamedSource<String>>,
+        /// The mistakes: those in the file by position, then those of overrides, then the rest.
+        mistakes: Vec<StudyMistake>,
+        /// How many more there are that are not listed.
+        left_out: usize,
+    },
+}
+
+/// More mistakes than this are counted, not listed.
+pub(super) const MOST_LISTED: usize = 100;
+
+fn count(listed: usize, left_out: usize) -> String {
+    match (listed, left_out) {
+        (1, 0) => "1 mistake".to_owned(),
+        (listed, 0) => format!("{listed} mistakes"),
+        (listed, left_out) => {
+            format!("{} mistakes, the first {listed} are listed", listed + left_out)
+        }
+    }
+}
+
+impl StudyError {
+    /// The `mistakes`, in order, of the study file named `file` with the contents `text`; so many more are `left_out`.
+    pub(super) fn of_mistakes(file: &Path, text: String, mistakes: Vec<StudyMistake>, left_out: usize) -> Self {
+        let file = file.display().to_string();
+        Self::Mistakes { text: Box::new(NamedSource::new(&file, text)), file, mistakes, left_out }
+    }
+
+    /// The mistakes found; none where the file could not be read.
+    pub fn mistakes(&self) -> &[StudyMistake] {
+        match self {
+            Self::Mistakes { mistakes, .. } => mistakes,
+            Self::Unreadable { .. } => &[],
+        }
+    }
+}
+
+impl Diagnostic for StudyError {
+    fn source_code(&self) -> Option<&dyn miette::SourceCode> {
+        match self {
+            Self::Mistakes { text, .. } => Some(text.as_ref()),
+            Self::Unreadable { .. } => None,
+        }
+    }
+
+    fn related<'a>(&'a self) -> Option<Box<dyn Iterator<Item = &'a dyn Diagnostic> + 'a>> {
+        match self {
+            Self::Mistakes { mistakes, .. } => {
+                Some(Box::new(mistakes.iter().map(|mistake| mistake as &dyn Diagnostic)))
+            }
+            Self::Unreadable { .. } => None,
+        }
+    }
+}

@@ -1,0 +1,204 @@
+//! The resolved study in the shape of a study file.
+
+use std::path::Path;
+
+use serde::Serialize;
+use uplift_motion::{Component, IntensityMeasure};
+
+use super::grid::Grid;
+use super::resolved::{Contour, CurveFile, CurveKind, Extrapolate, RecordSource, ResolvedStudy, Uplifted};
+
+/// The words of a study file for choices, each in one place for reading and writing.
+pub(super) const COMPONENTS: [(&str, Component); 4] =
+    [("h1", Component::H1), ("h2", Component::H2), ("both", Component::Both), ("random", Component::Random)];
+pub(super) const CONTOURS: [(&str, Contour); 2] = [("exact", Contour::Exact), ("grid", Contour::Grid)];
+pub(super) const EXTRAPOLATIONS: [(&str, Extrapolate); 2] =
+    [("refuse", Extrapolate::Refuse), ("loglog", Extrapolate::Loglog)];
+
+fn word<T: PartialEq>(choices: &[(&'static str, T)], value: &T) -> &'static str {
+    choices.iter().find_map(|(word, choice)| (choice == value).then_some(*word)).unwrap_or_default()
+}
+
+#[derive(Serialize)]
+pub(super) struct Form<'a> {
+    title: &'a str,
+    seed: u64,
+    gravity_m_s2: f64,
+    records: RecordsForm<'a>,
+    oscillator: OscillatorForm,
+    strengths: StrengthsForm<'a>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pgv: Option<PgvForm<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pga: Option<PgaForm<'a>>,
+    risk: RiskForm<'a>,
+    sites: Vec<SiteForm<'a>>,
+    regression: RegressionForm,
+    output: OutputForm<'a>,
+}
+
+#[derive(Serialize)]
+struct RecordsForm<'a> {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    manifest: Option<&'a Path>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tag: Option<&'a str>,
+    component: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    first: Option<u64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    synthetic: Option<SyntheticForm>,
+}
+
+#[derive(Serialize)]
+struct SyntheticForm {
+    pairs: u64,
+    seed: u64,
+}
+
+#[derive(Serialize)]
+struct OscillatorForm {
+    uplift_displacement_m: f64,
+    restitution: f64,
+    free_vibration: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    capacity_m: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    post_uplift_stiffness_per_s2: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct StrengthsForm<'a> {
+    values: &'a Grid,
+}
+
+#[derive(Serialize)]
+struct PgvForm<'a> {
+    levels_cm_s: &'a Grid,
+}
+
+#[derive(Serialize)]
+struct PgaForm<'a> {
+    levels_g: &'a Grid,
+}
+
+#[derive(Serialize)]
+struct RiskForm<'a> {
+    poe: &'a [f64],
+    years: f64,
+    contour: &'static str,
+    thresholds_m: &'a Grid,
+    maf_surface: bool,
+    extrapolate: &'static str,
+}
+
+#[derive(Serialize)]
+struct SiteForm<'a> {
+    name: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pgv: Option<CurveForm<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pga: Option<CurveForm<'a>>,
+}
+
+#[derive(Serialize)]
+struct CurveForm<'a> {
+    file: &'a Path,
+    unit: &'static str,
+    kind: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    years: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct RegressionForm {
+    strength_above: f64,
+}
+
+#[derive(Serialize)]
+struct OutputForm<'a> {
+    file: &'a Path,
+    csv: bool,
+}
+
+impl<'a> Form<'a> {
+    pub(super) fn of(study: &'a ResolvedStudy) -> Self {
+        let levels = |measure: IntensityMeasure| {
+            let mut plans = study.measures.iter();
+            Some(&plans.find(|plan| plan.measure == measure)?.levels)
+        };
+        let curve = |curve: &'a CurveFile| CurveForm {
+            file: &curve.file,
+            unit: curve.unit.symbol(),
+            kind: match curve.kind {
+                CurveKind::Maf => "maf",
+                CurveKind::Poe { .. } => "poe",
+            },
+            years: match curve.kind {
+                CurveKind::Maf => None,
+                CurveKind::Poe { years } => Some(years),
+            },
+        };
+        Self {
+            title: &study.title,
+            seed: study.seed,
+            gravity_m_s2: study.gravity_m_s2,
+            records: RecordsForm::of(study),
+            oscillator: OscillatorForm::of(study),
+            strengths: StrengthsForm { values: &study.strengths },
+            pgv: levels(IntensityMeasure::Pgv).map(|levels_cm_s| PgvForm { levels_cm_s }),
+            pga: levels(IntensityMeasure::Pga).map(|levels_g| PgaForm { levels_g }),
+            risk: RiskForm {
+                poe: &study.risk.poe,
+                years: study.risk.years,
+                contour: word(&CONTOURS, &study.risk.contour),
+                thresholds_m: &study.risk.thresholds_m,
+                maf_surface: study.risk.maf_surface,
+                extrapolate: word(&EXTRAPOLATIONS, &study.risk.extrapolate),
+            },
+            sites: (study.sites.iter())
+                .map(|site| SiteForm {
+                    name: &site.name,
+                    pgv: site.curve(IntensityMeasure::Pgv).map(curve),
+                    pga: site.curve(IntensityMeasure::Pga).map(curve),
+                })
+                .collect(),
+            regression: RegressionForm { strength_above: study.regression.strength_above },
+            output: OutputForm { file: &study.output.file, csv: study.output.csv },
+        }
+    }
+}
+
+impl<'a> RecordsForm<'a> {
+    fn of(study: &'a ResolvedStudy) -> Self {
+        let (manifest, tag, synthetic) = match &study.records.source {
+            RecordSource::Manifest { manifest, tag } => (Some(manifest.as_path()), tag.as_deref(), None),
+            &RecordSource::Synthetic { pairs, seed } => (None, None, Some(SyntheticForm { pairs, seed })),
+        };
+        Self {
+            manifest,
+            tag,
+            component: word(&COMPONENTS, &study.records.component),
+            first: study.records.first,
+            synthetic,
+        }
+    }
+}
+
+impl OscillatorForm {
+    fn of(study: &ResolvedStudy) -> Self {
+        let oscillator = &study.oscillator;
+        let (capacity_m, stiffness) = match oscillator.uplifted {
+            Uplifted::ZeroStiffness => (None, None),
+            Uplifted::NegativeStiffness { capacity_m } => (Some(capacity_m), None),
+            Uplifted::PositiveStiffness { stiffness_per_s2 } => (None, Some(stiffness_per_s2)),
+        };
+        Self {
+            uplift_displacement_m: oscillator.uplift_displacement_m,
+            restitution: oscillator.restitution,
+            free_vibration: oscillator.free_vibration,
+            capacity_m,
+            post_uplift_stiffness_per_s2: stiffness,
+        }
+    }
+}

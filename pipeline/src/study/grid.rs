@@ -1,0 +1,196 @@
+//! Grids: increasing numbers with the notation that gives them.
+
+use std::fmt;
+use std::ops::Deref;
+
+use serde::Serialize;
+
+use super::document::{Node, Origin, Value};
+use super::notation::{self, Fault, MOST_GRID_VALUES};
+use super::reader::{Field, Ledger, Rule, Section, quantity};
+
+/// A strictly increasing list of finite numbers, not empty, with the notation in which it was
+/// given; it reads as a slice of its values and is written as its notation.
+#[derive(Clone, PartialEq)]
+pub struct Grid {
+    pieces: Vec<Piece>,
+    values: Vec<f64>,
+}
+
+/// A part of a grid's notation.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+enum Piece {
+    Number(f64),
+    Range(String),
+}
+
+impl fmt::Debug for Grid {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let count = self.values.len();
+        write!(formatter, "Grid({:?}, {count} values)", self.pieces)
+    }
+}
+
+impl Deref for Grid {
+    type Target = [f64];
+
+    fn deref(&self) -> &[f64] {
+        &self.values
+    }
+}
+
+impl Serialize for Grid {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.pieces.serialize(serializer)
+    }
+}
+
+/// What the values of a grid must be.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct GridRule {
+    pub(super) unit: &'static str,
+    pub(super) each: Rule,
+    pub(super) least_count: usize,
+}
+
+impl Grid {
+    /// The grid of `key` in `section`, or that of the notations `default` where it is not given.
+    pub(super) fn of_key(
+        section: &mut Section<'_>,
+        key: &'static str,
+        rule: GridRule,
+        default: &[&str],
+        ledger: &Ledger,
+    ) -> Option<Self> {
+        section.field(key).map_or_else(|| Self::of_default(default, rule, ledger), |field| Self::read(&field, rule))
+    }
+
+    fn of_default(default: &[&str], rule: GridRule, ledger: &Ledger) -> Option<Self> {
+        let node = |value| Node { origin: Origin::Study, value };
+        let items = default.iter().map(|text| node(Value::Text((*text).to_owned())));
+        Self::read(&Field { key: "default".to_owned(), node: &node(Value::List(items.collect())), ledger }, rule)
+    }
+
+    /// Reads and checks a grid: a number, a notation, a table of start, stop and count, or a list
+    /// of these.
+    pub(super) fn read(field: &Field<'_>, rule: GridRule) -> Option<Self> {
+        let too_many = || {
+            field.mistake(format!("the grid has more than {MOST_GRID_VALUES} values"), "take a larger step");
+            None
+        };
+        if matches!(&field.node.value, Value::List(items) if items.len() > MOST_GRID_VALUES) {
+            return too_many();
+        }
+        let mut grid = Self { pieces: Vec::new(), values: Vec::new() };
+        let mut complete = true;
+        for item in field.items() {
+            complete &= grid.append(&item, rule).is_some();
+            if grid.values.len() > MOST_GRID_VALUES {
+                return too_many();
+            }
+        }
+        if complete && grid.values.len() < rule.least_count {
+            field.mistake(
+                match grid.values.len() {
+                    0 => "the grid is empty".to_owned(),
+                    count => format!("the grid has {count} value(s)"),
+                },
+                format!("give at least {}, as numbers or as \"start:step:stop\"", rule.least_count),
+            );
+            return None;
+        }
+        complete.then_some(grid)
+    }
+
+    fn append(&mut self, item: &Field<'_>, rule: GridRule) -> Option<()> {
+        let (piece, values) = piece(item, rule.unit)?;
+        for &value in &values {
+            if !item.check(value, rule.unit, rule.each) {
+                return None;
+            }
+            if let Some(&last) = self.values.last().filter(|&&last| value <= last) {
+                item.mistake(
+                    format!(
+                        "{} follows {}, but a grid must increase",
+                        quantity(value, rule.unit),
+                        quantity(last, rule.unit)
+                    ),
+                    "sort the values and give each once; \"start:step:stop\" includes both ends",
+                );
+                return None;
+            }
+            self.values.push(value);
+        }
+        self.pieces.push(piece);
+        Some(())
+    }
+}
+
+/// One item of a grid: its notation and its values.
+fn piece(item: &Field<'_>, unit: &str) -> Option<(Piece, Vec<f64>)> {
+    let expanded = |text: &str| match notation::values(text) {
+        Ok(values) => Some((Piece::Range(text.to_owned()), values)),
+        Err(Fault { message, help }) => {
+            item.mistake(message, help);
+            None
+        }
+    };
+    match &item.node.value {
+        Value::Integer(integer) => Some(number(*integer as f64)),
+        Value::Float(float) => Some(number(*float)),
+        Value::Text(text) => {
+            let (piece, values) = expanded(text)?;
+            // A number in quotes is a number; a fraction stays as it is written.
+            match (text.contains(['/', ':']), values.as_slice()) {
+                (false, &[value]) => Some(number(value)),
+                _ => Some((piece, values)),
+            }
+        }
+        Value::Table(_) => expanded(&equal_steps(item, unit)?),
+        _ => item.wrong_type(
+            &format!("a grid{}", bracketed(unit)),
+            "write numbers, \"start:step:stop\", or a list of these",
+        ),
+    }
+}
+
+fn number(value: f64) -> (Piece, Vec<f64>) {
+    (Piece::Number(value), vec![value])
+}
+
+fn bracketed(unit: &str) -> String {
+    if unit.is_empty() { String::new() } else { format!(" [{unit}]") }
+}
+
+/// The notation of a table of start, stop and count.
+fn equal_steps(item: &Field<'_>, unit: &str) -> Option<String> {
+    const ANY: Rule = Rule { holds: |_| true, words: "a finite number" };
+    let mut section = item.section();
+    let fields = [section.field("start"), section.field("stop")];
+    let count = section.field("count");
+    let mut missing = Vec::new();
+    for (key, field) in ["start", "stop", "count"].iter().zip([&fields[0], &fields[1], &count]) {
+        if field.is_none() {
+            missing.push(*key);
+        }
+    }
+    if !missing.is_empty() {
+        section.mistake(
+            "",
+            format!("the grid has no {}", missing.join(", ")),
+            "write { start = 0, stop = 1, count = 301 }",
+        );
+    }
+    section.finish();
+    let [start, stop] = fields.map(|field| field?.number(unit, ANY));
+    let count = count?.integer(2, MOST_GRID_VALUES as u64);
+    let (start, stop, count) = (start?, stop?, i64::try_from(count?).ok()?);
+    match notation::equal_steps(start, stop, count) {
+        Ok(notation) => Some(notation),
+        Err(Fault { message, help }) => {
+            item.mistake(message, help);
+            None
+        }
+    }
+}

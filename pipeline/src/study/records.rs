@@ -1,0 +1,52 @@
+//! The ground motions of a study: a manifest of record files, or the synthetic set.
+
+use uplift_motion::Component;
+
+use super::form::COMPONENTS;
+use super::paths::Folders;
+use super::reader::{LARGEST_INTEGER, Section, optional};
+use super::resolved::{DEFAULT_SYNTHETIC_PAIRS, DEFAULT_SYNTHETIC_SEED, RecordSource, Records};
+
+/// Most synthetic pairs: beyond it memory is out of proportion.
+const MOST_PAIRS: u64 = 10_000;
+
+/// Reads which ground motions are used.
+pub(super) fn read(mut section: Section<'_>, folders: &Folders) -> Option<Records> {
+    let manifest_field = section.field("manifest");
+    let tag_field = section.field("tag");
+    let component = section.field("component").map_or(Some(Component::H1), |field| field.choice(&COMPONENTS));
+    let first_field = section.field("first");
+    let first = optional(first_field.as_ref(), |field| field.integer(1, LARGEST_INTEGER));
+    let mut synthetic = section.section("synthetic");
+    let source = if let Some(field) = manifest_field {
+        if synthetic.is_present() {
+            section.mistake(
+                "synthetic",
+                "records come from a manifest and are synthetic as well",
+                "keep `manifest` or [records.synthetic], not both",
+            );
+        }
+        let manifest = folders.input(&field);
+        let tag = optional(tag_field.as_ref(), |field| field.filled_text().map(str::to_owned));
+        (|| Some(RecordSource::Manifest { manifest: manifest?, tag: tag? }))()
+    } else {
+        if let Some(field) = tag_field {
+            field.mistake("a tag chooses rows of a manifest, and there is none", "give `manifest`, or leave `tag` out");
+        }
+        let pairs =
+            synthetic.field("pairs").map_or(Some(DEFAULT_SYNTHETIC_PAIRS), |field| field.integer(1, MOST_PAIRS));
+        let seed = synthetic.seed_or(DEFAULT_SYNTHETIC_SEED);
+        if let (Some(field), Some(Some(first)), Some(pairs)) = (first_field, first, pairs)
+            && first > pairs
+        {
+            field.mistake(
+                format!("the first {first} records are asked for, and there are {pairs}"),
+                format!("use at most {pairs}, or raise records.synthetic.pairs"),
+            );
+        }
+        synthetic.finish();
+        (|| Some(RecordSource::Synthetic { pairs: pairs?, seed: seed? }))()
+    };
+    section.finish();
+    Some(Records { source: source?, component: component?, first: first? })
+}

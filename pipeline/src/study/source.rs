@@ -1,0 +1,152 @@
+//! The study file as it is read, and the way from it to the resolved study.
+
+use std::fs;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use super::document::{Origin, Table};
+use super::error::{MOST_LISTED, Place, StudyError, StudyMistake};
+use super::overrides;
+use super::paths::{Folders, tidy};
+use super::reader::{Finding, Ledger, Section};
+use super::resolve;
+use super::resolved::ResolvedStudy;
+
+/// Largest study file \[bytes\]; one with 100 000 numbers written out has 2 MB.
+const LARGEST_FILE: u64 = 4 << 20;
+
+/// A study file that is TOML; what it says is not checked yet.
+#[derive(Debug, Clone)]
+pub struct Study {
+    file: PathBuf,
+    text: String,
+    document: Table,
+}
+
+impl Study {
+    /// Reads the study file `file`, applies the `overrides`, each `key=value`, and checks it all.
+    ///
+    /// # Errors
+    ///
+    /// [`StudyError`] with every mistake in the file and the overrides; those of TOML syntax come
+    /// alone.
+    pub fn load(file: &Path, overrides: &[String]) -> Result<ResolvedStudy, StudyError> {
+        Self::read(file)?.resolve(overrides)
+    }
+
+    /// Reads the study file `file`.
+    ///
+    /// # Errors
+    ///
+    /// [`StudyError`] where it cannot be read, or is no TOML.
+    pub fn read(file: &Path) -> Result<Self, StudyError> {
+        let unreadable = |reason: String| StudyError::Unreadable { file: file.display().to_string(), reason };
+        let failed = |error: std::io::Error| unreadable(error.to_string());
+        if !fs::metadata(file).map_err(failed)?.is_file() {
+            return Err(unreadable("it is not a file".to_owned()));
+        }
+        let mut bytes = Vec::new();
+        let opened = fs::File::open(file).map_err(failed)?;
+        opened.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(failed)?;
+        if bytes.len() as u64 > LARGEST_FILE {
+            return Err(unreadable(format!("it has more than {LARGEST_FILE} bytes; is it a study file?")));
+        }
+        let text = String::from_utf8(bytes).map_err(|error| {
+            let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+            let line = valid.split(|&byte| byte == b'\n').count();
+            unreadable(format!("line {line} is not UTF-8 text; save it as UTF-8"))
+        })?;
+        Self::parse(file, text)
+    }
+
+    /// Parses the `text` of a study file whose name is, or would be, `file`.
+    ///
+    /// # Errors
+    ///
+    /// [`StudyError`] where it is no TOML.
+    pub fn parse(file: &Path, text: String) -> Result<Self, StudyError> {
+        match Table::parse(&text) {
+            Ok(document) => Ok(Self { file: file.to_owned(), text, document }),
+            Err(mut errors) => {
+                errors.sort_by_key(|error| error.span().map(|span| span.start));
+                let listed = errors.iter().take(MOST_LISTED).map(|error| StudyMistake {
+                    key: String::new(),
+                    place: place(&text, error.span().unwrap_or_default()),
+                    message: format!("not TOML: {}", error.message()),
+                    help: Some(syntax_help(error.message()).to_owned()),
+                });
+                let listed: Vec<_> = listed.collect();
+                let left_out = errors.len() - listed.len();
+                Err(StudyError::of_mistakes(file, text, listed, left_out))
+            }
+        }
+    }
+
+    /// Applies the `overrides`, each `key=value`, fills in the defaults and checks it all.
+    ///
+    /// # Errors
+    ///
+    /// [`StudyError`] with every mistake.
+    pub fn resolve(mut self, overrides: &[String]) -> Result<ResolvedStudy, StudyError> {
+        let unreadable = |error: std::io::Error| StudyError::Unreadable {
+            file: self.file.display().to_string(),
+            reason: format!("no current directory: {error}"),
+        };
+        let current = std::env::current_dir().map_err(unreadable)?;
+        let study_file = tidy(&current.join(&self.file));
+        let study_folder = study_file.parent().unwrap_or(&current).to_owned();
+        let folders = Folders { study: study_folder, current };
+        let ledger = Ledger::default();
+        for (index, text) in overrides.iter().enumerate() {
+            if let Err(finding) = overrides::apply(&mut self.document, index, text) {
+                ledger.add(finding);
+            }
+        }
+        let root = Section::root(&self.document, &ledger);
+        let resolved = resolve::study(root, &ledger, &folders, &study_file);
+        let findings = ledger.into_findings();
+        match resolved {
+            Some(study) if findings.is_empty() => Ok(study),
+            _ => Err(self.refused(findings, overrides)),
+        }
+    }
+
+    fn refused(self, mut findings: Vec<Finding>, overrides: &[String]) -> StudyError {
+        findings.sort_by_key(|finding| match &finding.origin {
+            Origin::File(span) => (0, span.start),
+            Origin::Override(index) => (1, *index),
+            Origin::Study => (2, 0),
+        });
+        let left_out = findings.len().saturating_sub(MOST_LISTED);
+        let listed = findings.into_iter().take(MOST_LISTED).map(|finding| StudyMistake {
+            key: finding.key,
+            place: match finding.origin {
+                Origin::File(span) => place(&self.text, span),
+                Origin::Override(index) => {
+                    overrides.get(index).map_or(Place::Study, |text| Place::Override(text.clone()))
+                }
+                Origin::Study => Place::Study,
+            },
+            message: finding.message,
+            help: finding.help,
+        });
+        let listed = listed.collect();
+        StudyError::of_mistakes(&self.file, self.text, listed, left_out)
+    }
+}
+
+/// What to do about a mistake of TOML syntax.
+fn syntax_help(message: &str) -> &'static str {
+    if message.contains("duplicate") {
+        "each key and each [section] may stand once; write [[sites]] for one site more"
+    } else {
+        "put texts, paths and grids in double quotes, lists in [ ]"
+    }
+}
+
+/// The bytes `span` of `text` with their line and column.
+fn place(text: &str, span: std::ops::Range<usize>) -> Place {
+    let before = text.get(..span.start).unwrap_or(text);
+    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    Place::File { line: 1 + before.matches('\n').count(), column: 1 + before[line_start..].chars().count(), span }
+}

@@ -1,0 +1,69 @@
+//! Tests of the study file as a whole; text in, resolved study or rendered mistakes out.
+#![allow(clippy::unwrap_used)]
+
+mod configs;
+mod grids;
+mod mistakes;
+mod overriding;
+mod resolving;
+
+use std::fs;
+use std::path::PathBuf;
+
+use miette::{GraphicalReportHandler, GraphicalTheme};
+use tempfile::TempDir;
+
+use super::{ResolvedStudy, Study, StudyError};
+
+/// A folder with a study file, two hazard curves and a manifest.
+struct Folder {
+    folder: TempDir,
+}
+
+impl Folder {
+    fn new(study: &str) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        for name in ["study.toml", "pgv.csv", "pga.csv", "manifest.csv"] {
+            let text = if name == "study.toml" { study } else { "" };
+            fs::write(folder.path().join(name), text).unwrap();
+        }
+        Self { folder }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        fs::canonicalize(self.folder.path()).unwrap().join(name)
+    }
+
+    fn load(&self, overrides: &[&str]) -> Result<ResolvedStudy, StudyError> {
+        let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
+        Study::load(&self.path("study.toml"), &overrides)
+    }
+
+    /// What a user sees, without the name of the folder.
+    fn rendered(&self, error: &StudyError) -> String {
+        let shown = render(error);
+        shown.replace(&format!("{}/", self.path("").display()).replace("//", "/"), "")
+    }
+}
+
+/// The error as a terminal without colours shows it.
+fn render(error: &StudyError) -> String {
+    let mut shown = String::new();
+    GraphicalReportHandler::new_themed(GraphicalTheme::unicode_nocolor())
+        .with_width(400)
+        .render_report(&mut shown, error)
+        .unwrap();
+    shown
+}
+
+fn load(study: &str) -> Result<ResolvedStudy, StudyError> {
+    Folder::new(study).load(&[])
+}
+
+/// The mistakes of a study as "key: message", in order.
+fn mistakes(study: &str, overrides: &[&str]) -> Vec<String> {
+    let folder = Folder::new(study);
+    let error = folder.load(overrides).unwrap_err();
+    let texts = error.mistakes().iter().map(ToString::to_string);
+    texts.collect()
+}

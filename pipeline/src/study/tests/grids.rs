@@ -1,0 +1,132 @@
+use proptest::prelude::*;
+
+use super::super::notation::{self, MOST_GRID_VALUES};
+use super::load;
+
+fn values(text: &str) -> Vec<f64> {
+    notation::values(text).unwrap()
+}
+
+fn strengths(notation: &str) -> Vec<f64> {
+    let study = load(&format!("[pgv]\n[strengths]\nvalues = {notation}")).unwrap();
+    study.strengths.to_vec()
+}
+
+#[test]
+fn thresholds_are_the_decimals() {
+    let grid = values("0.001:0.001:3");
+    assert_eq!(grid.len(), 3000);
+    for (value, thousandths) in grid.iter().zip(1..) {
+        let decimal = format!("{}.{:03}", thousandths / 1000, thousandths % 1000);
+        assert_eq!(*value, decimal.parse::<f64>().unwrap());
+    }
+}
+
+#[test]
+fn levels_are_the_decimals() {
+    assert_eq!(values("0.0025:0.0025:0.0225")[2], 0.0075);
+    assert_eq!(values("0.025:0.005:0.195")[34], 0.195);
+    assert_eq!(values("1:0.5:20")[1], 1.5);
+    assert_eq!(values("1e-3:1e-3:5E-3"), [0.001, 0.002, 0.003, 0.004, 0.005]);
+}
+
+#[test]
+fn strengths_are_the_fractions() {
+    let grid = values("0:1/300:1");
+    assert_eq!(grid.len(), 301);
+    for (value, i) in grid.iter().zip(0..) {
+        assert_eq!(*value, f64::from(i) / 300.0);
+    }
+    assert_eq!(grid[300], 1.0);
+}
+
+#[test]
+fn one_number() {
+    assert_eq!(values("0.0005"), [0.0005]);
+    assert_eq!(values(" 1/3 "), [1.0 / 3.0]);
+    assert_eq!(values("2:1:2"), [2.0]);
+    assert_eq!(values("-1:0.5:1"), [-1.0, -0.5, 0.0, 0.5, 1.0]);
+    // More digits than an exact range allows are no trouble for one number.
+    assert_eq!(values("0.1000000000000000055511151231257827"), [0.1]);
+}
+
+#[test]
+fn forms_of_a_grid_agree() {
+    let table = strengths("{ start = 0, stop = 1, count = 301 }");
+    assert_eq!(table, strengths("\"0:1/300:1\""));
+    assert_eq!(strengths("{ start = 0.05, stop = 1.0, count = 20 }"), strengths("\"0.05:0.05:1\""));
+    assert_eq!(strengths("[0.25, \"0.5\", \"0.75:0.25:1\"]"), [0.25, 0.5, 0.75, 1.0]);
+    assert_eq!(strengths("0.25"), [0.25]);
+    assert_eq!(strengths("{ start = 0, stop = 2, count = 3 }"), [0.0, 1.0, 2.0]);
+}
+
+#[test]
+fn refused() {
+    for (text, reason) in [
+        ("", "no number"),
+        ("abc", "no number"),
+        ("inf", "no number"),
+        ("nan", "no number"),
+        ("1e400", "no number"),
+        ("0:1", "no grid"),
+        ("0:1:2:3", "no grid"),
+        ("0:0:1", "the step 0"),
+        ("0:-1:1", "the step -1"),
+        ("1:0.1:0", "stops below"),
+        ("0:0.333:1", "misses its stop: after 3 steps it is at 0.999"),
+        ("0:1/0:1", "divides by zero"),
+        ("0:1e-12:1", "1000000000001 values"),
+        ("0:1e-5:1", "100001 values"),
+        ("0:1e-30:1", "too many digits"),
+        ("0:1e-99999999999:1", "no number"),
+        ("0:1e-2147483648:1", "too many digits"),
+        ("0:1:1e2147483647", "too many digits"),
+        ("0:123456789012345678901234567890123456789012345:1", "too many digits"),
+        ("0:.:1", "no number"),
+        ("0:1_0:20", "no number"),
+        ("0:+-1:2", "no number"),
+        ("0:١:2", "no number"),
+    ] {
+        let fault = notation::values(text).unwrap_err();
+        assert!(fault.message.contains(reason), "{text}: {}", fault.message);
+        assert!(!fault.help.is_empty());
+    }
+    assert_eq!(values("0:1/99999:1").len(), MOST_GRID_VALUES);
+}
+
+proptest! {
+    /// Any decimal range is what parsing each decimal gives.
+    #[test]
+    fn decimal_ranges(start in -100_000_i64..100_000, step in 1_i64..1000, count in 0_i64..200, places in 0_u32..7) {
+        let scale = 10_i64.pow(places);
+        let decimal = |scaled: i64| {
+            let (sign, size) = (if scaled < 0 { "-" } else { "" }, scaled.abs());
+            let places = places as usize;
+            if places == 0 { format!("{sign}{size}") } else { format!("{sign}{}.{:0places$}", size / scale, size % scale) }
+        };
+        let text = format!("{}:{}:{}", decimal(start), decimal(step), decimal(start + count * step));
+        let grid = values(&text);
+        prop_assert_eq!(i64::try_from(grid.len()).unwrap(), count + 1);
+        for (value, i) in grid.iter().zip(0..) {
+            prop_assert_eq!(*value, decimal(start + i * step).parse::<f64>().unwrap());
+        }
+    }
+
+    /// A table of start, stop and count hits both ends with as many values.
+    #[test]
+    fn tables(start in 0_u32..1000, span in 1_u32..1000, count in 2_i64..500) {
+        let (start, stop) = (f64::from(start) / 8.0, f64::from(start + span) / 8.0);
+        let grid = values(&notation::equal_steps(start, stop, count).unwrap());
+        prop_assert_eq!(i64::try_from(grid.len()).unwrap(), count);
+        prop_assert_eq!(grid[0], start);
+        prop_assert_eq!(*grid.last().unwrap(), stop);
+    }
+
+    /// Nothing written as a grid panics, hangs, or gives more values than allowed.
+    #[test]
+    fn any_text(text in "[0-9.:/eE+ -]{0,30}|\\PC{0,12}") {
+        if let Ok(grid) = notation::values(&text) {
+            prop_assert!(grid.len() <= MOST_GRID_VALUES && grid.iter().all(|value| value.is_finite()));
+        }
+    }
+}

@@ -1,0 +1,113 @@
+use uplift_motion::IntensityMeasure;
+
+use super::{Folder, mistakes};
+
+const STUDY: &str = r#"
+[pgv]
+[risk]
+poe = [0.02, 0.1]
+[[sites]]
+name = "Athens"
+pgv = "pgv.csv"
+[[sites]]
+name = "Sion 2.1"
+pgv = "pgv.csv"
+"#;
+
+#[test]
+fn values_are_toml_or_text() {
+    let folder = Folder::new(STUDY);
+    let overrides = [
+        "risk.years=100",
+        "risk.poe[1]=0.2",
+        "title=Two words",
+        "strengths.values=0:1/10:1",
+        "oscillator.free_vibration = false",
+        "records.component=\"h2\"",
+        "pgv.levels_cm_s=10:20:30",
+        "pgv.levels_cm_s=[10, \"20:10:40\"]",
+    ];
+    let study = folder.load(&overrides).unwrap();
+    assert_eq!(study.risk.years, 100.0);
+    assert_eq!(study.risk.poe, [0.02, 0.2]);
+    assert_eq!(study.title, "Two words");
+    assert_eq!(study.strengths.len(), 11);
+    assert!(!study.oscillator.free_vibration);
+    assert_eq!(study.records.component, uplift_motion::Component::H2);
+    assert_eq!(study.measures[0].levels[..], [10.0, 20.0, 30.0, 40.0]);
+}
+
+/// 10:20:30 is a time of day in TOML, and a grid here.
+#[test]
+fn a_grid_that_looks_like_a_time() {
+    let folder = Folder::new(STUDY);
+    let study = folder.load(&["pgv.levels_cm_s=10:20:50"]).unwrap();
+    assert_eq!(study.measures[0].levels[..], [10.0, 30.0, 50.0]);
+}
+
+#[test]
+fn sites_by_position_and_by_name() {
+    let folder = Folder::new(STUDY);
+    let pga = folder.path("pga.csv");
+    for (key, site) in
+        [("sites.0.pgv", 0), ("sites[0].pgv", 0), ("sites.Athens.pgv", 0), ("sites.\"Sion 2.1\".pgv.file", 1)]
+    {
+        let start = if key.ends_with("file") { vec!["sites[1].pgv={}".to_owned()] } else { vec![] };
+        let setting = format!("{key}={}", pga.display());
+        let overrides: Vec<&str> = start.iter().chain([&setting]).map(String::as_str).collect();
+        let study = folder.load(&overrides).unwrap();
+        let curve = study.sites[site].curve(IntensityMeasure::Pgv).unwrap();
+        assert_eq!(curve.file, pga, "{key}");
+    }
+    let study = folder.load(&["sites.1.name=Athens II"]).unwrap();
+    assert_eq!(study.sites[1].name, "Athens II");
+}
+
+#[test]
+fn sections_come_into_being() {
+    let study = Folder::new("").load(&["pga.levels_g=0.1:0.1:2"]).unwrap();
+    assert_eq!(study.measures[0].measure, IntensityMeasure::Pga);
+    assert_eq!(study.measures[0].levels.len(), 20);
+    let study = Folder::new("").load(&["pga={}"]).unwrap();
+    assert_eq!(study.measures[0].levels.len(), 82);
+}
+
+/// Paths of the command line start from the current directory, which is the crate's in tests.
+#[test]
+fn paths_start_from_the_current_directory() {
+    let folder = Folder::new("[pgv]\n[output]\nfile = \"a/b.h5\"");
+    let inside = folder.load(&[]).unwrap();
+    assert_eq!(inside.output.file, folder.path("a/b.h5"));
+    let study = folder.load(&["output.file=a/b.h5", "records.manifest=Cargo.toml"]).unwrap();
+    let current = std::fs::canonicalize(".").unwrap();
+    assert_eq!(study.output.file, current.join("a/b.h5"));
+}
+
+#[test]
+fn mistakes_name_the_override() {
+    let overrides = [
+        "risk.poe=2",
+        "risk.yeers=100",
+        "rsik.years=100",
+        "sites.Athen.pgv=x.csv",
+        "sites.7.pgv=x.csv",
+        "risk.years.months=3",
+        "records.manifest=no such file.csv",
+        "no value",
+        "=3",
+        "risk..years=3",
+        "sites[x].pgv=3",
+        "title=2024",
+    ];
+    let folder = Folder::new(STUDY);
+    let error = folder.load(&overrides).unwrap_err();
+    let current = std::fs::canonicalize(".").unwrap();
+    let shown = folder.rendered(&error);
+    insta::assert_snapshot!(shown.replace(&current.display().to_string(), "[current]"));
+}
+
+#[test]
+fn only_overrides_that_lie_in_the_way_are_told() {
+    let told = mistakes("[pgv]\n[risk]\nyears = -1", &["risk.years=50", "seed=-3"]);
+    assert_eq!(told, ["--set seed=-3: seed: the value is -3"]);
+}

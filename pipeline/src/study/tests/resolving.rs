@@ -1,0 +1,193 @@
+use std::fs;
+use std::path::Path;
+
+use proptest::prelude::*;
+use uplift_motion::{Component, IntensityMeasure};
+
+use super::super::{Contour, CurveKind, CurveUnit, Extrapolate, RecordSource, Study, Uplifted};
+use super::{Folder, load, render};
+
+#[test]
+fn defaults() {
+    let folder = Folder::new("[pgv]\n[pga]\n");
+    let study = folder.load(&[]).unwrap();
+    assert_eq!((study.title.as_str(), study.seed, study.gravity_m_s2), ("", 1, 9.80665));
+    assert_eq!(study.records.source, RecordSource::Synthetic { pairs: 105, seed: 1 });
+    assert_eq!((study.records.component, study.records.first), (Component::H1, None));
+    assert_eq!(study.oscillator.uplift_displacement_m, 0.0005);
+    assert_eq!(study.oscillator.restitution, 0.95);
+    assert!(study.oscillator.free_vibration);
+    assert_eq!(study.oscillator.uplifted, Uplifted::ZeroStiffness);
+    assert_eq!(study.strengths.len(), 301);
+    let [pgv, pga] = study.measures.as_slice() else {
+        panic!("two measures");
+    };
+    assert_eq!((pgv.measure, pgv.levels.len()), (IntensityMeasure::Pgv, 75));
+    assert_eq!((pga.measure, pga.levels.len()), (IntensityMeasure::Pga, 82));
+    assert_eq!((pgv.levels[0], pgv.levels[38], pgv.levels[39], pgv.levels[74]), (1.0, 20.0, 25.0, 200.0));
+    assert_eq!((pga.levels[0], pga.levels[9], pga.levels[10], pga.levels[81]), (0.001, 0.0225, 0.025, 2.0));
+    assert_eq!(study.risk.poe, [0.02, 0.1, 0.5]);
+    assert_eq!(study.risk.years, 50.0);
+    assert_eq!(study.risk.contour, Contour::Exact);
+    assert_eq!(study.risk.extrapolate, Extrapolate::Refuse);
+    assert!(study.risk.maf_surface);
+    assert_eq!(study.risk.thresholds_m.len(), 3002);
+    assert_eq!(study.risk.thresholds_m[..3], [0.0, 0.0005, 0.001]);
+    assert_eq!(study.regression.strength_above, 0.05);
+    assert!(study.output.csv);
+    let results = std::env::current_dir().unwrap().join("results/study.h5");
+    assert_eq!(study.output.file, results);
+    assert!(study.warnings[0].contains("no [[sites]]"));
+}
+
+const COMPLETE: &str = r#"
+title = "A \"title\" – with ş"
+seed = 9223372036854775807
+gravity_m_s2 = 9.81
+[records]
+manifest = "manifest.csv"
+tag = "ord105"
+component = "random"
+first = 20
+[oscillator]
+uplift_displacement_m = 1e-3
+restitution = 1
+free_vibration = false
+capacity_m = 0.3
+[strengths]
+values = { start = 0.1, stop = 1, count = 7 }
+[pgv]
+levels_cm_s = [1, "2:1/3:4", 5.5]
+[pga]
+levels_g = "0.1:0.1:2"
+[risk]
+poe = 0.1
+years = 475
+contour = "grid"
+thresholds_m = [0, "0.001:0.001:0.01"]
+maf_surface = false
+extrapolate = "loglog"
+[[sites]]
+name = "Athens"
+pgv = "pgv.csv"
+pga = { file = "pga.csv", unit = "m/s2", kind = "poe", years = 1 }
+[[sites]]
+name = "Focșani 2.1"
+pgv = { file = "../pgv.csv", unit = "m/s", kind = "maf" }
+pga = "pga.csv"
+[regression]
+strength_above = 0
+[output]
+file = "results/x.h5"
+csv = false
+"#;
+
+#[test]
+fn complete_study() {
+    let text = COMPLETE.replace("../pgv.csv", "./pgv.csv");
+    let folder = Folder::new(&text);
+    let study = folder.load(&[]).unwrap();
+    assert_eq!(study.seed, i64::MAX as u64);
+    let manifest = folder.path("manifest.csv");
+    let tag = Some("ord105".to_owned());
+    assert_eq!(study.records.source, RecordSource::Manifest { manifest, tag });
+    assert_eq!(study.oscillator.uplifted, Uplifted::NegativeStiffness { capacity_m: 0.3 });
+    assert_eq!(study.strengths.len(), 7);
+    let curve = study.sites[0].curve(IntensityMeasure::Pga).unwrap();
+    assert_eq!(curve.file, folder.path("pga.csv"));
+    assert_eq!((curve.unit, curve.kind), (CurveUnit::MPerS2, CurveKind::Poe { years: 1.0 }));
+    let curve = study.sites[1].curve(IntensityMeasure::Pgv).unwrap();
+    assert_eq!((curve.unit, curve.kind), (CurveUnit::MPerS, CurveKind::Maf));
+    assert_eq!(study.output.file, folder.path("results/x.h5"));
+    assert!(study.warnings.is_empty());
+}
+
+/// What is written loads to an equal study, from another folder.
+#[test]
+fn round_trip() {
+    let complete = COMPLETE.replace("../pgv.csv", "./pgv.csv");
+    let rising = "[pga]\n[oscillator]\npost_uplift_stiffness_per_s2 = 0.5\n";
+    for text in [complete.as_str(), rising, "[pgv]\n[records.synthetic]\npairs = 7\nseed = 0"] {
+        let folder = Folder::new(text);
+        let study = folder.load(&[]).unwrap();
+        let written = study.to_toml().unwrap();
+        let elsewhere = Folder::new(&written);
+        let again = elsewhere.load(&[]).unwrap();
+        assert_eq!(again, study, "{written}");
+        assert_eq!(again.to_toml().unwrap(), written);
+    }
+}
+
+/// Grids are written in their notation, and nothing of the machine but paths.
+#[test]
+fn written_form() {
+    let written = load("[pgv]\n[output]\nfile = \"/x/study.h5\"").unwrap().to_toml().unwrap();
+    insta::assert_snapshot!(written);
+}
+
+/// Every key of a written study is in the reference.
+#[test]
+fn reference_has_every_key() {
+    let reference = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/study-file.md");
+    let reference = fs::read_to_string(reference).unwrap();
+    let complete = Folder::new(&COMPLETE.replace("../pgv.csv", "./pgv.csv"));
+    let mut keys = Vec::new();
+    for text in [
+        complete.load(&[]).unwrap().to_toml().unwrap(),
+        load("[pgv]\n[oscillator]\npost_uplift_stiffness_per_s2 = 1").unwrap().to_toml().unwrap(),
+    ] {
+        let table: toml::Table = text.parse().unwrap();
+        collect_keys(&toml::Value::Table(table), &mut keys);
+    }
+    assert!(keys.len() > 40);
+    for key in keys {
+        let shown = ["`", ".", "["].map(|before| format!("{before}{key}"));
+        assert!(shown.iter().any(|shown| reference.contains(shown)), "{key} is not in docs/study-file.md");
+    }
+}
+
+fn collect_keys(value: &toml::Value, keys: &mut Vec<String>) {
+    match value {
+        toml::Value::Table(table) => {
+            for (key, value) in table {
+                keys.push(key.clone());
+                collect_keys(value, keys);
+            }
+        }
+        toml::Value::Array(items) => items.iter().for_each(|item| collect_keys(item, keys)),
+        _ => {}
+    }
+}
+
+#[test]
+fn byte_order_mark_and_windows_lines() {
+    let study = load("\u{feff}title = \"x\"\r\n[pgv]\r\n").unwrap();
+    assert_eq!(study.title, "x");
+}
+
+proptest! {
+    /// Whatever the file says: an answer, and one that can be shown.
+    #[test]
+    fn any_text(text in "\\PC{0,200}|([a-z_\\[\\]{}=\"',. 0-9:\\n#\r\u{feff}-]{0,200})") {
+        never_panics(&text);
+    }
+
+    /// The same where single lines of a real study are broken.
+    #[test]
+    fn broken_study(line in 0_usize..45, junk in "[\\[\\]{}=\"',.0-9a-z\\\\é-]{0,12}", keep in any::<bool>()) {
+        let lines = COMPLETE.lines().enumerate().map(|(i, original)| match (i == line, keep) {
+            (true, true) => format!("{original}{junk}"),
+            (true, false) => junk.clone(),
+            (false, _) => original.to_owned(),
+        });
+        never_panics(&lines.collect::<Vec<_>>().join("\n"));
+    }
+}
+
+fn never_panics(text: &str) {
+    let study = Study::parse(Path::new("study.toml"), text.to_owned());
+    if let Err(error) = study.and_then(|study| study.resolve(&[])) {
+        assert!(!error.mistakes().is_empty());
+        assert!(!render(&error).contains("Failed to read contents"), "{text:?}");
+    }
+}

@@ -1,0 +1,25 @@
+//! What a study may say, but probably does not mean.
+
+use super::resolved::ResolvedStudy;
+
+/// The warnings of a resolved study; they depend on nothing but its contents.
+pub(super) fn of(study: &ResolvedStudy) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let gravity = study.gravity_m_s2;
+    if !(9.7..=9.9).contains(&gravity) {
+        warnings.push(format!("gravity_m_s2 = {gravity} m/s2 is not found on Earth, where it is 9.76 to 9.83"));
+    }
+    if study.sites.is_empty() {
+        warnings.push("no [[sites]]: the responses are computed, but no uniform risk spectrum".to_owned());
+    }
+    let above = study.regression.strength_above;
+    let fitted = study.strengths.iter().filter(|&&strength| strength > above);
+    let fitted = fitted.count();
+    if fitted < 4 {
+        warnings.push(format!(
+            "regression.strength_above = {above} leaves {fitted} of the strengths for a fit of \
+             3 coefficients: there will be none"
+        ));
+    }
+    warnings
+}
