@@ -1,4 +1,30 @@
-//! The program `uplift`: study file → stages → result file.
+//! The program `uplift`: study file → inputs → stages → one result file.
+//!
+//! | room | what is in it |
+//! |---|---|
+//! | [`study`] | the study file, checked as a whole |
+//! | [`inputs`] | records and hazard curves, read and checked before anything is computed |
+//! | [`stages`] | stripes, spectra, coefficients: each takes what the one before returned |
+//! | [`result`](mod@result) | the HDF5 file and the tables beside it, written and read |
+//! | [`labelled`] | HDF5 files of labelled arrays, free of science |
+//! | [`command`] | what the user can type |
+//! | [`progress`] | the progress bar, or plain lines |
+//!
+//! Only this package knows files, terminals and HDF5; the science is in the crates below it.
 
+pub mod command;
+mod error;
+pub mod inputs;
 pub mod labelled;
+pub mod progress;
+pub mod result;
+pub mod stages;
 pub mod study;
+mod table;
+
+pub use error::UpliftError;
+
+/// Version of the program, and the commit it was built from where that is known.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");
+/// Commit the program was built from, or `unknown`.
+pub const COMMIT: &str = env!("UPLIFT_COMMIT");

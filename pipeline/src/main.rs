@@ -1,2 +1,25 @@
-//! stub
-fn main() {}
+//! The program `uplift`.
+
+use std::process::ExitCode;
+
+use clap::Parser;
+use uplift::command::{self, Arguments};
+
+/// A panic is a bug of the program; everything a user can cause is an error with a message.
+const EXIT_BUG: u8 = 1;
+
+fn main() -> ExitCode {
+    std::panic::set_hook(Box::new(|info| {
+        eprintln!("uplift: a bug in the program: {info}");
+        eprintln!("Please report it with the study file and this line. No result file was touched.");
+    }));
+    let outcome = std::panic::catch_unwind(|| command::execute(&Arguments::parse()));
+    match outcome {
+        Ok(Ok(())) => ExitCode::SUCCESS,
+        Ok(Err(error)) => {
+            error.print();
+            ExitCode::from(error.exit_code())
+        }
+        Err(_) => ExitCode::from(EXIT_BUG),
+    }
+}

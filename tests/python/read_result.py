@@ -73,7 +73,7 @@ def check_attributes(path, dataset):
         assert isinstance(dataset.attrs.get(name), str), f"{path}: attribute {name} is {dataset.attrs.get(name)!r}"
 
 
-def check_dataset(path, name, variable, dims, expected, file, where):
+def check_dataset(path, variable, dims, expected, file, where):
     """One variable of xarray against h5py: dimensions, coordinates, values, attributes."""
     where = f"{path} by {where}"
     assert list(variable.dims) == dims, f"{where}: dimensions {variable.dims}, not {dims}"
@@ -102,7 +102,7 @@ def main(result):
                 dims, expected = check_h5py(path, arrays[path], axes), values_of(arrays[path])
                 name = path.rpartition("/")[2]
                 for engine, dataset in opened.items():
-                    check_dataset(path, name, dataset[name], dims, expected, file, f"xarray, {engine}")
+                    check_dataset(path, dataset[name], dims, expected, file, f"xarray, {engine}")
             for dataset in opened.values():
                 assert set(dataset.data_vars) == {path.rpartition("/")[2] for path in members}
                 dataset.close()

@@ -6,16 +6,19 @@
 //! | [`plan`] | records, oscillators and levels, checked |
 //! | [`analysis`] | the plan carried out on all cores |
 //! | [`edp`] | the array of engineering demand parameters it leaves |
+//! | [`estimate`](mod@estimate) | how long a plan will take here |
 //! | [`watch`] | progress and cancellation |
 
 pub mod analysis;
 pub mod edp;
 mod error;
+pub mod estimate;
 pub mod plan;
 pub mod watch;
 
 pub use analysis::analyse;
 pub use edp::EdpArray;
 pub use error::IdaError;
+pub use estimate::{Estimate, estimate};
 pub use plan::{Plan, StripeRecord};
 pub use watch::{Unwatched, Watch};

@@ -9,7 +9,7 @@ use uplift_oscillator::problems::shaped_noise;
 use uplift_oscillator::{Excitation, FreeVibration, Oscillator, respond};
 
 fn records() -> Vec<Accelerogram> {
-    (1..=5).map(|seed| Accelerogram::new(0.01, shaped_noise(6.0, 600 + 37 * seed as usize, seed)).unwrap()).collect()
+    (0..5).map(|i| Accelerogram::new(0.01, shaped_noise(6.0, 637 + 37 * i, i as u64 + 1)).unwrap()).collect()
 }
 
 fn plan<'a>(accelerograms: &'a [Accelerogram], oscillators: &'a [Oscillator], levels: &'a [f64]) -> Plan<'a> {

@@ -1,0 +1,105 @@
+//! What the user can type.
+
+mod check;
+mod response;
+mod run;
+mod table;
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use clap::{Args, Parser, Subcommand};
+
+use crate::error::UpliftError;
+use crate::progress::StopFlag;
+use crate::study::{ResolvedStudy, Study};
+
+/// Uniform risk spectra for rocking structures.
+///
+/// From ground motions and site hazard to the displacement that a structure of a given uplift strength must survive so that its
+/// annual risk is what the engineer chose.
+#[derive(Debug, Parser)]
+#[command(name = "uplift", version = concat!(env!("CARGO_PKG_VERSION"), " (", env!("UPLIFT_COMMIT"), ")"), max_term_width = 100)]
+#[command(after_help = "Exit codes: 0 done, 2 usage, 3 study file, 4 input data or disk, 5 interrupted, 1 a bug.\n\
+    Start with: uplift run configs/quick.toml")]
+pub struct Arguments {
+    /// Threads to use; the numbers do not depend on it [default: all cores]
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
+    threads: Option<u16>,
+    /// No progress and no remarks, only results and errors
+    #[arg(long, short, global = true)]
+    quiet: bool,
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Run a study: stripes, uniform risk spectra, coefficients, one result file
+    Run(run::RunArguments),
+    /// Check a study and its input data, and say what it would cost
+    Check(check::CheckArguments),
+    /// Shake one oscillator with one record
+    Response(response::ResponseArguments),
+    /// Print the coefficients of a result (Table 4.2), beside a reference if one is given
+    Table(table::TableArguments),
+}
+
+/// A study file and what is changed of it.
+#[derive(Debug, Args)]
+struct StudyArguments {
+    /// Study file (TOML), for instance configs/europe.toml
+    study: PathBuf,
+    /// Change a key of the study for this run, for instance --set records.first=20; paths are relative to the current directory
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    overrides: Vec<String>,
+}
+
+impl StudyArguments {
+    fn load(&self) -> Result<ResolvedStudy, UpliftError> {
+        Ok(Study::load(&self.study, &self.overrides)?)
+    }
+}
+
+/// What every command may want to know.
+struct Session {
+    quiet: bool,
+    stop: StopFlag,
+}
+
+impl Session {
+    /// Tell the user something on standard error, unless it was asked for quiet.
+    fn remark(&self, text: &str) {
+        if !self.quiet {
+            eprintln!("{text}");
+        }
+    }
+}
+
+/// Carry out what was typed.
+///
+/// # Errors
+/// Whatever the user should know; see [`UpliftError::exit_code`].
+pub fn execute(arguments: &Arguments) -> Result<(), UpliftError> {
+    if let Some(threads) = arguments.threads {
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(usize::from(threads))
+            .build_global()
+            .map_err(|error| UpliftError::Usage(format!("--threads {threads}: {error}")))?;
+    }
+    let stop = Arc::new(AtomicBool::new(false));
+    let session = Session { quiet: arguments.quiet, stop: stop.clone() };
+    // where no handler can be set, Ctrl-C ends the program at once, which does no harm either
+    let _ = ctrlc::set_handler(move || {
+        if stop.swap(true, Ordering::Relaxed) {
+            std::process::exit(5); // asked twice
+        }
+    });
+    match &arguments.command {
+        Command::Run(arguments) => run::run(arguments, &session),
+        Command::Check(arguments) => check::check(arguments, &session),
+        Command::Response(arguments) => response::response(arguments),
+        Command::Table(arguments) => table::table(arguments),
+    }
+}

@@ -1,0 +1,300 @@
+//! `uplift run`: the main job, end to end.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
+use std::time::Instant;
+
+use clap::Args;
+use serde_json::json;
+use uplift_risk::OrdinateFlag;
+
+use super::{Session, StudyArguments};
+use crate::error::UpliftError;
+use crate::inputs::{RecordSet, read_hazard, read_records};
+use crate::labelled::LabelledWriter;
+use crate::progress::Progress;
+use crate::result::{Outcome, Provenance, csv_paths, write_csv, write_result};
+use crate::stages::{
+    Coefficients, Spectra, Stripes, analyse_stripes, fit_spectra, oscillators, plan_stripes, uniform_risk_spectra,
+};
+use crate::study::ResolvedStudy;
+use crate::table::{metres, per_cent, table, thousands};
+
+/// Fewer records than this make a spectrum that changes with each of them (Section 4.5.1: 40 are a robust lower limit).
+const FEW_RECORDS: usize = 40;
+/// Warnings printed; all of them are in the result file.
+const WARNINGS_SHOWN: usize = 12;
+
+#[derive(Debug, Args)]
+pub(super) struct RunArguments {
+    #[command(flatten)]
+    study: StudyArguments,
+    /// Result file, instead of the study's output.file
+    #[arg(short, long, value_name = "FILE.h5")]
+    output: Option<PathBuf>,
+    /// Print the summary as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+pub(super) fn run(arguments: &RunArguments, session: &Session) -> Result<(), UpliftError> {
+    let start = Instant::now();
+    let study = arguments.study.load()?;
+    let path = arguments.output.clone().unwrap_or_else(|| study.output.file.clone());
+    // a place that cannot be written is found now, not after the analyses
+    drop(LabelledWriter::create(&path)?);
+    for warning in &study.warnings {
+        session.remark(&format!("note: {warning}"));
+    }
+    let (hazard, notes) = read_hazard(&study)?;
+    let records = read_records(&study)?;
+    session.remark(&format!("records  {}", records.description));
+
+    let oscillators = oscillators(&study)?;
+    let mut stripes: Vec<Stripes> = Vec::new();
+    for measure in &study.measures {
+        let plan = plan_stripes(&study, measure, &records, &oscillators)?;
+        let label = measure.measure.label();
+        session.remark(&format!(
+            "{label:<8} {} records x {} strengths x {} levels = {} analyses",
+            records.records.len(),
+            study.strengths.len(),
+            measure.levels.len(),
+            thousands(plan.analyses())
+        ));
+        let progress = Progress::new(label, plan.analyses(), session.quiet, session.stop.clone());
+        let outcome = analyse_stripes(measure, &plan, &progress);
+        progress.close();
+        let done = outcome?;
+        session.remark(&format!("{:<8} {:.1} s, {} analyses/s", "", done.seconds, thousands(rate(&done))));
+        stripes.push(done);
+    }
+    let mut spectra = Vec::new();
+    for (stripes, hazard) in stripes.iter().zip(&hazard) {
+        spectra.push(uniform_risk_spectra(&study, stripes, hazard)?);
+    }
+    let coefficients: Vec<Coefficients> = spectra.iter().map(|spectra| fit_spectra(&study, spectra)).collect();
+    let mut warnings = notes;
+    warnings.extend(warnings_of(&study, &records, &spectra, &coefficients));
+
+    if session.stop.load(Ordering::Relaxed) {
+        return Err(UpliftError::Interrupted);
+    }
+    let study_file = arguments.study.study.display().to_string();
+    let provenance = Provenance::new(&study_file, start.elapsed().as_secs_f64(), &records, &hazard);
+    let outcome = Outcome {
+        study: &study,
+        records: &records,
+        hazard: &hazard,
+        stripes: &stripes,
+        spectra: &spectra,
+        coefficients: &coefficients,
+        warnings: &warnings,
+        provenance: &provenance,
+    };
+    write_result(&path, &outcome)?;
+    let mut files = vec![path.clone()];
+    if study.output.csv && !study.sites.is_empty() {
+        write_csv(&path, &outcome)?;
+        files.extend(csv_paths(&path));
+    }
+    let seconds = start.elapsed().as_secs_f64();
+    let mut out = std::io::stdout().lock();
+    if arguments.json {
+        writeln!(out, "{:#}", summary(&outcome, &files, seconds))?;
+    } else if !session.quiet {
+        print_summary(&mut out, &outcome, &files, seconds)?;
+    }
+    Ok(())
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a rate for people")]
+fn rate(stripes: &Stripes) -> u64 {
+    (stripes.analyses as f64 / stripes.seconds.max(1e-9)) as u64
+}
+
+fn warnings_of(
+    study: &ResolvedStudy,
+    records: &RecordSet,
+    spectra: &[Spectra],
+    coefficients: &[Coefficients],
+) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if records.synthetic {
+        warnings
+            .push("the records are synthetic: for results that matter bring real ones (records/README.md)".to_owned());
+    }
+    if records.records.len() < FEW_RECORDS {
+        warnings.push(format!(
+            "{} records are few: below about {FEW_RECORDS} the spectra depend strongly on the choice of records",
+            records.records.len()
+        ));
+    }
+    for spectra in spectra {
+        let [sites, poes, _] = spectra.shape;
+        let label = spectra.measure.label();
+        for (site, poe) in (0..sites).flat_map(|site| (0..poes).map(move |poe| (site, poe))) {
+            let spectrum = spectra.spectrum(site, poe);
+            let name = format!("{label}, {}, {}", study.sites[site].name, per_cent(study.risk.poe[poe]));
+            let censored = spectrum.iter().filter(|ordinate| ordinate.flag == OrdinateFlag::Censored).count();
+            if censored > 0 {
+                warnings.push(format!(
+                    "{name}: {censored} of {} ordinates are censored: overturned runs, or the last threshold, exceed the target risk",
+                    spectrum.len()
+                ));
+            }
+            let heavy = spectrum.iter().filter(|ordinate| ordinate.has_significant_tail()).count();
+            if heavy > 0 {
+                let share = |value: f64| format!("{:.1} %", 100.0 * value);
+                let lower = spectrum.iter().fold(0.0_f64, |most, ordinate| most.max(ordinate.lower_tail_share));
+                let upper = spectrum.iter().fold(0.0_f64, |most, ordinate| most.max(ordinate.upper_tail_share));
+                warnings.push(format!(
+                    "{name}: {heavy} of {} ordinates take more than 1 % of their risk from outside the stripes (at most {} below the first, {} above the last)",
+                    spectrum.len(),
+                    share(lower),
+                    share(upper)
+                ));
+            }
+        }
+    }
+    for coefficients in coefficients {
+        for (row, fit) in coefficients.fits.iter().enumerate() {
+            let poes = study.risk.poe.len();
+            let name = format!(
+                "{}, {}, {}",
+                coefficients.measure.label(),
+                study.sites[row / poes].name,
+                per_cent(study.risk.poe[row % poes])
+            );
+            match fit {
+                Err(reason) => warnings.push(format!("{name}: no fit: {reason}")),
+                Ok(fit) if fit.at_search_limit => warnings.push(format!(
+                    "{name}: the spectrum is no decaying exponential: its coefficients mean nothing one by one"
+                )),
+                Ok(_) => {}
+            }
+        }
+    }
+    warnings
+}
+
+/// The strength of the study nearest to `wanted`.
+fn nearest(strengths: &[f64], wanted: f64) -> usize {
+    (0..strengths.len())
+        .min_by(|&a, &b| (strengths[a] - wanted).abs().total_cmp(&(strengths[b] - wanted).abs()))
+        .unwrap_or_default()
+}
+
+fn print_summary(
+    out: &mut impl Write,
+    outcome: &Outcome<'_>,
+    files: &[PathBuf],
+    seconds: f64,
+) -> Result<(), UpliftError> {
+    let study = outcome.study;
+    let mut shown: Vec<usize> = [0.1, 0.2, 0.4].iter().map(|&strength| nearest(&study.strengths, strength)).collect();
+    shown.dedup();
+    let at: Vec<String> = shown.iter().map(|&index| format!("{:.3}", study.strengths[index])).collect();
+    for spectra in outcome.spectra.iter().filter(|spectra| spectra.shape[0] > 0) {
+        let label = spectra.measure.label();
+        writeln!(
+            out,
+            "\nUniform risk spectra by {label}: displacement in m at strength {}{}",
+            at.join(", "),
+            if outcome.records.synthetic { " (synthetic records)" } else { "" }
+        )?;
+        let mut header = vec!["site".to_owned()];
+        for poe in &study.risk.poe {
+            header.push(format!("{} in {} yr", per_cent(*poe), study.risk.years));
+            header.extend(std::iter::repeat_n(String::new(), shown.len() - 1));
+        }
+        let rows: Vec<Vec<String>> = (0..spectra.shape[0])
+            .map(|site| {
+                let mut row = vec![study.sites[site].name.clone()];
+                for poe in 0..spectra.shape[1] {
+                    row.extend(shown.iter().map(|&index| metres(spectra.spectrum(site, poe)[index].displacement_m)));
+                }
+                row
+            })
+            .collect();
+        let header: Vec<&str> = header.iter().map(String::as_str).collect();
+        writeln!(out, "{}", table(&header, &rows))?;
+    }
+    if !outcome.warnings.is_empty() {
+        writeln!(out, "\nBefore you use these numbers:")?;
+        for warning in outcome.warnings.iter().take(WARNINGS_SHOWN) {
+            writeln!(out, "  - {warning}")?;
+        }
+        if outcome.warnings.len() > WARNINGS_SHOWN {
+            writeln!(
+                out,
+                "  - {} more in the attribute `warnings` of the result file",
+                outcome.warnings.len() - WARNINGS_SHOWN
+            )?;
+        }
+    }
+    writeln!(out, "\nDone in {seconds:.1} s. Results:")?;
+    for file in files {
+        writeln!(out, "  {}", shown_path(file).display())?;
+    }
+    if outcome.spectra.iter().any(|spectra| spectra.shape[0] > 0) {
+        writeln!(out, "Coefficients (Table 4.2): uplift table {}", shown_path(&files[0]).display())?;
+    }
+    Ok(())
+}
+
+/// A path as short as the user would type it.
+fn shown_path(path: &Path) -> &Path {
+    std::env::current_dir().ok().and_then(|folder| path.strip_prefix(folder).ok()).unwrap_or(path)
+}
+
+fn summary(outcome: &Outcome<'_>, files: &[PathBuf], seconds: f64) -> serde_json::Value {
+    let study = outcome.study;
+    let poes = study.risk.poe.len();
+    let coefficients: Vec<serde_json::Value> = outcome
+        .coefficients
+        .iter()
+        .flat_map(|coefficients| {
+            coefficients.fits.iter().enumerate().map(move |(row, fit)| {
+                let fit = fit.as_ref().ok();
+                json!({
+                    "site": study.sites[row / poes].name,
+                    "im": coefficients.measure.label(),
+                    "poe": study.risk.poe[row % poes],
+                    "c0": fit.map(|fit| fit.c0),
+                    "c1": fit.map(|fit| fit.c1),
+                    "c2": fit.map(|fit| fit.c2),
+                    "rmse": fit.map(|fit| fit.rmse),
+                    "bound_active": fit.map(|fit| fit.bound_active),
+                })
+            })
+        })
+        .collect();
+    let measures: Vec<serde_json::Value> = outcome
+        .stripes
+        .iter()
+        .map(|stripes| {
+            json!({
+                "im": stripes.measure.label(),
+                "analyses": stripes.analyses,
+                "seconds": stripes.seconds,
+                "analyses_per_second": rate(stripes),
+            })
+        })
+        .collect();
+    json!({
+        "program": "uplift",
+        "version": crate::VERSION,
+        "commit": crate::COMMIT,
+        "study": outcome.provenance.study_file,
+        "title": study.title,
+        "record_set": outcome.records.description,
+        "synthetic": outcome.records.synthetic,
+        "files": files,
+        "measures": measures,
+        "coefficients": coefficients,
+        "warnings": outcome.warnings,
+        "seconds": seconds,
+    })
+}

@@ -1,0 +1,93 @@
+//! What can go wrong in the program, and how it is said.
+
+use std::io::IsTerminal;
+
+use miette::{GraphicalReportHandler, GraphicalTheme};
+use thiserror::Error;
+
+use crate::labelled::LabelledError;
+use crate::study::StudyError;
+
+/// Why a command did not do what it was asked.
+#[derive(Debug, Error)]
+pub enum UpliftError {
+    /// The study file has mistakes.
+    #[error(transparent)]
+    Study(#[from] StudyError),
+    /// The command line asks for something that does not fit together.
+    #[error("{0}")]
+    Usage(String),
+    /// Records or hazard curves cannot be used; all that was found.
+    #[error("{}", list(.0))]
+    Inputs(Vec<String>),
+    /// A file cannot be read or written.
+    #[error(transparent)]
+    File(#[from] LabelledError),
+    /// The user stopped the run.
+    #[error(
+        "interrupted: nothing was written, and an earlier result file is as it was. Run the same command to start again"
+    )]
+    Interrupted,
+    /// The reader of the output went away, as `uplift … | head` does.
+    #[error("the output was closed")]
+    OutputClosed,
+}
+
+fn list(mistakes: &[String]) -> String {
+    match mistakes {
+        [one] => one.clone(),
+        many => {
+            let lines: Vec<String> = many.iter().map(|mistake| format!("  - {mistake}")).collect();
+            format!("{} things to mend in the input data:\n{}", many.len(), lines.join("\n"))
+        }
+    }
+}
+
+impl UpliftError {
+    /// One mistake in the input data.
+    pub fn input(message: impl Into<String>) -> Self {
+        Self::Inputs(vec![message.into()])
+    }
+
+    /// What the shell sees: 2 usage, 3 study file, 4 input data or disk, 5 interrupted.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::OutputClosed => 0,
+            Self::Usage(_) => 2,
+            Self::Study(_) => 3,
+            Self::Inputs(_) | Self::File(_) => 4,
+            Self::Interrupted => 5,
+        }
+    }
+
+    /// Tell the user on standard error; a study's mistakes with their lines and carets.
+    pub fn print(&self) {
+        match self {
+            Self::OutputClosed => {}
+            Self::Study(error) => {
+                let theme = if std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none() {
+                    GraphicalTheme::unicode()
+                } else {
+                    GraphicalTheme::unicode_nocolor()
+                };
+                let mut text = String::new();
+                match GraphicalReportHandler::new_themed(theme).render_report(&mut text, error) {
+                    Ok(()) => eprint!("{text}"),
+                    Err(_) => eprintln!("uplift: {error}"),
+                }
+            }
+            other => eprintln!("uplift: {other}"),
+        }
+    }
+}
+
+impl From<std::io::Error> for UpliftError {
+    /// Only standard output is written through plain `io`; files have their own errors.
+    fn from(error: std::io::Error) -> Self {
+        if error.kind() == std::io::ErrorKind::BrokenPipe {
+            Self::OutputClosed
+        } else {
+            Self::input(format!("standard output cannot be written: {error}"))
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! The manifest of a record set: a CSV table with one row a pair of components.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::Cursor;
+use std::path::{Path, PathBuf};
+
+use polars::prelude::{CsvParseOptions, CsvReadOptions, DataFrame, SerReader};
+use uplift_motion::AccelerationUnit;
+
+/// A row of a manifest.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Row {
+    pub(super) id: String,
+    pub(super) files: [PathBuf; 2],
+    /// Of text files that do not say it.
+    pub(super) dt_s: Option<f64>,
+    pub(super) unit: Option<AccelerationUnit>,
+    /// The other columns, blank cells left out.
+    pub(super) metadata: BTreeMap<String, String>,
+}
+
+const REQUIRED: [&str; 3] = ["record_id", "file_h1", "file_h2"];
+
+/// Rows of the manifest at `path` whose `set_tags` hold `tag`, or all.
+///
+/// # Errors
+/// Everything that is wrong with it, a line each.
+pub(super) fn read(path: &Path, tag: Option<&str>) -> Result<Vec<Row>, Vec<String>> {
+    let name = path.display();
+    let bytes = std::fs::read(path).map_err(|error| vec![format!("manifest {name} cannot be read: {error}")])?;
+    let table = parse(&bytes)
+        .map_err(|reason| vec![format!("manifest {name} is not a CSV table with a header row: {reason}")])?;
+    let missing: Vec<&str> = REQUIRED.into_iter().filter(|column| table.get_column_index(column).is_none()).collect();
+    if !missing.is_empty() {
+        let found: Vec<String> = table.get_column_names().iter().map(ToString::to_string).collect();
+        return Err(vec![format!(
+            "manifest {name} has no column {}: it needs {}; found {}",
+            missing.join(", "),
+            REQUIRED.join(", "),
+            found.join(", ")
+        )]);
+    }
+    let folder = path.parent().unwrap_or(Path::new("."));
+    let mut mistakes = Vec::new();
+    let mut ids = BTreeSet::new();
+    let mut tags = BTreeSet::new();
+    let mut rows = Vec::new();
+    for index in 0..table.height() {
+        let mut cells = cells(&table, index);
+        let row_tags: Vec<String> = cells.get("set_tags").map_or_else(Vec::new, |text| {
+            text.split([';', ',', ' ', '\t']).filter(|word| !word.is_empty()).map(str::to_owned).collect()
+        });
+        let wanted = tag.is_none_or(|tag| row_tags.iter().any(|word| word == tag));
+        tags.extend(row_tags);
+        if wanted {
+            match row(&mut cells, folder) {
+                Ok(row) if !ids.insert(row.id.clone()) => {
+                    mistakes.push(format!("manifest {name}, row {}: record {} stands there twice", index + 1, row.id));
+                }
+                Ok(row) => rows.push(row),
+                Err(reason) => mistakes.push(format!("manifest {name}, row {}: {reason}", index + 1)),
+            }
+        }
+    }
+    if let (true, Some(tag)) = (rows.is_empty() && mistakes.is_empty(), tag) {
+        let known = if tags.is_empty() {
+            "it has no set_tags".to_owned()
+        } else {
+            format!("its tags are {}", tags.into_iter().collect::<Vec<_>>().join(", "))
+        };
+        mistakes.push(format!("manifest {name} has no record with the tag {tag:?}: {known}"));
+    } else if rows.is_empty() && mistakes.is_empty() {
+        mistakes.push(format!("manifest {name} lists no records"));
+    }
+    if mistakes.is_empty() { Ok(rows) } else { Err(mistakes) }
+}
+
+/// All columns as text: an identifier such as 0012 must stay what it is.
+fn parse(bytes: &[u8]) -> Result<DataFrame, polars::prelude::PolarsError> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    CsvReadOptions::default()
+        .with_has_header(true)
+        .with_infer_schema_length(Some(0))
+        .with_parse_options(CsvParseOptions::default().with_comment_prefix(Some("#")))
+        .into_reader_with_file_handle(Cursor::new(bytes))
+        .finish()
+}
+
+fn cells(table: &DataFrame, index: usize) -> BTreeMap<String, String> {
+    table
+        .columns()
+        .iter()
+        .filter_map(|column| {
+            let text = column.str().ok()?.get(index)?.trim();
+            (!text.is_empty()).then(|| (column.name().trim().to_owned(), text.to_owned()))
+        })
+        .collect()
+}
+
+fn row(cells: &mut BTreeMap<String, String>, folder: &Path) -> Result<Row, String> {
+    let id = cells.remove("record_id").ok_or("record_id is blank: every record needs a name")?;
+    let mut file = |column: &str| {
+        let text = cells.remove(column).ok_or_else(|| {
+            format!(
+                "record {id}: {column} is blank: both horizontal components are needed, since the intensity is their geometric mean"
+            )
+        })?;
+        let path = folder.join(text);
+        if path.is_file() { Ok(path) } else { Err(format!("record {id}: {column} {} is not a file", path.display())) }
+    };
+    let files = [file("file_h1")?, file("file_h2")?];
+    let dt_s = match cells.get("dt_s") {
+        Some(text) => match text.parse::<f64>() {
+            Ok(value) if value.is_finite() && value > 0.0 => Some(value),
+            _ => return Err(format!("record {id}: dt_s is {text:?}: give the sampling interval in seconds")),
+        },
+        None => None,
+    };
+    let unit = cells
+        .get("unit")
+        .map(|text| text.parse::<AccelerationUnit>().map_err(|error| format!("record {id}: {error}")))
+        .transpose()?;
+    Ok(Row { id, files, dt_s, unit, metadata: std::mem::take(cells) })
+}

@@ -1,0 +1,187 @@
+//! The record set of a study: which ground motions shake the oscillators, and with what intensity.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+use rayon::prelude::*;
+use uplift_motion::synthetic::SyntheticSetOptions;
+use uplift_motion::{Accelerogram, Component, Horizontal, IntensityMeasure, ReadOptions, RecordPair, read_path};
+
+use super::{cache, checksum, manifest};
+use crate::error::UpliftError;
+use crate::study::{RecordSource, ResolvedStudy};
+
+/// One analysis record: a component of a pair with the intensity of the pair.
+#[derive(Debug, Clone)]
+pub struct Record {
+    /// Identifier; where both components of a pair are used, followed by `:h1` or `:h2`.
+    pub id: String,
+    /// The component used.
+    pub component: Horizontal,
+    /// Its acceleration.
+    pub accelerogram: Accelerogram,
+    /// Geometric mean PGA of the pair, g (Eq. 4.5).
+    pub pga_g: f64,
+    /// Geometric mean PGV of the pair, cm/s (Eq. 4.6).
+    pub pgv_cm_s: f64,
+    /// Event, magnitude and whatever else is known.
+    pub metadata: BTreeMap<String, String>,
+    /// SHA-256 of the record's file; of the samples of a synthetic one.
+    pub checksum: String,
+}
+
+impl Record {
+    /// Intensity of the pair in the unit of `measure`.
+    pub fn intensity(&self, measure: IntensityMeasure) -> f64 {
+        match measure {
+            IntensityMeasure::Pga => self.pga_g,
+            _ => self.pgv_cm_s,
+        }
+    }
+}
+
+/// The records of a study.
+#[derive(Debug, Clone)]
+pub struct RecordSet {
+    /// Where they come from, in a line.
+    pub description: String,
+    /// True for motions made by the program; said wherever results are shown.
+    pub synthetic: bool,
+    /// The records, in the order of the result file.
+    pub records: Vec<Record>,
+}
+
+/// A pair with the checksums of its components.
+type CheckedPair = (RecordPair, [String; 2]);
+
+/// Read or make the records of `study`.
+///
+/// # Errors
+/// Everything that is wrong with the manifest or the record files, at once.
+pub fn read_records(study: &ResolvedStudy) -> Result<RecordSet, UpliftError> {
+    let first = study.records.first.map_or(usize::MAX, |first| usize::try_from(first).unwrap_or(usize::MAX));
+    let (pairs, source, synthetic) = match &study.records.source {
+        RecordSource::Synthetic { pairs, seed } => {
+            (synthetic_pairs(*pairs, *seed, first)?, format!("seed {seed}"), true)
+        }
+        RecordSource::Manifest { manifest, tag } => {
+            let name = manifest.file_name().unwrap_or(manifest.as_os_str()).to_string_lossy();
+            let tag_note = tag.as_ref().map_or_else(String::new, |tag| format!(", tag {tag}"));
+            (read_manifest(manifest, tag.as_deref(), first, study)?, format!("{name}{tag_note}"), false)
+        }
+    };
+    let kind = if synthetic { "synthetic pairs" } else { "recorded pairs" };
+    let description = format!("{} {kind} ({source}), component {}", pairs.len(), study.records.component);
+    Ok(RecordSet { description, synthetic, records: analysis_records(pairs, study)? })
+}
+
+fn synthetic_pairs(pairs: u64, seed: u64, first: usize) -> Result<Vec<CheckedPair>, UpliftError> {
+    let pairs = usize::try_from(pairs).unwrap_or(usize::MAX);
+    let options = SyntheticSetOptions { seed, pairs, ..SyntheticSetOptions::default() };
+    let set = cache::synthetic_set(&options).map_err(|error| UpliftError::input(error.to_string()))?;
+    Ok(set
+        .into_iter()
+        .take(first)
+        .map(|pair| {
+            let sums = [&pair.h1, &pair.h2].map(|component| {
+                let bytes: Vec<u8> = component.acceleration_m_s2().iter().flat_map(|a| a.to_le_bytes()).collect();
+                checksum(&bytes)
+            });
+            (pair, sums)
+        })
+        .collect())
+}
+
+fn read_manifest(
+    manifest: &Path,
+    tag: Option<&str>,
+    first: usize,
+    study: &ResolvedStudy,
+) -> Result<Vec<CheckedPair>, UpliftError> {
+    let mut rows = manifest::read(manifest, tag).map_err(UpliftError::Inputs)?;
+    rows.truncate(first);
+    let read: Vec<Result<CheckedPair, Vec<String>>> = rows
+        .into_par_iter()
+        .map(|row| {
+            let options = ReadOptions { dt_s: row.dt_s, unit: row.unit, gravity_m_s2: study.gravity_m_s2 };
+            let component = |path: &Path| {
+                let accelerogram = read_path(path, &options).map_err(|error| format!("record {}: {error}", row.id))?;
+                let bytes = std::fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
+                Ok((accelerogram, checksum(&bytes)))
+            };
+            match (component(&row.files[0]), component(&row.files[1])) {
+                (Ok((h1, sum1)), Ok((h2, sum2))) => {
+                    Ok((RecordPair { id: row.id.clone(), h1, h2, metadata: row.metadata.clone() }, [sum1, sum2]))
+                }
+                (one, other) => Err([one.err(), other.err()].into_iter().flatten().collect()),
+            }
+        })
+        .collect();
+    let mut pairs = Vec::new();
+    let mut mistakes = Vec::new();
+    for outcome in read {
+        match outcome {
+            Ok(pair) => pairs.push(pair),
+            Err(found) => mistakes.extend(found),
+        }
+    }
+    if mistakes.is_empty() { Ok(pairs) } else { Err(UpliftError::Inputs(mistakes)) }
+}
+
+/// The components that a study analyses, each with the intensities of its pair.
+fn analysis_records(pairs: Vec<CheckedPair>, study: &ResolvedStudy) -> Result<Vec<Record>, UpliftError> {
+    let component = study.records.component;
+    let mut records = Vec::new();
+    let mut mistakes = Vec::new();
+    for (index, (pair, sums)) in pairs.into_iter().enumerate() {
+        let intensity = |measure: IntensityMeasure| measure.of_pair(&pair, study.gravity_m_s2);
+        let (pga_g, pgv_cm_s) = (intensity(IntensityMeasure::Pga), intensity(IntensityMeasure::Pgv));
+        if !(pga_g > 0.0 && pgv_cm_s > 0.0) {
+            mistakes.push(format!(
+                "record {}: a component does not move (PGA {pga_g} g, PGV {pgv_cm_s} cm/s), so it cannot be scaled; leave the record out",
+                pair.id
+            ));
+            continue;
+        }
+        for (which, accelerogram) in pair.components(component, drawn(study.seed, index)) {
+            let id = if component == Component::Both { format!("{}:{which}", pair.id) } else { pair.id.clone() };
+            let [sum1, sum2] = &sums;
+            records.push(Record {
+                id,
+                component: which,
+                accelerogram: accelerogram.clone(),
+                pga_g,
+                pgv_cm_s,
+                metadata: pair.metadata.clone(),
+                checksum: if which == Horizontal::H1 { sum1.clone() } else { sum2.clone() },
+            });
+        }
+    }
+    if mistakes.is_empty() { Ok(records) } else { Err(UpliftError::Inputs(mistakes)) }
+}
+
+/// The component that `component = "random"` gives the pair at `index`: its own stream of the study's seed, so it depends on neither
+/// threads nor the other pairs.
+fn drawn(seed: u64, index: usize) -> Horizontal {
+    let mut key = [0; 32];
+    key[..8].copy_from_slice(&seed.to_le_bytes());
+    let mut stream = ChaCha8Rng::from_seed(key);
+    stream.set_stream(index as u64);
+    if stream.next_u32() & 1 == 0 { Horizontal::H1 } else { Horizontal::H2 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    // A random component must be the same for ever, and fair.
+    #[test]
+    fn drawn_components_are_pinned_and_fair() {
+        let first: String = (0..16).map(|index| if drawn(1, index) == Horizontal::H1 { '1' } else { '2' }).collect();
+        assert_eq!(first, "2112112212211222");
+        let ones = (0..10_000).filter(|&index| drawn(7, index) == Horizontal::H1).count();
+        assert!((4_800..5_200).contains(&ones), "{ones}");
+    }
+}

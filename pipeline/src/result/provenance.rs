@@ -1,0 +1,56 @@
+//! Where the numbers of a result come from.
+
+use std::collections::BTreeMap;
+use std::time::SystemTime;
+
+use crate::inputs::{RecordSet, SiteHazard};
+
+/// What someone needs to repeat a run.
+#[derive(Debug, Clone)]
+pub struct Provenance {
+    /// Study file as given.
+    pub study_file: String,
+    /// The command line.
+    pub command: String,
+    /// Coordinated universal time of the run, `2026-01-31T12:00:00Z`.
+    pub created: String,
+    /// Threads used; the numbers do not depend on it.
+    pub threads: usize,
+    /// Wall time up to the writing of the file, s.
+    pub wall_time_s: f64,
+    /// Name to SHA-256 of each record and hazard curve.
+    pub input_checksums: BTreeMap<String, String>,
+}
+
+impl Provenance {
+    /// Provenance of a run that is about to write its result.
+    pub fn new(study_file: &str, wall_time_s: f64, records: &RecordSet, hazard: &[Vec<SiteHazard>]) -> Self {
+        let mut input_checksums: BTreeMap<String, String> =
+            records.records.iter().map(|record| (format!("record {}", record.id), record.checksum.clone())).collect();
+        for curve in hazard.iter().flatten() {
+            input_checksums.insert(format!("hazard {} {}", curve.site, curve.measure.label()), curve.checksum.clone());
+        }
+        Self {
+            study_file: study_file.to_owned(),
+            command: std::env::args().collect::<Vec<_>>().join(" "),
+            created: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
+            threads: rayon::current_num_threads(),
+            wall_time_s,
+            input_checksums,
+        }
+    }
+
+    /// One line for the head of a table.
+    pub fn line(&self, title: &str, records: &RecordSet) -> String {
+        let title = if title.is_empty() { String::new() } else { format!("{title}; ") };
+        format!(
+            "uplift {} ({}), {}; study {}; {title}records: {}",
+            crate::VERSION,
+            crate::COMMIT,
+            self.created,
+            self.study_file,
+            records.description
+        )
+        .replace(['\n', '\r'], " ")
+    }
+}

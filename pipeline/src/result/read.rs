@@ -1,0 +1,101 @@
+//! What later commands need of a result file.
+
+use std::path::Path;
+
+use super::LAYOUT;
+use crate::error::UpliftError;
+use crate::labelled::LabelledReader;
+
+/// A uniform risk spectrum.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spectrum {
+    /// Site.
+    pub site: String,
+    /// Measure, `PGV` or `PGA`.
+    pub im: String,
+    /// Probability of exceedance in the years of the study.
+    pub poe: f64,
+    /// Displacements, m, over the strengths of the result.
+    pub u_m: Vec<f64>,
+    /// Its fit.
+    pub fit: Fit,
+}
+
+/// Coefficients of Eq. 4.11; NaN where there is no fit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fit {
+    /// c0, m.
+    pub c0_m: f64,
+    /// c1.
+    pub c1: f64,
+    /// c2, m.
+    pub c2_m: f64,
+    /// Root mean square error with n − 3 degrees of freedom, m.
+    pub rmse_m: f64,
+    /// True where c2 is held at 0.
+    pub bound_active: bool,
+}
+
+/// A result file as the tables read it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StoredResult {
+    /// Where the records come from, in a line; says so if they are synthetic.
+    pub record_set: String,
+    /// Years that the probabilities refer to.
+    pub years: f64,
+    /// Strengths of the spectra.
+    pub strengths: Vec<f64>,
+    /// All spectra, measures in the order PGV, PGA, then site, then probability.
+    pub spectra: Vec<Spectrum>,
+}
+
+impl StoredResult {
+    /// Read the spectra and coefficients of the result at `path`.
+    ///
+    /// # Errors
+    /// A file that is missing, damaged, no result, or of another layout.
+    pub fn read(path: &Path) -> Result<Self, UpliftError> {
+        let reader = LabelledReader::open(path)?;
+        let program = reader.attribute_text("/", "program").unwrap_or_default();
+        if program != "uplift" {
+            return Err(UpliftError::input(format!(
+                "{}: is an HDF5 file, but not a result of uplift: give the file that `uplift run` wrote",
+                path.display()
+            )));
+        }
+        let layout = reader.attribute_i64("/", "layout")?;
+        if layout != LAYOUT {
+            return Err(UpliftError::input(format!(
+                "{}: has layout {layout}, this version of uplift ({}) reads layout {LAYOUT}: run the study again",
+                path.display(),
+                crate::VERSION
+            )));
+        }
+        let strengths = reader.axis_f64("strength")?;
+        let poes = reader.axis_f64("poe")?;
+        let sites = if reader.exists("/axes/site") { reader.axis_text("site")? } else { Vec::new() };
+        let mut spectra = Vec::new();
+        for im in ["PGV", "PGA"] {
+            let key = im.to_lowercase();
+            if !reader.exists(&format!("/urs/{key}/u_m")) {
+                continue;
+            }
+            let u_m = reader.array_f64(&format!("/urs/{key}/u_m"))?.values;
+            let column = |name: &str| reader.array_f64(&format!("/regression/{key}/{name}")).map(|array| array.values);
+            let (c0, c1, c2, rmse) = (column("c0_m")?, column("c1")?, column("c2_m")?, column("rmse_m")?);
+            let bound = reader.array_u8(&format!("/regression/{key}/bound_active"))?.values;
+            for (row, u_m) in u_m.chunks_exact(strengths.len()).enumerate() {
+                let fit =
+                    Fit { c0_m: c0[row], c1: c1[row], c2_m: c2[row], rmse_m: rmse[row], bound_active: bound[row] == 1 };
+                let (site, poe) = (sites[row / poes.len()].clone(), poes[row % poes.len()]);
+                spectra.push(Spectrum { site, im: im.to_owned(), poe, u_m: u_m.to_vec(), fit });
+            }
+        }
+        Ok(Self {
+            record_set: reader.attribute_text("/", "record_set")?,
+            years: reader.attribute_f64("/", "poe_years")?,
+            strengths,
+            spectra,
+        })
+    }
+}

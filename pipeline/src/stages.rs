@@ -1,0 +1,9 @@
+//! The stages of a study. Each takes what the one before returned and returns a value; none knows a file.
+
+mod coefficients;
+mod spectra;
+mod stripes;
+
+pub use coefficients::{Coefficients, fit_spectra};
+pub use spectra::{Spectra, uniform_risk_spectra};
+pub use stripes::{Stripes, analyse_stripes, oscillators, plan_stripes};

@@ -1,0 +1,34 @@
+//! The coefficients of Table 4.2: each spectrum fitted by `u = c0 exp(c1 η) + c2` (Eq. 4.11).
+
+use uplift_motion::IntensityMeasure;
+use uplift_regression::{ExponentialFit, fit};
+
+use super::Spectra;
+use crate::study::ResolvedStudy;
+
+/// The fits of one measure.
+#[derive(Debug, Clone)]
+pub struct Coefficients {
+    /// The measure.
+    pub measure: IntensityMeasure,
+    /// A fit, or why there is none, over `[site, poe]`, row-major.
+    pub fits: Vec<Result<ExponentialFit, String>>,
+}
+
+/// Fit every spectrum over the strengths above `regression.strength_above`.
+pub fn fit_spectra(study: &ResolvedStudy, spectra: &Spectra) -> Coefficients {
+    let [sites, poes, _] = spectra.shape;
+    let from = study.strengths.partition_point(|&strength| strength <= study.regression.strength_above);
+    let strengths = &study.strengths[from..];
+    let fits = (0..sites * poes)
+        .map(|row| {
+            let ordinates = &spectra.spectrum(row / poes, row % poes)[from..];
+            let displacements: Vec<f64> = ordinates.iter().map(|ordinate| ordinate.displacement_m).collect();
+            if let Some(position) = displacements.iter().position(|u| u.is_infinite()) {
+                return Err(format!("the spectrum is censored at strength {}", strengths[position]));
+            }
+            fit(strengths, &displacements).map_err(|error| error.to_string())
+        })
+        .collect();
+    Coefficients { measure: spectra.measure, fits }
+}

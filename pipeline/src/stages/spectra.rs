@@ -1,0 +1,106 @@
+//! Uniform risk spectra and the risk surface: stripes and hazard joined (Eq. 4.4, 4.8).
+
+use rayon::prelude::*;
+use uplift_fragility::Stripes as Stripe;
+use uplift_hazard::rate_from_probability;
+use uplift_motion::IntensityMeasure;
+use uplift_risk::{Ordinate, PooledDemand, RiskCurve, ThresholdGrid};
+
+use super::Stripes;
+use crate::error::UpliftError;
+use crate::inputs::SiteHazard;
+use crate::study::{Contour, ResolvedStudy};
+
+/// The spectra of one measure.
+#[derive(Debug, Clone)]
+pub struct Spectra {
+    /// The measure.
+    pub measure: IntensityMeasure,
+    /// Lengths of `[site, poe, strength]`.
+    pub shape: [usize; 3],
+    /// Ordinates over `[site, poe, strength]`, row-major.
+    pub ordinates: Vec<Ordinate>,
+    /// Mean annual frequencies over `[site, strength, threshold]`, 1/yr, if the study keeps them.
+    pub maf_per_year: Option<Vec<f64>>,
+}
+
+impl Spectra {
+    /// The spectrum of one site and probability, `[strength]`.
+    ///
+    /// # Panics
+    /// If an index is out of range, which is a bug of the caller.
+    pub fn spectrum(&self, site: usize, poe: usize) -> &[Ordinate] {
+        let [_, poes, strengths] = self.shape;
+        let start = (site * poes + poe) * strengths;
+        &self.ordinates[start..start + strengths]
+    }
+}
+
+/// One strength: ordinates `[site][poe]`, surface rows `[site]`.
+type OfStrength = (Vec<Vec<Ordinate>>, Vec<Vec<f64>>);
+
+/// The spectra of all sites from the stripes of one measure.
+///
+/// Each strength is sorted once and serves every site and probability.
+///
+/// # Errors
+/// Numbers that do not fit together, which the checks of study and inputs rule out.
+pub fn uniform_risk_spectra(
+    study: &ResolvedStudy,
+    stripes: &Stripes,
+    hazard: &[SiteHazard],
+) -> Result<Spectra, UpliftError> {
+    let targets = study
+        .risk
+        .poe
+        .iter()
+        .map(|&poe| rate_from_probability(poe, study.risk.years))
+        .collect::<Result<Vec<_>, _>>()
+        .map_err(|error| UpliftError::input(error.to_string()))?;
+    let grid =
+        ThresholdGrid::new(study.risk.thresholds_m.to_vec()).map_err(|error| UpliftError::input(error.to_string()))?;
+    let [records, strengths, levels] = stripes.edp.shape();
+    let edp_m = stripes.edp.edp_m();
+
+    let of_strength = |strength: usize| -> Result<OfStrength, Box<dyn std::error::Error + Send + Sync>> {
+        let stripe = Stripe::strided(&stripes.levels, &edp_m[strength * levels..], records, strengths * levels)?;
+        let demand = PooledDemand::new(&stripe)?;
+        let mut ordinates = Vec::with_capacity(hazard.len());
+        let mut rows = Vec::new();
+        for site in hazard {
+            let curve = RiskCurve::new(&demand, &site.weights)?;
+            ordinates.push(match study.risk.contour {
+                Contour::Exact => curve.exact_ordinates(&targets)?,
+                Contour::Grid => {
+                    targets.iter().map(|&target| curve.grid_ordinate(&grid, target)).collect::<Result<_, _>>()?
+                }
+            });
+            if study.risk.maf_surface {
+                rows.push(curve.mean_annual_frequencies(&grid));
+            }
+        }
+        Ok((ordinates, rows))
+    };
+    let by_strength = (0..strengths)
+        .into_par_iter()
+        .map(of_strength)
+        .collect::<Result<Vec<OfStrength>, _>>()
+        .map_err(|error| UpliftError::input(error.to_string()))?;
+
+    let mut ordinates = Vec::with_capacity(hazard.len() * targets.len() * strengths);
+    let mut surface = Vec::new();
+    for site in 0..hazard.len() {
+        for poe in 0..targets.len() {
+            ordinates.extend(by_strength.iter().map(|(ordinates, _)| ordinates[site][poe]));
+        }
+        if study.risk.maf_surface {
+            surface.extend(by_strength.iter().flat_map(|(_, rows)| rows[site].iter().copied()));
+        }
+    }
+    Ok(Spectra {
+        measure: stripes.measure,
+        shape: [hazard.len(), targets.len(), strengths],
+        ordinates,
+        maf_per_year: study.risk.maf_surface.then_some(surface),
+    })
+}
