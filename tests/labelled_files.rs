@@ -1,9 +1,12 @@
 //! Files of labelled arrays as other programs see them: Python's libraries and h5dump.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use std::path::{Path, PathBuf};
+mod common;
+
+use std::path::Path;
 use std::process::{Command, Output};
 
+use common::{python, repository};
 use uplift::labelled::LabelledWriter;
 
 fn texts(values: &[&str]) -> Vec<String> {
@@ -35,22 +38,6 @@ fn write_example(path: &Path) {
     writer.array_text("/records/event", &["record"], &vec!["中越, 2004".to_owned(); 40], "event").unwrap();
     writer.array_f64("/bootstrap/pgv/total", &[], &[7.5], "1", "a single number").unwrap();
     writer.finish().unwrap();
-}
-
-/// The Python of `UPLIFT_PYTHON`, else of the repository's `.venv`; none skips the test, on a build server fails it.
-fn python() -> Option<PathBuf> {
-    let python = std::env::var_os("UPLIFT_PYTHON").map_or_else(|| repository().join(".venv/bin/python"), PathBuf::from);
-    let works = Command::new(&python).args(["-c", "import h5py, xarray, netCDF4, h5netcdf, pandas"]).output();
-    if works.is_ok_and(|output| output.status.success()) {
-        return Some(python);
-    }
-    assert!(std::env::var_os("CI").is_none(), "no Python with h5py, xarray, netCDF4, h5netcdf and pandas");
-    println!("skipped: no Python with h5py, xarray, netCDF4, h5netcdf and pandas (set UPLIFT_PYTHON)");
-    None
-}
-
-fn repository() -> &'static Path {
-    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
 }
 
 fn succeeded(output: &Output) -> String {

@@ -1,0 +1,154 @@
+//! Bad input: each gets a message with file, line or key, value, and what to do, and the exit code of its kind.
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+mod common;
+
+use common::{SMALL_STUDY, SmallStudy};
+
+const MANIFEST: &str = "record_id,file_h1,file_h2,set_tags,dt_s,unit\n";
+
+/// A study with the records that `manifest` lists, and good record files to list.
+fn with_manifest(manifest: &str) -> SmallStudy {
+    let study = SmallStudy::with(
+        &SMALL_STUDY.replace("first = 4\n[records.synthetic]\npairs = 4\n", "manifest = \"manifest.csv\"\n"),
+    );
+    study.write("manifest.csv", &format!("{MANIFEST}{manifest}"));
+    let wave: Vec<f64> = (0..300).map(|i| 0.3 * (f64::from(i) * 0.1).sin()).collect();
+    study.write("a.txt", &wave.iter().fold(String::new(), |text, a| text + &format!("{a}\n")));
+    study.write("a.AT2", &at2(&wave, wave.len()));
+    study
+}
+
+fn at2(values: &[f64], points: usize) -> String {
+    let header = "PEER\nEvent\nACCELERATION TIME SERIES IN UNITS OF G\n";
+    let body: String = values.chunks(5).fold(String::new(), |text, line| {
+        text + &line.iter().fold(String::new(), |text, a| text + &format!(" {a:.7E}")) + "\n"
+    });
+    format!("{header}NPTS= {points}, DT= .0100 SEC\n{body}")
+}
+
+#[test]
+fn usage() {
+    let study = SmallStudy::new();
+    study.uplift(&["rum"]).fails(2, &["run"]);
+    study.uplift(&["run"]).fails(2, &["<STUDY>"]);
+    study.uplift(&["run", "study.toml", "--threads", "0"]).fails(2, &["--threads"]);
+}
+
+#[test]
+fn study_file() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "absent.toml"]).fails(3, &["absent.toml"]);
+    study.uplift(&["run", "."]).fails(3, &["."]);
+    study.uplift(&["check", "study.toml", "--set", "records.frist=2"]).fails(3, &["frist", "first"]);
+    study.uplift(&["check", "study.toml", "--set", "risk.poe=[0.02, 2]"]).fails(3, &["risk.poe", "2"]);
+    // all mistakes at once, each with its line
+    study.write(
+        "wrong.toml",
+        &SMALL_STUDY
+            .replace("[strengths]\nvalues", "[strengths]\nvlaues")
+            .replace("levels_cm_s", "levels_m_s")
+            .replace("[0, 0.0005, \"0.01:0.01:1\"]", "[0.5, 0.1]")
+            .replace("here-pgv.csv", "nowhere.csv"),
+    );
+    let failed =
+        study.uplift(&["run", "wrong.toml"]).fails(3, &["vlaues", "levels_cm_s", "thresholds_m", "nowhere.csv"]);
+    assert!(failed.stderr.contains("wrong.toml:"), "{}", failed.stderr);
+    assert!(!study.path().join("results").exists());
+}
+
+#[test]
+fn hazard_curves() {
+    let study = SmallStudy::new();
+    let spoil = |text: &str, words: &[&str]| {
+        study.write("here-pgv.csv", text);
+        study.uplift(&["check", "study.toml"]).fails(4, &[&["Here", "here-pgv.csv"], words].concat());
+    };
+    spoil("iml,maf\n1,0.1\n10,0.2\n300,0.01\n", &["0.2", "0.1"]);
+    spoil("iml,maf\n0.5,0.1\n10,abc\n300,0.01\n", &["abc", "line 3"]);
+    spoil("iml,maf\n0.5,0.1\n10,NaN\n300,0.01\n", &["NaN"]);
+    spoil("# IM: PGV [m/s]\niml,maf\n0.5,0.1\n300,0.01\n", &["m/s", "cm/s"]);
+    spoil("", &["point"]);
+    // the last stripe, 100 cm/s, is outside
+    spoil("iml,maf\n0.5,0.1\n50,0.01\n", &["100 cm/s", "extrapolate"]);
+    study.uplift(&["check", "study.toml", "--set", "risk.extrapolate=loglog"]).ok();
+    // the mistakes of several sites at once
+    study.write("there-pgv.csv", "iml,poe\n0.005,0.5\n3,1.5\n");
+    study.uplift(&["check", "study.toml"]).fails(4, &["Here", "There", "1.5"]);
+}
+
+#[test]
+fn manifests() {
+    let check = |rows: &str, words: &[&str]| {
+        with_manifest(rows).uplift(&["check", "study.toml"]).fails(4, words);
+    };
+    with_manifest("A,a.AT2,a.AT2,good,,\nB,a.txt,a.txt,good,0.01,g\n").uplift(&["check", "study.toml"]).ok();
+    check("", &["manifest.csv", "no records"]);
+    check("A,a.AT2,,good,,\n", &["record A", "file_h2", "blank"]);
+    check("A,a.AT2,b.AT2,good,,\n", &["record A", "b.AT2", "not a file"]);
+    check("A,a.AT2,a.AT2,,,\nA,a.AT2,a.AT2,,,\n", &["twice"]);
+    check("A,a.txt,a.txt,,,\n", &["record A", "a.txt"]);
+    check("A,a.txt,a.txt,,0.01,stone\n", &["record A", "stone"]);
+    check("A,a.txt,a.txt,,-1,g\n", &["dt_s", "-1"]);
+    let study = with_manifest("A,a.AT2,a.AT2,one;two,,\n");
+    study.uplift(&["check", "study.toml", "--set", "records.tag=three"]).fails(4, &["three", "one", "two"]);
+    study.uplift(&["check", "study.toml", "--set", "records.tag=two"]).ok();
+    study.write("manifest.csv", "name,h1\nA,a.AT2\n");
+    study.uplift(&["check", "study.toml"]).fails(4, &["record_id", "file_h1", "name"]);
+    study.write("manifest.csv", "\u{0}\u{1}binary\u{ff}");
+    study.uplift(&["check", "study.toml"]).fails(4, &["manifest.csv"]);
+}
+
+#[test]
+fn record_files() {
+    let study = with_manifest("A,a.AT2,b.AT2,,,\nC,c.AT2,a.AT2,,,\nD,a.AT2,d.AT2,,,\nE,e.AT2,e.AT2,,,\n");
+    let wave: Vec<f64> = (0..50).map(|i| 0.1 * f64::from(i % 7)).collect();
+    study.write("b.AT2", &at2(&wave, 60));
+    study.write("c.AT2", &at2(&wave, 50).replace("1.0000000E-1", "NaN"));
+    study.write("d.AT2", &at2(&wave, 50).replace("ACCELERATION", "VELOCITY"));
+    study.write("e.AT2", &at2(&[0.0; 50], 50));
+    // all of them at once, each with its record
+    study
+        .uplift(&["run", "study.toml"])
+        .fails(4, &["record A", "b.AT2", "60", "50", "record C", "c.AT2", "NaN", "record D", "d.AT2", "VELOCITY"]);
+    study.write("manifest.csv", &format!("{MANIFEST}E,e.AT2,e.AT2,,,\n"));
+    study.uplift(&["run", "study.toml"]).fails(4, &["record E", "does not move"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn places_that_cannot_be_written() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-o", "."]).fails(4, &["folder"]);
+    study.uplift(&["run", "study.toml", "-o", "study.toml/r.h5"]).fails(4, &["study.toml"]);
+    study.uplift(&["run", "study.toml", "-o", "/proc/r.h5"]).fails(4, &["/proc", "cannot create"]);
+    // found before the analyses, not after
+    assert!(!study.uplift(&["run", "study.toml", "-o", "."]).stderr.contains("analyses"));
+}
+
+// An earlier result survives whatever ends a run early.
+#[test]
+fn earlier_result_survives() {
+    let study = SmallStudy::new();
+    study.write("r.h5", "an earlier result");
+    study.write("here-pgv.csv", "iml,maf\n0.5,0.1\n50,0.01\n");
+    study.uplift(&["run", "study.toml", "-o", "r.h5"]).fails(4, &["100 cm/s"]);
+    assert_eq!(std::fs::read_to_string(study.path().join("r.h5")).unwrap(), "an earlier result");
+}
+
+#[test]
+fn closed_output_is_no_error() {
+    let study = SmallStudy::new();
+    let script = format!("'{}' check study.toml | head -n 1", env!("CARGO_BIN_EXE_uplift"));
+    let output = std::process::Command::new("sh").args(["-c", &script]).current_dir(study.path()).output().unwrap();
+    assert!(output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+#[test]
+fn help_names_every_command() {
+    let study = SmallStudy::new();
+    let help = study.uplift(&["--help"]).ok().stdout;
+    for command in ["run", "check", "response", "table", "Exit codes"] {
+        assert!(help.contains(command), "{command}:\n{help}");
+    }
+}

@@ -1,0 +1,243 @@
+//! `uplift run` and `uplift check` from end to end.
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+mod common;
+
+use std::path::Path;
+use std::process::Command;
+
+use common::{SmallStudy, command, python, repository};
+use uplift::labelled::LabelledReader;
+
+fn arrays(path: &Path) -> Vec<(String, Vec<u64>)> {
+    let reader = LabelledReader::open(path).unwrap();
+    let mut found = Vec::new();
+    for im in ["pgv", "pga"] {
+        for name in ["ida/@/edp_m", "risk/@/maf_per_year", "urs/@/u_m", "urs/@/lower_tail_share", "regression/@/c0_m"] {
+            let path = format!("/{}", name.replace('@', im));
+            let bits = reader.array_f64(&path).unwrap().values.iter().map(|value| value.to_bits()).collect();
+            found.push((path, bits));
+        }
+    }
+    found
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_bits() {
+    let study = SmallStudy::new();
+    for threads in ["1", "2", "5"] {
+        study.uplift(&["run", "study.toml", "-o", &format!("{threads}.h5"), "--threads", threads]).ok();
+    }
+    let one = arrays(&study.path().join("1.h5"));
+    assert!(one.iter().all(|(_, bits)| !bits.is_empty()));
+    assert_eq!(one, arrays(&study.path().join("2.h5")));
+    assert_eq!(one, arrays(&study.path().join("5.h5")));
+}
+
+#[test]
+fn known_limits_come_out_right() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-o", "r.h5"]).ok();
+    let reader = LabelledReader::open(&study.path().join("r.h5")).unwrap();
+
+    // strength 0: the displacement is the peak ground displacement, so it grows in proportion to the level, to rounding
+    let edp = reader.array_f64("/ida/pgv/edp_m").unwrap();
+    let levels = reader.axis_f64("pgv_level").unwrap();
+    let [records, strengths, count] = edp.shape[..] else { panic!("{:?}", edp.shape) };
+    assert_eq!((records, strengths, count), (4, 10, 5));
+    for record in 0..records {
+        let row = &edp.values[record * strengths * count..][..count];
+        for (u, level) in row.iter().zip(&levels) {
+            assert!((u / row[0] / (level / levels[0]) - 1.0).abs() < 1e-12, "{row:?}");
+        }
+    }
+    // ordinates fall with the probability; the surface is a falling function of the threshold that ends at the ordinate
+    let u_m = reader.array_f64("/urs/pgv/u_m").unwrap().values;
+    let surface = reader.array_f64("/risk/pgv/maf_per_year").unwrap();
+    let thresholds = reader.axis_f64("threshold").unwrap();
+    let poes = reader.axis_f64("poe").unwrap();
+    assert_eq!(poes, [0.02, 0.1, 0.5]);
+    for site in 0..2 {
+        for strength in 0..strengths {
+            let ordinate = |poe: usize| u_m[(site * 3 + poe) * strengths + strength];
+            assert!(ordinate(0) >= ordinate(1) && ordinate(1) >= ordinate(2));
+            let row = &surface.values[(site * strengths + strength) * thresholds.len()..][..thresholds.len()];
+            assert!(row.windows(2).all(|pair| pair[0] >= pair[1]));
+            for (poe, p) in poes.iter().enumerate() {
+                let target = -(-p).ln_1p() / 50.0;
+                for (threshold, rate) in thresholds.iter().zip(row) {
+                    assert_eq!(*threshold >= ordinate(poe), *rate <= target, "{threshold} {rate} {target}");
+                }
+            }
+        }
+    }
+}
+
+// The site There has half the rates of Here, given as probabilities in 50 years and in m/s: the same spectrum at half the rate.
+#[test]
+fn probabilities_and_units_of_hazard_are_converted() {
+    let study = SmallStudy::new();
+    // half the rate of 4 % in 50 years
+    let half = 1.0 - 0.96_f64.sqrt();
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "--set", &format!("risk.poe=[{half}, 0.04]")]).ok();
+    let u_m = LabelledReader::open(&study.path().join("r.h5")).unwrap().array_f64("/urs/pgv/u_m").unwrap().values;
+    let (here_at_4, there_at_half) = (&u_m[10..20], &u_m[20..30]);
+    assert!(here_at_4.iter().any(|&u| u > 0.001));
+    for (a, b) in here_at_4.iter().zip(there_at_half) {
+        assert!((a - b).abs() < 1e-9, "{here_at_4:?} {there_at_half:?}");
+    }
+}
+
+#[test]
+fn summary_tables_and_provenance() {
+    let study = SmallStudy::new();
+    let run = study.uplift(&["run", "study.toml", "-o", "out/r.h5"]).ok();
+    for words in ["synthetic", "out/r.h5", "out/r.urs.csv", "2 % in 50 yr", "Here", "few"] {
+        assert!(run.stdout.contains(words), "{words}:\n{}", run.stdout);
+    }
+    assert!(run.stderr.contains("200 analyses"), "{}", run.stderr);
+    let urs = std::fs::read_to_string(study.path().join("out/r.urs.csv")).unwrap();
+    let mut lines = urs.lines();
+    let first = lines.next().unwrap();
+    assert!(first.starts_with("# uplift ") && first.contains("synthetic") && first.contains("study.toml"), "{first}");
+    insta::assert_snapshot!(lines.next().unwrap(), @"site,im,poe,years,strength,u_m,flag,lower_tail_share,upper_tail_share");
+    assert_eq!(lines.count(), 2 * 2 * 3 * 10);
+    let regression = std::fs::read_to_string(study.path().join("out/r.regression.csv")).unwrap();
+    insta::assert_snapshot!(
+        regression.lines().nth(1).unwrap(),
+        @"site,im,poe,years,c0_m,c1,c2_m,rmse_m,rmse_plain_m,bound_active,points"
+    );
+    assert_eq!(regression.lines().count(), 2 + 12);
+
+    let reader = LabelledReader::open(&study.path().join("out/r.h5")).unwrap();
+    assert!(reader.attribute_text("/", "record_set").unwrap().contains("synthetic"));
+    let resolved = reader.attribute_text("/", "study_toml").unwrap();
+    // the resolved study in the file runs again, from anywhere
+    let elsewhere = tempfile::tempdir().unwrap();
+    std::fs::write(elsewhere.path().join("again.toml"), resolved).unwrap();
+    common::uplift(elsewhere.path(), &["run", "again.toml", "-o", "again.h5", "-q"]).ok();
+    assert_eq!(arrays(&elsewhere.path().join("again.h5")), arrays(&study.path().join("out/r.h5")));
+
+    let quiet = study.uplift(&["run", "study.toml", "-o", "q.h5", "--quiet"]).ok();
+    assert_eq!((quiet.stdout.as_str(), quiet.stderr.as_str()), ("", ""));
+    let json = study.uplift(&["run", "study.toml", "-o", "j.h5", "--quiet", "--json"]).ok();
+    let summary: serde_json::Value = serde_json::from_str(&json.stdout).unwrap();
+    assert_eq!(summary["synthetic"], true);
+    assert_eq!(summary["coefficients"].as_array().unwrap().len(), 12);
+    assert_eq!(summary["measures"][0]["analyses"], 200);
+}
+
+#[test]
+fn check_says_what_a_run_would_do() {
+    let study = SmallStudy::new();
+    let check = study.uplift(&["check", "study.toml"]).ok();
+    for words in ["[oscillator]", "restitution = 0.95", "360", "in order"] {
+        assert!(check.stdout.contains(words), "{words}:\n{}", check.stdout);
+    }
+    let json: serde_json::Value =
+        serde_json::from_str(&study.uplift(&["check", "study.toml", "--json"]).ok().stdout).unwrap();
+    assert_eq!(json["analyses"], 360);
+    assert!(json["seconds"].as_f64().unwrap() > 0.0);
+}
+
+#[test]
+fn negative_stiffness_overturns_and_is_said_so() {
+    let study = SmallStudy::new();
+    let run = study.uplift(&["run", "study.toml", "-o", "r.h5", "--set", "oscillator.capacity_m=0.02"]).ok();
+    assert!(run.stdout.contains("censored"), "{}", run.stdout);
+    let reader = LabelledReader::open(&study.path().join("r.h5")).unwrap();
+    let edp = reader.array_f64("/ida/pgv/edp_m").unwrap().values;
+    assert!(edp.iter().any(|u| u.is_infinite()) && !edp.iter().any(|u| u.is_nan()));
+    let (u_m, flag) =
+        (reader.array_f64("/urs/pgv/u_m").unwrap().values, reader.array_u8("/urs/pgv/flag").unwrap().values);
+    assert!(flag.contains(&2));
+    assert!(u_m.iter().zip(&flag).all(|(u, flag)| u.is_infinite() == (*flag == 2)));
+}
+
+// Ctrl-C ends a long run soon, with its own exit code, and leaves the earlier result alone.
+#[cfg(unix)]
+#[test]
+fn interruption_keeps_the_earlier_result() {
+    let study = SmallStudy::new();
+    study.write("r.h5", "an earlier result");
+    let long =
+        ["run", "study.toml", "-o", "r.h5", "--set", "strengths.values=0:1/20000:1", "--set", "risk.maf_surface=false"];
+    let child = command(study.path())
+        .args(long)
+        .stdout(std::process::Stdio::piped())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(std::time::Duration::from_secs(2));
+    Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(5), "{}", String::from_utf8_lossy(&output.stderr));
+    assert_eq!(std::fs::read_to_string(study.path().join("r.h5")).unwrap(), "an earlier result");
+    assert_eq!(
+        study
+            .path()
+            .read_dir()
+            .unwrap()
+            .filter(|entry| { entry.as_ref().unwrap().file_name().to_string_lossy().contains("partial") })
+            .count(),
+        0
+    );
+}
+
+// A disk that fills up while the result is written: a limit on the size of files stands in for it.
+#[cfg(unix)]
+#[test]
+fn full_disk_keeps_the_earlier_result() {
+    let study = SmallStudy::new();
+    study.write("r.h5", "an earlier result");
+    let script =
+        format!("trap '' XFSZ; ulimit -f 16; exec '{}' run study.toml -o r.h5 --quiet", env!("CARGO_BIN_EXE_uplift"));
+    let output = Command::new("sh")
+        .args(["-c", &script])
+        .current_dir(study.path())
+        .env("UPLIFT_CACHE", "")
+        .env("XDG_CACHE_HOME", study.path().join("no-cache"))
+        .output()
+        .unwrap();
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(4), "{stderr}");
+    assert!(stderr.contains("r.h5") && stderr.contains("File too large"), "{stderr}");
+    assert_eq!(std::fs::read_to_string(study.path().join("r.h5")).unwrap(), "an earlier result");
+}
+
+#[test]
+fn python_reads_the_result() {
+    let Some(python) = python() else { return };
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-o", "r.h5"]).ok();
+    for script in ["tests/python/read_result.py", "tests/python/read_spectra.py"] {
+        let output =
+            Command::new(&python).arg(repository().join(script)).arg(study.path().join("r.h5")).output().unwrap();
+        let (stdout, stderr) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+        assert!(output.status.success(), "{stdout}\n{stderr}");
+    }
+}
+
+#[test]
+fn the_tree_of_a_result() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-o", "r.h5"]).ok();
+    let reader = LabelledReader::open(&study.path().join("r.h5")).unwrap();
+    let mut lines = Vec::new();
+    for group in ["/axes", "/records", "/ida/pgv", "/risk/pgv", "/urs/pgv", "/regression/pgv", "/hazard/Here/pgv"] {
+        lines.push(format!("{group}: {}", reader.children(group).unwrap().join(" ")));
+    }
+    insta::assert_snapshot!(lines.join("\n"));
+}
+
+#[test]
+fn shipped_studies_are_in_order() {
+    for entry in repository().join("configs").read_dir().unwrap() {
+        let path = entry.unwrap().path();
+        let out = tempfile::tempdir().unwrap();
+        // small enough to be checked in no time
+        let set = format!("output.file={}", out.path().join("r.h5").display());
+        let study = path.to_str().unwrap();
+        common::uplift(out.path(), &["check", study, "--set", "records.first=2", "--set", &set, "-q"]).ok();
+    }
+}
