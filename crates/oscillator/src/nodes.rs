@@ -137,7 +137,7 @@ pub fn crossing(motion: &LinearMotion, from: Node, to: Node, level: f64) -> f64 
 /// inside a shrinking bracket, bisection where Newton leaves it or stalls (a double root).
 ///
 /// `f` returns value and slope.
-fn monotone_root(mut a: (f64, f64), mut b: (f64, f64), f: impl Fn(f64) -> (f64, f64)) -> f64 {
+pub(crate) fn monotone_root(mut a: (f64, f64), mut b: (f64, f64), f: impl Fn(f64) -> (f64, f64)) -> f64 {
     if a.1 == 0.0 {
         return a.0;
     }

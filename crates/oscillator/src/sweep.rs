@@ -3,7 +3,7 @@
 //! It solves the same piecewise-linear problem as the [reference](mod@crate::reference) without an approximation, and differs
 //! from it by rounding alone. What makes it fast:
 //!
-//! * up to the first uplift the response is the [elastic one](crate::elastic) times the scale, computed once;
+//! * up to the first uplift the response is the elastic one times the scale, computed once;
 //! * attached again, it differs from that by a free vibration, so blocks that cannot lift it are skipped, and the run ends
 //!   when the rest of the record cannot either;
 //! * a flight without post-uplift stiffness is followed in strides over the [integrals of the record](crate::ground_motion);
@@ -13,7 +13,7 @@ use crate::branch::{Branch, LinearMotion};
 use crate::elastic::ElasticResponse;
 use crate::free_vibration::{FreePeak, cannot_return, first_peak};
 use crate::ground_motion::{GroundMotion, STRIDE_LEVELS};
-use crate::nodes::{Node, Nodes, crossing};
+use crate::nodes::{Node, Nodes, crossing, monotone_root};
 use crate::oscillator::Oscillator;
 use crate::reference::OVERTURNED_CAPACITIES;
 use crate::stumpff::Stumpff;
@@ -332,13 +332,19 @@ impl Run<'_> {
             return None;
         }
         let concave = side * motion.w0 <= 0.0 && side * w1 <= 0.0 && motion.k <= 0.0;
-        // no turning point: rising, or falling all the way
-        if concave && (side * end.1 >= 0.0 || side * motion.v0 <= 0.0) {
-            self.peak_m = self.peak_m.max(to);
+        if concave {
+            let (v0, v1) = (side * motion.v0, side * end.1);
+            let mut top = to;
+            if v0 > 0.0 && v1 < 0.0 {
+                // the velocity falls all the way and is zero once
+                top = side * motion.state(turning_time(motion, rest, end.1)).0;
+            }
             if to >= boundary {
+                self.peak_m = self.peak_m.max(top);
                 return None;
             }
-            if let Some(tau) = concave_descent(motion, rest, side, boundary) {
+            if let Some(tau) = concave_descent(motion, rest, side, boundary, to) {
+                self.peak_m = self.peak_m.max(top);
                 return Some(tau);
             }
         }
@@ -452,20 +458,61 @@ struct State {
 /// Time at which an attached system passes one of the boundaries, outward, within `h`; `end` is its state then.
 fn uplift_within(motion: &LinearMotion, h: f64, end: &State, boundary: f64) -> Option<f64> {
     // ωh < π: the acceleration changes its sign once at most, not at all if its ends agree
-    let one_curvature = motion.k * h * h < 9.0 && motion.w0 * end.w > 0.0;
-    if one_curvature && end.u.abs() <= boundary {
-        if motion.v0 * end.v >= 0.0 {
+    if motion.k * h * h < 9.0 && motion.w0 * end.w > 0.0 {
+        if end.u.abs() > boundary {
+            // a motion of one curvature passes the level that lies between its ends once
+            let side = 1.0_f64.copysign(end.u);
+            let dips = side * motion.w0 > 0.0 && side * motion.v0 < 0.0;
+            if side * motion.u0 < boundary && (!dips || -tangents_meet(motion, h, end, side) <= boundary) {
+                return Some(root_in_bracket(motion, h, side * boundary, end));
+            }
+        } else if motion.v0 * end.v >= 0.0 {
             return None; // monotone between ends that are attached
-        }
-        // a turning point towards the side that the motion curves away from, below both tangents there
-        let side = -1.0_f64.copysign(end.w);
-        let (v0, v1) = (side * motion.v0, side * end.v);
-        let meet = (side * (end.u - motion.u0) - v1 * h) / (v0 - v1);
-        if side * motion.u0 + v0 * meet <= boundary {
-            return None;
+        } else if tangents_meet(motion, h, end, -1.0_f64.copysign(end.w)).abs() <= boundary {
+            return None; // the turning point lies on the inner side of both tangents
         }
     }
+    let sag = 0.125 * h * h * motion.acceleration_bound(h, end.w);
+    if motion.u0.abs().max(end.u.abs()) + sag <= boundary {
+        return None;
+    }
     first_crossing(motion, h, |u| (u.abs() > boundary).then(|| boundary.copysign(u)))
+}
+
+/// Height `side u` at which the tangents at both ends of a motion meet: beyond its turning point if it has one curvature.
+fn tangents_meet(motion: &LinearMotion, h: f64, end: &State, side: f64) -> f64 {
+    let (v0, v1) = (side * motion.v0, side * end.v);
+    side * motion.u0 + v0 * (side * (end.u - motion.u0) - v1 * h) / (v0 - v1)
+}
+
+/// The time at which `motion` passes `level`, which it does once between its start and its `end` at `h`: Newton's method from the root of
+/// the parabola through the initial state and the end, inside the bracket.
+fn root_in_bracket(motion: &LinearMotion, h: f64, level: f64, end: &State) -> f64 {
+    let distance = level - motion.u0;
+    let (mut low, mut high) = (0.0, h);
+    let ahead = 1.0_f64.copysign(end.u - motion.u0);
+    let curvature = 2.0 * (end.u - motion.u0 - motion.v0 * h) / (h * h);
+    let discriminant = motion.v0 * motion.v0 + 2.0 * curvature * distance;
+    let mut tau = 2.0 * distance / (motion.v0 + ahead * discriminant.max(0.0).sqrt());
+    for _ in 0..NEWTON_STEPS {
+        if !(tau > low && tau < high) {
+            tau = 0.5 * (low + high);
+        }
+        let (u, v) = motion.state(tau);
+        let beyond = ahead * (u - level) > 0.0;
+        if beyond {
+            high = tau
+        } else {
+            low = tau
+        }
+        let step = (u - level) / v;
+        let next = tau - step;
+        if step.abs() <= CONVERGED * h && next >= 0.0 && next <= h {
+            return next;
+        }
+        tau = next;
+    }
+    crossing(motion, Node { tau: 0.0, u: motion.u0 }, Node { tau: h, u: end.u }, level)
 }
 
 /// Stumpff functions of a branch without stiffness.
@@ -483,21 +530,41 @@ fn first_crossing(motion: &LinearMotion, h: f64, mut level_beyond: impl FnMut(f6
     None
 }
 
+/// Time at which the velocity of a motion vanishes, which changes its sign once between the start and `v1` at `h`.
+fn turning_time(motion: &LinearMotion, h: f64, v1: f64) -> f64 {
+    if motion.k == 0.0 {
+        let discriminant = (motion.w0 * motion.w0 - 2.0 * motion.j0 * motion.v0).max(0.0);
+        let tau = 2.0 * motion.v0 / (-motion.w0 + discriminant.sqrt().copysign(motion.v0));
+        return tau.clamp(0.0, h);
+    }
+    monotone_root((0.0, motion.v0), (h, v1), |tau| motion.rates(tau))
+}
+
 /// Newton steps before the safe search takes over.
 const NEWTON_STEPS: usize = 12;
 
-/// The impact of an uplifted system that falls, with `side ü ≤ 0` all the way, below the boundary before `h`: Newton's method
-/// from beyond the root of a concave function closes in from that side.
-fn concave_descent(motion: &LinearMotion, h: f64, side: f64, boundary: f64) -> Option<f64> {
-    let mut tau = h;
+/// A Newton step below this part of the interval leaves an error of its square.
+const CONVERGED: f64 = 1e-9;
+
+/// The impact of an uplifted system with `side ü ≤ 0` all the way that is below the boundary at `h`: Newton's method on a
+/// concave function, from the root of the parabola through the initial state and the end.
+///
+/// * `end` — `side u` at `h`
+fn concave_descent(motion: &LinearMotion, h: f64, side: f64, boundary: f64, end: f64) -> Option<f64> {
+    let (height, v0) = (side * motion.u0 - boundary, side * motion.v0);
+    let curvature = 2.0 * (end - side * motion.u0 - v0 * h) / (h * h);
+    let mut tau = 2.0 * height / ((v0 * v0 - 2.0 * curvature * height).max(0.0).sqrt() - v0);
+    if !(tau > 0.0 && tau <= h) {
+        tau = h;
+    }
     for _ in 0..NEWTON_STEPS {
         let (u, v) = motion.state(tau);
         let step = (side * u - boundary) / (side * v);
         let next = tau - step;
-        if !(next >= 0.0 && next <= h) {
+        if !(side * v < 0.0 && next >= 0.0 && next <= h) {
             return None;
         }
-        if step.abs() <= 4.0 * f64::EPSILON * tau {
+        if step.abs() <= CONVERGED * h {
             return Some(next);
         }
         tau = next;
@@ -523,9 +590,9 @@ fn transit(motion: &LinearMotion, h: f64, boundary: f64) -> Option<f64> {
         if !(next > 0.0 && next <= h) {
             return None;
         }
-        if step.abs() <= 4.0 * f64::EPSILON * tau {
+        if step.abs() <= CONVERGED * h {
             // monotone on the way: the velocity is inward at both ends and has no maximum between them
-            let (v, w) = motion.rates(next);
+            let w = motion.rates(next).1;
             let inward = side * v < 0.0 && !(side * motion.w0 > 0.0 && side * w < 0.0);
             return (inward && motion.k * h * h < 9.0).then_some(next);
         }

@@ -16,7 +16,7 @@ use crate::study::ResolvedStudy;
 use crate::table::thousands;
 
 /// Time spent on a measure to see how fast this machine is.
-const CALIBRATION: Duration = Duration::from_millis(1000);
+const CALIBRATION: Duration = Duration::from_secs(1);
 
 #[derive(Debug, Args)]
 pub(super) struct CheckArguments {
