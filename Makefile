@@ -36,7 +36,8 @@ python:
 	.ci/provide-python
 
 bench:
-	cargo bench --locked --workspace
+	cargo bench --locked -p uplift-oscillator --bench solvers
+	cargo bench --locked -p uplift-ida --bench chapter_4
 
 clean:
 	cargo clean

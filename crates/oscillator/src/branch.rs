@@ -38,6 +38,7 @@ pub struct LinearMotion {
 
 impl LinearMotion {
     /// Displacement and velocity at `τ` seconds, given the Stumpff functions at `k τ²`.
+    #[inline]
     pub fn state_with(&self, tau: f64, s: &Stumpff) -> (f64, f64) {
         let u = self.u0 + tau * (self.v0 + tau * (self.w0 * s.c2 + tau * self.j0 * s.c3));
         let v = self.v0 + tau * (self.w0 * s.c1 + tau * self.j0 * s.c2);
@@ -45,11 +46,13 @@ impl LinearMotion {
     }
 
     /// Displacement (m) and velocity (m/s) at `τ` seconds.
+    #[inline]
     pub fn state(&self, tau: f64) -> (f64, f64) {
         self.state_with(tau, &Stumpff::at(self.k * tau * tau))
     }
 
     /// Velocity (m/s) and acceleration (m/s²) at `τ` seconds.
+    #[inline]
     pub fn rates(&self, tau: f64) -> (f64, f64) {
         let s = Stumpff::at(self.k * tau * tau);
         let v = self.v0 + tau * (self.w0 * s.c1 + tau * self.j0 * s.c2);

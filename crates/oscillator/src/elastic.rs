@@ -18,8 +18,6 @@ pub(crate) struct ElasticResponse {
     highs: Vec<(usize, f64)>,
     /// Bounds on `abs(u)` over blocks of `2^l` intervals.
     pub(crate) bounds: Vec<Vec<f64>>,
-    /// Largest deviation of `u` from the chord in each interval, m.
-    pub(crate) sags: Vec<f64>,
     /// Bound on `abs(u)` from a sample on, the free vibration after the record included.
     pub(crate) bound_from: Vec<f64>,
     /// Largest `abs(u)` of the whole response, m.
@@ -37,7 +35,6 @@ impl ElasticResponse {
         let mut displacement_m = Vec::with_capacity(n + 1);
         let mut velocity_m_s = Vec::with_capacity(n + 1);
         let mut singles = Vec::with_capacity(n);
-        let mut sags = Vec::with_capacity(n);
         let mut highs = Vec::new();
         displacement_m.push(u);
         velocity_m_s.push(v);
@@ -47,7 +44,6 @@ impl ElasticResponse {
             (u, v) = motion.state_with(dt, &whole);
             let sag = 0.125 * dt * dt * motion.acceleration_bound(dt, -k * u - pair[1]);
             let bound = motion.u0.abs().max(u.abs()) + sag;
-            sags.push(sag);
             singles.push(bound);
             if bound > peak_m {
                 let high = Nodes::new(&motion, dt).fold(peak_m, |high, node| high.max(node.u.abs()));
@@ -75,7 +71,7 @@ impl ElasticResponse {
             bound_from[i] = singles[i].max(bound_from[i + 1]);
         }
         let bounds = halvings(singles, f64::max);
-        Self { displacement_m, velocity_m_s, highs, bounds, sags, bound_from, peak_m }
+        Self { displacement_m, velocity_m_s, highs, bounds, bound_from, peak_m }
     }
 
     /// The first interval in which `abs(u)` exceeds `level_m`; the number of intervals if only the free vibration does.

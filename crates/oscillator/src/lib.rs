@@ -31,9 +31,11 @@ pub mod ground_motion;
 pub mod history;
 pub mod nodes;
 pub mod oscillator;
+mod passages;
 pub mod problems;
 pub mod reference;
 pub mod response;
+mod run;
 pub mod stumpff;
 pub mod sweep;
 

@@ -47,13 +47,20 @@ const fn inverse_factorials() -> [(f64, f64); TERMS] {
 
 impl Stumpff {
     /// The functions at `x = k t²`.
+    #[inline]
     pub fn at(x: f64) -> Self {
-        if x == 0.0 {
-            return Self { c0: 1.0, c1: 1.0, c2: 0.5, c3: 1.0 / 6.0 };
-        }
         // the first term left out is below 2e-17 of the sum in each case
+        if x == 0.0 {
+            Self { c0: 1.0, c1: 1.0, c2: 0.5, c3: 1.0 / 6.0 }
+        } else if x.abs() <= 0.1 {
+            Self::series::<6>(x)
+        } else {
+            Self::at_large(x)
+        }
+    }
+
+    fn at_large(x: f64) -> Self {
         match x.abs() {
-            size if size <= 0.1 => return Self::series::<6>(x),
             size if size <= 1.0 => return Self::series::<9>(x),
             size if size <= SERIES_LIMIT => return Self::series::<TERMS>(x),
             _ => {}
@@ -63,6 +70,7 @@ impl Stumpff {
         Self { c0, c1, c2: (1.0 - c0) / x, c3: (1.0 - c1) / x }
     }
 
+    #[inline]
     fn series<const N: usize>(x: f64) -> Self {
         let (mut c2, mut c3) = INVERSE_FACTORIALS[N - 1];
         for &(even, odd) in INVERSE_FACTORIALS[..N - 1].iter().rev() {

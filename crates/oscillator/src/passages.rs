@@ -1,0 +1,172 @@
+//! Where a motion passes a level inside one sample interval, without a general search.
+//!
+//! While `ωh < π` the acceleration changes its sign once at most. From the states at both ends it then follows where the displacement
+//! turns and whether it can pass a level, and Newton's method finds the passage. Whatever is not as simple goes to the
+//! [nodes](crate::nodes).
+
+use crate::branch::LinearMotion;
+use crate::nodes::{Node, Nodes, crossing, monotone_root};
+
+/// Largest `(ωh)²` for the reasoning of this file: a little below π².
+const SIMPLE: f64 = 9.0;
+/// Newton steps before the safe search takes over.
+const NEWTON_STEPS: usize = 12;
+/// A Newton step below this part of the interval leaves an error of its square.
+const CONVERGED: f64 = 1e-9;
+
+/// Displacement, velocity and acceleration.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct State {
+    pub(crate) u: f64,
+    pub(crate) v: f64,
+    pub(crate) w: f64,
+}
+
+/// Time at which an attached system passes one of the boundaries, outward, within `h`; `end` is its state then.
+pub(crate) fn uplift_within(motion: &LinearMotion, h: f64, end: &State, boundary: f64) -> Option<f64> {
+    let inside = end.u.abs() <= boundary;
+    if motion.k * h * h < SIMPLE {
+        let (from, to) = (Node { tau: 0.0, u: motion.u0 }, Node { tau: h, u: end.u });
+        let one_curvature = motion.w0 * end.w > 0.0;
+        if motion.v0 * end.v > 0.0 {
+            // the velocity has one extremum at most, and is zero nowhere if it cannot fall that far
+            if one_curvature || motion.v0.abs() + end.v.abs() > h * motion.acceleration_bound(h, end.w) {
+                return (!inside).then(|| passage(motion, from, motion.v0, to, boundary.copysign(end.u)));
+            }
+        } else if motion.v0 * end.v < 0.0 {
+            // one turning point
+            if inside
+                && (one_curvature && tangents_meet(motion, h, end).abs() <= boundary
+                    || sags_inside(motion, h, end, boundary))
+            {
+                return None;
+            }
+            let tau = turning_time(motion, h, end.v);
+            let turn = Node { tau, u: motion.state(tau).0 };
+            if turn.u.abs() > boundary {
+                return Some(passage(motion, from, motion.v0, turn, boundary.copysign(turn.u)));
+            }
+            return (!inside).then(|| passage(motion, turn, 0.0, to, boundary.copysign(end.u)));
+        }
+    }
+    if inside && sags_inside(motion, h, end, boundary) {
+        return None;
+    }
+    first_crossing(motion, h, |u| (u.abs() > boundary).then(|| boundary.copysign(u)))
+}
+
+/// True if the deviation from the chord keeps a motion inside the boundaries.
+fn sags_inside(motion: &LinearMotion, h: f64, end: &State, boundary: f64) -> bool {
+    let sag = 0.125 * h * h * motion.acceleration_bound(h, end.w);
+    motion.u0.abs().max(end.u.abs()) + sag <= boundary
+}
+
+/// Displacement at which the tangents at both ends of a motion meet: beyond its turning point if it has one curvature.
+fn tangents_meet(motion: &LinearMotion, h: f64, end: &State) -> f64 {
+    motion.u0 + motion.v0 * (end.u - motion.u0 - end.v * h) / (motion.v0 - end.v)
+}
+
+/// The time at which `motion` passes `level`, which it does once between `from`, where its velocity is `v`, and `to`: Newton's method in
+/// a bracket, from the root of the parabola through the state at `from` and the end.
+pub(crate) fn passage(motion: &LinearMotion, from: Node, v: f64, to: Node, level: f64) -> f64 {
+    let span = to.tau - from.tau;
+    let distance = level - from.u;
+    let ahead = 1.0_f64.copysign(to.u - level);
+    let curvature = 2.0 * (to.u - from.u - v * span) / (span * span);
+    let discriminant = (v * v + 2.0 * curvature * distance).max(0.0);
+    let (mut low, mut high) = (from.tau, to.tau);
+    let mut tau = from.tau + 2.0 * distance / (v + ahead * discriminant.sqrt());
+    for _ in 0..NEWTON_STEPS {
+        // written so that NaN is left
+        if !(tau > low && tau < high) {
+            tau = 0.5 * (low + high);
+        }
+        let (u, v) = motion.state(tau);
+        if ahead * (u - level) > 0.0 {
+            high = tau;
+        } else {
+            low = tau;
+        }
+        let step = (u - level) / v;
+        let next = tau - step;
+        if step.abs() <= CONVERGED * span && next >= low && next <= high {
+            return next;
+        }
+        tau = next;
+    }
+    crossing(motion, Node { tau: low, u: motion.state(low).0 }, Node { tau: high, u: motion.state(high).0 }, level)
+}
+
+/// Time at which the velocity of a motion vanishes, which changes its sign once between the start and `v1` at `h`.
+pub(crate) fn turning_time(motion: &LinearMotion, h: f64, v1: f64) -> f64 {
+    if motion.k == 0.0 {
+        let discriminant = (motion.w0 * motion.w0 - 2.0 * motion.j0 * motion.v0).max(0.0);
+        let tau = 2.0 * motion.v0 / (-motion.w0 + discriminant.sqrt().copysign(motion.v0));
+        return tau.clamp(0.0, h);
+    }
+    let (mut low, mut high) = (0.0, h);
+    let mut tau = h * motion.v0 / (motion.v0 - v1);
+    for _ in 0..NEWTON_STEPS {
+        if !(tau > low && tau < high) {
+            tau = 0.5 * (low + high);
+        }
+        let (v, w) = motion.rates(tau);
+        if v * motion.v0 > 0.0 {
+            low = tau;
+        } else {
+            high = tau;
+        }
+        let step = v / w;
+        // the displacement is stationary here: the error of the time counts by its square alone
+        if step.abs() <= CONVERGED * h && tau - step >= low && tau - step <= high {
+            return tau - step;
+        }
+        tau -= step;
+    }
+    monotone_root((0.0, motion.v0), (h, v1), |tau| motion.rates(tau))
+}
+
+/// Time of the first crossing of a level that `level_beyond` names for the displacement at a node, over the monotone pieces of `motion`.
+pub(crate) fn first_crossing(
+    motion: &LinearMotion,
+    h: f64,
+    mut level_beyond: impl FnMut(f64) -> Option<f64>,
+) -> Option<f64> {
+    let mut from = Node { tau: 0.0, u: motion.u0 };
+    for to in Nodes::new(motion, h) {
+        if let Some(level) = level_beyond(to.u) {
+            return Some(crossing(motion, from, to, level));
+        }
+        from = to;
+    }
+    None
+}
+
+/// The passage of an attached system from one boundary straight to the other within `h`: `None` if it is not as simple as that.
+pub(crate) fn transit(motion: &LinearMotion, h: f64, boundary: f64) -> Option<f64> {
+    if motion.u0.abs() != boundary {
+        return None;
+    }
+    let side = motion.u0.signum();
+    let speed = -side * motion.v0;
+    let mut tau = 2.0 * boundary / speed;
+    if !(speed > 0.0 && tau <= h) {
+        return None;
+    }
+    for _ in 0..NEWTON_STEPS {
+        let (u, v) = motion.state(tau);
+        let step = (side * u + boundary) / (side * v);
+        let next = tau - step;
+        if !(next > 0.0 && next <= h) {
+            return None;
+        }
+        if step.abs() <= CONVERGED * h {
+            // monotone on the way: the velocity is inward at both ends and has no maximum between them
+            let w = motion.rates(next).1;
+            let inward = side * v < 0.0 && !(side * motion.w0 > 0.0 && side * w < 0.0);
+            return (inward && motion.k * h * h < 9.0).then_some(next);
+        }
+        tau = next;
+    }
+    None
+}
