@@ -1,7 +1,9 @@
 # Two commands do everything: `make run` and `make test`. Needs Rust (rustup, stable) and a C compiler; a cmake new enough for
 # the bundled HDF5 is looked for, or put under .tools, by .ci/provide-cmake.
 
-STUDY  ?= configs/quick.toml
+STUDY  ?= configs/europe.toml
+# A third of the strengths, so that the first look takes about a minute; `make run SET=` runs the study as it stands.
+SET    ?= --set strengths.values=0:1/100:1
 OUTPUT ?= results/$(basename $(notdir $(STUDY))).h5
 
 TOOLS := $(shell .ci/provide-cmake)
@@ -15,7 +17,7 @@ UPLIFT := target/release/uplift
 .PHONY: run build test lint docs python bench clean
 
 run: build
-	$(UPLIFT) run $(STUDY) -o $(OUTPUT)
+	$(UPLIFT) run $(STUDY) $(SET) -o $(OUTPUT)
 
 build:
 	cargo build --release --locked --package uplift

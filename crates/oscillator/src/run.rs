@@ -9,6 +9,9 @@ use crate::reference::OVERTURNED_CAPACITIES;
 use crate::stumpff::Stumpff;
 use crate::sweep::{Peak, Sweep};
 
+/// Samples stepped one by one before another block is tried.
+const SAMPLES_BETWEEN_SKIPS: usize = 4;
+
 /// Stumpff functions of a branch without stiffness.
 const PARABOLIC: Stumpff = Stumpff { c0: 1.0, c1: 1.0, c2: 0.5, c3: 1.0 / 6.0 };
 
@@ -138,44 +141,64 @@ impl<'a> Run<'a> {
         let sag_factor = sweep.sag_factor;
         let acceleration = sweep.ground.excitation.acceleration_m_s2();
         let mut w = -k * u - scale * acceleration[j];
-        let mut level = 0;
+        let (cos, sin) = sweep.rotations[0];
         while j < n {
-            while level > 0 && !(j.is_multiple_of(1 << level) && j >> level < elastic.bounds[level].len()) {
-                level -= 1;
-            }
-            let (cos, sin) = sweep.rotations[level];
-            let turned = (cos * free.0 + sin * free.1, cos * free.1 - sin * free.0);
-            if room > 0.0 && magnitude * elastic.bounds[level][j >> level] <= room {
-                // no phase of the free vibration lifts the system in this block
-                free = turned;
-                j += 1 << level;
-                u = scale * elastic.displacement_m[j] + free.0;
-                w = -k * u - scale * acceleration[j];
-                level = (level + 1).min(STRIDE_LEVELS);
-                continue;
-            }
-            if level > 0 {
-                level -= 1;
-                continue;
-            }
-            let next_u = scale * elastic.displacement_m[j + 1] + turned.0;
-            let next_w = -k * next_u - scale * acceleration[j + 1];
-            // above the chord by what the motion curves down at most, and the other way round
-            let above = larger(u, next_u) + sag_factor * larger(larger(-w, -next_w), 0.0);
-            let below = smaller(u, next_u) - sag_factor * larger(larger(w, next_w), 0.0);
-            if !(above <= boundary && below >= -boundary) {
-                let v = scale * elastic.velocity_m_s[j] + sweep.omega * free.1;
-                let at = At { interval: j, offset_s: 0.0, u, v, force: k * u };
-                let end_v = scale * elastic.velocity_m_s[j + 1] + sweep.omega * turned.1;
-                let end = State { u: next_u, v: end_v, w: next_w };
-                let motion = self.motion(&at, k);
-                if let Some(tau) = uplift_within(&motion, sweep.dt_s, &end, boundary) {
-                    return self.uplift(&motion, tau, &at);
+            if room > 0.0 {
+                let skipped = self.skip_blocks(&mut j, &mut free, room);
+                if skipped {
+                    u = scale * elastic.displacement_m[j] + free.0;
+                    w = -k * u - scale * acceleration[j];
                 }
             }
-            (j, u, w, free) = (j + 1, next_u, next_w, turned);
+            let stop = if room > 0.0 { n.min(j + SAMPLES_BETWEEN_SKIPS) } else { n };
+            let ahead = elastic.displacement_m[j..=stop].iter().zip(&acceleration[j..=stop]).skip(1);
+            for (interval, (elastic_u, ground)) in (j..stop).zip(ahead) {
+                let turned = (cos * free.0 + sin * free.1, cos * free.1 - sin * free.0);
+                let next_u = scale * elastic_u + turned.0;
+                let next_w = -k * next_u - scale * ground;
+                // above the chord by what the motion curves down at most, and the other way round
+                let above = larger(u, next_u) + sag_factor * larger(larger(-w, -next_w), 0.0);
+                let below = smaller(u, next_u) - sag_factor * larger(larger(w, next_w), 0.0);
+                if !(above <= boundary && below >= -boundary) {
+                    let v = scale * elastic.velocity_m_s[interval] + sweep.omega * free.1;
+                    let at = At { interval, offset_s: 0.0, u, v, force: k * u };
+                    let end_v = scale * elastic.velocity_m_s[interval + 1] + sweep.omega * turned.1;
+                    let end = State { u: next_u, v: end_v, w: next_w };
+                    let motion = self.motion(&at, k);
+                    if let Some(tau) = uplift_within(&motion, sweep.dt_s, &end, boundary) {
+                        return self.uplift(&motion, tau, &at);
+                    }
+                }
+                (u, w, free) = (next_u, next_w, turned);
+            }
+            j = stop;
         }
         Phase::RecordEnd(0.0, u, scale * elastic.velocity_m_s[n] + sweep.omega * free.1)
+    }
+
+    /// Skip the blocks from the sample `j` on in which the elastic response stays so small that no phase of the free vibration lifts the
+    /// system, turning `free` along; true if there was one.
+    fn skip_blocks(&self, j: &mut usize, free: &mut (f64, f64), room: f64) -> bool {
+        let (elastic, n) = (&self.sweep.elastic, self.sweep.ground.intervals());
+        let limit = room / self.scale.abs();
+        let start = *j;
+        let mut level = 0;
+        while *j < n {
+            while level > 0 && !(j.is_multiple_of(1 << level) && *j >> level < elastic.bounds[level].len()) {
+                level -= 1;
+            }
+            if elastic.bounds[level][*j >> level] <= limit {
+                let (cos, sin) = self.sweep.rotations[level];
+                *free = (cos * free.0 + sin * free.1, cos * free.1 - sin * free.0);
+                *j += 1 << level;
+                level = (level + 1).min(STRIDE_LEVELS);
+            } else if level > 0 {
+                level -= 1;
+            } else {
+                break;
+            }
+        }
+        *j > start
     }
 
     fn ground_end(&self, interval: usize) -> (f64, f64) {
