@@ -57,12 +57,14 @@ impl ElasticResponse {
         }
         // the amplitude bounds the free vibration even where its first peak is not asked for
         let free_m = if k > 0.0 { u.hypot(v / k.sqrt()) } else { u.abs() };
-        if with_free_peak
-            && k > 0.0
-            && let FreePeak::At { displacement_m: free_peak_m, .. } =
-                first_peak(attached, attached, f64::INFINITY, 1.0, (0.0, u, v))
-            && free_peak_m > peak_m
-        {
+        let free_peak_m = match first_peak(attached, attached, f64::INFINITY, 1.0, (0.0, u, v)) {
+            _ if !with_free_peak => 0.0,
+            // without stiffness the system drifts on after the record
+            _ if k == 0.0 && v != 0.0 => f64::INFINITY,
+            FreePeak::At { displacement_m, .. } => displacement_m,
+            FreePeak::Overturns => 0.0,
+        };
+        if free_peak_m > peak_m {
             peak_m = free_peak_m;
             highs.push((n, free_peak_m));
         }

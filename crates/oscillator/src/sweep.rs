@@ -84,6 +84,9 @@ impl<'a> Sweep<'a> {
     /// The peak under the record times `scale`, which multiplies the excitation's own.
     pub fn peak(&self, scale: f64) -> Peak {
         let scale = scale * self.ground.excitation.scale();
+        if scale == 0.0 {
+            return Peak { displacement_m: 0.0, impacts: 0 };
+        }
         let elastic_peak_m = scale.abs() * self.elastic.peak_m;
         let level_m = self.boundary_m / scale.abs();
         match self.elastic.first_interval_above(level_m) {

@@ -101,3 +101,18 @@ fn most_runs_are_judged() {
     assert!(judged * 10 > runs * 8, "{judged} of {runs}");
     assert!(impacts > 10 * runs);
 }
+
+// Strength zero with a post-uplift stiffness: no force while attached, so the system drifts to the boundary after the record, is
+// stopped by the stiffness and no linear response bounds it.
+#[test]
+fn drift_after_the_record_reaches_the_boundary() {
+    let post_uplift = PostUplift::Positive { stiffness_per_s2: 0.1 };
+    let oscillator = Oscillator::new(0.0, G, 0.0005, 0.5, post_uplift).unwrap();
+    let record = [0.1, 0.3];
+    compare(&oscillator, 0.002, &record, 1.0, true).unwrap();
+    // v = 0.4 mm/s at the end of the record; the rest by energy: k d²/2 = v²/2
+    let ground = GroundMotion::new(Excitation::new(0.002, &record).unwrap());
+    let peak = Sweep::new(&oscillator, &ground, true).peak(1.0).displacement_m;
+    assert!((peak - 0.0005 - 0.0004 / 0.1_f64.sqrt()).abs() < 1e-12, "{peak}");
+    assert_eq!(Sweep::new(&oscillator, &ground, true).peak(0.0).displacement_m, 0.0);
+}
