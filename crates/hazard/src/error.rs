@@ -118,7 +118,7 @@ pub enum HazardError {
     // Evaluation
     /// An intensity outside the curve, extrapolation refused.
     #[error(
-        "{measure} = {value} {unit} lies outside the hazard curve, which spans {first} to {last} {unit}; give a curve that covers it, or choose log-log extrapolation (extrapolate = \"loglog\")"
+        "{measure} = {value} {unit} lies outside the hazard curve, which spans {first} to {last} {unit}; give a curve that covers it, or choose log-log extrapolation (risk.extrapolate = \"loglog\")"
     )]
     LevelOutside {
         /// The measure.
@@ -134,7 +134,7 @@ pub enum HazardError {
     },
     /// A rate outside the curve, extrapolation refused.
     #[error(
-        "annual rate {value} 1/yr lies outside the hazard curve of {measure}, which spans {first} down to {last} 1/yr; give a curve that covers it, or choose log-log extrapolation (extrapolate = \"loglog\")"
+        "annual rate {value} 1/yr lies outside the hazard curve of {measure}, which spans {first} down to {last} 1/yr; give a curve that covers it, or choose log-log extrapolation (risk.extrapolate = \"loglog\")"
     )]
     RateOutside {
         /// The measure.

@@ -127,7 +127,7 @@ fn warnings_of(
     }
     if records.records.len() < FEW_RECORDS {
         warnings.push(format!(
-            "{} records are few: below about {FEW_RECORDS} the spectra depend strongly on the choice of records",
+            "few records ({}): below about {FEW_RECORDS} the spectra depend strongly on the choice of records",
             records.records.len()
         ));
     }

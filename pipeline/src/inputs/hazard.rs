@@ -81,11 +81,7 @@ fn read_one(
         Extrapolate::Loglog => Extrapolation::LogLog,
     };
     let weights = StripeWeights::from_hazard(&curve, &plan.levels, extrapolation).map_err(|error| {
-        format!(
-            "{}: {error}; or set risk.extrapolate = \"loglog\", or leave the level out of [{}]",
-            file.file.display(),
-            plan.measure.key()
-        )
+        format!("{}: {error}; or leave the level out of [{}]", file.file.display(), plan.measure.key())
     })?;
     let bytes = std::fs::read(&file.file).map_err(|error| format!("{}: {error}", file.file.display()))?;
     Ok(SiteHazard {
