@@ -99,6 +99,17 @@ fn manifests() {
     study.uplift(&["check", "study.toml"]).fails(4, &["manifest.csv"]);
 }
 
+// One --set turns a study of synthetic records into one of real ones; a path typed there starts from where it is typed.
+#[test]
+fn manifest_goes_before_the_synthetic_set() {
+    let study = with_manifest("A,a.AT2,a.AT2,good,,\nB,a.txt,a.txt,,0.01,g\n");
+    study.write("synthetic.toml", SMALL_STUDY);
+    let set = ["--set", "records.manifest=manifest.csv", "--set", "records.tag=good", "--set", "records.first=1"];
+    let run = study.uplift(&[&["run", "synthetic.toml", "-o", "r.h5"], &set[..]].concat()).ok();
+    assert!(run.stderr.contains("1 recorded pair (manifest.csv, tag good)"), "{}", run.stderr);
+    assert!(!run.stdout.contains("synthetic"), "{}", run.stdout);
+}
+
 #[test]
 fn record_files() {
     let study = with_manifest("A,a.AT2,b.AT2,,,\nC,c.AT2,a.AT2,,,\nD,a.AT2,d.AT2,,,\nE,e.AT2,e.AT2,,,\n");

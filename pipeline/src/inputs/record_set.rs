@@ -72,8 +72,9 @@ pub fn read_records(study: &ResolvedStudy) -> Result<RecordSet, UpliftError> {
             (read_manifest(manifest, tag.as_deref(), first, study)?, format!("{name}{tag_note}"), false)
         }
     };
-    let kind = if synthetic { "synthetic pairs" } else { "recorded pairs" };
-    let description = format!("{} {kind} ({source}), component {}", pairs.len(), study.records.component);
+    let kind = if synthetic { "synthetic" } else { "recorded" };
+    let noun = if pairs.len() == 1 { "pair" } else { "pairs" };
+    let description = format!("{} {kind} {noun} ({source}), component {}", pairs.len(), study.records.component);
     Ok(RecordSet { description, synthetic, records: analysis_records(pairs, study)? })
 }
 

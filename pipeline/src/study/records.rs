@@ -18,14 +18,11 @@ pub(super) fn read(mut section: Section<'_>, folders: &Folders) -> Option<Record
     let first_field = section.field("first");
     let first = optional(first_field.as_ref(), |field| field.integer(1, LARGEST_INTEGER));
     let mut synthetic = section.section("synthetic");
+    let pairs = synthetic.field("pairs").map_or(Some(DEFAULT_SYNTHETIC_PAIRS), |field| field.integer(1, MOST_PAIRS));
+    let seed = synthetic.seed_or(DEFAULT_SYNTHETIC_SEED);
+    synthetic.finish();
+    // a manifest goes before: so one `--set records.manifest=…` turns a study of synthetic records into one of real ones
     let source = if let Some(field) = manifest_field {
-        if synthetic.is_present() {
-            section.mistake(
-                "synthetic",
-                "records come from a manifest and are synthetic as well",
-                "keep `manifest` or [records.synthetic], not both",
-            );
-        }
         let manifest = folders.input(&field);
         let tag = optional(tag_field.as_ref(), |field| field.filled_text().map(str::to_owned));
         (|| Some(RecordSource::Manifest { manifest: manifest?, tag: tag? }))()
@@ -33,9 +30,6 @@ pub(super) fn read(mut section: Section<'_>, folders: &Folders) -> Option<Record
         if let Some(field) = tag_field {
             field.mistake("a tag chooses rows of a manifest, and there is none", "give `manifest`, or leave `tag` out");
         }
-        let pairs =
-            synthetic.field("pairs").map_or(Some(DEFAULT_SYNTHETIC_PAIRS), |field| field.integer(1, MOST_PAIRS));
-        let seed = synthetic.seed_or(DEFAULT_SYNTHETIC_SEED);
         if let (Some(field), Some(Some(first)), Some(pairs)) = (first_field, first, pairs)
             && first > pairs
         {
@@ -44,7 +38,6 @@ pub(super) fn read(mut section: Section<'_>, folders: &Folders) -> Option<Record
                 format!("use at most {pairs}, or raise records.synthetic.pairs"),
             );
         }
-        synthetic.finish();
         (|| Some(RecordSource::Synthetic { pairs: pairs?, seed: seed? }))()
     };
     section.finish();

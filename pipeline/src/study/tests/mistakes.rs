@@ -132,8 +132,8 @@ fn one_by_one() {
         ("[pgv]\n[records]\ntag = \"x\"", "records.tag: a tag chooses rows of a manifest, and there is none"),
         ("[pgv]\n[records]\nfirst = 106", "records.first: the first 106 records are asked for, and there are 105"),
         (
-            "[pgv]\n[records]\nmanifest = \"manifest.csv\"\n[records.synthetic]",
-            "records.synthetic: records come from a manifest and are synthetic as well",
+            "[pgv]\n[records]\nmanifest = \"manifest.csv\"\n[records.synthetic]\nfirst = 1",
+            "records.synthetic.first: unknown key `first`",
         ),
         ("[pgv]\n[records.synthetic]\npairs = 1000000", "records.synthetic.pairs: the value is 1000000"),
         ("[pgv]\n[records]\nmanifest = \" \"", "records.manifest: the text is empty"),
