@@ -57,6 +57,9 @@ pub struct SmallStudy {
     pub folder: TempDir,
 }
 
+/// An earlier result, as far as its first bytes tell.
+pub const EARLIER: &[u8] = b"\x89HDF\r\n\x1a\nan earlier result";
+
 pub const SMALL_STUDY: &str = r#"title = "small"
 [records]
 first = 4
@@ -112,6 +115,10 @@ impl SmallStudy {
         let path = self.path().join(name);
         std::fs::write(&path, text).unwrap();
         path
+    }
+
+    pub fn write_bytes(&self, name: &str, bytes: &[u8]) {
+        std::fs::write(self.path().join(name), bytes).unwrap();
     }
 
     /// `uplift ARGUMENTS` in the folder of the study.

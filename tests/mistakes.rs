@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{SMALL_STUDY, SmallStudy};
+use common::{EARLIER, SMALL_STUDY, SmallStudy};
 
 const MANIFEST: &str = "record_id,file_h1,file_h2,set_tags,dt_s,unit\n";
 
@@ -141,10 +141,10 @@ fn places_that_cannot_be_written() {
 #[test]
 fn earlier_result_survives() {
     let study = SmallStudy::new();
-    study.write("r.h5", "an earlier result");
+    study.write_bytes("r.h5", EARLIER);
     study.write("here-pgv.csv", "iml,maf\n0.5,0.1\n50,0.01\n");
     study.uplift(&["run", "study.toml", "-o", "r.h5"]).fails(4, &["100 cm/s"]);
-    assert_eq!(std::fs::read_to_string(study.path().join("r.h5")).unwrap(), "an earlier result");
+    assert_eq!(std::fs::read(study.path().join("r.h5")).unwrap(), EARLIER);
 }
 
 #[test]
@@ -162,4 +162,18 @@ fn help_names_every_command() {
     for command in ["run", "check", "response", "table", "Exit codes"] {
         assert!(help.contains(command), "{command}:\n{help}");
     }
+}
+
+// A slip of the keyboard must not cost an input: only an HDF5 file gives way to a result.
+#[test]
+fn inputs_are_never_overwritten() {
+    let study = with_manifest("A,a.AT2,a.AT2,,,\n");
+    for name in ["study.toml", "manifest.csv", "here-pgv.csv", "a.AT2"] {
+        let before = std::fs::read(study.path().join(name)).unwrap();
+        study.uplift(&["run", "study.toml", "-o", name]).fails(4, &[name, "not an HDF5 file", "-o"]);
+        assert_eq!(std::fs::read(study.path().join(name)).unwrap(), before, "{name}");
+    }
+    let before = std::fs::read(study.path().join("a.AT2")).unwrap();
+    study.uplift(&["response", "a.AT2", "--strength", "0.2", "--history", "./a.AT2"]).fails(2, &["overwrite"]);
+    assert_eq!(std::fs::read(study.path().join("a.AT2")).unwrap(), before);
 }

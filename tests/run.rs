@@ -6,7 +6,7 @@ mod common;
 use std::path::Path;
 use std::process::Command;
 
-use common::{SmallStudy, command, python, repository};
+use common::{EARLIER, SmallStudy, command, python, repository};
 use uplift::labelled::LabelledReader;
 
 fn arrays(path: &Path) -> Vec<(String, Vec<u64>)> {
@@ -159,7 +159,7 @@ fn negative_stiffness_overturns_and_is_said_so() {
 #[test]
 fn interruption_keeps_the_earlier_result() {
     let study = SmallStudy::new();
-    study.write("r.h5", "an earlier result");
+    study.write_bytes("r.h5", EARLIER);
     let long =
         ["run", "study.toml", "-o", "r.h5", "--set", "strengths.values=0:1/20000:1", "--set", "risk.maf_surface=false"];
     let child = command(study.path())
@@ -172,7 +172,7 @@ fn interruption_keeps_the_earlier_result() {
     Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(5), "{}", String::from_utf8_lossy(&output.stderr));
-    assert_eq!(std::fs::read_to_string(study.path().join("r.h5")).unwrap(), "an earlier result");
+    assert_eq!(std::fs::read(study.path().join("r.h5")).unwrap(), EARLIER);
     assert_eq!(
         study
             .path()
@@ -189,7 +189,7 @@ fn interruption_keeps_the_earlier_result() {
 #[test]
 fn full_disk_keeps_the_earlier_result() {
     let study = SmallStudy::new();
-    study.write("r.h5", "an earlier result");
+    study.write_bytes("r.h5", EARLIER);
     let script =
         format!("trap '' XFSZ; ulimit -f 16; exec '{}' run study.toml -o r.h5 --quiet", env!("CARGO_BIN_EXE_uplift"));
     let output = Command::new("sh")
@@ -202,7 +202,7 @@ fn full_disk_keeps_the_earlier_result() {
     let stderr = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(4), "{stderr}");
     assert!(stderr.contains("r.h5") && stderr.contains("File too large"), "{stderr}");
-    assert_eq!(std::fs::read_to_string(study.path().join("r.h5")).unwrap(), "an earlier result");
+    assert_eq!(std::fs::read(study.path().join("r.h5")).unwrap(), EARLIER);
 }
 
 #[test]

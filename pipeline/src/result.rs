@@ -3,12 +3,14 @@
 mod csv;
 mod provenance;
 mod read;
+mod target;
 mod write;
 
 pub(crate) use csv::write_table;
 pub use csv::{csv_paths, write_csv};
 pub use provenance::Provenance;
 pub use read::{Fit, Spectrum, StoredResult};
+pub use target::check_target;
 pub use write::write_result;
 
 use crate::inputs::{RecordSet, SiteHazard};

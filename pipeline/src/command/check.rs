@@ -10,7 +10,7 @@ use uplift_ida::{Plan, estimate};
 use super::{Session, StudyArguments};
 use crate::error::UpliftError;
 use crate::inputs::{RecordSet, read_hazard, read_records};
-use crate::labelled::LabelledWriter;
+use crate::result::check_target;
 use crate::stages::{oscillators, plan_stripes};
 use crate::study::ResolvedStudy;
 use crate::table::thousands;
@@ -29,7 +29,7 @@ pub(super) struct CheckArguments {
 
 pub(super) fn check(arguments: &CheckArguments, session: &Session) -> Result<(), UpliftError> {
     let study = arguments.study.load()?;
-    drop(LabelledWriter::create(&study.output.file)?);
+    check_target(&study.output.file)?;
     let (_, mut notes) = read_hazard(&study)?;
     let records = read_records(&study)?;
     let oscillators = oscillators(&study)?;

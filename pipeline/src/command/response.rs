@@ -75,6 +75,12 @@ pub(super) fn response(arguments: &ResponseArguments) -> Result<(), UpliftError>
     if !(free_s.is_finite() && free_s >= 0.0) {
         return Err(usage(format!("--free-vibration-s is {free_s}: give seconds, not negative")));
     }
+    if let Some(path) = &arguments.history
+        && let (Ok(table), Ok(record)) = (path.canonicalize(), arguments.record.canonicalize())
+        && table == record
+    {
+        return Err(usage(format!("--history {} would overwrite the record: give another name", path.display())));
+    }
     let options = ReadOptions { dt_s: arguments.dt_s, unit: arguments.unit, gravity_m_s2: arguments.gravity_m_s2 };
     let accelerogram = read_path(&arguments.record, &options).map_err(|error| UpliftError::input(error.to_string()))?;
     let excitation = Excitation::new(accelerogram.dt_s(), accelerogram.acceleration_m_s2())

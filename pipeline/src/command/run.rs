@@ -12,9 +12,8 @@ use uplift_risk::OrdinateFlag;
 use super::{Session, StudyArguments};
 use crate::error::UpliftError;
 use crate::inputs::{RecordSet, read_hazard, read_records};
-use crate::labelled::LabelledWriter;
 use crate::progress::Progress;
-use crate::result::{Outcome, Provenance, csv_paths, write_csv, write_result};
+use crate::result::{Outcome, Provenance, check_target, csv_paths, write_csv, write_result};
 use crate::stages::{
     Coefficients, Spectra, Stripes, analyse_stripes, fit_spectra, oscillators, plan_stripes, uniform_risk_spectra,
 };
@@ -43,7 +42,7 @@ pub(super) fn run(arguments: &RunArguments, session: &Session) -> Result<(), Upl
     let study = arguments.study.load()?;
     let path = arguments.output.clone().unwrap_or_else(|| study.output.file.clone());
     // a place that cannot be written is found now, not after the analyses
-    drop(LabelledWriter::create(&path)?);
+    check_target(&path)?;
     for warning in &study.warnings {
         session.remark(&format!("note: {warning}"));
     }

@@ -1,0 +1,28 @@
+//! The place of a result file, checked before anything is computed.
+
+use std::io::Read;
+use std::path::Path;
+
+use crate::error::UpliftError;
+use crate::labelled::LabelledWriter;
+
+/// First bytes of every HDF5 file.
+const HDF5_SIGNATURE: [u8; 8] = *b"\x89HDF\r\n\x1a\n";
+
+/// Check that a result can be written to `path` and replaces nothing but an earlier HDF5 file: a slip of the keyboard must not cost
+/// a study, a record or a hazard curve.
+///
+/// # Errors
+/// A folder that cannot be written, or a file there that is no HDF5 file.
+pub fn check_target(path: &Path) -> Result<(), UpliftError> {
+    drop(LabelledWriter::create(path)?);
+    let Ok(mut file) = std::fs::File::open(path) else { return Ok(()) };
+    let mut first = [0; 8];
+    if file.read_exact(&mut first).is_err() || first != HDF5_SIGNATURE {
+        return Err(UpliftError::input(format!(
+            "{}: is there already and is not an HDF5 file; it is left as it is: give the result file another name (-o), or remove that one",
+            path.display()
+        )));
+    }
+    Ok(())
+}
