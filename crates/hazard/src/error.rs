@@ -118,7 +118,7 @@ pub enum HazardError {
     // Evaluation
     /// An intensity outside the curve, extrapolation refused.
     #[error(
-        "{measure} = {value} {unit} lies outside the hazard curve, which spans {first} to {last} {unit}; give a curve that covers it, or choose log-log extrapolation (risk.extrapolate = \"loglog\")"
+        "{measure} = {value} {unit} lies outside the hazard curve, which spans {first} to {last} {unit}; check the unit of the curve, give a curve that covers it, or choose log-log extrapolation (risk.extrapolate = \"loglog\")"
     )]
     LevelOutside {
         /// The measure.

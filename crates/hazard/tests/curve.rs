@@ -53,7 +53,7 @@ fn outside_the_curve_is_refused_with_the_way_out() {
     let curve = power_law();
     assert_eq!(
         curve.rate_at(250.0).unwrap_err().to_string(),
-        "PGV = 250 cm/s lies outside the hazard curve, which spans 1 to 100 cm/s; give a curve that covers it, or \
+        "PGV = 250 cm/s lies outside the hazard curve, which spans 1 to 100 cm/s; check the unit of the curve, give a curve that covers it, or \
          choose log-log extrapolation (risk.extrapolate = \"loglog\")"
     );
     assert!(matches!(curve.rate_at(0.999), Err(HazardError::LevelOutside { .. })));
