@@ -51,6 +51,16 @@ impl LinearMotion {
         self.state_with(tau, &Stumpff::at(self.k * tau * tau))
     }
 
+    /// The same motion told from `τ` seconds on.
+    #[inline]
+    pub fn restarted(&self, tau: f64) -> Self {
+        let s = Stumpff::at(self.k * tau * tau);
+        let (u0, v0) = self.state_with(tau, &s);
+        let w0 = self.w0 * s.c0 + tau * self.j0 * s.c1;
+        let j0 = self.j0 * s.c0 - self.k * tau * self.w0 * s.c1;
+        Self { u0, v0, w0, j0, k: self.k }
+    }
+
     /// Velocity (m/s) and acceleration (m/s²) at `τ` seconds.
     #[inline]
     pub fn rates(&self, tau: f64) -> (f64, f64) {

@@ -6,6 +6,7 @@
 
 use crate::branch::LinearMotion;
 use crate::nodes::{Node, Nodes, crossing, monotone_root};
+use crate::stumpff::Stumpff;
 
 /// Largest `(ωh)²` for the reasoning of this file: a little below π².
 const SIMPLE: f64 = 9.0;
@@ -13,6 +14,8 @@ const SIMPLE: f64 = 9.0;
 const NEWTON_STEPS: usize = 12;
 /// A Newton step below this part of the interval leaves an error of its square.
 const CONVERGED: f64 = 1e-9;
+/// Newton steps on the short series before a new start is made.
+const NEARBY_STEPS: usize = 5;
 
 /// Displacement, velocity and acceleration.
 #[derive(Debug, Clone, Copy)]
@@ -23,7 +26,7 @@ pub(crate) struct State {
 }
 
 /// Time at which an attached system passes one of the boundaries, outward, within `h`; `end` is its state then.
-pub(crate) fn uplift_within(motion: &LinearMotion, h: f64, end: &State, boundary: f64) -> Option<f64> {
+pub(crate) fn uplift_within(motion: &LinearMotion, h: f64, end: &State, boundary: f64) -> Option<Passage> {
     let inside = end.u.abs() <= boundary;
     if motion.k * h * h < SIMPLE {
         let (from, to) = (Node { tau: 0.0, u: motion.u0 }, Node { tau: h, u: end.u });
@@ -35,10 +38,7 @@ pub(crate) fn uplift_within(motion: &LinearMotion, h: f64, end: &State, boundary
             }
         } else if motion.v0 * end.v < 0.0 {
             // one turning point
-            if inside
-                && (one_curvature && tangents_meet(motion, h, end).abs() <= boundary
-                    || sags_inside(motion, h, end, boundary))
-            {
+            if inside && turns_inside(motion, h, boundary) {
                 return None;
             }
             let tau = turning_time(motion, h, end.v);
@@ -49,26 +49,46 @@ pub(crate) fn uplift_within(motion: &LinearMotion, h: f64, end: &State, boundary
             return (!inside).then(|| passage(motion, turn, 0.0, to, boundary.copysign(end.u)));
         }
     }
-    if inside && sags_inside(motion, h, end, boundary) {
+    if inside && turns_inside(motion, h, boundary) {
         return None;
     }
     first_crossing(motion, h, |u| (u.abs() > boundary).then(|| boundary.copysign(u)))
 }
 
-/// True if the deviation from the chord keeps a motion inside the boundaries.
-fn sags_inside(motion: &LinearMotion, h: f64, end: &State, boundary: f64) -> bool {
-    let sag = 0.125 * h * h * motion.acceleration_bound(h, end.w);
-    motion.u0.abs().max(end.u.abs()) + sag <= boundary
+/// True if no turning point of a motion with `k > 0` within `h` lies beyond the boundaries.
+///
+/// The motion oscillates about the equilibrium `e = u + w/k`, which drifts at the constant rate `ė`, with the amplitude `A`. Where its
+/// velocity is zero the distance from the equilibrium is `√(A² − ė²/k)`.
+fn turns_inside(motion: &LinearMotion, h: f64, boundary: f64) -> bool {
+    let flexibility = 1.0 / motion.k;
+    let (x, lag) = (motion.w0 * flexibility, motion.j0 * flexibility);
+    let start = motion.u0 + x;
+    let drift = motion.v0 + lag;
+    let end = start + drift * h;
+    let distance = (x * x + (lag * lag - drift * drift) * flexibility).max(0.0).sqrt();
+    start.max(end) + distance <= boundary && start.min(end) - distance >= -boundary
 }
 
-/// Displacement at which the tangents at both ends of a motion meet: beyond its turning point if it has one curvature.
-fn tangents_meet(motion: &LinearMotion, h: f64, end: &State) -> f64 {
-    motion.u0 + motion.v0 * (end.u - motion.u0 - end.v * h) / (motion.v0 - end.v)
+/// A level passed: when, and how fast.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Passage {
+    /// The level, m.
+    pub(crate) level: f64,
+    /// Time since the start of the motion, s.
+    pub(crate) tau: f64,
+    /// Velocity, m/s.
+    pub(crate) v: f64,
 }
 
-/// The time at which `motion` passes `level`, which it does once between `from`, where its velocity is `v`, and `to`: Newton's method in
+impl Passage {
+    fn of(motion: &LinearMotion, tau: f64, level: f64) -> Self {
+        Self { level, tau, v: motion.state(tau).1 }
+    }
+}
+
+/// Where `motion` passes `level`, which it does once between `from`, where its velocity is `v`, and `to`: Newton's method in
 /// a bracket, from the root of the parabola through the state at `from` and the end.
-pub(crate) fn passage(motion: &LinearMotion, from: Node, v: f64, to: Node, level: f64) -> f64 {
+pub(crate) fn passage(motion: &LinearMotion, from: Node, v: f64, to: Node, level: f64) -> Passage {
     let span = to.tau - from.tau;
     let distance = level - from.u;
     let ahead = 1.0_f64.copysign(to.u - level);
@@ -76,25 +96,74 @@ pub(crate) fn passage(motion: &LinearMotion, from: Node, v: f64, to: Node, level
     let discriminant = (v * v + 2.0 * curvature * distance).max(0.0);
     let (mut low, mut high) = (from.tau, to.tau);
     let mut tau = from.tau + 2.0 * distance / (v + ahead * discriminant.sqrt());
+    if motion.k == 0.0
+        && let Some(found) = cubic_passage(motion, tau, level, CONVERGED * span)
+        && found.tau >= low
+        && found.tau <= high
+        && found.v * ahead > 0.0
+    {
+        return found;
+    }
     for _ in 0..NEWTON_STEPS {
         // written so that NaN is left
         if !(tau > low && tau < high) {
             tau = 0.5 * (low + high);
         }
-        let (u, v) = motion.state(tau);
-        if ahead * (u - level) > 0.0 {
+        let here = motion.restarted(tau);
+        if let Some((further, v)) = nearby_passage(&here, level, CONVERGED * span) {
+            let found = tau + further;
+            if found >= low && found <= high && v * ahead > 0.0 {
+                return Passage { level, tau: found, v };
+            }
+        }
+        if ahead * (here.u0 - level) > 0.0 {
             high = tau;
         } else {
             low = tau;
         }
-        let step = (u - level) / v;
-        let next = tau - step;
-        if step.abs() <= CONVERGED * span && next >= low && next <= high {
-            return next;
-        }
-        tau = next;
+        tau -= (here.u0 - level) / here.v0;
     }
-    crossing(motion, Node { tau: low, u: motion.state(low).0 }, Node { tau: high, u: motion.state(high).0 }, level)
+    let from = Node { tau: low, u: motion.state(low).0 };
+    let to = Node { tau: high, u: motion.state(high).0 };
+    Passage::of(motion, crossing(motion, from, to, level), level)
+}
+
+/// Newton's method from `tau` on for a motion without stiffness, which is a cubic; `None` where it does not settle.
+#[inline]
+fn cubic_passage(motion: &LinearMotion, mut tau: f64, level: f64, converged: f64) -> Option<Passage> {
+    let (half, third) = (0.5 * motion.w0, motion.j0 * (1.0 / 6.0));
+    let distance = level - motion.u0;
+    for _ in 0..NEARBY_STEPS {
+        let v = motion.v0 + tau * (motion.w0 + tau * (0.5 * motion.j0));
+        let step = (tau * (motion.v0 + tau * (half + tau * third)) - distance) / v;
+        tau -= step;
+        if step.abs() <= converged {
+            return Some(Passage { level, tau, v: v - step * (motion.w0 + tau * motion.j0) });
+        }
+    }
+    None
+}
+
+/// Time until `here` passes `level` and its velocity there, if that is so near that short series serve: one evaluation of the full
+/// ones then finds a passage.
+#[inline]
+fn nearby_passage(here: &LinearMotion, level: f64, converged: f64) -> Option<(f64, f64)> {
+    // the inverse series to its third term
+    let inverse = 1.0 / here.v0;
+    let first = (level - here.u0) * inverse;
+    let bend = 0.5 * first * here.w0 * inverse;
+    let mut tau = first * (1.0 - bend + 2.0 * bend * bend - here.j0 * first * first * inverse * (1.0 / 6.0));
+    for _ in 0..NEARBY_STEPS {
+        let short = Stumpff::near_zero(here.k * tau * tau)?;
+        let (u, v) = here.state_with(tau, &short);
+        let step = (u - level) / v;
+        tau -= step;
+        if step.abs() <= converged {
+            let w = here.w0 * short.c0 + tau * here.j0 * short.c1;
+            return Some((tau, v - step * w));
+        }
+    }
+    None
 }
 
 /// Time at which the velocity of a motion vanishes, which changes its sign once between the start and `v1` at `h`.
@@ -131,11 +200,11 @@ pub(crate) fn first_crossing(
     motion: &LinearMotion,
     h: f64,
     mut level_beyond: impl FnMut(f64) -> Option<f64>,
-) -> Option<f64> {
+) -> Option<Passage> {
     let mut from = Node { tau: 0.0, u: motion.u0 };
     for to in Nodes::new(motion, h) {
         if let Some(level) = level_beyond(to.u) {
-            return Some(crossing(motion, from, to, level));
+            return Some(Passage::of(motion, crossing(motion, from, to, level), level));
         }
         from = to;
     }
@@ -143,7 +212,7 @@ pub(crate) fn first_crossing(
 }
 
 /// The passage of an attached system from one boundary straight to the other within `h`: `None` if it is not as simple as that.
-pub(crate) fn transit(motion: &LinearMotion, h: f64, boundary: f64) -> Option<f64> {
+pub(crate) fn transit(motion: &LinearMotion, h: f64, boundary: f64) -> Option<Passage> {
     if motion.u0.abs() != boundary {
         return None;
     }
@@ -164,7 +233,11 @@ pub(crate) fn transit(motion: &LinearMotion, h: f64, boundary: f64) -> Option<f6
             // monotone on the way: the velocity is inward at both ends and has no maximum between them
             let w = motion.rates(next).1;
             let inward = side * v < 0.0 && !(side * motion.w0 > 0.0 && side * w < 0.0);
-            return (inward && motion.k * h * h < 9.0).then_some(next);
+            return (inward && motion.k * h * h < 9.0).then_some(Passage {
+                level: -side * boundary,
+                tau: next,
+                v: v - step * w,
+            });
         }
         tau = next;
     }

@@ -4,7 +4,7 @@ use crate::branch::LinearMotion;
 use crate::free_vibration::{FreePeak, first_peak};
 use crate::ground_motion::STRIDE_LEVELS;
 use crate::nodes::Node;
-use crate::passages::{State, first_crossing, passage, transit, turning_time, uplift_within};
+use crate::passages::{Passage, State, first_crossing, passage, transit, turning_time, uplift_within};
 use crate::reference::OVERTURNED_CAPACITIES;
 use crate::stumpff::Stumpff;
 use crate::sweep::{Peak, Sweep};
@@ -108,13 +108,13 @@ impl<'a> Run<'a> {
         // the rest of the interval of the impact
         let motion = self.motion(&start, k);
         let rest = sweep.dt_s - start.offset_s;
-        if let Some(tau) = transit(&motion, rest, boundary) {
-            return self.uplift(&motion, tau, &start);
+        if let Some(passage) = transit(&motion, rest, boundary) {
+            return self.uplift(passage, &start);
         }
         let (u, v) = self.end_of_interval(&motion, &start, &sweep.whole_attached);
         let end = State { u, v, w: -k * u - self.ground_end(start.interval).0 };
-        if let Some(tau) = uplift_within(&motion, rest, &end, boundary) {
-            return self.uplift(&motion, tau, &start);
+        if let Some(passage) = uplift_within(&motion, rest, &end, boundary) {
+            return self.uplift(passage, &start);
         }
         if k == 0.0 {
             // without stiffness there is no elastic response to lean on
@@ -165,8 +165,8 @@ impl<'a> Run<'a> {
                     let end_v = scale * elastic.velocity_m_s[interval + 1] + sweep.omega * turned.1;
                     let end = State { u: next_u, v: end_v, w: next_w };
                     let motion = self.motion(&at, k);
-                    if let Some(tau) = uplift_within(&motion, sweep.dt_s, &end, boundary) {
-                        return self.uplift(&motion, tau, &at);
+                    if let Some(passage) = uplift_within(&motion, sweep.dt_s, &end, boundary) {
+                        return self.uplift(passage, &at);
                     }
                 }
                 (u, w, free) = (next_u, next_w, turned);
@@ -206,14 +206,13 @@ impl<'a> Run<'a> {
         (self.scale * a[interval + 1], self.scale * a[interval])
     }
 
-    fn uplift(&mut self, motion: &LinearMotion, tau: f64, at: &At) -> Phase {
+    fn uplift(&self, passage: Passage, at: &At) -> Phase {
         let sweep = self.sweep;
-        let (u, v) = motion.state(tau);
-        let side = 1.0_f64.copysign(u);
-        let v = side * (side * v).max(0.0);
+        let side = 1.0_f64.copysign(passage.level);
+        let v = side * (side * passage.v).max(0.0);
         let displaced = At {
             interval: at.interval,
-            offset_s: at.offset_s + tau,
+            offset_s: at.offset_s + passage.tau,
             u: side * sweep.boundary_m,
             v,
             force: side * sweep.at_boundary_m_s2,
@@ -226,15 +225,14 @@ impl<'a> Run<'a> {
         if at.offset_s < self.sweep.dt_s { at } else { At { interval: at.interval + 1, offset_s: 0.0, ..at } }
     }
 
-    fn impact(&mut self, motion: &LinearMotion, tau: f64, side: f64, at: &At) -> Phase {
+    fn impact(&mut self, passage: Passage, side: f64, at: &At) -> Phase {
         let sweep = self.sweep;
-        let v = motion.state(tau).1;
         self.impacts += 1;
         Phase::Attached(self.normalised(At {
             interval: at.interval,
-            offset_s: at.offset_s + tau,
+            offset_s: at.offset_s + passage.tau,
             u: side * sweep.boundary_m,
-            v: sweep.restitution * side * (side * v).min(0.0),
+            v: sweep.restitution * side * (side * passage.v).min(0.0),
             force: side * sweep.at_boundary_m_s2,
         }))
     }
@@ -251,10 +249,10 @@ impl<'a> Run<'a> {
             let rest = sweep.dt_s - at.offset_s;
             let (u, v) = self.end_of_interval(&motion, &at, &sweep.whole_uplifted);
             let force = sweep.uplifted.restoring(side, u);
-            if let Some(tau) =
+            if let Some(passage) =
                 self.uplifted_interval(&motion, rest, side, (u, v), -force - self.ground_end(at.interval).0)
             {
-                return self.impact(&motion, tau, side, &at);
+                return self.impact(passage, side, &at);
             }
             at = At { interval: at.interval + 1, offset_s: 0.0, u, v, force };
             if sweep.capacity_m.is_finite() && !(u.abs() <= OVERTURNED_CAPACITIES * sweep.capacity_m) {
@@ -273,7 +271,7 @@ impl<'a> Run<'a> {
         side: f64,
         end: (f64, f64),
         w1: f64,
-    ) -> Option<f64> {
+    ) -> Option<Passage> {
         let boundary = self.sweep.boundary_m;
         let sag = 0.125 * rest * rest * motion.acceleration_bound(rest, w1);
         let (from, to) = (side * motion.u0, side * end.0);
@@ -321,8 +319,8 @@ impl<'a> Run<'a> {
         let rest = dt - start.offset_s;
         let end = motion.state_with(rest, &PARABOLIC);
         let w1 = -start.force - self.ground_end(start.interval).0;
-        if let Some(tau) = self.uplifted_interval(&motion, rest, side, end, w1) {
-            return self.impact(&motion, tau, side, &start);
+        if let Some(passage) = self.uplifted_interval(&motion, rest, side, end, w1) {
+            return self.impact(passage, side, &start);
         }
 
         // y = side u = y0 + T (p − η g T/2) − c (D(t) − D0), in terms of the time T since the next sample
@@ -371,8 +369,8 @@ impl<'a> Run<'a> {
             let at = At { interval: j, offset_s: 0.0, u: side * y, v: side * rate, force: side * weight };
             let motion = self.motion(&at, 0.0);
             let w1 = -at.force - self.ground_end(j).0;
-            if let Some(tau) = self.uplifted_interval(&motion, dt, side, (side * y1, side * rate1), w1) {
-                return self.impact(&motion, tau, side, &at);
+            if let Some(passage) = self.uplifted_interval(&motion, dt, side, (side * y1, side * rate1), w1) {
+                return self.impact(passage, side, &at);
             }
             (j, y, rate) = (next, y1, rate1);
         }

@@ -59,6 +59,12 @@ impl Stumpff {
         }
     }
 
+    /// The functions where six terms suffice, `None` elsewhere.
+    #[inline]
+    pub(crate) fn near_zero(x: f64) -> Option<Self> {
+        (x.abs() <= 0.1).then(|| Self::series::<6>(x))
+    }
+
     fn at_large(x: f64) -> Self {
         match x.abs() {
             size if size <= 1.0 => return Self::series::<10>(x),
