@@ -53,6 +53,7 @@ impl LinearMotion {
 
     /// The same motion told from `τ` seconds on.
     #[inline]
+    #[must_use]
     pub fn restarted(&self, tau: f64) -> Self {
         let s = Stumpff::at(self.k * tau * tau);
         let (u0, v0) = self.state_with(tau, &s);

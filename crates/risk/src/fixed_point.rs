@@ -13,6 +13,9 @@ pub(crate) const MAX_SAMPLE_SIZE: u64 = 1 << 24;
 /// 2⁸¹: pairs of quanta in one event per year.
 const PAIRS_PER_EVENT: f64 = (1_u128 << 81) as f64;
 
+/// One quantum, 1/yr.
+pub(crate) const QUANTUM_PER_YEAR: f64 = 0.5 / PAIRS_PER_EVENT;
+
 /// A positive rate of at most [`MAX_RATE_PER_YEAR`] in quanta, rounded to an even number of them.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // 0 ≤ rate ≤ 2²⁰
 pub(crate) fn quanta(rate_per_year: f64) -> u128 {

@@ -5,6 +5,7 @@
 //! - [`RiskCurve`]: the two together, λ(c), the mean annual frequency of exceeding a displacement c; its ordinates are
 //!   [`RiskCurve::exact_ordinate`] and [`RiskCurve::grid_ordinate`].
 //! - [`RecordSample`]: which records count, and how often: a bootstrap replicate.
+//! - [`ResamplingTable`]: the same ordinates for thousands of samples.
 //! - [`lognormal_risk`]: the risk integral of a lognormal fragility, exact on a log–log hazard curve.
 //!
 //! λ(c) is linear in the stripe fragilities, and these are counts (Eq. 4.7). So λ(c) = Σ w(level) m(record)/n over the
@@ -45,6 +46,7 @@ mod fixed_point;
 mod grid;
 mod lognormal;
 mod ordinate;
+mod resampling;
 mod sample;
 mod weights;
 
@@ -55,5 +57,6 @@ pub use error::RiskError;
 pub use grid::ThresholdGrid;
 pub use lognormal::{LognormalRisk, lognormal_risk};
 pub use ordinate::{Ordinate, OrdinateFlag, TAIL_SHARE_LIMIT};
+pub use resampling::ResamplingTable;
 pub use sample::RecordSample;
 pub use weights::{StripeWeights, mean_annual_frequency};

@@ -2,12 +2,15 @@
 
 use crate::RiskError;
 use crate::fixed_point::MAX_SAMPLE_SIZE;
+use crate::resampling::LANES;
 
 /// A sample of the records, drawn with replacement: how often each record was drawn.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct RecordSample {
     multiplicities: Vec<u32>,
     size: u32,
+    /// The multiplicities in double precision, padded to whole lanes.
+    lanes: Vec<f64>,
 }
 
 impl RecordSample {
@@ -18,7 +21,11 @@ impl RecordSample {
     pub fn new(multiplicities: Vec<u32>) -> Result<Self, RiskError> {
         let total: u64 = multiplicities.iter().map(|&count| u64::from(count)).sum();
         match u32::try_from(total) {
-            Ok(size) if (1..=MAX_SAMPLE_SIZE).contains(&total) => Ok(Self { multiplicities, size }),
+            Ok(size) if (1..=MAX_SAMPLE_SIZE).contains(&total) => {
+                let mut lanes: Vec<f64> = multiplicities.iter().map(|&count| f64::from(count)).collect();
+                lanes.resize(lanes.len().next_multiple_of(LANES), 0.0);
+                Ok(Self { multiplicities, size, lanes })
+            }
             _ => Err(RiskError::SampleSize { size: total }),
         }
     }
@@ -26,6 +33,10 @@ impl RecordSample {
     /// How often each record was drawn, `[record]`.
     pub fn multiplicities(&self) -> &[u32] {
         &self.multiplicities
+    }
+
+    pub(crate) fn lanes(&self) -> &[f64] {
+        &self.lanes
     }
 
     /// Number of draws n.

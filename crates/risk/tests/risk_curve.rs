@@ -4,8 +4,8 @@
 use proptest::prelude::*;
 use uplift_fragility::Stripes;
 use uplift_risk::{
-    Ordinate, OrdinateFlag, PooledDemand, RecordSample, RiskCurve, RiskError, StripeWeights, ThresholdGrid,
-    mean_annual_frequency,
+    Ordinate, OrdinateFlag, PooledDemand, RecordSample, ResamplingTable, RiskCurve, RiskError, StripeWeights,
+    ThresholdGrid, mean_annual_frequency,
 };
 
 const INF: f64 = f64::INFINITY;
@@ -344,5 +344,30 @@ proptest! {
         prop_assert_eq!(a.mean_annual_frequencies(&grid), b.mean_annual_frequencies(&grid));
         prop_assert_eq!(a.grid_ordinate(&grid, target).unwrap(), b.grid_ordinate(&grid, target).unwrap());
         prop_assert_eq!(a.disaggregation(0.3).unwrap(), b.disaggregation(0.3).unwrap());
+    }
+
+    // Targets are random, or λ at a demand, where rounding could go either way.
+    #[test]
+    fn a_resampling_table_gives_the_exact_ordinates(
+        case in case(),
+        draws in prop::collection::vec(0_usize..1000, 1..120),
+        random in 1e-6_f64..1.0,
+        position in 0_usize..2000,
+    ) {
+        let mut multiplicities = vec![0; case.records];
+        for draw in draws {
+            multiplicities[draw % case.records] += 1;
+        }
+        let sample = RecordSample::new(multiplicities).unwrap();
+        let pool = case.pool();
+        let curve = RiskCurve::resampled(&pool, &case.weights, &sample).unwrap();
+        let candidates = case.candidates();
+        let at_demand = curve.mean_annual_frequency(candidates[position % candidates.len()]).unwrap();
+        let targets = [random, if at_demand > 0.0 { at_demand } else { random }];
+        let table = ResamplingTable::new(&pool, &case.weights).unwrap();
+        let mut found = [f64::NAN; 2];
+        table.ordinates(&sample, &targets, &mut found).unwrap();
+        let exact = curve.exact_ordinates(&targets).unwrap();
+        prop_assert_eq!(found.to_vec(), exact.iter().map(|ordinate| ordinate.displacement_m).collect::<Vec<_>>());
     }
 }

@@ -1,0 +1,64 @@
+//! The spectrum without each record: which records carry the result.
+
+use uplift_risk::{PooledDemand, RecordSample, ResamplingTable, StripeWeights};
+
+use crate::BootstrapError;
+
+/// Exact ordinates without each of the records in turn, m, `[record, target]`; empty where there is but one record.
+///
+/// - `targets_per_year`: target rates, 1/yr, `[target]`.
+///
+/// # Errors
+/// Demand and weights with different numbers of levels; a target that is not positive and finite.
+pub fn leave_one_out(
+    demand: &PooledDemand,
+    weights: &StripeWeights,
+    targets_per_year: &[f64],
+) -> Result<Vec<f64>, BootstrapError> {
+    let records = demand.record_count();
+    if records < 2 {
+        return Ok(Vec::new());
+    }
+    let table = ResamplingTable::new(demand, weights)?;
+    let mut ordinates_m = vec![0.0; records * targets_per_year.len()];
+    for (record, row) in ordinates_m.chunks_exact_mut(targets_per_year.len().max(1)).enumerate() {
+        let mut multiplicities = vec![1; records];
+        multiplicities[record] = 0;
+        table.ordinates(&RecordSample::new(multiplicities)?, targets_per_year, row)?;
+    }
+    Ok(ordinates_m)
+}
+
+/// Acceleration of BCa for samples of `size` records (Efron and Tibshirani, Eq. 14.15, from the jackknife).
+///
+/// - `without_each_m`: the ordinate without each record, m.
+///
+/// With d the mean of the values less each value, `a = Σ d³ / (6 (Σ d²)^1.5)`. This is the skewness of the mean of n
+/// influences over 6, so samples of another size have it times `√(n/size)`. It is 0 where all values are alike and NaN where one is
+/// infinite or there are none.
+pub fn acceleration(without_each_m: &[f64], size: u32) -> f64 {
+    let n = without_each_m.len() as f64;
+    let mean = without_each_m.iter().sum::<f64>() / n;
+    let moment = |power: i32| without_each_m.iter().map(|value| (mean - value).powi(power)).sum::<f64>();
+    let (second, third) = (moment(2), moment(3));
+    if n > 0.0 && second == 0.0 {
+        return 0.0;
+    }
+    third / (6.0 * second.powf(1.5)) * (n / f64::from(size)).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn acceleration_by_hand() {
+        // mean 2, d = 1, 1, −2: Σ d² = 6, Σ d³ = −6, a = −6/(6 · 6^1.5)
+        let expected = -1.0 / 6.0_f64.powf(1.5);
+        assert!((acceleration(&[1.0, 1.0, 4.0], 3) - expected).abs() < 1e-15);
+        assert!((acceleration(&[1.0, 1.0, 4.0], 12) - 0.5 * expected).abs() < 1e-15);
+        assert_eq!(acceleration(&[0.3; 4], 4), 0.0);
+        assert!(acceleration(&[0.3, f64::INFINITY], 2).is_nan());
+        assert!(acceleration(&[], 1).is_nan());
+    }
+}

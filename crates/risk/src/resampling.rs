@@ -1,0 +1,132 @@
+//! The same ordinates for thousands of record samples: λ split by record, so that a resample costs a few dot products.
+//!
+//! λ(c) = Σ m(record)/n · W(record, c), where W is what the runs of one record with EDP > c weigh together. W is kept at every
+//! [`BLOCK`]-th demand of the pool. A search over these gives the block that holds the ordinate, a walk through the block the
+//! ordinate itself. Sums are in double precision with their error bound; where it leaves doubt whether λ ≤ target, the exact sum of
+//! [`RiskCurve`] decides. So the ordinates are those of [`RiskCurve::exact_ordinate`], to the bit.
+
+use crate::fixed_point::{QUANTUM_PER_YEAR, rate_per_year};
+use crate::{PooledDemand, RecordSample, RiskCurve, RiskError, StripeWeights};
+
+/// Demands between two rows of the table.
+const BLOCK: usize = 32;
+
+/// Terms added side by side, for the processor to do at once.
+pub(crate) const LANES: usize = 8;
+
+/// The risk of one oscillator at one site, split by record: for many samples of the records.
+///
+/// Memory: 8 bytes for each record and each 32nd run, 0.23 MB for 105 records at 82 levels.
+#[derive(Debug, Clone)]
+pub struct ResamplingTable<'a> {
+    demand: &'a PooledDemand,
+    weights: &'a StripeWeights,
+    /// `[block, record]`: weight of the runs of a record before the block, 1/yr; rows are padded to whole lanes.
+    before: Vec<f64>,
+    /// Weight of each stripe, 1/yr.
+    per_year: Vec<f64>,
+    row: usize,
+    /// Bound on the relative error of a sum.
+    error: f64,
+}
+
+impl<'a> ResamplingTable<'a> {
+    /// Splits the risk of `demand` by record.
+    ///
+    /// # Errors
+    /// Demand and weights with different numbers of levels.
+    pub fn new(demand: &'a PooledDemand, weights: &'a StripeWeights) -> Result<Self, RiskError> {
+        RiskCurve::new(demand, weights)?;
+        let row = demand.record_count().next_multiple_of(LANES);
+        let quanta = weights.quanta();
+        let mut sums = vec![0_u128; demand.record_count()];
+        let mut before = Vec::with_capacity((demand.runs().len() / BLOCK + 1) * row);
+        for block in demand.runs().chunks(BLOCK) {
+            before.extend(sums.iter().map(|&sum| rate_per_year(sum, 1)));
+            before.resize(before.len().next_multiple_of(row), 0.0);
+            for run in block {
+                sums[usize::from(run.record)] += quanta[usize::from(run.level)];
+            }
+        }
+        // every term of a sum is rounded once or twice and passes through at most so many additions
+        let error = (row + BLOCK + 8) as f64 * f64::EPSILON;
+        Ok(Self { demand, weights, before, per_year: weights.per_year(), row, error })
+    }
+
+    /// Exact ordinates of a sample, m, `[target]`: 0 where nothing is exceeded so often, +∞ where overturning alone is.
+    ///
+    /// - `targets_per_year`: target rates, 1/yr, `[target]`; rising targets are found fastest.
+    /// - `ordinates_m`: receives the ordinates, `[target]`.
+    ///
+    /// # Errors
+    /// A sample of another number of records; a target that is not positive and finite.
+    ///
+    /// # Panics
+    /// Unless there is room for one ordinate a target, which is a bug of the caller.
+    pub fn ordinates(
+        &self,
+        sample: &RecordSample,
+        targets_per_year: &[f64],
+        ordinates_m: &mut [f64],
+    ) -> Result<(), RiskError> {
+        assert_eq!(targets_per_year.len(), ordinates_m.len(), "one ordinate a target");
+        // the exact curve also refuses what does not fit
+        let exact = RiskCurve::resampled(self.demand, self.weights, sample)?;
+        for (&target, ordinate_m) in targets_per_year.iter().zip(ordinates_m) {
+            if !target.is_finite() || target <= 0.0 {
+                return Err(RiskError::Target { rate: target });
+            }
+            *ordinate_m = match self.search(sample, target * f64::from(sample.size())) {
+                Some(displacement_m) => displacement_m,
+                None => exact.exact_ordinate(target)?.displacement_m,
+            };
+        }
+        Ok(())
+    }
+
+    /// The ordinate at which the sum of weights passes `limit`; none where rounding leaves doubt.
+    fn search(&self, sample: &RecordSample, limit: f64) -> Option<f64> {
+        let draws = sample.lanes();
+        // the exact curve rounds the target to whole quanta
+        let margin = limit * self.error + 2.0 * f64::from(sample.size()) * QUANTUM_PER_YEAR;
+        let (surely_within, surely_beyond) = (limit - margin, limit + margin);
+        let blocks = self.before.len() / self.row;
+        // the last block that begins within the limit: the first begins with nothing
+        let (mut low, mut high) = (0, blocks);
+        let mut sum = 0.0;
+        while high - low > 1 {
+            let middle = usize::midpoint(low, high);
+            let middle_sum = dot(draws, &self.before[middle * self.row..(middle + 1) * self.row]);
+            if middle_sum < surely_within {
+                (low, sum) = (middle, middle_sum);
+            } else if middle_sum > surely_beyond {
+                high = middle;
+            } else {
+                return None;
+            }
+        }
+        let start = low * BLOCK;
+        let (edp_m, runs) = (self.demand.edp_m(), self.demand.runs());
+        for (run, &demand_m) in runs[start..].iter().zip(&edp_m[start..]) {
+            sum += draws[usize::from(run.record)] * self.per_year[usize::from(run.level)];
+            if sum > surely_beyond {
+                return Some(demand_m);
+            }
+            if sum >= surely_within {
+                return None;
+            }
+        }
+        Some(0.0)
+    }
+}
+
+/// Scalar product; both of the same whole number of lanes.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut sums = [0.0; LANES];
+    for (a, b) in a.chunks_exact(LANES).zip(b.chunks_exact(LANES)) {
+        for lane in 0..LANES {
+            sums[lane] += a[lane] * b[lane];
+        }
+    }
+    sums.iter().sum()
+}
