@@ -1,7 +1,10 @@
 //! What the user can type.
 
+mod bootstrap;
 mod check;
+mod confidence;
 mod response;
+mod result_of;
 mod run;
 mod table;
 
@@ -42,6 +45,8 @@ enum Command {
     Check(check::CheckArguments),
     /// Shake one oscillator with one record
     Response(response::ResponseArguments),
+    /// How sure the spectra are: confidence bands from resampled records (Table 4.1)
+    Bootstrap(bootstrap::BootstrapArguments),
     /// Print the coefficients of a result (Table 4.2), beside a reference if one is given
     Table(table::TableArguments),
 }
@@ -100,6 +105,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), UpliftError> {
         Command::Run(arguments) => run::run(arguments, &session),
         Command::Check(arguments) => check::check(arguments, &session),
         Command::Response(arguments) => response::response(arguments),
+        Command::Bootstrap(arguments) => bootstrap::bootstrap(arguments, &session),
         Command::Table(arguments) => table::table(arguments),
     }
 }

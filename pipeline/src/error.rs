@@ -28,6 +28,16 @@ pub enum UpliftError {
         "interrupted: nothing was written, and an earlier result file is as it was. Run the same command to start again"
     )]
     Interrupted,
+    /// The user stopped a computation that goes on where it stopped.
+    #[error("interrupted: {done} of {total} strengths are kept in {}. Run the same command to go on from there", path.display())]
+    Paused {
+        /// Strengths finished, over all measures.
+        done: usize,
+        /// Strengths in all.
+        total: usize,
+        /// The file that keeps them.
+        path: std::path::PathBuf,
+    },
     /// The reader of the output went away, as `uplift … | head` does.
     #[error("the output was closed")]
     OutputClosed,
@@ -56,7 +66,7 @@ impl UpliftError {
             Self::Usage(_) => 2,
             Self::Study(_) => 3,
             Self::Inputs(_) | Self::File(_) => 4,
-            Self::Interrupted => 5,
+            Self::Interrupted | Self::Paused { .. } => 5,
         }
     }
 

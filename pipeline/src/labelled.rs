@@ -38,6 +38,7 @@
 
 mod aside;
 mod attribute;
+mod copy;
 mod dimension_scale;
 mod error;
 mod native;

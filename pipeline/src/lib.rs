@@ -4,7 +4,7 @@
 //! |---|---|
 //! | [`study`] | the study file, checked as a whole |
 //! | [`inputs`] | records and hazard curves, read and checked before anything is computed |
-//! | [`stages`] | stripes, spectra, coefficients: each takes what the one before returned |
+//! | [`stages`] | stripes, spectra, coefficients, bands: each takes what the one before returned |
 //! | [`result`](mod@result) | the HDF5 file and the tables beside it, written and read |
 //! | [`labelled`] | HDF5 files of labelled arrays, free of science |
 //! | [`command`] | what the user can type |

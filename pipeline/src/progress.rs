@@ -14,10 +14,11 @@ const LINE_EVERY_S: u64 = 10;
 /// Set when the user asks to stop.
 pub type StopFlag = Arc<AtomicBool>;
 
-/// Tells how far an incremental dynamic analysis is.
+/// Tells how far a long computation is.
 #[derive(Debug)]
 pub struct Progress {
     label: String,
+    unit: &'static str,
     total: u64,
     done: AtomicU64,
     start: Instant,
@@ -28,13 +29,15 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// Progress of `total` analyses under the name `label`.
-    pub fn new(label: &str, total: u64, quiet: bool, stop: StopFlag) -> Self {
+    /// Progress of `total` steps under the name `label`; `unit` is what a step is called, in the plural.
+    pub fn new(label: &str, unit: &'static str, total: u64, quiet: bool, stop: StopFlag) -> Self {
         let terminal = std::io::stderr().is_terminal();
         let bar = (terminal && !quiet).then(|| {
             let bar = ProgressBar::new(total);
-            let template = "{msg} {bar:32} {percent:>3} %  {human_pos} of {human_len} analyses, {per_sec}, {eta} left";
-            if let Ok(style) = ProgressStyle::with_template(template) {
+            let template = format!(
+                "{{msg}} {{bar:32}} {{percent:>3}} %  {{human_pos}} of {{human_len}} {unit}, {{per_sec}}, {{eta}} left"
+            );
+            if let Ok(style) = ProgressStyle::with_template(&template) {
                 bar.set_style(style);
             }
             bar.set_message(label.to_owned());
@@ -43,6 +46,7 @@ impl Progress {
         });
         Self {
             label: label.to_owned(),
+            unit,
             total,
             done: AtomicU64::new(0),
             start: Instant::now(),
@@ -69,10 +73,11 @@ impl Progress {
             let rate = done as f64 / elapsed.as_secs_f64();
             let left_s = (self.total - done) as f64 / rate;
             eprintln!(
-                "{}: {:.0} % of {} analyses, {rate:.0}/s, {left_s:.0} s left",
+                "{}: {:.0} % of {} {}, {rate:.0}/s, {left_s:.0} s left",
                 self.label,
                 100.0 * done as f64 / self.total as f64,
-                self.total
+                self.total,
+                self.unit
             );
         }
     }

@@ -1,16 +1,24 @@
 //! The result of a study: one HDF5 file, and tidy tables beside it.
 
+mod bands;
+mod checkpoint;
 mod csv;
 mod provenance;
 mod read;
+mod stored;
 mod target;
 mod write;
 
+pub use bands::{BandsFile, band_paths, write_bands};
+pub use checkpoint::{Checkpoint, Finished};
 pub(crate) use csv::write_table;
 pub use csv::{csv_paths, write_csv};
 pub use provenance::Provenance;
+pub(crate) use read::open_result;
 pub use read::{Fit, Spectrum, StoredResult};
+pub use stored::{StoredMeasure, StoredStripes};
 pub use target::check_target;
+pub(crate) use target::is_hdf5;
 pub use write::write_result;
 
 use crate::inputs::{RecordSet, SiteHazard};

@@ -1,9 +1,11 @@
 //! The stages of a study. Each takes what the one before returned and returns a value; none knows a file.
 
+mod bands;
 mod coefficients;
 mod spectra;
 mod stripes;
 
+pub use bands::{BandSettings, Bands, StrengthBands, bands_of_strength, gather_bands};
 pub use coefficients::{Coefficients, fit_spectra};
 pub use spectra::{Spectra, uniform_risk_spectra};
 pub use stripes::{Stripes, analyse_stripes, oscillators, plan_stripes};

@@ -14,6 +14,7 @@
 //! # Ok::<(), uplift::study::StudyError>(())
 //! ```
 
+mod bootstrap;
 mod document;
 mod error;
 mod form;
@@ -38,7 +39,8 @@ pub use error::{Place, StudyError, StudyMistake};
 pub use grid::Grid;
 pub use notation::MOST_GRID_VALUES;
 pub use resolved::{
-    Contour, CurveFile, CurveKind, CurveUnit, DEFAULT_SYNTHETIC_PAIRS, DEFAULT_SYNTHETIC_SEED, Extrapolate,
-    MeasurePlan, Oscillator, Output, RecordSource, Records, Regression, ResolvedStudy, Risk, Site, Uplifted,
+    Bootstrap, Contour, CurveFile, CurveKind, CurveUnit, DEFAULT_SYNTHETIC_PAIRS, DEFAULT_SYNTHETIC_SEED, Extrapolate,
+    IntervalKind, MeasurePlan, Oscillator, Output, RecordSource, Records, Regression, ResolvedStudy, Risk, Site,
+    Uplifted,
 };
 pub use source::Study;

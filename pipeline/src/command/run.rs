@@ -38,22 +38,41 @@ pub(super) struct RunArguments {
 }
 
 pub(super) fn run(arguments: &RunArguments, session: &Session) -> Result<(), UpliftError> {
-    let start = Instant::now();
     let study = arguments.study.load()?;
     let path = arguments.output.clone().unwrap_or_else(|| study.output.file.clone());
+    run_study(&study, &arguments.study.study, &path, session, |outcome, files, seconds| {
+        let mut out = std::io::stdout().lock();
+        if arguments.json {
+            writeln!(out, "{:#}", summary(outcome, files, seconds))?;
+        } else if !session.quiet {
+            print_summary(&mut out, outcome, files, seconds)?;
+        }
+        Ok(())
+    })
+}
+
+/// Carry out a study, write its result to `path`, and `report` what was found, the files and the seconds it took.
+pub(super) fn run_study(
+    study: &ResolvedStudy,
+    study_file: &Path,
+    path: &Path,
+    session: &Session,
+    report: impl FnOnce(&Outcome<'_>, &[PathBuf], f64) -> Result<(), UpliftError>,
+) -> Result<(), UpliftError> {
+    let start = Instant::now();
     // a place that cannot be written is found now, not after the analyses
-    check_target(&path)?;
+    check_target(path)?;
     for warning in &study.warnings {
         session.remark(&format!("note: {warning}"));
     }
-    let (hazard, notes) = read_hazard(&study)?;
-    let records = read_records(&study)?;
+    let (hazard, notes) = read_hazard(study)?;
+    let records = read_records(study)?;
     session.remark(&format!("records  {}", records.description));
 
-    let oscillators = oscillators(&study)?;
+    let oscillators = oscillators(study)?;
     let mut stripes: Vec<Stripes> = Vec::new();
     for measure in &study.measures {
-        let plan = plan_stripes(&study, measure, &records, &oscillators)?;
+        let plan = plan_stripes(study, measure, &records, &oscillators)?;
         let label = measure.measure.label();
         session.remark(&format!(
             "{label:<8} {} records x {} strengths x {} levels = {} analyses",
@@ -62,7 +81,7 @@ pub(super) fn run(arguments: &RunArguments, session: &Session) -> Result<(), Upl
             measure.levels.len(),
             thousands(plan.analyses())
         ));
-        let progress = Progress::new(label, plan.analyses(), session.quiet, session.stop.clone());
+        let progress = Progress::new(label, "analyses", plan.analyses(), session.quiet, session.stop.clone());
         let outcome = analyse_stripes(measure, &plan, &progress);
         progress.close();
         let done = outcome?;
@@ -71,19 +90,19 @@ pub(super) fn run(arguments: &RunArguments, session: &Session) -> Result<(), Upl
     }
     let mut spectra = Vec::new();
     for (stripes, hazard) in stripes.iter().zip(&hazard) {
-        spectra.push(uniform_risk_spectra(&study, stripes, hazard)?);
+        spectra.push(uniform_risk_spectra(study, stripes, hazard)?);
     }
-    let coefficients: Vec<Coefficients> = spectra.iter().map(|spectra| fit_spectra(&study, spectra)).collect();
+    let coefficients: Vec<Coefficients> = spectra.iter().map(|spectra| fit_spectra(study, spectra)).collect();
     let mut warnings = notes;
-    warnings.extend(warnings_of(&study, &records, &spectra, &coefficients));
+    warnings.extend(warnings_of(study, &records, &spectra, &coefficients));
 
     if session.stop.load(Ordering::Relaxed) {
         return Err(UpliftError::Interrupted);
     }
-    let study_file = arguments.study.study.display().to_string();
-    let provenance = Provenance::new(&study_file, start.elapsed().as_secs_f64(), &records, &hazard);
+    let provenance =
+        Provenance::new(&study_file.display().to_string(), start.elapsed().as_secs_f64(), &records, &hazard);
     let outcome = Outcome {
-        study: &study,
+        study,
         records: &records,
         hazard: &hazard,
         stripes: &stripes,
@@ -92,20 +111,13 @@ pub(super) fn run(arguments: &RunArguments, session: &Session) -> Result<(), Upl
         warnings: &warnings,
         provenance: &provenance,
     };
-    write_result(&path, &outcome)?;
-    let mut files = vec![path.clone()];
+    write_result(path, &outcome)?;
+    let mut files = vec![path.to_owned()];
     if study.output.csv && !study.sites.is_empty() {
-        write_csv(&path, &outcome)?;
-        files.extend(csv_paths(&path));
+        write_csv(path, &outcome)?;
+        files.extend(csv_paths(path));
     }
-    let seconds = start.elapsed().as_secs_f64();
-    let mut out = std::io::stdout().lock();
-    if arguments.json {
-        writeln!(out, "{:#}", summary(&outcome, &files, seconds))?;
-    } else if !session.quiet {
-        print_summary(&mut out, &outcome, &files, seconds)?;
-    }
-    Ok(())
+    report(&outcome, &files, start.elapsed().as_secs_f64())
 }
 
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a rate for people")]
@@ -244,7 +256,7 @@ fn print_summary(
 }
 
 /// A path as short as the user would type it.
-fn shown_path(path: &Path) -> &Path {
+pub(super) fn shown_path(path: &Path) -> &Path {
     std::env::current_dir().ok().and_then(|folder| path.strip_prefix(folder).ok()).unwrap_or(path)
 }
 

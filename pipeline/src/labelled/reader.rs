@@ -26,7 +26,7 @@ pub struct LabelledArray<T> {
 
 /// Reads a file written by [`LabelledWriter`](super::LabelledWriter).
 pub struct LabelledReader {
-    file: File,
+    pub(super) file: File,
     path: PathBuf,
     bytes: u64,
 }
@@ -304,7 +304,7 @@ impl LabelledReader {
                 .is_ok_and(|dataset| dimension_scale::is_marked(&dataset))
     }
 
-    fn check<T>(&self, result: hdf5::Result<T>, object: &str) -> Result<T, LabelledError> {
+    pub(super) fn check<T>(&self, result: hdf5::Result<T>, object: &str) -> Result<T, LabelledError> {
         result.map_err(|error| LabelledError::Hdf5 {
             path: self.path.clone(),
             action: "read",
@@ -317,7 +317,7 @@ impl LabelledReader {
         LabelledError::Missing { path: self.path.clone(), object }
     }
 
-    fn wrong(&self, object: &str, found: String, wanted: &'static str) -> LabelledError {
+    pub(super) fn wrong(&self, object: &str, found: String, wanted: &'static str) -> LabelledError {
         LabelledError::WrongType { path: self.path.clone(), object: object.to_owned(), found, wanted }
     }
 }

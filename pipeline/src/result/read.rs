@@ -55,22 +55,7 @@ impl StoredResult {
     /// # Errors
     /// A file that is missing, damaged, no result, or of another layout.
     pub fn read(path: &Path) -> Result<Self, UpliftError> {
-        let reader = LabelledReader::open(path)?;
-        let program = reader.attribute_text("/", "program").unwrap_or_default();
-        if program != "uplift" {
-            return Err(UpliftError::input(format!(
-                "{}: is an HDF5 file, but not a result of uplift: give the file that `uplift run` wrote",
-                path.display()
-            )));
-        }
-        let layout = reader.attribute_i64("/", "layout")?;
-        if layout != LAYOUT {
-            return Err(UpliftError::input(format!(
-                "{}: has layout {layout}, this version of uplift ({}) reads layout {LAYOUT}: run the study again",
-                path.display(),
-                crate::VERSION
-            )));
-        }
+        let reader = open_result(path)?;
         let strengths = reader.axis_f64("strength")?;
         let poes = reader.axis_f64("poe")?;
         let sites = if reader.exists("/axes/site") { reader.axis_text("site")? } else { Vec::new() };
@@ -98,4 +83,28 @@ impl StoredResult {
             spectra,
         })
     }
+}
+
+/// Open a result file.
+///
+/// # Errors
+/// A file that is missing, damaged, no result, or of another layout.
+pub(crate) fn open_result(path: &Path) -> Result<LabelledReader, UpliftError> {
+    let reader = LabelledReader::open(path)?;
+    let program = reader.attribute_text("/", "program").unwrap_or_default();
+    if program != "uplift" {
+        return Err(UpliftError::input(format!(
+            "{}: is an HDF5 file, but not a result of uplift: give the file that `uplift run` wrote",
+            path.display()
+        )));
+    }
+    let layout = reader.attribute_i64("/", "layout")?;
+    if layout != LAYOUT {
+        return Err(UpliftError::input(format!(
+            "{}: has layout {layout}, this version of uplift ({}) reads layout {LAYOUT}: run the study again",
+            path.display(),
+            crate::VERSION
+        )));
+    }
+    Ok(reader)
 }

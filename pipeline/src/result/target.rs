@@ -16,13 +16,18 @@ const HDF5_SIGNATURE: [u8; 8] = *b"\x89HDF\r\n\x1a\n";
 /// A folder that cannot be written, or a file there that is no HDF5 file.
 pub fn check_target(path: &Path) -> Result<(), UpliftError> {
     drop(LabelledWriter::create(path)?);
-    let Ok(mut file) = std::fs::File::open(path) else { return Ok(()) };
-    let mut first = [0; 8];
-    if file.read_exact(&mut first).is_err() || first != HDF5_SIGNATURE {
+    if path.exists() && !is_hdf5(path) {
         return Err(UpliftError::input(format!(
             "{}: is there already and is not an HDF5 file; it is left as it is: give the result file another name (-o), or remove that one",
             path.display()
         )));
     }
     Ok(())
+}
+
+/// Whether the file at `path` begins as an HDF5 file does.
+pub(crate) fn is_hdf5(path: &Path) -> bool {
+    let mut first = [0; 8];
+    let read = std::fs::File::open(path).and_then(|mut file| file.read_exact(&mut first));
+    read.is_ok() && first == HDF5_SIGNATURE
 }

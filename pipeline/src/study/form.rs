@@ -6,7 +6,9 @@ use serde::Serialize;
 use uplift_motion::{Component, IntensityMeasure};
 
 use super::grid::Grid;
-use super::resolved::{Contour, CurveFile, CurveKind, Extrapolate, RecordSource, ResolvedStudy, Uplifted};
+use super::resolved::{
+    Contour, CurveFile, CurveKind, Extrapolate, IntervalKind, RecordSource, ResolvedStudy, Uplifted,
+};
 
 /// The words of a study file for choices, each in one place for reading and writing.
 pub(super) const COMPONENTS: [(&str, Component); 4] =
@@ -14,6 +16,8 @@ pub(super) const COMPONENTS: [(&str, Component); 4] =
 pub(super) const CONTOURS: [(&str, Contour); 2] = [("exact", Contour::Exact), ("grid", Contour::Grid)];
 pub(super) const EXTRAPOLATIONS: [(&str, Extrapolate); 2] =
     [("refuse", Extrapolate::Refuse), ("loglog", Extrapolate::Loglog)];
+pub(super) const INTERVALS: [(&str, IntervalKind); 2] =
+    [("percentile", IntervalKind::Percentile), ("bca", IntervalKind::Bca)];
 
 fn word<T: PartialEq>(choices: &[(&'static str, T)], value: &T) -> &'static str {
     choices.iter().find_map(|(word, choice)| (choice == value).then_some(*word)).unwrap_or_default()
@@ -34,6 +38,7 @@ pub(super) struct Form<'a> {
     risk: RiskForm<'a>,
     sites: Vec<SiteForm<'a>>,
     regression: RegressionForm,
+    bootstrap: BootstrapForm<'a>,
     output: OutputForm<'a>,
 }
 
@@ -116,6 +121,17 @@ struct RegressionForm {
 }
 
 #[derive(Serialize)]
+struct BootstrapForm<'a> {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sizes: Option<&'a [u32]>,
+    replicates: u64,
+    confidence: f64,
+    interval: &'static str,
+    simultaneous: bool,
+    strength_above: f64,
+}
+
+#[derive(Serialize)]
 struct OutputForm<'a> {
     file: &'a Path,
     csv: bool,
@@ -164,6 +180,14 @@ impl<'a> Form<'a> {
                 })
                 .collect(),
             regression: RegressionForm { strength_above: study.regression.strength_above },
+            bootstrap: BootstrapForm {
+                sizes: study.bootstrap.sizes.as_deref(),
+                replicates: study.bootstrap.replicates,
+                confidence: study.bootstrap.confidence,
+                interval: word(&INTERVALS, &study.bootstrap.interval),
+                simultaneous: study.bootstrap.simultaneous,
+                strength_above: study.bootstrap.strength_above,
+            },
             output: OutputForm { file: &study.output.file, csv: study.output.csv },
         }
     }

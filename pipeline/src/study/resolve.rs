@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use uplift_motion::STANDARD_GRAVITY_M_S2;
 
+use super::bootstrap;
 use super::form::{CONTOURS, EXTRAPOLATIONS};
 use super::grid::{Grid, GridRule};
 use super::measures;
@@ -43,6 +44,7 @@ pub(super) fn study(
     let risk = risk(root.section("risk"), ledger);
     let sites = sites::read(root.field("sites"), &switched_on, folders);
     let regression = regression(root.section("regression"));
+    let bootstrap = bootstrap::read(root.section("bootstrap"));
     let inputs = (records.iter())
         .filter_map(|records| match &records.source {
             RecordSource::Manifest { manifest, .. } => Some(manifest),
@@ -64,6 +66,7 @@ pub(super) fn study(
         risk: risk?,
         sites: sites?,
         regression: regression?,
+        bootstrap: bootstrap?,
         output: output?,
         warnings: Vec::new(),
     };

@@ -1,0 +1,203 @@
+//! The stripes and hazard of a result file: what the questions asked after a run start from.
+
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+use uplift_fragility::Stripes;
+use uplift_hazard::{Extrapolation, HazardCurve, rate_from_probability};
+use uplift_motion::IntensityMeasure;
+use uplift_risk::{PooledDemand, RiskCurve, StripeWeights};
+
+use super::open_result;
+use crate::error::UpliftError;
+use crate::labelled::LabelledReader;
+use crate::study::Bootstrap;
+
+/// A result file, read for another look at its stripes.
+#[derive(Debug, Clone)]
+pub struct StoredStripes {
+    /// The file.
+    pub path: PathBuf,
+    /// Where the records come from, in a line.
+    pub record_set: String,
+    /// Names of the records.
+    pub records: Vec<String>,
+    /// Uplift strengths.
+    pub strengths: Vec<f64>,
+    /// Probabilities of exceedance.
+    pub poes: Vec<f64>,
+    /// Years that they refer to.
+    pub years: f64,
+    /// Target rates of the probabilities, 1/yr (Eq. 4.8).
+    pub targets_per_year: Vec<f64>,
+    /// Names of the sites.
+    pub sites: Vec<String>,
+    /// Displacement at uplift, m.
+    pub uplift_displacement_m: f64,
+    /// Seed of the study.
+    pub seed: u64,
+    /// What the study says about the bootstrap.
+    pub bootstrap: Bootstrap,
+    /// The measures, PGV first.
+    pub measures: Vec<StoredMeasure>,
+}
+
+/// The stripes of one measure.
+#[derive(Debug, Clone)]
+pub struct StoredMeasure {
+    /// The measure.
+    pub measure: IntensityMeasure,
+    /// Its levels, cm/s or g.
+    pub levels: Vec<f64>,
+    /// Peak displacements over `[record, strength, level]`, m.
+    pub edp_m: Vec<f64>,
+    /// What each stripe weighs at each site.
+    pub weights: Vec<StripeWeights>,
+    /// The spectra over `[site, poe, strength]`, m, read as exact ordinates.
+    pub spectra_m: Vec<f64>,
+}
+
+/// The part of the stored study that is read again.
+#[derive(Debug, Deserialize)]
+struct StoredStudy {
+    risk: StoredRisk,
+    oscillator: StoredOscillator,
+    #[serde(default)]
+    bootstrap: Bootstrap,
+}
+
+#[derive(Debug, Deserialize)]
+struct StoredRisk {
+    extrapolate: String,
+}
+
+#[derive(Debug, Deserialize)]
+struct StoredOscillator {
+    uplift_displacement_m: f64,
+}
+
+impl StoredStripes {
+    /// Read the result at `path`.
+    ///
+    /// # Errors
+    /// A file that is missing, damaged, no result, or of another layout; a study without sites.
+    pub fn read(path: &Path) -> Result<Self, UpliftError> {
+        let reader = open_result(path)?;
+        let fail = |reason: String| UpliftError::input(format!("{}: {reason}", path.display()));
+        let study: StoredStudy = toml::from_str(&reader.attribute_text("/", "study_toml")?)
+            .map_err(|error| fail(format!("the study in the file cannot be read: {error}")))?;
+        if !reader.exists("/axes/site") {
+            return Err(fail("the study has no sites, and so no spectra: add [[sites]] and run it again".to_owned()));
+        }
+        let (records, strengths) = (reader.axis_text("record")?, reader.axis_f64("strength")?);
+        let (poes, sites) = (reader.axis_f64("poe")?, reader.axis_text("site")?);
+        let years = reader.attribute_f64("/", "poe_years")?;
+        let targets_per_year = poes
+            .iter()
+            .map(|&poe| rate_from_probability(poe, years))
+            .collect::<Result<Vec<_>, _>>()
+            .map_err(|error| fail(error.to_string()))?;
+        let extrapolation =
+            if study.risk.extrapolate == "loglog" { Extrapolation::LogLog } else { Extrapolation::Refuse };
+        let mut stored = Self {
+            path: path.to_owned(),
+            record_set: reader.attribute_text("/", "record_set")?,
+            records,
+            strengths,
+            poes,
+            years,
+            targets_per_year,
+            sites,
+            uplift_displacement_m: study.oscillator.uplift_displacement_m,
+            seed: reader.attribute_u64("/", "seed")?,
+            bootstrap: study.bootstrap,
+            measures: Vec::new(),
+        };
+        for measure in IntensityMeasure::ALL {
+            if reader.exists(&format!("/ida/{}/edp_m", measure.key())) {
+                let read = stored.read_measure(&reader, measure, extrapolation)?;
+                stored.measures.push(read);
+            }
+        }
+        Ok(stored)
+    }
+
+    fn read_measure(
+        &self,
+        reader: &LabelledReader,
+        measure: IntensityMeasure,
+        extrapolation: Extrapolation,
+    ) -> Result<StoredMeasure, UpliftError> {
+        let fail = |reason: String| UpliftError::input(format!("{}: {reason}", self.path.display()));
+        let key = measure.key();
+        let levels = reader.axis_f64(&format!("{key}_level"))?;
+        let edp = reader.array_f64(&format!("/ida/{key}/edp_m"))?;
+        if edp.shape != [self.records.len(), self.strengths.len(), levels.len()] {
+            return Err(fail(format!("/ida/{key}/edp_m has the shape {:?}, not that of its axes", edp.shape)));
+        }
+        let mut weights = Vec::new();
+        for site in &self.sites {
+            let group = format!("/hazard/{site}/{key}");
+            let maf = reader.array_f64(&format!("{group}/maf_per_year"))?;
+            let im = match &maf.dims[..] {
+                [axis] => reader.axis_f64(axis)?,
+                _ => return Err(fail(format!("{group}/maf_per_year is no curve"))),
+            };
+            let curve = HazardCurve::new(measure.label(), measure.unit(), "", im, maf.values)
+                .map_err(|error| fail(format!("{group}: {error}")))?;
+            weights.push(
+                StripeWeights::from_hazard(&curve, &levels, extrapolation)
+                    .map_err(|error| fail(format!("{group}: {error}")))?,
+            );
+        }
+        let mut measure = StoredMeasure { measure, levels, edp_m: edp.values, weights, spectra_m: Vec::new() };
+        let (sites, poes, strengths) = (self.sites.len(), self.poes.len(), self.strengths.len());
+        measure.spectra_m = vec![0.0; sites * poes * strengths];
+        for strength in 0..strengths {
+            let demand = measure.demand(strength, strengths).map_err(|error| fail(error.to_string()))?;
+            for (site, weights) in measure.weights.iter().enumerate() {
+                let ordinates = RiskCurve::new(&demand, weights)
+                    .and_then(|curve| curve.exact_ordinates(&self.targets_per_year))
+                    .map_err(|error| fail(error.to_string()))?;
+                for (poe, ordinate) in ordinates.iter().enumerate() {
+                    measure.spectra_m[(site * poes + poe) * strengths + strength] = ordinate.displacement_m;
+                }
+            }
+        }
+        Ok(measure)
+    }
+
+    /// Position of an ordinate in arrays over `[site, poe, strength]`.
+    pub fn ordinate(&self, site: usize, poe: usize, strength: usize) -> usize {
+        (site * self.poes.len() + poe) * self.strengths.len() + strength
+    }
+
+    /// A spectrum of arrays over `[site, poe, strength]`.
+    pub fn spectrum<'a>(&self, array: &'a [f64], site: usize, poe: usize) -> &'a [f64] {
+        let start = self.ordinate(site, poe, 0);
+        &array[start..start + self.strengths.len()]
+    }
+}
+
+/// Why stripes read from a file cannot be pooled.
+type DemandError = Box<dyn std::error::Error + Send + Sync>;
+
+impl StoredMeasure {
+    /// The stripes of one strength of `strengths`.
+    ///
+    /// # Errors
+    /// Demands that are none, in a file that was changed.
+    pub fn stripes(&self, strength: usize, strengths: usize) -> Result<Stripes<'_>, DemandError> {
+        let levels = self.levels.len();
+        let records = self.edp_m.len() / (strengths * levels);
+        Ok(Stripes::strided(&self.levels, &self.edp_m[strength * levels..], records, strengths * levels)?)
+    }
+
+    /// All demands of one strength of `strengths`, pooled.
+    ///
+    /// # Errors
+    /// As [`StoredMeasure::stripes`].
+    pub fn demand(&self, strength: usize, strengths: usize) -> Result<PooledDemand, DemandError> {
+        Ok(PooledDemand::new(&self.stripes(strength, strengths)?)?)
+    }
+}
