@@ -1,8 +1,7 @@
 //! Confidence intervals of one ordinate.
 
 use statrs::distribution::{ContinuousCDF, Normal};
-
-use crate::quantile::quantile;
+use uplift_fragility::quantile;
 
 /// How an interval is read from the replicates.
 #[derive(Debug, Clone, Copy, PartialEq)]

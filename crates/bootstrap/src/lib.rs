@@ -20,15 +20,15 @@ mod error;
 mod interval;
 mod jackknife;
 mod plan;
-mod quantile;
 mod replicates;
 mod simultaneous;
+mod weighted;
 
 pub use accuracy::{error_of_median, range_of_interval};
 pub use error::BootstrapError;
 pub use interval::{Band, Interval};
 pub use jackknife::{acceleration, leave_one_out};
 pub use plan::ResamplingPlan;
-pub use quantile::{quantile, weighted_quantile};
 pub use replicates::Replicates;
 pub use simultaneous::simultaneous_bands;
+pub use weighted::weighted_quantile;

@@ -6,6 +6,9 @@
 //! No curve is inverted: the response of rocking structures weaves, so a record may exceed a threshold at one
 //! level and stay below it at the next.
 //!
+//! How much the demands scatter at a level, and whether that depends on what the records are, tells how good the intensity measure
+//! is: [`Dispersion`], [`uplift_levels`], [`mean_residuals`].
+//!
 //! Beside it, never instead of it, [`fit_lognormal`] gives the maximum-likelihood lognormal fragility.
 //!
 //! ```
@@ -22,14 +25,18 @@
 //! # Source
 //! N. Reggiani Manzo, dissertation, Section 4.3.3.
 
+mod dispersion;
 mod empirical;
 mod error;
 mod lognormal;
 mod normal;
+mod quantile;
 mod stripes;
 
+pub use dispersion::{Dispersion, mean_residuals, standard_deviation, uplift_levels};
 pub use empirical::{EmpiricalFragility, check_threshold, exceedance_counts, exceedance_probabilities};
 pub use error::FragilityError;
 pub use lognormal::{LognormalFit, LognormalFragility, StripeCount, fit_lognormal, stripe_counts};
 pub use normal::{ln_normal_cdf, normal_cdf};
+pub use quantile::quantile;
 pub use stripes::Stripes;

@@ -2,6 +2,7 @@
 //!
 //! [`fit`] returns the global minimum in a stated range of c1 as an [`ExponentialFit`]: the coefficients, the errors and whether the
 //! bound on c2 or the end of the range holds the solution. [`Exponential`] is the curve itself, to evaluate.
+//! [`fit_line`] is the straight line with the test of its slope, for residuals against what the records are.
 //!
 //! ```
 //! use uplift_regression::{Exponential, fit};
@@ -20,8 +21,10 @@
 
 mod error;
 mod fit;
+mod line;
 mod reduced;
 mod root;
 
 pub use error::RegressionError;
 pub use fit::{Exponential, ExponentialFit, fit};
+pub use line::{Line, fit_line};
