@@ -3,6 +3,8 @@
 mod bootstrap;
 mod check;
 mod confidence;
+mod influence;
+mod measures;
 mod response;
 mod result_of;
 mod run;
@@ -47,6 +49,10 @@ enum Command {
     Response(response::ResponseArguments),
     /// How sure the spectra are: confidence bands from resampled records (Table 4.1)
     Bootstrap(bootstrap::BootstrapArguments),
+    /// Which records carry the spectra (jackknife), and which intensities (disaggregation)
+    Influence(influence::InfluenceArguments),
+    /// Which intensity measure to trust: efficiency and sufficiency
+    Measures(measures::MeasuresArguments),
     /// Print the coefficients of a result (Table 4.2), beside a reference if one is given
     Table(table::TableArguments),
 }
@@ -106,6 +112,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), UpliftError> {
         Command::Check(arguments) => check::check(arguments, &session),
         Command::Response(arguments) => response::response(arguments),
         Command::Bootstrap(arguments) => bootstrap::bootstrap(arguments, &session),
+        Command::Influence(arguments) => influence::influence(arguments, &session),
+        Command::Measures(arguments) => measures::measures(arguments, &session),
         Command::Table(arguments) => table::table(arguments),
     }
 }

@@ -2,10 +2,14 @@
 
 mod bands;
 mod coefficients;
+mod influence;
+mod predictors;
 mod spectra;
 mod stripes;
 
 pub use bands::{BandSettings, Bands, StrengthBands, bands_of_strength, gather_bands};
 pub use coefficients::{Coefficients, fit_spectra};
+pub use influence::{Influence, influence, level_of_share};
+pub use predictors::{Covariate, Predictor, predictor};
 pub use spectra::{Spectra, uniform_risk_spectra};
 pub use stripes::{Stripes, analyse_stripes, oscillators, plan_stripes};

@@ -191,7 +191,7 @@ fn warnings_of(
 }
 
 /// The strength of the study nearest to `wanted`.
-fn nearest(strengths: &[f64], wanted: f64) -> usize {
+pub(super) fn nearest(strengths: &[f64], wanted: f64) -> usize {
     (0..strengths.len())
         .min_by(|&a, &b| (strengths[a] - wanted).abs().total_cmp(&(strengths[b] - wanted).abs()))
         .unwrap_or_default()

@@ -1,14 +1,14 @@
 //! Confidence bands in the result file and in tables beside it.
 
 use std::path::{Path, PathBuf};
-use std::time::SystemTime;
 
 use polars::prelude::Column;
 use uplift_bootstrap::ResamplingPlan;
 
+use super::extend::{extend_result, now, sign};
 use super::{StoredStripes, write_table};
 use crate::error::UpliftError;
-use crate::labelled::{LabelledReader, LabelledWriter};
+use crate::labelled::{LabelledError, LabelledWriter};
 use crate::stages::{BandSettings, Bands};
 use crate::study::IntervalKind;
 
@@ -41,17 +41,31 @@ pub fn band_paths(result: &Path) -> [PathBuf; 2] {
 /// Whatever keeps the files from being written; the result file is then as it was.
 pub fn write_bands(file: &BandsFile<'_>) -> Result<(), UpliftError> {
     let BandsFile { stored, plan, settings, .. } = file;
-    let reader = LabelledReader::open(&stored.path)?;
-    let mut writer = LabelledWriter::create(&stored.path)?;
-    writer.carry_over(&reader, &REPLACED)?;
-    drop(reader);
+    extend_result(&stored.path, &REPLACED, |writer| add_bands(writer, file))?;
+    let line = format!(
+        "uplift {} ({}), {}; bootstrap of {}; {}; {} replicates, {} interval, confidence {}; records: {}",
+        crate::VERSION,
+        crate::COMMIT,
+        now(),
+        stored.path.file_name().unwrap_or_default().to_string_lossy(),
+        file.plan_source,
+        plan.replicates(),
+        interval_name(settings.interval),
+        settings.confidence,
+        stored.record_set
+    )
+    .replace(['\n', '\r'], " ");
+    let [bands, figures] = band_paths(&stored.path);
+    write_table(&bands, &line, bands_table(file))?;
+    write_table(&figures, &line, figures_table(file))
+}
+
+fn add_bands(writer: &mut LabelledWriter, file: &BandsFile<'_>) -> Result<(), LabelledError> {
+    let BandsFile { plan, settings, .. } = file;
     writer.axis_u32("sample_size", plan.sizes(), "1", "records drawn in a replicate")?;
     let numbers: Vec<u32> = (0..).take(plan.replicates()).collect();
     writer.axis_u32("replicate", &numbers, "1", "number of the replicate")?;
-    writer.group("/bootstrap")?;
-    writer.attribute("/bootstrap", "created", now().as_str())?;
-    writer.attribute("/bootstrap", "version", crate::VERSION)?;
-    writer.attribute("/bootstrap", "commit", crate::COMMIT)?;
+    sign(writer, "/bootstrap")?;
     writer.attribute("/bootstrap", "plan", file.plan_source)?;
     writer.attribute("/bootstrap", "confidence", settings.confidence)?;
     writer.attribute("/bootstrap", "interval", interval_name(settings.interval))?;
@@ -85,27 +99,7 @@ pub fn write_bands(file: &BandsFile<'_>) -> Result<(), UpliftError> {
         let ranges = percent(&bands.range_of_interval);
         writer.array_f64(&format!("{group}/r_90ci"), &dims, &ranges, "%", "range of the interval (Eq. 4.10)")?;
     }
-    writer.finish()?;
-    let line = format!(
-        "uplift {} ({}), {}; bootstrap of {}; {}; {} replicates, {} interval, confidence {}; records: {}",
-        crate::VERSION,
-        crate::COMMIT,
-        now(),
-        stored.path.file_name().unwrap_or_default().to_string_lossy(),
-        file.plan_source,
-        plan.replicates(),
-        interval_name(settings.interval),
-        settings.confidence,
-        stored.record_set
-    )
-    .replace(['\n', '\r'], " ");
-    let [bands, figures] = band_paths(&stored.path);
-    write_table(&bands, &line, bands_table(file))?;
-    write_table(&figures, &line, figures_table(file))
-}
-
-fn now() -> String {
-    humantime::format_rfc3339_seconds(SystemTime::now()).to_string()
+    Ok(())
 }
 
 fn interval_name(interval: IntervalKind) -> &'static str {

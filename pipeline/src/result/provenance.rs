@@ -1,8 +1,8 @@
 //! Where the numbers of a result come from.
 
 use std::collections::BTreeMap;
-use std::time::SystemTime;
 
+use super::extend::now;
 use crate::inputs::{RecordSet, SiteHazard};
 
 /// What someone needs to repeat a run.
@@ -33,7 +33,7 @@ impl Provenance {
         Self {
             study_file: study_file.to_owned(),
             command: std::env::args().collect::<Vec<_>>().join(" "),
-            created: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
+            created: now(),
             threads: rayon::current_num_threads(),
             wall_time_s,
             input_checksums,

@@ -11,6 +11,7 @@ use uplift_risk::{PooledDemand, RiskCurve, StripeWeights};
 use super::open_result;
 use crate::error::UpliftError;
 use crate::labelled::LabelledReader;
+use crate::stages::Covariate;
 use crate::study::Bootstrap;
 
 /// A result file, read for another look at its stripes.
@@ -167,6 +168,21 @@ impl StoredStripes {
         Ok(measure)
     }
 
+    /// Position of the probability `wanted`, or of the smallest.
+    ///
+    /// # Errors
+    /// A probability that the result does not have.
+    pub fn poe_index(&self, wanted: Option<f64>) -> Result<usize, UpliftError> {
+        let found = match wanted {
+            Some(wanted) => self.poes.iter().position(|poe| (poe - wanted).abs() < 1e-9),
+            None => (0..self.poes.len()).min_by(|&a, &b| self.poes[a].total_cmp(&self.poes[b])),
+        };
+        found.ok_or_else(|| {
+            let known: Vec<String> = self.poes.iter().map(f64::to_string).collect();
+            UpliftError::Usage(format!("--poe: the result has the probabilities {}", known.join(", ")))
+        })
+    }
+
     /// Position of an ordinate in arrays over `[site, poe, strength]`.
     pub fn ordinate(&self, site: usize, poe: usize, strength: usize) -> usize {
         (site * self.poes.len() + poe) * self.strengths.len() + strength
@@ -177,6 +193,32 @@ impl StoredStripes {
         let start = self.ordinate(site, poe, 0);
         &array[start..start + self.strengths.len()]
     }
+}
+
+/// What a result knows of its records, in the form in which a demand may depend on it: magnitude, the logarithm of the distance, the logarithm
+/// of the significant duration. What is known of fewer than three records is left out.
+///
+/// # Errors
+/// A file that is damaged.
+pub fn covariates(stored: &StoredStripes) -> Result<Vec<Covariate>, UpliftError> {
+    let reader = open_result(&stored.path)?;
+    let mut found = Vec::new();
+    let forms: [(&'static str, &str, &'static str, fn(f64) -> f64); 3] = [
+        ("magnitude", "magnitude", "moment magnitude", |value| value),
+        ("ln_rrup", "rrup_km", "logarithm of the distance in km", f64::ln),
+        ("ln_duration", "duration_5_95_s", "logarithm of the significant duration D5-95 in s", f64::ln),
+    ];
+    for (key, array, long_name, form) in forms {
+        let path = format!("/records/{array}");
+        if !reader.exists(&path) {
+            continue;
+        }
+        let values: Vec<f64> = reader.array_f64(&path)?.values.into_iter().map(form).collect();
+        if values.iter().filter(|value| value.is_finite()).count() >= 3 {
+            found.push(Covariate { key, long_name, values });
+        }
+    }
+    Ok(found)
 }
 
 /// Why stripes read from a file cannot be pooled.

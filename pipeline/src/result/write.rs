@@ -109,6 +109,16 @@ fn write_records(writer: &mut LabelledWriter, records: &[Record]) -> Result<(), 
     writer.array_f64("/records/pga_g", dims, &pga, "g", "geometric mean PGA of the pair, unscaled")?;
     let pgv: Vec<f64> = records.iter().map(|record| record.pgv_cm_s).collect();
     writer.array_f64("/records/pgv_cm_s", dims, &pgv, "cm/s", "geometric mean PGV of the pair, unscaled")?;
+    for (name, from, to) in [("duration_5_75_s", 0.05, 0.75), ("duration_5_95_s", 0.05, 0.95)] {
+        let durations: Vec<f64> =
+            records.iter().map(|record| record.accelerogram.significant_duration_s(from, to)).collect();
+        let long_name = format!(
+            "significant duration of the component, {} to {} % of the Arias intensity",
+            100.0 * from,
+            100.0 * to
+        );
+        writer.array_f64(&format!("/records/{name}"), dims, &durations, "s", &long_name)?;
+    }
     let dt: Vec<f64> = records.iter().map(|record| record.accelerogram.dt_s()).collect();
     writer.array_f64("/records/dt_s", dims, &dt, "s", "sampling interval")?;
     let samples: Vec<u32> =

@@ -1,0 +1,106 @@
+//! Which records carry a spectrum, and which intensities: the jackknife and the disaggregation of its risk.
+
+use rayon::prelude::*;
+use uplift_bootstrap::leave_one_out;
+use uplift_motion::IntensityMeasure;
+use uplift_risk::RiskCurve;
+
+use crate::error::UpliftError;
+use crate::result::{StoredMeasure, StoredStripes};
+
+/// Influence on the spectra of one measure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Influence {
+    /// The measure.
+    pub measure: IntensityMeasure,
+    /// Ordinates without each record over `[site, poe, record, strength]`, m; empty for a single record.
+    pub without_m: Vec<f64>,
+    /// Shares of the risk at each ordinate over `[site, poe, strength, bin]`. Bin 0 lies below the first level, bin i between the levels i
+    /// and i + 1 counted from 1, the last above all levels. NaN where there is no ordinate.
+    pub shares: Vec<f64>,
+}
+
+/// Influence of records and intensities on all spectra of `measure`.
+///
+/// # Errors
+/// Numbers that do not fit together, in a file that was changed.
+pub fn influence(stored: &StoredStripes, measure: &StoredMeasure) -> Result<Influence, UpliftError> {
+    let (sites, poes, strengths) = (stored.sites.len(), stored.poes.len(), stored.strengths.len());
+    let (records, bins) = (stored.records.len(), measure.levels.len() + 1);
+    type OfStrength = (Vec<Vec<f64>>, Vec<f64>);
+    let of_strength = |strength: usize| -> Result<OfStrength, Box<dyn std::error::Error + Send + Sync>> {
+        let demand = measure.demand(strength, strengths)?;
+        let (mut without, mut shares) = (Vec::new(), Vec::new());
+        for (site, weights) in measure.weights.iter().enumerate() {
+            without.push(leave_one_out(&demand, weights, &stored.targets_per_year)?);
+            let curve = RiskCurve::new(&demand, weights)?;
+            for poe in 0..poes {
+                let ordinate_m = measure.spectra_m[stored.ordinate(site, poe, strength)];
+                if !(ordinate_m > 0.0 && ordinate_m.is_finite()) {
+                    shares.extend(std::iter::repeat_n(f64::NAN, bins));
+                    continue;
+                }
+                // the risk that fixes the ordinate is that of the runs that reach it
+                let parts = curve.disaggregation(ordinate_m.next_down())?;
+                let total = parts.total_per_year();
+                shares.push(parts.lower_tail_per_year / total);
+                shares.extend(parts.intervals_per_year.iter().map(|part| part / total));
+                shares.push(parts.upper_tail_per_year / total);
+            }
+        }
+        Ok((without, shares))
+    };
+    let by_strength = (0..strengths)
+        .into_par_iter()
+        .map(of_strength)
+        .collect::<Result<Vec<OfStrength>, _>>()
+        .map_err(|error| UpliftError::input(format!("{}: {error}", stored.path.display())))?;
+    let mut without_m = Vec::new();
+    let mut shares = Vec::with_capacity(sites * poes * strengths * bins);
+    for site in 0..sites {
+        for poe in 0..poes {
+            if records > 1 {
+                for record in 0..records {
+                    without_m.extend(by_strength.iter().map(|(without, _)| without[site][record * poes + poe]));
+                }
+            }
+            for (_, of_strength) in &by_strength {
+                let start = (site * poes + poe) * bins;
+                shares.extend_from_slice(&of_strength[start..start + bins]);
+            }
+        }
+    }
+    Ok(Influence { measure: measure.measure, without_m, shares })
+}
+
+/// The level below which a share of the risk lies, in the unit of the levels: linear within a bin, 0 at its lower end for the first, the last
+/// level for the last. NaN where there is no ordinate.
+///
+/// * `shares` — of one ordinate, as in [`Influence::shares`]
+pub fn level_of_share(levels: &[f64], shares: &[f64], share: f64) -> f64 {
+    let mut sum = 0.0;
+    for (bin, &part) in shares.iter().enumerate() {
+        if part > 0.0 && sum + part >= share * (1.0 - 1e-12) {
+            let from = if bin == 0 { 0.0 } else { levels[bin - 1] };
+            let to = levels.get(bin).copied().unwrap_or(from);
+            return from + (to - from) * ((share - sum) / part).clamp(0.0, 1.0);
+        }
+        sum += part;
+    }
+    f64::NAN
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn levels_of_shares_by_hand() {
+        // 10 % below 1, 40 % from 1 to 3, 50 % above 3
+        let (levels, shares) = ([1.0, 3.0], [0.1, 0.4, 0.5]);
+        for (share, expected) in [(0.05, 0.5), (0.1, 1.0), (0.3, 2.0), (0.5, 3.0), (0.95, 3.0)] {
+            assert!((level_of_share(&levels, &shares, share) - expected).abs() < 1e-12, "{share}");
+        }
+        assert!(level_of_share(&levels, &[f64::NAN; 3], 0.5).is_nan());
+    }
+}
