@@ -210,6 +210,7 @@ fn python_reads_the_result() {
     let Some(python) = python() else { return };
     let study = SmallStudy::new();
     study.uplift(&["run", "study.toml", "-o", "r.h5"]).ok();
+    add_everything(&study);
     for script in ["tests/python/read_result.py", "tests/python/read_spectra.py"] {
         let output =
             Command::new(&python).arg(repository().join(script)).arg(study.path().join("r.h5")).output().unwrap();
@@ -218,13 +219,37 @@ fn python_reads_the_result() {
     }
 }
 
+/// What the commands after a run add to its result.
+fn add_everything(study: &SmallStudy) {
+    study.uplift(&["bootstrap", "r.h5", "--replicates", "20", "--sizes", "2,4", "--simultaneous"]).ok();
+    study.uplift(&["influence", "r.h5"]).ok();
+    study.uplift(&["measures", "r.h5"]).ok();
+}
+
 #[test]
 fn the_tree_of_a_result() {
     let study = SmallStudy::new();
     study.uplift(&["run", "study.toml", "-o", "r.h5"]).ok();
+    add_everything(&study);
     let reader = LabelledReader::open(&study.path().join("r.h5")).unwrap();
     let mut lines = Vec::new();
-    for group in ["/axes", "/records", "/ida/pgv", "/risk/pgv", "/urs/pgv", "/regression/pgv", "/hazard/Here/pgv"] {
+    let groups = [
+        "/axes",
+        "/records",
+        "/ida/pgv",
+        "/risk/pgv",
+        "/urs/pgv",
+        "/regression/pgv",
+        "/hazard/Here/pgv",
+        "/bootstrap",
+        "/bootstrap/pgv",
+        "/influence/pgv",
+        "/disaggregation/pgv",
+        "/efficiency/pgv",
+        "/sufficiency/pgv",
+        "/sufficiency/pgv/magnitude",
+    ];
+    for group in groups {
         lines.push(format!("{group}: {}", reader.children(group).unwrap().join(" ")));
     }
     insta::assert_snapshot!(lines.join("\n"));

@@ -48,11 +48,15 @@ pub(super) struct BootstrapArguments {
     /// Draw the records as another result did, from its stored plan
     #[arg(long, value_name = "RESULT.h5", conflicts_with_all = ["sizes", "replicates", "seed"])]
     plan: Option<PathBuf>,
-    /// Table to compare with: CSV with the columns of Table 4.1 (site, sample_size, pgv_e_median_pct, pgv_r_90ci_pct, …)
-    #[arg(long, value_name = "FILE.csv")]
+    /// Table to compare with
+    #[arg(
+        long,
+        value_name = "FILE.csv",
+        help = "Table to compare with: CSV with the columns of Table 4.1 (site, sample_size, pgv_e_median_pct, pgv_r_90ci_pct, …)"
+    )]
     reference: Option<PathBuf>,
-    /// Print the rows as JSON: site, im, poe, sample_size, e_median and r_90ci in per cent
-    #[arg(long)]
+    /// Print the rows as JSON
+    #[arg(long, help = "Print the rows as JSON: site, im, poe, sample_size, e_median and r_90ci in per cent")]
     json: bool,
 }
 
@@ -232,6 +236,5 @@ fn checkpoint(stored: &StoredStripes, plan: &ResamplingPlan, settings: &BandSett
     for count in plan.multiplicities() {
         hash.update(count.to_le_bytes());
     }
-    let fingerprint = hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
-    Checkpoint::of(&stored.path, fingerprint)
+    Checkpoint::of(&stored.path, format!("{:x?}", hash.finalize()))
 }

@@ -157,18 +157,16 @@ fn print_reading(
                 .collect();
             let count = wins.iter().filter(|&&win| win).count();
             let (a, b) = (first.measure.label(), second.measure.label());
-            match count {
-                _ if wins.is_empty() => writeln!(out, "  for {what} the stripes do not tell which is more efficient")?,
-                all if all == wins.len() => {
-                    writeln!(out, "  {a} is the more efficient for {what}, at every strength shown")?
-                }
-                0 => writeln!(out, "  {b} is the more efficient for {what}, at every strength shown")?,
-                some => writeln!(
-                    out,
-                    "  {a} is the more efficient for {what} at {some} of the {} strengths shown, {b} at the others",
+            let said = match count {
+                _ if wins.is_empty() => format!("for {what} the stripes do not tell which is more efficient"),
+                all if all == wins.len() => format!("{a} is the more efficient for {what}, at every strength shown"),
+                0 => format!("{b} is the more efficient for {what}, at every strength shown"),
+                some => format!(
+                    "{a} is the more efficient for {what} at {some} of the {} strengths shown, {b} at the others",
                     wins.len()
-                )?,
-            }
+                ),
+            };
+            writeln!(out, "  {said}")?;
         }
     }
     writeln!(

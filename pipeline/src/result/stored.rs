@@ -195,6 +195,9 @@ impl StoredStripes {
     }
 }
 
+/// Key, array, what it is, and the form in which it enters a line.
+type Form = (&'static str, &'static str, &'static str, fn(f64) -> f64);
+
 /// What a result knows of its records, in the form in which a demand may depend on it: magnitude, the logarithm of the distance, the logarithm
 /// of the significant duration. What is known of fewer than three records is left out.
 ///
@@ -203,7 +206,7 @@ impl StoredStripes {
 pub fn covariates(stored: &StoredStripes) -> Result<Vec<Covariate>, UpliftError> {
     let reader = open_result(&stored.path)?;
     let mut found = Vec::new();
-    let forms: [(&'static str, &str, &'static str, fn(f64) -> f64); 3] = [
+    let forms: [Form; 3] = [
         ("magnitude", "magnitude", "moment magnitude", |value| value),
         ("ln_rrup", "rrup_km", "logarithm of the distance in km", f64::ln),
         ("ln_duration", "duration_5_95_s", "logarithm of the significant duration D5-95 in s", f64::ln),

@@ -20,6 +20,9 @@ pub struct Influence {
     pub shares: Vec<f64>,
 }
 
+/// One strength: ordinates without each record `[site][record, poe]`, shares `[site, poe, bin]`.
+type OfStrength = (Vec<Vec<f64>>, Vec<f64>);
+
 /// Influence of records and intensities on all spectra of `measure`.
 ///
 /// # Errors
@@ -27,7 +30,6 @@ pub struct Influence {
 pub fn influence(stored: &StoredStripes, measure: &StoredMeasure) -> Result<Influence, UpliftError> {
     let (sites, poes, strengths) = (stored.sites.len(), stored.poes.len(), stored.strengths.len());
     let (records, bins) = (stored.records.len(), measure.levels.len() + 1);
-    type OfStrength = (Vec<Vec<f64>>, Vec<f64>);
     let of_strength = |strength: usize| -> Result<OfStrength, Box<dyn std::error::Error + Send + Sync>> {
         let demand = measure.demand(strength, strengths)?;
         let (mut without, mut shares) = (Vec::new(), Vec::new());

@@ -38,6 +38,9 @@ pub struct Predictor {
     pub lines: Vec<Vec<Option<Line>>>,
 }
 
+/// One strength: scatter of each level, levels at first uplift, a line for each covariate.
+type OfStrength = (Vec<Dispersion>, Vec<f64>, Vec<Option<Line>>);
+
 /// Efficiency and sufficiency of `measure`.
 ///
 /// # Errors
@@ -47,7 +50,6 @@ pub fn predictor(
     measure: &StoredMeasure,
     covariates: &[Covariate],
 ) -> Result<Predictor, UpliftError> {
-    type OfStrength = (Vec<Dispersion>, Vec<f64>, Vec<Option<Line>>);
     let u_up = stored.uplift_displacement_m;
     let of_strength = |strength: usize| -> Result<OfStrength, Box<dyn std::error::Error + Send + Sync>> {
         let stripes = measure.stripes(strength, stored.strengths.len())?;

@@ -1,0 +1,324 @@
+//! `uplift bootstrap`, `influence` and `measures`: what they say, what they leave behind, and how they stop and go on.
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+mod common;
+
+use std::path::Path;
+
+use common::{SmallStudy, command, real_records, repository};
+use serde_json::Value;
+use uplift::labelled::LabelledReader;
+
+fn array(path: &Path, name: &str) -> Vec<f64> {
+    LabelledReader::open(path).unwrap().array_f64(name).unwrap().values
+}
+
+fn same_bits(a: &[f64], b: &[f64]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
+}
+
+const BANDS: [&str; 3] = ["u05_m", "u50_m", "u95_m"];
+
+fn rows(json: &str) -> Vec<Value> {
+    serde_json::from_str(json).unwrap()
+}
+
+// A study is run first, its result is used afterwards; the rows agree with the arrays, which Eq. 4.9 and 4.10 are formed of here anew.
+#[test]
+fn a_study_becomes_bands() {
+    let study = SmallStudy::new();
+    let result = study.path().join("results/study.h5");
+    let arguments = ["bootstrap", "study.toml", "--sizes", "2,4", "--replicates", "60", "--json"];
+    let first = study.uplift(&arguments).ok();
+    assert!(first.stderr.contains("is made first"), "{}", first.stderr);
+    let again = study.uplift(&arguments).ok();
+    assert!(again.stderr.contains("is that of the study"), "{}", again.stderr);
+    assert_eq!(first.stdout, again.stdout);
+
+    let rows = rows(&first.stdout);
+    // 2 measures, 2 sites, 3 probabilities, 2 sizes
+    assert_eq!(rows.len(), 24);
+    let (sites, poes, sizes) = (["Here", "There"], [0.02, 0.1, 0.5], [2_u64, 4]);
+    for (im, label) in [("pgv", "PGV"), ("pga", "PGA")] {
+        let [lower, median, upper] = BANDS.map(|name| array(&result, &format!("/bootstrap/{im}/{name}")));
+        let spectra = array(&result, &format!("/urs/{im}/u_m"));
+        let strengths = 10;
+        for (cell, range) in array(&result, &format!("/bootstrap/{im}/r_90ci")).into_iter().enumerate() {
+            let (site, poe, size) = (cell / 6, cell / 2 % 3, cell % 2);
+            let row = rows
+                .iter()
+                .find(|row| {
+                    row["im"] == label
+                        && row["site"] == sites[site]
+                        && row["poe"] == poes[poe]
+                        && row["sample_size"] == sizes[size]
+                })
+                .unwrap();
+            // strength 0 is left out
+            let at = |strength: usize| cell * strengths + strength;
+            let widest = (1..strengths).max_by(|&a, &b| {
+                let width = |strength: usize| upper[at(strength)] - lower[at(strength)];
+                width(a).total_cmp(&width(b))
+            });
+            let widest = at(widest.unwrap());
+            let expected = 100.0 * (upper[widest] - lower[widest]) / median[widest];
+            assert!((range - expected).abs() < 1e-9 * expected, "{range} {expected}");
+            assert!((row["r_90ci"].as_f64().unwrap() - range).abs() < 1e-9);
+            let spectrum = |strength: usize| spectra[(site * 3 + poe) * strengths + strength];
+            let difference = |strength: usize| (median[at(strength)] - spectrum(strength)).abs();
+            let furthest = (1..strengths).max_by(|&a, &b| difference(a).total_cmp(&difference(b))).unwrap();
+            let expected = 100.0 * difference(furthest) / spectrum(furthest);
+            assert!((row["e_median"].as_f64().unwrap() - expected).abs() < 1e-9 * (1.0 + expected), "{row}");
+        }
+    }
+    let table = std::fs::read_to_string(study.path().join("results/study.table-4-1.csv")).unwrap();
+    assert!(table.lines().nth(1).unwrap().ends_with("sample_size,e_median_pct,r_90ci_pct"), "{table}");
+    let bands = std::fs::read_to_string(study.path().join("results/study.bands.csv")).unwrap();
+    assert_eq!(bands.lines().nth(1).unwrap(), "site,im,poe,years,sample_size,strength,u05_m,u50_m,u95_m");
+    assert_eq!(bands.lines().count(), 2 + 24 * 10);
+    // what the run wrote is still there
+    assert!(LabelledReader::open(&result).unwrap().exists("/risk/pgv/maf_per_year"));
+}
+
+#[test]
+fn same_bits_on_any_number_of_threads_and_from_a_kept_plan() {
+    let study = SmallStudy::new();
+    for name in ["a.h5", "b.h5", "c.h5"] {
+        study.uplift(&["run", "study.toml", "-o", name, "-q"]).ok();
+    }
+    let options = ["--sizes", "3,9", "--replicates", "40", "--seed", "5", "--simultaneous", "--interval", "bca", "-q"];
+    study.uplift(&[&["bootstrap", "a.h5", "--threads", "1"], &options[..]].concat()).ok();
+    study.uplift(&[&["bootstrap", "b.h5", "--threads", "3"], &options[..]].concat()).ok();
+    let kept = ["bootstrap", "c.h5", "--plan", "a.h5", "--simultaneous", "--interval", "bca", "-q"];
+    study.uplift(&kept).ok();
+    for name in BANDS.iter().chain(&["simultaneous_lower_m", "simultaneous_upper_m"]) {
+        for im in ["pgv", "pga"] {
+            let name = format!("/bootstrap/{im}/{name}");
+            let [a, b, c] = ["a.h5", "b.h5", "c.h5"].map(|file| array(&study.path().join(file), &name));
+            assert!(same_bits(&a, &b) && same_bits(&a, &c), "{name}");
+        }
+    }
+    // the pointwise band lies within the one for whole spectra
+    let [lower, inner] = ["simultaneous_lower_m", "u50_m"]
+        .map(|name| array(&study.path().join("a.h5"), &format!("/bootstrap/pgv/{name}")));
+    assert!(lower.iter().zip(&inner).all(|(lower, inner)| lower <= inner));
+    study.uplift(&["bootstrap", "a.h5", "--plan", "study.toml"]).fails(4, &["study.toml", "not an HDF5 file"]);
+    study.uplift(&["run", "study.toml", "-o", "d.h5", "-q", "--set", "records.first=3"]).ok();
+    study.uplift(&["bootstrap", "d.h5", "--plan", "a.h5"]).fails(4, &["other records"]);
+    study.uplift(&["bootstrap", "a.h5", "--plan", "d.h5"]).fails(4, &["keeps no resampling plan"]);
+}
+
+// Stopped in the middle, it keeps what is done and goes on from there, to the same bits.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_bootstrap_goes_on() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-o", "whole.h5", "-q", "--set", "strengths.values=0.02:0.02:1"]).ok();
+    std::fs::copy(study.path().join("whole.h5"), study.path().join("parts.h5")).unwrap();
+    let options = ["--sizes", "4,8", "--replicates", "20000"];
+    let arguments = |file: &'static str| [&["bootstrap", file, "--threads", "1"], &options[..]].concat();
+    study.uplift(&arguments("whole.h5")).ok();
+
+    let mut pauses = 0;
+    loop {
+        let child = command(study.path())
+            .args(arguments("parts.h5"))
+            .stdout(std::process::Stdio::null())
+            .stderr(std::process::Stdio::piped())
+            .spawn()
+            .unwrap();
+        std::thread::sleep(std::time::Duration::from_millis(400));
+        if pauses < 2 {
+            std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+        }
+        let output = child.wait_with_output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        match output.status.code() {
+            Some(5) => {
+                assert!(said.contains("Run the same command to go on"), "{said}");
+                assert!(!LabelledReader::open(&study.path().join("parts.h5")).unwrap().exists("/bootstrap"));
+            }
+            Some(0) => {
+                // a machine may be so fast that nothing was left to stop
+                println!("finished after {pauses} pauses");
+                assert!(pauses == 0 || said.contains("resumed") || !said.contains("strengths from"), "{said}");
+                break;
+            }
+            other => panic!("{other:?}: {said}"),
+        }
+        pauses += 1;
+    }
+    for name in BANDS {
+        let name = format!("/bootstrap/pgv/{name}");
+        let [whole, parts] = ["whole.h5", "parts.h5"].map(|file| array(&study.path().join(file), &name));
+        assert!(same_bits(&whole, &parts), "{name}");
+    }
+    assert!(!study.path().join("parts.bootstrap.part.h5").exists());
+}
+
+#[test]
+fn sizes_above_the_set_one_record_and_one_replicate_are_defined() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    let more = study.uplift(&["bootstrap", "r.h5", "--sizes", "1,400", "--replicates", "1", "--json"]).ok();
+    assert!(more.stderr.contains("samples of 400 records from a set of 4"), "{}", more.stderr);
+    // one replicate has no width
+    assert!(rows(&more.stdout).iter().all(|row| row["r_90ci"] == 0.0));
+
+    study.uplift(&["run", "study.toml", "-o", "one.h5", "-q", "--set", "records.first=1"]).ok();
+    let one = study.uplift(&["bootstrap", "one.h5", "--replicates", "5", "--json", "--interval", "bca"]).ok();
+    for row in rows(&one.stdout) {
+        assert_eq!((&row["sample_size"], &row["e_median"]), (&Value::from(1), &Value::from(0.0)), "{row}");
+    }
+    study.uplift(&["influence", "one.h5"]).ok();
+    study.uplift(&["measures", "one.h5"]).ok();
+}
+
+#[test]
+fn mistakes_are_said_before_anything_is_computed() {
+    let study = SmallStudy::new();
+    study.uplift(&["bootstrap", "absent.h5"]).fails(4, &["absent.h5"]);
+    study.uplift(&["bootstrap", "absent.toml"]).fails(3, &["absent.toml"]);
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    study.uplift(&["bootstrap", "r.h5", "--sizes", "20,20"]).fails(2, &["20", "once"]);
+    study.uplift(&["bootstrap", "r.h5", "--sizes", "0"]).fails(2, &["0"]);
+    study.uplift(&["bootstrap", "r.h5", "--set", "bootstrap.replicates=9"]).fails(2, &["--set changes a study"]);
+    study.write("bad.csv", "site,size\nHere,20\n");
+    study.uplift(&["bootstrap", "r.h5", "--reference", "bad.csv"]).fails(4, &["bad.csv", "sample_size"]);
+    study.uplift(&["influence", "r.h5", "--poe", "0.3"]).fails(2, &["--poe", "0.02"]);
+    let bad = [
+        "bootstrap.sizes=[20, 20]",
+        "bootstrap.replicates=0",
+        "bootstrap.confidence=90",
+        "bootstrap.interval=\"normal\"",
+    ];
+    let arguments: Vec<&str> =
+        ["check", "study.toml"].into_iter().chain(bad.iter().flat_map(|key| ["--set", key])).collect();
+    study.uplift(&arguments).fails(3, &["given twice", "replicates", "90 % is 0.9", "percentile"]);
+}
+
+// The ordinates without a record are those of a set without it, run anew; the shares of the risk add up.
+#[test]
+fn influence_is_that_of_a_set_without_the_record() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-o", "all.h5", "-q"]).ok();
+    study.uplift(&["run", "study.toml", "-o", "three.h5", "-q", "--set", "records.first=3"]).ok();
+    let said: Value = serde_json::from_str(&study.uplift(&["influence", "all.h5", "--json"]).ok().stdout).unwrap();
+    assert!(!said["records"].as_array().unwrap().is_empty() && !said["intensities"].as_array().unwrap().is_empty());
+    let without = array(&study.path().join("all.h5"), "/influence/pgv/u_without_m");
+    let three = array(&study.path().join("three.h5"), "/urs/pgv/u_m");
+    let (records, strengths) = (4, 10);
+    for (row, spectrum) in three.chunks_exact(strengths).enumerate() {
+        let start = (row * records + 3) * strengths;
+        assert!(same_bits(&without[start..start + strengths], spectrum), "row {row}");
+    }
+    let shares = array(&study.path().join("all.h5"), "/disaggregation/pgv/share");
+    let mut whole = 0;
+    for ordinate in shares.chunks_exact(6).filter(|shares| shares[0].is_finite()) {
+        assert!((ordinate.iter().sum::<f64>() - 1.0).abs() < 1e-12, "{ordinate:?}");
+        whole += 1;
+    }
+    assert!(whole > 20);
+    let text = study.uplift(&["influence", "all.h5"]).ok().stdout;
+    assert!(
+        text.contains("Records that carry") && text.contains("SYN") && text.contains("all.influence.csv"),
+        "{text}"
+    );
+}
+
+#[test]
+fn measures_are_compared() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    let text = study.uplift(&["measures", "r.h5"]).ok().stdout;
+    for word in ["Efficiency", "Sufficiency", "PGV magnitude", "PGA ln_duration", "more efficient"] {
+        assert!(text.contains(word), "{word}:\n{text}");
+    }
+    let rows = rows(&study.uplift(&["measures", "r.h5", "--json"]).ok().stdout);
+    assert_eq!(rows.len(), 20);
+    for row in &rows {
+        for trend in row["trends"].as_object().unwrap().values() {
+            if let Some(p_value) = trend["p_value"].as_f64() {
+                assert!((0.0..=1.0).contains(&p_value), "{row}");
+            }
+        }
+    }
+    let dispersion = array(&study.path().join("r.h5"), "/efficiency/pgv/ln_deviation");
+    // from the demands themselves: strength 0.3 (index 4), level 30 cm/s (index 3)
+    let edp = array(&study.path().join("r.h5"), "/ida/pgv/edp_m");
+    let logarithms: Vec<f64> = (0..4).map(|record| edp[(record * 10 + 4) * 5 + 3].ln()).collect();
+    let mean = logarithms.iter().sum::<f64>() / 4.0;
+    let expected = (logarithms.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / 3.0).sqrt();
+    assert!((dispersion[4 * 5 + 3] - expected).abs() < 1e-12);
+}
+
+/// The trends of Table 4.1 with real records, on every tenth strength: bands shrink about as one over the root of the sample size, those of PGA
+/// are wider than those of PGV where structures rock, and narrower where they begin to.
+///
+/// The dissertation prints neither its records nor its hazard; so no digit of the table is held, and the figures are printed.
+#[test]
+fn trends_of_table_4_1_appear_with_real_records() {
+    let Some(records) = real_records() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let study = repository().join("configs/europe.toml");
+    let manifest = format!("records.manifest={}", records.join("manifest.csv").display());
+    let set = ["--set", &manifest, "--set", "records.tag=ord105", "--set", "strengths.values=0:1/30:1"];
+    let run = ["run", study.to_str().unwrap(), "-o", "t.h5", "-q", "--set", "risk.maf_surface=false"];
+    common::uplift(folder.path(), &[&run[..], &set[..]].concat()).ok();
+    let reference = repository().join("tests/reference/table_4_1.csv");
+    let report = |more: &[&str]| {
+        let arguments = [&["bootstrap", "t.h5", "--reference", reference.to_str().unwrap()], more].concat();
+        common::uplift(folder.path(), &arguments).ok().stdout
+    };
+    let text = report(&[]);
+    println!("{text}");
+    assert!(
+        text.contains("| 3.9  63") && text.contains("the spectrum is known from"),
+        "the reference stands beside ours"
+    );
+    let rows = rows(&report(&["--json"]));
+    // relative widths of the 2 % bands, on average over sites and the strengths above 0.05 that rock: [measure][size]
+    let result = folder.path().join("t.h5");
+    let strengths = LabelledReader::open(&result).unwrap().axis_f64("strength").unwrap();
+    let widths = ["pgv", "pga"].map(|im| {
+        let [lower, median, upper] = BANDS.map(|name| array(&result, &format!("/bootstrap/{im}/{name}")));
+        [0, 1, 2, 3, 4].map(|size| {
+            let (mut sum, mut count) = (0.0, 0);
+            for site in 0..6 {
+                for (index, &strength) in strengths.iter().enumerate() {
+                    let at = (site * 3 * 5 + size) * strengths.len() + index;
+                    if strength > 0.05 && lower[at] > 0.0005 {
+                        sum += (upper[at] - lower[at]) / median[at];
+                        count += 1;
+                    }
+                }
+            }
+            sum / f64::from(count)
+        })
+    });
+    println!("relative widths by size: PGV {:.2?}, PGA {:.2?}", widths[0], widths[1]);
+    for [twenty, _, _, eighty, _] in widths {
+        // √(80/20) = 2
+        assert!((1.6..2.6).contains(&(twenty / eighty)), "{widths:.2?}");
+    }
+    // Eq. 4.10 takes the widest place, where displacements are large: there PGA is the worse measure at every size
+    for size in [20, 40, 60, 80, 105] {
+        let mean = |im: &str| {
+            let chosen = rows.iter().filter(|row| row["im"] == im && row["poe"] == 0.02 && row["sample_size"] == size);
+            let ranges: Vec<f64> = chosen.map(|row| row["r_90ci"].as_f64().unwrap()).collect();
+            assert_eq!(ranges.len(), 6);
+            ranges.iter().sum::<f64>() / 6.0
+        };
+        let wider = mean("PGA") / mean("PGV");
+        assert!(wider > 1.5, "{size}: {wider}");
+    }
+    // widths at initiation: the last column of the last table, PGV and PGA in turn
+    let table = &text[text.find("Rocking initiation").unwrap()..];
+    let widths: Vec<f64> = table
+        .lines()
+        .filter(|line| line.contains("PGV") || line.contains("PGA"))
+        .filter_map(|line| line.split_whitespace().next_back()?.parse().ok())
+        .collect();
+    let (pgv, pga): (Vec<f64>, Vec<f64>) = widths.chunks_exact(2).map(|pair| (pair[0], pair[1])).unzip();
+    assert!(pgv.len() >= 4 && pga.iter().sum::<f64>() < pgv.iter().sum(), "{pgv:?} {pga:?}");
+}
