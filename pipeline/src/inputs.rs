@@ -5,7 +5,7 @@ mod hazard;
 mod manifest;
 mod record_set;
 
-pub use hazard::{SiteHazard, read_hazard};
+pub use hazard::{BranchHazard, HazardInput, SiteHazard, read_hazard};
 pub use record_set::{Record, RecordSet, read_records};
 
 use sha2::{Digest, Sha256};

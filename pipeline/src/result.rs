@@ -4,6 +4,7 @@ mod bands;
 mod checkpoint;
 mod csv;
 mod extend;
+mod hazard;
 mod influence;
 mod predictors;
 mod provenance;

@@ -2,13 +2,15 @@
 
 mod bands;
 mod coefficients;
+mod epistemic;
 mod influence;
 mod predictors;
 mod spectra;
 mod stripes;
 
-pub use bands::{BandSettings, Bands, StrengthBands, bands_of_strength, gather_bands};
+pub use bands::{BandSettings, Bands, JointBands, StrengthBands, bands_of_strength, gather_bands};
 pub use coefficients::{Coefficients, fit_spectra};
+pub use epistemic::{BranchSpectra, FRACTILES};
 pub use influence::{Influence, influence, level_of_share};
 pub use predictors::{Covariate, Predictor, predictor};
 pub use spectra::{Spectra, uniform_risk_spectra};

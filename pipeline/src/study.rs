@@ -15,6 +15,7 @@
 //! ```
 
 mod bootstrap;
+mod branches;
 mod document;
 mod error;
 mod form;
@@ -39,8 +40,8 @@ pub use error::{Place, StudyError, StudyMistake};
 pub use grid::Grid;
 pub use notation::MOST_GRID_VALUES;
 pub use resolved::{
-    Bootstrap, Contour, CurveFile, CurveKind, CurveUnit, DEFAULT_SYNTHETIC_PAIRS, DEFAULT_SYNTHETIC_SEED, Extrapolate,
-    IntervalKind, MeasurePlan, Oscillator, Output, RecordSource, Records, Regression, ResolvedStudy, Risk, Site,
-    Uplifted,
+    Bootstrap, Branch, Contour, CurveFile, CurveKind, CurveUnit, DEFAULT_SYNTHETIC_PAIRS, DEFAULT_SYNTHETIC_SEED,
+    Extrapolate, IntervalKind, MeasurePlan, Oscillator, Output, RecordSource, Records, Regression, ResolvedStudy, Risk,
+    Site, Uplifted,
 };
 pub use source::Study;

@@ -28,6 +28,7 @@ mod curve;
 mod declaration;
 mod error;
 mod interpolation;
+mod mean;
 mod probability;
 mod unit;
 

@@ -228,9 +228,11 @@ fn checkpoint(stored: &StoredStripes, plan: &ResamplingPlan, settings: &BandSett
     for measure in &stored.measures {
         add(&measure.levels);
         add(&measure.edp_m);
-        for weights in &measure.weights {
+        for weights in measure.weights.iter().chain(measure.branches.iter().flatten().map(|(_, weights)| weights)) {
             add(&weights.per_year());
         }
+        let branch_weights: Vec<f64> = measure.branches.iter().flatten().map(|(weight, _)| *weight).collect();
+        add(&branch_weights);
     }
     hash.update(format!("{:?} {} {:?}", plan.sizes(), plan.replicates(), settings));
     for count in plan.multiplicities() {

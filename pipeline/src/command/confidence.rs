@@ -59,6 +59,7 @@ impl Report<'_> {
         if !quiet {
             self.print_reading(out)?;
         }
+        self.print_joint(out)?;
         self.print_initiation(out)?;
         if !quiet {
             let [bands, figures] = band_paths(&stored.path);
@@ -160,6 +161,38 @@ impl Report<'_> {
                 )?;
             }
         }
+        Ok(())
+    }
+
+    /// Records and hazard together, for the sites with branches.
+    fn print_joint(&self, out: &mut impl Write) -> Result<(), UpliftError> {
+        let BandsFile { stored, plan, bands, settings, .. } = self.file;
+        let sizes = plan.sizes().len();
+        let mut rows = Vec::new();
+        for bands in *bands {
+            for joint in &bands.joint {
+                for (cell, range) in joint.range_of_interval.iter().enumerate() {
+                    let of_records = bands.range_of_interval[joint.site * stored.poes.len() * sizes + cell];
+                    rows.push(vec![
+                        stored.sites[joint.site].clone(),
+                        bands.measure.label().to_owned(),
+                        per_cent(stored.poes[cell / sizes]),
+                        plan.sizes()[cell % sizes].to_string(),
+                        figure(of_records, 0),
+                        figure(*range, 0),
+                    ]);
+                }
+            }
+        }
+        if rows.is_empty() {
+            return Ok(());
+        }
+        writeln!(
+            out,
+            "\nRecords and hazard together: width r of the {} interval over the records, and over the records and the weighted hazard curves, per cent",
+            per_cent(settings.confidence)
+        )?;
+        writeln!(out, "{}", table(&["site", "im", "probability", "records", "r", "joint r"], &rows))?;
         Ok(())
     }
 

@@ -232,6 +232,7 @@ fn print_summary(
         let header: Vec<&str> = header.iter().map(String::as_str).collect();
         writeln!(out, "{}", table(&header, &rows))?;
     }
+    print_branches(out, outcome, &shown)?;
     if !outcome.warnings.is_empty() {
         writeln!(out, "\nBefore you use these numbers:")?;
         for warning in outcome.warnings.iter().take(WARNINGS_SHOWN) {
@@ -251,6 +252,36 @@ fn print_summary(
     }
     if outcome.spectra.iter().any(|spectra| spectra.shape[0] > 0) {
         writeln!(out, "Coefficients (Table 4.2): uplift table {}", shown_path(&files[0]).display())?;
+    }
+    Ok(())
+}
+
+/// The spread of the spectra over weighted hazard curves, where a site has some.
+fn print_branches(out: &mut impl Write, outcome: &Outcome<'_>, shown: &[usize]) -> Result<(), UpliftError> {
+    let study = outcome.study;
+    let mut rows = Vec::new();
+    for spectra in outcome.spectra {
+        for branches in &spectra.branches {
+            for (poe, &probability) in study.risk.poe.iter().enumerate() {
+                for &strength in shown {
+                    let cell = poe * study.strengths.len() + strength;
+                    let [low, .., high] = &branches.fractiles_m;
+                    rows.push(vec![
+                        study.sites[branches.site].name.clone(),
+                        spectra.measure.label().to_owned(),
+                        per_cent(probability),
+                        format!("{:.3}", study.strengths[strength]),
+                        metres(low[cell]),
+                        metres(branches.mean_m[cell]),
+                        metres(high[cell]),
+                    ]);
+                }
+            }
+        }
+    }
+    if !rows.is_empty() {
+        writeln!(out, "\nSpread over the weighted hazard curves: displacement in m, 5 and 95 % fractile and mean")?;
+        writeln!(out, "{}", table(&["site", "im", "probability", "strength", "5 %", "mean", "95 %"], &rows))?;
     }
     Ok(())
 }

@@ -1,6 +1,6 @@
 //! The hazard curves of a study's sites, with the weights of the stripes that follow from them.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use uplift_hazard::{CsvOptions, Extrapolation, HazardCurve, SecondColumn, read_path};
 use uplift_motion::IntensityMeasure;
@@ -17,14 +17,34 @@ pub struct SiteHazard {
     pub site: String,
     /// The measure.
     pub measure: IntensityMeasure,
-    /// Where the curve was read.
-    pub file: PathBuf,
-    /// SHA-256 of the file.
+    /// The curve that the spectra are made of.
+    pub curve: HazardInput,
+    /// Weighted alternatives to it, if the site has some.
+    pub branches: Vec<BranchHazard>,
+}
+
+/// A hazard curve as used.
+#[derive(Debug, Clone)]
+pub struct HazardInput {
+    /// Where it was read; none for the mean of the branches.
+    pub file: Option<PathBuf>,
+    /// SHA-256 of the file; empty for a mean.
     pub checksum: String,
     /// The curve in field units, cm/s or g.
     pub curve: HazardCurve,
     /// What each stripe weighs in the risk integral (Eq. 4.4).
     pub weights: StripeWeights,
+}
+
+/// One of several weighted curves.
+#[derive(Debug, Clone)]
+pub struct BranchHazard {
+    /// Its name.
+    pub name: String,
+    /// Its weight.
+    pub weight: f64,
+    /// Its curve.
+    pub input: HazardInput,
 }
 
 /// Read the curves of every site and measure, `[measure][site]`, and notes about what was dropped from them.
@@ -39,57 +59,106 @@ pub fn read_hazard(study: &ResolvedStudy) -> Result<(Vec<Vec<SiteHazard>>, Vec<S
         let mut sites = Vec::new();
         for site in &study.sites {
             let Some(file) = site.curve(plan.measure) else { continue };
-            match read_one(&site.name, file, plan, study, &mut notes) {
-                Ok(hazard) => sites.push(hazard),
-                Err(reason) => mistakes.push(format!("site {}, {}: {reason}", site.name, plan.measure.label())),
-            }
+            let mut reader =
+                SiteReader { site: &site.name, file, plan, study, notes: &mut notes, mistakes: &mut mistakes };
+            sites.extend(reader.read());
         }
         all.push(sites);
     }
     if mistakes.is_empty() { Ok((all, notes)) } else { Err(UpliftError::Inputs(mistakes)) }
 }
 
-fn read_one(
-    site: &str,
-    file: &CurveFile,
-    plan: &MeasurePlan,
-    study: &ResolvedStudy,
-    notes: &mut Vec<String>,
-) -> Result<SiteHazard, String> {
-    let mut options = CsvOptions::new(plan.measure.label(), file.unit.symbol());
-    match file.kind {
-        CurveKind::Maf => options.second_column = Some(SecondColumn::AnnualRate),
-        CurveKind::Poe { years } => {
-            options.second_column = Some(SecondColumn::Probability);
-            options.years = Some(years);
+/// Reads what belongs to one site and measure.
+struct SiteReader<'a> {
+    site: &'a str,
+    file: &'a CurveFile,
+    plan: &'a MeasurePlan,
+    study: &'a ResolvedStudy,
+    notes: &'a mut Vec<String>,
+    mistakes: &'a mut Vec<String>,
+}
+
+impl SiteReader<'_> {
+    /// The hazard; none where something is wrong, which is then among the mistakes.
+    fn read(&mut self) -> Option<SiteHazard> {
+        let file = self.file;
+        let branches: Vec<BranchHazard> = file
+            .branches
+            .iter()
+            .filter_map(|branch| {
+                let input = self.input(&branch.file)?;
+                Some(BranchHazard { name: branch.name.clone(), weight: branch.weight, input })
+            })
+            .collect();
+        let curve = match &file.file {
+            Some(path) => self.input(path)?,
+            // a mean of some of the branches would be another curve
+            None if branches.len() < file.branches.len() => return None,
+            None => self.mean(&branches)?,
+        };
+        Some(SiteHazard { site: self.site.to_owned(), measure: self.plan.measure, curve, branches })
+    }
+
+    fn input(&mut self, path: &Path) -> Option<HazardInput> {
+        let read = self.read_file(path);
+        self.noted(read)
+    }
+
+    fn mean(&mut self, branches: &[BranchHazard]) -> Option<HazardInput> {
+        let curves: Vec<(f64, &HazardCurve)> =
+            branches.iter().map(|branch| (branch.weight, &branch.input.curve)).collect();
+        let mean = HazardCurve::weighted_mean(&curves, &self.plan.levels)
+            .map_err(|error| format!("the branches have no mean: {error}"))
+            .and_then(|curve| {
+                let weights = self.weights(&curve, "the mean of the branches")?;
+                Ok(HazardInput { file: None, checksum: String::new(), curve, weights })
+            });
+        self.noted(mean)
+    }
+
+    fn noted<T>(&mut self, read: Result<T, String>) -> Option<T> {
+        match read {
+            Ok(read) => Some(read),
+            Err(reason) => {
+                self.mistakes.push(format!("site {}, {}: {reason}", self.site, self.plan.measure.label()));
+                None
+            }
         }
     }
-    let read = read_path(&file.file, &options).map_err(|error| error.to_string())?;
-    for (count, what) in
-        [(read.dropped_zeros, "zeros at the end"), (read.dropped_certain, "probabilities of 1 at the start")]
-    {
-        if count > 0 {
-            notes.push(format!(
-                "site {site}, {}: {count} {what} of the hazard curve carry no rate and were dropped",
-                plan.measure.label()
-            ));
+
+    fn read_file(&mut self, path: &Path) -> Result<HazardInput, String> {
+        let mut options = CsvOptions::new(self.plan.measure.label(), self.file.unit.symbol());
+        match self.file.kind {
+            CurveKind::Maf => options.second_column = Some(SecondColumn::AnnualRate),
+            CurveKind::Poe { years } => {
+                options.second_column = Some(SecondColumn::Probability);
+                options.years = Some(years);
+            }
         }
+        let read = read_path(path, &options).map_err(|error| error.to_string())?;
+        for (count, what) in
+            [(read.dropped_zeros, "zeros at the end"), (read.dropped_certain, "probabilities of 1 at the start")]
+        {
+            if count > 0 {
+                self.notes.push(format!(
+                    "site {}, {}: {count} {what} of the hazard curve carry no rate and were dropped",
+                    self.site,
+                    self.plan.measure.label()
+                ));
+            }
+        }
+        let curve = read.curve.in_field_units(self.study.gravity_m_s2).map_err(|error| error.to_string())?;
+        let weights = self.weights(&curve, &path.display().to_string())?;
+        let bytes = std::fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
+        Ok(HazardInput { file: Some(path.to_owned()), checksum: checksum(&bytes), curve, weights })
     }
-    let curve = read.curve.in_field_units(study.gravity_m_s2).map_err(|error| error.to_string())?;
-    let extrapolation = match study.risk.extrapolate {
-        Extrapolate::Refuse => Extrapolation::Refuse,
-        Extrapolate::Loglog => Extrapolation::LogLog,
-    };
-    let weights = StripeWeights::from_hazard(&curve, &plan.levels, extrapolation).map_err(|error| {
-        format!("{}: {error}; or leave the level out of [{}]", file.file.display(), plan.measure.key())
-    })?;
-    let bytes = std::fs::read(&file.file).map_err(|error| format!("{}: {error}", file.file.display()))?;
-    Ok(SiteHazard {
-        site: site.to_owned(),
-        measure: plan.measure,
-        file: file.file.clone(),
-        checksum: checksum(&bytes),
-        curve,
-        weights,
-    })
+
+    fn weights(&self, curve: &HazardCurve, name: &str) -> Result<StripeWeights, String> {
+        let extrapolation = match self.study.risk.extrapolate {
+            Extrapolate::Refuse => Extrapolation::Refuse,
+            Extrapolate::Loglog => Extrapolation::LogLog,
+        };
+        StripeWeights::from_hazard(curve, &self.plan.levels, extrapolation)
+            .map_err(|error| format!("{name}: {error}; or leave the level out of [{}]", self.plan.measure.key()))
+    }
 }

@@ -61,7 +61,7 @@ pub fn write_bands(file: &BandsFile<'_>) -> Result<(), UpliftError> {
 }
 
 fn add_bands(writer: &mut LabelledWriter, file: &BandsFile<'_>) -> Result<(), LabelledError> {
-    let BandsFile { plan, settings, .. } = file;
+    let BandsFile { stored, plan, settings, .. } = file;
     writer.axis_u32("sample_size", plan.sizes(), "1", "records drawn in a replicate")?;
     let numbers: Vec<u32> = (0..).take(plan.replicates()).collect();
     writer.axis_u32("replicate", &numbers, "1", "number of the replicate")?;
@@ -89,6 +89,24 @@ fn add_bands(writer: &mut LabelledWriter, file: &BandsFile<'_>) -> Result<(), La
                 let long_name = "limit of the band that holds whole spectra";
                 writer.array_f64(&format!("{group}/{name}"), &dims, values, "m", long_name)?;
             }
+        }
+        for joint in &bands.joint {
+            let group = format!("{group}/joint/{}", stored.sites[joint.site]);
+            let [lower, median, upper] = limit_names(settings.confidence);
+            for (name, values) in [(lower, &joint.lower_m), (median, &joint.median_m), (upper, &joint.upper_m)] {
+                let long_name = "limit over resampled records and weighted hazard curves together";
+                writer.array_f64(
+                    &format!("{group}/{name}"),
+                    &["poe", "sample_size", "strength"],
+                    values,
+                    "m",
+                    long_name,
+                )?;
+            }
+            let ranges: Vec<f64> =
+                joint.range_of_interval.iter().map(|value| value.map_or(f64::NAN, |value| 100.0 * value)).collect();
+            let long_name = "range of the joint interval (Eq. 4.10)";
+            writer.array_f64(&format!("{group}/r_90ci"), &["poe", "sample_size"], &ranges, "%", long_name)?;
         }
         let dims = ["site", "poe", "sample_size"];
         let percent = |values: &[Option<f64>]| -> Vec<f64> {

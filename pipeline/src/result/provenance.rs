@@ -28,7 +28,13 @@ impl Provenance {
         let mut input_checksums: BTreeMap<String, String> =
             records.records.iter().map(|record| (format!("record {}", record.id), record.checksum.clone())).collect();
         for curve in hazard.iter().flatten() {
-            input_checksums.insert(format!("hazard {} {}", curve.site, curve.measure.label()), curve.checksum.clone());
+            let name = format!("hazard {} {}", curve.site, curve.measure.label());
+            for branch in &curve.branches {
+                input_checksums.insert(format!("{name} {}", branch.name), branch.input.checksum.clone());
+            }
+            if curve.curve.file.is_some() {
+                input_checksums.insert(name, curve.curve.checksum.clone());
+            }
         }
         Self {
             study_file: study_file.to_owned(),

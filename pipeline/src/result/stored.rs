@@ -8,6 +8,7 @@ use uplift_hazard::{Extrapolation, HazardCurve, rate_from_probability};
 use uplift_motion::IntensityMeasure;
 use uplift_risk::{PooledDemand, RiskCurve, StripeWeights};
 
+use super::hazard::branch_group;
 use super::open_result;
 use crate::error::UpliftError;
 use crate::labelled::LabelledReader;
@@ -54,6 +55,8 @@ pub struct StoredMeasure {
     pub edp_m: Vec<f64>,
     /// What each stripe weighs at each site.
     pub weights: Vec<StripeWeights>,
+    /// Weighted alternatives of each site, `[site]` of (weight, what each stripe weighs); none where it has no branches.
+    pub branches: Vec<Vec<(f64, StripeWeights)>>,
     /// The spectra over `[site, poe, strength]`, m, read as exact ordinates.
     pub spectra_m: Vec<f64>,
 }
@@ -136,9 +139,7 @@ impl StoredStripes {
         if edp.shape != [self.records.len(), self.strengths.len(), levels.len()] {
             return Err(fail(format!("/ida/{key}/edp_m has the shape {:?}, not that of its axes", edp.shape)));
         }
-        let mut weights = Vec::new();
-        for site in &self.sites {
-            let group = format!("/hazard/{site}/{key}");
+        let read_weights = |group: &str| -> Result<StripeWeights, UpliftError> {
             let maf = reader.array_f64(&format!("{group}/maf_per_year"))?;
             let im = match &maf.dims[..] {
                 [axis] => reader.axis_f64(axis)?,
@@ -146,12 +147,26 @@ impl StoredStripes {
             };
             let curve = HazardCurve::new(measure.label(), measure.unit(), "", im, maf.values)
                 .map_err(|error| fail(format!("{group}: {error}")))?;
-            weights.push(
-                StripeWeights::from_hazard(&curve, &levels, extrapolation)
-                    .map_err(|error| fail(format!("{group}: {error}")))?,
-            );
+            StripeWeights::from_hazard(&curve, &levels, extrapolation)
+                .map_err(|error| fail(format!("{group}: {error}")))
+        };
+        let (mut weights, mut branches) = (Vec::new(), Vec::new());
+        for site in &self.sites {
+            weights.push(read_weights(&format!("/hazard/{site}/{key}"))?);
+            let of_site = (0..)
+                .map(|index| branch_group(site, key, index))
+                .take_while(|group| reader.exists(group))
+                .map(|group| Ok((reader.attribute_f64(&group, "weight")?, read_weights(&group)?)));
+            branches.push(of_site.collect::<Result<Vec<_>, UpliftError>>()?);
         }
-        let mut measure = StoredMeasure { measure, levels, edp_m: edp.values, weights, spectra_m: Vec::new() };
+        let mut measure = StoredMeasure {
+            measure,
+            levels: levels.clone(),
+            edp_m: edp.values,
+            weights,
+            branches,
+            spectra_m: Vec::new(),
+        };
         let (sites, poes, strengths) = (self.sites.len(), self.poes.len(), self.strengths.len());
         measure.spectra_m = vec![0.0; sites * poes * strengths];
         for strength in 0..strengths {

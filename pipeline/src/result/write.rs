@@ -1,14 +1,14 @@
 //! The result file, written as docs/hdf5-layout.md describes it.
 
-use std::collections::BTreeSet;
 use std::path::Path;
 
 use uplift_motion::IntensityMeasure;
 use uplift_risk::{Ordinate, OrdinateFlag};
 
+use super::hazard::{write_branches, write_hazard};
 use super::{LAYOUT, Outcome};
 use crate::error::UpliftError;
-use crate::inputs::{Record, SiteHazard};
+use crate::inputs::Record;
 use crate::labelled::{LabelledError, LabelledWriter};
 
 /// Write `outcome` to `path`, aside and renamed, so that an earlier file survives a failure.
@@ -126,36 +126,6 @@ fn write_records(writer: &mut LabelledWriter, records: &[Record]) -> Result<(), 
     writer.array_u32("/records/samples", dims, &samples, "1", "number of samples")
 }
 
-fn write_hazard(writer: &mut LabelledWriter, hazard: &[Vec<SiteHazard>]) -> Result<(), LabelledError> {
-    let mut axes = BTreeSet::new();
-    for site in hazard.iter().flatten() {
-        let (key, label) = (site.measure.key(), site.measure.label());
-        let mut axis = hazard_axis(&site.site, key);
-        while !axes.insert(axis.clone()) {
-            axis.push('x'); // names that differ only in what an axis name cannot hold
-        }
-        writer.axis_f64(&axis, site.curve.im(), site.curve.unit(), &format!("{label} of the hazard curve"))?;
-        let group = format!("/hazard/{}/{key}", site.site);
-        let path = format!("{group}/maf_per_year");
-        writer.array_f64(&path, &[&axis], site.curve.maf(), "1/yr", "mean annual frequency of exceedance")?;
-        writer.attribute(&group, "source", site.curve.source())?;
-        writer.attribute(&group, "file", site.file.display().to_string().as_str())?;
-        writer.attribute(&group, "unit", site.curve.unit())?;
-    }
-    Ok(())
-}
-
-/// Name of the axis of a hazard curve: lower-case ASCII, whatever the site is called.
-fn hazard_axis(site: &str, measure: &str) -> String {
-    let site: String = site
-        .to_lowercase()
-        .chars()
-        .take(40)
-        .map(|character| if character.is_ascii_alphanumeric() { character } else { '_' })
-        .collect();
-    format!("hazard_{site}_{measure}")
-}
-
 fn write_measure(
     writer: &mut LabelledWriter,
     outcome: &Outcome<'_>,
@@ -191,6 +161,8 @@ fn write_measure(
     writer.array_f64(&path("lower_tail_share"), &dims, &of(|o| o.lower_tail_share), "1", long_name)?;
     let long_name = "share of the risk from above the last stripe";
     writer.array_f64(&path("upper_tail_share"), &dims, &of(|o| o.upper_tail_share), "1", long_name)?;
+
+    write_branches(writer, outcome, spectra)?;
 
     let fits = &outcome.coefficients[index].fits;
     let dims = ["site", "poe"];

@@ -2,11 +2,11 @@
 
 use rayon::prelude::*;
 use uplift_bootstrap::{
-    Band, Interval, Replicates, ResamplingPlan, acceleration, error_of_median, leave_one_out, range_of_interval,
-    simultaneous_bands,
+    Band, BootstrapError, Interval, Replicates, ResamplingPlan, acceleration, error_of_median, leave_one_out,
+    range_of_interval, simultaneous_bands, weighted_quantile,
 };
 use uplift_motion::IntensityMeasure;
-use uplift_risk::StripeWeights;
+use uplift_risk::{PooledDemand, StripeWeights};
 
 use crate::error::UpliftError;
 use crate::result::{StoredMeasure, StoredStripes};
@@ -28,7 +28,7 @@ pub struct BandSettings {
 /// The bands of one strength.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StrengthBands {
-    /// Over `[site, poe, size]`.
+    /// Over `[site, poe, size]`; after these the joint ones over `[site with branches, poe, size]`.
     pub bands: Vec<Band>,
     /// All replicates over `[site, poe, size, replicate]`, m, where whole spectra are wanted.
     pub replicates_m: Vec<f64>,
@@ -47,9 +47,26 @@ pub struct Bands {
     pub upper_m: Vec<f64>,
     /// Lower and upper limits of the band of whole spectra, if made.
     pub simultaneous_m: Option<[Vec<f64>; 2]>,
+    /// Bands over records and hazard together, for the sites with branches.
+    pub joint: Vec<JointBands>,
     /// Eq. 4.9 over `[site, poe, size]`.
     pub error_of_median: Vec<Option<f64>>,
     /// Eq. 4.10 over `[site, poe, size]`.
+    pub range_of_interval: Vec<Option<f64>>,
+}
+
+/// The bands of one site over records and weighted hazard curves together; arrays run over `[poe, size, strength]`, m.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JointBands {
+    /// Position of the site.
+    pub site: usize,
+    /// Lower limits.
+    pub lower_m: Vec<f64>,
+    /// Medians.
+    pub median_m: Vec<f64>,
+    /// Upper limits.
+    pub upper_m: Vec<f64>,
+    /// Eq. 4.10 over `[poe, size]`.
     pub range_of_interval: Vec<Option<f64>>,
 }
 
@@ -97,7 +114,39 @@ pub fn bands_of_strength(
             }
         }
     }
+    for branches in measure.branches.iter().filter(|branches| !branches.is_empty()) {
+        done.bands.extend(joint_bands(&demand, branches, targets, plan, settings).map_err(|error| fail(&error))?);
+    }
     Ok(done)
+}
+
+/// The bands of one strength and site over `[poe, size]`, of all pairs of a replicate and a branch: a replicate counts as much in every branch, and a branch
+/// as much as it weighs.
+fn joint_bands(
+    demand: &PooledDemand,
+    branches: &[(f64, StripeWeights)],
+    targets: &[f64],
+    plan: &ResamplingPlan,
+    settings: &BandSettings,
+) -> Result<Vec<Band>, BootstrapError> {
+    let weights: Vec<&StripeWeights> = branches.iter().map(|(_, weights)| weights).collect();
+    let replicates = Replicates::of(demand, &weights, targets, plan)?;
+    let tail = 0.5 * (1.0 - settings.confidence);
+    let mut bands = Vec::with_capacity(targets.len() * plan.sizes().len());
+    let mut pairs = Vec::with_capacity(branches.len() * plan.replicates());
+    for poe in 0..targets.len() {
+        for size in 0..plan.sizes().len() {
+            pairs.clear();
+            for (branch, (weight, _)) in branches.iter().enumerate() {
+                pairs.extend(replicates.ordinates_m(branch, poe, size).iter().map(|&u_m| (u_m, *weight)));
+            }
+            pairs.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+            let [lower_m, median_m, upper_m] =
+                [tail, 0.5, 1.0 - tail].map(|probability| weighted_quantile(&pairs, probability));
+            bands.push(Band { lower_m, median_m, upper_m });
+        }
+    }
+    Ok(bands)
 }
 
 /// The bands of all strengths, in order, as arrays; with the two figures of Table 4.1.
@@ -137,12 +186,35 @@ pub fn gather_bands(
             .collect();
         [limits.iter().map(|limits| limits.0).collect(), limits.iter().map(|limits| limits.1).collect()]
     });
+    let with_branches = (0..stored.sites.len()).filter(|&site| !measure.branches[site].is_empty());
+    let joint = with_branches
+        .enumerate()
+        .map(|(place, site)| {
+            let per_site = stored.poes.len() * sizes;
+            let start = cells + place * per_site;
+            let of = |value: fn(&Band) -> f64| -> Vec<f64> {
+                (start..start + per_site)
+                    .flat_map(|cell| strengths.iter().map(move |strength| value(&strength.bands[cell])))
+                    .collect()
+            };
+            let (lower_m, median_m, upper_m) =
+                (of(|band| band.lower_m), of(|band| band.median_m), of(|band| band.upper_m));
+            let range_of_interval = (0..per_site)
+                .map(|cell| {
+                    let row = cell * strengths.len() + first..(cell + 1) * strengths.len();
+                    range_of_interval(&lower_m[row.clone()], &median_m[row.clone()], &upper_m[row])
+                })
+                .collect();
+            JointBands { site, lower_m, median_m, upper_m, range_of_interval }
+        })
+        .collect();
     Bands {
         measure: measure.measure,
         lower_m,
         median_m,
         upper_m,
         simultaneous_m,
+        joint,
         error_of_median: errors,
         range_of_interval: ranges,
     }

@@ -6,7 +6,7 @@ use uplift_hazard::rate_from_probability;
 use uplift_motion::IntensityMeasure;
 use uplift_risk::{Ordinate, PooledDemand, RiskCurve, ThresholdGrid};
 
-use super::Stripes;
+use super::{BranchSpectra, Stripes};
 use crate::error::UpliftError;
 use crate::inputs::SiteHazard;
 use crate::study::{Contour, ResolvedStudy};
@@ -20,6 +20,8 @@ pub struct Spectra {
     pub shape: [usize; 3],
     /// Ordinates over `[site, poe, strength]`, row-major.
     pub ordinates: Vec<Ordinate>,
+    /// Spectra of each branch, for the sites that have branches.
+    pub branches: Vec<BranchSpectra>,
     /// Mean annual frequencies over `[site, strength, threshold]`, 1/yr, if the study keeps them.
     pub maf_per_year: Option<Vec<f64>>,
 }
@@ -36,8 +38,16 @@ impl Spectra {
     }
 }
 
-/// One strength: ordinates `[site][poe]`, surface rows `[site]`.
-type OfStrength = (Vec<Vec<Ordinate>>, Vec<Vec<f64>>);
+/// One strength.
+#[derive(Default)]
+struct OfStrength {
+    /// `[site][poe]`.
+    ordinates: Vec<Vec<Ordinate>>,
+    /// `[site][branch, poe]`, m.
+    branches_m: Vec<Vec<f64>>,
+    /// Surface rows `[site]`.
+    rows: Vec<Vec<f64>>,
+}
 
 /// The spectra of all sites from the stripes of one measure.
 ///
@@ -65,21 +75,25 @@ pub fn uniform_risk_spectra(
     let of_strength = |strength: usize| -> Result<OfStrength, Box<dyn std::error::Error + Send + Sync>> {
         let stripe = Stripe::strided(&stripes.levels, &edp_m[strength * levels..], records, strengths * levels)?;
         let demand = PooledDemand::new(&stripe)?;
-        let mut ordinates = Vec::with_capacity(hazard.len());
-        let mut rows = Vec::new();
+        let read = |curve: &RiskCurve<'_>| match study.risk.contour {
+            Contour::Exact => curve.exact_ordinates(&targets),
+            Contour::Grid => targets.iter().map(|&target| curve.grid_ordinate(&grid, target)).collect(),
+        };
+        let mut done = OfStrength::default();
         for site in hazard {
-            let curve = RiskCurve::new(&demand, &site.weights)?;
-            ordinates.push(match study.risk.contour {
-                Contour::Exact => curve.exact_ordinates(&targets)?,
-                Contour::Grid => {
-                    targets.iter().map(|&target| curve.grid_ordinate(&grid, target)).collect::<Result<_, _>>()?
-                }
-            });
+            let curve = RiskCurve::new(&demand, &site.curve.weights)?;
+            done.ordinates.push(read(&curve)?);
             if study.risk.maf_surface {
-                rows.push(curve.mean_annual_frequencies(&grid));
+                done.rows.push(curve.mean_annual_frequencies(&grid));
             }
+            let mut branches_m = Vec::with_capacity(site.branches.len() * targets.len());
+            for branch in &site.branches {
+                let ordinates = read(&RiskCurve::new(&demand, &branch.input.weights)?)?;
+                branches_m.extend(ordinates.iter().map(|ordinate| ordinate.displacement_m));
+            }
+            done.branches_m.push(branches_m);
         }
-        Ok((ordinates, rows))
+        Ok(done)
     };
     let by_strength = (0..strengths)
         .into_par_iter()
@@ -91,13 +105,25 @@ pub fn uniform_risk_spectra(
     let mut surface = Vec::new();
     for site in 0..hazard.len() {
         for poe in 0..targets.len() {
-            ordinates.extend(by_strength.iter().map(|(ordinates, _)| ordinates[site][poe]));
+            ordinates.extend(by_strength.iter().map(|done| done.ordinates[site][poe]));
         }
         if study.risk.maf_surface {
-            surface.extend(by_strength.iter().flat_map(|(_, rows)| rows[site].iter().copied()));
+            surface.extend(by_strength.iter().flat_map(|done| done.rows[site].iter().copied()));
         }
     }
+    let branches = hazard
+        .iter()
+        .enumerate()
+        .filter(|(_, site)| !site.branches.is_empty())
+        .map(|(index, site)| {
+            let cells = site.branches.len() * targets.len();
+            let spectra_m =
+                (0..cells).flat_map(|cell| by_strength.iter().map(move |done| done.branches_m[index][cell])).collect();
+            BranchSpectra::new(index, &site.branches, spectra_m)
+        })
+        .collect();
     Ok(Spectra {
+        branches,
         measure: stripes.measure,
         shape: [hazard.len(), targets.len(), strengths],
         ordinates,

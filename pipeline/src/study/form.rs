@@ -108,11 +108,21 @@ struct SiteForm<'a> {
 
 #[derive(Serialize)]
 struct CurveForm<'a> {
-    file: &'a Path,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    file: Option<&'a Path>,
     unit: &'static str,
     kind: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     years: Option<f64>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    branches: Vec<BranchForm<'a>>,
+}
+
+#[derive(Serialize)]
+struct BranchForm<'a> {
+    name: &'a str,
+    weight: f64,
+    file: &'a Path,
 }
 
 #[derive(Serialize)]
@@ -144,7 +154,7 @@ impl<'a> Form<'a> {
             Some(&plans.find(|plan| plan.measure == measure)?.levels)
         };
         let curve = |curve: &'a CurveFile| CurveForm {
-            file: &curve.file,
+            file: curve.file.as_deref(),
             unit: curve.unit.symbol(),
             kind: match curve.kind {
                 CurveKind::Maf => "maf",
@@ -154,6 +164,9 @@ impl<'a> Form<'a> {
                 CurveKind::Maf => None,
                 CurveKind::Poe { years } => Some(years),
             },
+            branches: (curve.branches.iter())
+                .map(|branch| BranchForm { name: &branch.name, weight: branch.weight, file: &branch.file })
+                .collect(),
         };
         Self {
             title: &study.title,

@@ -1,6 +1,6 @@
 //! From the document to the resolved study: every section, key by key.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use uplift_motion::STANDARD_GRAVITY_M_S2;
 
@@ -12,7 +12,7 @@ use super::paths::{Folders, tidy};
 use super::reader::{ABOVE_ZERO, Field, Ledger, PROBABILITY, Section, ZERO_OR_MORE, ZERO_TO_ONE, optional, quantity};
 use super::records;
 use super::resolved::{
-    Contour, Extrapolate, Oscillator, Output, RecordSource, Regression, ResolvedStudy, Risk, Uplifted,
+    Contour, CurveFile, Extrapolate, Oscillator, Output, RecordSource, Regression, ResolvedStudy, Risk, Uplifted,
 };
 use super::sites;
 use super::warnings;
@@ -47,11 +47,10 @@ pub(super) fn study(
     let bootstrap = bootstrap::read(root.section("bootstrap"));
     let inputs = (records.iter())
         .filter_map(|records| match &records.source {
-            RecordSource::Manifest { manifest, .. } => Some(manifest),
+            RecordSource::Manifest { manifest, .. } => Some(manifest.as_path()),
             RecordSource::Synthetic { .. } => None,
         })
-        .chain(sites.iter().flatten().flat_map(|site| site.curves.iter().map(|curve| &curve.file)))
-        .map(PathBuf::as_path)
+        .chain(sites.iter().flatten().flat_map(|site| site.curves.iter().flat_map(CurveFile::files)))
         .chain([study_file]);
     let output = output(root.section("output"), folders, study_file, inputs);
     root.finish();

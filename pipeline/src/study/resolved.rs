@@ -189,12 +189,32 @@ impl Site {
 pub struct CurveFile {
     /// The measure.
     pub measure: IntensityMeasure,
-    /// The file, absolute.
-    pub file: PathBuf,
-    /// Unit of its levels.
+    /// The file, absolute; none where the mean of the branches is taken.
+    pub file: Option<PathBuf>,
+    /// Unit of its levels, and of those of the branches.
     pub unit: CurveUnit,
     /// What it gives for each level.
     pub kind: CurveKind,
+    /// Epistemic uncertainty: weighted alternatives to the curve; none, or two and more whose weights add up to 1.
+    pub branches: Vec<Branch>,
+}
+
+impl CurveFile {
+    /// Every file with numbers of this curve.
+    pub fn files(&self) -> impl Iterator<Item = &Path> {
+        self.file.iter().chain(self.branches.iter().map(|branch| &branch.file)).map(PathBuf::as_path)
+    }
+}
+
+/// One of several weighted hazard curves of a site, a realization of a logic tree for instance.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Branch {
+    /// Its name, of no other branch of the curve.
+    pub name: String,
+    /// Its weight \[-\].
+    pub weight: f64,
+    /// The file, absolute.
+    pub file: PathBuf,
 }
 
 /// The unit of the levels in a file.

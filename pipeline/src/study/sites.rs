@@ -2,6 +2,7 @@
 
 use uplift_motion::IntensityMeasure;
 
+use super::branches;
 use super::document::Value;
 use super::measures::{MEASURES, MeasureKeys};
 use super::paths::Folders;
@@ -107,9 +108,10 @@ fn curve(field: &Field<'_>, keys: &MeasureKeys, folders: &Folders) -> Option<Cur
         Value::Text(_) => {
             return Some(CurveFile {
                 measure,
-                file: folders.input(field)?,
+                file: Some(folders.input(field)?),
                 unit: keys.default_unit,
                 kind: CurveKind::Maf,
+                branches: Vec::new(),
             });
         }
         Value::Table(_) => {}
@@ -121,16 +123,21 @@ fn curve(field: &Field<'_>, keys: &MeasureKeys, folders: &Folders) -> Option<Cur
         }
     }
     let mut section = field.section();
-    let file = if let Some(field) = section.field("file") {
-        folders.input(&field)
-    } else {
-        section.mistake("file", "the curve has no file", "add file = \"path\"");
-        None
+    let branches = section.field("branches").map_or(Some(Vec::new()), |field| branches::read(&field, folders));
+    let file = match (section.field("file"), &branches) {
+        (Some(field), _) => folders.input(&field).map(Some),
+        // branches with mistakes are still branches
+        (None, None) => Some(None),
+        (None, Some(branches)) if !branches.is_empty() => Some(None),
+        (None, Some(_)) => {
+            section.mistake("file", "the curve has no file", "add file = \"path\", or branches = [ … ]");
+            None
+        }
     };
     let unit = section.field("unit").map_or(Some(keys.default_unit), |field| field.choice(keys.units));
     let kind = kind(&mut section);
     section.finish();
-    Some(CurveFile { measure, file: file?, unit: unit?, kind: kind? })
+    Some(CurveFile { measure, file: file?, unit: unit?, kind: kind?, branches: branches? })
 }
 
 fn kind(section: &mut Section<'_>) -> Option<CurveKind> {

@@ -94,7 +94,7 @@ fn complete_study() {
     assert_eq!(study.oscillator.uplifted, Uplifted::NegativeStiffness { capacity_m: 0.3 });
     assert_eq!(study.strengths.len(), 7);
     let curve = study.sites[0].curve(IntensityMeasure::Pga).unwrap();
-    assert_eq!(curve.file, folder.path("pga.csv"));
+    assert_eq!(curve.file, Some(folder.path("pga.csv")));
     assert_eq!((curve.unit, curve.kind), (CurveUnit::MPerS2, CurveKind::Poe { years: 1.0 }));
     let curve = study.sites[1].curve(IntensityMeasure::Pgv).unwrap();
     assert_eq!((curve.unit, curve.kind), (CurveUnit::MPerS, CurveKind::Maf));

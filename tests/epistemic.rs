@@ -1,0 +1,103 @@
+//! Sites with several weighted hazard curves: spectra of the branches, their mean and fractiles, and the joint band with the bootstrap.
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+mod common;
+
+use common::SmallStudy;
+use uplift::labelled::LabelledReader;
+
+const HEAD: &str = r#"seed = 3
+[records]
+first = 4
+[records.synthetic]
+pairs = 4
+[strengths]
+values = ["0.1:0.1:0.8"]
+[pgv]
+levels_cm_s = [1, 3, 10, 30, 100]
+[risk]
+poe = [0.02, 0.5]
+maf_surface = false
+[[sites]]
+name = "Here"
+"#;
+
+/// Two power laws, one twice the other, and their mean with weights 0.3 and 0.7, which is 1.7 times the first.
+fn study() -> SmallStudy {
+    let study = SmallStudy::with(&format!(
+        "{HEAD}[sites.pgv]\n[[sites.pgv.branches]]\nfile = \"a.csv\"\nweight = 0.3\n[[sites.pgv.branches]]\nname = \"twice\"\nfile = \"b.csv\"\nweight = 0.7\n"
+    ));
+    for (name, factor) in [("a", 1.0), ("b", 2.0), ("mean", 1.7)] {
+        let rows: Vec<String> =
+            [0.5_f64, 2.0, 20.0, 300.0].iter().map(|&im| format!("{im},{:e}", 0.1 * factor * im.powi(-2))).collect();
+        study.write(&format!("{name}.csv"), &format!("iml,maf\n{}\n", rows.join("\n")));
+        study.write(&format!("{name}.toml"), &format!("{HEAD}pgv = \"{name}.csv\"\n"));
+    }
+    study
+}
+
+fn array(study: &SmallStudy, file: &str, name: &str) -> Vec<f64> {
+    LabelledReader::open(&study.path().join(file)).unwrap().array_f64(name).unwrap().values
+}
+
+#[test]
+fn branches_are_the_studies_of_their_curves() {
+    let study = study();
+    for name in ["study", "a", "b", "mean"] {
+        study.uplift(&["run", &format!("{name}.toml"), "-o", &format!("{name}.h5"), "-q"]).ok();
+        let options = ["--replicates", "101", "--sizes", "3,8", "-q"];
+        study.uplift(&[&["bootstrap", &format!("{name}.h5")][..], &options[..]].concat()).ok();
+    }
+    let spectra = |file: &str| array(&study, file, "/urs/pgv/u_m");
+    let (a, b) = (spectra("a.h5"), spectra("b.h5"));
+    assert_ne!(a, b);
+    assert_eq!(array(&study, "study.h5", "/epistemic/pgv/Here/u_m"), [a.clone(), b.clone()].concat());
+    assert_eq!(array(&study, "study.h5", "/epistemic/pgv/Here/weight"), [0.3, 0.7]);
+    // the spectrum of the site is that of the mean hazard
+    assert_eq!(spectra("study.h5"), spectra("mean.h5"));
+    for (index, mean) in array(&study, "study.h5", "/epistemic/pgv/Here/mean_m").into_iter().enumerate() {
+        assert!((mean - (0.3 * a[index] + 0.7 * b[index])).abs() <= 1e-15 * mean);
+    }
+    // more hazard, more demand: the first branch is every fractile up to 30 %
+    for (name, expected) in [("u05_m", &a), ("u16_m", &a), ("u50_m", &b), ("u84_m", &b), ("u95_m", &b)] {
+        assert_eq!(&array(&study, "study.h5", &format!("/epistemic/pgv/Here/{name}")), expected, "{name}");
+    }
+    // a mixture's quantile lies between those of its parts; with 101 replicates both definitions of a quantile agree
+    let mut between = 0;
+    for name in ["u05_m", "u50_m", "u95_m"] {
+        let joint = array(&study, "study.h5", &format!("/bootstrap/pgv/joint/Here/{name}"));
+        let of = |file: &str| array(&study, file, &format!("/bootstrap/pgv/{name}"));
+        for ((joint, a), b) in joint.iter().zip(of("a.h5")).zip(of("b.h5")) {
+            assert!((a..=b).contains(joint), "{name}: {a} {joint} {b}");
+            between += usize::from(a < *joint && *joint < b);
+        }
+    }
+    assert!(between > 0, "the branches are mixed");
+    let text = study.uplift(&["bootstrap", "study.h5", "--replicates", "20"]).ok().stdout;
+    assert!(text.contains("Records and hazard together"), "{text}");
+    // the study in the file gives the same study again
+    let toml = LabelledReader::open(&study.path().join("study.h5")).unwrap().attribute_text("/", "study_toml").unwrap();
+    study.write("again.toml", &toml);
+    study.uplift(&["run", "again.toml", "-o", "again.h5", "-q"]).ok();
+    assert_eq!(array(&study, "again.h5", "/epistemic/pgv/Here/u_m"), [a, b].concat());
+}
+
+#[test]
+fn mistakes_in_branches_are_all_said() {
+    let study = study();
+    let site = |branches: &str| {
+        study.write("bad.toml", &format!("{HEAD}pgv = {{ branches = [{branches}] }}\n"));
+        study.uplift(&["check", "bad.toml"])
+    };
+    site("").fails(3, &["0 branches"]);
+    site("{ file = \"a.csv\", weight = 0.5 }").fails(3, &["1 branches"]);
+    site("{ file = \"a.csv\", weight = 0.5 }, { file = \"b.csv\", weight = 0.6 }").fails(3, &["add up to 1.1"]);
+    site("{ file = \"a.csv\" }, { weight = 0.6 }").fails(3, &["no weight", "no file"]);
+    site("{ file = \"absent.csv\", weight = 0.5 }, { file = \"b.csv\", weight = 5 }")
+        .fails(3, &["absent.csv", "below 1"]);
+    site("{ file = \"a.csv\", weight = 0.5, name = \"x\" }, { file = \"b.csv\", weight = 0.5, name = \"x\" }")
+        .fails(3, &["has this name"]);
+    study.write("short.csv", "iml,maf\n2,0.1\n20,0.01\n");
+    site("{ file = \"a.csv\", weight = 0.5 }, { file = \"short.csv\", weight = 0.5 }")
+        .fails(4, &["short.csv", "outside"]);
+}
