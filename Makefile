@@ -40,6 +40,7 @@ python:
 bench:
 	cargo bench --locked -p uplift-oscillator --bench solvers
 	cargo bench --locked -p uplift-ida --bench chapter_4
+	cargo bench --locked -p uplift-bootstrap --bench resampling
 
 clean:
 	cargo clean

@@ -174,6 +174,29 @@ fn sizes_above_the_set_one_record_and_one_replicate_are_defined() {
     study.uplift(&["measures", "one.h5"]).ok();
 }
 
+// An ordinate that overturning makes infinite, or that nothing exceeds so often, gives no ratio, and says so.
+#[test]
+fn overturning_and_spectra_of_zero_are_defined() {
+    let study = SmallStudy::new();
+    let run = |name: &str, keys: [&str; 2]| {
+        study.uplift(&["run", "study.toml", "-o", name, "-q", "--set", keys[0], "--set", keys[1]]).ok();
+        let finished = study.uplift(&["bootstrap", name, "--sizes", "4", "--replicates", "30", "--json"]).ok();
+        study.uplift(&["bootstrap", name, "--sizes", "4", "--replicates", "30"]).ok();
+        study.uplift(&["influence", name]).ok();
+        study.uplift(&["measures", name]).ok();
+        rows(&finished.stdout)
+    };
+    let overturned = run("overturned.h5", ["oscillator.capacity_m=0.004", "risk.years=50"]);
+    assert!(array(&study.path().join("overturned.h5"), "/bootstrap/pgv/u95_m").contains(&f64::INFINITY));
+    assert!(overturned.iter().any(|row| row["r_90ci"].is_null() && row["e_median"].is_null()));
+    // a target of 16 a year, above λ(0) everywhere
+    let still = run("still.h5", ["risk.poe=[0.9999999]", "risk.years=1"]);
+    assert!(array(&study.path().join("still.h5"), "/bootstrap/pgv/u95_m").iter().all(|&u_m| u_m == 0.0));
+    for row in still {
+        assert_eq!((row["e_median"].as_f64(), row["r_90ci"].as_f64()), (Some(0.0), Some(0.0)), "{row}");
+    }
+}
+
 #[test]
 fn mistakes_are_said_before_anything_is_computed() {
     let study = SmallStudy::new();

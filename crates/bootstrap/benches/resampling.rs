@@ -1,0 +1,55 @@
+//! Ordinates of resampled spectra: one oscillator, one site, 105 records at 75 levels, three probabilities.
+#![allow(missing_docs, clippy::unwrap_used)]
+
+use std::hint::black_box;
+
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use uplift_bootstrap::{Replicates, ResamplingPlan};
+use uplift_fragility::Stripes;
+use uplift_hazard::{Extrapolation, HazardCurve};
+use uplift_risk::{PooledDemand, RiskCurve, StripeWeights};
+
+const RECORDS: usize = 105;
+const LEVELS: usize = 75;
+const TARGETS: [f64; 3] = [4.04e-4, 2.1e-3, 0.0139];
+
+fn benchmarks(criterion: &mut Criterion) {
+    let levels: Vec<f64> = (0..LEVELS).map(|i| 1.0 + 2.7 * i as f64).collect();
+    // demands that grow with the level and scatter by record, a factor of e up and down
+    let edp_m: Vec<f64> = (0..RECORDS)
+        .flat_map(|record| {
+            let scatter = (((record * 37) % RECORDS) as f64 / 52.0 - 1.0).exp();
+            levels.iter().enumerate().map(move |(level, im)| {
+                1e-4 * scatter * im * im.sqrt() * (1.0 + 0.1 * ((record * 7 + level * 3) % 11) as f64)
+            })
+        })
+        .collect();
+    let demand = PooledDemand::new(&Stripes::new(&levels, &edp_m).unwrap()).unwrap();
+    let im: Vec<f64> = (0..24).map(|i| 0.5 * 1.4_f64.powi(i)).collect();
+    let maf = im.iter().map(|im| 0.5 * im.powf(-1.7)).collect();
+    let hazard = HazardCurve::new("PGV", "cm/s", "power law", im, maf).unwrap();
+    let weights = StripeWeights::from_hazard(&hazard, &levels, Extrapolation::Refuse).unwrap();
+
+    let mut group = criterion.benchmark_group("resamples");
+    for size in [20, 105] {
+        let plan = ResamplingPlan::draw(RECORDS, &[size], 1000, 1).unwrap();
+        group.throughput(Throughput::Elements(1000));
+        group.bench_function(format!("split by record, samples of {size}"), |bencher| {
+            bencher.iter(|| Replicates::of(&demand, &[&weights], black_box(&TARGETS), &plan).unwrap());
+        });
+    }
+    let plan = ResamplingPlan::draw(RECORDS, &[105], 100, 1).unwrap();
+    group.throughput(Throughput::Elements(100));
+    group.bench_function("sweep over the pool, samples of 105", |bencher| {
+        bencher.iter(|| {
+            for sample in plan.samples() {
+                let curve = RiskCurve::resampled(&demand, &weights, sample).unwrap();
+                black_box(curve.exact_ordinates(black_box(&TARGETS)).unwrap());
+            }
+        });
+    });
+    group.finish();
+}
+
+criterion_group!(benches, benchmarks);
+criterion_main!(benches);
