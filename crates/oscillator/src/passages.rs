@@ -13,7 +13,7 @@ const SIMPLE: f64 = 9.0;
 /// Newton steps before the safe search takes over.
 const NEWTON_STEPS: usize = 12;
 /// A Newton step below this part of the interval leaves an error of its square.
-const CONVERGED: f64 = 1e-9;
+const CONVERGED: f64 = 1e-8;
 /// Newton steps on the short series before a new start is made.
 const NEARBY_STEPS: usize = 5;
 
