@@ -72,6 +72,16 @@ fn hazard_curves() {
     // the last stripe, 100 cm/s, is outside
     spoil("iml,maf\n0.5,0.1\n50,0.01\n", &["100 cm/s", "extrapolate"]);
     study.uplift(&["check", "study.toml", "--set", "risk.extrapolate=loglog"]).ok();
+    // m/s taken for cm/s, and cm/s for m/s, where the levels still reach beyond the stripes
+    for (rows, word) in
+        [("0.5,0.9\n10,0.5\n2000,0.02\n", "1000 cm/s is exceeded"), ("0.1,5e-5\n1,2e-5\n300,1e-9\n", "0.3 cm/s")]
+    {
+        study.write("here-pgv.csv", &format!("iml,maf\n{rows}"));
+        let checked = study.uplift(&["check", "study.toml"]).ok();
+        let said = checked.stdout + &checked.stderr;
+        assert!(said.contains(word) && said.contains("check the unit"), "{said}");
+    }
+    study.write("here-pgv.csv", "iml,maf\n0.5,0.1\n10,0.2\n300,0.01\n");
     // the mistakes of several sites at once
     study.write("there-pgv.csv", "iml,poe\n0.005,0.5\n3,1.5\n");
     study.uplift(&["check", "study.toml"]).fails(4, &["Here", "There", "1.5"]);
@@ -90,6 +100,13 @@ fn manifests() {
     check("A,a.txt,a.txt,,,\n", &["record A", "a.txt"]);
     check("A,a.txt,a.txt,,0.01,stone\n", &["record A", "stone"]);
     check("A,a.txt,a.txt,,-1,g\n", &["dt_s", "-1"]);
+    // all of one row
+    check("A,b.AT2,,,-1,stone\n", &["b.AT2", "file_h2", "dt_s", "stone"]);
+    // one file as both components is said, and a spreadsheet's semicolons are read
+    let semicolons = with_manifest("");
+    semicolons.write("manifest.csv", "record_id;file_h1;file_h2;set_tags\nA;a.AT2;a.AT2;good\n");
+    let checked = semicolons.uplift(&["check", "study.toml", "--set", "records.tag=good"]).ok();
+    assert!((checked.stdout + &checked.stderr).contains("same file for both components (A)"));
     let study = with_manifest("A,a.AT2,a.AT2,one;two,,\n");
     study.uplift(&["check", "study.toml", "--set", "records.tag=three"]).fails(4, &["three", "one", "two"]);
     study.uplift(&["check", "study.toml", "--set", "records.tag=two"]).ok();

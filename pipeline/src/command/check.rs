@@ -34,6 +34,7 @@ pub(super) fn check(arguments: &CheckArguments, session: &Session) -> Result<(),
     let records = read_records(&study)?;
     let oscillators = oscillators(&study)?;
     notes.splice(0..0, study.warnings.iter().cloned());
+    notes.extend(records.notes.iter().cloned());
 
     let threads = rayon::current_num_threads();
     let mut analyses = 0;

@@ -94,6 +94,7 @@ pub(super) fn run_study(
     }
     let coefficients: Vec<Coefficients> = spectra.iter().map(|spectra| fit_spectra(study, spectra)).collect();
     let mut warnings = notes;
+    warnings.extend(records.notes.iter().cloned());
     warnings.extend(warnings_of(study, &records, &spectra, &coefficients));
 
     if session.stop.load(Ordering::Relaxed) {

@@ -66,9 +66,18 @@ pub(super) fn table(arguments: &TableArguments) -> Result<(), UpliftError> {
         )));
     }
     if arguments.reference.is_some() && rows.iter().all(|(_, reference)| reference.is_none()) {
-        return Err(UpliftError::input(
-            "no row of the reference has a site and probability of the result: check the names of the sites",
-        ));
+        // the coefficients are of use all the same; the remark is for who mistyped a name
+        let names = |of: &mut dyn Iterator<Item = &str>| {
+            let mut names: Vec<&str> = of.collect();
+            names.sort_unstable();
+            names.dedup();
+            names.join(", ")
+        };
+        eprintln!(
+            "note: no row of the reference has a site and probability of the result: it has {}, the result {}",
+            names(&mut references.iter().map(|reference| reference.site.as_str())),
+            names(&mut rows.iter().map(|(spectrum, _)| spectrum.site.as_str()))
+        );
     }
     let mut out = std::io::stdout().lock();
     if arguments.json {

@@ -68,6 +68,33 @@ pub fn read_hazard(study: &ResolvedStudy) -> Result<(Vec<Vec<SiteHazard>>, Vec<S
     if mistakes.is_empty() { Ok((all, notes)) } else { Err(UpliftError::Inputs(mistakes)) }
 }
 
+/// A level that hardly any site exceeds, and one that nearly every site does, in field units.
+fn extreme_levels(measure: IntensityMeasure) -> Option<[f64; 2]> {
+    match measure {
+        IntensityMeasure::Pgv => Some([1000.0, 0.3]),
+        IntensityMeasure::Pga => Some([10.0, 0.003]),
+        _ => None,
+    }
+}
+
+/// What a wrong unit looks like: the extreme shaking is frequent, or the faintest is rare.
+fn implausible(curve: &HazardCurve, measure: IntensityMeasure) -> Option<String> {
+    /// Once in ten thousand years.
+    const RARE_PER_YEAR: f64 = 1e-4;
+    let [strong, faint] = extreme_levels(measure)?;
+    let unit = measure.unit();
+    let at = |level: f64| curve.rate_at(level).ok();
+    if let Some(rate) = at(strong).filter(|&rate| rate > RARE_PER_YEAR) {
+        return Some(format!(
+            "{strong} {unit} is exceeded {rate:.1e} times a year, which is hardly possible: check the unit of the curve"
+        ));
+    }
+    let rate = at(faint).filter(|&rate| rate < RARE_PER_YEAR)?;
+    Some(format!(
+        "{faint} {unit} is exceeded only {rate:.1e} times a year, which is hardly possible: check the unit of the curve"
+    ))
+}
+
 /// Reads what belongs to one site and measure.
 struct SiteReader<'a> {
     site: &'a str,
@@ -148,6 +175,10 @@ impl SiteReader<'_> {
             }
         }
         let curve = read.curve.in_field_units(self.study.gravity_m_s2).map_err(|error| error.to_string())?;
+        self.notes
+            .extend(implausible(&curve, self.plan.measure).map(|doubt| {
+                format!("site {}, {}: {}: {doubt}", self.site, self.plan.measure.label(), path.display())
+            }));
         let weights = self.weights(&curve, &path.display().to_string())?;
         let bytes = std::fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
         Ok(HazardInput { file: Some(path.to_owned()), checksum: checksum(&bytes), curve, weights })

@@ -58,7 +58,10 @@ pub(super) fn read(path: &Path, tag: Option<&str>) -> Result<Vec<Row>, Vec<Strin
                     mistakes.push(format!("manifest {name}, row {}: record {} stands there twice", index + 1, row.id));
                 }
                 Ok(row) => rows.push(row),
-                Err(reason) => mistakes.push(format!("manifest {name}, row {}: {reason}", index + 1)),
+                Err(reasons) => {
+                    mistakes
+                        .extend(reasons.iter().map(|reason| format!("manifest {name}, row {}: {reason}", index + 1)));
+                }
             }
         }
     }
@@ -75,13 +78,16 @@ pub(super) fn read(path: &Path, tag: Option<&str>) -> Result<Vec<Row>, Vec<Strin
     if mistakes.is_empty() { Ok(rows) } else { Err(mistakes) }
 }
 
-/// All columns as text: an identifier such as 0012 must stay what it is.
+/// All columns as text: an identifier such as 0012 must stay what it is. Spreadsheets of many countries separate columns by semicolons.
 fn parse(bytes: &[u8]) -> Result<DataFrame, polars::prelude::PolarsError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let header = bytes.split(|&byte| byte == b'\n').find(|line| !line.starts_with(b"#")).unwrap_or_default();
+    let separator = if header.contains(&b';') && !header.contains(&b',') { b';' } else { b',' };
+    let options = CsvParseOptions::default().with_comment_prefix(Some("#")).with_separator(separator);
     CsvReadOptions::default()
         .with_has_header(true)
         .with_infer_schema_length(Some(0))
-        .with_parse_options(CsvParseOptions::default().with_comment_prefix(Some("#")))
+        .with_parse_options(options)
         .into_reader_with_file_handle(Cursor::new(bytes))
         .finish()
 }
@@ -97,28 +103,37 @@ fn cells(table: &DataFrame, index: usize) -> BTreeMap<String, String> {
         .collect()
 }
 
-fn row(cells: &mut BTreeMap<String, String>, folder: &Path) -> Result<Row, String> {
-    let id = cells.remove("record_id").ok_or("record_id is blank: every record needs a name")?;
-    let mut file = |column: &str| {
-        let text = cells.remove(column).ok_or_else(|| {
-            format!(
+fn row(cells: &mut BTreeMap<String, String>, folder: &Path) -> Result<Row, Vec<String>> {
+    let Some(id) = cells.remove("record_id") else {
+        return Err(vec!["record_id is blank: every record needs a name".to_owned()]);
+    };
+    let mut mistakes = Vec::new();
+    let [h1, h2] = ["file_h1", "file_h2"].map(|column| match cells.remove(column).map(|text| folder.join(text)) {
+        Some(path) if path.is_file() => path,
+        Some(path) => {
+            mistakes.push(format!("record {id}: {column} {} is not a file", path.display()));
+            path
+        }
+        None => {
+            mistakes.push(format!(
                 "record {id}: {column} is blank: both horizontal components are needed, since the intensity is their geometric mean"
-            )
-        })?;
-        let path = folder.join(text);
-        if path.is_file() { Ok(path) } else { Err(format!("record {id}: {column} {} is not a file", path.display())) }
-    };
-    let files = [file("file_h1")?, file("file_h2")?];
-    let dt_s = match cells.get("dt_s") {
-        Some(text) => match text.parse::<f64>() {
-            Ok(value) if value.is_finite() && value > 0.0 => Some(value),
-            _ => return Err(format!("record {id}: dt_s is {text:?}: give the sampling interval in seconds")),
-        },
-        None => None,
-    };
-    let unit = cells
-        .get("unit")
-        .map(|text| text.parse::<AccelerationUnit>().map_err(|error| format!("record {id}: {error}")))
-        .transpose()?;
-    Ok(Row { id, files, dt_s, unit, metadata: std::mem::take(cells) })
+            ));
+            PathBuf::new()
+        }
+    });
+    let dt_s = cells.get("dt_s").and_then(|text| match text.parse::<f64>() {
+        Ok(value) if value.is_finite() && value > 0.0 => Some(value),
+        _ => {
+            mistakes.push(format!("record {id}: dt_s is {text:?}: give the sampling interval in seconds"));
+            None
+        }
+    });
+    let unit = cells.get("unit").and_then(|text| {
+        text.parse::<AccelerationUnit>().map_err(|error| mistakes.push(format!("record {id}: {error}"))).ok()
+    });
+    if mistakes.is_empty() {
+        Ok(Row { id, files: [h1, h2], dt_s, unit, metadata: std::mem::take(cells) })
+    } else {
+        Err(mistakes)
+    }
 }

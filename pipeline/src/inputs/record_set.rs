@@ -51,6 +51,8 @@ pub struct RecordSet {
     pub synthetic: bool,
     /// The records, in the order of the result file.
     pub records: Vec<Record>,
+    /// What is allowed but probably not meant.
+    pub notes: Vec<String>,
 }
 
 /// A pair with the checksums of its components.
@@ -74,8 +76,24 @@ pub fn read_records(study: &ResolvedStudy) -> Result<RecordSet, UpliftError> {
     };
     let kind = if synthetic { "synthetic" } else { "recorded" };
     let noun = if pairs.len() == 1 { "pair" } else { "pairs" };
+    let notes = alike(&pairs);
     let description = format!("{} {kind} {noun} ({source}), component {}", pairs.len(), study.records.component);
-    Ok(RecordSet { description, synthetic, records: analysis_records(pairs, study)? })
+    Ok(RecordSet { description, synthetic, records: analysis_records(pairs, study)?, notes })
+}
+
+/// Records both components of which are the same numbers.
+fn alike(pairs: &[CheckedPair]) -> Vec<String> {
+    let alike: Vec<&str> =
+        pairs.iter().filter(|(_, [sum1, sum2])| sum1 == sum2).map(|(pair, _)| pair.id.as_str()).collect();
+    let shown = alike.iter().take(5).copied().collect::<Vec<_>>().join(", ");
+    match alike.len() {
+        0 => Vec::new(),
+        count => vec![format!(
+            "{count} of {} records have one and the same file for both components ({shown}{}): the intensity is then that of the component, not a geometric mean",
+            pairs.len(),
+            if count > 5 { ", …" } else { "" }
+        )],
+    }
 }
 
 fn synthetic_pairs(pairs: u64, seed: u64, first: usize) -> Result<Vec<CheckedPair>, UpliftError> {
