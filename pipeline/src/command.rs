@@ -5,6 +5,7 @@ mod check;
 mod confidence;
 mod influence;
 mod measures;
+mod plot;
 mod response;
 mod result_of;
 mod run;
@@ -53,6 +54,8 @@ enum Command {
     Influence(influence::InfluenceArguments),
     /// Which intensity measure to trust: efficiency and sufficiency
     Measures(measures::MeasuresArguments),
+    /// Draw the figures of a result
+    Plot(plot::PlotArguments),
     /// Print the coefficients of a result (Table 4.2), beside a reference if one is given
     Table(table::TableArguments),
 }
@@ -114,6 +117,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), UpliftError> {
         Command::Bootstrap(arguments) => bootstrap::bootstrap(arguments, &session),
         Command::Influence(arguments) => influence::influence(arguments, &session),
         Command::Measures(arguments) => measures::measures(arguments, &session),
+        Command::Plot(arguments) => plot::plot(arguments, &session),
         Command::Table(arguments) => table::table(arguments),
     }
 }

@@ -7,6 +7,8 @@
 //! | [`stages`] | stripes, spectra, coefficients, bands: each takes what the one before returned |
 //! | [`result`](mod@result) | the HDF5 file and the tables beside it, written and read |
 //! | [`labelled`] | HDF5 files of labelled arrays, free of science |
+//! | [`figures`] | what a result's figures show |
+//! | [`plot`] | figures, free of science |
 //! | [`command`] | what the user can type |
 //! | [`progress`] | the progress bar, or plain lines |
 //!
@@ -14,8 +16,10 @@
 
 pub mod command;
 mod error;
+pub mod figures;
 pub mod inputs;
 pub mod labelled;
+pub mod plot;
 pub mod progress;
 pub mod result;
 pub mod stages;

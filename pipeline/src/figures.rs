@@ -1,0 +1,89 @@
+//! The figures of Chapter 4, made of a result file alone.
+//!
+//! What is to be seen is decided here, how it is drawn in [`plot`](crate::plot).
+
+mod confidence;
+mod demand;
+mod predictors;
+mod spectra;
+
+use crate::error::UpliftError;
+use crate::labelled::LabelledReader;
+use crate::plot::{Figure, Panel, Series, Tone};
+use crate::result::{StoredStripes, open_result};
+
+/// A result file, opened for its figures.
+pub struct FigureSource {
+    stored: StoredStripes,
+    reader: LabelledReader,
+    remark: String,
+}
+
+impl FigureSource {
+    /// Open the result that `stored` was read from.
+    ///
+    /// # Errors
+    /// A file that is missing or damaged.
+    pub fn new(stored: StoredStripes) -> Result<Self, UpliftError> {
+        let reader = open_result(&stored.path)?;
+        let synthetic = reader.attribute_i64("/", "synthetic")? == 1;
+        let remark = if synthetic { "synthetic records: not for design" } else { "" };
+        Ok(Self { stored, reader, remark: remark.to_owned() })
+    }
+
+    /// Every figure that the result has the numbers for, in the order of the chapter.
+    ///
+    /// # Errors
+    /// A file that is damaged.
+    pub fn figures(&self) -> Result<Vec<Figure>, UpliftError> {
+        let mut figures = Vec::new();
+        figures.extend(spectra::hazard(self)?);
+        figures.extend(demand::ida_curves(self)?);
+        figures.extend(demand::fragilities(self)?);
+        figures.extend(demand::risk_curves(self)?);
+        figures.extend(spectra::spectra(self));
+        figures.extend(spectra::fits(self)?);
+        figures.extend(confidence::bands(self)?);
+        figures.extend(confidence::measures_together(self)?);
+        figures.extend(confidence::initiation(self)?);
+        figures.extend(predictors::predictors(self)?);
+        Ok(figures)
+    }
+
+    fn figure(
+        &self,
+        id: impl Into<String>,
+        title: impl Into<String>,
+        caption: impl Into<String>,
+        panels: Vec<Panel>,
+    ) -> Figure {
+        let columns = if panels.len() > 4 { 3 } else { panels.len().min(2) };
+        Figure {
+            id: id.into(),
+            title: title.into(),
+            caption: caption.into(),
+            remark: self.remark.clone(),
+            panels,
+            columns,
+        }
+    }
+
+    /// A line over the strengths.
+    fn over_strengths(&self, name: impl Into<String>, values: &[f64], tone: Tone) -> Series {
+        Series::line(name, self.stored.strengths.iter().copied().zip(values.iter().copied()).collect(), tone)
+    }
+
+    /// Positions of the sites shown: the first nine.
+    fn sites(&self) -> std::ops::Range<usize> {
+        0..self.stored.sites.len().min(9)
+    }
+
+    /// Position of the smallest probability.
+    fn rarest(&self) -> usize {
+        let poes = &self.stored.poes;
+        (0..poes.len()).min_by(|&a, &b| poes[a].total_cmp(&poes[b])).unwrap_or_default()
+    }
+}
+
+/// Label of the strength axis.
+const STRENGTH: &str = "uplift strength f_up/(m g)";

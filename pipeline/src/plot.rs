@@ -1,0 +1,14 @@
+//! Figures, free of science: lines, bands and marks over two axes, several panels a figure, drawn as SVG or PNG.
+//!
+//! A [`Figure`] says what is to be seen; [`svg()`] draws it and tells where each panel lies, so that a report can read values off the
+//! curves; [`png()`] turns the drawing into pixels. Colours are those of Okabe and Ito, told apart by the colour-blind, and every series has its
+//! own dashes, so that a figure can be read in grey.
+
+mod draw;
+mod figure;
+mod raster;
+mod ticks;
+
+pub use draw::{Drawing, PanelPlace, Width, svg};
+pub use figure::{Axis, Band, Figure, Marks, Panel, Scale, Series, Tone};
+pub use raster::{RasterError, png};

@@ -1,0 +1,93 @@
+//! Round numbers along an axis.
+
+use super::figure::Scale;
+
+/// Positions (logarithms on a logarithmic axis) of the labelled ticks between two positions, about `wanted` of them.
+pub(super) fn ticks(scale: Scale, from: f64, to: f64, wanted: usize) -> Vec<f64> {
+    match scale {
+        Scale::Linear => linear(from, to, wanted),
+        Scale::Log if to - from < 1.5 => {
+            let mantissas = [1.0_f64, 2.0, 5.0];
+            decades(from, to)
+                .flat_map(|decade| mantissas.map(|mantissa| decade + mantissa.log10()))
+                .filter(|&tick| tick >= from - 1e-9 && tick <= to + 1e-9)
+                .collect()
+        }
+        Scale::Log => {
+            let step = ((to - from) / wanted as f64).ceil().max(1.0);
+            decades(from, to)
+                .filter(|decade| *decade >= from - 1e-9 && *decade <= to + 1e-9 && decade.rem_euclid(step) == 0.0)
+                .collect()
+        }
+    }
+}
+
+fn decades(from: f64, to: f64) -> impl Iterator<Item = f64> {
+    let (mut next, last) = (from.floor(), to.ceil());
+    std::iter::from_fn(move || {
+        let current = next;
+        next += 1.0;
+        (current <= last).then_some(current)
+    })
+}
+
+/// Multiples of 1, 2 or 5 times a power of ten.
+fn linear(from: f64, to: f64, wanted: usize) -> Vec<f64> {
+    let raw = (to - from) / wanted as f64;
+    if !(raw > 0.0 && raw.is_finite()) {
+        return vec![from];
+    }
+    let power = 10.0_f64.powf(raw.log10().floor());
+    let step =
+        [1.0, 2.0, 5.0, 10.0].into_iter().map(|factor| factor * power).find(|step| *step >= raw * 0.999).unwrap_or(raw);
+    let first = (from / step - 1e-9).ceil();
+    let mut ticks = Vec::new();
+    let mut index = first;
+    while index * step <= to + 1e-9 * step {
+        ticks.push(index * step + 0.0); // no negative zero
+        index += 1.0;
+    }
+    ticks
+}
+
+/// A tick as text.
+pub(super) fn label(scale: Scale, position: f64) -> String {
+    let value = match scale {
+        Scale::Linear => position,
+        Scale::Log => 10.0_f64.powf(position),
+    };
+    if value != 0.0 && (value.abs() < 1e-3 || value.abs() >= 1e5) {
+        // 1e-05 reads worse than 10 with a raised exponent, which SVG text of plotters cannot do
+        return format!("{value:.0e}");
+    }
+    let rounded = format!("{value:.4}");
+    rounded.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn round_numbers() {
+        let close = |found: Vec<f64>, expected: &[f64]| {
+            assert_eq!(found.len(), expected.len(), "{found:?}");
+            assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-9), "{found:?}");
+        };
+        close(ticks(Scale::Linear, 0.0, 1.0, 5), &[0.0, 0.2, 0.4, 0.6, 0.8, 1.0]);
+        close(ticks(Scale::Linear, 0.13, 0.42, 4), &[0.2, 0.3, 0.4]);
+        close(ticks(Scale::Log, -4.0, 1.0, 6), &[-4.0, -3.0, -2.0, -1.0, 0.0, 1.0]);
+        close(ticks(Scale::Log, -8.0, 0.0, 4), &[-8.0, -6.0, -4.0, -2.0, 0.0]);
+        assert_eq!(ticks(Scale::Linear, 1.0, 1.0, 5), [1.0]);
+        assert_eq!(ticks(Scale::Log, 0.0, 1.0, 5).len(), 4);
+    }
+
+    #[test]
+    fn words() {
+        assert_eq!(label(Scale::Linear, 0.2), "0.2");
+        assert_eq!(label(Scale::Linear, 0.0), "0");
+        assert_eq!(label(Scale::Log, -2.0), "0.01");
+        assert_eq!(label(Scale::Log, -5.0), "1e-5");
+        assert_eq!(label(Scale::Linear, 100.0), "100");
+    }
+}
