@@ -164,6 +164,7 @@ fn compute(
     if !finished.is_empty() {
         session.remark(&format!("resumed  {} strengths from {}", finished.len(), checkpoint.path().display()));
     }
+    let start = Instant::now();
     let strengths = stored.strengths.len();
     let per_strength = (stored.sites.len() * stored.poes.len() * plan.samples().len()) as u64;
     for measure in &stored.measures {
@@ -200,6 +201,10 @@ fn compute(
             }
         }
         progress.close();
+    }
+    if start.elapsed() > KEPT_EVERY {
+        // the result may not be writable, on a disk that has filled up for instance
+        checkpoint.save(&finished)?;
     }
     Ok(stored
         .measures
