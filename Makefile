@@ -18,6 +18,9 @@ UPLIFT := target/release/uplift
 
 run: build
 	$(UPLIFT) run $(STUDY) $(SET) -o $(OUTPUT)
+	$(UPLIFT) bootstrap $(OUTPUT) --quiet > /dev/null
+	@echo "Report, with every figure: open"
+	@$(UPLIFT) report $(OUTPUT)
 
 build:
 	cargo build --release --locked --package uplift

@@ -3,9 +3,11 @@
 mod bootstrap;
 mod check;
 mod confidence;
+mod export;
 mod influence;
 mod measures;
 mod plot;
+mod report;
 mod response;
 mod result_of;
 mod run;
@@ -56,6 +58,10 @@ enum Command {
     Measures(measures::MeasuresArguments),
     /// Draw the figures of a result
     Plot(plot::PlotArguments),
+    /// Write one page with everything, to hand over: HTML that needs no network
+    Report(report::ReportArguments),
+    /// Write the spectra and coefficients of a result as CSV, JSON or a MATLAB file
+    Export(export::ExportArguments),
     /// Print the coefficients of a result (Table 4.2), beside a reference if one is given
     Table(table::TableArguments),
 }
@@ -118,6 +124,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), UpliftError> {
         Command::Influence(arguments) => influence::influence(arguments, &session),
         Command::Measures(arguments) => measures::measures(arguments, &session),
         Command::Plot(arguments) => plot::plot(arguments, &session),
+        Command::Report(arguments) => report::report(arguments, &session),
+        Command::Export(arguments) => export::export(arguments, &session),
         Command::Table(arguments) => table::table(arguments),
     }
 }

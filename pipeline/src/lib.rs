@@ -8,6 +8,8 @@
 //! | [`result`](mod@result) | the HDF5 file and the tables beside it, written and read |
 //! | [`labelled`] | HDF5 files of labelled arrays, free of science |
 //! | [`figures`] | what a result's figures show |
+//! | [`report`](mod@report) | the HTML report |
+//! | `export` | tables for other programs |
 //! | [`plot`] | figures, free of science |
 //! | [`command`] | what the user can type |
 //! | [`progress`] | the progress bar, or plain lines |
@@ -16,11 +18,13 @@
 
 pub mod command;
 mod error;
+mod export;
 pub mod figures;
 pub mod inputs;
 pub mod labelled;
 pub mod plot;
 pub mod progress;
+pub mod report;
 pub mod result;
 pub mod stages;
 pub mod study;

@@ -15,8 +15,8 @@ mod write;
 
 pub use bands::{BandsFile, band_paths, write_bands};
 pub use checkpoint::{Checkpoint, Finished};
-pub(crate) use csv::write_table;
 pub use csv::{csv_paths, write_csv};
+pub(crate) use csv::{write_aside, write_table};
 pub use influence::{RecordInfluence, influence_path, record_influence, write_influence};
 pub use predictors::{predictors_path, write_predictors};
 pub use provenance::Provenance;

@@ -35,12 +35,20 @@ pub(crate) fn write_table(path: &Path, line: &str, columns: Vec<Column>) -> Resu
     DataFrame::new_infer_height(columns)
         .and_then(|mut table| CsvWriter::new(&mut content).finish(&mut table))
         .map_err(|error| fail(error.to_string()))?;
+    write_aside(path, &content)
+}
+
+/// A file, written aside and renamed.
+///
+/// # Errors
+/// A file that cannot be written; an earlier one is then as it was.
+pub(crate) fn write_aside(path: &Path, content: &[u8]) -> Result<(), UpliftError> {
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
     let aside = path.with_file_name(format!(".{name}.partial-{}", std::process::id()));
-    let written = std::fs::write(&aside, &content).and_then(|()| std::fs::rename(&aside, path));
+    let written = std::fs::write(&aside, content).and_then(|()| std::fs::rename(&aside, path));
     written.map_err(|error| {
         let _ = std::fs::remove_file(&aside);
-        fail(error.to_string())
+        UpliftError::input(format!("{} cannot be written: {error}", path.display()))
     })
 }
 

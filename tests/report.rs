@@ -1,0 +1,180 @@
+//! `uplift report` and `uplift plot`: what is in them, and what a browser makes of the page.
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+mod common;
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use common::SmallStudy;
+
+/// A result with bands.
+fn study() -> SmallStudy {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    study.uplift(&["bootstrap", "r.h5", "--replicates", "30", "--sizes", "2,4", "-q"]).ok();
+    study
+}
+
+const FIGURES: [&str; 13] = [
+    "hazard",
+    "ida",
+    "fragility",
+    "risk-pgv",
+    "risk-pga",
+    "urs-pgv",
+    "urs-pga",
+    "fits",
+    "bands-pgv",
+    "bands-pga",
+    "bands-together",
+    "initiation",
+    "measures",
+];
+
+#[test]
+fn every_figure_is_drawn() {
+    let study = study();
+    study.uplift(&["plot", "r.h5", "-q"]).ok();
+    for name in FIGURES {
+        let svg = std::fs::read_to_string(study.path().join(format!("r.figures/{name}.svg"))).unwrap();
+        assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"), "{name}");
+        assert!(svg.contains("synthetic records"), "{name}: synthetic records are named");
+        assert!(!svg.contains("NaN") && !svg.contains("inf"), "{name}");
+    }
+    let one = study.uplift(&["plot", "r.h5", "--only", "urs-pga", "-o", "one", "--width", "single"]).ok();
+    assert_eq!(one.stdout.trim(), Path::new("one").join("urs-pga.svg").display().to_string());
+    study.uplift(&["plot", "r.h5", "--only", "nonsense"]).fails(2, &["nonsense", "urs-pgv"]);
+    study.uplift(&["plot", "absent.h5"]).fails(4, &["absent.h5"]);
+}
+
+#[test]
+fn a_report_is_one_file_without_a_network() {
+    let study = study();
+    study.uplift(&["run", "study.toml", "-o", "other.h5", "-q", "--set", "title=\"<b>second</b>\""]).ok();
+    study.uplift(&["report", "r.h5", "other.h5", "-o", "both.html", "-q"]).ok();
+    let page = std::fs::read_to_string(study.path().join("both.html")).unwrap();
+    for name in FIGURES {
+        assert!(page.contains(&format!("id=\"r1-{name}\"")), "{name}");
+    }
+    // no bootstrap, no bands
+    assert!(page.contains("id=\"r2-urs-pgv\"") && !page.contains("id=\"r2-bands-pgv\""));
+    for word in ["r1-table-4-1", "r1-table-4-2", "Synthetic records.", "study.toml", "SHA-256", "Before you use"] {
+        assert!(page.contains(word), "{word}");
+    }
+    assert!(page.contains("&lt;b&gt;second") && !page.contains("<b>second"), "text of the study is text");
+    let addresses: Vec<&str> =
+        page.split("http").skip(1).filter(|rest| !rest.starts_with("://www.w3.org/2000/svg")).collect();
+    assert!(addresses.iter().all(|rest| rest.starts_with("-equiv")), "{addresses:.40?}");
+    assert!(page.len() < 5 << 20);
+
+    study.uplift(&["report", "r.h5", "-o", "r.h5"]).fails(2, &["html"]);
+    study.uplift(&["report", "absent.h5"]).fails(4, &["absent.h5"]);
+    study.uplift(&["report"]).fails(2, &["RESULT"]);
+}
+
+#[test]
+fn exports_hold_what_the_result_holds() {
+    let study = study();
+    study.uplift(&["export", "r.h5", "--csv", "--json", "--mat"]).ok();
+    study.uplift(&["export", "r.h5"]).fails(2, &["--csv"]);
+    study.uplift(&["export", "r.h5", "--mat", "-o", "r.h5"]).fails(2, &["the result itself"]);
+    study.uplift(&["export", "study.toml", "--mat"]).fails(4, &["study.toml"]);
+    let Some(python) = common::python() else { return };
+    let output = Command::new(python)
+        .arg(common::repository().join("tests/python/read_export.py"))
+        .args(["r.h5", "r.spectra.csv", "r.json", "r.mat"])
+        .current_dir(study.path())
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+/// The browser, if there is one: `UPLIFT_CHROMIUM`, else `chromium` on the path.
+fn browser() -> Option<PathBuf> {
+    let named = std::env::var_os("UPLIFT_CHROMIUM").map(PathBuf::from);
+    let browser = named.unwrap_or_else(|| PathBuf::from("chromium"));
+    if Command::new(&browser).arg("--version").output().is_ok_and(|output| output.status.success()) {
+        return Some(browser);
+    }
+    assert!(std::env::var_os("CI").is_none(), "CI needs a browser: install chromium");
+    println!("skipped: no browser (install chromium or set UPLIFT_CHROMIUM)");
+    None
+}
+
+/// What the browser writes about the page at `path`: to standard output and as its log.
+fn browse(browser: &Path, path: &Path, arguments: &[&str]) -> (String, String) {
+    let profile = tempfile::tempdir().unwrap();
+    let output = Command::new(browser)
+        .args(["--headless=new", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr", "--hide-scrollbars"])
+        .args(["--host-resolver-rules=MAP * ~NOTFOUND", "--virtual-time-budget=3000"])
+        .arg(format!("--user-data-dir={}", profile.path().display()))
+        .args(arguments)
+        .arg(format!("file://{}", path.canonicalize().unwrap().display()))
+        .output()
+        .unwrap();
+    (String::from_utf8_lossy(&output.stdout).into_owned(), String::from_utf8_lossy(&output.stderr).into_owned())
+}
+
+/// Hovers over the first panel of the spectra, walks with the arrow keys, sorts a table, and leaves what it saw in the page.
+const PROBE: &str = r"<script>
+const plot = document.querySelector('#r1-urs-pgv .plot');
+const svg = plot.querySelector('svg');
+const place = JSON.parse(document.querySelector('#r1-urs-pgv script').textContent)[0].place;
+plot.scrollIntoView();
+const box = svg.getBoundingClientRect(), zoom = box.width / svg.viewBox.baseVal.width;
+const at = (pair, share) => (pair[0] + share * (pair[1] - pair[0])) * zoom;
+plot.dispatchEvent(new PointerEvent('pointermove', { clientX: box.left + at(place.x_pixels, 0.5), clientY: box.top + at(place.y_pixels, 0.5) }));
+document.body.dataset.hover = document.getElementById('tip').textContent;
+plot.dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowRight' }));
+document.body.dataset.keys = document.querySelector('#r1-urs-pgv .reading').textContent;
+const table = document.querySelector('#r1-table-4-2 table');
+const column = [...table.querySelectorAll('th')].findIndex(head => head.textContent.startsWith('c0'));
+table.querySelectorAll('th')[column].querySelector('button').click();
+document.body.dataset.sorted = [...table.tBodies[0].rows].map(row => row.cells[column].textContent).join(' ');
+document.body.dataset.wide = document.documentElement.scrollWidth > innerWidth;
+document.body.dataset.figures = document.querySelectorAll('figure svg').length;
+document.body.dataset.tables = document.querySelectorAll('.block > .scroll table').length;
+</script>";
+
+#[test]
+fn a_browser_reads_the_report() {
+    let Some(browser) = browser() else { return };
+    let study = study();
+    study.uplift(&["report", "r.h5", "-q"]).ok();
+    let page = study.path().join("r.html");
+    let shots = Path::new(env!("CARGO_TARGET_TMPDIR")).join("report");
+    std::fs::create_dir_all(&shots).unwrap();
+    for (name, size) in [("desktop", "1280,4000"), ("phone", "420,3000")] {
+        let shot = shots.join(format!("{name}.png"));
+        let _ = std::fs::remove_file(&shot);
+        let (_, log) =
+            browse(&browser, &page, &[&format!("--window-size={size}"), &format!("--screenshot={}", shot.display())]);
+        assert!(std::fs::metadata(&shot).unwrap().len() > 20_000, "{log}");
+        println!("screenshot: {}", shot.display());
+    }
+
+    let text = std::fs::read_to_string(&page).unwrap();
+    study.write("probed.html", &text.replace("</body>", &format!("{PROBE}</body>")));
+    let (dom, log) = browse(&browser, &study.path().join("probed.html"), &["--window-size=420,900", "--dump-dom"]);
+    // errors, warnings and blocked requests all go to the console
+    assert!(!log.contains("CONSOLE"), "{log}");
+    let body = &dom[dom.find("<body").unwrap_or_default()..];
+    let body = &body[..body.find('>').unwrap_or_default()];
+    let said = |name: &str| {
+        let start = body.find(&format!("data-{name}=\"")).unwrap_or_else(|| panic!("{name} is not in {body}"));
+        body[start..].split('"').nth(1).unwrap().to_owned()
+    };
+    let hover = said("hover");
+    assert!(
+        hover.contains("Here: ") && hover.contains("uplift strength") && hover.contains("2 % in 50 years: "),
+        "{hover}"
+    );
+    let keys = said("keys");
+    assert!(keys.contains("Here: ") && keys != hover, "{keys}");
+    let sorted: Vec<f64> = said("sorted").split_whitespace().filter_map(|cell| cell.parse().ok()).collect();
+    assert!(sorted.len() > 3 && sorted.is_sorted(), "{sorted:?}");
+    assert_eq!(said("wide"), "false", "a phone scrolls up and down only");
+    assert_eq!(said("figures"), FIGURES.len().to_string());
+    assert_eq!(said("tables"), "3");
+}
