@@ -8,6 +8,7 @@ use crate::free_vibration::{FreePeak, first_peak};
 use crate::ground_motion::{GroundMotion, halvings};
 use crate::nodes::Nodes;
 use crate::stumpff::Stumpff;
+use crate::sweep::sag_factor;
 
 /// The attached response at every sample, with its extremes.
 #[derive(Debug, Clone)]
@@ -29,8 +30,9 @@ impl ElasticResponse {
     pub(crate) fn new(attached: &Branch, ground: &GroundMotion<'_>, with_free_peak: bool) -> Self {
         let dt = ground.excitation.dt_s();
         let k = attached.stiffness_per_s2;
+        let samples_per_s = dt.recip();
         let whole = Stumpff::at(k * dt * dt);
-        let n = ground.intervals();
+        let (n, sag_factor) = (ground.intervals(), sag_factor(k.sqrt() * dt, dt));
         let (mut u, mut v, mut peak_m) = (0.0, 0.0, 0.0_f64);
         let mut displacement_m = Vec::with_capacity(n + 1);
         let mut velocity_m_s = Vec::with_capacity(n + 1);
@@ -39,10 +41,15 @@ impl ElasticResponse {
         displacement_m.push(u);
         velocity_m_s.push(v);
         for (i, pair) in ground.excitation.acceleration_m_s2().windows(2).enumerate() {
-            let slope = (pair[1] - pair[0]) / dt;
+            let slope = (pair[1] - pair[0]) * samples_per_s;
             let motion = LinearMotion { u0: u, v0: v, w0: -k * u - pair[0], j0: -slope - k * v, k };
             (u, v) = motion.state_with(dt, &whole);
-            let sag = 0.125 * dt * dt * motion.acceleration_bound(dt, -k * u - pair[1]);
+            let w1 = -k * u - pair[1];
+            let sag = if sag_factor.is_nan() {
+                0.125 * dt * dt * motion.acceleration_bound(dt, w1)
+            } else {
+                sag_factor * motion.w0.abs().max(w1.abs())
+            };
             let bound = motion.u0.abs().max(u.abs()) + sag;
             singles.push(bound);
             if bound > peak_m {

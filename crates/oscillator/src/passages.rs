@@ -41,6 +41,9 @@ pub(crate) fn uplift_within(motion: &LinearMotion, h: f64, end: &State, boundary
             if inside && turns_inside(motion, h, boundary) {
                 return None;
             }
+            if let Some(passage) = outward_passage(motion, h, boundary.copysign(motion.v0)) {
+                return Some(passage);
+            }
             let tau = turning_time(motion, h, end.v);
             let turn = Node { tau, u: motion.state(tau).0 };
             if turn.u.abs() > boundary {
@@ -142,6 +145,23 @@ fn cubic_passage(motion: &LinearMotion, mut tau: f64, level: f64, converged: f64
         }
     }
     None
+}
+
+/// The passage of `level` outward within `h` of a motion that turns back once, tried from the parabola at its start: what settles with an outward velocity is it, since
+/// the way back is inward. `None` where there is none, or it is not found so simply.
+fn outward_passage(motion: &LinearMotion, h: f64, level: f64) -> Option<Passage> {
+    let distance = level - motion.u0;
+    let discriminant = motion.v0 * motion.v0 + 2.0 * motion.w0 * distance;
+    if !(discriminant > 0.0) {
+        return None;
+    }
+    let tau = 2.0 * distance / (motion.v0 + discriminant.sqrt().copysign(motion.v0));
+    if !(tau > 0.0 && tau < h) {
+        return None;
+    }
+    let (further, v) = nearby_passage(&motion.restarted(tau), level, CONVERGED * h)?;
+    let found = tau + further;
+    (found >= 0.0 && found <= h && v * level > 0.0).then_some(Passage { level, tau: found, v })
 }
 
 /// Time until `here` passes `level` and its velocity there, if that is so near that short series serve: one evaluation of the full

@@ -81,7 +81,7 @@ impl<'a> Run<'a> {
     fn ground(&self, interval: usize) -> (f64, f64) {
         let a = self.sweep.ground.excitation.acceleration_m_s2();
         let (from, to) = (self.scale * a[interval], self.scale * a[interval + 1]);
-        (from, (to - from) / self.sweep.dt_s)
+        (from, (to - from) * self.sweep.samples_per_s)
     }
 
     /// The motion from `at` on a branch of stiffness `k`.

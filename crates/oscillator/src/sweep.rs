@@ -40,6 +40,7 @@ pub struct Sweep<'a> {
     pub(crate) omega: f64,
     pub(crate) with_free_peak: bool,
     pub(crate) dt_s: f64,
+    pub(crate) samples_per_s: f64,
     pub(crate) whole_attached: Stumpff,
     pub(crate) whole_uplifted: Stumpff,
     /// Deviation from the chord between samples, while attached, over the largest acceleration at their ends, s²; NaN where the samples are
@@ -75,6 +76,7 @@ impl<'a> Sweep<'a> {
             sag_factor: sag_factor(omega * dt_s, dt_s),
             with_free_peak,
             dt_s,
+            samples_per_s: dt_s.recip(),
             whole_attached: Stumpff::at(attached.stiffness_per_s2 * dt_s * dt_s),
             whole_uplifted: Stumpff::at(uplifted.stiffness_per_s2 * dt_s * dt_s),
             rotations,
@@ -98,7 +100,7 @@ impl<'a> Sweep<'a> {
 
 /// With `x = (ω dt)² < 4` the acceleration between samples exceeds its ends by a factor of `1/(1 − x/8)` at most
 /// (see [`LinearMotion::acceleration_bound`](crate::branch::LinearMotion::acceleration_bound)), and the sag is an eighth of `dt²` times it.
-fn sag_factor(phase: f64, dt_s: f64) -> f64 {
+pub(crate) fn sag_factor(phase: f64, dt_s: f64) -> f64 {
     let x = phase * phase;
     if x < 4.0 { 0.125 * dt_s * dt_s / (1.0 - 0.125 * x) } else { f64::NAN }
 }
