@@ -6,9 +6,13 @@
 
 mod draw;
 mod figure;
+mod frame;
+mod panel;
 mod raster;
+mod stroke;
 mod ticks;
 
-pub use draw::{Drawing, PanelPlace, Width, svg};
+pub use draw::{Drawing, Width, svg};
 pub use figure::{Axis, Band, Figure, Marks, Panel, Scale, Series, Tone};
+pub use panel::PanelPlace;
 pub use raster::{RasterError, png};

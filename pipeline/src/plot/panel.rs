@@ -1,0 +1,193 @@
+//! One panel: its axes, bands and lines.
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
+    clippy::cast_sign_loss,
+    reason = "pixels of a drawing: whole numbers far below any limit"
+)]
+
+use std::ops::Range;
+
+use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, ValueFormatter};
+use plotters::prelude::*;
+use serde::Serialize;
+
+use super::figure::{Axis, Marks, Panel, Scale, Series, Tone};
+use super::frame::{Frame, runs};
+use super::stroke::{Area, FONT, Failure, colour, draw_line};
+use super::ticks::{label, ticks};
+
+/// Where the plotting area of a panel lies, pixels, and what its ends mean.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PanelPlace {
+    /// Left and right edge.
+    pub x_pixels: (i32, i32),
+    /// Upper and lower edge.
+    pub y_pixels: (i32, i32),
+    /// Values at the left and right edge.
+    pub x_range: (f64, f64),
+    /// Values at the lower and upper edge.
+    pub y_range: (f64, f64),
+    /// Division of the axes.
+    pub x_scale: Scale,
+    /// Division of the axes.
+    pub y_scale: Scale,
+}
+
+/// An axis with its own ticks, in positions.
+struct Ticked {
+    scale: Scale,
+    ends: (f64, f64),
+    ticks: Vec<f64>,
+}
+
+impl Ranged for Ticked {
+    type FormatOption = NoDefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, position: &f64, (from, to): (i32, i32)) -> i32 {
+        let share = (position - self.ends.0) / (self.ends.1 - self.ends.0);
+        from + (share * f64::from(to - from)).round() as i32
+    }
+
+    fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
+        // a hint with few points asks for the bold lines, which are all there are
+        if hint.max_num_points() == 0 { Vec::new() } else { self.ticks.clone() }
+    }
+
+    fn range(&self) -> Range<f64> {
+        self.ends.0..self.ends.1
+    }
+}
+
+impl ValueFormatter<f64> for Ticked {
+    fn format_ext(&self, position: &f64) -> String {
+        label(self.scale, *position)
+    }
+}
+
+/// Ends of an axis as positions.
+fn ends(axis: &Axis, values: impl Iterator<Item = f64>) -> (f64, f64) {
+    if let Some((from, to)) = axis.range
+        && let (Some(from), Some(to)) = (axis.scale.position(from), axis.scale.position(to))
+    {
+        return (from, to);
+    }
+    let (least, most) = values
+        .filter_map(|value| axis.scale.position(value))
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), value| (least.min(value), most.max(value)));
+    match axis.scale {
+        _ if !(least.is_finite() && most.is_finite()) => (0.0, 1.0),
+        Scale::Linear if least >= 0.0 => (0.0, if most > 0.0 { 1.05 * most } else { 1.0 }),
+        Scale::Linear => {
+            let margin = 0.05 * (most - least).max(1e-12);
+            (least - margin, most + margin)
+        }
+        Scale::Log => {
+            let margin = (0.04 * (most - least)).max(0.05);
+            (least - margin, most + margin)
+        }
+    }
+}
+
+pub(super) fn draw_panel(area: &Area<'_>, panel: &Panel) -> Result<PanelPlace, Failure> {
+    let (x_scale, y_scale) = (panel.x.scale, panel.y.scale);
+    let xs = panel.series.iter().flat_map(|series| series.points.iter().map(|point| point.0));
+    let ys = panel.series.iter().flat_map(|series| series.points.iter().map(|point| point.1));
+    let band_xs = panel.bands.iter().flat_map(|band| band.points.iter().map(|point| point.0));
+    let band_ys = panel.bands.iter().flat_map(|band| band.points.iter().flat_map(|point| [point.1, point.2]));
+    let (x0, x1) = ends(&panel.x, xs.chain(band_xs));
+    let (y0, y1) = ends(&panel.y, ys.chain(band_ys));
+    let (wide, high) = area.dim_in_pixel();
+    let x_ticks = ticks(x_scale, x0, x1, (wide as usize / 48).clamp(3, 8));
+    let y_ticks = ticks(y_scale, y0, y1, (high as usize / 45).clamp(3, 8));
+
+    let mut chart = ChartBuilder::on(area)
+        .margin(6)
+        .margin_right(12)
+        .caption(&panel.title, (FONT, 12).into_font())
+        .x_label_area_size(34)
+        .y_label_area_size(52)
+        .build_cartesian_2d(
+            Ticked { scale: x_scale, ends: (x0, x1), ticks: x_ticks },
+            Ticked { scale: y_scale, ends: (y0, y1), ticks: y_ticks },
+        )?;
+    chart
+        .configure_mesh()
+        .x_desc(&panel.x.label)
+        .y_desc(&panel.y.label)
+        .axis_desc_style((FONT, 11))
+        .label_style((FONT, 10))
+        .bold_line_style(RGBColor(225, 225, 225))
+        .light_line_style(TRANSPARENT)
+        .draw()?;
+    let (x_pixels, y_pixels) = chart.plotting_area().get_pixel_range();
+    let frame = Frame { x: (x0, x1), y: (y0, y1), x_pixels: x_pixels.clone(), y_pixels: y_pixels.clone() };
+    let plot = area.clone();
+    let (left, top) = plot.get_base_pixel();
+    let shifted =
+        |points: Vec<(i32, i32)>| -> Vec<(i32, i32)> { points.into_iter().map(|(x, y)| (x - left, y - top)).collect() };
+
+    for band in &panel.bands {
+        for run in runs(&band.points, |&(x, low, high)| {
+            Some((x_scale.position(x)?, band_position(y_scale, low, y0)?, band_position(y_scale, high, y0)?))
+        }) {
+            let upper = run.iter().map(|&(x, _, high)| frame.pixel(x, high));
+            let lower = run.iter().rev().map(|&(x, low, _)| frame.pixel(x, low));
+            let outline = shifted(upper.chain(lower).collect());
+            plot.draw(&Polygon::new(outline, colour(band.tone).mix(0.22)))?;
+        }
+    }
+    for series in &panel.series {
+        draw_series(&plot, series, (x_scale, y_scale), &frame, &shifted)?;
+    }
+    Ok(PanelPlace {
+        x_pixels: (x_pixels.start, x_pixels.end),
+        y_pixels: (y_pixels.start, y_pixels.end),
+        x_range: (value(x_scale, x0), value(x_scale, x1)),
+        y_range: (value(y_scale, y0), value(y_scale, y1)),
+        x_scale,
+        y_scale,
+    })
+}
+
+fn value(scale: Scale, position: f64) -> f64 {
+    match scale {
+        Scale::Linear => position,
+        Scale::Log => 10.0_f64.powf(position),
+    }
+}
+
+/// A limit of a band: zero lies at the foot of a logarithmic axis, infinity far above.
+fn band_position(scale: Scale, value: f64, foot: f64) -> Option<f64> {
+    match value {
+        value if value == f64::INFINITY => Some(f64::MAX),
+        value if value <= 0.0 && scale == Scale::Log => Some(foot),
+        value => scale.position(value),
+    }
+}
+
+fn draw_series(
+    plot: &Area<'_>,
+    series: &Series,
+    (x_scale, y_scale): (Scale, Scale),
+    frame: &Frame,
+    shifted: &impl Fn(Vec<(i32, i32)>) -> Vec<(i32, i32)>,
+) -> Result<(), Failure> {
+    let positions = |&(x, y): &(f64, f64)| Some((x_scale.position(x)?, y_scale.position(y)?));
+    if series.marks == Marks::Only {
+        for (x, y) in series.points.iter().filter_map(positions).filter(|&(x, y)| frame.holds(x, y)) {
+            for pixel in shifted(vec![frame.pixel(x, y)]) {
+                plot.draw(&Circle::new(pixel, 2, colour(series.tone).filled()))?;
+            }
+        }
+        return Ok(());
+    }
+    let thick = if series.tone == Tone::Faint { 1 } else { 2 };
+    for run in runs(&series.points, positions) {
+        for piece in frame.clip(&run) {
+            draw_line(plot, &shifted(piece), series.tone, thick)?;
+        }
+    }
+    Ok(())
+}

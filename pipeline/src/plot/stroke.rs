@@ -1,0 +1,103 @@
+//! Colours, dashes and polylines.
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
+    clippy::cast_sign_loss,
+    reason = "pixels of a drawing: whole numbers far below any limit"
+)]
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+
+use super::figure::Tone;
+
+/// Okabe and Ito's colours but for yellow, which is too light for a line on white.
+const COLOURS: [RGBColor; 7] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(0, 0, 0),
+    RGBColor(86, 180, 233),
+    RGBColor(230, 159, 0),
+];
+/// Dash and gap of each colour, pixels; none for a full line.
+const DASHES: [Option<(i32, i32)>; 7] =
+    [None, Some((7, 3)), Some((2, 2)), Some((10, 4)), None, Some((5, 2)), Some((3, 4))];
+pub(super) const FONT: &str = "sans-serif";
+
+pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+pub(super) type Failure = Box<dyn std::error::Error>;
+
+pub(super) fn colour(tone: Tone) -> RGBColor {
+    match tone {
+        Tone::Distinct(index) => COLOURS[index % COLOURS.len()],
+        Tone::Faint => RGBColor(205, 205, 205),
+    }
+}
+
+fn dash(tone: Tone) -> Option<(i32, i32)> {
+    match tone {
+        Tone::Distinct(index) => DASHES[index % DASHES.len()],
+        Tone::Faint => None,
+    }
+}
+
+/// A polyline in pixels, dashed as its tone asks.
+pub(super) fn draw_line(area: &Area<'_>, points: &[(i32, i32)], tone: Tone, thick: u32) -> Result<(), Failure> {
+    let style = colour(tone).stroke_width(thick);
+    match dash(tone) {
+        None => area.draw(&PathElement::new(points.to_vec(), style))?,
+        Some((length, gap)) => {
+            for piece in dashes(points, f64::from(length), f64::from(gap)) {
+                area.draw(&PathElement::new(piece, style))?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The pieces of a dashed polyline.
+fn dashes(points: &[(i32, i32)], length: f64, gap: f64) -> Vec<Vec<(i32, i32)>> {
+    let mut pieces = Vec::new();
+    let (mut drawing, mut left) = (true, length);
+    let mut piece = vec![points[0]];
+    for pair in points.windows(2) {
+        let (mut from, to) = ((f64::from(pair[0].0), f64::from(pair[0].1)), pair[1]);
+        let to_point = (f64::from(to.0), f64::from(to.1));
+        let mut rest = (to_point.0 - from.0).hypot(to_point.1 - from.1);
+        while rest > left {
+            let share = left / rest;
+            from = (from.0 + share * (to_point.0 - from.0), from.1 + share * (to_point.1 - from.1));
+            rest -= left;
+            let pixel = (from.0.round() as i32, from.1.round() as i32);
+            if drawing {
+                piece.push(pixel);
+                pieces.push(std::mem::take(&mut piece));
+            }
+            piece = vec![pixel];
+            drawing = !drawing;
+            left = if drawing { length } else { gap };
+        }
+        left -= rest;
+        if drawing {
+            piece.push(to);
+        }
+    }
+    if drawing && piece.len() > 1 {
+        pieces.push(piece);
+    }
+    pieces
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dashes_have_gaps() {
+        assert_eq!(dashes(&[(0, 0), (20, 0)], 5.0, 3.0), [[(0, 0), (5, 0)], [(8, 0), (13, 0)], [(16, 0), (20, 0)]]);
+        // a dash goes round a corner
+        assert_eq!(dashes(&[(0, 0), (3, 0), (3, 4)], 5.0, 3.0), [vec![(0, 0), (3, 0), (3, 2)]]);
+    }
+}
