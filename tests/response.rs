@@ -113,3 +113,22 @@ fn real_record() {
     assert!((response["pga_g"].as_f64().unwrap() - 0.75251).abs() < 1e-5);
     assert!((response["pgv_cm_s"].as_f64().unwrap() - 77.647).abs() < 1e-3);
 }
+
+#[test]
+fn a_history_is_drawn_with_its_impacts() {
+    let folder = tempfile::tempdir().unwrap();
+    let column: String =
+        (0..400).fold(String::new(), |text, i| text + &format!("{}\n", (f64::from(i) * 0.05).sin() * 0.4));
+    std::fs::write(folder.path().join("sine.txt"), column).unwrap();
+    let response = |more: &[&str]| {
+        let arguments = ["response", "sine.txt", "--strength", "0.2", "--dt-s", "0.01", "--unit", "g"];
+        uplift(folder.path(), &[&arguments[..], more].concat())
+    };
+    let run = response(&["--plot", "h.svg", "--json"]).ok();
+    let impacts = usize::try_from(json(&run.stdout)["impacts"].as_u64().unwrap()).unwrap();
+    let svg = std::fs::read_to_string(folder.path().join("h.svg")).unwrap();
+    // a dot for each impact, and one in the legend
+    assert_eq!(svg.matches("<circle").count(), impacts + 1);
+    assert!(svg.contains("displacement, m") && svg.contains("sine.txt times 1, strength 0.2"));
+    response(&["--plot", "h.pdf"]).fails(2, &[".svg or .png"]);
+}

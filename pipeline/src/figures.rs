@@ -4,8 +4,11 @@
 
 mod confidence;
 mod demand;
+mod history;
 mod predictors;
 mod spectra;
+
+pub use history::history_figure;
 
 use crate::error::UpliftError;
 use crate::labelled::LabelledReader;

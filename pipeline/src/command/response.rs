@@ -12,7 +12,9 @@ use uplift_oscillator::{
 };
 
 use crate::error::UpliftError;
-use crate::result::write_table;
+use crate::figures::history_figure;
+use crate::plot::{Width, png, svg};
+use crate::result::{write_aside, write_table};
 
 #[derive(Debug, Args)]
 pub(super) struct ResponseArguments {
@@ -54,6 +56,9 @@ pub(super) struct ResponseArguments {
     /// Write the time history, with uplifts and impacts in their places, to this CSV file
     #[arg(long, value_name = "FILE.csv")]
     history: Option<PathBuf>,
+    /// Draw the time history, its impacts marked, as SVG or PNG
+    #[arg(long, value_name = "FILE.svg|png")]
+    plot: Option<PathBuf>,
 }
 
 pub(super) fn response(arguments: &ResponseArguments) -> Result<(), UpliftError> {
@@ -75,11 +80,18 @@ pub(super) fn response(arguments: &ResponseArguments) -> Result<(), UpliftError>
     if !(free_s.is_finite() && free_s >= 0.0) {
         return Err(usage(format!("--free-vibration-s is {free_s}: give seconds, not negative")));
     }
-    if let Some(path) = &arguments.history
-        && let (Ok(table), Ok(record)) = (path.canonicalize(), arguments.record.canonicalize())
-        && table == record
+    for (option, path) in [("--history", &arguments.history), ("--plot", &arguments.plot)] {
+        if let Some(path) = path
+            && let (Ok(target), Ok(record)) = (path.canonicalize(), arguments.record.canonicalize())
+            && target == record
+        {
+            return Err(usage(format!("{option} {} would overwrite the record: give another name", path.display())));
+        }
+    }
+    if let Some(path) = &arguments.plot
+        && !path.extension().is_some_and(|extension| extension == "svg" || extension == "png")
     {
-        return Err(usage(format!("--history {} would overwrite the record: give another name", path.display())));
+        return Err(usage(format!("--plot {}: give a name that ends in .svg or .png", path.display())));
     }
     let options = ReadOptions { dt_s: arguments.dt_s, unit: arguments.unit, gravity_m_s2: arguments.gravity_m_s2 };
     let accelerogram = read_path(&arguments.record, &options).map_err(|error| UpliftError::input(error.to_string()))?;
@@ -88,9 +100,14 @@ pub(super) fn response(arguments: &ResponseArguments) -> Result<(), UpliftError>
         .scaled(arguments.scale)
         .map_err(|error| usage(error.to_string()))?;
     let after = if free_s > 0.0 { FreeVibration::Seconds(free_s) } else { FreeVibration::None };
-    let result = if let Some(path) = &arguments.history {
+    let result = if arguments.history.is_some() || arguments.plot.is_some() {
         let (result, history) = respond_with_history(&oscillator, &excitation, after);
-        write_history(path, arguments, &history, &excitation)?;
+        if let Some(path) = &arguments.history {
+            write_history(path, arguments, &history, &excitation)?;
+        }
+        if let Some(path) = &arguments.plot {
+            plot_history(path, arguments, &history, &excitation)?;
+        }
         result
     } else {
         respond(&oscillator, &excitation, after)
@@ -153,10 +170,31 @@ fn print(arguments: &ResponseArguments, accelerogram: &Accelerogram, result: &Re
             result.peak_displacement_m, result.time_of_peak_s, result.uplifts, result.impacts
         )?;
     }
-    if let Some(path) = &arguments.history {
-        writeln!(out, "history   {}", path.display())?;
+    for (name, path) in [("history", &arguments.history), ("figure", &arguments.plot)] {
+        if let Some(path) = path {
+            writeln!(out, "{name:<9} {}", path.display())?;
+        }
     }
     Ok(())
+}
+
+/// The time history as a figure.
+fn plot_history(
+    path: &Path,
+    arguments: &ResponseArguments,
+    history: &History,
+    excitation: &Excitation<'_>,
+) -> Result<(), UpliftError> {
+    let record = arguments.record.file_name().unwrap_or_default().to_string_lossy();
+    let title = format!("{record} times {}, strength {}", arguments.scale, arguments.strength);
+    let figure = history_figure(&title, excitation, history, arguments.uplift_displacement_m);
+    let drawing = svg(&figure, Width::Double).map_err(UpliftError::input)?;
+    if path.extension().is_some_and(|extension| extension == "png") {
+        let image = png(&drawing.svg, 300.0).map_err(|error| UpliftError::input(error.to_string()))?;
+        write_aside(path, &image)
+    } else {
+        write_aside(path, drawing.svg.as_bytes())
+    }
 }
 
 /// Samples and events in the order of time; an impact has two rows, before and after.

@@ -8,9 +8,9 @@
 
 use plotters::prelude::*;
 
-use super::figure::{Figure, Tone};
+use super::figure::{Figure, Marks, Tone};
 use super::panel::{PanelPlace, draw_panel};
-use super::stroke::{Area, FONT, Failure, colour, draw_line};
+use super::stroke::{Area, FONT, Failure, LINE, UNITS, ZOOM, colour, draw_line};
 
 /// How wide a figure is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -53,10 +53,10 @@ pub fn svg(figure: &Figure, width: Width) -> Result<Drawing, String> {
     };
     let rows = figure.panels.len().div_ceil(columns).max(1);
     let names = legend(figure);
-    let wide = width.pixels();
-    let panel_height = (f64::from(wide) / columns as f64 * 0.72).clamp(190.0, 380.0) as u32;
-    let legend_rows = legend_layout(&names, wide).last().map_or(0, |entry| entry.1 / 16 + 1);
-    let head = 24 + 16 * legend_rows as u32 + if figure.remark.is_empty() { 0 } else { 15 };
+    let wide = width.pixels() * ZOOM;
+    let panel_height = (f64::from(width.pixels()) / columns as f64 * 0.72).clamp(190.0, 380.0) as u32 * ZOOM;
+    let legend_rows = legend_layout(&names, wide).last().map_or(0, |place| place.1 / (16 * UNITS) + 1);
+    let head = (24 + 16 * legend_rows as u32 + if figure.remark.is_empty() { 0 } else { 15 }) * ZOOM;
     let size = (wide, head + panel_height * rows as u32);
     let mut text = String::new();
     let mut places = Vec::new();
@@ -71,33 +71,54 @@ pub fn svg(figure: &Figure, width: Width) -> Result<Drawing, String> {
         }
         root.present().map_err(|error| fail(&error))?;
     }
-    Ok(Drawing { svg: text, size, places })
+    // the page shows pixels, the drawing goes on in its units
+    let pixels = (size.0 / ZOOM, size.1 / ZOOM);
+    let units = format!("width=\"{}\" height=\"{}\"", size.0, size.1);
+    let text = text.replacen(&units, &format!("width=\"{}\" height=\"{}\"", pixels.0, pixels.1), 1);
+    Ok(Drawing { svg: text, size: pixels, places })
+}
+
+/// A name in the legend and what stands before it.
+struct Entry {
+    name: String,
+    tone: Tone,
+    kind: Kind,
+}
+
+#[derive(Clone, Copy)]
+enum Kind {
+    Line,
+    Dots,
+    Area,
 }
 
 /// What the legend names: each name once.
-fn legend(figure: &Figure) -> Vec<(String, Tone, bool)> {
-    let mut names: Vec<(String, Tone, bool)> = Vec::new();
+fn legend(figure: &Figure) -> Vec<Entry> {
+    let mut entries: Vec<Entry> = Vec::new();
     for panel in &figure.panels {
-        let lines = panel.series.iter().map(|series| (&series.name, series.tone, false));
-        let bands = panel.bands.iter().map(|band| (&band.name, band.tone, true));
-        for (name, tone, band) in lines.chain(bands) {
-            if !name.is_empty() && names.iter().all(|(known, ..)| known != name) {
-                names.push((name.clone(), tone, band));
+        let lines = panel.series.iter().map(|series| {
+            let kind = if series.marks == Marks::Only { Kind::Dots } else { Kind::Line };
+            (&series.name, series.tone, kind)
+        });
+        let bands = panel.bands.iter().map(|band| (&band.name, band.tone, Kind::Area));
+        for (name, tone, kind) in lines.chain(bands) {
+            if !name.is_empty() && entries.iter().all(|known| known.name != *name) {
+                entries.push(Entry { name: name.clone(), tone, kind });
             }
         }
     }
-    names
+    entries
 }
 
-/// Left edge and top of each entry.
-fn legend_layout(names: &[(String, Tone, bool)], wide: u32) -> Vec<(i32, i32)> {
-    let (mut x, mut y) = (10, 0);
-    names
+/// Left edge and top of each entry, units.
+fn legend_layout(entries: &[Entry], wide: u32) -> Vec<(i32, i32)> {
+    let (mut x, mut y) = (10 * UNITS, 0);
+    entries
         .iter()
-        .map(|(name, ..)| {
-            let length = 40 + 6 * name.chars().count() as i32;
-            if x > 10 && x + length > wide as i32 {
-                (x, y) = (10, y + 16);
+        .map(|entry| {
+            let length = (42 + 6 * entry.name.chars().count() as i32) * UNITS;
+            if x > 10 * UNITS && x + length > wide as i32 {
+                (x, y) = (10 * UNITS, y + 16 * UNITS);
             }
             let place = (x, y);
             x += length;
@@ -106,20 +127,27 @@ fn legend_layout(names: &[(String, Tone, bool)], wide: u32) -> Vec<(i32, i32)> {
         .collect()
 }
 
-fn draw_head(root: &Area<'_>, figure: &Figure, names: &[(String, Tone, bool)], head: u32) -> Result<(), Failure> {
-    root.draw(&Text::new(figure.title.clone(), (8, 6), (FONT, 13).into_font().style(FontStyle::Bold)))?;
-    for ((name, tone, band), (x, y)) in names.iter().zip(legend_layout(names, root.dim_in_pixel().0)) {
-        let middle = 24 + y + 6;
-        if *band {
-            root.draw(&Rectangle::new([(x, middle - 4), (x + 22, middle + 4)], colour(*tone).mix(0.25).filled()))?;
-        } else {
-            draw_line(root, &[(x, middle), (x + 22, middle)], *tone, 2)?;
+fn draw_head(root: &Area<'_>, figure: &Figure, entries: &[Entry], head: u32) -> Result<(), Failure> {
+    let title = (FONT, 13 * ZOOM).into_font().style(FontStyle::Bold);
+    root.draw(&Text::new(figure.title.clone(), (8 * UNITS, 6 * UNITS), title))?;
+    for (Entry { name, tone, kind }, (x, y)) in entries.iter().zip(legend_layout(entries, root.dim_in_pixel().0)) {
+        let top = 24 * UNITS + y;
+        let (middle, right) = (top + 6 * UNITS, x + 22 * UNITS);
+        match kind {
+            Kind::Area => {
+                let corners = [(x, middle - 4 * UNITS), (right, middle + 4 * UNITS)];
+                root.draw(&Rectangle::new(corners, colour(*tone).mix(0.25).filled()))?;
+            }
+            Kind::Dots => {
+                root.draw(&Circle::new((x + 11 * UNITS, middle), 2 * UNITS, colour(*tone).filled()))?;
+            }
+            Kind::Line => draw_line(root, &[(x, middle), (right, middle)], *tone, LINE)?,
         }
-        root.draw(&Text::new(name.clone(), (x + 27, 24 + y), (FONT, 11).into_font()))?;
+        root.draw(&Text::new(name.clone(), (x + 27 * UNITS, top), (FONT, 11 * ZOOM).into_font()))?;
     }
     if !figure.remark.is_empty() {
-        let style = (FONT, 11).into_font().style(FontStyle::Italic).color(&RGBColor(170, 60, 0));
-        root.draw(&Text::new(figure.remark.clone(), (8, head as i32 - 15), style))?;
+        let style = (FONT, 11 * ZOOM).into_font().style(FontStyle::Italic).color(&RGBColor(170, 60, 0));
+        root.draw(&Text::new(figure.remark.clone(), (8 * UNITS, head as i32 - 15 * UNITS), style))?;
     }
     Ok(())
 }

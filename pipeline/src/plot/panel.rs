@@ -14,10 +14,10 @@ use serde::Serialize;
 
 use super::figure::{Axis, Marks, Panel, Scale, Series, Tone};
 use super::frame::{Frame, runs};
-use super::stroke::{Area, FONT, Failure, colour, draw_line};
+use super::stroke::{Area, FAINT_LINE, FONT, Failure, LINE, UNITS, ZOOM, colour, draw_line};
 use super::ticks::{label, ticks};
 
-/// Where the plotting area of a panel lies, pixels, and what its ends mean.
+/// Where the plotting area of a panel lies, in the units of the drawing's view box, and what its ends mean.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PanelPlace {
     /// Left and right edge.
@@ -99,15 +99,15 @@ pub(super) fn draw_panel(area: &Area<'_>, panel: &Panel) -> Result<PanelPlace, F
     let (x0, x1) = ends(&panel.x, xs.chain(band_xs));
     let (y0, y1) = ends(&panel.y, ys.chain(band_ys));
     let (wide, high) = area.dim_in_pixel();
-    let x_ticks = ticks(x_scale, x0, x1, (wide as usize / 48).clamp(3, 8));
-    let y_ticks = ticks(y_scale, y0, y1, (high as usize / 45).clamp(3, 8));
+    let x_ticks = ticks(x_scale, x0, x1, ((wide / ZOOM) as usize / 48).clamp(3, 8));
+    let y_ticks = ticks(y_scale, y0, y1, ((high / ZOOM) as usize / 45).clamp(3, 8));
 
     let mut chart = ChartBuilder::on(area)
-        .margin(6)
-        .margin_right(12)
-        .caption(&panel.title, (FONT, 12).into_font())
-        .x_label_area_size(34)
-        .y_label_area_size(52)
+        .margin(6 * ZOOM)
+        .margin_right(12 * ZOOM)
+        .caption(&panel.title, (FONT, 12 * ZOOM).into_font())
+        .x_label_area_size(36 * ZOOM)
+        .y_label_area_size(54 * ZOOM)
         .build_cartesian_2d(
             Ticked { scale: x_scale, ends: (x0, x1), ticks: x_ticks },
             Ticked { scale: y_scale, ends: (y0, y1), ticks: y_ticks },
@@ -116,9 +116,11 @@ pub(super) fn draw_panel(area: &Area<'_>, panel: &Panel) -> Result<PanelPlace, F
         .configure_mesh()
         .x_desc(&panel.x.label)
         .y_desc(&panel.y.label)
-        .axis_desc_style((FONT, 11))
-        .label_style((FONT, 10))
-        .bold_line_style(RGBColor(225, 225, 225))
+        .axis_desc_style((FONT, 11 * ZOOM))
+        .label_style((FONT, 10 * ZOOM))
+        .set_all_tick_mark_size(4 * ZOOM)
+        .axis_style(BLACK.stroke_width(ZOOM))
+        .bold_line_style(RGBColor(228, 228, 228).stroke_width(ZOOM / 2))
         .light_line_style(TRANSPARENT)
         .draw()?;
     let (x_pixels, y_pixels) = chart.plotting_area().get_pixel_range();
@@ -178,12 +180,12 @@ fn draw_series(
     if series.marks == Marks::Only {
         for (x, y) in series.points.iter().filter_map(positions).filter(|&(x, y)| frame.holds(x, y)) {
             for pixel in shifted(vec![frame.pixel(x, y)]) {
-                plot.draw(&Circle::new(pixel, 2, colour(series.tone).filled()))?;
+                plot.draw(&Circle::new(pixel, 2 * UNITS, colour(series.tone).filled()))?;
             }
         }
         return Ok(());
     }
-    let thick = if series.tone == Tone::Faint { 1 } else { 2 };
+    let thick = if series.tone == Tone::Faint { FAINT_LINE } else { LINE };
     for run in runs(&series.points, positions) {
         for piece in frame.clip(&run) {
             draw_line(plot, &shifted(piece), series.tone, thick)?;

@@ -21,10 +21,17 @@ const COLOURS: [RGBColor; 7] = [
     RGBColor(86, 180, 233),
     RGBColor(230, 159, 0),
 ];
-/// Dash and gap of each colour, pixels; none for a full line.
+/// Dash and gap of each colour, in pixels; none for a full line.
 const DASHES: [Option<(i32, i32)>; 7] =
     [None, Some((7, 3)), Some((2, 2)), Some((10, 4)), None, Some((5, 2)), Some((3, 4))];
 pub(super) const FONT: &str = "sans-serif";
+/// Units of the drawing to a pixel: the library draws in whole units, which must be too fine to be seen.
+pub(super) const ZOOM: u32 = 8;
+/// The same, signed.
+pub(super) const UNITS: i32 = ZOOM as i32;
+/// Width of a line, and of one in the background, units.
+pub(super) const LINE: u32 = 3 * ZOOM / 2;
+pub(super) const FAINT_LINE: u32 = 3 * ZOOM / 4;
 
 pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 pub(super) type Failure = Box<dyn std::error::Error>;
@@ -43,13 +50,13 @@ fn dash(tone: Tone) -> Option<(i32, i32)> {
     }
 }
 
-/// A polyline in pixels, dashed as its tone asks.
+/// A polyline in units, dashed as its tone asks; `thick` units wide.
 pub(super) fn draw_line(area: &Area<'_>, points: &[(i32, i32)], tone: Tone, thick: u32) -> Result<(), Failure> {
     let style = colour(tone).stroke_width(thick);
     match dash(tone) {
         None => area.draw(&PathElement::new(points.to_vec(), style))?,
         Some((length, gap)) => {
-            for piece in dashes(points, f64::from(length), f64::from(gap)) {
+            for piece in dashes(points, f64::from(length * UNITS), f64::from(gap * UNITS)) {
                 area.draw(&PathElement::new(piece, style))?;
             }
         }

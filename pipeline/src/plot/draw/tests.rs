@@ -50,7 +50,7 @@ fn everything_lies_within_the_drawing() {
             for point in points.split('"').next().unwrap().split_whitespace() {
                 let (x, y) = point.split_once(',').unwrap();
                 let (x, y): (i32, i32) = (x.parse().unwrap(), y.parse().unwrap());
-                let (wide, high) = (drawing.size.0 as i32, drawing.size.1 as i32);
+                let (wide, high) = (drawing.size.0 as i32 * UNITS, drawing.size.1 as i32 * UNITS);
                 assert!((0..=wide).contains(&x) && (0..=high).contains(&y), "{point}");
             }
         }
@@ -61,7 +61,7 @@ fn everything_lies_within_the_drawing() {
 fn a_place_turns_pixels_into_values() {
     let place = &svg(&figure(), Width::Double).unwrap().places[2];
     assert_eq!(place.y_range, (0.2, 0.4));
-    assert!(place.x_pixels.1 - place.x_pixels.0 > 200 && place.y_pixels.1 - place.y_pixels.0 > 100);
+    assert!(place.x_pixels.1 - place.x_pixels.0 > 200 * UNITS && place.y_pixels.1 - place.y_pixels.0 > 100 * UNITS);
 }
 
 #[test]
