@@ -16,12 +16,14 @@ fn study() -> SmallStudy {
     study
 }
 
-const FIGURES: [&str; 13] = [
+const FIGURES: [&str; 15] = [
     "hazard",
     "ida",
     "fragility",
     "risk-pgv",
     "risk-pga",
+    "surface-pgv",
+    "surface-pga",
     "urs-pgv",
     "urs-pga",
     "fits",

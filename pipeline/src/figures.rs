@@ -44,6 +44,7 @@ impl FigureSource {
         figures.extend(demand::ida_curves(self)?);
         figures.extend(demand::fragilities(self)?);
         figures.extend(demand::risk_curves(self)?);
+        figures.extend(demand::risk_surfaces(self)?);
         figures.extend(spectra::spectra(self));
         figures.extend(spectra::fits(self)?);
         figures.extend(confidence::bands(self)?);

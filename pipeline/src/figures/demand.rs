@@ -3,7 +3,7 @@
 use uplift_fragility::{exceedance_probabilities, quantile};
 use uplift_risk::{RiskCurve, ThresholdGrid};
 
-use super::FigureSource;
+use super::{FigureSource, STRENGTH};
 use crate::error::UpliftError;
 use crate::plot::{Axis, Figure, Panel, Series, Tone};
 use crate::table::per_cent;
@@ -12,6 +12,8 @@ use crate::table::per_cent;
 const SHOWN_STRENGTH: f64 = 0.2;
 /// Displacements whose fragilities are shown, m.
 const THRESHOLDS_M: [f64; 4] = [0.01, 0.05, 0.2, 0.5];
+/// Rates whose contours of the risk surface are shown, 1/yr.
+const RATES_PER_YEAR: [f64; 4] = [1e-4, 1e-3, 1e-2, 1e-1];
 /// Strengths whose risk curves are shown.
 const RISK_STRENGTHS: [f64; 4] = [0.05, 0.1, 0.2, 0.4];
 
@@ -139,6 +141,61 @@ pub(super) fn risk_curves(source: &FigureSource) -> Result<Vec<Figure>, UpliftEr
             caption,
             panels,
         ));
+    }
+    Ok(figures)
+}
+
+/// The risk surface over strength and displacement as a map: lines of equal mean annual frequency.
+pub(super) fn risk_surfaces(source: &FigureSource) -> Result<Vec<Figure>, UpliftError> {
+    let stored = &source.stored;
+    let strengths = stored.strengths.len();
+    let mut figures = Vec::new();
+    for measure in &stored.measures {
+        // [site][rate][strength]
+        let mut contours_m = vec![vec![Vec::with_capacity(strengths); RATES_PER_YEAR.len()]; source.sites().len()];
+        for strength in 0..strengths {
+            let demand = measure.demand(strength, strengths).map_err(|error| source.fail(&error))?;
+            for (site, of_site) in contours_m.iter_mut().enumerate() {
+                let ordinates = RiskCurve::new(&demand, &measure.weights[site])
+                    .and_then(|curve| curve.exact_ordinates(&RATES_PER_YEAR))
+                    .map_err(|error| source.fail(&error))?;
+                for (of_rate, ordinate) in of_site.iter_mut().zip(ordinates) {
+                    of_rate.push(ordinate.displacement_m);
+                }
+            }
+        }
+        let rarest = source.rarest();
+        let panels = contours_m
+            .iter()
+            .enumerate()
+            .map(|(site, of_site)| {
+                let mut series: Vec<Series> = RATES_PER_YEAR
+                    .iter()
+                    .zip(of_site)
+                    .enumerate()
+                    .map(|(index, (rate, u_m))| {
+                        source.over_strengths(format!("{rate:e} per year"), u_m, Tone::Distinct([0, 1, 2, 3][index]))
+                    })
+                    .collect();
+                let name = format!("{} in {} years", per_cent(stored.poes[rarest]), stored.years);
+                series.push(source.over_strengths(
+                    name,
+                    stored.spectrum(&measure.spectra_m, site, rarest),
+                    Tone::Distinct(4),
+                ));
+                Panel {
+                    title: stored.sites[site].clone(),
+                    x: Axis::linear(STRENGTH),
+                    y: Axis::log("displacement, m"),
+                    bands: Vec::new(),
+                    series,
+                }
+            })
+            .collect();
+        let label = measure.measure.label();
+        let caption = "The risk surface seen from above: lines of equal mean annual frequency of exceedance. The contour of a target rate is the uniform risk spectrum (Fig. 4.4).";
+        let id = format!("surface-{}", measure.measure.key());
+        figures.push(source.figure(id, format!("Risk surface by {label}"), caption, panels));
     }
     Ok(figures)
 }
