@@ -233,6 +233,12 @@ fn confidence(stored: &StoredStripes) -> Result<Option<Table>, UpliftError> {
         }
         let errors = reader.array_f64(&format!("{group}/e_median"))?.values;
         let ranges = reader.array_f64(&format!("{group}/r_90ci"))?.values;
+        if errors.len() != stored.sites.len() * stored.poes.len() * sizes.len() {
+            return Err(UpliftError::input(format!(
+                "{}: {group} is damaged: run the bootstrap again",
+                stored.path.display()
+            )));
+        }
         for (cell, (error, range)) in errors.iter().zip(&ranges).enumerate() {
             let spectrum = cell / sizes.len();
             let number =

@@ -161,6 +161,18 @@ fn compute(
     let checkpoint = checkpoint(stored, plan, settings);
     let keys: Vec<&'static str> = stored.measures.iter().map(|measure| measure.measure.key()).collect();
     let mut finished = checkpoint.load(&keys);
+    // a damaged file may hold anything
+    finished.retain(|(key, strength), done| {
+        let measure = stored.measures.iter().find(|measure| measure.measure.key() == *key);
+        let spectra = measure.map_or(0, |measure| {
+            stored.sites.len() + measure.branches.iter().filter(|branches| !branches.is_empty()).count()
+        });
+        let replicates =
+            if settings.simultaneous { stored.sites.len() * stored.poes.len() * plan.samples().len() } else { 0 };
+        *strength < stored.strengths.len()
+            && done.bands.len() == spectra * stored.poes.len() * plan.sizes().len()
+            && done.replicates_m.len() == replicates
+    });
     if !finished.is_empty() {
         session.remark(&format!("resumed  {} strengths from {}", finished.len(), checkpoint.path().display()));
     }

@@ -33,7 +33,16 @@ impl FigureSource {
             format!("{} %", digits.trim_start_matches('0'))
         };
         let names = [level(lower), level(upper)];
-        Ok(Some(StoredBands { sizes: self.reader.axis_u32("sample_size")?, limits_m, names }))
+        let sizes = self.reader.axis_u32("sample_size")?;
+        let stored = &self.stored;
+        let expected = stored.sites.len() * stored.poes.len() * sizes.len() * stored.strengths.len();
+        if limits_m.iter().any(|limits| limits.len() != expected) {
+            return Err(UpliftError::input(format!(
+                "{}: {group} is damaged: run the bootstrap again",
+                stored.path.display()
+            )));
+        }
+        Ok(Some(StoredBands { sizes, limits_m, names }))
     }
 
     /// Band and median of one site, probability and size.

@@ -43,6 +43,9 @@ impl Checkpoint {
                 let bands = reader.array_f64(&format!("/{key}/bands_m"))?.values;
                 let path = format!("/{key}/replicates_m");
                 let replicates = if reader.exists(&path) { reader.array_f64(&path)?.values } else { Vec::new() };
+                if strengths.is_empty() {
+                    continue;
+                }
                 let (per_band, per_replicate) = (bands.len() / strengths.len(), replicates.len() / strengths.len());
                 for (row, &strength) in strengths.iter().enumerate() {
                     let bands = bands[row * per_band..(row + 1) * per_band]

@@ -58,6 +58,12 @@ impl StoredResult {
         let reader = open_result(path)?;
         let strengths = reader.axis_f64("strength")?;
         let poes = reader.axis_f64("poe")?;
+        if strengths.is_empty() || poes.is_empty() {
+            return Err(UpliftError::input(format!(
+                "{}: has no strengths or no probabilities: it is damaged",
+                path.display()
+            )));
+        }
         let sites = if reader.exists("/axes/site") { reader.axis_text("site")? } else { Vec::new() };
         let mut spectra = Vec::new();
         for im in ["PGV", "PGA"] {
@@ -69,6 +75,15 @@ impl StoredResult {
             let column = |name: &str| reader.array_f64(&format!("/regression/{key}/{name}")).map(|array| array.values);
             let (c0, c1, c2, rmse) = (column("c0_m")?, column("c1")?, column("c2_m")?, column("rmse_m")?);
             let bound = reader.array_u8(&format!("/regression/{key}/bound_active"))?.values;
+            let rows = sites.len() * poes.len();
+            if u_m.len() != rows * strengths.len()
+                || [c0.len(), c1.len(), c2.len(), rmse.len(), bound.len()] != [rows; 5]
+            {
+                return Err(UpliftError::input(format!(
+                    "{}: the spectra by {im} do not have the shape of their axes: the file is damaged",
+                    path.display()
+                )));
+            }
             for (row, u_m) in u_m.chunks_exact(strengths.len()).enumerate() {
                 let fit =
                     Fit { c0_m: c0[row], c1: c1[row], c2_m: c2[row], rmse_m: rmse[row], bound_active: bound[row] == 1 };

@@ -95,6 +95,12 @@ impl StoredStripes {
         }
         let (records, strengths) = (reader.axis_text("record")?, reader.axis_f64("strength")?);
         let (poes, sites) = (reader.axis_f64("poe")?, reader.axis_text("site")?);
+        let lengths = [records.len(), strengths.len(), poes.len(), sites.len()];
+        if lengths.contains(&0) {
+            return Err(fail(format!(
+                "records, strengths, probabilities and sites are {lengths:?} in number: the file is damaged"
+            )));
+        }
         let years = reader.attribute_f64("/", "poe_years")?;
         let targets_per_year = poes
             .iter()
@@ -136,7 +142,7 @@ impl StoredStripes {
         let key = measure.key();
         let levels = reader.axis_f64(&format!("{key}_level"))?;
         let edp = reader.array_f64(&format!("/ida/{key}/edp_m"))?;
-        if edp.shape != [self.records.len(), self.strengths.len(), levels.len()] {
+        if levels.is_empty() || edp.shape != [self.records.len(), self.strengths.len(), levels.len()] {
             return Err(fail(format!("/ida/{key}/edp_m has the shape {:?}, not that of its axes", edp.shape)));
         }
         let read_weights = |group: &str| -> Result<StripeWeights, UpliftError> {
