@@ -128,6 +128,9 @@ const box = svg.getBoundingClientRect(), zoom = box.width / svg.viewBox.baseVal.
 const at = (pair, share) => (pair[0] + share * (pair[1] - pair[0])) * zoom;
 plot.dispatchEvent(new PointerEvent('pointermove', { clientX: box.left + at(place.x_pixels, 0.5), clientY: box.top + at(place.y_pixels, 0.5) }));
 document.body.dataset.hover = document.getElementById('tip').textContent;
+plot.dispatchEvent(new PointerEvent('pointerleave'));
+plot.dispatchEvent(new PointerEvent('pointerdown', { clientX: box.left + at(place.x_pixels, 0.5), clientY: box.top + at(place.y_pixels, 0.5) }));
+document.body.dataset.tap = document.getElementById('tip').hidden;
 plot.dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowRight' }));
 document.body.dataset.keys = document.querySelector('#r1-urs-pgv .reading').textContent;
 const table = document.querySelector('#r1-table-4-2 table');
@@ -172,6 +175,7 @@ fn a_browser_reads_the_report() {
         hover.contains("Here: ") && hover.contains("uplift strength") && hover.contains("2 % in 50 years: "),
         "{hover}"
     );
+    assert_eq!(said("tap"), "false", "a finger reads values off too");
     let keys = said("keys");
     assert!(keys.contains("Here: ") && keys != hover, "{keys}");
     let sorted: Vec<f64> = said("sorted").split_whitespace().filter_map(|cell| cell.parse().ok()).collect();

@@ -46,7 +46,7 @@ for (const figure of document.querySelectorAll('figure')) {
     return read(panel, share);
   };
   const hide = () => { cursor.setAttribute('visibility', 'hidden'); tip.hidden = true; };
-  plot.addEventListener('pointermove', event => {
+  const point = event => {
     const box = svg.getBoundingClientRect();
     const zoom = svg.viewBox.baseVal.width / box.width;
     const [x, y] = [(event.clientX - box.left) * zoom, (event.clientY - box.top) * zoom];
@@ -58,7 +58,9 @@ for (const figure of document.querySelectorAll('figure')) {
     const place = tip.getBoundingClientRect();
     tip.style.left = Math.max(4, Math.min(event.clientX + 16, innerWidth - place.width - 8)) + 'px';
     tip.style.top = Math.max(4, Math.min(event.clientY + 16, innerHeight - place.height - 8)) + 'px';
-  });
+  };
+  plot.addEventListener('pointermove', point);
+  plot.addEventListener('pointerdown', point);
   plot.addEventListener('pointerleave', hide);
   plot.addEventListener('blur', hide);
   plot.addEventListener('keydown', event => {
