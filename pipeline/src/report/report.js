@@ -118,3 +118,5 @@ for (const button of document.querySelectorAll('.copy')) {
     setTimeout(() => { button.textContent = 'Copy table'; }, 1500);
   });
 }
+// On paper nothing can be opened: what warns is printed open.
+addEventListener('beforeprint', () => document.querySelectorAll('details.notice').forEach(notice => { notice.open = true; }));
