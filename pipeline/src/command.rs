@@ -7,6 +7,7 @@ mod export;
 mod influence;
 mod measures;
 mod plot;
+mod reference;
 mod report;
 mod response;
 mod result_of;

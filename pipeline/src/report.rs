@@ -13,7 +13,7 @@ use crate::error::UpliftError;
 use crate::figures::FigureSource;
 use crate::plot::{Figure, Marks, PanelPlace, Width, svg};
 use crate::result::{StoredResult, StoredStripes, open_result};
-use crate::table::{metres, per_cent};
+use crate::table::{metres, nearest, per_cent};
 
 /// Strengths in the summary.
 const SHOWN_STRENGTHS: [f64; 3] = [0.1, 0.2, 0.4];
@@ -148,13 +148,7 @@ fn section(key: &str, path: &Path) -> Result<Section, UpliftError> {
 }
 
 fn summary(stored: &StoredStripes) -> Table {
-    let nearest = |wanted: f64| {
-        (0..stored.strengths.len())
-            .min_by(|&a, &b| (stored.strengths[a] - wanted).abs().total_cmp(&(stored.strengths[b] - wanted).abs()))
-            .unwrap_or_default()
-    };
-    let mut shown: Vec<usize> = SHOWN_STRENGTHS.iter().map(|&wanted| nearest(wanted)).collect();
-    shown.dedup();
+    let shown = nearest(&stored.strengths, &SHOWN_STRENGTHS);
     let mut header: Vec<String> = ["site", "measure"].map(str::to_owned).to_vec();
     for &probability in &stored.poes {
         header.extend(

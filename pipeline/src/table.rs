@@ -30,6 +30,17 @@ pub(crate) fn table(header: &[&str], rows: &[Vec<String>]) -> String {
     lines.join("\n")
 }
 
+/// Positions of the values nearest to those `wanted`, each once.
+pub(crate) fn nearest(values: &[f64], wanted: &[f64]) -> Vec<usize> {
+    let distance = |index: usize, wanted: f64| (values[index] - wanted).abs();
+    let mut found: Vec<usize> = wanted
+        .iter()
+        .filter_map(|&wanted| (0..values.len()).min_by(|&a, &b| distance(a, wanted).total_cmp(&distance(b, wanted))))
+        .collect();
+    found.dedup();
+    found
+}
+
 /// A displacement in metres to the tenth of a millimetre.
 pub(crate) fn metres(value: f64) -> String {
     if value.is_infinite() { "censored".to_owned() } else { format!("{value:.4}") }
@@ -63,6 +74,12 @@ mod tests {
         assert_eq!(thousands(12), "12");
         assert_eq!((per_cent(0.02), per_cent(0.1), per_cent(0.0025)), ("2 %".into(), "10 %".into(), "0.25 %".into()));
         assert_eq!(metres(f64::INFINITY), "censored");
+    }
+
+    #[test]
+    fn each_nearest_value_once() {
+        assert_eq!(nearest(&[0.0, 0.1, 0.3], &[0.11, 0.12, 0.4]), [1, 2]);
+        assert!(nearest(&[], &[0.1]).is_empty());
     }
 
     #[test]

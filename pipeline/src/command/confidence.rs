@@ -1,11 +1,11 @@
 //! The confidence-interval report: Table 4.1, what it means in words, and rocking initiation.
 
-use std::io::{Cursor, Write};
+use std::io::Write;
 use std::path::Path;
 
-use polars::prelude::{CsvParseOptions, CsvReadOptions, SerReader};
 use serde_json::json;
 
+use super::reference::ReferenceTable;
 use super::run::shown_path;
 use crate::error::UpliftError;
 use crate::result::{BandsFile, StoredStripes, band_paths};
@@ -252,49 +252,29 @@ fn initiation(stored: &StoredStripes, bands: &Bands, cell: usize) -> Vec<String>
 
 /// Reads a table with the columns of Table 4.1.
 pub(super) fn read_reference(path: &Path) -> Result<Vec<Reference>, UpliftError> {
-    let fail = |reason: String| UpliftError::input(format!("reference {}: {reason}", path.display()));
-    let bytes = std::fs::read(path).map_err(|error| fail(error.to_string()))?;
-    let frame = CsvReadOptions::default()
-        .with_has_header(true)
-        .with_infer_schema_length(Some(0))
-        .with_parse_options(CsvParseOptions::default().with_comment_prefix(Some("#")))
-        .into_reader_with_file_handle(Cursor::new(bytes))
-        .finish()
-        .map_err(|error| fail(error.to_string()))?;
-    let has = |name: &str| frame.get_column_index(name).is_some();
+    let table = ReferenceTable::read(path)?;
+    let columns = |key: &str| (format!("{key}_e_median_pct"), format!("{key}_r_90ci_pct"));
     let measures: Vec<&str> = ["pgv", "pga"]
         .into_iter()
-        .filter(|key| has(&format!("{key}_e_median_pct")) && has(&format!("{key}_r_90ci_pct")))
+        .filter(|key| {
+            let (error, range) = columns(key);
+            table.has(&error) && table.has(&range)
+        })
         .collect();
-    if !has("site") || !has("sample_size") || measures.is_empty() {
-        return Err(fail(
-            "needs the columns site, sample_size, and pgv_e_median_pct with pgv_r_90ci_pct or the same of pga"
-                .to_owned(),
-        ));
+    if !table.has("site") || !table.has("sample_size") || measures.is_empty() {
+        return Err(table
+            .fail("needs the columns site, sample_size, and pgv_e_median_pct with pgv_r_90ci_pct or the same of pga"));
     }
-    let text = |name: &str, row: usize| -> String {
-        let cell = frame.column(name).ok().and_then(|column| column.str().ok()?.get(row).map(str::to_owned));
-        cell.unwrap_or_default().trim().to_owned()
-    };
-    (0..frame.height())
+    (0..table.rows())
         .map(|row| {
-            let number = |name: &str| -> Result<f64, UpliftError> {
-                let cell = text(name, row);
-                cell.parse().map_err(|_| fail(format!("row {}, {name}: {cell:?} is not a number", row + 1)))
-            };
-            let size = text("sample_size", row);
+            let figures = measures.iter().map(|key| {
+                let (error, range) = columns(key);
+                Ok(((*key).to_owned(), table.number(&error, row)?, table.number(&range, row)?))
+            });
             Ok(Reference {
-                site: text("site", row),
-                sample_size: size
-                    .parse()
-                    .map_err(|_| fail(format!("row {}, sample_size: {size:?} is not a whole number", row + 1)))?,
-                figures: measures
-                    .iter()
-                    .map(|key| {
-                        let error = number(&format!("{key}_e_median_pct"))?;
-                        Ok(((*key).to_owned(), error, number(&format!("{key}_r_90ci_pct"))?))
-                    })
-                    .collect::<Result<_, UpliftError>>()?,
+                site: table.text("site", row),
+                sample_size: table.number("sample_size", row)?,
+                figures: figures.collect::<Result<_, UpliftError>>()?,
             })
         })
         .collect()

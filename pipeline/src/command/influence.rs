@@ -7,11 +7,11 @@ use serde_json::json;
 
 use super::Session;
 use super::result_of::ResultArguments;
-use super::run::{nearest, shown_path};
+use super::run::shown_path;
 use crate::error::UpliftError;
 use crate::result::{RecordInfluence, StoredStripes, check_target, influence_path, record_influence, write_influence};
 use crate::stages::{Influence, influence as influence_of, level_of_share};
-use crate::table::{metres, per_cent, table};
+use crate::table::{metres, nearest, per_cent, table};
 
 /// Strengths at which the risk is taken apart.
 const SHOWN_STRENGTHS: [f64; 3] = [0.1, 0.2, 0.4];
@@ -144,8 +144,7 @@ impl View<'_> {
     /// Calls `show` with site, row within the site, measure, strength, ordinate and shares.
     fn each_ordinate(&self, mut show: impl FnMut(usize, usize, &crate::result::StoredMeasure, f64, f64, &[f64])) {
         let stored = self.stored;
-        let mut shown: Vec<usize> = SHOWN_STRENGTHS.iter().map(|&wanted| nearest(&stored.strengths, wanted)).collect();
-        shown.dedup();
+        let shown = nearest(&stored.strengths, &SHOWN_STRENGTHS);
         for (influence, measure) in self.influences.iter().zip(&stored.measures) {
             let bins = measure.levels.len() + 1;
             for site in 0..stored.sites.len() {

@@ -7,11 +7,11 @@ use serde_json::json;
 
 use super::Session;
 use super::result_of::ResultArguments;
-use super::run::{nearest, shown_path};
+use super::run::shown_path;
 use crate::error::UpliftError;
 use crate::result::{StoredStripes, check_target, covariates, predictors_path, write_predictors};
 use crate::stages::{Covariate, Predictor, predictor};
-use crate::table::table;
+use crate::table::{nearest, table};
 
 /// Strengths shown.
 const SHOWN_STRENGTHS: [f64; 5] = [0.05, 0.1, 0.2, 0.4, 0.8];
@@ -37,8 +37,7 @@ pub(super) fn measures(arguments: &MeasuresArguments, session: &Session) -> Resu
         .map(|measure| predictor(&stored, measure, &covariates))
         .collect::<Result<Vec<_>, _>>()?;
     write_predictors(&stored, &covariates, &predictors)?;
-    let mut shown: Vec<usize> = SHOWN_STRENGTHS.iter().map(|&wanted| nearest(&stored.strengths, wanted)).collect();
-    shown.dedup();
+    let shown = nearest(&stored.strengths, &SHOWN_STRENGTHS);
     let mut out = std::io::stdout().lock();
     if arguments.json {
         return print_json(&mut out, &stored, &covariates, &predictors);

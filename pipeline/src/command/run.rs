@@ -18,7 +18,7 @@ use crate::stages::{
     Coefficients, Spectra, Stripes, analyse_stripes, fit_spectra, oscillators, plan_stripes, uniform_risk_spectra,
 };
 use crate::study::ResolvedStudy;
-use crate::table::{metres, per_cent, table, thousands};
+use crate::table::{metres, nearest, per_cent, table, thousands};
 
 /// Fewer records than this make a spectrum that changes with each of them (Section 4.5.1: 40 are a robust lower limit).
 const FEW_RECORDS: usize = 40;
@@ -191,13 +191,6 @@ fn warnings_of(
     warnings
 }
 
-/// The strength of the study nearest to `wanted`.
-pub(super) fn nearest(strengths: &[f64], wanted: f64) -> usize {
-    (0..strengths.len())
-        .min_by(|&a, &b| (strengths[a] - wanted).abs().total_cmp(&(strengths[b] - wanted).abs()))
-        .unwrap_or_default()
-}
-
 fn print_summary(
     out: &mut impl Write,
     outcome: &Outcome<'_>,
@@ -205,8 +198,7 @@ fn print_summary(
     seconds: f64,
 ) -> Result<(), UpliftError> {
     let study = outcome.study;
-    let mut shown: Vec<usize> = [0.1, 0.2, 0.4].iter().map(|&strength| nearest(&study.strengths, strength)).collect();
-    shown.dedup();
+    let shown = nearest(&study.strengths, &[0.1, 0.2, 0.4]);
     let at: Vec<String> = shown.iter().map(|&index| format!("{:.3}", study.strengths[index])).collect();
     for spectra in outcome.spectra.iter().filter(|spectra| spectra.shape[0] > 0) {
         let label = spectra.measure.label();

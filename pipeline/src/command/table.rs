@@ -1,13 +1,13 @@
 //! `uplift table`: the coefficients of Eq. 4.11, ours beside a reference.
 
-use std::io::{Cursor, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use polars::prelude::{CsvParseOptions, CsvReadOptions, DataFrame, SerReader};
 use serde_json::json;
 use uplift_regression::Exponential;
 
+use super::reference::ReferenceTable;
 use crate::error::UpliftError;
 use crate::result::{Spectrum, StoredResult};
 use crate::table::{per_cent, table as lines};
@@ -184,36 +184,24 @@ fn median_ratio(strengths: &[f64], spectrum: &Spectrum, reference: &Reference) -
 }
 
 fn read_reference(path: &Path) -> Result<Vec<Reference>, UpliftError> {
-    let fail = |reason: String| UpliftError::input(format!("reference {}: {reason}", path.display()));
-    let bytes = std::fs::read(path).map_err(|error| fail(error.to_string()))?;
-    let frame: DataFrame = CsvReadOptions::default()
-        .with_has_header(true)
-        .with_infer_schema_length(Some(0))
-        .with_parse_options(CsvParseOptions::default().with_comment_prefix(Some("#")))
-        .into_reader_with_file_handle(Cursor::new(bytes))
-        .finish()
-        .map_err(|error| fail(error.to_string()))?;
-    let has = |name: &str| frame.get_column_index(name).is_some();
-    let poe_column = if has("poe_50y") { "poe_50y" } else { "poe" };
-    let missing: Vec<&str> = ["site", poe_column, "c0_m", "c1", "c2_m"].into_iter().filter(|name| !has(name)).collect();
+    let table = ReferenceTable::read(path)?;
+    let poe_column = if table.has("poe_50y") { "poe_50y" } else { "poe" };
+    let missing: Vec<&str> =
+        ["site", poe_column, "c0_m", "c1", "c2_m"].into_iter().filter(|name| !table.has(name)).collect();
     if !missing.is_empty() {
-        return Err(fail(format!("has no column {}", missing.join(", "))));
+        return Err(table.fail(format!("has no column {}", missing.join(", "))));
     }
-    let text = |name: &str, row: usize| -> Option<String> {
-        let column = frame.column(name).ok()?;
-        Some(column.str().ok()?.get(row)?.trim().to_owned())
-    };
-    (0..frame.height())
+    (0..table.rows())
         .map(|row| {
-            let number = |name: &str| {
-                let cell = text(name, row).unwrap_or_default();
-                cell.parse::<f64>().map_err(|_| fail(format!("row {}, {name}: {cell:?} is not a number", row + 1)))
-            };
             Ok(Reference {
-                site: text("site", row).unwrap_or_default(),
-                poe: number(poe_column)?,
-                curve: Exponential { c0: number("c0_m")?, c1: number("c1")?, c2: number("c2_m")? },
-                rmse_m: if has("rmse_m") { number("rmse_m").ok() } else { None },
+                site: table.text("site", row),
+                poe: table.number(poe_column, row)?,
+                curve: Exponential {
+                    c0: table.number("c0_m", row)?,
+                    c1: table.number("c1", row)?,
+                    c2: table.number("c2_m", row)?,
+                },
+                rmse_m: table.number("rmse_m", row).ok(),
             })
         })
         .collect()

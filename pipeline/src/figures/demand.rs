@@ -6,7 +6,7 @@ use uplift_risk::{RiskCurve, ThresholdGrid};
 use super::{FigureSource, STRENGTH};
 use crate::error::UpliftError;
 use crate::plot::{Axis, Figure, Panel, Series, Tone};
-use crate::table::per_cent;
+use crate::table::{nearest, per_cent};
 
 /// Strength of the oscillator shown.
 const SHOWN_STRENGTH: f64 = 0.2;
@@ -18,11 +18,9 @@ const RATES_PER_YEAR: [f64; 4] = [1e-4, 1e-3, 1e-2, 1e-1];
 const RISK_STRENGTHS: [f64; 4] = [0.05, 0.1, 0.2, 0.4];
 
 impl FigureSource {
-    fn nearest_strength(&self, wanted: f64) -> usize {
-        let strengths = &self.stored.strengths;
-        (0..strengths.len())
-            .min_by(|&a, &b| (strengths[a] - wanted).abs().total_cmp(&(strengths[b] - wanted).abs()))
-            .unwrap_or_default()
+    /// Position of the strength of the oscillator shown.
+    fn shown_strength(&self) -> usize {
+        nearest(&self.stored.strengths, &[SHOWN_STRENGTH]).first().copied().unwrap_or_default()
     }
 
     fn fail(&self, error: &dyn std::fmt::Display) -> UpliftError {
@@ -32,7 +30,7 @@ impl FigureSource {
 
 pub(super) fn ida_curves(source: &FigureSource) -> Result<Option<Figure>, UpliftError> {
     let stored = &source.stored;
-    let strength = source.nearest_strength(SHOWN_STRENGTH);
+    let strength = source.shown_strength();
     let mut panels = Vec::new();
     for measure in &stored.measures {
         let stripes = measure.stripes(strength, stored.strengths.len()).map_err(|error| source.fail(&error))?;
@@ -70,7 +68,7 @@ pub(super) fn ida_curves(source: &FigureSource) -> Result<Option<Figure>, Uplift
 
 pub(super) fn fragilities(source: &FigureSource) -> Result<Option<Figure>, UpliftError> {
     let stored = &source.stored;
-    let strength = source.nearest_strength(SHOWN_STRENGTH);
+    let strength = source.shown_strength();
     let mut panels = Vec::new();
     for measure in &stored.measures {
         let stripes = measure.stripes(strength, stored.strengths.len()).map_err(|error| source.fail(&error))?;
@@ -98,8 +96,7 @@ pub(super) fn risk_curves(source: &FigureSource) -> Result<Vec<Figure>, UpliftEr
     let thresholds_m: Vec<f64> =
         std::iter::once(0.0).chain((0..=160).map(|step| 1e-4 * 10.0_f64.powf(f64::from(step) / 36.0))).collect();
     let grid = ThresholdGrid::new(thresholds_m).map_err(|error| source.fail(&error))?;
-    let mut shown: Vec<usize> = RISK_STRENGTHS.iter().map(|&wanted| source.nearest_strength(wanted)).collect();
-    shown.dedup();
+    let shown = nearest(&stored.strengths, &RISK_STRENGTHS);
     let mut figures = Vec::new();
     for measure in &stored.measures {
         let mut panels: Vec<Panel> = source

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use polars::prelude::Column;
 use uplift_bootstrap::ResamplingPlan;
 
-use super::extend::{extend_result, now, sign};
+use super::extend::{extend_result, line, sign};
 use super::{StoredStripes, write_table};
 use crate::error::UpliftError;
 use crate::labelled::{LabelledError, LabelledWriter};
@@ -42,19 +42,14 @@ pub fn band_paths(result: &Path) -> [PathBuf; 2] {
 pub fn write_bands(file: &BandsFile<'_>) -> Result<(), UpliftError> {
     let BandsFile { stored, plan, settings, .. } = file;
     extend_result(&stored.path, &REPLACED, |writer| add_bands(writer, file))?;
-    let line = format!(
-        "uplift {} ({}), {}; bootstrap of {}; {}; {} replicates, {} interval, confidence {}; records: {}",
-        crate::VERSION,
-        crate::COMMIT,
-        now(),
-        stored.path.file_name().unwrap_or_default().to_string_lossy(),
+    let what = format!(
+        "bootstrap: {}, {} replicates, {} interval, confidence {}",
         file.plan_source,
         plan.replicates(),
         interval_name(settings.interval),
-        settings.confidence,
-        stored.record_set
-    )
-    .replace(['\n', '\r'], " ");
+        settings.confidence
+    );
+    let line = line(stored, &what);
     let [bands, figures] = band_paths(&stored.path);
     write_table(&bands, &line, bands_table(file))?;
     write_table(&figures, &line, figures_table(file))

@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::time::SystemTime;
 
+use super::StoredStripes;
 use crate::error::UpliftError;
 use crate::labelled::{LabelledError, LabelledReader, LabelledWriter};
 
@@ -30,6 +31,19 @@ pub(crate) fn sign(writer: &mut LabelledWriter, group: &str) -> Result<(), Label
     writer.attribute(group, "created", now().as_str())?;
     writer.attribute(group, "version", crate::VERSION)?;
     writer.attribute(group, "commit", crate::COMMIT)
+}
+
+/// One line for the head of a table made from `stored`: program, time, `what` it holds, file and records.
+pub(crate) fn line(stored: &StoredStripes, what: &str) -> String {
+    format!(
+        "uplift {} ({}), {}; {what}; result {}; records: {}",
+        crate::VERSION,
+        crate::COMMIT,
+        now(),
+        stored.path.file_name().unwrap_or_default().to_string_lossy(),
+        stored.record_set
+    )
+    .replace(['\n', '\r'], " ")
 }
 
 /// Coordinated universal time, `2026-01-31T12:00:00Z`.

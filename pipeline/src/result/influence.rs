@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
 
-use super::extend::{extend_result, now, sign};
+use super::extend::{extend_result, line, sign};
 use super::{StoredStripes, write_table};
 use crate::error::UpliftError;
 use crate::labelled::{LabelledError, LabelledWriter};
@@ -71,17 +71,9 @@ pub fn write_influence(
     rankings: &[Vec<Vec<RecordInfluence>>],
 ) -> Result<(), UpliftError> {
     extend_result(&stored.path, &REPLACED, |writer| add(writer, stored, influences))?;
-    let line = format!(
-        "uplift {} ({}), {}; spectra of {} without each record; records: {}",
-        crate::VERSION,
-        crate::COMMIT,
-        now(),
-        stored.path.file_name().unwrap_or_default().to_string_lossy(),
-        stored.record_set
-    );
     write_table(
         &influence_path(&stored.path),
-        &line.replace(['\n', '\r'], " "),
+        &line(stored, "spectra without each record"),
         ranking_table(stored, influences, rankings),
     )
 }

@@ -6,7 +6,7 @@ use polars::prelude::Column;
 use uplift_fragility::Dispersion;
 use uplift_regression::Line;
 
-use super::extend::{extend_result, now, sign};
+use super::extend::{extend_result, line, sign};
 use super::write::level_axis;
 use super::{StoredStripes, write_table};
 use crate::error::UpliftError;
@@ -31,17 +31,9 @@ pub fn write_predictors(
     predictors: &[Predictor],
 ) -> Result<(), UpliftError> {
     extend_result(&stored.path, &REPLACED, |writer| add(writer, covariates, predictors))?;
-    let line = format!(
-        "uplift {} ({}), {}; efficiency and sufficiency of {}; records: {}",
-        crate::VERSION,
-        crate::COMMIT,
-        now(),
-        stored.path.file_name().unwrap_or_default().to_string_lossy(),
-        stored.record_set
-    );
     write_table(
         &predictors_path(&stored.path),
-        &line.replace(['\n', '\r'], " "),
+        &line(stored, "efficiency and sufficiency"),
         predictors_table(stored, covariates, predictors),
     )
 }
