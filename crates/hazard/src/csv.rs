@@ -139,6 +139,9 @@ fn rate_of_row(row: &Row, years: Option<f64>, place: impl Fn() -> Place) -> Resu
     Err(HazardError::Probability { place: place(), value: row.value, hint })
 }
 
+/// Lines that a message names; a file of another kind has many.
+const MISTAKES_NAMED: usize = 5;
+
 /// The text taken apart: numbers in file order, nothing about hazard checked yet.
 struct Table {
     rows: Vec<Row>,
@@ -151,6 +154,9 @@ impl Table {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let mut comments = Vec::new();
         let mut rows: Vec<Row> = Vec::new();
+        let mut mistakes = Vec::new();
+        let mut more = 0;
+        let mut note = |mistake| if mistakes.len() < MISTAKES_NAMED { mistakes.push(mistake) } else { more += 1 };
         // Which column is the level, and what the other holds; known from the first row on.
         let mut columns: Option<(usize, SecondColumn)> = None;
         // `split` and not `lines`: old spreadsheets end lines with a carriage return alone.
@@ -165,8 +171,13 @@ impl Table {
                 comments.push(comment.trim().trim_end_matches([',', ';', '"']).to_owned());
                 continue;
             }
-            let Some(fields) = two_fields(line, &place)? else {
-                continue;
+            let fields = match two_fields(line, &place) {
+                Ok(Some(fields)) => fields,
+                Ok(None) => continue,
+                Err(mistake) => {
+                    note(mistake);
+                    continue;
+                }
             };
             let header = columns.is_none() && fields.iter().all(|field| field.parse::<f64>().is_err());
             if header {
@@ -177,9 +188,15 @@ impl Table {
                 Some(columns) => columns,
                 None => *columns.insert((0, content_without_header(options, &place)?)),
             };
-            let im = number(fields[level], &place)?;
-            let value = number(fields[1 - level], &place)?;
-            rows.push(Row { line: index + 1, im, value });
+            match (number(fields[level], &place), number(fields[1 - level], &place)) {
+                (Ok(im), Ok(value)) => rows.push(Row { line: index + 1, im, value }),
+                (Err(mistake), _) | (_, Err(mistake)) => note(mistake),
+            }
+        }
+        match mistakes.len() {
+            0 => {}
+            1 => return Err(mistakes.remove(0)),
+            _ => return Err(HazardError::Rows { mistakes, more }),
         }
         let Some((_, content)) = columns else {
             return Err(HazardError::TooFewPoints { name: name.to_owned(), found: 0 });

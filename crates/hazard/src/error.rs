@@ -25,6 +25,14 @@ impl fmt::Display for Place {
     }
 }
 
+fn list(mistakes: &[HazardError], more: usize) -> String {
+    let mut lines: Vec<String> = mistakes.iter().map(ToString::to_string).collect();
+    if more > 0 {
+        lines.push(format!("and {more} lines more"));
+    }
+    lines.join("; ")
+}
+
 /// Why a hazard curve could not be built, read or evaluated.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -185,6 +193,14 @@ pub enum HazardError {
         place: Place,
         /// What is wrong and what to do.
         reason: String,
+    },
+    /// Several lines that cannot be understood.
+    #[error("{}", list(mistakes, *more))]
+    Rows {
+        /// The first of them.
+        mistakes: Vec<HazardError>,
+        /// How many there are beside these.
+        more: usize,
     },
     /// The file says something else than the caller.
     #[error("{place}: the file says {what} {found}, but {declared} is declared; correct the one that is wrong")]
