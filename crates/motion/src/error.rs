@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::recording::RecordFormat;
+
 /// What can be wrong with ground motions given from outside.
 ///
 /// In every variant `name` is the file (or record) as the caller called it, and `line` counts
@@ -86,20 +88,64 @@ pub enum MotionError {
     /// The number of points or the time step in the head cannot be read.
     #[error(
         "{name}, line {line}: cannot read {key} in \"{text}\"; \
-         expected e.g. \"NPTS= 4000, DT= .0050 SEC\", with a decimal point"
+         expected e.g. \"{expected}\", with a decimal point"
     )]
     HeaderValue {
         /// The file.
         name: String,
         /// The line.
         line: usize,
-        /// `NPTS` or `DT`.
+        /// What is read, e.g. `NPTS`.
         key: &'static str,
         /// The line's text.
         text: String,
+        /// How such a line reads.
+        expected: &'static str,
+    },
+    /// The head lacks something that the motion cannot be had without.
+    #[error(
+        "{name}: the head of this {format} file has no {key}: the file is damaged or cut, or it has another format; name the format, or get the file again"
+    )]
+    HeaderLacks {
+        /// The file.
+        name: String,
+        /// The format it was read as.
+        format: RecordFormat,
+        /// What is missing.
+        key: &'static str,
+    },
+    /// A file holds no acceleration at all.
+    #[error("{name}: no acceleration in this {format} file, only {found}; give the acceleration file")]
+    NoAcceleration {
+        /// The file.
+        name: String,
+        /// The format it was read as.
+        format: RecordFormat,
+        /// What it holds.
+        found: String,
+    },
+    /// A file holds several components and none is chosen, or one that is not there.
+    #[error(
+        "{name}: {found} component(s) in this file ({components}); give the number of one as its channel, 1 to {found}"
+    )]
+    Channel {
+        /// The file.
+        name: String,
+        /// Number of components.
+        found: usize,
+        /// What they are called.
+        components: String,
+    },
+    /// A compressed file that cannot be unpacked.
+    #[error("{name}: cannot be unpacked ({reason}): the file is damaged or cut; get it again")]
+    Compressed {
+        /// The file.
+        name: String,
+        /// What is wrong with it.
+        reason: std::io::Error,
     },
     /// The file holds something else than acceleration.
-    #[error("{name}, line {line}: \"{text}\": not an acceleration; give the acceleration (.AT2) file")]
+    #[error("{name}, line {line}: \"{text}\": not an acceleration; give the acceleration file")]
     NotAcceleration {
         /// The file.
         name: String,

@@ -6,7 +6,9 @@
 //!   choice of those that a planar model receives;
 //! - [`IntensityMeasure`]: PGV and PGA of a pair as geometric means (Eq. 4.5, 4.6), and the
 //!   [`scale_factor`] to a level;
-//! - [`read_path`], [`read_auto`], [`read_at2`], [`read_columns`]: the readers;
+//! - [`read_record_file`], [`read_record`]: every component of a record file of any [`RecordFormat`],
+//!   with what the file says about it ([`RecordingDescription`]);
+//! - [`read_path`], [`read_auto`], [`read_at2`], [`read_columns`]: one accelerogram;
 //! - [`synthetic`]: record pairs from a stochastic model, for studies without real records.
 //!
 //! Inside, everything is in m and s. Measures of a pair are in the units of the field: cm/s for
@@ -19,6 +21,7 @@ mod measure;
 mod pair;
 mod peaks;
 mod read;
+mod recording;
 pub mod synthetic;
 mod unit;
 
@@ -28,5 +31,6 @@ pub use measure::{IntensityMeasure, geometric_mean, scale_factor};
 pub use pair::{Component, Horizontal, RecordPair};
 pub use read::at2::{At2Header, At2Record, read_at2};
 pub use read::columns::read_columns;
-pub use read::{ReadOptions, read_auto, read_path};
+pub use read::{ReadOptions, read_auto, read_path, read_record, read_record_file};
+pub use recording::{Orientation, RecordFile, RecordFormat, Recording, RecordingDescription};
 pub use unit::{AccelerationUnit, STANDARD_GRAVITY_M_S2};

@@ -2,6 +2,11 @@
 
 pub(crate) mod at2;
 pub(crate) mod columns;
+mod cosmos;
+mod csmip;
+mod esm;
+mod head;
+mod knet;
 mod number;
 
 use std::borrow::Cow;
@@ -11,14 +16,22 @@ use std::path::Path;
 
 use crate::accelerogram::Accelerogram;
 use crate::error::MotionError;
+use crate::recording::{RecordFile, RecordFormat, Recording};
 use crate::unit::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
 
-/// Largest file that is read \[bytes\]: a few million points, far above any accelerogram.
+/// Largest file that is read, unpacked \[bytes\]: a few million points, far above any accelerogram.
 const LARGEST_FILE_BYTES: u64 = 64 * 1024 * 1024;
 
-/// What the caller knows about a file; what the file itself says takes precedence.
+/// Beginning of a file by which its layout is told \[bytes\].
+const HEAD_BYTES: usize = 16 * 1024;
+
+/// What the caller knows about a file; what the file itself says takes precedence over step and unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReadOptions {
+    /// Layout of the file; none to tell it by the content.
+    pub format: Option<RecordFormat>,
+    /// Which component of a file with several, counted from one.
+    pub channel: Option<usize>,
     /// Time step \[s\] of a file of one column.
     pub dt_s: Option<f64>,
     /// Unit of accelerations whose unit the file does not say.
@@ -27,10 +40,10 @@ pub struct ReadOptions {
     pub gravity_m_s2: f64,
 }
 
-/// Neither time step nor unit, and standard gravity.
+/// Everything as the file says, and standard gravity.
 impl Default for ReadOptions {
     fn default() -> Self {
-        Self { dt_s: None, unit: None, gravity_m_s2: STANDARD_GRAVITY_M_S2 }
+        Self { format: None, channel: None, dt_s: None, unit: None, gravity_m_s2: STANDARD_GRAVITY_M_S2 }
     }
 }
 
@@ -56,30 +69,106 @@ impl ReadOptions {
     }
 }
 
-/// Reads a record of any known layout from the file at `path`; see [`read_auto`].
+/// Reads every acceleration component of the record file at `path`; see [`read_record`].
 ///
 /// # Errors
 ///
 /// [`MotionError::Unreadable`] where the file cannot be read, [`MotionError::TooLarge`] above
-/// 64 MiB, and those of [`read_auto`].
+/// 64 MiB, and those of [`read_record`].
+pub fn read_record_file(path: &Path, options: &ReadOptions) -> Result<RecordFile, MotionError> {
+    let bytes = read_bytes(path)?;
+    read_record(&bytes, &path.display().to_string(), options)
+}
+
+/// Reads every acceleration component of a record file from `bytes`, unpacked first where they are
+/// gzip; `name` stands in messages. [`ReadOptions::channel`] makes no difference here.
+///
+/// The layout is that of [`ReadOptions::format`], or else told by the content: each has its own
+/// words in the head. What has none of them is read as columns.
+///
+/// # Errors
+///
+/// [`MotionError::Compressed`], [`MotionError::TooLarge`], and those of the reader: a head that
+/// lacks something or cannot be read, a number that is none, fewer values than the head says.
+pub fn read_record(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<RecordFile, MotionError> {
+    let bytes = unpacked(bytes, name)?;
+    let format = options.format.unwrap_or_else(|| detect(&bytes, name));
+    let one = |recording: Recording| vec![recording];
+    let recordings = match format {
+        RecordFormat::At2 => at2::read(&bytes, name, options).map(one),
+        RecordFormat::Esm => esm::read(&bytes, name, options).map(one),
+        RecordFormat::Knet => knet::read(&bytes, name, options).map(one),
+        RecordFormat::Cosmos => cosmos::read(&bytes, name, options),
+        RecordFormat::Csmip => csmip::read(&bytes, name, options),
+        RecordFormat::Columns => columns::read(&bytes, name, options).map(one),
+    }?;
+    Ok(RecordFile { format, recordings })
+}
+
+/// Reads one component from the record file at `path`; see [`read_auto`].
+///
+/// # Errors
+///
+/// Those of [`read_record_file`] and [`read_auto`].
 pub fn read_path(path: &Path, options: &ReadOptions) -> Result<Accelerogram, MotionError> {
     let bytes = read_bytes(path)?;
     read_auto(&bytes, &path.display().to_string(), options)
 }
 
-/// Reads a record of any known layout from `bytes`: as AT2 where a line of the head gives NPTS
-/// and DT (or where `name` ends in `.at2`), else as columns. `name` stands in messages.
+/// Reads one component from the bytes of a record file: the one of [`ReadOptions::channel`], or the
+/// only one.
 ///
 /// # Errors
 ///
-/// Those of [`read_at2`](crate::read_at2) or of [`read_columns`](crate::read_columns).
+/// [`MotionError::Channel`] where there are several and none is chosen, or the chosen one is not
+/// there; else those of [`read_record`].
 pub fn read_auto(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<Accelerogram, MotionError> {
-    let extension = Path::new(name).extension();
-    if at2::looks_like_at2(bytes) || extension.is_some_and(|e| e.eq_ignore_ascii_case("at2")) {
-        at2::read_at2(bytes, name, options).map(|record| record.accelerogram)
-    } else {
-        columns::read_columns(bytes, name, options)
+    let mut recordings = read_record(bytes, name, options)?.recordings;
+    let index = options.channel.unwrap_or(1).wrapping_sub(1);
+    if index >= recordings.len() || (options.channel.is_none() && recordings.len() > 1) {
+        let called = |recording: &Recording| recording.description.channel.clone().unwrap_or_else(|| "unnamed".into());
+        return Err(MotionError::Channel {
+            name: name.to_owned(),
+            found: recordings.len(),
+            components: recordings.iter().map(called).collect::<Vec<_>>().join(", "),
+        });
     }
+    Ok(recordings.swap_remove(index).accelerogram)
+}
+
+/// The layout that the head of a file shows.
+fn detect(bytes: &[u8], name: &str) -> RecordFormat {
+    let head = decode(&bytes[..bytes.len().min(HEAD_BYTES)]);
+    let named_at2 = Path::new(name.trim_end_matches(".gz")).extension().is_some_and(|e| e.eq_ignore_ascii_case("at2"));
+    if esm::looks_like(&head) {
+        RecordFormat::Esm
+    } else if knet::looks_like(&head) {
+        RecordFormat::Knet
+    } else if cosmos::looks_like(&head) {
+        RecordFormat::Cosmos
+    } else if csmip::looks_like(&head) {
+        RecordFormat::Csmip
+    } else if named_at2 || at2::looks_like(&head) {
+        RecordFormat::At2
+    } else {
+        RecordFormat::Columns
+    }
+}
+
+/// The bytes themselves, or what they hold packed with gzip.
+fn unpacked<'a>(bytes: &'a [u8], name: &str) -> Result<Cow<'a, [u8]>, MotionError> {
+    if !bytes.starts_with(b"\x1f\x8b") {
+        return Ok(Cow::Borrowed(bytes));
+    }
+    let mut content = Vec::new();
+    flate2::read::MultiGzDecoder::new(bytes)
+        .take(LARGEST_FILE_BYTES + 1)
+        .read_to_end(&mut content)
+        .map_err(|reason| MotionError::Compressed { name: name.to_owned(), reason })?;
+    if content.len() as u64 > LARGEST_FILE_BYTES {
+        return Err(MotionError::TooLarge { name: name.to_owned(), limit_bytes: LARGEST_FILE_BYTES });
+    }
+    Ok(Cow::Owned(content))
 }
 
 fn read_bytes(path: &Path) -> Result<Vec<u8>, MotionError> {

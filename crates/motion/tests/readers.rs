@@ -9,7 +9,8 @@ use uplift_motion::{
 };
 
 /// In g, so that values come back as they were written.
-const UNIT_GRAVITY: ReadOptions = ReadOptions { dt_s: None, unit: None, gravity_m_s2: 1.0 };
+const UNIT_GRAVITY: ReadOptions =
+    ReadOptions { format: None, channel: None, dt_s: None, unit: None, gravity_m_s2: 1.0 };
 
 /// How a writer of AT2 files prints.
 #[derive(Debug, Clone, Copy)]

@@ -93,7 +93,12 @@ pub(super) fn response(arguments: &ResponseArguments) -> Result<(), UpliftError>
     {
         return Err(usage(format!("--plot {}: give a name that ends in .svg or .png", path.display())));
     }
-    let options = ReadOptions { dt_s: arguments.dt_s, unit: arguments.unit, gravity_m_s2: arguments.gravity_m_s2 };
+    let options = ReadOptions {
+        dt_s: arguments.dt_s,
+        unit: arguments.unit,
+        gravity_m_s2: arguments.gravity_m_s2,
+        ..ReadOptions::default()
+    };
     let accelerogram = read_path(&arguments.record, &options).map_err(|error| UpliftError::input(error.to_string()))?;
     let excitation = Excitation::new(accelerogram.dt_s(), accelerogram.acceleration_m_s2())
         .map_err(|error| UpliftError::input(format!("{}: {error}", arguments.record.display())))?

@@ -124,7 +124,12 @@ fn read_manifest(
     let read: Vec<Result<CheckedPair, Vec<String>>> = rows
         .into_par_iter()
         .map(|row| {
-            let options = ReadOptions { dt_s: row.dt_s, unit: row.unit, gravity_m_s2: study.gravity_m_s2 };
+            let options = ReadOptions {
+                dt_s: row.dt_s,
+                unit: row.unit,
+                gravity_m_s2: study.gravity_m_s2,
+                ..ReadOptions::default()
+            };
             let component = |path: &Path| {
                 let accelerogram = read_path(path, &options).map_err(|error| format!("record {}: {error}", row.id))?;
                 let bytes = std::fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;

@@ -4,10 +4,12 @@
 //! step, then the values row by row in fixed-width fields. The fourth line has two dialects,
 //! `NPTS= 4000, DT= .0050 SEC` (what follows is free) and the older `4000 0.0050 NPTS, DT`.
 
-use super::number::{numbers_of_line, parse_number, why_no_number};
+use super::head::Source;
+use super::number::parse_number;
 use super::{ReadOptions, decode, excerpt};
 use crate::accelerogram::Accelerogram;
 use crate::error::MotionError;
+use crate::recording::{Orientation, RecordFormat, Recording, RecordingDescription};
 use crate::unit::AccelerationUnit;
 
 /// Number of lines among which the one with NPTS and DT is sought (it should be the fourth).
@@ -60,30 +62,50 @@ pub fn read_at2(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<At2Re
         .ok_or_else(|| MotionError::MissingUnit { name: name.to_owned(), accepted: AccelerationUnit::ACCEPTED })?;
 
     // Grows with what the file holds, never with what its head declares.
+    let source = Source { name, format: RecordFormat::At2 };
     let mut values = Vec::new();
     for (index, line) in text.lines().enumerate().skip(header.lines.len()) {
-        numbers_of_line(line, &mut values).map_err(|token| MotionError::Number {
-            name: name.to_owned(),
-            line: index + 1,
-            token: excerpt(token),
-            reason: why_no_number(token),
-        })?;
+        source.numbers(index + 1, line, &mut values)?;
     }
-    if values.len() as u64 != header.point_count {
-        return Err(MotionError::PointCount {
-            name: name.to_owned(),
-            declared: header.point_count,
-            found: values.len(),
-        });
-    }
+    source.check_count(header.point_count, values.len())?;
     let accelerogram = options.accelerogram(name, header.dt_s, unit, values)?;
     Ok(At2Record { header, accelerogram })
 }
 
+/// Reads an AT2 file; the second line of its head says "event, date, station, component".
+pub(super) fn read(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<Recording, MotionError> {
+    let At2Record { header, accelerogram } = read_at2(bytes, name, options)?;
+    Ok(Recording { description: describe(header.event()), accelerogram })
+}
+
 /// Whether the head has a line with NPTS and DT.
-pub(super) fn looks_like_at2(bytes: &[u8]) -> bool {
-    let head = bytes.split(|&byte| byte == b'\n').take(LONGEST_HEAD);
-    head.into_iter().any(|line| is_point_line(&decode(line)))
+pub(super) fn looks_like(head: &str) -> bool {
+    head.lines().take(LONGEST_HEAD).any(is_point_line)
+}
+
+fn describe(event: &str) -> RecordingDescription {
+    let parts: Vec<&str> = event.split(',').map(str::trim).collect();
+    let part = |index: usize| parts.get(index).filter(|part| !part.is_empty()).map(|&part| part.to_owned());
+    // Names of stations may hold commas: the component is the last part, in degrees or in letters.
+    let channel = if parts.len() > 3 { part(parts.len() - 1) } else { None };
+    let station_name = (parts.len() > 3).then(|| parts[2..parts.len() - 1].join(", "));
+    RecordingDescription {
+        event: part(0),
+        event_time: part(1),
+        station_name,
+        orientation: channel.as_deref().and_then(orientation),
+        channel,
+        ..RecordingDescription::default()
+    }
+}
+
+/// The direction of a component as PEER names it.
+fn orientation(component: &str) -> Option<Orientation> {
+    let word = component.trim().to_uppercase();
+    if ["UP", "DWN", "DOWN", "DN", "V", "VER", "VERT", "VERTICAL", "UD", "Z"].contains(&word.as_str()) {
+        return Some(Orientation::Vertical);
+    }
+    word.parse::<f64>().ok().filter(|degrees| (0.0..=360.0).contains(degrees)).map(Orientation::Azimuth)
 }
 
 fn is_point_line(line: &str) -> bool {
@@ -130,7 +152,13 @@ fn parse_unit_line(line: &str, name: &str, number: usize) -> Result<Acceleration
 
 /// Number of points and time step \[s\].
 fn parse_point_line(line: &str, name: &str, number: usize) -> Result<(u64, f64), MotionError> {
-    let unreadable = |key| MotionError::HeaderValue { name: name.to_owned(), line: number, key, text: excerpt(line) };
+    let unreadable = |key| MotionError::HeaderValue {
+        name: name.to_owned(),
+        line: number,
+        key,
+        text: excerpt(line),
+        expected: "NPTS= 4000, DT= .0050 SEC",
+    };
     let (point_count, dt_s) = if let Some(assigned) = assigned_value(line, "NPTS") {
         (Some(assigned), assigned_value(line, "DT"))
     } else {
@@ -240,7 +268,7 @@ mod tests {
         }
         assert_eq!(
             message(&file("VELOCITY TIME SERIES IN UNITS OF CM/S", POINTS, VALUES)),
-            "RSN1.AT2, line 3: \"VELOCITY TIME SERIES IN UNITS OF CM/S\": not an acceleration; give the acceleration (.AT2) file"
+            "RSN1.AT2, line 3: \"VELOCITY TIME SERIES IN UNITS OF CM/S\": not an acceleration; give the acceleration file"
         );
         assert!(
             message(&file("DISPLACEMENT TIME SERIES IN UNITS OF CM", POINTS, VALUES)).contains("not an acceleration")

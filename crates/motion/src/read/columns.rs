@@ -4,6 +4,7 @@ use super::number::{parse_number, why_no_number};
 use super::{ReadOptions, decode, excerpt};
 use crate::accelerogram::Accelerogram;
 use crate::error::MotionError;
+use crate::recording::{Recording, RecordingDescription};
 use crate::unit::AccelerationUnit;
 
 const DECIMAL_COMMA: &str = " (is a comma a decimal mark? Write a point)";
@@ -33,6 +34,12 @@ pub fn read_columns(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<A
         .unit
         .ok_or_else(|| MotionError::MissingUnit { name: name.to_owned(), accepted: AccelerationUnit::ACCEPTED })?;
     options.accelerogram(name, dt_s, unit, table.accelerations)
+}
+
+/// Reads columns; they say nothing about themselves.
+pub(super) fn read(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<Recording, MotionError> {
+    let accelerogram = read_columns(bytes, name, options)?;
+    Ok(Recording { accelerogram, description: RecordingDescription::default() })
 }
 
 /// A time and the line it stands on, for messages.
