@@ -20,6 +20,17 @@ impl Accelerogram {
         PI / (2.0 * gravity_m_s2) * self.squared_integral()
     }
 
+    /// Cumulative absolute velocity \[m/s\], ∫ |a| dt; the integral by the trapezoidal rule on the
+    /// samples.
+    ///
+    /// # Source
+    ///
+    /// Electric Power Research Institute, "A criterion for determining exceedance of the operating
+    /// basis earthquake", report NP-5930, 1988.
+    pub fn cumulative_absolute_velocity_m_s(&self) -> f64 {
+        0.5 * self.dt_s() * self.intervals().map(|(a0, a1)| a0.abs() + a1.abs()).sum::<f64>()
+    }
+
     /// Significant duration \[s\]: the time between the moments at which the Arias intensity
     /// has reached the fractions `from` and `to` (each in \[0, 1\]) of its final value; zero for
     /// a record without any acceleration.

@@ -4,8 +4,8 @@
 //!   Arias intensity and significant durations;
 //! - [`RecordPair`]: the two horizontal components of a ground motion, and [`Component`], the
 //!   choice of those that a planar model receives;
-//! - [`IntensityMeasure`]: PGV and PGA of a pair as geometric means (Eq. 4.5, 4.6), and the
-//!   [`scale_factor`] to a level;
+//! - [`IntensityMeasure`]: PGV and PGA of a pair as geometric means (Eq. 4.5, 4.6) or in another
+//!   [`Combination`], and the [`scale_factor`] to a level;
 //! - [`read_record_file`], [`read_record`]: every component of a record file of any [`RecordFormat`],
 //!   with what the file says about it ([`RecordingDescription`]);
 //! - [`read_path`], [`read_auto`], [`read_at2`], [`read_columns`]: one accelerogram;
@@ -16,6 +16,7 @@
 
 mod accelerogram;
 mod arias;
+mod combination;
 mod error;
 mod measure;
 mod pair;
@@ -26,6 +27,7 @@ pub mod synthetic;
 mod unit;
 
 pub use accelerogram::Accelerogram;
+pub use combination::{Combination, Peaks};
 pub use error::MotionError;
 pub use measure::{IntensityMeasure, geometric_mean, scale_factor};
 pub use pair::{Component, Horizontal, RecordPair};

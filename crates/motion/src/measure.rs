@@ -3,6 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
+use crate::combination::Peaks;
 use crate::error::MotionError;
 use crate::pair::RecordPair;
 
@@ -72,7 +73,8 @@ impl IntensityMeasure {
     }
 
     /// The measure of an unscaled pair, in [`IntensityMeasure::unit`] (PGV in cm/s, Eq. 4.6; PGA
-    /// in g, Eq. 4.5), with the acceleration of gravity `gravity_m_s2` \[m/s²\].
+    /// in g, Eq. 4.5), with the acceleration of gravity `gravity_m_s2` \[m/s²\]; the geometric mean
+    /// of the components.
     ///
     /// # Source
     ///
@@ -81,6 +83,15 @@ impl IntensityMeasure {
         match self {
             Self::Pgv => 100.0 * geometric_mean(pair.h1.pgv_m_s(), pair.h2.pgv_m_s()),
             Self::Pga => geometric_mean(pair.h1.pga_m_s2(), pair.h2.pga_m_s2()) / gravity_m_s2,
+        }
+    }
+
+    /// The measure that a pair with these `peaks` has, in [`IntensityMeasure::unit`], with the
+    /// acceleration of gravity `gravity_m_s2` \[m/s²\].
+    pub fn of_peaks(self, peaks: Peaks, gravity_m_s2: f64) -> f64 {
+        match self {
+            Self::Pgv => 100.0 * peaks.pgv_m_s,
+            Self::Pga => peaks.pga_m_s2 / gravity_m_s2,
         }
     }
 }

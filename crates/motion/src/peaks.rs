@@ -21,6 +21,22 @@ impl Accelerogram {
         }))
     }
 
+    /// Ground velocity at every sample \[m/s\], from rest; what [`Accelerogram::pgv_m_s`] is the peak of.
+    pub fn velocity_m_s(&self) -> Vec<f64> {
+        let mut velocity_m_s = 0.0;
+        let later = self.intervals().map(|(a0, a1)| {
+            velocity_m_s += 0.5 * self.dt_s() * (a0 + a1);
+            velocity_m_s
+        });
+        std::iter::once(0.0).chain(later).collect()
+    }
+
+    /// Ground velocity at the last sample \[m/s\]: that of a record with a sound baseline is small
+    /// against its PGV.
+    pub fn residual_velocity_m_s(&self) -> f64 {
+        self.intervals().fold(0.0, |velocity_m_s, (a0, a1)| velocity_m_s + 0.5 * self.dt_s() * (a0 + a1))
+    }
+
     /// Peak ground displacement, max |u| \[m\], of the exact double integral from rest of the
     /// piecewise linear acceleration (a cubic inside each interval), no baseline correction.
     ///
