@@ -27,6 +27,34 @@ pub(super) fn seconds_since_1970(year: i64, month: u32, day: u32, hour: u32, min
     Some((days * 86_400 + i64::from(hour) * 3600 + i64::from(minute) * 60) as f64 + second)
 }
 
+/// Seconds from the beginning of 1970 to a moment written as year, month, day, hour, minute and second, each
+/// three joined in fixed width or apart: `20190728_160919.870`, `2018/01/24 19:51:43`; none for anything else.
+pub(super) fn moment(text: &str) -> Option<f64> {
+    let groups: Vec<&str> =
+        text.split(|c: char| !c.is_ascii_digit() && c != '.').filter(|group| !group.is_empty()).take(7).collect();
+    let ([year, month, day], time) = three_parts(&groups, 4)?;
+    let ([hour, minute, second], []) = three_parts(time, 2)? else { return None };
+    seconds_since_1970(
+        year.parse().ok()?,
+        month.parse().ok()?,
+        day.parse().ok()?,
+        hour.parse().ok()?,
+        minute.parse().ok()?,
+        second.parse().ok()?,
+    )
+}
+
+/// The next three parts, the first of `width` digits and the others of two, and the groups behind them.
+fn three_parts<'a, 'b>(groups: &'b [&'a str], width: usize) -> Option<([&'a str; 3], &'b [&'a str])> {
+    match groups {
+        [joined, rest @ ..] if joined.find('.').unwrap_or(joined.len()) == width + 4 => {
+            Some(([joined.get(..width)?, joined.get(width..width + 2)?, joined.get(width + 2..)?], rest))
+        }
+        [first, second, third, rest @ ..] if first.len() == width => Some(([first, second, third], rest)),
+        _ => None,
+    }
+}
+
 /// Days from 1 March of the year 0 to the beginning of 1970.
 const DAYS_TO_1970: i64 = 719_468;
 
@@ -77,6 +105,33 @@ mod tests {
     }
 
     #[test]
+    fn moments_as_files_write_them() {
+        let expected = seconds_since_1970(2019, 7, 28, 16, 9, 19.87);
+        for text in
+            ["20190728_160919.870", "2019/07/28 16:09:19.87", "2019-07-28T16:09:19.870Z", "20190728 16: 09:19.87"]
+        {
+            assert_eq!(moment(text), expected, "{text}");
+        }
+        assert_eq!(moment("1996/05/23 18: 36:00"), seconds_since_1970(1996, 5, 23, 18, 36, 0.0));
+        for text in [
+            "",
+            "20190728",
+            "20190728_",
+            "20190728_1609",
+            "16092019_160919",
+            "20190728_999999",
+            "2019/07/28 16:09",
+            "20190728_160919 1",
+            "2019.0728_160919",
+            "99999999_999999",
+            "é",
+            "1 2 3 4 5 6 7 8",
+        ] {
+            assert_eq!(moment(text), None, "{text}");
+        }
+    }
+
+    #[test]
     fn every_day_is_one_day_after_the_day_before() {
         let mut next = seconds_since_1970(1899, 12, 31, 0, 0, 0.0).unwrap();
         let mut days = 0;
@@ -94,8 +149,9 @@ mod tests {
     proptest! {
         #[test]
         fn any_numbers_give_an_answer(
-            year: i64, month in 0..40_u32, day: u32, hour: u32, minute: u32, second: f64,
+            year: i64, month in 0..40_u32, day: u32, hour: u32, minute: u32, second: f64, text in "[0-9./:_é -]{0,30}",
         ) {
+            let _ = moment(&text);
             let _ = seconds_since_1970(year, month, day, hour, minute, second);
             let found = seconds_since_1970(year.rem_euclid(10_000), month % 12 + 1, day % 28 + 1, hour % 24, minute % 60, 0.5);
             prop_assert!(found.is_some());
