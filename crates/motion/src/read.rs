@@ -4,6 +4,7 @@ pub(crate) mod at2;
 pub(crate) mod columns;
 mod cosmos;
 mod csmip;
+mod date;
 mod esm;
 mod head;
 mod knet;

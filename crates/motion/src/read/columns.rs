@@ -1,5 +1,9 @@
 //! Plain text of one column (acceleration) or two (time, acceleration).
 
+mod head;
+
+use head::Head;
+
 use super::number::{parse_number, why_no_number};
 use super::{ReadOptions, decode, excerpt};
 use crate::accelerogram::Accelerogram;
@@ -13,7 +17,10 @@ const DECIMAL_COMMA: &str = " (is a comma a decimal mark? Write a point)";
 /// in messages.
 ///
 /// Columns are separated by blanks, tabs, commas or semicolons. Blank lines, lines that begin
-/// with `#`, `%` or `//`, and one head line without numbers above the values are skipped.
+/// with `#`, `%` or `//`, and lines of words above the values are skipped.
+///
+/// What the lines above the values say of unit (`units: cm/s^2`, `acc (g)`) and time step
+/// (`dt = 0.01 s`) takes precedence over `options`; where they say nothing, or several things,
 /// `options` must give the unit, and the time step for one column. For two columns it is the
 /// mean step of the times, which may differ from a uniform spacing by a quarter of a step: times
 /// printed with enough digits to tell the step stay below that, and a missing or repeated line
@@ -21,22 +28,27 @@ const DECIMAL_COMMA: &str = " (is a comma a decimal mark? Write a point)";
 ///
 /// # Errors
 ///
+/// Head: [`MotionError::NotAcceleration`], [`MotionError::HeaderUnit`],
+/// [`MotionError::HeaderValue`] where a time step is no number.
 /// [`MotionError::MissingUnit`], [`MotionError::MissingTimeStep`], [`MotionError::Number`],
 /// [`MotionError::ColumnCount`], [`MotionError::UnevenTime`], [`MotionError::Gravity`], and
 /// [`MotionError::InFile`] where the values make no [`Accelerogram`].
 pub fn read_columns(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<Accelerogram, MotionError> {
-    let table = Table::parse(&decode(bytes), name)?;
+    let mut table = Table::parse(&decode(bytes), name)?;
+    let unit = table.head.unit()?;
     let dt_s = match &table.times {
         Some(times) => uniform_step_s(times, table.decimal_comma_hint, name)?,
-        None => options.dt_s.ok_or_else(|| MotionError::MissingTimeStep { name: name.to_owned() })?,
+        None => {
+            table.head.dt_s().or(options.dt_s).ok_or_else(|| MotionError::MissingTimeStep { name: name.to_owned() })?
+        }
     };
-    let unit = options
-        .unit
+    let unit = unit
+        .or(options.unit)
         .ok_or_else(|| MotionError::MissingUnit { name: name.to_owned(), accepted: AccelerationUnit::ACCEPTED })?;
     options.accelerogram(name, dt_s, unit, table.accelerations)
 }
 
-/// Reads columns; they say nothing about themselves.
+/// Reads columns; they say nothing of earthquake and station.
 pub(super) fn read(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<Recording, MotionError> {
     let accelerogram = read_columns(bytes, name, options)?;
     Ok(Recording { accelerogram, description: RecordingDescription::default() })
@@ -50,6 +62,8 @@ struct Time {
 
 /// The values of a file.
 struct Table {
+    /// What the lines above the values say.
+    head: Head,
     /// None for one column.
     times: Option<Vec<Time>>,
     /// In the unit of the file.
@@ -62,14 +76,15 @@ impl Table {
     fn parse(text: &str, name: &str) -> Result<Self, MotionError> {
         let mut times = Vec::new();
         let mut accelerations = Vec::new();
-        let mut head_seen = false;
+        let mut head = Head::default();
         for (index, line) in text.lines().enumerate() {
             let content = line.trim();
-            if content.is_empty() || ["#", "%", "//"].iter().any(|mark| content.starts_with(mark)) {
-                continue;
-            }
-            if !head_seen && accelerations.is_empty() && is_head(content) {
-                head_seen = true;
+            let comment = content.is_empty() || ["#", "%", "//"].iter().any(|mark| content.starts_with(mark));
+            let above = accelerations.is_empty();
+            if comment || (above && is_head(content)) {
+                if above {
+                    head.note(name, index + 1, content)?;
+                }
                 continue;
             }
             let row = parse_row(content, name, index + 1)?;
@@ -91,7 +106,12 @@ impl Table {
             accelerations.push(acceleration);
             times.extend(time.map(|time_s| Time { time_s, line: index + 1 }));
         }
-        Ok(Self { times: (!times.is_empty()).then_some(times), accelerations, decimal_comma_hint: comma_hint(text) })
+        Ok(Self {
+            head,
+            times: (!times.is_empty()).then_some(times),
+            accelerations,
+            decimal_comma_hint: comma_hint(text),
+        })
     }
 }
 
@@ -100,20 +120,27 @@ enum Row {
     Two(f64, f64),
 }
 
-/// A head line has words, and nothing that is or was meant to be a number.
+/// A head line begins with a word, or has words and nothing that is or was meant to be a number.
 fn is_head(content: &str) -> bool {
+    let not_finite = |word: &str| ["nan", "inf", "infinity"].contains(&word);
     let no_value = |token: &str| {
         let word = token.trim_start_matches(['+', '-']).to_lowercase();
         let begins_with_letter = word.starts_with(char::is_alphabetic);
         parse_number(token).is_none()
-            && !["nan", "inf", "infinity"].contains(&word.as_str())
+            && !not_finite(&word)
             && (begins_with_letter || !word.contains(|c: char| c.is_ascii_digit()))
     };
-    content.contains(char::is_alphabetic)
-        && content.split(is_separator).filter(|token| !token.is_empty()).all(|token| {
-            // "(m/s2)" and the like
-            no_value(token) || token.starts_with(['(', '['])
-        })
+    let mut tokens = content.split(is_separator).map(|token| token.trim_matches('"')).filter(|token| !token.is_empty());
+    // One letter may be a digit mistyped: "O.1".
+    let first = tokens.clone().next().unwrap_or("");
+    let letters = first.find(|c: char| !c.is_alphabetic()).unwrap_or(first.len());
+    let begins_with_word = first[..letters].chars().nth(1).is_some() && !not_finite(&first[..letters].to_lowercase());
+    begins_with_word
+        || content.contains(char::is_alphabetic)
+            && tokens.all(|token| {
+                // "(m/s2)" and the like
+                no_value(token) || token.starts_with(['(', '['])
+            })
 }
 
 fn is_separator(c: char) -> bool {
@@ -244,6 +271,40 @@ mod tests {
     }
 
     #[test]
+    fn several_head_lines() {
+        let head = "Event: Chi-Chi, 1999\nStation TCU052\n\ntime (s)  acc (cm/s2)\n\"t\", \"a\"\n";
+        for values in ["100\n-200\n300\n", "0.00 100\n0.02 -200\n0.04 300\n"] {
+            let motion = read(&format!("{head}{values}"), Some(0.02)).unwrap();
+            assert_eq!(motion.acceleration_m_s2(), [1.0, -2.0, 3.0]);
+            assert!((motion.dt_s() - 0.02).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn the_head_is_believed_before_the_options() {
+        let silent = ReadOptions { gravity_m_s2: 10.0, ..ReadOptions::default() };
+        let other =
+            ReadOptions { dt_s: Some(9.0), unit: Some(AccelerationUnit::CmPerS2), gravity_m_s2: 10.0, ..silent };
+        for options in [silent, other] {
+            let motion = read_columns(b"# dt = 0.01\nunits: g\n1\n-2\n", "a.txt", &options).unwrap();
+            assert_eq!(motion, Accelerogram::new(0.01, vec![10.0, -20.0]).unwrap());
+        }
+        // Two things said are nothing said; times are believed before words; below the values nothing is.
+        let two = read_columns(b"# dt = 0.01\n# units: g\n# acc (m/s2)\n# dt = 0.02\n100\n-200\n", "a.txt", &other);
+        assert_eq!(two.unwrap(), Accelerogram::new(9.0, vec![1.0, -2.0]).unwrap());
+        let times = read_columns(b"# dt = 0.01\n0 100\n0.5 200\n", "a.txt", &other).unwrap();
+        assert_eq!(times.dt_s(), 0.5);
+        assert!(read_columns(b"0 100\n0.5 200\n# units: g\n", "a.txt", &silent).is_err());
+        for (text, expected) in [
+            ("# velocity (cm/s)\n1\n2\n", "not an acceleration"),
+            ("# dt = 0,01\n1\n2\n", "cannot read the time step"),
+            ("# dt = 0.0\n1\n2\n", "time step is 0 s"),
+        ] {
+            assert!(read_columns(text.as_bytes(), "a.txt", &other).unwrap_err().to_string().contains(expected));
+        }
+    }
+
+    #[test]
     fn printed_times_may_be_rounded() {
         // 1/150 s printed with three decimals: 0, 0.007, 0.013, 0.020, ...
         let lines: Vec<_> = (0..=300).map(|i| format!("{:.3} 1.0", f64::from(i) / 150.0)).collect();
@@ -284,7 +345,10 @@ mod tests {
             ("nan\n1\n", "a.txt, line 1: \"nan\" is not finite"),
             ("1\n2\nend\n", "a.txt, line 3: \"end\" is not a number"),
             ("0.O1\n0.02\n", "a.txt, line 1: \"0.O1\" is not a number"),
-            ("acc\nmore words\n1\n", "a.txt, line 2: \"more\" is not a number"),
+            ("acc\nnan\n1\n", "a.txt, line 2: \"nan\" is not finite"),
+            ("NaN 0.1\n1 2\n", "a.txt, line 1: \"NaN\" is not finite"),
+            ("O.1 0.2\n1 2\n", "a.txt, line 1: \"O.1\" is not a number"),
+            ("acc\n1\nmore words\n", "a.txt, line 3: \"more\" is not a number"),
             ("0 1\n1,,2\n", "a.txt, line 2: \"\" is an empty cell"),
             ("0 1\n2\n", "a.txt, line 2: 1 column(s), expected 2 as above"),
             ("1\n0 1\n", "a.txt, line 2: 2 column(s), expected 1 as above"),
