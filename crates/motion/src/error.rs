@@ -31,6 +31,14 @@ pub enum MotionError {
         /// Its value \[m/s²\].
         value: f64,
     },
+    /// The two components of a pair have different time steps where they must have the same.
+    #[error("time steps of the two components are {h1_s} s and {h2_s} s; they must be equal: resample one of them")]
+    UnequalTimeSteps {
+        /// The step of the first component \[s\].
+        h1_s: f64,
+        /// The step of the second component \[s\].
+        h2_s: f64,
+    },
     /// The acceleration of gravity is not a finite number above zero.
     #[error("gravity is {gravity_m_s2} m/s2; it must be finite and above zero")]
     Gravity {

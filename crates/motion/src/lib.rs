@@ -9,6 +9,7 @@
 //! - [`read_record_file`], [`read_record`]: every component of a record file of any [`RecordFormat`],
 //!   with what the file says about it ([`RecordingDescription`]);
 //! - [`read_path`], [`read_auto`], [`read_at2`], [`read_columns`]: one accelerogram;
+//! - [`classify_pulse`]: whether a pair is pulse-like, with the period and orientation of its pulse;
 //! - [`synthetic`]: record pairs from a stochastic model, for studies without real records.
 //!
 //! Inside, everything is in m and s. Measures of a pair are in the units of the field: cm/s for
@@ -21,6 +22,7 @@ mod error;
 mod measure;
 mod pair;
 mod peaks;
+mod pulse;
 mod read;
 mod recording;
 pub mod synthetic;
@@ -31,6 +33,7 @@ pub use combination::{Combination, Peaks};
 pub use error::MotionError;
 pub use measure::{IntensityMeasure, geometric_mean, scale_factor};
 pub use pair::{Component, Horizontal, RecordPair};
+pub use pulse::{PulseClassification, classify_pulse};
 pub use read::at2::{At2Header, At2Record, read_at2};
 pub use read::columns::read_columns;
 pub use read::{ReadOptions, read_auto, read_path, read_record, read_record_file};
