@@ -1,17 +1,18 @@
 //! Two-column text into a hazard curve.
 
-use std::fs::File;
-use std::io::Read;
 use std::path::Path;
 
+use crate::component::ComponentDefinition;
 use crate::curve::HazardCurve;
 pub use crate::declaration::SecondColumn;
 use crate::declaration::{self, Column, Declaration};
 use crate::error::{HazardError, Place};
-use crate::probability::rate_from_probability;
+use crate::input;
+use crate::rates::{AnnualRates, Row, annual_rates};
+use crate::text::{excerpt, number};
 use crate::unit::same_unit;
 
-/// Largest file that [`read_path`] takes, bytes: a hazard curve has some kilobytes.
+/// Largest file that [`read_path`] takes, unpacked, bytes: a hazard curve has some kilobytes.
 pub const MAX_FILE_BYTES: u64 = 4 << 20;
 
 /// What the caller (the study file) says the table holds; a file that says otherwise is refused.
@@ -53,32 +54,14 @@ pub struct CsvCurve {
     pub dropped_certain: usize,
 }
 
-struct Row {
-    line: usize,
-    im: f64,
-    /// Rate or probability.
-    value: f64,
-}
-
-/// Reads a hazard curve from a file; see [`read_csv`].
+/// Reads a hazard curve from a file, which gzip may have packed; see [`read_csv`].
 ///
 /// # Errors
 /// [`HazardError::File`] for a file that is missing, larger than [`MAX_FILE_BYTES`] or not UTF-8; else as [`read_csv`].
 pub fn read_path(path: &Path, options: &CsvOptions) -> Result<CsvCurve, HazardError> {
     let name = path.display().to_string();
-    let fail = |reason: String| HazardError::File { file: name.clone(), reason };
-    let io = |error: std::io::Error| fail(format!("cannot be read: {error}"));
-    if !std::fs::metadata(path).map_err(io)?.is_file() {
-        return Err(fail("not a file; name a CSV file with two columns".to_owned()));
-    }
-    let mut bytes = Vec::new();
-    File::open(path).map_err(io)?.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes).map_err(io)?;
-    if bytes.len() as u64 > MAX_FILE_BYTES {
-        return Err(fail(format!(
-            "larger than {MAX_FILE_BYTES} bytes: not one hazard curve; keep two columns of one site"
-        )));
-    }
-    let text = String::from_utf8(bytes).map_err(|_| fail("not UTF-8 text; save it as \"CSV UTF-8\"".to_owned()))?;
+    let advice = "not one hazard curve; keep two columns of one site";
+    let text = input::text(input::open(path)?, &name, MAX_FILE_BYTES, advice)?;
     read_csv(&text, &name, options)
 }
 
@@ -88,7 +71,9 @@ pub fn read_path(path: &Path, options: &CsvOptions) -> Result<CsvCurve, HazardEr
 /// exceedance (1/yr) or the probability of exceedance in [`CsvOptions::years`]. A first row of column names, in any
 /// order and case, says which is which (`iml`, `im_g`, `pgv_cm_s`, `PGV [cm/s]`; `maf`, `afe`, `rate`; `poe`); without it
 /// [`CsvOptions::second_column`] decides. Lines that begin with `#` are kept as the curve's source; where they say
-/// `IM: PGV [cm/s]` or `unit: cm/s` they must agree with the declaration.
+/// `IM: PGV [cm/s]` or `unit: cm/s` they must agree with the declaration; where they say how the horizontal components
+/// are combined (`IM: PGV [cm/s], geometric mean (GMRotI50)` or `component: RotD50`), the curve keeps it
+/// ([`HazardCurve::component`]).
 ///
 /// Two kinds of rows carry no information and are dropped and counted: zeros at the end, and probabilities of 1 at the
 /// beginning (the rate is only known to be large; no value is put in its place, and the curve starts at the next row).
@@ -96,47 +81,13 @@ pub fn read_path(path: &Path, options: &CsvOptions) -> Result<CsvCurve, HazardEr
 /// # Errors
 /// [`HazardError`] naming file and line for everything else.
 pub fn read_csv(text: &str, name: &str, options: &CsvOptions) -> Result<CsvCurve, HazardError> {
-    let Table { mut rows, content, source } = Table::parse(text, name, options)?;
+    let Table { rows, content, source, component } = Table::parse(text, name, options)?;
     let place = |line: usize| Place::Line { file: name.to_owned(), line };
-
-    let before = rows.len();
-    while rows.pop_if(|row| row.value == 0.0).is_some() {}
-    let dropped_zeros = before - rows.len();
-    if let Some(pair) = rows.windows(2).find(|pair| pair[0].value == 0.0) {
-        let (place, later_place, later) = (place(pair[0].line), place(pair[1].line), pair[1].value);
-        return Err(HazardError::ZeroInside { place, later_place, later });
-    }
-
-    let mut dropped_certain = 0;
-    if content == SecondColumn::Probability {
-        dropped_certain = rows.iter().take_while(|row| row.value == 1.0).count();
-        rows.drain(..dropped_certain);
-        for row in &mut rows {
-            row.value = rate_of_row(row, options.years, || place(row.line))?;
-        }
-    }
-    if rows.len() < 2 {
-        return Err(HazardError::TooFewPoints { name: name.to_owned(), found: rows.len() });
-    }
+    let AnnualRates { rows, dropped_zeros, dropped_certain } = annual_rates(rows, content, options.years, name, place)?;
     let Declared { measure, unit } = options.declared.clone();
     let (im, maf) = rows.iter().map(|row| (row.im, row.value)).unzip();
-    let curve = HazardCurve::new_at(measure, unit, source, im, maf, |index| place(rows[index].line))?;
-    Ok(CsvCurve { curve, dropped_zeros, dropped_certain })
-}
-
-fn rate_of_row(row: &Row, years: Option<f64>, place: impl Fn() -> Place) -> Result<f64, HazardError> {
-    let years = years.ok_or_else(|| HazardError::YearsMissing { place: place() })?;
-    if row.value > 0.0 && row.value < 1.0 {
-        return rate_from_probability(row.value, years);
-    }
-    let hint = if row.value == 1.0 {
-        "probabilities of 1 are dropped at the beginning only: correct or remove this row"
-    } else if row.value > 1.0 {
-        "divide by 100 if these are per cent, or name the column maf if they are annual rates"
-    } else {
-        "correct or remove this row"
-    };
-    Err(HazardError::Probability { place: place(), value: row.value, hint })
+    let curve = HazardCurve::new_at(measure, unit, source, im, maf, |index| place(rows[index].at))?;
+    Ok(CsvCurve { curve: curve.with_component(component), dropped_zeros, dropped_certain })
 }
 
 /// Lines that a message names; a file of another kind has many.
@@ -147,12 +98,14 @@ struct Table {
     rows: Vec<Row>,
     content: SecondColumn,
     source: String,
+    component: Option<ComponentDefinition>,
 }
 
 impl Table {
     fn parse(text: &str, name: &str, options: &CsvOptions) -> Result<Self, HazardError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let mut comments = Vec::new();
+        let mut component = None;
         let mut rows: Vec<Row> = Vec::new();
         let mut mistakes = Vec::new();
         let mut more = 0;
@@ -167,7 +120,9 @@ impl Table {
             // Spreadsheets put a line with commas into quotes.
             let unquoted = line.trim_start_matches('"');
             if let Some(comment) = unquoted.strip_prefix('#') {
-                check_declaration(&declaration::comment(comment), &options.declared, place)?;
+                let declaration = declaration::comment(comment);
+                check_declaration(&declaration, &options.declared, place.clone())?;
+                note_component(&mut component, &declaration, &place)?;
                 comments.push(comment.trim().trim_end_matches([',', ';', '"']).to_owned());
                 continue;
             }
@@ -188,8 +143,8 @@ impl Table {
                 Some(columns) => columns,
                 None => *columns.insert((0, content_without_header(options, &place)?)),
             };
-            match (number(fields[level], &place), number(fields[1 - level], &place)) {
-                (Ok(im), Ok(value)) => rows.push(Row { line: index + 1, im, value }),
+            match (number(fields[level], || place.clone()), number(fields[1 - level], || place.clone())) {
+                (Ok(im), Ok(value)) => rows.push(Row { at: index + 1, im, value }),
                 (Err(mistake), _) | (_, Err(mistake)) => note(mistake),
             }
         }
@@ -202,7 +157,7 @@ impl Table {
             return Err(HazardError::TooFewPoints { name: name.to_owned(), found: 0 });
         };
         let source = if comments.is_empty() { name.to_owned() } else { comments.join("\n") };
-        Ok(Self { rows, content, source })
+        Ok(Self { rows, content, source, component })
     }
 }
 
@@ -232,24 +187,6 @@ fn two_fields<'a>(line: &'a str, place: &Place) -> Result<Option<[&'a str; 2]>, 
             })
         }
     }
-}
-
-fn number(field: &str, place: &Place) -> Result<f64, HazardError> {
-    let reason = match field.parse::<f64>() {
-        Ok(value) if value.is_finite() => return Ok(value),
-        Ok(_) => format!("{} is not a finite number", excerpt(field)),
-        Err(_) if field.replace(',', ".").parse::<f64>().is_ok() => {
-            format!("{} has a decimal comma: write a decimal point", excerpt(field))
-        }
-        Err(_) => format!("{} is not a number", excerpt(field)),
-    };
-    Err(HazardError::Row { place: place.clone(), reason })
-}
-
-/// The beginning of a field for a message, with everything unprintable escaped.
-fn excerpt(field: &str) -> String {
-    let head: String = field.chars().take(40).collect();
-    if head.len() < field.len() { format!("{head:?}...") } else { format!("{head:?}") }
 }
 
 /// Which of the two columns is the level, and what the other holds.
@@ -307,4 +244,20 @@ fn check_declaration(found: &Declaration, declared: &Declared, place: Place) -> 
         (_, Some(unit)) if !same_unit(unit, &declared.unit) => contradiction("unit", unit, &declared.unit),
         _ => Ok(()),
     }
+}
+
+/// Keeps the definition that a comment names; two lines must not name two.
+fn note_component(
+    known: &mut Option<ComponentDefinition>,
+    declaration: &Declaration,
+    place: &Place,
+) -> Result<(), HazardError> {
+    for &found in &declaration.components {
+        let before = *known.get_or_insert(found);
+        if before != found {
+            let (found, declared) = (found.to_string(), before.to_string());
+            return Err(HazardError::Contradiction { place: place.clone(), what: "component", found, declared });
+        }
+    }
+    Ok(())
 }

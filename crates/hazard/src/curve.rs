@@ -1,5 +1,6 @@
 //! The hazard curve as a value.
 
+use crate::component::ComponentDefinition;
 use crate::error::{HazardError, Place};
 use crate::unit::{Dimension, Unit, same_unit};
 
@@ -24,6 +25,7 @@ pub struct HazardCurve {
     measure: String,
     unit: String,
     source: String,
+    component: Option<ComponentDefinition>,
     im: Vec<f64>,
     maf: Vec<f64>,
 }
@@ -92,7 +94,7 @@ impl HazardCurve {
                 });
             }
         }
-        Ok(Self { measure, unit, source, im, maf })
+        Ok(Self { measure, unit, source, component: None, im, maf })
     }
 
     /// The intensity measure, e.g. "PGV".
@@ -108,6 +110,17 @@ impl HazardCurve {
     /// Where the numbers come from; for a file its comment lines, or its name where it has none.
     pub fn source(&self) -> &str {
         &self.source
+    }
+
+    /// How the horizontal components are combined in the measure, where the source says so.
+    pub fn component(&self) -> Option<ComponentDefinition> {
+        self.component
+    }
+
+    /// The same curve with another statement of how the horizontal components are combined; the numbers stay.
+    #[must_use]
+    pub fn with_component(self, component: Option<ComponentDefinition>) -> Self {
+        Self { component, ..self }
     }
 
     /// Intensity levels, strictly increasing, in [`HazardCurve::unit`].
@@ -184,7 +197,8 @@ impl HazardCurve {
         };
         let (numerator, denominator) = (to.per_si(gravity_m_s2), from.per_si(gravity_m_s2));
         let im = self.im.iter().map(|level| level * numerator / denominator).collect();
-        Self::new(self.measure.clone(), unit, self.source.clone(), im, self.maf.clone())
+        let curve = Self::new(self.measure.clone(), unit, self.source.clone(), im, self.maf.clone())?;
+        Ok(curve.with_component(self.component))
     }
 }
 

@@ -1,12 +1,15 @@
-//! What a table says about itself: measure and unit in a comment or a column name.
+//! What a table says about itself: measure, unit and component in a comment or a column name.
 
+use crate::component::ComponentDefinition;
 use crate::unit::Unit;
 
-/// Measure and unit as far as a text names them.
+/// Measure, unit and component as far as a text names them.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(crate) struct Declaration {
     pub(crate) measure: Option<String>,
     pub(crate) unit: Option<String>,
+    /// How horizontal components are combined; more than one where the text contradicts itself.
+    pub(crate) components: Vec<ComponentDefinition>,
 }
 
 /// What the second column holds.
@@ -56,20 +59,24 @@ pub(crate) fn column(name: &str, declared_measure: &str) -> Option<Column> {
     }
     let unit = unit.map(str::to_owned);
     if is(&GENERIC) {
-        return Some(Column::Intensity(Declaration { measure: None, unit }));
+        return Some(Column::Intensity(Declaration { unit, ..Declaration::default() }));
     }
     (is(&MEASURES) || key.starts_with("sa(") || same_measure(plain, declared_measure))
-        .then(|| Column::Intensity(Declaration { measure: Some(plain.to_owned()), unit }))
+        .then(|| Column::Intensity(Declaration { measure: Some(plain.to_owned()), unit, ..Declaration::default() }))
 }
 
-/// Reads `IM: PGV [cm/s]` and `unit: cm/s` out of a comment, among other text separated by `;` or `,`.
+/// Reads `IM: PGV [cm/s]`, `unit: cm/s` and `component: RotD50` out of a comment, among other text separated by `;` or `,`.
 ///
-/// Accepted keys: `im`, `imt`, `measure`, `intensity measure`; `unit`, `units`. Prose after a key is no declaration: a
+/// Accepted keys: `im`, `imt`, `measure`, `intensity measure`; `unit`, `units`; `component`, `horizontal component`. The
+/// component may follow the measure without key, as in `IM: PGV [cm/s], geometric mean (GMRotI50)`. Prose after a key is no declaration: a
 /// measure is one word, and a unit outside brackets must be a known one.
 pub(crate) fn comment(text: &str) -> Declaration {
     let mut found = Declaration::default();
     for part in text.split([';', ',']) {
         let Some((key, value)) = part.split_once(':') else {
+            if found.measure.is_some() {
+                found.components.extend(part.parse::<ComponentDefinition>().ok());
+            }
             continue;
         };
         match key.trim().to_ascii_lowercase().as_str() {
@@ -83,6 +90,7 @@ pub(crate) fn comment(text: &str) -> Declaration {
             "unit" | "units" if Unit::parse(value).is_some() => {
                 found.unit = Some(value.trim().to_owned());
             }
+            "component" | "horizontal component" => found.components.extend(value.parse::<ComponentDefinition>().ok()),
             _ => {}
         }
     }
@@ -120,7 +128,7 @@ mod tests {
     use super::*;
 
     fn named(measure: Option<&str>, unit: Option<&str>) -> Declaration {
-        Declaration { measure: measure.map(str::to_owned), unit: unit.map(str::to_owned) }
+        Declaration { measure: measure.map(str::to_owned), unit: unit.map(str::to_owned), components: Vec::new() }
     }
 
     #[test]
@@ -159,7 +167,12 @@ mod tests {
     #[test]
     fn comments() {
         let line = " site: Athens, Greece; longitude 23.7; IM: PGV [cm/s], geometric mean (GMRotI50), rock";
-        assert_eq!(comment(line), named(Some("PGV"), Some("cm/s")));
+        let gm = vec![ComponentDefinition::GmRotI50];
+        assert_eq!(comment(line), Declaration { components: gm, ..named(Some("PGV"), Some("cm/s")) });
+        assert_eq!(comment("component: RotD50; see above").components, [ComponentDefinition::RotD50]);
+        // Without a measure or a key it is prose.
+        assert_eq!(comment("averaged over models, geometric mean, rock"), named(None, None));
+        assert_eq!(comment("component: see the report"), named(None, None));
         assert_eq!(comment("imt: PGA; units: m/s2"), named(Some("PGA"), Some("m/s2")));
         assert_eq!(comment("measure: SA(1.0) [g]"), named(Some("SA(1.0)"), Some("g")));
         assert_eq!(comment("units: see the report"), named(None, None));

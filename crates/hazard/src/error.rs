@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// Where a value stands: a point of arrays handed over, or a line of a file.
+/// Where a value stands: a point of arrays handed over, a line of a file, or a level in it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Place {
     /// Index into the arrays, counted from 0.
@@ -14,6 +14,8 @@ pub enum Place {
         /// Line number.
         line: usize,
     },
+    /// One level of a curve among others in a file, in words: file, line where there are lines, and level.
+    Level(String),
 }
 
 impl fmt::Display for Place {
@@ -21,6 +23,7 @@ impl fmt::Display for Place {
         match self {
             Self::Point(index) => write!(f, "point {index} (counted from 0)"),
             Self::Line { file, line } => write!(f, "{file}, line {line}"),
+            Self::Level(level) => f.write_str(level),
         }
     }
 }
@@ -207,7 +210,7 @@ pub enum HazardError {
     Contradiction {
         /// File and line.
         place: Place,
-        /// "measure", "unit" or "second column".
+        /// "measure", "unit", "component" or "second column".
         what: &'static str,
         /// What the file says.
         found: String,
@@ -243,5 +246,33 @@ pub enum HazardError {
         later_place: Place,
         /// That value.
         later: f64,
+    },
+
+    // Names and exports
+    /// A way to combine horizontal components that is not known.
+    #[error("component definition {found} is not known; use one of {accepted}", accepted = crate::ComponentDefinition::ACCEPTED)]
+    Component {
+        /// What was given, quoted.
+        found: String,
+    },
+    /// No site of the file is the one asked for.
+    #[error("{file}: no site named {wanted}; {known}")]
+    SiteNotFound {
+        /// The file.
+        file: String,
+        /// The name asked for, quoted.
+        wanted: String,
+        /// What the file has instead.
+        known: String,
+    },
+    /// Two curves for one site, measure and statistic.
+    #[error("{place}: the {curve} is there twice{earlier}; remove one of them")]
+    DuplicateSite {
+        /// Where the second one stands.
+        place: Place,
+        /// Statistic, measure and site of both.
+        curve: String,
+        /// Where the first one stands, as a half-sentence; may be empty.
+        earlier: String,
     },
 }

@@ -6,6 +6,9 @@
 //! - [`rate_from_probability`], [`probability_from_rate`]: Eq. 4.8.
 //! - [`read_csv`], [`read_path`]: two-column text (level and rate, or level and probability) into a curve, checked
 //!   against what the caller [`Declared`].
+//! - [`read_export`], [`ExportedCurves`]: curves of one site or many as `OpenQuake` and the USGS export them;
+//!   [`read_realization_weights`]: the logic tree weights that go with them.
+//! - [`ComponentDefinition`]: how two horizontal components are combined in the measure of a curve.
 //!
 //! Rates are per year. Levels stay in the unit the curve names; [`HazardCurve::in_field_units`] turns velocities into
 //! cm/s and accelerations into g.
@@ -23,17 +26,27 @@
 //! # Source
 //! N. Reggiani Manzo, dissertation, Sections 4.3.2 and 4.3.4.
 
+mod component;
 mod csv;
 mod curve;
 mod declaration;
 mod error;
+mod import;
+mod input;
 mod interpolation;
 mod mean;
 mod probability;
+mod rates;
+mod text;
 mod unit;
 
+pub use component::ComponentDefinition;
 pub use csv::{CsvCurve, CsvOptions, Declared, MAX_FILE_BYTES, SecondColumn, read_csv, read_path};
 pub use curve::{HazardCurve, HazardPoint};
 pub use error::{HazardError, Place};
+pub use import::{
+    ExportedCurve, ExportedCurves, MAX_JSON_BYTES, MAX_NRML_BYTES, RealizationWeight, SitePlace, SiteSelection,
+    Statistic, read_export, read_realization_weights,
+};
 pub use interpolation::Extrapolation;
 pub use probability::{probability_from_rate, rate_from_probability};

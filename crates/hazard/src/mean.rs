@@ -6,7 +6,7 @@ impl HazardCurve {
     /// The weighted mean of curves of one measure in one unit: `λ(im) = Σ w λ_b(im)/Σ w`.
     ///
     /// It is exact at every abscissa of every curve and at every level of `also_at` that lies within all of them; between, it is read as any curve. It
-    /// reaches as far as all curves do.
+    /// reaches as far as all curves do. It keeps the definition of the component where all curves have the same.
     ///
     /// - `branches`: weight and curve.
     /// - `also_at`: further levels, in the unit of the curves, stripe levels for instance.
@@ -37,7 +37,8 @@ impl HazardCurve {
             })
             .collect::<Result<Vec<f64>, HazardError>>()?;
         let source = format!("weighted mean of {} curves", branches.len());
-        Self::new(first.measure(), first.unit(), source, im, maf)
+        let component = first.component().filter(|_| branches.iter().all(|(_, c)| c.component() == first.component()));
+        Ok(Self::new(first.measure(), first.unit(), source, im, maf)?.with_component(component))
     }
 }
 
@@ -61,6 +62,11 @@ mod tests {
             let expected = 0.25 * 0.2 / im + 0.75 * 0.4 / (im * im);
             assert!((maf - expected).abs() < 1e-14 * expected, "{im}: {maf} {expected}");
         }
+        // definitions of the component that differ leave none
+        let with = |curve: &HazardCurve, name: &str| curve.clone().with_component(Some(name.parse().unwrap()));
+        let (a50, b50, b100) = (with(&a, "RotD50"), with(&b, "RotD50"), with(&b, "RotD100"));
+        let component = |x, y| HazardCurve::weighted_mean(&[(0.5, x), (0.5, y)], &[]).unwrap().component();
+        assert_eq!([component(&a50, &b50), component(&a50, &b100), component(&a, &b50)], [a50.component(), None, None]);
         // a curve is its own mean
         let same = HazardCurve::weighted_mean(&[(0.5, &a), (0.5, &a)], &[]).unwrap();
         assert_eq!(same.im(), a.im());

@@ -1,9 +1,10 @@
 //! Tables as they come, and what is said about those that cannot be used.
 #![allow(clippy::unwrap_used)]
 
+use std::io::Write;
 use std::path::Path;
 
-use uplift_hazard::{CsvCurve, CsvOptions, HazardError, SecondColumn, read_csv, read_path};
+use uplift_hazard::{ComponentDefinition, CsvCurve, CsvOptions, HazardError, SecondColumn, read_csv, read_path};
 
 fn read(text: &str) -> Result<CsvCurve, HazardError> {
     read_csv(text, "site.csv", &CsvOptions::new("PGV", "cm/s"))
@@ -172,4 +173,46 @@ fn files_that_cannot_be_read() {
     assert!(latin.unwrap_err().to_string().ends_with("not UTF-8 text; save it as \"CSV UTF-8\""));
     assert!(large.unwrap_err().to_string().contains("larger than 4194304 bytes"));
     assert_eq!(good.unwrap().curve.len(), 2);
+}
+
+#[test]
+fn the_component_is_what_the_comments_say() {
+    let component =
+        |comments: &str| read(&format!("{comments}\niml,maf\n1,0.2\n2,0.1\n")).map(|read| read.curve.component());
+    for (comments, expected) in [
+        ("# site: X; IM: PGV [cm/s], geometric mean (GMRotI50), rock", Some(ComponentDefinition::GmRotI50)),
+        ("# IM: PGV [cm/s], geometric mean", Some(ComponentDefinition::GeometricMean)),
+        ("# component: RotD50", Some(ComponentDefinition::RotD50)),
+        ("# IM: PGV, RotD100\n# horizontal component: RotD100", Some(ComponentDefinition::RotD100)),
+        ("# site: X; larger, near the coast", None),
+        ("", None),
+    ] {
+        assert_eq!(component(comments).unwrap(), expected, "{comments}");
+    }
+    assert_eq!(
+        component("# IM: PGV, RotD50\n# component: larger").unwrap_err().to_string(),
+        "site.csv, line 2: the file says component larger component, but RotD50 is declared; correct the one that is wrong"
+    );
+}
+
+#[test]
+fn files_packed_with_gzip() {
+    let folder = tempfile::tempdir().unwrap();
+    let pack = |name: &str, text: &[u8]| {
+        let path = folder.path().join(name);
+        let file = std::fs::File::create(&path).unwrap();
+        let mut packed = flate2::write::GzEncoder::new(file, flate2::Compression::best());
+        packed.write_all(text).unwrap();
+        packed.finish().unwrap();
+        path
+    };
+    let options = CsvOptions::new("PGV", "cm/s");
+    let path = pack("pgv.csv.gz", b"iml,maf\n1,0.2\n2,0.1\n");
+    assert_eq!(read_path(&path, &options).unwrap().curve.maf(), [0.2, 0.1]);
+    // Unpacked it is too large, however small it lies on the disk.
+    let path = pack("large.csv.gz", &vec![b'\n'; 64 << 20]);
+    assert!(path.metadata().unwrap().len() < 1 << 20);
+    assert!(read_path(&path, &options).unwrap_err().to_string().contains("larger than 4194304 bytes"));
+    std::fs::write(&path, b"\x1f\x8b\x08").unwrap();
+    assert!(read_path(&path, &options).unwrap_err().to_string().contains("cannot be read"));
 }

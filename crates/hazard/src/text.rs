@@ -1,0 +1,62 @@
+//! Numbers out of text, and text into messages.
+
+use crate::error::{HazardError, Place};
+
+/// A finite number; `place` is asked for only where there is none.
+///
+/// # Errors
+/// [`HazardError::Row`] with the field.
+pub(crate) fn number(field: &str, place: impl FnOnce() -> Place) -> Result<f64, HazardError> {
+    let reason = match field.parse::<f64>() {
+        Ok(value) if value.is_finite() => return Ok(value),
+        Ok(_) => format!("{} is not a finite number", excerpt(field)),
+        Err(_) if field.replace(',', ".").parse::<f64>().is_ok() => {
+            format!("{} has a decimal comma: write a decimal point", excerpt(field))
+        }
+        Err(_) => format!("{} is not a number", excerpt(field)),
+    };
+    Err(HazardError::Row { place: place(), reason })
+}
+
+/// The beginning of a field for a message, with everything unprintable escaped.
+pub(crate) fn excerpt(field: &str) -> String {
+    let head: String = field.chars().take(40).collect();
+    if head.len() < field.len() { format!("{head:?}...") } else { format!("{head:?}") }
+}
+
+/// The fields of a line of CSV, trimmed; a field in quotes may hold the separator.
+pub(crate) fn fields(line: &str, separator: char) -> impl Iterator<Item = &str> {
+    let mut rest = Some(line);
+    std::iter::from_fn(move || {
+        let text = rest?;
+        let quoted = text.trim_start().strip_prefix('"').and_then(|inner| inner.split_once('"'));
+        let (field, after) = match quoted {
+            Some((field, after)) if after.trim_start().is_empty() => (field, None),
+            Some((field, after)) if after.trim_start().starts_with(separator) => {
+                (field, after.split_once(separator).map(|(_, after)| after))
+            }
+            _ => text.split_once(separator).map_or((text, None), |(field, after)| (field, Some(after))),
+        };
+        rest = after;
+        Some(field.trim())
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quoted_fields() {
+        for (line, expected) in [
+            ("a,b", vec!["a", "b"]),
+            (" \"a,b\" , c,", vec!["a,b", "c", ""]),
+            ("", vec![""]),
+            ("\"a\"b,c", vec!["\"a\"b", "c"]),
+            ("\"a,b", vec!["\"a", "b"]),
+            ("\"\",\"x\"", vec!["", "x"]),
+        ] {
+            assert_eq!(fields(line, ',').collect::<Vec<_>>(), expected, "{line}");
+        }
+    }
+}
