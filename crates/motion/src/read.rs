@@ -4,10 +4,13 @@ pub(crate) mod at2;
 pub(crate) mod columns;
 mod cosmos;
 mod csmip;
+mod date;
 mod esm;
+mod fortran;
 mod head;
 mod knet;
 mod number;
+mod volume;
 
 use std::borrow::Cow;
 use std::fs::File;
