@@ -187,6 +187,18 @@ pub enum MotionError {
         /// The accepted words.
         accepted: &'static str,
     },
+    /// The values are counts of a recorder, and the head does not say what one count is.
+    #[error(
+        "{name}, line {line}: \"{text}\": counts, and the head gives no scale (least significant bit in microvolts, sensitivity in volts per g); give the processed record (Volume 1 or 2)"
+    )]
+    CountsWithoutScale {
+        /// The file.
+        name: String,
+        /// The line.
+        line: usize,
+        /// The line's text.
+        text: String,
+    },
     /// Neither the file nor the caller says the unit.
     #[error("{name}: the file does not say its unit of acceleration; give the unit, one of: {accepted}")]
     MissingUnit {

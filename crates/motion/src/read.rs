@@ -6,9 +6,11 @@ mod cosmos;
 mod csmip;
 mod date;
 mod esm;
+mod fortran;
 mod head;
 mod knet;
 mod number;
+mod volume;
 
 use std::borrow::Cow;
 use std::fs::File;
