@@ -109,7 +109,7 @@ fn manifests() {
     let semicolons = with_manifest("");
     semicolons.write("manifest.csv", "record_id;file_h1;file_h2;set_tags\nA;a.AT2;a.AT2;good\n");
     let checked = semicolons.uplift(&["check", "study.toml", "--set", "records.tag=good"]).ok();
-    assert!((checked.stdout + &checked.stderr).contains("same file for both components (A)"));
+    assert!((checked.stdout + &checked.stderr).contains("same motion as both components (A)"));
     let study = with_manifest("A,a.AT2,a.AT2,one;two,,\n");
     study.uplift(&["check", "study.toml", "--set", "records.tag=three"]).fails(4, &["three", "one", "two"]);
     study.uplift(&["check", "study.toml", "--set", "records.tag=two"]).ok();

@@ -7,6 +7,7 @@ mod export;
 mod influence;
 mod measures;
 mod plot;
+mod records;
 mod reference;
 mod report;
 mod response;
@@ -57,6 +58,8 @@ enum Command {
     Influence(influence::InfluenceArguments),
     /// Which intensity measure to trust: efficiency and sufficiency
     Measures(measures::MeasuresArguments),
+    /// Bring record files: import a folder, list, show, choose, synthesize
+    Records(records::RecordsArguments),
     /// Draw the figures of a result
     Plot(plot::PlotArguments),
     /// Write one page with everything, to hand over: HTML that needs no network
@@ -124,6 +127,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), UpliftError> {
         Command::Bootstrap(arguments) => bootstrap::bootstrap(arguments, &session),
         Command::Influence(arguments) => influence::influence(arguments, &session),
         Command::Measures(arguments) => measures::measures(arguments, &session),
+        Command::Records(arguments) => records::records(arguments, &session),
         Command::Plot(arguments) => plot::plot(arguments, &session),
         Command::Report(arguments) => report::report(arguments, &session),
         Command::Export(arguments) => export::export(arguments, &session),

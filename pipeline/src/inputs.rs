@@ -2,8 +2,10 @@
 
 mod cache;
 mod hazard;
-mod manifest;
+pub(crate) mod manifest;
+pub(crate) mod pairs;
 mod record_set;
+pub(crate) mod selection;
 
 pub use hazard::{BranchHazard, HazardInput, SiteHazard, read_hazard};
 pub use record_set::{Record, RecordSet, read_records};

@@ -3,6 +3,7 @@
 //! | room | what is in it |
 //! |---|---|
 //! | [`study`] | the study file, checked as a whole |
+//! | [`import`] | record files found in a folder, paired, measured and listed in a manifest |
 //! | [`inputs`] | records and hazard curves, read and checked before anything is computed |
 //! | [`stages`] | stripes, spectra, coefficients, bands: each takes what the one before returned |
 //! | [`result`](mod@result) | the HDF5 file and the tables beside it, written and read |
@@ -20,6 +21,7 @@ pub mod command;
 mod error;
 mod export;
 pub mod figures;
+pub mod import;
 pub mod inputs;
 pub mod labelled;
 pub mod plot;

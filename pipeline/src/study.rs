@@ -28,6 +28,7 @@ mod reader;
 mod records;
 mod resolve;
 mod resolved;
+mod selection;
 mod sites;
 mod source;
 mod suggestion;
@@ -44,4 +45,5 @@ pub use resolved::{
     Extrapolate, IntervalKind, MeasurePlan, Oscillator, Output, RecordSource, Records, Regression, ResolvedStudy, Risk,
     Site, Uplifted,
 };
+pub use selection::{CRITERIA, Criterion, Range, RecordSelection};
 pub use source::Study;

@@ -56,19 +56,6 @@ pub enum MotionError {
         /// The measure of the unscaled pair, in the same unit.
         measure: f64,
     },
-    /// The components of a pair have different time steps.
-    #[error(
-        "record {id}: its components have time steps of {dt_1_s} s and {dt_2_s} s, and a measure over all \
-         directions needs one: use the geometric mean, or resample one of them"
-    )]
-    TimeStepsDiffer {
-        /// The pair.
-        id: String,
-        /// Time step of the first component \[s\].
-        dt_1_s: f64,
-        /// Time step of the second component \[s\].
-        dt_2_s: f64,
-    },
     /// A word is not among those accepted.
     #[error("unknown {what} \"{given}\"; use one of: {accepted}")]
     UnknownWord {

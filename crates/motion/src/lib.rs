@@ -27,6 +27,7 @@ mod read;
 mod recording;
 pub mod synthetic;
 mod unit;
+mod write;
 
 pub use accelerogram::Accelerogram;
 pub use combination::{Combination, Peaks};
@@ -36,6 +37,7 @@ pub use pair::{Component, Horizontal, RecordPair};
 pub use pulse::{PulseClassification, classify_pulse};
 pub use read::at2::{At2Header, At2Record, read_at2};
 pub use read::columns::read_columns;
-pub use read::{ReadOptions, read_auto, read_path, read_record, read_record_file};
+pub use read::{ReadOptions, read_auto, read_path, read_record, read_record_file, record_bytes};
 pub use recording::{Orientation, RecordFile, RecordFormat, Recording, RecordingDescription};
 pub use unit::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
+pub use write::at2_text;

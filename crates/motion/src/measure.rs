@@ -37,18 +37,8 @@ impl IntensityMeasure {
 
     fn description(self) -> Description {
         match self {
-            Self::Pgv => Description {
-                label: "PGV",
-                key: "pgv",
-                unit: "cm/s",
-                long_name: "peak ground velocity, geometric mean of two horizontal components",
-            },
-            Self::Pga => Description {
-                label: "PGA",
-                key: "pga",
-                unit: "g",
-                long_name: "peak ground acceleration, geometric mean of two horizontal components",
-            },
+            Self::Pgv => Description { label: "PGV", key: "pgv", unit: "cm/s", long_name: "peak ground velocity" },
+            Self::Pga => Description { label: "PGA", key: "pga", unit: "g", long_name: "peak ground acceleration" },
         }
     }
 
@@ -67,7 +57,7 @@ impl IntensityMeasure {
         self.description().unit
     }
 
-    /// Name in full.
+    /// Name in full; how the components of a pair are combined belongs to it ([`Combination`](crate::Combination)).
     pub fn long_name(self) -> &'static str {
         self.description().long_name
     }

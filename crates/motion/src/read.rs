@@ -79,7 +79,7 @@ impl ReadOptions {
 /// [`MotionError::Unreadable`] where the file cannot be read, [`MotionError::TooLarge`] above
 /// 64 MiB, and those of [`read_record`].
 pub fn read_record_file(path: &Path, options: &ReadOptions) -> Result<RecordFile, MotionError> {
-    let bytes = read_bytes(path)?;
+    let bytes = record_bytes(path)?;
     read_record(&bytes, &path.display().to_string(), options)
 }
 
@@ -114,7 +114,7 @@ pub fn read_record(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<Re
 ///
 /// Those of [`read_record_file`] and [`read_auto`].
 pub fn read_path(path: &Path, options: &ReadOptions) -> Result<Accelerogram, MotionError> {
-    let bytes = read_bytes(path)?;
+    let bytes = record_bytes(path)?;
     read_auto(&bytes, &path.display().to_string(), options)
 }
 
@@ -174,7 +174,12 @@ fn unpacked<'a>(bytes: &'a [u8], name: &str) -> Result<Cow<'a, [u8]>, MotionErro
     Ok(Cow::Owned(content))
 }
 
-fn read_bytes(path: &Path) -> Result<Vec<u8>, MotionError> {
+/// The bytes of a record file as they are, for [`read_record`] and for its checksum.
+///
+/// # Errors
+///
+/// [`MotionError::Unreadable`], and [`MotionError::TooLarge`] above 64 MiB.
+pub fn record_bytes(path: &Path) -> Result<Vec<u8>, MotionError> {
     let unreadable = |reason| MotionError::Unreadable { path: path.to_owned(), reason };
     let mut bytes = Vec::new();
     File::open(path).and_then(|file| file.take(LARGEST_FILE_BYTES + 1).read_to_end(&mut bytes)).map_err(unreadable)?;

@@ -76,12 +76,44 @@ pub struct SyntheticSetOptions {
     /// A pair is kept when the geometric mean of the peak ground accelerations of its components is
     /// above this \[g\], 0 to 1.
     pub minimum_pga_g: f64,
+    /// The earthquakes and sites; each pair has its own.
+    pub scenario: ScenarioRange,
 }
 
 impl Default for SyntheticSetOptions {
     fn default() -> Self {
-        Self { seed: 1, pairs: 105, dt_s: 0.01, corner_hz: 0.1, minimum_pga_g: 0.14 }
+        let scenario = ScenarioRange::default();
+        Self { seed: 1, pairs: 105, dt_s: 0.01, corner_hz: 0.1, minimum_pga_g: 0.14, scenario }
     }
+}
+
+/// Earthquakes and sites from which each pair's own is drawn: uniformly between two ends, which may
+/// be one. The default is that of the embedded set.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ScenarioRange {
+    /// Moment magnitude, 6 to 8; drawn to 0.01.
+    pub magnitude: [f64; 2],
+    /// Closest distance to the rupture \[km\], 8 to 100; drawn to 0.1 km.
+    pub rrup_km: [f64; 2],
+    /// Mean shear-wave velocity of the upper 30 m \[m/s\], 360 to 1100; drawn to 1 m/s.
+    pub vs30_m_s: [f64; 2],
+    /// Faulting; even odds where none is given.
+    pub faulting: Option<Faulting>,
+}
+
+impl Default for ScenarioRange {
+    fn default() -> Self {
+        Self { magnitude: [6.2, 7.6], rrup_km: [8.0, 60.0], vs30_m_s: [360.0, 800.0], faulting: None }
+    }
+}
+
+/// Mechanism of an earthquake, as far as the model tells them apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Faulting {
+    /// Strike-slip.
+    StrikeSlip,
+    /// Reverse or reverse-oblique.
+    Reverse,
 }
 
 impl SyntheticSetOptions {
@@ -98,6 +130,19 @@ impl SyntheticSetOptions {
                 return Err(MotionError::SyntheticOption { option, value, allowed });
             }
         }
+        let ScenarioRange { magnitude, rrup_km, vs30_m_s, faulting: _ } = self.scenario;
+        // What the model was fitted to, but for soft ground.
+        let ranges = [
+            ("magnitude", magnitude, 6.0, 8.0, "6 to 8, the smaller end first"),
+            ("rrup_km", rrup_km, 8.0, 100.0, "8 to 100 km, the smaller end first"),
+            ("vs30_m_s", vs30_m_s, 360.0, 1100.0, "360 to 1100 m/s, the smaller end first"),
+        ];
+        for (option, [from, to], least, most, allowed) in ranges {
+            let beyond = [from, to].into_iter().find(|value| !(least..=most).contains(value));
+            if let Some(value) = beyond.or((from > to).then_some(from)) {
+                return Err(MotionError::SyntheticOption { option, value, allowed });
+            }
+        }
         Ok(())
     }
 }
@@ -106,8 +151,7 @@ impl SyntheticSetOptions {
 ///
 /// The pairs are named `SYN001`, `SYN002`, …; their metadata hold `event`, `magnitude`, `rrup_km`,
 /// `vs30` \[m/s\], `station`, `mechanism` and `set_tags`. "synthetic" stands in event, station and
-/// tags. The scenario of each candidate is drawn uniformly: M 6.2 to 7.6, R 8 to 60 km, V 360 to
-/// 800 m/s, strike-slip or reverse.
+/// tags. The scenario of each candidate is drawn from [`SyntheticSetOptions::scenario`].
 ///
 /// # Errors
 ///
@@ -150,7 +194,7 @@ impl Candidate {
     /// envelope. The order of the draws is part of the definition of the set.
     fn simulate(options: &SyntheticSetOptions, number: u64) -> Option<Self> {
         let mut stream = RandomStream::new(options.seed, number);
-        let scenario = Scenario::draw(&mut stream);
+        let scenario = Scenario::draw(&options.scenario, &mut stream);
         let parameters = Parameters::draw(&scenario, &mut stream);
         let scatter = COMPONENT_SCATTER * stream.normal();
         let envelope = Envelope::new(parameters.ln_arias.exp(), parameters.d5_95_s, parameters.t_mid_s)?;
@@ -201,16 +245,16 @@ impl Candidate {
 
 impl Scenario {
     /// Draws a scenario: four variates of `stream`, rounded to what the metadata show.
-    fn draw(stream: &mut RandomStream) -> Self {
-        let mut between = |low: f64, high: f64, steps_per_unit: f64| {
+    fn draw(range: &ScenarioRange, stream: &mut RandomStream) -> Self {
+        let mut between = |[low, high]: [f64; 2], steps_per_unit: f64| {
             ((low + (high - low) * stream.uniform()) * steps_per_unit).round() / steps_per_unit
         };
-        Self {
-            magnitude: between(6.2, 7.6, 100.0),
-            rrup_km: between(8.0, 60.0, 10.0),
-            vs30_m_s: between(360.0, 800.0, 1.0),
-            reverse: stream.uniform() < 0.5,
-        }
+        let (magnitude, rrup_km, vs30_m_s) =
+            (between(range.magnitude, 100.0), between(range.rrup_km, 10.0), between(range.vs30_m_s, 1.0));
+        // drawn in any case, so that the variates after it do not depend on the choice
+        let drawn = stream.uniform() < 0.5;
+        let reverse = range.faulting.map_or(drawn, |faulting| faulting == Faulting::Reverse);
+        Scenario { magnitude, reverse, rrup_km, vs30_m_s }
     }
 }
 

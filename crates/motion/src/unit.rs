@@ -26,6 +26,15 @@ impl AccelerationUnit {
     /// The words that [`FromStr`] accepts, for messages.
     pub const ACCEPTED: &'static str = "g, m/s2, cm/s2, gal";
 
+    /// Its word, e.g. "cm/s2".
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Self::G => "g",
+            Self::MPerS2 => "m/s2",
+            Self::CmPerS2 => "cm/s2",
+        }
+    }
+
     /// Converts `value`, in this unit, to m/s², with the acceleration of gravity
     /// `gravity_m_s2` \[m/s²\].
     pub fn to_m_s2(self, value: f64, gravity_m_s2: f64) -> f64 {
@@ -73,6 +82,7 @@ mod tests {
         let g = 9.81;
         for (word, value) in [("g", 0.5), ("m/s2", 4.905), ("cm/s2", 490.5), ("gal", 490.5)] {
             let unit: AccelerationUnit = word.parse().unwrap();
+            assert_eq!(unit.symbol().parse::<AccelerationUnit>().unwrap(), unit);
             assert!((unit.to_m_s2(value, g) - 4.905).abs() < 1e-15, "{word}");
         }
     }

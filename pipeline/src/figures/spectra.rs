@@ -27,7 +27,7 @@ pub(super) fn hazard(source: &FigureSource) -> Result<Option<Figure>, UpliftErro
             series,
         });
     }
-    let caption = "Mean annual frequency of exceeding a level of the intensity measure (geometric mean of the two horizontal components), as used (Fig. 4.5b, c).";
+    let caption = "Mean annual frequency of exceeding a level of the intensity measure, as used (Fig. 4.5b, c).";
     Ok(Some(source.figure("hazard", "Hazard curves", caption, panels)))
 }
 

@@ -4,19 +4,32 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
-use polars::prelude::{CsvParseOptions, CsvReadOptions, DataFrame, SerReader};
-use uplift_motion::AccelerationUnit;
+use crate::import::relative;
+use polars::prelude::{Column, CsvParseOptions, CsvReadOptions, DataFrame, SerReader};
+use uplift_motion::{AccelerationUnit, RecordFormat};
 
 /// A row of a manifest.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Row {
-    pub(super) id: String,
-    pub(super) files: [PathBuf; 2],
+pub(crate) struct Row {
+    pub(crate) id: String,
+    pub(crate) components: [ComponentFile; 2],
     /// Of text files that do not say it.
-    pub(super) dt_s: Option<f64>,
-    pub(super) unit: Option<AccelerationUnit>,
+    pub(crate) dt_s: Option<f64>,
+    pub(crate) unit: Option<AccelerationUnit>,
+    /// Layout of both files; none to tell it by their content.
+    pub(crate) format: Option<RecordFormat>,
     /// The other columns, blank cells left out.
-    pub(super) metadata: BTreeMap<String, String>,
+    pub(crate) metadata: BTreeMap<String, String>,
+}
+
+/// Where one component is.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ComponentFile {
+    pub(crate) path: PathBuf,
+    /// Which component of a file with several, counted from one.
+    pub(crate) channel: Option<usize>,
+    /// SHA-256 that the file had when the manifest was made.
+    pub(crate) sha256: Option<String>,
 }
 
 const REQUIRED: [&str; 3] = ["record_id", "file_h1", "file_h2"];
@@ -25,7 +38,7 @@ const REQUIRED: [&str; 3] = ["record_id", "file_h1", "file_h2"];
 ///
 /// # Errors
 /// Everything that is wrong with it, a line each.
-pub(super) fn read(path: &Path, tag: Option<&str>) -> Result<Vec<Row>, Vec<String>> {
+pub(crate) fn read(path: &Path, tag: Option<&str>) -> Result<Vec<Row>, Vec<String>> {
     let name = path.display();
     let bytes = std::fs::read(path).map_err(|error| vec![format!("manifest {name} cannot be read: {error}")])?;
     let table = parse(&bytes)
@@ -78,6 +91,31 @@ pub(super) fn read(path: &Path, tag: Option<&str>) -> Result<Vec<Row>, Vec<Strin
     if mistakes.is_empty() { Ok(rows) } else { Err(mistakes) }
 }
 
+/// The columns of the manifest at `path` with the rows named `ids`, their paths seen from `folder`.
+///
+/// # Errors
+/// Everything that is wrong with it, a line each.
+pub(crate) fn rows_of(path: &Path, ids: &BTreeSet<&str>, folder: &Path) -> Result<Vec<Column>, Vec<String>> {
+    let fail = |reason: String| vec![format!("manifest {} cannot be read: {reason}", path.display())];
+    let bytes = std::fs::read(path).map_err(|error| fail(error.to_string()))?;
+    let table = parse(&bytes).map_err(|error| fail(error.to_string()))?;
+    let origin = path.parent().unwrap_or(Path::new(""));
+    let text = |column: &Column, row: usize| -> String {
+        let cell = column.str().ok().and_then(|cells| cells.get(row)).unwrap_or_default().trim().to_owned();
+        if column.name().starts_with("file_h") && !cell.is_empty() {
+            relative(&origin.join(cell), folder)
+        } else {
+            cell
+        }
+    };
+    let named = |row: &usize| table.column("record_id").is_ok_and(|column| ids.contains(text(column, *row).as_str()));
+    let rows: Vec<usize> = (0..table.height()).filter(named).collect();
+    let chosen = |column: &Column| {
+        Column::new(column.name().clone(), rows.iter().map(|&row| text(column, row)).collect::<Vec<String>>())
+    };
+    Ok(table.columns().iter().map(chosen).collect())
+}
+
 /// All columns as text: an identifier such as 0012 must stay what it is. Spreadsheets of many countries separate columns by semicolons.
 fn parse(bytes: &[u8]) -> Result<DataFrame, polars::prelude::PolarsError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
@@ -108,7 +146,9 @@ fn row(cells: &mut BTreeMap<String, String>, folder: &Path) -> Result<Row, Vec<S
         return Err(vec!["record_id is blank: every record needs a name".to_owned()]);
     };
     let mut mistakes = Vec::new();
-    let [h1, h2] = ["file_h1", "file_h2"].map(|column| match cells.remove(column).map(|text| folder.join(text)) {
+    let components = [1, 2].map(|number| {
+        let column = &format!("file_h{number}");
+        let path = match cells.remove(column).map(|text| folder.join(text)) {
         Some(path) if path.is_file() => path,
         Some(path) => {
             mistakes.push(format!("record {id}: {column} {} is not a file", path.display()));
@@ -120,6 +160,16 @@ fn row(cells: &mut BTreeMap<String, String>, folder: &Path) -> Result<Row, Vec<S
             ));
             PathBuf::new()
         }
+        };
+        let key = format!("channel_h{number}");
+        let channel = cells.remove(&key).and_then(|text| match text.parse::<usize>() {
+            Ok(channel) if channel > 0 => Some(channel),
+            _ => {
+                mistakes.push(format!("record {id}: {key} is {text:?}: give the number of the component in its file, 1 or above"));
+                None
+            }
+        });
+        ComponentFile { path, channel, sha256: cells.remove(&format!("sha256_h{number}")) }
     });
     let dt_s = cells.get("dt_s").and_then(|text| match text.parse::<f64>() {
         Ok(value) if value.is_finite() && value > 0.0 => Some(value),
@@ -131,8 +181,11 @@ fn row(cells: &mut BTreeMap<String, String>, folder: &Path) -> Result<Row, Vec<S
     let unit = cells.get("unit").and_then(|text| {
         text.parse::<AccelerationUnit>().map_err(|error| mistakes.push(format!("record {id}: {error}"))).ok()
     });
+    let format = cells.remove("format").and_then(|text| {
+        text.parse::<RecordFormat>().map_err(|error| mistakes.push(format!("record {id}: {error}"))).ok()
+    });
     if mistakes.is_empty() {
-        Ok(Row { id, files: [h1, h2], dt_s, unit, metadata: std::mem::take(cells) })
+        Ok(Row { id, components, dt_s, unit, format, metadata: std::mem::take(cells) })
     } else {
         Err(mistakes)
     }

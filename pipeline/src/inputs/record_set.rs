@@ -5,11 +5,11 @@ use std::path::Path;
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use rayon::prelude::*;
 use uplift_motion::synthetic::SyntheticSetOptions;
-use uplift_motion::{Accelerogram, Component, Horizontal, IntensityMeasure, ReadOptions, RecordPair, read_path};
+use uplift_motion::{Accelerogram, Component, Horizontal, IntensityMeasure};
 
-use super::{cache, checksum, manifest};
+use super::pairs::{self, CheckedPair};
+use super::{cache, checksum, manifest, selection};
 use crate::error::UpliftError;
 use crate::study::{RecordSource, ResolvedStudy};
 
@@ -22,9 +22,9 @@ pub struct Record {
     pub component: Horizontal,
     /// Its acceleration.
     pub accelerogram: Accelerogram,
-    /// Geometric mean PGA of the pair, g (Eq. 4.5).
+    /// PGA of the pair, g, as the study combines its components (Eq. 4.5).
     pub pga_g: f64,
-    /// Geometric mean PGV of the pair, cm/s (Eq. 4.6).
+    /// PGV of the pair, cm/s, as the study combines its components (Eq. 4.6).
     pub pgv_cm_s: f64,
     /// Event, magnitude and whatever else is known.
     pub metadata: BTreeMap<String, String>,
@@ -55,54 +55,53 @@ pub struct RecordSet {
     pub notes: Vec<String>,
 }
 
-/// A pair with the checksums of its components.
-type CheckedPair = (RecordPair, [String; 2]);
-
 /// Read or make the records of `study`.
 ///
 /// # Errors
 /// Everything that is wrong with the manifest or the record files, at once.
 pub fn read_records(study: &ResolvedStudy) -> Result<RecordSet, UpliftError> {
-    let first = study.records.first.map_or(usize::MAX, |first| usize::try_from(first).unwrap_or(usize::MAX));
     let (pairs, source, synthetic) = match &study.records.source {
-        RecordSource::Synthetic { pairs, seed } => {
-            (synthetic_pairs(*pairs, *seed, first)?, format!("seed {seed}"), true)
-        }
+        RecordSource::Synthetic { pairs, seed } => (synthetic_pairs(*pairs, *seed)?, format!("seed {seed}"), true),
         RecordSource::Manifest { manifest, tag } => {
             let name = manifest.file_name().unwrap_or(manifest.as_os_str()).to_string_lossy();
             let tag_note = tag.as_ref().map_or_else(String::new, |tag| format!(", tag {tag}"));
-            (read_manifest(manifest, tag.as_deref(), first, study)?, format!("{name}{tag_note}"), false)
+            (manifest_pairs(manifest, tag.as_deref(), study)?, format!("{name}{tag_note}"), false)
         }
     };
+    let (mut pairs, mut notes) =
+        selection::select(pairs, &study.records.select, study.records.intensity, study.gravity_m_s2)?;
+    pairs.truncate(first_of(study));
+    notes.extend(alike(&pairs));
     let kind = if synthetic { "synthetic" } else { "recorded" };
     let noun = if pairs.len() == 1 { "pair" } else { "pairs" };
-    let notes = alike(&pairs);
-    let description = format!("{} {kind} {noun} ({source}), component {}", pairs.len(), study.records.component);
+    let chosen = &study.records.select;
+    let chosen = if chosen.is_empty() { String::new() } else { format!(", {chosen}") };
+    let description =
+        format!("{} {kind} {noun} ({source}{chosen}), component {}", pairs.len(), study.records.component);
     Ok(RecordSet { description, synthetic, records: analysis_records(pairs, study)?, notes })
 }
 
 /// Records both components of which are the same numbers.
 fn alike(pairs: &[CheckedPair]) -> Vec<String> {
     let alike: Vec<&str> =
-        pairs.iter().filter(|(_, [sum1, sum2])| sum1 == sum2).map(|(pair, _)| pair.id.as_str()).collect();
+        pairs.iter().filter(|(pair, _)| pair.h1 == pair.h2).map(|(pair, _)| pair.id.as_str()).collect();
     let shown = alike.iter().take(5).copied().collect::<Vec<_>>().join(", ");
     match alike.len() {
         0 => Vec::new(),
         count => vec![format!(
-            "{count} of {} records have one and the same file for both components ({shown}{}): the intensity is then that of the component, not a geometric mean",
+            "{count} of {} records have the same motion as both components ({shown}{}): the intensity is then that of the component, not a geometric mean",
             pairs.len(),
             if count > 5 { ", …" } else { "" }
         )],
     }
 }
 
-fn synthetic_pairs(pairs: u64, seed: u64, first: usize) -> Result<Vec<CheckedPair>, UpliftError> {
+fn synthetic_pairs(pairs: u64, seed: u64) -> Result<Vec<CheckedPair>, UpliftError> {
     let pairs = usize::try_from(pairs).unwrap_or(usize::MAX);
     let options = SyntheticSetOptions { seed, pairs, ..SyntheticSetOptions::default() };
     let set = cache::synthetic_set(&options).map_err(|error| UpliftError::input(error.to_string()))?;
     Ok(set
         .into_iter()
-        .take(first)
         .map(|pair| {
             let sums = [&pair.h1, &pair.h2].map(|component| {
                 let bytes: Vec<u8> = component.acceleration_m_s2().iter().flat_map(|a| a.to_le_bytes()).collect();
@@ -113,45 +112,18 @@ fn synthetic_pairs(pairs: u64, seed: u64, first: usize) -> Result<Vec<CheckedPai
         .collect())
 }
 
-fn read_manifest(
-    manifest: &Path,
-    tag: Option<&str>,
-    first: usize,
-    study: &ResolvedStudy,
-) -> Result<Vec<CheckedPair>, UpliftError> {
+fn manifest_pairs(manifest: &Path, tag: Option<&str>, study: &ResolvedStudy) -> Result<Vec<CheckedPair>, UpliftError> {
     let mut rows = manifest::read(manifest, tag).map_err(UpliftError::Inputs)?;
-    rows.truncate(first);
-    let read: Vec<Result<CheckedPair, Vec<String>>> = rows
-        .into_par_iter()
-        .map(|row| {
-            let options = ReadOptions {
-                dt_s: row.dt_s,
-                unit: row.unit,
-                gravity_m_s2: study.gravity_m_s2,
-                ..ReadOptions::default()
-            };
-            let component = |path: &Path| {
-                let accelerogram = read_path(path, &options).map_err(|error| format!("record {}: {error}", row.id))?;
-                let bytes = std::fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
-                Ok((accelerogram, checksum(&bytes)))
-            };
-            match (component(&row.files[0]), component(&row.files[1])) {
-                (Ok((h1, sum1)), Ok((h2, sum2))) => {
-                    Ok((RecordPair { id: row.id.clone(), h1, h2, metadata: row.metadata.clone() }, [sum1, sum2]))
-                }
-                (one, other) => Err([one.err(), other.err()].into_iter().flatten().collect()),
-            }
-        })
-        .collect();
-    let mut pairs = Vec::new();
-    let mut mistakes = Vec::new();
-    for outcome in read {
-        match outcome {
-            Ok(pair) => pairs.push(pair),
-            Err(found) => mistakes.extend(found),
-        }
+    // nothing is read in vain
+    if study.records.select.is_empty() {
+        rows.truncate(first_of(study));
     }
-    if mistakes.is_empty() { Ok(pairs) } else { Err(UpliftError::Inputs(mistakes)) }
+    pairs::read(rows, study.gravity_m_s2).map_err(UpliftError::Inputs)
+}
+
+/// How many of the selected records are used at most.
+fn first_of(study: &ResolvedStudy) -> usize {
+    study.records.first.map_or(usize::MAX, |first| usize::try_from(first).unwrap_or(usize::MAX))
 }
 
 /// The components that a study analyses, each with the intensities of its pair.
@@ -160,7 +132,14 @@ fn analysis_records(pairs: Vec<CheckedPair>, study: &ResolvedStudy) -> Result<Ve
     let mut records = Vec::new();
     let mut mistakes = Vec::new();
     for (index, (pair, sums)) in pairs.into_iter().enumerate() {
-        let intensity = |measure: IntensityMeasure| measure.of_pair(&pair, study.gravity_m_s2);
+        let peaks = match study.records.intensity.peaks_of(&pair) {
+            Ok(peaks) => peaks,
+            Err(error) => {
+                mistakes.push(format!("record {}: {error}; or use records.intensity = \"geometric-mean\"", pair.id));
+                continue;
+            }
+        };
+        let intensity = |measure: IntensityMeasure| measure.of_peaks(peaks, study.gravity_m_s2);
         let (pga_g, pgv_cm_s) = (intensity(IntensityMeasure::Pga), intensity(IntensityMeasure::Pgv));
         if !(pga_g > 0.0 && pgv_cm_s > 0.0) {
             mistakes.push(format!(

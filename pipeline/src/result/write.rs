@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use uplift_motion::IntensityMeasure;
+use uplift_motion::{Combination, IntensityMeasure};
 use uplift_risk::{Ordinate, OrdinateFlag};
 
 use super::hazard::{write_branches, write_hazard};
@@ -19,7 +19,7 @@ pub fn write_result(path: &Path, outcome: &Outcome<'_>) -> Result<(), UpliftErro
     let mut writer = LabelledWriter::create(path)?;
     write_root(&mut writer, outcome)?;
     write_axes(&mut writer, outcome)?;
-    write_records(&mut writer, &outcome.records.records)?;
+    write_records(&mut writer, &outcome.records.records, outcome.study.records.intensity)?;
     write_hazard(&mut writer, outcome.hazard)?;
     for (index, plan) in outcome.study.measures.iter().enumerate() {
         write_measure(&mut writer, outcome, index, plan.measure)?;
@@ -66,7 +66,8 @@ fn write_axes(writer: &mut LabelledWriter, outcome: &Outcome<'_>) -> Result<(), 
     writer.axis_text("record", &ids, "ground motion record")?;
     writer.axis_f64("strength", &study.strengths, "1", "uplift strength f_up/(m g)")?;
     for plan in &study.measures {
-        let long_name = format!("stripe level of {}", plan.measure.long_name());
+        let intensity = study.records.intensity.long_name();
+        let long_name = format!("stripe level of {}, {intensity}", plan.measure.long_name());
         writer.axis_f64(&level_axis(plan.measure), &plan.levels, plan.measure.unit(), &long_name)?;
     }
     if study.risk.maf_surface {
@@ -85,7 +86,7 @@ pub(super) fn level_axis(measure: IntensityMeasure) -> String {
     format!("{}_level", measure.key())
 }
 
-fn write_records(writer: &mut LabelledWriter, records: &[Record]) -> Result<(), LabelledError> {
+fn write_records(writer: &mut LabelledWriter, records: &[Record], intensity: Combination) -> Result<(), LabelledError> {
     let dims = &["record"];
     let number = |key: &str| -> Vec<f64> {
         records
@@ -106,9 +107,21 @@ fn write_records(writer: &mut LabelledWriter, records: &[Record]) -> Result<(), 
     let checksum: Vec<String> = records.iter().map(|record| record.checksum.clone()).collect();
     writer.array_text("/records/checksum", dims, &checksum, "SHA-256 of the component")?;
     let pga: Vec<f64> = records.iter().map(|record| record.pga_g).collect();
-    writer.array_f64("/records/pga_g", dims, &pga, "g", "geometric mean PGA of the pair, unscaled")?;
+    writer.array_f64(
+        "/records/pga_g",
+        dims,
+        &pga,
+        "g",
+        &format!("PGA of the unscaled pair, {}", intensity.long_name()),
+    )?;
     let pgv: Vec<f64> = records.iter().map(|record| record.pgv_cm_s).collect();
-    writer.array_f64("/records/pgv_cm_s", dims, &pgv, "cm/s", "geometric mean PGV of the pair, unscaled")?;
+    writer.array_f64(
+        "/records/pgv_cm_s",
+        dims,
+        &pgv,
+        "cm/s",
+        &format!("PGV of the unscaled pair, {}", intensity.long_name()),
+    )?;
     for (name, from, to) in [("duration_5_75_s", 0.05, 0.75), ("duration_5_95_s", 0.05, 0.95)] {
         let durations: Vec<f64> =
             records.iter().map(|record| record.accelerogram.significant_duration_s(from, to)).collect();

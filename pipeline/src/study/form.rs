@@ -1,9 +1,10 @@
 //! The resolved study in the shape of a study file.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde::Serialize;
-use uplift_motion::{Component, IntensityMeasure};
+use uplift_motion::{Combination, Component, IntensityMeasure};
 
 use super::grid::Grid;
 use super::resolved::{
@@ -13,6 +14,11 @@ use super::resolved::{
 /// The words of a study file for choices, each in one place for reading and writing.
 pub(super) const COMPONENTS: [(&str, Component); 4] =
     [("h1", Component::H1), ("h2", Component::H2), ("both", Component::Both), ("random", Component::Random)];
+pub(super) const COMBINATIONS: [(&str, Combination); 3] = [
+    ("geometric-mean", Combination::GeometricMean),
+    ("rotd50", Combination::RotD50),
+    ("rotd100", Combination::RotD100),
+];
 pub(super) const CONTOURS: [(&str, Contour); 2] = [("exact", Contour::Exact), ("grid", Contour::Grid)];
 pub(super) const EXTRAPOLATIONS: [(&str, Extrapolate); 2] =
     [("refuse", Extrapolate::Refuse), ("loglog", Extrapolate::Loglog)];
@@ -49,10 +55,20 @@ struct RecordsForm<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     tag: Option<&'a str>,
     component: &'static str,
+    intensity: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     first: Option<u64>,
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    select: BTreeMap<&'static str, CriterionForm>,
     #[serde(skip_serializing_if = "Option::is_none")]
     synthetic: Option<SyntheticForm>,
+}
+
+#[derive(Serialize)]
+#[serde(untagged)]
+enum CriterionForm {
+    Range(String),
+    PulseLike(bool),
 }
 
 #[derive(Serialize)]
@@ -212,11 +228,18 @@ impl<'a> RecordsForm<'a> {
             RecordSource::Manifest { manifest, tag } => (Some(manifest.as_path()), tag.as_deref(), None),
             &RecordSource::Synthetic { pairs, seed } => (None, None, Some(SyntheticForm { pairs, seed })),
         };
+        let select = &study.records.select;
+        let ranges =
+            select.ranges.iter().map(|(criterion, range)| (criterion.key, CriterionForm::Range(range.to_string())));
+        let pulse_like = select.pulse_like.map(|truth| ("pulse_like", CriterionForm::PulseLike(truth)));
+        let select = ranges.chain(pulse_like).collect();
         Self {
             manifest,
             tag,
             component: word(&COMPONENTS, &study.records.component),
+            intensity: word(&COMBINATIONS, &study.records.intensity),
             first: study.records.first,
+            select,
             synthetic,
         }
     }

@@ -1,11 +1,12 @@
 //! The ground motions of a study: a manifest of record files, or the synthetic set.
 
-use uplift_motion::Component;
+use uplift_motion::{Combination, Component};
 
-use super::form::COMPONENTS;
+use super::form::{COMBINATIONS, COMPONENTS};
 use super::paths::Folders;
 use super::reader::{LARGEST_INTEGER, Section, optional};
 use super::resolved::{DEFAULT_SYNTHETIC_PAIRS, DEFAULT_SYNTHETIC_SEED, RecordSource, Records};
+use super::selection;
 
 /// Most synthetic pairs: beyond it memory is out of proportion.
 const MOST_PAIRS: u64 = 10_000;
@@ -15,6 +16,9 @@ pub(super) fn read(mut section: Section<'_>, folders: &Folders) -> Option<Record
     let manifest_field = section.field("manifest");
     let tag_field = section.field("tag");
     let component = section.field("component").map_or(Some(Component::H1), |field| field.choice(&COMPONENTS));
+    let intensity =
+        section.field("intensity").map_or(Some(Combination::default()), |field| field.choice(&COMBINATIONS));
+    let select = selection::read(section.section("select"));
     let first_field = section.field("first");
     let first = optional(first_field.as_ref(), |field| field.integer(1, LARGEST_INTEGER));
     let mut synthetic = section.section("synthetic");
@@ -41,5 +45,5 @@ pub(super) fn read(mut section: Section<'_>, folders: &Folders) -> Option<Record
         (|| Some(RecordSource::Synthetic { pairs: pairs?, seed: seed? }))()
     };
     section.finish();
-    Some(Records { source: source?, component: component?, first: first? })
+    Some(Records { source: source?, component: component?, intensity: intensity?, select: select?, first: first? })
 }

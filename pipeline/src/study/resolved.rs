@@ -2,10 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use uplift_motion::{Component, IntensityMeasure};
+use uplift_motion::{Combination, Component, IntensityMeasure};
 
 use super::form::Form;
 use super::grid::Grid;
+use super::selection::RecordSelection;
 
 /// Pairs of horizontal components in the synthetic record set, unless a study says otherwise.
 pub const DEFAULT_SYNTHETIC_PAIRS: u64 = 105;
@@ -65,13 +66,17 @@ impl serde::Serialize for ResolvedStudy {
 }
 
 /// Which ground motions are used.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Records {
     /// Where they come from.
     pub source: RecordSource,
     /// The component that shakes the planar oscillator.
     pub component: Component,
-    /// Use only so many records, the first; all if none.
+    /// How the peaks of the two components make the intensity of a pair.
+    pub intensity: Combination,
+    /// Which of them are used.
+    pub select: RecordSelection,
+    /// Use only so many of these records, the first; all if none.
     pub first: Option<u64>,
 }
 

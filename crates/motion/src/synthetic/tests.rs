@@ -60,7 +60,7 @@ fn embedded_set_keeps_away_from_its_rounding_boundaries() {
     parameters::tests::LEAST_MARGIN.set(0.5);
     for candidate in (0..=last).filter_map(|number| Candidate::simulate(&options, number)) {
         let mut stream = RandomStream::new(options.seed, candidate.number);
-        let scenario = Scenario::draw(&mut stream);
+        let scenario = Scenario::draw(&ScenarioRange::default(), &mut stream);
         let p = Parameters::draw(&scenario, &mut stream);
         let envelope = Envelope::new(p.ln_arias.exp(), p.d5_95_s, p.t_mid_s).unwrap();
         let steps = envelope.end_s / options.dt_s;
@@ -141,7 +141,7 @@ fn motions_meet_their_targets_on_average() {
     let mut log_ratios = [const { Vec::new() }; 3];
     for candidate in (0..200).filter_map(|number| Candidate::simulate(&options, number)) {
         let mut stream = RandomStream::new(options.seed, candidate.number);
-        let scenario = Scenario::draw(&mut stream);
+        let scenario = Scenario::draw(&ScenarioRange::default(), &mut stream);
         let target = Parameters::draw(&scenario, &mut stream);
         let pair = candidate.into_pair(&options, 1).unwrap();
         for motion in [&pair.h1, &pair.h2] {
@@ -173,8 +173,25 @@ fn components_scatter_about_their_mean_as_published() {
 }
 
 #[test]
+fn a_scenario_of_ones_own() {
+    let scenario = ScenarioRange {
+        magnitude: [6.5, 6.5],
+        rrup_km: [10.0, 20.0],
+        faulting: Some(Faulting::Reverse),
+        ..ScenarioRange::default()
+    };
+    let options = SyntheticSetOptions { pairs: 8, minimum_pga_g: 0.0, scenario, ..SyntheticSetOptions::default() };
+    for pair in generate(&options).unwrap() {
+        assert_eq!((pair.metadata["magnitude"].as_str(), pair.metadata["mechanism"].as_str()), ("6.50", "reverse"));
+        let rrup_km: f64 = pair.metadata["rrup_km"].parse().unwrap();
+        assert!((10.0..=20.0).contains(&rrup_km), "{rrup_km}");
+    }
+}
+
+#[test]
 fn refuses_options_out_of_range() {
     let good = SyntheticSetOptions::default();
+    let range = good.scenario;
     for bad in [
         SyntheticSetOptions { pairs: 0, ..good },
         SyntheticSetOptions { pairs: usize::MAX, ..good },
@@ -182,6 +199,10 @@ fn refuses_options_out_of_range() {
         SyntheticSetOptions { dt_s: 1e-9, ..good },
         SyntheticSetOptions { corner_hz: 0.0, ..good },
         SyntheticSetOptions { minimum_pga_g: f64::INFINITY, ..good },
+        SyntheticSetOptions { scenario: ScenarioRange { magnitude: [5.0, 7.0], ..range }, ..good },
+        SyntheticSetOptions { scenario: ScenarioRange { magnitude: [7.0, 6.5], ..range }, ..good },
+        SyntheticSetOptions { scenario: ScenarioRange { rrup_km: [8.0, f64::NAN], ..range }, ..good },
+        SyntheticSetOptions { scenario: ScenarioRange { vs30_m_s: [100.0, 400.0], ..range }, ..good },
     ] {
         let refused = generate(&bad);
         assert!(matches!(refused, Err(MotionError::SyntheticOption { .. })), "{bad:?}");

@@ -48,7 +48,12 @@ gravity_m_s2 = 9.81
 manifest = "manifest.csv"
 tag = "ord105"
 component = "random"
+intensity = "rotd50"
 first = 20
+[records.select]
+magnitude = "6.5:7.5"
+d5_75_s = ":20"
+pulse_like = false
 [oscillator]
 uplift_displacement_m = 1e-3
 restitution = 1

@@ -1,0 +1,98 @@
+//! `uplift records import`: from a folder of downloads to a manifest.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::{FileArguments, Session, UpliftError};
+use crate::import::{ImportOptions, Imported, Warning, import as import_folder, manifest_columns};
+use crate::result::write_table;
+
+/// Remarks of one kind that are shown.
+const SHOWN: usize = 5;
+
+#[derive(Debug, Args)]
+pub(super) struct ImportArguments {
+    /// Folder with record files, in folders of their own if you like
+    folder: PathBuf,
+    /// The manifest to write (CSV); a folder gets a manifest.csv
+    #[arg(short, long, value_name = "SET")]
+    output: PathBuf,
+    #[command(flatten)]
+    files: FileArguments,
+    /// Leave out the search for velocity pulses, which takes most of the time
+    #[arg(long)]
+    no_pulses: bool,
+}
+
+pub(super) fn import(arguments: &ImportArguments, session: &Session) -> Result<(), UpliftError> {
+    let output =
+        if arguments.output.is_dir() { arguments.output.join("manifest.csv") } else { arguments.output.clone() };
+    if output.extension().is_none_or(|extension| extension != "csv") {
+        return Err(UpliftError::Usage(format!("-o {}: give a name that ends in .csv, or a folder", output.display())));
+    }
+    if !arguments.folder.is_dir() {
+        return Err(UpliftError::input(format!("{} is not a folder", arguments.folder.display())));
+    }
+    let folder = output.parent().unwrap_or(Path::new(""));
+    if !folder.as_os_str().is_empty() && !folder.is_dir() {
+        return Err(UpliftError::input(format!("{} is not a folder: make it first", folder.display())));
+    }
+    let FileArguments { format, unit, dt_s, gravity_m_s2 } = arguments.files;
+    let options = ImportOptions { format, dt_s, unit, gravity_m_s2, pulses: !arguments.no_pulses };
+    let start = std::time::Instant::now();
+    let imported = import_folder(&arguments.folder, &options, session.quiet, &session.stop)?;
+    if !session.quiet {
+        tell(&imported);
+    }
+    if imported.pairs.is_empty() {
+        return Err(UpliftError::input(format!(
+            "no pair of horizontal components in {}: {} files read, {} components found",
+            arguments.folder.display(),
+            imported.files,
+            imported.components
+        )));
+    }
+    let line = format!("uplift {} ({}), records import, {} pairs", crate::VERSION, crate::COMMIT, imported.pairs.len());
+    write_table(&output, &line, manifest_columns(&imported.pairs, folder, &options))?;
+    let mut out = std::io::stdout().lock();
+    writeln!(
+        out,
+        "{} pairs from {} files in {:.1} s: {}",
+        imported.pairs.len(),
+        imported.files,
+        start.elapsed().as_secs_f64(),
+        output.display()
+    )?;
+    Ok(())
+}
+
+/// Remarks on standard error, those of a kind together.
+fn tell(imported: &Imported) {
+    let mut kinds: Vec<(&str, Vec<&Warning>)> = Vec::new();
+    for warning in &imported.warnings {
+        match kinds.iter_mut().find(|(kind, _)| *kind == warning.kind) {
+            Some((_, warnings)) => warnings.push(warning),
+            None => kinds.push((warning.kind, vec![warning])),
+        }
+    }
+    for (kind, warnings) in kinds {
+        eprintln!("{kind} ({}):", warnings.len());
+        show(warnings.iter().map(|warning| warning.text.as_str()), "; the manifest has them in its column warnings");
+    }
+    if !imported.passed_over.is_empty() {
+        eprintln!("not read ({}):", imported.passed_over.len());
+        show(imported.passed_over.iter().map(String::as_str), "");
+    }
+}
+
+fn show<'a>(texts: impl ExactSizeIterator<Item = &'a str>, where_else: &str) {
+    let more = texts.len().saturating_sub(SHOWN);
+    for text in texts.take(SHOWN) {
+        eprintln!("  - {text}");
+    }
+    if more > 0 {
+        eprintln!("  - and {more} more{where_else}");
+    }
+}

@@ -1,0 +1,71 @@
+//! What a pair of components measures.
+
+use uplift_motion::{
+    Accelerogram, Combination, IntensityMeasure, PulseClassification, RecordPair, classify_pulse, geometric_mean,
+    read_auto, record_bytes,
+};
+
+use super::group::Candidate;
+use super::{ImportOptions, ImportedPair, warnings};
+use crate::inputs::checksum;
+
+/// Measures of a pair; of those of single components the geometric mean.
+#[derive(Debug, Clone)]
+pub(crate) struct PairMeasures {
+    /// PGA (g) and PGV (cm/s) in every combination that can be had, in the order of [`Combination::ALL`].
+    pub(crate) peaks: Vec<Option<[f64; 2]>>,
+    /// Peak ground displacement, cm.
+    pub(crate) pgd_cm: f64,
+    /// Arias intensity, m/s.
+    pub(crate) arias_m_s: f64,
+    /// Cumulative absolute velocity, m/s.
+    pub(crate) cav_m_s: f64,
+    /// Significant durations D5-75 and D5-95, s.
+    pub(crate) durations_s: [f64; 2],
+    /// Velocity at the end as a share of the PGV, the larger one of the two components.
+    pub(crate) residual_velocity_share: f64,
+    /// The velocity pulse; none where it was not sought or cannot be judged.
+    pub(crate) pulse: Option<PulseClassification>,
+}
+
+impl PairMeasures {
+    /// Measures `pair`; `gravity_m_s2` makes g of accelerations, `pulses` tells whether a velocity pulse is sought.
+    pub(crate) fn of(pair: &RecordPair, gravity_m_s2: f64, pulses: bool) -> Self {
+        let peaks = Combination::ALL.map(|combination| {
+            let peaks = combination.peaks_of(pair).ok()?;
+            Some([IntensityMeasure::Pga, IntensityMeasure::Pgv].map(|measure| measure.of_peaks(peaks, gravity_m_s2)))
+        });
+        let mean = |of: &dyn Fn(&Accelerogram) -> f64| geometric_mean(of(&pair.h1), of(&pair.h2));
+        let residual = |motion: &Accelerogram| motion.residual_velocity_m_s().abs() / motion.pgv_m_s();
+        Self {
+            peaks: peaks.to_vec(),
+            pgd_cm: 100.0 * mean(&Accelerogram::pgd_m),
+            arias_m_s: mean(&|motion| motion.arias_intensity_m_s(gravity_m_s2)),
+            cav_m_s: mean(&Accelerogram::cumulative_absolute_velocity_m_s),
+            durations_s: [mean(&Accelerogram::d5_75_s), mean(&Accelerogram::d5_95_s)],
+            residual_velocity_share: residual(&pair.h1).max(residual(&pair.h2)),
+            pulse: if pulses { classify_pulse(&pair.h1, &pair.h2).ok() } else { None },
+        }
+    }
+}
+
+/// Reads and measures both components of a candidate.
+///
+/// # Errors
+/// A file that could be read before and no longer can, or has changed.
+pub(super) fn pair(candidate: Candidate, options: &ImportOptions) -> Result<ImportedPair, String> {
+    let read = |component: &super::Component| {
+        let bytes = record_bytes(&component.path).map_err(|error| error.to_string())?;
+        if checksum(&bytes) != component.file_sha256 {
+            return Err(format!("{}: changed while it was imported; import again", component.path.display()));
+        }
+        let name = component.path.display().to_string();
+        read_auto(&bytes, &name, &options.read_options(component.channel)).map_err(|error| error.to_string())
+    };
+    let Candidate { id, rsn: _, components, search } = candidate;
+    let [first, second] = &components;
+    let pair = RecordPair { id, h1: read(first)?, h2: read(second)?, metadata: std::collections::BTreeMap::new() };
+    let measures = PairMeasures::of(&pair, options.gravity_m_s2, options.pulses);
+    let warnings = warnings::of_pair(&pair, [&first.description, &second.description], &measures, options.gravity_m_s2);
+    Ok(ImportedPair { id: pair.id, components, measures, search, warnings })
+}

@@ -1,0 +1,154 @@
+//! The table of metadata that comes with a download from the PEER ground motion database.
+
+use std::collections::BTreeMap;
+use std::io::Cursor;
+use std::path::PathBuf;
+
+use polars::prelude::{CsvReadOptions, SerReader};
+
+use super::group::Candidate;
+use super::warnings::Warning;
+
+/// What a search result says about a record.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Entry {
+    pub(super) event: Option<String>,
+    pub(super) year: Option<String>,
+    pub(super) station: Option<String>,
+    pub(super) magnitude: Option<String>,
+    pub(super) mechanism: Option<String>,
+    pub(super) rjb_km: Option<String>,
+    pub(super) rrup_km: Option<String>,
+    pub(super) vs30: Option<String>,
+    pub(super) lowest_usable_hz: Option<String>,
+    /// File names of the two horizontal components.
+    pub(super) files: [Option<String>; 2],
+}
+
+/// Search results by record sequence number.
+#[derive(Debug, Clone, Default)]
+pub(super) struct SearchResults {
+    entries: BTreeMap<u64, Entry>,
+}
+
+impl SearchResults {
+    /// Reads `files`; one that cannot be read is a warning.
+    pub(super) fn read(files: &[PathBuf], warnings: &mut Vec<Warning>) -> Self {
+        let mut results = Self::default();
+        for path in files {
+            let parsed = std::fs::read(path)
+                .map_err(|error| error.to_string())
+                .and_then(|bytes| parse(&String::from_utf8_lossy(&bytes)));
+            match parsed {
+                Ok(entries) => results.entries.extend(entries),
+                Err(reason) => warnings
+                    .push(Warning { kind: "search results", text: format!("{}: of no use: {reason}", path.display()) }),
+            }
+        }
+        results
+    }
+
+    /// What is said about the record of this sequence number.
+    pub(super) fn of(&self, rsn: Option<u64>) -> Option<&Entry> {
+        self.entries.get(&rsn?)
+    }
+
+    /// A warning where records of the search are not among the `candidates`.
+    pub(super) fn missing(&self, candidates: &[Candidate]) -> Option<Warning> {
+        let found: std::collections::BTreeSet<u64> = candidates.iter().filter_map(|candidate| candidate.rsn).collect();
+        let missing: Vec<String> =
+            self.entries.keys().filter(|rsn| !found.contains(rsn)).map(|rsn| format!("RSN{rsn}")).collect();
+        let shown = missing.iter().take(10).cloned().collect::<Vec<_>>().join(", ");
+        let more = if missing.len() > 10 { ", …" } else { "" };
+        (!missing.is_empty()).then(|| {
+            let (lacking, all) = (missing.len(), self.entries.len());
+            let text = format!("{lacking} of {all} records of the search have no pair of files here: {shown}{more}");
+            Warning { kind: "search results", text }
+        })
+    }
+}
+
+/// A column name in small letters without blanks and signs: "rrupkm".
+fn plain(name: &str) -> String {
+    name.chars().filter(char::is_ascii_alphanumeric).collect::<String>().to_lowercase()
+}
+
+/// The entries of a file: a title and remarks, the table, then tables of spectra, parted by empty lines.
+fn parse(text: &str) -> Result<BTreeMap<u64, Entry>, String> {
+    let unified = text.trim_start_matches('\u{feff}').replace("\r\n", "\n").replace('\r', "\n");
+    let table: Vec<&str> = unified
+        .lines()
+        .skip_while(|line| !plain(line).contains("recordsequencenumber"))
+        .take_while(|line| !line.trim_matches([',', ' ', '\t']).is_empty())
+        .collect();
+    if table.is_empty() {
+        return Err("no column \"Record Sequence Number\"".to_owned());
+    }
+    let table = CsvReadOptions::default()
+        .with_has_header(true)
+        .with_infer_schema_length(Some(0))
+        .into_reader_with_file_handle(Cursor::new(table.join("\n").into_bytes()))
+        .finish()
+        .map_err(|error| error.to_string())?;
+    let column = |names: &[&str]| {
+        table.columns().iter().find(|column| {
+            let found = plain(column.name());
+            names.iter().any(|name| found.starts_with(name))
+        })
+    };
+    let rsn = column(&["recordsequencenumber"]);
+    let columns = [
+        &["earthquakename"][..],
+        &["year"],
+        &["stationname"],
+        &["magnitude", "earthquakemagnitude"],
+        &["mechanism"],
+        &["rjb", "joynerboore"],
+        &["rrup", "clstd"],
+        &["vs30"],
+        &["lowestuse", "lowestusable"],
+        &["horizontal1acc"],
+        &["horizontal2acc"],
+    ]
+    .map(column);
+    let mut entries = BTreeMap::new();
+    for row in 0..table.height() {
+        let cell = |column: Option<&polars::prelude::Column>| {
+            let text = column?.str().ok()?.get(row)?.trim();
+            (!text.is_empty() && !text.starts_with("---") && text != "-999").then(|| text.to_owned())
+        };
+        let Some(rsn) = cell(rsn).and_then(|text| text.parse::<u64>().ok()) else { continue };
+        let [event, year, station, magnitude, mechanism, rjb_km, rrup_km, vs30, lowest_usable_hz, h1, h2] =
+            columns.map(cell);
+        let files = [h1, h2];
+        let entry =
+            Entry { event, year, station, magnitude, mechanism, rjb_km, rrup_km, vs30, lowest_usable_hz, files };
+        entries.insert(rsn, entry);
+    }
+    Ok(entries)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn the_table_among_others() {
+        let text = "A title\r\n\r\n -- Summary --\r\nResult ID, Spectral Ordinate, Record Sequence Number, Earthquake Name, Year, \
+             Station Name, Magnitude, Mechanism, Rjb (km), Rrup (km), Vs30 (m/sec), Lowest Useable Frequency (Hz), \
+             Horizontal-1 Acc. Filename, Horizontal-2 Acc. Filename, Vertical Acc. Filename\r\n\
+             1,SRSS,12,\"Some, Where\",1990,Station A,6.5,strike slip,10.1,11.2,450.0,0.25, RSN12_A_000.AT2, RSN12_A_090.AT2,---\r\n\
+             2,SRSS,13,Else,1991,Station B,7.0,reverse,-999,21.2,,0.1,x,y,z\r\n\r\n -- Spectra --\r\nPeriod, RSN-12\r\n0.01,0.2\r\n";
+        let entries = parse(text).unwrap();
+        assert_eq!(entries.len(), 2);
+        let first = &entries[&12];
+        assert_eq!(first.event.as_deref(), Some("Some, Where"));
+        assert_eq!(first.rrup_km.as_deref(), Some("11.2"));
+        assert_eq!(first.vs30.as_deref(), Some("450.0"));
+        assert_eq!(first.lowest_usable_hz.as_deref(), Some("0.25"));
+        assert_eq!(first.files, [Some("RSN12_A_000.AT2".to_owned()), Some("RSN12_A_090.AT2".to_owned())]);
+        assert_eq!((entries[&13].vs30.clone(), entries[&13].rjb_km.clone()), (None, None));
+        assert!(parse("no table").is_err());
+    }
+}

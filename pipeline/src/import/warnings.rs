@@ -1,0 +1,117 @@
+//! What deserves a look before a record is trusted.
+
+use uplift_motion::{Accelerogram, Orientation, RecordPair, RecordingDescription};
+
+use super::measured::PairMeasures;
+
+/// A remark about a record or a file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Warning {
+    /// What kind of thing it is, in a few words; remarks of a kind are shown together.
+    pub kind: &'static str,
+    /// The remark, with the name of the record or file first.
+    pub text: String,
+}
+
+/// Velocity at the end that a sound baseline does not leave, as a share of the PGV.
+const ODD_RESIDUAL_SHARE: f64 = 0.1;
+/// How far sampling rates are whole numbers, relative.
+const WHOLE_RATE: f64 = 1e-4;
+/// How far the peak of a file may be from what its head states, relative: heads print three digits.
+const STATED_PEAK: f64 = 0.02;
+/// How far two components may be from a right angle, degrees.
+const RIGHT_ANGLE_DEG: f64 = 5.0;
+/// Peaks beyond which the unit is probably not what it is taken for, g.
+const USUAL_PGA_G: [f64; 2] = [1e-6, 3.0];
+
+/// Remarks about `pair`, whose files say the `descriptions` of its components; `gravity_m_s2` as in its `measures`.
+pub(crate) fn of_pair(
+    pair: &RecordPair,
+    descriptions: [&RecordingDescription; 2],
+    measures: &PairMeasures,
+    gravity_m_s2: f64,
+) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    let mut add = |kind: &'static str, text: String| {
+        warnings.push(Warning { kind, text: format!("{}: {text}", pair.id) });
+    };
+    let motions = [&pair.h1, &pair.h2];
+    synchronisation(motions, descriptions, &mut add);
+    if let [Some(Orientation::Azimuth(a)), Some(Orientation::Azimuth(b))] = descriptions.map(|d| d.orientation) {
+        let angle = (a - b).rem_euclid(180.0);
+        if (angle - 90.0).abs() > RIGHT_ANGLE_DEG {
+            add("not at right angles", format!("its components point to {a}° and {b}°, not at right angles"));
+        }
+    }
+    if descriptions.iter().any(|description| description.unprocessed) {
+        add("unprocessed", "raw data without filter or baseline correction; the program does neither".to_owned());
+    }
+    if measures.residual_velocity_share > ODD_RESIDUAL_SHARE {
+        let share = 100.0 * measures.residual_velocity_share;
+        add("odd baseline", format!("a velocity of {share:.0} % of the PGV is left at the end: its baseline is odd"));
+    }
+    for (motion, description) in motions.iter().zip(descriptions) {
+        let pga_g = motion.pga_m_s2() / gravity_m_s2;
+        if !(USUAL_PGA_G[0]..USUAL_PGA_G[1]).contains(&pga_g) {
+            add("unusual peak", format!("a component has a PGA of {pga_g:.3e} g; is its unit right?"));
+        }
+        if let Some(stated) = description.stated_pga_m_s2.filter(|stated| stated.abs() > 0.0) {
+            let found = motion.pga_m_s2();
+            if (found / stated.abs() - 1.0).abs() > STATED_PEAK {
+                add(
+                    "peak differs",
+                    format!("its head states a PGA of {:.4} m/s2, the samples have {found:.4} m/s2", stated.abs()),
+                );
+            }
+        }
+        let rate = 1.0 / motion.dt_s();
+        if (rate - rate.round()).abs() > WHOLE_RATE * rate {
+            add(
+                "rounded time step",
+                format!(
+                    "a time step of {} s makes no whole number of samples a second and is probably rounded, by up to {:.1} %: look up the sampling rate",
+                    motion.dt_s(),
+                    100.0 * last_digit(motion.dt_s()) / motion.dt_s()
+                ),
+            );
+        }
+    }
+    warnings.dedup();
+    warnings
+}
+
+/// One unit in the last digit that a number is written with.
+fn last_digit(value: f64) -> f64 {
+    let text = value.to_string();
+    let decimals = text.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+    10_f64.powi(-i32::try_from(decimals).unwrap_or(i32::MAX))
+}
+
+fn synchronisation(
+    [h1, h2]: [&Accelerogram; 2],
+    [one, other]: [&RecordingDescription; 2],
+    add: &mut impl FnMut(&'static str, String),
+) {
+    const KIND: &str = "not synchronised";
+    if h1.dt_s() != h2.dt_s() {
+        add(KIND, format!("its components have time steps of {} s and {} s", h1.dt_s(), h2.dt_s()));
+    }
+    if let (Some(start), Some(other_start)) = (one.start_time_s, other.start_time_s) {
+        let apart_s = (start - other_start).abs();
+        if apart_s > 0.5 * h1.dt_s() {
+            add(
+                KIND,
+                format!("its components begin {apart_s:.3} s apart; measures over all directions would be wrong"),
+            );
+        }
+    } else if h1.len() != h2.len() {
+        add(
+            KIND,
+            format!(
+                "its components have {} and {} points, and no start times: they may not be synchronised, which measures over all directions need",
+                h1.len(),
+                h2.len()
+            ),
+        );
+    }
+}
