@@ -4,6 +4,7 @@ mod bootstrap;
 mod check;
 mod confidence;
 mod export;
+mod hazard;
 mod influence;
 mod measures;
 mod plot;
@@ -60,6 +61,8 @@ enum Command {
     Measures(measures::MeasuresArguments),
     /// Bring record files: import a folder, list, show, choose, synthesize
     Records(records::RecordsArguments),
+    /// Bring hazard curves: take them from OpenQuake or USGS exports, show, draw
+    Hazard(hazard::HazardArguments),
     /// Draw the figures of a result
     Plot(plot::PlotArguments),
     /// Write one page with everything, to hand over: HTML that needs no network
@@ -128,6 +131,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), UpliftError> {
         Command::Influence(arguments) => influence::influence(arguments, &session),
         Command::Measures(arguments) => measures::measures(arguments, &session),
         Command::Records(arguments) => records::records(arguments, &session),
+        Command::Hazard(arguments) => hazard::hazard(arguments, &session),
         Command::Plot(arguments) => plot::plot(arguments, &session),
         Command::Report(arguments) => report::report(arguments, &session),
         Command::Export(arguments) => export::export(arguments, &session),

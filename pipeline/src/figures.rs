@@ -9,6 +9,7 @@ mod predictors;
 mod spectra;
 
 pub use history::history_figure;
+pub use spectra::hazard_figure;
 
 use crate::error::UpliftError;
 use crate::labelled::LabelledReader;

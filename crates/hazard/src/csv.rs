@@ -10,7 +10,7 @@ use crate::error::{HazardError, Place};
 use crate::input;
 use crate::rates::{AnnualRates, Row, annual_rates};
 use crate::text::{excerpt, number};
-use crate::unit::same_unit;
+use crate::unit::{Unit, same_unit};
 
 /// Largest file that [`read_path`] takes, unpacked, bytes: a hazard curve has some kilobytes.
 pub const MAX_FILE_BYTES: u64 = 4 << 20;
@@ -23,6 +23,37 @@ pub struct Declared {
     /// Unit of the levels, e.g. "cm/s".
     pub unit: String,
 }
+
+impl Declared {
+    /// What the comment lines and column names of a table say about its first column; none where they do not name both
+    /// measure and unit.
+    pub fn in_table(text: &str) -> Option<Self> {
+        let (mut measure, mut unit) = (None, None);
+        for line in text.trim_start_matches('\u{feff}').lines().take(LONGEST_HEAD) {
+            let line = line.trim().trim_start_matches('"');
+            let found = match line.strip_prefix('#') {
+                Some(comment) => vec![declaration::comment(comment)],
+                None => line
+                    .split([',', ';', '\t'])
+                    .filter_map(|field| match declaration::column(field.trim().trim_matches('"'), "") {
+                        Some(Column::Intensity(found)) => Some(found),
+                        _ => None,
+                    })
+                    .collect(),
+            };
+            for found in found {
+                measure = measure.or(found.measure);
+                unit = unit.or(found.unit);
+            }
+        }
+        let unit = unit?;
+        let unit = Unit::parse(&unit).map_or(unit, |known| known.name().to_owned());
+        Some(Self { measure: measure?.to_uppercase(), unit })
+    }
+}
+
+/// Lines among which a table says what it holds.
+const LONGEST_HEAD: usize = 50;
 
 /// How to read a table.
 #[derive(Debug, Clone, PartialEq)]

@@ -123,6 +123,37 @@ impl HazardCurve {
         Self { component, ..self }
     }
 
+    /// The curve of another definition of the measure, `to`: every level is multiplied by `factor`, the ratio of the
+    /// measure by `to` over the measure by the definition of this curve.
+    ///
+    /// # Errors
+    /// [`HazardError::Argument`] for a factor that is not finite and above 0; the errors of [`HazardCurve::new`] where
+    /// rounding makes levels collapse.
+    pub fn converted(&self, factor: f64, to: ComponentDefinition) -> Result<Self, HazardError> {
+        if !(factor.is_finite() && factor > 0.0) {
+            let (what, must_be) = ("conversion factor", "a finite number above 0");
+            return Err(HazardError::Argument { what, value: factor, must_be });
+        }
+        let im = self.im.iter().map(|level| level * factor).collect();
+        let curve = Self::new(self.measure.clone(), self.unit.clone(), self.source.clone(), im, self.maf.clone())?;
+        Ok(curve.with_component(Some(to)))
+    }
+
+    /// The curve as the text that [`read_csv`](crate::read_csv) reads back to the bit, the lines of `remarks` first as
+    /// comments.
+    pub fn to_csv(&self, remarks: &[String]) -> String {
+        let component = self.component.map_or_else(String::new, |component| format!("; component: {component}"));
+        let mut text = String::new();
+        for line in remarks.iter().flat_map(|remark| remark.lines()) {
+            text.push_str(&format!("# {line}\n"));
+        }
+        text.push_str(&format!("# IM: {} [{}]{component}\niml,maf\n", self.measure, self.unit));
+        for HazardPoint { im, maf } in self.points() {
+            text.push_str(&format!("{im},{maf:e}\n"));
+        }
+        text
+    }
+
     /// Intensity levels, strictly increasing, in [`HazardCurve::unit`].
     pub fn im(&self) -> &[f64] {
         &self.im

@@ -4,7 +4,9 @@
 use std::io::Write;
 use std::path::Path;
 
-use uplift_hazard::{ComponentDefinition, CsvCurve, CsvOptions, HazardError, SecondColumn, read_csv, read_path};
+use uplift_hazard::{
+    ComponentDefinition, CsvCurve, CsvOptions, Declared, HazardCurve, HazardError, SecondColumn, read_csv, read_path,
+};
 
 fn read(text: &str) -> Result<CsvCurve, HazardError> {
     read_csv(text, "site.csv", &CsvOptions::new("PGV", "cm/s"))
@@ -215,4 +217,34 @@ fn files_packed_with_gzip() {
     assert!(read_path(&path, &options).unwrap_err().to_string().contains("larger than 4194304 bytes"));
     std::fs::write(&path, b"\x1f\x8b\x08").unwrap();
     assert!(read_path(&path, &options).unwrap_err().to_string().contains("cannot be read"));
+}
+
+#[test]
+fn what_a_table_says_of_itself() {
+    let declared = |text: &str| Declared::in_table(text).map(|found| (found.measure, found.unit));
+    let pgv = || Some(("PGV".to_owned(), "cm/s".to_owned()));
+    assert_eq!(declared("# IM: PGV [cm/s], geometric mean\niml,maf\n1,2\n"), pgv());
+    assert_eq!(declared("pgv_cm_s;maf\n1;2\n"), pgv());
+    assert_eq!(declared("\u{feff}PGV [cm/s],poe\n1,2\n"), pgv());
+    assert_eq!(declared("iml,maf\n1,0.2\n"), None);
+    assert_eq!(declared("# IM: PGV\niml,maf\n1,0.2\n"), None);
+    assert_eq!(declared(""), None);
+}
+
+#[test]
+fn what_is_written_is_read_to_the_bit() {
+    let levels: Vec<f64> = (1..40).map(|i| f64::from(i) / 3.0).collect();
+    let rates: Vec<f64> = levels.iter().map(|x| 0.1 / (x * x)).collect();
+    let curve =
+        HazardCurve::new("PGV", "cm/s", "x", levels, rates).unwrap().with_component(Some(ComponentDefinition::RotD50));
+    let text = curve.to_csv(&["site: A; somewhere".to_owned(), "two\nlines".to_owned()]);
+    let read = read_csv(&text, "written", &CsvOptions::new("PGV", "cm/s")).unwrap().curve;
+    assert_eq!((read.im(), read.maf(), read.component()), (curve.im(), curve.maf(), curve.component()));
+    assert_eq!(read.source(), "site: A; somewhere\ntwo\nlines\nIM: PGV [cm/s]; component: RotD50");
+    // Levels of RotD100 are those of RotD50 times a ratio, at the same rates.
+    let converted = read.converted(1.2, ComponentDefinition::RotD100).unwrap();
+    assert_eq!(converted.im()[0], curve.im()[0] * 1.2);
+    assert_eq!(converted.maf(), curve.maf());
+    assert_eq!(converted.component(), Some(ComponentDefinition::RotD100));
+    assert!(read.converted(0.0, ComponentDefinition::RotD100).is_err());
 }

@@ -157,7 +157,7 @@ impl SetArguments {
 }
 
 /// A path that must not be one of the inputs.
-fn refuse_overwriting(output: &Path, inputs: &[&Path]) -> Result<(), UpliftError> {
+pub(super) fn refuse_overwriting(output: &Path, inputs: &[&Path]) -> Result<(), UpliftError> {
     let same = |input: &&&Path| matches!((output.canonicalize(), input.canonicalize()), (Ok(a), Ok(b)) if a == b);
     match inputs.iter().find(same) {
         Some(_) => {

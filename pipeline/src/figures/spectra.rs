@@ -5,7 +5,10 @@ use crate::error::UpliftError;
 use crate::plot::{Axis, Figure, Marks, Panel, Series, Tone};
 use crate::result::StoredResult;
 use crate::table::per_cent;
+use uplift_hazard::HazardCurve;
 use uplift_regression::Exponential;
+
+const RATE: &str = "mean annual frequency, 1/yr";
 
 pub(super) fn hazard(source: &FigureSource) -> Result<Option<Figure>, UpliftError> {
     let stored = &source.stored;
@@ -22,13 +25,41 @@ pub(super) fn hazard(source: &FigureSource) -> Result<Option<Figure>, UpliftErro
         panels.push(Panel {
             title: String::new(),
             x: Axis::log(format!("{}, {}", measure.label(), measure.unit())),
-            y: Axis::log("mean annual frequency, 1/yr"),
+            y: Axis::log(RATE),
             bands: Vec::new(),
             series,
         });
     }
     let caption = "Mean annual frequency of exceeding a level of the intensity measure, as used (Fig. 4.5b, c).";
     Ok(Some(source.figure("hazard", "Hazard curves", caption, panels)))
+}
+
+/// Curves from files, a panel for each measure and unit.
+pub fn hazard_figure(curves: &[(String, HazardCurve)]) -> Figure {
+    let mut panels: Vec<Panel> = Vec::new();
+    for (index, (name, curve)) in curves.iter().enumerate() {
+        let label = format!("{}, {}", curve.measure(), curve.unit());
+        let points = curve.points().map(|point| (point.im, point.maf)).collect();
+        let series = Series::line(name, points, Tone::Distinct(index));
+        match panels.iter_mut().find(|panel| panel.x.label == label) {
+            Some(panel) => panel.series.push(series),
+            None => panels.push(Panel {
+                title: String::new(),
+                x: Axis::log(label),
+                y: Axis::log(RATE),
+                bands: Vec::new(),
+                series: vec![series],
+            }),
+        }
+    }
+    Figure {
+        id: "hazard".to_owned(),
+        title: "Hazard curves".to_owned(),
+        caption: "Mean annual frequency of exceeding a level of the intensity measure.".to_owned(),
+        remark: String::new(),
+        columns: panels.len().min(2),
+        panels,
+    }
 }
 
 pub(super) fn spectra(source: &FigureSource) -> Vec<Figure> {

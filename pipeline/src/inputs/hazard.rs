@@ -8,7 +8,7 @@ use uplift_risk::StripeWeights;
 
 use super::checksum;
 use crate::error::UpliftError;
-use crate::study::{CurveFile, CurveKind, Extrapolate, MeasurePlan, ResolvedStudy};
+use crate::study::{CurveFile, CurveKind, Extrapolate, MeasurePlan, ResolvedStudy, definition_of};
 
 /// The hazard of one site in one measure.
 #[derive(Debug, Clone)]
@@ -54,17 +54,26 @@ pub struct BranchHazard {
 pub fn read_hazard(study: &ResolvedStudy) -> Result<(Vec<Vec<SiteHazard>>, Vec<String>), UpliftError> {
     let mut mistakes = Vec::new();
     let mut notes = Vec::new();
+    let mut undefined = Vec::new();
     let mut all = Vec::new();
     for plan in &study.measures {
         let mut sites = Vec::new();
         for site in &study.sites {
             let Some(file) = site.curve(plan.measure) else { continue };
-            let mut reader =
-                SiteReader { site: &site.name, file, plan, study, notes: &mut notes, mistakes: &mut mistakes };
+            let (notes, undefined, mistakes) = (&mut notes, &mut undefined, &mut mistakes);
+            let mut reader = SiteReader { site: &site.name, file, plan, study, notes, undefined, mistakes };
             sites.extend(reader.read());
         }
         all.push(sites);
     }
+    notes.extend(undefined.first().map(|first| {
+        format!(
+            "{} hazard curve(s) do not say how horizontal components are combined ({first}{}): taken as {}; say it with [hazard] component",
+            undefined.len(),
+            if undefined.len() > 1 { ", …" } else { "" },
+            definition_of(study.records.intensity)
+        )
+    }));
     if mistakes.is_empty() { Ok((all, notes)) } else { Err(UpliftError::Inputs(mistakes)) }
 }
 
@@ -102,6 +111,8 @@ struct SiteReader<'a> {
     plan: &'a MeasurePlan,
     study: &'a ResolvedStudy,
     notes: &'a mut Vec<String>,
+    /// Curves that do not say which definition of the measure they are of.
+    undefined: &'a mut Vec<String>,
     mistakes: &'a mut Vec<String>,
 }
 
@@ -175,6 +186,7 @@ impl SiteReader<'_> {
             }
         }
         let curve = read.curve.in_field_units(self.study.gravity_m_s2).map_err(|error| error.to_string())?;
+        let curve = self.of_the_records_definition(curve, path)?;
         self.notes
             .extend(implausible(&curve, self.plan.measure).map(|doubt| {
                 format!("site {}, {}: {}: {doubt}", self.site, self.plan.measure.label(), path.display())
@@ -182,6 +194,27 @@ impl SiteReader<'_> {
         let weights = self.weights(&curve, &path.display().to_string())?;
         let bytes = std::fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
         Ok(HazardInput { file: Some(path.to_owned()), checksum: checksum(&bytes), curve, weights })
+    }
+
+    /// The curve for the definition of the measure that the records are combined by.
+    fn of_the_records_definition(&mut self, curve: HazardCurve, path: &Path) -> Result<HazardCurve, String> {
+        let (hazard, measure) = (&self.study.hazard, self.plan.measure);
+        let wanted = definition_of(self.study.records.intensity);
+        let Some(own) = curve.component().or(hazard.component) else {
+            self.undefined.push(format!("{}, {}", self.site, measure.label()));
+            return Ok(curve);
+        };
+        if own == wanted {
+            return Ok(curve);
+        }
+        let Some(factor) = hazard.factor(own, measure) else {
+            let key = measure.key();
+            return Err(format!(
+                "{}: the curve is of the {own}, and the records are measured by the {wanted}: take a curve of the same definition, another records.intensity, or declare what the levels are multiplied by, for instance [hazard] conversions = [{{ from = \"{own}\", {key} = 1.0 }}]",
+                path.display()
+            ));
+        };
+        curve.converted(factor, wanted).map_err(|error| format!("{}: {error}", path.display()))
     }
 
     fn weights(&self, curve: &HazardCurve, name: &str) -> Result<StripeWeights, String> {

@@ -4,9 +4,11 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde::Serialize;
+use uplift_hazard::ComponentDefinition;
 use uplift_motion::{Combination, Component, IntensityMeasure};
 
 use super::grid::Grid;
+use super::hazard::Hazard;
 use super::resolved::{
     Contour, CurveFile, CurveKind, Extrapolate, IntervalKind, RecordSource, ResolvedStudy, Uplifted,
 };
@@ -18,6 +20,14 @@ pub(super) const COMBINATIONS: [(&str, Combination); 3] = [
     ("geometric-mean", Combination::GeometricMean),
     ("rotd50", Combination::RotD50),
     ("rotd100", Combination::RotD100),
+];
+pub(super) const DEFINITIONS: [(&str, ComponentDefinition); 6] = [
+    ("geometric mean", ComponentDefinition::GeometricMean),
+    ("GMRotI50", ComponentDefinition::GmRotI50),
+    ("RotD50", ComponentDefinition::RotD50),
+    ("RotD100", ComponentDefinition::RotD100),
+    ("larger", ComponentDefinition::Larger),
+    ("arbitrary", ComponentDefinition::Arbitrary),
 ];
 pub(super) const CONTOURS: [(&str, Contour); 2] = [("exact", Contour::Exact), ("grid", Contour::Grid)];
 pub(super) const EXTRAPOLATIONS: [(&str, Extrapolate); 2] =
@@ -42,6 +52,8 @@ pub(super) struct Form<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     pga: Option<PgaForm<'a>>,
     risk: RiskForm<'a>,
+    #[serde(skip_serializing_if = "HazardForm::is_empty")]
+    hazard: HazardForm,
     sites: Vec<SiteForm<'a>>,
     regression: RegressionForm,
     bootstrap: BootstrapForm<'a>,
@@ -111,6 +123,21 @@ struct RiskForm<'a> {
     thresholds_m: &'a Grid,
     maf_surface: bool,
     extrapolate: &'static str,
+}
+
+#[derive(Serialize)]
+struct HazardForm {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    component: Option<&'static str>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    conversions: Vec<ConversionForm>,
+}
+
+#[derive(Serialize)]
+struct ConversionForm {
+    from: &'static str,
+    #[serde(flatten)]
+    factors: BTreeMap<&'static str, f64>,
 }
 
 #[derive(Serialize)]
@@ -201,6 +228,7 @@ impl<'a> Form<'a> {
                 maf_surface: study.risk.maf_surface,
                 extrapolate: word(&EXTRAPOLATIONS, &study.risk.extrapolate),
             },
+            hazard: HazardForm::of(&study.hazard),
             sites: (study.sites.iter())
                 .map(|site| SiteForm {
                     name: &site.name,
@@ -242,6 +270,23 @@ impl<'a> RecordsForm<'a> {
             select,
             synthetic,
         }
+    }
+}
+
+impl HazardForm {
+    fn of(hazard: &Hazard) -> Self {
+        let conversions = hazard.conversions.iter().map(|conversion| ConversionForm {
+            from: word(&DEFINITIONS, &conversion.from),
+            factors: conversion.factors.iter().map(|&(measure, factor)| (measure.key(), factor)).collect(),
+        });
+        Self {
+            component: hazard.component.as_ref().map(|component| word(&DEFINITIONS, component)),
+            conversions: conversions.collect(),
+        }
+    }
+
+    fn is_empty(&self) -> bool {
+        self.component.is_none() && self.conversions.is_empty()
     }
 }
 

@@ -7,6 +7,7 @@ use uplift_motion::STANDARD_GRAVITY_M_S2;
 use super::bootstrap;
 use super::form::{CONTOURS, EXTRAPOLATIONS};
 use super::grid::{Grid, GridRule};
+use super::hazard;
 use super::measures;
 use super::paths::{Folders, tidy};
 use super::reader::{ABOVE_ZERO, Field, Ledger, PROBABILITY, Section, ZERO_OR_MORE, ZERO_TO_ONE, optional, quantity};
@@ -42,6 +43,7 @@ pub(super) fn study(
     let switched_on = measures::switched_on(&mut root);
     let measures = measures::read(&mut root, ledger);
     let risk = risk(root.section("risk"), ledger);
+    let hazard = hazard::read(root.section("hazard"));
     let sites = sites::read(root.field("sites"), &switched_on, folders);
     let regression = regression(root.section("regression"));
     let bootstrap = bootstrap::read(root.section("bootstrap"));
@@ -63,6 +65,7 @@ pub(super) fn study(
         strengths: strengths?,
         measures: measures?,
         risk: risk?,
+        hazard: hazard?,
         sites: sites?,
         regression: regression?,
         bootstrap: bootstrap?,

@@ -6,6 +6,7 @@ use uplift_motion::{Combination, Component, IntensityMeasure};
 
 use super::form::Form;
 use super::grid::Grid;
+use super::hazard::Hazard;
 use super::selection::RecordSelection;
 
 /// Pairs of horizontal components in the synthetic record set, unless a study says otherwise.
@@ -35,6 +36,8 @@ pub struct ResolvedStudy {
     pub measures: Vec<MeasurePlan>,
     /// Probabilities, and how the spectrum is read from the risk integral.
     pub risk: Risk,
+    /// What the hazard curves have in common.
+    pub hazard: Hazard,
     /// Sites; each has a curve of each measure in `measures`.
     pub sites: Vec<Site>,
     /// The fit of Eq. 4.11.
