@@ -40,7 +40,7 @@ mod tests;
 
 pub use error::{Place, StudyError, StudyMistake};
 pub use grid::Grid;
-pub use hazard::{Conversion, Hazard, definition_of};
+pub use hazard::{Conversion, Hazard, definition_of, definition_word};
 pub use notation::MOST_GRID_VALUES;
 pub use resolved::{
     Bootstrap, Branch, Contour, CurveFile, CurveKind, CurveUnit, DEFAULT_SYNTHETIC_PAIRS, DEFAULT_SYNTHETIC_SEED,

@@ -1,5 +1,7 @@
 //! The hazard curve as a value.
 
+use std::fmt::Write as _;
+
 use crate::component::ComponentDefinition;
 use crate::error::{HazardError, Place};
 use crate::unit::{Dimension, Unit, same_unit};
@@ -144,12 +146,13 @@ impl HazardCurve {
     pub fn to_csv(&self, remarks: &[String]) -> String {
         let component = self.component.map_or_else(String::new, |component| format!("; component: {component}"));
         let mut text = String::new();
+        // a String takes everything
         for line in remarks.iter().flat_map(|remark| remark.lines()) {
-            text.push_str(&format!("# {line}\n"));
+            let _ = writeln!(text, "# {line}");
         }
-        text.push_str(&format!("# IM: {} [{}]{component}\niml,maf\n", self.measure, self.unit));
+        let _ = writeln!(text, "# IM: {} [{}]{component}\niml,maf", self.measure, self.unit);
         for HazardPoint { im, maf } in self.points() {
-            text.push_str(&format!("{im},{maf:e}\n"));
+            let _ = writeln!(text, "{im},{maf:e}");
         }
         text
     }

@@ -64,23 +64,19 @@ impl Combination {
     /// [`MotionError::UnequalTimeSteps`] for a rotated measure where the components have different
     /// time steps.
     pub fn peaks_of(self, pair: &RecordPair) -> Result<Peaks, MotionError> {
-        let RecordPair { h1, h2, .. } = pair;
-        let of = |combine: fn(&[Vec<f64>; 2]) -> f64| -> Result<Peaks, MotionError> {
-            let ([a1, v1], [a2, v2]) = together(pair)?;
-            Ok(Peaks { pga_m_s2: combine(&[a1, a2]), pgv_m_s: combine(&[v1, v2]) })
-        };
         match self {
-            Self::GeometricMean => Ok(Peaks {
-                pga_m_s2: geometric_mean(h1.pga_m_s2(), h2.pga_m_s2()),
-                pgv_m_s: geometric_mean(h1.pgv_m_s(), h2.pgv_m_s()),
-            }),
-            Self::RotD50 => of(|components| {
-                let mut peaks = rotated_peaks(components);
-                peaks.sort_unstable_by(f64::total_cmp);
-                0.5 * (peaks[DIRECTIONS / 2 - 1] + peaks[DIRECTIONS / 2])
-            }),
-            Self::RotD100 => of(|components| rotated_peaks(components).into_iter().fold(0.0, f64::max)),
+            Self::GeometricMean => Ok(geometric_mean_of(pair)),
+            Self::RotD50 => Rotated::of(pair).map(|rotated| rotated.median()),
+            Self::RotD100 => Rotated::of(pair).map(|rotated| rotated.largest()),
         }
+    }
+
+    /// Peaks of `pair` in every combination, in the order of [`Combination::ALL`]; none where the time
+    /// steps differ.
+    pub fn all_peaks_of(pair: &RecordPair) -> [Option<Peaks>; 3] {
+        let rotated = Rotated::of(pair).ok();
+        let of_rotated = |peaks: fn(&Rotated) -> Peaks| rotated.as_ref().map(peaks);
+        [Some(geometric_mean_of(pair)), of_rotated(Rotated::median), of_rotated(Rotated::largest)]
     }
 }
 
@@ -113,56 +109,85 @@ pub struct Peaks {
     pub pgv_m_s: f64,
 }
 
+fn geometric_mean_of(RecordPair { h1, h2, .. }: &RecordPair) -> Peaks {
+    Peaks {
+        pga_m_s2: geometric_mean(h1.pga_m_s2(), h2.pga_m_s2()),
+        pgv_m_s: geometric_mean(h1.pgv_m_s(), h2.pgv_m_s()),
+    }
+}
+
 /// Directions, one a degree; the motion in the opposite direction has the same peak.
 const DIRECTIONS: usize = 180;
 
-/// Acceleration and velocity of both components, of equal length.
-type History = [Vec<f64>; 2];
+/// Peaks in every direction, in ascending order.
+struct Rotated {
+    acceleration_m_s2: Vec<f64>,
+    velocity_m_s: Vec<f64>,
+}
 
-fn together(pair: &RecordPair) -> Result<(History, History), MotionError> {
-    let (h1_s, h2_s) = (pair.h1.dt_s(), pair.h2.dt_s());
-    if h1_s != h2_s {
-        return Err(MotionError::UnequalTimeSteps { h1_s, h2_s });
+impl Rotated {
+    fn of(pair: &RecordPair) -> Result<Self, MotionError> {
+        let (h1_s, h2_s) = (pair.h1.dt_s(), pair.h2.dt_s());
+        if h1_s != h2_s {
+            return Err(MotionError::UnequalTimeSteps { h1_s, h2_s });
+        }
+        let [a1, a2] = [&pair.h1, &pair.h2].map(Accelerogram::acceleration_m_s2);
+        let [v1, v2] = [&pair.h1, &pair.h2].map(Accelerogram::velocity_m_s);
+        let last = |velocity: &[f64]| velocity.last().copied().unwrap_or(0.0);
+        let sorted = |mut peaks: Vec<f64>| {
+            peaks.sort_unstable_by(f64::total_cmp);
+            peaks
+        };
+        Ok(Self {
+            acceleration_m_s2: sorted(rotated_peaks(&together([a1, a2], [0.0; 2]))),
+            velocity_m_s: sorted(rotated_peaks(&together([&v1, &v2], [last(&v1), last(&v2)]))),
+        })
     }
-    let length = pair.h1.len().max(pair.h2.len());
-    let history = |component: &Accelerogram| {
-        let mut acceleration = component.acceleration_m_s2().to_vec();
-        let mut velocity = component.velocity_m_s();
-        acceleration.resize(length, 0.0);
-        let last = velocity.last().copied().unwrap_or(0.0);
-        velocity.resize(length, last);
-        [acceleration, velocity]
-    };
-    Ok((history(&pair.h1), history(&pair.h2)))
+
+    fn median(&self) -> Peaks {
+        let median = |peaks: &[f64]| 0.5 * (peaks[DIRECTIONS / 2 - 1] + peaks[DIRECTIONS / 2]);
+        Peaks { pga_m_s2: median(&self.acceleration_m_s2), pgv_m_s: median(&self.velocity_m_s) }
+    }
+
+    fn largest(&self) -> Peaks {
+        let largest = |peaks: &[f64]| peaks[DIRECTIONS - 1];
+        Peaks { pga_m_s2: largest(&self.acceleration_m_s2), pgv_m_s: largest(&self.velocity_m_s) }
+    }
+}
+
+/// The points of a plane motion; the shorter component goes on with the value `after` its end.
+fn together([x, y]: [&[f64]; 2], after: [f64; 2]) -> Vec<[f64; 2]> {
+    let at = |component: &[f64], index: usize, after: f64| component.get(index).copied().unwrap_or(after);
+    (0..x.len().max(y.len())).map(|index| [at(x, index, after[0]), at(y, index, after[1])]).collect()
+}
+
+/// Farthest of `points` in the `direction`, and how far it reaches.
+fn farthest(points: &[[f64; 2]], [cos, sin]: [f64; 2]) -> ([f64; 2], f64) {
+    let mut farthest = ([0.0; 2], 0.0);
+    for &[x, y] in points {
+        let reach = (x * cos + y * sin).abs();
+        if reach > farthest.1 {
+            farthest = ([x, y], reach);
+        }
+    }
+    farthest
 }
 
 /// Peak of x cos θ + y sin θ for every direction.
-fn rotated_peaks([x, y]: &[Vec<f64>; 2]) -> Vec<f64> {
-    let directions: Vec<(f64, f64)> = (0..DIRECTIONS)
+fn rotated_peaks(points: &[[f64; 2]]) -> Vec<f64> {
+    let directions: Vec<[f64; 2]> = (0..DIRECTIONS)
         .map(|degrees| {
             let (sin, cos) = (degrees as f64).to_radians().sin_cos();
-            (cos, sin)
+            [cos, sin]
         })
         .collect();
-    let peak = |(cos, sin): (f64, f64), points: &mut dyn Iterator<Item = (f64, f64)>| {
-        let mut farthest = ((0.0, 0.0), 0.0);
-        for (x, y) in points {
-            let reach = (x * cos + y * sin).abs();
-            if reach > farthest.1 {
-                farthest = ((x, y), reach);
-            }
-        }
-        farthest
-    };
-    let all = || x.iter().copied().zip(y.iter().copied());
     // What a few points reach in every direction, no point nearer to the origin can exceed anywhere.
-    let few: Vec<(f64, f64)> = directions.iter().step_by(15).map(|&direction| peak(direction, &mut all()).0).collect();
-    let reached = |direction: &(f64, f64)| peak(*direction, &mut few.iter().copied()).1;
-    let radius = directions.iter().map(reached).fold(f64::INFINITY, f64::min);
+    let few: Vec<[f64; 2]> = directions.iter().step_by(30).map(|&direction| farthest(points, direction).0).collect();
+    let radius = directions.iter().map(|&direction| farthest(&few, direction).1).fold(f64::INFINITY, f64::min);
     // Rounding must not cut a point that matters.
     let squared = radius * radius * (1.0 - 1e-12);
-    let far: Vec<(f64, f64)> = all().filter(|(x, y)| x * x + y * y >= squared).collect();
-    directions.iter().map(|&direction| peak(direction, &mut far.iter().copied()).1).collect()
+    let far: Vec<[f64; 2]> = points.iter().copied().filter(|[x, y]| x * x + y * y >= squared).collect();
+    directions.iter().map(|&direction| farthest(&far, direction).1).collect()
 }
 
 #[cfg(test)]
@@ -227,8 +252,8 @@ mod tests {
         // All 180 directions over all points, nothing left out.
         #[test]
         fn points_left_out_change_nothing(points in prop::collection::vec((-1.0..1.0_f64, -1.0..1.0_f64), 2..200)) {
-            let (x, y): (Vec<f64>, Vec<f64>) = points.iter().copied().unzip();
-            for (degrees, found) in rotated_peaks(&[x.clone(), y.clone()]).into_iter().enumerate() {
+            let plane: Vec<[f64; 2]> = points.iter().map(|&(x, y)| [x, y]).collect();
+            for (degrees, found) in rotated_peaks(&plane).into_iter().enumerate() {
                 let (sin, cos) = (degrees as f64).to_radians().sin_cos();
                 let expected = points.iter().fold(0.0_f64, |m, (x, y)| m.max((x * cos + y * sin).abs()));
                 prop_assert_eq!(found, expected);
@@ -241,6 +266,7 @@ mod tests {
             let pair = pair([0.01; 2], x, y);
             let half = Combination::RotD50.peaks_of(&pair).unwrap();
             let largest = Combination::RotD100.peaks_of(&pair).unwrap();
+            prop_assert_eq!(&Combination::all_peaks_of(&pair)[1..], &[Some(half), Some(largest)]);
             prop_assert!(half.pga_m_s2 <= largest.pga_m_s2 && half.pgv_m_s <= largest.pgv_m_s);
             prop_assert!(largest.pga_m_s2 >= pair.h1.pga_m_s2().max(pair.h2.pga_m_s2()) * (1.0 - 1e-15));
         }

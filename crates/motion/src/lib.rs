@@ -34,7 +34,7 @@ pub use combination::{Combination, Peaks};
 pub use error::MotionError;
 pub use measure::{IntensityMeasure, geometric_mean, scale_factor};
 pub use pair::{Component, Horizontal, RecordPair};
-pub use pulse::{PulseClassification, classify_pulse};
+pub use pulse::{PulseClassification, classify_pulse, may_be_pulse_like};
 pub use read::at2::{At2Header, At2Record, read_at2};
 pub use read::columns::read_columns;
 pub use read::{ReadOptions, read_auto, read_path, read_record, read_record_file, record_bytes};

@@ -122,6 +122,21 @@ pub fn classify_pulse(h1: &Accelerogram, h2: &Accelerogram) -> Result<PulseClass
     classify_at(h1, h2, Resolution::DEFAULT)
 }
 
+/// Whether the motion is strong enough to be pulse-like at all: where it is not, [`classify_pulse`]
+/// says no, whatever the shape of the motion, and need not be asked.
+///
+/// Its peak velocity in every direction is above the 21.52 cm/s below which no indicator is above zero.
+pub fn may_be_pulse_like(h1: &Accelerogram, h2: &Accelerogram) -> bool {
+    let count = h1.len().min(h2.len());
+    is_strong(&[h1, h2].map(|motion| velocity_m_s(motion, count)))
+}
+
+fn is_strong(velocities: &[Vec<f64>; 2]) -> bool {
+    let largest =
+        velocities[0].iter().zip(&velocities[1]).fold(0.0, |largest: f64, (v1, v2)| largest.max(v1.hypot(*v2)));
+    100.0 * largest > LEAST_PGV_CM_S
+}
+
 fn classify_at(
     h1: &Accelerogram,
     h2: &Accelerogram,
@@ -133,9 +148,7 @@ fn classify_at(
     }
     let count = h1.len().min(h2.len());
     let velocities = [h1, h2].map(|motion| velocity_m_s(motion, count));
-    let largest =
-        velocities[0].iter().zip(&velocities[1]).fold(0.0, |largest: f64, (v1, v2)| largest.max(v1.hypot(*v2)));
-    let candidates = if 100.0 * largest > LEAST_PGV_CM_S { CANDIDATES } else { 1 };
+    let candidates = if is_strong(&velocities) { CANDIDATES } else { 1 };
 
     let mut scalogram = Scalogram::new(&velocities, dt_s, resolution);
     let mut strongest = None;

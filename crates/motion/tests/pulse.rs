@@ -10,7 +10,9 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use proptest::prelude::*;
-use uplift_motion::{Accelerogram, MotionError, PulseClassification, ReadOptions, classify_pulse, read_path};
+use uplift_motion::{
+    Accelerogram, MotionError, PulseClassification, ReadOptions, classify_pulse, may_be_pulse_like, read_path,
+};
 
 /// Numbers that look independent and uniform in [-1, 1): `SplitMix64`.
 fn noise(seed: u64) -> impl FnMut() -> f64 {
@@ -154,6 +156,12 @@ fn the_same_pulse_is_no_pulse_when_it_is_weak_or_late() {
     // Weak: the ratios stay, the class goes.
     let weak = Made { amplitude_m_s: 0.2, ..made }.classified();
     assert!(!weak.is_pulse_like && !weak.late, "{weak:?}");
+    // 20 cm/s is too weak for any pulse, a little more is not
+    let may_be = |amplitude_m_s: f64| {
+        let [h1, h2] = Made { amplitude_m_s, ..made }.velocities().map(|velocity| with_velocity(0.01, &velocity));
+        may_be_pulse_like(&h1, &h2)
+    };
+    assert_eq!([0.2, 0.21, 0.25].map(may_be), [false, false, true]);
     assert!((weak.pgv_ratio - strong.pgv_ratio).abs() < 1e-12 && weak.period_s == strong.period_s, "{weak:?}");
     // Late: a fifth of the energy comes in fast waves, none of which is taken for the pulse, before it.
     let late = |share: f64| {

@@ -1,5 +1,7 @@
 //! `uplift hazard`: hazard curves, imported from what engines export, and looked at.
 
+#![allow(clippy::doc_markdown)] // what --help prints has no backticks
+
 mod import;
 mod plot;
 mod show;

@@ -2,7 +2,7 @@
 
 use uplift_motion::{
     Accelerogram, Combination, IntensityMeasure, PulseClassification, RecordPair, classify_pulse, geometric_mean,
-    read_auto, record_bytes,
+    may_be_pulse_like, read_auto, record_bytes,
 };
 
 use super::group::Candidate;
@@ -24,17 +24,21 @@ pub(crate) struct PairMeasures {
     pub(crate) durations_s: [f64; 2],
     /// Velocity at the end as a share of the PGV, the larger one of the two components.
     pub(crate) residual_velocity_share: f64,
-    /// The velocity pulse; none where it was not sought or cannot be judged.
+    /// Whether there is a velocity pulse; none where it was not sought or cannot be judged.
+    pub(crate) pulse_like: Option<bool>,
+    /// The pulse, or the strongest motion that could be one; none also where the motion is too weak for any.
     pub(crate) pulse: Option<PulseClassification>,
 }
 
 impl PairMeasures {
     /// Measures `pair`; `gravity_m_s2` makes g of accelerations, `pulses` tells whether a velocity pulse is sought.
     pub(crate) fn of(pair: &RecordPair, gravity_m_s2: f64, pulses: bool) -> Self {
-        let peaks = Combination::ALL.map(|combination| {
-            let peaks = combination.peaks_of(pair).ok()?;
+        let peaks = Combination::all_peaks_of(pair).map(|peaks| {
+            let peaks = peaks?;
             Some([IntensityMeasure::Pga, IntensityMeasure::Pgv].map(|measure| measure.of_peaks(peaks, gravity_m_s2)))
         });
+        let strong = may_be_pulse_like(&pair.h1, &pair.h2);
+        let pulse = if pulses && strong { classify_pulse(&pair.h1, &pair.h2).ok() } else { None };
         let mean = |of: &dyn Fn(&Accelerogram) -> f64| geometric_mean(of(&pair.h1), of(&pair.h2));
         let residual = |motion: &Accelerogram| motion.residual_velocity_m_s().abs() / motion.pgv_m_s();
         Self {
@@ -44,7 +48,8 @@ impl PairMeasures {
             cav_m_s: mean(&Accelerogram::cumulative_absolute_velocity_m_s),
             durations_s: [mean(&Accelerogram::d5_75_s), mean(&Accelerogram::d5_95_s)],
             residual_velocity_share: residual(&pair.h1).max(residual(&pair.h2)),
-            pulse: if pulses { classify_pulse(&pair.h1, &pair.h2).ok() } else { None },
+            pulse_like: if pulses && !strong { Some(false) } else { pulse.map(|pulse| pulse.is_pulse_like) },
+            pulse,
         }
     }
 }

@@ -77,7 +77,7 @@ fn measured(pair: &ImportedPair) -> Vec<Cell> {
     let measures = &pair.measures;
     let peak = |combination: usize, which: usize| rounded(measures.peaks[combination].map(|peaks| peaks[which]));
     let pulse = measures.pulse.as_ref();
-    let pulse_like = pulse.map(|pulse| if pulse.is_pulse_like { "yes" } else { "no" });
+    let pulse_like = measures.pulse_like.map(|yes| if yes { "yes" } else { "no" });
     vec![
         ("pga_g", peak(0, 0)),
         ("pgv_cm_s", peak(0, 1)),

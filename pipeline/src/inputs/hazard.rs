@@ -8,7 +8,7 @@ use uplift_risk::StripeWeights;
 
 use super::checksum;
 use crate::error::UpliftError;
-use crate::study::{CurveFile, CurveKind, Extrapolate, MeasurePlan, ResolvedStudy, definition_of};
+use crate::study::{CurveFile, CurveKind, Extrapolate, MeasurePlan, ResolvedStudy, definition_of, definition_word};
 
 /// The hazard of one site in one measure.
 #[derive(Debug, Clone)]
@@ -207,10 +207,11 @@ impl SiteReader<'_> {
         if own == wanted {
             return Ok(curve);
         }
-        let Some(factor) = hazard.factor(own, measure) else {
+        let Some(factor) = hazard.factor(own, wanted, measure) else {
             let key = measure.key();
+            let (from, to) = (definition_word(own), definition_word(wanted));
             return Err(format!(
-                "{}: the curve is of the {own}, and the records are measured by the {wanted}: take a curve of the same definition, another records.intensity, or declare what the levels are multiplied by, for instance [hazard] conversions = [{{ from = \"{own}\", {key} = 1.0 }}]",
+                "{}: the curve is of the {own}, and the records are measured by the {wanted}: take a curve of the same definition, another records.intensity, or declare what the levels are multiplied by, for instance [hazard] conversions = [{{ from = \"{from}\", to = \"{to}\", {key} = 1.0 }}]",
                 path.display()
             ));
         };

@@ -1,7 +1,7 @@
 //! The records of a set that satisfy what a study asks for.
 
 use rayon::prelude::*;
-use uplift_motion::{Combination, IntensityMeasure, RecordPair, classify_pulse, geometric_mean};
+use uplift_motion::{Combination, IntensityMeasure, RecordPair, classify_pulse, geometric_mean, may_be_pulse_like};
 
 use super::pairs::CheckedPair;
 use crate::error::UpliftError;
@@ -95,8 +95,11 @@ fn judge(
         }
     }
     if let Some(wanted) = selection.pulse_like {
-        let pulse = classify_pulse(&pair.h1, &pair.h2).map_err(|error| format!("record {}: {error}", pair.id))?;
-        if pulse.is_pulse_like != wanted {
+        let pulse_like = may_be_pulse_like(&pair.h1, &pair.h2)
+            && classify_pulse(&pair.h1, &pair.h2)
+                .map_err(|error| format!("record {}: {error}", pair.id))?
+                .is_pulse_like;
+        if pulse_like != wanted {
             return Ok(Verdict::Fails);
         }
     }

@@ -136,6 +136,7 @@ struct HazardForm {
 #[derive(Serialize)]
 struct ConversionForm {
     from: &'static str,
+    to: &'static str,
     #[serde(flatten)]
     factors: BTreeMap<&'static str, f64>,
 }
@@ -277,6 +278,7 @@ impl HazardForm {
     fn of(hazard: &Hazard) -> Self {
         let conversions = hazard.conversions.iter().map(|conversion| ConversionForm {
             from: word(&DEFINITIONS, &conversion.from),
+            to: word(&DEFINITIONS, &conversion.to),
             factors: conversion.factors.iter().map(|&(measure, factor)| (measure.key(), factor)).collect(),
         });
         Self {

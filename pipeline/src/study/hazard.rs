@@ -21,14 +21,17 @@ pub struct Hazard {
 pub struct Conversion {
     /// Definition of the curve.
     pub from: ComponentDefinition,
+    /// Definition that the records are measured by.
+    pub to: ComponentDefinition,
     /// By what its levels are multiplied.
     pub factors: Vec<(IntensityMeasure, f64)>,
 }
 
 impl Hazard {
-    /// By what the levels of a curve of `measure` by the definition `from` are multiplied, if the study says so.
-    pub fn factor(&self, from: ComponentDefinition, measure: IntensityMeasure) -> Option<f64> {
-        let conversion = self.conversions.iter().find(|conversion| conversion.from == from)?;
+    /// By what the levels of a curve of `measure` are multiplied from one definition to another, if the study says so.
+    pub fn factor(&self, from: ComponentDefinition, to: ComponentDefinition, measure: IntensityMeasure) -> Option<f64> {
+        let mut conversions = self.conversions.iter();
+        let conversion = conversions.find(|conversion| conversion.from == from && conversion.to == to)?;
         conversion.factors.iter().find_map(|&(known, factor)| (known == measure).then_some(factor))
     }
 }
@@ -40,6 +43,11 @@ pub fn definition_of(combination: Combination) -> ComponentDefinition {
         Combination::RotD50 => ComponentDefinition::RotD50,
         Combination::RotD100 => ComponentDefinition::RotD100,
     }
+}
+
+/// What a study file calls a definition.
+pub fn definition_word(definition: ComponentDefinition) -> &'static str {
+    DEFINITIONS.iter().find_map(|(word, known)| (*known == definition).then_some(*word)).unwrap_or_default()
 }
 
 pub(super) fn read(mut section: Section<'_>) -> Option<Hazard> {
@@ -57,13 +65,17 @@ fn conversions(field: &Field<'_>) -> Option<Vec<Conversion>> {
         if !section.is_present() {
             return None;
         }
-        let from = match section.field("from") {
+        let [from, to] = ["from", "to"].map(|key| match section.field(key) {
             Some(field) => field.choice(&DEFINITIONS),
             None => {
-                section.mistake("from", "the conversion does not say from which definition", "add from = \"GMRotI50\"");
+                section.mistake(
+                    key,
+                    format!("the conversion does not say {key} which definition"),
+                    "write { from = \"GMRotI50\", to = \"geometric mean\", pgv = 1.0, pga = 1.0 }",
+                );
                 None
             }
-        };
+        });
         let mut factors = Some(Vec::new());
         for keys in &MEASURES {
             let Some(field) = section.field(keys.section) else { continue };
@@ -77,14 +89,16 @@ fn conversions(field: &Field<'_>) -> Option<Vec<Conversion>> {
             factors = None;
         }
         section.finish();
-        match (&mut read, from, factors) {
-            (Some(known), Some(from), _) if known.iter().any(|conversion: &Conversion| conversion.from == from) => {
-                item.mistake(format!("{from} is converted twice"), "give each definition once");
-                read = None;
-            }
-            (Some(known), Some(from), Some(factors)) => known.push(Conversion { from, factors }),
-            _ => read = None,
+        let (Some(known), Some(from), Some(to), Some(factors)) = (&mut read, from, to, factors) else {
+            read = None;
+            continue;
+        };
+        if known.iter().any(|conversion: &Conversion| conversion.from == from && conversion.to == to) {
+            item.mistake(format!("{from} is converted to {to} twice"), "give each conversion once");
+            read = None;
+            continue;
         }
+        known.push(Conversion { from, to, factors });
     }
     read
 }

@@ -89,6 +89,8 @@ pub(super) fn show(arguments: &ShowArguments) -> Result<(), UpliftError> {
     if let Some(pulse) = &measures.pulse {
         let word = if pulse.is_pulse_like { format!("yes, {:.2} s", pulse.period_s) } else { "no".to_owned() };
         writeln!(out, "  {:<24}{word} (indicator {:.2})", "velocity pulse", pulse.indicator)?;
+    } else if measures.pulse_like == Some(false) {
+        writeln!(out, "  {:<24}no (too weak for one)", "velocity pulse")?;
     }
     for warning in warnings_of_pair(&pair, [&one.description, &other.description], &measures, gravity_m_s2) {
         writeln!(out, "warning: {}", warning.text)?;

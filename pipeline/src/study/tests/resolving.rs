@@ -63,7 +63,7 @@ capacity_m = 0.3
 values = { start = 0.1, stop = 1, count = 7 }
 [hazard]
 component = "RotD50"
-conversions = [{ from = "GMRotI50", pgv = 1, pga = 1.0 }, { from = "RotD100", pgv = 0.8 }]
+conversions = [{ from = "GMRotI50", to = "RotD50", pgv = 1, pga = 1.0 }, { from = "RotD100", to = "RotD50", pgv = 0.8 }]
 [pgv]
 levels_cm_s = [1, "2:1/3:4", 5.5]
 [pga]

@@ -1,0 +1,197 @@
+//! `uplift hazard`: exports of engines become curve files that a study takes, and definitions that differ are refused.
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+mod common;
+
+use std::fmt::Write as _;
+
+use common::{SMALL_STUDY, SmallStudy, uplift};
+
+/// An export as the OpenQuake engine writes it: probabilities in `years` of curves λ = k0 im⁻² at some sites.
+fn openquake(kind: &str, years: f64, sites: &[(&str, f64, f64, f64)]) -> String {
+    let levels = [0.5, 2.0, 20.0, 300.0];
+    let mut text = format!(
+        "#,,,,,,\"generated_by='OpenQuake engine 3.26.2', start_date='2026-01-01T00:00:00', checksum=1, kind='{kind}', investigation_time={years}, imt='PGV'\"\n\
+         custom_site_id,lon,lat,depth"
+    );
+    for level in levels {
+        write!(text, ",poe-{level:.7}").unwrap();
+    }
+    text.push('\n');
+    for (name, longitude, latitude, k0) in sites {
+        write!(text, "{name},{longitude:.5},{latitude:.5},0.00000").unwrap();
+        for level in levels {
+            write!(text, ",{:.9E}", -(-years * k0 / (level * level)).exp_m1()).unwrap();
+        }
+        text.push('\n');
+    }
+    text
+}
+
+const SITES: [(&str, f64, f64, f64); 2] = [("here", 10.0, 45.0, 0.2), ("there", 12.0, 45.0, 0.1)];
+
+#[test]
+fn a_site_of_an_export_becomes_a_study() {
+    let study = SmallStudy::new();
+    study.write("export.csv", &openquake("mean", 1.0, &SITES));
+    study.uplift(&["hazard", "import", "export.csv", "-o", "mine"]).fails(2, &["2 sites", "--near", "--name"]);
+    study.uplift(&["hazard", "import", "export.csv", "-o", "mine", "--name", "nowhere"]).fails(4, &["nowhere", "here"]);
+    study
+        .uplift(&["hazard", "import", "export.csv", "-o", "mine", "--near", "0,0"])
+        .fails(4, &["km away", "--within-km"]);
+    study.uplift(&["hazard", "import", "export.csv", "-o", "mine", "--near", "45"]).fails(2, &["longitude first"]);
+    assert!(!study.path().join("mine").exists());
+    let near = ["hazard", "import", "export.csv", "-o", "mine", "--near", "11.8,45.0", "--component", "RotD50"];
+    let done = study.uplift(&near).ok();
+    // a degree of longitude at 45° is 78.6 km
+    assert!(done.stderr.contains("nearest site: there, 15.7 km away: is that near enough?"), "{}", done.stderr);
+    assert!(done.stdout.contains("[[sites]]\nname = \"there\"\npgv = \"mine/pgv.csv\""), "{}", done.stdout);
+    let written = std::fs::read_to_string(study.path().join("mine/pgv.csv")).unwrap();
+    for words in
+        ["site: there", "longitude 12", "component: RotD50", "PGV [cm/s]", "OpenQuake engine 3.26.2", "checksum=1"]
+    {
+        assert!(written.contains(words), "{words}: {written}");
+    }
+    let rates: Vec<f64> = written
+        .lines()
+        .filter(|line| line.starts_with(char::is_numeric))
+        .map(|line| line.split_once(',').unwrap().1.parse().unwrap())
+        .collect();
+    for (rate, level) in rates.iter().zip([0.5, 2.0, 20.0, 300.0_f64]) {
+        // nine digits are printed of probabilities near one, where the rate is ill-conditioned
+        assert!((rate / (0.1 / (level * level)) - 1.0).abs() < 1e-7, "{rate}");
+    }
+    // the printed lines are a study's
+    study.write("mine.toml", &format!("[records]\nintensity = \"rotd50\"\nfirst = 2\n[strengths]\nvalues = 0.2\n[pgv]\nlevels_cm_s = [1, 10, 100]\n{}", done.stdout));
+    study.uplift(&["run", "mine.toml"]).ok();
+
+    let shown = study.uplift(&["hazard", "show", "export.csv"]).ok().stdout;
+    assert!(shown.contains("here, mean") && shown.contains("there, mean"), "{shown}");
+    let shown = study.uplift(&["hazard", "show", "mine/pgv.csv"]).ok().stdout;
+    // λ = -ln(1 - 0.02)/50 is exceeded at sqrt(0.1/λ)
+    let level = (0.1 / (-(0.98_f64.ln()) / 50.0)).sqrt();
+    assert!(shown.contains(&format!("{level:.2}")) && shown.contains("RotD50"), "{level}: {shown}");
+    study.uplift(&["hazard", "plot", "mine/pgv.csv", "export.csv", "-o", "curves.svg"]).ok();
+    let figure = std::fs::read_to_string(study.path().join("curves.svg")).unwrap();
+    assert!(figure.contains("there, mean") && figure.contains("PGV, cm/s"));
+    study.uplift(&["hazard", "plot", "mine/pgv.csv", "-o", "curves.pdf"]).fails(2, &[".svg or .png"]);
+}
+
+#[test]
+fn realizations_become_branches() {
+    let study = SmallStudy::new();
+    let site = |k0: f64| [("here", 10.0, 45.0, k0)];
+    study.write("mean.csv", &openquake("mean", 50.0, &site(0.175)));
+    study.write("one.csv", &openquake("rlz-000", 50.0, &site(0.2)));
+    study.write("two.csv", &openquake("rlz-001", 50.0, &site(0.1)));
+    study.write(
+        "weights.csv",
+        "#,,\"generated_by='OpenQuake engine 3.26.2'\"\nrlz_id,branch_path,weight\n0,A~x,0.75\n1,A~y,0.25\n",
+    );
+    let done = study
+        .uplift(&[
+            "hazard",
+            "import",
+            "mean.csv",
+            "one.csv",
+            "two.csv",
+            "-o",
+            "h",
+            "--weights",
+            "weights.csv",
+            "--component",
+            "geometric mean",
+        ])
+        .ok();
+    assert!(done.stdout.contains("pgv = { file = \"h/pgv.csv\", branches = ["), "{}", done.stdout);
+    assert!(
+        done.stdout.contains("weight = 0.75") && done.stdout.contains("pgv-realization-001.csv"),
+        "{}",
+        done.stdout
+    );
+    study.write(
+        "mine.toml",
+        &format!("[records]\nfirst = 2\n[strengths]\nvalues = 0.2\n[pgv]\nlevels_cm_s = [3, 10, 100]\n{}", done.stdout),
+    );
+    study.uplift(&["run", "mine.toml"]).ok();
+    study.uplift(&["hazard", "import", "one.csv", "one.csv", "mean.csv", "-o", "again"]).ok();
+    study.write("copy.csv", &openquake("rlz-000", 50.0, &site(0.3)));
+    study
+        .uplift(&["hazard", "import", "one.csv", "copy.csv", "-o", "again"])
+        .fails(4, &["two curves", "realization 0"]);
+}
+
+#[test]
+fn a_curve_of_another_definition_is_refused_unless_converted() {
+    let study = SmallStudy::with(&SMALL_STUDY.replace("first = 4", "first = 2"));
+    let pgv = std::fs::read_to_string(study.path().join("here-pgv.csv")).unwrap();
+    study.write("here-pgv.csv", &format!("# component: RotD50\n{pgv}"));
+    study
+        .uplift(&["check", "study.toml"])
+        .fails(4, &["here-pgv.csv", "RotD50", "geometric mean", "conversions", "from = \"RotD50\""]);
+    let converted = "hazard.conversions=[{ from = \"RotD50\", to = \"geometric mean\", pgv = 0.5 }]";
+    study
+        .uplift(&[
+            "run",
+            "study.toml",
+            "--set",
+            "hazard.conversions=[{ from = \"RotD50\", to = \"geometric mean\", pga = 0.5 }]",
+        ])
+        .fails(4, &["RotD50"]);
+    let done = study.uplift(&["run", "study.toml", "--set", converted]).ok();
+    // the others do not say theirs
+    assert!(done.stdout.contains("3 hazard curve(s) do not say"), "{}", done.stdout);
+    study
+        .uplift(&["check", "study.toml", "--set", converted, "--set", "records.intensity=\"rotd100\""])
+        .fails(4, &["RotD100"]);
+    let all = ["--set", "hazard.component=\"geometric mean\"", "--set", converted];
+    let done = study.uplift(&[&["run", "study.toml"][..], &all].concat()).ok();
+    assert!(!done.stdout.contains("do not say"), "{}", done.stdout);
+    // Half the levels at the same rates: where λ = k0 im⁻², a quarter of the rate.
+    let urs = std::fs::read_to_string(study.path().join("results/study.urs.csv")).unwrap();
+    study.write(
+        "here-pgv.csv",
+        &pgv.lines()
+            .map(|line| match line.split_once(',') {
+                Some((level, rate)) if level.parse::<f64>().is_ok() => {
+                    format!("{},{rate}\n", 0.5 * level.parse::<f64>().unwrap())
+                }
+                _ => format!("{line}\n"),
+            })
+            .collect::<String>(),
+    );
+    study.uplift(&["run", "study.toml"]).ok();
+    let halved = std::fs::read_to_string(study.path().join("results/study.urs.csv")).unwrap();
+    let numbers = |text: &str| text.lines().skip(1).map(str::to_owned).collect::<Vec<_>>();
+    assert_eq!(numbers(&urs), numbers(&halved));
+    for (set, words) in [
+        ("hazard.component=\"rotd51\"", &["RotD50"][..]),
+        ("hazard.conversions=[{ pgv = 1 }]", &["from"]),
+        ("hazard.conversions=[{ from = \"larger\", to = \"RotD50\" }]", &["factor"]),
+        ("hazard.conversions=[{ from = \"larger\", to = \"RotD50\", pgv = 0 }]", &["above zero"]),
+        (
+            "hazard.conversions=[{ from = \"larger\", to = \"RotD50\", pgv = 1 }, { from = \"larger\", to = \"RotD50\", pga = 1 }]",
+            &["twice"],
+        ),
+    ] {
+        study.uplift(&["check", "study.toml", "--set", set]).fails(3, words);
+    }
+}
+
+#[test]
+fn what_is_no_hazard() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let write = |name: &str, text: &str| std::fs::write(at.join(name), text).unwrap();
+    write("plain.csv", "1,0.1\n2,0.05\n");
+    write("broken.xml", "<nrml><hazardCurves>");
+    write("empty.csv", "");
+    uplift(at, &["hazard", "show", "absent.csv"]).fails(4, &["absent.csv"]);
+    uplift(at, &["hazard", "show", "empty.csv"]).fails(4, &["empty.csv"]);
+    uplift(at, &["hazard", "show", "plain.csv"]).fails(4, &["measure and unit", "# IM: PGV [cm/s]"]);
+    uplift(at, &["hazard", "show", "plain.csv", "--measure", "pgv", "--unit", "cm/s"]).fails(4, &["iml,maf"]);
+    uplift(at, &["hazard", "show", "plain.csv", "--measure", "pgv", "--unit", "cm/s", "--years", "50"]).ok();
+    uplift(at, &["hazard", "show", "broken.xml"]).fails(4, &["broken.xml"]);
+    uplift(at, &["hazard", "import", "plain.csv", "-o", "x"]).fails(4, &["plain.csv"]);
+    assert!(!at.join("x").exists());
+}
