@@ -7,6 +7,7 @@ mod export;
 mod hazard;
 mod influence;
 mod measures;
+mod merge;
 mod plot;
 mod records;
 mod reference;
@@ -14,11 +15,14 @@ mod report;
 mod response;
 mod result_of;
 mod run;
+mod status;
 mod table;
+mod verify;
 
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand};
 
@@ -49,6 +53,12 @@ pub struct Arguments {
 enum Command {
     /// Run a study: stripes, uniform risk spectra, coefficients, one result file
     Run(run::RunArguments),
+    /// Join the shards of a run into its result
+    Merge(merge::MergeArguments),
+    /// How far a run is, and what a result holds
+    Status(status::StatusArguments),
+    /// Check that every byte of a result is as it was written
+    Verify(verify::VerifyArguments),
     /// Check a study and its input data, and say what it would cost
     Check(check::CheckArguments),
     /// Shake one oscillator with one record
@@ -93,9 +103,19 @@ impl StudyArguments {
 struct Session {
     quiet: bool,
     stop: StopFlag,
+    /// What is said where an interruption cannot wait for the work in hand.
+    last_words: Arc<Mutex<String>>,
 }
 
+/// How long an interrupted program may take to come to a good end by itself.
+const GRACE: Duration = Duration::from_millis(800);
+
 impl Session {
+    /// From now on, this is what an interruption leaves.
+    fn set_last_words(&self, words: String) {
+        *self.last_words.lock().unwrap_or_else(PoisonError::into_inner) = words;
+    }
+
     /// Tell the user something on standard error, unless it was asked for quiet.
     fn remark(&self, text: &str) {
         if !self.quiet {
@@ -116,15 +136,26 @@ pub fn execute(arguments: &Arguments) -> Result<(), UpliftError> {
             .map_err(|error| UpliftError::Usage(format!("--threads {threads}: {error}")))?;
     }
     let stop = Arc::new(AtomicBool::new(false));
-    let session = Session { quiet: arguments.quiet, stop: stop.clone() };
+    let last_words = Arc::new(Mutex::new(UpliftError::Interrupted.to_string()));
+    let session = Session { quiet: arguments.quiet, stop: stop.clone(), last_words: last_words.clone() };
     // where no handler can be set, Ctrl-C ends the program at once, which does no harm either
     let _ = ctrlc::set_handler(move || {
         if stop.swap(true, Ordering::Relaxed) {
             std::process::exit(5); // asked twice
         }
+        let last_words = last_words.clone();
+        std::thread::spawn(move || {
+            std::thread::sleep(GRACE);
+            // what is being written now is written aside, and an earlier file is as it was
+            eprintln!("uplift: {}", last_words.lock().unwrap_or_else(PoisonError::into_inner));
+            std::process::exit(5);
+        });
     });
     match &arguments.command {
         Command::Run(arguments) => run::run(arguments, &session),
+        Command::Merge(arguments) => merge::merge(arguments, &session),
+        Command::Status(arguments) => status::status(arguments),
+        Command::Verify(arguments) => verify::verify(arguments, &session),
         Command::Check(arguments) => check::check(arguments, &session),
         Command::Response(arguments) => response::response(arguments),
         Command::Bootstrap(arguments) => bootstrap::bootstrap(arguments, &session),

@@ -29,12 +29,14 @@ pub enum UpliftError {
     )]
     Interrupted,
     /// The user stopped a computation that goes on where it stopped.
-    #[error("interrupted: {done} of {total} strengths are kept in {}. Run the same command to go on from there", path.display())]
+    #[error("interrupted: {done} of {total} {what} are kept in {}. Run the same command to go on from there", path.display())]
     Paused {
-        /// Strengths finished, over all measures.
-        done: usize,
-        /// Strengths in all.
-        total: usize,
+        /// What is counted, in the plural.
+        what: &'static str,
+        /// Finished, over all measures.
+        done: u64,
+        /// In all.
+        total: u64,
         /// The file that keeps them.
         path: std::path::PathBuf,
     },

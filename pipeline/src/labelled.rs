@@ -15,6 +15,9 @@
 //! bytes, copies nothing, and gives every group its coordinates too, so that `xr.open_dataset(file, group="/urs/pgv")`
 //! is complete. [`LabelledReader::children`] leaves the links out.
 //!
+//! Every array carries the SHA-256 of its values, and behind the end of the file, where no reader of HDF5 looks, stands the SHA-256 of
+//! all bytes: [`verify`] finds any that has changed.
+//!
 //! The layer knows nothing of the science, and it writes nothing that depends on the time or the machine: two files
 //! with the same content are equal byte for byte.
 //!
@@ -38,17 +41,22 @@
 
 mod aside;
 mod attribute;
+mod checksum;
 mod copy;
 mod dimension_scale;
 mod error;
 mod native;
 mod reader;
 mod text;
+mod verify;
 mod writer;
 
+pub use aside::remove_leftovers;
 pub use attribute::AttributeValue;
+pub use checksum::Seal;
 pub use error::LabelledError;
 pub use reader::{LabelledArray, LabelledReader};
+pub use verify::{Verdict, verify};
 pub use writer::LabelledWriter;
 
 /// The group that holds every axis.

@@ -7,6 +7,7 @@
 //! | [`inputs`] | records and hazard curves, read and checked before anything is computed |
 //! | [`stages`] | stripes, spectra, coefficients, bands: each takes what the one before returned |
 //! | [`result`](mod@result) | the HDF5 file and the tables beside it, written and read |
+//! | [`kept`] | what outlives a run: finished pieces by their keys, journals, shards, the lock |
 //! | [`labelled`] | HDF5 files of labelled arrays, free of science |
 //! | [`figures`] | what a result's figures show |
 //! | [`report`](mod@report) | the HTML report |
@@ -23,6 +24,7 @@ mod export;
 pub mod figures;
 pub mod import;
 pub mod inputs;
+pub mod kept;
 pub mod labelled;
 pub mod plot;
 pub mod progress;

@@ -25,6 +25,7 @@ pub use read::{Fit, Spectrum, StoredResult};
 pub use stored::{StoredMeasure, StoredStripes, covariates};
 pub use target::check_target;
 pub(crate) use target::is_hdf5;
+pub(crate) use write::level_axis;
 pub use write::write_result;
 
 use crate::inputs::{RecordSet, SiteHazard};

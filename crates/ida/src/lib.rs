@@ -5,18 +5,21 @@
 //! |---|---|
 //! | [`plan`] | records, oscillators and levels, checked |
 //! | [`analysis`] | the plan carried out on all cores |
+//! | [`cells`] | what is known of that array already, and the parts that several machines share |
 //! | [`edp`] | the array of engineering demand parameters it leaves |
 //! | [`estimate`](mod@estimate) | how long a plan will take here |
 //! | [`watch`] | progress and cancellation |
 
 pub mod analysis;
+pub mod cells;
 pub mod edp;
 mod error;
 pub mod estimate;
 pub mod plan;
 pub mod watch;
 
-pub use analysis::analyse;
+pub use analysis::{analyse, complete};
+pub use cells::{Cells, NUMERICS, Part, Piece};
 pub use edp::EdpArray;
 pub use error::IdaError;
 pub use estimate::{Estimate, estimate};

@@ -206,8 +206,9 @@ fn compute(
             if stopped {
                 progress.close();
                 return Err(UpliftError::Paused {
-                    done: finished.len(),
-                    total: strengths * stored.measures.len(),
+                    what: "strengths",
+                    done: finished.len() as u64,
+                    total: (strengths * stored.measures.len()) as u64,
                     path: checkpoint.path().to_owned(),
                 });
             }

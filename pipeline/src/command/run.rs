@@ -1,5 +1,7 @@
 //! `uplift run`: the main job, end to end.
 
+mod work;
+
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
@@ -7,18 +9,20 @@ use std::time::Instant;
 
 use clap::Args;
 use serde_json::json;
+use uplift_ida::Part;
 use uplift_risk::OrdinateFlag;
 
 use super::{Session, StudyArguments};
 use crate::error::UpliftError;
 use crate::inputs::{RecordSet, read_hazard, read_records};
-use crate::progress::Progress;
+use crate::kept::{KeptPieces, ResultLock, journal_path};
+use crate::labelled::remove_leftovers;
 use crate::result::{Outcome, Provenance, check_target, csv_paths, write_csv, write_result};
-use crate::stages::{
-    Coefficients, Spectra, Stripes, analyse_stripes, fit_spectra, oscillators, plan_stripes, uniform_risk_spectra,
-};
+use crate::stages::{Coefficients, Spectra, fit_spectra, uniform_risk_spectra};
 use crate::study::ResolvedStudy;
-use crate::table::{metres, nearest, per_cent, table, thousands};
+use crate::table::{metres, nearest, per_cent, table};
+pub(super) use work::Work;
+use work::rate;
 
 /// Fewer records than this make a spectrum that changes with each of them (Section 4.5.1: 40 are a robust lower limit).
 const FEW_RECORDS: usize = 40;
@@ -32,23 +36,85 @@ pub(super) struct RunArguments {
     /// Result file, instead of the study's output.file
     #[arg(short, long, value_name = "FILE.h5")]
     output: Option<PathBuf>,
+    /// Compute only part I of N of the stripes, into a file of its own; `uplift merge` joins the parts
+    #[arg(long, value_name = "I/N", value_parser = shard, help = "Compute only part I of N of the stripes, into a file of its own (-o names it); uplift merge joins the parts")]
+    shard: Option<Part>,
     /// Print the summary as JSON
     #[arg(long)]
     json: bool,
 }
 
+fn shard(text: &str) -> Result<Part, String> {
+    let numbers = text
+        .split_once('/')
+        .and_then(|(index, count)| Some((index.trim().parse::<u64>().ok()?, count.trim().parse::<u64>().ok()?)));
+    match numbers {
+        Some((index, count)) if index >= 1 && index <= count => Ok(Part { index: index - 1, count }),
+        _ => Err("write 1/8 for the first of eight parts".to_owned()),
+    }
+}
+
 pub(super) fn run(arguments: &RunArguments, session: &Session) -> Result<(), UpliftError> {
     let study = arguments.study.load()?;
+    if let Some(part) = arguments.shard {
+        return run_shard(&study, arguments.output.as_deref(), part, session);
+    }
     let path = arguments.output.clone().unwrap_or_else(|| study.output.file.clone());
     run_study(&study, &arguments.study.study, &path, session, |outcome, files, seconds| {
-        let mut out = std::io::stdout().lock();
-        if arguments.json {
-            writeln!(out, "{:#}", summary(outcome, files, seconds))?;
-        } else if !session.quiet {
-            print_summary(&mut out, outcome, files, seconds)?;
-        }
-        Ok(())
+        print_outcome(arguments.json, session, outcome, files, seconds)
     })
+}
+
+/// Tell what was found, for people or for programs.
+pub(super) fn print_outcome(
+    json: bool,
+    session: &Session,
+    outcome: &Outcome<'_>,
+    files: &[PathBuf],
+    seconds: f64,
+) -> Result<(), UpliftError> {
+    let mut out = std::io::stdout().lock();
+    if json {
+        writeln!(out, "{:#}", summary(outcome, files, seconds))?;
+    } else if !session.quiet {
+        print_summary(&mut out, outcome, files, seconds)?;
+    }
+    Ok(())
+}
+
+/// Carry out one part of the stripes of a study.
+fn run_shard(study: &ResolvedStudy, output: Option<&Path>, part: Part, session: &Session) -> Result<(), UpliftError> {
+    let Part { index, count } = part;
+    let width = count.to_string().len();
+    let path = output.map_or_else(
+        || study.output.file.with_extension(format!("shard-{:0width$}-of-{count}", index + 1)),
+        Path::to_owned,
+    );
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder)
+            .map_err(|error| UpliftError::input(format!("{} cannot be made: {error}", folder.display())))?;
+    }
+    let _lock = ResultLock::acquire(&path)?;
+    // a mistake in the hazard is found before, not when the shards are joined
+    read_hazard(study)?;
+    let records = read_records(study)?;
+    session.remark(&format!("records  {}", records.description));
+    let work = Work::new(study, &records)?;
+    let head = work.head(part);
+    let (file, known) = work::open(&path, &head, None)?;
+    session.set_last_words(format!(
+        "interrupted: all that is finished is kept in {}. Run the same command to go on from there",
+        path.display()
+    ));
+    work.carry_out(&known, &file, part, session)?;
+    writeln!(
+        std::io::stdout(),
+        "shard {} of {count}, {} pieces: {}",
+        index + 1,
+        head.pieces,
+        shown_path(&path).display()
+    )?;
+    Ok(())
 }
 
 /// Carry out a study, write its result to `path`, and `report` what was found, the files and the seconds it took.
@@ -59,9 +125,23 @@ pub(super) fn run_study(
     session: &Session,
     report: impl FnOnce(&Outcome<'_>, &[PathBuf], f64) -> Result<(), UpliftError>,
 ) -> Result<(), UpliftError> {
+    run_study_from(study, study_file, path, KeptPieces::default(), session, report)
+}
+
+/// As [`run_study`], with pieces of it that are `kept` from elsewhere.
+pub(super) fn run_study_from(
+    study: &ResolvedStudy,
+    study_file: &Path,
+    path: &Path,
+    kept: KeptPieces,
+    session: &Session,
+    report: impl FnOnce(&Outcome<'_>, &[PathBuf], f64) -> Result<(), UpliftError>,
+) -> Result<(), UpliftError> {
     let start = Instant::now();
     // a place that cannot be written is found now, not after the analyses
     check_target(path)?;
+    let _lock = ResultLock::acquire(path)?;
+    remove_leftovers(path);
     for warning in &study.warnings {
         session.remark(&format!("note: {warning}"));
     }
@@ -69,25 +149,15 @@ pub(super) fn run_study(
     let records = read_records(study)?;
     session.remark(&format!("records  {}", records.description));
 
-    let oscillators = oscillators(study)?;
-    let mut stripes: Vec<Stripes> = Vec::new();
-    for measure in &study.measures {
-        let plan = plan_stripes(study, measure, &records, &oscillators)?;
-        let label = measure.measure.label();
-        session.remark(&format!(
-            "{label:<8} {} records x {} strengths x {} levels = {} analyses",
-            records.records.len(),
-            study.strengths.len(),
-            measure.levels.len(),
-            thousands(plan.analyses())
-        ));
-        let progress = Progress::new(label, "analyses", plan.analyses(), session.quiet, session.stop.clone());
-        let outcome = analyse_stripes(measure, &plan, &progress);
-        progress.close();
-        let done = outcome?;
-        session.remark(&format!("{:<8} {:.1} s, {} analyses/s", "", done.seconds, thousands(rate(&done))));
-        stripes.push(done);
-    }
+    let work = Work::new(study, &records)?;
+    let (journal, mut known) = work::open(&journal_path(path), &work.head(Part::WHOLE), Some(path))?;
+    known.kept.extend(kept);
+    session.set_last_words(format!(
+        "interrupted: all that is finished is kept in {}. Run the same command to go on from there",
+        journal.path().display()
+    ));
+    let stripes = work.carry_out(&known, &journal, Part::WHOLE, session)?;
+    drop(known);
     let mut spectra = Vec::new();
     for (stripes, hazard) in stripes.iter().zip(&hazard) {
         spectra.push(uniform_risk_spectra(study, stripes, hazard)?);
@@ -98,7 +168,8 @@ pub(super) fn run_study(
     warnings.extend(warnings_of(study, &records, &spectra, &coefficients));
 
     if session.stop.load(Ordering::Relaxed) {
-        return Err(UpliftError::Interrupted);
+        let total = stripes.iter().map(|stripes| stripes.analyses).sum();
+        return Err(UpliftError::Paused { what: "analyses", done: total, total, path: journal.path().to_owned() });
     }
     let provenance =
         Provenance::new(&study_file.display().to_string(), start.elapsed().as_secs_f64(), &records, &hazard);
@@ -113,17 +184,13 @@ pub(super) fn run_study(
         provenance: &provenance,
     };
     write_result(path, &outcome)?;
+    journal.remove();
     let mut files = vec![path.to_owned()];
     if study.output.csv && !study.sites.is_empty() {
         write_csv(path, &outcome)?;
         files.extend(csv_paths(path));
     }
     report(&outcome, &files, start.elapsed().as_secs_f64())
-}
-
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a rate for people")]
-fn rate(stripes: &Stripes) -> u64 {
-    (stripes.analyses as f64 / stripes.seconds.max(1e-9)) as u64
 }
 
 fn warnings_of(
@@ -313,6 +380,7 @@ fn summary(outcome: &Outcome<'_>, files: &[PathBuf], seconds: f64) -> serde_json
             json!({
                 "im": stripes.measure.label(),
                 "analyses": stripes.analyses,
+                "analyses_computed": stripes.computed,
                 "seconds": stripes.seconds,
                 "analyses_per_second": rate(stripes),
             })

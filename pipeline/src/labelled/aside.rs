@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::LabelledError;
+use super::{LabelledError, checksum};
 
 /// A hidden, empty file in the folder of the target; it takes the target's place by [`Aside::replace`] and vanishes
 /// when dropped before.
@@ -50,7 +50,7 @@ impl Aside {
             .read(true)
             .write(true)
             .open(&self.partial)
-            .and_then(|file| file.sync_all())
+            .and_then(|mut file| checksum::seal(&mut file).and_then(|()| file.sync_all()))
             .map_err(io_error(&self.target, "bring the file to the disk"))?;
         fs::rename(&self.partial, &self.target).map_err(io_error(&self.target, "put the finished file in place"))?;
         sync_folder(folder_of(&self.target)).map_err(io_error(&self.target, "bring the folder to the disk"))
@@ -61,6 +61,18 @@ impl Drop for Aside {
     fn drop(&mut self) {
         // After `replace` there is nothing left under this name, and nobody to tell of a failure.
         let _ = fs::remove_file(&self.partial);
+    }
+}
+
+/// Takes away what earlier writers of the file at `path` left behind when they were killed. Nobody else may be writing it meanwhile.
+pub fn remove_leftovers(path: &Path) {
+    let Ok(target) = final_place(path) else { return };
+    let Some(name) = target.file_name().and_then(|name| name.to_str()) else { return };
+    let beginning = format!(".{name}.partial-");
+    for entry in fs::read_dir(folder_of(&target)).into_iter().flatten().flatten() {
+        if entry.file_name().to_str().is_some_and(|name| name.starts_with(&beginning)) {
+            let _ = fs::remove_file(entry.path());
+        }
     }
 }
 

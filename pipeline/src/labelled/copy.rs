@@ -8,19 +8,20 @@ use hdf5::{Container, Location, LocationType};
 
 use super::AXES;
 use super::attribute::AttributeValue;
+use super::checksum::CHECKSUM;
 use super::dimension_scale::RESERVED;
 use super::error::LabelledError;
 use super::reader::LabelledReader;
 use super::writer::LabelledWriter;
 
 /// Attributes of an array that have arguments of their own.
-const DESCRIPTIONS: [&str; 2] = ["units", "long_name"];
+const DESCRIPTIONS: [&str; 3] = ["units", "long_name", CHECKSUM];
 
 impl LabelledWriter {
     /// Carries over every axis, array and attribute of `reader` but the axes and groups named in `left_out`, e.g. `/bootstrap`
     /// or `/axes/replicate`.
     ///
-    /// One array is in memory at a time.
+    /// One array is in memory at a time. An array that is not as it was written is refused, so that damage never gets a new checksum.
     ///
     /// # Errors
     /// Whatever keeps the one file from being read or the other from being written; an array over an axis left out.
@@ -53,6 +54,7 @@ impl LabelledWriter {
     }
 
     fn carry_axis(&mut self, reader: &LabelledReader, axis: &str, path: &str) -> Result<(), LabelledError> {
+        reader.require_sound(path)?;
         let long_name = reader.attribute_text(path, "long_name")?;
         match reader.kind(path)? {
             Kind::Text => self.axis_text(axis, &reader.axis_text(axis)?, &long_name)?,
@@ -64,6 +66,7 @@ impl LabelledWriter {
     }
 
     fn carry_array(&mut self, reader: &LabelledReader, path: &str) -> Result<(), LabelledError> {
+        reader.require_sound(path)?;
         let long_name = reader.attribute_text(path, "long_name")?;
         let kind = reader.kind(path)?;
         let unit = if kind == Kind::Text { String::new() } else { reader.unit(path)? };
@@ -106,7 +109,7 @@ impl LabelledWriter {
 
 /// What an array or attribute holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Kind {
+pub(super) enum Kind {
     Text,
     F64,
     F32,
@@ -123,7 +126,7 @@ impl LabelledReader {
         self.check(names, AXES)
     }
 
-    fn is_group(&self, path: &str) -> bool {
+    pub(super) fn is_group(&self, path: &str) -> bool {
         matches!(self.file.loc_type_by_name(path), Ok(LocationType::Group))
     }
 
@@ -131,7 +134,7 @@ impl LabelledReader {
         self.attribute_text(path, "units")
     }
 
-    fn kind(&self, path: &str) -> Result<Kind, LabelledError> {
+    pub(super) fn kind(&self, path: &str) -> Result<Kind, LabelledError> {
         let dataset = self.check(self.file.dataset(path), path)?;
         self.kind_of(&dataset, path)
     }

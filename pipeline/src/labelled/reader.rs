@@ -240,7 +240,7 @@ impl LabelledReader {
         }
     }
 
-    fn dataset(&self, path: &str) -> Result<Dataset, LabelledError> {
+    pub(super) fn dataset(&self, path: &str) -> Result<Dataset, LabelledError> {
         self.require(path, LocationType::Dataset, "an array")?;
         self.check(self.file.dataset(path), path)
     }
@@ -254,7 +254,7 @@ impl LabelledReader {
         found.map(|attribute| Container::clone(&attribute)).map_err(|_| self.missing(attribute_label(object, name)))
     }
 
-    fn values<T: Number>(&self, container: &Container, object: &str) -> Result<Vec<T>, LabelledError> {
+    pub(super) fn values<T: Number>(&self, container: &Container, object: &str) -> Result<Vec<T>, LabelledError> {
         let found = self.check(container.dtype().and_then(|datatype| datatype.to_descriptor()), object)?;
         if !T::TYPES.contains(&found) {
             return Err(self.wrong(object, format!("of type {found}"), T::WANTED));
@@ -263,7 +263,7 @@ impl LabelledReader {
         self.check(container.read_raw(), object)
     }
 
-    fn texts(&self, container: &Container, object: &str) -> Result<Vec<String>, LabelledError> {
+    pub(super) fn texts(&self, container: &Container, object: &str) -> Result<Vec<String>, LabelledError> {
         self.require_room(container, object)?;
         match self.check(text::read(container), object)? {
             Some(texts) => Ok(texts),
@@ -327,7 +327,7 @@ fn attribute_label(object: &str, name: &str) -> String {
 }
 
 /// A number in memory and the types in a file that it can take without loss.
-trait Number: H5Type + Copy {
+pub(super) trait Number: H5Type + Copy {
     const TYPES: &'static [TypeDescriptor];
     const WANTED: &'static str;
 }

@@ -8,6 +8,7 @@ use hdf5::{Dataset, File, H5Type, Location, LocationType, ObjectReference1};
 
 use super::aside::Aside;
 use super::attribute::{self, AttributeValue};
+use super::checksum::{CHECKSUM, Hashed, of_values};
 use super::dimension_scale::{self, LONGEST_NAME, RESERVED};
 use super::error::{LabelledError, reason};
 use super::native::ScaleUse;
@@ -226,7 +227,7 @@ impl LabelledWriter {
         aside.replace()
     }
 
-    fn axis<T: H5Type>(
+    fn axis<T: H5Type + Hashed>(
         &mut self,
         name: &str,
         values: &[T],
@@ -247,7 +248,7 @@ impl LabelledWriter {
         Ok(())
     }
 
-    fn array<T: H5Type>(
+    fn array<T: H5Type + Hashed>(
         &mut self,
         path: &str,
         dims: &[&str],
@@ -310,7 +311,7 @@ impl LabelledWriter {
     }
 
     /// Writes the values, `units` and `long_name` of an array or axis.
-    fn dataset<T: H5Type>(
+    fn dataset<T: H5Type + Hashed>(
         &self,
         path: &str,
         shape: &[usize],
@@ -334,6 +335,7 @@ impl LabelledWriter {
                 attribute::write(&dataset, "units", &unit.into())?;
             }
             attribute::write(&dataset, "long_name", &long_name.into())?;
+            attribute::write(&dataset, CHECKSUM, &of_values(values).into())?;
             // Closing writes what the library has kept back, and tells nobody when that fails: flush, which does tell.
             dataset.flush()?;
             Ok(dataset)

@@ -5,6 +5,7 @@ use std::time::SystemTime;
 
 use super::StoredStripes;
 use crate::error::UpliftError;
+use crate::kept::ResultLock;
 use crate::labelled::{LabelledError, LabelledReader, LabelledWriter};
 
 /// Write the file at `path` anew without the groups and axes `replaced`, and with what `add` writes.
@@ -16,6 +17,8 @@ pub(crate) fn extend_result(
     replaced: &[&str],
     add: impl FnOnce(&mut LabelledWriter) -> Result<(), LabelledError>,
 ) -> Result<(), UpliftError> {
+    // what another adds between our reading and our writing would be lost
+    let _lock = ResultLock::acquire(path)?;
     let reader = LabelledReader::open(path)?;
     let mut writer = LabelledWriter::create(path)?;
     writer.carry_over(&reader, replaced)?;

@@ -9,6 +9,7 @@ use super::hazard::{write_branches, write_hazard};
 use super::{LAYOUT, Outcome};
 use crate::error::UpliftError;
 use crate::inputs::Record;
+use crate::kept::{motion_key, oscillator_key};
 use crate::labelled::{LabelledError, LabelledWriter};
 
 /// Write `outcome` to `path`, aside and renamed, so that an earlier file survives a failure.
@@ -82,7 +83,7 @@ fn write_axes(writer: &mut LabelledWriter, outcome: &Outcome<'_>) -> Result<(), 
 }
 
 /// Name of the axis of a measure's levels.
-pub(super) fn level_axis(measure: IntensityMeasure) -> String {
+pub(crate) fn level_axis(measure: IntensityMeasure) -> String {
     format!("{}_level", measure.key())
 }
 
@@ -104,6 +105,8 @@ fn write_records(writer: &mut LabelledWriter, records: &[Record], intensity: Com
     writer.array_f64("/records/vs30", dims, &number("vs30"), "m/s", "mean shear-wave velocity of the upper 30 m")?;
     let component: Vec<String> = records.iter().map(|record| record.component.to_string()).collect();
     writer.array_text("/records/component", dims, &component, "horizontal component analysed")?;
+    let motions: Vec<String> = records.iter().map(|record| motion_key(&record.accelerogram)).collect();
+    writer.array_text("/records/motion_sha256", dims, &motions, "SHA-256 of time step and samples in m/s2")?;
     let checksum: Vec<String> = records.iter().map(|record| record.checksum.clone()).collect();
     writer.array_text("/records/checksum", dims, &checksum, "SHA-256 of the component")?;
     let pga: Vec<f64> = records.iter().map(|record| record.pga_g).collect();
@@ -151,6 +154,7 @@ fn write_measure(
     let edp = format!("{group}/edp_m");
     writer.array_f64(&edp, &dims, stripes.edp.edp_m(), "m", "peak displacement, infinite where overturned")?;
     writer.array_u32(&format!("{group}/impacts"), &dims, stripes.edp.impacts(), "1", "number of impacts")?;
+    writer.attribute(&group, "oscillator_key", oscillator_key(outcome.study).as_str())?;
     writer.attribute(&group, "analyses", stripes.analyses)?;
     writer.attribute(&group, "seconds", stripes.seconds)?;
 

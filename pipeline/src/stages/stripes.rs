@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use uplift_ida::{EdpArray, IdaError, Plan, StripeRecord, Watch, analyse};
+use uplift_ida::{Cells, EdpArray, IdaError, Part, Piece, Plan, StripeRecord, Watch, complete};
 use uplift_motion::IntensityMeasure;
 use uplift_oscillator::{Oscillator, PostUplift};
 
@@ -21,7 +21,9 @@ pub struct Stripes {
     pub edp: EdpArray,
     /// Nonlinear time histories.
     pub analyses: u64,
-    /// Wall time, s.
+    /// Those of them that were not known from an earlier run.
+    pub computed: u64,
+    /// Wall time for these, s.
     pub seconds: f64,
 }
 
@@ -70,21 +72,33 @@ pub fn plan_stripes<'a>(
         .map_err(|error| UpliftError::input(error.to_string()))
 }
 
-/// Carry out `plan` on all threads.
+/// Carry out what `cells` lacks of one part of `plan` on all threads; every finished piece goes to `keep`. None unless the part is the
+/// whole.
 ///
 /// # Errors
 /// [`UpliftError::Interrupted`] if `watch` says so.
-pub fn analyse_stripes(measure: &MeasurePlan, plan: &Plan<'_>, watch: &dyn Watch) -> Result<Stripes, UpliftError> {
+pub fn analyse_stripes(
+    measure: &MeasurePlan,
+    plan: &Plan<'_>,
+    cells: Cells,
+    part: Part,
+    watch: &dyn Watch,
+    keep: &(dyn Fn(&Piece<'_>) + Sync),
+) -> Result<Option<Stripes>, UpliftError> {
     let start = Instant::now();
-    let edp = analyse(plan, watch).map_err(|error| match error {
+    let known = cells.count();
+    let cells = complete(plan, cells, part, watch, keep).map_err(|error| match error {
         IdaError::Cancelled => UpliftError::Interrupted,
         other => UpliftError::input(other.to_string()),
     })?;
-    Ok(Stripes {
+    let seconds = start.elapsed().as_secs_f64();
+    let analyses = plan.analyses();
+    Ok(cells.complete().filter(|_| part == Part::WHOLE).map(|edp| Stripes {
         measure: measure.measure,
         levels: measure.levels.to_vec(),
         edp,
-        analyses: plan.analyses(),
-        seconds: start.elapsed().as_secs_f64(),
-    })
+        analyses,
+        computed: analyses - known,
+        seconds,
+    }))
 }

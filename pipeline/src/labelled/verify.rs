@@ -1,0 +1,108 @@
+//! Whether a file is what was written.
+
+use std::path::Path;
+
+use super::AXES;
+use super::aside::io_error;
+use super::checksum::{CHECKSUM, Hashed, Seal, of_values, seal_of};
+use super::copy::Kind;
+use super::error::LabelledError;
+use super::reader::LabelledReader;
+
+/// What was found of a file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Verdict {
+    /// The checksum of all bytes.
+    pub seal: Seal,
+    /// Arrays and axes that are as they were written.
+    pub sound: usize,
+    /// Those that are not, each with the reason.
+    pub damaged: Vec<String>,
+    /// Those without a checksum.
+    pub unknown: Vec<String>,
+}
+
+impl Verdict {
+    /// Whether nothing is damaged.
+    pub fn is_sound(&self) -> bool {
+        self.damaged.is_empty() && self.seal != Seal::Broken
+    }
+}
+
+/// Looks at every byte of the file at `path`, and at every array in it.
+///
+/// # Errors
+/// A file that cannot be opened at all; [`LabelledReader::open`] says why.
+pub fn verify(path: &Path) -> Result<Verdict, LabelledError> {
+    let reader = LabelledReader::open(path)?;
+    let seal = seal_of(path).map_err(io_error(path, "read the file"))?;
+    let mut verdict = Verdict { seal, sound: 0, damaged: Vec::new(), unknown: Vec::new() };
+    reader.verify_group("", &mut verdict);
+    Ok(verdict)
+}
+
+impl LabelledReader {
+    /// Whether the array at `path` is as it was written; none where it has no checksum.
+    ///
+    /// # Errors
+    /// An array that cannot be read.
+    pub fn is_sound(&self, path: &str) -> Result<Option<bool>, LabelledError> {
+        let Ok(stored) = self.attribute_text(path, CHECKSUM) else { return Ok(None) };
+        Ok(Some(self.checksum(path)? == stored))
+    }
+
+    /// Refuses an array that is not as it was written; one without a checksum passes.
+    ///
+    /// # Errors
+    /// [`LabelledError::Hdf5`] where the values are others.
+    pub fn require_sound(&self, path: &str) -> Result<(), LabelledError> {
+        if self.is_sound(path)? == Some(false) {
+            return self.check(Err("its values are not those that were written".into()), path);
+        }
+        Ok(())
+    }
+
+    fn checksum(&self, path: &str) -> Result<String, LabelledError> {
+        fn of<T: Hashed>(values: Vec<T>) -> String {
+            of_values(&values)
+        }
+        let dataset = self.dataset(path)?;
+        Ok(match self.kind(path)? {
+            Kind::Text => of(self.texts(&dataset, path)?),
+            Kind::F64 => of::<f64>(self.values(&dataset, path)?),
+            Kind::F32 => of::<f32>(self.values(&dataset, path)?),
+            Kind::U32 => of::<u32>(self.values(&dataset, path)?),
+            Kind::U8 => of::<u8>(self.values(&dataset, path)?),
+            Kind::I64 => of::<i64>(self.values(&dataset, path)?),
+            Kind::U64 => of::<u64>(self.values(&dataset, path)?),
+        })
+    }
+
+    fn verify_group(&self, group: &str, verdict: &mut Verdict) {
+        let name = if group.is_empty() { "/" } else { group };
+        let children = match self.children(name) {
+            Ok(children) => children,
+            Err(error) => {
+                verdict.damaged.push(format!("{name}: {error}"));
+                return;
+            }
+        };
+        let mut all = children;
+        if group.is_empty() && !all.iter().any(|child| format!("/{child}") == AXES) {
+            all.extend(AXES.strip_prefix('/').map(str::to_owned));
+        }
+        for child in all {
+            let path = format!("{group}/{child}");
+            if self.is_group(&path) {
+                self.verify_group(&path, verdict);
+                continue;
+            }
+            match self.is_sound(&path) {
+                Ok(Some(true)) => verdict.sound += 1,
+                Ok(Some(false)) => verdict.damaged.push(format!("{path}: its values are not those that were written")),
+                Ok(None) => verdict.unknown.push(path),
+                Err(error) => verdict.damaged.push(format!("{path}: {error}")),
+            }
+        }
+    }
+}

@@ -1,0 +1,317 @@
+//! Runs that are killed, stopped, cut into shards and gone on with: nothing is lost, and the numbers are those of an undisturbed run.
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+mod common;
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use common::{EARLIER, SMALL_STUDY, SmallStudy, command};
+use uplift::labelled::LabelledReader;
+
+/// A study of about a second of work on one thread.
+fn study() -> SmallStudy {
+    let text = SMALL_STUDY
+        .replace("first = 4", "first = 8")
+        .replace("pairs = 4", "pairs = 8")
+        .replace("values = [0, 0.05, \"0.1:0.1:0.8\"]", "values = \"0.01:0.01:0.8\"");
+    SmallStudy::with(&text)
+}
+
+/// Everything in a result but what tells of time and circumstance: arrays by their checksums, attributes by their text.
+fn content(path: &Path) -> BTreeMap<String, String> {
+    const CIRCUMSTANCE: [&str; 6] = ["created", "command", "wall_time_s", "threads", "seconds", "study_toml"];
+    let reader = LabelledReader::open(path).unwrap();
+    let mut content = BTreeMap::new();
+    let mut groups = vec![String::new()];
+    while let Some(group) = groups.pop() {
+        for child in reader.children(if group.is_empty() { "/" } else { &group }).unwrap() {
+            let object = format!("{group}/{child}");
+            if reader.children(&object).is_ok() {
+                groups.push(object);
+            } else {
+                assert_eq!(reader.is_sound(&object).unwrap(), Some(true), "{object}");
+                content.insert(object.clone(), reader.attribute_text(&object, "sha256").unwrap());
+            }
+        }
+    }
+    for name in ["version", "commit", "title", "study_file", "record_set", "input_checksums", "warnings"] {
+        assert!(!CIRCUMSTANCE.contains(&name));
+        content.insert(format!("attribute {name}"), reader.attribute_text("/", name).unwrap());
+    }
+    assert!(content.keys().filter(|key| key.starts_with("/ida")).count() >= 4 && content.len() > 30, "{content:?}");
+    content
+}
+
+fn start(study: &SmallStudy, arguments: &[&str]) -> std::process::Child {
+    command(study.path()).args(arguments).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
+}
+
+/// What the run computed, from its summary.
+fn computed(study: &SmallStudy, arguments: &[&str]) -> (u64, u64) {
+    let done = study.uplift(&[arguments, &["--json"]].concat()).ok();
+    let summary: serde_json::Value = serde_json::from_str(&done.stdout).unwrap();
+    let sum = |key: &str| summary["measures"].as_array().unwrap().iter().map(|m| m[key].as_u64().unwrap()).sum();
+    (sum("analyses_computed"), sum("analyses"))
+}
+
+#[test]
+fn killed_at_any_moment_it_goes_on_and_ends_with_the_same_bits() {
+    let undisturbed = study();
+    let begin = Instant::now();
+    undisturbed.uplift(&["run", "study.toml"]).ok();
+    let whole = begin.elapsed();
+    let expected = content(&undisturbed.path().join("results/study.h5"));
+
+    let study = study();
+    let result = study.path().join("results/study.h5");
+    let mut state = 12345_u64;
+    let (mut kills, mut finished) = (0, 0);
+    while kills < 60 {
+        let mut child = start(&study, &["run", "study.toml", "--quiet", "--threads", "2"]);
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        // from the first moment to a little after the usual end, so that some hit the writing
+        let share = f64::from(u32::try_from(state >> 33).unwrap()) / f64::from(1_u32 << 31);
+        std::thread::sleep(whole.mul_f64(1.1 * share).min(Duration::from_secs(1)));
+        match child.try_wait().unwrap() {
+            None => {
+                child.kill().unwrap();
+                child.wait().unwrap();
+                kills += 1;
+            }
+            Some(status) => {
+                assert!(status.success());
+                finished += 1;
+            }
+        }
+        if result.exists() {
+            // what is there is whole, whenever it was killed; and the next run starts from nothing
+            assert_eq!(content(&result), expected, "after {kills} kills");
+            if finished % 2 == 1 || kills % 7 == 0 {
+                std::fs::remove_file(&result).unwrap();
+            }
+        }
+    }
+    study.uplift(&["run", "study.toml"]).ok();
+    assert_eq!(content(&result), expected);
+    // nothing is left but the result and its tables
+    let mut left: Vec<String> = std::fs::read_dir(study.path().join("results"))
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())
+        .collect();
+    left.sort();
+    assert_eq!(left, ["study.h5", "study.regression.csv", "study.urs.csv"]);
+    println!("{kills} kills, {finished} ends; an undisturbed run takes {whole:?}");
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_says_what_is_kept_and_goes_on_from_there() {
+    let study = study();
+    let mut child = start(&study, &["run", "study.toml", "--threads", "1"]);
+    let journal = study.path().join("results/study.h5.part");
+    let begin = Instant::now();
+    while std::fs::metadata(&journal).map_or(0, |file| file.len()) < 20_000 {
+        assert!(begin.elapsed() < Duration::from_secs(60), "no journal");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    let begin = Instant::now();
+    assert_eq!(child.wait().unwrap().code(), Some(5));
+    assert!(begin.elapsed() < Duration::from_secs(1), "{:?}", begin.elapsed());
+    let mut said = String::new();
+    std::io::Read::read_to_string(child.stderr.as_mut().unwrap(), &mut said).unwrap();
+    assert!(said.contains("analyses are kept in") && said.contains("study.h5.part"), "{said}");
+
+    for input in ["results/study.h5", "study.toml"] {
+        let status = study.uplift(&["status", input]).ok().stdout;
+        assert!(status.contains("kept of an unfinished run") && status.contains(" of 1280 pieces"), "{status}");
+    }
+    let (computed, all) = computed(&study, &["run", "study.toml"]);
+    assert!(computed > 0 && computed < all, "{computed} of {all}");
+    let status = study.uplift(&["status", "results/study.h5"]).ok().stdout;
+    assert!(status.contains("finished") && status.contains("Here, There") && !status.contains("kept"), "{status}");
+    study.uplift(&["status", "absent.h5"]).fails(4, &["absent.h5", "no result"]);
+}
+
+#[test]
+fn only_what_is_new_is_computed() {
+    let study = SmallStudy::new();
+    let first = computed(&study, &["run", "study.toml"]);
+    assert_eq!(first, (4 * 10 * 9, 4 * 10 * 9));
+    // another site, another probability: no analysis
+    assert_eq!(computed(&study, &["run", "study.toml", "--set", "risk.poe=[0.01]"]).0, 0);
+    // two strengths more, one level more, two records fewer
+    let more = ["run", "study.toml", "--set", "strengths.values=[0, 0.05, \"0.1:0.1:0.8\", 0.9, 1]"];
+    assert_eq!(computed(&study, &more), (4 * 2 * 9, 4 * 12 * 9));
+    let levels = ["run", "study.toml", "--set", "pgv.levels_cm_s=[1, 3, 10, 30, 60, 100]"];
+    assert_eq!(computed(&study, &levels), (4 * 10, 4 * 10 * 10));
+    let fewer = ["run", "study.toml", "--set", "records.first=2"];
+    assert_eq!(computed(&study, &fewer), (0, 2 * 10 * 9));
+    // what a result was made of bit by bit is what a fresh run makes
+    let patched = study.path().join("results/study.h5");
+    let again = ["run", "study.toml"];
+    let (computed_again, _) = computed(&study, &again);
+    assert!(computed_again > 0);
+    study.uplift(&["run", "study.toml", "-o", "fresh.h5"]).ok();
+    assert_eq!(content(&patched), content(&study.path().join("fresh.h5")));
+    // another oscillator, another measure of the records, another motion: all anew
+    for set in [
+        "oscillator.restitution=0.9",
+        "gravity_m_s2=9.81",
+        "records.component=\"h2\"",
+        "records.intensity=\"rotd50\"",
+        "records.synthetic.seed=2",
+    ] {
+        let (computed, all) = computed(&study, &["run", "study.toml", "--set", set, "-o", "other.h5"]);
+        assert_eq!(computed, all, "{set}");
+        study.uplift(&["run", "study.toml", "-o", "other.h5"]).ok();
+    }
+}
+
+#[test]
+fn shards_make_the_same_result() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-o", "whole.h5"]).ok();
+    for shard in ["3/3", "1/3", "2/3"] {
+        let done = study.uplift(&["run", "study.toml", "--shard", shard]).ok();
+        assert!(done.stdout.contains("pieces"), "{}", done.stdout);
+    }
+    let shard = |n: u32| format!("results/study.shard-{n}-of-3");
+    let (one, two, three) = (shard(1), shard(2), shard(3));
+    study.uplift(&["status", &two]).ok();
+    let merged = study.uplift(&["merge", "study.toml", &three, &one, &two]).ok();
+    assert!(merged.stderr.contains("80 pieces of 3 shards"), "{}", merged.stderr);
+    assert_eq!(content(&study.path().join("results/study.h5")), content(&study.path().join("whole.h5")));
+
+    std::fs::remove_file(study.path().join("results/study.h5")).unwrap();
+    study.uplift(&["merge", "study.toml", &one, &three]).fails(4, &["1 shard(s) missing: 2/3"]);
+    study.uplift(&["merge", "study.toml", &one, &one, &two, &three]).fails(4, &["shard 1 of 3", "too"]);
+    study.uplift(&["run", "study.toml", "--shard", "1/2", "-o", "half"]).ok();
+    study.uplift(&["merge", "study.toml", &one, &two, &three, "half"]).fails(4, &["half", "one division"]);
+    study.uplift(&["run", "study.toml", "--shard", "1/3", "-o", "foreign", "--set", "oscillator.restitution=0.9"]).ok();
+    study
+        .uplift(&["merge", "study.toml", "foreign", &two, &three])
+        .fails(4, &["foreign", "other work", "missing: 1/3"]);
+    // cut off in the middle, a shard is gone on with
+    let bytes = std::fs::read(study.path().join(&two)).unwrap();
+    study.write_bytes(&two, &bytes[..bytes.len() * 2 / 3]);
+    study
+        .uplift(&["merge", "study.toml", &one, &two, &three])
+        .fails(4, &["study.shard-2-of-3", "pieces", "--shard 2/3"]);
+    study.uplift(&["run", "study.toml", "--shard", "2/3"]).ok();
+    assert_eq!(std::fs::read(study.path().join(&two)).unwrap().len(), bytes.len());
+    study.uplift(&["merge", "study.toml", &one, &two, &three]).ok();
+    assert_eq!(content(&study.path().join("results/study.h5")), content(&study.path().join("whole.h5")));
+    study.uplift(&["merge", "study.toml", "study.toml"]).fails(4, &["study.toml", "no file of finished pieces"]);
+    study.uplift(&["run", "study.toml", "--shard", "4/3"]).fails(2, &["1/8"]);
+}
+
+#[test]
+fn every_flipped_byte_is_found() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml"]).ok();
+    let sound = study.uplift(&["verify", "results/study.h5"]).ok().stdout;
+    assert!(sound.contains("arrays as they were written, and every byte of the file"), "{sound}");
+    let bytes = std::fs::read(study.path().join("results/study.h5")).unwrap();
+    for part in 0..97 {
+        let mut damaged = bytes.clone();
+        let index = part * (bytes.len() - 1) / 96;
+        damaged[index] ^= 0x04;
+        study.write_bytes("damaged.h5", &damaged);
+        let found = study.uplift(&["verify", "damaged.h5"]);
+        // within the line at the end it may be the line itself that is no longer there
+        let in_the_line =
+            index >= bytes.len() - 114 && found.code == 0 && found.stderr.contains("no checksum of the whole");
+        assert!(found.code == 4 || in_the_line, "byte {index}: {}\n{}", found.stdout, found.stderr);
+    }
+    // what is added to a result is sealed too, and what is damaged is not added to
+    study.uplift(&["bootstrap", "results/study.h5", "--replicates", "20"]).ok();
+    study.uplift(&["verify", "results/study.h5"]).ok();
+    study.uplift(&["verify", "study.toml"]).fails(4, &["study.toml"]);
+    study.uplift(&["verify", "absent.h5"]).fails(4, &["absent.h5"]);
+}
+
+// A damaged earlier result is no source of numbers.
+#[test]
+fn damage_does_not_spread() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-o", "a.h5"]).ok();
+    let expected = content(&study.path().join("a.h5"));
+    let bytes = std::fs::read(study.path().join("a.h5")).unwrap();
+    for part in 1..40 {
+        let mut damaged = bytes.clone();
+        let index = part * bytes.len() / 40;
+        damaged[index] ^= 0x20;
+        study.write_bytes("b.h5", &damaged);
+        let done = study.uplift(&["run", "study.toml", "-o", "b.h5"]);
+        // where it no longer is an HDF5 file it is left alone
+        if done.code == 0 {
+            assert_eq!(content(&study.path().join("b.h5")), expected, "byte {index}");
+        } else {
+            done.fails(4, &["b.h5"]);
+        }
+    }
+}
+
+#[test]
+fn one_run_at_a_time() {
+    let study = study();
+    let mut child = start(&study, &["run", "study.toml", "--threads", "1"]);
+    let begin = Instant::now();
+    while !study.path().join("results/study.h5.part").exists() {
+        assert!(begin.elapsed() < Duration::from_secs(60), "no journal");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    study.uplift(&["run", "study.toml"]).fails(4, &["results/study.h5", "another run (process"]);
+    let status = study.uplift(&["status", "results/study.h5"]).ok().stdout;
+    assert!(status.contains("being written now, by process"), "{status}");
+    child.kill().unwrap();
+    child.wait().unwrap();
+    study.uplift(&["run", "study.toml"]).ok();
+}
+
+#[test]
+fn what_is_in_the_way_is_left_alone() {
+    let study = SmallStudy::new();
+    std::fs::create_dir(study.path().join("results")).unwrap();
+    study.write("results/study.h5.part", "my own notes\n");
+    study.uplift(&["run", "study.toml"]).fails(4, &["study.h5.part", "no file of finished pieces"]);
+    assert_eq!(std::fs::read_to_string(study.path().join("results/study.h5.part")).unwrap(), "my own notes\n");
+    // an earlier result that only begins as one knows nothing, and gives way
+    std::fs::remove_file(study.path().join("results/study.h5.part")).unwrap();
+    study.write_bytes("results/study.h5", EARLIER);
+    study.uplift(&["run", "study.toml"]).ok();
+    // a record that vanishes between check and run
+    let made = ["records", "synthesize", "-o", "set", "--count", "2"];
+    study.uplift(&made).ok();
+    let set = ["--set", "records.manifest=set/manifest.csv"];
+    study.uplift(&[&["check", "study.toml"][..], &set].concat()).ok();
+    std::fs::remove_file(study.path().join("set/SYN002_H1.AT2")).unwrap();
+    study.uplift(&[&["run", "study.toml"][..], &set].concat()).fails(4, &["SYN002", "SYN002_H1.AT2"]);
+}
+
+// A file system of its own, so small that the run fills it: what is finished is kept, and once there is room the run goes on.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_loses_nothing() {
+    let study = study();
+    let small = study.path().join("small");
+    std::fs::create_dir(&small).unwrap();
+    let mount = |options: &str| Command::new("mount").args(["-t", "tmpfs", "-o", options, "none"]).arg(&small).output();
+    if !mount("size=64k").is_ok_and(|done| done.status.success()) {
+        println!("skipped: no right to mount a small file system");
+        return;
+    }
+    let run = ["run", "study.toml", "-o", "small/a.h5", "--set", "output.csv=false"];
+    let full = study.uplift(&run).fails(4, &["small/a.h5.part", "make room"]);
+    assert!(full.stderr.contains("No space left"), "{}", full.stderr);
+    assert!(mount("remount,size=16m").unwrap().status.success());
+    let (computed, all) = computed(&study, &run);
+    study.uplift(&["run", "study.toml", "-o", "fresh.h5", "--set", "output.csv=false"]).ok();
+    let same = content(&small.join("a.h5")) == content(&study.path().join("fresh.h5"));
+    Command::new("umount").arg(&small).status().unwrap();
+    assert!(same && computed > 0 && computed < all, "{computed} of {all}");
+}
