@@ -229,6 +229,12 @@ fn what_is_no_export_is_told_so() {
         (format!("# investigation_time=one, imt='PGA'\n{header}"), "x.csv, line 1: \"one\" is not a number"),
         (format!("# investigation_time=0, imt='PGA'\n{header}"), "period [yr] is 0"),
         ("iml,maf\n1,0.2\n2,0.1\n".to_owned(), "x.csv, line 1: no columns \"poe-...\": not an OpenQuake export"),
+        // The first lines of realizations_1.csv, which the engine writes beside the curves.
+        (
+            "#,,\"generated_by='OpenQuake engine 3.26.2', checksum=1\"\nrlz_id,branch_path,weight\n0,AA~A,1.8000001e-01\n"
+                .to_owned(),
+            "x.csv, line 2: the realizations of a logic tree with their weights, no hazard curves",
+        ),
         (format!("{COMMENT}lon,lat,0.1~PGA\n1,2,0.3\n"), "x.csv, line 2: no columns \"poe-...\""),
         (format!("{COMMENT}lon,lat,poe-PGA-0.1\n1,2,0.3\n"), "x.csv, line 2: column \"poe-PGA-0.1\": no level"),
         (format!("{COMMENT}lon,lon,poe-0.1\n1,2,0.3\n"), "x.csv, line 2: columns lon and lat must be there once"),

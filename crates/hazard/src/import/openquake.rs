@@ -147,6 +147,14 @@ impl Columns {
         }
         let count = |wanted: Column| meaning.iter().filter(|&&column| column == wanted).count();
         if !meaning.iter().any(|column| matches!(column, Column::Probability(_))) {
+            // It lies among the curves, and `*.csv` takes it along.
+            if fields(line, separator).any(|name| matches!(name, "rlz_id" | "branch_path")) {
+                return fail(
+                    "the realizations of a logic tree with their weights, no hazard curves: leave the file out here, and \
+                     give it as the weights (--weights)"
+                        .to_owned(),
+                );
+            }
             return fail(
                 "no columns \"poe-...\": not an OpenQuake export of hazard curves, nor NRML nor JSON of the USGS; \
                  two columns of one site are read as a CSV curve"
