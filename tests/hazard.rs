@@ -114,6 +114,19 @@ fn realizations_become_branches() {
         &format!("[records]\nfirst = 2\n[strengths]\nvalues = 0.2\n[pgv]\nlevels_cm_s = [3, 10, 100]\n{}", done.stdout),
     );
     study.uplift(&["run", "mine.toml"]).ok();
+    let import = ["hazard", "import", "one.csv", "-o", "again"];
+    study.uplift(&[&import[..], &["--weights", "weights.csv"]].concat()).fails(4, &["1 of 2 realizations", "0.75"]);
+    let alone = study.uplift(&import).ok();
+    assert!(
+        alone.stderr.contains("no mean among the exports") && !alone.stdout.contains("[[sites]]"),
+        "{}",
+        alone.stderr
+    );
+    assert!(
+        alone.stderr.contains("the default stripes do not") && alone.stderr.contains("pgv.levels_cm_s = "),
+        "{}",
+        alone.stderr
+    );
     study.uplift(&["hazard", "import", "one.csv", "one.csv", "mean.csv", "-o", "again"]).ok();
     study.write("copy.csv", &openquake("rlz-000", 50.0, &site(0.3)));
     study

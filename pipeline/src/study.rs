@@ -41,6 +41,7 @@ mod tests;
 pub use error::{Place, StudyError, StudyMistake};
 pub use grid::Grid;
 pub use hazard::{Conversion, Hazard, definition_of, definition_word};
+pub use measures::levels_within;
 pub use notation::MOST_GRID_VALUES;
 pub use resolved::{
     Bootstrap, Branch, Contour, CurveFile, CurveKind, CurveUnit, DEFAULT_SYNTHETIC_PAIRS, DEFAULT_SYNTHETIC_SEED,

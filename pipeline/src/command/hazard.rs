@@ -95,7 +95,12 @@ struct NamedCurve {
 /// The curves of a file: those of an export, or the one of a table with two columns.
 fn read(path: &Path, site: &SiteArguments, table: &TableArguments) -> Result<Vec<NamedCurve>, UpliftError> {
     let export = match read_export(path, &site.selection()) {
-        Ok(curves) => return Ok(curves.into_iter().map(|exported| named(path, exported)).collect()),
+        Ok(curves) => {
+            if let Some(far) = curves.iter().filter_map(|curve| curve.distance_km).reduce(f64::max) {
+                eprintln!("{}: the nearest site is {far:.1} km away", path.display());
+            }
+            return Ok(curves.into_iter().map(|exported| named(path, exported)).collect());
+        }
         Err(error) => error,
     };
     let fail = |reason: String| UpliftError::input(reason);

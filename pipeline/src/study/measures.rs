@@ -40,6 +40,35 @@ pub(super) const MEASURES: [MeasureKeys; 2] = [
     },
 ];
 
+/// The default levels of `measure` that lie from `least` to `most`, as a study writes them: key and grid. None where all of them do, or
+/// hardly any.
+pub fn levels_within(measure: IntensityMeasure, least: f64, most: f64) -> Option<(String, String)> {
+    let keys = MEASURES.iter().find(|keys| keys.measure == measure)?;
+    let mut parts = Vec::new();
+    let mut cut = false;
+    for text in keys.default_levels {
+        let numbers: Vec<f64> = text.split(':').filter_map(|number| number.parse().ok()).collect();
+        let part = match numbers[..] {
+            [value] => (least <= value && value <= most).then(|| text.to_string()),
+            [start, step, stop] => {
+                // ends move by whole steps, so that the levels stay those of the default
+                let from = ((least - start) / step).ceil().max(0.0);
+                let to = ((most.min(stop) - start) / step + 1e-9).floor();
+                let at = |steps: f64| ((start + steps * step) * 1e6).round() / 1e6;
+                cut |= from > 0.0 || at(to) < stop;
+                (from < to).then(|| format!("{}:{step}:{}", at(from), at(to)))
+            }
+            _ => None,
+        };
+        cut |= part.is_none();
+        parts.extend(part);
+    }
+    let quoted: Vec<String> = parts.iter().map(|part| format!("\"{part}\"")).collect();
+    let range = |part: &String| part.contains(':');
+    (cut && parts.iter().any(range))
+        .then(|| (format!("{}.{}", keys.section, keys.levels), format!("[{}]", quoted.join(", "))))
+}
+
 /// Which measures the document has sections of.
 pub(super) fn switched_on(root: &mut Section<'_>) -> Vec<IntensityMeasure> {
     MEASURES.iter().filter(|keys| root.field(keys.section).is_some()).map(|keys| keys.measure).collect()

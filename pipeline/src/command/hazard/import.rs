@@ -1,5 +1,6 @@
 //! `uplift hazard import`: curve files of a site from what an engine exports.
 
+use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -9,8 +10,11 @@ use uplift_hazard::{
     read_realization_weights,
 };
 
+use uplift_motion::IntensityMeasure;
+
 use super::{Session, SiteArguments, UpliftError, distinct};
 use crate::result::write_aside;
+use crate::study::levels_within;
 
 /// Distance of a site from the place asked for that needs no word, km.
 const NEAR_KM: f64 = 10.0;
@@ -51,6 +55,9 @@ pub(super) fn import(arguments: &ImportArguments, session: &Session) -> Result<(
         curves.extend(read_export(export, &arguments.site.selection()).map_err(fail)?);
     }
     let site = one_site(&curves, arguments)?;
+    if let Some(weights) = &weights {
+        check_weights(&curves, weights)?;
+    }
     if let Some(distance_km) = curves.iter().filter_map(|curve| curve.distance_km).reduce(f64::max) {
         if distance_km > arguments.within_km {
             return Err(UpliftError::input(format!(
@@ -79,11 +86,11 @@ pub(super) fn import(arguments: &ImportArguments, session: &Session) -> Result<(
         .map_err(|error| UpliftError::input(format!("{} cannot be made: {error}", folder.display())))?;
     for Written { exported, file, .. } in &written {
         for (count, what) in [
-            (exported.dropped_zeros, "zeros at the end"),
-            (exported.dropped_certain, "probabilities of 1 at the start"),
+            (exported.dropped_zeros, "level(s) of zero at the end"),
+            (exported.dropped_certain, "level(s) of probability 1 at the start"),
         ] {
             if count > 0 {
-                session.remark(&format!("{file}: {count} {what} carry no rate and were left out"));
+                session.remark(&format!("{file}: {count} {what} left out: no rate belongs to them"));
             }
         }
         let curve = exported.curve.clone();
@@ -95,9 +102,56 @@ pub(super) fn import(arguments: &ImportArguments, session: &Session) -> Result<(
             "the exports do not say how horizontal components are combined: --component says it, and a study checks it",
         );
     }
+    for remark in remarks(&written) {
+        session.remark(&remark);
+    }
     let mut out = std::io::stdout().lock();
     write!(out, "{}", study_lines(&written, folder, &site))?;
     Ok(())
+}
+
+/// Refuses weights of only some realizations of a measure.
+fn check_weights(curves: &[ExportedCurve], weights: &BTreeMap<u32, RealizationWeight>) -> Result<(), UpliftError> {
+    let mut sums: BTreeMap<&str, (f64, usize)> = BTreeMap::new();
+    for curve in curves {
+        if let Some(weight) = weight_of(&curve.kind, weights) {
+            let sum = sums.entry(curve.curve.measure()).or_default();
+            *sum = (sum.0 + weight, sum.1 + 1);
+        }
+    }
+    match sums.iter().find(|(_, (sum, _))| (sum - 1.0).abs() > 1e-4) {
+        Some((measure, (sum, count))) => Err(UpliftError::input(format!(
+            "{measure}: {count} of {} realizations are given, and their weights add up to {sum:.4}: give the exports of all realizations",
+            weights.len()
+        ))),
+        None => Ok(()),
+    }
+}
+
+/// What the user should know before a study takes the curves.
+fn remarks(written: &[Written]) -> Vec<String> {
+    let mut remarks = Vec::new();
+    for measure in IntensityMeasure::ALL {
+        let of: Vec<&HazardCurve> = (written.iter().map(|written| &written.exported.curve))
+            .filter(|curve| curve.measure().eq_ignore_ascii_case(measure.key()))
+            .collect();
+        let least = of.iter().map(|curve| curve.first().im).fold(0.0, f64::max);
+        let most = of.iter().map(|curve| curve.last().im).fold(f64::INFINITY, f64::min);
+        if let (false, Some((key, levels))) = (of.is_empty(), levels_within(measure, least, most)) {
+            let unit = measure.unit();
+            remarks.push(format!(
+                "the {measure} curves span {least:.4} to {most:.4} {unit}, and the default stripes do not: in the study, {key} = {levels} (or risk.extrapolate = \"loglog\")"
+            ));
+        }
+    }
+    let weighted = |written: &Written| written.weight.is_some();
+    let single = |written: &Written| matches!(written.exported.kind, Statistic::Mean | Statistic::Unspecified);
+    if !written.iter().any(|written| weighted(written) || single(written)) {
+        remarks.push(
+            "no mean among the exports: for a study give the mean too, or all realizations with --weights".to_owned(),
+        );
+    }
+    remarks
 }
 
 /// The name of the site that all curves belong to.
@@ -138,7 +192,7 @@ fn file_stem(exported: &ExportedCurve) -> String {
     }
 }
 
-fn weight_of(kind: &Statistic, weights: &std::collections::BTreeMap<u32, RealizationWeight>) -> Option<f64> {
+fn weight_of(kind: &Statistic, weights: &BTreeMap<u32, RealizationWeight>) -> Option<f64> {
     match kind {
         Statistic::Realization(number) => weights.get(number).map(|weight| weight.weight),
         Statistic::Branch(path) => {
