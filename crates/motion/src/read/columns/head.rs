@@ -129,7 +129,7 @@ fn names(word: &str, quantity: &[&str]) -> bool {
 fn unit_at(words: &[&str], at: usize) -> Option<Unit> {
     let word = words.get(at)?.trim_end_matches('.');
     if names(word, ACCELERATION) {
-        let suffixes = [("_m_s2", "m/s2"), ("_cm_s2", "cm/s2"), ("_gal", "gal")];
+        let suffixes = [("_m_s2", "m/s2"), ("_cm_s2", "cm/s2"), ("_gal", "gal"), ("_g", "g")];
         if let Some((_, unit)) = suffixes.into_iter().find(|(suffix, _)| word.ends_with(suffix)) {
             return known(unit);
         }
@@ -243,6 +243,7 @@ mod tests {
             ("# time in s, acceleration in m/s**2", MPerS2),
             ("# Acceleration time history, cm/s2", CmPerS2),
             ("time_s,acceleration_m_s2", MPerS2),
+            ("time_s,acc_g", G),
             ("time_s,acceleration_cm_s2", CmPerS2),
             ("# acceleration (g), dt = 0.01", G),
             ("# velocity step (m/s)\n# units: g", G),
