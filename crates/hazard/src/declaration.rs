@@ -46,7 +46,7 @@ const RATES: [&str; 8] =
 const PROBABILITIES: [&str; 4] = ["poe", "probability", "probability_of_exceedance", "prob"];
 
 /// Recognises a column name such as `iml`, `im_g`, `pgv_cm_s`, `PGV [cm/s]`, `maf`, `maf_1_yr`, `poe`.
-pub(crate) fn column(name: &str, declared_measure: &str) -> Option<Column> {
+pub(crate) fn column(name: &str, declared_measure: Option<&str>) -> Option<Column> {
     let (plain, unit) = split_unit(name.trim());
     let key = plain.to_ascii_lowercase().replace([' ', '-'], "_");
     let is = |names: &[&str]| names.contains(&key.as_str());
@@ -61,7 +61,8 @@ pub(crate) fn column(name: &str, declared_measure: &str) -> Option<Column> {
     if is(&GENERIC) {
         return Some(Column::Intensity(Declaration { unit, ..Declaration::default() }));
     }
-    (is(&MEASURES) || key.starts_with("sa(") || same_measure(plain, declared_measure))
+    let is_declared = declared_measure.is_some_and(|declared| same_measure(plain, declared));
+    (is(&MEASURES) || key.starts_with("sa(") || is_declared)
         .then(|| Column::Intensity(Declaration { measure: Some(plain.to_owned()), unit, ..Declaration::default() }))
 }
 
@@ -147,7 +148,7 @@ mod tests {
             ("arias_intensity", Some("arias_intensity"), None),
         ] {
             let expected = (name != "IM_s").then(|| Column::Intensity(named(measure, unit)));
-            assert_eq!(column(name, "Arias intensity"), expected, "{name}");
+            assert_eq!(column(name, Some("Arias intensity")), expected, "{name}");
         }
         for (name, what) in [
             ("maf", SecondColumn::AnnualRate),
@@ -157,10 +158,11 @@ mod tests {
             ("annual rate", SecondColumn::AnnualRate),
             ("PoE", SecondColumn::Probability),
         ] {
-            assert_eq!(column(name, "PGV"), Some(Column::Hazard(what)), "{name}");
+            assert_eq!(column(name, Some("PGV")), Some(Column::Hazard(what)), "{name}");
         }
         for name in ["", "lon", "poe-0.1", "_g", "[g]", "sigma", "maf [1/day]", "poe [%]"] {
-            assert_eq!(column(name, "PGV"), None, "{name}");
+            assert_eq!(column(name, Some("PGV")), None, "{name}");
+            assert_eq!(column(name, None), None, "{name}");
         }
     }
 

@@ -228,6 +228,9 @@ fn what_a_table_says_of_itself() {
     assert_eq!(declared("\u{feff}PGV [cm/s],poe\n1,2\n"), pgv());
     assert_eq!(declared("iml,maf\n1,0.2\n"), None);
     assert_eq!(declared("# IM: PGV\niml,maf\n1,0.2\n"), None);
+    // Units that nothing is measured in.
+    assert_eq!(declared("[cm/s],maf\n1,0.2\n"), None);
+    assert_eq!(declared("__cm_s,maf\n1,0.2\n"), None);
     assert_eq!(declared(""), None);
 }
 
