@@ -41,6 +41,8 @@ pub(crate) enum Column {
 const GENERIC: [&str; 5] = ["iml", "im", "imls", "level", "intensity"];
 /// Measures accepted as column names; the declared measure is always accepted beside them.
 const MEASURES: [&str; 4] = ["pgv", "pga", "sa", "psa"];
+/// Longest unit behind a name, with its underscore, bytes.
+const LONGEST_UNIT: usize = 16;
 const RATES: [&str; 8] =
     ["maf", "mafe", "afe", "rate", "annual_rate", "lambda", "annual_frequency", "annual_frequency_of_exceedance"];
 const PROBABILITIES: [&str; 4] = ["poe", "probability", "probability_of_exceedance", "prob"];
@@ -116,7 +118,8 @@ fn split_unit(name: &str) -> (&str, Option<&str>) {
         return (plain.trim_end(), Some(unit));
     }
     // The longest suffix first: `im_cm_s` is in cm/s, not in "s".
-    let at = name.match_indices('_').map(|(at, _)| at).find(|&at| at > 0 && is_unit(&name[at + 1..]));
+    let mut suffixes = name.match_indices('_').map(|(at, _)| at).filter(|&at| at > 0 && name.len() - at <= LONGEST_UNIT);
+    let at = suffixes.find(|&at| is_unit(&name[at + 1..]));
     at.map_or((name, None), |at| (&name[..at], Some(&name[at + 1..])))
 }
 

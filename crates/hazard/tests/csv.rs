@@ -3,6 +3,7 @@
 
 use std::io::Write;
 use std::path::Path;
+use std::time::{Duration, Instant};
 
 use uplift_hazard::{
     ComponentDefinition, CsvCurve, CsvOptions, Declared, HazardCurve, HazardError, SecondColumn, read_csv, read_path,
@@ -155,6 +156,18 @@ fn messages_stay_short_and_printable() {
     assert!(message(&long).len() < 150);
     assert!(message("iml,maf\n1,\u{1b}[31m\n").contains("\\u{1b}"));
     assert!(message(&format!("iml,maf\n{}\n", "1,".repeat(100_000))).contains("more than 8 columns"));
+}
+
+/// A name of many underscores is gone through once, not once an underscore.
+#[test]
+fn long_names_are_refused_soon() {
+    let begin = Instant::now();
+    let long = "_".repeat(4_000_000);
+    for text in [format!("# im: a{long}\niml,maf\n"), format!("a{long},maf\n1,0.2\n2,0.1\n")] {
+        assert!(message(&text).len() < 250);
+        assert_eq!(Declared::in_table(&text), None);
+    }
+    assert!(begin.elapsed() < Duration::from_secs(10), "{:?}", begin.elapsed());
 }
 
 #[test]
