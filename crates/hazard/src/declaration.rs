@@ -118,7 +118,8 @@ fn split_unit(name: &str) -> (&str, Option<&str>) {
         return (plain.trim_end(), Some(unit));
     }
     // The longest suffix first: `im_cm_s` is in cm/s, not in "s".
-    let mut suffixes = name.match_indices('_').map(|(at, _)| at).filter(|&at| at > 0 && name.len() - at <= LONGEST_UNIT);
+    let mut suffixes =
+        name.match_indices('_').map(|(at, _)| at).filter(|&at| at > 0 && name.len() - at <= LONGEST_UNIT);
     let at = suffixes.find(|&at| is_unit(&name[at + 1..]));
     at.map_or((name, None), |at| (&name[..at], Some(&name[at + 1..])))
 }

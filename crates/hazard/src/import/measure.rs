@@ -77,7 +77,8 @@ mod tests {
             assert_eq!(openquake_unit(measure, || Place::Point(0)), Ok("g"), "{measure}");
         }
         let long = format!("SA(0.{})", "2".repeat(1000));
-        for measure in ["SA", "SA(", "SA()", "SA(0.2", "SA(0.2\u{1b}[1m)", "SA(-1)", "SA(nan)", "SA(0.2)g", "sa(0.2)", &long]
+        for measure in
+            ["SA", "SA(", "SA()", "SA(0.2", "SA(0.2\u{1b}[1m)", "SA(-1)", "SA(nan)", "SA(0.2)g", "sa(0.2)", &long]
         {
             let message = openquake_unit(measure, || Place::Point(0)).unwrap_err().to_string();
             assert!(message.contains("is not known") && message.len() < 250, "{message}");
