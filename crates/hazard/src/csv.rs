@@ -35,7 +35,7 @@ impl Declared {
                 Some(comment) => vec![declaration::comment(comment)],
                 None => line
                     .split([',', ';', '\t'])
-                    .filter_map(|field| match declaration::column(field.trim().trim_matches('"'), "") {
+                    .filter_map(|field| match declaration::column(field.trim().trim_matches('"'), None) {
                         Some(Column::Intensity(found)) => Some(found),
                         _ => None,
                     })
@@ -226,7 +226,7 @@ fn read_header(fields: [&str; 2], options: &CsvOptions, place: &Place) -> Result
     let mut level = None;
     let mut content = None;
     for (index, field) in fields.into_iter().enumerate() {
-        match declaration::column(field, &options.declared.measure) {
+        match declaration::column(field, Some(&options.declared.measure)) {
             Some(Column::Intensity(found)) => {
                 check_declaration(&found, &options.declared, place.clone())?;
                 level = Some(index);

@@ -41,12 +41,14 @@ pub(crate) enum Column {
 const GENERIC: [&str; 5] = ["iml", "im", "imls", "level", "intensity"];
 /// Measures accepted as column names; the declared measure is always accepted beside them.
 const MEASURES: [&str; 4] = ["pgv", "pga", "sa", "psa"];
+/// Longest unit behind a name, with its underscore, bytes.
+const LONGEST_UNIT: usize = 16;
 const RATES: [&str; 8] =
     ["maf", "mafe", "afe", "rate", "annual_rate", "lambda", "annual_frequency", "annual_frequency_of_exceedance"];
 const PROBABILITIES: [&str; 4] = ["poe", "probability", "probability_of_exceedance", "prob"];
 
 /// Recognises a column name such as `iml`, `im_g`, `pgv_cm_s`, `PGV [cm/s]`, `maf`, `maf_1_yr`, `poe`.
-pub(crate) fn column(name: &str, declared_measure: &str) -> Option<Column> {
+pub(crate) fn column(name: &str, declared_measure: Option<&str>) -> Option<Column> {
     let (plain, unit) = split_unit(name.trim());
     let key = plain.to_ascii_lowercase().replace([' ', '-'], "_");
     let is = |names: &[&str]| names.contains(&key.as_str());
@@ -61,7 +63,8 @@ pub(crate) fn column(name: &str, declared_measure: &str) -> Option<Column> {
     if is(&GENERIC) {
         return Some(Column::Intensity(Declaration { unit, ..Declaration::default() }));
     }
-    (is(&MEASURES) || key.starts_with("sa(") || same_measure(plain, declared_measure))
+    let is_declared = declared_measure.is_some_and(|declared| same_measure(plain, declared));
+    (is(&MEASURES) || key.starts_with("sa(") || is_declared)
         .then(|| Column::Intensity(Declaration { measure: Some(plain.to_owned()), unit, ..Declaration::default() }))
 }
 
@@ -115,7 +118,9 @@ fn split_unit(name: &str) -> (&str, Option<&str>) {
         return (plain.trim_end(), Some(unit));
     }
     // The longest suffix first: `im_cm_s` is in cm/s, not in "s".
-    let at = name.match_indices('_').map(|(at, _)| at).find(|&at| at > 0 && is_unit(&name[at + 1..]));
+    let mut suffixes =
+        name.match_indices('_').map(|(at, _)| at).filter(|&at| at > 0 && name.len() - at <= LONGEST_UNIT);
+    let at = suffixes.find(|&at| is_unit(&name[at + 1..]));
     at.map_or((name, None), |at| (&name[..at], Some(&name[at + 1..])))
 }
 
@@ -147,7 +152,7 @@ mod tests {
             ("arias_intensity", Some("arias_intensity"), None),
         ] {
             let expected = (name != "IM_s").then(|| Column::Intensity(named(measure, unit)));
-            assert_eq!(column(name, "Arias intensity"), expected, "{name}");
+            assert_eq!(column(name, Some("Arias intensity")), expected, "{name}");
         }
         for (name, what) in [
             ("maf", SecondColumn::AnnualRate),
@@ -157,10 +162,11 @@ mod tests {
             ("annual rate", SecondColumn::AnnualRate),
             ("PoE", SecondColumn::Probability),
         ] {
-            assert_eq!(column(name, "PGV"), Some(Column::Hazard(what)), "{name}");
+            assert_eq!(column(name, Some("PGV")), Some(Column::Hazard(what)), "{name}");
         }
         for name in ["", "lon", "poe-0.1", "_g", "[g]", "sigma", "maf [1/day]", "poe [%]"] {
-            assert_eq!(column(name, "PGV"), None, "{name}");
+            assert_eq!(column(name, Some("PGV")), None, "{name}");
+            assert_eq!(column(name, None), None, "{name}");
         }
     }
 

@@ -24,6 +24,18 @@ pub(crate) fn excerpt(field: &str) -> String {
     if head.len() < field.len() { format!("{head:?}...") } else { format!("{head:?}") }
 }
 
+/// The first characters of a text, `count` at most.
+pub(crate) fn beginning(text: &str, count: usize) -> &str {
+    text.char_indices().nth(count).map_or(text, |(end, _)| &text[..end])
+}
+
+/// What a file says of its origin, of a length that every curve of it can keep a copy of.
+pub(crate) fn origin(text: &str) -> String {
+    const LONGEST: usize = 2000;
+    let head = beginning(text, LONGEST);
+    if head.len() < text.len() { format!("{head}...") } else { head.to_owned() }
+}
+
 /// The fields of a line of CSV, trimmed; a field in quotes may hold the separator.
 pub(crate) fn fields(line: &str, separator: char) -> impl Iterator<Item = &str> {
     let mut rest = Some(line);

@@ -3,6 +3,7 @@
 
 use std::io::Write;
 use std::path::Path;
+use std::time::{Duration, Instant};
 
 use uplift_hazard::{
     ComponentDefinition, CsvCurve, CsvOptions, Declared, HazardCurve, HazardError, SecondColumn, read_csv, read_path,
@@ -157,6 +158,18 @@ fn messages_stay_short_and_printable() {
     assert!(message(&format!("iml,maf\n{}\n", "1,".repeat(100_000))).contains("more than 8 columns"));
 }
 
+/// A name of many underscores is gone through once, not once an underscore.
+#[test]
+fn long_names_are_refused_soon() {
+    let begin = Instant::now();
+    let long = "_".repeat(4_000_000);
+    for text in [format!("# im: a{long}\niml,maf\n"), format!("a{long},maf\n1,0.2\n2,0.1\n")] {
+        assert!(message(&text).len() < 250);
+        assert_eq!(Declared::in_table(&text), None);
+    }
+    assert!(begin.elapsed() < Duration::from_secs(10), "{:?}", begin.elapsed());
+}
+
 #[test]
 fn files_that_cannot_be_read() {
     let options = CsvOptions::new("PGV", "cm/s");
@@ -228,6 +241,9 @@ fn what_a_table_says_of_itself() {
     assert_eq!(declared("\u{feff}PGV [cm/s],poe\n1,2\n"), pgv());
     assert_eq!(declared("iml,maf\n1,0.2\n"), None);
     assert_eq!(declared("# IM: PGV\niml,maf\n1,0.2\n"), None);
+    // Units that nothing is measured in.
+    assert_eq!(declared("[cm/s],maf\n1,0.2\n"), None);
+    assert_eq!(declared("__cm_s,maf\n1,0.2\n"), None);
     assert_eq!(declared(""), None);
 }
 

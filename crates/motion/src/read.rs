@@ -28,6 +28,9 @@ const LARGEST_FILE_BYTES: u64 = 64 * 1024 * 1024;
 /// Beginning of a file by which its layout is told \[bytes\].
 const HEAD_BYTES: usize = 16 * 1024;
 
+/// Components that a message names.
+const COMPONENTS_NAMED: usize = 24;
+
 /// What the caller knows about a file; what the file itself says takes precedence over step and unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReadOptions {
@@ -129,11 +132,13 @@ pub fn read_auto(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<Acce
     let mut recordings = read_record(bytes, name, options)?.recordings;
     let index = options.channel.unwrap_or(1).wrapping_sub(1);
     if index >= recordings.len() || (options.channel.is_none() && recordings.len() > 1) {
-        let called = |recording: &Recording| recording.description.channel.clone().unwrap_or_else(|| "unnamed".into());
+        let called = |recording: &Recording| recording.description.channel.as_deref().map_or("unnamed".into(), excerpt);
+        let more = if recordings.len() > COMPONENTS_NAMED { ", …" } else { "" };
+        let named: Vec<String> = recordings.iter().take(COMPONENTS_NAMED).map(called).collect();
         return Err(MotionError::Channel {
             name: name.to_owned(),
             found: recordings.len(),
-            components: recordings.iter().map(called).collect::<Vec<_>>().join(", "),
+            components: named.join(", ") + more,
         });
     }
     Ok(recordings.swap_remove(index).accelerogram)

@@ -17,9 +17,17 @@ pub(super) fn openquake_unit(measure: &str, place: impl FnOnce() -> Place) -> Re
         "PGD" => Ok("cm"),
         "IA" => Ok("m/s"),
         "CAV" => Ok("g s"),
-        _ if measure.starts_with("SA(") => Ok("g"),
+        _ if is_spectral_acceleration(measure) => Ok("g"),
         _ => Err(unknown(measure, place())),
     }
+}
+
+/// Whether a measure is `SA(0.2)`, or `SA(0.2,10)` with the damping in per cent.
+fn is_spectral_acceleration(measure: &str) -> bool {
+    const LONGEST: usize = 40;
+    let parameters = measure.strip_prefix("SA(").and_then(|rest| rest.strip_suffix(')'));
+    let is_number = |text: &str| text.trim().parse::<f64>().is_ok_and(|value| value.is_finite() && value >= 0.0);
+    measure.len() <= LONGEST && parameters.is_some_and(|parameters| parameters.split(',').all(is_number))
 }
 
 /// Name and unit of a measure that the USGS names: `PGA`, `PGV`, `SA0P2` (0.2 s), or `0.2 s`.
@@ -60,7 +68,23 @@ fn unknown(measure: &str, place: Place) -> HazardError {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
+
+    #[test]
+    fn names_of_openquake() {
+        for measure in ["SA(0.2)", "SA(1)", "SA(0.2,10)", "SA(0.2, 10.0)", "PGA"] {
+            assert_eq!(openquake_unit(measure, || Place::Point(0)), Ok("g"), "{measure}");
+        }
+        let long = format!("SA(0.{})", "2".repeat(1000));
+        for measure in
+            ["SA", "SA(", "SA()", "SA(0.2", "SA(0.2\u{1b}[1m)", "SA(-1)", "SA(nan)", "SA(0.2)g", "sa(0.2)", &long]
+        {
+            let message = openquake_unit(measure, || Place::Point(0)).unwrap_err().to_string();
+            assert!(message.contains("is not known") && message.len() < 250, "{message}");
+            assert!(!message.contains('\u{1b}'));
+        }
+    }
 
     #[test]
     fn names_of_the_usgs() {

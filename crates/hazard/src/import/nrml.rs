@@ -18,6 +18,8 @@ use crate::text::{excerpt, number};
 const MAX_NODES: u32 = 1_000_000;
 /// Most quotes in one tag, two an attribute.
 const MAX_QUOTES: usize = 128;
+/// Longest path through the logic trees, bytes; every curve keeps a copy.
+const LONGEST_PATH: usize = 1000;
 /// Most declarations of a namespace.
 const MAX_NAMESPACES: usize = 1000;
 
@@ -94,6 +96,9 @@ fn head(group: Node, name: &str, place: &Place) -> Result<Head, HazardError> {
             )));
         }
         (None, _) => match (attribute("sourceModelTreePath"), attribute("gsimTreePath")) {
+            (Some(source), Some(gsim)) if source.len() + gsim.len() > LONGEST_PATH => {
+                return Err(row(format!("a path of more than {LONGEST_PATH} bytes through the logic trees")));
+            }
             (Some(source), Some(gsim)) => Statistic::Branch(format!("{source}~{gsim}")),
             _ => Statistic::Unspecified,
         },
@@ -118,7 +123,9 @@ fn head(group: Node, name: &str, place: &Place) -> Result<Head, HazardError> {
 fn entry(curve: Node, line: usize, head: &Arc<Head>) -> Result<Entry, HazardError> {
     let place = || Place::Line { file: head.file.clone(), line };
     let row = |reason: String| HazardError::Row { place: place(), reason };
-    let position = curve.descendants().find(|node| is(*node, "pos")).map(content);
+    // Not among all descendants: curves inside one another would be gone through again and again.
+    let mut near = curve.children().flat_map(|child| std::iter::once(child).chain(child.children()));
+    let position = near.find(|node| is(*node, "pos")).map(content);
     let position = numbers(&position.unwrap_or_default(), |_| place())?;
     let &[longitude, latitude, ..] = &position[..] else {
         return Err(row("hazardCurve without the longitude and latitude of its gml:pos".to_owned()));

@@ -12,7 +12,7 @@ use super::{SitePlace, Statistic, coordinates, unreadable};
 use crate::declaration::SecondColumn;
 use crate::error::{HazardError, Place};
 use crate::input::{Input, NOT_UTF8};
-use crate::text::{excerpt, fields, number};
+use crate::text::{excerpt, fields, number, origin};
 
 /// Longest line, bytes: thousands of levels fit.
 const MAX_LINE_BYTES: u64 = 1 << 20;
@@ -129,12 +129,13 @@ impl Columns {
         let fail = |reason: String| Err(HazardError::Row { place: place(), reason });
         let separator = ['\t', ';'].into_iter().find(|&separator| line.contains(separator)).unwrap_or(',');
         let mut meaning = Vec::new();
+        let mut has_name = false;
         for name in fields(line, separator) {
-            meaning.push(match name {
+            let column = match name {
                 "lon" | "longitude" => Column::Longitude,
                 "lat" | "latitude" => Column::Latitude,
                 "custom_site_id" => Column::Name,
-                "site_id" | "name" if !meaning.contains(&Column::Name) => Column::Name,
+                "site_id" | "name" if !has_name => Column::Name,
                 "vs30" => Column::Vs30,
                 _ => match name.strip_prefix("poe-") {
                     Some(level) => match level.parse::<f64>() {
@@ -143,7 +144,9 @@ impl Columns {
                     },
                     None => Column::Other,
                 },
-            });
+            };
+            has_name |= column == Column::Name;
+            meaning.push(column);
         }
         let count = |wanted: Column| meaning.iter().filter(|&&column| column == wanted).count();
         if !meaning.iter().any(|column| matches!(column, Column::Probability(_))) {
@@ -192,7 +195,7 @@ fn head(name: &str, comment: Option<(usize, String)>, columns: &Columns) -> Resu
         content: SecondColumn::Probability,
         years: Some(number(years, place)?),
         levels: levels.collect(),
-        source: comment,
+        source: origin(&comment),
         component: None,
     })
 }

@@ -24,11 +24,20 @@ use super::{SitePlace, Statistic, coordinates};
 use crate::component::ComponentDefinition;
 use crate::declaration::SecondColumn;
 use crate::error::{HazardError, Place};
-use crate::text::excerpt;
+use crate::text::{beginning, excerpt, origin};
+
+/// Most JSON objects: some twenty a measure, one or two a place.
+const MOST_OBJECTS: usize = 100_000;
+/// Characters of the label of an axis that are looked at, once a block.
+const LONGEST_LABEL: usize = 200;
 
 /// Every total curve of the answer, in its order.
 pub(super) fn entries(text: &str, name: &str) -> Result<Vec<Entry>, HazardError> {
     let fail = |reason: String| HazardError::File { file: name.to_owned(), reason };
+    // Each takes a hundred times the memory of its text.
+    if text.matches('{').count() > MOST_OBJECTS {
+        return Err(fail(format!("more than {MOST_OBJECTS} objects: not the answer of a USGS hazard service")));
+    }
     let root: Value =
         serde_json::from_str(text).map_err(|error| fail(format!("not JSON that can be read: {error}")))?;
     if let Some(status) = root["status"].as_str().filter(|status| !status.eq_ignore_ascii_case("success")) {
@@ -41,9 +50,11 @@ pub(super) fn entries(text: &str, name: &str) -> Result<Vec<Entry>, HazardError>
     let Some(blocks) = blocks.filter(|blocks| !blocks.is_empty()) else {
         return Err(fail("no hazard curves in it; save the whole answer of a USGS hazard service".to_owned()));
     };
+    let url = root["url"].as_str().map(|url| format!(", {}", url.trim())).unwrap_or_default();
+    let source = origin(&format!("USGS hazard service{url}"));
     let mut entries = Vec::new();
     for block in blocks {
-        Answer { file: name, root: &root, response, block }.entries(&mut entries)?;
+        Answer { file: name, source: &source, root: &root, response, block }.entries(&mut entries)?;
     }
     Ok(entries)
 }
@@ -51,6 +62,7 @@ pub(super) fn entries(text: &str, name: &str) -> Result<Vec<Entry>, HazardError>
 /// One block of the answer, and what surrounds it.
 struct Answer<'a> {
     file: &'a str,
+    source: &'a str,
     root: &'a Value,
     response: &'a Value,
     block: &'a Value,
@@ -86,7 +98,6 @@ impl Answer<'_> {
                 return Err(self.fail(&here, "no longitude and latitude; save the whole answer of the service"));
             };
             let (longitude_deg, latitude_deg) = coordinates(longitude, latitude, place)?;
-            let url = self.root["url"].as_str().map(|url| format!(", {}", url.trim())).unwrap_or_default();
             let head = Head {
                 file: self.file.to_owned(),
                 measure: measure.clone(),
@@ -95,7 +106,7 @@ impl Answer<'_> {
                 content: SecondColumn::AnnualRate,
                 years: None,
                 levels,
-                source: format!("USGS hazard service{url}"),
+                source: self.source.to_owned(),
                 // Asked to, the service scales its levels to the direction of the maximum.
                 component: (self.root["request"]["maxdir"] == true).then_some(ComponentDefinition::RotD100),
             };
@@ -128,7 +139,7 @@ impl Answer<'_> {
 
     /// Refuses levels and rates that name another unit than the ones known; the label of PGV names g regardless.
     fn check_labels(&self, here: &str, unit: &str) -> Result<(), HazardError> {
-        let label = |key: &str| self.of_surroundings(key).and_then(Value::as_str);
+        let label = |key: &str| Some(beginning(self.of_surroundings(key)?.as_str()?, LONGEST_LABEL));
         let contradiction = |what, found: &str, declared: &str| {
             let place = Place::Level(format!("{}, {here}", self.file));
             Err(HazardError::Contradiction { place, what, found: excerpt(found), declared: declared.to_owned() })

@@ -15,6 +15,9 @@ use crate::unit::AccelerationUnit;
 /// Number of lines among which the one with NPTS and DT is sought (it should be the fourth).
 const LONGEST_HEAD: usize = 10;
 
+/// Longest line that says event, date, station and component \[bytes\].
+const LONGEST_EVENT: usize = 1000;
+
 /// Head of an AT2 file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct At2Header {
@@ -84,6 +87,8 @@ pub(super) fn looks_like(head: &str) -> bool {
 }
 
 fn describe(event: &str) -> RecordingDescription {
+    // Takes apart a line that can be one; the parts of another would take many times its memory.
+    let event = if event.len() > LONGEST_EVENT { "" } else { event };
     let parts: Vec<&str> = event.split(',').map(str::trim).collect();
     let part = |index: usize| parts.get(index).filter(|part| !part.is_empty()).map(|&part| part.to_owned());
     // Names of stations may hold commas: the component is the last part, in degrees or in letters.

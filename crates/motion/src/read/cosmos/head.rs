@@ -12,6 +12,9 @@ use crate::recording::{Orientation, RecordingDescription};
 /// Most lines of text that are kept; there should be 13.
 const MOST_LINES: usize = 100;
 
+/// Most words of a line that is read again for every header value.
+const MOST_WORDS: usize = 100;
+
 /// Head of a component: everything above its data line.
 pub(super) struct Head<'a> {
     /// First line, e.g. "Corrected acceleration    (Format v01.20 with 13 text lines)".
@@ -120,8 +123,8 @@ impl<'a> Head<'a> {
         }
         // What stands for unknown is on the last line of text.
         let line = self.line("values used").and_then(|line| line.split_once(':'));
-        let mut unknown =
-            line.map_or("", |(_, numbers)| numbers).split([',', ' ']).filter_map(|word| word.trim().parse().ok());
+        let words = line.map_or("", |(_, numbers)| numbers).split([',', ' ']).take(MOST_WORDS);
+        let mut unknown = words.filter_map(|word| word.trim().parse().ok());
         let value = *values.get(number.checked_sub(1)?)?;
         (value.is_finite() && value != -999.0 && !unknown.any(|unknown: f64| unknown == value)).then_some(value)
     }
