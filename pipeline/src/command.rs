@@ -14,6 +14,7 @@ mod report;
 mod response;
 mod result_of;
 mod run;
+mod site_table;
 mod table;
 
 use std::path::PathBuf;

@@ -7,7 +7,7 @@ use clap::Args;
 use serde_json::json;
 use uplift_ida::{Plan, estimate};
 
-use super::{Session, StudyArguments};
+use super::{Session, StudyArguments, site_table};
 use crate::error::UpliftError;
 use crate::inputs::{RecordSet, read_hazard, read_records};
 use crate::result::check_target;
@@ -31,6 +31,8 @@ pub(super) fn check(arguments: &CheckArguments, session: &Session) -> Result<(),
     let study = arguments.study.load()?;
     check_target(&study.output.file)?;
     let (_, mut notes) = read_hazard(&study)?;
+    let site_list = site_table::read(&study, &study.output.file, session)?;
+    notes.extend(site_list.iter().flat_map(|list| list.notes.iter().cloned()));
     let records = read_records(&study)?;
     let oscillators = oscillators(&study)?;
     notes.splice(0..0, study.warnings.iter().cloned());
