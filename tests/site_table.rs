@@ -22,7 +22,7 @@ const SITES: [Site; 5] = [
     ("delta", 12.0, 45.2, 0.05),
 ];
 
-/// An export as the OpenQuake engine writes it: probabilities in one year.
+/// An export as `OpenQuake` writes it: probabilities in one year.
 fn openquake(measure: &str, levels: &[f64], sites: &[Site]) -> String {
     let mut text = format!(
         "#,,,,,,\"generated_by='OpenQuake engine 3.26.2', checksum=1, kind='mean', investigation_time=1.0, imt='{measure}'\"\n\
@@ -263,7 +263,10 @@ fn curves_that_do_not_cover_the_levels_and_sites_that_overturn_are_rows_with_a_r
     }
     let coefficients = read(study.path(), "r.sites.coefficients.csv");
     let row = coefficients.lines().find(|line| line.starts_with("3,12.0,45.0,PGV,0.02")).unwrap();
-    assert!(row.contains(",,,,,") && row.contains("PGV = 30 cm/s lies outside") && row.contains("leave the level out"), "{row}");
+    assert!(
+        row.contains(",,,,,") && row.contains("PGV = 30 cm/s lies outside") && row.contains("leave the level out"),
+        "{row}"
+    );
     assert!(coefficients.contains("no fit: the spectrum is censored at strength 0.1"), "{coefficients}");
     assert!(read(study.path(), "r.sites.csv").contains(",inf,censored"));
     let map: Value = serde_json::from_str(&read(study.path(), "r.sites.geojson")).unwrap();

@@ -13,7 +13,7 @@ use crate::inputs::{BatchSite, SiteCurves, SiteList, read_site_list};
 use crate::progress::Progress;
 use crate::result::{SiteTableFiles, SiteText, site_table_paths};
 use crate::stages::{SiteRisk, SiteSpectra, Stripes};
-use crate::study::ResolvedStudy;
+use crate::study::{ResolvedStudy, SiteTable};
 use crate::table::{per_cent, thousands};
 
 /// Bytes of text, about, that are in memory at a time.
@@ -38,7 +38,7 @@ impl SiteOutput {
 
 /// The study's table of sites, found in its exports; no file that is read is to be overwritten by the results at `path`.
 pub(super) fn read(study: &ResolvedStudy, path: &Path, session: &Session) -> Result<Option<SiteList>, UpliftError> {
-    for input in study.site_table.iter().flat_map(|table| table.files()) {
+    for input in study.site_table.iter().flat_map(SiteTable::files) {
         let same = |output: &PathBuf| output.canonicalize().is_ok_and(|output| output == input);
         if let Some(output) = site_table_paths(path).iter().find(|output| same(output)) {
             let output = output.display();

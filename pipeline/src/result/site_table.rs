@@ -317,16 +317,16 @@ fn distinct(names: &[String], taken: &mut BTreeSet<String>) -> Vec<String> {
 #[derive(Debug)]
 struct Aside {
     path: PathBuf,
-    aside: PathBuf,
+    partial: PathBuf,
     writer: BufWriter<File>,
 }
 
 impl Aside {
     fn create(path: PathBuf) -> Result<Self, UpliftError> {
         let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-        let aside = path.with_file_name(format!(".{name}.partial-{}", std::process::id()));
-        let file = File::create(&aside).map_err(|error| failed(&path, &error))?;
-        Ok(Self { path, aside, writer: BufWriter::with_capacity(1 << 18, file) })
+        let partial = path.with_file_name(format!(".{name}.partial-{}", std::process::id()));
+        let file = File::create(&partial).map_err(|error| failed(&path, &error))?;
+        Ok(Self { path, partial, writer: BufWriter::with_capacity(1 << 18, file) })
     }
 
     fn write(&mut self, text: &str) -> Result<(), UpliftError> {
@@ -338,7 +338,7 @@ impl Aside {
     }
 
     fn put_in_place(&mut self) -> Result<PathBuf, UpliftError> {
-        std::fs::rename(&self.aside, &self.path).map_err(|error| failed(&self.path, &error))?;
+        std::fs::rename(&self.partial, &self.path).map_err(|error| failed(&self.path, &error))?;
         Ok(self.path.clone())
     }
 }
@@ -346,7 +346,7 @@ impl Aside {
 impl Drop for Aside {
     fn drop(&mut self) {
         // not there any more once it is in its place
-        let _ = std::fs::remove_file(&self.aside);
+        let _ = std::fs::remove_file(&self.partial);
     }
 }
 

@@ -46,7 +46,7 @@ pub(super) fn study(
     let risk = risk(root.section("risk"), ledger);
     let hazard = hazard::read(root.section("hazard"));
     let sites = sites::read(root.field("sites"), &switched_on, folders);
-    let site_table = site_table::read(root.field("site_table"), &switched_on, strengths.as_ref(), folders);
+    let site_table = site_table::read(root.field("site_table").as_ref(), &switched_on, strengths.as_ref(), folders);
     let regression = regression(root.section("regression"));
     let bootstrap = bootstrap::read(root.section("bootstrap"));
     let inputs = (records.iter())

@@ -41,12 +41,12 @@ impl SiteTable {
 /// Reads the section; each of its strengths must be one of `strengths`, and one of `measures` must have an export.
 #[allow(clippy::option_option)] // wrong and absent are different things, and the ledger has the rest
 pub(super) fn read(
-    field: Option<Field<'_>>,
+    field: Option<&Field<'_>>,
     measures: &[IntensityMeasure],
     strengths: Option<&Grid>,
     folders: &Folders,
 ) -> Option<Option<SiteTable>> {
-    optional(field.as_ref(), |field| section(field.section(), measures, strengths, folders))
+    optional(field, |field| section(field.section(), measures, strengths, folders))
 }
 
 fn section(

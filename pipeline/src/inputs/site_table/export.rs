@@ -69,13 +69,7 @@ impl Index {
         let label = plan.measure.label();
         let fail = |reason: String| vec![format!("site table, {label}: {reason}")];
         let mut curves = ExportedCurves::open(path).map_err(|error| fail(error.to_string()))?;
-        let mut index = Self {
-            rows: Vec::new(),
-            by_latitude: Vec::new(),
-            names: Vec::new(),
-            reasons: BTreeMap::new(),
-            notes: Vec::new(),
-        };
+        let (mut rows, mut names, mut reasons) = (Vec::new(), Vec::new(), BTreeMap::new());
         let mut tally = Tally::default();
         let mut next_item = 0_u32;
         while let Some(site) = curves.next_site() {
@@ -107,15 +101,15 @@ impl Index {
             let used = site.curve.map_err(|error| reason_of(&error));
             let used = used.and_then(|curve| tally.weigh(study, plan, path, &curve));
             let SitePlace { name, longitude_deg, latitude_deg } = site.site;
-            index.rows.push(Row { longitude_deg, latitude_deg, item, usable: used.is_ok() });
+            rows.push(Row { longitude_deg, latitude_deg, item, usable: used.is_ok() });
             if with_names {
-                index.names.push(name.map(Into::into));
+                names.push(name.map(Into::into));
             }
-            if let (Err(reason), true) = (used, index.reasons.len() < REASONS_KEPT) {
-                index.reasons.insert(item, reason);
+            if let (Err(reason), true) = (used, reasons.len() < REASONS_KEPT) {
+                reasons.insert(item, reason);
             }
         }
-        if index.rows.is_empty() && tally.mistakes.is_empty() {
+        if rows.is_empty() && tally.mistakes.is_empty() {
             let found: Vec<String> = tally.other_measures.iter().cloned().collect();
             tally.mistake(format!("{}: holds {}, and no {label}", path.display(), found.join(", ")));
         }
@@ -125,11 +119,15 @@ impl Index {
         if !tally.mistakes.is_empty() {
             return Err(tally.mistakes.into_iter().flat_map(fail).collect());
         }
-        index.notes = tally.notes(study, label, path);
-        index.by_latitude = (0..).take(index.rows.len()).collect();
-        let latitude = |position: u32| index.rows[position as usize].latitude_deg;
-        index.by_latitude.sort_by(|&a, &b| latitude(a).total_cmp(&latitude(b)));
-        Ok(index)
+        let notes = tally.notes(study, label, path);
+        Ok(Self { names, reasons, notes, ..Self::of_rows(rows) })
+    }
+
+    fn of_rows(rows: Vec<Row>) -> Self {
+        let latitude = |position: u32| rows[position as usize].latitude_deg;
+        let mut by_latitude: Vec<u32> = (0..).take(rows.len()).collect();
+        by_latitude.sort_by(|&a, &b| latitude(a).total_cmp(&latitude(b)));
+        Self { rows, by_latitude, names: Vec::new(), reasons: BTreeMap::new(), notes: Vec::new() }
     }
 
     /// All sites, in the order of the export.
@@ -255,7 +253,7 @@ impl Tally {
 fn reason_of(error: &HazardError) -> String {
     match error {
         HazardError::TooFewPoints { found, .. } => {
-            format!("no hazard: {found} levels of its curve have a positive rate; 2 are needed")
+            format!("no hazard: {found} levels of its curve have a positive rate")
         }
         other => other.to_string(),
     }
@@ -317,5 +315,58 @@ impl Stream {
             self.held.get(&item).cloned()
         };
         curve.ok_or_else(|| UpliftError::input(format!("{}: a curve is missing", self.path)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn index(places: &[(f64, f64)]) -> Index {
+        let row = |(item, &(longitude_deg, latitude_deg)): (u32, &(f64, f64))| Row {
+            longitude_deg,
+            latitude_deg,
+            item,
+            usable: true,
+        };
+        let rows: Vec<Row> = (0..).zip(places).map(row).collect();
+        Index::of_rows(rows)
+    }
+
+    #[test]
+    fn nearest_by_hand() {
+        let index = index(&[(179.9, 0.0), (0.0, 89.9), (10.0, 45.0), (10.0, 45.0)]);
+        let nearest = |longitude, latitude, within| index.nearest(longitude, latitude, within).map(|(row, _)| row.item);
+        // across the date line, over the pole, the first of two at one place
+        assert_eq!(nearest(-179.9, 0.0, 30.0), Some(0));
+        assert_eq!(nearest(180.1, 0.0, 22.0), None);
+        assert_eq!(nearest(180.0, 89.9, 30.0), Some(1));
+        assert_eq!(nearest(10.0, 45.0, 0.001), Some(2));
+        assert_eq!(nearest(10.02, 45.0, 1.0), None);
+    }
+
+    proptest! {
+        #[test]
+        fn nearest_is_that_of_a_search_through_all(
+            // coarse, so that distances tie
+            places in prop::collection::vec((-18..36_i32, -9..=9_i32), 1..60),
+            (longitude, latitude) in (-180.0..360.0_f64, -90.0..=90.0_f64),
+            within_km in prop_oneof![Just(f64::INFINITY), 1.0..5000.0_f64],
+        ) {
+            let places: Vec<(f64, f64)> =
+                places.iter().map(|&(x, y)| (10.0 * f64::from(x), 10.0 * f64::from(y))).collect();
+            let index = index(&places);
+            let here = SitePlace { name: None, longitude_deg: longitude, latitude_deg: latitude };
+            let mut expected: Option<(u32, f64)> = None;
+            for (item, &(x, y)) in (0..).zip(&places) {
+                let km = here.distance_km(x, y);
+                if km <= within_km && expected.is_none_or(|(_, least)| km < least) {
+                    expected = Some((item, km));
+                }
+            }
+            prop_assert_eq!(index.nearest(longitude, latitude, within_km).map(|(row, km)| (row.item, km)), expected);
+        }
     }
 }
