@@ -15,6 +15,7 @@ mod report;
 mod response;
 mod result_of;
 mod run;
+mod site_table;
 mod status;
 mod table;
 mod verify;

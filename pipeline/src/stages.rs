@@ -5,6 +5,7 @@ mod coefficients;
 mod epistemic;
 mod influence;
 mod predictors;
+mod site_table;
 mod spectra;
 mod stripes;
 
@@ -13,5 +14,6 @@ pub use coefficients::{Coefficients, fit_spectra};
 pub use epistemic::{BranchSpectra, FRACTILES};
 pub use influence::{Influence, influence, level_of_share};
 pub use predictors::{Covariate, Predictor, predictor};
+pub use site_table::{SiteRisk, SiteSpectra};
 pub use spectra::{Spectra, uniform_risk_spectra};
 pub use stripes::{Stripes, analyse_stripes, oscillators, plan_stripes};

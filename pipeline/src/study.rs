@@ -30,6 +30,7 @@ mod records;
 mod resolve;
 mod resolved;
 mod selection;
+mod site_table;
 mod sites;
 mod source;
 mod suggestion;
@@ -49,4 +50,5 @@ pub use resolved::{
     Site, Uplifted,
 };
 pub use selection::{CRITERIA, Criterion, Range, RecordSelection};
+pub use site_table::SiteTable;
 pub use source::Study;

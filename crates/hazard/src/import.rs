@@ -49,6 +49,13 @@ pub struct SitePlace {
     pub latitude_deg: f64,
 }
 
+impl SitePlace {
+    /// Great-circle distance to a place given by longitude and latitude, degrees; km on a sphere of the earth's mean radius.
+    pub fn distance_km(&self, longitude_deg: f64, latitude_deg: f64) -> f64 {
+        selection::distance_km((self.longitude_deg, self.latitude_deg), (longitude_deg, latitude_deg))
+    }
+}
+
 impl fmt::Display for SitePlace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(name) = &self.name {
@@ -105,6 +112,19 @@ pub struct ExportedCurve {
     pub dropped_zeros: usize,
     /// Levels at the beginning with a probability of 1.
     pub dropped_certain: usize,
+}
+
+/// A site as an export has it, with its curve or with what keeps it from having one: a site at sea has no hazard.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExportedSite {
+    /// The site.
+    pub site: SitePlace,
+    /// The intensity measure of its curve.
+    pub measure: String,
+    /// What the curve is over the logic tree.
+    pub kind: Statistic,
+    /// The curve, if its values make one.
+    pub curve: Result<ExportedCurve, HazardError>,
 }
 
 /// Reads the curves of the selected site, all measures and statistics that the file has for it, or of all sites.
@@ -200,10 +220,12 @@ impl ExportedCurves {
     }
 }
 
-impl Iterator for ExportedCurves {
-    type Item = Result<ExportedCurve, HazardError>;
-
-    fn next(&mut self) -> Option<Self::Item> {
+impl ExportedCurves {
+    /// The next site, whether or not its values make a curve: to go through many sites, of which some have no hazard.
+    ///
+    /// # Errors
+    /// As the iterator's items, but for errors of the values, which stand in [`ExportedSite::curve`].
+    pub fn next_site(&mut self) -> Option<Result<ExportedSite, HazardError>> {
         let entry = match self.entries.next()? {
             Ok(entry) => entry,
             Err(error) => return Some(Err(error)),
@@ -216,8 +238,16 @@ impl Iterator for ExportedCurves {
         [entry.site.longitude_deg, entry.site.latitude_deg].map(|x| (x + 0.0).to_bits()).hash(&mut hasher);
         Some(match self.met.insert(hasher.finish(), entry.line) {
             Some(earlier) => Err(entry.duplicate(earlier)),
-            None => entry.curve(),
+            None => Ok(entry.exported()),
         })
+    }
+}
+
+impl Iterator for ExportedCurves {
+    type Item = Result<ExportedCurve, HazardError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        Some(self.next_site()?.and_then(|site| site.curve))
     }
 }
 

@@ -45,8 +45,8 @@ pub use csv::{CsvCurve, CsvOptions, Declared, MAX_FILE_BYTES, SecondColumn, read
 pub use curve::{HazardCurve, HazardPoint};
 pub use error::{HazardError, Place};
 pub use import::{
-    ExportedCurve, ExportedCurves, MAX_JSON_BYTES, MAX_NRML_BYTES, RealizationWeight, SitePlace, SiteSelection,
-    Statistic, read_export, read_realization_weights,
+    ExportedCurve, ExportedCurves, ExportedSite, MAX_JSON_BYTES, MAX_NRML_BYTES, RealizationWeight, SitePlace,
+    SiteSelection, Statistic, read_export, read_realization_weights,
 };
 pub use interpolation::Extrapolation;
 pub use probability::{probability_from_rate, rate_from_probability};

@@ -269,3 +269,24 @@ fn gzip_is_unpacked() {
     let message = read_export(&folder.path().join("missing"), &SiteSelection::All).unwrap_err().to_string();
     assert!(message.contains("missing: cannot be read"), "{message}");
 }
+
+#[test]
+fn sites_are_gone_through_whether_or_not_they_have_hazard() {
+    let mut curves = ExportedCurves::from_reader(Cursor::new(three_sites()), "x.csv").unwrap();
+    let mut sites = Vec::new();
+    while let Some(site) = curves.next_site() {
+        sites.push(site.unwrap());
+    }
+    let names: Vec<_> = sites.iter().map(|site| site.site.name.as_deref().unwrap()).collect();
+    assert_eq!(names, ["Athens", "sea", "athens-2"]);
+    assert!(sites.iter().all(|site| (site.measure.as_str(), &site.kind) == ("PGA", &Statistic::Mean)));
+    assert_eq!(sites[1].curve.as_ref().unwrap_err().to_string().matches("line 4").count(), 1);
+    assert_eq!(sites[0].curve.as_ref().ok(), select(three_sites(), &named("Athens")).unwrap().first());
+    // 0.2 degrees of longitude at 38° north
+    assert!((sites[0].site.distance_km(23.9, 38.0) - 17.524).abs() < 1e-3);
+    // a row that cannot be read belongs to no site
+    let cut = three_sites().replace(",1.0E-03,1.0E-05", "");
+    let mut curves = ExportedCurves::from_reader(Cursor::new(cut), "x.csv").unwrap();
+    assert!(matches!(curves.next_site(), Some(Err(HazardError::Row { .. }))));
+    assert!(curves.next_site().unwrap().is_ok());
+}

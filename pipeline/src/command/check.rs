@@ -7,9 +7,9 @@ use clap::Args;
 use serde_json::json;
 use uplift_ida::{Plan, estimate};
 
-use super::{Session, StudyArguments};
+use super::{Session, StudyArguments, site_table};
 use crate::error::UpliftError;
-use crate::inputs::{RecordSet, read_hazard, read_records};
+use crate::inputs::{RecordSet, SiteList, read_hazard, read_records};
 use crate::result::check_target;
 use crate::stages::{oscillators, plan_stripes};
 use crate::study::ResolvedStudy;
@@ -31,6 +31,8 @@ pub(super) fn check(arguments: &CheckArguments, session: &Session) -> Result<(),
     let study = arguments.study.load()?;
     check_target(&study.output.file)?;
     let (_, mut notes) = read_hazard(&study)?;
+    let site_list = site_table::read(&study, &study.output.file, session)?;
+    notes.extend(site_list.iter().flat_map(|list| list.notes.iter().cloned()));
     let records = read_records(&study)?;
     let oscillators = oscillators(&study)?;
     notes.splice(0..0, study.warnings.iter().cloned());
@@ -44,7 +46,7 @@ pub(super) fn check(arguments: &CheckArguments, session: &Session) -> Result<(),
         analyses += plan.analyses();
         seconds += estimate(&plan, CALIBRATION).seconds_one_thread / threads as f64;
     }
-    let size = Size::of(&study, &records);
+    let size = Size::of(&study, &records, site_list.as_ref());
 
     let mut out = std::io::stdout().lock();
     if arguments.json {
@@ -97,8 +99,8 @@ struct Size {
 
 impl Size {
     /// The stripes hold 12 bytes an analysis; the surface 8 bytes a threshold, in memory twice while it is put in order; records 48
-    /// bytes a sample with their integrals and extremes.
-    fn of(study: &ResolvedStudy, set: &RecordSet) -> Self {
+    /// bytes a sample with their integrals and extremes; a site of a table half a kilobyte, and as text 80 bytes an ordinate and 800 a fit.
+    fn of(study: &ResolvedStudy, set: &RecordSet, list: Option<&SiteList>) -> Self {
         let count = |n: usize| n as u64;
         let (records, strengths) = (count(set.records.len()), count(study.strengths.len()));
         let levels: u64 = study.measures.iter().map(|measure| count(measure.levels.len())).sum();
@@ -109,10 +111,19 @@ impl Size {
         let surface = 8 * measures * sites * strengths * thresholds;
         let spectra = 40 * measures * sites * strengths * count(study.risk.poe.len());
         let samples: u64 = set.records.iter().map(|record| count(record.accelerogram.len())).sum();
+        let listed = list.map_or(0, |list| count(list.sites.len()));
+        let exports = list.map_or(0, |list| count(list.exports.len()));
+        let text = listed * exports * count(study.risk.poe.len()) * (80 * strengths + 800);
         let program = 30_000_000;
         Self {
-            memory_bytes: program + stripes + surface + surface / measures.max(1) + spectra + 64 * samples,
-            disk_bytes: stripes + surface + spectra + 1_000_000,
+            memory_bytes: program
+                + stripes
+                + surface
+                + surface / measures.max(1)
+                + spectra
+                + 64 * samples
+                + 500 * listed,
+            disk_bytes: stripes + surface + spectra + text + 1_000_000,
         }
     }
 }

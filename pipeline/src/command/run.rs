@@ -12,7 +12,7 @@ use serde_json::json;
 use uplift_ida::Part;
 use uplift_risk::OrdinateFlag;
 
-use super::{Session, StudyArguments};
+use super::{Session, StudyArguments, site_table};
 use crate::error::UpliftError;
 use crate::inputs::{RecordSet, read_hazard, read_records};
 use crate::kept::{KeptPieces, ResultLock, journal_path};
@@ -146,6 +146,7 @@ pub(super) fn run_study_from(
         session.remark(&format!("note: {warning}"));
     }
     let (hazard, notes) = read_hazard(study)?;
+    let site_list = site_table::read(study, path, session)?;
     let records = read_records(study)?;
     session.remark(&format!("records  {}", records.description));
 
@@ -164,6 +165,7 @@ pub(super) fn run_study_from(
     }
     let coefficients: Vec<Coefficients> = spectra.iter().map(|spectra| fit_spectra(study, spectra)).collect();
     let mut warnings = notes;
+    warnings.extend(site_list.iter().flat_map(|list| list.notes.iter().cloned()));
     warnings.extend(records.notes.iter().cloned());
     warnings.extend(warnings_of(study, &records, &spectra, &coefficients));
 
@@ -171,8 +173,12 @@ pub(super) fn run_study_from(
         let total = stripes.iter().map(|stripes| stripes.analyses).sum();
         return Err(UpliftError::Paused { what: "analyses", done: total, total, path: journal.path().to_owned() });
     }
-    let provenance =
-        Provenance::new(&study_file.display().to_string(), start.elapsed().as_secs_f64(), &records, &hazard);
+    let mut provenance = Provenance::new(&study_file.display().to_string(), 0.0, &records, &hazard);
+    provenance.input_checksums.extend(site_list.iter().flat_map(|list| list.checksums.clone()));
+    let line = provenance.line(&study.title, &records);
+    let mut sites = site_table::compute(study, site_list.as_ref(), &stripes, path, &line, session)?;
+    warnings.append(&mut sites.warnings);
+    provenance.wall_time_s = start.elapsed().as_secs_f64();
     let outcome = Outcome {
         study,
         records: &records,
@@ -190,6 +196,7 @@ pub(super) fn run_study_from(
         write_csv(path, &outcome)?;
         files.extend(csv_paths(path));
     }
+    files.extend(sites.finish()?);
     report(&outcome, &files, start.elapsed().as_secs_f64())
 }
 

@@ -87,7 +87,7 @@ fn extreme_levels(measure: IntensityMeasure) -> Option<[f64; 2]> {
 }
 
 /// What a wrong unit looks like: the extreme shaking is frequent, or the faintest is rare.
-fn implausible(curve: &HazardCurve, measure: IntensityMeasure) -> Option<String> {
+pub(super) fn implausible(curve: &HazardCurve, measure: IntensityMeasure) -> Option<String> {
     /// Once in ten thousand years.
     const RARE_PER_YEAR: f64 = 1e-4;
     let [strong, faint] = extreme_levels(measure)?;
@@ -186,7 +186,12 @@ impl SiteReader<'_> {
             }
         }
         let curve = read.curve.in_field_units(self.study.gravity_m_s2).map_err(|error| error.to_string())?;
-        let curve = self.of_the_records_definition(curve, path)?;
+        let converted = of_the_records_definition(self.study, self.plan.measure, &curve)
+            .map_err(|reason| format!("{}: {reason}", path.display()))?;
+        if converted.is_none() {
+            self.undefined.push(format!("{}, {}", self.site, self.plan.measure.label()));
+        }
+        let curve = converted.unwrap_or(curve);
         self.notes
             .extend(implausible(&curve, self.plan.measure).map(|doubt| {
                 format!("site {}, {}: {}: {doubt}", self.site, self.plan.measure.label(), path.display())
@@ -196,34 +201,42 @@ impl SiteReader<'_> {
         Ok(HazardInput { file: Some(path.to_owned()), checksum: checksum(&bytes), curve, weights })
     }
 
-    /// The curve for the definition of the measure that the records are combined by.
-    fn of_the_records_definition(&mut self, curve: HazardCurve, path: &Path) -> Result<HazardCurve, String> {
-        let (hazard, measure) = (&self.study.hazard, self.plan.measure);
-        let wanted = definition_of(self.study.records.intensity);
-        let Some(own) = curve.component().or(hazard.component) else {
-            self.undefined.push(format!("{}, {}", self.site, measure.label()));
-            return Ok(curve);
-        };
-        if own == wanted {
-            return Ok(curve);
-        }
-        let Some(factor) = hazard.factor(own, wanted, measure) else {
-            let key = measure.key();
-            let (from, to) = (definition_word(own), definition_word(wanted));
-            return Err(format!(
-                "{}: the curve is of the {own}, and the records are measured by the {wanted}: take a curve of the same definition, another records.intensity, or declare what the levels are multiplied by, for instance [hazard] conversions = [{{ from = \"{from}\", to = \"{to}\", {key} = 1.0 }}]",
-                path.display()
-            ));
-        };
-        curve.converted(factor, wanted).map_err(|error| format!("{}: {error}", path.display()))
-    }
-
     fn weights(&self, curve: &HazardCurve, name: &str) -> Result<StripeWeights, String> {
-        let extrapolation = match self.study.risk.extrapolate {
-            Extrapolate::Refuse => Extrapolation::Refuse,
-            Extrapolate::Loglog => Extrapolation::LogLog,
-        };
-        StripeWeights::from_hazard(curve, &self.plan.levels, extrapolation)
-            .map_err(|error| format!("{name}: {error}; or leave the level out of [{}]", self.plan.measure.key()))
+        stripe_weights(self.study, self.plan, curve).map_err(|reason| format!("{name}: {reason}"))
     }
+}
+
+/// The curve for the definition of the measure that the records are combined by; none where the definition of the curve is not known.
+pub(super) fn of_the_records_definition(
+    study: &ResolvedStudy,
+    measure: IntensityMeasure,
+    curve: &HazardCurve,
+) -> Result<Option<HazardCurve>, String> {
+    let wanted = definition_of(study.records.intensity);
+    let Some(own) = curve.component().or(study.hazard.component) else { return Ok(None) };
+    if own == wanted {
+        return Ok(Some(curve.clone()));
+    }
+    let Some(factor) = study.hazard.factor(own, wanted, measure) else {
+        let key = measure.key();
+        let (from, to) = (definition_word(own), definition_word(wanted));
+        return Err(format!(
+            "the curve is of the {own}, and the records are measured by the {wanted}: take a curve of the same definition, another records.intensity, or declare what the levels are multiplied by, for instance [hazard] conversions = [{{ from = \"{from}\", to = \"{to}\", {key} = 1.0 }}]"
+        ));
+    };
+    curve.converted(factor, wanted).map(Some).map_err(|error| error.to_string())
+}
+
+/// What each stripe of the study weighs at a site of this hazard.
+pub(super) fn stripe_weights(
+    study: &ResolvedStudy,
+    plan: &MeasurePlan,
+    curve: &HazardCurve,
+) -> Result<StripeWeights, String> {
+    let extrapolation = match study.risk.extrapolate {
+        Extrapolate::Refuse => Extrapolation::Refuse,
+        Extrapolate::Loglog => Extrapolation::LogLog,
+    };
+    StripeWeights::from_hazard(curve, &plan.levels, extrapolation)
+        .map_err(|error| format!("{error}; or leave the level out of [{}]", plan.measure.key()))
 }

@@ -116,11 +116,12 @@ pub(crate) fn rows_of(path: &Path, ids: &BTreeSet<&str>, folder: &Path) -> Resul
     Ok(table.columns().iter().map(chosen).collect())
 }
 
-/// All columns as text: an identifier such as 0012 must stay what it is. Spreadsheets of many countries separate columns by semicolons.
-fn parse(bytes: &[u8]) -> Result<DataFrame, polars::prelude::PolarsError> {
+/// All columns as text: an identifier such as 0012 must stay what it is. Spreadsheets of many countries separate columns by semicolons,
+/// and what is copied from one has tabs.
+pub(super) fn parse(bytes: &[u8]) -> Result<DataFrame, polars::prelude::PolarsError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let header = bytes.split(|&byte| byte == b'\n').find(|line| !line.starts_with(b"#")).unwrap_or_default();
-    let separator = if header.contains(&b';') && !header.contains(&b',') { b';' } else { b',' };
+    let separator = [b',', b';', b'\t'].into_iter().find(|byte| header.contains(byte)).unwrap_or(b',');
     let options = CsvParseOptions::default().with_comment_prefix(Some("#")).with_separator(separator);
     CsvReadOptions::default()
         .with_has_header(true)

@@ -86,7 +86,7 @@ fn spectra_table(outcome: &Outcome<'_>) -> Vec<Column> {
     ]
 }
 
-fn flag_word(flag: OrdinateFlag) -> &'static str {
+pub(super) fn flag_word(flag: OrdinateFlag) -> &'static str {
     match flag {
         OrdinateFlag::Regular => "regular",
         OrdinateFlag::NoExceedance => "no exceedance",

@@ -2,6 +2,7 @@
 
 use uplift_motion::IntensityMeasure;
 use uplift_regression::{ExponentialFit, fit};
+use uplift_risk::Ordinate;
 
 use super::Spectra;
 use crate::study::ResolvedStudy;
@@ -18,17 +19,17 @@ pub struct Coefficients {
 /// Fit every spectrum over the strengths above `regression.strength_above`.
 pub fn fit_spectra(study: &ResolvedStudy, spectra: &Spectra) -> Coefficients {
     let [sites, poes, _] = spectra.shape;
+    let fits = (0..sites * poes).map(|row| fit_spectrum(study, spectra.spectrum(row / poes, row % poes))).collect();
+    Coefficients { measure: spectra.measure, fits }
+}
+
+/// Fit one spectrum over the strengths above `regression.strength_above`, or say why there is no fit.
+pub(super) fn fit_spectrum(study: &ResolvedStudy, spectrum: &[Ordinate]) -> Result<ExponentialFit, String> {
     let from = study.strengths.partition_point(|&strength| strength <= study.regression.strength_above);
     let strengths = &study.strengths[from..];
-    let fits = (0..sites * poes)
-        .map(|row| {
-            let ordinates = &spectra.spectrum(row / poes, row % poes)[from..];
-            let displacements: Vec<f64> = ordinates.iter().map(|ordinate| ordinate.displacement_m).collect();
-            if let Some(position) = displacements.iter().position(|u| u.is_infinite()) {
-                return Err(format!("the spectrum is censored at strength {}", strengths[position]));
-            }
-            fit(strengths, &displacements).map_err(|error| error.to_string())
-        })
-        .collect();
-    Coefficients { measure: spectra.measure, fits }
+    let displacements: Vec<f64> = spectrum[from..].iter().map(|ordinate| ordinate.displacement_m).collect();
+    if let Some(position) = displacements.iter().position(|u| u.is_infinite()) {
+        return Err(format!("the spectrum is censored at strength {}", strengths[position]));
+    }
+    fit(strengths, &displacements).map_err(|error| error.to_string())
 }

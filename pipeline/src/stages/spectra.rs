@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use uplift_fragility::Stripes as Stripe;
 use uplift_hazard::rate_from_probability;
 use uplift_motion::IntensityMeasure;
-use uplift_risk::{Ordinate, PooledDemand, RiskCurve, ThresholdGrid};
+use uplift_risk::{Ordinate, PooledDemand, RiskCurve, RiskError, ThresholdGrid};
 
 use super::{BranchSpectra, Stripes};
 use crate::error::UpliftError;
@@ -38,6 +38,43 @@ impl Spectra {
     }
 }
 
+/// How ordinates are read: the target rates and the thresholds of a study.
+pub(super) struct Reading {
+    /// Target rates, 1/yr, one a probability.
+    pub(super) targets: Vec<f64>,
+    grid: ThresholdGrid,
+    contour: Contour,
+}
+
+impl Reading {
+    pub(super) fn of(study: &ResolvedStudy) -> Result<Self, UpliftError> {
+        let rate = |&poe: &f64| rate_from_probability(poe, study.risk.years);
+        let targets = study.risk.poe.iter().map(rate).collect::<Result<Vec<_>, _>>();
+        let targets = targets.map_err(|error| UpliftError::input(error.to_string()))?;
+        let grid = ThresholdGrid::new(study.risk.thresholds_m.to_vec())
+            .map_err(|error| UpliftError::input(error.to_string()))?;
+        Ok(Self { targets, grid, contour: study.risk.contour })
+    }
+
+    /// The ordinates of one strength, one a probability.
+    pub(super) fn ordinates(&self, curve: &RiskCurve<'_>) -> Result<Vec<Ordinate>, RiskError> {
+        match self.contour {
+            Contour::Exact => curve.exact_ordinates(&self.targets),
+            Contour::Grid => self.targets.iter().map(|&target| curve.grid_ordinate(&self.grid, target)).collect(),
+        }
+    }
+}
+
+/// All demands of one strength, sorted once for all sites.
+pub(super) fn pooled_demand(
+    stripes: &Stripes,
+    strength: usize,
+) -> Result<PooledDemand, Box<dyn std::error::Error + Send + Sync>> {
+    let [records, strengths, levels] = stripes.edp.shape();
+    let edp_m = &stripes.edp.edp_m()[strength * levels..];
+    Ok(PooledDemand::new(&Stripe::strided(&stripes.levels, edp_m, records, strengths * levels)?)?)
+}
+
 /// One strength.
 #[derive(Default)]
 struct OfStrength {
@@ -60,31 +97,19 @@ pub fn uniform_risk_spectra(
     stripes: &Stripes,
     hazard: &[SiteHazard],
 ) -> Result<Spectra, UpliftError> {
-    let targets = study
-        .risk
-        .poe
-        .iter()
-        .map(|&poe| rate_from_probability(poe, study.risk.years))
-        .collect::<Result<Vec<_>, _>>()
-        .map_err(|error| UpliftError::input(error.to_string()))?;
-    let grid =
-        ThresholdGrid::new(study.risk.thresholds_m.to_vec()).map_err(|error| UpliftError::input(error.to_string()))?;
-    let [records, strengths, levels] = stripes.edp.shape();
-    let edp_m = stripes.edp.edp_m();
+    let reading = Reading::of(study)?;
+    let (targets, grid) = (&reading.targets, &reading.grid);
+    let strengths = stripes.edp.shape()[1];
 
     let of_strength = |strength: usize| -> Result<OfStrength, Box<dyn std::error::Error + Send + Sync>> {
-        let stripe = Stripe::strided(&stripes.levels, &edp_m[strength * levels..], records, strengths * levels)?;
-        let demand = PooledDemand::new(&stripe)?;
-        let read = |curve: &RiskCurve<'_>| match study.risk.contour {
-            Contour::Exact => curve.exact_ordinates(&targets),
-            Contour::Grid => targets.iter().map(|&target| curve.grid_ordinate(&grid, target)).collect(),
-        };
+        let demand = pooled_demand(stripes, strength)?;
+        let read = |curve: &RiskCurve<'_>| reading.ordinates(curve);
         let mut done = OfStrength::default();
         for site in hazard {
             let curve = RiskCurve::new(&demand, &site.curve.weights)?;
             done.ordinates.push(read(&curve)?);
             if study.risk.maf_surface {
-                done.rows.push(curve.mean_annual_frequencies(&grid));
+                done.rows.push(curve.mean_annual_frequencies(grid));
             }
             let mut branches_m = Vec::with_capacity(site.branches.len() * targets.len());
             for branch in &site.branches {

@@ -12,6 +12,7 @@ use super::hazard::Hazard;
 use super::resolved::{
     Contour, CurveFile, CurveKind, Extrapolate, IntervalKind, RecordSource, ResolvedStudy, Uplifted,
 };
+use super::site_table::SiteTableForm;
 
 /// The words of a study file for choices, each in one place for reading and writing.
 pub(super) const COMPONENTS: [(&str, Component); 4] =
@@ -55,6 +56,8 @@ pub(super) struct Form<'a> {
     #[serde(skip_serializing_if = "HazardForm::is_empty")]
     hazard: HazardForm,
     sites: Vec<SiteForm<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    site_table: Option<SiteTableForm<'a>>,
     regression: RegressionForm,
     bootstrap: BootstrapForm<'a>,
     output: OutputForm<'a>,
@@ -237,6 +240,7 @@ impl<'a> Form<'a> {
                     pga: site.curve(IntensityMeasure::Pga).map(curve),
                 })
                 .collect(),
+            site_table: SiteTableForm::of(study),
             regression: RegressionForm { strength_above: study.regression.strength_above },
             bootstrap: BootstrapForm {
                 sizes: study.bootstrap.sizes.as_deref(),

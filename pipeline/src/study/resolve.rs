@@ -15,6 +15,7 @@ use super::records;
 use super::resolved::{
     Contour, CurveFile, Extrapolate, Oscillator, Output, RecordSource, Regression, ResolvedStudy, Risk, Uplifted,
 };
+use super::site_table;
 use super::sites;
 use super::warnings;
 
@@ -45,6 +46,7 @@ pub(super) fn study(
     let risk = risk(root.section("risk"), ledger);
     let hazard = hazard::read(root.section("hazard"));
     let sites = sites::read(root.field("sites"), &switched_on, folders);
+    let site_table = site_table::read(root.field("site_table").as_ref(), &switched_on, strengths.as_ref(), folders);
     let regression = regression(root.section("regression"));
     let bootstrap = bootstrap::read(root.section("bootstrap"));
     let inputs = (records.iter())
@@ -53,6 +55,7 @@ pub(super) fn study(
             RecordSource::Synthetic { .. } => None,
         })
         .chain(sites.iter().flatten().flat_map(|site| site.curves.iter().flat_map(CurveFile::files)))
+        .chain(site_table.iter().flatten().flat_map(site_table::SiteTable::files))
         .chain([study_file]);
     let output = output(root.section("output"), folders, study_file, inputs);
     root.finish();
@@ -67,6 +70,7 @@ pub(super) fn study(
         risk: risk?,
         hazard: hazard?,
         sites: sites?,
+        site_table: site_table?,
         regression: regression?,
         bootstrap: bootstrap?,
         output: output?,

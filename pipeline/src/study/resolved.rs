@@ -8,6 +8,7 @@ use super::form::Form;
 use super::grid::Grid;
 use super::hazard::Hazard;
 use super::selection::RecordSelection;
+use super::site_table::SiteTable;
 
 /// Pairs of horizontal components in the synthetic record set, unless a study says otherwise.
 pub const DEFAULT_SYNTHETIC_PAIRS: u64 = 105;
@@ -40,6 +41,8 @@ pub struct ResolvedStudy {
     pub hazard: Hazard,
     /// Sites; each has a curve of each measure in `measures`.
     pub sites: Vec<Site>,
+    /// Many sites, their hazard in exports.
+    pub site_table: Option<SiteTable>,
     /// The fit of Eq. 4.11.
     pub regression: Regression,
     /// The bootstrap over records.

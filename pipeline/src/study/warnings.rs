@@ -9,7 +9,7 @@ pub(super) fn of(study: &ResolvedStudy) -> Vec<String> {
     if !(9.7..=9.9).contains(&gravity) {
         warnings.push(format!("gravity_m_s2 = {gravity} m/s2 is not found on Earth, where it is 9.76 to 9.83"));
     }
-    if study.sites.is_empty() {
+    if study.sites.is_empty() && study.site_table.is_none() {
         warnings.push("no [[sites]]: the responses are computed, but no uniform risk spectrum".to_owned());
     }
     let above = study.regression.strength_above;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{ExportedCurve, SitePlace, Statistic};
+use super::{ExportedCurve, ExportedSite, SitePlace, Statistic};
 use crate::component::ComponentDefinition;
 use crate::curve::HazardCurve;
 use crate::declaration::SecondColumn;
@@ -69,6 +69,12 @@ impl Entry {
             curve: format!("{kind} curve of {measure} at {site}"),
             earlier: earlier.map(|line| format!(", before in line {line}")).unwrap_or_default(),
         }
+    }
+
+    /// The site with its curve, or what keeps it from having one.
+    pub(super) fn exported(self) -> ExportedSite {
+        let (site, measure, kind) = (self.site.clone(), self.head.measure.clone(), self.head.kind.clone());
+        ExportedSite { site, measure, kind, curve: self.curve() }
     }
 
     /// The curve, if the values make one.

@@ -143,7 +143,7 @@ impl std::fmt::Display for KnownNames {
 }
 
 /// Great-circle distance between two places (longitude, latitude) in degrees, km, by the haversine formula.
-fn distance_km((lon0, lat0): (f64, f64), (lon1, lat1): (f64, f64)) -> f64 {
+pub(super) fn distance_km((lon0, lat0): (f64, f64), (lon1, lat1): (f64, f64)) -> f64 {
     let half_sine_squared = |degrees: f64| (0.5 * degrees).to_radians().sin().powi(2);
     let h = half_sine_squared(lat1 - lat0)
         + lat0.to_radians().cos() * lat1.to_radians().cos() * half_sine_squared(lon1 - lon0);

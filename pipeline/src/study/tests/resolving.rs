@@ -83,6 +83,11 @@ pga = { file = "pga.csv", unit = "m/s2", kind = "poe", years = 1 }
 name = "Focșani 2.1"
 pgv = { file = "../pgv.csv", unit = "m/s", kind = "maf" }
 pga = "pga.csv"
+[site_table]
+sites = "manifest.csv"
+pga = "pga.csv"
+within_km = 0.5
+strengths = [0.1, "0.4:0.15:0.7"]
 [regression]
 strength_above = 0
 [output]
@@ -106,6 +111,10 @@ fn complete_study() {
     assert_eq!((curve.unit, curve.kind), (CurveUnit::MPerS2, CurveKind::Poe { years: 1.0 }));
     let curve = study.sites[1].curve(IntensityMeasure::Pgv).unwrap();
     assert_eq!((curve.unit, curve.kind), (CurveUnit::MPerS, CurveKind::Maf));
+    let table = study.site_table.as_ref().unwrap();
+    assert_eq!((table.export(IntensityMeasure::Pgv), table.within_km), (None, 0.5));
+    assert_eq!(table.export(IntensityMeasure::Pga), Some(folder.path("pga.csv").as_path()));
+    assert_eq!(table.strengths.as_deref(), Some(&[0.1, 0.4, 0.55, 0.7][..]));
     assert_eq!(study.output.file, folder.path("results/x.h5"));
     assert!(study.warnings.is_empty());
 }

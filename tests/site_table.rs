@@ -1,0 +1,391 @@
+//! Many sites: a table of them and an engine's exports become tables and a map.
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+mod common;
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::path::Path;
+
+use common::{SMALL_STUDY, SmallStudy};
+use serde_json::Value;
+use uplift::labelled::LabelledReader;
+
+/// A site of an export: name, longitude, latitude and k0 of the curve λ = k0 im⁻²; at sea k0 is 0.
+type Site = (&'static str, f64, f64, f64);
+
+const SITES: [Site; 5] = [
+    ("alpha", 10.0, 45.0, 0.2),
+    ("sea", 11.0, 45.0, 0.0),
+    ("beta", 12.0, 45.0, 0.1),
+    ("gamma", 190.0, -20.0, 0.4),
+    ("delta", 12.0, 45.2, 0.05),
+];
+
+/// An export as `OpenQuake` writes it: probabilities in one year.
+fn openquake(measure: &str, levels: &[f64], sites: &[Site]) -> String {
+    let mut text = format!(
+        "#,,,,,,\"generated_by='OpenQuake engine 3.26.2', checksum=1, kind='mean', investigation_time=1.0, imt='{measure}'\"\n\
+         custom_site_id,lon,lat,depth"
+    );
+    for level in levels {
+        write!(text, ",poe-{level:.7}").unwrap();
+    }
+    for (name, longitude, latitude, k0) in sites {
+        write!(text, "\n{name},{longitude:.5},{latitude:.5},0.00000").unwrap();
+        for level in levels {
+            write!(text, ",{:.9E}", -(-k0 / (level * level)).exp_m1()).unwrap();
+        }
+    }
+    text + "\n"
+}
+
+const PGV_LEVELS: [f64; 5] = [0.5, 2.0, 20.0, 100.0, 300.0];
+const PGA_LEVELS: [f64; 4] = [0.01, 0.1, 1.0, 3.0];
+
+/// Sites in another order than those of the export, one of them twice and one unknown; no hazard curve of theirs is anywhere else.
+const TABLE: &str = "site_id;Lon;LAT [deg];vs30;problem\n\
+    Delta, Upper;12.001;45.2;0800;yes\nAlpha;10;45.004;760;\n;12.0;45.0;;\nSea;11;45;1;\nGamma;-170;-20;1;\nAlpha again;10;45;2;\nNowhere;0;0;3;\n";
+
+fn many(text: &str) -> SmallStudy {
+    let study = SmallStudy::with(text);
+    study.write("pgv-export.csv", &openquake("PGV", &PGV_LEVELS, &SITES));
+    let weaker: Vec<Site> = SITES.iter().rev().map(|&(name, lon, lat, k0)| (name, lon, lat, 1e-3 * k0)).collect();
+    study.write("pga-export.csv", &openquake("PGA", &PGA_LEVELS, &weaker));
+    study.write("table.csv", TABLE);
+    study
+}
+
+/// The small study without [[sites]].
+fn without_sites() -> &'static str {
+    SMALL_STUDY.split("[[sites]]").next().unwrap()
+}
+
+const SECTION: &str = "[site_table]\nsites = \"table.csv\"\npgv = \"pgv-export.csv\"\npga = \"pga-export.csv\"\n";
+
+fn read(at: &Path, name: &str) -> String {
+    std::fs::read_to_string(at.join(name)).unwrap()
+}
+
+/// Rows of a table by their first column, measure and probability: the columns `wanted`, as text.
+fn rows(text: &str, wanted: &[&str]) -> BTreeMap<String, Vec<Vec<String>>> {
+    let mut lines = text.lines().skip(1);
+    let header: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let column = |name: &str| header.iter().position(|column| *column == name).unwrap_or_else(|| panic!("{name}"));
+    let mut found: BTreeMap<String, Vec<Vec<String>>> = BTreeMap::new();
+    for line in lines {
+        let cells: Vec<&str> = line.split(',').collect();
+        let key = ["site", "im", "poe"].map(|name| cells[column(name)]).join(" ");
+        found.entry(key).or_default().push(wanted.iter().map(|name| cells[column(name)].to_owned()).collect());
+    }
+    found
+}
+
+#[test]
+fn spectra_are_to_the_bit_those_of_the_same_curves_as_sites() {
+    for contour in ["exact", "grid"] {
+        let study = many(&format!(
+            "{}[site_table]\npgv = \"pgv-export.csv\"\npga = \"pga-export.csv\"\n[[sites]]\nname = \"alpha\"\npgv = \"alpha/pgv.csv\"\npga = \"alpha/pga.csv\"\n[[sites]]\nname = \"delta\"\npgv = \"delta/pgv.csv\"\npga = \"delta/pga.csv\"\n",
+            without_sites()
+        ));
+        for name in ["alpha", "delta"] {
+            study.uplift(&["hazard", "import", "pgv-export.csv", "pga-export.csv", "-o", name, "--name", name]).ok();
+        }
+        study.uplift(&["run", "study.toml", "-o", "r.h5", "--set", &format!("risk.contour={contour}")]).ok();
+        for (ours, theirs, columns) in [
+            ("r.sites.csv", "r.urs.csv", &["years", "strength", "u_m", "flag"][..]),
+            (
+                "r.sites.coefficients.csv",
+                "r.regression.csv",
+                &["years", "c0_m", "c1", "c2_m", "rmse_m", "bound_active"],
+            ),
+        ] {
+            let [ours, theirs] = [ours, theirs].map(|name| rows(&read(study.path(), name), columns));
+            assert_eq!(theirs.len(), 2 * 2 * 3);
+            for (key, theirs) in &theirs {
+                let ours = &ours[key];
+                assert_eq!(ours.len(), theirs.len(), "{key}");
+                for (ours, theirs) in ours.iter().flatten().zip(theirs.iter().flatten()) {
+                    match (ours.parse::<f64>(), theirs.parse::<f64>()) {
+                        (Ok(ours), Ok(theirs)) => assert_eq!(ours.to_bits(), theirs.to_bits(), "{key}"),
+                        _ => assert_eq!(ours, theirs, "{key}"),
+                    }
+                }
+            }
+            assert_eq!(ours.len(), if columns[1] == "strength" { 24 } else { 30 }, "the site at sea has no spectrum");
+        }
+    }
+}
+
+/// The three files without their lines of provenance, which hold the time.
+fn files(at: &Path, result: &str) -> [String; 3] {
+    ["sites.csv", "sites.coefficients.csv", "sites.geojson"].map(|extension| {
+        let text = read(at, &format!("{result}.{extension}"));
+        let lines: Vec<&str> = text.lines().filter(|line| !line.contains("uplift 0")).collect();
+        assert_eq!(lines.len() + 1, text.lines().count(), "{extension} has one line of provenance");
+        lines.join("\n")
+    })
+}
+
+#[test]
+fn any_number_of_threads_and_any_order_of_the_export_gives_the_same_bytes() {
+    let study = many(&format!("{}{SECTION}", without_sites()));
+    study.uplift(&["run", "study.toml", "-o", "one.h5", "--threads", "1"]).ok();
+    study.uplift(&["run", "study.toml", "-o", "three.h5", "--threads", "3"]).ok();
+    let one = files(study.path(), "one");
+    assert!(one[0].lines().count() > 100);
+    assert_eq!(one, files(study.path(), "three"));
+    let mut reversed = SITES;
+    reversed.reverse();
+    study.write("pgv-export.csv", &openquake("PGV", &PGV_LEVELS, &reversed));
+    study.uplift(&["run", "study.toml", "-o", "reversed.h5"]).ok();
+    assert_eq!(one, files(study.path(), "reversed"));
+    // nothing is left aside
+    let left = std::fs::read_dir(study.path()).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    assert_eq!(left.filter(|name| name.contains("partial")).count(), 0);
+}
+
+#[test]
+fn tables_and_map_of_a_list_of_sites() {
+    let study = many(&format!("{}{SECTION}strengths = [0.2, 0.4]\n", without_sites()));
+    let done = study.uplift(&["run", "study.toml", "-o", "r.h5"]).ok();
+    assert!(done.stderr.contains("7; 6 found in the export of PGV, 6 found in the export of PGA"), "{}", done.stderr);
+    for words in [
+        "PGV: 1 of 7 sites have no site of pgv-export.csv within 1 km: Nowhere (0, 0) is ",
+        "PGV: 1 of 7 sites have no hazard curve that can be used: Sea (11, 45): no hazard: 0 levels",
+        "pga-export.csv does not say how horizontal components are combined: taken as geometric mean",
+        "r.sites.csv",
+        "r.sites.coefficients.csv",
+        "r.sites.geojson",
+    ] {
+        assert!(done.stdout.contains(words), "{words}\n{}", done.stdout);
+    }
+    assert!(!done.stdout.contains("no [[sites]]"), "{}", done.stdout);
+    let spectra = read(study.path(), "r.sites.csv");
+    insta::assert_snapshot!(spectra.lines().nth(1).unwrap(), @"site,longitude,latitude,im,poe,years,strength,u_m,flag");
+    // five sites, two measures, three probabilities, two strengths
+    assert_eq!(spectra.lines().count(), 2 + 5 * 2 * 3 * 2);
+    let coefficients = read(study.path(), "r.sites.coefficients.csv");
+    let mut lines = coefficients.lines().skip(1);
+    insta::assert_snapshot!(
+        lines.next().unwrap(),
+        @"site,longitude,latitude,im,poe,years,c0_m,c1,c2_m,rmse_m,bound_active,problem,vs30,table_problem"
+    );
+    assert!(lines.next().unwrap().starts_with("\"Delta, Upper\",12.001,45.2,PGV,0.02,50.0,"), "{coefficients}");
+    assert_eq!(coefficients.lines().count(), 2 + 7 * 2 * 3);
+    assert!(coefficients.contains("Nowhere,0.0,0.0,PGA,0.5,50.0,,,,,,no site of the export within 1 km,3,\n"));
+    assert!(coefficients.contains("\n3,12.0,45.0,PGV,"), "a site without a name goes by its row: {coefficients}");
+    // twice the same site of the export: the same numbers
+    let by_site = rows(&spectra, &["strength", "u_m", "flag"]);
+    assert_eq!(by_site["Alpha PGV 0.02"], by_site["Alpha again PGV 0.02"]);
+    assert_ne!(by_site["Alpha PGV 0.02"], by_site["Gamma PGV 0.02"]);
+
+    let map: Value = serde_json::from_str(&read(study.path(), "r.sites.geojson")).unwrap();
+    assert_eq!(map["type"], "FeatureCollection");
+    assert!(map["provenance"].as_str().unwrap().contains("synthetic"));
+    let features = map["features"].as_array().unwrap();
+    let names: Vec<&str> = features.iter().map(|feature| feature["properties"]["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["Delta, Upper", "Alpha", "3", "Sea", "Gamma", "Alpha again", "Nowhere"]);
+    let alpha = &features[1];
+    assert_eq!((&alpha["type"], &alpha["geometry"]["type"]), (&"Feature".into(), &"Point".into()));
+    assert_eq!(alpha["geometry"]["coordinates"], serde_json::json!([10.0, 45.004]));
+    assert_eq!(features[4]["geometry"]["coordinates"], serde_json::json!([-170.0, -20.0]));
+    let u_m = &by_site["Alpha PGV 0.02"][0][1];
+    assert_eq!(alpha["properties"]["pgv_2pct_50yr_u_m_at_0.2"].as_f64().unwrap(), u_m.parse::<f64>().unwrap());
+    for key in ["pga_50pct_50yr_u_m_at_0.4", "pga_10pct_50yr_c1", "pgv_2pct_50yr_c2_m", "pgv_2pct_50yr_rmse_m"] {
+        assert!(alpha["properties"].as_object().unwrap().contains_key(key), "{key}");
+        assert!(features[3]["properties"][key].is_null(), "{key}");
+    }
+    assert_eq!(features[0]["properties"]["vs30"], "0800");
+    assert_eq!(features[0]["properties"]["table_problem"], "yes");
+    assert_eq!(features[1]["properties"]["vs30"], 760);
+    let problem = features[6]["properties"]["problem"].as_str().unwrap();
+    assert_eq!(problem, "PGV: no site of the export within 1 km; PGA: no site of the export within 1 km");
+
+    // where the numbers come from is in the result file too, and the study in it runs again
+    let reader = LabelledReader::open(&study.path().join("r.h5")).unwrap();
+    assert!(reader.attribute_text("/", "warnings").unwrap().contains("Nowhere (0, 0)"));
+    let checksums = reader.attribute_text("/", "input_checksums").unwrap();
+    for name in ["site table\"", "site table PGV\"", "site table PGA\""] {
+        assert!(checksums.contains(name), "{checksums}");
+    }
+    study.write("again.toml", &reader.attribute_text("/", "study_toml").unwrap());
+    study.uplift(&["run", "again.toml", "-o", "again.h5", "-q"]).ok();
+    assert_eq!(files(study.path(), "r"), files(study.path(), "again"));
+}
+
+#[test]
+fn every_site_of_the_first_export_where_there_is_no_table() {
+    let study = many(&format!("{}[site_table]\npga = \"pga-export.csv\"\n", without_sites()));
+    study.uplift(&["run", "study.toml", "-o", "r.h5"]).ok();
+    let coefficients = rows(&read(study.path(), "r.sites.coefficients.csv"), &["problem"]);
+    assert_eq!(coefficients.len(), 5 * 3);
+    assert!(coefficients["sea PGA 0.02"][0][0].starts_with("no hazard"));
+    // in the order of the export
+    let spectra = read(study.path(), "r.sites.csv");
+    assert!(spectra.lines().nth(2).unwrap().starts_with("delta,12.0,45.2,PGA,0.02,50.0,0.0,"), "{spectra}");
+    assert!(spectra.contains("\ngamma,190.0,-20.0,"));
+    let map = read(study.path(), "r.sites.geojson");
+    assert!(map.contains("\"coordinates\":[-170.0,-20.0]"), "{map}");
+    // ordinates at all strengths in the table, at a few on the map
+    assert_eq!(rows(&spectra, &["u_m"])["alpha PGA 0.1"].len(), 10);
+    for key in ["pga_10pct_50yr_u_m_at_0.1\"", "pga_10pct_50yr_u_m_at_0.2\"", "pga_10pct_50yr_u_m_at_0.4\""] {
+        assert!(map.contains(key), "{key}");
+    }
+    assert!(!map.contains("_at_0.3\""));
+}
+
+#[test]
+fn curves_that_do_not_cover_the_levels_and_sites_that_overturn_are_rows_with_a_reason() {
+    let study = many(&format!("{}{SECTION}", without_sites()));
+    // the curve of beta ends below the last level
+    let export = read(study.path(), "pgv-export.csv");
+    let cut: Vec<String> = export
+        .lines()
+        .map(|line| match line.strip_prefix("beta") {
+            Some(_) => {
+                let cells: Vec<&str> = line.split(',').collect();
+                format!("{},0,0", cells[..cells.len() - 2].join(","))
+            }
+            None => line.to_owned(),
+        })
+        .collect();
+    study.write("pgv-export.csv", &cut.join("\n"));
+    let done = study.uplift(&["run", "study.toml", "-o", "r.h5", "--set", "oscillator.capacity_m=0.002"]).ok();
+    for words in [
+        "2 of 7 sites have no hazard curve that can be used: 3 (12, 45): ",
+        "leave the level out of [pgv]",
+        "have ordinates that are censored",
+        "have no fit",
+        "1 curves of pgv-export.csv end in zeros",
+    ] {
+        assert!(done.stdout.contains(words) || reader_warnings(&study).contains(words), "{words}\n{}", done.stdout);
+    }
+    let coefficients = read(study.path(), "r.sites.coefficients.csv");
+    let row = coefficients.lines().find(|line| line.starts_with("3,12.0,45.0,PGV,0.02")).unwrap();
+    assert!(
+        row.contains(",,,,,") && row.contains("PGV = 30 cm/s lies outside") && row.contains("leave the level out"),
+        "{row}"
+    );
+    assert!(coefficients.contains("no fit: the spectrum is censored at strength 0.1"), "{coefficients}");
+    assert!(read(study.path(), "r.sites.csv").contains(",inf,censored"));
+    let map: Value = serde_json::from_str(&read(study.path(), "r.sites.geojson")).unwrap();
+    let properties = &map["features"][1]["properties"];
+    assert!(properties["pgv_2pct_50yr_u_m_at_0.1"].is_null());
+    assert!(properties["problem"].as_str().unwrap().contains("pgv_2pct_50yr: no fit: the spectrum is censored"));
+    // with a curve that goes on straight the site has a spectrum
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "--set", "risk.extrapolate=loglog"]).ok();
+    assert!(read(study.path(), "r.sites.csv").contains("\n3,12.0,45.0,PGV,0.02"));
+}
+
+fn reader_warnings(study: &SmallStudy) -> String {
+    LabelledReader::open(&study.path().join("r.h5")).unwrap().attribute_text("/", "warnings").unwrap()
+}
+
+#[test]
+fn definitions_of_the_measure_are_kept_apart_as_for_sites() {
+    let study = many(&format!("{}{SECTION}", without_sites()));
+    let rotated = ["--set", "hazard.component=RotD50"];
+    let check = |more: &[&str]| study.uplift(&[&["check", "study.toml"][..], &rotated, more].concat());
+    let refused = check(&[]).fails(4, &["PGV", "PGA", "RotD50", "geometric mean", "conversions", "pgv = 1.0"]);
+    assert_eq!(refused.stderr.matches("is of the RotD50").count(), 2, "once a file:\n{}", refused.stderr);
+    let half = "hazard.conversions=[{ from = \"RotD50\", to = \"geometric mean\", pgv = 0.5, pga = 0.5 }]";
+    let done = check(&["--set", half, "--set", "pgv.levels_cm_s=[1, 3, 10, 30, 100]"]).ok();
+    assert!(!done.stdout.contains("does not say"), "{}", done.stdout);
+    // half the levels at the same rates: where λ = k0 im⁻², the spectra of a quarter of the rate
+    let run = |name: &str, more: &[&str]| {
+        study.uplift(&[&["run", "study.toml", "-o", name, "-q"][..], more].concat()).ok();
+        rows(&read(study.path(), &name.replace("h5", "sites.csv")), &["strength", "flag", "u_m"])
+    };
+    let halved = run("h.h5", &[&rotated[..], &["--set", half]].concat());
+    let quarter: Vec<Site> = SITES.iter().map(|&(name, lon, lat, k0)| (name, lon, lat, 0.25 * k0)).collect();
+    let levels: Vec<f64> = PGV_LEVELS.iter().map(|level| 0.5 * level).collect();
+    study.write("pgv-export.csv", &openquake("PGV", &levels, &quarter));
+    let written = run("q.h5", &[]);
+    assert_eq!(halved["Alpha PGV 0.1"], written["Alpha PGV 0.1"]);
+}
+
+#[test]
+fn mistakes_in_the_study() {
+    let study = many(&format!("{}{SECTION}", without_sites()));
+    for (set, words) in [
+        ("site_table.sites=\"absent.csv\"", &["file not found", "absent.csv"][..]),
+        ("site_table.within_km=0", &["within_km", "above zero"]),
+        ("site_table.strengths=[0.2, 0.25]", &["0.25 is not among the strengths", "nearest", "0.2"]),
+        ("site_table.strengths=\"0.2:0.1\"", &["strengths"]),
+        ("site_table.within=3", &["unknown key `within`", "within_km"]),
+        ("site_table=3", &["a section"]),
+    ] {
+        study.uplift(&["check", "study.toml", "--set", set]).fails(3, words);
+    }
+    study.write(
+        "wrong.toml",
+        &format!("{}[site_table]\nsites = \"absent.csv\"\nwithin_km = -1\nstrengths = 7\n", without_sites()),
+    );
+    study
+        .uplift(&["check", "wrong.toml"])
+        .fails(3, &["absent.csv", "within_km", "7 is not among", "no hazard curves of a measure", "pgv or pga"]);
+}
+
+#[test]
+fn mistakes_in_the_files() {
+    let study = many(&format!("{}{SECTION}", without_sites()));
+    let check = |table: &str| {
+        study.write("table.csv", table);
+        study.uplift(&["check", "study.toml"])
+    };
+    check("name,place\nA,here\n").fails(4, &["table.csv", "columns longitude and latitude", "found name, place"]);
+    check("lon,lat\n").fails(4, &["no sites"]);
+    check("").fails(4, &["table.csv"]);
+    check("lon,lat\n1,2\n\"3,5\",4\nx,5\n6,95\n7,\n").fails(
+        4,
+        &["row 2", "with a decimal point", "row 3", "\"x\"", "row 4", "are they swapped?", "row 5", "latitude is \"\""],
+    );
+    check(&format!("lon,lat\n{}", "x,y\n".repeat(30))).fails(4, &["22 more rows like these"]);
+    // none of the sites: said once for each export, before anything is computed
+    check("lon,lat,name\n0,0,A\n1,1,B\n")
+        .fails(4, &["no site of the table has hazard", "2 of 2 sites", "A (0, 0) is 5"]);
+    check("lon,lat\n45,10\n").fails(4, &["are longitude and latitude swapped?"]);
+    check("lon,lat,name\n11,45,Sea\n").fails(4, &["no site of the table has hazard", "Sea (11, 45): no hazard"]);
+    check("lon\tlat\n10\t45\n").ok();
+
+    // exports of something else, of several things, cut off; all mistakes at once
+    study.write("pgv-export.csv", &openquake("PGA", &PGA_LEVELS, &SITES));
+    study.write("pga-export.csv", &read(study.path(), "pga-export.csv").replace(",0.00000,", ","));
+    study.uplift(&["check", "study.toml"]).fails(
+        4,
+        &["pgv-export.csv: holds PGA, and no PGV", "pga-export.csv, line 3: 7 columns where the column names are 8"],
+    );
+    study.write("pgv-export.csv", "");
+    study.uplift(&["check", "study.toml"]).fails(4, &["pgv-export.csv", "empty"]);
+}
+
+#[test]
+fn nothing_that_is_read_is_overwritten() {
+    let study = many(&format!("{}{}", without_sites(), SECTION.replace("table.csv", "mine.sites.csv")));
+    study.write("mine.sites.csv", TABLE);
+    study.uplift(&["run", "study.toml", "-o", "mine.h5"]).fails(4, &["mine.sites.csv", "input of the study", "-o"]);
+    assert_eq!(read(study.path(), "mine.sites.csv"), TABLE);
+    study.uplift(&["run", "study.toml", "-o", "other.h5"]).ok();
+}
+
+#[test]
+fn other_formats_of_exports() {
+    let study = many(&format!("{}[site_table]\npgv = \"export.xml\"\n", without_sites()));
+    let curve = |lon: f64, poes: &str| {
+        format!("<hazardCurve><gml:Point><gml:pos>{lon} 45.0</gml:pos></gml:Point><poEs>{poes}</poEs></hazardCurve>")
+    };
+    let nrml = |statistics: &str| {
+        format!(
+            "<?xml version=\"1.0\"?><nrml xmlns:gml=\"http://www.opengis.net/gml\" xmlns=\"http://openquake.org/xmlns/nrml/0.4\"><hazardCurves {statistics} investigationTime=\"50\" IMT=\"PGV\"><IMLs>0.5 2 20 100</IMLs>{}{}</hazardCurves></nrml>",
+            curve(10.0, "0.99 0.5 0.01 0.0001"),
+            curve(11.0, "0 0 0 0"),
+        )
+    };
+    study.write("export.xml", &nrml("statistics=\"mean\""));
+    let done = study.uplift(&["run", "study.toml", "-o", "r.h5"]).ok();
+    assert!(done.stdout.contains("1 of 2 sites have no hazard curve that can be used: 2 (11, 45)"), "{}", done.stdout);
+    study.write("export.xml", &nrml("statistics=\"quantile\" quantileValue=\"0.15\""));
+    let done = study.uplift(&["check", "study.toml"]).ok();
+    assert!(done.stdout.contains("holds quantile 0.15 curves, not those of the mean hazard"), "{}", done.stdout);
+}
