@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 
 use common::{SMALL_STUDY, SmallStudy, uplift};
 
-/// An export as the OpenQuake engine writes it: probabilities in `years` of curves λ = k0 im⁻² at some sites.
+/// An export as an engine writes it: probabilities in `years` of curves λ = k0 im⁻² at some sites.
 fn openquake(kind: &str, years: f64, sites: &[(&str, f64, f64, f64)]) -> String {
     let levels = [0.5, 2.0, 20.0, 300.0];
     let mut text = format!(

@@ -72,7 +72,7 @@ enum Command {
     Measures(measures::MeasuresArguments),
     /// Bring record files: import a folder, list, show, choose, synthesize
     Records(records::RecordsArguments),
-    /// Bring hazard curves: take them from OpenQuake or USGS exports, show, draw
+    /// Bring hazard curves: take them from the exports of engines, show, draw
     Hazard(hazard::HazardArguments),
     /// Draw the figures of a result
     Plot(plot::PlotArguments),

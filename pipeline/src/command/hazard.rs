@@ -127,7 +127,7 @@ fn read(path: &Path, site: &SiteArguments, table: &TableArguments) -> Result<Vec
     let read = read_csv(&text, &path.display().to_string(), &options).map_err(|error| fail(error.to_string()))?;
     let stem = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
     let folder = path.parent().and_then(Path::file_name).map(|folder| format!("{}/", folder.to_string_lossy()));
-    Ok(vec![NamedCurve { name: format!("{}{stem}", folder.unwrap_or_default()), curve: in_field_units(read.curve)? }])
+    Ok(vec![NamedCurve { name: format!("{}{stem}", folder.unwrap_or_default()), curve: in_field_units(&read.curve)? }])
 }
 
 fn named(path: &Path, exported: ExportedCurve) -> NamedCurve {
@@ -143,7 +143,7 @@ fn named(path: &Path, exported: ExportedCurve) -> NamedCurve {
     NamedCurve { name: format!("{place}, {kind}"), curve: exported.curve }
 }
 
-fn in_field_units(curve: HazardCurve) -> Result<HazardCurve, UpliftError> {
+fn in_field_units(curve: &HazardCurve) -> Result<HazardCurve, UpliftError> {
     curve.in_field_units(STANDARD_GRAVITY_M_S2).map_err(|error| UpliftError::input(error.to_string()))
 }
 

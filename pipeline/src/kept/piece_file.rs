@@ -163,22 +163,21 @@ impl PieceFile {
             let same = found.head == *head;
             (found.kept, same.then_some(found.end))
         });
-        match same {
-            Some(end) => file.set_len(end).and_then(|()| file.seek(SeekFrom::End(0))).map(|_| ()).map_err(fail)?,
+        if let Some(end) = same {
+            file.set_len(end).and_then(|()| file.seek(SeekFrom::End(0))).map_err(fail)?;
+        } else {
             // what is kept of other work may be of use: it is carried over
-            None => {
-                let mut content = serde_json::to_vec(head).map_err(|error| fail(error.into()))?;
-                content.push(b'\n');
-                for (key, (edp_m, impacts)) in &kept.rows {
-                    content.extend(block(*key, edp_m, impacts));
-                }
-                let aside = path.with_extension("part-new");
-                std::fs::write(&aside, &content).and_then(|()| std::fs::rename(&aside, path)).map_err(|error| {
-                    let _ = std::fs::remove_file(&aside);
-                    fail(error)
-                })?;
-                file = File::options().read(true).append(true).open(path).map_err(fail)?;
+            let mut content = serde_json::to_vec(head).map_err(|error| fail(error.into()))?;
+            content.push(b'\n');
+            for (key, (edp_m, impacts)) in &kept.rows {
+                content.extend(block(*key, edp_m, impacts));
             }
+            let aside = path.with_extension("part-new");
+            std::fs::write(&aside, &content).and_then(|()| std::fs::rename(&aside, path)).map_err(|error| {
+                let _ = std::fs::remove_file(&aside);
+                fail(error)
+            })?;
+            file = File::options().read(true).append(true).open(path).map_err(fail)?;
         }
         let file = Mutex::new((file, Instant::now()));
         Ok((Self { path: path.to_owned(), file, failure: Mutex::new(None), failed: AtomicBool::new(false) }, kept))

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::AXES;
 use super::aside::io_error;
-use super::checksum::{CHECKSUM, Hashed, Seal, of_values, seal_of};
+use super::checksum::{CHECKSUM, Seal, of_values, seal_of};
 use super::copy::Kind;
 use super::error::LabelledError;
 use super::reader::LabelledReader;
@@ -63,18 +63,15 @@ impl LabelledReader {
     }
 
     fn checksum(&self, path: &str) -> Result<String, LabelledError> {
-        fn of<T: Hashed>(values: Vec<T>) -> String {
-            of_values(&values)
-        }
         let dataset = self.dataset(path)?;
         Ok(match self.kind(path)? {
-            Kind::Text => of(self.texts(&dataset, path)?),
-            Kind::F64 => of::<f64>(self.values(&dataset, path)?),
-            Kind::F32 => of::<f32>(self.values(&dataset, path)?),
-            Kind::U32 => of::<u32>(self.values(&dataset, path)?),
-            Kind::U8 => of::<u8>(self.values(&dataset, path)?),
-            Kind::I64 => of::<i64>(self.values(&dataset, path)?),
-            Kind::U64 => of::<u64>(self.values(&dataset, path)?),
+            Kind::Text => of_values(&self.texts(&dataset, path)?),
+            Kind::F64 => of_values::<f64>(&self.values(&dataset, path)?),
+            Kind::F32 => of_values::<f32>(&self.values(&dataset, path)?),
+            Kind::U32 => of_values::<u32>(&self.values(&dataset, path)?),
+            Kind::U8 => of_values::<u8>(&self.values(&dataset, path)?),
+            Kind::I64 => of_values::<i64>(&self.values(&dataset, path)?),
+            Kind::U64 => of_values::<u64>(&self.values(&dataset, path)?),
         })
     }
 

@@ -65,16 +65,16 @@ fn conversions(field: &Field<'_>) -> Option<Vec<Conversion>> {
         if !section.is_present() {
             return None;
         }
-        let [from, to] = ["from", "to"].map(|key| match section.field(key) {
-            Some(field) => field.choice(&DEFINITIONS),
-            None => {
-                section.mistake(
-                    key,
-                    format!("the conversion does not say {key} which definition"),
-                    "write { from = \"GMRotI50\", to = \"geometric mean\", pgv = 1.0, pga = 1.0 }",
-                );
-                None
+        let [from, to] = ["from", "to"].map(|key| {
+            if let Some(field) = section.field(key) {
+                return field.choice(&DEFINITIONS);
             }
+            section.mistake(
+                key,
+                format!("the conversion does not say {key} which definition"),
+                "write { from = \"GMRotI50\", to = \"geometric mean\", pgv = 1.0, pga = 1.0 }",
+            );
+            None
         });
         let mut factors = Some(Vec::new());
         for keys in &MEASURES {

@@ -49,7 +49,7 @@ pub(super) fn plot(arguments: &PlotArguments, session: &Session) -> Result<(), U
     }
     let named: Vec<(String, _)> = curves.into_iter().map(|NamedCurve { name, curve }| (name, curve)).collect();
     let figure = hazard_figure(&named);
-    let drawing = svg(&figure, Width::Double).map_err(|error| UpliftError::input(error.to_string()))?;
+    let drawing = svg(&figure, Width::Double).map_err(UpliftError::input)?;
     let bytes = match extension {
         "png" => png(&drawing.svg, DOTS_PER_INCH).map_err(|error| UpliftError::input(error.to_string()))?,
         _ => drawing.svg.into_bytes(),
