@@ -14,7 +14,7 @@ export PATH := $(TOOLS):$(PATH)
 
 UPLIFT := target/release/uplift
 
-.PHONY: run build test lint docs python bench clean
+.PHONY: run build test lint docs python bench fuzz clean
 
 run: build
 	$(UPLIFT) run $(STUDY) $(SET) -o $(OUTPUT)
@@ -45,6 +45,20 @@ bench:
 	cargo bench --locked -p uplift-ida --bench chapter_4
 	cargo bench --locked -p uplift-bootstrap --bench resampling
 
+# Every reader of files from outside against what libFuzzer makes of the samples, TIME seconds each (docs/testing.md);
+# one of them by its crate and name: `make fuzz FUZZ=motion/at2 TIME=600`.
+TIME ?= 60
+FUZZ ?= $(subst /fuzz/fuzz_targets,,$(patsubst crates/%.rs,%,$(wildcard crates/*/fuzz/fuzz_targets/*.rs)))
+
+fuzz: $(addprefix fuzz/,$(FUZZ))
+
+# No crate here has unsafe code, so no sanitizer is needed, and stable Rust will do.
+fuzz/%:
+	@cargo fuzz --version > /dev/null 2>&1 || { echo "cargo-fuzz is needed: cargo install --locked cargo-fuzz" >&2; exit 1; }
+	mkdir -p crates/$(*D)/fuzz/corpus/$(*F)
+	cd crates/$(*D) && cargo fuzz run --sanitizer none $(*F) fuzz/corpus/$(*F) tests/samples -- \
+		-dict=fuzz/words.dict -max_len=65536 -rss_limit_mb=512 -timeout=5 -max_total_time=$(TIME) -print_final_stats=1
+
 clean:
 	cargo clean
-	rm -rf .venv .tools results
+	rm -rf .venv .tools results crates/*/fuzz/target

@@ -16,7 +16,7 @@ fn study() -> SmallStudy {
     let text = SMALL_STUDY
         .replace("first = 4", "first = 8")
         .replace("pairs = 4", "pairs = 8")
-        .replace("values = [0, 0.05, \"0.1:0.1:0.8\"]", "values = \"0.01:0.01:0.8\"");
+        .replace("values = [0, 0.05, \"0.1:0.1:0.8\"]", "values = \"0.02:0.02:0.8\"");
     SmallStudy::with(&text)
 }
 
@@ -127,7 +127,7 @@ fn an_interrupted_run_says_what_is_kept_and_goes_on_from_there() {
 
     for input in ["results/study.h5", "study.toml"] {
         let status = study.uplift(&["status", input]).ok().stdout;
-        assert!(status.contains("kept of an unfinished run") && status.contains(" of 1280 pieces"), "{status}");
+        assert!(status.contains("kept of an unfinished run") && status.contains(" of 640 pieces"), "{status}");
     }
     let (computed, all) = computed(&study, &["run", "study.toml"]);
     assert!(computed > 0 && computed < all, "{computed} of {all}");

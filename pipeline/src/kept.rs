@@ -2,10 +2,10 @@
 //!
 //! | room | what is in it |
 //! |---|---|
-//! | [`key`] | from record, oscillator and levels to the key of a piece |
-//! | [`piece_file`] | finished pieces, appended as they come: the journal of a run, or the shard of one machine |
-//! | [`earlier`] | the stripes of an earlier result |
-//! | [`lock`] | one run at a time for one result |
+//! | `key` | from record, oscillator and levels to the key of a piece |
+//! | `piece_file` | finished pieces, appended as they come: the journal of a run, or the shard of one machine |
+//! | `earlier` | the stripes of an earlier result |
+//! | `lock` | one run at a time for one result |
 //!
 //! A piece is one record through one oscillator at all levels. Its key is a hash of the motion, its intensity, the oscillator, the levels and the
 //! version of the solver's numbers: a key that is known again has the same numbers, whatever else of a study has changed.

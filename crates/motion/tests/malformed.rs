@@ -12,8 +12,8 @@ use uplift_motion::{
 
 /// A good file of every layout and dialect; each component has six values, the last of which is -6 or as here.
 const SAMPLES: [(RecordFormat, &[u8], &str); 10] = [
-    (RecordFormat::At2, include_bytes!("samples/sample.at2"), "-.6000000E-02"),
-    (RecordFormat::At2, include_bytes!("samples/old.at2"), "0.60000000"),
+    (RecordFormat::At2, include_bytes!("samples/sample-at2.txt"), "-.6000000E-02"),
+    (RecordFormat::At2, include_bytes!("samples/old-at2.txt"), "0.60000000"),
     (RecordFormat::Esm, include_bytes!("samples/sample.esm"), "-6.000000"),
     (RecordFormat::Knet, include_bytes!("samples/sample.knet"), "-2"),
     (RecordFormat::Cosmos, include_bytes!("samples/sample.cosmos"), "-6.0000"),
