@@ -138,6 +138,7 @@ fn realizations_become_branches() {
 fn a_curve_of_another_definition_is_refused_unless_converted() {
     let study = SmallStudy::with(&SMALL_STUDY.replace("first = 4", "first = 2"));
     let pgv = std::fs::read_to_string(study.path().join("here-pgv.csv")).unwrap();
+    let there = std::fs::read_to_string(study.path().join("there-pgv.csv")).unwrap();
     study.write("here-pgv.csv", &format!("# component: RotD50\n{pgv}"));
     study
         .uplift(&["check", "study.toml"])
@@ -157,6 +158,16 @@ fn a_curve_of_another_definition_is_refused_unless_converted() {
     study
         .uplift(&["check", "study.toml", "--set", converted, "--set", "records.intensity=\"rotd100\""])
         .fails(4, &["RotD100"]);
+    // what says something that is not understood is not passed over, and what says nothing is the geometric mean or is refused
+    study.write("there-pgv.csv", "# component: GMRotD50\niml,poe\n0.005,0.9\n3,0.0001\n");
+    study
+        .uplift(&["check", "study.toml", "--set", converted])
+        .fails(4, &["there-pgv.csv, line 1", "GMRotD50", "GMRotI50"]);
+    study.write("there-pgv.csv", "# IM: PGV [m/s], larger of SRSS\niml,poe\n0.005,0.9\n3,0.0001\n");
+    study.uplift(&["check", "study.toml", "--set", converted]).fails(4, &["there-pgv.csv, line 1", "larger of SRSS"]);
+    study.write("there-pgv.csv", &there);
+    let rotated = ["check", "study.toml", "--set", "records.intensity=\"rotd50\""];
+    study.uplift(&rotated).fails(4, &["site There, PGV", "does not say how", "[hazard] component"]);
     let all = ["--set", "hazard.component=\"geometric mean\"", "--set", converted];
     let done = study.uplift(&[&["run", "study.toml"][..], &all].concat()).ok();
     assert!(!done.stdout.contains("do not say"), "{}", done.stdout);

@@ -75,6 +75,9 @@ fn download() -> tempfile::TempDir {
     write("more/RSN13_EVENT_STB090.AT2", &at2(&title("90"), G, 0.0066, &wave(1990, 0.4)));
     write("more/RSN14_EVENT_STC000.AT2", &at2(&title("0"), G, 0.01, &wave(2500, 0.35)));
     write("more/copy/RSN12_EVENT_STA360.AT2", &at2(&title("360"), G, 0.01, &wave(3000, 0.02)));
+    // two other events, whose numbers look like directions
+    write("more/eq001.txt", &at2(&title(""), G, 0.01, &wave(700, 0.5)));
+    write("more/eq002.txt", &at2(&title(""), G, 0.01, &wave(700, 0.6)));
     let cut = at2(&title("0"), G, 0.01, &wave(500, 0.5));
     write("more/RSN15_EVENT_STD000.AT2", &cut[..cut.len() / 2]);
     write(
@@ -99,6 +102,7 @@ fn a_folder_of_downloads_becomes_a_manifest() {
         "RSN13_EVENT_STB: a time step of 0.0066 s",
         "1 of 2 records of the search have no pair of files here: RSN99",
         "header says 500 points",
+        "eq002.txt: these point in nearly the same direction",
     ] {
         assert!(done.stderr.contains(remark), "{remark:?} is not in:\n{}", done.stderr);
     }
@@ -143,14 +147,14 @@ fn a_study_runs_on_what_was_imported() {
     uplift(folder.path(), &["records", "import", ".", "-o", "set.csv", "--quiet"]).ok();
     let study = SmallStudy::with(&SMALL_STUDY.replace(
         "first = 4\n[records.synthetic]\npairs = 4\n",
-        "manifest = \"set.csv\"\nintensity = \"rotd50\"\n[records.select]\nmagnitude = \"6:7\"\n",
+        "manifest = \"set.csv\"\nintensity = \"rotd50\"\n[records.select]\nmagnitude = \"6:7\"\n[hazard]\ncomponent = \"RotD50\"\n",
     ));
     std::fs::copy(folder.path().join("set.csv"), study.path().join("moved.csv")).unwrap();
     let text = std::fs::read_to_string(study.path().join("study.toml")).unwrap();
     study.write("study.toml", &text.replace("set.csv", folder.path().join("set.csv").to_str().unwrap()));
     let done = study.uplift(&["run", "study.toml"]).ok();
     assert!(done.stderr.contains("1 recorded pair (set.csv, magnitude 6:7)"), "{}\n{}", done.stdout, done.stderr);
-    assert!(done.stdout.contains("1 of 2 records have no magnitude"), "{}", done.stdout);
+    assert!(done.stdout.contains("1 of 2 records have no number for magnitude"), "{}", done.stdout);
     // a manifest that was moved does not find its files, and says so
     let moved = study.path().join("moved.csv");
     study

@@ -158,13 +158,9 @@ fn only_what_is_new_is_computed() {
     study.uplift(&["run", "study.toml", "-o", "fresh.h5"]).ok();
     assert_eq!(content(&patched), content(&study.path().join("fresh.h5")));
     // another oscillator, another measure of the records, another motion: all anew
-    for set in [
-        "oscillator.restitution=0.9",
-        "gravity_m_s2=9.81",
-        "records.component=\"h2\"",
-        "records.intensity=\"rotd50\"",
-        "records.synthetic.seed=2",
-    ] {
+    for set in
+        ["oscillator.restitution=0.9", "gravity_m_s2=9.81", "records.component=\"h2\"", "records.synthetic.seed=2"]
+    {
         let (computed, all) = computed(&study, &["run", "study.toml", "--set", set, "-o", "other.h5"]);
         assert_eq!(computed, all, "{set}");
         study.uplift(&["run", "study.toml", "-o", "other.h5"]).ok();
@@ -222,10 +218,7 @@ fn every_flipped_byte_is_found() {
         damaged[index] ^= 0x04;
         study.write_bytes("damaged.h5", &damaged);
         let found = study.uplift(&["verify", "damaged.h5"]);
-        // within the line at the end it may be the line itself that is no longer there
-        let in_the_line =
-            index >= bytes.len() - 114 && found.code == 0 && found.stderr.contains("no checksum of the whole");
-        assert!(found.code == 4 || in_the_line, "byte {index}: {}\n{}", found.stdout, found.stderr);
+        assert_eq!(found.code, 4, "byte {index}: {}\n{}", found.stdout, found.stderr);
     }
     // what is added to a result is sealed too, and what is damaged is not added to
     study.uplift(&["bootstrap", "results/study.h5", "--replicates", "20"]).ok();
@@ -254,6 +247,134 @@ fn damage_does_not_spread() {
             done.fails(4, &["b.h5"]);
         }
     }
+}
+
+// Not even where what it says of its numbers is damaged, and not the numbers.
+#[test]
+fn a_damaged_axis_is_no_source_of_numbers() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-o", "a.h5"]).ok();
+    let mut bytes = std::fs::read(study.path().join("a.h5")).unwrap();
+    let levels: Vec<u8> = [1.0, 3.0, 10.0, 30.0, 100.0_f64].iter().flat_map(|level| level.to_le_bytes()).collect();
+    let at = bytes.windows(levels.len()).position(|window| window == levels).unwrap() + 2 * 8;
+    bytes[at..at + 8].copy_from_slice(&20.0_f64.to_le_bytes());
+    study.write_bytes("a.h5", &bytes);
+    let levels = ["--set", "pgv.levels_cm_s=[1, 3, 20, 30, 100]"];
+    study.uplift(&[&["run", "study.toml", "-o", "a.h5"][..], &levels].concat()).ok();
+    study.uplift(&[&["run", "study.toml", "-o", "fresh.h5"][..], &levels].concat()).ok();
+    assert_eq!(content(&study.path().join("a.h5")), content(&study.path().join("fresh.h5")));
+    // and nothing is added to a damaged result
+    study.write_bytes("b.h5", &bytes);
+    study.uplift(&["bootstrap", "b.h5", "--replicates", "20"]).fails(4, &["b.h5", "not as it was written"]);
+    assert_eq!(std::fs::read(study.path().join("b.h5")).unwrap(), bytes);
+}
+
+#[test]
+fn bands_are_not_written_into_another_result() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml"]).ok();
+    let mut child = start(&study, &["bootstrap", "results/study.h5", "--replicates", "900000", "--threads", "1"]);
+    std::thread::sleep(Duration::from_millis(300));
+    study.uplift(&["run", "study.toml", "--set", "oscillator.restitution=0.5"]).ok();
+    let written = content(&study.path().join("results/study.h5"));
+    let code = child.wait().unwrap().code();
+    let mut said = String::new();
+    std::io::Read::read_to_string(child.stderr.as_mut().unwrap(), &mut said).unwrap();
+    assert!(code == Some(4) && said.contains("written anew meanwhile"), "{code:?} {said}");
+    assert_eq!(content(&study.path().join("results/study.h5")), written);
+}
+
+#[test]
+fn files_of_other_programs_stay() {
+    let study = SmallStudy::new();
+    let other = study.path().join("thesis.h5");
+    let mut writer = uplift::labelled::LabelledWriter::create(&other).unwrap();
+    writer.attribute("/", "author", "somebody").unwrap();
+    writer.finish().unwrap();
+    let before = std::fs::read(&other).unwrap();
+    study.uplift(&["run", "study.toml", "-o", "thesis.h5"]).fails(4, &["thesis.h5", "another program"]);
+    assert_eq!(std::fs::read(&other).unwrap(), before);
+    study.uplift(&["verify", "thesis.h5"]).fails(4, &["thesis.h5"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_and_its_file_are_one_result() {
+    let study = study();
+    std::fs::create_dir(study.path().join("real")).unwrap();
+    study.uplift(&["run", "study.toml", "-o", "real/a.h5", "--set", "records.first=1"]).ok();
+    std::os::unix::fs::symlink("real/a.h5", study.path().join("link.h5")).unwrap();
+    let mut child = start(&study, &["run", "study.toml", "-o", "real/a.h5", "--threads", "1"]);
+    let begin = Instant::now();
+    while !study.path().join("real/a.h5.part").exists() {
+        assert!(begin.elapsed() < Duration::from_secs(60), "no journal");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    study.uplift(&["run", "study.toml", "-o", "link.h5"]).fails(4, &["another run"]);
+    child.kill().unwrap();
+    child.wait().unwrap();
+    study.uplift(&["run", "study.toml", "-o", "link.h5"]).ok();
+    assert!(study.path().join("link.h5").is_symlink() && !study.path().join("link.h5.part").exists());
+}
+
+#[test]
+fn shards_that_start_together_do_not_meet() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-o", "whole.h5"]).ok();
+    for round in 0..3 {
+        let shards: Vec<String> = (1..=4).map(|shard| format!("{shard}/4")).collect();
+        let children: Vec<_> =
+            shards.iter().map(|shard| start(&study, &["run", "study.toml", "--shard", shard])).collect();
+        for mut child in children {
+            assert!(child.wait().unwrap().success(), "round {round}");
+        }
+        let files: Vec<String> = (1..=4).map(|shard| format!("results/study.shard-{shard}-of-4")).collect();
+        let files: Vec<&str> = files.iter().map(String::as_str).collect();
+        study.uplift(&[&["merge", "study.toml", "-o", "merged.h5"][..], &files].concat()).ok();
+        assert_eq!(content(&study.path().join("merged.h5")), content(&study.path().join("whole.h5")));
+        // a shard of other work is not gone on with
+        let other = ["run", "study.toml", "--shard", "1/4", "--set", "gravity_m_s2=9.81"];
+        study.uplift(&other).fails(4, &["shard-1-of-4", "other work"]);
+        for file in files.iter().skip(round) {
+            std::fs::remove_file(study.path().join(file)).unwrap();
+        }
+        std::fs::remove_file(study.path().join("merged.h5")).unwrap();
+    }
+    study.uplift(&["run", "study.toml", "--shard", "1/1000000000000"]).fails(2, &["100000"]);
+}
+
+// Killed while the result is being written, of which the hidden file beside it tells.
+#[test]
+fn killed_while_writing() {
+    let study = study();
+    let results = study.path().join("results");
+    let result = results.join("study.h5");
+    study.uplift(&["run", "study.toml", "-o", "whole.h5"]).ok();
+    let expected = content(&study.path().join("whole.h5"));
+    let being_written = || {
+        std::fs::read_dir(&results).into_iter().flatten().flatten().any(|entry| {
+            let name = entry.file_name().to_string_lossy().into_owned();
+            name.starts_with(".study.h5.partial-") && entry.metadata().is_ok_and(|file| file.len() > 10_000)
+        })
+    };
+    let mut hits = 0;
+    for _ in 0..25 {
+        let mut child = start(&study, &["run", "study.toml", "--quiet"]);
+        while child.try_wait().unwrap().is_none() && !being_written() {
+            std::thread::sleep(Duration::from_micros(50));
+        }
+        child.kill().unwrap();
+        child.wait().unwrap();
+        hits += usize::from(!result.exists());
+        if result.exists() {
+            assert_eq!(content(&result), expected);
+            std::fs::remove_file(&result).unwrap();
+        }
+    }
+    assert!(hits >= 3, "{hits} of 25 kills hit the writing");
+    study.uplift(&["run", "study.toml"]).ok();
+    assert_eq!(content(&result), expected);
+    assert!(!being_written());
 }
 
 #[test]
@@ -301,7 +422,7 @@ fn a_full_disk_loses_nothing() {
     let small = study.path().join("small");
     std::fs::create_dir(&small).unwrap();
     let mount = |options: &str| Command::new("mount").args(["-t", "tmpfs", "-o", options, "none"]).arg(&small).output();
-    if !mount("size=64k").is_ok_and(|done| done.status.success()) {
+    if !mount("size=32k").is_ok_and(|done| done.status.success()) {
         println!("skipped: no right to mount a small file system");
         return;
     }
@@ -310,6 +431,9 @@ fn a_full_disk_loses_nothing() {
     assert!(full.stderr.contains("No space left"), "{}", full.stderr);
     assert!(mount("remount,size=16m").unwrap().status.success());
     let (computed, all) = computed(&study, &run);
+    // a place that cannot be written at all is said before anything is computed
+    assert!(mount("remount,ro,size=16m").unwrap().status.success());
+    study.uplift(&run).fails(4, &["small", "Read-only file system"]);
     study.uplift(&["run", "study.toml", "-o", "fresh.h5", "--set", "output.csv=false"]).ok();
     let same = content(&small.join("a.h5")) == content(&study.path().join("fresh.h5"));
     Command::new("umount").arg(&small).status().unwrap();

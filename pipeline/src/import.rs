@@ -215,7 +215,10 @@ fn components_of(path: &Path, options: &ImportOptions) -> Result<Vec<Component>,
     let file = read_record(&bytes, &path.display().to_string(), &options.read_options(None))?;
     let file_sha256 = checksum(&bytes);
     let several = file.recordings.len() > 1;
-    let components = file.recordings.into_iter().enumerate().map(|(index, recording)| {
+    let named = name::of(path).orientation;
+    let components = file.recordings.into_iter().enumerate().map(|(index, mut recording)| {
+        // what the head does not say, the name may
+        recording.description.orientation = recording.description.orientation.or(named);
         let samples = recording.accelerogram.acceleration_m_s2();
         let bytes: Vec<u8> = samples.iter().flat_map(|a| a.to_le_bytes()).collect();
         Component {

@@ -51,9 +51,10 @@ mod text;
 mod verify;
 mod writer;
 
-pub use aside::remove_leftovers;
+pub(crate) use aside::final_place;
+pub use aside::{remove_leftovers, write_whole};
 pub use attribute::AttributeValue;
-pub use checksum::Seal;
+pub use checksum::{Seal, seal_of};
 pub use error::LabelledError;
 pub use reader::{LabelledArray, LabelledReader};
 pub use verify::{Verdict, verify};

@@ -90,10 +90,16 @@ pub struct CsvCurve {
 /// # Errors
 /// [`HazardError::File`] for a file that is missing, larger than [`MAX_FILE_BYTES`] or not UTF-8; else as [`read_csv`].
 pub fn read_path(path: &Path, options: &CsvOptions) -> Result<CsvCurve, HazardError> {
-    let name = path.display().to_string();
+    read_csv(&table_text(path)?, &path.display().to_string(), options)
+}
+
+/// The text of a file with two columns, unpacked, for [`read_csv`] and [`Declared::in_table`].
+///
+/// # Errors
+/// As [`read_path`] for a file that cannot be read.
+pub fn table_text(path: &Path) -> Result<String, HazardError> {
     let advice = "not one hazard curve; keep two columns of one site";
-    let text = input::text(input::open(path)?, &name, MAX_FILE_BYTES, advice)?;
-    read_csv(&text, &name, options)
+    input::text(input::open(path)?, &path.display().to_string(), MAX_FILE_BYTES, advice)
 }
 
 /// Reads a hazard curve from `text`; `name` is the file's name for messages.
@@ -283,6 +289,14 @@ fn note_component(
     declaration: &Declaration,
     place: &Place,
 ) -> Result<(), HazardError> {
+    if let Some(doubtful) = &declaration.doubtful {
+        let reason = format!(
+            "{} seems to say how horizontal components are combined, and is none of {}: write one of these, or other words",
+            excerpt(doubtful),
+            ComponentDefinition::ACCEPTED
+        );
+        return Err(HazardError::Row { place: place.clone(), reason });
+    }
     for &found in &declaration.components {
         let before = *known.get_or_insert(found);
         if before != found {

@@ -10,6 +10,8 @@ pub(crate) struct Declaration {
     pub(crate) unit: Option<String>,
     /// How horizontal components are combined; more than one where the text contradicts itself.
     pub(crate) components: Vec<ComponentDefinition>,
+    /// What must name a definition of the component, and none that is known.
+    pub(crate) doubtful: Option<String>,
 }
 
 /// What the second column holds.
@@ -78,7 +80,7 @@ pub(crate) fn comment(text: &str) -> Declaration {
     for part in text.split([';', ',']) {
         let Some((key, value)) = part.split_once(':') else {
             if found.measure.is_some() {
-                found.components.extend(part.parse::<ComponentDefinition>().ok());
+                found.note_component(part, false);
             }
             continue;
         };
@@ -93,11 +95,30 @@ pub(crate) fn comment(text: &str) -> Declaration {
             "unit" | "units" if Unit::parse(value).is_some() => {
                 found.unit = Some(value.trim().to_owned());
             }
-            "component" | "horizontal component" => found.components.extend(value.parse::<ComponentDefinition>().ok()),
+            "component" | "horizontal component" => found.note_component(value, true),
             _ => {}
         }
     }
     found
+}
+
+impl Declaration {
+    /// Takes `text` as the definition of the component, or as a doubtful one where it must be one that is not known: a single word
+    /// where only a definition can stand, and words of which definitions are made. Other prose is no declaration.
+    fn note_component(&mut self, text: &str, alone: bool) {
+        const WORDS: [&str; 8] = ["rot", "geometric", "geomean", "gmean", "larger", "arbitrary", "srss", "envelope"];
+        if let Ok(component) = text.parse::<ComponentDefinition>() {
+            self.components.push(component);
+            return;
+        }
+        let plain = text.trim().to_lowercase();
+        let single = alone && !plain.is_empty() && !plain.contains(char::is_whitespace);
+        if single
+            || plain.split(|c: char| !c.is_alphanumeric()).any(|word| WORDS.iter().any(|known| word.contains(known)))
+        {
+            self.doubtful.get_or_insert_with(|| text.trim().to_owned());
+        }
+    }
 }
 
 /// Whether two texts name the same measure.
@@ -133,7 +154,12 @@ mod tests {
     use super::*;
 
     fn named(measure: Option<&str>, unit: Option<&str>) -> Declaration {
-        Declaration { measure: measure.map(str::to_owned), unit: unit.map(str::to_owned), components: Vec::new() }
+        Declaration {
+            measure: measure.map(str::to_owned),
+            unit: unit.map(str::to_owned),
+            components: Vec::new(),
+            doubtful: None,
+        }
     }
 
     #[test]

@@ -37,6 +37,21 @@ impl Cells {
         self.known[index] = true;
     }
 
+    /// Number of levels in a row.
+    pub fn levels(&self) -> usize {
+        self.edp.shape[2]
+    }
+
+    /// Number of cells known of the row of a record and strength.
+    ///
+    /// # Panics
+    /// If an index is out of range, which is a bug of the caller.
+    pub fn known_in_row(&self, record: usize, strength: usize) -> usize {
+        let [_, strengths, levels] = self.edp.shape;
+        let start = (record * strengths + strength) * levels;
+        self.known[start..start + levels].iter().filter(|known| **known).count()
+    }
+
     /// Number of cells known.
     pub fn count(&self) -> u64 {
         self.known.iter().filter(|known| **known).count() as u64
@@ -47,9 +62,7 @@ impl Cells {
     /// # Panics
     /// If an index is out of range, which is a bug of the caller.
     pub fn is_row_known(&self, record: usize, strength: usize) -> bool {
-        let [_, strengths, levels] = self.edp.shape;
-        let start = (record * strengths + strength) * levels;
-        self.known[start..start + levels].iter().all(|known| *known)
+        self.known_in_row(record, strength) == self.levels()
     }
 
     /// The array, once every cell is known.

@@ -28,9 +28,6 @@ const LARGEST_FILE_BYTES: u64 = 64 * 1024 * 1024;
 /// Beginning of a file by which its layout is told \[bytes\].
 const HEAD_BYTES: usize = 16 * 1024;
 
-/// Components that a message names.
-const COMPONENTS_NAMED: usize = 24;
-
 /// What the caller knows about a file; what the file itself says takes precedence over step and unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReadOptions {
@@ -129,19 +126,7 @@ pub fn read_path(path: &Path, options: &ReadOptions) -> Result<Accelerogram, Mot
 /// [`MotionError::Channel`] where there are several and none is chosen, or the chosen one is not
 /// there; else those of [`read_record`].
 pub fn read_auto(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<Accelerogram, MotionError> {
-    let mut recordings = read_record(bytes, name, options)?.recordings;
-    let index = options.channel.unwrap_or(1).wrapping_sub(1);
-    if index >= recordings.len() || (options.channel.is_none() && recordings.len() > 1) {
-        let called = |recording: &Recording| recording.description.channel.as_deref().map_or("unnamed".into(), excerpt);
-        let more = if recordings.len() > COMPONENTS_NAMED { ", …" } else { "" };
-        let named: Vec<String> = recordings.iter().take(COMPONENTS_NAMED).map(called).collect();
-        return Err(MotionError::Channel {
-            name: name.to_owned(),
-            found: recordings.len(),
-            components: named.join(", ") + more,
-        });
-    }
-    Ok(recordings.swap_remove(index).accelerogram)
+    read_record(bytes, name, options)?.component(name, options.channel).map(|recording| recording.accelerogram)
 }
 
 /// The layout that the head of a file shows.
@@ -206,7 +191,7 @@ fn decode(bytes: &[u8]) -> Cow<'_, str> {
 }
 
 /// `text` trimmed, and shortened where it is too long for a message.
-fn excerpt(text: &str) -> String {
+pub(crate) fn excerpt(text: &str) -> String {
     const LONGEST: usize = 60;
     let text = text.trim();
     match text.char_indices().nth(LONGEST) {

@@ -5,6 +5,7 @@ use std::str::FromStr;
 
 use crate::accelerogram::Accelerogram;
 use crate::error::MotionError;
+use crate::read::excerpt;
 
 /// Layout of a record file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -133,6 +134,30 @@ pub struct RecordFile {
     pub format: RecordFormat,
     /// Its acceleration components in the order of the file, at least one.
     pub recordings: Vec<Recording>,
+}
+
+impl RecordFile {
+    /// One component: that of number `channel`, counted from one, or the only one. `name` stands in messages.
+    ///
+    /// # Errors
+    ///
+    /// [`MotionError::Channel`] where there are several and none is chosen, or the chosen one is not
+    /// there.
+    pub fn component(mut self, name: &str, channel: Option<usize>) -> Result<Recording, MotionError> {
+        /// Components that a message names.
+        const NAMED: usize = 24;
+        let index = channel.unwrap_or(1).wrapping_sub(1);
+        if index < self.recordings.len() && (channel.is_some() || self.recordings.len() == 1) {
+            return Ok(self.recordings.swap_remove(index));
+        }
+        let called = |recording: &Recording| recording.description.channel.as_deref().map_or("unnamed".into(), excerpt);
+        let mut named: Vec<String> = self.recordings.iter().take(NAMED).map(called).collect();
+        if self.recordings.len() > NAMED {
+            named.push("…".to_owned());
+        }
+        let (name, found) = (name.to_owned(), self.recordings.len());
+        Err(MotionError::Channel { name, found, components: named.join(", ") })
+    }
 }
 
 #[cfg(test)]

@@ -10,7 +10,8 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
 use uplift_hazard::{
-    CsvOptions, Declared, ExportedCurve, HazardCurve, SecondColumn, SiteSelection, Statistic, read_csv, read_export,
+    CsvOptions, Declared, ExportedCurve, ExportedCurves, HazardCurve, HazardError, SecondColumn, SiteSelection,
+    Statistic, read_csv, read_export, table_text,
 };
 use uplift_motion::STANDARD_GRAVITY_M_S2;
 
@@ -94,7 +95,7 @@ struct NamedCurve {
 
 /// The curves of a file: those of an export, or the one of a table with two columns.
 fn read(path: &Path, site: &SiteArguments, table: &TableArguments) -> Result<Vec<NamedCurve>, UpliftError> {
-    let export = match read_export(path, &site.selection()) {
+    let export = match curves_of(path, &site.selection()) {
         Ok(curves) => {
             if let Some(far) = curves.iter().filter_map(|curve| curve.distance_km).reduce(f64::max) {
                 eprintln!("{}: the nearest site is {far:.1} km away", path.display());
@@ -104,7 +105,7 @@ fn read(path: &Path, site: &SiteArguments, table: &TableArguments) -> Result<Vec
         Err(error) => error,
     };
     let fail = |reason: String| UpliftError::input(reason);
-    let text = std::fs::read_to_string(path).map_err(|error| fail(format!("{}: {error}", path.display())))?;
+    let text = table_text(path).map_err(|error| fail(error.to_string()))?;
     // what looks like an export but cannot be read as one is told as such
     let begins = text.trim_start_matches('\u{feff}').trim_start();
     let an_export =
@@ -128,6 +129,32 @@ fn read(path: &Path, site: &SiteArguments, table: &TableArguments) -> Result<Vec
     let stem = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
     let folder = path.parent().and_then(Path::file_name).map(|folder| format!("{}/", folder.to_string_lossy()));
     Ok(vec![NamedCurve { name: format!("{}{stem}", folder.unwrap_or_default()), curve: in_field_units(&read.curve)? }])
+}
+
+/// The curves of an export; of all sites those that have one, the others are told.
+fn curves_of(path: &Path, selection: &SiteSelection) -> Result<Vec<ExportedCurve>, HazardError> {
+    if *selection != SiteSelection::All {
+        return read_export(path, selection);
+    }
+    let mut export = ExportedCurves::open(path)?;
+    let (mut curves, mut first, mut without) = (Vec::new(), None, 0);
+    while let Some(site) = export.next_site() {
+        match site?.curve {
+            Ok(curve) => curves.push(curve),
+            Err(error) => {
+                without += 1;
+                first.get_or_insert(error);
+            }
+        }
+    }
+    match first {
+        Some(error) if curves.is_empty() => Err(error),
+        Some(error) => {
+            eprintln!("{without} site(s) without a hazard curve, the first: {error}");
+            Ok(curves)
+        }
+        None => Ok(curves),
+    }
 }
 
 fn named(path: &Path, exported: ExportedCurve) -> NamedCurve {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::run::{Work, print_outcome, run_study_from};
+use super::run::{MOST_SHARDS, Work, print_outcome, run_study_from};
 use super::{Session, StudyArguments};
 use crate::error::UpliftError;
 use crate::inputs::read_records;
@@ -33,8 +33,9 @@ pub(super) struct MergeArguments {
 pub(super) fn merge(arguments: &MergeArguments, session: &Session) -> Result<(), UpliftError> {
     let study = arguments.study.load()?;
     let records = read_records(&study)?;
-    let head = Work::new(&study, &records)?.head(Part::WHOLE);
-    let kept = join(&arguments.shards, &head)?;
+    let work = Work::new(&study, &records)?;
+    let kept = join(&arguments.shards, &work)?;
+    drop(work);
     drop(records);
     session.remark(&format!("merged   {} pieces of {} shards", kept.len(), arguments.shards.len()));
     let path = arguments.output.clone().unwrap_or_else(|| study.output.file.clone());
@@ -43,11 +44,12 @@ pub(super) fn merge(arguments: &MergeArguments, session: &Session) -> Result<(),
     })
 }
 
-/// The pieces of all shards of the work that `head` describes.
+/// The pieces of all shards of `work`.
 ///
 /// # Errors
 /// Every shard that is missing, there twice, unfinished or of other work, at once.
-fn join(paths: &[PathBuf], head: &PieceFileHead) -> Result<KeptPieces, UpliftError> {
+fn join(paths: &[PathBuf], work: &Work<'_>) -> Result<KeptPieces, UpliftError> {
+    let head = work.head(Part::WHOLE);
     let mut mistakes = Vec::new();
     let mut kept = KeptPieces::default();
     let mut found: BTreeMap<u64, &Path> = BTreeMap::new();
@@ -65,7 +67,11 @@ fn join(paths: &[PathBuf], head: &PieceFileHead) -> Result<KeptPieces, UpliftErr
                 continue;
             }
         };
-        let PieceFileHead { shard, shards, pieces, .. } = finding.head;
+        let PieceFileHead { shard, shards, .. } = finding.head;
+        if !(1..=MOST_SHARDS).contains(&shards) || !(1..=shards).contains(&shard) {
+            mistakes.push(format!("{name}: claims to be shard {shard} of {shards}: the file is damaged"));
+            continue;
+        }
         if finding.head.work != head.work {
             mistakes.push(format!(
                 "{name}: is a shard of other work ({:?}): another study, other records, or another version of the program",
@@ -84,10 +90,10 @@ fn join(paths: &[PathBuf], head: &PieceFileHead) -> Result<KeptPieces, UpliftErr
         if let Some(other) = found.insert(shard, path) {
             mistakes.push(format!("{name}: is shard {shard} of {shards}, which {} is too", other.display()));
         }
-        if (finding.kept.len() as u64) < pieces {
+        let [has, pieces] = work.share_of(Part { index: shard - 1, count: shards }, &finding.kept);
+        if has < pieces {
             mistakes.push(format!(
-                "{name}: has {} of its {pieces} pieces: run --shard {shard}/{shards} again, it goes on where it stopped",
-                finding.kept.len()
+                "{name}: has {has} of its {pieces} pieces: run --shard {shard}/{shards} again, it goes on where it stopped"
             ));
         }
         kept.extend(finding.kept);

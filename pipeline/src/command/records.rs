@@ -6,6 +6,7 @@ mod select;
 mod show;
 mod synthesize;
 
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
@@ -154,6 +155,19 @@ impl SetArguments {
         }
         Ok((chosen, count))
     }
+}
+
+/// A file that is there already gives way only if this program wrote it.
+pub(super) fn refuse_foreign(output: &Path) -> Result<(), UpliftError> {
+    let mut head = Vec::new();
+    let read = std::fs::File::open(output).and_then(|file| file.take(4096).read_to_end(&mut head));
+    if read.is_ok() && !head.windows(7).any(|word| word == b"uplift ") {
+        return Err(UpliftError::Usage(format!(
+            "{} is there already, and was not written by this program: give another name",
+            output.display()
+        )));
+    }
+    Ok(())
 }
 
 /// A path that must not be one of the inputs.

@@ -9,6 +9,8 @@ use super::Session;
 use super::run::run_study;
 use crate::error::UpliftError;
 use crate::inputs::{read_hazard, read_records};
+use crate::kept::{motion_key, oscillator_key};
+use crate::labelled::LabelledError;
 use crate::result::{Provenance, is_hdf5, open_result};
 use crate::study::{Bootstrap, ResolvedStudy, Study};
 
@@ -66,10 +68,33 @@ fn is_result_of(study: &ResolvedStudy, path: &Path) -> Result<bool, UpliftError>
         return Ok(false);
     }
     let (hazard, _) = read_hazard(study)?;
-    let provenance = Provenance::new("", 0.0, &read_records(study)?, &hazard);
+    let records = read_records(study)?;
+    let provenance = Provenance::new("", 0.0, &records, &hazard);
     let kept: Option<BTreeMap<String, String>> =
         serde_json::from_str(&reader.attribute_text("/", "input_checksums")?).ok();
-    Ok(kept == Some(provenance.input_checksums))
+    if kept != Some(provenance.input_checksums) {
+        return Ok(false);
+    }
+    // what a manifest says of its files counts too: the motions themselves, what they are scaled by, what is known of them
+    let same = || -> Result<bool, LabelledError> {
+        let motions: Vec<String> = records.records.iter().map(|record| motion_key(&record.accelerogram)).collect();
+        let bits = |values: Vec<f64>| values.into_iter().map(f64::to_bits).collect::<Vec<_>>();
+        let number = |key: &str| records.records.iter().map(|record| record.number(key)).collect::<Vec<f64>>();
+        let mut same = reader.array_text("/records/motion_sha256")?.values == motions
+            && bits(reader.array_f64("/records/pga_g")?.values)
+                == bits(records.records.iter().map(|r| r.pga_g).collect())
+            && bits(reader.array_f64("/records/pgv_cm_s")?.values)
+                == bits(records.records.iter().map(|r| r.pgv_cm_s).collect());
+        for key in ["magnitude", "rrup_km", "vs30"] {
+            same &= bits(reader.array_f64(&format!("/records/{key}"))?.values) == bits(number(key));
+        }
+        for measure in &study.measures {
+            let group = format!("/ida/{}", measure.measure.key());
+            same &= reader.attribute_text(&group, "oscillator_key")? == oscillator_key(study);
+        }
+        Ok(same)
+    };
+    Ok(same().unwrap_or(false))
 }
 
 fn what_counts(study_toml: &str) -> Option<toml::Table> {

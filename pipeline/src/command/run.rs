@@ -44,13 +44,18 @@ pub(super) struct RunArguments {
     json: bool,
 }
 
+/// Most parts that a run is cut into.
+pub(super) const MOST_SHARDS: u64 = 100_000;
+
 fn shard(text: &str) -> Result<Part, String> {
     let numbers = text
         .split_once('/')
         .and_then(|(index, count)| Some((index.trim().parse::<u64>().ok()?, count.trim().parse::<u64>().ok()?)));
     match numbers {
-        Some((index, count)) if index >= 1 && index <= count => Ok(Part { index: index - 1, count }),
-        _ => Err("write 1/8 for the first of eight parts".to_owned()),
+        Some((index, count)) if index >= 1 && index <= count && count <= MOST_SHARDS => {
+            Ok(Part { index: index - 1, count })
+        }
+        _ => Err(format!("write 1/8 for the first of eight parts; at most {MOST_SHARDS}")),
     }
 }
 

@@ -118,7 +118,11 @@ fn pieces(out: &mut impl Write, path: &Path, finding: &Finding) -> Result<(), Up
         head.title
     )?;
     if finding.damaged_bytes > 0 {
-        writeln!(out, "  a piece at its end was cut off ({} bytes) and will be computed again", finding.damaged_bytes)?;
+        writeln!(
+            out,
+            "  pieces that were cut off or damaged ({} bytes) will be computed again",
+            finding.damaged_bytes
+        )?;
     }
     Ok(())
 }

@@ -8,6 +8,7 @@ use clap::Args;
 use super::Session;
 use crate::error::UpliftError;
 use crate::labelled::{Seal, verify as verify_file};
+use crate::result::open_result;
 
 #[derive(Debug, Args)]
 pub(super) struct VerifyArguments {
@@ -21,7 +22,7 @@ pub(super) fn verify(arguments: &VerifyArguments, session: &Session) -> Result<(
     let mut out = std::io::stdout().lock();
     for path in &arguments.results {
         let name = path.display();
-        let verdict = match verify_file(path) {
+        let verdict = match open_result(path).and_then(|_| Ok(verify_file(path)?)) {
             Ok(verdict) => verdict,
             Err(error) => {
                 mistakes.push(error.to_string());
@@ -34,10 +35,10 @@ pub(super) fn verify(arguments: &VerifyArguments, session: &Session) -> Result<(
                 "{name}: some byte is not as it was written, in what lies between the arrays: take the numbers from a copy, or run the study again"
             )),
             Seal::Broken => mistakes.push(format!("{name}: is damaged: run the study again")),
-            Seal::Missing => session.remark(&format!(
-                "{name}: no checksum of the whole file: another program has written to it, or an earlier version made it"
+            Seal::Missing => mistakes.push(format!(
+                "{name}: the checksum of the whole file is not at its end: another program has written to it, or its end is missing"
             )),
-            Seal::Whole => {}
+            Seal::Whole(_) => {}
         }
         if !verdict.unknown.is_empty() {
             session.remark(&format!(
@@ -47,8 +48,7 @@ pub(super) fn verify(arguments: &VerifyArguments, session: &Session) -> Result<(
             ));
         }
         if verdict.is_sound() {
-            let whole = if verdict.seal == Seal::Whole { ", and every byte of the file" } else { "" };
-            writeln!(out, "{name}: {} arrays as they were written{whole}", verdict.sound)?;
+            writeln!(out, "{name}: {} arrays as they were written, and every byte of the file", verdict.sound)?;
         }
     }
     if mistakes.is_empty() { Ok(()) } else { Err(UpliftError::Inputs(mistakes)) }

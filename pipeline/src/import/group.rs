@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use uplift_motion::Orientation;
+
 use super::search_results::{Entry, SearchResults};
 use super::warnings::Warning;
 use super::{Component, name};
@@ -33,9 +35,9 @@ pub(super) fn pairs(components: Vec<Component>, search: &SearchResults, warnings
     for component in components {
         let name = name::of(&component.path);
         let (key, id) = key_and_id(&component, &name);
-        let orientation = component.description.orientation.or(name.orientation);
+        let orientation = component.description.orientation;
         let group = groups.entry(key).or_insert_with(|| Group { id, rsn: name.rsn, horizontal: Vec::new() });
-        if orientation.is_none_or(uplift_motion::Orientation::is_horizontal) {
+        if orientation.is_none_or(Orientation::is_horizontal) {
             group.horizontal.push(component);
         }
     }
@@ -49,6 +51,13 @@ pub(super) fn pairs(components: Vec<Component>, search: &SearchResults, warnings
             1 => warnings.push(Warning {
                 kind: "no partner",
                 text: format!("{}: its other horizontal component is not here; left out", names()),
+            }),
+            2 if !may_be_a_pair(&horizontal) => warnings.push(Warning {
+                kind: "same direction",
+                text: format!(
+                    "{}: these point in nearly the same direction, so they are no two components of one motion; left out: if they are, add a row of the manifest by hand",
+                    names()
+                ),
             }),
             2 => {
                 let entry = search.of(rsn).cloned();
@@ -72,6 +81,23 @@ pub(super) fn pairs(components: Vec<Component>, search: &SearchResults, warnings
     }
     candidates
 }
+
+/// Whether two components may be those of one motion: not if both say their direction, and it is nearly one.
+fn may_be_a_pair(components: &[Component]) -> bool {
+    let directions: Vec<f64> = (components.iter())
+        .filter_map(|component| match component.description.orientation {
+            Some(Orientation::Azimuth(degrees)) => Some(degrees),
+            _ => None,
+        })
+        .collect();
+    match directions[..] {
+        [one, other] => (LEAST_ANGLE_DEG..=180.0 - LEAST_ANGLE_DEG).contains(&(one - other).rem_euclid(180.0)),
+        _ => true,
+    }
+}
+
+/// Angle between two components of one motion, at least; installed at right angles, they may be some degrees off.
+const LEAST_ANGLE_DEG: f64 = 45.0;
 
 fn told(component: &Component) -> String {
     match component.channel {

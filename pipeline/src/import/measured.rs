@@ -70,7 +70,12 @@ pub(super) fn pair(candidate: Candidate, options: &ImportOptions) -> Result<Impo
     let Candidate { id, rsn: _, components, search } = candidate;
     let [first, second] = &components;
     let pair = RecordPair { id, h1: read(first)?, h2: read(second)?, metadata: std::collections::BTreeMap::new() };
-    let measures = PairMeasures::of(&pair, options.gravity_m_s2, options.pulses);
+    let mut measures = PairMeasures::of(&pair, options.gravity_m_s2, options.pulses);
+    if !warnings::are_together([&first.description, &second.description], pair.h1.dt_s()) {
+        // all but the geometric mean would be wrong
+        measures.peaks[1..].fill(None);
+        (measures.pulse, measures.pulse_like) = (None, None);
+    }
     let warnings = warnings::of_pair(&pair, [&first.description, &second.description], &measures, options.gravity_m_s2);
     Ok(ImportedPair { id: pair.id, components, measures, search, warnings })
 }

@@ -115,7 +115,10 @@ fn parse(text: &str) -> Result<BTreeMap<u64, Entry>, String> {
     for row in 0..table.height() {
         let cell = |column: Option<&polars::prelude::Column>| {
             let text = column?.str().ok()?.get(row)?.trim();
-            (!text.is_empty() && !text.starts_with("---") && text != "-999").then(|| text.to_owned())
+            // -999 in any notation stands for what is not known, and nothing in this table is below zero
+            let unknown =
+                text.is_empty() || text.starts_with("---") || text.parse::<f64>().is_ok_and(|number| number < 0.0);
+            (!unknown).then(|| text.to_owned())
         };
         let Some(rsn) = cell(rsn).and_then(|text| text.parse::<u64>().ok()) else { continue };
         let [event, year, station, magnitude, mechanism, rjb_km, rrup_km, vs30, lowest_usable_hz, h1, h2] =
@@ -139,7 +142,7 @@ mod tests {
              Station Name, Magnitude, Mechanism, Rjb (km), Rrup (km), Vs30 (m/sec), Lowest Useable Frequency (Hz), \
              Horizontal-1 Acc. Filename, Horizontal-2 Acc. Filename, Vertical Acc. Filename\r\n\
              1,SRSS,12,\"Some, Where\",1990,Station A,6.5,strike slip,10.1,11.2,450.0,0.25, RSN12_A_000.AT2, RSN12_A_090.AT2,---\r\n\
-             2,SRSS,13,Else,1991,Station B,7.0,reverse,-999,21.2,,0.1,x,y,z\r\n\r\n -- Spectra --\r\nPeriod, RSN-12\r\n0.01,0.2\r\n";
+             2,SRSS,13,Else,1991,Station B,7.0,reverse,-999.0,21.2,,0.1,x,y,z\r\n\r\n -- Spectra --\r\nPeriod, RSN-12\r\n0.01,0.2\r\n";
         let entries = parse(text).unwrap();
         assert_eq!(entries.len(), 2);
         let first = &entries[&12];

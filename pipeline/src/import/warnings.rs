@@ -80,6 +80,14 @@ pub(crate) fn of_pair(
     warnings
 }
 
+/// Whether two components begin at the same time, as far as their files say so; `dt_s` is the time step.
+pub(super) fn are_together([one, other]: [&RecordingDescription; 2], dt_s: f64) -> bool {
+    match (one.start_time_s, other.start_time_s) {
+        (Some(start_s), Some(other_s)) => (start_s - other_s).abs() <= 0.5 * dt_s,
+        _ => true,
+    }
+}
+
 /// One unit in the last digit that a number is written with.
 fn last_digit(value: f64) -> f64 {
     let text = value.to_string();
@@ -97,12 +105,9 @@ fn synchronisation(
         add(KIND, format!("its components have time steps of {} s and {} s", h1.dt_s(), h2.dt_s()));
     }
     if let (Some(start), Some(other_start)) = (one.start_time_s, other.start_time_s) {
-        let apart_s = (start - other_start).abs();
-        if apart_s > 0.5 * h1.dt_s() {
-            add(
-                KIND,
-                format!("its components begin {apart_s:.3} s apart; measures over all directions would be wrong"),
-            );
+        if !are_together([one, other], h1.dt_s()) {
+            let apart_s = (start - other_start).abs();
+            add(KIND, format!("its components begin {apart_s:.3} s apart: no measures over all directions"));
         }
     } else if h1.len() != h2.len() {
         add(

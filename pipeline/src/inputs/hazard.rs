@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use uplift_hazard::{CsvOptions, Extrapolation, HazardCurve, SecondColumn, read_path};
-use uplift_motion::IntensityMeasure;
+use uplift_motion::{Combination, IntensityMeasure};
 use uplift_risk::StripeWeights;
 
 use super::checksum;
@@ -213,7 +213,16 @@ pub(super) fn of_the_records_definition(
     curve: &HazardCurve,
 ) -> Result<Option<HazardCurve>, String> {
     let wanted = definition_of(study.records.intensity);
-    let Some(own) = curve.component().or(study.hazard.component) else { return Ok(None) };
+    let Some(own) = curve.component().or(study.hazard.component) else {
+        // what was written before there were such words is taken for the geometric mean, and for nothing else
+        if study.records.intensity == Combination::GeometricMean {
+            return Ok(None);
+        }
+        return Err(format!(
+            "the curve does not say how horizontal components are combined, and the records are measured by the {wanted}: say what it is with [hazard] component = \"{}\"",
+            definition_word(wanted)
+        ));
+    };
     if own == wanted {
         return Ok(Some(curve.clone()));
     }

@@ -3,13 +3,16 @@
 use std::path::Path;
 
 use rayon::prelude::*;
-use uplift_motion::{Accelerogram, ReadOptions, RecordPair, read_auto, record_bytes};
+use uplift_motion::{ReadOptions, RecordPair, Recording, read_record, record_bytes};
 
 use super::checksum;
 use super::manifest::{ComponentFile, Row};
 
 /// A pair with the SHA-256 of what each component was read from.
 pub(crate) type CheckedPair = (RecordPair, [String; 2]);
+
+/// Key in the metadata of a pair: by how many seconds its components begin apart, where their files say so.
+pub(super) const START_APART: &str = "start_apart_s";
 
 /// Reads the pairs of `rows`, in their order; values in g are converted with `gravity_m_s2`.
 ///
@@ -36,14 +39,21 @@ fn read_row(row: Row, gravity_m_s2: f64) -> Result<CheckedPair, Vec<String>> {
         read_component(file, &options).map_err(|reason| format!("record {}: {reason}", row.id))
     };
     match (component(&row.components[0]), component(&row.components[1])) {
-        (Ok((h1, sum1)), Ok((h2, sum2))) => {
-            Ok((RecordPair { id: row.id, h1, h2, metadata: row.metadata }, [sum1, sum2]))
+        (Ok((one, sum1)), Ok((other, sum2))) => {
+            let mut metadata = row.metadata;
+            if let (Some(start_s), Some(other_s)) = (one.description.start_time_s, other.description.start_time_s)
+                && (start_s - other_s).abs() > 0.5 * one.accelerogram.dt_s()
+            {
+                metadata.insert(START_APART.to_owned(), format!("{:.3}", (start_s - other_s).abs()));
+            }
+            Ok((RecordPair { id: row.id, h1: one.accelerogram, h2: other.accelerogram, metadata }, [sum1, sum2]))
         }
         (one, other) => Err([one.err(), other.err()].into_iter().flatten().collect()),
     }
 }
 
-fn read_component(file: &ComponentFile, options: &ReadOptions) -> Result<(Accelerogram, String), String> {
+/// Reads the component that a row of a manifest names, with the SHA-256 of its file.
+pub(crate) fn read_component(file: &ComponentFile, options: &ReadOptions) -> Result<(Recording, String), String> {
     let path: &Path = &file.path;
     let bytes = record_bytes(path).map_err(|error| error.to_string())?;
     let sum = checksum(&bytes);
@@ -53,6 +63,9 @@ fn read_component(file: &ComponentFile, options: &ReadOptions) -> Result<(Accele
             path.display()
         ));
     }
-    let accelerogram = read_auto(&bytes, &path.display().to_string(), options).map_err(|error| error.to_string())?;
-    Ok((accelerogram, sum))
+    let name = path.display().to_string();
+    let recording = read_record(&bytes, &name, options)
+        .and_then(|file| file.component(&name, options.channel))
+        .map_err(|error| error.to_string())?;
+    Ok((recording, sum))
 }

@@ -3,10 +3,9 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
+use sha2::{Digest, Sha256};
 use uplift_motion::synthetic::SyntheticSetOptions;
-use uplift_motion::{Accelerogram, Component, Horizontal, IntensityMeasure};
+use uplift_motion::{Accelerogram, Combination, Component, Horizontal, IntensityMeasure};
 
 use super::pairs::{self, CheckedPair};
 use super::{cache, checksum, manifest, selection};
@@ -33,6 +32,11 @@ pub struct Record {
 }
 
 impl Record {
+    /// A number that the manifest says under `key`; NaN where it says none.
+    pub fn number(&self, key: &str) -> f64 {
+        self.metadata.get(key).and_then(|text| text.parse().ok()).unwrap_or(f64::NAN)
+    }
+
     /// Intensity of the pair in the unit of `measure`.
     pub fn intensity(&self, measure: IntensityMeasure) -> f64 {
         match measure {
@@ -131,7 +135,16 @@ fn analysis_records(pairs: Vec<CheckedPair>, study: &ResolvedStudy) -> Result<Ve
     let component = study.records.component;
     let mut records = Vec::new();
     let mut mistakes = Vec::new();
-    for (index, (pair, sums)) in pairs.into_iter().enumerate() {
+    for (pair, sums) in pairs {
+        if study.records.intensity != Combination::GeometricMean
+            && let Some(apart_s) = pair.metadata.get(pairs::START_APART)
+        {
+            mistakes.push(format!(
+                "record {}: its components begin {apart_s} s apart, and a measure over all directions needs them together: use records.intensity = \"geometric-mean\", cut them to a common start, or leave the record out",
+                pair.id
+            ));
+            continue;
+        }
         let peaks = match study.records.intensity.peaks_of(&pair) {
             Ok(peaks) => peaks,
             Err(error) => {
@@ -148,7 +161,7 @@ fn analysis_records(pairs: Vec<CheckedPair>, study: &ResolvedStudy) -> Result<Ve
             ));
             continue;
         }
-        for (which, accelerogram) in pair.components(component, drawn(study.seed, index)) {
+        for (which, accelerogram) in pair.components(component, drawn(study.seed, &pair.id)) {
             let id = if component == Component::Both { format!("{}:{which}", pair.id) } else { pair.id.clone() };
             let [sum1, sum2] = &sums;
             records.push(Record {
@@ -165,14 +178,11 @@ fn analysis_records(pairs: Vec<CheckedPair>, study: &ResolvedStudy) -> Result<Ve
     if mistakes.is_empty() { Ok(records) } else { Err(UpliftError::Inputs(mistakes)) }
 }
 
-/// The component that `component = "random"` gives the pair at `index`: its own stream of the study's seed, so it depends on neither
+/// The component that `component = "random"` gives the pair `id`: from the study's seed and its name alone, so that it depends on neither
 /// threads nor the other pairs.
-fn drawn(seed: u64, index: usize) -> Horizontal {
-    let mut key = [0; 32];
-    key[..8].copy_from_slice(&seed.to_le_bytes());
-    let mut stream = ChaCha8Rng::from_seed(key);
-    stream.set_stream(index as u64);
-    if stream.next_u32() & 1 == 0 { Horizontal::H1 } else { Horizontal::H2 }
+fn drawn(seed: u64, id: &str) -> Horizontal {
+    let key = Sha256::new().chain_update(seed.to_le_bytes()).chain_update(id).finalize();
+    if key[0] & 1 == 0 { Horizontal::H1 } else { Horizontal::H2 }
 }
 
 #[cfg(test)]
@@ -182,9 +192,10 @@ mod tests {
     // A random component must be the same for ever, and fair.
     #[test]
     fn drawn_components_are_pinned_and_fair() {
-        let first: String = (0..16).map(|index| if drawn(1, index) == Horizontal::H1 { '1' } else { '2' }).collect();
-        assert_eq!(first, "2112112212211222");
-        let ones = (0..10_000).filter(|&index| drawn(7, index) == Horizontal::H1).count();
+        let of = |seed: u64, index: usize| drawn(seed, &format!("SYN{index:03}"));
+        let first: String = (0..16).map(|index| if of(1, index) == Horizontal::H1 { '1' } else { '2' }).collect();
+        assert_eq!(first, "2112221112121221");
+        let ones = (0..10_000).filter(|&index| of(7, index) == Horizontal::H1).count();
         assert!((4_800..5_200).contains(&ones), "{ones}");
     }
 }

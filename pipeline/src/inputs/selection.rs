@@ -49,7 +49,7 @@ pub(crate) fn select(
     let lacking: Vec<String> = unknown
         .iter()
         .map(|(key, lacking)| {
-            format!("{lacking} of {count} records have no {key} in the manifest, which is asked for, and are left out")
+            format!("{lacking} of {count} records have no number for {key} in the manifest, which is asked for, and are left out")
         })
         .collect();
     if chosen.is_empty() {

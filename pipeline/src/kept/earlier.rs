@@ -8,7 +8,7 @@ use uplift_motion::IntensityMeasure;
 
 use super::key::oscillator_key;
 use crate::inputs::RecordSet;
-use crate::labelled::{LabelledError, LabelledReader};
+use crate::labelled::{LabelledError, LabelledReader, Seal, seal_of};
 use crate::result::level_axis;
 use crate::study::{MeasurePlan, ResolvedStudy};
 
@@ -18,9 +18,10 @@ pub struct EarlierStripes {
 }
 
 impl EarlierStripes {
-    /// The result at `path`; none if there is none that can be read.
+    /// The result at `path`; none if there is none, or one of which any byte is not as it was written.
     pub fn open(path: &Path) -> Option<Self> {
-        path.is_file().then(|| LabelledReader::open(path).ok()).flatten().map(|reader| Self { reader })
+        let whole = path.is_file() && matches!(seal_of(path), Ok(Seal::Whole(_)));
+        whole.then(|| LabelledReader::open(path).ok()).flatten().map(|reader| Self { reader })
     }
 
     /// Puts into `cells` what the file knows of the stripes that `study` asks for with `measure`: cells of the same motion, intensity,
@@ -49,9 +50,6 @@ impl EarlierStripes {
         let group = format!("/ida/{key}");
         if !reader.exists(&group) || reader.attribute_text(&group, "oscillator_key")? != oscillator_key(study) {
             return Ok(());
-        }
-        for array in [format!("{group}/edp_m"), format!("{group}/impacts"), "/records/motion_sha256".to_owned()] {
-            reader.require_sound(&array)?;
         }
         let stored_motions = reader.array_text("/records/motion_sha256")?.values;
         let intensities = reader

@@ -3,8 +3,10 @@
 use std::fs::{File, TryLockError};
 use std::io::{Read, Seek, Write};
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 use crate::error::UpliftError;
+use crate::labelled::final_place;
 
 /// Held as long as something is being written to a result. The operating system lets go of it when the program ends, however it ends.
 #[derive(Debug)]
@@ -19,14 +21,20 @@ impl ResultLock {
     /// # Errors
     /// Where another run has it, and where the folder cannot be written.
     pub fn acquire(result: &Path) -> Result<Self, UpliftError> {
-        let name = result.file_name().unwrap_or(result.as_os_str()).to_string_lossy();
-        let path = result.with_file_name(format!(".{name}.lock"));
+        let path = lock_path(result);
         let fail = |error: std::io::Error| UpliftError::input(format!("{}: {error}", path.display()));
+        let mut tries = 0;
         loop {
             let mut file =
                 File::options().read(true).write(true).create(true).truncate(false).open(&path).map_err(fail)?;
             match file.try_lock() {
                 Ok(()) => {}
+                // somebody may only be looking whether it is held
+                Err(TryLockError::WouldBlock) if tries < TRIES => {
+                    tries += 1;
+                    std::thread::sleep(PAUSE);
+                    continue;
+                }
                 Err(TryLockError::WouldBlock) => {
                     let mut holder = String::new();
                     let _ = file.take(200).read_to_string(&mut holder);
@@ -52,8 +60,7 @@ impl ResultLock {
 
     /// Whether somebody holds the lock of the result at `result`, and who.
     pub fn holder(result: &Path) -> Option<String> {
-        let name = result.file_name().unwrap_or(result.as_os_str()).to_string_lossy();
-        let mut file = File::open(result.with_file_name(format!(".{name}.lock"))).ok()?;
+        let mut file = File::open(lock_path(result)).ok()?;
         match file.try_lock_shared() {
             Err(TryLockError::WouldBlock) => {
                 let mut holder = String::new();
@@ -63,6 +70,31 @@ impl ResultLock {
             _ => None,
         }
     }
+
+    /// As [`ResultLock::acquire`], but waits for another that has it, `longest` at most.
+    ///
+    /// # Errors
+    /// As [`ResultLock::acquire`].
+    pub fn wait(result: &Path, longest: Duration) -> Result<Self, UpliftError> {
+        let start = Instant::now();
+        loop {
+            match Self::acquire(result) {
+                Err(_) if start.elapsed() < longest && Self::holder(result).is_some() => std::thread::sleep(PAUSE),
+                other => return other,
+            }
+        }
+    }
+}
+
+/// How often, and after which pause, a lock that is held is tried again before it is believed.
+const TRIES: u32 = 5;
+const PAUSE: Duration = Duration::from_millis(30);
+
+/// Beside the file itself, where `result` is a link to it.
+fn lock_path(result: &Path) -> PathBuf {
+    let result = final_place(result).unwrap_or_else(|_| result.to_owned());
+    let name = result.file_name().unwrap_or(result.as_os_str()).to_string_lossy();
+    result.with_file_name(format!(".{name}.lock"))
 }
 
 impl Drop for ResultLock {

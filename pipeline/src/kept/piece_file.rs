@@ -1,12 +1,12 @@
 //! Finished pieces in a file, appended as they come.
 //!
 //! The file is a line of JSON, then one block a piece, little-endian: the key (16 bytes), the number of levels (u32), the peak displacements
-//! in m (f64 each), the impacts (u32 each), and a CRC-32 of all that. A block that was cut off or damaged ends what is read, and is
-//! overwritten when the file is gone on with: whatever stops the program, at most the pieces in work are lost.
+//! in m (f64 each), the impacts (u32 each), and a CRC-32 of all that. A block that was damaged is passed over, and one that was cut off ends
+//! what is read; when the file is gone on with they are gone. Whatever stops the program, at most the pieces in work are lost.
 
 use std::collections::HashMap;
 use std::fs::File;
-use std::io::{BufRead, BufReader, Read, Seek, SeekFrom, Write};
+use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -17,6 +17,7 @@ use uplift_ida::{Cells, Piece};
 
 use super::key::{PieceKey, StripeKeys};
 use crate::error::UpliftError;
+use crate::labelled::{final_place, write_whole};
 
 /// What the first line says it is.
 const FORMAT: &str = "uplift pieces 1";
@@ -64,12 +65,19 @@ impl KeptPieces {
     /// Puts into `cells` what is there of the pieces with `keys`.
     pub fn fill(&self, keys: &StripeKeys, cells: &mut Cells) {
         for (record, strength, key) in keys.iter() {
-            if let Some((edp_m, impacts)) = self.rows.get(&key) {
+            // a row of another length is none of these, whatever its key says
+            let row = self.rows.get(&key).filter(|(edp_m, _)| edp_m.len() == cells.levels());
+            if let Some((edp_m, impacts)) = row {
                 for (level, (&edp_m, &impacts)) in edp_m.iter().zip(impacts).enumerate() {
                     cells.set([record, strength, level], edp_m, impacts);
                 }
             }
         }
+    }
+
+    /// Whether the piece is there.
+    pub fn contains(&self, key: PieceKey) -> bool {
+        self.rows.contains_key(&key)
     }
 
     /// Number of pieces.
@@ -95,9 +103,7 @@ pub struct Finding {
     pub head: PieceFileHead,
     /// The pieces in it.
     pub kept: KeptPieces,
-    /// Where the last sound block ends, bytes.
-    end: u64,
-    /// Bytes after it: a block that was cut off or damaged.
+    /// Bytes of blocks that were cut off or damaged.
     pub damaged_bytes: u64,
 }
 
@@ -113,6 +119,7 @@ pub struct PieceFile {
 
 /// The journal of the result at `result`.
 pub fn journal_path(result: &Path) -> PathBuf {
+    let result = &final_place(result).unwrap_or_else(|_| result.to_owned());
     let mut name = result.file_name().unwrap_or(result.as_os_str()).to_owned();
     name.push(".part");
     result.with_file_name(name)
@@ -138,49 +145,56 @@ impl PieceFile {
             .ok()
             .filter(|head: &PieceFileHead| head.format == FORMAT && line.ends_with(b"\n"))
             .ok_or_else(|| fail(format!("is no file of finished pieces of this version ({FORMAT})")))?;
-        let mut end = line.len() as u64;
+        let mut sound = line.len() as u64;
         let mut kept = KeptPieces::default();
-        while let Some((key, row, size)) = read_block(&mut reader) {
-            kept.rows.insert(key, row);
-            end += size;
+        while let Some((block, size)) = read_block(&mut reader) {
+            if let Some((key, row)) = block {
+                kept.rows.insert(key, row);
+                sound += size;
+            }
         }
-        Ok(Some(Finding { head, kept, end, damaged_bytes: length.saturating_sub(end) }))
+        Ok(Some(Finding { head, kept, damaged_bytes: length.saturating_sub(sound) }))
     }
 
     /// Opens the file at `path` to append to it, a new one with `head` unless a sound one of the same part is there; with what it holds.
     ///
     /// # Errors
-    /// A file that cannot be written, or that is none of pieces: nothing else is overwritten.
-    pub fn open(path: &Path, head: &PieceFileHead) -> Result<(Self, KeptPieces), UpliftError> {
+    /// A file that cannot be written, that is none of pieces, or that is a shard of other work: nothing else is overwritten.
+    pub fn open(path: &Path, head: &PieceFileHead) -> Result<(Self, Finding), UpliftError> {
         let fail = |error: std::io::Error| UpliftError::input(format!("{} cannot be written: {error}", path.display()));
         // what cannot be read to its first line was cut off in it
         let found = match Self::read(path) {
             Err(_) if std::fs::metadata(path).is_ok_and(|file| file.len() < LONGEST_HEAD && !has_line(path)) => None,
             found => found?,
         };
-        let mut file = File::options().read(true).write(true).create(true).truncate(false).open(path).map_err(fail)?;
-        let (kept, same) = found.map_or((KeptPieces::default(), None), |found| {
-            let same = found.head == *head;
-            (found.kept, same.then_some(found.end))
+        let found = match found {
+            Some(found) if found.head != *head && (found.head.shards > 1 || head.shards > 1) => {
+                return Err(UpliftError::input(format!(
+                    "{}: is there already, as shard {} of {} of other work ({:?}): remove it, or give another name (-o)",
+                    path.display(),
+                    found.head.shard,
+                    found.head.shards,
+                    found.head.title
+                )));
+            }
+            found => found,
+        };
+        let (kept, damaged_bytes, same) = found.map_or((KeptPieces::default(), 0, false), |found| {
+            (found.kept, found.damaged_bytes, found.damaged_bytes == 0 && found.head == *head)
         });
-        if let Some(end) = same {
-            file.set_len(end).and_then(|()| file.seek(SeekFrom::End(0))).map_err(fail)?;
-        } else {
-            // what is kept of other work may be of use: it is carried over
+        if !same {
+            // written anew without what is damaged; pieces of other work may be of use, and are carried over
             let mut content = serde_json::to_vec(head).map_err(|error| fail(error.into()))?;
             content.push(b'\n');
             for (key, (edp_m, impacts)) in &kept.rows {
                 content.extend(block(*key, edp_m, impacts));
             }
-            let aside = path.with_extension("part-new");
-            std::fs::write(&aside, &content).and_then(|()| std::fs::rename(&aside, path)).map_err(|error| {
-                let _ = std::fs::remove_file(&aside);
-                fail(error)
-            })?;
-            file = File::options().read(true).append(true).open(path).map_err(fail)?;
+            write_whole(path, &content)?;
         }
+        let file = File::options().append(true).open(path).map_err(fail)?;
+        let found = Finding { head: head.clone(), kept, damaged_bytes };
         let file = Mutex::new((file, Instant::now()));
-        Ok((Self { path: path.to_owned(), file, failure: Mutex::new(None), failed: AtomicBool::new(false) }, kept))
+        Ok((Self { path: path.to_owned(), file, failure: Mutex::new(None), failed: AtomicBool::new(false) }, found))
     }
 
     /// Where it is.
@@ -248,8 +262,8 @@ fn block(key: PieceKey, edp_m: &[f64], impacts: &[u32]) -> Vec<u8> {
     block
 }
 
-/// A block with its size in bytes; none at the end, and for one that is not sound.
-fn read_block(reader: &mut impl Read) -> Option<(PieceKey, Row, u64)> {
+/// A block with its size in bytes, no piece for one that is damaged; none at the end, and where a block was cut off.
+fn read_block(reader: &mut impl Read) -> Option<(Option<(PieceKey, Row)>, u64)> {
     let mut head = [0; 20];
     reader.read_exact(&mut head).ok()?;
     let (key, count) = head.split_at(16);
@@ -260,18 +274,19 @@ fn read_block(reader: &mut impl Read) -> Option<(PieceKey, Row, u64)> {
     let count = count as usize;
     let mut rest = vec![0; 12 * count + 4];
     reader.read_exact(&mut rest).ok()?;
+    let size = (24 + 12 * count) as u64;
     let (content, sum) = rest.split_at(12 * count);
     let mut hasher = crc32fast::Hasher::new();
     hasher.update(&head);
     hasher.update(content);
     if hasher.finalize().to_le_bytes() != *sum {
-        return None;
+        return Some((None, size));
     }
     let (edp_m, impacts) = content.split_at(8 * count);
     let edp_m = edp_m.chunks_exact(8).map(|bytes| f64::from_le_bytes(bytes.try_into().unwrap_or_default())).collect();
     let impacts =
         impacts.chunks_exact(4).map(|bytes| u32::from_le_bytes(bytes.try_into().unwrap_or_default())).collect();
-    Some((PieceKey(key.try_into().ok()?), (edp_m, impacts), (24 + 12 * count) as u64))
+    Some((Some((PieceKey(key.try_into().ok()?), (edp_m, impacts))), size))
 }
 
 #[cfg(test)]
@@ -285,7 +300,7 @@ mod tests {
 
     fn with_three(path: &Path) -> Vec<u8> {
         let (file, kept) = PieceFile::open(path, &head()).unwrap();
-        assert!(kept.is_empty());
+        assert!(kept.kept.is_empty());
         for key in 0..3_u8 {
             let edp_m = [f64::from(key), f64::INFINITY];
             file.append(PieceKey([key; 16]), &Piece { record: 0, strength: 0, edp_m: &edp_m, impacts: &[7, 8] });
@@ -306,7 +321,7 @@ mod tests {
             std::fs::write(&path, &whole[..length]).unwrap();
             let (file, kept) = PieceFile::open(&path, &head()).unwrap();
             let sound = length.saturating_sub(first) / block;
-            assert_eq!(kept.len(), sound, "{length}");
+            assert_eq!(kept.kept.len(), sound, "{length}");
             let piece = Piece { record: 0, strength: 0, edp_m: &[9.0, 9.5], impacts: &[1, 2] };
             file.append(PieceKey([9; 16]), &piece);
             drop(file);
@@ -316,8 +331,9 @@ mod tests {
         }
     }
 
+    // A flipped byte costs one piece, or those behind it where it is the length that is wrong; and what is gone on with is sound.
     #[test]
-    fn a_flipped_byte_ends_what_is_believed() {
+    fn a_flipped_byte_costs_its_piece() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.part");
         let whole = with_three(&path);
@@ -327,8 +343,16 @@ mod tests {
             damaged[index] ^= 0x10;
             std::fs::write(&path, &damaged).unwrap();
             let found = PieceFile::read(&path).unwrap().unwrap();
-            assert_eq!(found.kept.len(), (index - first) / 48, "{index}");
+            let in_the_length = (16..20).contains(&((index - first) % 48));
+            assert!(found.kept.len() == 2 || (in_the_length && found.kept.len() < 3), "{index}: {}", found.kept.len());
             assert!(found.damaged_bytes > 0);
+            for (key, row) in &found.kept.rows {
+                assert_eq!(*row, (vec![f64::from(key.0[0]), f64::INFINITY], vec![7, 8]), "{index}");
+            }
+            let (_, opened) = PieceFile::open(&path, &head()).unwrap();
+            assert_eq!(opened.kept.len(), found.kept.len());
+            let again = PieceFile::read(&path).unwrap().unwrap();
+            assert_eq!((again.kept.len(), again.damaged_bytes), (found.kept.len(), 0));
         }
     }
 
@@ -349,9 +373,12 @@ mod tests {
         with_three(&path);
         let other = PieceFileHead { work: "other".into(), ..head() };
         let (file, kept) = PieceFile::open(&path, &other).unwrap();
-        assert_eq!(kept.len(), 3);
+        assert_eq!(kept.kept.len(), 3);
         drop(file);
         let found = PieceFile::read(&path).unwrap().unwrap();
         assert_eq!((found.head, found.kept.len()), (other, 3));
+        // but no shard is taken for one of other work
+        let shard = PieceFileHead::new("third".into(), "", [1, 2], 3);
+        assert!(PieceFile::open(&path, &shard).unwrap_err().to_string().contains("other work"));
     }
 }

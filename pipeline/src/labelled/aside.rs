@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::{LabelledError, checksum};
+use super::LabelledError;
 
 /// A hidden, empty file in the folder of the target; it takes the target's place by [`Aside::replace`] and vanishes
 /// when dropped before.
@@ -50,7 +50,7 @@ impl Aside {
             .read(true)
             .write(true)
             .open(&self.partial)
-            .and_then(|mut file| checksum::seal(&mut file).and_then(|()| file.sync_all()))
+            .and_then(|file| file.sync_all())
             .map_err(io_error(&self.target, "bring the file to the disk"))?;
         fs::rename(&self.partial, &self.target).map_err(io_error(&self.target, "put the finished file in place"))?;
         sync_folder(folder_of(&self.target)).map_err(io_error(&self.target, "bring the folder to the disk"))
@@ -64,20 +64,32 @@ impl Drop for Aside {
     }
 }
 
-/// Takes away what earlier writers of the file at `path` left behind when they were killed. Nobody else may be writing it meanwhile.
+/// Writes `content` to `path` as every file of a result is written: aside, brought to the disk, and put in place at once.
+///
+/// # Errors
+/// [`LabelledError::Io`] where the disk is full or fails; an older file is then untouched.
+pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), LabelledError> {
+    let aside = Aside::reserve(path)?;
+    fs::write(aside.partial(), content).map_err(io_error(path, "write the file"))?;
+    aside.replace()
+}
+
+/// Takes away what earlier writers of the result at `path` and of the tables beside it left behind when they were killed. Nobody else
+/// may be writing them meanwhile.
 pub fn remove_leftovers(path: &Path) {
     let Ok(target) = final_place(path) else { return };
-    let Some(name) = target.file_name().and_then(|name| name.to_str()) else { return };
-    let beginning = format!(".{name}.partial-");
+    let Some(stem) = target.file_stem().and_then(|stem| stem.to_str()) else { return };
+    let beginning = format!(".{stem}.");
     for entry in fs::read_dir(folder_of(&target)).into_iter().flatten().flatten() {
-        if entry.file_name().to_str().is_some_and(|name| name.starts_with(&beginning)) {
+        let leftover = |name: &str| name.starts_with(&beginning) && name.contains(".partial-");
+        if entry.file_name().to_str().is_some_and(leftover) {
             let _ = fs::remove_file(entry.path());
         }
     }
 }
 
 /// Follows a symbolic link, so that the result replaces the file and not the link.
-fn final_place(path: &Path) -> Result<PathBuf, LabelledError> {
+pub(crate) fn final_place(path: &Path) -> Result<PathBuf, LabelledError> {
     let metadata = match fs::metadata(path) {
         Ok(metadata) => metadata,
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(path.to_owned()),

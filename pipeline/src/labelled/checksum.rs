@@ -83,10 +83,10 @@ pub(super) fn seal(file: &mut File) -> io::Result<()> {
 }
 
 /// What the line behind the end of a file says.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Seal {
-    /// Every byte is as it was written.
-    Whole,
+    /// Every byte is as it was written; the checksum.
+    Whole(String),
     /// Some byte is not.
     Broken,
     /// There is no such line: another program wrote the file, or its end is missing.
@@ -94,7 +94,10 @@ pub enum Seal {
 }
 
 /// Looks at the checksum behind the end of the file at `path`.
-pub(super) fn seal_of(path: &Path) -> io::Result<Seal> {
+///
+/// # Errors
+/// A file that cannot be read.
+pub fn seal_of(path: &Path) -> io::Result<Seal> {
     let mut file = File::open(path)?;
     let length = file.metadata()?.len();
     let Some(content) = length.checked_sub(FOOTER as u64) else { return Ok(Seal::Missing) };
@@ -107,5 +110,6 @@ pub(super) fn seal_of(path: &Path) -> io::Result<Seal> {
     file.seek(SeekFrom::Start(0))?;
     let mut hash = Sha256::new();
     absorb(&file, content, &mut hash)?;
-    Ok(if hexadecimal(hash).as_bytes() == stored { Seal::Whole } else { Seal::Broken })
+    let found = hexadecimal(hash);
+    Ok(if found.as_bytes() == stored { Seal::Whole(found) } else { Seal::Broken })
 }

@@ -25,7 +25,7 @@ pub struct Verdict {
 impl Verdict {
     /// Whether nothing is damaged.
     pub fn is_sound(&self) -> bool {
-        self.damaged.is_empty() && self.seal != Seal::Broken
+        self.damaged.is_empty() && matches!(self.seal, Seal::Whole(_))
     }
 }
 

@@ -6,9 +6,9 @@ use std::path::Path;
 use hdf5::types::VarLenUnicode;
 use hdf5::{Dataset, File, H5Type, Location, LocationType, ObjectReference1};
 
-use super::aside::Aside;
+use super::aside::{Aside, io_error};
 use super::attribute::{self, AttributeValue};
-use super::checksum::{CHECKSUM, Hashed, of_values};
+use super::checksum::{self, CHECKSUM, Hashed, of_values};
 use super::dimension_scale::{self, LONGEST_NAME, RESERVED};
 use super::error::{LabelledError, reason};
 use super::native::ScaleUse;
@@ -224,6 +224,10 @@ impl LabelledWriter {
         self.check(self.file.flush(), "write", "the end of the file")?;
         let Self { file, aside, .. } = self;
         file.close().map_err(|error| hdf5_error(aside.target(), "close", "the file", &error))?;
+        let sealed = std::fs::File::options().read(true).write(true).open(aside.partial());
+        sealed
+            .and_then(|mut file| checksum::seal(&mut file))
+            .map_err(io_error(aside.target(), "write the end of the file"))?;
         aside.replace()
     }
 

@@ -41,7 +41,7 @@ pub fn band_paths(result: &Path) -> [PathBuf; 2] {
 /// Whatever keeps the files from being written; the result file is then as it was.
 pub fn write_bands(file: &BandsFile<'_>) -> Result<(), UpliftError> {
     let BandsFile { stored, plan, settings, .. } = file;
-    extend_result(&stored.path, &REPLACED, |writer| add_bands(writer, file))?;
+    extend_result(stored, &REPLACED, |writer| add_bands(writer, file))?;
     let what = format!(
         "bootstrap: {}, {} replicates, {} interval, confidence {}",
         file.plan_source,

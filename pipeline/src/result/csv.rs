@@ -8,6 +8,7 @@ use uplift_risk::OrdinateFlag;
 
 use super::Outcome;
 use crate::error::UpliftError;
+use crate::labelled::write_whole;
 
 /// The tables beside the result file `result`: spectra and coefficients.
 pub fn csv_paths(result: &Path) -> [PathBuf; 2] {
@@ -43,13 +44,7 @@ pub(crate) fn write_table(path: &Path, line: &str, columns: Vec<Column>) -> Resu
 /// # Errors
 /// A file that cannot be written; an earlier one is then as it was.
 pub(crate) fn write_aside(path: &Path, content: &[u8]) -> Result<(), UpliftError> {
-    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-    let aside = path.with_file_name(format!(".{name}.partial-{}", std::process::id()));
-    let written = std::fs::write(&aside, content).and_then(|()| std::fs::rename(&aside, path));
-    written.map_err(|error| {
-        let _ = std::fs::remove_file(&aside);
-        UpliftError::input(format!("{} cannot be written: {error}", path.display()))
-    })
+    Ok(write_whole(path, content)?)
 }
 
 fn spectra_table(outcome: &Outcome<'_>) -> Vec<Column> {

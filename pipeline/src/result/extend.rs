@@ -1,24 +1,32 @@
 //! Adding to a result file: it is written anew and replaced at once.
 
 use std::path::Path;
-use std::time::SystemTime;
+use std::time::{Duration, SystemTime};
 
 use super::StoredStripes;
 use crate::error::UpliftError;
 use crate::kept::ResultLock;
-use crate::labelled::{LabelledError, LabelledReader, LabelledWriter};
+use crate::labelled::{LabelledError, LabelledReader, LabelledWriter, Seal, seal_of};
 
-/// Write the file at `path` anew without the groups and axes `replaced`, and with what `add` writes.
+/// Write the file of `stored` anew without the groups and axes `replaced`, and with what `add` writes.
 ///
 /// # Errors
-/// Whatever keeps the file from being read or written; it is then as it was.
+/// Whatever keeps the file from being read or written; it is then as it was. A file that is not as it was written, or no longer the one
+/// that `stored` was read from.
 pub(crate) fn extend_result(
-    path: &Path,
+    stored: &StoredStripes,
     replaced: &[&str],
     add: impl FnOnce(&mut LabelledWriter) -> Result<(), LabelledError>,
 ) -> Result<(), UpliftError> {
+    let path: &Path = &stored.path;
     // what another adds between our reading and our writing would be lost
-    let _lock = ResultLock::acquire(path)?;
+    let _lock = ResultLock::wait(path, LONGEST_WAIT)?;
+    if Some(whole_seal(path)?) != stored.seal {
+        return Err(UpliftError::input(format!(
+            "{}: was written anew meanwhile, so these numbers are not of it any more: run the command again",
+            path.display()
+        )));
+    }
     let reader = LabelledReader::open(path)?;
     let mut writer = LabelledWriter::create(path)?;
     writer.carry_over(&reader, replaced)?;
@@ -26,6 +34,23 @@ pub(crate) fn extend_result(
     add(&mut writer)?;
     writer.finish()?;
     Ok(())
+}
+
+/// How long another that adds to the same result is waited for.
+const LONGEST_WAIT: Duration = Duration::from_secs(60);
+
+/// The checksum of the result at `path`, every byte of which is as it was written.
+///
+/// # Errors
+/// A file that is damaged or was changed by another program.
+pub(crate) fn whole_seal(path: &Path) -> Result<String, UpliftError> {
+    let fail = |reason: String| UpliftError::input(format!("{}: {reason}", path.display()));
+    match seal_of(path).map_err(|error| fail(error.to_string()))? {
+        Seal::Whole(seal) => Ok(seal),
+        Seal::Broken | Seal::Missing => {
+            Err(fail("is not as it was written (`uplift verify` says where): run the study again".to_owned()))
+        }
+    }
 }
 
 /// Note on the group `group` what made it, and when.

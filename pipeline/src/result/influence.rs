@@ -70,7 +70,7 @@ pub fn write_influence(
     influences: &[Influence],
     rankings: &[Vec<Vec<RecordInfluence>>],
 ) -> Result<(), UpliftError> {
-    extend_result(&stored.path, &REPLACED, |writer| add(writer, stored, influences))?;
+    extend_result(stored, &REPLACED, |writer| add(writer, stored, influences))?;
     write_table(
         &influence_path(&stored.path),
         &line(stored, "spectra without each record"),

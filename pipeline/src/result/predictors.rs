@@ -30,7 +30,7 @@ pub fn write_predictors(
     covariates: &[Covariate],
     predictors: &[Predictor],
 ) -> Result<(), UpliftError> {
-    extend_result(&stored.path, &REPLACED, |writer| add(writer, covariates, predictors))?;
+    extend_result(stored, &REPLACED, |writer| add(writer, covariates, predictors))?;
     write_table(
         &predictors_path(&stored.path),
         &line(stored, "efficiency and sufficiency"),

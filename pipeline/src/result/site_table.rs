@@ -338,6 +338,7 @@ impl Aside {
     }
 
     fn put_in_place(&mut self) -> Result<PathBuf, UpliftError> {
+        self.writer.get_ref().sync_all().map_err(|error| failed(&self.path, &error))?;
         std::fs::rename(&self.partial, &self.path).map_err(|error| failed(&self.path, &error))?;
         Ok(self.path.clone())
     }

@@ -8,6 +8,7 @@ use uplift_hazard::{Extrapolation, HazardCurve, rate_from_probability};
 use uplift_motion::IntensityMeasure;
 use uplift_risk::{PooledDemand, RiskCurve, StripeWeights};
 
+use super::extend::whole_seal;
 use super::hazard::branch_group;
 use super::open_result;
 use crate::error::UpliftError;
@@ -20,6 +21,8 @@ use crate::study::Bootstrap;
 pub struct StoredStripes {
     /// The file.
     pub path: PathBuf,
+    /// Checksum of the file; none where it is not as it was written.
+    pub seal: Option<String>,
     /// Where the records come from, in a line.
     pub record_set: String,
     /// Names of the records.
@@ -111,6 +114,7 @@ impl StoredStripes {
             if study.risk.extrapolate == "loglog" { Extrapolation::LogLog } else { Extrapolation::Refuse };
         let mut stored = Self {
             path: path.to_owned(),
+            seal: whole_seal(path).ok(),
             record_set: reader.attribute_text("/", "record_set")?,
             records,
             strengths,

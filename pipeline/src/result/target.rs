@@ -4,7 +4,7 @@ use std::io::Read;
 use std::path::Path;
 
 use crate::error::UpliftError;
-use crate::labelled::LabelledWriter;
+use crate::labelled::{LabelledReader, LabelledWriter};
 
 /// First bytes of every HDF5 file.
 const HDF5_SIGNATURE: [u8; 8] = *b"\x89HDF\r\n\x1a\n";
@@ -19,6 +19,15 @@ pub fn check_target(path: &Path) -> Result<(), UpliftError> {
     if path.exists() && !is_hdf5(path) {
         return Err(UpliftError::input(format!(
             "{}: is there already and is not an HDF5 file; it is left as it is: give the result file another name (-o), or remove that one",
+            path.display()
+        )));
+    }
+    // one that cannot be opened is a result that was damaged: it gives way
+    if let Ok(reader) = LabelledReader::open(path)
+        && !reader.attribute_text("/", "program").is_ok_and(|program| program == "uplift")
+    {
+        return Err(UpliftError::input(format!(
+            "{}: is there already and is an HDF5 file of another program; it is left as it is: give the result file another name (-o), or remove that one",
             path.display()
         )));
     }

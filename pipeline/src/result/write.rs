@@ -89,12 +89,7 @@ pub(crate) fn level_axis(measure: IntensityMeasure) -> String {
 
 fn write_records(writer: &mut LabelledWriter, records: &[Record], intensity: Combination) -> Result<(), LabelledError> {
     let dims = &["record"];
-    let number = |key: &str| -> Vec<f64> {
-        records
-            .iter()
-            .map(|record| record.metadata.get(key).and_then(|text| text.parse().ok()).unwrap_or(f64::NAN))
-            .collect()
-    };
+    let number = |key: &str| -> Vec<f64> { records.iter().map(|record| record.number(key)).collect() };
     let text = |key: &str| -> Vec<String> {
         records.iter().map(|record| record.metadata.get(key).cloned().unwrap_or_default()).collect()
     };

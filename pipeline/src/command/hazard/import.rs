@@ -13,6 +13,7 @@ use uplift_hazard::{
 use uplift_motion::IntensityMeasure;
 
 use super::{Session, SiteArguments, UpliftError, distinct};
+use crate::command::records::refuse_foreign;
 use crate::result::write_aside;
 use crate::study::levels_within;
 
@@ -40,6 +41,9 @@ pub(super) struct ImportArguments {
     within_km: f64,
 }
 
+/// How far apart two exports may have the same site, km.
+const ONE_PLACE_KM: f64 = 1.0;
+
 /// A curve with the file it is written to.
 struct Written {
     exported: ExportedCurve,
@@ -59,7 +63,8 @@ pub(super) fn import(arguments: &ImportArguments, session: &Session) -> Result<(
         check_weights(&curves, weights)?;
     }
     if let Some(distance_km) = curves.iter().filter_map(|curve| curve.distance_km).reduce(f64::max) {
-        if distance_km > arguments.within_km {
+        // a NaN is no distance to be within
+        if !(distance_km <= arguments.within_km) {
             return Err(UpliftError::input(format!(
                 "the nearest site, {site}, is {distance_km:.1} km away: give a nearer place, or --within-km {:.0} if it will do",
                 distance_km.ceil()
@@ -93,6 +98,7 @@ pub(super) fn import(arguments: &ImportArguments, session: &Session) -> Result<(
                 session.remark(&format!("{file}: {count} {what} left out: no rate belongs to them"));
             }
         }
+        refuse_foreign(&folder.join(file))?;
         let curve = exported.curve.clone();
         let component = curve.component().or(arguments.component);
         write_aside(&folder.join(file), curve_text(&curve.with_component(component), exported).as_bytes())?;
@@ -167,6 +173,19 @@ fn one_site(curves: &[ExportedCurve], arguments: &ImportArguments) -> Result<Str
     sites.dedup();
     // several engines write the same place with other digits
     let chosen = arguments.site.name.is_some() || arguments.site.near.is_some();
+    if let (true, Some(other)) = (
+        chosen,
+        curves
+            .iter()
+            .find(|other| other.site.distance_km(first.site.longitude_deg, first.site.latitude_deg) > ONE_PLACE_KM),
+    ) {
+        return Err(UpliftError::input(format!(
+            "the exports give two places for one site, {} and {}, {:.1} km apart: import them one by one, or give exports of the same sites",
+            first.site,
+            other.site,
+            other.site.distance_km(first.site.longitude_deg, first.site.latitude_deg)
+        )));
+    }
     if sites.len() > 1 && !chosen {
         return Err(UpliftError::Usage(format!(
             "the exports hold {} sites: pick one by --near LON,LAT{}",
@@ -204,7 +223,9 @@ fn weight_of(kind: &Statistic, weights: &BTreeMap<u32, RealizationWeight>) -> Op
 
 fn curve_text(curve: &HazardCurve, exported: &ExportedCurve) -> String {
     let site = &exported.site;
-    let name = site.name.as_ref().map_or_else(String::new, |name| format!("site: {name}; "));
+    // a name must not be taken for what the lines of a curve declare
+    let plain = |name: &String| name.replace([';', ',', ':', '#', '\n', '\r'], " ");
+    let name = site.name.as_ref().map_or_else(String::new, |name| format!("site: {}; ", plain(name)));
     let vs30 = exported.vs30_m_s.map_or_else(String::new, |vs30| format!("; Vs30 {vs30} m/s"));
     let rate = match exported.investigation_years {
         Some(years) => format!("mean annual frequency of exceedance, 1/yr, as -ln(1 - p)/T with T = {years} yr"),

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{FileArguments, Session, UpliftError};
+use super::{FileArguments, Session, UpliftError, refuse_foreign};
 use crate::import::{ImportOptions, Imported, Warning, import as import_folder, manifest_columns};
-use crate::result::write_table;
+use crate::result::{write_aside, write_table};
 
 /// Remarks of one kind that are shown.
 const SHOWN: usize = 5;
@@ -32,6 +32,7 @@ pub(super) fn import(arguments: &ImportArguments, session: &Session) -> Result<(
     if output.extension().is_none_or(|extension| extension != "csv") {
         return Err(UpliftError::Usage(format!("-o {}: give a name that ends in .csv, or a folder", output.display())));
     }
+    refuse_foreign(&output)?;
     if !arguments.folder.is_dir() {
         return Err(UpliftError::input(format!("{} is not a folder", arguments.folder.display())));
     }
@@ -43,8 +44,10 @@ pub(super) fn import(arguments: &ImportArguments, session: &Session) -> Result<(
     let options = ImportOptions { format, dt_s, unit, gravity_m_s2, pulses: !arguments.no_pulses };
     let start = std::time::Instant::now();
     let imported = import_folder(&arguments.folder, &options, session.quiet, &session.stop)?;
-    if !session.quiet {
-        tell(&imported);
+    let remarks = output.with_extension("remarks.txt");
+    let told = tell(&imported, &remarks, session.quiet);
+    if !told.is_empty() {
+        write_aside(&remarks, told.as_bytes())?;
     }
     if imported.pairs.is_empty() {
         return Err(UpliftError::input(format!(
@@ -68,8 +71,8 @@ pub(super) fn import(arguments: &ImportArguments, session: &Session) -> Result<(
     Ok(())
 }
 
-/// Remarks on standard error, those of a kind together.
-fn tell(imported: &Imported) {
+/// Remarks on standard error, those of a kind together, the first of each; all of them are returned, for the file `remarks`.
+fn tell(imported: &Imported, remarks: &Path, quiet: bool) -> String {
     let mut kinds: Vec<(&str, Vec<&Warning>)> = Vec::new();
     for warning in &imported.warnings {
         match kinds.iter_mut().find(|(kind, _)| *kind == warning.kind) {
@@ -77,22 +80,25 @@ fn tell(imported: &Imported) {
             None => kinds.push((warning.kind, vec![warning])),
         }
     }
-    for (kind, warnings) in kinds {
-        eprintln!("{kind} ({}):", warnings.len());
-        show(warnings.iter().map(|warning| warning.text.as_str()), "; the manifest has them in its column warnings");
-    }
+    let mut sections: Vec<(&str, Vec<&str>)> = kinds
+        .into_iter()
+        .map(|(kind, warnings)| (kind, warnings.iter().map(|warning| warning.text.as_str()).collect()))
+        .collect();
     if !imported.passed_over.is_empty() {
-        eprintln!("not read ({}):", imported.passed_over.len());
-        show(imported.passed_over.iter().map(String::as_str), "");
+        sections.push(("not read", imported.passed_over.iter().map(String::as_str).collect()));
     }
-}
-
-fn show<'a>(texts: impl ExactSizeIterator<Item = &'a str>, where_else: &str) {
-    let more = texts.len().saturating_sub(SHOWN);
-    for text in texts.take(SHOWN) {
-        eprintln!("  - {text}");
+    let mut all = String::new();
+    for (kind, texts) in sections {
+        let head = format!("{kind} ({}):\n", texts.len());
+        let lines: Vec<String> = texts.iter().map(|text| format!("  - {text}\n")).collect();
+        if !quiet {
+            let more = texts.len().saturating_sub(SHOWN);
+            eprint!("{head}{}", lines[..texts.len() - more].concat());
+            if more > 0 {
+                eprintln!("  - and {more} more: {}", remarks.display());
+            }
+        }
+        all += &(head + &lines.concat());
     }
-    if more > 0 {
-        eprintln!("  - and {more} more{where_else}");
-    }
+    all
 }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{Session, SetArguments, UpliftError, refuse_overwriting};
+use super::{Session, SetArguments, UpliftError, refuse_foreign, refuse_overwriting};
 use crate::inputs::manifest;
 use crate::result::write_table;
 
@@ -27,6 +27,7 @@ pub(super) fn select(arguments: &SelectArguments, session: &Session) -> Result<(
     let set = &arguments.set.set;
     if let Some(output) = &arguments.output {
         refuse_overwriting(output, &[set])?;
+        refuse_foreign(output)?;
     }
     let (pairs, count) = arguments.set.read(session)?;
     let mut out = std::io::stdout().lock();

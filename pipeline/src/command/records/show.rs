@@ -9,6 +9,7 @@ use uplift_motion::{Accelerogram, Combination, Orientation, ReadOptions, RecordP
 use super::{FileArguments, UpliftError};
 use crate::import::{PairMeasures, warnings_of_pair};
 use crate::inputs::manifest;
+use crate::inputs::pairs::read_component;
 
 #[derive(Debug, Args)]
 pub(super) struct ShowArguments {
@@ -51,18 +52,11 @@ pub(super) fn show(arguments: &ShowArguments) -> Result<(), UpliftError> {
         )));
     };
     let component = |file: &manifest::ComponentFile| -> Result<Recording, UpliftError> {
-        let options = ReadOptions { format: row.format, channel: None, dt_s: row.dt_s, unit: row.unit, gravity_m_s2 };
-        let mut recordings = read_record_file(&file.path, &options).map_err(fail)?.recordings;
-        let index = file.channel.unwrap_or(1) - 1;
-        if index >= recordings.len() {
-            return Err(UpliftError::input(format!(
-                "record {id}: {} holds {} component(s), and the manifest asks for number {}",
-                file.path.display(),
-                recordings.len(),
-                index + 1
-            )));
-        }
-        Ok(recordings.swap_remove(index))
+        let (format, channel) = (row.format, file.channel);
+        let options = ReadOptions { format, channel, dt_s: row.dt_s, unit: row.unit, gravity_m_s2 };
+        read_component(file, &options)
+            .map(|(recording, _)| recording)
+            .map_err(|reason| UpliftError::input(format!("record {id}: {reason}")))
     };
     let [one, other] = [component(&row.components[0])?, component(&row.components[1])?];
     writeln!(out, "record {id}")?;

@@ -10,7 +10,7 @@ use uplift_oscillator::Oscillator;
 use super::Session;
 use crate::error::UpliftError;
 use crate::inputs::RecordSet;
-use crate::kept::{EarlierStripes, KeptPieces, PieceFile, PieceFileHead, StripeKeys, motion_key};
+use crate::kept::{EarlierStripes, KeptPieces, PieceFile, PieceFileHead, PieceKey, StripeKeys, motion_key};
 use crate::progress::Progress;
 use crate::stages::{Stripes, analyse_stripes, oscillators, plan_stripes};
 use crate::study::ResolvedStudy;
@@ -29,6 +29,8 @@ pub(crate) struct Work<'a> {
 /// What is known before anything is computed.
 pub(crate) struct Known {
     pub(crate) kept: KeptPieces,
+    /// Bytes of the file that were cut off or damaged.
+    damaged_bytes: u64,
     earlier: Option<EarlierStripes>,
 }
 
@@ -57,6 +59,15 @@ impl<'a> Work<'a> {
         PieceFileHead::new(work, &self.study.title, [part.index + 1, part.count], pieces)
     }
 
+    /// How many of the pieces of one part `kept` has, and how many there are.
+    pub(crate) fn share_of(&self, part: Part, kept: &KeptPieces) -> [u64; 2] {
+        let of_part = |(record, strength, key): (usize, usize, PieceKey)| {
+            part.contains(record, strength, self.study.strengths.len()).then_some(key)
+        };
+        let keys = || self.keys.iter().flat_map(StripeKeys::iter).filter_map(of_part);
+        [keys().filter(|key| kept.contains(*key)).count() as u64, keys().count() as u64]
+    }
+
     /// Carries out one part, keeps every finished piece in `file`, and returns the stripes by measure if the part is the whole.
     ///
     /// # Errors
@@ -83,6 +94,13 @@ impl<'a> Work<'a> {
             known.kept.fill(keys, &mut of_measure);
             cells.push(of_measure);
         }
+        if known.damaged_bytes > 0 {
+            session.remark(&format!(
+                "note: {}: pieces that were cut off or damaged ({} bytes) are computed again",
+                file.path().display(),
+                known.damaged_bytes
+            ));
+        }
         let before: u64 = cells.iter().map(Cells::count).sum();
         if before > 0 {
             session.remark(&format!(
@@ -104,9 +122,14 @@ impl<'a> Work<'a> {
             ));
             let progress =
                 Progress::new(label, "analyses", share(plan.analyses()), session.quiet, session.stop.clone());
+            let strengths = study.strengths.len();
+            let known_in_rows: Vec<usize> = (0..self.records.records.len() * strengths)
+                .map(|row| cells.known_in_row(row / strengths, row % strengths))
+                .collect();
             let keep = |piece: &Piece<'_>| {
                 file.append(keys.at(piece.record, piece.strength), piece);
-                finished.fetch_add(piece.edp_m.len() as u64, Ordering::Relaxed);
+                let new = piece.edp_m.len() - known_in_rows[piece.record * strengths + piece.strength];
+                finished.fetch_add(new as u64, Ordering::Relaxed);
             };
             let watch = UntilFull { progress: &progress, file };
             let outcome = analyse_stripes(measure, plan, cells, part, &watch, &keep);
@@ -152,8 +175,9 @@ pub(crate) fn open(
     head: &PieceFileHead,
     result: Option<&Path>,
 ) -> Result<(PieceFile, Known), UpliftError> {
-    let (file, kept) = PieceFile::open(path, head)?;
-    Ok((file, Known { kept, earlier: result.and_then(EarlierStripes::open) }))
+    let (file, found) = PieceFile::open(path, head)?;
+    let damaged_bytes = found.damaged_bytes;
+    Ok((file, Known { kept: found.kept, damaged_bytes, earlier: result.and_then(EarlierStripes::open) }))
 }
 
 /// Stops when the user says so, and when nothing more can be kept.
