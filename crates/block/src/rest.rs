@@ -86,13 +86,14 @@ mod tests {
     use crate::response::{BlockResponse, FreeRocking, run};
     use uplift_motion::Accelerogram;
 
-    /// Bursts of noise with quiet in between, m/s²: the block rocks, chatters, rests, uplifts again.
+    /// Bursts of noise, each stronger than the one before, with quiet in between, m/s²: the block rocks, chatters, rests, and has
+    /// its peak in the last.
     fn bursts(seed: u64) -> Accelerogram {
         let mut state = seed;
         let samples = (0..3000_u32).map(|i| {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             let noise = (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0;
-            let strength = if (i / 150) % 4 == 0 { 12.0 } else { 0.3 };
+            let strength = if (i / 150) % 5 == 0 { 6.0 + 3.0 * f64::from(i / 750) } else { 0.3 };
             strength * noise
         });
         Accelerogram::new(0.01, samples.collect()).unwrap()
@@ -105,24 +106,28 @@ mod tests {
 
     #[test]
     fn the_rule_does_not_enter_the_result() {
-        let (mut largest, mut cut_short) = (0.0_f64, 0);
+        let (mut largest, mut cut_short, mut coarse) = (0.0_f64, 0, 0.0_f64);
         for seed in 0..12 {
             let record = bursts(seed);
-            for alpha in [0.15, 0.25, 0.4] {
+            for alpha in [0.2, 0.3, 0.4] {
                 let block = RockingBlock::new(1.0 + seed as f64, alpha).unwrap();
                 let proven = response(&block, &record, RestRule::Proven);
                 assert!(proven.rotation_rad > 0.0 && !proven.chatter_was_cut);
+                let deviation = |rule| {
+                    let below = response(&block, &record, rule);
+                    ((below.rotation_rad / proven.rotation_rad - 1.0).abs(), below.impacts > proven.impacts)
+                };
                 for velocity in [1e-12, 1e-15] {
-                    let below = response(&block, &record, RestRule::Below(velocity));
-                    assert_eq!(proven.overturning, below.overturning);
-                    assert!(below.impacts >= proven.impacts);
-                    cut_short += usize::from(below.impacts > proven.impacts);
-                    largest = largest.max((proven.rotation_rad / below.rotation_rad - 1.0).abs());
+                    let (deviation, is_longer) = deviation(RestRule::Below(velocity));
+                    largest = largest.max(deviation);
+                    cut_short += usize::from(is_longer);
                 }
+                // a careless threshold does enter it
+                coarse = coarse.max(deviation(RestRule::Below(1e-3)).0);
             }
         }
-        println!("largest deviation {largest:.1e}, {cut_short} of 72 cut short");
-        assert!(cut_short > 60 && largest < 1e-11, "{cut_short} {largest:e}");
+        println!("deviation {largest:.1e}, with a threshold of 1e-3 rad/s {coarse:.1e}; {cut_short} of 72 cut short");
+        assert!(largest < 1e-11 && coarse > 1e-5 && cut_short > 36, "{largest:e} {coarse:e} {cut_short}");
     }
 
     fn rebound(velocity: f64) -> Rebound {
