@@ -25,13 +25,6 @@ pub(crate) enum Ending {
     PeakPassed,
 }
 
-/// Whether the ground still moves, and what ends free rocking.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Phase {
-    Shaken,
-    Free { until_peak: bool },
-}
-
 /// State of a block on its way, in the frame of the corner it stands on.
 #[derive(Debug)]
 pub(crate) struct Motion<'a, O> {
@@ -97,12 +90,12 @@ impl<'a, O: Observer> Motion<'a, O> {
     }
 
     /// Moves through a piece of `length_s` that begins at `start_s`; `shaking` gives the ground acceleration \[m/s²\] from an
-    /// offset in the piece on, in powers of (time − offset)/step.
+    /// offset in the piece on, in powers of (time − offset)/step. Ends early, if so told, when |θ| has passed a maximum.
     pub(crate) fn pass(
         &mut self,
         start_s: f64,
         length_s: f64,
-        phase: Phase,
+        until_peak: bool,
         shaking: impl Fn(f64, f64) -> Forcing,
     ) -> ControlFlow<Ending> {
         let gravity = self.block.gravity_m_s2();
@@ -155,10 +148,10 @@ impl<'a, O: Observer> Motion<'a, O> {
                 self.see(start_s + offset, Moment::Uplift);
             }
 
-            let begin_s = start_s + offset;
-            offset = if series.step_s >= length_s - offset { length_s } else { offset + series.step_s };
-            if let Some(s) = self.step(&series, begin_s, phase)? {
-                offset = (begin_s - start_s) + s * series.step_s;
+            let begin = offset;
+            offset = if series.step_s >= length_s - begin { length_s } else { begin + series.step_s };
+            if let Some(s) = self.step(&series, |s| start_s + (begin + s * series.step_s), until_peak)? {
+                offset = begin + s * series.step_s;
                 if !self.resting && self.impacts - impacts_before >= u64::from(MOST_IMPACTS) {
                     self.was_cut = true;
                     self.come_to_rest(start_s + offset);
@@ -170,9 +163,12 @@ impl<'a, O: Observer> Motion<'a, O> {
     }
 
     /// Goes through one step, up to an impact if there is one: then the answer is where.
-    fn step(&mut self, series: &Series, begin_s: f64, phase: Phase) -> ControlFlow<Ending, Option<f64>> {
-        let time_s = |s: f64| begin_s + s * series.step_s;
-        let until_peak = phase == Phase::Free { until_peak: true };
+    fn step(
+        &mut self,
+        series: &Series,
+        time_s: impl Fn(f64) -> f64,
+        until_peak: bool,
+    ) -> ControlFlow<Ending, Option<f64>> {
         let was_rising = self.v >= 0.0;
         let touch = first_touch(series.x());
         let end = touch.unwrap_or(1.0);
@@ -200,7 +196,7 @@ impl<'a, O: Observer> Motion<'a, O> {
             if until_peak && was_rising {
                 return ControlFlow::Break(Ending::PeakPassed);
             }
-            self.impact(v, time_s(end), phase)?;
+            self.impact(v, time_s(end));
             return ControlFlow::Continue(Some(end));
         }
         (self.x, self.v) = (x, v);
@@ -212,7 +208,7 @@ impl<'a, O: Observer> Motion<'a, O> {
     }
 
     /// The block hits the ground with the velocity `v` ≤ 0 and stands on its other corner (Eq. 2.3).
-    fn impact(&mut self, v: f64, time_s: f64, phase: Phase) -> ControlFlow<Ending> {
+    fn impact(&mut self, v: f64, time_s: f64) {
         (self.x, self.v) = (0.0, v.min(0.0)); // above zero by a rounding at most
         self.see(time_s, Moment::BeforeImpact);
         self.side = -self.side;
@@ -222,10 +218,6 @@ impl<'a, O: Observer> Motion<'a, O> {
         if self.v == 0.0 {
             self.come_to_rest(time_s);
         }
-        if phase != Phase::Shaken && self.is_lost() {
-            return ControlFlow::Break(self.overturn(time_s));
-        }
-        ControlFlow::Continue(())
     }
 
     pub(crate) fn overturn(&mut self, time_s: f64) -> Ending {

@@ -50,7 +50,9 @@ impl Observer for Unobserved {
 }
 
 impl Observer for History {
-    fn see(&mut self, row: HistoryRow) {
+    fn see(&mut self, mut row: HistoryRow) {
+        // an event next to the end of a piece may be a rounding beyond it
+        row.time_s = self.rows.last().map_or(row.time_s, |last| row.time_s.max(last.time_s));
         self.rows.push(row);
     }
 }

@@ -54,8 +54,8 @@ fn search(
     let n = bernstein.len();
     let (left, right) = (&mut left[..n], &mut right[..n]);
     right.copy_from_slice(bernstein);
-    for i in 0..n {
-        left[i] = right[0];
+    for (i, left) in left.iter_mut().enumerate() {
+        *left = right[0];
         for j in 0..n - 1 - i {
             right[j] = 0.5 * (right[j] + right[j + 1]);
         }
@@ -119,9 +119,9 @@ fn solve(c: &[f64], mut lo: f64, mut hi: f64, sign: f64) -> f64 {
             return s;
         }
         if f.signum() == sign {
-            lo = s
+            lo = s;
         } else {
-            hi = s
+            hi = s;
         }
         let newton = s - f / slope;
         let next = if newton > lo && newton < hi { newton } else { 0.5 * (lo + hi) };

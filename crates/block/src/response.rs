@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use crate::block::{LYING_RAD, RockingBlock};
 use crate::error::{BlockError, within};
 use crate::excitation::Excitation;
-use crate::motion::{Ending, LONGEST_STEP, Motion, Phase};
+use crate::motion::{Ending, LONGEST_STEP, Motion};
 use crate::observer::{History, Moment, Observer, Unobserved};
 use crate::rest::RestRule;
 use crate::series::Forcing;
@@ -19,8 +19,11 @@ pub enum FreeRocking {
     /// Until its first peak, after which none is larger.
     #[default]
     FirstPeak,
-    /// For this time \[s\], or until it rests or overturns.
-    Lasting(f64),
+    /// For a time, or until it rests or overturns.
+    Lasting {
+        /// The time \[s\].
+        duration_s: f64,
+    },
 }
 
 /// Whether a block overturns, and how: the two modes of Zhang & Makris (2001).
@@ -103,7 +106,7 @@ pub fn rock_freely(
     duration_s: f64,
 ) -> Result<(BlockResponse, History), BlockError> {
     within("initial rotation", rotation_rad, "rad", -LYING_RAD..=LYING_RAD, "between -pi/2 and pi/2 rad")?;
-    run(block, None, rotation_rad, FreeRocking::Lasting(duration_s), RestRule::Proven, History::default())
+    run(block, None, rotation_rad, FreeRocking::Lasting { duration_s }, RestRule::Proven, History::default())
 }
 
 pub(crate) fn run<O: Observer>(
@@ -117,8 +120,8 @@ pub(crate) fn run<O: Observer>(
     let shaken_s = excitation.map_or(0.0, |excitation| excitation.duration_s());
     let free_s = match free {
         FreeRocking::FirstPeak => 0.0,
-        FreeRocking::Lasting(time_s) => {
-            within("time of free rocking", time_s, "s", 0.0..=f64::MAX, "finite and not negative")?
+        FreeRocking::Lasting { duration_s } => {
+            within("time of free rocking", duration_s, "s", 0.0..=f64::MAX, "finite and not negative")?
         }
     };
     excitation.map_or(Ok(()), |excitation| excitation.check())?;
@@ -163,7 +166,7 @@ fn follow<O: Observer>(
         for piece in 0..excitation.pieces() {
             let begin_s = start_s + piece as f64 * length_s;
             let shaking = |offset, step| excitation.taylor(piece, offset, step);
-            if let ControlFlow::Break(ending) = motion.pass(begin_s, length_s, Phase::Shaken, shaking) {
+            if let ControlFlow::Break(ending) = motion.pass(begin_s, length_s, false, shaking) {
                 return Some(ending);
             }
             motion.see(start_s + (piece + 1) as f64 * length_s, Moment::Sample);
@@ -173,23 +176,24 @@ fn follow<O: Observer>(
         motion.see(0.0, Moment::Sample);
     }
 
-    if motion.is_lost() {
-        return Some(motion.overturn(end_s));
-    }
     let (until_peak, last_s) = match free {
         FreeRocking::FirstPeak => (true, f64::INFINITY),
-        FreeRocking::Lasting(time_s) => (false, time_s),
+        FreeRocking::Lasting { duration_s } => (false, duration_s),
     };
     let mut steps = 0.0;
-    while !motion.resting && steps * step_s < last_s {
+    loop {
         let begin_s = steps * step_s;
+        if motion.is_lost() {
+            return Some(motion.overturn(end_s + begin_s.min(last_s)));
+        }
+        if motion.resting || begin_s >= last_s {
+            return None;
+        }
         let length_s = step_s.min(last_s - begin_s);
-        let phase = Phase::Free { until_peak };
-        if let ControlFlow::Break(ending) = motion.pass(end_s + begin_s, length_s, phase, |_, _| Forcing::none()) {
+        if let ControlFlow::Break(ending) = motion.pass(end_s + begin_s, length_s, until_peak, |_, _| Forcing::none()) {
             return Some(ending);
         }
         motion.see(end_s + begin_s + length_s, Moment::Sample);
         steps += 1.0;
     }
-    None
 }

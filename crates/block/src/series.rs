@@ -185,6 +185,7 @@ fn stretch(c: &mut [f64], ratio: f64) {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::print_stdout)]
     use super::*;
 
     /// v²/2 + p² cos(α − x) is constant without shaking: at the end of a step as long as the series allows, and inside.
@@ -211,6 +212,18 @@ mod tests {
         assert_eq!(series.step_s, h);
         let exact = -2e-9 + 2.5e-9 * (p * h).cosh();
         assert!((series.at(1.0).0 / exact - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn an_interval_of_a_record_takes_a_low_order() {
+        let mut forcing = Forcing::default();
+        forcing.push(-0.3);
+        forcing.push(0.05);
+        for (size, v) in [(1.0, 1.0), (10.0, 0.3), (500.0, 0.01)] {
+            let series = Series::expand(0.02, v, &forcing, 0.01, 0.75 * 9.8 / size, 0.2);
+            println!("R = {size} m: order {}", series.order);
+            assert!((4..=10).contains(&series.order) && series.step_s == 0.01);
+        }
     }
 
     #[test]

@@ -38,7 +38,7 @@ pub struct PulseSpectrumPlan {
 pub struct SpectrumPoint {
     /// θmax/α; +∞ if the block overturns.
     pub rotation: f64,
-    /// u_max ωₚ²/aₚ; +∞ if the block overturns.
+    /// `u_max` ωₚ²/aₚ; +∞ if the block overturns.
     pub displacement: f64,
     /// Impacts, up to the peak of free rocking after the pulse or to overturning.
     pub impacts: u64,
@@ -70,7 +70,7 @@ impl PulseSpectrum {
 ///
 /// # Errors
 /// [`BlockError::Empty`] for an axis without values, [`BlockError::OutOfRange`] for one that is not above zero (and below 1e6),
-/// or for the slenderness or restitution of no block; [`BlockError::TooLong`] for a pulse of more than 1e7/p.
+/// or for what no block and no pulse has; [`BlockError::TooLong`] for a pulse of more than 1e7/p.
 ///
 /// # Source
 /// Reggiani Manzo, Sections 2.2 and 2.3.

@@ -104,7 +104,7 @@ proptest! {
     #[test]
     fn a_history_holds_its_peak_and_no_gap(block in blocks(), samples in shakings()) {
         let motion = record(&samples);
-        let (response, history) = respond_with_history(&block, &motion, FreeRocking::Lasting(1.0)).unwrap();
+        let (response, history) = respond_with_history(&block, &motion, FreeRocking::Lasting { duration_s: 1.0 }).unwrap();
         let rows = &history.rows;
         prop_assert!(rows.windows(2).all(|rows| rows[0].time_s <= rows[1].time_s));
         prop_assert!(rows.iter().all(|row| row.rotation_rad.abs() <= response.rotation_rad * (1.0 + 1e-12)));
@@ -141,6 +141,22 @@ proptest! {
     }
 }
 
+/// An elastic block, lifted for a moment only, would rebound 1e12 times in a second: that is cut, and said.
+#[test]
+fn endless_chatter_is_cut_and_said() {
+    let elastic = RockingBlock::new(1.0, 0.2).unwrap().with_restitution(1.0).unwrap();
+    let most = elastic.uplift_acceleration_m_s2();
+    let motion = Accelerogram::new(1.0, vec![0.0, most * (1.0 + 1e-6), 0.0, 0.0, -1.05 * most, 0.0]).unwrap();
+    let response = peak(&elastic, &motion);
+    assert!(response.chatter_was_cut && response.impacts > 100_000);
+    let housner = RockingBlock::new(1.0, 0.2).unwrap();
+    let other = peak(&housner, &motion);
+    assert!(!other.chatter_was_cut && other.impacts < 5_000, "{}", other.impacts);
+    // what was cut is nothing beside the later motion
+    assert!(other.rotation_rad > 1e-4 && other.rotation_rad.is_finite(), "{}", other.rotation_rad);
+    assert!((response.rotation_rad / other.rotation_rad - 1.0).abs() < 1e-9, "{response:?} {other:?}");
+}
+
 #[test]
 fn refuses_what_no_ground_does() {
     let block = RockingBlock::new(1.0, 0.1).unwrap();
@@ -150,6 +166,6 @@ fn refuses_what_no_ground_does() {
     let small = RockingBlock::new(1e-6, 0.1).unwrap();
     assert!(matches!(respond(&small, long, FreeRocking::FirstPeak), Err(BlockError::TooLong { .. })));
     for bad in [f64::NAN, -1.0, f64::INFINITY] {
-        assert!(respond(&block, &record(&[0.0; 3]), FreeRocking::Lasting(bad)).is_err());
+        assert!(respond(&block, &record(&[0.0; 3]), FreeRocking::Lasting { duration_s: bad }).is_err());
     }
 }

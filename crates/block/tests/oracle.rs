@@ -61,7 +61,7 @@ fn every_reference_case() {
     for case in &reference.cases {
         let record = Accelerogram::new(case.dt, reference.records[&case.record].clone()).unwrap();
         let block = RockingBlock::new(case.size, case.alpha).unwrap().with_gravity(case.g).unwrap();
-        for free in [FreeRocking::FirstPeak, FreeRocking::Lasting(case.t_free)] {
+        for free in [FreeRocking::FirstPeak, FreeRocking::Lasting { duration_s: case.t_free }] {
             let deviation = check(case, &respond(&block, &record, free).unwrap());
             assert!(deviation < TOLERANCE, "{}: {deviation:e}", case.id);
             largest = largest.max(deviation);

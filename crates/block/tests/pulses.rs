@@ -9,7 +9,7 @@ use uplift_block::{
 const SHAPES: [RickerShape; 2] = [RickerShape::Symmetric, RickerShape::Antisymmetric];
 const G: f64 = 9.806_65;
 
-/// Section 2.5: as α → 0 with H → ∞, u_max → 3/2 PGD; the deviation goes with α.
+/// Section 2.5: as α → 0 with H → ∞, `u_max` → 3/2 PGD; the deviation goes with α.
 #[test]
 fn the_slender_limit_is_three_halves_of_the_ground_displacement() {
     for shape in SHAPES {
@@ -28,7 +28,7 @@ fn the_slender_limit_is_three_halves_of_the_ground_displacement() {
     }
 }
 
-/// θmax/α and u_max ωₚ²/aₚ depend on α, ωₚ/p and aₚ/(g tan α) alone (Eq. 2.6 and 2.12), whatever the block's size.
+/// θmax/α and `u_max` ωₚ²/aₚ depend on α, ωₚ/p and aₚ/(g tan α) alone (Eq. 2.6 and 2.12), whatever the block's size.
 #[test]
 fn similar_blocks_under_similar_pulses() {
     for shape in SHAPES {
@@ -169,7 +169,7 @@ fn refuses_what_is_no_spectrum() {
         error(&PulseSpectrumPlan { slenderness_rad: 1.5, ..good.clone() }).contains("slenderness alpha is 1.5 rad")
     );
     assert!(matches!(
-        pulse_spectrum(&PulseSpectrumPlan { sizes: vec![1e-8], ..good }),
+        pulse_spectrum(&PulseSpectrumPlan { sizes: vec![3e-6], ..good }),
         Err(BlockError::TooLong { .. })
     ));
 }
