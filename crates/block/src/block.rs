@@ -178,6 +178,19 @@ mod tests {
         assert!((block.top_displacement_m(1e-18) / (6.0 * 1e-18 * 0.2_f64.cos()) - 1.0).abs() < 1e-15);
     }
 
+    /// At the separatrix v²/2 + p² cos(α − x) is the p² of the block on its corner.
+    #[test]
+    fn a_block_is_lost_from_the_energy_of_its_corner_on() {
+        let block = RockingBlock::new(2.0, 0.3).unwrap();
+        let p = block.frequency_parameter_rad_s();
+        for tilt in [0.0, 0.1, 0.299, 0.301, 0.8, 1.5] {
+            let inward = if tilt > 0.3 { -1.0 } else { 1.0 };
+            let limit = inward * p * (2.0 * (1.0 - (0.3_f64 - tilt).cos())).sqrt();
+            let margin = 1e-9 * limit.abs();
+            assert!(block.is_lost(tilt, limit + margin) && !block.is_lost(tilt, limit - margin), "{tilt}");
+        }
+    }
+
     #[test]
     fn refuses_what_is_no_block() {
         for size in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-7] {

@@ -10,7 +10,7 @@ use crate::series::{Forcing, Series};
 
 /// Impacts in one piece after which a block that cannot be shown to come to rest is taken to be.
 ///
-/// Only nearly elastic blocks get there, when they rebound by less than 1e-11 of what gravity draws them down in the piece.
+/// Only nearly elastic blocks get there, with rebounds some 2e-11 of what gravity would draw them down during the piece.
 const MOST_IMPACTS: u32 = 100_000;
 
 /// Longest step in units of 1/p: the series has converged by then at order 14 or so.

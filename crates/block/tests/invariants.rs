@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use proptest::prelude::*;
+use proptest::test_runner::TestCaseResult;
 use uplift_block::{
     BlockError, BlockResponse, FreeRocking, Moment, Overturning, RickerPulse, RickerShape, RockingBlock, respond,
     respond_with_history,
@@ -36,10 +37,18 @@ fn shakings() -> impl Strategy<Value = Vec<f64>> {
     prop::collection::vec(-12.0..12.0_f64, 2..150)
 }
 
-/// Equal to rounding, and what chaos and a nearby separatrix make of it.
-fn nearly(one: &BlockResponse, other: &BlockResponse) -> bool {
-    let equal = (one.rotation_rad - other.rotation_rad).abs() <= 1e-9 * one.rotation_rad;
-    one.rotation_rad == other.rotation_rad || equal
+/// Asserts that `other` is the response `one` of `block` to `motion` up to rounding, as the motion amplifies it: by how much a
+/// change of 1e-10 of the record changes the peak.
+fn nearly(block: &RockingBlock, motion: &Accelerogram, one: &BlockResponse, other: &BlockResponse) -> TestCaseResult {
+    prop_assert_eq!(one.overturning, other.overturning);
+    if one.is_overturned() || one.rotation_rad == 0.0 {
+        prop_assert_eq!(one.rotation_rad, other.rotation_rad);
+        return Ok(());
+    }
+    let change = |other: &BlockResponse| (other.rotation_rad / one.rotation_rad - 1.0).abs();
+    let amplification = change(&peak(block, &motion.scaled(1.0 + 1e-10).unwrap())) / 1e-10;
+    prop_assert!(change(other) <= 1e-11 + 1e-13 * amplification, "{one:?} {other:?}, amplification {amplification:e}");
+    Ok(())
 }
 
 proptest! {
@@ -65,14 +74,21 @@ proptest! {
         let largest = samples.iter().fold(1e-9_f64, |peak, a| peak.max(a.abs()));
         let strong = record(&samples).scaled(1.000_1 * block.uplift_acceleration_m_s2() / largest).unwrap();
         let response = peak(&block, &strong);
-        prop_assert!(response.rotation_rad > 0.0 && response.uplift_s.is_some());
+        prop_assert!(response.rotation_rad > 0.0);
+        // to the first intersection of the record's straight lines with the threshold
+        let (a, threshold) = (strong.acceleration_m_s2(), block.uplift_acceleration_m_s2());
+        let last = a.iter().position(|a| a.abs() > threshold).unwrap();
+        let Some(first) = last.checked_sub(1) else { return Ok(()) };
+        let (level, rise) = (threshold.copysign(a[last]), a[last] - a[first]);
+        let time = strong.dt_s() * (first as f64 + (level - a[first]) / rise);
+        let rounding = 1e-14 + 1e-15 * strong.dt_s() * (threshold / rise).abs();
+        prop_assert!((response.uplift_s.unwrap() - time).abs() < rounding, "{:?} {time}", response.uplift_s);
     }
 
     #[test]
     fn splitting_every_interval_changes_nothing(block in blocks(), samples in shakings()) {
-        let (coarse, fine) = (peak(&block, &record(&samples)), peak(&block, &refined(&samples)));
-        prop_assert_eq!(coarse.overturning, fine.overturning);
-        prop_assert!(nearly(&coarse, &fine), "{:?} {:?}", coarse, fine);
+        let motion = record(&samples);
+        nearly(&block, &motion, &peak(&block, &motion), &peak(&block, &refined(&samples)))?;
     }
 
     #[test]
@@ -80,9 +96,9 @@ proptest! {
         let mut later = vec![0.0; 50];
         later.extend(&samples);
         let first: Vec<f64> = std::iter::once(0.0).chain(samples).collect();
-        let (now, later) = (peak(&block, &record(&first)), peak(&block, &record(&later)));
-        prop_assert_eq!(now.overturning, later.overturning);
-        prop_assert!(nearly(&now, &later));
+        let motion = record(&first);
+        let (now, later) = (peak(&block, &motion), peak(&block, &record(&later)));
+        nearly(&block, &motion, &now, &later)?;
         if let (Some(now), Some(later)) = (now.uplift_s, later.uplift_s) {
             prop_assert!((later - now - 49.0 * 0.02).abs() < 1e-12);
         }
@@ -96,9 +112,8 @@ proptest! {
         let other = other.with_gravity(gravity * block.gravity_m_s2()).unwrap();
         let dt = 0.02 * block.frequency_parameter_rad_s() / other.frequency_parameter_rad_s();
         let motion = Accelerogram::new(dt, samples.iter().map(|a| gravity * a).collect()).unwrap();
-        let (one, two) = (peak(&block, &record(&samples)), peak(&other, &motion));
-        prop_assert_eq!(one.overturning, two.overturning);
-        prop_assert!(nearly(&one, &two), "{:?} {:?}", one, two);
+        let own = record(&samples);
+        nearly(&block, &own, &peak(&block, &own), &peak(&other, &motion))?;
     }
 
     #[test]
