@@ -22,18 +22,18 @@
 //! dense output. Impacts, uplifts and peaks are roots of it, isolated by Descartes' rule of signs in Bernstein form, so that
 //! none is passed over between two steps, and solved to rounding.
 //!
-//! General integrators were considered. `ode_solvers` (0.6) has no events. `differential-equations` (0.7) and `diffsol` (0.18)
-//! do; they look for a change of sign between accepted steps, in which two crossings or a grazing one are missed, and the
-//! records' corners and the impacts, several in a sample interval, restart them all the time. For one equation with a
-//! recurrence as short as this a series is the smaller code, and accurate to rounding.
+//! General integrators were considered. `ode_solvers` (0.6) can stop after a step, but locates no event.
+//! `differential-equations` (0.7) and `diffsol` (0.18) do; they look for a change of sign between accepted steps, which misses
+//! two crossings within one, and the records' corners and the impacts, several in a sample interval, restart them all the time.
+//! For one equation with a recurrence as short as this a series is the smaller code, and accurate to rounding.
 //!
 //! # Accuracy and cost
 //! On the reference cases of the tests the peak rotation, its time, the peak displacement and the time of uplift deviate by
-//! 2e-15 at most, relatively; energy between impacts is constant to 1e-15. A rocking block takes about 10 to 25 µs per second
-//! of record at dt = 0.01 s on one core, a block at rest next to nothing, a point of a pulse spectrum about 45 µs.
+//! about 2e-15 at most, relatively; energy between impacts is constant to 1e-15. A rocking block takes about 8 to 20 µs per
+//! second of record at dt = 0.01 s on one core, a block at rest next to nothing, a point of a pulse spectrum about 40 µs.
 //!
-//! The motion itself is sensitive: a block that just overturns and one that just does not are neighbours. Rounding does not
-//! decide that, but a last digit of the record may.
+//! The motion itself is sensitive: it amplifies roundings along with everything else, and a block that just overturns has
+//! neighbours that do not.
 
 pub mod block;
 mod error;
