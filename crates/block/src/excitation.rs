@@ -1,0 +1,87 @@
+//! What shakes the block: a record, or a pulse.
+
+use uplift_motion::Accelerogram;
+
+use crate::error::{BlockError, within};
+use crate::ricker::RickerPulse;
+use crate::series::Forcing;
+
+/// Ground acceleration, smooth on pieces of equal length; there is none before the first piece nor after the last.
+#[derive(Debug, Clone, Copy)]
+pub enum Excitation<'a> {
+    /// A record, linear between its samples: a piece is a sample interval.
+    Record(&'a Accelerogram),
+    /// A Ricker wavelet, analytic: a piece is a sixteenth of its period.
+    Pulse(RickerPulse),
+}
+
+impl<'a> From<&'a Accelerogram> for Excitation<'a> {
+    fn from(record: &'a Accelerogram) -> Self {
+        Self::Record(record)
+    }
+}
+
+impl From<RickerPulse> for Excitation<'_> {
+    fn from(pulse: RickerPulse) -> Self {
+        Self::Pulse(pulse)
+    }
+}
+
+impl Excitation<'_> {
+    /// Time at which the shaking begins \[s\]: zero for a record, three periods before its centre for a pulse.
+    pub fn start_s(&self) -> f64 {
+        match self {
+            Self::Record(_) => 0.0,
+            Self::Pulse(pulse) => pulse.start_s(),
+        }
+    }
+
+    /// How long the shaking lasts \[s\].
+    pub fn duration_s(&self) -> f64 {
+        self.pieces() as f64 * self.piece_s()
+    }
+
+    /// Number of pieces.
+    pub(crate) fn pieces(&self) -> usize {
+        match self {
+            Self::Record(record) => record.len() - 1,
+            Self::Pulse(_) => RickerPulse::pieces(),
+        }
+    }
+
+    /// Length of a piece \[s\].
+    pub(crate) fn piece_s(&self) -> f64 {
+        match self {
+            Self::Record(record) => record.dt_s(),
+            Self::Pulse(pulse) => pulse.piece_s(),
+        }
+    }
+
+    /// Ground acceleration \[m/s²\] in the piece `piece`, in powers of (time − `offset_s`)/`step_s`, with times from its begin.
+    pub(crate) fn taylor(&self, piece: usize, offset_s: f64, step_s: f64) -> Forcing {
+        match self {
+            Self::Record(record) => {
+                let [begin, end] = [piece, piece + 1].map(|i| record.acceleration_m_s2()[i]);
+                let slope = (end - begin) / record.dt_s();
+                let mut forcing = Forcing::default();
+                forcing.push(begin + slope * offset_s);
+                forcing.push(slope * step_s);
+                forcing
+            }
+            Self::Pulse(pulse) => {
+                let t_s = pulse.start_s() + (piece as f64 * pulse.piece_s() + offset_s);
+                pulse.taylor(t_s, step_s)
+            }
+        }
+    }
+
+    /// Refuses accelerations that no ground has.
+    pub(crate) fn check(&self) -> Result<(), BlockError> {
+        if let Self::Record(record) = self {
+            for a in record.acceleration_m_s2() {
+                within("ground acceleration", *a, "m/s2", -1e6..=1e6, "between -1e6 and 1e6 m/s2")?;
+            }
+        }
+        Ok(())
+    }
+}
