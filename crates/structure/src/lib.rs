@@ -12,6 +12,7 @@
 //! | [`rule`] | equal displacement and equal energy: from the ZSBE demand to the structure's (Eq. 3.8–3.11, 3.14) |
 //! | [`design`](mod@design) | required capacity and check of Section 3.4.5 (Eq. 3.15) |
 //! | [`slenderness`] | preliminary design of Section 2.4.3 |
+//! | [`description`] | a structure as written in a TOML file |
 //!
 //! # From a spectrum to a structure
 //! A spectrum gives the displacement of a ZSBE oscillator under the ground motion itself. Table 3.1's oscillator is driven by `Γ` times
@@ -22,6 +23,27 @@
 //! 2. multiply by `Γ`: [`EquivalentSystem::zero_stiffness_demand_m`];
 //! 3. apply a [`Rule`] and compare with the capacity: [`Check`].
 //!
+//! ```
+//! use uplift_structure::{Check, Rule, StructureDescription};
+//!
+//! let description: StructureDescription = toml::from_str(r#"
+//!     kind = "restrained-frame"
+//!     columns = 4
+//!     width_m = 1.6
+//!     height_m = 9.6
+//!     column_mass_kg = 48000.0
+//!     deck_mass_kg = 900000.0
+//!     tendon_stiffness_n_m = 3.0e6       # of each column's tendon and spring, in series
+//!     tendon_anchorage = "column"
+//!     uplift_displacement_m = 0.0005
+//! "#)?;
+//! let bridge = description.resolve().map_err(|mistakes| mistakes[0].clone())?;
+//! let ordinate_m = 0.40; // read from a spectrum at bridge.spectral_strength()
+//! let demand_m = bridge.zero_stiffness_demand_m(ordinate_m)?;
+//! let check = Check::of(&bridge, Rule::EqualEnergy, 2.5, demand_m)?;
+//! assert!(check.is_satisfied());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 //!
 //! # Where the text is silent or errs
 //! | where | text | here |
@@ -40,6 +62,7 @@
 
 pub mod block;
 pub mod curved;
+pub mod description;
 pub mod design;
 pub mod equivalent;
 mod error;
@@ -51,6 +74,7 @@ mod warning;
 
 pub use block::{Block, Body, PointMass, Reference};
 pub use curved::CurvedFrame;
+pub use description::{Kind, StructureDescription};
 pub use design::{Check, design};
 pub use equivalent::{Conditions, EquivalentSystem, PostUplift};
 pub use error::StructureError;
