@@ -197,3 +197,30 @@ fn inputs_are_never_overwritten() {
     study.uplift(&["response", "a.AT2", "--strength", "0.2", "--history", "./a.AT2"]).fails(2, &["overwrite"]);
     assert_eq!(std::fs::read(study.path().join("a.AT2")).unwrap(), before);
 }
+
+// A manifest saved by a spreadsheet, and what stands for an unknown number.
+#[test]
+fn numbers_of_a_manifest() {
+    let study = with_manifest("");
+    let check = |magnitude: &str| {
+        study.write("manifest.csv", &format!("record_id;file_h1;file_h2;magnitude\nA;a.AT2;a.AT2;{magnitude}\n"));
+        study.uplift(&["check", "study.toml", "--set", "records.select.magnitude=\":7\""])
+    };
+    check("6.7").ok();
+    check("6,69").fails(4, &["record A", "magnitude", "decimal comma"]);
+    check("17. Jan").fails(4, &["magnitude is \"17. Jan\"", "0 to 10"]);
+    check("99").fails(4, &["magnitude is \"99\""]);
+    check("-999").fails(4, &["1 of 1 records have no number for magnitude"]);
+}
+
+// Nobody reads what is told on the way: the work goes on.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_closed_error_output_ends_nothing() {
+    let study = SmallStudy::new();
+    let full = || std::process::Stdio::from(std::fs::File::options().write(true).open("/dev/full").unwrap());
+    let run = |arguments: &[&str]| common::command(study.path()).args(arguments).stderr(full()).output().unwrap();
+    assert!(run(&["run", "study.toml"]).status.success());
+    assert!(run(&["bootstrap", "results/study.h5", "--replicates", "20"]).status.success());
+    assert_eq!(run(&["run", "absent.toml"]).status.code(), Some(3));
+}

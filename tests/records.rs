@@ -178,6 +178,20 @@ fn synthetic_records_are_made_listed_shown_and_chosen() {
     uplift(at, &["records", "synthesize", "-o", "x", "--vs30", "500:"]).fails(2, &["both ends"]);
     assert!(!at.join("x").exists());
 
+    // what is synthetic stays so, whichever way it comes back
+    uplift(at, &["records", "import", "set", "-o", "imported.csv"]).ok();
+    uplift(at, &["records", "import", "set", "-o", "imported.csv"]).fails(2, &["imported.csv is there already"]);
+    let study = SmallStudy::new();
+    for manifest in ["set/manifest.csv", "imported.csv"] {
+        let set = format!("records.manifest={}", at.join(manifest).display());
+        let done = study.uplift(&["run", "study.toml", "--set", &set]).ok();
+        assert!(
+            done.stderr.contains("synthetic pairs") && done.stdout.contains("the records are synthetic"),
+            "{}",
+            done.stdout
+        );
+    }
+
     let listed = uplift(at, &["records", "list", "set/manifest.csv"]).ok().stdout;
     assert!(listed.contains("SYN006") && listed.contains("6 of 6 records"), "{listed}");
     let shown = uplift(at, &["records", "show", "set/manifest.csv", "SYN001"]).ok().stdout;

@@ -120,7 +120,7 @@ impl Session {
     /// Tell the user something on standard error, unless it was asked for quiet.
     fn remark(&self, text: &str) {
         if !self.quiet {
-            eprintln!("{text}");
+            tell!("{text}");
         }
     }
 }
@@ -148,7 +148,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), UpliftError> {
         std::thread::spawn(move || {
             std::thread::sleep(GRACE);
             // what is being written now is written aside, and an earlier file is as it was
-            eprintln!("uplift: {}", last_words.lock().unwrap_or_else(PoisonError::into_inner));
+            tell!("uplift: {}", last_words.lock().unwrap_or_else(PoisonError::into_inner));
             std::process::exit(5);
         });
     });

@@ -84,11 +84,11 @@ impl UpliftError {
                 };
                 let mut text = String::new();
                 match GraphicalReportHandler::new_themed(theme).render_report(&mut text, error) {
-                    Ok(()) => eprint!("{text}"),
-                    Err(_) => eprintln!("uplift: {error}"),
+                    Ok(()) => tell_on!("{text}"),
+                    Err(_) => tell!("uplift: {error}"),
                 }
             }
-            other => eprintln!("uplift: {other}"),
+            other => tell!("uplift: {other}"),
         }
     }
 }

@@ -18,6 +18,22 @@
 //!
 //! Only this package knows files, terminals and HDF5; the science is in the crates below it.
 
+/// A line on standard error. Where nobody listens any more, a closed pipe or a full disk, it is lost, and the work goes on.
+macro_rules! tell {
+    ($($text:tt)*) => {{
+        use std::io::Write as _;
+        let _ = writeln!(std::io::stderr(), $($text)*);
+    }};
+}
+
+/// As `tell!`, without the end of the line.
+macro_rules! tell_on {
+    ($($text:tt)*) => {{
+        use std::io::Write as _;
+        let _ = write!(std::io::stderr(), $($text)*);
+    }};
+}
+
 pub mod command;
 mod error;
 mod export;

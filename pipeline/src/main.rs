@@ -1,5 +1,6 @@
 //! The program `uplift`.
 
+use std::io::Write;
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -10,8 +11,11 @@ const EXIT_BUG: u8 = 1;
 
 fn main() -> ExitCode {
     std::panic::set_hook(Box::new(|info| {
-        eprintln!("uplift: a bug in the program: {info}");
-        eprintln!("Please report it with the study file and this line. No result file was touched.");
+        // where nobody listens any more, a panic within this one would end the program without its exit code
+        let _ = writeln!(
+            std::io::stderr(),
+            "uplift: a bug in the program: {info}\nPlease report it with the study file and this line. No result file was touched."
+        );
     }));
     let outcome = std::panic::catch_unwind(|| command::execute(&Arguments::parse()));
     match outcome {

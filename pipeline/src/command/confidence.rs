@@ -123,7 +123,7 @@ impl Report<'_> {
         let sizes = plan.sizes();
         writeln!(
             out,
-            "\nIn words, at the strength where the interval is widest, in {} of the resamples:",
+            "\nIn words, at the strength where the interval is widest in metres, in {} of the resamples (where displacements are small, at higher strengths, the interval may be many times as wide in per cent: see the bands):",
             per_cent(settings.confidence)
         )?;
         for bands in *bands {

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::Session;
+use super::records::refuse_foreign;
 use super::run::shown_path;
 use crate::error::UpliftError;
 use crate::export::Export;
@@ -42,6 +43,9 @@ pub(super) fn export(arguments: &ExportArguments, session: &Session) -> Result<(
         let path = arguments.output.clone().unwrap_or_else(|| arguments.result.with_extension(format));
         if path == arguments.result {
             return Err(UpliftError::Usage(format!("-o {}: this is the result itself", path.display())));
+        }
+        if arguments.output.is_some() && format != "mat" {
+            refuse_foreign(&path)?;
         }
         match format {
             "json" => write_aside(&path, format!("{:#}\n", export.json()).as_bytes())?,

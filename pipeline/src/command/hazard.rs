@@ -98,7 +98,7 @@ fn read(path: &Path, site: &SiteArguments, table: &TableArguments) -> Result<Vec
     let export = match curves_of(path, &site.selection()) {
         Ok(curves) => {
             if let Some(far) = curves.iter().filter_map(|curve| curve.distance_km).reduce(f64::max) {
-                eprintln!("{}: the nearest site is {far:.1} km away", path.display());
+                tell!("{}: the nearest site is {far:.1} km away", path.display());
             }
             return Ok(curves.into_iter().map(|exported| named(path, exported)).collect());
         }
@@ -150,7 +150,7 @@ fn curves_of(path: &Path, selection: &SiteSelection) -> Result<Vec<ExportedCurve
     match first {
         Some(error) if curves.is_empty() => Err(error),
         Some(error) => {
-            eprintln!("{without} site(s) without a hazard curve, the first: {error}");
+            tell!("{without} site(s) without a hazard curve, the first: {error}");
             Ok(curves)
         }
         None => Ok(curves),

@@ -11,6 +11,7 @@ use uplift_oscillator::{
     EventKind, Excitation, FreeVibration, History, Oscillator, PostUplift, Response, respond, respond_with_history,
 };
 
+use super::records::refuse_foreign;
 use crate::error::UpliftError;
 use crate::figures::history_figure;
 use crate::plot::{Width, png, svg};
@@ -47,6 +48,9 @@ pub(super) struct ResponseArguments {
     /// Unit of a text record: g, m/s2, cm/s2 or gal
     #[arg(long)]
     unit: Option<AccelerationUnit>,
+    /// Which component of a file with several, counted from 1
+    #[arg(long, value_name = "N")]
+    channel: Option<usize>,
     /// Follow the free vibration after the record for so many seconds
     #[arg(long, default_value_t = 0.0, value_name = "S", allow_negative_numbers = true)]
     free_vibration_s: f64,
@@ -88,6 +92,9 @@ pub(super) fn response(arguments: &ResponseArguments) -> Result<(), UpliftError>
             return Err(usage(format!("{option} {} would overwrite the record: give another name", path.display())));
         }
     }
+    if let Some(path) = &arguments.history {
+        refuse_foreign(path)?;
+    }
     if let Some(path) = &arguments.plot
         && !path.extension().is_some_and(|extension| extension == "svg" || extension == "png")
     {
@@ -97,7 +104,8 @@ pub(super) fn response(arguments: &ResponseArguments) -> Result<(), UpliftError>
         dt_s: arguments.dt_s,
         unit: arguments.unit,
         gravity_m_s2: arguments.gravity_m_s2,
-        ..ReadOptions::default()
+        channel: arguments.channel,
+        format: None,
     };
     let accelerogram = read_path(&arguments.record, &options).map_err(|error| UpliftError::input(error.to_string()))?;
     let excitation = Excitation::new(accelerogram.dt_s(), accelerogram.acceleration_m_s2())

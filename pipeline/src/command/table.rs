@@ -73,7 +73,7 @@ pub(super) fn table(arguments: &TableArguments) -> Result<(), UpliftError> {
             names.dedup();
             names.join(", ")
         };
-        eprintln!(
+        tell!(
             "note: no row of the reference has a site and probability of the result: it has {}, the result {}",
             names(&mut references.iter().map(|reference| reference.site.as_str())),
             names(&mut rows.iter().map(|(spectrum, _)| spectrum.site.as_str()))

@@ -230,7 +230,7 @@ pub(super) fn of_the_records_definition(
         let key = measure.key();
         let (from, to) = (definition_word(own), definition_word(wanted));
         return Err(format!(
-            "the curve is of the {own}, and the records are measured by the {wanted}: take a curve of the same definition, another records.intensity, or declare what the levels are multiplied by, for instance [hazard] conversions = [{{ from = \"{from}\", to = \"{to}\", {key} = 1.0 }}]"
+            "the curve is of the {own}, and the records are measured by the {wanted}: take a curve of the same definition, another records.intensity, or declare what the levels are multiplied by: [hazard] conversions = [{{ from = \"{from}\", to = \"{to}\", {key} = … }}], with the ratio of the two (docs/hazard.md, section 4)"
         ));
     };
     curve.converted(factor, wanted).map(Some).map_err(|error| error.to_string())

@@ -32,6 +32,15 @@ pub(crate) struct ComponentFile {
     pub(crate) sha256: Option<String>,
 }
 
+/// Columns that hold numbers, with the most that each can be.
+const NUMBERS: [(&str, f64); 5] = [
+    ("magnitude", 10.0),
+    ("rrup_km", 20_000.0),
+    ("repi_km", 20_100.0),
+    ("vs30", 10_000.0),
+    ("lowest_usable_hz", 1000.0),
+];
+
 const REQUIRED: [&str; 3] = ["record_id", "file_h1", "file_h2"];
 
 /// Rows of the manifest at `path` whose `set_tags` hold `tag`, or all.
@@ -182,6 +191,19 @@ fn row(cells: &mut BTreeMap<String, String>, folder: &Path) -> Result<Row, Vec<S
     let unit = cells.get("unit").and_then(|text| {
         text.parse::<AccelerationUnit>().map_err(|error| mistakes.push(format!("record {id}: {error}"))).ok()
     });
+    for (key, most) in NUMBERS {
+        let Some(text) = cells.get(key) else { continue };
+        match text.parse::<f64>() {
+            // -999 and the like stand for what is not known
+            Ok(value) if value <= -99.0 => drop(cells.remove(key)),
+            Ok(value) if (0.0..=most).contains(&value) => {}
+            Err(_) if text.replace(',', ".").parse::<f64>().is_ok() => {
+                mistakes.push(format!("record {id}: {key} is {text:?}: a decimal comma; write a point"));
+            }
+            _ => mistakes
+                .push(format!("record {id}: {key} is {text:?}: give a number from 0 to {most}, or leave it blank")),
+        }
+    }
     let format = cells.remove("format").and_then(|text| {
         text.parse::<RecordFormat>().map_err(|error| mistakes.push(format!("record {id}: {error}"))).ok()
     });

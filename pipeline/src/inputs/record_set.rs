@@ -72,10 +72,18 @@ pub fn read_records(study: &ResolvedStudy) -> Result<RecordSet, UpliftError> {
             (manifest_pairs(manifest, tag.as_deref(), study)?, format!("{name}{tag_note}"), false)
         }
     };
+    // what the program made itself stays synthetic, whichever way it comes back
+    let made = |pair: &CheckedPair| {
+        let said = |key: &str| pair.0.metadata.get(key).map(|text| text.to_lowercase()).unwrap_or_default();
+        said("event").starts_with("synthetic")
+            || said("set_tags").split([';', ' ', ',']).any(|word| word == "synthetic")
+    };
+    let synthetic = synthetic || pairs.iter().any(made);
     let (mut pairs, mut notes) =
         selection::select(pairs, &study.records.select, study.records.intensity, study.gravity_m_s2)?;
     pairs.truncate(first_of(study));
     notes.extend(alike(&pairs));
+    notes.extend(of_unequal_length(&pairs, study));
     let kind = if synthetic { "synthetic" } else { "recorded" };
     let noun = if pairs.len() == 1 { "pair" } else { "pairs" };
     let chosen = &study.records.select;
@@ -83,6 +91,23 @@ pub fn read_records(study: &ResolvedStudy) -> Result<RecordSet, UpliftError> {
     let description =
         format!("{} {kind} {noun} ({source}{chosen}), component {}", pairs.len(), study.records.component);
     Ok(RecordSet { description, synthetic, records: analysis_records(pairs, study)?, notes })
+}
+
+/// Records that may not be synchronised, where that matters.
+fn of_unequal_length(pairs: &[CheckedPair], study: &ResolvedStudy) -> Option<String> {
+    let unequal: Vec<&str> =
+        pairs.iter().filter(|(pair, _)| pair.h1.len() != pair.h2.len()).map(|(pair, _)| pair.id.as_str()).collect();
+    let matters = study.records.intensity != Combination::GeometricMean && !unequal.is_empty();
+    matters.then(|| {
+        format!(
+            "{} of {} records have components of different length ({}{}): if these do not begin together, their {} is wrong",
+            unequal.len(),
+            pairs.len(),
+            unequal.iter().take(5).copied().collect::<Vec<_>>().join(", "),
+            if unequal.len() > 5 { ", …" } else { "" },
+            study.records.intensity
+        )
+    })
 }
 
 /// Records both components of which are the same numbers.

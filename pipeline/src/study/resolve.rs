@@ -10,7 +10,9 @@ use super::grid::{Grid, GridRule};
 use super::hazard;
 use super::measures;
 use super::paths::{Folders, tidy};
-use super::reader::{ABOVE_ZERO, Field, Ledger, PROBABILITY, Section, ZERO_OR_MORE, ZERO_TO_ONE, optional, quantity};
+use super::reader::{
+    ABOVE_ZERO, Field, Ledger, PROBABILITY, Rule, Section, ZERO_OR_MORE, ZERO_TO_ONE, optional, quantity,
+};
 use super::records;
 use super::resolved::{
     Contour, CurveFile, Extrapolate, Oscillator, Output, RecordSource, Regression, ResolvedStudy, Risk, Uplifted,
@@ -27,6 +29,9 @@ const THRESHOLDS_M: [&str; 3] = ["0", "0.0005", "0.001:0.001:3"];
 
 /// Most probabilities, each a spectrum for every site.
 const MOST_PROBABILITIES: usize = 1000;
+
+/// A micrometre: less is no structure, and an oscillator so stiff that no motion resolves it.
+const UPLIFT_DISPLACEMENT: Rule = Rule { holds: |value| value >= 1e-6, words: "1e-6 m or above" };
 
 /// Reads the whole study; what is wrong goes into the ledger. None where something is.
 pub(super) fn study(
@@ -81,7 +86,7 @@ pub(super) fn study(
 }
 
 fn oscillator(mut section: Section<'_>) -> Option<Oscillator> {
-    let uplift = section.number_or("uplift_displacement_m", "m", ABOVE_ZERO, 0.0005);
+    let uplift = section.number_or("uplift_displacement_m", "m", UPLIFT_DISPLACEMENT, 0.0005);
     let restitution = section.number_or("restitution", "", ZERO_TO_ONE, 0.95);
     let free_vibration = section.boolean_or("free_vibration", true);
     let capacity_field = section.field("capacity_m");

@@ -13,7 +13,6 @@ use uplift_hazard::{
 use uplift_motion::IntensityMeasure;
 
 use super::{Session, SiteArguments, UpliftError, distinct};
-use crate::command::records::refuse_foreign;
 use crate::result::write_aside;
 use crate::study::levels_within;
 
@@ -98,10 +97,16 @@ pub(super) fn import(arguments: &ImportArguments, session: &Session) -> Result<(
                 session.remark(&format!("{file}: {count} {what} left out: no rate belongs to them"));
             }
         }
-        refuse_foreign(&folder.join(file))?;
         let curve = exported.curve.clone();
         let component = curve.component().or(arguments.component);
-        write_aside(&folder.join(file), curve_text(&curve.with_component(component), exported).as_bytes())?;
+        let (path, text) = (folder.join(file), curve_text(&curve.with_component(component), exported));
+        if std::fs::read(&path).is_ok_and(|there| there != text.as_bytes()) {
+            return Err(UpliftError::Usage(format!(
+                "{} is there already, with another curve: give another folder with -o, or remove it",
+                path.display()
+            )));
+        }
+        write_aside(&path, text.as_bytes())?;
     }
     if arguments.component.is_none() && written.iter().any(|written| written.exported.curve.component().is_none()) {
         session.remark(

@@ -4,8 +4,9 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use polars::prelude::Column;
 
-use super::{FileArguments, Session, UpliftError, refuse_foreign};
+use super::{FileArguments, Session, UpliftError};
 use crate::import::{ImportOptions, Imported, Warning, import as import_folder, manifest_columns};
 use crate::result::{write_aside, write_table};
 
@@ -32,7 +33,12 @@ pub(super) fn import(arguments: &ImportArguments, session: &Session) -> Result<(
     if output.extension().is_none_or(|extension| extension != "csv") {
         return Err(UpliftError::Usage(format!("-o {}: give a name that ends in .csv, or a folder", output.display())));
     }
-    refuse_foreign(&output)?;
+    if output.exists() {
+        return Err(UpliftError::Usage(format!(
+            "{} is there already, perhaps with columns of yours: give another name, or remove it",
+            output.display()
+        )));
+    }
     if !arguments.folder.is_dir() {
         return Err(UpliftError::input(format!("{} is not a folder", arguments.folder.display())));
     }
@@ -58,7 +64,18 @@ pub(super) fn import(arguments: &ImportArguments, session: &Session) -> Result<(
         )));
     }
     let line = format!("uplift {} ({}), records import, {} pairs", crate::VERSION, crate::COMMIT, imported.pairs.len());
-    write_table(&output, &line, manifest_columns(&imported.pairs, folder, &options))?;
+    let columns = manifest_columns(&imported.pairs, folder, &options);
+    write_table(&output, &line, columns.clone())?;
+    let without: Vec<&str> = ["magnitude", "rrup_km", "vs30"]
+        .into_iter()
+        .filter(|key| columns.iter().any(|column| column.name() == key && all_blank(column)))
+        .collect();
+    if !without.is_empty() {
+        session.remark(&format!(
+            "no file says {}: fill in the columns of the manifest, or put PEER's _SearchResults.csv into the folder and import again",
+            without.join(", ")
+        ));
+    }
     let mut out = std::io::stdout().lock();
     writeln!(
         out,
@@ -69,6 +86,10 @@ pub(super) fn import(arguments: &ImportArguments, session: &Session) -> Result<(
         output.display()
     )?;
     Ok(())
+}
+
+fn all_blank(column: &Column) -> bool {
+    column.str().is_ok_and(|cells| cells.iter().all(|cell| cell.is_none_or(str::is_empty)))
 }
 
 /// Remarks on standard error, those of a kind together, the first of each; all of them are returned, for the file `remarks`.
@@ -93,9 +114,9 @@ fn tell(imported: &Imported, remarks: &Path, quiet: bool) -> String {
         let lines: Vec<String> = texts.iter().map(|text| format!("  - {text}\n")).collect();
         if !quiet {
             let more = texts.len().saturating_sub(SHOWN);
-            eprint!("{head}{}", lines[..texts.len() - more].concat());
+            tell_on!("{head}{}", lines[..texts.len() - more].concat());
             if more > 0 {
-                eprintln!("  - and {more} more: {}", remarks.display());
+                tell!("  - and {more} more: {}", remarks.display());
             }
         }
         all += &(head + &lines.concat());
