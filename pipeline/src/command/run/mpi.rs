@@ -12,12 +12,12 @@ use ::mpi::topology::SimpleCommunicator;
 use ::mpi::traits::{Communicator, CommunicatorCollectives};
 
 use super::{
-    KeptPieces, Part, RunArguments, Session, UpliftError, print_outcome, read_hazard, run_shard, run_study_from,
-    shard_path,
+    KeptPieces, Part, RunArguments, Session, UpliftError, check_target, print_outcome, read_hazard, run_shard,
+    run_study_from, shard_path, site_table,
 };
 use crate::kept::PieceFile;
 
-/// What the starters of ranks tell them: Open MPI, PMIx (Slurm among others), and PMI (MPICH, Intel MPI, Slurm).
+/// What the starters of ranks tell them: Open MPI, `PMIx` (Slurm among others), and PMI (MPICH, Intel MPI, Slurm).
 const STARTED_BY: [&str; 3] = ["OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"];
 /// How often a rank that waits for the others looks whether they are there.
 const LOOK_EVERY: Duration = Duration::from_millis(20);
@@ -71,17 +71,29 @@ fn run_rank(
         return Err(UpliftError::Usage("each rank takes its own shard: leave --shard out under mpirun".to_owned()));
     }
     let study = arguments.study.load()?;
-    if first {
-        read_hazard(&study)?;
-        wait(world, session)?;
-    }
     let path = arguments.output.clone().unwrap_or_else(|| study.output.file.clone());
     let own =
         Session { quiet: session.quiet || !first, stop: session.stop.clone(), last_words: session.last_words.clone() };
+    if first {
+        check_target(&path)?;
+        read_hazard(&study)?;
+        site_table::read(&study, &path, &own)?;
+        wait(world, session)?;
+    }
     let threads = rayon::current_num_threads();
-    own.remark(&format!("ranks    {}, this one with {threads} threads; its progress stands for all", part.count));
-    run_shard(&study, &shard_path(&path, part), part, Some(&path), &own)?;
-    wait(world, session)?;
+    // said now, since a launcher that ends the ranks may no longer listen to them
+    own.remark(&format!(
+        "ranks    {}, this one with {threads} threads; whatever ends them, what they finished is kept and the same command goes on",
+        part.count
+    ));
+    let shard = shard_path(&path, part);
+    let pieces = run_shard(&study, &shard, part, Some(&path), &own)?;
+    wait(world, session).map_err(|_| UpliftError::Paused {
+        what: "pieces",
+        done: pieces,
+        total: pieces,
+        path: shard,
+    })?;
     if !first {
         return Ok(());
     }
