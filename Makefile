@@ -14,7 +14,7 @@ export PATH := $(TOOLS):$(PATH)
 
 UPLIFT := target/release/uplift
 
-.PHONY: run build test lint docs python bench fuzz clean
+.PHONY: run build test test-cluster lint docs python bench fuzz clean
 
 run: build
 	$(UPLIFT) run $(STUDY) $(SET) -o $(OUTPUT)
@@ -28,6 +28,11 @@ build:
 # Formatting, lints, documentation, then every test: crates, the built program, its result file from Python.
 test: lint docs python
 	cargo test --locked --workspace
+
+# The engines of docs/cluster for real: Slurm, MPI, HyperQueue, as far as they can be had here. Apart from `test`: the first build with MPI
+# takes as long as that of the whole program.
+test-cluster: build
+	tests/cluster/run.sh
 
 lint:
 	cargo fmt --all --check

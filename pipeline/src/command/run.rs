@@ -1,5 +1,7 @@
 //! `uplift run`: the main job, end to end.
 
+#[cfg(feature = "mpi")]
+mod mpi;
 mod work;
 
 use std::io::Write;
@@ -60,9 +62,22 @@ fn shard(text: &str) -> Result<Part, String> {
 }
 
 pub(super) fn run(arguments: &RunArguments, session: &Session) -> Result<(), UpliftError> {
+    #[cfg(feature = "mpi")]
+    if let Some(outcome) = mpi::run(arguments, session) {
+        return outcome;
+    }
     let study = arguments.study.load()?;
     if let Some(part) = arguments.shard {
-        return run_shard(&study, arguments.output.as_deref(), part, session);
+        let path = arguments.output.clone().unwrap_or_else(|| shard_path(&study.output.file, part));
+        let pieces = run_shard(&study, &path, part, None, session)?;
+        let Part { index, count } = part;
+        writeln!(
+            std::io::stdout(),
+            "shard {} of {count}, {pieces} pieces: {}",
+            index + 1,
+            shown_path(&path).display()
+        )?;
+        return Ok(());
     }
     let path = arguments.output.clone().unwrap_or_else(|| study.output.file.clone());
     run_study(&study, &arguments.study.study, &path, session, |outcome, files, seconds| {
@@ -87,39 +102,39 @@ pub(super) fn print_outcome(
     Ok(())
 }
 
-/// Carry out one part of the stripes of a study.
-fn run_shard(study: &ResolvedStudy, output: Option<&Path>, part: Part, session: &Session) -> Result<(), UpliftError> {
-    let Part { index, count } = part;
+/// Where one part of the stripes of the result at `result` is kept.
+fn shard_path(result: &Path, Part { index, count }: Part) -> PathBuf {
     let width = count.to_string().len();
-    let path = output.map_or_else(
-        || study.output.file.with_extension(format!("shard-{:0width$}-of-{count}", index + 1)),
-        Path::to_owned,
-    );
+    result.with_extension(format!("shard-{:0width$}-of-{count}", index + 1))
+}
+
+/// Carry out one part of the stripes of a study into the file `path`, but for what is known from an `earlier` result; the number of its
+/// pieces.
+fn run_shard(
+    study: &ResolvedStudy,
+    path: &Path,
+    part: Part,
+    earlier: Option<&Path>,
+    session: &Session,
+) -> Result<u64, UpliftError> {
     if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder)
             .map_err(|error| UpliftError::input(format!("{} cannot be made: {error}", folder.display())))?;
     }
-    let _lock = ResultLock::acquire(&path)?;
+    let _lock = ResultLock::acquire(path)?;
     // a mistake in the hazard is found before, not when the shards are joined
     read_hazard(study)?;
     let records = read_records(study)?;
     session.remark(&format!("records  {}", records.description));
     let work = Work::new(study, &records)?;
     let head = work.head(part);
-    let (file, known) = work::open(&path, &head, None)?;
+    let (file, known) = work::open(path, &head, earlier)?;
     session.set_last_words(format!(
         "interrupted: all that is finished is kept in {}. Run the same command to go on from there",
         path.display()
     ));
     work.carry_out(&known, &file, part, session)?;
-    writeln!(
-        std::io::stdout(),
-        "shard {} of {count}, {} pieces: {}",
-        index + 1,
-        head.pieces,
-        shown_path(&path).display()
-    )?;
-    Ok(())
+    Ok(head.pieces)
 }
 
 /// Carry out a study, write its result to `path`, and `report` what was found, the files and the seconds it took.

@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# A study on many nodes under HyperQueue (https://it4innovations.github.io/hyperqueue): one task a shard of the stripes, then the join.
+#
+#     hq server start &                                    once, on a login node
+#     hq alloc add slurm --time-limit 1h -- -p short       workers by Slurm or PBS as they are needed; or `hq worker start` on any machine
+#     docs/cluster/hyperqueue.sh STUDY.toml SHARDS [RESULT.h5]
+#
+# waits for both, so call it in tmux or with nohup. RESULT is results/STUDY.h5 unless you name it. The folder you are in, the study, its
+# records and its hazard curves must be there on every node under the same paths.
+#
+# Tasks are handed to workers as these are free, so there may be many more shards than cores, and workers may come and go: HyperQueue
+# starts a task that lost its worker again, and it goes on where it stopped. After anything else (hq job cancel, a full disk), type
+# the same line again, with the same SHARDS.
+#
+# The program is `uplift` in your PATH, or what the variable UPLIFT says; a task has CPUS cores (4 unless you set it).
+set -euo pipefail
+
+uplift=${UPLIFT:-uplift} cpus=${CPUS:-4}
+usage="usage: $0 STUDY.toml SHARDS [RESULT.h5]"
+study=${1:?$usage} shards=${2:?$usage} result=${3:-results/$(basename "$study" .toml).h5} step=${4:-submit}
+
+# The file of a shard, as `uplift run --shard` names it.
+shard() { printf '%s.shard-%0*d-of-%d' "${result%.h5}" "${#shards}" "$1" "$shards"; }
+
+case $step in
+submit)
+    # a mistake is found here, not in the queue
+    "$uplift" check --quiet "$study"
+    mkdir -p "$(dirname "$result")/logs"
+    log=$(dirname "$result")/logs/$(basename "$result" .h5)
+    submit=(hq submit --wait --cpus "$cpus" --env "UPLIFT=$uplift" --env "CPUS=$cpus")
+    "${submit[@]}" --name uplift --array "1-$shards" --stdout "$log.%{TASK_ID}.log" --stderr "$log.%{TASK_ID}.log" \
+        -- bash "$0" "$study" "$shards" "$result" stripes
+    # --wait ends badly where a task did, and then there is nothing to join
+    "${submit[@]}" --name uplift-join --stdout "$log.join.log" --stderr "$log.join.log" \
+        -- bash "$0" "$study" "$shards" "$result" join
+    cat "$log.join.log"
+    ;;
+stripes)
+    exec "$uplift" run "$study" --shard "$HQ_TASK_ID/$shards" --output "$(shard "$HQ_TASK_ID")" --threads "$cpus"
+    ;;
+join)
+    files=()
+    for ((index = 1; index <= shards; index++)); do files+=("$(shard "$index")"); done
+    "$uplift" merge "$study" "${files[@]}" --output "$result" --threads "$cpus"
+    # all that was in them is in the result
+    rm -f "${files[@]}"
+    ;;
+*)
+    echo "$usage" >&2
+    exit 2
+    ;;
+esac

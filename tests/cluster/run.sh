@@ -1,0 +1,186 @@
+#!/usr/bin/env bash
+# Runs a small study through the engines of docs/cluster for real, stops it on the way, and compares what comes out with an undisturbed
+# run, bit by bit:
+#
+#     tests/cluster/run.sh [slurm] [mpi] [hyperqueue]        all of them unless some are named; `make test-cluster`
+#
+# As root on Debian it installs what is missing (Slurm, Open MPI, libclang) and starts a Slurm cluster of this one node; HyperQueue comes
+# from PyPI. What cannot be had is skipped, and said so; only wrong results fail. UPLIFT names another built program than that of
+# `make build`.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+repository=$PWD
+parts=${*:-slurm mpi hyperqueue}
+uplift=$(realpath "${UPLIFT:-target/release/uplift}")
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 NO_COLOR=1
+# the folders of a cluster's daemons are opened by others
+folder=$(mktemp -d /tmp/uplift-cluster.XXXXXX)
+. tests/cluster/one-node-slurm.sh
+ran=() skipped=()
+
+finish() {
+    stop_slurm
+    rm -rf "$folder"
+}
+trap finish EXIT
+
+skip() {
+    echo "skipped: $1"
+    skipped+=("$1")
+}
+
+fail() {
+    [ ${#slurm_daemons[@]} -eq 0 ] || squeue >&2 || true
+    tail -n 30 "$folder"/study/results/logs/*.log "$folder"/slurm/*.log 2>/dev/null >&2 || true
+    ls -l "$folder"/study/results >&2 || true
+    echo "FAILED: $1" >&2
+    exit 1
+}
+
+# Packages, if they are not there and we may.
+provide() {
+    local command=$1
+    shift
+    command -v "$command" >/dev/null && return 0
+    [ "$(id -u)" = 0 ] && command -v apt-get >/dev/null || return 1
+    { apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "$@"; } \
+        >"$folder/apt.log" 2>&1 && command -v "$command" >/dev/null
+}
+
+# Waits until a command succeeds, at most so many seconds.
+until_true() {
+    local tries=$((5 * $1))
+    shift
+    for ((; tries > 0; tries--)); do
+        if "$@" >/dev/null 2>&1; then return 0; fi
+        sleep 0.2
+    done
+    return 1
+}
+
+# Something of a shard is kept, and not yet all.
+begun() { [ "$(cat results/study.shard-* 2>/dev/null | wc -c)" -gt 50000 ]; }
+
+queue_is_empty() { local queue && queue=$(squeue --noheader) && [ -z "$queue" ]; }
+
+# The result is whole and that of the undisturbed run, and nothing is left of the shards.
+compare() {
+    "$uplift" verify results/study.h5 >/dev/null || fail "$1: the result is not whole"
+    "$repository/.venv/bin/python" "$repository/tests/cluster/same.py" whole.h5 results/study.h5 || fail "$1: other numbers"
+    ! ls results/study.shard-* 2>/dev/null || fail "$1: shards are left"
+    rm -r results
+    ran+=("$1")
+}
+
+in_slurm() {
+    provide sbatch slurmctld slurmd slurm-client munge && start_slurm "$folder/slurm" || { skip "slurm: no cluster can be started here"; return; }
+    local version first said
+    version="slurm ($(sinfo --version))"
+    export SBATCH_MEM_PER_NODE=400
+    said=$(CPUS=1 "$repository/docs/cluster/slurm.sh" study.toml 3)
+    echo "$said"
+    first=$(sed -n 's/.*stripes: job \([0-9]*\).*/\1/p' <<<"$said")
+    until_true 60 begun || fail "$version: nothing is computed"
+    scancel "$first"
+    until_true 60 queue_is_empty || fail "$version: the join still waits for tasks that were taken away"
+    local kept
+    kept=$(cat results/study.shard-* | wc -c)
+    [ ! -e results/study.h5 ] || fail "$version: a result of an array that was stopped"
+    CPUS=1 "$repository/docs/cluster/slurm.sh" study.toml 3
+    until_true 120 queue_is_empty || fail "$version: the jobs do not end"
+    grep -qh "^known " results/logs/*.log || fail "$version: nothing was taken over of the $kept bytes kept"
+    compare "$version, an array of 3, cancelled and submitted again"
+}
+
+in_mpi() {
+    provide mpicc openmpi-bin libopenmpi-dev || { skip "mpi: no Open MPI"; return; }
+    local built=$folder/uplift-mpi version=${MPI_VERSION:-}
+    version=$(mpirun --version | head -n 1)
+    if [ -n "${UPLIFT_MPI:-}" ]; then
+        cp "$UPLIFT_MPI" "$built"
+    else
+        # the bindings are made by libclang from the headers of the MPI library that is here
+        provide clang clang libclang-dev || { skip "mpi: no libclang"; return; }
+        (cd "$repository" && cargo build --release --locked --package uplift --features mpi) || fail "mpi: the build"
+        cp "$repository/target/release/uplift" "$built"
+        # the program that is left there is that of `make build`
+        (cd "$repository" && cargo build --release --locked --package uplift)
+    fi
+    local ranks=(mpirun --oversubscribe -n 2 "$built" run study.toml --threads 1) started code=0
+    "${ranks[@]}" >mpi.log 2>&1 &
+    started=$!
+    until_true 60 begun || { cat mpi.log; fail "mpi: nothing is computed"; }
+    kill -INT "$started"
+    wait "$started" || code=$?
+    # what the ranks say at their end mpirun may or may not pass on
+    [ "$code" != 0 ] && [ ! -e results/study.h5 ] || { cat mpi.log; fail "mpi: Ctrl-C ends with $code"; }
+    # a rank that dies takes the other with it
+    code=0
+    "${ranks[@]}" >mpi.log 2>&1 &
+    started=$!
+    until_true 60 grep -q "^known " mpi.log || { cat mpi.log; fail "mpi: nothing was taken over"; }
+    local rank
+    rank=$(ps -o pid= --ppid "$started" | tail -n 1)
+    kill -KILL $rank
+    wait "$started" || code=$?
+    [ "$code" != 0 ] && ! ps -o pid= --ppid "$started" >/dev/null || { cat mpi.log; fail "mpi: a dead rank leaves $code"; }
+    "${ranks[@]}" >mpi.log 2>&1 || { cat mpi.log; fail "mpi: the run ends badly"; }
+    # where the result is there, nothing is computed again
+    [ "$("${ranks[@]}" --json 2>/dev/null | grep -c '"analyses_computed": 0,')" = 2 ] || fail "mpi: finished analyses are computed again"
+    # one rank, and none
+    mpirun --oversubscribe -n 1 "$built" run study.toml --quiet --set risk.poe=[0.1] || fail "mpi: one rank"
+    "$built" run study.toml --quiet || fail "mpi: without mpirun"
+    compare "mpi ($version), 2 ranks, interrupted, one killed, and gone on with"
+}
+
+in_hyperqueue() {
+    if command -v hq >/dev/null; then
+        hq --server-dir "$folder/hq" server start >"$folder/hq.log" 2>&1 &
+        export HQ_SERVER_DIR=$folder/hq
+        until_true 30 hq server info || { skip "hyperqueue: hq does not start"; return; }
+        hq worker start --cpus "$(nproc)" >"$folder/hq-worker.log" 2>&1 &
+        UPLIFT=$uplift CPUS=1 "$repository/docs/cluster/hyperqueue.sh" study.toml 3 || fail "hyperqueue: the job"
+        hq server stop
+        compare "hyperqueue ($(hq --version)), an array of 3"
+        return
+    fi
+    # the wheel holds the server and the workers, but not the command hq: its tasks are submitted from Python
+    { python3 -m venv "$folder/hq-venv" && "$folder/hq-venv/bin/pip" install --quiet hyperqueue; } >"$folder/pip.log" 2>&1 ||
+        { skip "hyperqueue: neither hq nor its wheel"; return; }
+    (cd "$folder" && UPLIFT=$uplift CPUS=1 "$folder/hq-venv/bin/python" "$repository/tests/cluster/hyperqueue_tasks.py" \
+        "$repository/docs/cluster/hyperqueue.sh" "$folder/study" 3) || fail "hyperqueue: the tasks"
+    compare "hyperqueue ($("$folder/hq-venv/bin/pip" list 2>/dev/null | sed -n 's/^hyperqueue *//p') from PyPI), an array of 3"
+    skip "hyperqueue: hq is not here, so its line in docs/cluster/hyperqueue.sh was not run, only the tasks it submits"
+}
+
+.ci/provide-python
+[ -x .venv/bin/python ] || { skip "everything: no Python to compare results with"; exit 0; }
+mkdir "$folder/study"
+cd "$folder/study"
+# some ten seconds of one core
+cat >study.toml <<STUDY
+title = "cluster"
+[records]
+first = 30
+[strengths]
+values = "0:0.01:1"
+[pgv]
+levels_cm_s = ["1:1:10", "15:5:50", "60:20:200"]
+[pga]
+levels_g = [0.001, 0.01, "0.025:0.025:0.2", "0.25:0.05:0.5", "0.6:0.2:2"]
+[hazard]
+conversions = [{ from = "GMRotI50", to = "geometric mean", pgv = 1.0, pga = 1.0 }]
+[[sites]]
+name = "Athens"
+pgv = "$repository/hazard/athens/pgv.csv"
+pga = "$repository/hazard/athens/pga.csv"
+STUDY
+"$uplift" run study.toml --quiet -o whole.h5
+export UPLIFT=$uplift
+for part in $parts; do
+    begin=$SECONDS
+    "in_$part"
+    echo "$part: $((SECONDS - begin)) s"
+done
+printf 'passed: %s\n' "${ran[@]}"
+[ ${#skipped[@]} -eq 0 ] || printf 'skipped: %s\n' "${skipped[@]}"
