@@ -83,9 +83,10 @@ impl UpliftError {
                     GraphicalTheme::unicode_nocolor()
                 };
                 let mut text = String::new();
-                match GraphicalReportHandler::new_themed(theme).render_report(&mut text, error) {
-                    Ok(()) => tell_on!("{text}"),
-                    Err(_) => tell!("uplift: {error}"),
+                if GraphicalReportHandler::new_themed(theme).render_report(&mut text, error).is_ok() {
+                    tell_on!("{text}");
+                } else {
+                    tell!("uplift: {error}");
                 }
             }
             other => tell!("uplift: {other}"),
