@@ -172,7 +172,9 @@ impl PieceFile {
             for (key, (edp_m, impacts)) in &kept.rows {
                 content.extend(block(*key, edp_m, impacts));
             }
-            let aside = path.with_extension("part-new");
+            // a name of its own: the shards of a run begin at the same time in one folder
+            let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+            let aside = path.with_file_name(format!(".{name}.new"));
             std::fs::write(&aside, &content).and_then(|()| std::fs::rename(&aside, path)).map_err(|error| {
                 let _ = std::fs::remove_file(&aside);
                 fail(error)
@@ -353,5 +355,21 @@ mod tests {
         drop(file);
         let found = PieceFile::read(&path).unwrap().unwrap();
         assert_eq!((found.head, found.kept.len()), (other, 3));
+    }
+
+    #[test]
+    fn shards_that_begin_at_once_do_not_meet() {
+        let folder = tempfile::tempdir().unwrap();
+        for round in 0..100 {
+            let shards = [1, 2, 3, 4].map(|shard| (folder.path().join(format!("{round}.shard-{shard}-of-4")), shard));
+            std::thread::scope(|scope| {
+                for (path, shard) in &shards {
+                    scope.spawn(|| PieceFile::open(path, &PieceFileHead { shard: *shard, ..head() }).unwrap());
+                }
+            });
+            for (path, shard) in &shards {
+                assert_eq!(PieceFile::read(path).unwrap().unwrap().head.shard, *shard, "round {round}");
+            }
+        }
     }
 }
