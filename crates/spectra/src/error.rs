@@ -1,0 +1,80 @@
+//! What can be wrong.
+
+use thiserror::Error;
+use uplift_block::BlockError;
+use uplift_motion::MotionError;
+use uplift_oscillator::OscillatorError;
+use uplift_structure::StructureError;
+
+/// Why a displacement spectrum cannot be computed.
+#[derive(Debug, Error)]
+pub enum SpectraError {
+    /// A set without records.
+    #[error("record set {set:?} is empty: check its tag and what is left out of it")]
+    EmptySet {
+        /// Name of the set.
+        set: String,
+    },
+    /// A component without motion, which no factor brings to a peak.
+    #[error("{motion}: its {measure} is {value}, so it cannot be scaled; leave the record out")]
+    Unscalable {
+        /// The component.
+        motion: String,
+        /// The measure.
+        measure: &'static str,
+        /// Its value, in the measure's unit.
+        value: f64,
+    },
+    /// A number out of its range.
+    #[error("{name} = {value}: must be {requirement}")]
+    OutOfRange {
+        /// What it is.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it must be.
+        requirement: &'static str,
+    },
+    /// No slenderness of the search range lets the block stand, or every one does.
+    #[error(
+        "record set {set:?}, {scaling}: the demand meets the capacity line 2H tan(alpha) nowhere between tan(alpha) = {lowest} and {highest}; widen the range"
+    )]
+    NoIntersection {
+        /// Name of the set.
+        set: String,
+        /// How it is scaled.
+        scaling: String,
+        /// Lowest tangent searched.
+        lowest: f64,
+        /// Highest tangent searched.
+        highest: f64,
+    },
+    /// A motion that the oscillator refuses.
+    #[error("{motion}: {source}")]
+    Oscillator {
+        /// The component.
+        motion: String,
+        /// Why.
+        source: OscillatorError,
+    },
+    /// A system that is none.
+    #[error(transparent)]
+    System(#[from] OscillatorError),
+    /// A block, or a motion that it refuses.
+    #[error(transparent)]
+    Block(#[from] BlockError),
+    /// A motion that cannot be scaled so.
+    #[error("{motion}: {source}")]
+    Motion {
+        /// The component.
+        motion: String,
+        /// Why.
+        source: MotionError,
+    },
+    /// A rule refused.
+    #[error(transparent)]
+    Rule(#[from] StructureError),
+    /// Stopped from outside.
+    #[error("stopped before the spectra were complete")]
+    Cancelled,
+}

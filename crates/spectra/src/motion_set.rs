@@ -1,0 +1,139 @@
+//! The components of a record set as independent motions.
+
+use uplift_fragility::quantile;
+use uplift_motion::{Accelerogram, IntensityMeasure, geometric_mean};
+
+use crate::error::SpectraError;
+use crate::scaling::{ScaledBy, Scaling};
+
+/// A record as a set takes it.
+#[derive(Debug, Clone, Copy)]
+pub struct RecordOfSet<'a> {
+    /// Identifier, for messages and results.
+    pub id: &'a str,
+    /// Its two horizontal components.
+    pub components: [&'a Accelerogram; 2],
+}
+
+/// One horizontal component as an independent motion (Section 3.4.1).
+#[derive(Debug, Clone)]
+pub struct Motion<'a> {
+    /// Record and component, `RSN753 h1`.
+    pub id: String,
+    /// The component.
+    pub accelerogram: &'a Accelerogram,
+    /// Its own peak ground acceleration, g.
+    pub pga_g: f64,
+    /// Its own peak ground velocity, cm/s.
+    pub pgv_cm_s: f64,
+    /// Geometric mean of the peak ground accelerations of its record's components, g.
+    pub record_pga_g: f64,
+    /// Geometric mean of the peak ground velocities of its record's components, cm/s.
+    pub record_pgv_cm_s: f64,
+}
+
+impl Motion<'_> {
+    /// The peak that a scaling refers to, in the unit of the measure.
+    pub fn peak(&self, measure: IntensityMeasure, by: ScaledBy) -> f64 {
+        match (measure, by) {
+            (IntensityMeasure::Pga, ScaledBy::Component) => self.pga_g,
+            (IntensityMeasure::Pga, ScaledBy::Record) => self.record_pga_g,
+            (_, ScaledBy::Component) => self.pgv_cm_s,
+            (_, ScaledBy::Record) => self.record_pgv_cm_s,
+        }
+    }
+}
+
+/// A record set: the two components of the first record, those of the second, and so on.
+#[derive(Debug, Clone)]
+pub struct MotionSet<'a> {
+    name: String,
+    motions: Vec<Motion<'a>>,
+    median_pga_g: f64,
+    median_pgv_cm_s: f64,
+}
+
+impl<'a> MotionSet<'a> {
+    /// The set of these records, whose PGA in g refers to `gravity_m_s2`.
+    ///
+    /// # Errors
+    /// [`SpectraError::EmptySet`]; [`SpectraError::Unscalable`] for a component without motion.
+    pub fn new(
+        name: &str,
+        records: impl IntoIterator<Item = RecordOfSet<'a>>,
+        gravity_m_s2: f64,
+    ) -> Result<Self, SpectraError> {
+        let mut motions = Vec::new();
+        let (mut pga_g, mut pgv_cm_s) = (Vec::new(), Vec::new());
+        for record in records {
+            let own_pga_g = record.components.map(|component| component.pga_m_s2() / gravity_m_s2);
+            let own_pgv_cm_s = record.components.map(|component| 100.0 * component.pgv_m_s());
+            let record_pga_g = geometric_mean(own_pga_g[0], own_pga_g[1]);
+            let record_pgv_cm_s = geometric_mean(own_pgv_cm_s[0], own_pgv_cm_s[1]);
+            for (which, label) in ["h1", "h2"].into_iter().enumerate() {
+                let id = format!("{} {label}", record.id);
+                for (measure, value) in [("PGA", own_pga_g[which]), ("PGV", own_pgv_cm_s[which])] {
+                    if !(value.is_finite() && value > 0.0) {
+                        return Err(SpectraError::Unscalable { motion: id, measure, value });
+                    }
+                }
+                motions.push(Motion {
+                    id,
+                    accelerogram: record.components[which],
+                    pga_g: own_pga_g[which],
+                    pgv_cm_s: own_pgv_cm_s[which],
+                    record_pga_g,
+                    record_pgv_cm_s,
+                });
+            }
+            pga_g.push(record_pga_g);
+            pgv_cm_s.push(record_pgv_cm_s);
+        }
+        if motions.is_empty() {
+            return Err(SpectraError::EmptySet { set: name.to_owned() });
+        }
+        Ok(Self { name: name.to_owned(), motions, median_pga_g: median(pga_g), median_pgv_cm_s: median(pgv_cm_s) })
+    }
+
+    /// Name of the set.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Its motions, two a record.
+    pub fn motions(&self) -> &[Motion<'a>] {
+        &self.motions
+    }
+
+    /// Median over the records of the geometric mean of both peak ground accelerations, g (Eq. 2.16, 3.12).
+    pub fn median_pga_g(&self) -> f64 {
+        self.median_pga_g
+    }
+
+    /// Median over the records of the geometric mean of both peak ground velocities, cm/s (Eq. 2.17, 3.13).
+    pub fn median_pgv_cm_s(&self) -> f64 {
+        self.median_pgv_cm_s
+    }
+
+    /// The median that multiples in a scaling refer to, in the unit of the measure.
+    pub fn median(&self, measure: IntensityMeasure) -> f64 {
+        match measure {
+            IntensityMeasure::Pga => self.median_pga_g,
+            _ => self.median_pgv_cm_s,
+        }
+    }
+
+    /// What every motion is multiplied by, in the order of [`motions`](Self::motions).
+    pub fn factors(&self, scaling: Scaling) -> Vec<f64> {
+        let factor = |motion: &Motion<'_>| match scaling {
+            Scaling::Unscaled => 1.0,
+            Scaling::To { measure, multiple, by } => multiple * self.median(measure) / motion.peak(measure, by),
+        };
+        self.motions.iter().map(factor).collect()
+    }
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    quantile(&values, 0.5)
+}

@@ -1,0 +1,94 @@
+//! How much a value moves in a small sweep around its point.
+//!
+//! Rocking is chaotic: a median of some thirty responses can move by a quarter when the strength changes by one percent. A comparison
+//! with someone else's value means little without that noise beside it.
+
+use crate::error::SpectraError;
+
+/// A sweep around a point, relative to it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NoiseSweep {
+    relative: f64,
+    points: usize,
+}
+
+impl NoiseSweep {
+    /// `points` points, an odd number so that the middle one is the point itself, from `1 − relative` to `1 + relative` times it.
+    ///
+    /// # Errors
+    /// [`SpectraError::OutOfRange`] for a width outside 0 to 0.5, and for an even number of points.
+    pub fn new(relative: f64, points: usize) -> Result<Self, SpectraError> {
+        if !(0.0..=0.5).contains(&relative) {
+            let requirement = "from 0 to 0.5, a part of the strength";
+            return Err(SpectraError::OutOfRange { name: "width of the noise sweep", value: relative, requirement });
+        }
+        if points.is_multiple_of(2) {
+            let (name, value) = ("points of the noise sweep", points as f64);
+            return Err(SpectraError::OutOfRange { name, value, requirement: "an odd number" });
+        }
+        Ok(Self { relative, points })
+    }
+
+    /// The factors, ascending; exactly 1 in the middle.
+    pub fn factors(&self) -> Vec<f64> {
+        let half = self.points / 2;
+        (0..self.points).map(|point| 1.0 + self.relative * (point as f64 - half as f64) / half.max(1) as f64).collect()
+    }
+}
+
+/// A value with its range over a sweep.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Noisy {
+    /// At the point itself.
+    pub value: f64,
+    /// Lowest of the sweep.
+    pub lowest: f64,
+    /// Highest of the sweep.
+    pub highest: f64,
+}
+
+impl Noisy {
+    /// Of the values over a sweep; the middle one counts as the point itself. NaN without any.
+    pub fn of(sweep: &[f64]) -> Self {
+        Self::around(sweep.get(sweep.len() / 2).copied().unwrap_or(f64::NAN), sweep.iter().copied())
+    }
+
+    /// Of a value, and others that it might as well have been.
+    pub fn around(value: f64, others: impl IntoIterator<Item = f64>) -> Self {
+        others.into_iter().fold(Self { value, lowest: value, highest: value }, |range, other| Self {
+            lowest: range.lowest.min(other),
+            highest: range.highest.max(other),
+            ..range
+        })
+    }
+
+    /// Whether `other` lies in the range.
+    pub fn holds(&self, other: f64) -> bool {
+        self.lowest <= other && other <= self.highest
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn the_middle_of_a_sweep_is_the_point_itself() {
+        assert_eq!(NoiseSweep::new(0.5, 5).unwrap().factors(), [0.5, 0.75, 1.0, 1.25, 1.5]);
+        assert_eq!(NoiseSweep::new(0.01, 1).unwrap().factors(), [1.0]);
+        assert_eq!(NoiseSweep::new(0.01, 21).unwrap().factors()[10], 1.0);
+        for (relative, points) in [(-0.1, 3), (0.6, 3), (f64::NAN, 3), (0.1, 4), (0.1, 0)] {
+            assert!(NoiseSweep::new(relative, points).is_err(), "{relative} {points}");
+        }
+    }
+
+    #[test]
+    fn a_range_holds_its_value_and_all_others() {
+        let noisy = Noisy::of(&[3.0, 1.0, 2.0, f64::INFINITY, 4.0]);
+        assert_eq!(noisy, Noisy { value: 2.0, lowest: 1.0, highest: f64::INFINITY });
+        assert!(noisy.holds(1.0) && noisy.holds(1e9) && !noisy.holds(0.5));
+        assert_eq!(Noisy::around(7.0, [1.0, 2.0]), Noisy { value: 7.0, lowest: 1.0, highest: 7.0 });
+        assert!(Noisy::of(&[]).value.is_nan());
+    }
+}
