@@ -1,4 +1,4 @@
-//! Figures, free of science: lines, bands and marks over two axes, several panels a figure, drawn as SVG or PNG.
+//! Figures, free of science: lines, bands, marks and maps over two axes, several panels a figure, drawn as SVG or PNG.
 //!
 //! A [`Figure`] says what is to be seen; [`svg()`] draws it and tells where each panel lies, so that a report can read values off the
 //! curves; [`png()`] turns the drawing into pixels. Colours are those of Okabe and Ito, told apart by the colour-blind, and every series has its
@@ -7,12 +7,13 @@
 mod draw;
 mod figure;
 mod frame;
+mod map;
 mod panel;
 mod raster;
 mod stroke;
 mod ticks;
 
 pub use draw::{Drawing, Width, svg};
-pub use figure::{Axis, Band, Figure, Marks, Panel, Scale, Series, Tone};
+pub use figure::{Axis, Band, Figure, Hatch, Map, Marks, Panel, Region, Scale, Series, Tone};
 pub use panel::PanelPlace;
 pub use raster::{RasterError, png};

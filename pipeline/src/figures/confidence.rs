@@ -76,13 +76,12 @@ pub(super) fn bands(source: &FigureSource) -> Result<Vec<Figure>, UpliftError> {
         let panels = source
             .sites()
             .map(|site| {
-                let mut panel = Panel {
-                    title: stored.sites[site].clone(),
-                    x: Axis::linear(STRENGTH),
-                    y: Axis::log("displacement, m"),
-                    bands: Vec::new(),
-                    series: Vec::new(),
-                };
+                let mut panel = Panel::lines(
+                    stored.sites[site].clone(),
+                    Axis::linear(STRENGTH),
+                    Axis::log("displacement, m"),
+                    Vec::new(),
+                );
                 for (size, &records) in bands.sizes.iter().enumerate() {
                     let name = format!("{records} records");
                     let (band, median) = source.band(&bands, (site, poe, size), "", Tone::Distinct(size));
@@ -120,13 +119,7 @@ fn together(
     let stored = &source.stored;
     let mut panels: Vec<Panel> = source
         .sites()
-        .map(|site| Panel {
-            title: stored.sites[site].clone(),
-            x: Axis::linear(STRENGTH),
-            y: y.clone(),
-            bands: Vec::new(),
-            series: Vec::new(),
-        })
+        .map(|site| Panel::lines(stored.sites[site].clone(), Axis::linear(STRENGTH), y.clone(), Vec::new()))
         .collect();
     let mut found = 0;
     for (index, measure) in stored.measures.iter().enumerate() {

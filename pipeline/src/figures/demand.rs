@@ -53,13 +53,12 @@ pub(super) fn ida_curves(source: &FigureSource) -> Result<Option<Figure>, Uplift
                 .collect();
             series.push(Series::line(name, points, Tone::Distinct([5, 4, 0][index])));
         }
-        panels.push(Panel {
-            title: String::new(),
-            x: Axis::log("peak displacement, m"),
-            y: Axis::linear(format!("{}, {}", measure.measure.label(), measure.measure.unit())),
-            bands: Vec::new(),
+        panels.push(Panel::lines(
+            "",
+            Axis::log("peak displacement, m"),
+            Axis::linear(format!("{}, {}", measure.measure.label(), measure.measure.unit())),
             series,
-        });
+        ));
     }
     let title = format!("Incremental dynamic analysis at strength {:.3}", stored.strengths[strength]);
     let caption = "Peak displacement of every record scaled to every level (grey), of the first record, and percentiles over the records at each level (Fig. A2.13, A2.14).";
@@ -78,13 +77,12 @@ pub(super) fn fragilities(source: &FigureSource) -> Result<Option<Figure>, Uplif
             let points = measure.levels.iter().copied().zip(probabilities).collect();
             series.push(Series::line(format!("u > {threshold_m} m"), points, Tone::Distinct(index)));
         }
-        panels.push(Panel {
-            title: String::new(),
-            x: Axis::log(format!("{}, {}", measure.measure.label(), measure.measure.unit())),
-            y: Axis::linear("probability of exceedance").between(0.0, 1.0),
-            bands: Vec::new(),
+        panels.push(Panel::lines(
+            "",
+            Axis::log(format!("{}, {}", measure.measure.label(), measure.measure.unit())),
+            Axis::linear("probability of exceedance").between(0.0, 1.0),
             series,
-        });
+        ));
     }
     let title = format!("Fragility at strength {:.3}", stored.strengths[strength]);
     let caption = "Share of the records that exceed a displacement at each level (Eq. 4.7): counted, not fitted.";
@@ -101,12 +99,13 @@ pub(super) fn risk_curves(source: &FigureSource) -> Result<Vec<Figure>, UpliftEr
     for measure in &stored.measures {
         let mut panels: Vec<Panel> = source
             .sites()
-            .map(|site| Panel {
-                title: stored.sites[site].clone(),
-                x: Axis::log("displacement, m"),
-                y: Axis::log("mean annual frequency, 1/yr"),
-                bands: Vec::new(),
-                series: Vec::new(),
+            .map(|site| {
+                Panel::lines(
+                    stored.sites[site].clone(),
+                    Axis::log("displacement, m"),
+                    Axis::log("mean annual frequency, 1/yr"),
+                    Vec::new(),
+                )
             })
             .collect();
         for (index, &strength) in shown.iter().enumerate() {
@@ -180,13 +179,7 @@ pub(super) fn risk_surfaces(source: &FigureSource) -> Result<Vec<Figure>, Uplift
                     stored.spectrum(&measure.spectra_m, site, rarest),
                     Tone::Distinct(4),
                 ));
-                Panel {
-                    title: stored.sites[site].clone(),
-                    x: Axis::linear(STRENGTH),
-                    y: Axis::log("displacement, m"),
-                    bands: Vec::new(),
-                    series,
-                }
+                Panel::lines(stored.sites[site].clone(), Axis::linear(STRENGTH), Axis::log("displacement, m"), series)
             })
             .collect();
         let label = measure.measure.label();

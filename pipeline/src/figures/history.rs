@@ -33,13 +33,7 @@ pub fn history_figure(
             Tone::Distinct(2),
         )
     };
-    let panel = |y: &str, series: Vec<Series>| Panel {
-        title: String::new(),
-        x: time(),
-        y: Axis::linear(y),
-        bands: Vec::new(),
-        series,
-    };
+    let panel = |y: &str, series: Vec<Series>| Panel::lines("", time(), Axis::linear(y), series);
     Figure {
         id: "history".to_owned(),
         title: title.to_owned(),

@@ -9,13 +9,7 @@ use crate::stages::predictor;
 pub(super) fn predictors(source: &FigureSource) -> Result<Option<Figure>, UpliftError> {
     let stored = &source.stored;
     let covariates = covariates(stored)?;
-    let panel = |title: &str, y: Axis| Panel {
-        title: title.to_owned(),
-        x: Axis::linear(STRENGTH),
-        y,
-        bands: Vec::new(),
-        series: Vec::new(),
-    };
+    let panel = |title: &str, y: Axis| Panel::lines(title, Axis::linear(STRENGTH), y, Vec::new());
     let mut panels = vec![
         panel("rocking structures", Axis::linear("dispersion of ln u")),
         panel("onset of rocking", Axis::linear("deviation of ln level")),

@@ -22,13 +22,12 @@ pub(super) fn hazard(source: &FigureSource) -> Result<Option<Figure>, UpliftErro
             let im = source.reader.axis_f64(maf.dims.first().map_or("", String::as_str))?;
             series.push(Series::line(name, im.into_iter().zip(maf.values).collect(), Tone::Distinct(site)));
         }
-        panels.push(Panel {
-            title: String::new(),
-            x: Axis::log(format!("{}, {}", measure.label(), measure.unit())),
-            y: Axis::log(RATE),
-            bands: Vec::new(),
+        panels.push(Panel::lines(
+            "",
+            Axis::log(format!("{}, {}", measure.label(), measure.unit())),
+            Axis::log(RATE),
             series,
-        });
+        ));
     }
     let caption = "Mean annual frequency of exceeding a level of the intensity measure, as used (Fig. 4.5b, c).";
     Ok(Some(source.figure("hazard", "Hazard curves", caption, panels)))
@@ -43,13 +42,7 @@ pub fn hazard_figure(curves: &[(String, HazardCurve)]) -> Figure {
         let series = Series::line(name, points, Tone::Distinct(index));
         match panels.iter_mut().find(|panel| panel.x.label == label) {
             Some(panel) => panel.series.push(series),
-            None => panels.push(Panel {
-                title: String::new(),
-                x: Axis::log(label),
-                y: Axis::log(RATE),
-                bands: Vec::new(),
-                series: vec![series],
-            }),
+            None => panels.push(Panel::lines("", Axis::log(label), Axis::log(RATE), vec![series])),
         }
     }
     Figure {
@@ -71,18 +64,17 @@ pub(super) fn spectra(source: &FigureSource) -> Vec<Figure> {
             let label = measure.measure.label();
             let panels = source
                 .sites()
-                .map(|site| Panel {
-                    title: stored.sites[site].clone(),
-                    x: Axis::linear(STRENGTH),
-                    y: Axis::log("displacement, m"),
-                    bands: Vec::new(),
-                    series: (0..stored.poes.len())
+                .map(|site| Panel::lines(
+                    stored.sites[site].clone(),
+                    Axis::linear(STRENGTH),
+                    Axis::log("displacement, m"),
+                    (0..stored.poes.len())
                         .map(|poe| {
                             let name = format!("{} in {} years", per_cent(stored.poes[poe]), stored.years);
                             source.over_strengths(name, stored.spectrum(&measure.spectra_m, site, poe), Tone::Distinct(poe))
                         })
                         .collect(),
-                })
+                ))
                 .collect();
             let caption = format!(
                 "Displacement that a rocking structure of a given uplift strength exceeds with the stated probability, from stripes by {label} (Fig. 4.6, 4.7). Ordinates that are zero or censored are left out."
@@ -121,13 +113,7 @@ pub(super) fn fits(source: &FigureSource) -> Result<Option<Figure>, UpliftError>
                     ));
                 }
             }
-            Panel {
-                title: stored.sites[site].clone(),
-                x: Axis::linear(STRENGTH),
-                y: Axis::log("displacement, m"),
-                bands: Vec::new(),
-                series,
-            }
+            Panel::lines(stored.sites[site].clone(), Axis::linear(STRENGTH), Axis::log("displacement, m"), series)
         })
         .collect::<Vec<_>>();
     if panels.iter().all(|panel| panel.series.is_empty()) {

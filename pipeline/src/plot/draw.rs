@@ -8,9 +8,10 @@
 
 use plotters::prelude::*;
 
-use super::figure::{Figure, Marks, Tone};
+use super::figure::{Figure, Hatch, Marks, Tone};
+use super::map::{draw_hatch, hatching};
 use super::panel::{PanelPlace, draw_panel};
-use super::stroke::{Area, FONT, Failure, LINE, UNITS, ZOOM, colour, draw_line};
+use super::stroke::{Area, FAINT_LINE, FONT, Failure, LINE, UNITS, ZOOM, colour, draw_line};
 
 /// How wide a figure is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -90,6 +91,8 @@ enum Kind {
     Line,
     Dots,
     Area,
+    Level,
+    Region(Hatch),
 }
 
 /// What the legend names: each name once.
@@ -101,7 +104,15 @@ fn legend(figure: &Figure) -> Vec<Entry> {
             (&series.name, series.tone, kind)
         });
         let bands = panel.bands.iter().map(|band| (&band.name, band.tone, Kind::Area));
-        for (name, tone, kind) in lines.chain(bands) {
+        let levels = panel.map.iter().flat_map(|map| {
+            let of = map.levels.len();
+            map.levels.iter().enumerate().map(move |(step, (_, name))| (name, Tone::Shade { step, of }, Kind::Level))
+        });
+        let regions = panel
+            .map
+            .iter()
+            .flat_map(|map| map.regions.iter().map(|region| (&region.name, region.tone, Kind::Region(region.hatch))));
+        for (name, tone, kind) in lines.chain(bands).chain(levels).chain(regions) {
             if !name.is_empty() && entries.iter().all(|known| known.name != *name) {
                 entries.push(Entry { name: name.clone(), tone, kind });
             }
@@ -137,6 +148,17 @@ fn draw_head(root: &Area<'_>, figure: &Figure, entries: &[Entry], head: u32) -> 
             Kind::Area => {
                 let corners = [(x, middle - 4 * UNITS), (right, middle + 4 * UNITS)];
                 root.draw(&Rectangle::new(corners, colour(*tone).mix(0.25).filled()))?;
+            }
+            Kind::Level => {
+                let corners = [(x, middle - 4 * UNITS), (right, middle + 4 * UNITS)];
+                root.draw(&Rectangle::new(corners, colour(*tone).filled()))?;
+            }
+            Kind::Region(hatch) => {
+                let (top, bottom) = (middle - 4 * UNITS, middle + 4 * UNITS);
+                for ends in hatching(*hatch, x..right, top..bottom, |_| true) {
+                    draw_hatch(root, ends.to_vec(), *tone)?;
+                }
+                root.draw(&Rectangle::new([(x, top), (right, bottom)], colour(*tone).stroke_width(FAINT_LINE)))?;
             }
             Kind::Dots => {
                 root.draw(&Circle::new((x + 11 * UNITS, middle), 2 * UNITS, colour(*tone).filled()))?;

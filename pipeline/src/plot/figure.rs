@@ -19,7 +19,7 @@ pub struct Figure {
     pub columns: usize,
 }
 
-/// Lines and bands over two axes.
+/// Lines, bands and a map over two axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Panel {
     /// Title, e.g. the name of a site.
@@ -28,6 +28,8 @@ pub struct Panel {
     pub x: Axis,
     /// The vertical axis.
     pub y: Axis,
+    /// A map, drawn below everything.
+    pub map: Option<Map>,
     /// Areas, drawn below the lines.
     pub bands: Vec<Band>,
     /// Lines.
@@ -62,6 +64,13 @@ pub enum Tone {
     Distinct(usize),
     /// Thin and grey, for many lines that need no names.
     Faint,
+    /// A step of a ramp from light to dark, for values in their order.
+    Shade {
+        /// Which step, from 0.
+        step: usize,
+        /// How many there are.
+        of: usize,
+    },
 }
 
 /// Whether points are marked.
@@ -95,6 +104,52 @@ pub struct Band {
     pub points: Vec<(f64, f64, f64)>,
     /// Colour.
     pub tone: Tone,
+}
+
+/// A value over two axes: areas between levels, and regions where there is no value.
+///
+/// It reaches from the first to the last value of each axis; the axes of its panel want that range.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Map {
+    /// Values of the horizontal axis, increasing.
+    pub x: Vec<f64>,
+    /// Values of the vertical axis, increasing.
+    pub y: Vec<f64>,
+    /// Values `[y, x]`; one that is not finite counts as above every level.
+    pub values: Vec<f64>,
+    /// Lower ends of the areas, increasing, and what the areas are called. Below the first nothing is drawn.
+    pub levels: Vec<(f64, String)>,
+    /// Hatched regions, drawn over the areas.
+    pub regions: Vec<Region>,
+}
+
+/// A part of a map without a value.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Region {
+    /// Name in the legend.
+    pub name: String,
+    /// Which points of the map it holds, `[y, x]`.
+    pub inside: Vec<bool>,
+    /// Colour of the hatching.
+    pub tone: Tone,
+    /// Direction of the hatching.
+    pub hatch: Hatch,
+}
+
+/// Direction of a hatching, which tells regions apart in grey.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Hatch {
+    /// As a slash.
+    Rising,
+    /// As a backslash.
+    Falling,
+}
+
+impl Panel {
+    /// Lines over two axes.
+    pub fn lines(title: impl Into<String>, x: Axis, y: Axis, series: Vec<Series>) -> Self {
+        Self { title: title.into(), x, y, map: None, bands: Vec::new(), series }
+    }
 }
 
 impl Axis {

@@ -46,6 +46,14 @@ impl Frame {
         (pixel_x.round() as i32, pixel_y.round() as i32)
     }
 
+    /// The position of a pixel.
+    pub(super) fn position(&self, (x, y): (i32, i32)) -> (f64, f64) {
+        let share =
+            |pixel: i32, range: &Range<i32>| f64::from(pixel - range.start) / f64::from(range.end - range.start);
+        let at = |(from, to): (f64, f64), share: f64| from + share * (to - from);
+        (at(self.x, share(x, &self.x_pixels)), at(self.y, 1.0 - share(y, &self.y_pixels)))
+    }
+
     /// The parts of a line inside the frame, in pixels.
     pub(super) fn clip(&self, points: &[(f64, f64)]) -> Vec<Vec<(i32, i32)>> {
         let mut pieces: Vec<Vec<(i32, i32)>> = Vec::new();

@@ -1,4 +1,4 @@
-//! One panel: its axes, bands and lines.
+//! One panel: its axes, map, bands and lines.
 #![allow(
     clippy::cast_possible_truncation,
     clippy::cast_possible_wrap,
@@ -14,6 +14,7 @@ use serde::Serialize;
 
 use super::figure::{Axis, Marks, Panel, Scale, Series, Tone};
 use super::frame::{Frame, runs};
+use super::map::draw_map;
 use super::stroke::{Area, FAINT_LINE, FONT, Failure, LINE, UNITS, ZOOM, colour, draw_line};
 use super::ticks::{label, ticks};
 
@@ -96,8 +97,9 @@ pub(super) fn draw_panel(area: &Area<'_>, panel: &Panel) -> Result<PanelPlace, F
     let ys = panel.series.iter().flat_map(|series| series.points.iter().map(|point| point.1));
     let band_xs = panel.bands.iter().flat_map(|band| band.points.iter().map(|point| point.0));
     let band_ys = panel.bands.iter().flat_map(|band| band.points.iter().flat_map(|point| [point.1, point.2]));
-    let (x0, x1) = ends(&panel.x, xs.chain(band_xs));
-    let (y0, y1) = ends(&panel.y, ys.chain(band_ys));
+    let (map_xs, map_ys) = panel.map.as_ref().map_or((&[][..], &[][..]), |map| (&map.x, &map.y));
+    let (x0, x1) = ends(&panel.x, xs.chain(band_xs).chain(map_xs.iter().copied()));
+    let (y0, y1) = ends(&panel.y, ys.chain(band_ys).chain(map_ys.iter().copied()));
     let (wide, high) = area.dim_in_pixel();
     let x_ticks = ticks(x_scale, x0, x1, ((wide / ZOOM) as usize / 48).clamp(3, 8));
     let y_ticks = ticks(y_scale, y0, y1, ((high / ZOOM) as usize / 45).clamp(3, 8));
@@ -130,6 +132,9 @@ pub(super) fn draw_panel(area: &Area<'_>, panel: &Panel) -> Result<PanelPlace, F
     let shifted =
         |points: Vec<(i32, i32)>| -> Vec<(i32, i32)> { points.into_iter().map(|(x, y)| (x - left, y - top)).collect() };
 
+    if let Some(map) = &panel.map {
+        draw_map(&plot, map, (x_scale, y_scale), &frame, &shifted)?;
+    }
     for band in &panel.bands {
         for run in runs(&band.points, |&(x, low, high)| {
             Some((x_scale.position(x)?, band_position(y_scale, low, y0)?, band_position(y_scale, high, y0)?))

@@ -24,6 +24,9 @@ const COLOURS: [RGBColor; 7] = [
 /// Dash and gap of each colour, in pixels; none for a full line.
 const DASHES: [Option<(i32, i32)>; 7] =
     [None, Some((7, 3)), Some((2, 2)), Some((10, 4)), None, Some((5, 2)), Some((3, 4))];
+/// A ramp of falling lightness through the same colours, so that its order shows in grey too.
+const RAMP: [(f64, f64, f64); 4] =
+    [(250.0, 244.0, 190.0), (86.0, 180.0, 160.0), (0.0, 100.0, 160.0), (16.0, 24.0, 64.0)];
 pub(super) const FONT: &str = "sans-serif";
 /// Units of the drawing to a pixel: the library draws in whole units, which must be too fine to be seen.
 pub(super) const ZOOM: u32 = 8;
@@ -40,13 +43,23 @@ pub(super) fn colour(tone: Tone) -> RGBColor {
     match tone {
         Tone::Distinct(index) => COLOURS[index % COLOURS.len()],
         Tone::Faint => RGBColor(205, 205, 205),
+        Tone::Shade { step, of } => shade(step as f64 / of.saturating_sub(1).max(1) as f64),
     }
+}
+
+/// The colour at a share of the ramp.
+fn shade(share: f64) -> RGBColor {
+    let place = share.clamp(0.0, 1.0) * (RAMP.len() - 1) as f64;
+    let below = (place.floor() as usize).min(RAMP.len() - 2);
+    let (from, to, part) = (RAMP[below], RAMP[below + 1], place - below as f64);
+    let mixed = |from: f64, to: f64| (from + part * (to - from)).round() as u8;
+    RGBColor(mixed(from.0, to.0), mixed(from.1, to.1), mixed(from.2, to.2))
 }
 
 fn dash(tone: Tone) -> Option<(i32, i32)> {
     match tone {
         Tone::Distinct(index) => DASHES[index % DASHES.len()],
-        Tone::Faint => None,
+        Tone::Faint | Tone::Shade { .. } => None,
     }
 }
 

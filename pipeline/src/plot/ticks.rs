@@ -6,18 +6,18 @@ use super::figure::Scale;
 pub(super) fn ticks(scale: Scale, from: f64, to: f64, wanted: usize) -> Vec<f64> {
     match scale {
         Scale::Linear => linear(from, to, wanted),
-        Scale::Log if to - from < 1.5 => {
-            let mantissas = [1.0_f64, 2.0, 5.0];
-            decades(from, to)
-                .flat_map(|decade| mantissas.map(|mantissa| decade + mantissa.log10()))
-                .filter(|&tick| tick >= from - 1e-9 && tick <= to + 1e-9)
-                .collect()
-        }
         Scale::Log => {
+            let within = |tick: &f64| *tick >= from - 1e-9 && *tick <= to + 1e-9;
+            let mantissas = [1.0_f64, 2.0, 5.0].map(f64::log10);
+            let fine: Vec<f64> = decades(from, to)
+                .flat_map(|decade| mantissas.map(|mantissa| decade + mantissa))
+                .filter(within)
+                .collect();
+            if fine.len() <= wanted.max(5) {
+                return fine;
+            }
             let step = ((to - from) / wanted as f64).ceil().max(1.0);
-            decades(from, to)
-                .filter(|decade| *decade >= from - 1e-9 && *decade <= to + 1e-9 && decade.rem_euclid(step) == 0.0)
-                .collect()
+            decades(from, to).filter(|decade| within(decade) && decade.rem_euclid(step) == 0.0).collect()
         }
     }
 }
@@ -80,6 +80,7 @@ mod tests {
         close(ticks(Scale::Log, -8.0, 0.0, 4), &[-8.0, -6.0, -4.0, -2.0, 0.0]);
         assert_eq!(ticks(Scale::Linear, 1.0, 1.0, 5), [1.0]);
         assert_eq!(ticks(Scale::Log, 0.0, 1.0, 5).len(), 4);
+        assert_eq!((ticks(Scale::Log, 0.0, 2.0, 7).len(), ticks(Scale::Log, 0.0, 2.0, 6).len()), (7, 3));
     }
 
     #[test]

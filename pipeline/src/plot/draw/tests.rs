@@ -14,6 +14,7 @@ fn figure() -> Figure {
     gap.points[20].1 = f64::NAN;
     gap.points[30].1 = f64::INFINITY;
     let panel = |y: Axis| Panel {
+        map: None,
         title: "<Site & others>".to_owned(),
         x: Axis::linear("strength"),
         y,
