@@ -179,7 +179,7 @@ fn closed_output_is_no_error() {
 fn help_names_every_command() {
     let study = SmallStudy::new();
     let help = study.uplift(&["--help"]).ok().stdout;
-    for command in ["run", "check", "response", "table", "Exit codes"] {
+    for command in ["run", "check", "response", "pulse", "table", "Exit codes"] {
         assert!(help.contains(command), "{command}:\n{help}");
     }
 }

@@ -4,11 +4,13 @@ mod bootstrap;
 mod check;
 mod confidence;
 mod export;
+mod figure_files;
 mod hazard;
 mod influence;
 mod measures;
 mod merge;
 mod plot;
+mod pulse;
 mod records;
 mod reference;
 mod report;
@@ -64,6 +66,8 @@ enum Command {
     Check(check::CheckArguments),
     /// Shake one oscillator with one record
     Response(response::ResponseArguments),
+    /// Rocking spectra of a rigid block under Ricker wavelets: figures and tables (Figures 2.2 to 2.7)
+    Pulse(pulse::PulseArguments),
     /// How sure the spectra are: confidence bands from resampled records (Table 4.1)
     Bootstrap(bootstrap::BootstrapArguments),
     /// Which records carry the spectra (jackknife), and which intensities (disaggregation)
@@ -159,6 +163,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), UpliftError> {
         Command::Verify(arguments) => verify::verify(arguments, &session),
         Command::Check(arguments) => check::check(arguments, &session),
         Command::Response(arguments) => response::response(arguments),
+        Command::Pulse(arguments) => pulse::pulse(arguments, &session),
         Command::Bootstrap(arguments) => bootstrap::bootstrap(arguments, &session),
         Command::Influence(arguments) => influence::influence(arguments, &session),
         Command::Measures(arguments) => measures::measures(arguments, &session),

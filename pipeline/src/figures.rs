@@ -1,4 +1,4 @@
-//! The figures of Chapter 4, made of a result file alone.
+//! The figures of Chapter 4, made of a result file alone, and those of the commands that need none.
 //!
 //! What is to be seen is decided here, how it is drawn in [`plot`](crate::plot).
 
@@ -6,9 +6,11 @@ mod confidence;
 mod demand;
 mod history;
 mod predictors;
+mod pulses;
 mod spectra;
 
 pub use history::history_figure;
+pub use pulses::pulse_figures;
 pub use spectra::hazard_figure;
 
 use crate::error::UpliftError;

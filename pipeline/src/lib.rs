@@ -9,7 +9,8 @@
 //! | [`result`](mod@result) | the HDF5 file and the tables beside it, written and read |
 //! | [`kept`] | what outlives a run: finished pieces by their keys, journals, shards, the lock |
 //! | [`labelled`] | HDF5 files of labelled arrays, free of science |
-//! | [`figures`] | what a result's figures show |
+//! | [`pulses`] | rocking spectra under wavelets, which need no study |
+//! | [`figures`] | what figures show |
 //! | [`report`](mod@report) | the HTML report |
 //! | `export` | tables for other programs |
 //! | [`plot`] | figures, free of science |
@@ -44,6 +45,7 @@ pub mod kept;
 pub mod labelled;
 pub mod plot;
 pub mod progress;
+pub mod pulses;
 pub mod report;
 pub mod result;
 pub mod stages;

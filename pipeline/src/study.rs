@@ -40,7 +40,7 @@ mod warnings;
 mod tests;
 
 pub use error::{Place, StudyError, StudyMistake};
-pub use grid::Grid;
+pub use grid::{Grid, GridError};
 pub use hazard::{Conversion, Hazard, definition_of, definition_word};
 pub use measures::levels_within;
 pub use notation::MOST_GRID_VALUES;

@@ -1,20 +1,17 @@
 //! `uplift plot`: the figures of a result as files.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use super::Session;
+use super::figure_files::{FigureArguments, provide_folder};
 use super::result_of::ResultArguments;
 use super::run::shown_path;
 use crate::error::UpliftError;
 use crate::figures::FigureSource;
-use crate::plot::{Width, png, svg};
 use crate::result::StoredStripes;
-
-/// Of a PNG for print.
-const DOTS_PER_INCH: f32 = 300.0;
 
 #[derive(Debug, Args)]
 pub(super) struct PlotArguments {
@@ -26,25 +23,8 @@ pub(super) struct PlotArguments {
     /// Only figures whose name contains this, for instance urs
     #[arg(long, value_name = "NAME")]
     only: Option<String>,
-    /// Format of the files
-    #[arg(long, value_enum, default_value_t = Format::Svg)]
-    format: Format,
-    /// Width of a journal's column (90 mm) or page (190 mm)
-    #[arg(long, value_enum, default_value_t = Columns::Double)]
-    width: Columns,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Format {
-    Svg,
-    Png,
-    Both,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Columns {
-    Single,
-    Double,
+    #[command(flatten)]
+    figures: FigureArguments,
 }
 
 pub(super) fn plot(arguments: &PlotArguments, session: &Session) -> Result<(), UpliftError> {
@@ -57,33 +37,14 @@ pub(super) fn plot(arguments: &PlotArguments, session: &Session) -> Result<(), U
         return Err(UpliftError::Usage(format!("--only {wanted}: the result has the figures {}", names.join(", "))));
     }
     let folder = arguments.output.clone().unwrap_or_else(|| path.with_extension("figures"));
-    std::fs::create_dir_all(&folder).map_err(|error| cannot_write(&folder, &error))?;
-    let width = match arguments.width {
-        Columns::Single => Width::Single,
-        Columns::Double => Width::Double,
-    };
+    provide_folder(&folder)?;
     let mut out = std::io::stdout().lock();
     for figure in chosen {
-        let drawing = svg(figure, width).map_err(|error| UpliftError::input(format!("{}: {error}", figure.id)))?;
-        let mut files = Vec::new();
-        if arguments.format != Format::Png {
-            files.push(("svg", drawing.svg.clone().into_bytes()));
-        }
-        if arguments.format != Format::Svg {
-            let image = png(&drawing.svg, DOTS_PER_INCH).map_err(|error| UpliftError::input(error.to_string()))?;
-            files.push(("png", image));
-        }
-        for (extension, bytes) in files {
-            let file = folder.join(format!("{}.{extension}", figure.id));
-            std::fs::write(&file, bytes).map_err(|error| cannot_write(&file, &error))?;
+        for file in arguments.figures.write(figure, &folder)? {
             if !session.quiet {
                 writeln!(out, "{}", shown_path(&file).display())?;
             }
         }
     }
     Ok(())
-}
-
-fn cannot_write(path: &Path, error: &std::io::Error) -> UpliftError {
-    UpliftError::input(format!("{} cannot be written: {error}", path.display()))
 }

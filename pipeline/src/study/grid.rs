@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::ops::Deref;
+use std::str::FromStr;
 
 use serde::Serialize;
 
@@ -105,25 +106,52 @@ impl Grid {
 
     fn append(&mut self, item: &Field<'_>, rule: GridRule) -> Option<()> {
         let (piece, values) = piece(item, rule.unit)?;
-        for &value in &values {
-            if !item.check(value, rule.unit, rule.each) {
-                return None;
-            }
+        if !values.iter().all(|&value| item.check(value, rule.unit, rule.each)) {
+            return None;
+        }
+        self.extend(piece, &values, rule.unit).map_err(|Fault { message, help }| item.mistake(message, help)).ok()
+    }
+
+    /// Appends the values of a piece, which must go on increasing.
+    fn extend(&mut self, piece: Piece, values: &[f64], unit: &str) -> Result<(), Fault> {
+        for &value in values {
             if let Some(&last) = self.values.last().filter(|&&last| value <= last) {
-                item.mistake(
-                    format!(
+                return Err(Fault {
+                    message: format!(
                         "{} follows {}, but a grid must increase",
-                        quantity(value, rule.unit),
-                        quantity(last, rule.unit)
+                        quantity(value, unit),
+                        quantity(last, unit)
                     ),
-                    "sort the values and give each once; \"start:step:stop\" includes both ends",
-                );
-                return None;
+                    help: "sort the values and give each once; \"start:step:stop\" includes both ends".to_owned(),
+                });
             }
             self.values.push(value);
         }
         self.pieces.push(piece);
-        Some(())
+        Ok(())
+    }
+}
+
+/// What is wrong with a grid that was typed, and what to do.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{message}: {help}")]
+pub struct GridError {
+    message: String,
+    help: String,
+}
+
+impl FromStr for Grid {
+    type Err = GridError;
+
+    /// The grid of numbers, fractions and `start:step:stop`, set apart by commas, as it is typed on a command line: `0.5,1:1/4:10`.
+    fn from_str(text: &str) -> Result<Self, GridError> {
+        let mut grid = Self { pieces: Vec::new(), values: Vec::new() };
+        for item in text.split(',') {
+            notation::values(item)
+                .and_then(|values| grid.extend(Piece::Range(item.trim().to_owned()), &values, ""))
+                .map_err(|Fault { message, help }| GridError { message, help })?;
+        }
+        Ok(grid)
     }
 }
 

@@ -147,3 +147,15 @@ fn default_levels_cut_to_a_curve() {
     // what is suggested is a grid that a study takes
     load(&format!("[pga]\nlevels_g = {levels}\n")).unwrap();
 }
+
+#[test]
+fn a_grid_as_it_is_typed() {
+    use super::super::{Grid, GridError};
+    let parse = |text: &str| text.parse::<Grid>().map(|grid| grid.to_vec());
+    assert_eq!(parse("2"), Ok(vec![2.0]));
+    assert_eq!(parse("0.5, 1:1/4:1.5 ,3").as_deref(), Ok(&[0.5, 1.0, 1.25, 1.5, 3.0][..]));
+    let told = |text: &str| parse(text).map_err(|error: GridError| error.to_string()).unwrap_err();
+    assert!(told("1,2,2").contains("2 follows 2, but a grid must increase: sort the values"));
+    assert!(told("1,,2").contains("\"\" is no number") && told("").contains("is no number"));
+    assert!(told("0:1e-9:1").contains("at most 100000 values"));
+}
