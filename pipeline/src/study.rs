@@ -16,6 +16,7 @@
 
 mod bootstrap;
 mod branches;
+mod displacement;
 mod document;
 mod error;
 mod form;
@@ -39,6 +40,10 @@ mod warnings;
 #[cfg(test)]
 mod tests;
 
+pub use displacement::{
+    BlockFamily, DesignPlan, Designed, DisplacementStudy, OscillatorFamily, ScaledTo, ScalingPlan, SetPlan, SetRecords,
+    Structures,
+};
 pub use error::{Place, StudyError, StudyMistake};
 pub use grid::{Grid, GridError};
 pub use hazard::{Conversion, Hazard, definition_of, definition_word};
@@ -51,4 +56,4 @@ pub use resolved::{
 };
 pub use selection::{CRITERIA, Criterion, Range, RecordSelection};
 pub use site_table::SiteTable;
-pub use source::Study;
+pub use source::{AnyStudy, Study};

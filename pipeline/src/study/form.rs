@@ -10,8 +10,9 @@ use uplift_motion::{Combination, Component, IntensityMeasure};
 use super::grid::Grid;
 use super::hazard::Hazard;
 use super::resolved::{
-    Contour, CurveFile, CurveKind, Extrapolate, IntervalKind, RecordSource, ResolvedStudy, Uplifted,
+    Contour, CurveFile, CurveKind, Extrapolate, IntervalKind, Output, RecordSource, ResolvedStudy, Uplifted,
 };
+use super::selection::RecordSelection;
 use super::site_table::SiteTableForm;
 
 /// The words of a study file for choices, each in one place for reading and writing.
@@ -81,15 +82,15 @@ struct RecordsForm<'a> {
 
 #[derive(Serialize)]
 #[serde(untagged)]
-enum CriterionForm {
+pub(super) enum CriterionForm {
     Range(String),
     PulseLike(bool),
 }
 
 #[derive(Serialize)]
-struct SyntheticForm {
-    pairs: u64,
-    seed: u64,
+pub(super) struct SyntheticForm {
+    pub(super) pairs: u64,
+    pub(super) seed: u64,
 }
 
 #[derive(Serialize)]
@@ -189,7 +190,7 @@ struct BootstrapForm<'a> {
 }
 
 #[derive(Serialize)]
-struct OutputForm<'a> {
+pub(super) struct OutputForm<'a> {
     file: &'a Path,
     csv: bool,
 }
@@ -250,7 +251,7 @@ impl<'a> Form<'a> {
                 simultaneous: study.bootstrap.simultaneous,
                 strength_above: study.bootstrap.strength_above,
             },
-            output: OutputForm { file: &study.output.file, csv: study.output.csv },
+            output: OutputForm::of(&study.output),
         }
     }
 }
@@ -261,20 +262,29 @@ impl<'a> RecordsForm<'a> {
             RecordSource::Manifest { manifest, tag } => (Some(manifest.as_path()), tag.as_deref(), None),
             &RecordSource::Synthetic { pairs, seed } => (None, None, Some(SyntheticForm { pairs, seed })),
         };
-        let select = &study.records.select;
-        let ranges =
-            select.ranges.iter().map(|(criterion, range)| (criterion.key, CriterionForm::Range(range.to_string())));
-        let pulse_like = select.pulse_like.map(|truth| ("pulse_like", CriterionForm::PulseLike(truth)));
-        let select = ranges.chain(pulse_like).collect();
         Self {
             manifest,
             tag,
             component: word(&COMPONENTS, &study.records.component),
             intensity: word(&COMBINATIONS, &study.records.intensity),
             first: study.records.first,
-            select,
+            select: select_form(&study.records.select),
             synthetic,
         }
+    }
+}
+
+/// The section `[records.select]`.
+pub(super) fn select_form(select: &RecordSelection) -> BTreeMap<&'static str, CriterionForm> {
+    let ranges =
+        select.ranges.iter().map(|(criterion, range)| (criterion.key, CriterionForm::Range(range.to_string())));
+    let pulse_like = select.pulse_like.map(|truth| ("pulse_like", CriterionForm::PulseLike(truth)));
+    ranges.chain(pulse_like).collect()
+}
+
+impl<'a> OutputForm<'a> {
+    pub(super) fn of(output: &'a Output) -> Self {
+        Self { file: &output.file, csv: output.csv }
     }
 }
 

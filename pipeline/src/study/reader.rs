@@ -266,7 +266,7 @@ impl<'a> Field<'a> {
         };
         let chosen = choices.iter().find(|(word, _)| word == text);
         if chosen.is_none() {
-            let name = self.key.rsplit('.').next().unwrap_or_default();
+            let name = self.key.rsplit('.').next().and_then(|name| name.split('[').next()).unwrap_or_default();
             let one_of = format!("it is one of {list}");
             let help = did_you_mean(text, &words).map_or(one_of.clone(), |hint| format!("{hint} {one_of}"));
             self.mistake(format!("unknown {name}: {}", self.node.describe()), help);

@@ -21,8 +21,14 @@ use super::site_table;
 use super::sites;
 use super::warnings;
 
+/// The first key of a study of displacement spectra.
+pub(super) const DISPLACEMENT_SPECTRA: &str = "displacement spectra";
+/// What a study is of; uniform risk unless its first key says otherwise.
+const KINDS: [(&str, Kind); 2] =
+    [("uniform risk spectra", Kind::UniformRisk), (DISPLACEMENT_SPECTRA, Kind::Displacement)];
+
 /// 301 values, 0 to 1 in steps of 1/300.
-const STRENGTHS: [&str; 1] = ["0:1/300:1"];
+pub(super) const STRENGTHS: [&str; 1] = ["0:1/300:1"];
 
 /// 3002 values \[m\].
 const THRESHOLDS_M: [&str; 3] = ["0", "0.0005", "0.001:0.001:3"];
@@ -31,7 +37,19 @@ const THRESHOLDS_M: [&str; 3] = ["0", "0.0005", "0.001:0.001:3"];
 const MOST_PROBABILITIES: usize = 1000;
 
 /// A micrometre: less is no structure, and an oscillator so stiff that no motion resolves it.
-const UPLIFT_DISPLACEMENT: Rule = Rule { holds: |value| value >= 1e-6, words: "1e-6 m or above" };
+pub(super) const UPLIFT_DISPLACEMENT: Rule = Rule { holds: |value| value >= 1e-6, words: "1e-6 m or above" };
+
+/// What a study is of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    UniformRisk,
+    Displacement,
+}
+
+/// What the study is of; none where its `kind` is wrong.
+pub(super) fn kind(root: &mut Section<'_>) -> Option<Kind> {
+    root.field("kind").map_or(Some(Kind::UniformRisk), |field| field.choice(&KINDS))
+}
 
 /// Reads the whole study; what is wrong goes into the ledger. None where something is.
 pub(super) fn study(
@@ -187,7 +205,8 @@ fn regression(mut section: Section<'_>) -> Option<Regression> {
     Some(Regression { strength_above: strength_above? })
 }
 
-fn output<'a>(
+/// Reads the section `[output]`; the result must be none of the `inputs`.
+pub(super) fn output<'a>(
     mut section: Section<'_>,
     folders: &Folders,
     study_file: &Path,

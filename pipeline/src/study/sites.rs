@@ -12,7 +12,7 @@ use super::resolved::{CurveFile, CurveKind, Site};
 /// Most sites in one study.
 const MOST_SITES: usize = 1000;
 
-/// Longest name of a site, in bytes.
+/// Longest name of a site or record set, in bytes.
 const LONGEST_NAME: usize = 100;
 
 /// Reads the sites; each must have a curve of each measure in `measures`.
@@ -45,7 +45,7 @@ fn site(item: &Field<'_>, measures: &[IntensityMeasure], folders: &Folders, name
     if !section.is_present() {
         return None;
     }
-    let name = name(&mut section, names);
+    let name = unique_name(&mut section, "site", "Athens", names);
     let mut curves = Some(Vec::new());
     for keys in &MEASURES {
         let (key, measure) = (keys.section, keys.measure);
@@ -73,9 +73,15 @@ fn site(item: &Field<'_>, measures: &[IntensityMeasure], folders: &Folders, name
     Some(Site { name: name?, curves: curves? })
 }
 
-fn name(section: &mut Section<'_>, names: &mut Vec<String>) -> Option<String> {
+/// The name of a section of a list of `what`, of no other among `names` and fit for a group of the result file.
+pub(super) fn unique_name(
+    section: &mut Section<'_>,
+    what: &str,
+    example: &str,
+    names: &mut Vec<String>,
+) -> Option<String> {
     let Some(field) = section.field("name") else {
-        section.mistake("name", "the site has no name", "add name = \"Athens\"");
+        section.mistake("name", format!("the {what} has no name"), format!("add name = \"{example}\""));
         return None;
     };
     let name = field.filled_text()?.trim();
@@ -93,8 +99,8 @@ fn name(section: &mut Section<'_>, names: &mut Vec<String>) -> Option<String> {
     let folded = name.to_lowercase();
     if names.contains(&folded) {
         field.mistake(
-            format!("there is another site {name}"),
-            "give each site a name of its own; capitals make no difference",
+            format!("there is another {what} {name}"),
+            format!("give each {what} a name of its own; capitals make no difference"),
         );
         return None;
     }

@@ -4,12 +4,13 @@ use std::fs;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
+use super::displacement::{self, DisplacementStudy};
 use super::document::{Origin, Table};
 use super::error::{MOST_LISTED, Place, StudyError, StudyMistake};
 use super::overrides;
 use super::paths::{Folders, tidy};
 use super::reader::{Finding, Ledger, Section};
-use super::resolve;
+use super::resolve::{self, Kind};
 use super::resolved::ResolvedStudy;
 
 /// Largest study file \[bytes\]; one with 100 000 numbers written out has 2 MB.
@@ -23,8 +24,18 @@ pub struct Study {
     document: Table,
 }
 
+/// A resolved study of either kind.
+#[derive(Debug, Clone, PartialEq)]
+pub enum AnyStudy {
+    /// Of uniform risk spectra.
+    UniformRisk(Box<ResolvedStudy>),
+    /// Of displacement spectra.
+    Displacement(Box<DisplacementStudy>),
+}
+
 impl Study {
-    /// Reads the study file `file`, applies the `overrides`, each `key=value`, and checks it all.
+    /// Reads the study file `file`, which must be of uniform risk spectra, applies the `overrides`, each `key=value`, and checks it
+    /// all.
     ///
     /// # Errors
     ///
@@ -32,6 +43,15 @@ impl Study {
     /// alone.
     pub fn load(file: &Path, overrides: &[String]) -> Result<ResolvedStudy, StudyError> {
         Self::read(file)?.resolve(overrides)
+    }
+
+    /// As [`load`](Self::load), for a study of either kind.
+    ///
+    /// # Errors
+    ///
+    /// As [`load`](Self::load).
+    pub fn load_any(file: &Path, overrides: &[String]) -> Result<AnyStudy, StudyError> {
+        Self::read(file)?.resolve_any(overrides)
     }
 
     /// Reads the study file `file`.
@@ -87,7 +107,41 @@ impl Study {
     /// # Errors
     ///
     /// [`StudyError`] with every mistake.
-    pub fn resolve(mut self, overrides: &[String]) -> Result<ResolvedStudy, StudyError> {
+    pub fn resolve(self, overrides: &[String]) -> Result<ResolvedStudy, StudyError> {
+        self.resolve_with(overrides, |mut root, ledger, folders, study_file| match resolve::kind(&mut root)? {
+            Kind::UniformRisk => resolve::study(root, ledger, folders, study_file),
+            Kind::Displacement => {
+                if let Some(field) = root.field("kind") {
+                    field.mistake(
+                        "this study is of displacement spectra, and has no uniform risk spectra",
+                        "`uplift check`, `run` and `status` take it, and `uplift table` its result; for the rest a study of uniform risk is needed",
+                    );
+                }
+                None
+            }
+        })
+    }
+
+    /// As [`resolve`](Self::resolve), for a study of either kind.
+    ///
+    /// # Errors
+    ///
+    /// [`StudyError`] with every mistake.
+    pub fn resolve_any(self, overrides: &[String]) -> Result<AnyStudy, StudyError> {
+        self.resolve_with(overrides, |mut root, ledger, folders, study_file| match resolve::kind(&mut root)? {
+            Kind::UniformRisk => {
+                resolve::study(root, ledger, folders, study_file).map(|study| AnyStudy::UniformRisk(Box::new(study)))
+            }
+            Kind::Displacement => displacement::study(root, ledger, folders, study_file)
+                .map(|study| AnyStudy::Displacement(Box::new(study))),
+        })
+    }
+
+    fn resolve_with<T>(
+        mut self,
+        overrides: &[String],
+        read: impl FnOnce(Section<'_>, &Ledger, &Folders, &Path) -> Option<T>,
+    ) -> Result<T, StudyError> {
         let unreadable = |error: std::io::Error| StudyError::Unreadable {
             file: self.file.display().to_string(),
             reason: format!("no current directory: {error}"),
@@ -103,7 +157,7 @@ impl Study {
             }
         }
         let root = Section::root(&self.document, &ledger);
-        let resolved = resolve::study(root, &ledger, &folders, &study_file);
+        let resolved = read(root, &ledger, &folders, &study_file);
         let findings = ledger.into_findings();
         match resolved {
             Some(study) if findings.is_empty() => Ok(study),

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod configs;
+mod displacement;
 mod grids;
 mod mistakes;
 mod overriding;
@@ -13,7 +14,7 @@ use std::path::PathBuf;
 use miette::{GraphicalReportHandler, GraphicalTheme};
 use tempfile::TempDir;
 
-use super::{ResolvedStudy, Study, StudyError};
+use super::{AnyStudy, DisplacementStudy, ResolvedStudy, Study, StudyError};
 
 /// A folder with a study file, two hazard curves and a manifest.
 struct Folder {
@@ -37,6 +38,14 @@ impl Folder {
     fn load(&self, overrides: &[&str]) -> Result<ResolvedStudy, StudyError> {
         let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
         Study::load(&self.path("study.toml"), &overrides)
+    }
+
+    fn load_displacement(&self, overrides: &[&str]) -> Result<DisplacementStudy, StudyError> {
+        let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
+        match Study::load_any(&self.path("study.toml"), &overrides)? {
+            AnyStudy::Displacement(study) => Ok(*study),
+            AnyStudy::UniformRisk(_) => panic!("a study of uniform risk"),
+        }
     }
 
     /// What a user sees, without the name of the folder.

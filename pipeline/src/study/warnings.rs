@@ -5,10 +5,7 @@ use super::resolved::ResolvedStudy;
 /// The warnings of a resolved study; they depend on nothing but its contents.
 pub(super) fn of(study: &ResolvedStudy) -> Vec<String> {
     let mut warnings = Vec::new();
-    let gravity = study.gravity_m_s2;
-    if !(9.7..=9.9).contains(&gravity) {
-        warnings.push(format!("gravity_m_s2 = {gravity} m/s2 is not found on Earth, where it is 9.76 to 9.83"));
-    }
+    warnings.extend(of_gravity(study.gravity_m_s2));
     if study.sites.is_empty() && study.site_table.is_none() {
         warnings.push("no [[sites]]: the responses are computed, but no uniform risk spectrum".to_owned());
     }
@@ -22,4 +19,10 @@ pub(super) fn of(study: &ResolvedStudy) -> Vec<String> {
         ));
     }
     warnings
+}
+
+/// What an acceleration of gravity \[m/s²\] is suspected of.
+pub(super) fn of_gravity(gravity: f64) -> Option<String> {
+    (!(9.7..=9.9).contains(&gravity))
+        .then(|| format!("gravity_m_s2 = {gravity} m/s2 is not found on Earth, where it is 9.76 to 9.83"))
 }

@@ -1,7 +1,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::super::{RecordSource, ResolvedStudy, Study};
+use super::super::{AnyStudy, RecordSource, ResolvedStudy, Study};
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../configs")
@@ -17,14 +17,17 @@ fn all_load() {
     let mut names = Vec::new();
     for entry in fs::read_dir(folder()).unwrap() {
         let name = entry.unwrap().file_name().into_string().unwrap();
-        let study = config(&name);
-        assert_eq!(study.warnings, [""; 0], "{name}");
-        assert!(!study.title.is_empty());
-        let stem = study.output.file.file_stem().unwrap().to_str().unwrap().to_owned();
+        let (title, warnings, file) = match Study::load_any(&folder().join(&name), &[]).unwrap() {
+            AnyStudy::UniformRisk(study) => (study.title, study.warnings, study.output.file),
+            AnyStudy::Displacement(study) => (study.title, study.warnings, study.output.file),
+        };
+        assert_eq!(warnings, [""; 0], "{name}");
+        assert!(!title.is_empty());
+        let stem = file.file_stem().unwrap().to_str().unwrap().to_owned();
         assert_eq!(format!("{stem}.toml"), name);
         names.push(name);
     }
-    assert_eq!(names.len(), 9);
+    assert_eq!(names.len(), 11);
 }
 
 /// Of the six sites, what is set out in full in `europe.toml` is the default.
