@@ -3,6 +3,7 @@
 mod bootstrap;
 mod check;
 mod confidence;
+mod displacement;
 mod export;
 mod figure_files;
 mod hazard;
@@ -31,7 +32,7 @@ use clap::{Args, Parser, Subcommand};
 
 use crate::error::UpliftError;
 use crate::progress::StopFlag;
-use crate::study::{ResolvedStudy, Study};
+use crate::study::{AnyStudy, ResolvedStudy, Study};
 
 /// Uniform risk spectra for rocking structures.
 ///
@@ -54,7 +55,7 @@ pub struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Run a study: stripes, uniform risk spectra, coefficients, one result file
+    /// Run a study: uniform risk spectra with their coefficients, or displacement spectra of record sets; one result file
     Run(run::RunArguments),
     /// Join the shards of a run into its result
     Merge(merge::MergeArguments),
@@ -84,7 +85,7 @@ enum Command {
     Report(report::ReportArguments),
     /// Write the spectra and coefficients of a result as CSV, JSON or a MATLAB file
     Export(export::ExportArguments),
-    /// Print the coefficients of a result (Table 4.2), beside a reference if one is given
+    /// Print the coefficients of a result (Table 4.2), or its design example (Tables 2.1-2.3, 3.2-3.7), beside a reference if one is given
     Table(table::TableArguments),
 }
 
@@ -101,6 +102,10 @@ struct StudyArguments {
 impl StudyArguments {
     fn load(&self) -> Result<ResolvedStudy, UpliftError> {
         Ok(Study::load(&self.study, &self.overrides)?)
+    }
+
+    fn load_any(&self) -> Result<AnyStudy, UpliftError> {
+        Ok(Study::load_any(&self.study, &self.overrides)?)
     }
 }
 

@@ -5,11 +5,13 @@ mod hazard;
 pub(crate) mod manifest;
 pub(crate) mod pairs;
 mod record_set;
+mod record_sets;
 pub(crate) mod selection;
 mod site_table;
 
 pub use hazard::{BranchHazard, HazardInput, SiteHazard, read_hazard};
 pub use record_set::{Record, RecordSet, read_records};
+pub use record_sets::{NamedSet, RecordSets, SetRecord, read_record_sets};
 pub use site_table::{BatchSite, ListedSite, SiteCurves, SiteExport, SiteList, read_site_list};
 
 use std::io::Read;

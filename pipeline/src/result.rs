@@ -3,6 +3,7 @@
 mod bands;
 mod checkpoint;
 mod csv;
+mod displacement;
 mod extend;
 mod hazard;
 mod influence;
@@ -18,11 +19,14 @@ pub use bands::{BandsFile, band_paths, write_bands};
 pub use checkpoint::{Checkpoint, Finished};
 pub use csv::{csv_paths, write_csv};
 pub(crate) use csv::{write_aside, write_table};
+pub use displacement::{
+    DesignRow, DisplacementOutcome, displacement_csv_paths, read_design, write_displacement_csv, write_displacements,
+};
 pub use influence::{RecordInfluence, influence_path, record_influence, write_influence};
 pub use predictors::{predictors_path, write_predictors};
 pub use provenance::Provenance;
-pub(crate) use read::open_result;
 pub use read::{Fit, Spectrum, StoredResult};
+pub(crate) use read::{holds_displacement_spectra, open_any_result, open_result};
 pub use site_table::{SiteTableFiles, SiteTableLayout, SiteText, site_table_paths};
 pub use stored::{StoredMeasure, StoredStripes, covariates};
 pub use target::check_target;

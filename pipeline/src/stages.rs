@@ -2,6 +2,8 @@
 
 mod bands;
 mod coefficients;
+mod design;
+mod displacement;
 mod epistemic;
 mod influence;
 mod predictors;
@@ -11,6 +13,9 @@ mod stripes;
 
 pub use bands::{BandSettings, Bands, JointBands, StrengthBands, bands_of_strength, gather_bands};
 pub use coefficients::{Coefficients, fit_spectra};
+pub use design::{Designs, design_analyses, design_examples};
+pub(crate) use design::{RULES, strength};
+pub use displacement::{SetSpectra, analyses, set_spectra, shake, structures};
 pub use epistemic::{BranchSpectra, FRACTILES};
 pub use influence::{Influence, influence, level_of_share};
 pub use predictors::{Covariate, Predictor, predictor};

@@ -49,6 +49,7 @@ pub use grid::{Grid, GridError};
 pub use hazard::{Conversion, Hazard, definition_of, definition_word};
 pub use measures::levels_within;
 pub use notation::MOST_GRID_VALUES;
+pub use resolve::DISPLACEMENT_SPECTRA;
 pub use resolved::{
     Bootstrap, Branch, Contour, CurveFile, CurveKind, CurveUnit, DEFAULT_SYNTHETIC_PAIRS, DEFAULT_SYNTHETIC_SEED,
     Extrapolate, IntervalKind, MeasurePlan, Oscillator, Output, RecordSource, Records, Regression, ResolvedStudy, Risk,

@@ -7,12 +7,12 @@ use clap::Args;
 use serde_json::json;
 use uplift_ida::{Plan, estimate};
 
-use super::{Session, StudyArguments, site_table};
+use super::{Session, StudyArguments, displacement, site_table};
 use crate::error::UpliftError;
 use crate::inputs::{RecordSet, SiteList, read_hazard, read_records};
 use crate::result::check_target;
 use crate::stages::{oscillators, plan_stripes};
-use crate::study::ResolvedStudy;
+use crate::study::{AnyStudy, ResolvedStudy};
 use crate::table::thousands;
 
 /// Time spent on a measure to see how fast this machine is.
@@ -28,7 +28,12 @@ pub(super) struct CheckArguments {
 }
 
 pub(super) fn check(arguments: &CheckArguments, session: &Session) -> Result<(), UpliftError> {
-    let study = arguments.study.load()?;
+    let study = match arguments.study.load_any()? {
+        AnyStudy::UniformRisk(study) => study,
+        AnyStudy::Displacement(study) => {
+            return displacement::check(&study, &arguments.study.study, arguments.json, session);
+        }
+    };
     check_target(&study.output.file)?;
     let (_, mut notes) = read_hazard(&study)?;
     let site_list = site_table::read(&study, &study.output.file, session)?;
@@ -82,7 +87,8 @@ pub(super) fn check(arguments: &CheckArguments, session: &Session) -> Result<(),
     Ok(())
 }
 
-fn duration(seconds: f64) -> String {
+/// A time for people.
+pub(super) fn duration(seconds: f64) -> String {
     match seconds {
         s if s < 1.0 => "a second".to_owned(),
         s if s < 120.0 => format!("{s:.0} s"),

@@ -14,14 +14,14 @@ use serde_json::json;
 use uplift_ida::Part;
 use uplift_risk::OrdinateFlag;
 
-use super::{Session, StudyArguments, site_table};
+use super::{Session, StudyArguments, displacement, site_table};
 use crate::error::UpliftError;
 use crate::inputs::{RecordSet, read_hazard, read_records};
 use crate::kept::{KeptPieces, ResultLock, journal_path};
 use crate::labelled::remove_leftovers;
 use crate::result::{Outcome, Provenance, check_target, csv_paths, write_csv, write_result};
 use crate::stages::{Coefficients, Spectra, fit_spectra, uniform_risk_spectra};
-use crate::study::ResolvedStudy;
+use crate::study::{AnyStudy, ResolvedStudy};
 use crate::table::{metres, nearest, per_cent, table};
 pub(super) use work::Work;
 use work::rate;
@@ -30,6 +30,10 @@ use work::rate;
 const FEW_RECORDS: usize = 40;
 /// Warnings printed; all of them are in the result file.
 const WARNINGS_SHOWN: usize = 12;
+
+/// What is said of every result of synthetic records.
+pub(super) const SYNTHETIC: &str =
+    "the records are synthetic: for results that matter bring real ones (records/README.md)";
 
 #[derive(Debug, Args)]
 pub(super) struct RunArguments {
@@ -66,7 +70,18 @@ pub(super) fn run(arguments: &RunArguments, session: &Session) -> Result<(), Upl
     if let Some(outcome) = mpi::run(arguments, session) {
         return outcome;
     }
-    let study = arguments.study.load()?;
+    let study = match arguments.study.load_any()? {
+        AnyStudy::UniformRisk(study) => study,
+        AnyStudy::Displacement(study) => {
+            if arguments.shard.is_some() {
+                return Err(UpliftError::Usage(
+                    "--shard cuts the stripes of a study of uniform risk; this one is of displacement spectra, a matter of minutes: run it as a whole".to_owned(),
+                ));
+            }
+            let path = arguments.output.clone().unwrap_or_else(|| study.output.file.clone());
+            return displacement::run(&study, &arguments.study.study, &path, arguments.json, session);
+        }
+    };
     if let Some(part) = arguments.shard {
         let path = arguments.output.clone().unwrap_or_else(|| shard_path(&study.output.file, part));
         let pieces = run_shard(&study, &path, part, None, session)?;
@@ -195,7 +210,7 @@ pub(super) fn run_study_from(
     }
     let mut provenance = Provenance::new(&study_file.display().to_string(), 0.0, &records, &hazard);
     provenance.input_checksums.extend(site_list.iter().flat_map(|list| list.checksums.clone()));
-    let line = provenance.line(&study.title, &records);
+    let line = provenance.line(&study.title, &records.description);
     let mut sites = site_table::compute(study, site_list.as_ref(), &stripes, path, &line, session)?;
     warnings.append(&mut sites.warnings);
     provenance.wall_time_s = start.elapsed().as_secs_f64();
@@ -228,8 +243,7 @@ fn warnings_of(
 ) -> Vec<String> {
     let mut warnings = Vec::new();
     if records.synthetic {
-        warnings
-            .push("the records are synthetic: for results that matter bring real ones (records/README.md)".to_owned());
+        warnings.push(SYNTHETIC.to_owned());
     }
     if records.records.len() < FEW_RECORDS {
         warnings.push(format!(
@@ -320,25 +334,36 @@ fn print_summary(
         writeln!(out, "{}", table(&header, &rows))?;
     }
     print_branches(out, outcome, &shown)?;
-    if !outcome.warnings.is_empty() {
+    print_end(out, outcome.warnings, files, seconds)?;
+    if outcome.spectra.iter().any(|spectra| spectra.shape[0] > 0) {
+        writeln!(out, "Coefficients (Table 4.2): uplift table {}", shown_path(&files[0]).display())?;
+    }
+    Ok(())
+}
+
+/// What every run ends with: warnings, files, time.
+pub(super) fn print_end(
+    out: &mut impl Write,
+    warnings: &[String],
+    files: &[PathBuf],
+    seconds: f64,
+) -> Result<(), UpliftError> {
+    if !warnings.is_empty() {
         writeln!(out, "\nBefore you use these numbers:")?;
-        for warning in outcome.warnings.iter().take(WARNINGS_SHOWN) {
+        for warning in warnings.iter().take(WARNINGS_SHOWN) {
             writeln!(out, "  - {warning}")?;
         }
-        if outcome.warnings.len() > WARNINGS_SHOWN {
+        if warnings.len() > WARNINGS_SHOWN {
             writeln!(
                 out,
                 "  - {} more in the attribute `warnings` of the result file",
-                outcome.warnings.len() - WARNINGS_SHOWN
+                warnings.len() - WARNINGS_SHOWN
             )?;
         }
     }
     writeln!(out, "\nDone in {seconds:.1} s. Results:")?;
     for file in files {
         writeln!(out, "  {}", shown_path(file).display())?;
-    }
-    if outcome.spectra.iter().any(|spectra| spectra.shape[0] > 0) {
-        writeln!(out, "Coefficients (Table 4.2): uplift table {}", shown_path(&files[0]).display())?;
     }
     Ok(())
 }

@@ -7,8 +7,8 @@ use clap::Args;
 
 use crate::error::UpliftError;
 use crate::kept::{Finding, PieceFile, ResultLock, journal_path};
-use crate::result::{is_hdf5, open_result};
-use crate::study::Study;
+use crate::result::{holds_displacement_spectra, is_hdf5, open_any_result};
+use crate::study::{AnyStudy, Study};
 
 #[derive(Debug, Args)]
 pub(super) struct StatusArguments {
@@ -29,7 +29,10 @@ pub(super) fn status(arguments: &StatusArguments) -> Result<(), UpliftError> {
         }
     }
     let result = if input.extension().is_some_and(|extension| extension == "toml") {
-        Study::load(input, &[])?.output.file
+        match Study::load_any(input, &[])? {
+            AnyStudy::UniformRisk(study) => study.output.file,
+            AnyStudy::Displacement(study) => study.output.file,
+        }
     } else {
         input.clone()
     };
@@ -77,11 +80,23 @@ fn shards_of(result: &Path) -> Vec<PathBuf> {
 }
 
 fn finished(out: &mut impl Write, path: &Path) -> Result<(), UpliftError> {
-    let reader = open_result(path)?;
+    let reader = open_any_result(path)?;
     let text = |name: &str| reader.attribute_text("/", name).unwrap_or_default();
     writeln!(out, "{}: finished {}, uplift {} ({})", path.display(), text("created"), text("version"), text("commit"))?;
     writeln!(out, "  study    {} {}", text("study_file"), text("title"))?;
     writeln!(out, "  records  {}", text("record_set"))?;
+    if holds_displacement_spectra(&reader) {
+        let analyses = reader.attribute_u64("/spectra", "analyses").unwrap_or_default();
+        writeln!(out, "  spectra  displacement spectra of {}s, {analyses} analyses", text("structure"))?;
+        for set in reader.children("/sets").unwrap_or_default() {
+            let records = reader.attribute_u64(&format!("/sets/{set}"), "records").unwrap_or_default();
+            writeln!(out, "  set      {set}: {records} records, {} motions", 2 * records)?;
+        }
+        if reader.exists("/design") {
+            writeln!(out, "  design   uplift table {}", path.display())?;
+        }
+        return Ok(());
+    }
     for measure in reader.children("/ida").unwrap_or_default() {
         let analyses = reader.attribute_u64(&format!("/ida/{measure}"), "analyses").unwrap_or_default();
         writeln!(out, "  {:<8} {analyses} analyses", measure.to_uppercase())?;

@@ -1,4 +1,4 @@
-//! `uplift table`: the coefficients of Eq. 4.11, ours beside a reference.
+//! `uplift table`: the coefficients of Eq. 4.11, ours beside a reference; for displacement spectra the design example.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -7,9 +7,10 @@ use clap::Args;
 use serde_json::json;
 use uplift_regression::Exponential;
 
+use super::displacement;
 use super::reference::ReferenceTable;
 use crate::error::UpliftError;
-use crate::result::{Spectrum, StoredResult};
+use crate::result::{Spectrum, StoredResult, holds_displacement_spectra, open_any_result};
 use crate::table::{per_cent, table as lines};
 
 /// Strengths above this are compared, up to 1 (the range of Table 4.2's fits).
@@ -25,10 +26,10 @@ pub(super) struct TableArguments {
     #[arg(
         long,
         value_name = "FILE.csv",
-        help = "Table to compare with: CSV with the columns site, poe_50y (or poe), c0_m, c1, c2_m, rmse_m"
+        help = "Table to compare with: CSV with the columns site, poe_50y (or poe), c0_m, c1, c2_m, rmse_m; for displacement spectra record_set, scaling, quantity, value and, for oscillators, rule (ED, EE)"
     )]
     reference: Option<PathBuf>,
-    /// Which intensity measure
+    /// Which intensity measure; not for displacement spectra
     #[arg(long, default_value = "pgv", value_parser = ["pgv", "pga", "all"], ignore_case = true)]
     im: String,
     /// Print the rows as JSON
@@ -45,6 +46,11 @@ struct Reference {
 }
 
 pub(super) fn table(arguments: &TableArguments) -> Result<(), UpliftError> {
+    let reader = open_any_result(&arguments.result)?;
+    if holds_displacement_spectra(&reader) {
+        return displacement::table(&arguments.result, &reader, arguments.reference.as_deref(), arguments.json);
+    }
+    drop(reader);
     let result = StoredResult::read(&arguments.result)?;
     let references = match &arguments.reference {
         Some(path) => read_reference(path)?,

@@ -8,7 +8,7 @@ use clap::Args;
 use super::Session;
 use crate::error::UpliftError;
 use crate::labelled::{Seal, verify as verify_file};
-use crate::result::open_result;
+use crate::result::open_any_result;
 
 #[derive(Debug, Args)]
 pub(super) struct VerifyArguments {
@@ -22,7 +22,7 @@ pub(super) fn verify(arguments: &VerifyArguments, session: &Session) -> Result<(
     let mut out = std::io::stdout().lock();
     for path in &arguments.results {
         let name = path.display();
-        let verdict = match open_result(path).and_then(|_| Ok(verify_file(path)?)) {
+        let verdict = match open_any_result(path).and_then(|_| Ok(verify_file(path)?)) {
             Ok(verdict) => verdict,
             Err(error) => {
                 mistakes.push(error.to_string());

@@ -72,13 +72,7 @@ pub fn read_records(study: &ResolvedStudy) -> Result<RecordSet, UpliftError> {
             (manifest_pairs(manifest, tag.as_deref(), study)?, format!("{name}{tag_note}"), false)
         }
     };
-    // what the program made itself stays synthetic, whichever way it comes back
-    let made = |pair: &CheckedPair| {
-        let said = |key: &str| pair.0.metadata.get(key).map(|text| text.to_lowercase()).unwrap_or_default();
-        said("event").starts_with("synthetic")
-            || said("set_tags").split([';', ' ', ',']).any(|word| word == "synthetic")
-    };
-    let synthetic = synthetic || pairs.iter().any(made);
+    let synthetic = synthetic || pairs.iter().any(is_made);
     let (mut pairs, mut notes) =
         selection::select(pairs, &study.records.select, study.records.intensity, study.gravity_m_s2)?;
     pairs.truncate(first_of(study));
@@ -91,6 +85,12 @@ pub fn read_records(study: &ResolvedStudy) -> Result<RecordSet, UpliftError> {
     let description =
         format!("{} {kind} {noun} ({source}{chosen}), component {}", pairs.len(), study.records.component);
     Ok(RecordSet { description, synthetic, records: analysis_records(pairs, study)?, notes })
+}
+
+/// Whether the program made the pair itself: it stays synthetic, whichever way it comes back.
+pub(super) fn is_made((pair, _): &CheckedPair) -> bool {
+    let said = |key: &str| pair.metadata.get(key).map(|text| text.to_lowercase()).unwrap_or_default();
+    said("event").starts_with("synthetic") || said("set_tags").split([';', ' ', ',']).any(|word| word == "synthetic")
 }
 
 /// Records that may not be synchronised, where that matters.
@@ -111,7 +111,7 @@ fn of_unequal_length(pairs: &[CheckedPair], study: &ResolvedStudy) -> Option<Str
 }
 
 /// Records both components of which are the same numbers.
-fn alike(pairs: &[CheckedPair]) -> Vec<String> {
+pub(super) fn alike(pairs: &[CheckedPair]) -> Vec<String> {
     let alike: Vec<&str> =
         pairs.iter().filter(|(pair, _)| pair.h1 == pair.h2).map(|(pair, _)| pair.id.as_str()).collect();
     let shown = alike.iter().take(5).copied().collect::<Vec<_>>().join(", ");
@@ -125,7 +125,7 @@ fn alike(pairs: &[CheckedPair]) -> Vec<String> {
     }
 }
 
-fn synthetic_pairs(pairs: u64, seed: u64) -> Result<Vec<CheckedPair>, UpliftError> {
+pub(super) fn synthetic_pairs(pairs: u64, seed: u64) -> Result<Vec<CheckedPair>, UpliftError> {
     let pairs = usize::try_from(pairs).unwrap_or(usize::MAX);
     let options = SyntheticSetOptions { seed, pairs, ..SyntheticSetOptions::default() };
     let set = cache::synthetic_set(&options).map_err(|error| UpliftError::input(error.to_string()))?;

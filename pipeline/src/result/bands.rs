@@ -125,12 +125,15 @@ fn interval_name(interval: IntervalKind) -> &'static str {
 /// Names of both limits and the median: `u05_m`, `u50_m`, `u95_m` for a confidence of 0.9, `u02_5_m` and `u97_5_m` for 0.95.
 fn limit_names(confidence: f64) -> [String; 3] {
     let tail = 0.5 * (1.0 - confidence);
-    [tail, 0.5, 1.0 - tail].map(|level| {
-        let percent = ((100.0 * level * 1e6).round() / 1e6).to_string();
-        let (whole, part) = percent.split_once('.').map_or((percent.as_str(), ""), |(whole, part)| (whole, part));
-        let part = if part.is_empty() { String::new() } else { format!("_{part}") };
-        format!("u{whole:0>2}{part}_m")
-    })
+    [tail, 0.5, 1.0 - tail].map(|level| percentile_name(100.0 * level))
+}
+
+/// Name of a percentile of displacements: `u05_m`, or `u02_5_m` for 2.5 %.
+pub(super) fn percentile_name(percent: f64) -> String {
+    let percent = ((percent * 1e6).round() / 1e6).to_string();
+    let (whole, part) = percent.split_once('.').map_or((percent.as_str(), ""), |(whole, part)| (whole, part));
+    let part = if part.is_empty() { String::new() } else { format!("_{part}") };
+    format!("u{whole:0>2}{part}_m")
 }
 
 fn bands_table(file: &BandsFile<'_>) -> Vec<Column> {

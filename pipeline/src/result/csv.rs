@@ -20,7 +20,7 @@ pub fn csv_paths(result: &Path) -> [PathBuf; 2] {
 /// # Errors
 /// A file that cannot be written.
 pub fn write_csv(result: &Path, outcome: &Outcome<'_>) -> Result<(), UpliftError> {
-    let line = outcome.provenance.line(&outcome.study.title, outcome.records);
+    let line = outcome.provenance.line(&outcome.study.title, &outcome.records.description);
     let [urs, regression] = csv_paths(result);
     write_table(&urs, &line, spectra_table(outcome))?;
     write_table(&regression, &line, regression_table(outcome))

@@ -49,15 +49,19 @@ fn write_curve(
 
 /// Name of an axis of a site and measure: lower-case ASCII, whatever the site is called.
 fn axis_name(what: &str, site: &str, measure: &str, taken: &mut BTreeSet<String>) -> String {
-    let site: String = site
-        .to_lowercase()
-        .chars()
-        .take(40)
-        .map(|character| if character.is_ascii_alphanumeric() { character } else { '_' })
-        .collect();
-    let mut axis = format!("{what}_{site}_{measure}");
+    unique_axis(format!("{what}_{}_{measure}", axis_part(site)), taken)
+}
+
+/// As much of a name as an axis name can hold: lower-case ASCII.
+pub(super) fn axis_part(name: &str) -> String {
+    let fit = |character: char| if character.is_ascii_alphanumeric() { character } else { '_' };
+    name.to_lowercase().chars().take(40).map(fit).collect()
+}
+
+/// The name of an axis, longer where it is taken: by a name that differs only in what an axis name cannot hold.
+pub(super) fn unique_axis(mut axis: String, taken: &mut BTreeSet<String>) -> String {
     while !taken.insert(axis.clone()) {
-        axis.push('x'); // names that differ only in what an axis name cannot hold
+        axis.push('x');
     }
     axis
 }

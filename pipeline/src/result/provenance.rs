@@ -36,6 +36,11 @@ impl Provenance {
                 input_checksums.insert(name, curve.curve.checksum.clone());
             }
         }
+        Self::of_inputs(study_file, wall_time_s, input_checksums)
+    }
+
+    /// Provenance of a run on these inputs, name to SHA-256.
+    pub fn of_inputs(study_file: &str, wall_time_s: f64, input_checksums: BTreeMap<String, String>) -> Self {
         Self {
             study_file: study_file.to_owned(),
             command: std::env::args().collect::<Vec<_>>().join(" "),
@@ -46,16 +51,15 @@ impl Provenance {
         }
     }
 
-    /// One line for the head of a table.
-    pub fn line(&self, title: &str, records: &RecordSet) -> String {
+    /// One line for the head of a table; `records` says where the records come from.
+    pub fn line(&self, title: &str, records: &str) -> String {
         let title = if title.is_empty() { String::new() } else { format!("{title}; ") };
         format!(
-            "uplift {} ({}), {}; study {}; {title}records: {}",
+            "uplift {} ({}), {}; study {}; {title}records: {records}",
             crate::VERSION,
             crate::COMMIT,
             self.created,
-            self.study_file,
-            records.description
+            self.study_file
         )
         .replace(['\n', '\r'], " ")
     }

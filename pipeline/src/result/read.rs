@@ -5,6 +5,7 @@ use std::path::Path;
 use super::LAYOUT;
 use crate::error::UpliftError;
 use crate::labelled::LabelledReader;
+use crate::study::DISPLACEMENT_SPECTRA;
 
 /// A uniform risk spectrum.
 #[derive(Debug, Clone, PartialEq)]
@@ -100,11 +101,31 @@ impl StoredResult {
     }
 }
 
-/// Open a result file.
+/// Open a result file of uniform risk spectra.
+///
+/// # Errors
+/// A file that is missing, damaged, no result, of another kind, or of another layout.
+pub(crate) fn open_result(path: &Path) -> Result<LabelledReader, UpliftError> {
+    let reader = open_any_result(path)?;
+    if holds_displacement_spectra(&reader) {
+        return Err(UpliftError::input(format!(
+            "{}: holds displacement spectra of record sets, and this command wants uniform risk spectra: `uplift table`, `status` and `verify` take it, tables lie beside it as CSV, and docs/displacement-spectra.md says how other programs read it",
+            path.display()
+        )));
+    }
+    Ok(reader)
+}
+
+/// Whether a result is of displacement spectra.
+pub(crate) fn holds_displacement_spectra(reader: &LabelledReader) -> bool {
+    reader.attribute_text("/", "kind").is_ok_and(|kind| kind == DISPLACEMENT_SPECTRA)
+}
+
+/// Open a result file of either kind.
 ///
 /// # Errors
 /// A file that is missing, damaged, no result, or of another layout.
-pub(crate) fn open_result(path: &Path) -> Result<LabelledReader, UpliftError> {
+pub(crate) fn open_any_result(path: &Path) -> Result<LabelledReader, UpliftError> {
     let reader = LabelledReader::open(path)?;
     let program = reader.attribute_text("/", "program").unwrap_or_default();
     if program != "uplift" {

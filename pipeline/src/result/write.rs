@@ -6,7 +6,7 @@ use uplift_motion::{Combination, IntensityMeasure};
 use uplift_risk::{Ordinate, OrdinateFlag};
 
 use super::hazard::{write_branches, write_hazard};
-use super::{LAYOUT, Outcome};
+use super::{LAYOUT, Outcome, Provenance};
 use crate::error::UpliftError;
 use crate::inputs::Record;
 use crate::kept::{motion_key, oscillator_key};
@@ -30,35 +30,63 @@ pub fn write_result(path: &Path, outcome: &Outcome<'_>) -> Result<(), UpliftErro
 }
 
 fn write_root(writer: &mut LabelledWriter, outcome: &Outcome<'_>) -> Result<(), UpliftError> {
-    let Outcome { study, provenance, records, .. } = outcome;
+    let Outcome { study, records, .. } = outcome;
     let study_toml = study.to_toml().map_err(|error| UpliftError::input(error.to_string()))?;
-    let checksums =
-        serde_json::to_string(&provenance.input_checksums).map_err(|error| UpliftError::input(error.to_string()))?;
-    writer.attribute("/", "program", "uplift")?;
-    writer.attribute("/", "version", crate::VERSION)?;
-    writer.attribute("/", "commit", crate::COMMIT)?;
-    writer.attribute("/", "layout", LAYOUT)?;
-    writer.attribute("/", "created", provenance.created.as_str())?;
-    writer.attribute("/", "command", provenance.command.as_str())?;
-    writer.attribute("/", "title", study.title.as_str())?;
-    writer.attribute("/", "study_file", provenance.study_file.as_str())?;
-    writer.attribute("/", "study_toml", study_toml.as_str())?;
+    let origin = Origin {
+        title: &study.title,
+        study_toml: &study_toml,
+        gravity_m_s2: study.gravity_m_s2,
+        record_set: &records.description,
+        synthetic: records.synthetic,
+        warnings: outcome.warnings,
+        provenance: outcome.provenance,
+    };
+    origin.write(writer)?;
     writer.attribute("/", "seed", study.seed)?;
-    writer.attribute("/", "gravity_m_s2", study.gravity_m_s2)?;
-    writer.attribute("/", "record_set", records.description.as_str())?;
-    writer.attribute("/", "synthetic", i64::from(records.synthetic))?;
     writer.attribute("/", "poe_years", study.risk.years)?;
     writer.attribute(
         "/",
         "contour",
         if study.risk.contour == crate::study::Contour::Exact { "exact" } else { "grid" },
     )?;
-    writer.attribute("/", "input_checksums", checksums.as_str())?;
-    writer.attribute("/", "warnings", outcome.warnings.join("\n").as_str())?;
-    writer.attribute("/", "threads", i64::try_from(provenance.threads).unwrap_or(i64::MAX))?;
-    writer.attribute("/", "wall_time_s", provenance.wall_time_s)?;
-    writer.attribute("/", "platform", format!("{} {}", std::env::consts::OS, std::env::consts::ARCH).as_str())?;
     Ok(())
+}
+
+/// Where the numbers of a result come from: the attributes of the root that results of every kind have.
+pub(super) struct Origin<'a> {
+    pub(super) title: &'a str,
+    pub(super) study_toml: &'a str,
+    pub(super) gravity_m_s2: f64,
+    pub(super) record_set: &'a str,
+    pub(super) synthetic: bool,
+    pub(super) warnings: &'a [String],
+    pub(super) provenance: &'a Provenance,
+}
+
+impl Origin<'_> {
+    pub(super) fn write(&self, writer: &mut LabelledWriter) -> Result<(), UpliftError> {
+        let provenance = self.provenance;
+        let checksums = serde_json::to_string(&provenance.input_checksums)
+            .map_err(|error| UpliftError::input(error.to_string()))?;
+        writer.attribute("/", "program", "uplift")?;
+        writer.attribute("/", "version", crate::VERSION)?;
+        writer.attribute("/", "commit", crate::COMMIT)?;
+        writer.attribute("/", "layout", LAYOUT)?;
+        writer.attribute("/", "created", provenance.created.as_str())?;
+        writer.attribute("/", "command", provenance.command.as_str())?;
+        writer.attribute("/", "title", self.title)?;
+        writer.attribute("/", "study_file", provenance.study_file.as_str())?;
+        writer.attribute("/", "study_toml", self.study_toml)?;
+        writer.attribute("/", "gravity_m_s2", self.gravity_m_s2)?;
+        writer.attribute("/", "record_set", self.record_set)?;
+        writer.attribute("/", "synthetic", i64::from(self.synthetic))?;
+        writer.attribute("/", "input_checksums", checksums.as_str())?;
+        writer.attribute("/", "warnings", self.warnings.join("\n").as_str())?;
+        writer.attribute("/", "threads", i64::try_from(provenance.threads).unwrap_or(i64::MAX))?;
+        writer.attribute("/", "wall_time_s", provenance.wall_time_s)?;
+        writer.attribute("/", "platform", format!("{} {}", std::env::consts::OS, std::env::consts::ARCH).as_str())?;
+        Ok(())
+    }
 }
 
 fn write_axes(writer: &mut LabelledWriter, outcome: &Outcome<'_>) -> Result<(), LabelledError> {

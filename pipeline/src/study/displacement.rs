@@ -98,19 +98,22 @@ pub struct ScalingPlan {
 }
 
 impl ScalingPlan {
-    /// The ways of scaling, `[to][by]`; motions that are not scaled are so in every one of them.
-    pub fn ways(&self) -> impl Iterator<Item = Scaling> {
-        self.to.iter().flat_map(|&to| {
-            self.by.iter().map(move |&by| match to {
+    /// The ways of scaling that differ, and which of them each combination `[to][by]` is: motions that are not scaled are the same
+    /// whosever peak it would be.
+    pub fn ways(&self) -> (Vec<Scaling>, Vec<usize>) {
+        let mut ways: Vec<Scaling> = Vec::new();
+        let mut places = Vec::new();
+        for (&to, &by) in self.to.iter().flat_map(|to| self.by.iter().map(move |by| (to, by))) {
+            let way = match to {
                 ScaledTo::Unscaled => Scaling::Unscaled,
                 ScaledTo::Median { multiple, measure } => Scaling::To { measure, multiple, by },
-            })
-        })
-    }
-
-    /// Number of ways that differ.
-    pub fn different(&self) -> usize {
-        self.to.iter().map(|to| if *to == ScaledTo::Unscaled { 1 } else { self.by.len() }).sum()
+            };
+            places.push(ways.iter().position(|known| *known == way).unwrap_or_else(|| {
+                ways.push(way);
+                ways.len() - 1
+            }));
+        }
+        (ways, places)
     }
 }
 

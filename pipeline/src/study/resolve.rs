@@ -22,7 +22,7 @@ use super::sites;
 use super::warnings;
 
 /// The first key of a study of displacement spectra.
-pub(super) const DISPLACEMENT_SPECTRA: &str = "displacement spectra";
+pub const DISPLACEMENT_SPECTRA: &str = "displacement spectra";
 /// What a study is of; uniform risk unless its first key says otherwise.
 const KINDS: [(&str, Kind); 2] =
     [("uniform risk spectra", Kind::UniformRisk), (DISPLACEMENT_SPECTRA, Kind::Displacement)];

@@ -94,9 +94,10 @@ fn a_complete_study_is_read_and_written_as_it_is() {
     assert_eq!((study.record_sets[1].tag.as_deref(), study.records.first), (None, Some(3)));
     let to = |multiple, measure| ScaledTo::Median { multiple, measure };
     assert_eq!(study.scaling.to, [to(2.0, Pga), ScaledTo::Unscaled, to(0.25, Pgv)]);
-    let ways: Vec<Scaling> = study.scaling.ways().collect();
-    assert_eq!(ways[1], Scaling::Unscaled);
+    let (ways, places) = study.scaling.ways();
+    assert_eq!((ways[1], &places[..]), (Scaling::Unscaled, &[0, 1, 2][..]));
     assert_eq!(ways[2], Scaling::To { measure: Pgv, multiple: 0.25, by: ScaledBy::Record });
+    assert_eq!(config("chapter-2.toml").scaling.ways().1, [0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12]);
     assert_eq!(study.percentiles[..], [2.5, 10.0, 50.0, 90.0]);
     assert_eq!((study.structures.lines(), study.structures.abscissa().len()), (4, 4));
 
@@ -111,7 +112,7 @@ fn a_complete_study_is_read_and_written_as_it_is() {
         let set =
             [&format!("block.restitution={restitution}"), "slenderness.values=0.1:0.1:0.3", "scaling.to=[\"1 PGV\"]"];
         let study = folder.load_displacement(&set).unwrap();
-        assert_eq!((study.structures.abscissa().len(), study.scaling.different()), (3, 2));
+        assert_eq!((study.structures.abscissa().len(), study.scaling.ways().0.len()), (3, 2));
         let before = fs::read(folder.path("study.toml")).unwrap();
         fs::write(folder.path("study.toml"), study.to_toml().unwrap()).unwrap();
         assert_eq!(folder.load_displacement(&[]).unwrap(), study);
