@@ -160,8 +160,10 @@ fn most(study: &DisplacementStudy) -> usize {
     study.records.first.map_or(usize::MAX, |first| usize::try_from(first).unwrap_or(usize::MAX))
 }
 
-/// The rows of the manifest that are in a set, each once; the sets; and notes.
-fn rows_of_sets(path: &Path, study: &DisplacementStudy) -> Result<(Vec<Row>, Vec<Chosen>, Vec<String>), UpliftError> {
+/// Rows that are in a set, each once; the sets; and notes.
+type RowsOfSets = (Vec<Row>, Vec<Chosen>, Vec<String>);
+
+fn rows_of_sets(path: &Path, study: &DisplacementStudy) -> Result<RowsOfSets, UpliftError> {
     let everything = [SetPlan { name: ALL_RECORDS.to_owned(), tag: None, leave_out: Vec::new() }];
     let plans = if study.record_sets.is_empty() { &everything[..] } else { &study.record_sets };
     let mut rows: Vec<Row> = Vec::new();

@@ -73,8 +73,11 @@ fn bounds(noisy: Noisy) -> [f64; 3] {
     [noisy.value, noisy.lowest, noisy.highest]
 }
 
+/// Name of an array, what of an example it holds, unit and long name.
+type ArrayOf<T> = (&'static str, fn(&T) -> Noisy, &'static str, &'static str);
+
 fn write_restrained(writer: &mut LabelledWriter, examples: &[RestrainedExample]) -> Result<(), LabelledError> {
-    let columns: [(&str, fn(&RestrainedExample) -> Noisy, &str, &str); 5] = [
+    let columns: [ArrayOf<RestrainedExample>; 5] = [
         ("u_dem_zs_m", |example| example.zero_stiffness_m, "m", "demand on the zero-stiffness system"),
         ("u_cap_m", |example| example.capacity_m, "m", "designed capacity (Eq. 3.15)"),
         ("u_dem_th_m", |example| example.time_history_m, "m", "demand on the designed system by time histories"),
@@ -91,7 +94,7 @@ fn write_restrained(writer: &mut LabelledWriter, examples: &[RestrainedExample])
 
 fn write_solitary(writer: &mut LabelledWriter, examples: &[Option<SolitaryExample>]) -> Result<(), LabelledError> {
     const NONE: Noisy = Noisy { value: f64::NAN, lowest: f64::NAN, highest: f64::NAN };
-    let columns: [(&str, fn(&SolitaryExample) -> Noisy, &str, &str); 4] = [
+    let columns: [ArrayOf<SolitaryExample>; 4] = [
         ("tan_alpha", |example| example.design_tangent, "1", "design slenderness tan(alpha_D)"),
         ("u_endless_m", |example| example.endless_m, "m", "displacement of the endless block there"),
         ("u_block_m", |example| example.block_m, "m", "displacement of the block itself there"),

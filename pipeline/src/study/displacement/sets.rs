@@ -29,12 +29,11 @@ pub(super) fn records(mut section: Section<'_>, folders: &Folders) -> Option<Set
         field.mistake("tags are given set by set", help);
     }
     let first = optional(first_field.as_ref(), |field| field.integer(1, LARGEST_INTEGER));
-    let source = match manifest_field {
-        Some(field) => folders.input(&field).map(|manifest| RecordSource::Manifest { manifest, tag: None }),
-        None => {
-            records::enough(first_field.as_ref(), first, synthetic);
-            synthetic.map(|(pairs, seed)| RecordSource::Synthetic { pairs, seed })
-        }
+    let source = if let Some(field) = manifest_field {
+        folders.input(&field).map(|manifest| RecordSource::Manifest { manifest, tag: None })
+    } else {
+        records::enough(first_field.as_ref(), first, synthetic);
+        synthetic.map(|(pairs, seed)| RecordSource::Synthetic { pairs, seed })
     };
     Some(SetRecords { source: source?, select: select?, first: first? })
 }
