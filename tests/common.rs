@@ -2,7 +2,7 @@
 #![allow(dead_code, clippy::unwrap_used, clippy::print_stdout, unreachable_pub)]
 
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Output};
 
 use tempfile::TempDir;
 
@@ -19,6 +19,14 @@ pub struct Finished {
 }
 
 impl Finished {
+    fn of(output: Output) -> Self {
+        Self {
+            code: output.status.code().unwrap_or(-1),
+            stdout: String::from_utf8(output.stdout).unwrap(),
+            stderr: String::from_utf8(output.stderr).unwrap(),
+        }
+    }
+
     /// Succeeded, or this test shows what the program said.
     pub fn ok(self) -> Self {
         assert_eq!(self.code, 0, "{}\n{}", self.stdout, self.stderr);
@@ -44,12 +52,7 @@ pub fn command(at: &Path) -> Command {
 }
 
 pub fn uplift<S: AsRef<str>>(at: &Path, arguments: &[S]) -> Finished {
-    let output = command(at).args(arguments.iter().map(AsRef::as_ref)).output().unwrap();
-    Finished {
-        code: output.status.code().unwrap_or(-1),
-        stdout: String::from_utf8(output.stdout).unwrap(),
-        stderr: String::from_utf8(output.stderr).unwrap(),
-    }
+    Finished::of(command(at).args(arguments.iter().map(AsRef::as_ref)).output().unwrap())
 }
 
 /// A folder with a study that takes well under a second: two sites with curves λ = k₀ im^(−k), four synthetic pairs.
@@ -124,6 +127,20 @@ impl SmallStudy {
     /// `uplift ARGUMENTS` in the folder of the study.
     pub fn uplift(&self, arguments: &[&str]) -> Finished {
         uplift(self.path(), arguments)
+    }
+
+    /// The same, stopped by Ctrl-C after two seconds.
+    #[cfg(unix)]
+    pub fn uplift_stopped(&self, arguments: &[&str]) -> Finished {
+        let child = command(self.path())
+            .args(arguments)
+            .stdout(std::process::Stdio::piped())
+            .stderr(std::process::Stdio::piped())
+            .spawn()
+            .unwrap();
+        std::thread::sleep(std::time::Duration::from_secs(2));
+        Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+        Finished::of(child.wait_with_output().unwrap())
     }
 }
 

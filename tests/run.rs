@@ -6,7 +6,7 @@ mod common;
 use std::path::Path;
 use std::process::Command;
 
-use common::{EARLIER, SmallStudy, command, python, repository};
+use common::{EARLIER, SmallStudy, python, repository};
 use uplift::labelled::LabelledReader;
 
 fn arrays(path: &Path) -> Vec<(String, Vec<u64>)> {
@@ -162,16 +162,8 @@ fn interruption_keeps_the_earlier_result() {
     study.write_bytes("r.h5", EARLIER);
     let long =
         ["run", "study.toml", "-o", "r.h5", "--set", "strengths.values=0:1/20000:1", "--set", "risk.maf_surface=false"];
-    let child = command(study.path())
-        .args(long)
-        .stdout(std::process::Stdio::piped())
-        .stderr(std::process::Stdio::piped())
-        .spawn()
-        .unwrap();
-    std::thread::sleep(std::time::Duration::from_secs(2));
-    Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
-    let output = child.wait_with_output().unwrap();
-    assert_eq!(output.status.code(), Some(5), "{}", String::from_utf8_lossy(&output.stderr));
+    let stopped = study.uplift_stopped(&long);
+    assert_eq!(stopped.code, 5, "{}", stopped.stderr);
     assert_eq!(std::fs::read(study.path().join("r.h5")).unwrap(), EARLIER);
     assert_eq!(
         study

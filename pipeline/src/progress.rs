@@ -72,8 +72,10 @@ impl Progress {
         if claimed && done < self.total {
             let rate = done as f64 / elapsed.as_secs_f64();
             let left_s = (self.total - done) as f64 / rate;
+            // of what takes seconds a piece, whole numbers say nothing
+            let decimals = usize::from(rate < 10.0);
             tell!(
-                "{}: {:.0} % of {} {}, {rate:.0}/s, {left_s:.0} s left",
+                "{}: {:.0} % of {} {}, {rate:.decimals$}/s, {left_s:.0} s left",
                 self.label,
                 100.0 * done as f64 / self.total as f64,
                 self.total,

@@ -91,7 +91,7 @@ impl RecordSets {
 /// # Errors
 /// Everything that is wrong with the manifest, the sets or the record files, at once.
 pub fn read_record_sets(study: &DisplacementStudy) -> Result<RecordSets, UpliftError> {
-    let (pairs, plans, source, mut notes) = match &study.records.source {
+    let (pairs, chosen, source, mut notes) = match &study.records.source {
         &RecordSource::Synthetic { pairs, seed } => {
             let named = study.record_sets.len();
             let unused = (named > 0).then(|| {
@@ -103,9 +103,9 @@ pub fn read_record_sets(study: &DisplacementStudy) -> Result<RecordSets, UpliftE
             (pairs, vec![plan], format!("seed {seed}"), Vec::from_iter(unused))
         }
         RecordSource::Manifest { manifest, .. } => {
-            let (rows, plans, notes) = rows_of_sets(manifest, study)?;
+            let RowsOfSets { rows, chosen, notes } = rows_of_sets(manifest, study)?;
             let name = manifest.file_name().unwrap_or(manifest.as_os_str()).to_string_lossy().into_owned();
-            (pairs::read(rows, study.gravity_m_s2).map_err(UpliftError::Inputs)?, plans, name, notes)
+            (pairs::read(rows, study.gravity_m_s2).map_err(UpliftError::Inputs)?, chosen, name, notes)
         }
     };
     let synthetic = study.records.manifest().is_none() || pairs.iter().any(is_made);
@@ -118,7 +118,7 @@ pub fn read_record_sets(study: &DisplacementStudy) -> Result<RecordSets, UpliftE
         pairs.iter().enumerate().map(|(index, (pair, _))| (pair.id.as_str(), index)).collect();
     let mut mistakes = Vec::new();
     let mut sets = Vec::new();
-    for Chosen { name, tag, ids } in plans {
+    for Chosen { name, tag, ids } in chosen {
         let members: Vec<usize> =
             ids.iter().filter_map(|id| position.get(id.as_str()).copied()).take(most(study)).collect();
         if members.is_empty() {
@@ -160,8 +160,12 @@ fn most(study: &DisplacementStudy) -> usize {
     study.records.first.map_or(usize::MAX, |first| usize::try_from(first).unwrap_or(usize::MAX))
 }
 
-/// Rows that are in a set, each once; the sets; and notes.
-type RowsOfSets = (Vec<Row>, Vec<Chosen>, Vec<String>);
+/// The rows of a manifest that are in a set, each once; the sets; and notes.
+struct RowsOfSets {
+    rows: Vec<Row>,
+    chosen: Vec<Chosen>,
+    notes: Vec<String>,
+}
 
 fn rows_of_sets(path: &Path, study: &DisplacementStudy) -> Result<RowsOfSets, UpliftError> {
     let everything = [SetPlan { name: ALL_RECORDS.to_owned(), tag: None, leave_out: Vec::new() }];
@@ -194,7 +198,7 @@ fn rows_of_sets(path: &Path, study: &DisplacementStudy) -> Result<RowsOfSets, Up
         });
         rows.extend(of_set.into_iter().filter(|row| known.insert(row.id.clone())));
     }
-    if mistakes.is_empty() { Ok((rows, chosen, notes)) } else { Err(UpliftError::Inputs(mistakes)) }
+    if mistakes.is_empty() { Ok(RowsOfSets { rows, chosen, notes }) } else { Err(UpliftError::Inputs(mistakes)) }
 }
 
 /// Whether the row has this identifier or record sequence number.

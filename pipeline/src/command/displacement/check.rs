@@ -35,7 +35,8 @@ pub(in super::super) fn check(
     let notes: Vec<&String> = study.warnings.iter().chain(&records.notes).collect();
 
     let of_spectra: u64 = sets.iter().map(|set| analyses(study, set)).sum();
-    let of_design: u64 = sets.iter().filter_map(|set| Some(design_analyses(study, study.design.as_ref()?, set))).sum();
+    let of_design: u64 =
+        study.design.iter().flat_map(|plan| sets.iter().map(|set| design_analyses(study, plan, set))).sum();
     let threads = rayon::current_num_threads();
     let seconds = (of_spectra + of_design) as f64 * seconds_per_analysis(study, &structures, &sets)?;
     let size = Size::of(study, &records, &sets);

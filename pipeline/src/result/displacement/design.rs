@@ -69,15 +69,15 @@ pub(super) fn write(
     }
 }
 
+/// A column of the design examples.
+type Value<Example> = fn(&Example) -> Noisy;
+
 fn bounds(noisy: Noisy) -> [f64; 3] {
     [noisy.value, noisy.lowest, noisy.highest]
 }
 
-/// Name of an array, what of an example it holds, unit and long name.
-type ArrayOf<T> = (&'static str, fn(&T) -> Noisy, &'static str, &'static str);
-
 fn write_restrained(writer: &mut LabelledWriter, examples: &[RestrainedExample]) -> Result<(), LabelledError> {
-    let columns: [ArrayOf<RestrainedExample>; 5] = [
+    let columns: [(&str, Value<RestrainedExample>, &str, &str); 5] = [
         ("u_dem_zs_m", |example| example.zero_stiffness_m, "m", "demand on the zero-stiffness system"),
         ("u_cap_m", |example| example.capacity_m, "m", "designed capacity (Eq. 3.15)"),
         ("u_dem_th_m", |example| example.time_history_m, "m", "demand on the designed system by time histories"),
@@ -94,7 +94,7 @@ fn write_restrained(writer: &mut LabelledWriter, examples: &[RestrainedExample])
 
 fn write_solitary(writer: &mut LabelledWriter, examples: &[Option<SolitaryExample>]) -> Result<(), LabelledError> {
     const NONE: Noisy = Noisy { value: f64::NAN, lowest: f64::NAN, highest: f64::NAN };
-    let columns: [ArrayOf<SolitaryExample>; 4] = [
+    let columns: [(&str, Value<SolitaryExample>, &str, &str); 4] = [
         ("tan_alpha", |example| example.design_tangent, "1", "design slenderness tan(alpha_D)"),
         ("u_endless_m", |example| example.endless_m, "m", "displacement of the endless block there"),
         ("u_block_m", |example| example.block_m, "m", "displacement of the block itself there"),
@@ -119,95 +119,62 @@ pub fn read_design(reader: &LabelledReader) -> Result<Vec<DesignRow>, UpliftErro
     if !reader.exists("/design") {
         return Ok(Vec::new());
     }
-    let table = Table::read(reader)?;
-    let mut rows = Vec::new();
-    let restrained = reader.exists("/design/u_cap_m");
-    let tables: Vec<(Option<Rule>, Vec<Column>)> = if restrained {
-        let columns = || -> Result<Vec<Column>, UpliftError> {
-            [
-                ("u_cap_m", "u_cap_m", 1.0),
-                ("u_dem_TH_m", "u_dem_th_m", 1.0),
-                ("u_dem_rule_m", "u_dem_rule_m", 1.0),
-                ("error_pct", "error", 100.0),
-            ]
-            .into_iter()
-            .map(|(quantity, name, factor)| table.column(reader, quantity.to_owned(), name, &|_| factor))
-            .collect()
-        };
-        RULES.iter().map(|&rule| Ok((Some(rule), columns()?))).collect::<Result<_, UpliftError>>()?
-    } else {
-        let width_m = reader.array_f64("/design/capacity_m")?.values;
-        let height = |name: &str| reader.attribute_f64("/design", name);
-        let over_2b = |way: usize| 1.0 / width_m.get(way).copied().unwrap_or(f64::NAN);
-        let columns = vec![
-            table.column(reader, "tan_alpha_design".to_owned(), "tan_alpha", &|_| 1.0)?,
-            table.column(reader, format!("u_over_2b_2H{}", height("endless_height_m")?), "u_endless_m", &over_2b)?,
-            table.column(reader, format!("u_over_2b_2H{}", height("height_m")?), "u_block_m", &over_2b)?,
-            table.column(reader, "error_pct".to_owned(), "error", &|_| 100.0)?,
+    let axis = |name: &str| reader.axis_text(name);
+    let (sets, to, by) = (axis("record_set")?, axis("scaling")?, axis("scaled_by")?);
+    let (rules, quantities) = if reader.exists("/design/u_cap_m") {
+        let quantities = [
+            ("u_cap_m".to_owned(), "u_cap_m", 1.0),
+            ("u_dem_TH_m".to_owned(), "u_dem_th_m", 1.0),
+            ("u_dem_rule_m".to_owned(), "u_dem_rule_m", 1.0),
+            ("error_pct".to_owned(), "error", 100.0),
         ];
-        vec![(None, columns)]
+        (RULES.map(|rule| Some(words(rule)[1])).to_vec(), quantities)
+    } else {
+        let of_height = |name: &str| -> Result<String, UpliftError> {
+            Ok(format!("u_2H{}_m", reader.attribute_f64("/design", name)?))
+        };
+        let quantities = [
+            ("tan_alpha_design".to_owned(), "tan_alpha", 1.0),
+            (of_height("endless_height_m")?, "u_endless_m", 1.0),
+            (of_height("height_m")?, "u_block_m", 1.0),
+            ("error_pct".to_owned(), "error", 100.0),
+        ];
+        (vec![None], quantities)
     };
-    for (set, record_set) in table.sets.iter().enumerate() {
-        for (rule, (name, columns)) in tables.iter().enumerate() {
-            for column in columns {
-                for (to, scaling) in table.to.iter().enumerate() {
-                    for (by, scaled_by) in table.by.iter().enumerate() {
-                        let way = (set * table.to.len() + to) * table.by.len() + by;
-                        rows.push(DesignRow {
-                            record_set: record_set.clone(),
-                            scaling: scaling.clone(),
-                            scaled_by: scaled_by.clone(),
-                            rule: name.map(|rule| words(rule)[1]),
-                            quantity: column.quantity.clone(),
-                            noisy: column.noisy[way * tables.len() + rule],
-                        });
-                    }
+    let ways = to.len() * by.len();
+    let columns = quantities
+        .into_iter()
+        .map(|(quantity, name, factor)| {
+            let values = reader.array_f64(&format!("/design/{name}"))?.values;
+            if values.len() != sets.len() * ways * rules.len() * BOUNDS.len() {
+                return Err(UpliftError::input(format!(
+                    "/design/{name} has not the shape of its axes: the file is damaged"
+                )));
+            }
+            let noisy = |bounds: &[f64]| Noisy {
+                value: factor * bounds[0],
+                lowest: factor * bounds[1],
+                highest: factor * bounds[2],
+            };
+            Ok((quantity, values.chunks_exact(BOUNDS.len()).map(noisy).collect::<Vec<Noisy>>()))
+        })
+        .collect::<Result<Vec<_>, UpliftError>>()?;
+    let mut rows = Vec::new();
+    for (set, record_set) in sets.iter().enumerate() {
+        for (position, &rule) in rules.iter().enumerate() {
+            for (quantity, noisy) in &columns {
+                for way in 0..ways {
+                    rows.push(DesignRow {
+                        record_set: record_set.clone(),
+                        scaling: to[way / by.len()].clone(),
+                        scaled_by: by[way % by.len()].clone(),
+                        rule,
+                        quantity: quantity.clone(),
+                        noisy: noisy[(set * ways + way) * rules.len() + position],
+                    });
                 }
             }
         }
     }
     Ok(rows)
-}
-
-/// The axes of the design arrays.
-struct Table {
-    sets: Vec<String>,
-    to: Vec<String>,
-    by: Vec<String>,
-}
-
-/// A quantity over `[set, to, by]`, and the rule where there are some.
-struct Column {
-    quantity: String,
-    noisy: Vec<Noisy>,
-}
-
-impl Table {
-    fn read(reader: &LabelledReader) -> Result<Self, UpliftError> {
-        let axis = |name: &str| reader.axis_text(name);
-        Ok(Self { sets: axis("record_set")?, to: axis("scaling")?, by: axis("scaled_by")? })
-    }
-
-    /// The array `name`, multiplied by the `factor` of each way of scaling.
-    fn column(
-        &self,
-        reader: &LabelledReader,
-        quantity: String,
-        name: &str,
-        factor: &dyn Fn(usize) -> f64,
-    ) -> Result<Column, UpliftError> {
-        let array = reader.array_f64(&format!("/design/{name}"))?;
-        let ways = self.sets.len() * self.to.len() * self.by.len();
-        let rules = array.values.len() / (BOUNDS.len() * ways.max(1));
-        if array.values.len() != ways * rules.clamp(1, RULES.len()) * BOUNDS.len() {
-            return Err(UpliftError::input(format!(
-                "/design/{name} has not the shape of its axes: the file is damaged"
-            )));
-        }
-        let noisy = array.values.chunks_exact(BOUNDS.len()).enumerate().map(|(place, bounds)| {
-            let factor = factor(place / rules);
-            Noisy { value: factor * bounds[0], lowest: factor * bounds[1], highest: factor * bounds[2] }
-        });
-        Ok(Column { quantity, noisy: noisy.collect() })
-    }
 }

@@ -155,6 +155,20 @@ noise_points = 20
     insta::assert_snapshot!(folder.rendered(&folder.load_displacement(&[]).unwrap_err()));
 }
 
+/// The keys that `chapter-3.toml` shows as comments are keys: with their marks taken away, no more is wrong than that a file is missing.
+#[test]
+fn commented_keys_are_keys() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../configs/chapter-3.toml");
+    let mut text = fs::read_to_string(&path).unwrap();
+    for key in ["manifest =", "first =", "file ="] {
+        let marked = format!("\n# {key}");
+        assert!(text.contains(&marked), "{key}");
+        text = text.replace(&marked, &format!("\n{key}"));
+    }
+    let error = Study::parse(&path, text).unwrap().resolve_any(&[]).unwrap_err();
+    assert!(error.mistakes().iter().all(|mistake| mistake.message.starts_with("file not found")), "{error:?}");
+}
+
 /// Each study has exactly the mistake beside it.
 #[test]
 fn one_by_one() {
