@@ -9,7 +9,7 @@ pub enum IdaError {
     /// One of the three axes of the analysis is empty.
     #[error("the analysis has no {what}: give at least one")]
     Empty {
-        /// Records, strengths or levels.
+        /// Records, strengths, blocks or levels.
         what: &'static str,
     },
     /// A level is not positive and finite, or does not exceed the one before.
@@ -37,6 +37,14 @@ pub enum IdaError {
         record: String,
         /// What is wrong.
         source: OscillatorError,
+    },
+    /// The motion of a block under a record is not computed.
+    #[error("record {record}: {reason}")]
+    Block {
+        /// Identifier of the record.
+        record: String,
+        /// What is wrong.
+        reason: String,
     },
     /// The analysis was told to stop.
     #[error("the analysis was interrupted")]

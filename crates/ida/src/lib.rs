@@ -5,12 +5,14 @@
 //! |---|---|
 //! | [`plan`] | records, oscillators and levels, checked |
 //! | [`analysis`] | the plan carried out on all cores |
+//! | [`block`] | the same for rigid rocking blocks, with their full nonlinear motion |
 //! | [`cells`] | what is known of that array already, and the parts that several machines share |
 //! | [`edp`] | the array of engineering demand parameters it leaves |
 //! | [`estimate`](mod@estimate) | how long a plan will take here |
 //! | [`watch`] | progress and cancellation |
 
 pub mod analysis;
+pub mod block;
 pub mod cells;
 pub mod edp;
 mod error;
@@ -19,6 +21,7 @@ pub mod plan;
 pub mod watch;
 
 pub use analysis::{analyse, complete};
+pub use block::{BlockPlan, analyse_blocks};
 pub use cells::{Cells, NUMERICS, Part, Piece};
 pub use edp::EdpArray;
 pub use error::IdaError;

@@ -41,24 +41,8 @@ impl<'a> Plan<'a> {
         levels: &'a [f64],
         with_free_peak: bool,
     ) -> Result<Self, IdaError> {
-        for (what, empty) in
-            [("records", records.is_empty()), ("strengths", oscillators.is_empty()), ("levels", levels.is_empty())]
-        {
-            if empty {
-                return Err(IdaError::Empty { what });
-            }
-        }
-        let mut before = 0.0;
-        for (index, &value) in levels.iter().enumerate() {
-            if !(value.is_finite() && value > before) {
-                return Err(IdaError::Levels { index, value, before });
-            }
-            before = value;
-        }
+        check_axes(&records, ("strengths", oscillators.len()), levels)?;
         for record in &records {
-            if !(record.intensity.is_finite() && record.intensity > 0.0) {
-                return Err(IdaError::Unscalable { record: record.id.to_owned(), value: record.intensity });
-            }
             excitation(record)?;
         }
         Ok(Self { records, oscillators, levels, with_free_peak })
@@ -68,6 +52,32 @@ impl<'a> Plan<'a> {
     pub fn analyses(&self) -> u64 {
         (self.records.len() * self.oscillators.len() * self.levels.len()) as u64
     }
+}
+
+/// Refuses an empty axis, levels that do not ascend, and records that cannot be scaled; `systems` is what shakes, by name and number.
+pub(crate) fn check_axes(
+    records: &[StripeRecord<'_>],
+    systems: (&'static str, usize),
+    levels: &[f64],
+) -> Result<(), IdaError> {
+    for (what, length) in [("records", records.len()), systems, ("levels", levels.len())] {
+        if length == 0 {
+            return Err(IdaError::Empty { what });
+        }
+    }
+    let mut before = 0.0;
+    for (index, &value) in levels.iter().enumerate() {
+        if !(value.is_finite() && value > before) {
+            return Err(IdaError::Levels { index, value, before });
+        }
+        before = value;
+    }
+    for record in records {
+        if !(record.intensity.is_finite() && record.intensity > 0.0) {
+            return Err(IdaError::Unscalable { record: record.id.to_owned(), value: record.intensity });
+        }
+    }
+    Ok(())
 }
 
 pub(crate) fn excitation<'a>(record: &StripeRecord<'a>) -> Result<Excitation<'a>, IdaError> {

@@ -52,6 +52,10 @@ impl PointMass {
         Ok(Self { geometry, mass_kg: positive("mass_kg", mass_kg, "kg")? })
     }
 
+    pub(crate) fn geometry(&self) -> &Geometry {
+        &self.geometry
+    }
+
     /// Table 3.1, row 1.
     ///
     /// # Errors
@@ -84,6 +88,10 @@ impl Block {
     /// The mass must be finite and positive.
     pub fn new(geometry: Geometry, mass_kg: f64) -> Result<Self, StructureError> {
         Ok(Self { geometry, mass_kg: positive("mass_kg", mass_kg, "kg")? })
+    }
+
+    pub(crate) fn geometry(&self) -> &Geometry {
+        &self.geometry
     }
 
     /// Table 3.1, row 2 (centre) or row 4 (top, Eq. 3.6).
@@ -142,6 +150,15 @@ impl Body {
             return Err(StructureError::InertiaBelowPointMass { moment_of_inertia_kg_m2, least_kg_m2 });
         }
         Ok(Self { geometry, mass_kg, inertia_ratio: moment_of_inertia_kg_m2 / least_kg_m2 })
+    }
+
+    pub(crate) fn geometry(&self) -> &Geometry {
+        &self.geometry
+    }
+
+    /// `I_o/(m R²)`.
+    pub(crate) fn inertia_ratio(&self) -> f64 {
+        self.inertia_ratio
     }
 
     /// Table 3.1, row 3.

@@ -1,7 +1,8 @@
 //! A structure as written in a TOML file.
 //!
 //! # Keys
-//! Every kind takes a geometry, and may give `uplift_displacement_m` (0.0005 if left out) and `gravity_m_s2` (9.80665).
+//! Every kind takes a geometry, and may give `uplift_displacement_m` (0.0005 if left out), `gravity_m_s2` (9.80665) and the coefficient of
+//! `restitution` at an impact, which no rule needs but an analysis does.
 //! The geometry is `width_m` and `height_m`, or a slenderness (`slenderness_rad` or `slenderness_deg`) and one of `size_m` (the semi-diagonal `R`),
 //! `height_m`, `width_m`. A `point-mass` and a `body` give the height of their mass centre, `centre_height_m`, in place of `height_m`.
 //!
@@ -194,6 +195,8 @@ pub struct StructureDescription {
     pub uplift_displacement_m: Option<f64>,
     /// Acceleration of gravity, m/s²; 9.80665 if left out.
     pub gravity_m_s2: Option<f64>,
+    /// Velocity after over before an impact; whoever analyses the structure chooses where it is left out.
+    pub restitution: Option<f64>,
 }
 
 impl StructureDescription {
@@ -211,26 +214,20 @@ impl StructureDescription {
 
     fn equivalent(&self) -> Result<EquivalentSystem, StructureError> {
         let conditions = self.conditions()?;
-        let geometry = self.geometry()?;
         match self.kind {
-            Kind::PointMass => PointMass::new(geometry, self.need("mass_kg", self.mass_kg)?)?.equivalent(conditions),
-            Kind::Block => Block::new(geometry, self.need("mass_kg", self.mass_kg)?)?
-                .equivalent(self.displacement_of.unwrap_or_default(), conditions),
-            Kind::Body => {
-                let moment_of_inertia_kg_m2 = self.need("moment_of_inertia_kg_m2", self.moment_of_inertia_kg_m2)?;
-                Body::new(geometry, self.need("mass_kg", self.mass_kg)?, moment_of_inertia_kg_m2)?
-                    .equivalent(conditions)
-            }
-            Kind::Frame => self.frame(geometry)?.equivalent(conditions),
+            Kind::PointMass => self.point_mass()?.equivalent(conditions),
+            Kind::Block => self.block()?.equivalent(self.displacement_of.unwrap_or_default(), conditions),
+            Kind::Body => self.body()?.equivalent(conditions),
+            Kind::Frame => self.frame()?.equivalent(conditions),
             Kind::RestrainedFrame => {
                 let stiffness_n_m = self.need("tendon_stiffness_n_m", self.tendon_stiffness_n_m)?;
                 let anchorage = self.tendon_anchorage.ok_or(StructureError::MissingAnchorage)?;
-                RestrainedFrame::new(self.frame(geometry)?, stiffness_n_m, anchorage)?.equivalent(conditions)
+                RestrainedFrame::new(self.frame()?, stiffness_n_m, anchorage)?.equivalent(conditions)
             }
             Kind::CurvedFrame => {
                 let radius_m = self.need("curvature_radius_m", self.curvature_radius_m)?;
                 let extended_width_m = self.need("extended_width_m", self.extended_width_m)?;
-                CurvedFrame::new(self.frame(geometry)?, radius_m, extended_width_m)?.equivalent(conditions)
+                CurvedFrame::new(self.frame()?, radius_m, extended_width_m)?.equivalent(conditions)
             }
         }
     }
@@ -240,9 +237,22 @@ impl StructureDescription {
         value.ok_or(StructureError::Missing { key, unit: "", kind: self.kind.name() })
     }
 
-    fn frame(&self, geometry: Geometry) -> Result<Frame, StructureError> {
+    pub(crate) fn point_mass(&self) -> Result<PointMass, StructureError> {
+        PointMass::new(self.geometry()?, self.need("mass_kg", self.mass_kg)?)
+    }
+
+    pub(crate) fn block(&self) -> Result<Block, StructureError> {
+        Block::new(self.geometry()?, self.need("mass_kg", self.mass_kg)?)
+    }
+
+    pub(crate) fn body(&self) -> Result<Body, StructureError> {
+        let moment_of_inertia_kg_m2 = self.need("moment_of_inertia_kg_m2", self.moment_of_inertia_kg_m2)?;
+        Body::new(self.geometry()?, self.need("mass_kg", self.mass_kg)?, moment_of_inertia_kg_m2)
+    }
+
+    pub(crate) fn frame(&self) -> Result<Frame, StructureError> {
         Frame::new(
-            geometry,
+            self.geometry()?,
             self.need("columns", self.columns)?,
             self.need("column_mass_kg", self.column_mass_kg)?,
             self.need("deck_mass_kg", self.deck_mass_kg)?,
@@ -257,8 +267,11 @@ impl StructureDescription {
         )
     }
 
-    /// The geometry, if exactly one of the accepted combinations is given.
-    fn geometry(&self) -> Result<Geometry, StructureError> {
+    /// The geometry.
+    ///
+    /// # Errors
+    /// Any but exactly one of the accepted combinations, or a length that is none.
+    pub fn geometry(&self) -> Result<Geometry, StructureError> {
         let height_m =
             if self.kind.is_by_centre() { self.centre_height_m.map(|centre_m| 2.0 * centre_m) } else { self.height_m };
         let slenderness_rad = match (self.slenderness_rad, self.slenderness_deg) {

@@ -137,6 +137,11 @@ impl Frame {
         1.5 * self.geometry.height_m() * self.inertial_mass_kg() / self.gravitating_mass_kg()
     }
 
+    /// What an impact takes of the angular velocity, in units of `sin²α`: `(3/2)(1 + 4γ_m)/(1 + 3γ_m)` (see [`rigid`](crate::rigid)).
+    pub(crate) fn impact_loss(&self) -> f64 {
+        0.5 * (self.columns_mass_kg() + 4.0 * self.deck_mass_kg) / self.inertial_mass_kg()
+    }
+
     /// Stiffness of the tendon and spring of each column at which the post-uplift stiffness is zero, `k_crit` of Section 6.2.1, N/m:
     /// `(1 + 2γ_m) m g/(4 b α)` for [`Anchorage::Foundation`], four times that for [`Anchorage::Column`].
     pub fn critical_tendon_stiffness_n_m(&self, anchorage: Anchorage, conditions: Conditions) -> f64 {

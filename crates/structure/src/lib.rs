@@ -9,6 +9,7 @@
 //! | [`frame`] | columns under a deck, free or restrained by tendons: row 5, Eq. 6.1 and 6.2 |
 //! | [`curved`] | columns with curved extensions of their ends: row 6 |
 //! | [`equivalent`] | the oscillator all of them lead to (Eq. 3.1–3.4) |
+//! | [`rigid`] | the solitary block that rotates exactly as a structure does (Section 2.4.3) |
 //! | [`rule`] | equal displacement and equal energy: from the ZSBE demand to the structure's (Eq. 3.8–3.11, 3.14) |
 //! | [`design`](mod@design) | required capacity and check of Section 3.4.5 (Eq. 3.15) |
 //! | [`slenderness`] | preliminary design of Section 2.4.3 |
@@ -68,6 +69,7 @@ pub mod equivalent;
 mod error;
 pub mod frame;
 pub mod geometry;
+pub mod rigid;
 pub mod rule;
 pub mod slenderness;
 mod warning;
@@ -80,6 +82,7 @@ pub use equivalent::{Conditions, EquivalentSystem, PostUplift};
 pub use error::StructureError;
 pub use frame::{Anchorage, Frame, RestrainedFrame};
 pub use geometry::Geometry;
+pub use rigid::RotatingBlock;
 pub use rule::{Capacity, Demand, Rule};
 pub use slenderness::{SlendernessDesign, SpectrumPoint, design_slenderness};
 pub use warning::Warning;

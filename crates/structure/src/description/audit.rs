@@ -21,6 +21,7 @@ enum Range {
     Positive,
     NotNegative,
     AtLeastOne,
+    ZeroToOne,
     /// Above 0 and below a quarter turn, given in the quantity's unit.
     BelowQuarterTurn(f64, &'static str),
 }
@@ -31,6 +32,7 @@ impl Range {
             Self::Positive => value > 0.0 && value.is_finite(),
             Self::NotNegative => value >= 0.0 && value.is_finite(),
             Self::AtLeastOne => value >= 1.0,
+            Self::ZeroToOne => (0.0..=1.0).contains(&value),
             Self::BelowQuarterTurn(quarter_turn, _) => value > 0.0 && value < quarter_turn,
         }
     }
@@ -40,6 +42,7 @@ impl Range {
             Self::Positive => "finite and positive",
             Self::NotNegative => "finite and not negative",
             Self::AtLeastOne => "at least 1",
+            Self::ZeroToOne => "between 0 and 1",
             Self::BelowQuarterTurn(_, requirement) => requirement,
         }
     }
@@ -63,7 +66,7 @@ fn accepted_if(condition: bool) -> Role {
 
 /// Every quantity that is a number, in the order of the documentation.
 fn quantities(of: &StructureDescription) -> Vec<Quantity> {
-    use Range::{AtLeastOne, BelowQuarterTurn, NotNegative, Positive};
+    use Range::{AtLeastOne, BelowQuarterTurn, NotNegative, Positive, ZeroToOne};
     let kind = of.kind;
     let (frame, by_centre) = (kind.is_frame(), kind.is_by_centre());
     let restrained = kind == Kind::RestrainedFrame;
@@ -94,6 +97,7 @@ fn quantities(of: &StructureDescription) -> Vec<Quantity> {
         quantity("extended_width_m", of.extended_width_m, "m", Positive, needed_if(curved)),
         quantity("uplift_displacement_m", of.uplift_displacement_m, "m", NotNegative, Role::Accepted),
         quantity("gravity_m_s2", of.gravity_m_s2, "m/s²", Positive, Role::Accepted),
+        quantity("restitution", of.restitution, "", ZeroToOne, Role::Accepted),
     ]
 }
 
