@@ -3,6 +3,7 @@
 mod bootstrap;
 mod check;
 mod confidence;
+mod design;
 mod displacement;
 mod export;
 mod figure_files;
@@ -10,6 +11,7 @@ mod hazard;
 mod influence;
 mod measures;
 mod merge;
+mod overturning;
 mod plot;
 mod pulse;
 mod records;
@@ -20,6 +22,7 @@ mod result_of;
 mod run;
 mod site_table;
 mod status;
+mod structure;
 mod table;
 mod verify;
 
@@ -40,8 +43,10 @@ use crate::study::{AnyStudy, ResolvedStudy, Study};
 /// annual risk is what the engineer chose.
 #[derive(Debug, Parser)]
 #[command(name = "uplift", version = concat!(env!("CARGO_PKG_VERSION"), " (", env!("UPLIFT_COMMIT"), ")"), max_term_width = 100)]
-#[command(after_help = "Exit codes: 0 done, 2 usage, 3 study file, 4 input data or disk, 5 interrupted, 1 a bug.\n\
-    Start with: uplift run configs/quick.toml")]
+#[command(
+    after_help = "Exit codes: 0 done, 2 usage, 3 study or structure file, 4 input data or disk, 5 interrupted, 1 a bug.\n\
+    Start with: uplift run configs/quick.toml"
+)]
 pub struct Arguments {
     /// Threads to use; the numbers do not depend on it [default: all cores]
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
@@ -75,6 +80,10 @@ enum Command {
     Influence(influence::InfluenceArguments),
     /// Which intensity measure to trust: efficiency and sufficiency
     Measures(measures::MeasuresArguments),
+    /// Design a structure by a spectrum, and test the design by the structure's own risk
+    Design(design::DesignArguments),
+    /// How often a structure overturns: collapse fragility and risk, by oscillator and rigid block
+    Overturning(overturning::OverturningArguments),
     /// Bring record files: import a folder, list, show, choose, synthesize
     Records(records::RecordsArguments),
     /// Bring hazard curves: take them from the exports of engines, show, draw
@@ -172,6 +181,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), UpliftError> {
         Command::Bootstrap(arguments) => bootstrap::bootstrap(arguments, &session),
         Command::Influence(arguments) => influence::influence(arguments, &session),
         Command::Measures(arguments) => measures::measures(arguments, &session),
+        Command::Design(arguments) => design::design(arguments, &session),
+        Command::Overturning(arguments) => overturning::overturning(arguments, &session),
         Command::Records(arguments) => records::records(arguments, &session),
         Command::Hazard(arguments) => hazard::hazard(arguments, &session),
         Command::Plot(arguments) => plot::plot(arguments, &session),

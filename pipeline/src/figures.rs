@@ -1,15 +1,17 @@
-//! The figures of Chapter 4, made of a result file alone, and those of the commands that need none.
+//! The figures of Chapter 4, made of a result file alone; and those of a record, a structure or a pulse, which need none.
 //!
 //! What is to be seen is decided here, how it is drawn in [`plot`](crate::plot).
 
 mod confidence;
 mod demand;
 mod history;
+mod overturning;
 mod predictors;
 mod pulses;
 mod spectra;
 
 pub use history::history_figure;
+pub use overturning::overturning_figure;
 pub use pulses::pulse_figures;
 pub use spectra::hazard_figure;
 

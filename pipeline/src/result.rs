@@ -12,6 +12,7 @@ mod provenance;
 mod read;
 mod site_table;
 mod stored;
+mod study_of;
 mod target;
 mod write;
 
@@ -29,6 +30,7 @@ pub use read::{Fit, Spectrum, StoredResult};
 pub(crate) use read::{holds_displacement_spectra, open_any_result, open_result};
 pub use site_table::{SiteTableFiles, SiteTableLayout, SiteText, site_table_paths};
 pub use stored::{StoredMeasure, StoredStripes, covariates};
+pub use study_of::{SpectraOfResult, StudyOfResult};
 pub use target::check_target;
 pub(crate) use target::is_hdf5;
 pub(crate) use write::level_axis;

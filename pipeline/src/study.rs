@@ -34,6 +34,7 @@ mod selection;
 mod site_table;
 mod sites;
 mod source;
+mod structure;
 mod suggestion;
 mod warnings;
 
@@ -58,3 +59,4 @@ pub use resolved::{
 pub use selection::{CRITERIA, Criterion, Range, RecordSelection};
 pub use site_table::SiteTable;
 pub use source::{AnyStudy, Study};
+pub use structure::Structure;

@@ -131,6 +131,10 @@ pub enum Kind {
 }
 
 impl Kind {
+    /// Every kind, in the order of Table 3.1.
+    pub const ALL: [Self; 6] =
+        [Self::PointMass, Self::Block, Self::Body, Self::Frame, Self::RestrainedFrame, Self::CurvedFrame];
+
     /// The kind as written in a description.
     pub fn name(self) -> &'static str {
         match self {

@@ -170,6 +170,26 @@ pub enum StructureError {
     },
 }
 
+impl StructureError {
+    /// Keys of the description whose values are at fault, the one to change first before the others; empty where none is.
+    pub fn keys(&self) -> &[&'static str] {
+        match self {
+            Self::OutOfRange { key, .. } | Self::Missing { key, .. } | Self::Foreign { key, .. } => {
+                std::slice::from_ref(key)
+            }
+            Self::MissingAnchorage => &["tendon_anchorage"],
+            Self::Geometry { .. } => {
+                &["width_m", "height_m", "centre_height_m", "slenderness_rad", "slenderness_deg", "size_m"]
+            }
+            Self::Massless => &["deck_mass_kg", "column_mass_kg"],
+            Self::InertiaBelowPointMass { .. } => &["moment_of_inertia_kg_m2"],
+            Self::Extension { .. } => &["extended_width_m", "curvature_radius_m", "width_m"],
+            Self::CapacityBelowUplift { .. } => &["uplift_displacement_m"],
+            _ => &[],
+        }
+    }
+}
+
 fn after_value(unit: &str) -> String {
     if unit.is_empty() { String::new() } else { format!(" {unit}") }
 }

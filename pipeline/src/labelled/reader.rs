@@ -58,6 +58,11 @@ impl LabelledReader {
         Ok(Self { file, path: owned, bytes })
     }
 
+    /// The file.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// Whether the file has a group or array at `path`.
     pub fn exists(&self, path: &str) -> bool {
         self.file.loc_type_by_name(path).is_ok()

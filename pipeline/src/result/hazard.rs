@@ -2,9 +2,13 @@
 
 use std::collections::BTreeSet;
 
+use uplift_hazard::HazardCurve;
+use uplift_motion::IntensityMeasure;
+
 use super::Outcome;
+use crate::error::UpliftError;
 use crate::inputs::{HazardInput, SiteHazard};
-use crate::labelled::{LabelledError, LabelledWriter};
+use crate::labelled::{LabelledError, LabelledReader, LabelledWriter};
 use crate::stages::{FRACTILES, Spectra};
 
 /// Write the curves `[measure][site]` with their branches.
@@ -45,6 +49,24 @@ fn write_curve(
     writer.attribute(group, "source", curve.source())?;
     writer.attribute(group, "file", file.as_str())?;
     writer.attribute(group, "unit", curve.unit())
+}
+
+/// The curve in the group `group`, by the measure `measure`.
+///
+/// # Errors
+/// A file that is damaged.
+pub(super) fn read_curve(
+    reader: &LabelledReader,
+    group: &str,
+    measure: IntensityMeasure,
+) -> Result<HazardCurve, UpliftError> {
+    let fail = |reason: String| UpliftError::input(format!("{}: {group}{reason}", reader.path().display()));
+    let maf = reader.array_f64(&format!("{group}/maf_per_year"))?;
+    let im = match &maf.dims[..] {
+        [axis] => reader.axis_f64(axis)?,
+        _ => return Err(fail("/maf_per_year is no curve".to_owned())),
+    };
+    HazardCurve::new(measure.label(), measure.unit(), "", im, maf.values).map_err(|error| fail(format!(": {error}")))
 }
 
 /// Name of an axis of a site and measure: lower-case ASCII, whatever the site is called.

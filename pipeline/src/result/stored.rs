@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 use uplift_fragility::Stripes;
-use uplift_hazard::{Extrapolation, HazardCurve, rate_from_probability};
+use uplift_hazard::{Extrapolation, rate_from_probability};
 use uplift_motion::IntensityMeasure;
 use uplift_risk::{PooledDemand, RiskCurve, StripeWeights};
 
 use super::extend::whole_seal;
-use super::hazard::branch_group;
+use super::hazard::{branch_group, read_curve};
 use super::open_result;
 use crate::error::UpliftError;
 use crate::labelled::LabelledReader;
@@ -150,13 +150,7 @@ impl StoredStripes {
             return Err(fail(format!("/ida/{key}/edp_m has the shape {:?}, not that of its axes", edp.shape)));
         }
         let read_weights = |group: &str| -> Result<StripeWeights, UpliftError> {
-            let maf = reader.array_f64(&format!("{group}/maf_per_year"))?;
-            let im = match &maf.dims[..] {
-                [axis] => reader.axis_f64(axis)?,
-                _ => return Err(fail(format!("{group}/maf_per_year is no curve"))),
-            };
-            let curve = HazardCurve::new(measure.label(), measure.unit(), "", im, maf.values)
-                .map_err(|error| fail(format!("{group}: {error}")))?;
+            let curve = read_curve(reader, group, measure)?;
             StripeWeights::from_hazard(&curve, &levels, extrapolation)
                 .map_err(|error| fail(format!("{group}: {error}")))
         };
@@ -198,14 +192,7 @@ impl StoredStripes {
     /// # Errors
     /// A probability that the result does not have.
     pub fn poe_index(&self, wanted: Option<f64>) -> Result<usize, UpliftError> {
-        let found = match wanted {
-            Some(wanted) => self.poes.iter().position(|poe| (poe - wanted).abs() < 1e-9),
-            None => (0..self.poes.len()).min_by(|&a, &b| self.poes[a].total_cmp(&self.poes[b])),
-        };
-        found.ok_or_else(|| {
-            let known: Vec<String> = self.poes.iter().map(f64::to_string).collect();
-            UpliftError::Usage(format!("--poe: the result has the probabilities {}", known.join(", ")))
-        })
+        poe_index(&self.poes, wanted)
     }
 
     /// Position of an ordinate in arrays over `[site, poe, strength]`.
@@ -218,6 +205,21 @@ impl StoredStripes {
         let start = self.ordinate(site, poe, 0);
         &array[start..start + self.strengths.len()]
     }
+}
+
+/// Position of the probability `wanted` among `poes`, or of the smallest.
+///
+/// # Errors
+/// A probability that is not among them.
+pub(super) fn poe_index(poes: &[f64], wanted: Option<f64>) -> Result<usize, UpliftError> {
+    let found = match wanted {
+        Some(wanted) => poes.iter().position(|poe| (poe - wanted).abs() < 1e-9),
+        None => (0..poes.len()).min_by(|&a, &b| poes[a].total_cmp(&poes[b])),
+    };
+    found.ok_or_else(|| {
+        let known: Vec<String> = poes.iter().map(f64::to_string).collect();
+        UpliftError::Usage(format!("--poe: the result has the probabilities {}", known.join(", ")))
+    })
 }
 
 /// Key, array, what it is, and the form in which it enters a line.

@@ -1,138 +1,187 @@
-//! The design examples of Sections 2.4.3 and 3.4.5 for every set and way of scaling.
+//! A structure checked against a uniform risk spectrum, and the check itself put to the test (Sections 3.3.2 and 3.4.5).
+//!
+//! The rules take the demand on a structure from that on the ZSBE oscillator of the same strength. Under one set of records scaled to one
+//! intensity their error is known (Tables 3.2 to 3.7); here it is that of the ordinate of a given risk, over all intensities of a site: the
+//! structure's own oscillator is put through the records and the hazard that the spectrum was made from.
 
-use rayon::prelude::*;
 use uplift_ida::Watch;
-use uplift_spectra::{
-    MotionSet, RestrainedDesign, RestrainedExample, Scaling, SolitaryDesign, SolitaryExample, SpectraError,
-};
-use uplift_structure::Rule;
+use uplift_oscillator::{Oscillator, PostUplift};
+use uplift_risk::{Ordinate, RiskCurve};
+use uplift_structure::{Check, EquivalentSystem, Rule, StructureError};
 
-use super::displacement::{of_spectra, with_free_vibration};
+use super::structure::{EventRisk, OVERTURNING_M, demand_of, risk_of_exceeding, stripes_of};
 use crate::error::UpliftError;
-use crate::study::{DesignPlan, Designed, DisplacementStudy, Structures};
+use crate::inputs::RecordSet;
+use crate::study::{MeasurePlan, ResolvedStudy};
 
-/// The rules that a restrained bridge is designed by, in the order of the results.
-pub(crate) const RULES: [Rule; 2] = [Rule::EqualDisplacement, Rule::EqualEnergy];
-/// Ratio of neighbouring slendernesses in the search for the intersection: a place where the block stands is missed if it is narrower.
-const SEARCH_RATIO: f64 = 1.02;
-/// Halvings, at most, after that search.
-const HALVINGS: u64 = 16;
-
-/// The design examples of a study; a way of scaling is `[to, by]` of it.
-#[derive(Debug, Clone)]
-pub enum Designs {
-    /// Restrained bridges over `[set, way, rule]`.
-    Restrained(Vec<RestrainedExample>),
-    /// Solitary blocks over `[set, way]`; none where the capacity line meets no demand.
-    Solitary(Vec<Option<SolitaryExample>>),
+/// Where a spectrum was read.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpectrumReading {
+    /// The strengths between which it was read, those of two ordinates that exist.
+    pub between: (f64, f64),
+    /// The ordinate, m.
+    pub ordinate_m: f64,
 }
 
-/// One set, scaled in one way.
-type Case<'a> = (&'a MotionSet<'a>, Scaling);
-
-/// Nonlinear time histories of the design examples; for blocks, whose design is looked for, at most.
-pub fn design_analyses(study: &DisplacementStudy, plan: &DesignPlan, set: &MotionSet<'_>) -> u64 {
-    let points = plan.noise_points as u64;
-    let each = match plan.designed {
-        Designed::Bridge { .. } => 2 * 2 * points,
-        Designed::Block { .. } => {
-            let abscissa = study.structures.abscissa();
-            let steps = (abscissa[abscissa.len() - 1] / abscissa[0]).ln() / SEARCH_RATIO.ln();
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count of steps")]
-            let steps = steps.ceil() as u64;
-            steps + HALVINGS + 3 * points
-        }
-    };
-    each * (set.motions().len() * study.scaling.ways().0.len()) as u64
-}
-
-/// Carry out the design examples; `watch` is told of finished examples.
+/// Reads a spectrum at `strength`, linear between its strengths; none outside them, and beside an ordinate that is censored.
 ///
-/// Returned with them is a note on each that does not exist.
+/// * `strengths` — ascending
+/// * `u_m` — the ordinates, m
+pub fn read_spectrum(strengths: &[f64], u_m: &[f64], strength: f64) -> Option<SpectrumReading> {
+    let right = strengths.iter().position(|&value| value >= strength)?;
+    let left = if strengths[right] == strength { right } else { right.checked_sub(1)? };
+    let (a, b) = (strengths[left], strengths[right]);
+    let share = if b > a { (strength - a) / (b - a) } else { 0.0 };
+    let ordinate_m = u_m[left] + share * (u_m[right] - u_m[left]);
+    ordinate_m.is_finite().then_some(SpectrumReading { between: (a, b), ordinate_m })
+}
+
+/// What the structure's own stripes say, in its own displacement.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ExactDemand {
+    /// Demand on the study's ZSBE oscillator at the structure's strength, m: what the spectrum has there, without interpolation.
+    pub of_spectrum_m: f64,
+    /// Demand on the structure's own ZSBE oscillator, with its uplift displacement and restitution, m: what the rules start from.
+    pub zero_stiffness_m: f64,
+    /// Demand on the structure; infinite where it overturns more often than the target rate.
+    pub structure: Ordinate,
+    /// The displacement capacity is exceeded; none for a structure without one.
+    pub beyond_capacity: Option<EventRisk>,
+    /// It overturns.
+    pub overturning: EventRisk,
+    /// Nonlinear time histories.
+    pub analyses: u64,
+}
+
+/// The demand on `system` of the rate `target_per_year` at the site of `weights`, exactly as spectra are made.
 ///
 /// # Errors
-/// [`UpliftError::Interrupted`] where `watch` says so; what the solvers and rules refuse.
-pub fn design_examples(
-    study: &DisplacementStudy,
-    plan: &DesignPlan,
-    sets: &[MotionSet<'_>],
+/// [`UpliftError::Interrupted`] if `watch` says so; a system that has no oscillator.
+pub fn exact_demand(
+    study: &ResolvedStudy,
+    (measure, weights): (&MeasurePlan, &uplift_risk::StripeWeights),
+    set: &RecordSet,
+    (system, restitution): (&EquivalentSystem, f64),
+    target_per_year: f64,
     watch: &dyn Watch,
-) -> Result<(Designs, Vec<String>), UpliftError> {
-    let (ways, places) = study.scaling.ways();
-    let cases: Vec<Case<'_>> = sets.iter().flat_map(|set| ways.iter().map(move |way| (set, *way))).collect();
-    let noise = plan.noise().map_err(of_spectra)?;
-    // what is not scaled stands under every `by`
-    let everywhere = |case: usize| case / places.len() * ways.len() + places[case % places.len()];
-    let all = 0..sets.len() * places.len();
-    match (plan.designed, &study.structures) {
-        (Designed::Bridge { width_m, height_m }, Structures::Oscillators(family)) => {
-            let design = RestrainedDesign {
-                strength: strength(width_m, height_m),
-                uplift_displacement_m: family.uplift_displacement_m[0],
-                restitution: family.restitution,
-                gravity_m_s2: study.gravity_m_s2,
-                least_capacity_m: width_m,
-                safety_factor: plan.safety_factor,
-                percent: plan.percentile,
-                with_free_vibration: with_free_vibration(study),
-            };
-            let found = each(&cases, watch, |(set, way), inner| {
-                RULES.iter().map(|&rule| design.example(set, way, rule, noise, inner)).collect::<Result<Vec<_>, _>>()
-            })?;
-            Ok((Designs::Restrained(all.flat_map(|case| found[everywhere(case)].clone()).collect()), Vec::new()))
-        }
-        (Designed::Block { height_m, endless_height_m }, Structures::Blocks(family)) => {
-            let abscissa = &family.slendernesses;
-            let design = SolitaryDesign {
-                height_m,
-                endless_height_m,
-                gravity_m_s2: study.gravity_m_s2,
-                restitution: family.restitution,
-                safety_factor: plan.safety_factor,
-                percent: plan.percentile,
-                search: [abscissa[0], abscissa[abscissa.len() - 1]],
-                search_ratio: SEARCH_RATIO,
-            };
-            let found = each(&cases, watch, |(set, way), inner| match design.example(set, way, noise, inner) {
-                Ok(example) => Ok(Ok(example)),
-                Err(error @ SpectraError::NoIntersection { .. }) => Ok(Err(error.to_string())),
-                Err(error) => Err(error),
-            })?;
-            let notes = found.iter().filter_map(|example| example.as_ref().err().cloned()).collect();
-            let designs = all.map(|case| found[everywhere(case)].as_ref().ok().copied()).collect();
-            Ok((Designs::Solitary(designs), notes))
-        }
-        // the study's reader gives neither the design of the other
-        _ => Err(UpliftError::input("a bridge is designed with oscillators, a block with blocks")),
+) -> Result<ExactDemand, UpliftError> {
+    let fail = |error: &dyn std::fmt::Display| UpliftError::input(error.to_string());
+    let of_study = Oscillator::new(
+        system.spectral_strength(),
+        study.gravity_m_s2,
+        study.oscillator.uplift_displacement_m,
+        study.oscillator.restitution,
+        PostUplift::Zero,
+    );
+    let uplift_m = system.conditions().uplift_displacement_m();
+    let zero_stiffness =
+        system.with_static_analysis(system.uplift_force_n(), uplift_m, f64::INFINITY).map_err(|error| fail(&error))?;
+    let oscillators =
+        [of_study, zero_stiffness.spectral_oscillator(restitution), system.spectral_oscillator(restitution)]
+            .into_iter()
+            .collect::<Result<Vec<_>, _>>()
+            .map_err(|error| fail(&error))?;
+    let stripes = stripes_of(study, measure, set, &oscillators, watch)?;
+    let factor = system.participation();
+    let ordinate = |oscillator: usize| -> Result<Ordinate, UpliftError> {
+        let demand = demand_of(&stripes, oscillator)?;
+        let ordinate = RiskCurve::new(&demand, weights).and_then(|curve| curve.exact_ordinate(target_per_year));
+        let ordinate = ordinate.map_err(|error| fail(&error))?;
+        Ok(Ordinate { displacement_m: factor * ordinate.displacement_m, ..ordinate })
+    };
+    let own = demand_of(&stripes, 2)?;
+    let years = study.risk.years;
+    // all of it is scaled by the same factor: the oscillator exceeds capacity/factor where the structure exceeds its capacity
+    let beyond_capacity = match oscillators[2].post_uplift() {
+        PostUplift::Negative { capacity_m } => Some(risk_of_exceeding(&own, weights, capacity_m, years)?),
+        PostUplift::Zero | PostUplift::Positive { .. } => None,
+    };
+    Ok(ExactDemand {
+        of_spectrum_m: ordinate(0)?.displacement_m,
+        zero_stiffness_m: ordinate(1)?.displacement_m,
+        structure: ordinate(2)?,
+        beyond_capacity,
+        overturning: risk_of_exceeding(&own, weights, OVERTURNING_M, years)?,
+        analyses: stripes.analyses,
+    })
+}
+
+/// A rule applied to the ordinate of a spectrum, and to the exact ZSBE demand.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RuleOutcome {
+    /// The rule.
+    pub rule: Rule,
+    /// From the spectrum as an engineer reads it.
+    pub from_spectrum: Option<Check>,
+    /// From the exact demand on the structure's ZSBE oscillator: what is wrong with it is the rule's own error.
+    pub from_exact: Option<Check>,
+}
+
+impl RuleOutcome {
+    /// The check that counts: from the spectrum, or where that cannot be read from the exact demand.
+    pub fn check(&self) -> Option<&Check> {
+        self.from_spectrum.as_ref().or(self.from_exact.as_ref())
     }
 }
 
-/// Strength of a column that rocks, `tan(2b/2h)` as Section 3.5 writes it.
-pub(crate) fn strength(width_m: f64, height_m: f64) -> f64 {
-    (width_m / height_m).tan()
-}
-
-/// `of` every case, on all cores.
-fn each<'a, T: Send>(
-    cases: &[Case<'a>],
-    watch: &dyn Watch,
-    of: impl Fn(Case<'a>, &dyn Watch) -> Result<T, SpectraError> + Sync,
-) -> Result<Vec<T>, UpliftError> {
-    let shake = |case: &Case<'a>| {
-        let example = of(*case, &Within(watch))?;
-        watch.finished(1);
-        Ok(example)
+/// Both rules of Section 3.3.2.
+///
+/// * `from_spectrum_m`, `zero_stiffness_m` — demand on the ZSBE system, in the structure's displacement, m; the latter exact
+///
+/// # Errors
+/// Positive post-uplift stiffness, a safety factor below 1, a demand that is not finite.
+pub fn check_rules(
+    system: &EquivalentSystem,
+    safety_factor: f64,
+    from_spectrum_m: Option<f64>,
+    zero_stiffness_m: Option<f64>,
+) -> Result<[RuleOutcome; 2], StructureError> {
+    let check = |rule: Rule, demand_m: Option<f64>| {
+        demand_m.map(|demand_m| Check::of(system, rule, safety_factor, demand_m)).transpose()
     };
-    cases.par_iter().map(shake).collect::<Result<Vec<T>, SpectraError>>().map_err(of_spectra)
+    let outcome = |rule: Rule| -> Result<RuleOutcome, StructureError> {
+        Ok(RuleOutcome {
+            rule,
+            from_spectrum: check(rule, from_spectrum_m)?,
+            from_exact: check(rule, zero_stiffness_m)?,
+        })
+    };
+    Ok([outcome(Rule::EqualDisplacement)?, outcome(Rule::EqualEnergy)?])
 }
 
-/// Passes on that the work is to stop, and nothing of its progress: that is told example by example.
-struct Within<'a>(&'a dyn Watch);
+/// Error of a demand (m) against the exact one: `(u − u_exact)/u_exact`, negative where it is on the unsafe side. `−1` where only the
+/// exact one is infinite, `+∞` where only the other is, 0 where both are; none where the exact one is 0.
+pub fn relative_error(demand_m: f64, exact_m: f64) -> Option<f64> {
+    match (demand_m.is_infinite(), exact_m.is_infinite()) {
+        (true, true) => Some(0.0),
+        (false, true) => Some(-1.0),
+        _ if exact_m == 0.0 => None,
+        _ => Some((demand_m - exact_m) / exact_m),
+    }
+}
 
-impl Watch for Within<'_> {
-    fn finished(&self, _: u64) {}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-    fn cancelled(&self) -> bool {
-        self.0.cancelled()
+    #[test]
+    fn a_spectrum_is_read_between_its_strengths_only() {
+        let (strengths, u_m) = ([0.1, 0.2, 0.4], [1.0, 0.5, f64::INFINITY]);
+        let read = |strength: f64| read_spectrum(&strengths, &u_m, strength).map(|reading| reading.ordinate_m);
+        assert_eq!(read(0.1), Some(1.0));
+        assert_eq!(read(0.2), Some(0.5));
+        assert_eq!(read(0.125), Some(0.875));
+        assert_eq!([read(0.09), read(0.3), read(0.4), read(0.5)], [None; 4]);
+        assert_eq!(read_spectrum(&strengths, &u_m, 0.15).map(|reading| reading.between), Some((0.1, 0.2)));
+    }
+
+    #[test]
+    fn errors_have_the_sign_of_their_danger() {
+        let inf = f64::INFINITY;
+        assert_eq!(relative_error(0.9, 1.0), Some(0.9 - 1.0));
+        assert_eq!(relative_error(2.0, inf), Some(-1.0));
+        assert_eq!(relative_error(inf, 2.0), Some(inf));
+        assert_eq!(relative_error(inf, inf), Some(0.0));
+        assert_eq!(relative_error(0.0, 0.0), None);
     }
 }

@@ -59,17 +59,21 @@ pub fn plan_stripes<'a>(
     set: &'a RecordSet,
     oscillators: &'a [Oscillator],
 ) -> Result<Plan<'a>, UpliftError> {
-    let records = set
-        .records
+    let records = stripe_records(set, measure.measure);
+    Plan::new(records, oscillators, &measure.levels, study.oscillator.free_vibration)
+        .map_err(|error| UpliftError::input(error.to_string()))
+}
+
+/// The records with the intensities that scale them.
+pub(super) fn stripe_records(set: &RecordSet, measure: IntensityMeasure) -> Vec<StripeRecord<'_>> {
+    set.records
         .iter()
         .map(|record| StripeRecord {
             id: &record.id,
             accelerogram: &record.accelerogram,
-            intensity: record.intensity(measure.measure),
+            intensity: record.intensity(measure),
         })
-        .collect();
-    Plan::new(records, oscillators, &measure.levels, study.oscillator.free_vibration)
-        .map_err(|error| UpliftError::input(error.to_string()))
+        .collect()
 }
 
 /// Carry out what `cells` lacks of one part of `plan` on all threads; every finished piece goes to `keep`. None unless the part is the

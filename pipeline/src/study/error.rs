@@ -75,7 +75,7 @@ impl Diagnostic for StudyMistake {
 #[non_exhaustive]
 pub enum StudyError {
     /// The file cannot be read.
-    #[error("cannot read the study file {file}: {reason}")]
+    #[error("cannot read {file}: {reason}")]
     Unreadable {
         /// The file as given.
         file: String,

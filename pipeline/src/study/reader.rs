@@ -128,7 +128,7 @@ impl<'a> Section<'a> {
             }
             let what = if entry.node.is_sections() { "section" } else { "key" };
             let help = did_you_mean_key(&entry.key, &self.known).unwrap_or_else(|| {
-                let place = if self.path.is_empty() { "a study file".to_owned() } else { format!("`{}`", self.path) };
+                let place = if self.path.is_empty() { "the file".to_owned() } else { format!("`{}`", self.path) };
                 format!("{place} has {}", self.known.join(", "))
             });
             self.ledger.add(Finding {

@@ -60,23 +60,7 @@ impl Study {
     ///
     /// [`StudyError`] where it cannot be read, or is no TOML.
     pub fn read(file: &Path) -> Result<Self, StudyError> {
-        let unreadable = |reason: String| StudyError::Unreadable { file: file.display().to_string(), reason };
-        let failed = |error: std::io::Error| unreadable(error.to_string());
-        if !fs::metadata(file).map_err(failed)?.is_file() {
-            return Err(unreadable("it is not a file".to_owned()));
-        }
-        let mut bytes = Vec::new();
-        let opened = fs::File::open(file).map_err(failed)?;
-        opened.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(failed)?;
-        if bytes.len() as u64 > LARGEST_FILE {
-            return Err(unreadable(format!("it has more than {LARGEST_FILE} bytes; is it a study file?")));
-        }
-        let text = String::from_utf8(bytes).map_err(|error| {
-            let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-            let line = valid.split(|&byte| byte == b'\n').count();
-            unreadable(format!("line {line} is not UTF-8 text; save it as UTF-8"))
-        })?;
-        Self::parse(file, text)
+        Self::parse(file, read_text(file)?)
     }
 
     /// Parses the `text` of a study file whose name is, or would be, `file`.
@@ -85,21 +69,8 @@ impl Study {
     ///
     /// [`StudyError`] where it is no TOML.
     pub fn parse(file: &Path, text: String) -> Result<Self, StudyError> {
-        match Table::parse(&text) {
-            Ok(document) => Ok(Self { file: file.to_owned(), text, document }),
-            Err(mut errors) => {
-                errors.sort_by_key(|error| error.span().map(|span| span.start));
-                let listed = errors.iter().take(MOST_LISTED).map(|error| StudyMistake {
-                    key: String::new(),
-                    place: place(&text, error.span().unwrap_or_default()),
-                    message: format!("not TOML: {}", error.message()),
-                    help: Some(syntax_help(error.message()).to_owned()),
-                });
-                let listed: Vec<_> = listed.collect();
-                let left_out = errors.len() - listed.len();
-                Err(StudyError::of_mistakes(file, text, listed, left_out))
-            }
-        }
+        let document = parse_table(file, &text)?;
+        Ok(Self { file: file.to_owned(), text, document })
     }
 
     /// Applies the `overrides`, each `key=value`, fills in the defaults and checks it all.
@@ -161,32 +132,67 @@ impl Study {
         let findings = ledger.into_findings();
         match resolved {
             Some(study) if findings.is_empty() => Ok(study),
-            _ => Err(self.refused(findings, overrides)),
+            _ => Err(refused(&self.file, self.text, findings, overrides)),
         }
     }
+}
 
-    fn refused(self, mut findings: Vec<Finding>, overrides: &[String]) -> StudyError {
-        findings.sort_by_key(|finding| match &finding.origin {
-            Origin::File(span) => (0, span.start),
-            Origin::Override(index) => (1, *index),
-            Origin::Study => (2, 0),
-        });
-        let left_out = findings.len().saturating_sub(MOST_LISTED);
-        let listed = findings.into_iter().take(MOST_LISTED).map(|finding| StudyMistake {
-            key: finding.key,
-            place: match finding.origin {
-                Origin::File(span) => place(&self.text, span),
-                Origin::Override(index) => {
-                    overrides.get(index).map_or(Place::Study, |text| Place::Override(text.clone()))
-                }
-                Origin::Study => Place::Study,
-            },
-            message: finding.message,
-            help: finding.help,
-        });
-        let listed = listed.collect();
-        StudyError::of_mistakes(&self.file, self.text, listed, left_out)
+/// The text of the file `file`, if it is one that people write.
+pub(super) fn read_text(file: &Path) -> Result<String, StudyError> {
+    let unreadable = |reason: String| StudyError::Unreadable { file: file.display().to_string(), reason };
+    let failed = |error: std::io::Error| unreadable(error.to_string());
+    if !fs::metadata(file).map_err(failed)?.is_file() {
+        return Err(unreadable("it is not a file".to_owned()));
     }
+    let mut bytes = Vec::new();
+    let opened = fs::File::open(file).map_err(failed)?;
+    opened.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(failed)?;
+    if bytes.len() as u64 > LARGEST_FILE {
+        return Err(unreadable(format!("it has more than {LARGEST_FILE} bytes; is it a study file?")));
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = valid.split(|&byte| byte == b'\n').count();
+        unreadable(format!("line {line} is not UTF-8 text; save it as UTF-8"))
+    })
+}
+
+/// The text as TOML; the errors are those of its syntax.
+pub(super) fn parse_table(file: &Path, text: &str) -> Result<Table, StudyError> {
+    Table::parse(text).map_err(|mut errors| {
+        errors.sort_by_key(|error| error.span().map(|span| span.start));
+        let listed = errors.iter().take(MOST_LISTED).map(|error| StudyMistake {
+            key: String::new(),
+            place: place(text, error.span().unwrap_or_default()),
+            message: format!("not TOML: {}", error.message()),
+            help: Some(syntax_help(error.message()).to_owned()),
+        });
+        let listed: Vec<_> = listed.collect();
+        let left_out = errors.len() - listed.len();
+        StudyError::of_mistakes(file, text.to_owned(), listed, left_out)
+    })
+}
+
+/// The `findings` in order, with their places in `text` and among the `overrides`.
+pub(super) fn refused(file: &Path, text: String, mut findings: Vec<Finding>, overrides: &[String]) -> StudyError {
+    findings.sort_by_key(|finding| match &finding.origin {
+        Origin::File(span) => (0, span.start),
+        Origin::Override(index) => (1, *index),
+        Origin::Study => (2, 0),
+    });
+    let left_out = findings.len().saturating_sub(MOST_LISTED);
+    let listed = findings.into_iter().take(MOST_LISTED).map(|finding| StudyMistake {
+        key: finding.key,
+        place: match finding.origin {
+            Origin::File(span) => place(&text, span),
+            Origin::Override(index) => overrides.get(index).map_or(Place::Study, |text| Place::Override(text.clone())),
+            Origin::Study => Place::Study,
+        },
+        message: finding.message,
+        help: finding.help,
+    });
+    let listed = listed.collect();
+    StudyError::of_mistakes(file, text, listed, left_out)
 }
 
 /// What to do about a mistake of TOML syntax.

@@ -1,0 +1,207 @@
+//! The study of a result, to be asked something new: its spectra and hazard as the file holds them, its records read again.
+
+use std::path::{Path, PathBuf};
+
+use uplift_hazard::{Extrapolation, rate_from_probability};
+use uplift_motion::IntensityMeasure;
+use uplift_risk::StripeWeights;
+
+use super::hazard::read_curve;
+use super::open_result;
+use super::stored::poe_index;
+use crate::error::UpliftError;
+use crate::inputs::{RecordSet, read_records};
+use crate::kept::motion_key;
+use crate::labelled::{LabelledError, LabelledReader};
+use crate::study::{Extrapolate, MeasurePlan, ResolvedStudy, Study};
+
+/// Parts of a study that the result holds itself, or that matter no more.
+const LEFT_OUT: [&str; 4] = ["sites", "site_table", "output", "bootstrap"];
+
+/// A result with its study.
+#[derive(Debug, Clone)]
+pub struct StudyOfResult {
+    /// The file.
+    pub path: PathBuf,
+    /// Where the records come from, in a line.
+    pub record_set: String,
+    /// True for motions made by the program.
+    pub synthetic: bool,
+    /// The study, without its sites.
+    pub study: ResolvedStudy,
+    /// Names of the sites.
+    pub sites: Vec<String>,
+    /// The measures, in the order of the study.
+    pub measures: Vec<SpectraOfResult>,
+    /// Why the study's records cannot even be looked for.
+    unreadable: Option<String>,
+    /// `[record]`: SHA-256 of the motion, PGA in g, PGV in cm/s.
+    motions: Vec<(String, f64, f64)>,
+}
+
+/// Spectra and hazard of one measure.
+#[derive(Debug, Clone)]
+pub struct SpectraOfResult {
+    /// The measure with its levels.
+    pub plan: MeasurePlan,
+    /// The spectra over `[site, poe, strength]`, m; infinite where censored.
+    pub u_m: Vec<f64>,
+    /// What each stripe weighs, `[site]`.
+    pub weights: Vec<StripeWeights>,
+}
+
+impl SpectraOfResult {
+    /// The measure.
+    pub fn measure(&self) -> IntensityMeasure {
+        self.plan.measure
+    }
+}
+
+impl StudyOfResult {
+    /// Read the result at `path`, and its study; its records are looked for in `manifest` if one is given.
+    ///
+    /// # Errors
+    /// A file that is missing, damaged, no result, or of another layout; a study without sites; a manifest for records that have none.
+    pub fn read(path: &Path, manifest: Option<&Path>) -> Result<Self, UpliftError> {
+        let reader = open_result(path)?;
+        let fail = |reason: &str| UpliftError::input(format!("{}: {reason}", path.display()));
+        if !reader.exists("/axes/site") {
+            return Err(fail("the study has no sites, and so no spectra: add [[sites]] and run it again"));
+        }
+        let sites = reader.axis_text("site")?;
+        let (study, unreadable) = resolve(&reader.attribute_text("/", "study_toml")?, manifest)
+            .map_err(|reason| fail(&format!("the study in the file cannot be read: {reason}")))?;
+        let cells = sites.len() * study.risk.poe.len() * study.strengths.len();
+        let extrapolation = match study.risk.extrapolate {
+            Extrapolate::Refuse => Extrapolation::Refuse,
+            Extrapolate::Loglog => Extrapolation::LogLog,
+        };
+        let measures = study
+            .measures
+            .iter()
+            .map(|plan| {
+                let key = plan.measure.key();
+                let u_m = reader.array_f64(&format!("/urs/{key}/u_m"))?.values;
+                if u_m.len() != cells {
+                    return Err(fail(&format!(
+                        "/urs/{key}/u_m does not have the shape of its axes: the file is damaged"
+                    )));
+                }
+                let weights = sites
+                    .iter()
+                    .map(|site| {
+                        let curve = read_curve(&reader, &format!("/hazard/{site}/{key}"), plan.measure)?;
+                        StripeWeights::from_hazard(&curve, &plan.levels, extrapolation)
+                            .map_err(|error| fail(&format!("hazard of {site}: {error}")))
+                    })
+                    .collect::<Result<Vec<_>, _>>()?;
+                Ok(SpectraOfResult { plan: plan.clone(), u_m, weights })
+            })
+            .collect::<Result<Vec<_>, UpliftError>>()?;
+        Ok(Self {
+            path: path.to_owned(),
+            record_set: reader.attribute_text("/", "record_set")?,
+            synthetic: reader.attribute_i64("/", "synthetic")? == 1,
+            motions: motions(&reader)?,
+            study,
+            sites,
+            measures,
+            unreadable,
+        })
+    }
+
+    /// The records of the study, the very motions that the result was made from, with the same intensities.
+    ///
+    /// # Errors
+    /// Records that are not there, or are others: what is wrong, and what to do.
+    pub fn records(&self) -> Result<RecordSet, String> {
+        if let Some(reason) = &self.unreadable {
+            return Err(reason.clone());
+        }
+        let set = read_records(&self.study).map_err(|error| error.to_string())?;
+        if set.records.len() != self.motions.len() {
+            let (found, made) = (set.records.len(), self.motions.len());
+            return Err(format!(
+                "there are {found} records now, and the result was made from {made}: run the study again"
+            ));
+        }
+        let other = set.records.iter().zip(&self.motions).find(|(record, (motion, pga_g, pgv_cm_s))| {
+            let same = |a: f64, b: &f64| a.to_bits() == b.to_bits();
+            motion_key(&record.accelerogram) != *motion
+                || !same(record.pga_g, pga_g)
+                || !same(record.pgv_cm_s, pgv_cm_s)
+        });
+        match other {
+            Some((record, _)) => Err(format!(
+                "record {} is not the motion that the result was made from: put that file back, or run the study again",
+                record.id
+            )),
+            None => Ok(set),
+        }
+    }
+
+    /// Position of the probability `wanted`, or of the smallest.
+    ///
+    /// # Errors
+    /// A probability that the result does not have.
+    pub fn poe_index(&self, wanted: Option<f64>) -> Result<usize, UpliftError> {
+        poe_index(&self.study.risk.poe, wanted)
+    }
+
+    /// Target rate of the probability at `poe`, 1/yr (Eq. 4.8).
+    ///
+    /// # Errors
+    /// None for a study that was checked.
+    pub fn target_per_year(&self, poe: usize) -> Result<f64, UpliftError> {
+        rate_from_probability(self.study.risk.poe[poe], self.study.risk.years)
+            .map_err(|error| UpliftError::input(error.to_string()))
+    }
+
+    /// The spectrum of a site and probability, `[strength]`, m.
+    ///
+    /// # Panics
+    /// If an index is out of range, which is a bug of the caller.
+    pub fn spectrum<'a>(&self, measure: &'a SpectraOfResult, site: usize, poe: usize) -> &'a [f64] {
+        let strengths = self.study.strengths.len();
+        let start = (site * self.study.risk.poe.len() + poe) * strengths;
+        &measure.u_m[start..start + strengths]
+    }
+}
+
+/// What identifies each record.
+fn motions(reader: &LabelledReader) -> Result<Vec<(String, f64, f64)>, LabelledError> {
+    let motions = reader.array_text("/records/motion_sha256")?.values;
+    let pga_g = reader.array_f64("/records/pga_g")?.values;
+    let pgv_cm_s = reader.array_f64("/records/pgv_cm_s")?.values;
+    Ok(motions
+        .into_iter()
+        .zip(pga_g)
+        .zip(pgv_cm_s)
+        .map(|((motion, pga_g), pgv_cm_s)| (motion, pga_g, pgv_cm_s))
+        .collect())
+}
+
+/// The stored study; where its manifest is gone, without its records, and why.
+fn resolve(study_toml: &str, manifest: Option<&Path>) -> Result<(ResolvedStudy, Option<String>), String> {
+    let mut table: toml::Table = toml::from_str(study_toml).map_err(|error| error.to_string())?;
+    for section in LEFT_OUT {
+        table.remove(section);
+    }
+    let study = |table: &toml::Table, overrides: &[String]| -> Result<ResolvedStudy, String> {
+        let text = toml::to_string(table).map_err(|error| error.to_string())?;
+        let name = Path::new("the study in the result");
+        Study::parse(name, text).and_then(|study| study.resolve(overrides)).map_err(|error| {
+            let mistakes: Vec<String> = error.mistakes().iter().map(ToString::to_string).collect();
+            if mistakes.is_empty() { error.to_string() } else { mistakes.join("; ") }
+        })
+    };
+    let overrides: Vec<String> =
+        manifest.iter().map(|path| format!("records.manifest={:?}", path.display().to_string())).collect();
+    match study(&table, &overrides) {
+        Ok(study) => Ok((study, None)),
+        Err(reason) => {
+            table.remove("records");
+            study(&table, &[]).map(|study| (study, Some(reason)))
+        }
+    }
+}

@@ -1,0 +1,350 @@
+//! `uplift design`: a structure against a spectrum, and against its own risk.
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+mod common;
+
+use std::path::Path;
+
+use common::{Finished, SmallStudy, repository, uplift};
+use serde_json::Value;
+use uplift_motion::{Accelerogram, ReadOptions, read_path};
+use uplift_oscillator::{Excitation, FreeVibration, Oscillator, PostUplift, respond};
+
+const STUDY: &str = r#"title = "design"
+[records]
+manifest = "manifest.csv"
+[strengths]
+values = [0.05, 0.1, 0.2, 0.4]
+[pgv]
+levels_cm_s = [1, 3, 10, 30, 60, 100, 200]
+[[sites]]
+name = "Here"
+pgv = "here-pgv.csv"
+"#;
+
+const LEVELS_CM_S: [f64; 7] = [1.0, 3.0, 10.0, 30.0, 60.0, 100.0, 200.0];
+
+const BLOCK: &str = "kind = \"block\"\nwidth_m = 0.8\nheight_m = 4\nmass_kg = 1000\n";
+
+/// A result made of five pairs in files, with the structure `block.toml` beside it.
+fn study() -> SmallStudy {
+    let study = SmallStudy::with(STUDY);
+    study.uplift(&["records", "synthesize", "-o", "downloads", "--count", "5", "-q"]).ok();
+    study.uplift(&["records", "import", "downloads", "-o", "manifest.csv", "-q"]).ok();
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    study.write("block.toml", BLOCK);
+    study
+}
+
+fn json(finished: Finished) -> Value {
+    serde_json::from_str(&finished.ok().stdout).unwrap()
+}
+
+fn design(study: &SmallStudy, structure: &str, more: &[&str]) -> Value {
+    let arguments = [&["design", structure, "--urs", "r.h5", "--json", "-q"], more].concat();
+    json(study.uplift(&arguments))
+}
+
+fn close(found: &Value, expected: f64, tolerance: f64) {
+    let found = found.as_f64().unwrap_or(f64::INFINITY);
+    assert!((found - expected).abs() <= tolerance * expected.abs(), "{found} {expected}");
+}
+
+/// Component 1 of each pair with the geometric mean of the velocities of both, cm/s.
+fn records(folder: &Path) -> Vec<(Accelerogram, f64)> {
+    let read = |name: String| read_path(&folder.join(name), &ReadOptions::default()).unwrap();
+    (1..=5)
+        .map(|index| {
+            let [one, other] = [1, 2].map(|component| read(format!("downloads/SYN{index:03}_H{component}.AT2")));
+            let pgv_cm_s = 100.0 * (one.pgv_m_s() * other.pgv_m_s()).sqrt();
+            (one, pgv_cm_s)
+        })
+        .collect()
+}
+
+/// Peaks over `[record][level]`, m, of an oscillator that is driven by `factor` times the motion (Eq. 3.4), by the readable solver.
+fn peaks_m(records: &[(Accelerogram, f64)], oscillator: &Oscillator, factor: f64) -> Vec<Vec<f64>> {
+    let peak = |(record, pgv_cm_s): &(Accelerogram, f64), level: f64| {
+        let excitation = Excitation::new(record.dt_s(), record.acceleration_m_s2()).unwrap();
+        let scaled = excitation.scaled(factor * level / pgv_cm_s).unwrap();
+        respond(oscillator, &scaled, FreeVibration::FirstPeak).peak_displacement_m
+    };
+    records.iter().map(|record| LEVELS_CM_S.iter().map(|&level| peak(record, level)).collect()).collect()
+}
+
+/// Annual frequency of exceeding `threshold_m` with the hazard 0.2/v² from 0.5 cm/s on: Eq. 4.4 written out.
+fn rate(peaks_m: &[Vec<f64>], threshold_m: f64) -> f64 {
+    let hazard = |v: f64| 0.2 / (v * v);
+    let share = |level: usize| {
+        peaks_m.iter().filter(|of_record| of_record[level] > threshold_m).count() as f64 / peaks_m.len() as f64
+    };
+    let last = LEVELS_CM_S.len() - 1;
+    let between: f64 = (0..last)
+        .map(|i| 0.5 * (share(i) + share(i + 1)) * (hazard(LEVELS_CM_S[i]) - hazard(LEVELS_CM_S[i + 1])))
+        .sum();
+    0.5 * share(0) * (hazard(0.5) - hazard(LEVELS_CM_S[0])) + between + share(last) * hazard(LEVELS_CM_S[last])
+}
+
+/// The smallest peak that is exceeded no more often than the target.
+fn ordinate_m(peaks_m: &[Vec<f64>], target: f64) -> f64 {
+    let exceeded = |threshold_m: f64| if threshold_m.is_finite() { rate(peaks_m, threshold_m) } else { 0.0 };
+    peaks_m.iter().flatten().copied().filter(|&peak_m| exceeded(peak_m) <= target).fold(f64::INFINITY, f64::min)
+}
+
+// Every number once more, for a block that uplifts at 5 mm, so that no chaos of hundreds of impacts blurs them: Table 3.1 for a block by hand, driven by Γ times the motion, the readable solver, plain sums.
+#[test]
+fn every_number_by_hand() {
+    const UPLIFT_M: f64 = 0.005;
+    let study = study();
+    study.write("flexible.toml", &format!("{BLOCK}uplift_displacement_m = {UPLIFT_M}\n"));
+    let records = records(study.path());
+    let (alpha, factor) = (0.2_f64.atan(), 1.5);
+    let oscillator = |post_uplift| Oscillator::new(factor * alpha, 9.806_65, UPLIFT_M, 0.95, post_uplift).unwrap();
+    let nsbe = peaks_m(&records, &oscillator(PostUplift::Negative { capacity_m: 0.8 }), factor);
+    let zsbe = peaks_m(&records, &oscillator(PostUplift::Zero), factor);
+    for poe in [0.02, 0.1, 0.5] {
+        let target = -(1.0_f64 - poe).ln() / 50.0;
+        let found = design(&study, "flexible.toml", &["--poe", &poe.to_string()]);
+        close(&found["structure"]["strength"], factor * alpha, 1e-12);
+        close(&found["structure"]["spectral_strength"], alpha, 1e-12);
+        let exact = &found["exact"];
+        let (z, u) = (ordinate_m(&zsbe, target), ordinate_m(&nsbe, target));
+        close(&exact["zero_stiffness_demand_m"], z, 1e-6);
+        close(&exact["demand_m"], u, 1e-6);
+        assert_eq!(exact["analyses"], 3 * 5 * 7);
+        assert_eq!(exact["overturns"], u.is_infinite());
+        for (event, threshold_m) in [("beyond_capacity", 0.8), ("overturning", f64::MAX)] {
+            let per_year = rate(&nsbe, threshold_m);
+            assert!(per_year > 0.0);
+            close(&exact[event]["per_year"], per_year, 1e-9);
+            close(&exact[event]["probability"], -(-50.0 * per_year).exp_m1(), 1e-9);
+        }
+        // Eq. 3.11 and 3.15 with z, written out
+        assert!(z > UPLIFT_M, "{z}");
+        let energy = 0.8 - ((0.8 - UPLIFT_M) * (0.8 - 2.0 * z + UPLIFT_M)).sqrt();
+        for (rule, demand) in found["rules"].as_array().unwrap().iter().zip([z, energy]) {
+            let check = &rule["from_exact"];
+            if demand.is_nan() || demand > 0.8 {
+                assert_eq!(check["overturns"], true);
+                continue;
+            }
+            close(&check["demand_m"], demand, 1e-6);
+            if u.is_finite() {
+                let error = check["error"].as_f64().unwrap();
+                assert!((error - (demand / u - 1.0)).abs() < 1e-5, "{error}");
+            } else {
+                assert_eq!(check["error"], -1.0);
+            }
+        }
+        close(&found["rules"][0]["from_exact"]["required_capacity_m"], 2.5 * z, 1e-6);
+    }
+}
+
+// A point mass is followed where the motion acts, Γ = 1: at a strength of the study its ZSBE demand is the ordinate itself, to the bit.
+#[test]
+fn the_exact_demand_is_the_ordinate_where_the_spectrum_has_one() {
+    let study = study();
+    study.write("mast.toml", "kind = \"point-mass\"\nslenderness_rad = 0.2\nsize_m = 5\nmass_kg = 10\n");
+    study.write("between.toml", "kind = \"point-mass\"\nslenderness_rad = 0.16\nsize_m = 5\nmass_kg = 10\n");
+    let u_m = |strength: usize| {
+        let reader = uplift::labelled::LabelledReader::open(&study.path().join("r.h5")).unwrap();
+        reader.array_f64("/urs/pgv/u_m").unwrap().values[strength]
+    };
+    let found = design(&study, "mast.toml", &["--poe", "0.02"]);
+    assert_eq!(found["structure"]["participation"], 1.0);
+    for place in ["zero_stiffness_demand_of_spectrum_m", "zero_stiffness_demand_m"] {
+        assert_eq!(found["exact"][place].as_f64().unwrap().to_bits(), u_m(2).to_bits());
+    }
+    assert_eq!(found["spectrum"]["ordinate_m"].as_f64().unwrap().to_bits(), u_m(2).to_bits());
+    // in between it is a straight line
+    let between = design(&study, "between.toml", &[]);
+    close(&between["spectrum"]["ordinate_m"], 0.4 * u_m(1) + 0.6 * u_m(2), 1e-12);
+    assert_eq!(between["spectrum"]["between_strengths"], serde_json::json!([0.1, 0.2]));
+    // the spectrum alone says the same, and no more
+    let alone = design(&study, "between.toml", &["--spectrum-only"]);
+    assert_eq!(alone["spectrum"], between["spectrum"]);
+    assert_eq!(alone["rules"][1]["from_spectrum"]["demand_m"], between["rules"][1]["from_spectrum"]["demand_m"]);
+    assert!(alone["exact"].is_null() && alone["rules"][0]["from_exact"].is_null());
+    // beyond the strengths there is no ordinate, and the rules start from the exact demand
+    study.write("stocky.toml", "kind = \"point-mass\"\nslenderness_rad = 0.5\nsize_m = 5\nmass_kg = 10\n");
+    let beyond = design(&study, "stocky.toml", &[]);
+    assert!(beyond["spectrum"].is_null() && beyond["rules"][0]["from_exact"]["demand_m"].is_f64());
+    assert!(beyond["notes"].to_string().contains("0.05 to 0.4"), "{beyond}");
+}
+
+#[test]
+fn limits_of_size() {
+    let study = study();
+    // infinitely large: neither capacity nor overturning is in reach, and both rules and both oscillators agree
+    study.write("large.toml", "kind = \"point-mass\"\nslenderness_rad = 0.15\nsize_m = 1e7\nmass_kg = 10\n");
+    let large = design(&study, "large.toml", &[]);
+    let exact = &large["exact"];
+    close(&exact["demand_m"], exact["zero_stiffness_demand_m"].as_f64().unwrap(), 1e-4);
+    for event in ["beyond_capacity", "overturning"] {
+        assert_eq!(exact[event]["per_year"], 0.0);
+    }
+    for rule in large["rules"].as_array().unwrap() {
+        assert!(rule["from_exact"]["error"].as_f64().unwrap().abs() < 1e-4);
+        assert_eq!(rule["from_spectrum"]["satisfied"], true);
+    }
+    // tiny: it overturns more often than the target
+    study.write("tiny.toml", "kind = \"point-mass\"\nslenderness_rad = 0.15\nsize_m = 0.05\nmass_kg = 10\n");
+    let tiny = design(&study, "tiny.toml", &[]);
+    assert_eq!((&tiny["exact"]["overturns"], &tiny["exact"]["demand_m"]), (&Value::Bool(true), &Value::Null));
+    assert!(tiny["exact"]["overturning"]["probability"].as_f64().unwrap() > 0.02);
+    assert_eq!(tiny["rules"][0]["from_spectrum"]["satisfied"], false);
+    let shown = study.uplift(&["design", "tiny.toml", "--urs", "r.h5"]).ok().stdout;
+    for words in ["NOT satisfied", "overturns more often than the target", "(Eq. 3.14)", "synthetic"] {
+        assert!(shown.contains(words), "{words}: {shown}");
+    }
+}
+
+#[test]
+fn structures_without_a_capacity() {
+    let study = study();
+    let frame = |stiffness: f64| {
+        format!(
+            "kind = \"restrained-frame\"\ncolumns = 2\nwidth_m = 1\nheight_m = 10\ncolumn_mass_kg = 0\ndeck_mass_kg = 1e5\n\
+             tendon_stiffness_n_m = {stiffness}\ntendon_anchorage = \"foundation\"\n"
+        )
+    };
+    study.write("stiff.toml", &frame(2e7));
+    let stiff = design(&study, "stiff.toml", &[]);
+    assert_eq!(stiff["rules"], serde_json::json!([]));
+    assert!(stiff["structure"]["capacity_m"].is_null() && stiff["exact"]["beyond_capacity"].is_null());
+    assert!(stiff["structure"]["warnings"].to_string().contains("positive"), "{stiff}");
+    // stiffer than ZSBE, it moves less
+    let exact = &stiff["exact"];
+    assert!(exact["demand_m"].as_f64() < exact["zero_stiffness_demand_m"].as_f64());
+    let shown = study.uplift(&["design", "stiff.toml", "--urs", "r.h5"]).ok().stdout;
+    assert!(shown.contains("do not apply") && shown.contains("warning    post-uplift stiffness"), "{shown}");
+}
+
+#[test]
+fn what_differs_from_the_study_is_said() {
+    let study = study();
+    study.write(
+        "other.toml",
+        &format!("{BLOCK}uplift_displacement_m = 0.004\nrestitution = 0.9\ngravity_m_s2 = 9.81\n"),
+    );
+    let found = design(&study, "other.toml", &[]);
+    let notes = found["notes"].to_string();
+    for words in ["the structure's is 4 mm", "the structure's is 0.9", "9.81 m/s2"] {
+        assert!(notes.contains(words), "{words}: {notes}");
+    }
+    assert_eq!(found["structure"]["restitution"], 0.9);
+    assert_ne!(found["exact"]["zero_stiffness_demand_m"], found["exact"]["zero_stiffness_demand_of_spectrum_m"]);
+}
+
+#[test]
+fn records_that_are_gone_leave_the_spectrum() {
+    let study = study();
+    let full = design(&study, "block.toml", &[]);
+    // another motion in the place of one
+    let file = study.path().join("downloads/SYN002_H1.AT2");
+    let original = std::fs::read(&file).unwrap();
+    std::fs::copy(study.path().join("downloads/SYN003_H1.AT2"), &file).unwrap();
+    let changed = design(&study, "block.toml", &[]);
+    assert!(changed["exact"].is_null());
+    assert_eq!(changed["spectrum"], full["spectrum"]);
+    assert!(changed["notes"].to_string().contains("SYN002_H1.AT2"), "{changed}");
+    // a manifest that knows nothing of checksums does not hide it either
+    let manifest = std::fs::read_to_string(study.path().join("manifest.csv")).unwrap();
+    let bare: Vec<String> = manifest.lines().map(|line| line.replace("sha256", "unknown")).collect();
+    study.write("bare.csv", &bare.join("\n"));
+    let bare = ["design", "block.toml", "--urs", "r.h5", "--manifest", "bare.csv"];
+    study.uplift(&bare).fails(4, &["SYN002"]);
+    std::fs::write(&file, &original).unwrap();
+    assert_eq!(design(&study, "block.toml", &["--manifest", "bare.csv"])["exact"], full["exact"]);
+    // all of it gone, and moved
+    std::fs::create_dir(study.path().join("elsewhere")).unwrap();
+    for name in ["downloads", "manifest.csv", "here-pgv.csv"] {
+        std::fs::rename(study.path().join(name), study.path().join("elsewhere").join(name)).unwrap();
+    }
+    let gone = study.uplift(&["design", "block.toml", "--urs", "r.h5"]).ok().stdout;
+    assert!(gone.contains("not analysed") && gone.contains("manifest.csv") && gone.contains("equal energy"), "{gone}");
+    assert_eq!(design(&study, "block.toml", &["--manifest", "elsewhere/manifest.csv"])["exact"], full["exact"]);
+    study.uplift(&["design", "block.toml", "--urs", "r.h5", "--manifest", "no.csv"]).fails(4, &["no.csv"]);
+}
+
+#[test]
+fn mistakes_are_said_at_once_with_their_lines() {
+    let study = study();
+    study.write(
+        "wrong.toml",
+        "kind = \"restrained-frame\"\nwidth_m = \"1.6\"\nheight_m = -9.6\ncolumns = 2.5\nmass_kg = 3\ntendon_anchorage = \"colum\"\n\
+         deck_mass = 1\ncolumn_mass_kg = 1000\nrestitution = 1.5\nuplift_displacement_m = 0\n",
+    );
+    let lines = [
+        "wrong.toml:2",
+        "expected a number [m], found the text",
+        "wrong.toml:3",
+        "-9.6 m",
+        "wrong.toml:4",
+        "whole number",
+        "wrong.toml:5",
+        "means nothing for kind",
+        "wrong.toml:6",
+        "did you mean `column`?",
+        "wrong.toml:7",
+        "unknown key `deck_mass`",
+        "wrong.toml:9",
+        "between 0 and 1",
+        "wrong.toml:10",
+        "1e-6 m or above",
+        "`tendon_stiffness_n_m` is missing",
+        "`deck_mass_kg` is missing",
+        "10 mistakes",
+    ];
+    study.uplift(&["design", "wrong.toml", "--urs", "r.h5"]).fails(3, &lines);
+    study.write("kind.toml", "kind = \"blok\"\nwidth_m = \"x\"\n");
+    study.uplift(&["design", "kind.toml", "--urs", "r.h5"]).fails(3, &["did you mean `block`?", "kind.toml:2"]);
+    study.write("none.toml", "width_m = 1\n");
+    study.uplift(&["design", "none.toml", "--urs", "r.h5"]).fails(3, &["what kind", "restrained-frame"]);
+    study.write("flexible.toml", &format!("{BLOCK}uplift_displacement_m = 0.9\n"));
+    study.uplift(&["design", "flexible.toml", "--urs", "r.h5"]).fails(3, &["flexible.toml:5", "0.8 m is not above"]);
+    study.write("syntax.toml", "kind = \"block\nwidth_m = 1\n");
+    study.uplift(&["design", "syntax.toml", "--urs", "r.h5"]).fails(3, &["not TOML"]);
+    study.uplift(&["design", "absent.toml", "--urs", "r.h5"]).fails(3, &["absent.toml"]);
+}
+
+#[test]
+fn questions_that_do_not_fit_the_result() {
+    let study = study();
+    let design = |more: &[&str]| study.uplift(&[&["design", "block.toml", "--urs", "r.h5"], more].concat());
+    design(&["--site", "Nowhere"]).fails(2, &["--site", "Here"]);
+    design(&["--poe", "0.3"]).fails(2, &["--poe", "0.02"]);
+    design(&["--measure", "pga"]).fails(2, &["--measure", "pgv"]);
+    design(&["--measure", "pgx"]).fails(2, &["pgx"]);
+    design(&["--safety-factor", "0.5"]).fails(2, &["--safety-factor is 0.5"]);
+    study.uplift(&["design", "block.toml", "--urs", "absent.h5"]).fails(4, &["absent.h5"]);
+    study.uplift(&["design", "block.toml", "--urs", "study.toml"]).fails(4, &["study.toml"]);
+    study.uplift(&["design", "block.toml"]).fails(2, &["--urs"]);
+    // spectra of something else than the ZSBE proxy
+    for (key, word) in [("capacity_m", "negative"), ("post_uplift_stiffness_per_s2", "positive")] {
+        let set = format!("oscillator.{key}=2.0");
+        study.uplift(&["run", "study.toml", "-o", "other.h5", "-q", "--set", &set]).ok();
+        study.uplift(&["design", "block.toml", "--urs", "other.h5"]).fails(4, &[word, key, "other.h5"]);
+    }
+    study.uplift(&["run", "study.toml", "-o", "bare.h5", "-q", "--set", "sites=[]"]).ok();
+    study.uplift(&["design", "block.toml", "--urs", "bare.h5"]).fails(4, &["no sites"]);
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_words() {
+    let study = study();
+    let one = study.uplift(&["design", "block.toml", "--urs", "r.h5", "--threads", "1"]).ok().stdout;
+    let five = study.uplift(&["design", "block.toml", "--urs", "r.h5", "--threads", "5"]).ok().stdout;
+    assert_eq!(one, five);
+}
+
+#[test]
+fn shipped_structures_are_what_they_say() {
+    let study = study();
+    for name in ["pier", "block", "frame"] {
+        let file = repository().join(format!("configs/structures/{name}.toml"));
+        let shown = uplift(study.path(), &["design", file.to_str().unwrap(), "--urs", "r.h5", "--spectrum-only"]).ok();
+        assert!(shown.stdout.starts_with(&format!("structure  {name}: ")), "{}", shown.stdout);
+        assert!(!shown.stdout.contains("warning "), "{}", shown.stdout);
+    }
+}
