@@ -220,6 +220,27 @@ fn structures_without_a_capacity() {
     assert!(shown.contains("do not apply") && shown.contains("warning    post-uplift stiffness"), "{shown}");
 }
 
+// The last step of Section 3.4.5: with the tendons that the program names, the structure has the capacity that it asks for.
+#[test]
+fn tendons_of_the_required_capacity() {
+    let study = study();
+    let pier = |stiffness: f64| {
+        let text = "kind = \"restrained-frame\"\ncolumns = 2\nwidth_m = 0.3\nheight_m = 3\ncolumn_mass_kg = 500\ndeck_mass_kg = 20000\n";
+        let file = study
+            .write("pier.toml", &format!("{text}tendon_anchorage = \"column\"\ntendon_stiffness_n_m = {stiffness}\n"));
+        design(&study, file.to_str().unwrap(), &["--safety-factor", "4"])
+    };
+    let free = pier(0.0);
+    for rule in 0..2 {
+        let check = &free["rules"][rule]["from_spectrum"];
+        assert_eq!(check["satisfied"], false, "{free}");
+        let restrained = pier(check["required_tendon_stiffness_n_m"].as_f64().unwrap());
+        close(&restrained["structure"]["capacity_m"], check["required_capacity_m"].as_f64().unwrap(), 1e-9);
+        assert!(restrained["rules"][rule]["from_spectrum"]["margin_m"].as_f64().unwrap().abs() < 1e-9);
+    }
+    assert!(design(&study, "block.toml", &[])["rules"][0]["from_spectrum"]["required_tendon_stiffness_n_m"].is_null());
+}
+
 #[test]
 fn what_differs_from_the_study_is_said() {
     let study = study();
@@ -346,5 +367,36 @@ fn shipped_structures_are_what_they_say() {
         let shown = uplift(study.path(), &["design", file.to_str().unwrap(), "--urs", "r.h5", "--spectrum-only"]).ok();
         assert!(shown.stdout.starts_with(&format!("structure  {name}: ")), "{}", shown.stdout);
         assert!(!shown.stdout.contains("warning "), "{}", shown.stdout);
+    }
+}
+
+/// The blocks of docs/design.md that begin with `$ uplift`: the command and what it prints.
+fn shown_in_the_documentation() -> Vec<(Vec<String>, String)> {
+    let text = std::fs::read_to_string(repository().join("docs/design.md")).unwrap();
+    let blocks = text.split("```").skip(1).step_by(2).filter_map(|block| block.split_once("$ uplift "));
+    blocks
+        .map(|(_, block)| {
+            let (command, output) = block.split_once('\n').unwrap();
+            (command.split(' ').map(str::to_owned).collect(), output.to_owned())
+        })
+        .collect()
+}
+
+// Last digits belong to a machine's mathematical functions.
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+#[test]
+fn the_documentation_shows_what_is_printed() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir_all(folder.path().join("configs/structures")).unwrap();
+    for name in ["pier", "frame"] {
+        let file = format!("configs/structures/{name}.toml");
+        std::fs::copy(repository().join(&file), folder.path().join(&file)).unwrap();
+    }
+    let quick = repository().join("configs/quick.toml");
+    uplift(folder.path(), &["run", quick.to_str().unwrap(), "-q"]).ok();
+    let shown = shown_in_the_documentation();
+    assert_eq!(shown.len(), 2);
+    for (command, output) in shown {
+        assert_eq!(uplift(folder.path(), &command).ok().stdout, output, "{command:?}");
     }
 }

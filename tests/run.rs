@@ -251,6 +251,9 @@ fn the_tree_of_a_result() {
 fn shipped_studies_are_in_order() {
     for entry in repository().join("configs").read_dir().unwrap() {
         let path = entry.unwrap().path();
+        if path.is_dir() {
+            continue; // structures
+        }
         let out = tempfile::tempdir().unwrap();
         // small enough to be checked in no time
         let set = format!("output.file={}", out.path().join("r.h5").display());

@@ -236,6 +236,18 @@ impl StructureDescription {
         }
     }
 
+    /// Stiffness of the tendon and spring of each column that would give a restrained frame the displacement capacity `capacity_m` (m), N/m: the last
+    /// step of Section 3.4.5. Zero where the columns have it by themselves; none for a structure of another kind.
+    ///
+    /// # Errors
+    /// A mistake of the description, which [`resolve`](Self::resolve) lists with all others; a capacity that is not finite and positive.
+    pub fn tendon_stiffness_for_capacity_n_m(&self, capacity_m: f64) -> Result<Option<f64>, StructureError> {
+        let Some(anchorage) = self.tendon_anchorage.filter(|_| self.kind == Kind::RestrainedFrame) else {
+            return Ok(None);
+        };
+        self.frame()?.tendon_stiffness_for_capacity_n_m(capacity_m, anchorage, self.conditions()?).map(Some)
+    }
+
     /// A quantity that [`audit`] has seen.
     fn need<T>(&self, key: &'static str, value: Option<T>) -> Result<T, StructureError> {
         value.ok_or(StructureError::Missing { key, unit: "", kind: self.kind.name() })

@@ -7,7 +7,7 @@ use uplift_structure::{Check, Demand, Rule};
 
 use super::Design;
 use crate::command::run::shown_path;
-use crate::command::structure::{capacity_m, finite, lines, risk_cells, risk_json, structure_json};
+use crate::command::structure::{capacity_m, finite, lines, risk_cells, risk_json, short, structure_json};
 use crate::error::UpliftError;
 use crate::stages::relative_error;
 use crate::table::{per_cent, table};
@@ -144,6 +144,12 @@ impl Design<'_> {
         if rows.is_empty() {
             return Ok(());
         }
+        let tendons = self.rules.iter().flatten().filter_map(|outcome| {
+            let stiffness_n_m = self.tendon_stiffness_n_m(outcome.check()?)?;
+            let told = if stiffness_n_m > 0.0 { format!("{} N/m", short(stiffness_n_m)) } else { "none".to_owned() };
+            Some(format!("{told} ({})", name(outcome.rule)))
+        });
+        let tendons: Vec<String> = tendons.collect();
         let header =
             ["rule", "demand, m", "required capacity, m", "capacity, m", "margin, m", "safety factor", "verdict"];
         writeln!(
@@ -152,7 +158,15 @@ impl Design<'_> {
             self.safety_factor,
             table(&header, &rows)
         )?;
+        if !tendons.is_empty() {
+            writeln!(out, "Tendons that give the required capacity, each: {}", tendons.join(", "))?;
+        }
         Ok(())
+    }
+
+    /// Stiffness of each tendon that would give the required capacity, N/m; none for a structure without tendons, or without a demand.
+    fn tendon_stiffness_n_m(&self, check: &Check) -> Option<f64> {
+        self.structure.description.tendon_stiffness_for_capacity_n_m(check.required_capacity_m).ok()?
     }
 
     fn print_risk(&self, out: &mut impl Write) -> Result<(), UpliftError> {
@@ -192,6 +206,7 @@ impl Design<'_> {
                     relative_error(check.demand.displacement_m(), exact.structure.displacement_m).and_then(finite)
                 }),
                 "required_capacity_m": check.required_capacity_m,
+                "required_tendon_stiffness_n_m": self.tendon_stiffness_n_m(check),
                 "margin_m": finite(check.margin_m()),
                 "safety_factor": finite(check.safety_factor()),
                 "satisfied": check.is_satisfied(),

@@ -16,7 +16,11 @@ fn config(name: &str) -> ResolvedStudy {
 fn all_load() {
     let mut names = Vec::new();
     for entry in fs::read_dir(folder()).unwrap() {
-        let name = entry.unwrap().file_name().into_string().unwrap();
+        let entry = entry.unwrap();
+        if entry.file_type().unwrap().is_dir() {
+            continue; // structures
+        }
+        let name = entry.file_name().into_string().unwrap();
         let (title, warnings, file) = match Study::load_any(&folder().join(&name), &[]).unwrap() {
             AnyStudy::UniformRisk(study) => (study.title, study.warnings, study.output.file),
             AnyStudy::Displacement(study) => (study.title, study.warnings, study.output.file),
