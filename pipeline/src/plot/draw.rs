@@ -11,7 +11,7 @@ use plotters::prelude::*;
 use super::figure::{Figure, Hatch, Marks, Tone};
 use super::map::{draw_hatch, hatching};
 use super::panel::{PanelPlace, draw_panel};
-use super::stroke::{Area, FAINT_LINE, FONT, Failure, LINE, UNITS, ZOOM, colour, draw_line};
+use super::stroke::{Area, FAINT_LINE, FONT, Failure, LINE, UNITS, ZOOM, colour, dashed, draw_line};
 
 /// How wide a figure is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -75,7 +75,7 @@ pub fn svg(figure: &Figure, width: Width) -> Result<Drawing, String> {
     // the page shows pixels, the drawing goes on in its units
     let pixels = (size.0 / ZOOM, size.1 / ZOOM);
     let units = format!("width=\"{}\" height=\"{}\"", size.0, size.1);
-    let text = text.replacen(&units, &format!("width=\"{}\" height=\"{}\"", pixels.0, pixels.1), 1);
+    let text = dashed(text.replacen(&units, &format!("width=\"{}\" height=\"{}\"", pixels.0, pixels.1), 1));
     Ok(Drawing { svg: text, size: pixels, places })
 }
 

@@ -56,68 +56,17 @@ fn shade(share: f64) -> RGBColor {
     RGBColor(mixed(from.0, to.0), mixed(from.1, to.1), mixed(from.2, to.2))
 }
 
-fn dash(tone: Tone) -> Option<(i32, i32)> {
-    match tone {
-        Tone::Distinct(index) => DASHES[index % DASHES.len()],
-        Tone::Faint | Tone::Shade { .. } => None,
-    }
-}
-
-/// A polyline in units, dashed as its tone asks; `thick` units wide.
+/// A polyline in units, `thick` units wide; [`dashed`] gives it its dashes.
 pub(super) fn draw_line(area: &Area<'_>, points: &[(i32, i32)], tone: Tone, thick: u32) -> Result<(), Failure> {
-    let style = colour(tone).stroke_width(thick);
-    match dash(tone) {
-        None => area.draw(&PathElement::new(points.to_vec(), style))?,
-        Some((length, gap)) => {
-            for piece in dashes(points, f64::from(length * UNITS), f64::from(gap * UNITS)) {
-                area.draw(&PathElement::new(piece, style))?;
-            }
-        }
-    }
+    area.draw(&PathElement::new(points.to_vec(), colour(tone).stroke_width(thick)))?;
     Ok(())
 }
 
-/// The pieces of a dashed polyline.
-fn dashes(points: &[(i32, i32)], length: f64, gap: f64) -> Vec<Vec<(i32, i32)>> {
-    let mut pieces = Vec::new();
-    let (mut drawing, mut left) = (true, length);
-    let mut piece = vec![points[0]];
-    for pair in points.windows(2) {
-        let (mut from, to) = ((f64::from(pair[0].0), f64::from(pair[0].1)), pair[1]);
-        let to_point = (f64::from(to.0), f64::from(to.1));
-        let mut rest = (to_point.0 - from.0).hypot(to_point.1 - from.1);
-        while rest > left {
-            let share = left / rest;
-            from = (from.0 + share * (to_point.0 - from.0), from.1 + share * (to_point.1 - from.1));
-            rest -= left;
-            let pixel = (from.0.round() as i32, from.1.round() as i32);
-            if drawing {
-                piece.push(pixel);
-                pieces.push(std::mem::take(&mut piece));
-            }
-            piece = vec![pixel];
-            drawing = !drawing;
-            left = if drawing { length } else { gap };
-        }
-        left -= rest;
-        if drawing {
-            piece.push(to);
-        }
-    }
-    if drawing && piece.len() > 1 {
-        pieces.push(piece);
-    }
-    pieces
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn dashes_have_gaps() {
-        assert_eq!(dashes(&[(0, 0), (20, 0)], 5.0, 3.0), [[(0, 0), (5, 0)], [(8, 0), (13, 0)], [(16, 0), (20, 0)]]);
-        // a dash goes round a corner
-        assert_eq!(dashes(&[(0, 0), (3, 0), (3, 4)], 5.0, 3.0), [vec![(0, 0), (3, 0), (3, 2)]]);
-    }
+/// The drawing with the lines of each tone dashed, which the library cannot do.
+pub(super) fn dashed(svg: String) -> String {
+    COLOURS.iter().zip(DASHES).fold(svg, |svg, (RGBColor(red, green, blue), dash)| {
+        let Some((length, gap)) = dash else { return svg };
+        let line = format!("stroke=\"#{red:02X}{green:02X}{blue:02X}\" stroke-width=\"{LINE}\"");
+        svg.replace(&line, &format!("{line} stroke-dasharray=\"{} {}\"", length * UNITS, gap * UNITS))
+    })
 }

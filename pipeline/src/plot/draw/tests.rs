@@ -59,6 +59,16 @@ fn everything_lies_within_the_drawing() {
 }
 
 #[test]
+fn each_tone_has_its_dashes() {
+    let drawing = svg(&figure(), Width::Double).unwrap();
+    // the line with gaps, in pieces and in the legend; the others are full or thin
+    let dashed = drawing.svg.matches("stroke=\"#D55E00\" stroke-width=\"12\" stroke-dasharray=\"56 24\"").count();
+    assert_eq!(dashed, drawing.svg.matches("stroke=\"#D55E00\"").count());
+    assert!(dashed > 6, "{dashed}");
+    assert_eq!(drawing.svg.matches("stroke-dasharray").count(), dashed);
+}
+
+#[test]
 fn a_place_turns_pixels_into_values() {
     let place = &svg(&figure(), Width::Double).unwrap().places[2];
     assert_eq!(place.y_range, (0.2, 0.4));
