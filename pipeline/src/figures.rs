@@ -1,26 +1,43 @@
-//! The figures of Chapter 4, made of a result file alone; and those of a record, a structure or a pulse, which need none.
+//! The figures of Chapters 2 to 4, made of a result file alone; and those of a record, a structure or a pulse, which need none.
 //!
 //! What is to be seen is decided here, how it is drawn in [`plot`](crate::plot).
 
 mod confidence;
 mod demand;
+mod displacement;
 mod history;
 mod overturning;
 mod predictors;
 mod pulses;
 mod spectra;
 
+pub use displacement::{Extent, displacement_figures};
 pub use history::history_figure;
 pub use overturning::overturning_figure;
 pub use pulses::pulse_figures;
 pub use spectra::hazard_figure;
 
+use std::path::Path;
+
 use crate::error::UpliftError;
 use crate::labelled::LabelledReader;
-use crate::plot::{Figure, Panel, Series, Tone};
-use crate::result::{StoredStripes, open_result};
+use crate::plot::{Axis, Figure, Panel, Series, Tone};
+use crate::result::{StoredDisplacements, StoredStripes, holds_displacement_spectra, open_any_result, open_result};
 
-/// A result file, opened for its figures.
+/// The figures of the result at `path`, of either kind.
+///
+/// # Errors
+/// A file that is missing, damaged or no result.
+pub fn result_figures(path: &Path) -> Result<Vec<Figure>, UpliftError> {
+    let is_of_displacements = holds_displacement_spectra(&open_any_result(path)?);
+    if is_of_displacements {
+        displacement_figures(path, &StoredDisplacements::read(path)?, Extent::All)
+    } else {
+        FigureSource::new(StoredStripes::read(path)?)?.figures()
+    }
+}
+
+/// A result file of uniform risk spectra, opened for its figures.
 pub struct FigureSource {
     stored: StoredStripes,
     reader: LabelledReader,
@@ -35,7 +52,7 @@ impl FigureSource {
     pub fn new(stored: StoredStripes) -> Result<Self, UpliftError> {
         let reader = open_result(&stored.path)?;
         let synthetic = reader.attribute_i64("/", "synthetic")? == 1;
-        let remark = if synthetic { "synthetic records: not for design" } else { "" };
+        let remark = if synthetic { SYNTHETIC } else { "" };
         Ok(Self { stored, reader, remark: remark.to_owned() })
     }
 
@@ -94,5 +111,15 @@ impl FigureSource {
     }
 }
 
+/// An axis from the first to the last value.
+fn spanned(axis: Axis, values: &[f64]) -> Axis {
+    match values {
+        [first, .., last] => axis.between(*first, *last),
+        _ => axis,
+    }
+}
+
+/// What figures of synthetic records say.
+const SYNTHETIC: &str = "synthetic records: not for design";
 /// Label of the strength axis.
 const STRENGTH: &str = "uplift strength f_up/(m g)";

@@ -21,8 +21,10 @@ pub use checkpoint::{Checkpoint, Finished};
 pub use csv::{csv_paths, write_csv};
 pub(crate) use csv::{write_aside, write_table};
 pub use displacement::{
-    DesignRow, DisplacementOutcome, displacement_csv_paths, read_design, write_displacement_csv, write_displacements,
+    DesignRow, DisplacementOutcome, SpectrumPlace, StoredDisplacements, StoredMotions, StoredSet, StoredStructures,
+    displacement_csv_paths, read_design, write_displacement_csv, write_displacements,
 };
+pub(crate) use hazard::{axis_part, unique_axis};
 pub use influence::{RecordInfluence, influence_path, record_influence, write_influence};
 pub use predictors::{predictors_path, write_predictors};
 pub use provenance::Provenance;

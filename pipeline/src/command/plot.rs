@@ -10,8 +10,7 @@ use super::figure_files::{FigureArguments, provide_folder};
 use super::result_of::ResultArguments;
 use super::run::shown_path;
 use crate::error::UpliftError;
-use crate::figures::FigureSource;
-use crate::result::StoredStripes;
+use crate::figures::result_figures;
 
 #[derive(Debug, Args)]
 pub(super) struct PlotArguments {
@@ -29,7 +28,7 @@ pub(super) struct PlotArguments {
 
 pub(super) fn plot(arguments: &PlotArguments, session: &Session) -> Result<(), UpliftError> {
     let path = arguments.result.find(session)?.path;
-    let figures = FigureSource::new(StoredStripes::read(&path)?)?.figures()?;
+    let figures = result_figures(&path)?;
     let wanted = arguments.only.as_deref().unwrap_or_default();
     let chosen: Vec<_> = figures.iter().filter(|figure| figure.id.contains(wanted)).collect();
     if chosen.is_empty() {

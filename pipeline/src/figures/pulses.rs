@@ -2,6 +2,7 @@
 
 use uplift_block::{BlockResponse, Overturning, RickerShape, SpectrumPoint};
 
+use super::spanned;
 use crate::plot::{Axis, Figure, Hatch, Map, Panel, Region, Series, Tone};
 use crate::pulses::{PulsePlan, PulseSpectra, Spectrum, wavelet};
 
@@ -79,14 +80,6 @@ pub fn pulse_figures(plan: &PulsePlan, spectra: &[PulseSpectra]) -> Vec<Figure> 
             &|of| by_half_width(of.shape, &of.by_half_width),
         ),
     ]
-}
-
-/// An axis from the first to the last value.
-fn spanned(axis: Axis, values: &[f64]) -> Axis {
-    match values {
-        [first, .., last] => axis.between(*first, *last),
-        _ => axis,
-    }
 }
 
 fn map(shape: RickerShape, spectrum: &Spectrum, size: &str, levels: &[f64], value: fn(&SpectrumPoint) -> f64) -> Panel {

@@ -2,6 +2,7 @@
 
 mod csv;
 mod design;
+mod stored;
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -19,6 +20,7 @@ use crate::study::{DISPLACEMENT_SPECTRA, DisplacementStudy, Structures};
 
 pub use csv::{displacement_csv_paths, write_displacement_csv};
 pub use design::{DesignRow, read_design};
+pub use stored::{SpectrumPlace, StoredDisplacements, StoredMotions, StoredSet, StoredStructures};
 
 /// All that a study of displacement spectra computed.
 #[derive(Debug)]

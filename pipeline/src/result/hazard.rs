@@ -75,13 +75,13 @@ fn axis_name(what: &str, site: &str, measure: &str, taken: &mut BTreeSet<String>
 }
 
 /// As much of a name as an axis name can hold: lower-case ASCII.
-pub(super) fn axis_part(name: &str) -> String {
+pub(crate) fn axis_part(name: &str) -> String {
     let fit = |character: char| if character.is_ascii_alphanumeric() { character } else { '_' };
     name.to_lowercase().chars().take(40).map(fit).collect()
 }
 
 /// The name of an axis, longer where it is taken: by a name that differs only in what an axis name cannot hold.
-pub(super) fn unique_axis(mut axis: String, taken: &mut BTreeSet<String>) -> String {
+pub(crate) fn unique_axis(mut axis: String, taken: &mut BTreeSet<String>) -> String {
     while !taken.insert(axis.clone()) {
         axis.push('x');
     }

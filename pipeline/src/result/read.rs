@@ -109,7 +109,7 @@ pub(crate) fn open_result(path: &Path) -> Result<LabelledReader, UpliftError> {
     let reader = open_any_result(path)?;
     if holds_displacement_spectra(&reader) {
         return Err(UpliftError::input(format!(
-            "{}: holds displacement spectra of record sets, and this command wants uniform risk spectra: `uplift table`, `status` and `verify` take it, tables lie beside it as CSV, and docs/displacement-spectra.md says how other programs read it",
+            "{}: holds displacement spectra of record sets, and this command wants uniform risk spectra: `uplift table`, `plot`, `report`, `status` and `verify` take it, tables lie beside it as CSV, and docs/displacement-spectra.md says how other programs read it",
             path.display()
         )));
     }

@@ -85,7 +85,7 @@ impl Study {
                 if let Some(field) = root.field("kind") {
                     field.mistake(
                         "this study is of displacement spectra, and has no uniform risk spectra",
-                        "`uplift check`, `run` and `status` take it, and `uplift table` its result; for the rest a study of uniform risk is needed",
+                        "`uplift check`, `run` and `status` take it, and `uplift table`, `plot` and `report` its result; for the rest a study of uniform risk is needed",
                     );
                 }
                 None

@@ -128,7 +128,7 @@ fn print<'a>(
         // the ways of scaling one value stand together
         for values in of_table.chunks(by.len()) {
             let mut row = vec![values[0].quantity.clone(), values[0].scaling.clone()];
-            row.extend(values.iter().map(|value| ranged(&value.quantity, &value.noisy)));
+            row.extend(values.iter().map(DesignRow::ranged));
             if compared {
                 row.extend(match of(&values[0]) {
                     None => ["| -".to_owned(), String::new()],
@@ -143,7 +143,7 @@ fn print<'a>(
                                 value.scaled_by.as_str()
                             })
                             .collect();
-                        [format!("| {}", shown(&values[0].quantity, reference.value)), within.join(", ")]
+                        [format!("| {}", values[0].shown(reference.value)), within.join(", ")]
                     }
                 });
             }
@@ -175,24 +175,6 @@ fn distinct<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
         }
     }
     found
-}
-
-fn ranged(quantity: &str, noisy: &Noisy) -> String {
-    if noisy.value.is_nan() {
-        return "none".to_owned();
-    }
-    let [value, lowest, highest] = [noisy.value, noisy.lowest, noisy.highest].map(|value| shown(quantity, value));
-    format!("{value} [{lowest}, {highest}]")
-}
-
-/// A number with as many digits as say something.
-fn shown(quantity: &str, value: f64) -> String {
-    match value {
-        f64::INFINITY => "overturns".to_owned(),
-        value if quantity.ends_with("_pct") => format!("{value:.1}"),
-        value if quantity.starts_with("tan") => format!("{value:.4}"),
-        value => format!("{value:.3}"),
-    }
 }
 
 fn read_reference(path: &Path) -> Result<Vec<Reference>, UpliftError> {

@@ -28,6 +28,27 @@ pub struct DesignRow {
     pub noisy: Noisy,
 }
 
+impl DesignRow {
+    /// The value with its range, in words.
+    pub fn ranged(&self) -> String {
+        let Noisy { value, lowest, highest } = self.noisy;
+        if value.is_nan() {
+            return "none".to_owned();
+        }
+        format!("{} [{}, {}]", self.shown(value), self.shown(lowest), self.shown(highest))
+    }
+
+    /// A value of this quantity with as many digits as say something.
+    pub fn shown(&self, value: f64) -> String {
+        match value {
+            f64::INFINITY => "overturns".to_owned(),
+            value if self.quantity.ends_with("_pct") => format!("{value:.1}"),
+            value if self.quantity.starts_with("tan") => format!("{value:.4}"),
+            value => format!("{value:.3}"),
+        }
+    }
+}
+
 /// How a rule is called in the file, and in tables.
 fn words(rule: Rule) -> [&'static str; 2] {
     match rule {
