@@ -51,7 +51,7 @@ impl DisplacementSource<'_> {
         let set = &self.stored.sets[place.set].name;
         self.figure(
             format!("{id}-{}-{percentile_id}{uplift_id}{}", self.words[place.set], self.suffix(place.scaled_by)),
-            format!("{title}, {set}, {percentile}{uplift}"),
+            format!("{title}, {set}, {percentile}{uplift}, by {}", self.stored.scaled_by[place.scaled_by]),
             format!(
                 "{caption} Set {set}, {percentile}{uplift}. {}. A line begins beyond the last abscissa at which the structure overturns.",
                 self.scaling_words(place.scaled_by)
@@ -159,7 +159,7 @@ pub(super) fn uplift_displacements(source: &DisplacementSource<'_>) -> Vec<Figur
         );
         source.figure(
             format!("uplift-displacement{}", source.suffix(scaled_by)),
-            "The influence of the uplift displacement".to_owned(),
+            format!("The influence of the uplift displacement, by {}", stored.scaled_by[scaled_by]),
             caption,
             sets.min(3),
             places.map(panel).collect(),
