@@ -11,16 +11,14 @@ pub(crate) fn table(header: &[&str], rows: &[Vec<String>]) -> String {
     };
     let widths: Vec<usize> = (0..header.len()).map(width).collect();
     let line = |cells: &[String]| {
-        let padded: Vec<String> = cells
-            .iter()
-            .zip(&widths)
-            .enumerate()
-            .map(
-                |(column, (cell, &width))| {
-                    if column == 0 { format!("{cell:<width$}") } else { format!("{cell:>width$}") }
-                },
-            )
-            .collect();
+        let padded =
+            cells.iter().zip(&widths).enumerate().map(|(column, (cell, &width))| match cell.strip_prefix("| ") {
+                _ if column == 0 => format!("{cell:<width$}"),
+                // a bar stands below the bar above it
+                Some(value) => format!("| {value:>0$}", width - 2),
+                None => format!("{cell:>width$}"),
+            });
+        let padded: Vec<String> = padded.collect();
         padded.join("  ").trim_end().to_owned()
     };
     let header: Vec<String> = header.iter().map(|&name| name.to_owned()).collect();
