@@ -3,9 +3,10 @@
 //! Until the first uplift the response is this one times the scale factor. Later, whenever the system is attached, it differs from it
 //! by a free vibration of constant amplitude. Both facts settle long stretches of a record, or all of it, by one comparison.
 
+use crate::ahead::{AHEAD, padded};
 use crate::branch::{Branch, LinearMotion};
 use crate::free_vibration::{FreePeak, first_peak};
-use crate::ground_motion::{GroundMotion, halvings};
+use crate::ground_motion::GroundMotion;
 use crate::nodes::Nodes;
 use crate::stumpff::Stumpff;
 use crate::sweep::sag_factor;
@@ -13,14 +14,11 @@ use crate::sweep::sag_factor;
 /// The attached response at every sample, with its extremes.
 #[derive(Debug, Clone)]
 pub(crate) struct ElasticResponse {
+    /// At the samples and the padding after them.
     pub(crate) displacement_m: Vec<f64>,
     pub(crate) velocity_m_s: Vec<f64>,
     /// `(interval, largest abs(u) up to its end)` for each interval that holds a new one.
     highs: Vec<(usize, f64)>,
-    /// Bounds on `abs(u)` over blocks of `2^l` intervals.
-    pub(crate) bounds: Vec<Vec<f64>>,
-    /// Bound on `abs(u)` from a sample on, the free vibration after the record included.
-    pub(crate) bound_from: Vec<f64>,
     /// Largest `abs(u)` of the whole response, m.
     pub(crate) peak_m: f64,
 }
@@ -34,9 +32,8 @@ impl ElasticResponse {
         let whole = Stumpff::at(k * dt * dt);
         let (n, sag_factor) = (ground.intervals(), sag_factor(k.sqrt() * dt, dt));
         let (mut u, mut v, mut peak_m) = (0.0, 0.0, 0.0_f64);
-        let mut displacement_m = Vec::with_capacity(n + 1);
+        let mut displacement_m = Vec::with_capacity(n + 1 + AHEAD);
         let mut velocity_m_s = Vec::with_capacity(n + 1);
-        let mut singles = Vec::with_capacity(n);
         let mut highs = Vec::new();
         displacement_m.push(u);
         velocity_m_s.push(v);
@@ -51,7 +48,6 @@ impl ElasticResponse {
                 sag_factor * motion.w0.abs().max(w1.abs())
             };
             let bound = motion.u0.abs().max(u.abs()) + sag;
-            singles.push(bound);
             if bound > peak_m {
                 let high = Nodes::new(&motion, dt).fold(peak_m, |high, node| high.max(node.u.abs()));
                 if high > peak_m {
@@ -62,8 +58,6 @@ impl ElasticResponse {
             displacement_m.push(u);
             velocity_m_s.push(v);
         }
-        // the amplitude bounds the free vibration even where its first peak is not asked for
-        let free_m = if k > 0.0 { u.hypot(v / k.sqrt()) } else { u.abs() };
         let free_peak_m = match first_peak(attached, attached, f64::INFINITY, 1.0, (0.0, u, v)) {
             _ if !with_free_peak => 0.0,
             // without stiffness the system drifts on after the record
@@ -75,12 +69,7 @@ impl ElasticResponse {
             peak_m = free_peak_m;
             highs.push((n, free_peak_m));
         }
-        let mut bound_from = vec![free_m; n + 1];
-        for i in (0..n).rev() {
-            bound_from[i] = singles[i].max(bound_from[i + 1]);
-        }
-        let bounds = halvings(singles, f64::max);
-        Self { displacement_m, velocity_m_s, highs, bounds, bound_from, peak_m }
+        Self { displacement_m: padded(displacement_m), velocity_m_s, highs, peak_m }
     }
 
     /// The first interval in which `abs(u)` exceeds `level_m`; the number of intervals if only the free vibration does.

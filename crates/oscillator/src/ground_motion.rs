@@ -1,24 +1,20 @@
-//! A record prepared for many runs: its integrals, and the extremes of its acceleration over blocks of samples.
+//! A record prepared for many runs: its integrals.
 //!
 //! A system without post-uplift stiffness flies, relative to the ground, on a parabola minus the scaled ground displacement. With the
-//! integrals of the record at hand its state at any sample is known from the start of the flight alone; with the extremes of the
-//! acceleration over a block, a bound on the curvature shows that it does not come down within the block. So a
-//! flight is followed in strides instead of samples, and nothing is approximated.
+//! integrals of the record at hand its state at any sample is known from the start of the flight alone.
 
+use crate::ahead::padded;
 use crate::excitation::Excitation;
 
-/// Strides of `2, 4, … 2^STRIDE_LEVELS` samples.
-pub(crate) const STRIDE_LEVELS: usize = 6;
-
-/// A unit-scale record with its integrals and block extremes. Memory: about 5 numbers a sample.
+/// A unit-scale record with its integrals. Memory: 3 numbers a sample beside the record.
 #[derive(Debug, Clone)]
 pub struct GroundMotion<'a> {
     pub(crate) excitation: Excitation<'a>,
-    /// Ground velocity and displacement at the samples, from rest, m/s and m.
+    /// Ground acceleration, velocity and displacement at the samples, the latter from rest; m/s², m/s and m. The samples of acceleration
+    /// and displacement are followed by padding.
+    pub(crate) acceleration_m_s2: Vec<f64>,
     pub(crate) velocity_m_s: Vec<f64>,
     pub(crate) displacement_m: Vec<f64>,
-    /// `extremes[l][b]`: least and largest acceleration over samples `b 2^l … (b + 1) 2^l`, both ends included, m/s².
-    pub(crate) extremes: Vec<Vec<[f64; 2]>>,
 }
 
 impl<'a> GroundMotion<'a> {
@@ -35,23 +31,11 @@ impl<'a> GroundMotion<'a> {
             velocity_m_s.push(v);
             displacement_m.push(d);
         }
-        let single: Vec<[f64; 2]> = a.windows(2).map(|p| [p[0].min(p[1]), p[0].max(p[1])]).collect();
-        let extremes = halvings(single, |x, y| [x[0].min(y[0]), x[1].max(y[1])]);
-        Self { excitation, velocity_m_s, displacement_m, extremes }
+        Self { excitation, acceleration_m_s2: padded(a.to_vec()), velocity_m_s, displacement_m: padded(displacement_m) }
     }
 
     /// Number of sample intervals.
     pub(crate) fn intervals(&self) -> usize {
         self.excitation.acceleration_m_s2().len() - 1
     }
-}
-
-/// `[single, pairs of single, pairs of pairs, …]` for whole blocks, `STRIDE_LEVELS` times.
-pub(crate) fn halvings<T: Copy>(single: Vec<T>, join: impl Fn(T, T) -> T) -> Vec<Vec<T>> {
-    let mut levels = vec![single];
-    for level in 0..STRIDE_LEVELS {
-        let next = levels[level].chunks_exact(2).map(|pair| join(pair[0], pair[1])).collect();
-        levels.push(next);
-    }
-    levels
 }

@@ -22,6 +22,8 @@
 //!
 //! Units are SI: metres, seconds, m/s². A displacement is relative to the ground.
 
+mod ahead;
+mod attached;
 pub mod branch;
 mod elastic;
 mod error;
@@ -38,6 +40,7 @@ pub mod response;
 mod run;
 pub mod stumpff;
 pub mod sweep;
+mod uplifted;
 
 pub use error::OscillatorError;
 pub use excitation::Excitation;

@@ -9,9 +9,10 @@
 //! * a flight without post-uplift stiffness is followed in strides over the [integrals of the record](crate::ground_motion);
 //! * events are found by Newton's method where convexity makes the root unique, by the nodes of the motion elsewhere.
 
+use crate::ahead::{AHEAD, Lanes};
 use crate::branch::Branch;
 use crate::elastic::ElasticResponse;
-use crate::ground_motion::{GroundMotion, STRIDE_LEVELS};
+use crate::ground_motion::GroundMotion;
 use crate::oscillator::Oscillator;
 use crate::run::Run;
 use crate::stumpff::Stumpff;
@@ -23,6 +24,23 @@ pub struct Peak {
     pub displacement_m: f64,
     /// Impacts up to the end of the run.
     pub impacts: u32,
+}
+
+/// How far a free vibration turns in `1, 2, …` samples.
+#[derive(Debug)]
+pub(crate) struct Turns {
+    pub(crate) cos: Lanes,
+    pub(crate) sin: Lanes,
+}
+
+impl Turns {
+    fn new(phase: f64) -> Self {
+        let mut turns = Self { cos: [1.0; AHEAD], sin: [0.0; AHEAD] };
+        for (samples, (cos, sin)) in (1_u32..).zip(turns.cos.iter_mut().zip(&mut turns.sin)) {
+            (*sin, *cos) = (phase * f64::from(samples)).sin_cos();
+        }
+        turns
+    }
 }
 
 /// One oscillator and one record, ready for any number of scales.
@@ -46,8 +64,7 @@ pub struct Sweep<'a> {
     /// Deviation from the chord between samples, while attached, over the largest acceleration at their ends, s²; NaN where the samples are
     /// too far apart for such a bound.
     pub(crate) sag_factor: f64,
-    /// `(cos, sin)` of `ω` times a stride, for strides of `1, 2, 4 …` samples.
-    pub(crate) rotations: [(f64, f64); STRIDE_LEVELS + 1],
+    pub(crate) turns: Turns,
 }
 
 impl<'a> Sweep<'a> {
@@ -58,11 +75,6 @@ impl<'a> Sweep<'a> {
         let (attached, uplifted) = (oscillator.attached(), oscillator.uplifted());
         let dt_s = ground.excitation.dt_s();
         let omega = attached.stiffness_per_s2.sqrt();
-        let mut rotations = [(1.0, 0.0); STRIDE_LEVELS + 1];
-        for (level, rotation) in rotations.iter_mut().enumerate() {
-            let (sin, cos) = (omega * dt_s * f64::from(1_u32 << level)).sin_cos();
-            *rotation = (cos, sin);
-        }
         Self {
             ground,
             elastic: ElasticResponse::new(&attached, ground, with_free_peak && !oscillator.is_free_mass()),
@@ -79,7 +91,7 @@ impl<'a> Sweep<'a> {
             samples_per_s: dt_s.recip(),
             whole_attached: Stumpff::at(attached.stiffness_per_s2 * dt_s * dt_s),
             whole_uplifted: Stumpff::at(uplifted.stiffness_per_s2 * dt_s * dt_s),
-            rotations,
+            turns: Turns::new(omega * dt_s),
         }
     }
 

@@ -1,0 +1,46 @@
+//! Several samples ahead looked at together, which the compiler turns into vector instructions.
+//!
+//! Arrays that are looked at in this way are longer by [`AHEAD`] samples than the record.
+
+/// Samples looked at together.
+pub(crate) const AHEAD: usize = 8;
+
+/// One number of each of the samples.
+pub(crate) type Lanes = [f64; AHEAD];
+
+/// `samples` with zeros after the last one.
+pub(crate) fn padded(mut samples: Vec<f64>) -> Vec<f64> {
+    samples.extend([0.0; AHEAD]);
+    samples
+}
+
+/// The samples from `first` on.
+#[inline]
+pub(crate) fn ahead(samples: &[f64], first: usize) -> &Lanes {
+    samples[first..].first_chunk().unwrap_or(&[0.0; AHEAD])
+}
+
+/// The largest, by halves: side by side, not one after the other.
+#[inline]
+pub(crate) fn largest(mut x: Lanes) -> f64 {
+    let mut half = AHEAD / 2;
+    while half > 0 {
+        for m in 0..half {
+            x[m] = larger(x[m], x[m + half]);
+        }
+        half /= 2;
+    }
+    x[0]
+}
+
+/// `f64::max` without its care for NaN, which costs in the inner loops; a NaN in `a` gives `b`.
+#[inline]
+pub(crate) fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+/// `f64::min` likewise.
+#[inline]
+pub(crate) fn smaller(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
