@@ -2,8 +2,8 @@
 //!
 //! Arrays that are looked at in this way are longer by [`AHEAD`] samples than the record.
 
-/// Samples looked at together.
-pub(crate) const AHEAD: usize = 8;
+/// Samples looked at together, a power of two.
+pub(crate) const AHEAD: usize = 16;
 
 /// One number of each of the samples.
 pub(crate) type Lanes = [f64; AHEAD];
@@ -15,13 +15,13 @@ pub(crate) fn padded(mut samples: Vec<f64>) -> Vec<f64> {
 }
 
 /// The samples from `first` on.
-#[inline]
+#[inline(always)]
 pub(crate) fn ahead(samples: &[f64], first: usize) -> &Lanes {
     samples[first..].first_chunk().unwrap_or(&[0.0; AHEAD])
 }
 
 /// The largest, by halves: side by side, not one after the other.
-#[inline]
+#[inline(always)]
 pub(crate) fn largest(mut x: Lanes) -> f64 {
     let mut half = AHEAD / 2;
     while half > 0 {
@@ -34,13 +34,13 @@ pub(crate) fn largest(mut x: Lanes) -> f64 {
 }
 
 /// `f64::max` without its care for NaN, which costs in the inner loops; a NaN in `a` gives `b`.
-#[inline]
+#[inline(always)]
 pub(crate) fn larger(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }
 
 /// `f64::min` likewise.
-#[inline]
+#[inline(always)]
 pub(crate) fn smaller(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }
 }

@@ -5,6 +5,7 @@ use crate::passages::{State, transit, uplift_within};
 use crate::run::{At, Phase, Run};
 
 impl Run<'_> {
+    #[inline(always)]
     pub(crate) fn attached(&self, start: At) -> Phase {
         let sweep = self.sweep;
         let (k, boundary) = (sweep.attached.stiffness_per_s2, sweep.boundary_m);
@@ -31,7 +32,7 @@ impl Run<'_> {
     }
 
     /// Attached from the sample `j` on.
-    #[inline]
+    #[inline(always)]
     fn attached_samples(&self, mut j: usize, start: &State) -> Phase {
         let (sweep, scale) = (self.sweep, self.scale);
         let (n, k, boundary) = (sweep.ground.intervals(), sweep.attached.stiffness_per_s2, sweep.boundary_m);
@@ -79,7 +80,7 @@ impl Run<'_> {
     ///
     /// Where the acceleration is at most `W` and the ends differ by `Δ`, nothing between them lies higher than the higher one by more
     /// than `S (1 − Δ/4S)² ≤ S − Δ/4` with `S = W h²/8`, and nothing does if that is negative.
-    #[inline]
+    #[inline(always)]
     fn may_uplift(&self, (u0, w0): (f64, f64), (u1, w1): (f64, f64)) -> bool {
         let sag = self.sweep.sag_factor * larger(w0.abs(), w1.abs()) - 0.25 * (u1 - u0).abs();
         let highest = larger(u0.abs(), u1.abs()) + if sag < 0.0 { 0.0 } else { sag };

@@ -38,7 +38,7 @@ pub struct LinearMotion {
 
 impl LinearMotion {
     /// Displacement and velocity at `τ` seconds, given the Stumpff functions at `k τ²`.
-    #[inline]
+    #[inline(always)]
     pub fn state_with(&self, tau: f64, s: &Stumpff) -> (f64, f64) {
         let u = self.u0 + tau * (self.v0 + tau * (self.w0 * s.c2 + tau * self.j0 * s.c3));
         let v = self.v0 + tau * (self.w0 * s.c1 + tau * self.j0 * s.c2);
@@ -46,14 +46,14 @@ impl LinearMotion {
     }
 
     /// Displacement (m) and velocity (m/s) at `τ` seconds.
-    #[inline]
+    #[inline(always)]
     pub fn state(&self, tau: f64) -> (f64, f64) {
         self.state_with(tau, &Stumpff::at(self.k * tau * tau))
     }
 
     /// The same motion told from `τ` seconds on.
-    #[inline]
     #[must_use]
+    #[inline(always)]
     pub fn restarted(&self, tau: f64) -> Self {
         let s = Stumpff::at(self.k * tau * tau);
         let (u0, v0) = self.state_with(tau, &s);
@@ -63,7 +63,7 @@ impl LinearMotion {
     }
 
     /// Velocity (m/s) and acceleration (m/s²) at `τ` seconds.
-    #[inline]
+    #[inline(always)]
     pub fn rates(&self, tau: f64) -> (f64, f64) {
         let s = Stumpff::at(self.k * tau * tau);
         let v = self.v0 + tau * (self.w0 * s.c1 + tau * self.j0 * s.c2);
@@ -74,6 +74,7 @@ impl LinearMotion {
     ///
     /// The acceleration obeys `ẅ = −k w`, so it is convex towards zero where `k ≤ 0` (its largest magnitude is at an end), at
     /// most `max(abs(w0), abs(w1))/(1 − k h²/8)` where `k h²` is small, and never above its amplitude.
+    #[inline(always)]
     pub fn acceleration_bound(&self, h: f64, w1: f64) -> f64 {
         let ends = self.w0.abs().max(w1.abs());
         let x = self.k * h * h;
@@ -84,5 +85,16 @@ impl LinearMotion {
         } else {
             (self.w0 * self.w0 + self.j0 * self.j0 / self.k).sqrt()
         }
+    }
+
+    /// Whether the velocity, of one sign at the start and as `v1` after `h` seconds, is seen to keep it in between.
+    ///
+    /// The velocity departs from its chord by `h²/8 max abs(w')` at most, and its second derivative `w'`, as the acceleration, obeys
+    /// `w''' = −k w'`.
+    #[inline(always)]
+    pub(crate) fn keeps_direction(&self, h: f64, v1: f64) -> bool {
+        let x = self.k * h * h;
+        let ends = self.j0.abs().max((self.j0 + self.k * (self.v0 - v1)).abs());
+        x < 4.0 && self.v0.abs().min(v1.abs()) > 0.125 * h * h * ends / (1.0 - 0.125 * x.max(0.0))
     }
 }

@@ -22,12 +22,16 @@
 //!
 //! Units are SI: metres, seconds, m/s². A displacement is relative to the ground.
 
+// what is not inlined into a run is not compiled for the instructions it is compiled for
+#![allow(clippy::inline_always)]
+
 mod ahead;
 mod attached;
 pub mod branch;
 mod elastic;
 mod error;
 pub mod excitation;
+mod flight;
 pub mod free_vibration;
 pub mod ground_motion;
 pub mod history;

@@ -26,6 +26,7 @@ pub(crate) struct State {
 }
 
 /// Time at which an attached system passes one of the boundaries, outward, within `h`; `end` is its state then.
+#[inline(always)]
 pub(crate) fn uplift_within(motion: &LinearMotion, h: f64, end: &State, boundary: f64) -> Option<Passage> {
     let inside = end.u.abs() <= boundary;
     if motion.k * h * h < SIMPLE {
@@ -33,7 +34,10 @@ pub(crate) fn uplift_within(motion: &LinearMotion, h: f64, end: &State, boundary
         let one_curvature = motion.w0 * end.w > 0.0;
         if motion.v0 * end.v > 0.0 {
             // the velocity has one extremum at most, and is zero nowhere if it cannot fall that far
-            if one_curvature || motion.v0.abs() + end.v.abs() > h * motion.acceleration_bound(h, end.w) {
+            if one_curvature
+                || motion.v0.abs() + end.v.abs() > h * motion.acceleration_bound(h, end.w)
+                || motion.keeps_direction(h, end.v)
+            {
                 return (!inside).then(|| passage(motion, from, motion.v0, to, boundary.copysign(end.u)));
             }
         } else if motion.v0 * end.v < 0.0 {
@@ -62,6 +66,7 @@ pub(crate) fn uplift_within(motion: &LinearMotion, h: f64, end: &State, boundary
 ///
 /// The motion oscillates about the equilibrium `e = u + w/k`, which drifts at the constant rate `ė`, with the amplitude `A`. Where its
 /// velocity is zero the distance from the equilibrium is `√(A² − ė²/k)`.
+#[inline(always)]
 fn turns_inside(motion: &LinearMotion, h: f64, boundary: f64) -> bool {
     let flexibility = 1.0 / motion.k;
     let (x, lag) = (motion.w0 * flexibility, motion.j0 * flexibility);
@@ -84,6 +89,7 @@ pub(crate) struct Passage {
 }
 
 impl Passage {
+    #[inline(always)]
     fn of(motion: &LinearMotion, tau: f64, level: f64) -> Self {
         Self { level, tau, v: motion.state(tau).1 }
     }
@@ -91,11 +97,12 @@ impl Passage {
 
 /// Where `motion` passes `level`, which it does once between `from`, where its velocity is `v`, and `to`: Newton's method in
 /// a bracket, from the root of the parabola through the state at `from` and the end.
+#[inline(always)]
 pub(crate) fn passage(motion: &LinearMotion, from: Node, v: f64, to: Node, level: f64) -> Passage {
     let span = to.tau - from.tau;
     let distance = level - from.u;
     let ahead = 1.0_f64.copysign(to.u - level);
-    let curvature = 2.0 * (to.u - from.u - v * span) / (span * span);
+    let curvature = (to.u - from.u - v * span) * (2.0 / (span * span));
     let discriminant = (v * v + 2.0 * curvature * distance).max(0.0);
     let (mut low, mut high) = (from.tau, to.tau);
     let mut tau = from.tau + 2.0 * distance / (v + ahead * discriminant.sqrt());
@@ -132,7 +139,7 @@ pub(crate) fn passage(motion: &LinearMotion, from: Node, v: f64, to: Node, level
 }
 
 /// Newton's method from `tau` on for a motion without stiffness, which is a cubic; `None` where it does not settle.
-#[inline]
+#[inline(always)]
 fn cubic_passage(motion: &LinearMotion, mut tau: f64, level: f64, converged: f64) -> Option<Passage> {
     let (half, third) = (0.5 * motion.w0, motion.j0 * (1.0 / 6.0));
     let distance = level - motion.u0;
@@ -149,6 +156,7 @@ fn cubic_passage(motion: &LinearMotion, mut tau: f64, level: f64, converged: f64
 
 /// The passage of `level` outward within `h` of a motion that turns back once, tried from the parabola at its start: what settles with an outward velocity is it, since
 /// the way back is inward. `None` where there is none, or it is not found so simply.
+#[inline(always)]
 fn outward_passage(motion: &LinearMotion, h: f64, level: f64) -> Option<Passage> {
     let distance = level - motion.u0;
     let discriminant = motion.v0 * motion.v0 + 2.0 * motion.w0 * distance;
@@ -166,7 +174,7 @@ fn outward_passage(motion: &LinearMotion, h: f64, level: f64) -> Option<Passage>
 
 /// Time until `here` passes `level` and its velocity there, if that is so near that short series serve: one evaluation of the full
 /// ones then finds a passage.
-#[inline]
+#[inline(always)]
 fn nearby_passage(here: &LinearMotion, level: f64, converged: f64) -> Option<(f64, f64)> {
     // the inverse series to its third term
     let inverse = 1.0 / here.v0;
@@ -187,6 +195,7 @@ fn nearby_passage(here: &LinearMotion, level: f64, converged: f64) -> Option<(f6
 }
 
 /// Time at which the velocity of a motion vanishes, which changes its sign once between the start and `v1` at `h`.
+#[inline(always)]
 pub(crate) fn turning_time(motion: &LinearMotion, h: f64, v1: f64) -> f64 {
     if motion.k == 0.0 {
         let discriminant = (motion.w0 * motion.w0 - 2.0 * motion.j0 * motion.v0).max(0.0);
@@ -232,34 +241,22 @@ pub(crate) fn first_crossing(
 }
 
 /// The passage of an attached system from one boundary straight to the other within `h`: `None` if it is not as simple as that.
+#[inline(always)]
 pub(crate) fn transit(motion: &LinearMotion, h: f64, boundary: f64) -> Option<Passage> {
     if motion.u0.abs() != boundary {
         return None;
     }
     let side = motion.u0.signum();
     let speed = -side * motion.v0;
-    let mut tau = 2.0 * boundary / speed;
-    if !(speed > 0.0 && tau <= h) {
+    let tau = 2.0 * boundary / speed;
+    if !(speed > 0.0 && tau <= h && motion.k * h * h < SIMPLE) {
         return None;
     }
-    for _ in 0..NEWTON_STEPS {
-        let (u, v) = motion.state(tau);
-        let step = (side * u + boundary) / (side * v);
-        let next = tau - step;
-        if !(next > 0.0 && next <= h) {
-            return None;
-        }
-        if step.abs() <= CONVERGED * h {
-            // monotone on the way: the velocity is inward at both ends and has no maximum between them
-            let w = motion.rates(next).1;
-            let inward = side * v < 0.0 && !(side * motion.w0 > 0.0 && side * w < 0.0);
-            return (inward && motion.k * h * h < 9.0).then_some(Passage {
-                level: -side * boundary,
-                tau: next,
-                v: v - step * w,
-            });
-        }
-        tau = next;
-    }
-    None
+    let here = motion.restarted(tau);
+    let (further, v) = nearby_passage(&here, -side * boundary, CONVERGED * h)?;
+    let w = here.rates(further).1;
+    let found = tau + further;
+    // monotone on the way: the velocity is inward at both ends and has no maximum between them
+    let inward = side * v < 0.0 && !(side * motion.w0 > 0.0 && side * w < 0.0);
+    (inward && found > 0.0 && found <= h).then_some(Passage { level: -side * boundary, tau: found, v })
 }

@@ -41,6 +41,7 @@ impl<'a> Run<'a> {
     }
 
     /// The peak of a run whose first uplift is in `interval`.
+    #[inline(always)]
     pub(crate) fn follow(mut self, interval: usize) -> Peak {
         let sweep = self.sweep;
         let u = self.scale * sweep.elastic.displacement_m[interval];
@@ -66,6 +67,7 @@ impl<'a> Run<'a> {
     }
 
     /// Acceleration at the start of an interval and its slope there, scaled.
+    #[inline(always)]
     fn ground(&self, interval: usize) -> (f64, f64) {
         let a = self.sweep.ground.excitation.acceleration_m_s2();
         let (from, to) = (self.scale * a[interval], self.scale * a[interval + 1]);
@@ -73,12 +75,14 @@ impl<'a> Run<'a> {
     }
 
     /// The motion from `at` on a branch of stiffness `k`.
+    #[inline(always)]
     pub(crate) fn motion(&self, at: &At, k: f64) -> LinearMotion {
         let (from, slope) = self.ground(at.interval);
         LinearMotion { u0: at.u, v0: at.v, w0: -at.force - (from + slope * at.offset_s), j0: -slope - k * at.v, k }
     }
 
     /// The state of `motion` at the end of the interval of `at`.
+    #[inline(always)]
     pub(crate) fn end_of_interval(&self, motion: &LinearMotion, at: &At, whole: &Stumpff) -> (f64, f64) {
         if at.offset_s == 0.0 {
             motion.state_with(self.sweep.dt_s, whole)
@@ -87,11 +91,13 @@ impl<'a> Run<'a> {
         }
     }
 
+    #[inline(always)]
     pub(crate) fn ground_end(&self, interval: usize) -> (f64, f64) {
         let a = self.sweep.ground.excitation.acceleration_m_s2();
         (self.scale * a[interval + 1], self.scale * a[interval])
     }
 
+    #[inline(always)]
     pub(crate) fn uplift(&self, passage: Passage, at: &At) -> Phase {
         let sweep = self.sweep;
         let side = 1.0_f64.copysign(passage.level);
@@ -107,10 +113,12 @@ impl<'a> Run<'a> {
     }
 
     /// A state at the very end of an interval belongs to the next one.
+    #[inline(always)]
     fn normalised(&self, at: At) -> At {
         if at.offset_s < self.sweep.dt_s { at } else { At { interval: at.interval + 1, offset_s: 0.0, ..at } }
     }
 
+    #[inline(always)]
     pub(crate) fn impact(&mut self, passage: Passage, side: f64, at: &At) -> Phase {
         let sweep = self.sweep;
         self.impacts += 1;

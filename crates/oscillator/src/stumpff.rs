@@ -47,7 +47,7 @@ const fn inverse_factorials() -> [(f64, f64); TERMS] {
 
 impl Stumpff {
     /// The functions at `x = k t²`.
-    #[inline]
+    #[inline(always)]
     pub fn at(x: f64) -> Self {
         // the first term left out is below 2e-17 of the sum in each case
         if x == 0.0 {
@@ -60,11 +60,12 @@ impl Stumpff {
     }
 
     /// The functions where six terms suffice, `None` elsewhere.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn near_zero(x: f64) -> Option<Self> {
         (x.abs() <= 0.1).then(|| Self::series::<6>(x))
     }
 
+    #[inline(always)]
     fn at_large(x: f64) -> Self {
         match x.abs() {
             size if size <= 1.0 => return Self::series::<10>(x),
@@ -77,7 +78,7 @@ impl Stumpff {
     }
 
     /// Both series to `N` terms, `N` even: by pairs of terms and then Horner in `x²`, which halves the chain of dependent operations.
-    #[inline]
+    #[inline(always)]
     fn series<const N: usize>(x: f64) -> Self {
         let square = x * x;
         let (mut c2, mut c3) = (0.0, 0.0);

@@ -4,9 +4,9 @@
 //! from it by rounding alone. What makes it fast:
 //!
 //! * up to the first uplift the response is the elastic one times the scale, computed once;
-//! * attached again, it differs from that by a free vibration, so blocks that cannot lift it are skipped, and the run ends
-//!   when the rest of the record cannot either;
-//! * a flight without post-uplift stiffness is followed in strides over the [integrals of the record](crate::ground_motion);
+//! * attached again, it differs from that by a free vibration, a vector that turns by known angles; a flight without post-uplift stiffness
+//!   follows from the [integrals of the record](crate::ground_motion). So sixteen samples ahead are looked at together, and most hold
+//!   no event;
 //! * events are found by Newton's method where convexity makes the root unique, by the nodes of the motion elsewhere.
 
 use crate::ahead::{AHEAD, Lanes};
