@@ -35,6 +35,7 @@ mod flight;
 pub mod free_vibration;
 pub mod ground_motion;
 pub mod history;
+mod instructions;
 pub mod nodes;
 pub mod oscillator;
 mod passages;

@@ -13,6 +13,7 @@ use crate::ahead::{AHEAD, Lanes};
 use crate::branch::Branch;
 use crate::elastic::ElasticResponse;
 use crate::ground_motion::GroundMotion;
+use crate::instructions::follow;
 use crate::oscillator::Oscillator;
 use crate::run::Run;
 use crate::stumpff::Stumpff;
@@ -104,7 +105,7 @@ impl<'a> Sweep<'a> {
         let elastic_peak_m = scale.abs() * self.elastic.peak_m;
         let level_m = self.boundary_m / scale.abs();
         match self.elastic.first_interval_above(level_m) {
-            Some(interval) if elastic_peak_m > self.boundary_m => Run::new(self, scale).follow(interval),
+            Some(interval) if elastic_peak_m > self.boundary_m => follow(Run::new(self, scale), interval),
             _ => Peak { displacement_m: elastic_peak_m, impacts: 0 },
         }
     }
