@@ -3,6 +3,8 @@
 //! Rocking is chaotic: a median of some thirty responses can move by a quarter when the strength changes by one percent. A comparison
 //! with someone else's value means little without that noise beside it.
 
+use uplift_structure::relative_error;
+
 use crate::error::SpectraError;
 
 /// A sweep around a point, relative to it.
@@ -56,8 +58,9 @@ impl Noisy {
     /// Of a value, and others that it might as well have been.
     pub fn around(value: f64, others: impl IntoIterator<Item = f64>) -> Self {
         others.into_iter().fold(Self { value, lowest: value, highest: value }, |range, other| Self {
-            lowest: range.lowest.min(other),
-            highest: range.highest.max(other),
+            // what does not exist leaves no range
+            lowest: if other.is_nan() || other < range.lowest { other } else { range.lowest },
+            highest: if other.is_nan() || other > range.highest { other } else { range.highest },
             ..range
         })
     }
@@ -66,6 +69,11 @@ impl Noisy {
     pub fn holds(&self, other: f64) -> bool {
         self.lowest <= other && other <= self.highest
     }
+}
+
+/// Errors of demands against the exact ones, one by one; NaN where there is none to refer to.
+pub(crate) fn errors(demands_m: &[f64], exact_m: &[f64]) -> Vec<f64> {
+    demands_m.iter().zip(exact_m).map(|(demand, exact)| relative_error(*demand, *exact).unwrap_or(f64::NAN)).collect()
 }
 
 #[cfg(test)]
@@ -90,5 +98,19 @@ mod tests {
         assert!(noisy.holds(1.0) && noisy.holds(1e9) && !noisy.holds(0.5));
         assert_eq!(Noisy::around(7.0, [1.0, 2.0]), Noisy { value: 7.0, lowest: 1.0, highest: 7.0 });
         assert!(Noisy::of(&[]).value.is_nan());
+    }
+
+    #[test]
+    fn the_unsafe_end_of_a_range_is_kept() {
+        let inf = f64::INFINITY;
+        // the middle: the rule sees 1 m where time histories overturn
+        let errors = errors(&[1.2, 1.0, 0.9, inf], &[1.0, inf, 1.0, inf]);
+        let range = Noisy::of(&errors);
+        assert_eq!((range.value, range.lowest), (0.9 - 1.0, -1.0));
+        assert!((range.highest - 0.2).abs() < 1e-15);
+        for undefined in [[f64::NAN, 1.0, 2.0], [2.0, 1.0, f64::NAN]] {
+            let range = Noisy::of(&undefined);
+            assert!(range.value == 1.0 && range.lowest.is_nan() && range.highest.is_nan());
+        }
     }
 }

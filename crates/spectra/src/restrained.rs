@@ -7,7 +7,7 @@ use uplift_structure::{Capacity, Rule};
 use crate::displacements::{System, displacements};
 use crate::error::SpectraError;
 use crate::motion_set::MotionSet;
-use crate::noise::{NoiseSweep, Noisy};
+use crate::noise::{NoiseSweep, Noisy, errors};
 use crate::scaling::Scaling;
 use crate::statistics::percentile;
 
@@ -43,7 +43,7 @@ pub struct RestrainedExample {
     pub time_history_m: Noisy,
     /// Demand by the rule, `γ u_dem,ZS`, m.
     pub rule_m: Noisy,
-    /// The rule's error, `(rule − time history)/time history` \[-\].
+    /// The rule's error, `(rule − time history)/time history` \[-\]: −1 where only the time histories overturn.
     pub error: Noisy,
 }
 
@@ -93,7 +93,7 @@ impl RestrainedDesign {
                 Ok(rule.demand(&capacity, *zero_m)?.displacement_m())
             })
             .collect::<Result<Vec<f64>, SpectraError>>()?;
-        let error: Vec<f64> = rule_m.iter().zip(&time_history_m).map(|(rule, exact)| (rule - exact) / exact).collect();
+        let error = errors(&rule_m, &time_history_m);
         Ok(RestrainedExample {
             zero_stiffness_m: Noisy::of(&zero_stiffness_m),
             capacity_m: Noisy::of(&capacity_m),

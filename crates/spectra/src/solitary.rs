@@ -7,7 +7,7 @@ use uplift_ida::Watch;
 use crate::displacements::{System, displacements};
 use crate::error::SpectraError;
 use crate::motion_set::MotionSet;
-use crate::noise::{NoiseSweep, Noisy};
+use crate::noise::{NoiseSweep, Noisy, errors};
 use crate::scaling::Scaling;
 use crate::statistics::percentile;
 
@@ -28,14 +28,15 @@ pub struct SolitaryDesign {
     pub percent: f64,
     /// Slendernesses `tan α` between which the intersection is looked for, from the highest down.
     pub search: [f64; 2],
-    /// Ratio of neighbouring slendernesses in that search, above 1: what is missed is narrower than that.
+    /// Ratio of neighbouring slendernesses in that search, above 1: a range narrower than that in which the block does not stand may be missed.
     pub search_ratio: f64,
 }
 
 /// One column of a table, with the noise of each of its values.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SolitaryExample {
-    /// Design slenderness `tan α_D`; its noise is that of the demand around the intersection.
+    /// Design slenderness `tan α_D`; its noise is that of the demands around the intersection, each put on the capacity line: the search itself is not
+    /// repeated.
     pub design_tangent: Noisy,
     /// Displacement of the endless block at the design slenderness, m: what the size-independent spectrum predicts.
     pub endless_m: Noisy,
@@ -76,7 +77,7 @@ impl SolitaryDesign {
         let design = self.safety_factor * critical;
         let endless_m = demand_m(self.endless_height_m, &around(design))?;
         let block_m = demand_m(self.height_m, &around(design))?;
-        let error: Vec<f64> = endless_m.iter().zip(&block_m).map(|(rule, exact)| (rule - exact) / exact).collect();
+        let error = errors(&endless_m, &block_m);
         Ok(SolitaryExample {
             design_tangent: Noisy::around(design, met),
             endless_m: Noisy::of(&endless_m),

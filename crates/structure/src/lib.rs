@@ -83,6 +83,6 @@ pub use error::StructureError;
 pub use frame::{Anchorage, Frame, RestrainedFrame};
 pub use geometry::Geometry;
 pub use rigid::RotatingBlock;
-pub use rule::{Capacity, Demand, Rule};
+pub use rule::{Capacity, Demand, Rule, relative_error};
 pub use slenderness::{SlendernessDesign, SpectrumPoint, design_slenderness};
 pub use warning::Warning;

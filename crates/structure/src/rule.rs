@@ -170,6 +170,17 @@ impl Rule {
     }
 }
 
+/// Error of a demand (m) against the exact one, `(u − u_exact)/u_exact` \[-\]: negative on the unsafe side. `−1` where only the exact one is
+/// infinite, `+∞` where only the other is, 0 where both are; none where the exact one is 0.
+pub fn relative_error(demand_m: f64, exact_m: f64) -> Option<f64> {
+    match (demand_m.is_infinite(), exact_m.is_infinite()) {
+        (true, true) => Some(0.0),
+        (false, true) => Some(-1.0),
+        _ if exact_m == 0.0 => None,
+        _ => Some((demand_m - exact_m) / exact_m),
+    }
+}
+
 /// A safety factor `FS ≥ 1`.
 pub(crate) fn checked_safety_factor(safety_factor: f64) -> Result<f64, StructureError> {
     positive("safety_factor", safety_factor, "")?;

@@ -49,8 +49,9 @@ impl fmt::Display for Warning {
             ),
             Self::ExtensionEnds { rolling_until_m, rolling_capacity_m, overturning_m } => write!(
                 f,
-                "the curved extensions end at {rolling_until_m:.4} m, before the force vanishes (rolling alone: {rolling_capacity_m:.4} m): \
-                 the loop is trilinear, taken as the straight line to the overturning of the extended base at {overturning_m:.4} m"
+                "the curved extensions end at {rolling_until_m:.4} m, before the force vanishes (rolling alone: {}): \
+                 the loop is trilinear, taken as the straight line to the overturning of the extended base at {overturning_m:.4} m",
+                if rolling_capacity_m.is_finite() { format!("{rolling_capacity_m:.4} m") } else { "never".to_owned() }
             ),
         }
     }

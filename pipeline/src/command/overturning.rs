@@ -85,7 +85,16 @@ pub(super) fn overturning(arguments: &OverturningArguments, session: &Session) -
             "{reason}; overturning needs the records that the result was made from (--manifest says where they are)"
         ))
     })?;
-    let years = source.study.risk.years;
+    let mut study = source.study.clone();
+    if !study.oscillator.free_vibration {
+        // what is lost when a record ends has overturned, whoever looks
+        study.oscillator.free_vibration = true;
+        notes.push(
+            "the study ends with its records (free_vibration = false); here what falls after their end counts as overturned"
+                .to_owned(),
+        );
+    }
+    let years = study.risk.years;
     let mut found = Vec::new();
     for measure in measures {
         let weights: Vec<&StripeWeights> = sites.iter().map(|&site| &measure.weights[site]).collect();
@@ -93,7 +102,7 @@ pub(super) fn overturning(arguments: &OverturningArguments, session: &Session) -
             let runs = (set.records.len() * measure.plan.levels.len()) as u64;
             let label = format!("{}, {}", measure.measure().label(), model.name());
             let progress = Progress::new(&label, "analyses", runs, session.quiet, session.stop.clone());
-            let demands_m = model.demands_m(&source.study, &measure.plan, &set, &progress);
+            let demands_m = model.demands_m(&study, &measure.plan, &set, &progress);
             progress.close();
             collapse(&measure.plan.levels, &demands_m?, &weights, years)
         };
@@ -167,8 +176,15 @@ fn models(
         return Ok(models);
     };
     let (restitution, origin) = chosen.unwrap_or((block.restitution, "angular momentum"));
-    let block = RockingBlock::new(block.size_m, block.slenderness_rad)
-        .and_then(|block| block.with_gravity(structure.system.conditions().gravity_m_s2()))
+    let rocking = match RockingBlock::new(block.size_m, block.slenderness_rad) {
+        Ok(rocking) => rocking,
+        Err(error) => {
+            notes.push(format!("only the equivalent oscillator is analysed, for no block rocks so: {error}"));
+            return Ok(models);
+        }
+    };
+    let block = rocking
+        .with_gravity(structure.system.conditions().gravity_m_s2())
         .and_then(|block| block.with_restitution(restitution))
         .map_err(|error| fail(&error))?;
     models.push((Model::Block(block), origin));

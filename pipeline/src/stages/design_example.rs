@@ -13,7 +13,7 @@ use crate::study::{DesignPlan, Designed, DisplacementStudy, Structures};
 
 /// The rules that a restrained bridge is designed by, in the order of the results.
 pub(crate) const RULES: [Rule; 2] = [Rule::EqualDisplacement, Rule::EqualEnergy];
-/// Ratio of neighbouring slendernesses in the search for the intersection: a place where the block stands is missed if it is narrower.
+/// Ratio of neighbouring slendernesses in the search for the intersection: a range in which the block does not stand may be missed if it is narrower.
 const SEARCH_RATIO: f64 = 1.02;
 /// Halvings, at most, after that search.
 const HALVINGS: u64 = 16;
