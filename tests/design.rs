@@ -91,6 +91,24 @@ fn ordinate_m(peaks_m: &[Vec<f64>], target: f64) -> f64 {
     peaks_m.iter().flatten().copied().filter(|&peak_m| exceeded(peak_m) <= target).fold(f64::INFINITY, f64::min)
 }
 
+/// A range is from the lowest to the highest of `values`, whose sixth is its own; infinite bounds are null.
+fn holds(range: &Value, values: impl Iterator<Item = f64>) {
+    let values: Vec<f64> = values.collect();
+    let bounds = [
+        ("value", values[5]),
+        ("lowest", values.iter().copied().fold(f64::INFINITY, f64::min)),
+        ("highest", values.iter().copied().fold(f64::NEG_INFINITY, f64::max)),
+    ];
+    for (bound, expected) in bounds {
+        match range[bound].as_f64() {
+            Some(found) => {
+                assert!((found - expected).abs() <= 1e-6 * expected.abs().max(1e-3), "{bound}: {found} {expected}")
+            }
+            None => assert!(expected.is_infinite(), "{bound}: none, {expected}"),
+        }
+    }
+}
+
 // Every number once more, for a block that uplifts at 5 mm, so that no chaos of hundreds of impacts blurs them: Table 3.1 for a block by hand, driven by Γ times the motion, the readable solver, plain sums.
 #[test]
 fn every_number_by_hand() {
@@ -111,7 +129,7 @@ fn every_number_by_hand() {
         let (z, u) = (ordinate_m(&zsbe, target), ordinate_m(&nsbe, target));
         close(&exact["zero_stiffness_demand_m"], z, 1e-6);
         close(&exact["demand_m"], u, 1e-6);
-        assert_eq!(exact["analyses"], 3 * 5 * 7);
+        assert_eq!(exact["analyses"], (1 + 2 * 11) * 5 * 7);
         assert_eq!(exact["overturns"], u.is_infinite());
         for (event, threshold_m) in [("beyond_capacity", 0.8), ("overturning", f64::MAX)] {
             let per_year = rate(&nsbe, threshold_m);
@@ -138,6 +156,34 @@ fn every_number_by_hand() {
         }
         close(&found["rules"][0]["from_exact"]["required_capacity_m"], 2.5 * z, 1e-6);
     }
+}
+
+// The ranges beside these numbers, by the same means; impacts that take most of the velocity leave no chaos at any strength of the sweep.
+#[test]
+fn ranges_are_those_of_neighbouring_strengths() {
+    const UPLIFT_M: f64 = 0.005;
+    const RESTITUTION: f64 = 0.2;
+    let study = study();
+    let structure = format!("{BLOCK}uplift_displacement_m = {UPLIFT_M}\nrestitution = {RESTITUTION}\n");
+    study.write("plastic.toml", &structure);
+    let records = records(study.path());
+    let (alpha, factor, target) = (0.2_f64.atan(), 1.5, -(0.9_f64.ln()) / 50.0);
+    let at = |change: f64, post_uplift| {
+        let strength = change * factor * alpha;
+        peaks_m(&records, &Oscillator::new(strength, 9.806_65, UPLIFT_M, RESTITUTION, post_uplift).unwrap(), factor)
+    };
+    let sweep: Vec<_> = (-5..=5)
+        .map(|step| 1.0 + 0.01 * f64::from(step) / 5.0)
+        .map(|change| (at(change, PostUplift::Negative { capacity_m: 0.8 }), at(change, PostUplift::Zero)))
+        .collect();
+    let found = design(&study, "plastic.toml", &["--poe", "0.1"]);
+    let noise = &found["exact"]["within_one_percent_of_strength"];
+    holds(&noise["demand_m"], sweep.iter().map(|(nsbe, _)| ordinate_m(nsbe, target)));
+    holds(&noise["beyond_capacity_per_year"], sweep.iter().map(|(nsbe, _)| rate(nsbe, 0.8)));
+    holds(&noise["overturning_per_year"], sweep.iter().map(|(nsbe, _)| rate(nsbe, f64::MAX)));
+    let errors = sweep.iter().map(|(nsbe, zsbe)| ordinate_m(zsbe, target) / ordinate_m(nsbe, target) - 1.0);
+    holds(&noise["rule_errors"]["equal-displacement"], errors);
+    assert!(noise["demand_m"]["lowest"].as_f64() < noise["demand_m"]["highest"].as_f64(), "{noise}");
 }
 
 // A point mass is followed where the motion acts, Γ = 1: at a strength of the study its ZSBE demand is the ordinate itself, to the bit.

@@ -16,7 +16,9 @@ mod structure;
 
 pub use bands::{BandSettings, Bands, JointBands, StrengthBands, bands_of_strength, gather_bands};
 pub use coefficients::{Coefficients, fit_spectra};
-pub use design::{ExactDemand, RuleOutcome, SpectrumReading, check_rules, exact_demand, read_spectrum, relative_error};
+pub use design::{
+    DemandNoise, ExactDemand, OSCILLATORS, RuleOutcome, SpectrumReading, check_rules, exact_demand, read_spectrum,
+};
 pub use design_example::{Designs, design_analyses, design_examples};
 pub(crate) use design_example::{RULES, strength};
 pub use displacement::{SetSpectra, analyses, set_spectra, shake, structures};

@@ -14,7 +14,7 @@ use super::structure::{StructureArguments, measure_index, site_index};
 use crate::error::UpliftError;
 use crate::progress::Progress;
 use crate::result::{SpectraOfResult, StudyOfResult};
-use crate::stages::{ExactDemand, RuleOutcome, SpectrumReading, check_rules, exact_demand, read_spectrum};
+use crate::stages::{ExactDemand, OSCILLATORS, RuleOutcome, SpectrumReading, check_rules, exact_demand, read_spectrum};
 use crate::study::{Structure, Uplifted};
 use crate::table::per_cent;
 
@@ -92,7 +92,7 @@ pub(super) fn design(arguments: &DesignArguments, session: &Session) -> Result<(
     } else {
         match arguments.structure.records(&source)? {
             Ok(set) => {
-                let runs = (3 * set.records.len() * measure.plan.levels.len()) as u64;
+                let runs = (OSCILLATORS * set.records.len() * measure.plan.levels.len()) as u64;
                 let label = measure.measure().label();
                 let progress = Progress::new(label, "analyses", runs, session.quiet, session.stop.clone());
                 let weighed = (&measure.plan, &measure.weights[site]);

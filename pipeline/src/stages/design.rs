@@ -5,10 +5,12 @@
 //! structure's own oscillator is put through the records and the hazard that the spectrum was made from.
 
 use uplift_ida::Watch;
-use uplift_oscillator::{Oscillator, PostUplift};
+use uplift_oscillator::{Oscillator, OscillatorError, PostUplift};
 use uplift_risk::{Ordinate, RiskCurve};
-use uplift_structure::{Check, EquivalentSystem, Rule, StructureError};
+use uplift_spectra::{NoiseSweep, Noisy};
+use uplift_structure::{Check, EquivalentSystem, Rule, StructureError, relative_error};
 
+use super::design_example::RULES;
 use super::structure::{EventRisk, OVERTURNING_M, demand_of, risk_of_exceeding, stripes_of};
 use crate::error::UpliftError;
 use crate::inputs::RecordSet;
@@ -36,6 +38,26 @@ pub fn read_spectrum(strengths: &[f64], u_m: &[f64], strength: f64) -> Option<Sp
     ordinate_m.is_finite().then_some(SpectrumReading { between: (a, b), ordinate_m })
 }
 
+/// Half the width of the sweep around the strength, relative to it.
+const NOISE_RELATIVE: f64 = 0.01;
+/// Strengths in that sweep, with the structure's own in the middle.
+const NOISE_POINTS: usize = 11;
+/// Oscillators behind an [`ExactDemand`].
+pub const OSCILLATORS: usize = 1 + 2 * NOISE_POINTS;
+
+/// The same for structures whose strength is up to one percent lower or higher: what is left of a number in the noise of a chaotic system.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DemandNoise {
+    /// Demand on the structure, m.
+    pub structure_m: Noisy,
+    /// Error of the rules against it, from the exact demand on the ZSBE oscillator of the same strength; none for a structure without capacity.
+    pub rule_errors: Option<[Noisy; 2]>,
+    /// Frequency of exceeding the capacity, 1/yr; none for a structure without one.
+    pub beyond_capacity_per_year: Option<Noisy>,
+    /// Frequency of overturning, 1/yr.
+    pub overturning_per_year: Noisy,
+}
+
 /// What the structure's own stripes say, in its own displacement.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ExactDemand {
@@ -49,6 +71,8 @@ pub struct ExactDemand {
     pub beyond_capacity: Option<EventRisk>,
     /// It overturns.
     pub overturning: EventRisk,
+    /// What a small change of the strength makes of it.
+    pub noise: DemandNoise,
     /// Nonlinear time histories.
     pub analyses: u64,
 }
@@ -76,11 +100,25 @@ pub fn exact_demand(
     let uplift_m = system.conditions().uplift_displacement_m();
     let zero_stiffness =
         system.with_static_analysis(system.uplift_force_n(), uplift_m, f64::INFINITY).map_err(|error| fail(&error))?;
-    let oscillators =
+    let mut oscillators =
         [of_study, zero_stiffness.spectral_oscillator(restitution), system.spectral_oscillator(restitution)]
             .into_iter()
             .collect::<Result<Vec<_>, _>>()
             .map_err(|error| fail(&error))?;
+    let sweep = NoiseSweep::new(NOISE_RELATIVE, NOISE_POINTS).map_err(|error| fail(&error))?;
+    // the middle of the sweep is the structure itself
+    let mut pairs = Vec::new();
+    for (point, change) in sweep.factors().into_iter().enumerate() {
+        if point == NOISE_POINTS / 2 {
+            pairs.push([1, 2]);
+            continue;
+        }
+        pairs.push([oscillators.len(), oscillators.len() + 1]);
+        for own in [1, 2] {
+            let stronger = strengthened(&oscillators[own], change).map_err(|error| fail(&error))?;
+            oscillators.push(stronger);
+        }
+    }
     let stripes = stripes_of(study, measure, set, &oscillators, watch)?;
     let factor = system.participation();
     let ordinate = |oscillator: usize| -> Result<Ordinate, UpliftError> {
@@ -92,9 +130,32 @@ pub fn exact_demand(
     let own = demand_of(&stripes, 2)?;
     let years = study.risk.years;
     // all of it is scaled by the same factor: the oscillator exceeds capacity/factor where the structure exceeds its capacity
-    let beyond_capacity = match oscillators[2].post_uplift() {
-        PostUplift::Negative { capacity_m } => Some(risk_of_exceeding(&own, weights, capacity_m, years)?),
+    let capacity_m = match oscillators[2].post_uplift() {
+        PostUplift::Negative { capacity_m } => Some(capacity_m),
         PostUplift::Zero | PostUplift::Positive { .. } => None,
+    };
+    let beyond_capacity =
+        capacity_m.map(|capacity_m| risk_of_exceeding(&own, weights, capacity_m, years)).transpose()?;
+    let (mut demands_m, mut beyond, mut overturned, mut errors) = (vec![], vec![], vec![], [vec![], vec![]]);
+    for [zero, own] in pairs {
+        let (zero_m, own_m) = (ordinate(zero)?.displacement_m, ordinate(own)?.displacement_m);
+        let pool = demand_of(&stripes, own)?;
+        demands_m.push(own_m);
+        overturned.push(risk_of_exceeding(&pool, weights, OVERTURNING_M, years)?.per_year);
+        if let Some(capacity_m) = capacity_m {
+            beyond.push(risk_of_exceeding(&pool, weights, capacity_m, years)?.per_year);
+            for (rule, errors) in RULES.into_iter().zip(&mut errors) {
+                let demand = system.capacity().and_then(|capacity| rule.demand(&capacity, zero_m));
+                let demand_m = demand.map_err(|error| fail(&error))?.displacement_m();
+                errors.push(relative_error(demand_m, own_m).unwrap_or(f64::NAN));
+            }
+        }
+    }
+    let noise = DemandNoise {
+        structure_m: Noisy::of(&demands_m),
+        rule_errors: capacity_m.map(|_| errors.map(|errors| Noisy::of(&errors))),
+        beyond_capacity_per_year: capacity_m.map(|_| Noisy::of(&beyond)),
+        overturning_per_year: Noisy::of(&overturned),
     };
     Ok(ExactDemand {
         of_spectrum_m: ordinate(0)?.displacement_m,
@@ -102,8 +163,21 @@ pub fn exact_demand(
         structure: ordinate(2)?,
         beyond_capacity,
         overturning: risk_of_exceeding(&own, weights, OVERTURNING_M, years)?,
+        noise,
         analyses: stripes.analyses,
     })
+}
+
+/// The oscillator with its strength times `change`.
+fn strengthened(oscillator: &Oscillator, change: f64) -> Result<Oscillator, OscillatorError> {
+    let strength = oscillator.strength();
+    Oscillator::new(
+        change * strength,
+        oscillator.uplift_acceleration_m_s2() / strength,
+        oscillator.uplift_displacement_m(),
+        oscillator.restitution(),
+        oscillator.post_uplift(),
+    )
 }
 
 /// A rule applied to the ordinate of a spectrum, and to the exact ZSBE demand.
@@ -146,18 +220,8 @@ pub fn check_rules(
             from_exact: check(rule, zero_stiffness_m)?,
         })
     };
-    Ok([outcome(Rule::EqualDisplacement)?, outcome(Rule::EqualEnergy)?])
-}
-
-/// Error of a demand (m) against the exact one: `(u − u_exact)/u_exact`, negative where it is on the unsafe side. `−1` where only the
-/// exact one is infinite, `+∞` where only the other is, 0 where both are; none where the exact one is 0.
-pub fn relative_error(demand_m: f64, exact_m: f64) -> Option<f64> {
-    match (demand_m.is_infinite(), exact_m.is_infinite()) {
-        (true, true) => Some(0.0),
-        (false, true) => Some(-1.0),
-        _ if exact_m == 0.0 => None,
-        _ => Some((demand_m - exact_m) / exact_m),
-    }
+    let [displacement, energy] = RULES;
+    Ok([outcome(displacement)?, outcome(energy)?])
 }
 
 #[cfg(test)]

@@ -3,13 +3,14 @@
 use std::io::Write;
 
 use serde_json::{Value, json};
-use uplift_structure::{Check, Demand, Rule};
+use uplift_spectra::Noisy;
+use uplift_structure::{Check, Demand, Rule, relative_error};
 
 use super::Design;
 use crate::command::run::shown_path;
 use crate::command::structure::{capacity_m, finite, lines, risk_cells, risk_json, short, structure_json};
 use crate::error::UpliftError;
-use crate::stages::relative_error;
+use crate::stages::DemandNoise;
 use crate::table::{per_cent, table};
 
 /// A displacement; infinite where the structure overturns.
@@ -52,7 +53,8 @@ impl Design<'_> {
         }
         self.print_demands(out)?;
         self.print_rules(out)?;
-        self.print_risk(out)
+        self.print_risk(out)?;
+        self.print_noise(out)
     }
 
     /// Displacements of the structure, from the spectrum and exact.
@@ -93,11 +95,8 @@ impl Design<'_> {
             return Ok(());
         };
         let Some(exact) = &self.exact else { return self.print_checks(out) };
-        let error = |demand_m: f64| match relative_error(demand_m, exact.structure.displacement_m) {
-            Some(error) if error.is_infinite() => "too safe".to_owned(),
-            Some(error) => format!("{:+.1} %", 100.0 * error),
-            None => "-".to_owned(),
-        };
+        let error =
+            |demand_m: f64| shown_error(relative_error(demand_m, exact.structure.displacement_m).unwrap_or(f64::NAN));
         let cells = |check: Option<&Check>| match check.map(|check| check.demand.displacement_m()) {
             Some(demand_m) => [metres(demand_m), error(demand_m)],
             None => ["-".to_owned(), "-".to_owned()],
@@ -195,6 +194,33 @@ impl Design<'_> {
         Ok(())
     }
 
+    /// What of these numbers is noise.
+    fn print_noise(&self, out: &mut impl Write) -> Result<(), UpliftError> {
+        let Some(DemandNoise { structure_m, rule_errors, beyond_capacity_per_year, overturning_per_year }) =
+            self.exact.map(|exact| exact.noise)
+        else {
+            return Ok(());
+        };
+        let per_year = |value: f64| if value == 0.0 { "never".to_owned() } else { format!("{value:.3e}") };
+        let mut rows = Vec::new();
+        let mut row = |what: String, noisy: Noisy, shown: &dyn Fn(f64) -> String| {
+            rows.push(vec![what, shown(noisy.value), shown(noisy.lowest), shown(noisy.highest)]);
+        };
+        row("demand on the structure, m".to_owned(), structure_m, &metres);
+        for (errors, outcome) in rule_errors.into_iter().zip(&self.rules) {
+            for (error, outcome) in errors.into_iter().zip(outcome) {
+                row(format!("error of {}", name(outcome.rule)), error, &shown_error);
+            }
+        }
+        if let Some(beyond) = beyond_capacity_per_year {
+            row("u > capacity, per year".to_owned(), beyond, &per_year);
+            row("overturning, per year".to_owned(), overturning_per_year, &per_year);
+        }
+        let header = ["within 1 % of the strength", "here", "lowest", "highest"];
+        writeln!(out, "\n{}", table(&header, &rows))?;
+        Ok(())
+    }
+
     pub(super) fn json(&self) -> Value {
         let (source, risk) = (self.source, &self.source.study.risk);
         let check = |check: &Check| {
@@ -251,9 +277,32 @@ impl Design<'_> {
                 "upper_tail_share": exact.structure.upper_tail_share,
                 "beyond_capacity": exact.beyond_capacity.as_ref().map(risk_json),
                 "overturning": risk_json(&exact.overturning),
+                "within_one_percent_of_strength": {
+                    "demand_m": noise_json(exact.noise.structure_m),
+                    "rule_errors": exact.noise.rule_errors.map(|[displacement, energy]| json!({
+                        key(Rule::EqualDisplacement): noise_json(displacement),
+                        key(Rule::EqualEnergy): noise_json(energy),
+                    })),
+                    "beyond_capacity_per_year": exact.noise.beyond_capacity_per_year.map(noise_json),
+                    "overturning_per_year": noise_json(exact.noise.overturning_per_year),
+                },
             })),
             "rules": rules,
             "notes": self.notes,
         })
     }
+}
+
+/// An error in words; NaN where there is none.
+fn shown_error(error: f64) -> String {
+    match error {
+        _ if error.is_nan() => "-".to_owned(),
+        _ if error.is_infinite() => "too safe".to_owned(),
+        _ => format!("{:+.1} %", 100.0 * error),
+    }
+}
+
+/// A range for programs: a bound is null where it is infinite, or where there is none.
+fn noise_json(noisy: Noisy) -> Value {
+    json!({ "value": finite(noisy.value), "lowest": finite(noisy.lowest), "highest": finite(noisy.highest) })
 }
