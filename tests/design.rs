@@ -101,9 +101,7 @@ fn holds(range: &Value, values: impl Iterator<Item = f64>) {
     ];
     for (bound, expected) in bounds {
         match range[bound].as_f64() {
-            Some(found) => {
-                assert!((found - expected).abs() <= 1e-6 * expected.abs().max(1e-3), "{bound}: {found} {expected}")
-            }
+            Some(found) => close(&found.into(), expected, 1e-6),
             None => assert!(expected.is_infinite(), "{bound}: none, {expected}"),
         }
     }

@@ -247,6 +247,16 @@ impl EquivalentSystem {
         self.strength() / self.participation
     }
 
+    /// The same where the spectrum is of another gravity (m/s²): it counts in multiples of its own, and the force per mass is what it is.
+    pub fn spectral_strength_at(&self, gravity_m_s2: f64) -> f64 {
+        let own_m_s2 = self.conditions().gravity_m_s2();
+        if own_m_s2 == gravity_m_s2 {
+            self.spectral_strength()
+        } else {
+            self.spectral_strength() * own_m_s2 / gravity_m_s2
+        }
+    }
+
     /// Uplift displacement `u_up/Γ` of the oscillator whose displacement a spectrum gives, m.
     ///
     /// The dissertation's spectra are for 0.5 mm; Section 3.5 says when another one does not matter.

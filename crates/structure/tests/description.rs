@@ -143,3 +143,16 @@ fn unknown_words_are_refused_by_name() {
         assert!(mistakes(&text).len() >= 2);
     }
 }
+
+// A spectrum counts strength in multiples of its own gravity; the force per mass at which the oscillator uplifts is one and the same.
+#[test]
+fn strength_in_a_spectrum_of_another_gravity() {
+    let text = "kind = \"block\"\nwidth_m = 0.8\nheight_m = 4\nmass_kg = 8000\ngravity_m_s2 = 1.62\n";
+    let block = toml::from_str::<StructureDescription>(text).unwrap().resolve().unwrap();
+    let force_m_s2 = block.spectral_oscillator(0.9).unwrap().uplift_acceleration_m_s2();
+    for gravity_m_s2 in [1.62, 9.81] {
+        let read_at = block.spectral_strength_at(gravity_m_s2);
+        assert!((read_at * gravity_m_s2 / force_m_s2 - 1.0).abs() < 1e-14, "{read_at}");
+    }
+    assert_eq!(block.spectral_strength_at(1.62), block.spectral_strength());
+}

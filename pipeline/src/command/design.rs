@@ -77,7 +77,7 @@ pub(super) fn design(arguments: &DesignArguments, session: &Session) -> Result<(
     let restitution = structure.description.restitution.unwrap_or(source.study.oscillator.restitution);
     let mut notes = differences(&structure, &source, restitution);
 
-    let strength = system.spectral_strength();
+    let strength = system.spectral_strength_at(source.study.gravity_m_s2);
     let reading = read_spectrum(&source.study.strengths, source.spectrum(measure, site, poe), strength);
     if reading.is_none() {
         let strengths = &source.study.strengths;

@@ -91,7 +91,7 @@ pub fn exact_demand(
 ) -> Result<ExactDemand, UpliftError> {
     let fail = |error: &dyn std::fmt::Display| UpliftError::input(error.to_string());
     let of_study = Oscillator::new(
-        system.spectral_strength(),
+        system.spectral_strength_at(study.gravity_m_s2),
         study.gravity_m_s2,
         study.oscillator.uplift_displacement_m,
         study.oscillator.restitution,

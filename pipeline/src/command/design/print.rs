@@ -60,7 +60,7 @@ impl Design<'_> {
     /// Displacements of the structure, from the spectrum and exact.
     fn print_demands(&self, out: &mut impl Write) -> Result<(), UpliftError> {
         let factor = self.structure.system.participation();
-        let strength = self.structure.system.spectral_strength();
+        let strength = self.structure.system.spectral_strength_at(self.source.study.gravity_m_s2);
         let mut rows = Vec::new();
         let mut row = |what: String, demand_m: f64| {
             rows.push(vec![what, metres(demand_m / factor), metres(demand_m)]);
