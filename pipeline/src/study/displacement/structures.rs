@@ -112,6 +112,14 @@ pub(super) fn designed(
     let width = section.number_or("width_m", "m", ABOVE_ZERO, 1.6);
     let height = section.number_or("height_m", "m", ABOVE_ZERO, 9.6);
     let (width_m, height_m) = (width?, height?);
+    if width_m >= height_m {
+        section.mistake(
+            "width_m",
+            format!("a column {} wide and {} high does not rock", quantity(width_m, "m"), quantity(height_m, "m")),
+            "give a column that is higher than wide: its strength is tan(width/height)",
+        );
+        return None;
+    }
     if let Some(Structures::Oscillators(family)) = structures
         && width_m <= family.uplift_displacement_m[0]
     {

@@ -199,6 +199,10 @@ fn one_by_one() {
             "the lists and grids make 27090000 structures",
         ),
         (
+            "kind = \"displacement spectra\"\n[oscillator]\n[design]\nwidth_m = 20",
+            "design.width_m: a column 20 m wide and 9.6 m high does not rock",
+        ),
+        (
             "kind = \"displacement spectra\"\n[oscillator]\nuplift_displacement_m = 2\n[design]",
             "design.width_m: a column of width 1.6 m, its capacity, is not above the uplift displacement 2 m",
         ),
