@@ -60,8 +60,10 @@ pub fn complete(
             }
             if let (Some(ground_motion), true) = (&ground_motions[record], known.iter().any(|known| !known)) {
                 let sweep = Sweep::new(&plan.oscillators[strength], ground_motion, plan.with_free_peak);
-                for (level, target) in plan.levels.iter().enumerate().filter(|(level, _)| !known[*level]) {
-                    let peak = sweep.peak(target / plan.records[record].intensity);
+                let intensity = plan.records[record].intensity;
+                let missing: Vec<usize> = (0..levels).filter(|level| !known[*level]).collect();
+                let scales: Vec<f64> = missing.iter().map(|level| plan.levels[*level] / intensity).collect();
+                for (level, peak) in missing.into_iter().zip(sweep.peaks(&scales)) {
                     edp_m[level] = peak.displacement_m;
                     impacts[level] = peak.impacts;
                 }

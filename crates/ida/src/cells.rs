@@ -6,7 +6,7 @@ use crate::plan::Plan;
 /// Version of the numbers: raised whenever a change of the solver or of the order of its arithmetic changes any of
 /// them, so that what an earlier version computed is not mixed with what this one computes. A test holds both
 /// together.
-pub const NUMERICS: u32 = 2;
+pub const NUMERICS: u32 = 3;
 
 /// The array of a plan, each cell known or not.
 #[derive(Debug, Clone, PartialEq)]

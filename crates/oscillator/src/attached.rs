@@ -1,8 +1,8 @@
 //! A run while the system is attached: the scaled elastic response plus a free vibration of constant amplitude.
 
 use crate::ahead::{AHEAD, ahead, larger, largest};
-use crate::passages::{State, transit, uplift_within};
-use crate::run::{At, Phase, Run};
+use crate::passages::{State, stays_inside, transit, uplift_within};
+use crate::run::{At, Phase, Run, Sought, Stretch};
 
 impl Run<'_> {
     #[inline(always)]
@@ -14,26 +14,39 @@ impl Run<'_> {
         }
         // the rest of the interval of the impact
         let motion = self.motion(&start, k);
-        let rest = sweep.dt_s - start.offset_s;
-        if let Some(passage) = transit(&motion, rest, boundary) {
+        let h = sweep.dt_s - start.offset_s;
+        if let Some(passage) = transit(&motion, h, boundary) {
             return self.uplift(passage, &start);
         }
         let (u, v) = self.end_of_interval(&motion, &start, &sweep.whole_attached);
         let end = State { u, v, w: -k * u - self.ground_end(start.interval).0 };
-        if let Some(passage) = uplift_within(&motion, rest, &end, boundary) {
-            return self.uplift(passage, &start);
-        }
-        if k == 0.0 {
-            // without stiffness there is no elastic response to lean on
-            let force = 0.0;
-            return Phase::Attached(At { interval: start.interval + 1, offset_s: 0.0, u, v, force });
-        }
-        self.attached_samples(start.interval + 1, &end)
+        self.attached_from(&Stretch { at: start, motion, h, end })
     }
 
-    /// Attached from the sample `j` on.
+    /// Attached from the start of a stretch on.
     #[inline(always)]
-    fn attached_samples(&self, mut j: usize, start: &State) -> Phase {
+    pub(crate) fn attached_from(&self, stretch: &Stretch) -> Phase {
+        let sweep = self.sweep;
+        let mut stretch = *stretch;
+        loop {
+            if let Some(passage) = uplift_within(&stretch.motion, stretch.h, &stretch.end, sweep.boundary_m) {
+                return self.uplift(passage, &stretch.at);
+            }
+            if sweep.attached.stiffness_per_s2 == 0.0 {
+                // without stiffness there is no elastic response to lean on
+                let (u, v) = (stretch.end.u, stretch.end.v);
+                return Phase::Attached(At { interval: stretch.at.interval + 1, offset_s: 0.0, u, v, force: 0.0 });
+            }
+            match self.seek_uplift(stretch.at.interval + 1, &stretch.end) {
+                Sought::Stretch(further) => stretch = further,
+                Sought::RecordEnd(u, v) => return Phase::RecordEnd(0.0, u, v),
+            }
+        }
+    }
+
+    /// The first interval from the sample `j` on of which it is not seen at once that the system stays attached.
+    #[inline(always)]
+    pub(crate) fn seek_uplift(&self, mut j: usize, start: &State) -> Sought {
         let (sweep, scale) = (self.sweep, self.scale);
         let (n, k, boundary) = (sweep.ground.intervals(), sweep.attached.stiffness_per_s2, sweep.boundary_m);
         let (elastic, cos, sin) = (&sweep.elastic, &sweep.turns.cos, &sweep.turns.sin);
@@ -64,8 +77,8 @@ impl Run<'_> {
                     let at = At { interval, offset_s: 0.0, u: u0, v: velocity(interval, free0), force: k * u0 };
                     let end = State { u: u[m], v: velocity(interval + 1, turned(free, m)), w: w[m] };
                     let motion = self.motion(&at, k);
-                    if let Some(passage) = uplift_within(&motion, sweep.dt_s, &end, boundary) {
-                        return self.uplift(passage, &at);
+                    if !stays_inside(&motion, sweep.dt_s, &end, boundary) {
+                        return Sought::Stretch(Stretch { at, motion, h: sweep.dt_s, end });
                     }
                 }
                 (u0, w0) = (u[m], w[m]);
@@ -73,7 +86,7 @@ impl Run<'_> {
             (u0, w0, free) = (u[count - 1], w[count - 1], turned(free, count - 1));
             j += count;
         }
-        Phase::RecordEnd(0.0, u0, scale * elastic.velocity_m_s[n] + sweep.omega * free.1)
+        Sought::RecordEnd(u0, scale * elastic.velocity_m_s[n] + sweep.omega * free.1)
     }
 
     /// Whether the displacement may exceed the boundary between two samples, from displacement and acceleration there.

@@ -1,5 +1,6 @@
 //! One linear branch of the restoring force and the motion on it.
 
+use crate::ahead::{larger, smaller};
 use crate::stumpff::Stumpff;
 
 /// A branch `r(u) = offset + k u` of the restoring force per mass.
@@ -37,6 +38,13 @@ pub struct LinearMotion {
 }
 
 impl LinearMotion {
+    /// The same motion as seen from the side ±1.
+    #[must_use]
+    #[inline(always)]
+    pub(crate) fn on(&self, side: f64) -> Self {
+        Self { u0: side * self.u0, v0: side * self.v0, w0: side * self.w0, j0: side * self.j0, k: self.k }
+    }
+
     /// Displacement and velocity at `τ` seconds, given the Stumpff functions at `k τ²`.
     #[inline(always)]
     pub fn state_with(&self, tau: f64, s: &Stumpff) -> (f64, f64) {
@@ -60,6 +68,15 @@ impl LinearMotion {
         let w0 = self.w0 * s.c0 + tau * self.j0 * s.c1;
         let j0 = self.j0 * s.c0 - self.k * tau * self.w0 * s.c1;
         Self { u0, v0, w0, j0, k: self.k }
+    }
+
+    /// Time until a near `level` is reached, by the inverse series to the third term: the error is of the fourth order in that time.
+    #[inline(always)]
+    pub(crate) fn time_to(&self, level: f64) -> f64 {
+        let inverse = 1.0 / self.v0;
+        let first = (level - self.u0) * inverse;
+        let bend = 0.5 * first * self.w0 * inverse;
+        first * (1.0 - bend + 2.0 * bend * bend - self.j0 * first * first * inverse * (1.0 / 6.0))
     }
 
     /// Velocity (m/s) and acceleration (m/s²) at `τ` seconds.
@@ -87,14 +104,19 @@ impl LinearMotion {
         }
     }
 
-    /// Whether the velocity, of one sign at the start and as `v1` after `h` seconds, is seen to keep it in between.
+    /// A bound on how far the velocity departs within `h` seconds from its chord, `v1` being its value then.
     ///
-    /// The velocity departs from its chord by `h²/8 max abs(w')` at most, and its second derivative `w'`, as the acceleration, obeys
-    /// `w''' = −k w'`.
+    /// That is `h²/8 max abs(w')`, and the second derivative of the velocity `w'`, as the acceleration, obeys `w''' = −k w'`.
+    #[inline(always)]
+    pub(crate) fn departure_of_velocity(&self, h: f64, v1: f64) -> f64 {
+        let x = self.k * h * h;
+        let ends = larger(self.j0.abs(), (self.j0 + self.k * (self.v0 - v1)).abs());
+        if x < 4.0 { 0.125 * h * h * ends / (1.0 - 0.125 * larger(x, 0.0)) } else { f64::INFINITY }
+    }
+
+    /// Whether the velocity, of one sign at the start and as `v1` after `h` seconds, is seen to keep it in between.
     #[inline(always)]
     pub(crate) fn keeps_direction(&self, h: f64, v1: f64) -> bool {
-        let x = self.k * h * h;
-        let ends = self.j0.abs().max((self.j0 + self.k * (self.v0 - v1)).abs());
-        x < 4.0 && self.v0.abs().min(v1.abs()) > 0.125 * h * h * ends / (1.0 - 0.125 * x.max(0.0))
+        smaller(self.v0.abs(), v1.abs()) > self.departure_of_velocity(h, v1)
     }
 }

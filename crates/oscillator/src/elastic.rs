@@ -9,7 +9,7 @@ use crate::free_vibration::{FreePeak, first_peak};
 use crate::ground_motion::GroundMotion;
 use crate::nodes::Nodes;
 use crate::stumpff::Stumpff;
-use crate::sweep::sag_factor;
+use crate::sweep::growth;
 
 /// The attached response at every sample, with its extremes.
 #[derive(Debug, Clone)]
@@ -30,7 +30,7 @@ impl ElasticResponse {
         let k = attached.stiffness_per_s2;
         let samples_per_s = dt.recip();
         let whole = Stumpff::at(k * dt * dt);
-        let (n, sag_factor) = (ground.intervals(), sag_factor(k.sqrt() * dt, dt));
+        let (n, sag_factor) = (ground.intervals(), 0.125 * dt * dt * growth(k.sqrt() * dt));
         let (mut u, mut v, mut peak_m) = (0.0, 0.0, 0.0_f64);
         let mut displacement_m = Vec::with_capacity(n + 1 + AHEAD);
         let mut velocity_m_s = Vec::with_capacity(n + 1);

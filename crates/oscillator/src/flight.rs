@@ -2,7 +2,8 @@
 
 use crate::ahead::{AHEAD, Lanes, ahead, larger, largest, smaller};
 use crate::ground_motion::GroundMotion;
-use crate::run::{At, Phase, Run};
+use crate::passages::State;
+use crate::run::{At, Phase, Run, Sought, Stretch};
 use crate::stumpff::Stumpff;
 
 /// Stumpff functions of a branch without stiffness.
@@ -12,30 +13,44 @@ impl Run<'_> {
     /// Uplifted without stiffness.
     #[inline(always)]
     pub(crate) fn flight(&mut self, side: f64, start: At) -> Phase {
-        let sweep = self.sweep;
-        let (n, dt) = (sweep.ground.intervals(), sweep.dt_s);
-        if start.interval == n {
+        if start.interval == self.sweep.ground.intervals() {
             return Phase::RecordEnd(side, start.u, start.v);
         }
-
-        // the rest of the interval in which the flight begins
-        let motion = self.motion(&start, 0.0);
-        let rest = dt - start.offset_s;
-        let end = motion.state_with(rest, &PARABOLIC);
-        let w1 = -start.force - self.ground_end(start.interval).0;
-        if let Some(passage) = self.uplifted_interval(&motion, rest, side, end, w1) {
-            return self.impact(passage, side, &start);
-        }
-
-        self.flight_samples(start.interval + 1, side, end)
+        self.flight_from(side, &self.rest_of_interval_in_flight(start))
     }
 
-    /// In flight from the sample `j` on, `start` being displacement and velocity there.
+    /// The rest of the interval in which a flight begins.
     #[inline(always)]
-    fn flight_samples(&mut self, mut j: usize, side: f64, start: (f64, f64)) -> Phase {
+    pub(crate) fn rest_of_interval_in_flight(&self, at: At) -> Stretch {
+        let motion = self.motion(&at, 0.0);
+        let h = self.sweep.dt_s - at.offset_s;
+        let (u, v) = motion.state_with(h, &PARABOLIC);
+        let w = -at.force - self.ground_end(at.interval).0;
+        Stretch { at, motion, h, end: State { u, v, w } }
+    }
+
+    /// In flight from the start of a stretch on.
+    #[inline(always)]
+    pub(crate) fn flight_from(&mut self, side: f64, stretch: &Stretch) -> Phase {
+        let mut stretch = *stretch;
+        loop {
+            if let Some(passage) = self.uplifted_interval(side, &stretch) {
+                return self.impact(passage, side, &stretch.at);
+            }
+            match self.seek_landing(side, stretch.at.interval + 1, &stretch.end) {
+                Sought::Stretch(further) => stretch = further,
+                Sought::RecordEnd(u, v) => return Phase::RecordEnd(side, u, v),
+            }
+        }
+    }
+
+    /// The first interval from the sample `j` on in which the flight may come down, or turn back beyond the peak; the peak is raised on
+    /// the way.
+    #[inline(always)]
+    pub(crate) fn seek_landing(&mut self, side: f64, mut j: usize, start: &State) -> Sought {
         let (n, dt_s) = (self.sweep.ground.intervals(), self.sweep.dt_s);
-        let flight = Flight::new(self, side, j, start);
-        let (mut y0, mut w0) = (side * start.0, flight.acceleration(j));
+        let flight = Flight::new(self, side, j, (start.u, start.v));
+        let (mut y0, mut w0) = (side * start.u, flight.acceleration(j));
         while j < n {
             let count = AHEAD.min(n - j);
             let (y, w) = flight.ahead(j);
@@ -61,10 +76,8 @@ impl Run<'_> {
                     let interval = j + m;
                     let (rate0, rate1) = (flight.rate(interval), flight.rate(interval + 1));
                     let at = At { interval, offset_s: 0.0, u: side * y0, v: side * rate0, force: side * flight.weight };
-                    let (motion, end) = (self.motion(&at, 0.0), (side * y[m], side * rate1));
-                    if let Some(passage) = self.uplifted_interval(&motion, dt_s, side, end, side * w[m]) {
-                        return self.impact(passage, side, &at);
-                    }
+                    let end = State { u: side * y[m], v: side * rate1, w: side * w[m] };
+                    return Sought::Stretch(Stretch { at, motion: self.motion(&at, 0.0), h: dt_s, end });
                 }
                 self.peak_m = larger(y[m], self.peak_m);
                 (y0, w0) = (y[m], w[m]);
@@ -72,7 +85,7 @@ impl Run<'_> {
             (y0, w0) = (y[count - 1], w[count - 1]);
             j += count;
         }
-        Phase::RecordEnd(side, side * y0, side * flight.rate(n))
+        Sought::RecordEnd(side * y0, side * flight.rate(n))
     }
 
     /// Whether a flight may come down, or turn back beyond the peak, between two samples, from distance and acceleration there; see

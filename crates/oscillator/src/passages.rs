@@ -4,6 +4,7 @@
 //! turns and whether it can pass a level, and Newton's method finds the passage. Whatever is not as simple goes to the
 //! [nodes](crate::nodes).
 
+use crate::ahead::smaller;
 use crate::branch::LinearMotion;
 use crate::nodes::{Node, Nodes, crossing, monotone_root};
 use crate::stumpff::Stumpff;
@@ -13,7 +14,7 @@ const SIMPLE: f64 = 9.0;
 /// Newton steps before the safe search takes over.
 const NEWTON_STEPS: usize = 12;
 /// A Newton step below this part of the interval leaves an error of its square.
-const CONVERGED: f64 = 1e-8;
+pub(crate) const CONVERGED: f64 = 1e-8;
 /// Newton steps on the short series before a new start is made.
 const NEARBY_STEPS: usize = 5;
 
@@ -25,56 +26,77 @@ pub(crate) struct State {
     pub(crate) w: f64,
 }
 
+impl State {
+    /// As seen from this side.
+    #[inline(always)]
+    pub(crate) fn on(&self, side: f64) -> Self {
+        Self { u: side * self.u, v: side * self.v, w: side * self.w }
+    }
+}
+
+/// Whether an attached system is seen to stay inside the boundaries within `h`; `end` is its state then.
+#[inline(always)]
+pub(crate) fn stays_inside(motion: &LinearMotion, h: f64, end: &State, boundary: f64) -> bool {
+    end.u.abs() <= boundary && (is_monotone(motion, h, end) || turns_inside(motion, h, end, boundary))
+}
+
 /// Time at which an attached system passes one of the boundaries, outward, within `h`; `end` is its state then.
 #[inline(always)]
 pub(crate) fn uplift_within(motion: &LinearMotion, h: f64, end: &State, boundary: f64) -> Option<Passage> {
-    let inside = end.u.abs() <= boundary;
-    if motion.k * h * h < SIMPLE {
-        let (from, to) = (Node { tau: 0.0, u: motion.u0 }, Node { tau: h, u: end.u });
-        let one_curvature = motion.w0 * end.w > 0.0;
-        if motion.v0 * end.v > 0.0 {
-            // the velocity has one extremum at most, and is zero nowhere if it cannot fall that far
-            if one_curvature
-                || motion.v0.abs() + end.v.abs() > h * motion.acceleration_bound(h, end.w)
-                || motion.keeps_direction(h, end.v)
-            {
-                return (!inside).then(|| passage(motion, from, motion.v0, to, boundary.copysign(end.u)));
-            }
-        } else if motion.v0 * end.v < 0.0 {
-            // one turning point
-            if inside && turns_inside(motion, h, boundary) {
-                return None;
-            }
-            if let Some(passage) = outward_passage(motion, h, boundary.copysign(motion.v0)) {
-                return Some(passage);
-            }
-            let tau = turning_time(motion, h, end.v);
-            let turn = Node { tau, u: motion.state(tau).0 };
-            if turn.u.abs() > boundary {
-                return Some(passage(motion, from, motion.v0, turn, boundary.copysign(turn.u)));
-            }
-            return (!inside).then(|| passage(motion, turn, 0.0, to, boundary.copysign(end.u)));
-        }
-    }
-    if inside && turns_inside(motion, h, boundary) {
+    if stays_inside(motion, h, end, boundary) {
         return None;
     }
+    let inside = end.u.abs() <= boundary;
+    let (from, to) = (Node { tau: 0.0, u: motion.u0 }, Node { tau: h, u: end.u });
+    if is_monotone(motion, h, end) {
+        return Some(passage(motion, from, motion.v0, to, boundary.copysign(end.u)));
+    }
+    if motion.k * h * h < SIMPLE && motion.v0 * end.v < 0.0 {
+        // one turning point
+        if let Some(passage) = outward_passage(motion, h, boundary.copysign(motion.v0)) {
+            return Some(passage);
+        }
+        let tau = turning_time(motion, h, end.v);
+        let turn = Node { tau, u: motion.state(tau).0 };
+        if turn.u.abs() > boundary {
+            return Some(passage(motion, from, motion.v0, turn, boundary.copysign(turn.u)));
+        }
+        return (!inside).then(|| passage(motion, turn, 0.0, to, boundary.copysign(end.u)));
+    }
     first_crossing(motion, h, |u| (u.abs() > boundary).then(|| boundary.copysign(u)))
+}
+
+/// Whether an attached motion is seen to keep its direction for `h`: its velocity then has one extremum at most, and is zero nowhere
+/// if it has none or cannot fall that far.
+#[inline(always)]
+fn is_monotone(motion: &LinearMotion, h: f64, end: &State) -> bool {
+    motion.v0 * end.v > 0.0
+        && motion.k * h * h < SIMPLE
+        && (motion.w0 * end.w > 0.0
+            || motion.v0.abs() + end.v.abs() > h * motion.acceleration_bound(h, end.w)
+            || motion.keeps_direction(h, end.v))
 }
 
 /// True if no turning point of a motion with `k > 0` within `h` lies beyond the boundaries.
 ///
 /// The motion oscillates about the equilibrium `e = u + w/k`, which drifts at the constant rate `ė`, with the amplitude `A`. Where its
-/// velocity is zero the distance from the equilibrium is `√(A² − ė²/k)`.
+/// velocity is zero the distance from the equilibrium is `√(A² − ė²/k)`. If the acceleration keeps its sign, that is as near to the zero of the
+/// chord of the velocity as the departure from the chord and the least acceleration tell.
 #[inline(always)]
-fn turns_inside(motion: &LinearMotion, h: f64, boundary: f64) -> bool {
+fn turns_inside(motion: &LinearMotion, h: f64, end: &State, boundary: f64) -> bool {
     let flexibility = 1.0 / motion.k;
     let (x, lag) = (motion.w0 * flexibility, motion.j0 * flexibility);
     let start = motion.u0 + x;
     let drift = motion.v0 + lag;
-    let end = start + drift * h;
     let distance = (x * x + (lag * lag - drift * drift) * flexibility).max(0.0).sqrt();
-    start.max(end) + distance <= boundary && start.min(end) - distance >= -boundary
+    let (middle, spread) = if motion.w0 * end.w > 0.0 && motion.v0 * end.v < 0.0 {
+        let least = smaller(motion.w0.abs(), end.w.abs());
+        let apart = motion.departure_of_velocity(h, end.v) / least;
+        (h * (motion.v0 / (motion.v0 - end.v)), smaller(apart, h))
+    } else {
+        (0.5 * h, 0.5 * h)
+    };
+    (start + drift * middle).abs() + drift.abs() * spread + distance <= boundary
 }
 
 /// A level passed: when, and how fast.
@@ -89,6 +111,12 @@ pub(crate) struct Passage {
 }
 
 impl Passage {
+    /// As seen from this side.
+    #[inline(always)]
+    pub(crate) fn on(&self, side: f64) -> Self {
+        Self { level: side * self.level, tau: self.tau, v: side * self.v }
+    }
+
     #[inline(always)]
     fn of(motion: &LinearMotion, tau: f64, level: f64) -> Self {
         Self { level, tau, v: motion.state(tau).1 }
@@ -176,11 +204,7 @@ fn outward_passage(motion: &LinearMotion, h: f64, level: f64) -> Option<Passage>
 /// ones then finds a passage.
 #[inline(always)]
 fn nearby_passage(here: &LinearMotion, level: f64, converged: f64) -> Option<(f64, f64)> {
-    // the inverse series to its third term
-    let inverse = 1.0 / here.v0;
-    let first = (level - here.u0) * inverse;
-    let bend = 0.5 * first * here.w0 * inverse;
-    let mut tau = first * (1.0 - bend + 2.0 * bend * bend - here.j0 * first * first * inverse * (1.0 / 6.0));
+    let mut tau = here.time_to(level);
     for _ in 0..NEARBY_STEPS {
         let short = Stumpff::near_zero(here.k * tau * tau)?;
         let (u, v) = here.state_with(tau, &short);

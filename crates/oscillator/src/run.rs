@@ -2,7 +2,7 @@
 
 use crate::branch::LinearMotion;
 use crate::free_vibration::{FreePeak, first_peak};
-use crate::passages::Passage;
+use crate::passages::{Passage, State};
 use crate::stumpff::Stumpff;
 use crate::sweep::{Peak, Sweep};
 
@@ -28,6 +28,32 @@ pub(crate) enum Phase {
     RecordEnd(f64, f64, f64),
 }
 
+impl Phase {
+    pub(crate) fn is_over(&self) -> bool {
+        matches!(self, Self::Overturned | Self::RecordEnd(..))
+    }
+}
+
+/// The motion over a sample interval, or the rest of one.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Stretch {
+    pub(crate) at: At,
+    pub(crate) motion: LinearMotion,
+    /// Duration, s.
+    pub(crate) h: f64,
+    pub(crate) end: State,
+}
+
+/// What a search over the samples comes upon.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Sought {
+    /// An interval to look into.
+    Stretch(Stretch),
+    /// The record has ended before, with this displacement and velocity.
+    RecordEnd(f64, f64),
+}
+
+#[derive(Debug)]
 pub(crate) struct Run<'a> {
     pub(crate) sweep: &'a Sweep<'a>,
     pub(crate) scale: f64,
@@ -40,28 +66,33 @@ impl<'a> Run<'a> {
         Self { sweep, scale, peak_m: sweep.boundary_m, impacts: 0 }
     }
 
-    /// The peak of a run whose first uplift is in `interval`.
+    /// The phase at the start of the `interval` of the first uplift.
+    pub(crate) fn start(&self, interval: usize) -> Phase {
+        let u = self.scale * self.sweep.elastic.displacement_m[interval];
+        let v = self.scale * self.sweep.elastic.velocity_m_s[interval];
+        Phase::Attached(At { interval, offset_s: 0.0, u, v, force: self.sweep.attached.stiffness_per_s2 * u })
+    }
+
+    /// From phase to phase to the end of the run.
     #[inline(always)]
-    pub(crate) fn follow(mut self, interval: usize) -> Peak {
-        let sweep = self.sweep;
-        let u = self.scale * sweep.elastic.displacement_m[interval];
-        let v = self.scale * sweep.elastic.velocity_m_s[interval];
-        let force = sweep.attached.stiffness_per_s2 * u;
-        let mut phase = Phase::Attached(At { interval, offset_s: 0.0, u, v, force });
-        loop {
+    pub(crate) fn follow(&mut self, mut phase: Phase) -> Phase {
+        while !phase.is_over() {
             phase = match phase {
                 Phase::Attached(at) => self.attached(at),
-                Phase::Uplifted(side, at) if sweep.uplifted.stiffness_per_s2 == 0.0 => self.flight(side, at),
+                Phase::Uplifted(side, at) if self.sweep.uplifted.stiffness_per_s2 == 0.0 => self.flight(side, at),
                 Phase::Uplifted(side, at) => self.uplifted(side, at),
-                Phase::Overturned => {
-                    self.peak_m = f64::INFINITY;
-                    break;
-                }
-                Phase::RecordEnd(side, u, v) => {
-                    self.free_vibration(side, u, v);
-                    break;
-                }
-            }
+                over => over,
+            };
+        }
+        phase
+    }
+
+    /// The peak of a run that is over.
+    pub(crate) fn peak(mut self, phase: Phase) -> Peak {
+        match phase {
+            Phase::Overturned => self.peak_m = f64::INFINITY,
+            Phase::RecordEnd(side, u, v) => self.free_vibration(side, u, v),
+            Phase::Attached(_) | Phase::Uplifted(..) => {}
         }
         Peak { displacement_m: self.peak_m, impacts: self.impacts }
     }

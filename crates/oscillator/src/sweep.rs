@@ -15,7 +15,7 @@ use crate::elastic::ElasticResponse;
 use crate::ground_motion::GroundMotion;
 use crate::instructions::follow;
 use crate::oscillator::Oscillator;
-use crate::run::Run;
+use crate::side_by_side::Waiting;
 use crate::stumpff::Stumpff;
 
 /// What an incremental dynamic analysis keeps of a run.
@@ -65,7 +65,11 @@ pub struct Sweep<'a> {
     /// Deviation from the chord between samples, while attached, over the largest acceleration at their ends, s²; NaN where the samples are
     /// too far apart for such a bound.
     pub(crate) sag_factor: f64,
+    /// See [`growth`].
+    pub(crate) growth: f64,
     pub(crate) turns: Turns,
+    /// Terms of the series that serve a whole interval while attached; none where the runs are followed one by one.
+    pub(crate) terms: Option<usize>,
 }
 
 impl<'a> Sweep<'a> {
@@ -86,34 +90,50 @@ impl<'a> Sweep<'a> {
             restitution: oscillator.restitution(),
             capacity_m: oscillator.capacity_m(),
             omega,
-            sag_factor: sag_factor(omega * dt_s, dt_s),
+            sag_factor: 0.125 * dt_s * dt_s * growth(omega * dt_s),
+            growth: growth(omega * dt_s),
             with_free_peak,
             dt_s,
             samples_per_s: dt_s.recip(),
             whole_attached: Stumpff::at(attached.stiffness_per_s2 * dt_s * dt_s),
             whole_uplifted: Stumpff::at(uplifted.stiffness_per_s2 * dt_s * dt_s),
             turns: Turns::new(omega * dt_s),
+            terms: Stumpff::terms(omega * omega * dt_s * dt_s).filter(|_| omega > 0.0),
         }
     }
 
     /// The peak under the record times `scale`, which multiplies the excitation's own.
     pub fn peak(&self, scale: f64) -> Peak {
-        let scale = scale * self.ground.excitation.scale();
-        if scale == 0.0 {
-            return Peak { displacement_m: 0.0, impacts: 0 };
+        self.peaks(&[scale])[0]
+    }
+
+    /// The peaks under the record times each of `scales`, which multiply the excitation's own: the same bits as one by one, in less time.
+    pub fn peaks(&self, scales: &[f64]) -> Vec<Peak> {
+        let mut peaks = Vec::with_capacity(scales.len());
+        let mut waiting = Vec::with_capacity(scales.len());
+        for (index, scale) in scales.iter().enumerate() {
+            let scale = scale * self.ground.excitation.scale();
+            let elastic_peak_m = if scale == 0.0 { 0.0 } else { scale.abs() * self.elastic.peak_m };
+            peaks.push(Peak { displacement_m: elastic_peak_m, impacts: 0 });
+            if elastic_peak_m > self.boundary_m
+                && let Some(interval) = self.elastic.first_interval_above(self.boundary_m / scale.abs())
+            {
+                waiting.push(Waiting { index, scale, interval });
+            }
         }
-        let elastic_peak_m = scale.abs() * self.elastic.peak_m;
-        let level_m = self.boundary_m / scale.abs();
-        match self.elastic.first_interval_above(level_m) {
-            Some(interval) if elastic_peak_m > self.boundary_m => follow(Run::new(self, scale), interval),
-            _ => Peak { displacement_m: elastic_peak_m, impacts: 0 },
+        // empty places cost as much as full ones
+        match waiting.len() {
+            0 => {}
+            1 => follow::<1>(self, &waiting, &mut peaks),
+            2..=6 => follow::<4>(self, &waiting, &mut peaks),
+            _ => follow::<8>(self, &waiting, &mut peaks),
         }
+        peaks
     }
 }
 
-/// With `x = (ω dt)² < 4` the acceleration between samples exceeds its ends by a factor of `1/(1 − x/8)` at most
-/// (see [`LinearMotion::acceleration_bound`](crate::branch::LinearMotion::acceleration_bound)), and the sag is an eighth of `dt²` times it.
-pub(crate) fn sag_factor(phase: f64, dt_s: f64) -> f64 {
-    let x = phase * phase;
-    if x < 4.0 { 0.125 * dt_s * dt_s / (1.0 - 0.125 * x) } else { f64::NAN }
+/// How far the acceleration between samples may exceed its ends, over an attached interval of the `phase` `ω dt`: it is a sine of time, of which no
+/// arc between two ends is higher than `1/cos(phase/2)` times the higher end. NaN where the samples are too far apart for such a bound.
+pub(crate) fn growth(phase: f64) -> f64 {
+    if phase < 3.0 { (0.5 * phase).cos().recip() } else { f64::NAN }
 }

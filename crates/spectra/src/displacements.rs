@@ -75,7 +75,7 @@ pub fn displacements(
                 let peaks_m = match system {
                     System::Oscillator(oscillator) => {
                         let sweep = Sweep::new(oscillator, &ground_motion, with_free_vibration);
-                        scales.iter().map(|scale| sweep.peak(*scale).displacement_m).collect()
+                        sweep.peaks(&scales).iter().map(|peak| peak.displacement_m).collect()
                     }
                     System::Block(block) => scales
                         .iter()

@@ -1,0 +1,370 @@
+//! The events of several runs found side by side: the same reasoning as in [`passages`](crate::passages), without branches, so that
+//! the compiler turns it into vector instructions.
+//!
+//! Only what is simple is settled here. The rest is left to the [passages](crate::passages), run by run.
+
+// what is lazy is a branch, and a loop over branches is not made into vectors
+#![allow(clippy::needless_bitwise_bool, clippy::needless_range_loop)]
+
+use crate::ahead::{larger, smaller};
+use crate::branch::LinearMotion;
+use crate::passages::{CONVERGED, Passage, State};
+use crate::stumpff::Stumpff;
+
+/// Newton steps after the first guess and the inverse series about it.
+const STEPS: usize = 2;
+/// Terms of a short series.
+const NEAR_TERMS: usize = 6;
+
+/// A number of each run.
+pub(crate) type Each<const RUNS: usize> = [f64; RUNS];
+
+/// What the attached stretches of all runs have in common.
+#[derive(Debug)]
+pub(crate) struct Attached {
+    /// Stiffness, 1/s²; positive.
+    pub(crate) k: f64,
+    /// How far the acceleration between samples may exceed its ends; see [`growth`](crate::sweep::growth).
+    pub(crate) growth: f64,
+    /// Terms of the series that serve over a whole sample interval.
+    pub(crate) terms: usize,
+    /// Displacement of the boundaries, m.
+    pub(crate) boundary: f64,
+}
+
+/// A stretch of each run: the motion from its start on, and the state at its end.
+#[derive(Debug)]
+pub(crate) struct Stretches<const RUNS: usize> {
+    pub(crate) u0: Each<RUNS>,
+    pub(crate) v0: Each<RUNS>,
+    pub(crate) w0: Each<RUNS>,
+    pub(crate) j0: Each<RUNS>,
+    /// Duration, s.
+    pub(crate) h: Each<RUNS>,
+    pub(crate) u1: Each<RUNS>,
+    pub(crate) v1: Each<RUNS>,
+    pub(crate) w1: Each<RUNS>,
+}
+
+/// What was found in the stretch of each run.
+#[derive(Debug)]
+pub(crate) struct Events<const RUNS: usize> {
+    /// The level passed, m.
+    level: Each<RUNS>,
+    /// Time since the start of the stretch, s: NaN where it is not settled.
+    tau: Each<RUNS>,
+    /// Velocity then, m/s.
+    v: Each<RUNS>,
+}
+
+impl<const RUNS: usize> Events<RUNS> {
+    /// The passage of a run, if it was found.
+    #[inline(always)]
+    pub(crate) fn passage(&self, run: usize) -> Option<Passage> {
+        let (level, tau, v) = (self.level[run], self.tau[run], self.v[run]);
+        (!tau.is_nan()).then_some(Passage { level, tau, v })
+    }
+}
+
+impl<const RUNS: usize> Stretches<RUNS> {
+    pub(crate) const IDLE: Self = {
+        let none = [0.0; RUNS];
+        Self { u0: none, v0: none, w0: none, j0: none, h: none, u1: none, v1: none, w1: none }
+    };
+
+    #[inline(always)]
+    pub(crate) fn put(&mut self, run: usize, motion: &LinearMotion, h: f64) {
+        (self.u0[run], self.v0[run], self.w0[run], self.j0[run]) = (motion.u0, motion.v0, motion.w0, motion.j0);
+        self.h[run] = h;
+    }
+
+    #[inline(always)]
+    pub(crate) fn put_end(&mut self, run: usize, end: &State) {
+        (self.u1[run], self.v1[run], self.w1[run]) = (end.u, end.v, end.w);
+    }
+
+    #[inline(always)]
+    pub(crate) fn end(&self, run: usize) -> State {
+        State { u: self.u1[run], v: self.v1[run], w: self.w1[run] }
+    }
+
+    /// The motion of a run on a branch of stiffness `k`.
+    #[inline(always)]
+    pub(crate) fn motion(&self, run: usize, k: f64) -> LinearMotion {
+        LinearMotion { u0: self.u0[run], v0: self.v0[run], w0: self.w0[run], j0: self.j0[run], k }
+    }
+
+    /// The states at the ends of attached stretches.
+    #[inline(always)]
+    pub(crate) fn advance(&mut self, Attached { k, terms, .. }: &Attached) {
+        let series = stumpff(&self.h.map(|h| k * h * h), *terms);
+        for run in 0..RUNS {
+            let (h, w0, j0) = (self.h[run], self.w0[run], self.j0[run]);
+            let (c1, c2, c3) = (series.c1[run], series.c2[run], series.c3[run]);
+            self.u1[run] = self.u0[run] + h * (self.v0[run] + h * (w0 * c2 + h * j0 * c3));
+            self.v1[run] = self.v0[run] + h * (w0 * c1 + h * j0 * c2);
+            self.w1[run] = w0 * series.c0[run] + h * j0 * c1;
+        }
+    }
+
+    /// Whether attached systems are seen to stay inside the boundaries; see [`stays_inside`](crate::passages::stays_inside).
+    #[inline(always)]
+    pub(crate) fn stay_inside(&self, attached: &Attached) -> [bool; RUNS] {
+        let &Attached { k, growth, boundary, .. } = attached;
+        let mut stays = [false; RUNS];
+        let flexibility = 1.0 / k;
+        for run in 0..RUNS {
+            let (u0, v0, w0, j0) = (self.u0[run], self.v0[run], self.w0[run], self.j0[run]);
+            let (h, u1, v1, w1) = (self.h[run], self.u1[run], self.v1[run], self.w1[run]);
+            let motion = Direction::new((v0, w0, j0), (v1, w1), h, k, growth);
+            let (equilibrium, lag) = (w0 * flexibility, j0 * flexibility);
+            let start = u0 + equilibrium;
+            let drift = v0 + lag;
+            let distance = larger(equilibrium * equilibrium + (lag * lag - drift * drift) * flexibility, 0.0).sqrt();
+            let chord = (w0 * w1 > 0.0) & !motion.one_way;
+            let apart = motion.departure / smaller(w0.abs(), w1.abs());
+            let middle = if chord { h * (v0 / (v0 - v1)) } else { 0.5 * h };
+            let spread = if chord { smaller(apart, h) } else { 0.5 * h };
+            let turns_inside = (start + drift * middle).abs() + drift.abs() * spread + distance <= boundary;
+            stays[run] = (u1.abs() <= boundary) & (motion.monotone | turns_inside);
+        }
+        stays
+    }
+
+    /// Where attached systems pass one of the boundaries, outward.
+    #[inline(always)]
+    pub(crate) fn uplifts(&self, attached: &Attached) -> Events<RUNS> {
+        let &Attached { k, growth, terms, boundary } = attached;
+        let mut found = Events { level: [0.0; RUNS], tau: [0.0; RUNS], v: [0.0; RUNS] };
+        for run in 0..RUNS {
+            let (u0, v0, w0, j0) = (self.u0[run], self.v0[run], self.w0[run], self.j0[run]);
+            let (h, u1, v1, w1) = (self.h[run], self.u1[run], self.v1[run], self.w1[run]);
+            let motion = Direction::new((v0, w0, j0), (v1, w1), h, k, growth);
+            // the parabola through the state at the start and the end; of a motion that turns, with the curvature up to there
+            let level = boundary.copysign(v0);
+            let distance = level - u0;
+            let chord = (u1 - u0 - v0 * h) * (2.0 / (h * h));
+            let turning = w0 + (w1 - w0) * (v0 / (v0 - v1)) * (1.0 / 3.0);
+            let curvature = if motion.one_way { chord } else { turning };
+            let discriminant = v0 * v0 + 2.0 * curvature * distance;
+            let tau = 2.0 * distance / (v0 + larger(discriminant, 0.0).sqrt().copysign(v0));
+            let reached = (motion.monotone & (u1.abs() > boundary)) | (v0 * v1 < 0.0);
+            let simple = reached & (discriminant >= 0.0) & (tau > 0.0) & (tau < h);
+            found.tau[run] = if simple { tau } else { f64::NAN };
+            found.level[run] = level;
+        }
+        let series = stumpff(&found.tau.map(|tau| k * tau * tau), terms);
+        for run in 0..RUNS {
+            let (u0, v0, w0, j0, h) = (self.u0[run], self.v0[run], self.w0[run], self.j0[run], self.h[run]);
+            let (c0, c1, c2, c3) = (series.c0[run], series.c1[run], series.c2[run], series.c3[run]);
+            // the same motion told from the guess on
+            let (tau, level) = (found.tau[run], found.level[run]);
+            let u = u0 + tau * (v0 + tau * (w0 * c2 + tau * j0 * c3));
+            let v = v0 + tau * (w0 * c1 + tau * j0 * c2);
+            let w = w0 * c0 + tau * j0 * c1;
+            let j = j0 * c0 - k * tau * w0 * c1;
+            let here = LinearMotion { u0: u, v0: v, w0: w, j0: j, k };
+            let mut further = here.time_to(level);
+            let (mut step, mut speed) = (0.0, 0.0);
+            let mut near = true;
+            for _ in 0..STEPS {
+                let x = k * further * further;
+                near &= x <= 0.1;
+                let short = Stumpff::series::<NEAR_TERMS>(x);
+                let (u, v) = here.state_with(further, &short);
+                step = (u - level) / v;
+                further -= step;
+                speed = v - step * (w * short.c0 + further * j * short.c1);
+            }
+            let time = tau + further;
+            let settled = near & (step.abs() <= CONVERGED * h) & (time >= 0.0) & (time <= h);
+            found.tau[run] = if settled & (speed * level > 0.0) { time } else { f64::NAN };
+            found.v[run] = speed;
+        }
+        found
+    }
+
+    /// Where flights without stiffness that are down at the end come down to the boundary, told on their own side, and the highest points of
+    /// the way there.
+    #[inline(always)]
+    pub(crate) fn landings(&self, boundary: f64) -> (Events<RUNS>, Each<RUNS>) {
+        let mut found = Events { level: [boundary; RUNS], tau: [0.0; RUNS], v: [0.0; RUNS] };
+        let mut tops = [0.0; RUNS];
+        for run in 0..RUNS {
+            let (y0, v0, w0, j0) = (self.u0[run], self.v0[run], self.w0[run], self.j0[run]);
+            let (h, y1, v1, w1) = (self.h[run], self.u1[run], self.v1[run], self.w1[run]);
+            // falls freely: turns back once at most
+            let falls = (w0 <= 0.0) & (w1 <= 0.0);
+            let turn = 2.0 * v0 / (larger(w0 * w0 - 2.0 * j0 * v0, 0.0).sqrt() - w0);
+            let top = y0 + turn * (v0 + turn * (0.5 * w0 + turn * j0 * (1.0 / 6.0)));
+            tops[run] = if (v0 > 0.0) & (v1 < 0.0) { top } else { y0 };
+            // the root of the parabola through the state at the start and the end, in the form that does not cancel
+            let distance = boundary - y0;
+            let curvature = (y1 - y0 - v0 * h) * (2.0 / (h * h));
+            let root = larger(v0 * v0 + 2.0 * curvature * distance, 0.0).sqrt();
+            let rising = v0 > 0.0;
+            let over = if rising { -(v0 + root) } else { 2.0 * distance };
+            let tau = over / if rising { curvature } else { v0 - root };
+            // as for uplifts; the series are finite here
+            let u = tau * (v0 + tau * (0.5 * w0 + tau * (j0 * (1.0 / 6.0)))) - distance;
+            let v = v0 + tau * (w0 + tau * (0.5 * j0));
+            let here = LinearMotion { u0: u, v0: v, w0: w0 + tau * j0, j0, k: 0.0 };
+            let mut tau = tau + here.time_to(0.0);
+            let (mut step, mut speed) = (0.0, 0.0);
+            for _ in 0..STEPS {
+                let v = v0 + tau * (w0 + tau * (0.5 * j0));
+                step = (tau * (v0 + tau * (0.5 * w0 + tau * (j0 * (1.0 / 6.0)))) - distance) / v;
+                tau -= step;
+                speed = v - step * (w0 + tau * j0);
+            }
+            let settled = falls & (step.abs() <= CONVERGED * h) & (tau >= 0.0) & (tau <= h);
+            found.tau[run] = if settled & (speed < 0.0) { tau } else { f64::NAN };
+            found.v[run] = speed;
+        }
+        (found, tops)
+    }
+}
+
+/// What is seen of the velocity of an attached motion from both ends; see [`passages`](crate::passages).
+struct Direction {
+    /// The velocity has the same sign at both ends, ...
+    one_way: bool,
+    /// ... and is seen to keep it between them.
+    monotone: bool,
+    /// A bound on its departure from its chord, m/s.
+    departure: f64,
+}
+
+impl Direction {
+    #[inline(always)]
+    fn new((v0, w0, j0): (f64, f64, f64), (v1, w1): (f64, f64), h: f64, k: f64, growth: f64) -> Self {
+        let departure = 0.125 * h * h * larger(j0.abs(), (j0 + k * (v0 - v1)).abs()) * growth;
+        let acceleration = larger(w0.abs(), w1.abs()) * growth;
+        let (slow, fast) = (smaller(v0.abs(), v1.abs()), larger(v0.abs(), v1.abs()));
+        let one_way = v0 * v1 > 0.0;
+        let kept = (w0 * w1 > 0.0) | (slow + fast > h * acceleration) | (slow > departure);
+        Self { one_way, monotone: one_way & kept, departure }
+    }
+}
+
+/// Stumpff functions, one argument of each run.
+struct Functions<const RUNS: usize> {
+    c0: Each<RUNS>,
+    c1: Each<RUNS>,
+    c2: Each<RUNS>,
+    c3: Each<RUNS>,
+}
+
+/// The functions by `terms` of their series, an even number; see [`Stumpff`].
+#[inline(always)]
+fn stumpff<const RUNS: usize>(x: &Each<RUNS>, terms: usize) -> Functions<RUNS> {
+    let square = x.map(|x| x * x);
+    let (mut c2, mut c3) = ([0.0; RUNS], [0.0; RUNS]);
+    for pair in Stumpff::TABLE[..terms].chunks_exact(2).rev() {
+        for run in 0..RUNS {
+            c2[run] = (pair[0].0 - x[run] * pair[1].0) + square[run] * c2[run];
+            c3[run] = (pair[0].1 - x[run] * pair[1].1) + square[run] * c3[run];
+        }
+    }
+    let (mut c0, mut c1) = ([0.0; RUNS], [0.0; RUNS]);
+    for run in 0..RUNS {
+        c0[run] = 1.0 - x[run] * c2[run];
+        c1[run] = 1.0 - x[run] * c3[run];
+    }
+    Functions { c0, c1, c2, c3 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::nodes::{Node, Nodes, crossing};
+    use crate::passages::first_crossing;
+    use crate::sweep::growth;
+    use proptest::prelude::*;
+
+    const BOUNDARY: f64 = 1.0;
+
+    fn one(motion: &LinearMotion, h: f64) -> Stretches<1> {
+        let mut stretch = Stretches::IDLE;
+        stretch.put(0, motion, h);
+        let (u, v) = motion.state(h);
+        stretch.put_end(0, &State { u, v, w: motion.rates(h).1 });
+        stretch
+    }
+
+    fn uplift(phase: f64, h: f64, stretch: &Stretches<1>) -> (bool, Option<Passage>) {
+        // the stretch may be a part of an interval
+        let whole = 1.2 * phase;
+        let terms = Stumpff::terms(whole * whole).unwrap_or_default();
+        let attached = Attached { k: (phase / h) * (phase / h), growth: growth(whole), terms, boundary: BOUNDARY };
+        (stretch.stay_inside(&attached)[0], stretch.uplifts(&attached).passage(0))
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(20_000))]
+
+        // Against the safe search over the nodes of the motion.
+        #[test]
+        fn uplifts_are_the_first_crossings(
+            phase in 0.001_f64..2.4, u0 in prop_oneof![-1.0_f64..1.0, Just(1.0), Just(-1.0)], v0 in -2.0_f64..2.0, w0 in -3.0_f64..3.0, j0 in -3.0_f64..3.0,
+        ) {
+            let h = 0.7;
+            let k = (phase / h) * (phase / h);
+            // at the boundary a system moves inward
+            let v0 = if u0.abs() == BOUNDARY { -u0 * v0.abs() } else { v0 };
+            let motion = LinearMotion { u0, v0: 3.0 * v0, w0: 3.0 * w0, j0: 5.0 * j0, k };
+            let stretch = one(&motion, h);
+            let (stays_inside, passage) = uplift(phase, h, &stretch);
+            let beyond = |u: f64| (u.abs() > BOUNDARY).then(|| BOUNDARY.copysign(u));
+            let first = first_crossing(&motion, h, beyond);
+            if stays_inside {
+                let highest = Nodes::new(&motion, h).map(|node| node.u.abs()).fold(0.0, f64::max);
+                prop_assert!(highest <= BOUNDARY + 1e-14, "{highest}");
+            } else if let Some(passage) = passage {
+                // a way out and back that rounding decides may be seen by one of them only
+                let Some(first) = first else { prop_assert!(passage.v.abs() < 1e-6); return Ok(()) };
+                prop_assert_eq!(passage.level, first.level);
+                prop_assert!((passage.v - first.v).abs() < 1e-9 * (1.0 + 1.0 / first.v.abs()), "{passage:?} {first:?}");
+                prop_assert!((passage.tau - first.tau).abs() * first.v.abs() < 1e-13, "{passage:?} {first:?}");
+            }
+        }
+
+        #[test]
+        fn landings_are_the_first_crossings(
+            above in prop_oneof![Just(0.0), 0.0_f64..0.5], below in 0.0_f64..0.5, w0 in -5.0_f64..1.0, j0 in -5.0_f64..5.0,
+        ) {
+            let h = 0.7;
+            let above = if above == 0.0 && (below / h + h * (0.5 * w0 + h * j0 / 6.0)) > 0.0 { below } else { above };
+            let v0 = -(above + below) / h - h * (0.5 * w0 + h * j0 / 6.0);
+            let motion = LinearMotion { u0: BOUNDARY + above, v0, w0, j0, k: 0.0 };
+            let stretch = one(&motion, h);
+            let (found, tops) = stretch.landings(BOUNDARY);
+            if let Some(passage) = found.passage(0) {
+                let highest = Nodes::new(&motion, passage.tau).map(|node| node.u).fold(motion.u0, f64::max);
+                prop_assert!((tops[0] - highest).abs() < 1e-14, "{} {highest}", tops[0]);
+                let from = Nodes::new(&motion, h).take_while(|node| node.u >= BOUNDARY).last();
+                let from = from.unwrap_or(Node { tau: 0.0, u: motion.u0 });
+                let to = Node { tau: h, u: stretch.u1[0] };
+                let tau = crossing(&motion, from, to, BOUNDARY);
+                prop_assert!((passage.tau - tau).abs() * passage.v.abs() < 1e-13, "{passage:?} {tau}");
+                prop_assert!((passage.v - motion.state(tau).1).abs() < 1e-9 * (1.0 + 1.0 / passage.v.abs()));
+            }
+        }
+    }
+
+    // Tests of what is found would pass if nothing ever were.
+    #[test]
+    fn most_events_are_found() {
+        let (mut uplifts, mut landings) = (0, 0);
+        for i in 0..1000 {
+            let part = |step: f64| (f64::from(i) * step).fract();
+            let (v0, ground, slope) = (2.0 * part(0.618), part(0.377) - 0.5, part(0.911) - 0.5);
+            let rebound = LinearMotion { u0: -1.0, v0, w0: 1.0 + ground, j0: -v0 + slope, k: 1.0 };
+            let (stays_inside, passage) = uplift(1.0, 1.0, &one(&rebound, 1.0));
+            uplifts += u32::from(stays_inside || passage.is_some());
+            let flight = LinearMotion { u0: 1.0, v0: 0.4 * v0, w0: -2.0 + ground, j0: slope, k: 0.0 };
+            landings += u32::from(one(&flight, 1.0).landings(BOUNDARY).0.passage(0).is_some());
+        }
+        assert!(uplifts > 900 && landings > 900, "{uplifts} {landings}");
+    }
+}
