@@ -49,6 +49,12 @@ fn start(study: &SmallStudy, arguments: &[&str]) -> std::process::Child {
     command(study.path()).args(arguments).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
 }
 
+/// A run that is held in its tracks is not over before another begins, however fast it is.
+#[cfg(unix)]
+fn hold(child: &std::process::Child) {
+    assert!(Command::new("kill").args(["-STOP", &child.id().to_string()]).status().unwrap().success());
+}
+
 /// What the run computed, from its summary.
 fn computed(study: &SmallStudy, arguments: &[&str]) -> (u64, u64) {
     let done = study.uplift(&[arguments, &["--json"]].concat()).ok();
@@ -310,6 +316,7 @@ fn a_link_and_its_file_are_one_result() {
         assert!(begin.elapsed() < Duration::from_secs(60), "no journal");
         std::thread::sleep(Duration::from_millis(1));
     }
+    hold(&child);
     study.uplift(&["run", "study.toml", "-o", "link.h5"]).fails(4, &["another run"]);
     child.kill().unwrap();
     child.wait().unwrap();
@@ -377,6 +384,7 @@ fn killed_while_writing() {
     assert!(!being_written());
 }
 
+#[cfg(unix)]
 #[test]
 fn one_run_at_a_time() {
     let study = study();
@@ -386,6 +394,7 @@ fn one_run_at_a_time() {
         assert!(begin.elapsed() < Duration::from_secs(60), "no journal");
         std::thread::sleep(Duration::from_millis(2));
     }
+    hold(&child);
     study.uplift(&["run", "study.toml"]).fails(4, &["results/study.h5", "another run (process"]);
     let status = study.uplift(&["status", "results/study.h5"]).ok().stdout;
     assert!(status.contains("being written now, by process"), "{status}");

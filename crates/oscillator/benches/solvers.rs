@@ -18,17 +18,21 @@ fn noise(criterion: &mut Criterion) {
             group.bench_function(format!("reference, strength {strength}"), |bencher| {
                 bencher.iter(|| respond(black_box(&oscillator), &excitation, FreeVibration::FirstPeak));
             });
-            let sweep = Sweep::new(&oscillator, &ground, true);
-            group.bench_function(format!("sweep, strength {strength}"), |bencher| {
-                bencher.iter(|| sweep.peak(black_box(1.0)));
-            });
         }
-        let post_uplift = PostUplift::Negative { capacity_m: 1.0 };
-        let nsbe = Oscillator::new(0.3, 9.806_65, 0.0005, 0.95, post_uplift).unwrap();
-        let sweep = Sweep::new(&nsbe, &ground, true);
-        group.bench_function("sweep, negative stiffness, strength 0.3", |bencher| {
-            bencher.iter(|| sweep.peak(black_box(1.0)));
-        });
+        // eight runs about the one of the reference, a sample of each counted
+        group.throughput(Throughput::Elements(8 * samples as u64));
+        let scales = [0.65, 0.75, 0.85, 0.95, 1.05, 1.15, 1.25, 1.35];
+        for (name, strength, post_uplift) in [
+            ("strength 0.05", 0.05, PostUplift::Zero),
+            ("strength 0.3", 0.3, PostUplift::Zero),
+            ("strength 0.3, negative stiffness", 0.3, PostUplift::Negative { capacity_m: 1.0 }),
+            ("strength 0.3, positive stiffness", 0.3, PostUplift::Positive { stiffness_per_s2: 2.0 }),
+        ] {
+            let oscillator = Oscillator::new(strength, 9.806_65, 0.0005, 0.95, post_uplift).unwrap();
+            let sweep = Sweep::new(&oscillator, &ground, true);
+            group.bench_function(format!("sweep, {name}"), |bencher| bencher.iter(|| sweep.peaks(black_box(&scales))));
+        }
+        group.throughput(Throughput::Elements(samples as u64));
         group.bench_function("preparation of a sweep, strength 0.3", |bencher| {
             let oscillator = Oscillator::zsbe(0.3).unwrap();
             bencher.iter(|| Sweep::new(black_box(&oscillator), &ground, true));

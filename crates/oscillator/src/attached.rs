@@ -1,23 +1,20 @@
 //! A run while the system is attached: the scaled elastic response plus a free vibration of constant amplitude.
 
 use crate::ahead::{AHEAD, ahead, larger, largest};
-use crate::passages::{State, stays_inside, transit, uplift_within};
-use crate::run::{At, Phase, Run, Sought, Stretch};
+use crate::passages::{State, stays_inside, uplift_within};
+use crate::run::{At, Phase, Run, Stretch};
 
-impl Run<'_> {
+impl<const STIFF: bool> Run<'_, STIFF> {
     #[inline(always)]
     pub(crate) fn attached(&self, start: At) -> Phase {
         let sweep = self.sweep;
-        let (k, boundary) = (sweep.attached.stiffness_per_s2, sweep.boundary_m);
+        let k = sweep.attached.stiffness_per_s2;
         if start.interval == sweep.ground.intervals() {
             return Phase::RecordEnd(0.0, start.u, start.v);
         }
         // the rest of the interval of the impact
         let motion = self.motion(&start, k);
         let h = sweep.dt_s - start.offset_s;
-        if let Some(passage) = transit(&motion, h, boundary) {
-            return self.uplift(passage, &start);
-        }
         let (u, v) = self.end_of_interval(&motion, &start, &sweep.whole_attached);
         let end = State { u, v, w: -k * u - self.ground_end(start.interval).0 };
         self.attached_from(&Stretch { at: start, motion, h, end })
@@ -38,15 +35,15 @@ impl Run<'_> {
                 return Phase::Attached(At { interval: stretch.at.interval + 1, offset_s: 0.0, u, v, force: 0.0 });
             }
             match self.seek_uplift(stretch.at.interval + 1, &stretch.end) {
-                Sought::Stretch(further) => stretch = further,
-                Sought::RecordEnd(u, v) => return Phase::RecordEnd(0.0, u, v),
+                Ok(further) => stretch = further,
+                Err(over) => return over,
             }
         }
     }
 
-    /// The first interval from the sample `j` on of which it is not seen at once that the system stays attached.
+    /// The first interval from the sample `j` on of which it is not seen at once that the system stays attached, or how the run ends before.
     #[inline(always)]
-    pub(crate) fn seek_uplift(&self, mut j: usize, start: &State) -> Sought {
+    pub(crate) fn seek_uplift(&self, mut j: usize, start: &State) -> Result<Stretch, Phase> {
         let (sweep, scale) = (self.sweep, self.scale);
         let (n, k, boundary) = (sweep.ground.intervals(), sweep.attached.stiffness_per_s2, sweep.boundary_m);
         let (elastic, cos, sin) = (&sweep.elastic, &sweep.turns.cos, &sweep.turns.sin);
@@ -78,7 +75,7 @@ impl Run<'_> {
                     let end = State { u: u[m], v: velocity(interval + 1, turned(free, m)), w: w[m] };
                     let motion = self.motion(&at, k);
                     if !stays_inside(&motion, sweep.dt_s, &end, boundary) {
-                        return Sought::Stretch(Stretch { at, motion, h: sweep.dt_s, end });
+                        return Ok(Stretch { at, motion, h: sweep.dt_s, end });
                     }
                 }
                 (u0, w0) = (u[m], w[m]);
@@ -86,7 +83,7 @@ impl Run<'_> {
             (u0, w0, free) = (u[count - 1], w[count - 1], turned(free, count - 1));
             j += count;
         }
-        Sought::RecordEnd(u0, scale * elastic.velocity_m_s[n] + sweep.omega * free.1)
+        Err(Phase::RecordEnd(0.0, u0, scale * elastic.velocity_m_s[n] + sweep.omega * free.1))
     }
 
     /// Whether the displacement may exceed the boundary between two samples, from displacement and acceleration there.

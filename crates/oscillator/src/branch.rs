@@ -117,6 +117,8 @@ impl LinearMotion {
     /// Whether the velocity, of one sign at the start and as `v1` after `h` seconds, is seen to keep it in between.
     #[inline(always)]
     pub(crate) fn keeps_direction(&self, h: f64, v1: f64) -> bool {
-        smaller(self.v0.abs(), v1.abs()) > self.departure_of_velocity(h, v1)
+        // it lies below the slower end by `S (1 − Δ/4S)² ≤ S − Δ/4` at most, where Δ is the difference of both
+        let (slow, fast) = (smaller(self.v0.abs(), v1.abs()), larger(self.v0.abs(), v1.abs()));
+        slow > larger(self.departure_of_velocity(h, v1) - 0.25 * (fast - slow), 0.0)
     }
 }

@@ -8,7 +8,7 @@ use crate::branch::{Branch, LinearMotion};
 use crate::free_vibration::{FreePeak, first_peak};
 use crate::ground_motion::GroundMotion;
 use crate::nodes::Nodes;
-use crate::stumpff::Stumpff;
+use crate::particular::Step;
 use crate::sweep::growth;
 
 /// The attached response at every sample, with its extremes.
@@ -29,7 +29,6 @@ impl ElasticResponse {
         let dt = ground.excitation.dt_s();
         let k = attached.stiffness_per_s2;
         let samples_per_s = dt.recip();
-        let whole = Stumpff::at(k * dt * dt);
         let (n, sag_factor) = (ground.intervals(), 0.125 * dt * dt * growth(k.sqrt() * dt));
         let (mut u, mut v, mut peak_m) = (0.0, 0.0, 0.0_f64);
         let mut displacement_m = Vec::with_capacity(n + 1 + AHEAD);
@@ -37,14 +36,12 @@ impl ElasticResponse {
         let mut highs = Vec::new();
         displacement_m.push(u);
         velocity_m_s.push(v);
-        // from sample to sample the state turns, and the ground adds to it: u' = c0 u + h c1 v + …, v' = −k h c1 u + c0 v + …
-        let (h_c1, h_c2, h_c3) = (dt * whole.c1, dt * dt * whole.c2, dt * dt * dt * whole.c3);
+        let step = Step::new(k, dt);
         let mut w = -ground.acceleration_m_s2[0];
         for (i, pair) in ground.excitation.acceleration_m_s2().windows(2).enumerate() {
             let slope = (pair[1] - pair[0]) * samples_per_s;
             let start = (u, v, w);
-            let pushed = (-pair[0] * h_c2 - slope * h_c3, -pair[0] * h_c1 - slope * h_c2);
-            (u, v) = (whole.c0 * u + h_c1 * v + pushed.0, whole.c0 * v - k * h_c1 * u + pushed.1);
+            (u, v) = step.next((u, v), pair[0], pair[1]);
             w = -k * u - pair[1];
             let motion = LinearMotion { u0: start.0, v0: start.1, w0: start.2, j0: -slope - k * start.1, k };
             let sag = if sag_factor.is_nan() {

@@ -34,6 +34,7 @@ pub(crate) struct Attached {
 
 /// A stretch of each run: the motion from its start on, and the state at its end.
 #[derive(Debug)]
+#[repr(align(64))]
 pub(crate) struct Stretches<const RUNS: usize> {
     pub(crate) u0: Each<RUNS>,
     pub(crate) v0: Each<RUNS>,
@@ -48,6 +49,7 @@ pub(crate) struct Stretches<const RUNS: usize> {
 
 /// What was found in the stretch of each run.
 #[derive(Debug)]
+#[repr(align(64))]
 pub(crate) struct Events<const RUNS: usize> {
     /// The level passed, m.
     level: Each<RUNS>,
@@ -242,12 +244,14 @@ impl Direction {
         let acceleration = larger(w0.abs(), w1.abs()) * growth;
         let (slow, fast) = (smaller(v0.abs(), v1.abs()), larger(v0.abs(), v1.abs()));
         let one_way = v0 * v1 > 0.0;
-        let kept = (w0 * w1 > 0.0) | (slow + fast > h * acceleration) | (slow > departure);
+        let kept =
+            (w0 * w1 > 0.0) | (slow + fast > h * acceleration) | (slow > larger(departure - 0.25 * (fast - slow), 0.0));
         Self { one_way, monotone: one_way & kept, departure }
     }
 }
 
 /// Stumpff functions, one argument of each run.
+#[repr(align(64))]
 struct Functions<const RUNS: usize> {
     c0: Each<RUNS>,
     c1: Each<RUNS>,

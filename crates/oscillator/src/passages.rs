@@ -10,7 +10,7 @@ use crate::nodes::{Node, Nodes, crossing, monotone_root};
 use crate::stumpff::Stumpff;
 
 /// Largest `(ωh)²` for the reasoning of this file: a little below π².
-const SIMPLE: f64 = 9.0;
+pub(crate) const SIMPLE: f64 = 9.0;
 /// Newton steps before the safe search takes over.
 const NEWTON_STEPS: usize = 12;
 /// A Newton step below this part of the interval leaves an error of its square.
@@ -262,25 +262,4 @@ pub(crate) fn first_crossing(
         from = to;
     }
     None
-}
-
-/// The passage of an attached system from one boundary straight to the other within `h`: `None` if it is not as simple as that.
-#[inline(always)]
-pub(crate) fn transit(motion: &LinearMotion, h: f64, boundary: f64) -> Option<Passage> {
-    if motion.u0.abs() != boundary {
-        return None;
-    }
-    let side = motion.u0.signum();
-    let speed = -side * motion.v0;
-    let tau = 2.0 * boundary / speed;
-    if !(speed > 0.0 && tau <= h && motion.k * h * h < SIMPLE) {
-        return None;
-    }
-    let here = motion.restarted(tau);
-    let (further, v) = nearby_passage(&here, -side * boundary, CONVERGED * h)?;
-    let w = here.rates(further).1;
-    let found = tau + further;
-    // monotone on the way: the velocity is inward at both ends and has no maximum between them
-    let inward = side * v < 0.0 && !(side * motion.w0 > 0.0 && side * w < 0.0);
-    (inward && found > 0.0 && found <= h).then_some(Passage { level: -side * boundary, tau: found, v })
 }

@@ -44,24 +44,18 @@ pub(crate) struct Stretch {
     pub(crate) end: State,
 }
 
-/// What a search over the samples comes upon.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum Sought {
-    /// An interval to look into.
-    Stretch(Stretch),
-    /// The record has ended before, with this displacement and velocity.
-    RecordEnd(f64, f64),
-}
-
+/// One run, its peak and impacts so far.
+///
+/// * `STIFF` — whether there is a post-uplift stiffness
 #[derive(Debug)]
-pub(crate) struct Run<'a> {
+pub(crate) struct Run<'a, const STIFF: bool> {
     pub(crate) sweep: &'a Sweep<'a>,
     pub(crate) scale: f64,
     pub(crate) peak_m: f64,
     impacts: u32,
 }
 
-impl<'a> Run<'a> {
+impl<'a, const STIFF: bool> Run<'a, STIFF> {
     pub(crate) fn new(sweep: &'a Sweep<'a>, scale: f64) -> Self {
         Self { sweep, scale, peak_m: sweep.boundary_m, impacts: 0 }
     }
@@ -79,7 +73,6 @@ impl<'a> Run<'a> {
         while !phase.is_over() {
             phase = match phase {
                 Phase::Attached(at) => self.attached(at),
-                Phase::Uplifted(side, at) if self.sweep.uplifted.stiffness_per_s2 == 0.0 => self.flight(side, at),
                 Phase::Uplifted(side, at) => self.uplifted(side, at),
                 over => over,
             };
@@ -100,7 +93,7 @@ impl<'a> Run<'a> {
     /// Acceleration at the start of an interval and its slope there, scaled.
     #[inline(always)]
     fn ground(&self, interval: usize) -> (f64, f64) {
-        let a = self.sweep.ground.excitation.acceleration_m_s2();
+        let a = &self.sweep.ground.acceleration_m_s2;
         let (from, to) = (self.scale * a[interval], self.scale * a[interval + 1]);
         (from, (to - from) * self.sweep.samples_per_s)
     }
@@ -124,7 +117,7 @@ impl<'a> Run<'a> {
 
     #[inline(always)]
     pub(crate) fn ground_end(&self, interval: usize) -> (f64, f64) {
-        let a = self.sweep.ground.excitation.acceleration_m_s2();
+        let a = &self.sweep.ground.acceleration_m_s2;
         (self.scale * a[interval + 1], self.scale * a[interval])
     }
 

@@ -6,7 +6,7 @@
 
 use crate::ahead::larger;
 use crate::events::{Attached, Stretches};
-use crate::run::{Phase, Run, Sought, Stretch};
+use crate::run::{Phase, Run, Stretch};
 use crate::sweep::{Peak, Sweep};
 
 /// A run that waits for its turn.
@@ -19,28 +19,45 @@ pub(crate) struct Waiting {
     pub(crate) interval: usize,
 }
 
-struct Lane<'a> {
+struct Lane<'a, const STIFF: bool> {
     index: usize,
-    run: Run<'a>,
+    run: Run<'a, STIFF>,
     phase: Phase,
 }
 
-/// Follow all of `waiting` to their ends, `RUNS` at a time, and put their peaks where they belong.
+/// Follow all of `waiting` to their ends and put their peaks where they belong.
 ///
+/// * `RUNS` — how many are followed side by side
+/// * `STIFF` — whether there is a post-uplift stiffness
 #[inline(always)]
-pub(crate) fn follow<const RUNS: usize>(sweep: &Sweep<'_>, waiting: &[Waiting], peaks: &mut [Peak]) {
-    let Some(terms) = sweep.terms else {
-        for &Waiting { index, scale, interval } in waiting {
-            let mut run = Run::new(sweep, scale);
-            let phase = run.follow(run.start(interval));
-            peaks[index] = run.peak(phase);
-        }
-        return;
-    };
+pub(crate) fn follow<const RUNS: usize, const STIFF: bool>(sweep: &Sweep<'_>, waiting: &[Waiting], peaks: &mut [Peak]) {
+    match sweep.terms {
+        Some(terms) => follow_together::<RUNS, STIFF>(sweep, terms, waiting, peaks),
+        None => follow_alone::<STIFF>(sweep, waiting, peaks),
+    }
+}
+
+/// One by one, where the series do not serve.
+#[inline(always)]
+fn follow_alone<const STIFF: bool>(sweep: &Sweep<'_>, waiting: &[Waiting], peaks: &mut [Peak]) {
+    for &Waiting { index, scale, interval } in waiting {
+        let mut run = Run::<STIFF>::new(sweep, scale);
+        let phase = run.follow(run.start(interval));
+        peaks[index] = run.peak(phase);
+    }
+}
+
+#[inline(always)]
+fn follow_together<const RUNS: usize, const STIFF: bool>(
+    sweep: &Sweep<'_>,
+    terms: usize,
+    waiting: &[Waiting],
+    peaks: &mut [Peak],
+) {
     let (k, growth, boundary) = (sweep.attached.stiffness_per_s2, sweep.growth, sweep.boundary_m);
     let branch = Attached { k, growth, terms, boundary };
     let mut waiting = waiting.iter();
-    let mut lanes: [Option<Lane<'_>>; RUNS] = [const { None }; RUNS];
+    let mut lanes: [Option<Lane<'_, STIFF>>; RUNS] = [const { None }; RUNS];
     loop {
         for lane in &mut lanes {
             if let Some(Lane { index, run, phase }) = lane.take_if(|lane| lane.phase.is_over()) {
@@ -48,7 +65,7 @@ pub(crate) fn follow<const RUNS: usize>(sweep: &Sweep<'_>, waiting: &[Waiting], 
             }
             if lane.is_none() {
                 *lane = waiting.next().map(|next| {
-                    let run = Run::new(sweep, next.scale);
+                    let run = Run::<STIFF>::new(sweep, next.scale);
                     let phase = run.start(next.interval);
                     Lane { index: next.index, run, phase }
                 });
@@ -64,7 +81,11 @@ pub(crate) fn follow<const RUNS: usize>(sweep: &Sweep<'_>, waiting: &[Waiting], 
 
 /// All attached runs to their next uplift.
 #[inline(always)]
-fn attached<const RUNS: usize>(sweep: &Sweep<'_>, branch: &Attached, lanes: &mut [Option<Lane<'_>>; RUNS]) {
+fn attached<const RUNS: usize, const STIFF: bool>(
+    sweep: &Sweep<'_>,
+    branch: &Attached,
+    lanes: &mut [Option<Lane<'_, STIFF>>; RUNS],
+) {
     let (n, k) = (sweep.ground.intervals(), branch.k);
     // the rest of the intervals of the impacts
     let mut motions = Stretches::<RUNS>::IDLE;
@@ -86,8 +107,8 @@ fn attached<const RUNS: usize>(sweep: &Sweep<'_>, branch: &Attached, lanes: &mut
             *phase = Phase::RecordEnd(0.0, at.u, at.v);
         } else if stays_inside[i] {
             match run.seek_uplift(at.interval + 1, &motions.end(i)) {
-                Sought::RecordEnd(u, v) => *phase = Phase::RecordEnd(0.0, u, v),
-                Sought::Stretch(stretch) => {
+                Err(over) => *phase = over,
+                Ok(stretch) => {
                     motions.put(i, &stretch.motion, stretch.h);
                     motions.put_end(i, &stretch.end);
                     stretches[i] = Some(stretch);
@@ -110,7 +131,7 @@ fn attached<const RUNS: usize>(sweep: &Sweep<'_>, branch: &Attached, lanes: &mut
 
 /// All uplifted runs to their next impact.
 #[inline(always)]
-fn uplifted<const RUNS: usize>(sweep: &Sweep<'_>, lanes: &mut [Option<Lane<'_>>; RUNS]) {
+fn uplifted<const RUNS: usize, const STIFF: bool>(sweep: &Sweep<'_>, lanes: &mut [Option<Lane<'_, STIFF>>; RUNS]) {
     let (n, boundary) = (sweep.ground.intervals(), sweep.boundary_m);
     // the intervals of the landings, each told on its own side
     let mut motions = Stretches::<RUNS>::IDLE;
@@ -118,17 +139,13 @@ fn uplifted<const RUNS: usize>(sweep: &Sweep<'_>, lanes: &mut [Option<Lane<'_>>;
     for (i, lane) in lanes.iter_mut().enumerate() {
         let Some(Lane { run, phase, .. }) = lane else { continue };
         let Phase::Uplifted(side, at) = *phase else { continue };
-        if sweep.uplifted.stiffness_per_s2 != 0.0 {
-            *phase = run.uplifted(side, at);
-            continue;
-        }
         if at.interval == n {
             *phase = Phase::RecordEnd(side, at.u, at.v);
             continue;
         }
-        let mut stretch = run.rest_of_interval_in_flight(at);
+        let mut stretch = run.rest_of_interval_uplifted(side, at);
         *phase = loop {
-            if side * stretch.end.u < boundary {
+            if !STIFF && side * stretch.end.u < boundary {
                 motions.put(i, &stretch.motion.on(side), stretch.h);
                 motions.put_end(i, &stretch.end.on(side));
                 stretches[i] = Some((side, stretch));
@@ -138,8 +155,8 @@ fn uplifted<const RUNS: usize>(sweep: &Sweep<'_>, lanes: &mut [Option<Lane<'_>>;
                 break run.impact(passage, side, &stretch.at);
             }
             match run.seek_landing(side, stretch.at.interval + 1, &stretch.end) {
-                Sought::RecordEnd(u, v) => break Phase::RecordEnd(side, u, v),
-                Sought::Stretch(further) => stretch = further,
+                Ok(further) => stretch = further,
+                Err(over) => break over,
             }
         };
     }
@@ -151,7 +168,7 @@ fn uplifted<const RUNS: usize>(sweep: &Sweep<'_>, lanes: &mut [Option<Lane<'_>>;
                     run.peak_m = larger(tops[i], run.peak_m);
                     run.impact(passage.on(*side), *side, &stretch.at)
                 }
-                None => run.flight_from(*side, stretch),
+                None => run.uplifted_from(*side, stretch),
             };
         }
     }

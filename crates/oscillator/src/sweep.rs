@@ -5,17 +5,20 @@
 //!
 //! * up to the first uplift the response is the elastic one times the scale, computed once;
 //! * attached again, it differs from that by a free vibration, a vector that turns by known angles; a flight without post-uplift stiffness
-//!   follows from the [integrals of the record](crate::ground_motion). So sixteen samples ahead are looked at together, and most hold
-//!   no event;
-//! * events are found by Newton's method where convexity makes the root unique, by the nodes of the motion elsewhere.
+//!   follows from the [integrals of the record](crate::ground_motion), a motion with one from the response of that branch from rest. So
+//!   sixteen samples ahead are looked at together, and most hold no event;
+//! * several runs go from event to event side by side, each at its own time, and their events are found together in vectors; what is not simple is
+//!   found run by run: by Newton's method where convexity makes the root unique, by the nodes of the motion elsewhere.
 
 use crate::ahead::{AHEAD, Lanes};
 use crate::branch::Branch;
 use crate::elastic::ElasticResponse;
 use crate::ground_motion::GroundMotion;
-use crate::instructions::follow;
+use crate::instructions::{Instructions, follow};
 use crate::oscillator::Oscillator;
+use crate::reference::OVERTURNED_CAPACITIES;
 use crate::side_by_side::Waiting;
+use crate::stiff::Stiffness;
 use crate::stumpff::Stumpff;
 
 /// What an incremental dynamic analysis keeps of a run.
@@ -29,6 +32,7 @@ pub struct Peak {
 
 /// How far a free vibration turns in `1, 2, …` samples.
 #[derive(Debug)]
+#[repr(align(64))]
 pub(crate) struct Turns {
     pub(crate) cos: Lanes,
     pub(crate) sin: Lanes,
@@ -51,17 +55,19 @@ pub struct Sweep<'a> {
     pub(crate) elastic: ElasticResponse,
     pub(crate) attached: Branch,
     pub(crate) uplifted: Branch,
+    /// None without post-uplift stiffness.
+    pub(crate) stiff: Option<Stiffness>,
     pub(crate) boundary_m: f64,
     pub(crate) at_boundary_m_s2: f64,
     pub(crate) restitution: f64,
-    pub(crate) capacity_m: f64,
+    /// Displacement beyond which the system has overturned, m.
+    pub(crate) overturned_m: f64,
     /// Angular frequency while attached, 1/s.
     pub(crate) omega: f64,
     pub(crate) with_free_peak: bool,
     pub(crate) dt_s: f64,
     pub(crate) samples_per_s: f64,
     pub(crate) whole_attached: Stumpff,
-    pub(crate) whole_uplifted: Stumpff,
     /// Deviation from the chord between samples, while attached, over the largest acceleration at their ends, s²; NaN where the samples are
     /// too far apart for such a bound.
     pub(crate) sag_factor: f64,
@@ -80,25 +86,26 @@ impl<'a> Sweep<'a> {
         let (attached, uplifted) = (oscillator.attached(), oscillator.uplifted());
         let dt_s = ground.excitation.dt_s();
         let omega = attached.stiffness_per_s2.sqrt();
+        let growth = growth(omega * dt_s);
         Self {
             ground,
             elastic: ElasticResponse::new(&attached, ground, with_free_peak && !oscillator.is_free_mass()),
             attached,
             uplifted,
+            stiff: Stiffness::new(uplifted, ground),
             boundary_m: oscillator.boundary_m(),
             at_boundary_m_s2: oscillator.uplift_acceleration_m_s2(),
             restitution: oscillator.restitution(),
-            capacity_m: oscillator.capacity_m(),
+            overturned_m: OVERTURNED_CAPACITIES * oscillator.capacity_m(),
             omega,
-            sag_factor: 0.125 * dt_s * dt_s * growth(omega * dt_s),
-            growth: growth(omega * dt_s),
+            sag_factor: 0.125 * dt_s * dt_s * growth,
+            growth,
             with_free_peak,
             dt_s,
             samples_per_s: dt_s.recip(),
             whole_attached: Stumpff::at(attached.stiffness_per_s2 * dt_s * dt_s),
-            whole_uplifted: Stumpff::at(uplifted.stiffness_per_s2 * dt_s * dt_s),
             turns: Turns::new(omega * dt_s),
-            terms: Stumpff::terms(omega * omega * dt_s * dt_s).filter(|_| omega > 0.0),
+            terms: Stumpff::terms(omega * omega * dt_s * dt_s).filter(|_| omega > 0.0 && growth.is_finite()),
         }
     }
 
@@ -114,19 +121,24 @@ impl<'a> Sweep<'a> {
         for (index, scale) in scales.iter().enumerate() {
             let scale = scale * self.ground.excitation.scale();
             let elastic_peak_m = if scale == 0.0 { 0.0 } else { scale.abs() * self.elastic.peak_m };
-            peaks.push(Peak { displacement_m: elastic_peak_m, impacts: 0 });
+            // a free mass is never held back, and may still go too far
+            let overturned = elastic_peak_m > self.overturned_m;
+            peaks.push(Peak { displacement_m: if overturned { f64::INFINITY } else { elastic_peak_m }, impacts: 0 });
             if elastic_peak_m > self.boundary_m
                 && let Some(interval) = self.elastic.first_interval_above(self.boundary_m / scale.abs())
             {
                 waiting.push(Waiting { index, scale, interval });
             }
         }
+        let instructions = Instructions::best();
         // empty places cost as much as full ones
-        match waiting.len() {
-            0 => {}
-            1 => follow::<1>(self, &waiting, &mut peaks),
-            2..=6 => follow::<4>(self, &waiting, &mut peaks),
-            _ => follow::<8>(self, &waiting, &mut peaks),
+        match (self.stiff.is_some(), waiting.len()) {
+            (_, 0) => {}
+            (false, 1) => follow::<1, false>(instructions, self, &waiting, &mut peaks),
+            (false, 2..=6) => follow::<4, false>(instructions, self, &waiting, &mut peaks),
+            (false, _) => follow::<8, false>(instructions, self, &waiting, &mut peaks),
+            (true, 1..=6) => follow::<1, true>(instructions, self, &waiting, &mut peaks),
+            (true, _) => follow::<8, true>(instructions, self, &waiting, &mut peaks),
         }
         peaks
     }

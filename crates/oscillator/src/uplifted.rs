@@ -1,33 +1,132 @@
-//! A run while the system is uplifted: intervals one by one.
+//! A run while the system is uplifted, whatever the stiffness.
 
-use crate::ahead::smaller;
+use crate::ahead::{AHEAD, Lanes, larger, largest, smaller};
+use crate::flight::{Flight, PARABOLIC};
 use crate::nodes::Node;
-use crate::passages::{Passage, State, first_crossing, passage, turning_time};
-use crate::reference::OVERTURNED_CAPACITIES;
+use crate::passages::{Passage, SIMPLE, State, first_crossing, passage, turning_time};
 use crate::run::{At, Phase, Run, Stretch};
+use crate::stiff::Stiff;
 
-impl Run<'_> {
-    /// Uplifted with a stiffness: sample by sample.
+/// An uplifted motion over the samples ahead, told on its own side.
+pub(crate) trait Course {
+    /// Distance and acceleration at the samples after `j`.
+    fn ahead(&self, j: usize) -> (Lanes, Lanes);
+    /// Rate of the distance at the sample `j`.
+    fn rate(&self, j: usize) -> f64;
+    /// Restoring force per mass at the distance `y`.
+    fn force(&self, y: f64) -> f64;
+    /// A bound on the outward acceleration between samples, from the least and the greatest one at samples: at least zero.
+    fn outward(&self, least: f64, greatest: f64) -> f64;
+    /// Told from the sample `j` on, where the distance is `y`; it is not looked at before that sample any more.
+    fn go_on(&mut self, j: usize, y: f64);
+}
+
+impl<const STIFF: bool> Run<'_, STIFF> {
+    #[inline(always)]
     pub(crate) fn uplifted(&mut self, side: f64, start: At) -> Phase {
-        let sweep = self.sweep;
-        let mut at = start;
+        if start.interval == self.sweep.ground.intervals() {
+            return Phase::RecordEnd(side, start.u, start.v);
+        }
+        self.uplifted_from(side, &self.rest_of_interval_uplifted(side, start))
+    }
+
+    /// The rest of the interval of an uplift.
+    #[inline(always)]
+    pub(crate) fn rest_of_interval_uplifted(&self, side: f64, at: At) -> Stretch {
+        let branch = &self.sweep.uplifted;
+        let motion = self.motion(&at, branch.stiffness_per_s2);
+        let h = self.sweep.dt_s - at.offset_s;
+        let (u, v) = if STIFF { motion.state(h) } else { motion.state_with(h, &PARABOLIC) };
+        let force = if STIFF { branch.restoring(side, u) } else { at.force };
+        Stretch { at, motion, h, end: State { u, v, w: -force - self.ground_end(at.interval).0 } }
+    }
+
+    /// Uplifted from the start of a stretch on.
+    #[inline(always)]
+    pub(crate) fn uplifted_from(&mut self, side: f64, stretch: &Stretch) -> Phase {
+        let mut stretch = *stretch;
         loop {
-            if at.interval == sweep.ground.intervals() {
-                return Phase::RecordEnd(side, at.u, at.v);
+            if let Some(passage) = self.uplifted_interval(side, &stretch) {
+                return self.impact(passage, side, &stretch.at);
             }
-            let motion = self.motion(&at, sweep.uplifted.stiffness_per_s2);
-            let h = sweep.dt_s - at.offset_s;
-            let (u, v) = self.end_of_interval(&motion, &at, &sweep.whole_uplifted);
-            let force = sweep.uplifted.restoring(side, u);
-            let end = State { u, v, w: -force - self.ground_end(at.interval).0 };
-            if let Some(passage) = self.uplifted_interval(side, &Stretch { at, motion, h, end }) {
-                return self.impact(passage, side, &at);
-            }
-            at = At { interval: at.interval + 1, offset_s: 0.0, u, v, force };
-            if sweep.capacity_m.is_finite() && !(u.abs() <= OVERTURNED_CAPACITIES * sweep.capacity_m) {
-                return Phase::Overturned;
+            match self.seek_landing(side, stretch.at.interval + 1, &stretch.end) {
+                Ok(further) => stretch = further,
+                Err(over) => return over,
             }
         }
+    }
+
+    /// The first interval from the sample `j` on in which the system may come down, or turn back beyond the peak, or how the run ends before; the
+    /// peak is raised on the way.
+    #[inline(always)]
+    pub(crate) fn seek_landing(&mut self, side: f64, j: usize, start: &State) -> Result<Stretch, Phase> {
+        match &self.sweep.stiff {
+            Some(stiffness) if STIFF => self.seek_on(Stiff::new(self, stiffness, side, j, start), side, j, start),
+            _ => self.seek_on(Flight::new(self, side, j, start), side, j, start),
+        }
+    }
+
+    #[inline(always)]
+    fn seek_on(&mut self, mut course: impl Course, side: f64, mut j: usize, start: &State) -> Result<Stretch, Phase> {
+        let sweep = self.sweep;
+        let (n, dt_s, boundary) = (sweep.ground.intervals(), sweep.dt_s, sweep.boundary_m);
+        let eighth = 0.125 * dt_s * dt_s;
+        let (mut y0, mut w0) = (side * start.u, side * start.w);
+        if !(y0 <= sweep.overturned_m) {
+            return Err(Phase::Overturned);
+        }
+        while j < n {
+            let count = AHEAD.min(n - j);
+            let (y, w) = course.ahead(j);
+            // nothing in all of them, or else one by one
+            let (lowest, highest) = (smaller(-largest(y.map(|y| -y)), y0), larger(largest(y), y0));
+            let (least, greatest) = (smaller(-largest(w.map(|w| -w)), w0), larger(largest(w), w0));
+            let stays_up = lowest - eighth * course.outward(least, greatest) >= boundary;
+            let no_new_peak = highest + eighth * course.outward(-greatest, -least) <= self.peak_m;
+            let first = match (stays_up, no_new_peak) {
+                (true, true) => count,
+                // falls freely: comes down where it is down at a sample
+                (false, true) if greatest <= 0.0 => y[..count].iter().position(|y| *y < boundary).unwrap_or(count),
+                _ => 0,
+            };
+            if first > 0 {
+                (y0, w0) = (y[first - 1], w[first - 1]);
+            }
+            for m in first..count {
+                if self.may_land_or_peak(&course, (y0, w0), (y[m], w[m])) {
+                    let interval = j + m;
+                    let (rate0, rate1) = (course.rate(interval), course.rate(interval + 1));
+                    let force = side * course.force(y0);
+                    let at = At { interval, offset_s: 0.0, u: side * y0, v: side * rate0, force };
+                    let motion = self.motion(&at, sweep.uplifted.stiffness_per_s2);
+                    let end = State { u: side * y[m], v: side * rate1, w: side * w[m] };
+                    return Ok(Stretch { at, motion, h: dt_s, end });
+                }
+                if !(y[m] <= sweep.overturned_m) {
+                    return Err(Phase::Overturned);
+                }
+                self.peak_m = larger(y[m], self.peak_m);
+                (y0, w0) = (y[m], w[m]);
+            }
+            (y0, w0) = (y[count - 1], w[count - 1]);
+            j += count;
+            course.go_on(j, y0);
+        }
+        Err(Phase::RecordEnd(side, side * y0, side * course.rate(n)))
+    }
+
+    /// Whether the system may come down, or turn back beyond the peak, between two samples, from distance and acceleration there; see
+    /// [`may_uplift`](Self::may_uplift).
+    #[inline(always)]
+    fn may_land_or_peak(&self, course: &impl Course, (y0, w0): (f64, f64), (y1, w1): (f64, f64)) -> bool {
+        let eighth = 0.125 * self.sweep.dt_s * self.sweep.dt_s;
+        let quarter = 0.25 * (y1 - y0).abs();
+        let (least, greatest) = (smaller(w0, w1), larger(w0, w1));
+        let dip = larger(eighth * course.outward(least, greatest) - quarter, 0.0);
+        let rise = larger(eighth * course.outward(-greatest, -least) - quarter, 0.0);
+        let stays_up = smaller(y0, y1) - dip >= self.sweep.boundary_m;
+        let no_new_peak = larger(y0, y1) + rise <= self.peak_m || rise == 0.0;
+        !(stays_up && no_new_peak)
     }
 
     /// Raise the peak over one stretch, or up to the impact in it, whose time is returned.
@@ -35,25 +134,25 @@ impl Run<'_> {
     pub(crate) fn uplifted_interval(&mut self, side: f64, stretch: &Stretch) -> Option<Passage> {
         let Stretch { motion, h, end, .. } = stretch;
         let (h, boundary) = (*h, self.sweep.boundary_m);
-        let sag = 0.125 * h * h * motion.acceleration_bound(h, end.w);
         let (from, to) = (side * motion.u0, side * end.u);
-        if from.min(to) - sag >= boundary && from.max(to) + sag <= self.peak_m {
-            return None;
-        }
-        let concave = side * motion.w0 <= 0.0 && side * end.w <= 0.0 && motion.k <= 0.0;
-        if concave {
-            let (v0, v1) = (side * motion.v0, side * end.v);
+        let (v0, v1) = (side * motion.v0, side * end.v);
+        let falls = side * motion.w0 <= 0.0 && side * end.w <= 0.0 && motion.k * h * h < SIMPLE;
+        if falls || (v0 * v1 > 0.0 && motion.keeps_direction(h, end.v)) {
             let (start, end_node) = (Node { tau: 0.0, u: motion.u0 }, Node { tau: h, u: end.u });
             let mut top = to;
             if v0 > 0.0 && v1 < 0.0 && smaller(from + v0 * h, to - v1 * h) > self.peak_m {
                 // the velocity falls all the way and is zero once
                 top = side * motion.state(turning_time(motion, h, end.v)).0;
             }
-            self.peak_m = self.peak_m.max(top);
+            self.peak_m = larger(top, self.peak_m);
             if to >= boundary {
                 return None;
             }
             return Some(passage(motion, start, motion.v0, end_node, side * boundary));
+        }
+        let sag = 0.125 * h * h * motion.acceleration_bound(h, end.w);
+        if from.min(to) - sag >= boundary && from.max(to) + sag <= self.peak_m {
+            return None;
         }
         let mut peak_m = self.peak_m;
         let found = first_crossing(motion, h, |u| {

@@ -15,11 +15,27 @@ fn post_uplift() -> impl Strategy<Value = PostUplift> {
     ]
 }
 
-/// How much a relative change of the scale by 1e-10 changes the peak, relative to that change: the conditioning of this very run.
+/// How much relative changes by 1e-10 of the scale, of the uplift displacement and of the restitution change the peak, relative to that
+/// change: the conditioning of this very run. The scale alone does not tell: a system of strength zero hardly notices it, and yet
+/// its impacts multiply what rounding does.
 fn amplification(oscillator: &Oscillator, excitation: &Excitation<'_>, after: FreeVibration) -> f64 {
-    let peak = |factor: f64| respond(oscillator, &excitation.scaled(factor).unwrap(), after).peak_displacement_m;
-    let (low, middle, high) = (peak(1.0 - 1e-10), peak(1.0), peak(1.0 + 1e-10));
-    (high - middle).abs().max((low - middle).abs()) / (1e-10 * middle)
+    let peak = |scale: f64, u_up: f64, restitution: f64| {
+        let changed = Oscillator::new(
+            oscillator.strength(),
+            G,
+            oscillator.uplift_displacement_m() * u_up,
+            oscillator.restitution() * restitution,
+            oscillator.post_uplift(),
+        );
+        respond(&changed.unwrap(), &excitation.scaled(scale).unwrap(), after).peak_displacement_m
+    };
+    let (less, more) = (1.0 - 1e-10, 1.0 + 1e-10);
+    let middle = peak(1.0, 1.0, 1.0);
+    [peak(less, 1.0, 1.0), peak(more, 1.0, 1.0), peak(1.0, less, 1.0), peak(1.0, more, 1.0), peak(1.0, 1.0, less)]
+        .into_iter()
+        // infinite where only one of both overturns
+        .map(|changed| if changed == middle { 0.0 } else { (changed - middle).abs() / (1e-10 * middle.min(changed)) })
+        .fold(0.0, f64::max)
 }
 
 fn compare(
