@@ -17,6 +17,7 @@ pub(crate) fn padded(mut samples: Vec<f64>) -> Vec<f64> {
 /// The samples from `first` on.
 #[inline(always)]
 pub(crate) fn ahead(samples: &[f64], first: usize) -> &Lanes {
+    debug_assert!(first + AHEAD <= samples.len(), "not padded");
     samples[first..].first_chunk().unwrap_or(&[0.0; AHEAD])
 }
 

@@ -119,15 +119,8 @@ impl<const RUNS: usize> Stretches<RUNS> {
             let (u0, v0, w0, j0) = (self.u0[run], self.v0[run], self.w0[run], self.j0[run]);
             let (h, u1, v1, w1) = (self.h[run], self.u1[run], self.v1[run], self.w1[run]);
             let motion = Direction::new((v0, w0, j0), (v1, w1), h, k, growth);
-            let (equilibrium, lag) = (w0 * flexibility, j0 * flexibility);
-            let start = u0 + equilibrium;
-            let drift = v0 + lag;
-            let distance = larger(equilibrium * equilibrium + (lag * lag - drift * drift) * flexibility, 0.0).sqrt();
-            let chord = (w0 * w1 > 0.0) & !motion.one_way;
-            let apart = motion.departure / smaller(w0.abs(), w1.abs());
-            let middle = if chord { h * (v0 / (v0 - v1)) } else { 0.5 * h };
-            let spread = if chord { smaller(apart, h) } else { 0.5 * h };
-            let turns_inside = (start + drift * middle).abs() + drift.abs() * spread + distance <= boundary;
+            let turn = Turn::new((u0, v0, w0, j0), (v1, w1), h, flexibility, motion.departure);
+            let turns_inside = turn.highest <= boundary;
             stays[run] = (u1.abs() <= boundary) & (motion.monotone | turns_inside);
         }
         stays
@@ -138,20 +131,28 @@ impl<const RUNS: usize> Stretches<RUNS> {
     pub(crate) fn uplifts(&self, attached: &Attached) -> Events<RUNS> {
         let &Attached { k, growth, terms, boundary } = attached;
         let mut found = Events { level: [0.0; RUNS], tau: [0.0; RUNS], v: [0.0; RUNS] };
+        let flexibility = 1.0 / k;
         for run in 0..RUNS {
             let (u0, v0, w0, j0) = (self.u0[run], self.v0[run], self.w0[run], self.j0[run]);
             let (h, u1, v1, w1) = (self.h[run], self.u1[run], self.v1[run], self.w1[run]);
             let motion = Direction::new((v0, w0, j0), (v1, w1), h, k, growth);
-            // the parabola through the state at the start and the end; of a motion that turns, with the curvature up to there
-            let level = boundary.copysign(v0);
-            let distance = level - u0;
+            let turn = Turn::new((u0, v0, w0, j0), (v1, w1), h, flexibility, motion.departure);
+            let outside = u1.abs() > boundary;
+            // one way: the parabola through the state at the start and the end
+            let distance = boundary.copysign(v0) - u0;
             let chord = (u1 - u0 - v0 * h) * (2.0 / (h * h));
-            let turning = w0 + (w1 - w0) * (v0 / (v0 - v1)) * (1.0 / 3.0);
-            let curvature = if motion.one_way { chord } else { turning };
-            let discriminant = v0 * v0 + 2.0 * curvature * distance;
-            let tau = 2.0 * distance / (v0 + larger(discriminant, 0.0).sqrt().copysign(v0));
-            let reached = (motion.monotone & (u1.abs() > boundary)) | (v0 * v1 < 0.0);
-            let simple = reached & (discriminant >= 0.0) & (tau > 0.0) & (tau < h);
+            let discriminant = v0 * v0 + 2.0 * chord * distance;
+            // turning: the parabola about the turn, and the way out before it, or on the other side after it
+            let leaves = turn.top > boundary;
+            let fall = if leaves { turn.top - boundary } else { turn.top + boundary };
+            let turning = v0 * v1 < 0.0;
+            let root = larger(if turning { 2.0 * fall / (k * turn.distance) } else { discriminant }, 0.0).sqrt();
+            let around = turn.time + if leaves { -root } else { root };
+            let tau = if turning { around } else { 2.0 * distance / (v0 + root.copysign(v0)) };
+            let back = outside & (turn.highest <= boundary);
+            let reached = (motion.monotone & outside & (discriminant >= 0.0)) | (turning & (leaves | back));
+            let simple = reached & (tau > 0.0) & (tau < h);
+            let level = if turning & !leaves { -boundary.copysign(v0) } else { boundary.copysign(v0) };
             found.tau[run] = if simple { tau } else { f64::NAN };
             found.level[run] = level;
         }
@@ -229,9 +230,7 @@ impl<const RUNS: usize> Stretches<RUNS> {
 
 /// What is seen of the velocity of an attached motion from both ends; see [`passages`](crate::passages).
 struct Direction {
-    /// The velocity has the same sign at both ends, ...
-    one_way: bool,
-    /// ... and is seen to keep it between them.
+    /// The velocity has the same sign at both ends and is seen to keep it between them.
     monotone: bool,
     /// A bound on its departure from its chord, m/s.
     departure: f64,
@@ -243,10 +242,49 @@ impl Direction {
         let departure = 0.125 * h * h * larger(j0.abs(), (j0 + k * (v0 - v1)).abs()) * growth;
         let acceleration = larger(w0.abs(), w1.abs()) * growth;
         let (slow, fast) = (smaller(v0.abs(), v1.abs()), larger(v0.abs(), v1.abs()));
-        let one_way = v0 * v1 > 0.0;
         let kept =
             (w0 * w1 > 0.0) | (slow + fast > h * acceleration) | (slow > larger(departure - 0.25 * (fast - slow), 0.0));
-        Self { one_way, monotone: one_way & kept, departure }
+        Self { monotone: (v0 * v1 > 0.0) & kept, departure }
+    }
+}
+
+/// Where an attached motion turns, told on the side to which it sets out; see [`passages`](crate::passages).
+struct Turn {
+    /// Distance from the equilibrium, m.
+    distance: f64,
+    /// A bound on the displacement, m.
+    highest: f64,
+    /// Time, s, and displacement, m, if the velocity changes its sign: nearly.
+    time: f64,
+    top: f64,
+}
+
+impl Turn {
+    #[inline(always)]
+    fn new(
+        (u0, v0, w0, j0): (f64, f64, f64, f64),
+        (v1, w1): (f64, f64),
+        h: f64,
+        flexibility: f64,
+        departure: f64,
+    ) -> Self {
+        let side = 1.0_f64.copysign(v0);
+        let (equilibrium, lag) = (w0 * flexibility, j0 * flexibility);
+        let start = u0 + equilibrium;
+        let drift = v0 + lag;
+        let distance = larger(equilibrium * equilibrium + (lag * lag - drift * drift) * flexibility, 0.0).sqrt();
+        // the zero of the chord of the velocity, then a step towards that of the cubic with the accelerations at both ends
+        let part = v0 / (v0 - v1);
+        let rest = 1.0 - part;
+        let v = (v0 * rest * (1.0 + 2.0 * part) + h * w0 * rest * part) * rest
+            + (v1 * part * (3.0 - 2.0 * part) - h * w1 * rest * part) * part;
+        let time = h * part - v / (w0 * rest + w1 * part);
+        let keeps = (w0 * w1 > 0.0) & (v0 * v1 < 0.0);
+        let apart = smaller(departure / smaller(w0.abs(), w1.abs()), h);
+        let known = side * (start + drift * (h * part)) + drift.abs() * apart;
+        let unknown = (start + drift * (0.5 * h)).abs() + drift.abs() * (0.5 * h);
+        let highest = if keeps { known } else { unknown } + distance;
+        Self { distance, highest, time, top: side * (start + drift * time) + distance }
     }
 }
 

@@ -8,9 +8,12 @@
 use crate::side_by_side::{self, Waiting};
 use crate::sweep::{Peak, Sweep};
 
-/// What the runs may be compiled for.
+/// What this processor is known to have: only [`best`](Self::best) says so.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Instructions {
+pub(crate) struct Instructions(Set);
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Set {
     Any,
     #[cfg(target_arch = "x86_64")]
     Avx2,
@@ -28,19 +31,18 @@ impl Instructions {
                 && is_x86_feature_detected!("avx512vl")
                 && is_x86_feature_detected!("avx512dq");
             if avx512 {
-                return Self::Avx512;
+                return Self(Set::Avx512);
             }
             if is_x86_feature_detected!("avx2") {
-                return Self::Avx2;
+                return Self(Set::Avx2);
             }
         }
-        Self::Any
+        Self(Set::Any)
     }
 }
 
 /// Follow all of `waiting` to their ends; see [`follow`](side_by_side::follow).
 ///
-/// * `instructions` — what the processor is known to have
 #[inline]
 pub(crate) fn follow<const RUNS: usize, const STIFF: bool>(
     instructions: Instructions,
@@ -48,13 +50,13 @@ pub(crate) fn follow<const RUNS: usize, const STIFF: bool>(
     waiting: &[Waiting],
     peaks: &mut [Peak],
 ) {
-    match instructions {
-        Instructions::Any => side_by_side::follow::<RUNS, STIFF>(sweep, waiting, peaks),
-        // SAFETY: the processor has what the functions are compiled for, see `best`.
+    match instructions.0 {
+        Set::Any => side_by_side::follow::<RUNS, STIFF>(sweep, waiting, peaks),
+        // SAFETY: the processor has what the functions are compiled for, since no other value is made.
         #[cfg(target_arch = "x86_64")]
-        Instructions::Avx2 => unsafe { follow_with_avx2::<RUNS, STIFF>(sweep, waiting, peaks) },
+        Set::Avx2 => unsafe { follow_with_avx2::<RUNS, STIFF>(sweep, waiting, peaks) },
         #[cfg(target_arch = "x86_64")]
-        Instructions::Avx512 => unsafe { follow_with_avx512::<RUNS, STIFF>(sweep, waiting, peaks) },
+        Set::Avx512 => unsafe { follow_with_avx512::<RUNS, STIFF>(sweep, waiting, peaks) },
     }
 }
 
@@ -82,12 +84,12 @@ mod tests {
     use crate::{Excitation, GroundMotion, Oscillator, PostUplift};
 
     fn available() -> Vec<Instructions> {
-        match Instructions::best() {
-            Instructions::Any => vec![Instructions::Any],
+        match Instructions::best().0 {
+            Set::Any => vec![Instructions(Set::Any)],
             #[cfg(target_arch = "x86_64")]
-            Instructions::Avx2 => vec![Instructions::Any, Instructions::Avx2],
+            Set::Avx2 => [Set::Any, Set::Avx2].map(Instructions).to_vec(),
             #[cfg(target_arch = "x86_64")]
-            Instructions::Avx512 => vec![Instructions::Any, Instructions::Avx2, Instructions::Avx512],
+            Set::Avx512 => [Set::Any, Set::Avx2, Set::Avx512].map(Instructions).to_vec(),
         }
     }
 
@@ -106,6 +108,8 @@ mod tests {
                 (0.7, 0.03, PostUplift::Zero),
                 (0.3, 0.01, PostUplift::Negative { capacity_m: 0.4 }),
                 (0.3, 0.01, PostUplift::Positive { stiffness_per_s2: 2.0 }),
+                (0.3, 0.03, PostUplift::Positive { stiffness_per_s2: 20_000.0 }),
+                (0.3, 0.02, PostUplift::Negative { capacity_m: 0.01 }),
             ] {
                 let ground = GroundMotion::new(Excitation::new(dt_s, &record).unwrap());
                 let oscillator = Oscillator::new(strength, 9.81, 0.0005, 0.95, post_uplift).unwrap();

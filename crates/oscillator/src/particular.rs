@@ -1,46 +1,65 @@
 //! The response of one branch from rest: any motion on the branch is this one times the scale plus a free motion.
 //!
 //! It is told anew every few samples, again from rest: over a whole record it would grow beyond all bounds where the stiffness is negative, and be large
-//! beside the motions it is to tell elsewhere, which would cost digits.
+//! beside the motions it is to tell elsewhere, which would cost digits. Where it grows too fast even so, there is none.
 
-use crate::ahead::AHEAD;
+use crate::ahead::{AHEAD, larger};
 use crate::ground_motion::GroundMotion;
 use crate::stumpff::Stumpff;
 
-/// Samples after which the response begins again from rest.
-const BLOCK: usize = 64;
+/// Samples after which the response begins again from rest, at most and at least: powers of two.
+const LONGEST: usize = 64;
+const SHORTEST: usize = 16;
+/// Largest growth over what is told from one state of rest, as the exponent of e: a digit and a half.
+const GROWTH: f64 = 3.0;
 
 /// Displacement and velocity at the samples of every block, and as many after it as are looked at together.
 #[derive(Debug, Clone)]
 pub(crate) struct ParticularResponse {
+    /// Samples of a block, as the power of two.
+    block: u32,
     displacement_m: Vec<f64>,
     velocity_m_s: Vec<f64>,
 }
 
 impl ParticularResponse {
     /// The response of a branch of stiffness `k`, 1/s², to the unit-scale record.
-    pub(crate) fn new(k: f64, ground: &GroundMotion<'_>) -> Self {
-        let step = Step::new(k, ground.excitation.dt_s());
-        let a = &ground.acceleration_m_s2;
-        let blocks = ground.intervals() / BLOCK + 1;
-        let mut displacement_m = vec![0.0; blocks * (BLOCK + AHEAD)];
+    pub(crate) fn new(k: f64, ground: &GroundMotion<'_>) -> Option<Self> {
+        let dt_s = ground.excitation.dt_s();
+        let growth_a_sample = (-k).max(0.0).sqrt() * dt_s;
+        let serves = |block: usize| growth_a_sample * (block + AHEAD) as f64 <= GROWTH;
+        let mut block = LONGEST;
+        while !serves(block) {
+            block /= 2;
+            if block < SHORTEST {
+                return None;
+            }
+        }
+        let (step, a) = (Step::new(k, dt_s), &ground.acceleration_m_s2);
+        let blocks = ground.intervals() / block + 1;
+        let mut displacement_m = vec![0.0; blocks * (block + AHEAD)];
         let mut velocity_m_s = displacement_m.clone();
-        for block in 0..blocks {
+        for i in 0..blocks {
             let (mut u, mut v) = (0.0, 0.0);
-            let start = block * (BLOCK + AHEAD);
-            for (m, pair) in a[block * BLOCK..].windows(2).take(BLOCK + AHEAD - 1).enumerate() {
+            let start = i * (block + AHEAD);
+            for (m, pair) in a[i * block..].windows(2).take(block + AHEAD - 1).enumerate() {
                 (u, v) = step.next((u, v), pair[0], pair[1]);
                 displacement_m[start + m + 1] = u;
                 velocity_m_s[start + m + 1] = v;
             }
         }
-        Self { displacement_m, velocity_m_s }
+        Some(Self { block: block.trailing_zeros(), displacement_m, velocity_m_s })
+    }
+
+    /// Largest displacement, m.
+    pub(crate) fn largest_m(&self) -> f64 {
+        self.displacement_m.iter().fold(0.0, |largest, u| larger(u.abs(), largest))
     }
 
     /// Displacements (m) and velocities (m/s) at the sample `j` and those ahead of it, told from the same state of rest.
     #[inline(always)]
     pub(crate) fn from(&self, j: usize) -> (&[f64], &[f64]) {
-        let index = j + j / BLOCK * AHEAD;
+        let index = j + (j >> self.block) * AHEAD;
         (&self.displacement_m[index..], &self.velocity_m_s[index..])
     }
 }
@@ -84,8 +103,10 @@ mod tests {
     fn from_any_sample_it_is_a_motion_on_the_branch() {
         let record = shaped_noise(4.0, 500, 3);
         let ground = GroundMotion::new(Excitation::new(0.01, &record).unwrap());
-        for k in [-900.0, -9.0, -0.1, 0.5, 30.0] {
-            let response = ParticularResponse::new(k, &ground);
+        // too strong: e^0.5 a sample
+        assert!(ParticularResponse::new(-2500.0, &ground).is_none());
+        for k in [-80.0, -9.0, -0.1, 0.5, 30.0] {
+            let response = ParticularResponse::new(k, &ground).unwrap();
             for j in 0..record.len() {
                 let (u, v) = response.from(j);
                 for (m, pair) in record[j..].windows(2).take(AHEAD).enumerate() {

@@ -80,8 +80,8 @@ fn is_monotone(motion: &LinearMotion, h: f64, end: &State) -> bool {
 /// True if no turning point of a motion with `k > 0` within `h` lies beyond the boundaries.
 ///
 /// The motion oscillates about the equilibrium `e = u + w/k`, which drifts at the constant rate `ė`, with the amplitude `A`. Where its
-/// velocity is zero the distance from the equilibrium is `√(A² − ė²/k)`. If the acceleration keeps its sign, that is as near to the zero of the
-/// chord of the velocity as the departure from the chord and the least acceleration tell.
+/// velocity is zero the distance from the equilibrium is `√(A² − ė²/k)`. If it turns once and the acceleration keeps its sign, that is on the side to which the motion
+/// sets out, and as near to the zero of the chord of the velocity as the departure from the chord and the least acceleration tell.
 #[inline(always)]
 fn turns_inside(motion: &LinearMotion, h: f64, end: &State, boundary: f64) -> bool {
     let flexibility = 1.0 / motion.k;
@@ -89,14 +89,12 @@ fn turns_inside(motion: &LinearMotion, h: f64, end: &State, boundary: f64) -> bo
     let start = motion.u0 + x;
     let drift = motion.v0 + lag;
     let distance = (x * x + (lag * lag - drift * drift) * flexibility).max(0.0).sqrt();
-    let (middle, spread) = if motion.w0 * end.w > 0.0 && motion.v0 * end.v < 0.0 {
-        let least = smaller(motion.w0.abs(), end.w.abs());
-        let apart = motion.departure_of_velocity(h, end.v) / least;
-        (h * (motion.v0 / (motion.v0 - end.v)), smaller(apart, h))
-    } else {
-        (0.5 * h, 0.5 * h)
-    };
-    (start + drift * middle).abs() + drift.abs() * spread + distance <= boundary
+    if motion.w0 * end.w > 0.0 && motion.v0 * end.v < 0.0 && motion.k * h * h < SIMPLE {
+        let apart = motion.departure_of_velocity(h, end.v) / smaller(motion.w0.abs(), end.w.abs());
+        let middle = start + drift * (h * (motion.v0 / (motion.v0 - end.v)));
+        return middle * 1.0_f64.copysign(motion.v0) + drift.abs() * smaller(apart, h) + distance <= boundary;
+    }
+    (start + drift * (0.5 * h)).abs() + drift.abs() * (0.5 * h) + distance <= boundary
 }
 
 /// A level passed: when, and how fast.
@@ -130,6 +128,10 @@ pub(crate) fn passage(motion: &LinearMotion, from: Node, v: f64, to: Node, level
     let span = to.tau - from.tau;
     let distance = level - from.u;
     let ahead = 1.0_f64.copysign(to.u - level);
+    if ahead * distance <= 0.0 && v * ahead > 0.0 {
+        // there already, by rounding
+        return Passage { level, tau: from.tau, v };
+    }
     let curvature = (to.u - from.u - v * span) * (2.0 / (span * span));
     let discriminant = (v * v + 2.0 * curvature * distance).max(0.0);
     let (mut low, mut high) = (from.tau, to.tau);

@@ -10,11 +10,16 @@ use crate::stumpff::Stumpff;
 use crate::sweep::growth;
 use crate::uplifted::Course;
 
+/// Largest response over the uplift displacement: it leaves 12 digits of the latter.
+const COARSEST: f64 = 1e4;
+
 /// An uplifted branch with a stiffness, made ready for the runs of a sweep.
 #[derive(Debug)]
 pub(crate) struct Stiffness {
     branch: Branch,
     response: ParticularResponse,
+    /// Largest displacement of the response, m.
+    largest_m: f64,
     /// `c0`, `t c1` and `t² c2` at the times `t` of `1, 2, …` samples.
     c0: Lanes,
     t_c1: Lanes,
@@ -24,20 +29,33 @@ pub(crate) struct Stiffness {
 }
 
 impl Stiffness {
-    /// `None` for a branch without stiffness.
+    /// `None` for a branch without stiffness, and for one on which motions grow too fast, or turn too often between samples.
     pub(crate) fn new(branch: Branch, ground: &GroundMotion<'_>) -> Option<Self> {
         let (k, dt_s) = (branch.stiffness_per_s2, ground.excitation.dt_s());
         if k == 0.0 {
             return None;
         }
+        let growth = if k > 0.0 { growth(k.sqrt() * dt_s) } else { 1.0 };
+        if growth.is_nan() {
+            return None;
+        }
+        let response = ParticularResponse::new(k, ground)?;
+        let largest_m = response.largest_m();
         let (mut c0, mut t_c1, mut tt_c2) = ([0.0; AHEAD], [0.0; AHEAD], [0.0; AHEAD]);
         for m in 0..AHEAD {
             let t = (m + 1) as f64 * dt_s;
             let stumpff = Stumpff::at(k * t * t);
             (c0[m], t_c1[m], tt_c2[m]) = (stumpff.c0, t * stumpff.c1, t * t * stumpff.c2);
         }
-        let growth = if k > 0.0 { growth(k.sqrt() * dt_s) } else { 1.0 };
-        Some(Self { branch, response: ParticularResponse::new(k, ground), c0, t_c1, tt_c2, growth })
+        Some(Self { branch, response, largest_m, c0, t_c1, tt_c2, growth })
+    }
+}
+
+impl Stiffness {
+    /// Whether the rounding of the response times `scale` is small beside the uplift displacement.
+    #[inline(always)]
+    pub(crate) fn is_fine(&self, scale: f64, uplift_displacement_m: f64) -> bool {
+        scale.abs() * self.largest_m <= COARSEST * uplift_displacement_m
     }
 }
 

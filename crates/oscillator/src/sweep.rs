@@ -55,7 +55,7 @@ pub struct Sweep<'a> {
     pub(crate) elastic: ElasticResponse,
     pub(crate) attached: Branch,
     pub(crate) uplifted: Branch,
-    /// None without post-uplift stiffness.
+    /// None without post-uplift stiffness, or where motions grow too fast to be looked at far ahead.
     pub(crate) stiff: Option<Stiffness>,
     pub(crate) boundary_m: f64,
     pub(crate) at_boundary_m_s2: f64,
@@ -132,7 +132,7 @@ impl<'a> Sweep<'a> {
         }
         let instructions = Instructions::best();
         // empty places cost as much as full ones
-        match (self.stiff.is_some(), waiting.len()) {
+        match (self.uplifted.stiffness_per_s2 != 0.0, waiting.len()) {
             (_, 0) => {}
             (false, 1) => follow::<1, false>(instructions, self, &waiting, &mut peaks),
             (false, 2..=6) => follow::<4, false>(instructions, self, &waiting, &mut peaks),

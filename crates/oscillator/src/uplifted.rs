@@ -61,9 +61,25 @@ impl<const STIFF: bool> Run<'_, STIFF> {
     #[inline(always)]
     pub(crate) fn seek_landing(&mut self, side: f64, j: usize, start: &State) -> Result<Stretch, Phase> {
         match &self.sweep.stiff {
-            Some(stiffness) if STIFF => self.seek_on(Stiff::new(self, stiffness, side, j, start), side, j, start),
-            _ => self.seek_on(Flight::new(self, side, j, start), side, j, start),
+            _ if !STIFF => self.seek_on(Flight::new(self, side, j, start), side, j, start),
+            Some(stiffness) if stiffness.is_fine(self.scale, self.sweep.boundary_m) => {
+                self.seek_on(Stiff::new(self, stiffness, side, j, start), side, j, start)
+            }
+            _ => self.next_interval_uplifted(side, j, start),
         }
+    }
+
+    /// The interval after the sample `j`, where nothing tells what lies further ahead.
+    fn next_interval_uplifted(&self, side: f64, j: usize, start: &State) -> Result<Stretch, Phase> {
+        if !(side * start.u <= self.sweep.overturned_m) {
+            return Err(Phase::Overturned);
+        }
+        if j == self.sweep.ground.intervals() {
+            return Err(Phase::RecordEnd(side, start.u, start.v));
+        }
+        let force = self.sweep.uplifted.restoring(side, start.u);
+        let at = At { interval: j, offset_s: 0.0, u: start.u, v: start.v, force };
+        Ok(self.rest_of_interval_uplifted(side, at))
     }
 
     #[inline(always)]
@@ -82,7 +98,8 @@ impl<const STIFF: bool> Run<'_, STIFF> {
             let (lowest, highest) = (smaller(-largest(y.map(|y| -y)), y0), larger(largest(y), y0));
             let (least, greatest) = (smaller(-largest(w.map(|w| -w)), w0), larger(largest(w), w0));
             let stays_up = lowest - eighth * course.outward(least, greatest) >= boundary;
-            let no_new_peak = highest + eighth * course.outward(-greatest, -least) <= self.peak_m;
+            let no_new_peak =
+                highest + eighth * course.outward(-greatest, -least) <= smaller(self.peak_m, sweep.overturned_m);
             let first = match (stays_up, no_new_peak) {
                 (true, true) => count,
                 // falls freely: comes down where it is down at a sample

@@ -10,16 +10,17 @@ const G: f64 = 9.806_65;
 fn post_uplift() -> impl Strategy<Value = PostUplift> {
     prop_oneof![
         3 => Just(PostUplift::Zero),
-        1 => (0.05_f64..2.0).prop_map(|capacity_m| PostUplift::Negative { capacity_m }),
-        1 => (0.1_f64..50.0).prop_map(|stiffness_per_s2| PostUplift::Positive { stiffness_per_s2 }),
+        1 => (0.011_f64..2.0).prop_map(|capacity_m| PostUplift::Negative { capacity_m }),
+        1 => prop_oneof![0.1_f64..50.0, (1.0_f64..5.0).prop_map(|digits| 10_f64.powf(digits))]
+            .prop_map(|stiffness_per_s2| PostUplift::Positive { stiffness_per_s2 }),
     ]
 }
 
-/// How much relative changes by 1e-10 of the scale, of the uplift displacement and of the restitution change the peak, relative to that
-/// change: the conditioning of this very run. The scale alone does not tell: a system of strength zero hardly notices it, and yet
-/// its impacts multiply what rounding does.
+/// How much relative changes by 1e-10 of the scale, of the uplift displacement, of the restitution and of every sample for itself change the
+/// peak, relative to that change: the conditioning of this very run. The scale alone does not tell: a system of strength zero hardly notices it,
+/// and yet its impacts multiply what rounding does, at any time and in any direction.
 fn amplification(oscillator: &Oscillator, excitation: &Excitation<'_>, after: FreeVibration) -> f64 {
-    let peak = |scale: f64, u_up: f64, restitution: f64| {
+    let peak = |record: &[f64], scale: f64, u_up: f64, restitution: f64| {
         let changed = Oscillator::new(
             oscillator.strength(),
             G,
@@ -27,11 +28,26 @@ fn amplification(oscillator: &Oscillator, excitation: &Excitation<'_>, after: Fr
             oscillator.restitution() * restitution,
             oscillator.post_uplift(),
         );
-        respond(&changed.unwrap(), &excitation.scaled(scale).unwrap(), after).peak_displacement_m
+        let excitation = Excitation::new(excitation.dt_s(), record).unwrap().scaled(excitation.scale() * scale);
+        respond(&changed.unwrap(), &excitation.unwrap(), after).peak_displacement_m
     };
     let (less, more) = (1.0 - 1e-10, 1.0 + 1e-10);
-    let middle = peak(1.0, 1.0, 1.0);
-    [peak(less, 1.0, 1.0), peak(more, 1.0, 1.0), peak(1.0, less, 1.0), peak(1.0, more, 1.0), peak(1.0, 1.0, less)]
+    let record = excitation.acceleration_m_s2();
+    let middle = peak(record, 1.0, 1.0, 1.0);
+    let mut changed = vec![
+        peak(record, less, 1.0, 1.0),
+        peak(record, more, 1.0, 1.0),
+        peak(record, 1.0, less, 1.0),
+        peak(record, 1.0, more, 1.0),
+        peak(record, 1.0, 1.0, less),
+    ];
+    for seed in 1..=4 {
+        let signs = shaped_noise(1.0, record.len(), seed);
+        let jittered: Vec<f64> =
+            record.iter().zip(signs).map(|(a, sign)| a * (1.0 + 1e-10_f64.copysign(sign))).collect();
+        changed.push(peak(&jittered, 1.0, 1.0, 1.0));
+    }
+    changed
         .into_iter()
         // infinite where only one of both overturns
         .map(|changed| if changed == middle { 0.0 } else { (changed - middle).abs() / (1e-10 * middle.min(changed)) })
@@ -76,9 +92,10 @@ proptest! {
     fn noise(
         seed in any::<u64>(), strength in prop_oneof![0.0_f64..0.1, 0.1_f64..1.0, Just(0.0)], scale in prop_oneof![0.01_f64..1.0, 1.0_f64..10.0, -2.0_f64..0.0],
         post_uplift in post_uplift(), restitution in 0.0_f64..=1.0, dt_s in prop_oneof![Just(0.005), Just(0.01), 0.002_f64..0.025],
+        u_up in prop_oneof![3 => Just(0.0005), 1 => (-6.0_f64..-2.0).prop_map(|digits| 10_f64.powf(digits))],
         samples in 2_usize..700, with_free_peak in any::<bool>(),
     ) {
-        let oscillator = Oscillator::new(strength, G, 0.0005, restitution, post_uplift).unwrap();
+        let oscillator = Oscillator::new(strength, G, u_up, restitution, post_uplift).unwrap();
         compare(&oscillator, dt_s, &shaped_noise(4.0, samples, seed), scale, with_free_peak)?;
     }
 
