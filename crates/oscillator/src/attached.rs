@@ -16,7 +16,7 @@ impl<const STIFF: bool> Run<'_, STIFF> {
         let motion = self.motion(&start, k);
         let h = sweep.dt_s - start.offset_s;
         let (u, v) = self.end_of_interval(&motion, &start, &sweep.whole_attached);
-        let end = State { u, v, w: -k * u - self.ground_end(start.interval).0 };
+        let end = State { u, v, w: -k * u - self.ground_end(start.interval) };
         self.attached_from(&Stretch { at: start, motion, h, end })
     }
 

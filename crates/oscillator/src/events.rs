@@ -9,12 +9,10 @@
 use crate::ahead::{larger, smaller};
 use crate::branch::LinearMotion;
 use crate::passages::{CONVERGED, Passage, State};
-use crate::stumpff::Stumpff;
+use crate::stumpff::{NEAR, NEAR_TERMS, Stumpff};
 
 /// Newton steps after the first guess and the inverse series about it.
 const STEPS: usize = 2;
-/// Terms of a short series.
-const NEAR_TERMS: usize = 6;
 
 /// A number of each run.
 pub(crate) type Each<const RUNS: usize> = [f64; RUNS];
@@ -172,7 +170,7 @@ impl<const RUNS: usize> Stretches<RUNS> {
             let mut near = true;
             for _ in 0..STEPS {
                 let x = k * further * further;
-                near &= x <= 0.1;
+                near &= x <= NEAR;
                 let short = Stumpff::series::<NEAR_TERMS>(x);
                 let (u, v) = here.state_with(further, &short);
                 step = (u - level) / v;

@@ -115,10 +115,10 @@ impl<'a, const STIFF: bool> Run<'a, STIFF> {
         }
     }
 
+    /// Acceleration at the end of an interval, scaled.
     #[inline(always)]
-    pub(crate) fn ground_end(&self, interval: usize) -> (f64, f64) {
-        let a = &self.sweep.ground.acceleration_m_s2;
-        (self.scale * a[interval + 1], self.scale * a[interval])
+    pub(crate) fn ground_end(&self, interval: usize) -> f64 {
+        self.scale * self.sweep.ground.acceleration_m_s2[interval + 1]
     }
 
     #[inline(always)]

@@ -20,10 +20,14 @@ pub struct Stumpff {
     pub c3: f64,
 }
 
-/// Terms of the series at `abs(x) = 9`.
-const TERMS: usize = 14;
-/// Largest argument of the series; beyond it the closed forms lose at most two bits.
+/// Largest arguments of the series and the terms that serve up to there: the first one left out is below 2e-17 of the sum.
+pub(crate) const NEAR: f64 = 0.1;
+pub(crate) const NEAR_TERMS: usize = 6;
+const MIDDLE: f64 = 1.0;
+const MIDDLE_TERMS: usize = 10;
+/// Beyond this one the closed forms lose at most two bits.
 const SERIES_LIMIT: f64 = 9.0;
+const TERMS: usize = 14;
 
 const fn inverse_factorials() -> [(f64, f64); TERMS] {
     let mut table = [(0.0, 0.0); TERMS];
@@ -49,27 +53,26 @@ impl Stumpff {
     /// The functions at `x = k t²`.
     #[inline(always)]
     pub fn at(x: f64) -> Self {
-        // the first term left out is below 2e-17 of the sum in each case
         if x == 0.0 {
             Self { c0: 1.0, c1: 1.0, c2: 0.5, c3: 1.0 / 6.0 }
-        } else if x.abs() <= 0.1 {
-            Self::series::<6>(x)
+        } else if x.abs() <= NEAR {
+            Self::series::<NEAR_TERMS>(x)
         } else {
             Self::at_large(x)
         }
     }
 
-    /// The functions where six terms suffice, `None` elsewhere.
+    /// The functions near zero, where the fewest terms suffice; `None` elsewhere.
     #[inline(always)]
     pub(crate) fn near_zero(x: f64) -> Option<Self> {
-        (x.abs() <= 0.1).then(|| Self::series::<6>(x))
+        (x.abs() <= NEAR).then(|| Self::series::<NEAR_TERMS>(x))
     }
 
     /// An even number of terms that suffice up to `abs(x)`, if there is one.
     pub(crate) fn terms(x: f64) -> Option<usize> {
         match x.abs() {
-            size if size <= 0.1 => Some(6),
-            size if size <= 1.0 => Some(10),
+            size if size <= NEAR => Some(NEAR_TERMS),
+            size if size <= MIDDLE => Some(MIDDLE_TERMS),
             size if size <= SERIES_LIMIT => Some(TERMS),
             _ => None,
         }
@@ -78,7 +81,7 @@ impl Stumpff {
     #[inline(always)]
     fn at_large(x: f64) -> Self {
         match x.abs() {
-            size if size <= 1.0 => return Self::series::<10>(x),
+            size if size <= MIDDLE => return Self::series::<MIDDLE_TERMS>(x),
             size if size <= SERIES_LIMIT => return Self::series::<TERMS>(x),
             _ => {}
         }

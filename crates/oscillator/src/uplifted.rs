@@ -38,7 +38,7 @@ impl<const STIFF: bool> Run<'_, STIFF> {
         let h = self.sweep.dt_s - at.offset_s;
         let (u, v) = if STIFF { motion.state(h) } else { motion.state_with(h, &PARABOLIC) };
         let force = if STIFF { branch.restoring(side, u) } else { at.force };
-        Stretch { at, motion, h, end: State { u, v, w: -force - self.ground_end(at.interval).0 } }
+        Stretch { at, motion, h, end: State { u, v, w: -force - self.ground_end(at.interval) } }
     }
 
     /// Uplifted from the start of a stretch on.
