@@ -1,12 +1,9 @@
 //! What can go wrong in the program, and how it is said.
 
-use std::io::IsTerminal;
-
-use miette::{GraphicalReportHandler, GraphicalTheme};
 use thiserror::Error;
 
-use crate::labelled::LabelledError;
-use crate::study::StudyError;
+use uplift_labelled::LabelledError;
+use uplift_study::StudyError;
 
 /// Why a command did not do what it was asked.
 #[derive(Debug, Error)]
@@ -69,27 +66,6 @@ impl UpliftError {
             Self::Study(_) => 3,
             Self::Inputs(_) | Self::File(_) => 4,
             Self::Interrupted | Self::Paused { .. } => 5,
-        }
-    }
-
-    /// Tell the user on standard error; a study's mistakes with their lines and carets.
-    pub fn print(&self) {
-        match self {
-            Self::OutputClosed => {}
-            Self::Study(error) => {
-                let theme = if std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none() {
-                    GraphicalTheme::unicode()
-                } else {
-                    GraphicalTheme::unicode_nocolor()
-                };
-                let mut text = String::new();
-                if GraphicalReportHandler::new_themed(theme).render_report(&mut text, error).is_ok() {
-                    tell_on!("{text}");
-                } else {
-                    tell!("uplift: {error}");
-                }
-            }
-            other => tell!("uplift: {other}"),
         }
     }
 }

@@ -16,7 +16,7 @@ use matlab::{MatFile, Shape};
 type Value = fn(&Spectrum) -> f64;
 
 /// What is exported, and where it comes from.
-pub(crate) struct Export {
+pub struct Export {
     result: StoredResult,
     /// One line: program, time, file, records.
     provenance: String,
@@ -24,7 +24,7 @@ pub(crate) struct Export {
 
 impl Export {
     /// Read the result at `path`.
-    pub(crate) fn read(path: &Path) -> Result<Self, UpliftError> {
+    pub fn read(path: &Path) -> Result<Self, UpliftError> {
         let result = StoredResult::read(path)?;
         if result.spectra.is_empty() {
             return Err(UpliftError::input(format!("{}: has no spectra: the study has no sites", path.display())));
@@ -44,12 +44,12 @@ impl Export {
     }
 
     /// One line of provenance.
-    pub(crate) fn provenance(&self) -> &str {
+    pub fn provenance(&self) -> &str {
         &self.provenance
     }
 
     /// A row for each ordinate, its fit beside it.
-    pub(crate) fn columns(&self) -> Vec<Column> {
+    pub fn columns(&self) -> Vec<Column> {
         let result = &self.result;
         let (mut site, mut im, mut poe, mut strength, mut u_m, mut fit_m) =
             (Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new());
@@ -77,7 +77,7 @@ impl Export {
     }
 
     /// Everything as one JSON object; what is not finite is null.
-    pub(crate) fn json(&self) -> serde_json::Value {
+    pub fn json(&self) -> serde_json::Value {
         let finite = |value: f64| value.is_finite().then_some(value);
         let spectra: Vec<serde_json::Value> = self
             .result
@@ -110,7 +110,7 @@ impl Export {
     }
 
     /// A MATLAB file: `u_pgv_m` is strength × probability × site, the coefficients are probability × site.
-    pub(crate) fn matlab(&self) -> Result<Vec<u8>, UpliftError> {
+    pub fn matlab(&self) -> Result<Vec<u8>, UpliftError> {
         let result = &self.result;
         let mut file = MatFile::new(&self.provenance);
         file.text("provenance", &self.provenance);

@@ -19,15 +19,15 @@ use uplift_motion::{
     AccelerationUnit, MotionError, ReadOptions, RecordFormat, RecordingDescription, read_record, record_bytes,
 };
 
-pub(crate) use measured::PairMeasures;
+pub use measured::PairMeasures;
 pub use table::manifest_columns;
-pub(crate) use table::relative;
+pub use table::relative;
 pub use warnings::Warning;
-pub(crate) use warnings::of_pair as warnings_of_pair;
+pub use warnings::of_pair as warnings_of_pair;
 
 use crate::error::UpliftError;
 use crate::inputs::checksum;
-use crate::progress::{Progress, StopFlag};
+use crate::events::{Events, Progress};
 use search_results::SearchResults;
 
 /// What the user says about files that do not say it themselves.
@@ -53,16 +53,16 @@ impl ImportOptions {
 
 /// One component of a file, without its samples.
 #[derive(Debug, Clone)]
-pub(crate) struct Component {
-    pub(crate) path: PathBuf,
+pub struct Component {
+    pub path: PathBuf,
     /// Its number in a file with several.
-    pub(crate) channel: Option<usize>,
-    pub(crate) format: RecordFormat,
-    pub(crate) description: RecordingDescription,
-    pub(crate) dt_s: f64,
-    pub(crate) points: usize,
+    pub channel: Option<usize>,
+    pub format: RecordFormat,
+    pub description: RecordingDescription,
+    pub dt_s: f64,
+    pub points: usize,
     /// SHA-256 of the file.
-    pub(crate) file_sha256: String,
+    pub file_sha256: String,
     /// SHA-256 of the samples: the same motion in two files has one.
     samples_sha256: String,
 }
@@ -96,12 +96,12 @@ pub struct Imported {
 ///
 /// # Errors
 /// A folder that cannot be read, and an interruption; what is wrong with single files is among the warnings.
-pub fn import(folder: &Path, options: &ImportOptions, quiet: bool, stop: &StopFlag) -> Result<Imported, UpliftError> {
+pub fn import(folder: &Path, options: &ImportOptions, events: &dyn Events) -> Result<Imported, UpliftError> {
     let found = scan(folder)?;
     let mut warnings = Vec::new();
     let search = SearchResults::read(&found.search_results, &mut warnings);
 
-    let progress = Progress::new("reading", "files", found.files.len() as u64, quiet, stop.clone());
+    let progress = Progress::begin(events, "reading", "files", found.files.len() as u64);
     let read: Vec<Result<Vec<Component>, MotionError>> = found
         .files
         .par_iter()
@@ -114,8 +114,8 @@ pub fn import(folder: &Path, options: &ImportOptions, quiet: bool, stop: &StopFl
             components
         })
         .collect();
-    progress.close();
-    if stop.load(std::sync::atomic::Ordering::Relaxed) {
+    drop(progress);
+    if events.cancelled() {
         return Err(UpliftError::Interrupted);
     }
     let mut components = Vec::new();
@@ -131,7 +131,7 @@ pub fn import(folder: &Path, options: &ImportOptions, quiet: bool, stop: &StopFl
     let candidates = group::pairs(components, &search, &mut warnings);
     warnings.extend(search.missing(&candidates));
 
-    let progress = Progress::new("measuring", "pairs", candidates.len() as u64, quiet, stop.clone());
+    let progress = Progress::begin(events, "measuring", "pairs", candidates.len() as u64);
     let measured: Vec<Option<Result<ImportedPair, String>>> = candidates
         .into_par_iter()
         .map(|candidate| {
@@ -143,8 +143,8 @@ pub fn import(folder: &Path, options: &ImportOptions, quiet: bool, stop: &StopFl
             Some(pair)
         })
         .collect();
-    progress.close();
-    if stop.load(std::sync::atomic::Ordering::Relaxed) {
+    drop(progress);
+    if events.cancelled() {
         return Err(UpliftError::Interrupted);
     }
     let mut pairs = Vec::new();

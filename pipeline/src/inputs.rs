@@ -2,11 +2,11 @@
 
 mod cache;
 mod hazard;
-pub(crate) mod manifest;
-pub(crate) mod pairs;
+pub mod manifest;
+pub mod pairs;
 mod record_set;
 mod record_sets;
-pub(crate) mod selection;
+pub mod selection;
 mod site_table;
 
 pub use hazard::{BranchHazard, HazardInput, SiteHazard, read_hazard};
@@ -20,7 +20,7 @@ use std::path::Path;
 use sha2::{Digest, Sha256};
 
 /// SHA-256 of a file of any size, as hexadecimal digits.
-pub(crate) fn checksum_of_file(path: &Path) -> std::io::Result<String> {
+pub fn checksum_of_file(path: &Path) -> std::io::Result<String> {
     let mut file = std::fs::File::open(path)?;
     let mut hasher = Sha256::new();
     let mut buffer = vec![0; 1 << 16];
@@ -33,7 +33,7 @@ pub(crate) fn checksum_of_file(path: &Path) -> std::io::Result<String> {
 }
 
 /// SHA-256 of some bytes, as hexadecimal digits.
-pub(crate) fn checksum(bytes: &[u8]) -> String {
+pub fn checksum(bytes: &[u8]) -> String {
     hexadecimal(&Sha256::digest(bytes))
 }
 

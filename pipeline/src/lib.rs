@@ -1,60 +1,46 @@
-//! The program `uplift`: study file → inputs → stages → one result file.
+//! Uniform risk spectra for rocking structures: studies run from the first record to the result file.
 //!
-//! | room | what is in it |
+//! | module | what is in it |
 //! |---|---|
-//! | [`study`] | the study file, checked as a whole |
-//! | [`import`] | record files found in a folder, paired, measured and listed in a manifest |
+//! | [`events`] | what a job tells while it works, and how it is stopped |
 //! | [`inputs`] | records and hazard curves, read and checked before anything is computed |
-//! | [`stages`] | stripes, spectra, coefficients, bands: each takes what the one before returned |
+//! | [`import`] | record files found in a folder, paired, measured and listed in a manifest |
+//! | [`uniform_risk`] | studies of uniform risk: stripes, spectra, coefficients |
+//! | [`displacement`] | studies of displacement spectra of record sets |
+//! | [`bootstrap`], [`influence`], [`efficiency`] | how sure a spectrum is, and what carries it |
+//! | [`structure`] | a structure under the records and hazard of a result |
+//! | [`checkpoint`] | finished rows of the analysis by their keys: what outlives a stopped run |
 //! | [`result`](mod@result) | the HDF5 file and the tables beside it, written and read |
-//! | [`kept`] | what outlives a run: finished pieces by their keys, journals, shards, the lock |
-//! | [`labelled`] | HDF5 files of labelled arrays, free of science |
+//! | [`export`] | tables for other programs |
 //! | [`pulses`] | rocking spectra under wavelets, which need no study |
-//! | [`figures`] | what figures show |
-//! | [`report`](mod@report) | the HTML report |
-//! | `export` | tables for other programs |
-//! | [`plot`] | figures, free of science |
-//! | [`command`] | what the user can type |
-//! | [`progress`] | the progress bar, or plain lines |
+//! | [`text`] | numbers in words |
 //!
-//! Only this package knows files, terminals and HDF5; the science is in the crates below it.
+//! The science is in the crates below this one, the command line and the report in those above it. Nothing here prints,
+//! reads arguments or handles signals.
 
-/// A line on standard error. Where nobody listens any more, a closed pipe or a full disk, it is lost, and the work goes on.
-macro_rules! tell {
-    ($($text:tt)*) => {{
-        use std::io::Write as _;
-        let _ = writeln!(std::io::stderr(), $($text)*);
-    }};
-}
-
-/// As `tell!`, without the end of the line.
-macro_rules! tell_on {
-    ($($text:tt)*) => {{
-        use std::io::Write as _;
-        let _ = write!(std::io::stderr(), $($text)*);
-    }};
-}
-
-pub mod command;
+pub mod bootstrap;
+pub mod checkpoint;
+pub mod displacement;
+pub mod efficiency;
 mod error;
-mod export;
-pub mod figures;
+pub mod events;
+pub mod export;
 pub mod import;
+pub mod influence;
 pub mod inputs;
-pub mod kept;
-pub mod labelled;
-pub mod plot;
-pub mod progress;
 pub mod pulses;
-pub mod report;
 pub mod result;
-pub mod stages;
-pub mod study;
-mod table;
+pub mod structure;
+pub mod text;
+pub mod uniform_risk;
 
 pub use error::UpliftError;
+pub use events::{Events, Phase, Silent};
 
 /// Version of the program, and the commit it was built from where that is known.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// Commit the program was built from, or `unknown`.
 pub const COMMIT: &str = env!("UPLIFT_COMMIT");
+
+/// Version and commit in one.
+pub const VERSION_AND_COMMIT: &str = concat!(env!("CARGO_PKG_VERSION"), " (", env!("UPLIFT_COMMIT"), ")");

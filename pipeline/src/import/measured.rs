@@ -11,28 +11,28 @@ use crate::inputs::checksum;
 
 /// Measures of a pair; of those of single components the geometric mean.
 #[derive(Debug, Clone)]
-pub(crate) struct PairMeasures {
+pub struct PairMeasures {
     /// PGA (g) and PGV (cm/s) in every combination that can be had, in the order of [`Combination::ALL`].
-    pub(crate) peaks: Vec<Option<[f64; 2]>>,
+    pub peaks: Vec<Option<[f64; 2]>>,
     /// Peak ground displacement, cm.
-    pub(crate) pgd_cm: f64,
+    pub pgd_cm: f64,
     /// Arias intensity, m/s.
-    pub(crate) arias_m_s: f64,
+    pub arias_m_s: f64,
     /// Cumulative absolute velocity, m/s.
-    pub(crate) cav_m_s: f64,
+    pub cav_m_s: f64,
     /// Significant durations D5-75 and D5-95, s.
-    pub(crate) durations_s: [f64; 2],
+    pub durations_s: [f64; 2],
     /// Velocity at the end as a share of the PGV, the larger one of the two components.
-    pub(crate) residual_velocity_share: f64,
+    pub residual_velocity_share: f64,
     /// Whether there is a velocity pulse; none where it was not sought or cannot be judged.
-    pub(crate) pulse_like: Option<bool>,
+    pub pulse_like: Option<bool>,
     /// The pulse, or the strongest motion that could be one; none also where the motion is too weak for any.
-    pub(crate) pulse: Option<PulseClassification>,
+    pub pulse: Option<PulseClassification>,
 }
 
 impl PairMeasures {
     /// Measures `pair`; `gravity_m_s2` makes g of accelerations, `pulses` tells whether a velocity pulse is sought.
-    pub(crate) fn of(pair: &RecordPair, gravity_m_s2: f64, pulses: bool) -> Self {
+    pub fn of(pair: &RecordPair, gravity_m_s2: f64, pulses: bool) -> Self {
         let peaks = Combination::all_peaks_of(pair).map(|peaks| {
             let peaks = peaks?;
             Some([IntensityMeasure::Pga, IntensityMeasure::Pgv].map(|measure| measure.of_peaks(peaks, gravity_m_s2)))

@@ -133,7 +133,7 @@ fn rounded(value: Option<f64>) -> String {
 }
 
 /// `path` seen from `folder`, so that manifest and records can be moved together.
-pub(crate) fn relative(path: &Path, folder: &Path) -> String {
+pub fn relative(path: &Path, folder: &Path) -> String {
     let absolute = |path: &Path| std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     // the last part may be a link to elsewhere, and keeps its name
     let file = path.file_name().unwrap_or_default();

@@ -25,7 +25,7 @@ const RIGHT_ANGLE_DEG: f64 = 5.0;
 const USUAL_PGA_G: [f64; 2] = [1e-6, 3.0];
 
 /// Remarks about `pair`, whose files say the `descriptions` of its components; `gravity_m_s2` as in its `measures`.
-pub(crate) fn of_pair(
+pub fn of_pair(
     pair: &RecordPair,
     descriptions: [&RecordingDescription; 2],
     measures: &PairMeasures,

@@ -8,7 +8,7 @@ use uplift_risk::StripeWeights;
 
 use super::checksum;
 use crate::error::UpliftError;
-use crate::study::{CurveFile, CurveKind, Extrapolate, MeasurePlan, ResolvedStudy, definition_of, definition_word};
+use uplift_study::{CurveFile, CurveKind, Extrapolate, MeasurePlan, ResolvedStudy, definition_of, definition_word};
 
 /// The hazard of one site in one measure.
 #[derive(Debug, Clone)]

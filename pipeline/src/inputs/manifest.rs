@@ -10,26 +10,26 @@ use uplift_motion::{AccelerationUnit, RecordFormat};
 
 /// A row of a manifest.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Row {
-    pub(crate) id: String,
-    pub(crate) components: [ComponentFile; 2],
+pub struct Row {
+    pub id: String,
+    pub components: [ComponentFile; 2],
     /// Of text files that do not say it.
-    pub(crate) dt_s: Option<f64>,
-    pub(crate) unit: Option<AccelerationUnit>,
+    pub dt_s: Option<f64>,
+    pub unit: Option<AccelerationUnit>,
     /// Layout of both files; none to tell it by their content.
-    pub(crate) format: Option<RecordFormat>,
+    pub format: Option<RecordFormat>,
     /// The other columns, blank cells left out.
-    pub(crate) metadata: BTreeMap<String, String>,
+    pub metadata: BTreeMap<String, String>,
 }
 
 /// Where one component is.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct ComponentFile {
-    pub(crate) path: PathBuf,
+pub struct ComponentFile {
+    pub path: PathBuf,
     /// Which component of a file with several, counted from one.
-    pub(crate) channel: Option<usize>,
+    pub channel: Option<usize>,
     /// SHA-256 that the file had when the manifest was made.
-    pub(crate) sha256: Option<String>,
+    pub sha256: Option<String>,
 }
 
 /// Columns that hold numbers, with the most that each can be.
@@ -47,7 +47,7 @@ const REQUIRED: [&str; 3] = ["record_id", "file_h1", "file_h2"];
 ///
 /// # Errors
 /// Everything that is wrong with it, a line each.
-pub(crate) fn read(path: &Path, tag: Option<&str>) -> Result<Vec<Row>, Vec<String>> {
+pub fn read(path: &Path, tag: Option<&str>) -> Result<Vec<Row>, Vec<String>> {
     let name = path.display();
     let bytes = std::fs::read(path).map_err(|error| vec![format!("manifest {name} cannot be read: {error}")])?;
     let table = parse(&bytes)
@@ -104,7 +104,7 @@ pub(crate) fn read(path: &Path, tag: Option<&str>) -> Result<Vec<Row>, Vec<Strin
 ///
 /// # Errors
 /// Everything that is wrong with it, a line each.
-pub(crate) fn rows_of(path: &Path, ids: &BTreeSet<&str>, folder: &Path) -> Result<Vec<Column>, Vec<String>> {
+pub fn rows_of(path: &Path, ids: &BTreeSet<&str>, folder: &Path) -> Result<Vec<Column>, Vec<String>> {
     let fail = |reason: String| vec![format!("manifest {} cannot be read: {reason}", path.display())];
     let bytes = std::fs::read(path).map_err(|error| fail(error.to_string()))?;
     let table = parse(&bytes).map_err(|error| fail(error.to_string()))?;

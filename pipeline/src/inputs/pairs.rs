@@ -9,7 +9,7 @@ use super::checksum;
 use super::manifest::{ComponentFile, Row};
 
 /// A pair with the SHA-256 of what each component was read from.
-pub(crate) type CheckedPair = (RecordPair, [String; 2]);
+pub type CheckedPair = (RecordPair, [String; 2]);
 
 /// Key in the metadata of a pair: by how many seconds its components begin apart, where their files say so.
 pub(super) const START_APART: &str = "start_apart_s";
@@ -18,7 +18,7 @@ pub(super) const START_APART: &str = "start_apart_s";
 ///
 /// # Errors
 /// Everything that is wrong with the files, a line each.
-pub(crate) fn read(rows: Vec<Row>, gravity_m_s2: f64) -> Result<Vec<CheckedPair>, Vec<String>> {
+pub fn read(rows: Vec<Row>, gravity_m_s2: f64) -> Result<Vec<CheckedPair>, Vec<String>> {
     let read: Vec<Result<CheckedPair, Vec<String>>> =
         rows.into_par_iter().map(|row| read_row(row, gravity_m_s2)).collect();
     let mut pairs = Vec::new();
@@ -53,7 +53,7 @@ fn read_row(row: Row, gravity_m_s2: f64) -> Result<CheckedPair, Vec<String>> {
 }
 
 /// Reads the component that a row of a manifest names, with the SHA-256 of its file.
-pub(crate) fn read_component(file: &ComponentFile, options: &ReadOptions) -> Result<(Recording, String), String> {
+pub fn read_component(file: &ComponentFile, options: &ReadOptions) -> Result<(Recording, String), String> {
     let path: &Path = &file.path;
     let bytes = record_bytes(path).map_err(|error| error.to_string())?;
     let sum = checksum(&bytes);

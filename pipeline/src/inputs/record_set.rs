@@ -10,7 +10,7 @@ use uplift_motion::{Accelerogram, Combination, Component, Horizontal, IntensityM
 use super::pairs::{self, CheckedPair};
 use super::{cache, checksum, manifest, selection};
 use crate::error::UpliftError;
-use crate::study::{RecordSource, ResolvedStudy};
+use uplift_study::{RecordSource, ResolvedStudy};
 
 /// One analysis record: a component of a pair with the intensity of the pair.
 #[derive(Debug, Clone)]

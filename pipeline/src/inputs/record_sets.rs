@@ -11,7 +11,7 @@ use super::pairs;
 use super::record_set::{alike, is_made, synthetic_pairs};
 use super::selection;
 use crate::error::UpliftError;
-use crate::study::{DisplacementStudy, RecordSource, SetPlan};
+use uplift_study::{DisplacementStudy, RecordSource, SetPlan};
 
 /// Name of the set where a study names none.
 const ALL_RECORDS: &str = "all records";

@@ -5,14 +5,14 @@ use uplift_motion::{Combination, IntensityMeasure, RecordPair, classify_pulse, g
 
 use super::pairs::CheckedPair;
 use crate::error::UpliftError;
-use crate::study::RecordSelection;
+use uplift_study::RecordSelection;
 
 /// The pairs that pass `selection`, their peaks combined as `intensity` says and in multiples of `gravity_m_s2`; and notes about
 /// those of which something is not known.
 ///
 /// # Errors
 /// Where none passes, or a measure cannot be had.
-pub(crate) fn select(
+pub fn select(
     pairs: Vec<CheckedPair>,
     selection: &RecordSelection,
     intensity: Combination,

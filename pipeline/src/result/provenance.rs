@@ -2,7 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use super::LAYOUT;
 use super::extend::now;
+use crate::error::UpliftError;
+use uplift_labelled::LabelledWriter;
 use crate::inputs::{RecordSet, SiteHazard};
 
 /// What someone needs to repeat a run.
@@ -62,5 +65,42 @@ impl Provenance {
             self.study_file
         )
         .replace(['\n', '\r'], " ")
+    }
+}
+
+/// Where the numbers of a result come from: the attributes of the root that results of every kind have.
+pub struct Origin<'a> {
+    pub title: &'a str,
+    pub study_toml: &'a str,
+    pub gravity_m_s2: f64,
+    pub record_set: &'a str,
+    pub synthetic: bool,
+    pub warnings: &'a [String],
+    pub provenance: &'a Provenance,
+}
+
+impl Origin<'_> {
+    pub fn write(&self, writer: &mut LabelledWriter) -> Result<(), UpliftError> {
+        let provenance = self.provenance;
+        let checksums = serde_json::to_string(&provenance.input_checksums)
+            .map_err(|error| UpliftError::input(error.to_string()))?;
+        writer.attribute("/", "program", "uplift")?;
+        writer.attribute("/", "version", crate::VERSION)?;
+        writer.attribute("/", "commit", crate::COMMIT)?;
+        writer.attribute("/", "layout", LAYOUT)?;
+        writer.attribute("/", "created", provenance.created.as_str())?;
+        writer.attribute("/", "command", provenance.command.as_str())?;
+        writer.attribute("/", "title", self.title)?;
+        writer.attribute("/", "study_file", provenance.study_file.as_str())?;
+        writer.attribute("/", "study_toml", self.study_toml)?;
+        writer.attribute("/", "gravity_m_s2", self.gravity_m_s2)?;
+        writer.attribute("/", "record_set", self.record_set)?;
+        writer.attribute("/", "synthetic", i64::from(self.synthetic))?;
+        writer.attribute("/", "input_checksums", checksums.as_str())?;
+        writer.attribute("/", "warnings", self.warnings.join("\n").as_str())?;
+        writer.attribute("/", "threads", i64::try_from(provenance.threads).unwrap_or(i64::MAX))?;
+        writer.attribute("/", "wall_time_s", provenance.wall_time_s)?;
+        writer.attribute("/", "platform", format!("{} {}", std::env::consts::OS, std::env::consts::ARCH).as_str())?;
+        Ok(())
     }
 }

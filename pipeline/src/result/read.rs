@@ -4,8 +4,8 @@ use std::path::Path;
 
 use super::LAYOUT;
 use crate::error::UpliftError;
-use crate::labelled::LabelledReader;
-use crate::study::DISPLACEMENT_SPECTRA;
+use uplift_labelled::LabelledReader;
+use uplift_study::DISPLACEMENT_SPECTRA;
 
 /// A uniform risk spectrum.
 #[derive(Debug, Clone, PartialEq)]
@@ -105,7 +105,7 @@ impl StoredResult {
 ///
 /// # Errors
 /// A file that is missing, damaged, no result, of another kind, or of another layout.
-pub(crate) fn open_result(path: &Path) -> Result<LabelledReader, UpliftError> {
+pub fn open_result(path: &Path) -> Result<LabelledReader, UpliftError> {
     let reader = open_any_result(path)?;
     if holds_displacement_spectra(&reader) {
         return Err(UpliftError::input(format!(
@@ -117,7 +117,7 @@ pub(crate) fn open_result(path: &Path) -> Result<LabelledReader, UpliftError> {
 }
 
 /// Whether a result is of displacement spectra.
-pub(crate) fn holds_displacement_spectra(reader: &LabelledReader) -> bool {
+pub fn holds_displacement_spectra(reader: &LabelledReader) -> bool {
     reader.attribute_text("/", "kind").is_ok_and(|kind| kind == DISPLACEMENT_SPECTRA)
 }
 
@@ -125,7 +125,7 @@ pub(crate) fn holds_displacement_spectra(reader: &LabelledReader) -> bool {
 ///
 /// # Errors
 /// A file that is missing, damaged, no result, or of another layout.
-pub(crate) fn open_any_result(path: &Path) -> Result<LabelledReader, UpliftError> {
+pub fn open_any_result(path: &Path) -> Result<LabelledReader, UpliftError> {
     let reader = LabelledReader::open(path)?;
     let program = reader.attribute_text("/", "program").unwrap_or_default();
     if program != "uplift" {

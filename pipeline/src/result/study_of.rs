@@ -11,9 +11,9 @@ use super::open_result;
 use super::stored::poe_index;
 use crate::error::UpliftError;
 use crate::inputs::{RecordSet, read_records};
-use crate::kept::motion_key;
-use crate::labelled::{LabelledError, LabelledReader};
-use crate::study::{Extrapolate, MeasurePlan, ResolvedStudy, Study};
+use crate::checkpoint::{motion_key};
+use uplift_labelled::{LabelledError, LabelledReader};
+use uplift_study::{Extrapolate, MeasurePlan, ResolvedStudy, Study};
 
 /// Parts of a study that the result holds itself, or that matter no more.
 const LEFT_OUT: [&str; 4] = ["sites", "site_table", "output", "bootstrap"];

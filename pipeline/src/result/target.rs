@@ -4,7 +4,7 @@ use std::io::Read;
 use std::path::Path;
 
 use crate::error::UpliftError;
-use crate::labelled::{LabelledReader, LabelledWriter};
+use uplift_labelled::{LabelledReader, LabelledWriter};
 
 /// First bytes of every HDF5 file.
 const HDF5_SIGNATURE: [u8; 8] = *b"\x89HDF\r\n\x1a\n";
@@ -35,7 +35,7 @@ pub fn check_target(path: &Path) -> Result<(), UpliftError> {
 }
 
 /// Whether the file at `path` begins as an HDF5 file does.
-pub(crate) fn is_hdf5(path: &Path) -> bool {
+pub fn is_hdf5(path: &Path) -> bool {
     let mut first = [0; 8];
     let read = std::fs::File::open(path).and_then(|mut file| file.read_exact(&mut first));
     read.is_ok() && first == HDF5_SIGNATURE

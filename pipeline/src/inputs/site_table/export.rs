@@ -10,7 +10,7 @@ use uplift_risk::StripeWeights;
 use super::super::hazard::{implausible, of_the_records_definition, stripe_weights};
 use super::ListedSite;
 use crate::error::UpliftError;
-use crate::study::{MeasurePlan, ResolvedStudy, definition_of};
+use uplift_study::{MeasurePlan, ResolvedStudy, definition_of};
 
 /// Mistakes that are told one by one.
 const MISTAKES_TOLD: usize = 8;

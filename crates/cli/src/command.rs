@@ -1,0 +1,150 @@
+//! What the user can type.
+
+mod bootstrap;
+mod check;
+mod confidence;
+mod design;
+mod displacement;
+mod export;
+mod figure_files;
+mod hazard;
+mod influence;
+mod measures;
+mod merge;
+mod overturning;
+mod plot;
+mod pulse;
+mod records;
+mod reference;
+mod report;
+mod response;
+mod result_of;
+mod run;
+mod site_table;
+mod status;
+mod structure;
+mod table;
+mod verify;
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+
+use uplift::UpliftError;
+use crate::terminal::Terminal;
+use uplift_study::{AnyStudy, ResolvedStudy, Study};
+
+/// Uniform risk spectra for rocking structures.
+///
+/// From ground motions and site hazard to the displacement that a structure of a given uplift strength must survive so that its
+/// annual risk is what the engineer chose.
+#[derive(Debug, Parser)]
+#[command(name = "uplift", version = uplift::VERSION_AND_COMMIT, max_term_width = 100)]
+#[command(
+    after_help = "Exit codes: 0 done, 2 usage, 3 study or structure file, 4 input data or disk, 5 interrupted, 1 a bug.\n\
+    Start with: uplift run configs/quick.toml"
+)]
+pub struct Arguments {
+    /// Threads to use; the numbers do not depend on it [default: all cores]
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
+    threads: Option<u16>,
+    /// No progress and no remarks, only results and errors
+    #[arg(long, short, global = true)]
+    quiet: bool,
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Run a study: uniform risk spectra with their coefficients, or displacement spectra of record sets; one result file
+    Run(run::RunArguments),
+    /// Join the shards of a run into its result
+    Merge(merge::MergeArguments),
+    /// How far a run is, and what a result holds
+    Status(status::StatusArguments),
+    /// Check that every byte of a result is as it was written
+    Verify(verify::VerifyArguments),
+    /// Check a study and its input data, and say what it would cost
+    Check(check::CheckArguments),
+    /// Shake one oscillator with one record
+    Response(response::ResponseArguments),
+    /// Rocking spectra of a rigid block under Ricker wavelets: figures and tables (Figures 2.2 to 2.7)
+    Pulse(pulse::PulseArguments),
+    /// How sure the spectra are: confidence bands from resampled records (Table 4.1)
+    Bootstrap(bootstrap::BootstrapArguments),
+    /// Which records carry the spectra (jackknife), and which intensities (disaggregation)
+    Influence(influence::InfluenceArguments),
+    /// Which intensity measure to trust: efficiency and sufficiency
+    Measures(measures::MeasuresArguments),
+    /// Design a structure by a spectrum, and test the design by the structure's own risk
+    Design(design::DesignArguments),
+    /// How often a structure overturns: collapse fragility and risk, by oscillator and rigid block
+    Overturning(overturning::OverturningArguments),
+    /// Bring record files: import a folder, list, show, choose, synthesize
+    Records(records::RecordsArguments),
+    /// Bring hazard curves: take them from the exports of engines, show, draw
+    Hazard(hazard::HazardArguments),
+    /// Draw the figures of a result
+    Plot(plot::PlotArguments),
+    /// Write one page with everything, to hand over: HTML that needs no network
+    Report(report::ReportArguments),
+    /// Write the spectra and coefficients of a result as CSV, JSON or a MATLAB file
+    Export(export::ExportArguments),
+    /// Print the coefficients of a result (Table 4.2), or its design example (Tables 2.1-2.3, 3.2-3.7), beside a reference if one is given
+    Table(table::TableArguments),
+}
+
+/// A study file and what is changed of it.
+#[derive(Debug, Args)]
+struct StudyArguments {
+    /// Study file (TOML), for instance configs/europe.toml
+    study: PathBuf,
+    /// Change a key of the study for this run, for instance --set records.first=20; paths are relative to the current directory
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    overrides: Vec<String>,
+}
+
+impl StudyArguments {
+    fn load(&self) -> Result<ResolvedStudy, UpliftError> {
+        Ok(Study::load(&self.study, &self.overrides)?)
+    }
+
+    fn load_any(&self) -> Result<AnyStudy, UpliftError> {
+        Ok(Study::load_any(&self.study, &self.overrides)?)
+    }
+}
+
+/// Carry out what was typed.
+///
+/// # Errors
+/// Whatever the user should know; see [`UpliftError::exit_code`].
+pub fn execute(arguments: &Arguments) -> Result<(), UpliftError> {
+    if let Some(threads) = arguments.threads {
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(usize::from(threads))
+            .build_global()
+            .map_err(|error| UpliftError::Usage(format!("--threads {threads}: {error}")))?;
+    }
+    let session = Terminal::new(arguments.quiet);
+    match &arguments.command {
+        Command::Run(arguments) => run::run(arguments, &session),
+        Command::Merge(arguments) => merge::merge(arguments, &session),
+        Command::Status(arguments) => status::status(arguments),
+        Command::Verify(arguments) => verify::verify(arguments, &session),
+        Command::Check(arguments) => check::check(arguments, &session),
+        Command::Response(arguments) => response::response(arguments),
+        Command::Pulse(arguments) => pulse::pulse(arguments, &session),
+        Command::Bootstrap(arguments) => bootstrap::bootstrap(arguments, &session),
+        Command::Influence(arguments) => influence::influence(arguments, &session),
+        Command::Measures(arguments) => measures::measures(arguments, &session),
+        Command::Design(arguments) => design::design(arguments, &session),
+        Command::Overturning(arguments) => overturning::overturning(arguments, &session),
+        Command::Records(arguments) => records::records(arguments, &session),
+        Command::Hazard(arguments) => hazard::hazard(arguments, &session),
+        Command::Plot(arguments) => plot::plot(arguments, &session),
+        Command::Report(arguments) => report::report(arguments, &session),
+        Command::Export(arguments) => export::export(arguments, &session),
+        Command::Table(arguments) => table::table(arguments),
+    }
+}

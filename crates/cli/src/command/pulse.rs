@@ -1,0 +1,221 @@
+//! `uplift pulse`: rocking spectra of a rigid block under Ricker wavelets.
+
+#![allow(clippy::doc_markdown)] // what --help prints has no backticks
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use serde_json::json;
+use uplift_block::RickerShape;
+
+use super::Terminal;
+use super::figure_files::{FigureArguments, provide_folder};
+use super::run::shown_path;
+use uplift::UpliftError;
+use uplift_report::figures::pulse_figures;
+use uplift::events::{Events, Progress};
+use uplift::pulses::{BlockPlan, PulsePlan, Summary, compute, summary, tables, wavelet};
+use uplift::result::{write_table};
+use uplift_study::Grid;
+use uplift::text::{table, thousands};
+
+/// Points of a map that a figure can show, and then some.
+const MOST_POINTS: usize = 4_000_000;
+/// Lines that a figure can tell apart.
+const MOST_LINES: usize = 7;
+
+#[derive(Debug, Args)]
+pub(super) struct PulseArguments {
+    /// Folder for figures and tables
+    #[arg(short, long, value_name = "FOLDER", default_value = "results/pulses")]
+    output: PathBuf,
+    /// Wavelet: second or third derivative of the Gaussian (Eq. 2.7, 2.8)
+    #[arg(long, value_enum, default_value_t = Shape::Both)]
+    shape: Shape,
+    /// Slenderness alpha of the block, atan(b/h), rad
+    #[arg(long, value_name = "RAD", default_value_t = 0.1, allow_negative_numbers = true)]
+    slenderness: f64,
+    /// Coefficient of restitution at impact [default: Housner's, Eq. 2.3]
+    #[arg(long, value_name = "R", allow_negative_numbers = true)]
+    restitution: Option<f64>,
+    /// Axis omega_p/p of the spectra
+    #[arg(long, value_name = "GRID", default_value = "0.04:0.04:8", help_heading = AXES, value_parser = axis, allow_negative_numbers = true)]
+    frequencies: Grid,
+    /// Axis a_p/(g tan alpha) of the spectra
+    #[arg(long, value_name = "GRID", default_value = "0.5:0.05:10", help_heading = AXES, value_parser = axis, allow_negative_numbers = true)]
+    accelerations: Grid,
+    /// Axis b omega_p^2/a_p of the spectrum by the width of the base
+    #[arg(long, value_name = "GRID", default_value = "0.025:0.025:6", help_heading = AXES, value_parser = axis, allow_negative_numbers = true)]
+    half_widths: Grid,
+    /// Values of omega_p/p that have a line over the acceleration
+    #[arg(long, value_name = "GRID", default_value = "1,2,3,4,6,8", help_heading = AXES, value_parser = lines, allow_negative_numbers = true)]
+    frequency_lines: Grid,
+    /// Values of a_p/(g tan alpha) that have a line over the size-frequency parameter
+    #[arg(long, value_name = "GRID", default_value = "1.25,1.5,2,3,5,8", help_heading = AXES, value_parser = lines, allow_negative_numbers = true)]
+    acceleration_lines: Grid,
+    /// Largest ground acceleration a_p, g
+    #[arg(long, value_name = "G", default_value_t = 1.0, help_heading = BLOCKS, allow_negative_numbers = true)]
+    amplitude_g: f64,
+    /// Period T_p of the wavelet, s [default: 0.5 symmetric, 1 antisymmetric]
+    #[arg(long, value_name = "S", help_heading = BLOCKS, allow_negative_numbers = true)]
+    period_s: Option<f64>,
+    /// Axis of sizes: parameter R, half the diagonal of the block, m
+    #[arg(long, value_name = "GRID", default_value = "0.5:0.05:30", help_heading = BLOCKS, value_parser = axis, allow_negative_numbers = true)]
+    sizes_m: Grid,
+    /// Slendernesses that have a line each, rad
+    #[arg(long, value_name = "GRID", default_value = "0.1:0.1:0.6", help_heading = BLOCKS, value_parser = lines, allow_negative_numbers = true)]
+    slendernesses: Grid,
+    #[command(flatten)]
+    figures: FigureArguments,
+    /// Print the summary as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+const AXES: &str = "Axes (numbers, or start:step:stop, set apart by commas)";
+const BLOCKS: &str = "Blocks with a size in metres";
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Shape {
+    Symmetric,
+    Antisymmetric,
+    Both,
+}
+
+/// Values above zero.
+fn positive(text: &str) -> Result<Grid, String> {
+    let grid: Grid = text.parse().map_err(|error: uplift_study::GridError| error.to_string())?;
+    match grid.first() {
+        Some(first) if *first <= 0.0 => Err(format!("{first} is not above zero: give values above zero")),
+        _ => Ok(grid),
+    }
+}
+
+fn axis(text: &str) -> Result<Grid, String> {
+    let grid = positive(text)?;
+    if grid.len() < 2 { Err("an axis has at least two values: write start:step:stop".to_owned()) } else { Ok(grid) }
+}
+
+fn lines(text: &str) -> Result<Grid, String> {
+    let grid = positive(text)?;
+    if grid.len() > MOST_LINES {
+        return Err(format!("{} lines cannot be told apart in one figure: give at most {MOST_LINES}", grid.len()));
+    }
+    Ok(grid)
+}
+
+impl PulseArguments {
+    fn plan(&self) -> PulsePlan {
+        PulsePlan {
+            shapes: match self.shape {
+                Shape::Symmetric => vec![RickerShape::Symmetric],
+                Shape::Antisymmetric => vec![RickerShape::Antisymmetric],
+                Shape::Both => vec![RickerShape::Symmetric, RickerShape::Antisymmetric],
+            },
+            slenderness_rad: self.slenderness,
+            restitution: self.restitution,
+            frequencies: self.frequencies.to_vec(),
+            accelerations: self.accelerations.to_vec(),
+            half_widths: self.half_widths.to_vec(),
+            frequency_slices: self.frequency_lines.to_vec(),
+            acceleration_slices: self.acceleration_lines.to_vec(),
+            blocks: BlockPlan {
+                amplitude_g: self.amplitude_g,
+                period_s: self.period_s,
+                sizes_m: self.sizes_m.to_vec(),
+                slendernesses_rad: self.slendernesses.to_vec(),
+            },
+        }
+    }
+}
+
+pub(super) fn pulse(arguments: &PulseArguments, session: &Terminal) -> Result<(), UpliftError> {
+    let plan = arguments.plan();
+    for (name, sizes) in [("--frequencies", &plan.frequencies), ("--half-widths", &plan.half_widths)] {
+        let points = sizes.len() * plan.accelerations.len();
+        if points > MOST_POINTS {
+            return Err(UpliftError::Usage(format!(
+                "{name} and --accelerations make a map of {} points: take larger steps, {} points are the most",
+                thousands(points as u64),
+                thousands(MOST_POINTS as u64)
+            )));
+        }
+    }
+    plan.check()?;
+    provide_folder(&arguments.output)?;
+    let progress = Progress::begin(session, "pulses", "motions", plan.points());
+    let computed = compute(&plan, &progress);
+    drop(progress);
+    let spectra = computed?;
+    session.set_farewell(format!(
+        "interrupted: files in {} are of this run or an earlier one. Run the same command again",
+        arguments.output.display()
+    ));
+    let mut files = Vec::new();
+    for figure in pulse_figures(&plan, &spectra) {
+        files.extend(arguments.figures.write(&figure, &arguments.output)?);
+    }
+    for table in tables(&spectra) {
+        let file = arguments.output.join(format!("{}.csv", table.id));
+        write_table(&file, &provenance(&plan), table.columns)?;
+        files.push(file);
+    }
+    let summaries: Vec<Summary> = spectra.iter().map(summary).collect();
+    let mut out = std::io::stdout().lock();
+    if arguments.json {
+        let files: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
+        let json = json!({
+            "slenderness_rad": plan.slenderness_rad,
+            "restitution": plan.restitution,
+            "wavelets": summaries,
+            "files": files,
+        });
+        writeln!(out, "{json:#}")?;
+        return Ok(());
+    }
+    print(&mut out, &summaries)?;
+    if !session.is_quiet() {
+        writeln!(out)?;
+        for file in files {
+            writeln!(out, "{}", shown_path(&file).display())?;
+        }
+    }
+    Ok(())
+}
+
+/// First line of the tables.
+fn provenance(plan: &PulsePlan) -> String {
+    let restitution = plan.restitution.map_or("Housner's restitution".to_owned(), |r| format!("restitution {r}"));
+    let periods: Vec<String> =
+        plan.shapes.iter().map(|&shape| format!("{} s ({})", plan.blocks.period_s(shape), wavelet(shape))).collect();
+    format!(
+        "uplift {} ({}); Ricker wavelets, {restitution}; alpha = {} rad, or as given; blocks with a size: a_p = {} g, T_p = {}; overturned = inf",
+        uplift::VERSION,
+        uplift::COMMIT,
+        plan.slenderness_rad,
+        plan.blocks.amplitude_g,
+        periods.join(", ")
+    )
+}
+
+fn print(out: &mut impl Write, summaries: &[Summary]) -> Result<(), UpliftError> {
+    let number = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value}"));
+    let row = |name: &str, cell: &dyn Fn(&Summary) -> String| {
+        std::iter::once(name.to_owned()).chain(summaries.iter().map(cell)).collect::<Vec<String>>()
+    };
+    let header: Vec<&str> = std::iter::once("Ricker wavelet").chain(summaries.iter().map(|of| of.wavelet)).collect();
+    let rows = [
+        row("motions over ω_p/p", &|of| thousands(of.points as u64)),
+        row("overturn without impact", &|of| thousands(of.overturned_without_impact as u64)),
+        row("overturn after impact", &|of| thousands(of.overturned_after_impact as u64)),
+        row("overturn from a_p/(g tan α)", &|of| number(of.smallest_overturning_acceleration)),
+        row("overturn up to ω_p/p", &|of| number(of.largest_overturning_frequency)),
+        row("overturn up to a base 2b ω_p²/a_p", &|of| {
+            let beyond = if of.larger_bases_may_overturn { " or more" } else { "" };
+            format!("{}{beyond}", number(of.largest_overturning_base))
+        }),
+    ];
+    writeln!(out, "{}", table(&header, &rows))?;
+    Ok(())
+}

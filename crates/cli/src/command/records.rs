@@ -1,0 +1,183 @@
+//! `uplift records`: record files, looked at, imported and chosen.
+
+mod import;
+mod list;
+mod select;
+mod show;
+mod synthesize;
+
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use clap::{Args, Subcommand};
+use uplift_motion::{AccelerationUnit, Combination, RecordFormat, STANDARD_GRAVITY_M_S2};
+
+use super::Terminal;
+use uplift::UpliftError;
+use uplift::inputs::pairs::CheckedPair;
+use uplift::inputs::{manifest, pairs, selection};
+use uplift_study::{CRITERIA, Criterion, Range, RecordSelection};
+
+#[derive(Debug, Args)]
+pub(super) struct RecordsArguments {
+    #[command(subcommand)]
+    command: RecordsCommand,
+}
+
+#[derive(Debug, Subcommand)]
+enum RecordsCommand {
+    /// Find the records in a folder of downloads, pair and measure them, write a manifest
+    Import(import::ImportArguments),
+    /// List the records of a manifest
+    List(list::ListArguments),
+    /// Show a record of a manifest, or what a record file holds
+    Show(show::ShowArguments),
+    /// Choose records of a manifest: the lines for a study, and a manifest of those chosen
+    Select(select::SelectArguments),
+    /// Make synthetic records of a scenario
+    Synthesize(synthesize::SynthesizeArguments),
+}
+
+pub(super) fn records(arguments: &RecordsArguments, session: &Terminal) -> Result<(), UpliftError> {
+    match &arguments.command {
+        RecordsCommand::Import(arguments) => import::import(arguments, session),
+        RecordsCommand::List(arguments) => list::list(arguments, session),
+        RecordsCommand::Show(arguments) => show::show(arguments),
+        RecordsCommand::Select(arguments) => select::select(arguments, session),
+        RecordsCommand::Synthesize(arguments) => synthesize::synthesize(arguments, session),
+    }
+}
+
+/// What the files do not say.
+#[derive(Debug, Clone, Copy, Args)]
+struct FileArguments {
+    /// Format of the files: at2, esm, knet, cosmos, csmip or columns [default: told by their content]
+    #[arg(long, value_name = "FORMAT")]
+    format: Option<RecordFormat>,
+    /// Unit of files that name none: g, m/s2, cm/s2 or gal
+    #[arg(long, value_name = "UNIT")]
+    unit: Option<AccelerationUnit>,
+    /// Time step of files with one column that name none, s
+    #[arg(long, value_name = "SECONDS")]
+    dt_s: Option<f64>,
+    /// Acceleration of gravity, m/s2
+    #[arg(long, value_name = "M_S2", default_value_t = STANDARD_GRAVITY_M_S2)]
+    gravity_m_s2: f64,
+}
+
+/// A manifest, and which of its records.
+#[derive(Debug, Args)]
+struct SetArguments {
+    /// Manifest of a record set (CSV), as `uplift records import` writes it
+    #[arg(value_name = "SET")]
+    set: PathBuf,
+    /// Only rows whose `set_tags` contain this word
+    #[arg(long, value_name = "WORD", help = "Only rows whose set_tags contain this word")]
+    tag: Option<String>,
+    /// How the peaks of two components make one: geometric-mean, rotd50 or rotd100
+    #[arg(long, value_name = "WORD", default_value_t = Combination::GeometricMean)]
+    intensity: Combination,
+    #[command(flatten)]
+    criteria: CriteriaArguments,
+}
+
+/// Ranges such as 6.5:7.5, 6.5: or :7.5.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Which records (ranges such as 6.5:7.5, 6.5: or :7.5)")]
+struct CriteriaArguments {
+    /// Magnitude
+    #[arg(long, value_name = "RANGE", value_parser = range)]
+    magnitude: Option<Range>,
+    /// Closest distance to the rupture, km
+    #[arg(long, value_name = "RANGE", value_parser = range)]
+    rrup_km: Option<Range>,
+    /// Distance to the epicentre, km
+    #[arg(long, value_name = "RANGE", value_parser = range)]
+    repi_km: Option<Range>,
+    /// Mean shear-wave velocity of the upper 30 m, m/s
+    #[arg(long, value_name = "RANGE", value_parser = range)]
+    vs30: Option<Range>,
+    /// Lowest usable frequency, Hz
+    #[arg(long, value_name = "RANGE", value_parser = range)]
+    lowest_usable_hz: Option<Range>,
+    /// PGA of the pair, g
+    #[arg(long, value_name = "RANGE", value_parser = range)]
+    pga_g: Option<Range>,
+    /// PGV of the pair, cm/s
+    #[arg(long, value_name = "RANGE", value_parser = range)]
+    pgv_cm_s: Option<Range>,
+    /// Significant duration D5-75, s
+    #[arg(long = "d5-75-s", value_name = "RANGE", value_parser = range)]
+    d5_75_s: Option<Range>,
+    /// Significant duration D5-95, s
+    #[arg(long = "d5-95-s", value_name = "RANGE", value_parser = range)]
+    d5_95_s: Option<Range>,
+    /// Whether the motion has a velocity pulse (Shahi and Baker 2014): true or false
+    #[arg(long, value_name = "BOOL")]
+    pulse_like: Option<bool>,
+}
+
+fn range(text: &str) -> Result<Range, String> {
+    Range::parse(text).ok_or_else(|| format!("write {}, the smaller number first", Range::ACCEPTED))
+}
+
+impl CriteriaArguments {
+    fn selection(&self) -> RecordSelection {
+        let given = [
+            ("magnitude", self.magnitude),
+            ("rrup_km", self.rrup_km),
+            ("repi_km", self.repi_km),
+            ("vs30", self.vs30),
+            ("lowest_usable_hz", self.lowest_usable_hz),
+            ("pga_g", self.pga_g),
+            ("pgv_cm_s", self.pgv_cm_s),
+            ("d5_75_s", self.d5_75_s),
+            ("d5_95_s", self.d5_95_s),
+        ];
+        let of = |criterion: Criterion| {
+            let range = given.iter().find(|(key, _)| *key == criterion.key)?.1?;
+            Some((criterion, range))
+        };
+        RecordSelection { ranges: CRITERIA.into_iter().filter_map(of).collect(), pulse_like: self.pulse_like }
+    }
+}
+
+impl SetArguments {
+    /// The records of the set that are asked for, and how many it has in all.
+    fn read(&self, session: &Terminal) -> Result<(Vec<CheckedPair>, usize), UpliftError> {
+        let rows = manifest::read(&self.set, self.tag.as_deref()).map_err(UpliftError::Inputs)?;
+        let count = rows.len();
+        let pairs = pairs::read(rows, STANDARD_GRAVITY_M_S2).map_err(UpliftError::Inputs)?;
+        let (chosen, notes) =
+            selection::select(pairs, &self.criteria.selection(), self.intensity, STANDARD_GRAVITY_M_S2)?;
+        for note in notes {
+            session.note(&format!(
+"{note}"));
+        }
+        Ok((chosen, count))
+    }
+}
+
+/// A file that is there already gives way only if this program wrote it.
+pub(super) fn refuse_foreign(output: &Path) -> Result<(), UpliftError> {
+    let mut head = Vec::new();
+    let read = std::fs::File::open(output).and_then(|file| file.take(4096).read_to_end(&mut head));
+    if read.is_ok() && !head.windows(7).any(|word| word == b"uplift ") {
+        return Err(UpliftError::Usage(format!(
+            "{} is there already, and was not written by this program: give another name",
+            output.display()
+        )));
+    }
+    Ok(())
+}
+
+/// A path that must not be one of the inputs.
+pub(super) fn refuse_overwriting(output: &Path, inputs: &[&Path]) -> Result<(), UpliftError> {
+    let same = |input: &&&Path| matches!((output.canonicalize(), input.canonicalize()), (Ok(a), Ok(b)) if a == b);
+    match inputs.iter().find(same) {
+        Some(_) => {
+            Err(UpliftError::Usage(format!("-o {} would overwrite an input: give another name", output.display())))
+        }
+        None => Ok(()),
+    }
+}

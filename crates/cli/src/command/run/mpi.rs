@@ -1,0 +1,142 @@
+//! `uplift run` under `mpirun`: every rank computes one shard of the stripes, and the first joins them.
+//!
+//! The ranks share nothing but the file system. MPI says who they are, lets the first wait for the others, and ends all when one fails: the
+//! shards are then as those of any run that stopped, and the same command goes on from there.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+use ::mpi::Threading;
+use ::mpi::topology::SimpleCommunicator;
+use ::mpi::traits::{Communicator, CommunicatorCollectives};
+
+use super::{
+    KeptPieces, Part, RunArguments, Terminal, UpliftError, check_target, print_outcome, read_hazard, run_shard,
+    run_study_from, shard_path, site_table,
+};
+use uplift::checkpoint::{PieceFile};
+
+/// What the starters of ranks tell them: Open MPI, `PMIx` (Slurm among others), and PMI (MPICH, Intel MPI, Slurm).
+const STARTED_BY: [&str; 3] = ["OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"];
+/// How often a rank that waits for the others looks whether they are there.
+const LOOK_EVERY: Duration = Duration::from_millis(20);
+
+/// Carries out a run as one of several ranks; none where this program was not started as such.
+pub(super) fn run(arguments: &RunArguments, session: &Terminal) -> Option<Result<(), UpliftError>> {
+    // without one of these MPI would be a world of one, at the price of starting it
+    STARTED_BY.iter().find(|name| std::env::var_os(name).is_some())?;
+    let (universe, _) = ::mpi::initialize_with_threading(Threading::Funneled)?;
+    let world = universe.world();
+    let [index, count] = [world.rank(), world.size()].map(|number| u64::try_from(number).unwrap_or_default());
+    if count < 2 {
+        return None;
+    }
+    let part = Part { index, count };
+    let outcome = catch_unwind(AssertUnwindSafe(|| run_rank(arguments, &world, part, session)));
+    match outcome {
+        Ok(done @ (Ok(()) | Err(UpliftError::OutputClosed))) => Some(done),
+        // a stop is sent to all ranks, and one says so
+        Ok(Err(error @ (UpliftError::Paused { .. } | UpliftError::Interrupted))) => {
+            if index == 0 {
+                tell_error(&error);
+            }
+            std::process::exit(error.exit_code().into())
+        }
+        // the others would wait for this rank for ever: it ends them
+        Ok(Err(error)) => {
+            session.set_farewell(format!("rank {index} of {count} has ended the run"));
+            let host = ::mpi::environment::processor_name().unwrap_or_default();
+            eprintln!("uplift: rank {index} of {count} on {host} ends the run:");
+            tell_error(&error);
+            world.abort(error.exit_code().into())
+        }
+        Err(_) => world.abort(1),
+    }
+}
+
+/// The part of one rank, and for the first all that comes after the stripes.
+fn run_rank(
+    arguments: &RunArguments,
+    world: &SimpleCommunicator,
+    part: Part,
+    session: &Terminal,
+) -> Result<(), UpliftError> {
+    let first = part.index == 0;
+    // the first looks before the others do, so that a mistake is said once
+    if !first {
+        wait(world, session)?;
+    }
+    if arguments.shard.is_some() {
+        return Err(UpliftError::Usage("each rank takes its own shard: leave --shard out under mpirun".to_owned()));
+    }
+    let study = arguments.study.load()?;
+    let path = arguments.output.clone().unwrap_or_else(|| study.output.file.clone());
+    let own = session.hushed(!first);
+    if first {
+        check_target(&path)?;
+        read_hazard(&study)?;
+        site_table::read(&study, &path, &own)?;
+        wait(world, session)?;
+    }
+    let threads = rayon::current_num_threads();
+    // said now, since a launcher that ends the ranks may no longer listen to them
+    own.say(&format!(
+        "ranks    {}, this one with {threads} threads; whatever ends them, what they finished is kept and the same command goes on",
+        part.count
+    ));
+    let shard = shard_path(&path, part);
+    let pieces = run_shard(&study, &shard, part, Some(&path), &own)?;
+    wait(world, session).map_err(|_| UpliftError::Paused {
+        what: "pieces",
+        done: pieces,
+        total: pieces,
+        path: shard,
+    })?;
+    if !first {
+        return Ok(());
+    }
+
+    let mut kept = KeptPieces::default();
+    let mut work = None;
+    let shards: Vec<_> = (0..part.count).map(|index| shard_path(&path, Part { index, ..part })).collect();
+    for shard in &shards {
+        let found = PieceFile::read(shard)?.ok_or_else(|| {
+            UpliftError::input(format!(
+                "{}: is not there: the result must lie in a folder that all ranks share",
+                shard.display()
+            ))
+        })?;
+        if *work.get_or_insert_with(|| found.head.work.clone()) != found.head.work {
+            return Err(UpliftError::input(format!(
+                "{}: is a shard of other work: every node must have the same study, records and program",
+                shard.display()
+            )));
+        }
+        kept.extend(found.kept);
+    }
+    run_study_from(&study, &arguments.study.study, &path, kept, session, |outcome, files, seconds| {
+        print_outcome(arguments.json, session, outcome, files, seconds)
+    })?;
+    for shard in &shards {
+        let _ = std::fs::remove_file(shard);
+    }
+    Ok(())
+}
+
+/// Waits until all ranks are here, without a core for it.
+fn wait(world: &SimpleCommunicator, session: &Terminal) -> Result<(), UpliftError> {
+    let mut all_here = world.immediate_barrier();
+    loop {
+        match all_here.test() {
+            Ok(_) => return Ok(()),
+            Err(not_yet) => all_here = not_yet,
+        }
+        if session.cancelled() {
+            // the program ends here; a request must not be dropped before it is complete
+            std::mem::forget(all_here);
+            return Err(UpliftError::Interrupted);
+        }
+        std::thread::sleep(LOOK_EVERY);
+    }
+}

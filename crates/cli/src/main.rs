@@ -1,0 +1,33 @@
+//! The program `uplift`.
+
+use std::io::Write;
+use std::process::ExitCode;
+
+use clap::Parser;
+
+mod command;
+mod terminal;
+
+use command::Arguments;
+
+/// A panic is a bug of the program; everything a user can cause is an error with a message.
+const EXIT_BUG: u8 = 1;
+
+fn main() -> ExitCode {
+    std::panic::set_hook(Box::new(|info| {
+        // where nobody listens any more, a panic within this one would end the program without its exit code
+        let _ = writeln!(
+            std::io::stderr(),
+            "uplift: a bug in the program: {info}\nPlease report it with the study file and this line. No result file was touched."
+        );
+    }));
+    let outcome = std::panic::catch_unwind(|| command::execute(&Arguments::parse()));
+    match outcome {
+        Ok(Ok(())) => ExitCode::SUCCESS,
+        Ok(Err(error)) => {
+            terminal::tell_error(&error);
+            ExitCode::from(error.exit_code())
+        }
+        Err(_) => ExitCode::from(EXIT_BUG),
+    }
+}

@@ -1,0 +1,145 @@
+//! The terminal as jobs see it: remarks on standard error, a progress bar or plain lines, Ctrl-C.
+
+mod progress;
+
+use std::io::{IsTerminal, Write};
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError, RwLock};
+use std::time::Duration;
+
+use miette::{GraphicalReportHandler, GraphicalTheme};
+use uplift::events::{Events, Phase};
+use uplift::UpliftError;
+
+use progress::Progress;
+
+/// What the shell sees of an interruption.
+const EXIT_INTERRUPTED: i32 = 5;
+/// How long an interrupted program may take to come to a good end by itself.
+const GRACE: Duration = Duration::from_millis(800);
+
+/// Where the user sits. Where nobody listens any more, a closed pipe or a full disk, what is said is lost, and the work
+/// goes on.
+pub struct Terminal {
+    quiet: bool,
+    stop: Arc<AtomicBool>,
+    /// What is said where an interruption cannot wait for the work in hand.
+    farewell: Arc<Mutex<String>>,
+    progress: RwLock<Option<Progress>>,
+}
+
+impl Terminal {
+    /// A terminal that hears Ctrl-C from now on; a quiet one tells results and errors only.
+    pub fn new(quiet: bool) -> Self {
+        let stop = Arc::new(AtomicBool::new(false));
+        let farewell = Arc::new(Mutex::new(UpliftError::Interrupted.to_string()));
+        let terminal = Self { quiet, stop: stop.clone(), farewell: farewell.clone(), progress: RwLock::new(None) };
+        // where no handler can be set, Ctrl-C ends the program at once, which does no harm either
+        let _ = ctrlc::set_handler(move || {
+            if stop.swap(true, Ordering::Relaxed) {
+                std::process::exit(EXIT_INTERRUPTED); // asked twice
+            }
+            let farewell = farewell.clone();
+            std::thread::spawn(move || {
+                std::thread::sleep(GRACE);
+                // what is being written now is written to a file of its own, and an earlier file is as it was
+                tell(&format!("uplift: {}", farewell.lock().unwrap_or_else(PoisonError::into_inner)));
+                std::process::exit(EXIT_INTERRUPTED);
+            });
+        });
+        terminal
+    }
+
+    /// Whether only results and errors are told.
+    pub fn is_quiet(&self) -> bool {
+        self.quiet
+    }
+
+    /// The same terminal for a process that must not speak.
+    #[cfg(feature = "mpi")]
+    pub(crate) fn hushed(&self, quiet: bool) -> Self {
+        Self {
+            quiet: self.quiet || quiet,
+            stop: self.stop.clone(),
+            farewell: self.farewell.clone(),
+            progress: RwLock::new(None),
+        }
+    }
+
+    /// From now on, this is what an interruption leaves.
+    pub(crate) fn set_farewell(&self, words: String) {
+        *self.farewell.lock().unwrap_or_else(PoisonError::into_inner) = words;
+    }
+
+    /// A line on standard error, unless it was asked for quiet.
+    pub(crate) fn say(&self, text: &str) {
+        if !self.quiet {
+            tell(text);
+        }
+    }
+}
+
+impl Events for Terminal {
+    fn remark(&self, topic: &str, text: &str) {
+        self.say(&format!("{topic:<8} {text}"));
+    }
+
+    fn note(&self, text: &str) {
+        self.say(&format!("note: {text}"));
+    }
+
+    fn begin(&self, phase: Phase<'_>) {
+        let progress = (!self.quiet).then(|| Progress::new(phase));
+        *self.progress.write().unwrap_or_else(PoisonError::into_inner) = progress;
+    }
+
+    fn advance(&self, steps: u64) {
+        if let Some(progress) = &*self.progress.read().unwrap_or_else(PoisonError::into_inner) {
+            progress.advance(steps);
+        }
+    }
+
+    fn end(&self) {
+        if let Some(progress) = self.progress.write().unwrap_or_else(PoisonError::into_inner).take() {
+            progress.close();
+        }
+    }
+
+    fn kept_in(&self, checkpoint: &Path) {
+        self.set_farewell(format!(
+            "interrupted: all that is finished is kept in {}. Run the same command to go on from there",
+            checkpoint.display()
+        ));
+    }
+
+    fn cancelled(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+}
+
+/// A line on standard error.
+pub(crate) fn tell(text: &str) {
+    let _ = writeln!(std::io::stderr(), "{text}");
+}
+
+/// Tells an error; a study's mistakes with their lines and carets.
+pub fn tell_error(error: &UpliftError) {
+    match error {
+        UpliftError::OutputClosed => {}
+        UpliftError::Study(error) => {
+            let theme = if std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none() {
+                GraphicalTheme::unicode()
+            } else {
+                GraphicalTheme::unicode_nocolor()
+            };
+            let mut text = String::new();
+            if GraphicalReportHandler::new_themed(theme).render_report(&mut text, error).is_ok() {
+                let _ = write!(std::io::stderr(), "{text}");
+            } else {
+                tell(&format!("uplift: {error}"));
+            }
+        }
+        other => tell(&format!("uplift: {other}")),
+    }
+}

@@ -1,0 +1,112 @@
+#![allow(clippy::unwrap_used)]
+
+use super::*;
+use crate::LabelledWriter;
+
+fn small_file(folder: &Path) -> PathBuf {
+    let path = folder.join("result.h5");
+    let mut writer = LabelledWriter::create(&path).unwrap();
+    writer.axis_f64("strength", &[0.1, 0.2], "1", "strength").unwrap();
+    writer.array_f64("/urs/u_m", &["strength"], &[1.0, 2.0], "m", "displacement").unwrap();
+    writer.attribute("/", "list", vec![1.0, 2.0]).unwrap();
+    writer.attribute("/", "program", "uplift").unwrap();
+    writer.finish().unwrap();
+    path
+}
+
+#[test]
+fn what_is_no_result_file_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let open = |path: &Path| LabelledReader::open(path).err().unwrap();
+    let message = open(&folder.path().join("none.h5")).to_string();
+    assert!(message.ends_with("none.h5: cannot open the file: No such file or directory (os error 2)"), "{message}");
+    assert!(matches!(open(folder.path()), LabelledError::NotAFile { found: "a folder", .. }));
+    for text in ["", "station,pga_g\nA,0.1\n", "\u{89}HDF\r\n\u{1a}\n"] {
+        let path = folder.path().join("text.h5");
+        fs::write(&path, text).unwrap();
+        assert!(matches!(open(&path), LabelledError::NotHdf5 { bytes, .. } if bytes == text.len() as u64));
+    }
+}
+
+#[test]
+fn a_file_cut_anywhere_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let whole = fs::read(small_file(folder.path())).unwrap();
+    let path = folder.path().join("cut.h5");
+    // behind the end of the arrays stands the checksum of them all, which HDF5 does not look at
+    let end = whole.windows(8).rposition(|word| word == b"\nuplift:").unwrap();
+    for length in [end, whole.len() - 1] {
+        fs::write(&path, &whole[..length]).unwrap();
+        assert_eq!(crate::verify(&path).unwrap().seal, crate::Seal::Missing);
+    }
+    for length in (0..end).step_by(37).chain([end - 1]) {
+        fs::write(&path, &whole[..length]).unwrap();
+        let error = LabelledReader::open(&path).err().unwrap();
+        let refused = match length {
+            // The signature and the superblock after it.
+            0..8 => matches!(error, LabelledError::NotHdf5 { .. }),
+            8..48 => true,
+            _ => matches!(error, LabelledError::Truncated { bytes, .. } if bytes == length as u64),
+        };
+        assert!(refused, "{length} bytes: {error}");
+    }
+}
+
+#[test]
+fn what_is_not_there_or_not_so_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let reader = LabelledReader::open(&small_file(folder.path())).unwrap();
+    let shown = |error: LabelledError| {
+        let message = error.to_string();
+        message.split_once("result.h5: ").unwrap().1.to_owned()
+    };
+    assert_eq!(shown(reader.array_f64("/urs/v_m").unwrap_err()), "has no /urs/v_m");
+    assert_eq!(shown(reader.array_f64("/none/u_m").unwrap_err()), "has no /none/u_m");
+    assert_eq!(shown(reader.array_f64("").unwrap_err()), "has no ");
+    assert_eq!(shown(reader.array_f64("a\0b").unwrap_err()), "has no a\0b");
+    assert_eq!(shown(reader.axis_f64("poe").unwrap_err()), "has no /axes/poe");
+    assert_eq!(shown(reader.children("/none").unwrap_err()), "has no /none");
+    assert_eq!(shown(reader.children("/urs/u_m").unwrap_err()), "/urs/u_m is an array, but a group is needed");
+    assert_eq!(shown(reader.array_f64("/urs").unwrap_err()), "/urs is a group, but an array is needed");
+    assert_eq!(shown(reader.array_u8("/urs/u_m").unwrap_err()), "/urs/u_m is of type float64, but uint8 is needed");
+    assert_eq!(shown(reader.array_text("/urs/u_m").unwrap_err()), "/urs/u_m is no text, but text is needed");
+    assert_eq!(shown(reader.attribute_f64("/", "seed").unwrap_err()), "has no attribute \"seed\" of /");
+    assert_eq!(
+        shown(reader.attribute_f64("/", "list").unwrap_err()),
+        "attribute \"list\" of / is a list of 2 numbers, but one number is needed"
+    );
+    assert!(matches!(reader.attribute_f64("/", "program"), Err(LabelledError::WrongType { .. })));
+    assert!(matches!(reader.attribute_text("/", "list"), Err(LabelledError::WrongType { .. })));
+    assert!(matches!(reader.attribute_i64("/", "list"), Err(LabelledError::WrongType { .. })));
+}
+
+#[test]
+fn foreign_files_are_read_as_far_as_they_go() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("foreign.h5");
+    let file = File::create(&path).unwrap();
+    file.new_dataset::<f64>().shape([2, 3]).create("unnamed").unwrap();
+    // Eight exabytes on paper, nothing on the disk.
+    file.new_dataset::<f64>().chunk((1, 1000)).shape([1 << 30, 1 << 30]).create("huge").unwrap();
+    let ascii = hdf5::types::FixedAscii::<8>::from_ascii("fixed").unwrap();
+    file.new_attr::<hdf5::types::FixedAscii<8>>().create("text").unwrap().write_scalar(&ascii).unwrap();
+    file.close().unwrap();
+
+    let reader = LabelledReader::open(&path).unwrap();
+    assert_eq!(reader.attribute_text("/", "text").unwrap(), "fixed");
+    assert!(matches!(reader.array_f64("/unnamed"), Err(LabelledError::WrongType { .. })));
+    let huge = reader.array_f64("/huge").unwrap_err().to_string();
+    assert!(huge.contains("does not fit into a file of"), "{huge}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_file_open_elsewhere_is_said_to_be() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = small_file(folder.path());
+    let elsewhere = fs::File::open(&path).unwrap();
+    elsewhere.lock().unwrap();
+    assert!(matches!(LabelledReader::open(&path), Err(LabelledError::Locked { .. })));
+    elsewhere.unlock().unwrap();
+    LabelledReader::open(&path).unwrap();
+}

@@ -1,0 +1,164 @@
+//! Displacement spectra of record sets (Figures 2.9 to 2.14 and 3.10 to 3.17).
+
+mod design;
+mod motions;
+mod spectra;
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use uplift::UpliftError;
+use uplift_plot::{Axis, Figure, Panel, Series, Tone};
+use uplift::result::{SpectrumPlace, StoredDisplacements, StoredStructures, axis_part, unique_axis};
+use uplift::text::nearest;
+
+/// How many of its figures a result is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Extent {
+    /// All of them.
+    All,
+    /// Those of the least uplift displacement and of the first way of scaling, which are the main text's.
+    Main,
+}
+
+/// A result of displacement spectra, read for its figures.
+struct DisplacementSource<'a> {
+    path: PathBuf,
+    stored: &'a StoredDisplacements,
+    /// The sets as they are called in names of figures.
+    words: Vec<String>,
+    extent: Extent,
+}
+
+/// The figures of the displacement spectra `stored`, read from `path`, in the order of the dissertation.
+///
+/// # Errors
+/// A file that is missing or damaged.
+pub fn displacement_figures(
+    path: &Path,
+    stored: &StoredDisplacements,
+    extent: Extent,
+) -> Result<Vec<Figure>, UpliftError> {
+    let mut taken = BTreeSet::new();
+    let words = stored.sets.iter().map(|set| unique_axis(axis_part(&set.name).replace('_', "-"), &mut taken)).collect();
+    let source = DisplacementSource { path: path.to_owned(), stored, words, extent };
+    let mut figures = Vec::new();
+    figures.extend(spectra::spectra(&source));
+    figures.extend(motions::motions(&source)?);
+    figures.extend(spectra::by_equal_energy(&source)?);
+    figures.extend(spectra::uplift_displacements(&source));
+    figures.extend(design::procedure(&source)?);
+    figures.extend(design::comparison(&source)?);
+    Ok(figures)
+}
+
+/// A line of a spectrum: what it is called, its position among the lines, its tone.
+struct Line {
+    name: String,
+    position: usize,
+    tone: Tone,
+}
+
+impl DisplacementSource<'_> {
+    fn figure(&self, id: String, title: String, caption: String, columns: usize, panels: Vec<Panel>) -> Figure {
+        let remark = if self.stored.synthetic { super::SYNTHETIC } else { "" };
+        Figure { id, title, caption, remark: remark.to_owned(), panels, columns }
+    }
+
+    /// Ways of scaling shown, by position.
+    fn scaled_by(&self) -> std::ops::Range<usize> {
+        match self.extent {
+            Extent::All => 0..self.stored.scaled_by.len(),
+            Extent::Main => 0..self.stored.scaled_by.len().min(1),
+        }
+    }
+
+    /// What is added to the name of a figure of one way of scaling: nothing for the first.
+    fn suffix(&self, scaled_by: usize) -> String {
+        if scaled_by == 0 { String::new() } else { format!("-by-{}", self.stored.scaled_by[scaled_by]) }
+    }
+
+    /// How motions are scaled, in words.
+    fn scaling_words(&self, scaled_by: usize) -> String {
+        format!("PGA or PGV of each {} scaled to a multiple of the set's median", self.stored.scaled_by[scaled_by])
+    }
+
+    /// Uplift displacements shown, by position and value; one without value for blocks.
+    fn uplift_displacements(&self) -> Vec<(usize, Option<f64>)> {
+        match &self.stored.structures {
+            StoredStructures::Blocks { .. } => vec![(0, None)],
+            StoredStructures::Oscillators { uplift_displacement_m, .. } => {
+                let shown = if self.extent == Extent::Main { 1 } else { uplift_displacement_m.len() };
+                uplift_displacement_m.iter().take(shown).map(|&value| Some(value)).enumerate().collect()
+            }
+        }
+    }
+
+    /// The lines of one uplift displacement: a capacity or a height each. The last, of the largest, is black.
+    fn lines(&self, uplift: usize) -> Vec<Line> {
+        let (values, name): (&[f64], fn(f64) -> String) = match &self.stored.structures {
+            StoredStructures::Blocks { height_m } => (height_m, |height_m| format!("2H = {height_m} m")),
+            StoredStructures::Oscillators { capacity_m, .. } => (capacity_m, capacity_name),
+        };
+        let tone = |index: usize| {
+            let black = 4;
+            Tone::Distinct(if index + 1 == values.len() { black } else { index + usize::from(index >= black) })
+        };
+        let line = |(index, &value): (usize, &f64)| Line {
+            name: name(value),
+            position: uplift * values.len() + index,
+            tone: tone(index),
+        };
+        values.iter().enumerate().map(line).collect()
+    }
+
+    /// Percentiles shown: the median, and the largest.
+    fn percentiles(&self) -> Vec<usize> {
+        let percentiles = &self.stored.percentiles;
+        let largest = (0..percentiles.len()).max_by(|&a, &b| percentiles[a].total_cmp(&percentiles[b]));
+        let mut shown = vec![self.median()];
+        shown.extend(largest.filter(|&largest| largest != self.median()));
+        shown
+    }
+
+    /// The median, or what is nearest to it.
+    fn median(&self) -> usize {
+        nearest(&self.stored.percentiles, &[50.0]).first().copied().unwrap_or_default()
+    }
+
+    /// What a percentile is called in the names of figures, and in words.
+    fn percentile_names(&self, percentile: usize) -> [String; 2] {
+        match self.stored.percentiles[percentile] {
+            50.0 => ["median", "median"].map(str::to_owned),
+            percent => [format!("percentile-{percent}"), format!("percentile {percent}")],
+        }
+    }
+
+    /// The axis of strengths or slendernesses, from end to end.
+    fn abscissa(&self) -> Axis {
+        let label = match self.stored.structures {
+            StoredStructures::Oscillators { .. } => super::STRENGTH,
+            StoredStructures::Blocks { .. } => "slenderness tan α",
+        };
+        super::spanned(Axis::linear(label), &self.stored.abscissas)
+    }
+
+    /// A line to the right of the last abscissa at which the structure overturns.
+    fn line_beyond_overturning(&self, line: &Line, ordinates_m: impl Iterator<Item = f64>) -> Series {
+        let mut points: Vec<(f64, f64)> = self.stored.abscissas.iter().copied().zip(ordinates_m).collect();
+        let from = points.iter().rposition(|point| point.1.is_infinite()).map_or(0, |last| last + 1);
+        points.drain(..from);
+        Series::line(line.name.clone(), points, line.tone)
+    }
+
+    /// Every set and way of scaling that is shown, of the first scaling.
+    fn places(&self) -> impl Iterator<Item = SpectrumPlace> {
+        let sets = self.stored.sets.len();
+        self.scaled_by()
+            .flat_map(move |scaled_by| (0..sets).map(move |set| SpectrumPlace { set, scaling: 0, scaled_by }))
+    }
+}
+
+fn capacity_name(capacity_m: f64) -> String {
+    if capacity_m.is_infinite() { "u_cap = ∞".to_owned() } else { format!("u_cap = {capacity_m} m") }
+}

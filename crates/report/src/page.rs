@@ -1,0 +1,194 @@
+//! The report: one HTML file that opens anywhere, with every figure, the tables and where the numbers come from.
+//!
+//! Styles and scripts are inside the file and nothing is fetched; its own policy forbids it. The figures are those of [`figures`](crate::figures), as SVG,
+//! with their values beside them for the script that reads them off.
+
+mod displacement;
+mod risk;
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use minijinja::{Environment, context};
+use serde::Serialize;
+
+use uplift::UpliftError;
+use uplift_plot::{Figure, Marks, PanelPlace, Width, svg};
+use uplift::result::{holds_displacement_spectra, open_any_result};
+
+/// What the page shows of one result.
+#[derive(Debug, Serialize)]
+struct Section {
+    key: String,
+    title: String,
+    subject: &'static str,
+    extent: String,
+    file: String,
+    record_set: String,
+    synthetic: bool,
+    facts: Vec<(&'static str, String)>,
+    warnings: Vec<String>,
+    tables: Vec<Table>,
+    figures: Vec<DrawnFigure>,
+    study_toml: String,
+    checksums: BTreeMap<String, String>,
+}
+
+/// A table; all columns but the first `text_columns` hold numbers.
+#[derive(Debug, Serialize)]
+struct Table {
+    id: String,
+    title: String,
+    note: String,
+    header: Vec<String>,
+    text_columns: usize,
+    rows: Vec<Vec<String>>,
+}
+
+/// A figure with the values that can be read off it.
+#[derive(Debug, Serialize)]
+struct DrawnFigure {
+    id: String,
+    title: String,
+    caption: String,
+    svg: String,
+    panels: Vec<ReadablePanel>,
+}
+
+/// A panel whose values can be read off.
+#[derive(Debug, Serialize)]
+struct ReadablePanel {
+    place: PanelPlace,
+    title: String,
+    x: String,
+    y: String,
+    lines: Vec<ReadableLine>,
+}
+
+/// A line whose values can be read off.
+#[derive(Debug, Serialize)]
+struct ReadableLine {
+    name: String,
+    points: Vec<(f64, f64)>,
+}
+
+/// The page on the results at `paths`, in their order.
+///
+/// # Errors
+/// A result that is missing, damaged or without sites.
+pub fn report(paths: &[impl AsRef<Path>]) -> Result<String, UpliftError> {
+    let sections = paths
+        .iter()
+        .enumerate()
+        .map(|(index, path)| section(&format!("r{}", index + 1), path.as_ref()))
+        .collect::<Result<Vec<_>, _>>()?;
+    let mut subjects: Vec<&str> = sections.iter().map(|section| section.subject).collect();
+    subjects.dedup();
+    let subjects = subjects.join(", ");
+    let mut templates = Environment::new();
+    templates
+        .add_template("report.html", include_str!("page/report.html"))
+        .and_then(|()| templates.get_template("report.html"))
+        .and_then(|template| {
+            template.render(context! {
+                sections,
+                subjects,
+                style => include_str!("page/report.css"),
+                script => include_str!("page/report.js"),
+                version => uplift::VERSION,
+                commit => uplift::COMMIT,
+            })
+        })
+        .map_err(|error| UpliftError::input(format!("the report cannot be made: {error}")))
+}
+
+/// What differs between the kinds of results.
+struct Content {
+    /// What the result is of, e.g. `Uniform risk spectra`.
+    subject: &'static str,
+    /// How much it is of, a sentence.
+    extent: String,
+    facts: Vec<(&'static str, String)>,
+    tables: Vec<Table>,
+    figures: Vec<Figure>,
+}
+
+fn section(key: &str, path: &Path) -> Result<Section, UpliftError> {
+    let reader = open_any_result(path)?;
+    let text = |name: &str| reader.attribute_text("/", name);
+    let title = text("title")?;
+    let file = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let warnings = text("warnings")?.lines().map(str::to_owned).collect();
+    let checksums = serde_json::from_str(&text("input_checksums")?).unwrap_or_default();
+    let synthetic = reader.attribute_i64("/", "synthetic")? == 1;
+    let content = if holds_displacement_spectra(&reader) { displacement::content(path)? } else { risk::content(path)? };
+    let mut facts = vec![
+        ("Result", file.clone()),
+        ("Records", text("record_set")?),
+        ("Program", format!("uplift {} ({})", text("version")?, text("commit")?)),
+        ("Made", text("created")?),
+        ("Command", text("command")?),
+    ];
+    facts.extend(content.facts);
+    let mut tables = content.tables;
+    for table in &mut tables {
+        table.id = format!("{key}-{}", table.id);
+    }
+    let figures = content.figures.iter().map(|figure| drawn(key, figure)).collect::<Result<Vec<_>, _>>()?;
+    Ok(Section {
+        key: key.to_owned(),
+        title: if title.is_empty() { file.clone() } else { title },
+        subject: content.subject,
+        extent: content.extent,
+        file,
+        record_set: text("record_set")?,
+        synthetic,
+        facts,
+        warnings,
+        tables,
+        figures,
+        study_toml: text("study_toml")?,
+        checksums,
+    })
+}
+
+fn drawn(key: &str, figure: &Figure) -> Result<DrawnFigure, UpliftError> {
+    let drawing = svg(figure, Width::Double).map_err(|error| UpliftError::input(format!("{}: {error}", figure.id)))?;
+    let panels = figure
+        .panels
+        .iter()
+        .zip(drawing.places)
+        .map(|(panel, place)| ReadablePanel {
+            place,
+            title: panel.title.clone(),
+            x: panel.x.label.clone(),
+            y: panel.y.label.clone(),
+            lines: panel
+                .series
+                .iter()
+                .filter(|series| !series.name.is_empty() && series.marks == Marks::None && series.points.len() > 2)
+                .map(|series| ReadableLine {
+                    name: series.name.clone(),
+                    points: series
+                        .points
+                        .iter()
+                        .filter(|point| point.0.is_finite() && point.1.is_finite())
+                        .map(|&(x, y)| (short(x), short(y)))
+                        .collect(),
+                })
+                .collect(),
+        })
+        .collect();
+    Ok(DrawnFigure {
+        id: format!("{key}-{}", figure.id),
+        title: figure.title.clone(),
+        caption: figure.caption.clone(),
+        svg: drawing.svg,
+        panels,
+    })
+}
+
+/// A number to the five digits that a reader takes off a curve.
+fn short(value: f64) -> f64 {
+    format!("{value:.4e}").parse().unwrap_or(value)
+}

@@ -1,0 +1,106 @@
+//! What the report shows of displacement spectra.
+
+use std::path::Path;
+
+use super::{Content, Table};
+use uplift::UpliftError;
+use crate::figures::{Extent, displacement_figures};
+use uplift::displacement::{DesignRow, read_design};
+use uplift::result::{StoredDisplacements, StoredStructures, open_any_result};
+use uplift::text::thousands;
+
+pub(super) fn content(path: &Path) -> Result<Content, UpliftError> {
+    let stored = StoredDisplacements::read(path)?;
+    let reader = open_any_result(path)?;
+    let rows = read_design(&reader)?;
+    let mut tables = vec![sets(&stored)];
+    if !rows.is_empty() {
+        let number = |name: &str| reader.attribute_f64("/design", name);
+        let note = format!(
+            "FS = {}; percentile {}. In brackets: lowest and highest over {} points around the abscissa, from {} to {} times it, which says how far a value can be trusted.",
+            number("safety_factor")?,
+            number("percentile")?,
+            reader.attribute_u64("/design", "noise_points")?,
+            1.0 - number("noise_relative")?,
+            1.0 + number("noise_relative")?
+        );
+        tables.extend(designs(&stored, &rows, &note));
+    }
+    let (structures, abscissas) = match stored.structures {
+        StoredStructures::Oscillators { .. } => ("oscillators", "uplift strengths"),
+        StoredStructures::Blocks { .. } => ("rocking blocks", "slendernesses"),
+    };
+    Ok(Content {
+        subject: "Displacement spectra",
+        extent: format!(
+            "{} motions in {} sets, {} scalings, {} {structures} of {} {abscissas}.",
+            2 * stored.sets.iter().map(|set| set.records).sum::<u64>(),
+            stored.sets.len(),
+            stored.scalings.len(),
+            stored.structures.lines(),
+            stored.abscissas.len()
+        ),
+        facts: vec![("Analyses", thousands(reader.attribute_u64("/spectra", "analyses")?))],
+        tables,
+        figures: displacement_figures(path, &stored, Extent::Main)?,
+    })
+}
+
+fn sets(stored: &StoredDisplacements) -> Table {
+    let rows = stored.sets.iter().map(|set| {
+        vec![
+            set.name.clone(),
+            set.records.to_string(),
+            (2 * set.records).to_string(),
+            format!("{:.3}", set.median_pga_g),
+            format!("{:.1}", set.median_pgv_cm_s),
+        ]
+    });
+    Table {
+        id: "sets".to_owned(),
+        title: "Record sets".to_owned(),
+        note: format!(
+            "Both horizontal components of a record are motions of their own. The medians of the geometric means (Eq. 2.16, 2.17) are what multiples refer to. Scalings: {}. The figures here are of motions scaled by {} and of the smallest uplift displacement; uplift plot draws all.",
+            stored.scalings.join(", "),
+            stored.scaled_by.first().map_or("", String::as_str)
+        ),
+        header: ["set", "records", "motions", "median PGA, g", "median PGV, cm/s"].map(str::to_owned).to_vec(),
+        text_columns: 1,
+        rows: rows.collect(),
+    }
+}
+
+/// A table a set and rule: a row a quantity and way of scaling, a column a scaling.
+fn designs(stored: &StoredDisplacements, rows: &[DesignRow], note: &str) -> Vec<Table> {
+    let same = |a: &DesignRow, b: &DesignRow| a.record_set == b.record_set && a.rule == b.rule;
+    rows.chunk_by(same)
+        .enumerate()
+        .map(|(index, of_table)| {
+            let first = &of_table[0];
+            let rule = match first.rule {
+                Some("ED") => ": equal displacement",
+                Some(_) => ": equal energy",
+                None => "",
+            };
+            let mut cells: Vec<Vec<String>> = Vec::new();
+            for of_quantity in of_table.chunk_by(|a, b| a.quantity == b.quantity) {
+                for by in &stored.scaled_by {
+                    let own = of_quantity.iter().filter(|row| row.scaled_by == *by);
+                    let row =
+                        [of_quantity[0].quantity.clone(), by.clone()].into_iter().chain(own.map(DesignRow::ranged));
+                    cells.push(row.collect());
+                }
+            }
+            let header =
+                ["quantity", "scaled by"].into_iter().map(str::to_owned).chain(stored.scalings.iter().cloned());
+            Table {
+                id: format!("design-{}", index + 1),
+                title: format!("Design example, {}{rule}", first.record_set),
+                note: note.to_owned(),
+                header: header.collect(),
+                text_columns: 2,
+                rows: cells,
+            }
+        })
+        .collect()
+}

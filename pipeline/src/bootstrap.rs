@@ -1,0 +1,10 @@
+//! How sure the spectra are: confidence bands from resampled records (Section 4.5, Table 4.1).
+
+mod bands;
+mod checkpoint;
+mod write;
+
+pub use bands::{BandSettings, Bands, JointBands, StrengthBands, bands_of_strength, gather_bands};
+pub use checkpoint::{Checkpoint, Finished};
+pub(crate) use write::percentile_name;
+pub use write::{BandsFile, band_paths, write_bands};

@@ -1,0 +1,114 @@
+//! What an interrupted bootstrap keeps, to go on from.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use uplift_bootstrap::Band;
+
+use crate::error::UpliftError;
+use uplift_labelled::{LabelledReader, LabelledWriter};
+use crate::bootstrap::{StrengthBands};
+
+/// Finished strengths by measure and index.
+pub type Finished = BTreeMap<(&'static str, usize), StrengthBands>;
+
+/// The file beside a result that holds the finished part of its bootstrap.
+#[derive(Debug)]
+pub struct Checkpoint {
+    path: PathBuf,
+    fingerprint: String,
+}
+
+impl Checkpoint {
+    /// The checkpoint of the result at `result`; `fingerprint` stands for everything that the bands depend on.
+    pub fn of(result: &Path, fingerprint: String) -> Self {
+        Self { path: result.with_extension("bootstrap.part.h5"), fingerprint }
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// What is there already of the measures `keys`; nothing if it belongs to other numbers or cannot be read.
+    pub fn load(&self, keys: &[&'static str]) -> Finished {
+        let read = || -> Result<Finished, UpliftError> {
+            let reader = LabelledReader::open(&self.path)?;
+            let mut finished = Finished::new();
+            if reader.attribute_text("/", "fingerprint")? != self.fingerprint {
+                return Ok(finished);
+            }
+            for &key in keys.iter().filter(|key| reader.exists(&format!("/{key}/bands_m"))) {
+                let strengths = reader.array_u32(&format!("/{key}/strength"))?.values;
+                let bands = reader.array_f64(&format!("/{key}/bands_m"))?.values;
+                let path = format!("/{key}/replicates_m");
+                let replicates = if reader.exists(&path) { reader.array_f64(&path)?.values } else { Vec::new() };
+                if strengths.is_empty() {
+                    continue;
+                }
+                let (per_band, per_replicate) = (bands.len() / strengths.len(), replicates.len() / strengths.len());
+                for (row, &strength) in strengths.iter().enumerate() {
+                    let bands = bands[row * per_band..(row + 1) * per_band]
+                        .chunks_exact(3)
+                        .map(|band| Band { lower_m: band[0], median_m: band[1], upper_m: band[2] })
+                        .collect();
+                    let replicates_m = replicates[row * per_replicate..(row + 1) * per_replicate].to_vec();
+                    finished.insert((key, strength as usize), StrengthBands { bands, replicates_m });
+                }
+            }
+            Ok(finished)
+        };
+        read().unwrap_or_default()
+    }
+
+    /// Keep what is finished.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn save(&self, finished: &Finished) -> Result<(), UpliftError> {
+        let mut writer = LabelledWriter::create(&self.path)?;
+        writer.attribute("/", "program", "uplift")?;
+        writer.attribute("/", "fingerprint", self.fingerprint.as_str())?;
+        let mut keys: Vec<&'static str> = finished.keys().map(|&(key, _)| key).collect();
+        keys.dedup();
+        for key in keys {
+            let rows: Vec<(u32, &StrengthBands)> = finished
+                .iter()
+                .filter(|((of, _), _)| *of == key)
+                .map(|((_, strength), bands)| (u32::try_from(*strength).unwrap_or(u32::MAX), bands))
+                .collect();
+            let indices: Vec<u32> = (0..).take(rows.len()).collect();
+            let (row, value) = (format!("{key}_row"), format!("{key}_value"));
+            writer.axis_u32(&row, &indices, "1", "row")?;
+            let strengths: Vec<u32> = rows.iter().map(|row| row.0).collect();
+            writer.array_u32(&format!("/{key}/strength"), &[&row], &strengths, "1", "index of the strength")?;
+            let bands: Vec<f64> = rows
+                .iter()
+                .flat_map(|(_, done)| done.bands.iter().flat_map(|band| [band.lower_m, band.median_m, band.upper_m]))
+                .collect();
+            let values: Vec<u32> = (0..).take(bands.len() / rows.len()).collect();
+            writer.axis_u32(&value, &values, "1", "limit")?;
+            writer.array_f64(&format!("/{key}/bands_m"), &[&row, &value], &bands, "m", "bands")?;
+            let replicates: Vec<f64> = rows.iter().flat_map(|(_, done)| done.replicates_m.iter().copied()).collect();
+            if !replicates.is_empty() {
+                let replicate = format!("{key}_replicate");
+                let values: Vec<u32> = (0..).take(replicates.len() / rows.len()).collect();
+                writer.axis_u32(&replicate, &values, "1", "replicate")?;
+                writer.array_f64(
+                    &format!("/{key}/replicates_m"),
+                    &[&row, &replicate],
+                    &replicates,
+                    "m",
+                    "replicates",
+                )?;
+            }
+        }
+        writer.finish()?;
+        Ok(())
+    }
+
+    /// Take the file away, once its numbers are in the result.
+    pub fn remove(&self) {
+        let _ = std::fs::remove_file(&self.path);
+    }
+}

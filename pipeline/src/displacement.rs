@@ -1,0 +1,13 @@
+//! Studies of displacement spectra: what record sets ask of rocking structures, without any hazard.
+
+mod csv;
+mod design_example;
+mod design_rows;
+mod spectra;
+mod write;
+
+pub use csv::{displacement_csv_paths, write_displacement_csv};
+pub use design_example::{Designs, RULES, design_analyses, design_examples, strength};
+pub use design_rows::{DesignRow, read_design};
+pub use spectra::{SetSpectra, analyses, set_spectra, shake, structures};
+pub use write::{DisplacementOutcome, write_displacements};

@@ -1,0 +1,118 @@
+//! Tidy tables beside the result of a study of displacement spectra.
+
+use std::path::{Path, PathBuf};
+
+use polars::prelude::Column;
+
+use crate::bootstrap::percentile_name;
+use crate::result::write_table;
+use super::{DesignRow, DisplacementOutcome};
+use crate::error::UpliftError;
+use uplift_study::{ScaledTo, Structures};
+
+/// The tables beside the result file `result`: spectra, and the design example.
+pub fn displacement_csv_paths(result: &Path) -> [PathBuf; 2] {
+    ["displacements.csv", "design.csv"].map(|extension| result.with_extension(extension))
+}
+
+/// Write the tables of `outcome` and its `design` beside the result file `result`, one comment line of provenance first; the files.
+///
+/// # Errors
+/// A file that cannot be written.
+pub fn write_displacement_csv(
+    result: &Path,
+    outcome: &DisplacementOutcome<'_>,
+    design: &[DesignRow],
+) -> Result<Vec<PathBuf>, UpliftError> {
+    let line = outcome.provenance.line(&outcome.study.title, &outcome.records.description);
+    let [spectra, designs] = displacement_csv_paths(result);
+    write_table(&spectra, &line, spectra_table(outcome))?;
+    if design.is_empty() {
+        return Ok(vec![spectra]);
+    }
+    write_table(&designs, &line, design_table(design))?;
+    Ok(vec![spectra, designs])
+}
+
+/// A line of a spectrum: what the structure is but for its abscissa.
+fn lines(structures: &Structures) -> Vec<Vec<f64>> {
+    match structures {
+        Structures::Oscillators(family) => (family.uplift_displacement_m.iter())
+            .flat_map(|&uplift_m| family.capacity_m.iter().map(move |&capacity_m| vec![uplift_m, capacity_m]))
+            .collect(),
+        Structures::Blocks(family) => family.height_m.iter().map(|&height_m| vec![height_m]).collect(),
+    }
+}
+
+fn spectra_table(outcome: &DisplacementOutcome<'_>) -> Vec<Column> {
+    let study = outcome.study;
+    let (line_names, abscissa_name): (&[&str], &str) = match study.structures {
+        Structures::Oscillators(_) => (&["uplift_displacement_m", "capacity_m"], "strength"),
+        Structures::Blocks(_) => (&["height_m"], "tan_alpha"),
+    };
+    let lines = lines(&study.structures);
+    let (abscissa, percentiles) = (study.structures.abscissa(), &study.percentiles);
+    let (mut record_set, mut scaling, mut scaled_by) = (Vec::new(), Vec::new(), Vec::new());
+    let mut of_line: Vec<Vec<f64>> = vec![Vec::new(); line_names.len()];
+    let (mut at, mut overturned) = (Vec::new(), Vec::new());
+    let mut u_m: Vec<Vec<f64>> = vec![Vec::new(); percentiles.len()];
+    for (set, spectra) in outcome.sets.iter().zip(outcome.spectra) {
+        for (to, target) in study.scaling.to.iter().enumerate() {
+            for (by, whose) in study.scaling.by.iter().enumerate() {
+                // motions that are not scaled stand there once
+                let unscaled = *target == ScaledTo::Unscaled;
+                if unscaled && by > 0 {
+                    continue;
+                }
+                for (line, numbers) in lines.iter().enumerate() {
+                    let row = (to * study.scaling.by.len() + by) * lines.len() + line;
+                    for (position, &x) in abscissa.iter().enumerate() {
+                        record_set.push(set.name());
+                        scaling.push(target.to_string());
+                        scaled_by.push((!unscaled).then(|| whose.key()));
+                        for (column, number) in of_line.iter_mut().zip(numbers) {
+                            column.push(*number);
+                        }
+                        at.push(x);
+                        for (percentile, column) in u_m.iter_mut().enumerate() {
+                            let place = (row * percentiles.len() + percentile) * abscissa.len() + position;
+                            column.push(spectra.percentile_m[place]);
+                        }
+                        overturned.push(spectra.overturned[row * abscissa.len() + position]);
+                    }
+                }
+            }
+        }
+    }
+    let mut columns = vec![
+        Column::new("record_set".into(), record_set),
+        Column::new("scaling".into(), scaling),
+        Column::new("scaled_by".into(), scaled_by),
+    ];
+    columns.extend(line_names.iter().zip(of_line).map(|(name, values)| Column::new((*name).into(), values)));
+    columns.push(Column::new(abscissa_name.into(), at));
+    columns.extend(
+        percentiles.iter().zip(u_m).map(|(percent, values)| Column::new(percentile_name(*percent).into(), values)),
+    );
+    columns.push(Column::new("overturned".into(), overturned));
+    columns
+}
+
+fn design_table(rows: &[DesignRow]) -> Vec<Column> {
+    let text = |value: fn(&DesignRow) -> &str| rows.iter().map(value).collect::<Vec<_>>();
+    let number = |value: fn(&DesignRow) -> f64| rows.iter().map(value).collect::<Vec<_>>();
+    let mut columns = Vec::new();
+    if rows.iter().any(|row| row.rule.is_some()) {
+        columns.push(Column::new("rule".into(), text(|row| row.rule.unwrap_or_default())));
+    }
+    columns.extend([
+        Column::new("record_set".into(), text(|row| &row.record_set)),
+        Column::new("scaling".into(), text(|row| &row.scaling)),
+        Column::new("scaled_by".into(), text(|row| &row.scaled_by)),
+        Column::new("quantity".into(), text(|row| &row.quantity)),
+        Column::new("value".into(), number(|row| row.noisy.value)),
+        Column::new("lowest".into(), number(|row| row.noisy.lowest)),
+        Column::new("highest".into(), number(|row| row.noisy.highest)),
+    ]);
+    columns
+}

@@ -1,0 +1,138 @@
+//! The design examples of Sections 2.4.3 and 3.4.5 for every set and way of scaling.
+
+use rayon::prelude::*;
+use uplift_ida::Watch;
+use uplift_spectra::{
+    MotionSet, RestrainedDesign, RestrainedExample, Scaling, SolitaryDesign, SolitaryExample, SpectraError,
+};
+use uplift_structure::Rule;
+
+use super::spectra::{of_spectra, with_free_vibration};
+use crate::error::UpliftError;
+use uplift_study::{DesignPlan, Designed, DisplacementStudy, Structures};
+
+/// The rules that a restrained bridge is designed by, in the order of the results.
+pub const RULES: [Rule; 2] = [Rule::EqualDisplacement, Rule::EqualEnergy];
+/// Ratio of neighbouring slendernesses in the search for the intersection: a range in which the block does not stand may be missed if it is narrower.
+const SEARCH_RATIO: f64 = 1.02;
+/// Halvings, at most, after that search.
+const HALVINGS: u64 = 16;
+
+/// The design examples of a study; a way of scaling is `[to, by]` of it.
+#[derive(Debug, Clone)]
+pub enum Designs {
+    /// Restrained bridges over `[set, way, rule]`.
+    Restrained(Vec<RestrainedExample>),
+    /// Solitary blocks over `[set, way]`; none where the capacity line meets no demand.
+    Solitary(Vec<Option<SolitaryExample>>),
+}
+
+/// One set, scaled in one way.
+type Case<'a> = (&'a MotionSet<'a>, Scaling);
+
+/// Nonlinear time histories of the design examples; for blocks, whose design is looked for, at most.
+pub fn design_analyses(study: &DisplacementStudy, plan: &DesignPlan, set: &MotionSet<'_>) -> u64 {
+    let points = plan.noise_points as u64;
+    let each = match plan.designed {
+        Designed::Bridge { .. } => 2 * 2 * points,
+        Designed::Block { .. } => {
+            let abscissa = study.structures.abscissa();
+            let steps = (abscissa[abscissa.len() - 1] / abscissa[0]).ln() / SEARCH_RATIO.ln();
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count of steps")]
+            let steps = steps.ceil() as u64;
+            steps + HALVINGS + 3 * points
+        }
+    };
+    each * (set.motions().len() * study.scaling.ways().0.len()) as u64
+}
+
+/// Carry out the design examples; `watch` is told of finished examples.
+///
+/// Returned with them is a note on each that does not exist.
+///
+/// # Errors
+/// [`UpliftError::Interrupted`] where `watch` says so; what the solvers and rules refuse.
+pub fn design_examples(
+    study: &DisplacementStudy,
+    plan: &DesignPlan,
+    sets: &[MotionSet<'_>],
+    watch: &dyn Watch,
+) -> Result<(Designs, Vec<String>), UpliftError> {
+    let (ways, places) = study.scaling.ways();
+    let cases: Vec<Case<'_>> = sets.iter().flat_map(|set| ways.iter().map(move |way| (set, *way))).collect();
+    let noise = plan.noise().map_err(of_spectra)?;
+    // what is not scaled stands under every `by`
+    let everywhere = |case: usize| case / places.len() * ways.len() + places[case % places.len()];
+    let all = 0..sets.len() * places.len();
+    match (plan.designed, &study.structures) {
+        (Designed::Bridge { width_m, height_m }, Structures::Oscillators(family)) => {
+            let design = RestrainedDesign {
+                strength: strength(width_m, height_m),
+                uplift_displacement_m: family.uplift_displacement_m[0],
+                restitution: family.restitution,
+                gravity_m_s2: study.gravity_m_s2,
+                least_capacity_m: width_m,
+                safety_factor: plan.safety_factor,
+                percent: plan.percentile,
+                with_free_vibration: with_free_vibration(study),
+            };
+            let found = each(&cases, watch, |(set, way), inner| {
+                RULES.iter().map(|&rule| design.example(set, way, rule, noise, inner)).collect::<Result<Vec<_>, _>>()
+            })?;
+            Ok((Designs::Restrained(all.flat_map(|case| found[everywhere(case)].clone()).collect()), Vec::new()))
+        }
+        (Designed::Block { height_m, endless_height_m }, Structures::Blocks(family)) => {
+            let abscissa = &family.slendernesses;
+            let design = SolitaryDesign {
+                height_m,
+                endless_height_m,
+                gravity_m_s2: study.gravity_m_s2,
+                restitution: family.restitution,
+                safety_factor: plan.safety_factor,
+                percent: plan.percentile,
+                search: [abscissa[0], abscissa[abscissa.len() - 1]],
+                search_ratio: SEARCH_RATIO,
+            };
+            let found = each(&cases, watch, |(set, way), inner| match design.example(set, way, noise, inner) {
+                Ok(example) => Ok(Ok(example)),
+                Err(error @ SpectraError::NoIntersection { .. }) => Ok(Err(error.to_string())),
+                Err(error) => Err(error),
+            })?;
+            let notes = found.iter().filter_map(|example| example.as_ref().err().cloned()).collect();
+            let designs = all.map(|case| found[everywhere(case)].as_ref().ok().copied()).collect();
+            Ok((Designs::Solitary(designs), notes))
+        }
+        // the study's reader gives neither the design of the other
+        _ => Err(UpliftError::input("a bridge is designed with oscillators, a block with blocks")),
+    }
+}
+
+/// Strength of a column that rocks, `tan(2b/2h)` as Section 3.5 writes it.
+pub fn strength(width_m: f64, height_m: f64) -> f64 {
+    (width_m / height_m).tan()
+}
+
+/// `of` every case, on all cores.
+fn each<'a, T: Send>(
+    cases: &[Case<'a>],
+    watch: &dyn Watch,
+    of: impl Fn(Case<'a>, &dyn Watch) -> Result<T, SpectraError> + Sync,
+) -> Result<Vec<T>, UpliftError> {
+    let shake = |case: &Case<'a>| {
+        let example = of(*case, &Within(watch))?;
+        watch.finished(1);
+        Ok(example)
+    };
+    cases.par_iter().map(shake).collect::<Result<Vec<T>, SpectraError>>().map_err(of_spectra)
+}
+
+/// Passes on that the work is to stop, and nothing of its progress: that is told example by example.
+struct Within<'a>(&'a dyn Watch);
+
+impl Watch for Within<'_> {
+    fn finished(&self, _: u64) {}
+
+    fn cancelled(&self) -> bool {
+        self.0.cancelled()
+    }
+}

@@ -1,0 +1,140 @@
+//! Displacement spectra of a record set: every structure under every motion, and percentiles over the motions.
+
+use uplift_block::RockingBlock;
+use uplift_ida::Watch;
+use uplift_oscillator::{Oscillator, PostUplift};
+use uplift_spectra::{Displacements, MotionSet, SpectraError, System, critical, displacements, percentile};
+
+use crate::error::UpliftError;
+use uplift_study::{BlockFamily, DisplacementStudy, OscillatorFamily, Structures};
+
+/// What a set asks of the structures. A way of scaling is `[to, by]` of the study; a line is a combination of uplift displacement and
+/// capacity, or a height; the abscissa is a strength or a slenderness.
+#[derive(Debug, Clone)]
+pub struct SetSpectra {
+    /// Peak displacements over `[way, line, abscissa, motion]`, m; infinite where the structure overturned.
+    pub displacement_m: Vec<f64>,
+    /// What each motion is multiplied by, over `[way, motion]`.
+    pub factors: Vec<f64>,
+    /// Their percentiles over `[way, line, percentile, abscissa]`, m.
+    pub percentile_m: Vec<f64>,
+    /// Shares of the motions under which the structure overturned, over `[way, line, abscissa]`.
+    pub overturned: Vec<f64>,
+    /// Largest abscissa at which a percentile is infinite, over `[way, line, percentile]`; NaN where it never is.
+    pub critical: Vec<f64>,
+}
+
+/// The structures of a study over `[line, abscissa]`.
+///
+/// # Errors
+/// A parameter that the study file's check let through: none is known.
+pub fn structures(study: &DisplacementStudy) -> Result<Vec<System>, UpliftError> {
+    match &study.structures {
+        Structures::Oscillators(family) => oscillators(family, study.gravity_m_s2),
+        Structures::Blocks(family) => blocks(family, study.gravity_m_s2),
+    }
+    .map_err(of_spectra)
+}
+
+fn oscillators(family: &OscillatorFamily, gravity_m_s2: f64) -> Result<Vec<System>, SpectraError> {
+    let mut systems = Vec::new();
+    for &uplift_m in family.uplift_displacement_m.iter() {
+        for &capacity_m in &family.capacity_m {
+            let post_uplift = match capacity_m {
+                f64::INFINITY => PostUplift::Zero,
+                capacity_m => PostUplift::Negative { capacity_m },
+            };
+            for &strength in family.strengths.iter() {
+                let oscillator = Oscillator::new(strength, gravity_m_s2, uplift_m, family.restitution, post_uplift)?;
+                systems.push(System::Oscillator(oscillator));
+            }
+        }
+    }
+    Ok(systems)
+}
+
+fn blocks(family: &BlockFamily, gravity_m_s2: f64) -> Result<Vec<System>, SpectraError> {
+    let mut systems = Vec::new();
+    for &height_m in family.height_m.iter() {
+        for &tangent in family.slendernesses.iter() {
+            let block = RockingBlock::from_height(height_m, tangent.atan())?.with_gravity(gravity_m_s2)?;
+            let block = family.restitution.map_or(Ok(block), |restitution| block.with_restitution(restitution))?;
+            systems.push(System::Block(block));
+        }
+    }
+    Ok(systems)
+}
+
+/// Nonlinear time histories of the spectra of one set.
+pub fn analyses(study: &DisplacementStudy, set: &MotionSet<'_>) -> u64 {
+    let structures = study.structures.lines() * study.structures.abscissa().len();
+    (study.scaling.ways().0.len() * structures * set.motions().len()) as u64
+}
+
+/// Whether the first peak of the free motion after a record counts; a block is always followed to it.
+pub(super) fn with_free_vibration(study: &DisplacementStudy) -> bool {
+    match &study.structures {
+        Structures::Oscillators(family) => family.free_vibration,
+        Structures::Blocks(_) => true,
+    }
+}
+
+/// Shake `structures` by every motion of `set`, scaled in every way of `study`: peak displacements [way that differs, structure, motion].
+///
+/// # Errors
+/// [`UpliftError::Interrupted`] where `watch` says so; what the solvers refuse.
+pub fn shake(
+    study: &DisplacementStudy,
+    structures: &[System],
+    set: &MotionSet<'_>,
+    watch: &dyn Watch,
+) -> Result<Displacements, UpliftError> {
+    displacements(set, &study.scaling.ways().0, structures, with_free_vibration(study), watch).map_err(of_spectra)
+}
+
+/// What `set` asks of the `structures` of `study`.
+///
+/// # Errors
+/// [`UpliftError::Interrupted`] where `watch` says so; what the solvers refuse.
+pub fn set_spectra(
+    study: &DisplacementStudy,
+    structures: &[System],
+    set: &MotionSet<'_>,
+    watch: &dyn Watch,
+) -> Result<SetSpectra, UpliftError> {
+    let (ways, places) = study.scaling.ways();
+    let shaken = shake(study, structures, set, watch)?;
+    let (abscissae, motions) = (study.structures.abscissa(), set.motions().len());
+    let mut spectra = SetSpectra {
+        displacement_m: Vec::with_capacity(places.len() * structures.len() * motions),
+        factors: places.iter().flat_map(|&place| set.factors(ways[place])).collect(),
+        percentile_m: Vec::new(),
+        overturned: Vec::new(),
+        critical: Vec::new(),
+    };
+    for &place in &places {
+        for line in 0..study.structures.lines() {
+            let samples: Vec<&[f64]> =
+                (0..abscissae.len()).map(|at| shaken.of_m(place, line * abscissae.len() + at)).collect();
+            for sample in &samples {
+                spectra.displacement_m.extend_from_slice(sample);
+                let overturned = sample.iter().filter(|displacement_m| displacement_m.is_infinite()).count();
+                spectra.overturned.push(overturned as f64 / motions as f64);
+            }
+            for &percent in study.percentiles.iter() {
+                let ordinates: Vec<f64> = samples.iter().map(|sample| percentile(sample, percent)).collect();
+                spectra.critical.push(critical(abscissae, &ordinates).unwrap_or(f64::NAN));
+                spectra.percentile_m.extend(ordinates);
+            }
+        }
+    }
+    Ok(spectra)
+}
+
+/// A refusal of the science, as the program tells it.
+pub(super) fn of_spectra(error: SpectraError) -> UpliftError {
+    match error {
+        SpectraError::Cancelled => UpliftError::Interrupted,
+        other => UpliftError::input(other.to_string()),
+    }
+}

@@ -1,0 +1,218 @@
+//! The result of a study of displacement spectra, written as docs/hdf5-layout.md describes it.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use uplift_spectra::MotionSet;
+
+use super::design_rows as design;
+use crate::result::{Origin, Provenance, axis_part, unique_axis};
+use crate::error::UpliftError;
+use crate::inputs::{NamedSet, RecordSets};
+use uplift_labelled::{LabelledError, LabelledWriter};
+use crate::displacement::{Designs, SetSpectra};
+use uplift_study::{DISPLACEMENT_SPECTRA, DisplacementStudy, Structures};
+
+
+/// All that a study of displacement spectra computed.
+#[derive(Debug)]
+pub struct DisplacementOutcome<'a> {
+    /// The study.
+    pub study: &'a DisplacementStudy,
+    /// Its records, in sets.
+    pub records: &'a RecordSets,
+    /// The motions of each set.
+    pub sets: &'a [MotionSet<'a>],
+    /// The spectra of each set.
+    pub spectra: &'a [SetSpectra],
+    /// The design examples, if it has some.
+    pub designs: Option<&'a Designs>,
+    /// Nonlinear time histories of the spectra.
+    pub analyses: u64,
+    /// Wall time for these, s.
+    pub seconds: f64,
+    /// What a reader should know before using the numbers.
+    pub warnings: &'a [String],
+    /// Where the numbers come from.
+    pub provenance: &'a Provenance,
+}
+
+impl DisplacementOutcome<'_> {
+    /// Names of the axes that tell lines of a spectrum apart.
+    pub(super) fn line_axes(&self) -> &'static [&'static str] {
+        match self.study.structures {
+            Structures::Oscillators(_) => &["uplift_displacement", "capacity"],
+            Structures::Blocks(_) => &["height"],
+        }
+    }
+
+    /// Name of the axis of a spectrum's abscissa.
+    pub(super) fn abscissa_axis(&self) -> &'static str {
+        match self.study.structures {
+            Structures::Oscillators(_) => "strength",
+            Structures::Blocks(_) => "slenderness",
+        }
+    }
+
+    /// The axes of an array of all sets, lines being told apart.
+    pub(super) fn dims(&self, last: &[&'static str]) -> Vec<&'static str> {
+        [&["record_set", "scaling", "scaled_by"], self.line_axes(), last].concat()
+    }
+}
+
+/// Write `outcome` to `path`, aside and renamed, so that an earlier file survives a failure.
+///
+/// # Errors
+/// Whatever keeps the file from being written, a full disk for instance.
+pub fn write_displacements(path: &Path, outcome: &DisplacementOutcome<'_>) -> Result<(), UpliftError> {
+    let mut writer = LabelledWriter::create(path)?;
+    write_root(&mut writer, outcome)?;
+    write_axes(&mut writer, outcome)?;
+    write_spectra(&mut writer, outcome)?;
+    let mut axes = BTreeSet::new();
+    for ((set, motions), spectra) in outcome.records.sets.iter().zip(outcome.sets).zip(outcome.spectra) {
+        let axis = unique_axis(format!("motion_{}", axis_part(&set.name)), &mut axes);
+        write_set(&mut writer, outcome, set, motions, spectra, &axis)?;
+    }
+    if let (Some(designs), Some(plan)) = (outcome.designs, &outcome.study.design) {
+        design::write(&mut writer, outcome.study, plan, designs)?;
+    }
+    writer.finish()?;
+    Ok(())
+}
+
+fn write_root(writer: &mut LabelledWriter, outcome: &DisplacementOutcome<'_>) -> Result<(), UpliftError> {
+    let DisplacementOutcome { study, records, .. } = outcome;
+    let study_toml = study.to_toml().map_err(|error| UpliftError::input(error.to_string()))?;
+    let origin = Origin {
+        title: &study.title,
+        study_toml: &study_toml,
+        gravity_m_s2: study.gravity_m_s2,
+        record_set: &records.description,
+        synthetic: records.synthetic,
+        warnings: outcome.warnings,
+        provenance: outcome.provenance,
+    };
+    origin.write(writer)?;
+    writer.attribute("/", "kind", DISPLACEMENT_SPECTRA)?;
+    let structure = match study.structures {
+        Structures::Oscillators(_) => "oscillator",
+        Structures::Blocks(_) => "block",
+    };
+    writer.attribute("/", "structure", structure)?;
+    Ok(())
+}
+
+fn write_axes(writer: &mut LabelledWriter, outcome: &DisplacementOutcome<'_>) -> Result<(), LabelledError> {
+    let study = outcome.study;
+    let names: Vec<String> = outcome.records.sets.iter().map(|set| set.name.clone()).collect();
+    writer.axis_text("record_set", &names, "record set")?;
+    let to: Vec<String> = study.scaling.to.iter().map(ToString::to_string).collect();
+    writer.axis_text("scaling", &to, "what motions are scaled to, a multiple of the set's median peak")?;
+    let by: Vec<String> = study.scaling.by.iter().map(|by| by.key().to_owned()).collect();
+    writer.axis_text("scaled_by", &by, "whose peak is scaled")?;
+    match &study.structures {
+        Structures::Oscillators(family) => {
+            let uplift = &family.uplift_displacement_m;
+            writer.axis_f64("uplift_displacement", uplift, "m", "displacement at uplift u_up")?;
+            let long_name = "displacement capacity u_cap, infinite for zero post-uplift stiffness";
+            writer.axis_f64("capacity", &family.capacity_m, "m", long_name)?;
+            writer.axis_f64("strength", &family.strengths, "1", "uplift strength f_up/(m g)")?;
+        }
+        Structures::Blocks(family) => {
+            writer.axis_f64("height", &family.height_m, "m", "height 2H of the block")?;
+            writer.axis_f64("slenderness", &family.slendernesses, "1", "slenderness tan(alpha)")?;
+        }
+    }
+    writer.axis_f64("percentile", &study.percentiles, "%", "percentile over the motions of a set")
+}
+
+fn write_spectra(writer: &mut LabelledWriter, outcome: &DisplacementOutcome<'_>) -> Result<(), LabelledError> {
+    let of = |values: fn(&SetSpectra) -> &[f64]| -> Vec<f64> {
+        outcome.spectra.iter().flat_map(|spectra| values(spectra).iter().copied()).collect()
+    };
+    let abscissa = outcome.abscissa_axis();
+    let long_name = "percentile of the peak displacements, infinite where it falls on an overturned structure";
+    let dims = outcome.dims(&["percentile", abscissa]);
+    writer.array_f64("/spectra/u_m", &dims, &of(|spectra| &spectra.percentile_m), "m", long_name)?;
+    let long_name = "share of the motions under which the structure overturns";
+    writer.array_f64(
+        "/spectra/overturned",
+        &outcome.dims(&[abscissa]),
+        &of(|spectra| &spectra.overturned),
+        "1",
+        long_name,
+    )?;
+    let long_name = format!("largest {abscissa} at which the percentile is infinite");
+    let critical = of(|spectra| &spectra.critical);
+    writer.array_f64("/spectra/critical", &outcome.dims(&["percentile"]), &critical, "1", &long_name)?;
+    writer.attribute("/spectra", "analyses", outcome.analyses)?;
+    writer.attribute("/spectra", "seconds", outcome.seconds)
+}
+
+fn write_set(
+    writer: &mut LabelledWriter,
+    outcome: &DisplacementOutcome<'_>,
+    set: &NamedSet,
+    motions: &MotionSet<'_>,
+    spectra: &SetSpectra,
+    axis: &str,
+) -> Result<(), LabelledError> {
+    let group = format!("/sets/{}", set.name);
+    let path = |name: &str| format!("{group}/{name}");
+    let ids: Vec<String> = motions.motions().iter().map(|motion| motion.id.clone()).collect();
+    writer.axis_text(axis, &ids, "component of a record")?;
+
+    let mut dims = vec!["scaling", "scaled_by"];
+    writer.array_f64(&path("factor"), &[dims[0], dims[1], axis], &spectra.factors, "1", "factor on the motion")?;
+    dims.extend(outcome.line_axes());
+    dims.extend([outcome.abscissa_axis(), axis]);
+    let long_name = "peak displacement, infinite where overturned";
+    writer.array_f64(&path("u_m"), &dims, &spectra.displacement_m, "m", long_name)?;
+
+    let dims = &[axis];
+    let peak = |value: fn(&uplift_spectra::Motion<'_>) -> f64| motions.motions().iter().map(value).collect::<Vec<_>>();
+    let peaks = [
+        ("pga_g", peak(|motion| motion.pga_g), "g", "PGA of the component, unscaled"),
+        ("pgv_cm_s", peak(|motion| motion.pgv_cm_s), "cm/s", "PGV of the component, unscaled"),
+        ("record_pga_g", peak(|motion| motion.record_pga_g), "g", "PGA of the record, geometric mean"),
+        ("record_pgv_cm_s", peak(|motion| motion.record_pgv_cm_s), "cm/s", "PGV of the record, geometric mean"),
+        ("dt_s", peak(|motion| motion.accelerogram.dt_s()), "s", "sampling interval"),
+    ];
+    for (name, values, unit, long_name) in peaks {
+        writer.array_f64(&path(name), dims, &values, unit, long_name)?;
+    }
+    let samples: Vec<u32> =
+        (motions.motions().iter()).map(|motion| u32::try_from(motion.accelerogram.len()).unwrap_or(u32::MAX)).collect();
+    writer.array_u32(&path("samples"), dims, &samples, "1", "number of samples")?;
+
+    // two motions a record
+    let records = || outcome.records.of(set).flat_map(|record| [(record, 0), (record, 1)]);
+    let text = |key: &str| -> Vec<String> {
+        records().map(|(record, _)| record.pair.metadata.get(key).cloned().unwrap_or_default()).collect()
+    };
+    let number = |key: &str| -> Vec<f64> { records().map(|(record, _)| record.number(key)).collect() };
+    let names: Vec<String> = records().map(|(record, _)| record.pair.id.clone()).collect();
+    let component: Vec<String> = records().map(|(_, which)| format!("h{}", which + 1)).collect();
+    let checksum: Vec<String> = records().map(|(record, which)| record.checksums[which].clone()).collect();
+    for (name, values, long_name) in [
+        ("record", names, "record"),
+        ("component", component, "horizontal component"),
+        ("event", text("event"), "earthquake"),
+        ("station", text("station"), "recording station"),
+        ("checksum", checksum, "SHA-256 of the component"),
+    ] {
+        writer.array_text(&path(name), dims, &values, long_name)?;
+    }
+    for (name, unit, long_name) in [
+        ("magnitude", "1", "moment magnitude"),
+        ("rrup_km", "km", "closest distance to the rupture"),
+        ("vs30", "m/s", "mean shear-wave velocity of the upper 30 m"),
+    ] {
+        writer.array_f64(&path(name), dims, &number(name), unit, long_name)?;
+    }
+    writer.attribute(&group, "records", set.members.len() as u64)?;
+    writer.attribute(&group, "tag", set.tag.as_str())?;
+    writer.attribute(&group, "median_pga_g", motions.median_pga_g())?;
+    writer.attribute(&group, "median_pgv_cm_s", motions.median_pgv_cm_s())
+}

@@ -1,0 +1,152 @@
+//! Overturning: how often, at which intensity, by the equivalent oscillator and by the rigid block (Section 2.4.3, Eq. 2.1 to 2.3).
+
+use uplift_block::RockingBlock;
+use uplift_fragility::{FragilityError, LognormalFit, StripeCount, Stripes as Stripe, fit_lognormal, stripe_counts};
+use uplift_ida::{BlockPlan, IdaError, Watch, analyse_blocks};
+use uplift_oscillator::Oscillator;
+use uplift_risk::{PooledDemand, StripeWeights};
+
+use crate::uniform_risk::stripe_records;
+use super::risk::{EventRisk, OVERTURNING_M, risk_of_exceeding, stripes_of};
+use crate::error::UpliftError;
+use crate::inputs::RecordSet;
+use uplift_study::{MeasurePlan, ResolvedStudy};
+
+/// How a structure is modelled.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Model {
+    /// The equivalent oscillator of Table 3.1, linearised.
+    Oscillator(Oscillator),
+    /// The solitary block that rotates as the structure does: full nonlinear motion.
+    Block(RockingBlock),
+}
+
+impl Model {
+    /// Name in tables and files.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Oscillator(_) => "oscillator",
+            Self::Block(_) => "block",
+        }
+    }
+
+    /// Velocity after over before an impact.
+    pub fn restitution(&self) -> f64 {
+        match self {
+            Self::Oscillator(oscillator) => oscillator.restitution(),
+            Self::Block(block) => block.restitution(),
+        }
+    }
+
+    /// Peak displacements over `[record, level]`, m; infinite where it overturned.
+    ///
+    /// # Errors
+    /// [`UpliftError::Interrupted`] if `watch` says so; a record that cannot be scaled.
+    pub fn demands_m(
+        &self,
+        study: &ResolvedStudy,
+        plan: &MeasurePlan,
+        set: &RecordSet,
+        watch: &dyn Watch,
+    ) -> Result<Vec<f64>, UpliftError> {
+        match self {
+            Self::Oscillator(oscillator) => {
+                let stripes = stripes_of(study, plan, set, std::slice::from_ref(oscillator), watch)?;
+                Ok(stripes.edp.of_strength(0))
+            }
+            Self::Block(block) => {
+                let (records, blocks) = (stripe_records(set, plan.measure), std::slice::from_ref(block));
+                let plan = BlockPlan::new(records, blocks, &plan.levels, study.oscillator.free_vibration);
+                let edp = plan.and_then(|plan| analyse_blocks(&plan, watch)).map_err(|error| match error {
+                    IdaError::Cancelled => UpliftError::Interrupted,
+                    other => UpliftError::input(other.to_string()),
+                })?;
+                Ok(edp.of_strength(0))
+            }
+        }
+    }
+}
+
+/// Overturning of one model by one measure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Collapse {
+    /// Overturned records at each level, `[level]`.
+    pub counts: Vec<StripeCount>,
+    /// The lognormal fragility of maximum likelihood, or why there is none.
+    pub fit: Result<LognormalFit, FragilityError>,
+    /// The risk of overturning, `[site]`: from the counts, with no curve fitted.
+    pub risks: Vec<EventRisk>,
+    /// The same by the fitted fragility in place of the counts, `[site]`; none without a fit.
+    pub fitted: Option<Vec<EventRisk>>,
+}
+
+/// Counts, fits and weighs what overturned among `demands_m`.
+///
+/// * `levels` — of the stripes, ascending
+/// * `demands_m` — over `[record, level]`, m; infinite where overturned
+/// * `weights` — what each stripe weighs, `[site]`
+/// * `years` — that the probabilities refer to
+///
+/// # Errors
+/// Arrays that do not fit together.
+pub fn collapse(
+    levels: &[f64],
+    demands_m: &[f64],
+    weights: &[&StripeWeights],
+    years: f64,
+) -> Result<Collapse, UpliftError> {
+    let fail = |error: &dyn std::fmt::Display| UpliftError::input(error.to_string());
+    let stripes = Stripe::new(levels, demands_m).map_err(|error| fail(&error))?;
+    let counts = stripe_counts(&stripes, OVERTURNING_M).map_err(|error| fail(&error))?;
+    let demand = PooledDemand::new(&stripes).map_err(|error| fail(&error))?;
+    let risks = weights
+        .iter()
+        .map(|weights| risk_of_exceeding(&demand, weights, OVERTURNING_M, years))
+        .collect::<Result<Vec<_>, _>>()?;
+    let fit = fit_lognormal(&counts);
+    let fitted = fit.as_ref().ok().map(|fit| {
+        let probabilities: Vec<f64> = levels.iter().map(|&level| fit.fragility.probability(level)).collect();
+        let of_site = |weights: &&StripeWeights| {
+            let parts = weights.disaggregate(&probabilities).map_err(|error| fail(&error))?;
+            EventRisk::new(parts.total_per_year(), [parts.lower_tail_per_year, parts.upper_tail_per_year], years)
+        };
+        weights.iter().map(of_site).collect::<Result<Vec<_>, UpliftError>>()
+    });
+    Ok(Collapse { counts, fit, risks, fitted: fitted.transpose()? })
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    /// Two records, levels 1, 2, 4 with rates 1, 1/2, 1/4 per year, nothing below: one overturns from 2 on, the other at 4 and, weaving, at 1.
+    #[test]
+    fn a_case_by_hand() {
+        let inf = f64::INFINITY;
+        let weights = StripeWeights::new(&[1.0, 0.5, 0.25], None).unwrap();
+        let found = collapse(&[1.0, 2.0, 4.0], &[0.1, inf, inf, inf, 0.3, inf], &[&weights], 2.0).unwrap();
+        let counts: Vec<(u32, u32)> = found.counts.iter().map(|count| (count.exceedances, count.trials)).collect();
+        assert_eq!(counts, [(1, 2), (1, 2), (2, 2)]);
+        // ½ (½ + ½)(1 − ½) + ½ (½ + 1)(½ − ¼) + 1 · ¼
+        let rate = 0.25 + 0.1875 + 0.25;
+        let risk = found.risks[0];
+        assert_eq!(risk.per_year, rate);
+        assert_eq!(risk.probability, -(-2.0 * rate).exp_m1());
+        assert_eq!((risk.lower_tail_share, risk.upper_tail_share), (0.0, 0.25 / rate));
+        // the fit is another fragility, and so another number, of the same integral
+        let fragility = found.fit.unwrap().fragility;
+        let [p1, p2, p4] = [1.0, 2.0, 4.0].map(|level| fragility.probability(level));
+        let by_hand = 0.25 * (p1 + p2) + 0.125 * (p2 + p4) + 0.25 * p4;
+        assert!((found.fitted.unwrap()[0].per_year - by_hand).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_structure_that_stands_has_no_risk_and_no_fit() {
+        let weights = StripeWeights::new(&[1.0, 0.5], None).unwrap();
+        let found = collapse(&[1.0, 2.0], &[0.1, 0.2, 0.3, 1e9], &[&weights], 50.0).unwrap();
+        assert_eq!(found.fit, Err(FragilityError::NoExceedance));
+        assert_eq!((found.risks[0].per_year, found.risks[0].upper_tail_share), (0.0, 0.0));
+        assert!(found.fitted.is_none());
+    }
+}

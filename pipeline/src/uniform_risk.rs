@@ -1,0 +1,25 @@
+//! Studies of uniform risk: stripes, spectra and their coefficients, for sites with hazard curves.
+
+mod coefficients;
+mod csv;
+mod earlier;
+mod epistemic;
+mod outcome;
+pub mod site_table;
+mod spectra;
+mod stripes;
+mod work;
+mod write;
+mod write_hazard;
+
+pub use coefficients::{Coefficients, fit_spectra};
+pub use csv::{csv_paths, write_csv};
+pub use earlier::EarlierStripes;
+pub use epistemic::{BranchSpectra, FRACTILES};
+pub use outcome::Outcome;
+pub use spectra::{Spectra, uniform_risk_spectra};
+pub(crate) use spectra::pooled_demand;
+pub(crate) use stripes::stripe_records;
+pub use stripes::{Stripes, analyse_stripes, oscillators, plan_stripes};
+pub use work::{Work, open, rate};
+pub use write::write_result;

@@ -1,0 +1,35 @@
+//! The coefficients of Table 4.2: each spectrum fitted by `u = c0 exp(c1 η) + c2` (Eq. 4.11).
+
+use uplift_motion::IntensityMeasure;
+use uplift_regression::{ExponentialFit, fit};
+use uplift_risk::Ordinate;
+
+use super::Spectra;
+use uplift_study::ResolvedStudy;
+
+/// The fits of one measure.
+#[derive(Debug, Clone)]
+pub struct Coefficients {
+    /// The measure.
+    pub measure: IntensityMeasure,
+    /// A fit, or why there is none, over `[site, poe]`, row-major.
+    pub fits: Vec<Result<ExponentialFit, String>>,
+}
+
+/// Fit every spectrum over the strengths above `regression.strength_above`.
+pub fn fit_spectra(study: &ResolvedStudy, spectra: &Spectra) -> Coefficients {
+    let [sites, poes, _] = spectra.shape;
+    let fits = (0..sites * poes).map(|row| fit_spectrum(study, spectra.spectrum(row / poes, row % poes))).collect();
+    Coefficients { measure: spectra.measure, fits }
+}
+
+/// Fit one spectrum over the strengths above `regression.strength_above`, or say why there is no fit.
+pub(super) fn fit_spectrum(study: &ResolvedStudy, spectrum: &[Ordinate]) -> Result<ExponentialFit, String> {
+    let from = study.strengths.partition_point(|&strength| strength <= study.regression.strength_above);
+    let strengths = &study.strengths[from..];
+    let displacements: Vec<f64> = spectrum[from..].iter().map(|ordinate| ordinate.displacement_m).collect();
+    if let Some(position) = displacements.iter().position(|u| u.is_infinite()) {
+        return Err(format!("the spectrum is censored at strength {}", strengths[position]));
+    }
+    fit(strengths, &displacements).map_err(|error| error.to_string())
+}

@@ -1,0 +1,102 @@
+//! Tidy tables beside the result file, for spreadsheets and scripts.
+
+use std::path::{Path, PathBuf};
+
+use polars::prelude::Column;
+use uplift_risk::OrdinateFlag;
+
+use super::Outcome;
+use crate::error::UpliftError;
+use crate::result::write_table;
+
+/// The tables beside the result file `result`: spectra and coefficients.
+pub fn csv_paths(result: &Path) -> [PathBuf; 2] {
+    ["urs.csv", "regression.csv"].map(|extension| result.with_extension(extension))
+}
+
+/// Write the tables of `outcome` beside the result file `result`, one comment line of provenance first.
+///
+/// # Errors
+/// A file that cannot be written.
+pub fn write_csv(result: &Path, outcome: &Outcome<'_>) -> Result<(), UpliftError> {
+    let line = outcome.provenance.line(&outcome.study.title, &outcome.records.description);
+    let [urs, regression] = csv_paths(result);
+    write_table(&urs, &line, spectra_table(outcome))?;
+    write_table(&regression, &line, regression_table(outcome))
+}
+
+fn spectra_table(outcome: &Outcome<'_>) -> Vec<Column> {
+    let study = outcome.study;
+    let (mut site, mut im, mut flag) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut poe, mut strength, mut u_m, mut lower, mut upper) =
+        (Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    for spectra in outcome.spectra {
+        let [sites, poes, _] = spectra.shape;
+        for (site_index, poe_index) in (0..sites).flat_map(|site| (0..poes).map(move |poe| (site, poe))) {
+            for (ordinate, eta) in spectra.spectrum(site_index, poe_index).iter().zip(study.strengths.iter()) {
+                site.push(study.sites[site_index].name.as_str());
+                im.push(spectra.measure.label());
+                poe.push(study.risk.poe[poe_index]);
+                strength.push(*eta);
+                u_m.push(ordinate.displacement_m);
+                flag.push(flag_word(ordinate.flag));
+                lower.push(ordinate.lower_tail_share);
+                upper.push(ordinate.upper_tail_share);
+            }
+        }
+    }
+    let years = vec![study.risk.years; site.len()];
+    vec![
+        Column::new("site".into(), site),
+        Column::new("im".into(), im),
+        Column::new("poe".into(), poe),
+        Column::new("years".into(), years),
+        Column::new("strength".into(), strength),
+        Column::new("u_m".into(), u_m),
+        Column::new("flag".into(), flag),
+        Column::new("lower_tail_share".into(), lower),
+        Column::new("upper_tail_share".into(), upper),
+    ]
+}
+
+pub(super) fn flag_word(flag: OrdinateFlag) -> &'static str {
+    match flag {
+        OrdinateFlag::Regular => "regular",
+        OrdinateFlag::NoExceedance => "no exceedance",
+        OrdinateFlag::Censored => "censored",
+    }
+}
+
+fn regression_table(outcome: &Outcome<'_>) -> Vec<Column> {
+    let study = outcome.study;
+    let poes = study.risk.poe.len();
+    let (mut site, mut im, mut poe, mut fits) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    for coefficients in outcome.coefficients {
+        for (row, fit) in coefficients.fits.iter().enumerate() {
+            site.push(study.sites[row / poes].name.as_str());
+            im.push(coefficients.measure.label());
+            poe.push(study.risk.poe[row % poes]);
+            fits.push(fit.as_ref().ok());
+        }
+    }
+    let number = |value: fn(&uplift_regression::ExponentialFit) -> f64| -> Vec<Option<f64>> {
+        fits.iter().map(|fit| fit.map(value)).collect()
+    };
+    let years = vec![study.risk.years; site.len()];
+    let bound: Vec<Option<bool>> = fits.iter().map(|fit| fit.map(|fit| fit.bound_active)).collect();
+    let points: Vec<u32> =
+        fits.iter().map(|fit| fit.map_or(0, |fit| u32::try_from(fit.points).unwrap_or(u32::MAX))).collect();
+    vec![
+        Column::new("site".into(), site),
+        Column::new("im".into(), im),
+        Column::new("poe".into(), poe),
+        Column::new("years".into(), years),
+        Column::new("c0_m".into(), number(|fit| fit.c0)),
+        Column::new("c1".into(), number(|fit| fit.c1)),
+        Column::new("c2_m".into(), number(|fit| fit.c2)),
+        Column::new("rmse_m".into(), number(|fit| fit.rmse)),
+        Column::new("rmse_plain_m".into(), number(|fit| fit.rmse_plain)),
+        Column::new("bound_active".into(), bound),
+        Column::new("points".into(), points),
+    ]
+}

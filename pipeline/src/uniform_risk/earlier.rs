@@ -1,0 +1,90 @@
+//! The stripes of an earlier result, as far as they are those of this study.
+
+use std::collections::HashMap;
+use std::path::Path;
+
+use uplift_ida::Cells;
+use uplift_motion::IntensityMeasure;
+
+use crate::checkpoint::oscillator_key;
+use crate::inputs::RecordSet;
+use uplift_labelled::{LabelledError, LabelledReader, Seal, seal_of};
+use crate::result::{level_axis};
+use uplift_study::{MeasurePlan, ResolvedStudy};
+
+/// An earlier result at the place of the one to come.
+pub struct EarlierStripes {
+    reader: LabelledReader,
+}
+
+impl EarlierStripes {
+    /// The result at `path`; none if there is none, or one of which any byte is not as it was written.
+    pub fn open(path: &Path) -> Option<Self> {
+        let whole = path.is_file() && matches!(seal_of(path), Ok(Seal::Whole(_)));
+        whole.then(|| LabelledReader::open(path).ok()).flatten().map(|reader| Self { reader })
+    }
+
+    /// Puts into `cells` what the file knows of the stripes that `study` asks for with `measure`: cells of the same motion, intensity,
+    /// oscillator, strength and level, by the same version of the solver. A file that is damaged, or of another layout, knows nothing.
+    pub fn fill(
+        &self,
+        study: &ResolvedStudy,
+        measure: &MeasurePlan,
+        set: &RecordSet,
+        motions: &[String],
+        cells: &mut Cells,
+    ) {
+        let _ = self.try_fill(study, measure, set, motions, cells);
+    }
+
+    fn try_fill(
+        &self,
+        study: &ResolvedStudy,
+        measure: &MeasurePlan,
+        set: &RecordSet,
+        motions: &[String],
+        cells: &mut Cells,
+    ) -> Result<(), LabelledError> {
+        let reader = &self.reader;
+        let key = measure.measure.key();
+        let group = format!("/ida/{key}");
+        if !reader.exists(&group) || reader.attribute_text(&group, "oscillator_key")? != oscillator_key(study) {
+            return Ok(());
+        }
+        let stored_motions = reader.array_text("/records/motion_sha256")?.values;
+        let intensities = reader
+            .array_f64(match measure.measure {
+                IntensityMeasure::Pga => "/records/pga_g",
+                _ => "/records/pgv_cm_s",
+            })?
+            .values;
+        let positions = |values: &[f64]| -> HashMap<u64, usize> {
+            values.iter().enumerate().map(|(index, value)| (value.to_bits(), index)).collect()
+        };
+        let strengths = reader.axis_f64("strength")?;
+        let levels = reader.axis_f64(&level_axis(measure.measure))?;
+        let edp_m = reader.array_f64(&format!("{group}/edp_m"))?;
+        let impacts = reader.array_u32(&format!("{group}/impacts"))?;
+        let shape = [stored_motions.len(), strengths.len(), levels.len()];
+        if edp_m.shape != shape || impacts.shape != shape || intensities.len() != shape[0] {
+            return Ok(());
+        }
+        let records: HashMap<(&str, u64), usize> = (stored_motions.iter().zip(&intensities).enumerate())
+            .map(|(index, (motion, intensity))| ((motion.as_str(), intensity.to_bits()), index))
+            .collect();
+        let (of_strength, of_level) = (positions(&strengths), positions(&levels));
+        for (record, (motion, asked)) in motions.iter().zip(&set.records).enumerate() {
+            let intensity = asked.intensity(measure.measure).to_bits();
+            let Some(&from_record) = records.get(&(motion.as_str(), intensity)) else { continue };
+            for (strength, value) in study.strengths.iter().enumerate() {
+                let Some(&from_strength) = of_strength.get(&value.to_bits()) else { continue };
+                for (level, value) in measure.levels.iter().enumerate() {
+                    let Some(&from_level) = of_level.get(&value.to_bits()) else { continue };
+                    let index = (from_record * shape[1] + from_strength) * shape[2] + from_level;
+                    cells.set([record, strength, level], edp_m.values[index], impacts.values[index]);
+                }
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,177 @@
+//! The part of `uplift run` that many sites take: read before the analyses, computed and written after them.
+
+mod files;
+mod spectra;
+
+pub use files::{SiteTableFiles, SiteTableLayout, SiteText, site_table_paths};
+pub use spectra::{SiteRisk, SiteSpectra};
+
+use std::path::{Path, PathBuf};
+
+use rayon::prelude::*;
+use uplift_ida::Watch;
+use uplift_risk::OrdinateFlag;
+
+use crate::UpliftError;
+use crate::inputs::{BatchSite, SiteCurves, SiteList, read_site_list};
+use crate::events::{Events, Progress};
+use crate::uniform_risk::{SiteTableFiles, SiteText, site_table_paths};
+use crate::uniform_risk::{SiteRisk, SiteSpectra, Stripes};
+use uplift_study::{ResolvedStudy, SiteTable};
+use crate::text::{per_cent, thousands};
+
+/// Bytes of text, about, that are in memory at a time.
+const BATCH_BYTES: usize = 16 << 20;
+/// Bytes that an ordinate takes as text, about.
+const ORDINATE_BYTES: usize = 80;
+
+/// What many sites leave behind: nothing where the study has no table of sites.
+#[derive(Default)]
+pub struct SiteOutput {
+    /// What to know before using the numbers.
+    pub warnings: Vec<String>,
+    files: Option<SiteTableFiles>,
+}
+
+impl SiteOutput {
+    /// Put the files in their places.
+    pub fn finish(self) -> Result<Vec<PathBuf>, UpliftError> {
+        self.files.map_or(Ok(Vec::new()), SiteTableFiles::finish)
+    }
+}
+
+/// The study's table of sites, found in its exports; no file that is read is to be overwritten by the results at `path`.
+pub fn read(study: &ResolvedStudy, path: &Path, events: &dyn Events) -> Result<Option<SiteList>, UpliftError> {
+    for input in study.site_table.iter().flat_map(SiteTable::files) {
+        let same = |output: &PathBuf| output.canonicalize().is_ok_and(|output| output == input);
+        if let Some(output) = site_table_paths(path).iter().find(|output| same(output)) {
+            let output = output.display();
+            return Err(UpliftError::input(format!(
+                "the results would overwrite {output}, an input of the study: give the result file another name (-o)"
+            )));
+        }
+    }
+    let list = read_site_list(study)?;
+    if let Some(list) = &list {
+        events.remark("sites", &format!(
+"{}", list.description()));
+    }
+    Ok(list)
+}
+
+/// Spectra and coefficients of every site of the list, written aside site by site; `line` says where the numbers come from.
+pub fn compute(
+    study: &ResolvedStudy,
+    list: Option<&SiteList>,
+    stripes: &[Stripes],
+    path: &Path,
+    line: &str,
+    events: &dyn Events,
+) -> Result<SiteOutput, UpliftError> {
+    let Some(list) = list else { return Ok(SiteOutput::default()) };
+    let risks =
+        list.exports.iter().map(|export| SiteRisk::new(study, &stripes[export.plan])).collect::<Result<Vec<_>, _>>()?;
+    let mut files = SiteTableFiles::create(path, study, list, line)?;
+    let mut tally = Tally::new(study, list);
+    let mut curves = SiteCurves::open(list)?;
+    let ordinates = list.exports.len() * study.risk.poe.len() * study.strengths.len();
+    let most = (BATCH_BYTES / (ORDINATE_BYTES * ordinates.max(1))).clamp(8, 512);
+    let progress = Progress::begin(events, "sites", "sites", list.sites.len() as u64);
+
+    let mut batch = curves.next_batch(most)?;
+    while !batch.is_empty() {
+        if events.cancelled() {
+            return Err(UpliftError::Interrupted);
+        }
+        // the next sites are read while these are computed
+        let of_site = |site: &BatchSite| spectra_of(study, list, &risks, &files, site);
+        let (done, next): (Vec<(SiteText, SiteFindings)>, _) =
+            rayon::join(|| batch.par_iter().map(of_site).collect(), || curves.next_batch(most));
+        for (text, findings) in &done {
+            files.write(text)?;
+            tally.add(findings);
+        }
+        progress.finished(done.len() as u64);
+        batch = next?;
+    }
+    drop(progress);
+    Ok(SiteOutput { warnings: tally.warnings(study, list), files: Some(files) })
+}
+
+/// What deserves a warning, for each export and probability.
+type SiteFindings = Vec<Vec<[bool; FINDINGS]>>;
+const FINDINGS: usize = 4;
+
+fn spectra_of(
+    study: &ResolvedStudy,
+    list: &SiteList,
+    risks: &[SiteRisk<'_>],
+    files: &SiteTableFiles,
+    site: &BatchSite,
+) -> (SiteText, SiteFindings) {
+    let exports = list.exports.iter().zip(risks).zip(&site.curves);
+    let spectra: Vec<Result<SiteSpectra, String>> = exports
+        .map(|((export, risk), curve)| {
+            let curve = curve.as_ref().as_ref().map_err(Clone::clone)?;
+            risk.spectra(&export.weights(study, curve)?)
+        })
+        .collect();
+    let findings = spectra.iter().map(|spectra| spectra.as_ref().map_or(Vec::new(), |spectra| found(study, spectra)));
+    (files.layout().text(&list.sites[site.site], &spectra), findings.collect())
+}
+
+fn found(study: &ResolvedStudy, spectra: &SiteSpectra) -> Vec<[bool; FINDINGS]> {
+    let spectrum = |ordinates: &[uplift_risk::Ordinate]| {
+        [
+            ordinates.iter().any(|ordinate| ordinate.flag == OrdinateFlag::Censored),
+            ordinates.iter().any(uplift_risk::Ordinate::has_significant_tail),
+        ]
+    };
+    let by_poe = spectra.ordinates.chunks(study.strengths.len()).zip(&spectra.fits);
+    by_poe
+        .map(|(ordinates, fit)| {
+            let [censored, tail] = spectrum(ordinates);
+            [censored, tail, fit.is_err(), fit.as_ref().is_ok_and(|fit| fit.at_search_limit)]
+        })
+        .collect()
+}
+
+/// How many sites deserve which warning.
+struct Tally {
+    /// `[export][poe]`.
+    counts: Vec<Vec<[u64; FINDINGS]>>,
+}
+
+impl Tally {
+    fn new(study: &ResolvedStudy, list: &SiteList) -> Self {
+        Self { counts: vec![vec![[0; FINDINGS]; study.risk.poe.len()]; list.exports.len()] }
+    }
+
+    fn add(&mut self, findings: &SiteFindings) {
+        for (counts, findings) in self.counts.iter_mut().zip(findings) {
+            for (counts, findings) in counts.iter_mut().zip(findings) {
+                counts.iter_mut().zip(findings).for_each(|(count, &found)| *count += u64::from(found));
+            }
+        }
+    }
+
+    fn warnings(&self, study: &ResolvedStudy, list: &SiteList) -> Vec<String> {
+        const WORDS: [&str; FINDINGS] = [
+            "have ordinates that are censored: overturned runs, or the last threshold, exceed the target risk",
+            "have ordinates that take more than 1 % of their risk from outside the stripes",
+            "have no fit: the column `problem` says why",
+            "have a spectrum that is no decaying exponential: its coefficients mean nothing one by one",
+        ];
+        let all = thousands(list.sites.len() as u64);
+        let mut warnings = Vec::new();
+        for (export, counts) in list.exports.iter().zip(&self.counts) {
+            for (&poe, counts) in study.risk.poe.iter().zip(counts) {
+                for (&count, words) in counts.iter().zip(WORDS).filter(|(count, _)| **count > 0) {
+                    let (label, count) = (export.measure.label(), thousands(count));
+                    warnings.push(format!("site table, {label}, {}: {count} of {all} sites {words}", per_cent(poe)));
+                }
+            }
+        }
+        warnings
+    }
+}

@@ -1,0 +1,388 @@
+//! The tables and the map of many sites, written site by site.
+
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use uplift_regression::ExponentialFit;
+use uplift_risk::Ordinate;
+
+use crate::uniform_risk::csv::flag_word;
+use crate::error::UpliftError;
+use crate::inputs::{ListedSite, SiteList};
+use crate::uniform_risk::{SiteSpectra};
+use uplift_study::ResolvedStudy;
+use crate::text::nearest;
+
+/// Strengths of which the map shows ordinates, unless the study names some.
+const SHOWN_ON_MAP: [f64; 3] = [0.1, 0.2, 0.4];
+/// Columns of the coefficients, before those of the study's own table.
+const COEFFICIENTS: [&str; 12] =
+    ["site", "longitude", "latitude", "im", "poe", "years", "c0_m", "c1", "c2_m", "rmse_m", "bound_active", "problem"];
+
+/// The files beside the result file `result`: spectra, coefficients, and both as a map.
+pub fn site_table_paths(result: &Path) -> [PathBuf; 3] {
+    ["sites.csv", "sites.coefficients.csv", "sites.geojson"].map(|extension| result.with_extension(extension))
+}
+
+/// The files of many sites while they are being written; those not finished are removed.
+#[derive(Debug)]
+pub struct SiteTableFiles {
+    files: [Aside; 3],
+    layout: SiteTableLayout,
+    features: u64,
+}
+
+/// What the rows and properties are called.
+#[derive(Debug, Clone)]
+pub struct SiteTableLayout {
+    years: f64,
+    strengths: Vec<f64>,
+    /// Positions of the strengths in the table of spectra.
+    in_table: Vec<usize>,
+    /// Positions of the strengths on the map.
+    on_map: Vec<usize>,
+    /// `[export]`.
+    measures: Vec<MeasureNames>,
+    /// Names of the cells carried along, as keys of JSON.
+    carried: Vec<String>,
+}
+
+/// The names of one measure.
+#[derive(Debug, Clone)]
+struct MeasureNames {
+    label: &'static str,
+    /// `[poe]`.
+    poes: Vec<PoeNames>,
+}
+
+#[derive(Debug, Clone)]
+struct PoeNames {
+    poe: f64,
+    /// Such as `pgv_2pct_50yr`.
+    key: String,
+    /// Such as `_u_m_at_0.2`, one for each strength on the map.
+    ordinates: Vec<String>,
+}
+
+/// A site as it stands in the three files.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SiteText {
+    spectra: String,
+    coefficients: String,
+    feature: String,
+}
+
+impl SiteTableFiles {
+    /// Begin the files beside the result file `result`, aside; `line` says where the numbers come from.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn create(result: &Path, study: &ResolvedStudy, list: &SiteList, line: &str) -> Result<Self, UpliftError> {
+        let layout = SiteTableLayout::of(study, list);
+        let [spectra, coefficients, map] = site_table_paths(result);
+        let mut files = [Aside::create(spectra)?, Aside::create(coefficients)?, Aside::create(map)?];
+        let columns: Vec<String> =
+            COEFFICIENTS.iter().map(|&name| name.to_owned()).chain(carried_columns(&list.carried)).collect();
+        let columns: Vec<String> = columns.iter().map(|name| cell(name)).collect();
+        files[0].write(&format!("# {line}\nsite,longitude,latitude,im,poe,years,strength,u_m,flag\n"))?;
+        files[1].write(&format!("# {line}\n{}\n", columns.join(",")))?;
+        files[2].write(&format!(
+            "{{\"type\":\"FeatureCollection\",\n\"provenance\":{},\n\"features\":[",
+            json_text(line)
+        ))?;
+        Ok(Self { files, layout, features: 0 })
+    }
+
+    /// What the rows and properties are called.
+    pub fn layout(&self) -> &SiteTableLayout {
+        &self.layout
+    }
+
+    /// Append a site.
+    ///
+    /// # Errors
+    /// A disk that is full, for instance.
+    pub fn write(&mut self, site: &SiteText) -> Result<(), UpliftError> {
+        let [spectra, coefficients, map] = &mut self.files;
+        spectra.write(&site.spectra)?;
+        coefficients.write(&site.coefficients)?;
+        map.write(if self.features == 0 { "\n" } else { ",\n" })?;
+        self.features += 1;
+        map.write(&site.feature)
+    }
+
+    /// Put the files in their places.
+    ///
+    /// # Errors
+    /// A disk that is full, for instance; earlier files are then as they were.
+    pub fn finish(mut self) -> Result<Vec<PathBuf>, UpliftError> {
+        self.files[2].write("\n]}\n")?;
+        for file in &mut self.files {
+            file.flush()?;
+        }
+        self.files.iter_mut().map(Aside::put_in_place).collect()
+    }
+}
+
+impl SiteTableLayout {
+    fn of(study: &ResolvedStudy, list: &SiteList) -> Self {
+        let chosen = study.site_table.as_ref().and_then(|table| table.strengths.as_ref()).map(|chosen| {
+            let is_chosen = |&index: &usize| chosen.contains(&study.strengths[index]);
+            (0..study.strengths.len()).filter(is_chosen).collect::<Vec<usize>>()
+        });
+        let in_table = chosen.clone().unwrap_or_else(|| (0..study.strengths.len()).collect());
+        let on_map = chosen.unwrap_or_else(|| nearest(&study.strengths, &SHOWN_ON_MAP));
+        let labels = strength_labels(on_map.iter().map(|&index| study.strengths[index]));
+        let years = study.risk.years;
+        let measure_names = |key: &str, label| MeasureNames {
+            label,
+            poes: (study.risk.poe.iter())
+                .map(|&poe| PoeNames {
+                    poe,
+                    key: format!("{key}_{}pct_{years}yr", (poe * 1e10).round() / 1e8),
+                    ordinates: labels.iter().map(|label| format!("_u_m_at_{label}")).collect(),
+                })
+                .collect(),
+        };
+        let mut layout = Self {
+            years,
+            strengths: study.strengths.to_vec(),
+            in_table,
+            on_map,
+            measures: (list.exports.iter())
+                .map(|export| measure_names(export.measure.key(), export.measure.label()))
+                .collect(),
+            carried: Vec::new(),
+        };
+        let mut taken = layout.property_names();
+        layout.carried = distinct(&list.carried, &mut taken).iter().map(|name| json_text(name)).collect();
+        layout
+    }
+
+    /// The properties of a feature but for cells carried along.
+    fn property_names(&self) -> BTreeSet<String> {
+        let mut names: BTreeSet<String> = ["name", "problem"].map(str::to_owned).into();
+        for names_of_poe in self.measures.iter().flat_map(|measure| &measure.poes) {
+            let endings = names_of_poe.ordinates.iter().map(String::as_str).chain(["_c0_m", "_c1", "_c2_m", "_rmse_m"]);
+            names.extend(endings.map(|ending| format!("{}{ending}", names_of_poe.key)));
+        }
+        names
+    }
+
+    /// A site with its spectra in each export, or why it has none.
+    pub fn text(&self, site: &ListedSite, spectra: &[Result<SiteSpectra, String>]) -> SiteText {
+        let mut text = SiteText { spectra: String::new(), coefficients: String::new(), feature: String::new() };
+        let place = format!("{},{:?},{:?}", cell(&site.name), site.longitude_deg, site.latitude_deg);
+        let mut tail = String::new();
+        let mut carried = String::new();
+        for (key, value) in self.carried.iter().zip(site.carried()) {
+            let _ = write!(tail, ",{}", cell(value));
+            let _ = write!(carried, ",{key}:{}", json_cell(value));
+        }
+        let mut problems: Vec<String> = Vec::new();
+        let mut properties = String::new();
+        for (names, spectra) in self.measures.iter().zip(spectra) {
+            if let Err(reason) = spectra {
+                problems.push(format!("{}: {reason}", names.label));
+            }
+            for (row, poe) in names.poes.iter().enumerate() {
+                let spectra = spectra.as_ref();
+                let spectrum = spectra.ok().and_then(|spectra| spectra.ordinates.chunks(self.strengths.len()).nth(row));
+                let fit = spectra.map(|spectra| spectra.fits[row].as_ref());
+                let head = format!("{place},{},{:?},{:?}", names.label, poe.poe, self.years);
+                self.spectrum_rows(&mut text.spectra, &head, spectrum.unwrap_or_default());
+                let (fit, problem) = match fit {
+                    Err(reason) => (None, reason.clone()),
+                    Ok(Err(reason)) => (None, format!("no fit: {reason}")),
+                    Ok(Ok(fit)) if fit.at_search_limit => (Some(fit), NO_EXPONENTIAL.to_owned()),
+                    Ok(Ok(fit)) => (Some(fit), String::new()),
+                };
+                if !problem.is_empty() && spectrum.is_some() {
+                    problems.push(format!("{}: {problem}", poe.key));
+                }
+                let _ = writeln!(text.coefficients, "{head},{},{}{tail}", coefficient_cells(fit), cell(&problem));
+                for (&strength, ending) in self.on_map.iter().zip(&poe.ordinates) {
+                    let u_m =
+                        spectrum.and_then(|spectrum| spectrum.get(strength)).map(|ordinate| ordinate.displacement_m);
+                    let _ = write!(properties, ",\"{}{ending}\":{}", poe.key, json_number(u_m));
+                }
+                for (ending, value) in COEFFICIENTS_ON_MAP {
+                    let _ = write!(properties, ",\"{}{ending}\":{}", poe.key, json_number(fit.map(value)));
+                }
+            }
+        }
+        let problem = if problems.is_empty() { "null".to_owned() } else { json_text(&problems.join("; ")) };
+        // east of 180° is west of it, as RFC 7946 counts
+        let longitude = if site.longitude_deg > 180.0 { site.longitude_deg - 360.0 } else { site.longitude_deg };
+        let _ = write!(
+            text.feature,
+            "{{\"type\":\"Feature\",\"geometry\":{{\"type\":\"Point\",\"coordinates\":[{longitude:?},{:?}]}},\"properties\":{{\"name\":{}{properties},\"problem\":{problem}{carried}}}}}",
+            site.latitude_deg,
+            json_text(&site.name),
+        );
+        text
+    }
+
+    fn spectrum_rows(&self, rows: &mut String, head: &str, spectrum: &[Ordinate]) {
+        for &index in self.in_table.iter().filter(|&&index| index < spectrum.len()) {
+            let Ordinate { displacement_m, flag, .. } = spectrum[index];
+            let _ = writeln!(rows, "{head},{:?},{displacement_m:?},{}", self.strengths[index], flag_word(flag));
+        }
+    }
+}
+
+const NO_EXPONENTIAL: &str = "the spectrum is no decaying exponential: its coefficients mean nothing one by one";
+
+/// Ending of a property with what it holds.
+type Coefficient = (&'static str, fn(&ExponentialFit) -> f64);
+
+const COEFFICIENTS_ON_MAP: [Coefficient; 4] =
+    [("_c0_m", |fit| fit.c0), ("_c1", |fit| fit.c1), ("_c2_m", |fit| fit.c2), ("_rmse_m", |fit| fit.rmse)];
+
+/// The cells from `c0_m` to `bound_active`.
+fn coefficient_cells(fit: Option<&ExponentialFit>) -> String {
+    fit.map_or_else(
+        || ",,,,".to_owned(),
+        |fit| {
+            format!(
+                "{},{},{},{},{}",
+                number(fit.c0),
+                number(fit.c1),
+                number(fit.c2),
+                number(fit.rmse),
+                fit.bound_active
+            )
+        },
+    )
+}
+
+/// A number of a table; nothing where it is not known.
+fn number(value: f64) -> String {
+    if value.is_nan() { String::new() } else { format!("{value:?}") }
+}
+
+/// A cell of a table, in quotes where its content could be taken for the table's structure.
+fn cell(text: &str) -> String {
+    let quoted = text.contains([',', '"', '\n', '\r']) || text.starts_with('#');
+    if quoted { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+}
+
+fn json_text(text: &str) -> String {
+    serde_json::Value::from(text).to_string()
+}
+
+/// A number of JSON, which has neither infinity nor NaN.
+fn json_number(value: Option<f64>) -> String {
+    value.filter(|value| value.is_finite()).map_or_else(|| "null".to_owned(), |value| format!("{value:?}"))
+}
+
+/// A cell carried along: a number where it is written as JSON writes one, so that 0012 stays text.
+fn json_cell(text: &str) -> String {
+    match serde_json::from_str::<serde_json::Number>(text) {
+        Ok(_) => text.to_owned(),
+        Err(_) if text.is_empty() => "null".to_owned(),
+        Err(_) => json_text(text),
+    }
+}
+
+/// Names of the strengths on the map: four decimals where these tell them apart, else all digits.
+fn strength_labels(strengths: impl Iterator<Item = f64>) -> Vec<String> {
+    let strengths: Vec<f64> = strengths.collect();
+    let short = |strength: &f64| ((strength * 1e4).round() / 1e4).to_string();
+    let labels: Vec<String> = strengths.iter().map(short).collect();
+    let distinct: BTreeSet<&String> = labels.iter().collect();
+    if distinct.len() == labels.len() { labels } else { strengths.iter().map(ToString::to_string).collect() }
+}
+
+fn carried_columns(names: &[String]) -> Vec<String> {
+    distinct(names, &mut COEFFICIENTS.iter().map(|&name| name.to_owned()).collect())
+}
+
+/// Names that no other has: `table_` goes before those that are taken.
+fn distinct(names: &[String], taken: &mut BTreeSet<String>) -> Vec<String> {
+    let distinct = names.iter().map(|name| {
+        let mut name = name.trim().to_owned();
+        while !taken.insert(name.clone()) {
+            name.insert_str(0, "table_");
+        }
+        name
+    });
+    distinct.collect()
+}
+
+/// A file written aside, and put in its place when it is complete.
+#[derive(Debug)]
+struct Aside {
+    path: PathBuf,
+    partial: PathBuf,
+    writer: BufWriter<File>,
+}
+
+impl Aside {
+    fn create(path: PathBuf) -> Result<Self, UpliftError> {
+        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+        let partial = path.with_file_name(format!(".{name}.partial-{}", std::process::id()));
+        let file = File::create(&partial).map_err(|error| failed(&path, &error))?;
+        Ok(Self { path, partial, writer: BufWriter::with_capacity(1 << 18, file) })
+    }
+
+    fn write(&mut self, text: &str) -> Result<(), UpliftError> {
+        self.writer.write_all(text.as_bytes()).map_err(|error| failed(&self.path, &error))
+    }
+
+    fn flush(&mut self) -> Result<(), UpliftError> {
+        self.writer.flush().map_err(|error| failed(&self.path, &error))
+    }
+
+    fn put_in_place(&mut self) -> Result<PathBuf, UpliftError> {
+        self.writer.get_ref().sync_all().map_err(|error| failed(&self.path, &error))?;
+        std::fs::rename(&self.partial, &self.path).map_err(|error| failed(&self.path, &error))?;
+        Ok(self.path.clone())
+    }
+}
+
+impl Drop for Aside {
+    fn drop(&mut self) {
+        // not there any more once it is in its place
+        let _ = std::fs::remove_file(&self.partial);
+    }
+}
+
+fn failed(path: &Path, error: &std::io::Error) -> UpliftError {
+    UpliftError::input(format!("{} cannot be written: {error}", path.display()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_survive_a_table_and_json() {
+        for (text, csv, json) in [
+            ("Sion", "Sion", "\"Sion\""),
+            ("Sion, \"old\"", "\"Sion, \"\"old\"\"\"", "\"Sion, \\\"old\\\"\""),
+            ("0012", "0012", "\"0012\""),
+            ("-1.5e3", "-1.5e3", "-1.5e3"),
+            ("nan", "nan", "\"nan\""),
+            ("", "", "null"),
+            ("#1", "\"#1\"", "\"#1\""),
+        ] {
+            assert_eq!((cell(text).as_str(), json_cell(text).as_str()), (csv, json));
+        }
+        assert_eq!(
+            [json_number(Some(f64::INFINITY)), json_number(Some(1e-9)), json_number(None)],
+            ["null", "1e-9", "null"]
+        );
+    }
+
+    #[test]
+    fn names_are_distinct() {
+        assert_eq!(strength_labels([0.1, 1.0 / 3.0].into_iter()), ["0.1", "0.3333"]);
+        assert_eq!(strength_labels([0.1, 0.100_001].into_iter()), ["0.1", "0.100001"]);
+        let names = ["vs30", "problem", "vs30"].map(str::to_owned);
+        assert_eq!(carried_columns(&names), ["vs30", "table_problem", "table_vs30"]);
+    }
+}

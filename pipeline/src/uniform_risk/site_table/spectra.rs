@@ -1,0 +1,61 @@
+//! Spectra and coefficients of many sites, one after the other: what they share is made once.
+
+use rayon::prelude::*;
+use uplift_regression::ExponentialFit;
+use uplift_risk::{Ordinate, PooledDemand, RiskCurve, StripeWeights};
+
+use crate::uniform_risk::Stripes;
+use crate::uniform_risk::coefficients::fit_spectrum;
+use crate::uniform_risk::spectra::{Reading, pooled_demand};
+use crate::error::UpliftError;
+use uplift_study::ResolvedStudy;
+
+/// What turns the hazard of any site into spectra: the demands of one measure, sorted once for each strength.
+pub struct SiteRisk<'a> {
+    study: &'a ResolvedStudy,
+    reading: Reading,
+    /// One a strength.
+    demands: Vec<PooledDemand>,
+}
+
+/// The spectra of one site and measure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SiteSpectra {
+    /// Ordinates over `[poe, strength]`, row-major.
+    pub ordinates: Vec<Ordinate>,
+    /// A fit of Eq. 4.11, or why there is none, over `[poe]`.
+    pub fits: Vec<Result<ExponentialFit, String>>,
+}
+
+impl<'a> SiteRisk<'a> {
+    /// Pool the demands of `stripes`.
+    ///
+    /// # Errors
+    /// Numbers that do not fit together, which the check of the study rules out.
+    pub fn new(study: &'a ResolvedStudy, stripes: &Stripes) -> Result<Self, UpliftError> {
+        let demands = (0..stripes.edp.shape()[1])
+            .into_par_iter()
+            .map(|strength| pooled_demand(stripes, strength))
+            .collect::<Result<_, _>>()
+            .map_err(|error| UpliftError::input(error.to_string()))?;
+        Ok(Self { study, reading: Reading::of(study)?, demands })
+    }
+
+    /// The spectra of the site whose hazard gives the stripes these weights: to the bit those of
+    /// [`uniform_risk_spectra`](super::uniform_risk_spectra) and [`fit_spectra`](super::fit_spectra).
+    ///
+    /// # Errors
+    /// Weights of another number of levels.
+    pub fn spectra(&self, weights: &StripeWeights) -> Result<SiteSpectra, String> {
+        let mut by_strength = Vec::with_capacity(self.demands.len());
+        for demand in &self.demands {
+            let curve = RiskCurve::new(demand, weights).map_err(|error| error.to_string())?;
+            by_strength.push(self.reading.ordinates(&curve).map_err(|error| error.to_string())?);
+        }
+        let poes = self.reading.targets.len();
+        let ordinates: Vec<Ordinate> =
+            (0..poes).flat_map(|poe| by_strength.iter().map(move |ordinates| ordinates[poe])).collect();
+        let fits = ordinates.chunks(self.demands.len()).map(|spectrum| fit_spectrum(self.study, spectrum)).collect();
+        Ok(SiteSpectra { ordinates, fits })
+    }
+}

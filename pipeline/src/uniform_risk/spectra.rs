@@ -1,0 +1,157 @@
+//! Uniform risk spectra and the risk surface: stripes and hazard joined (Eq. 4.4, 4.8).
+
+use rayon::prelude::*;
+use uplift_fragility::Stripes as Stripe;
+use uplift_hazard::rate_from_probability;
+use uplift_motion::IntensityMeasure;
+use uplift_risk::{Ordinate, PooledDemand, RiskCurve, RiskError, ThresholdGrid};
+
+use super::{BranchSpectra, Stripes};
+use crate::error::UpliftError;
+use crate::inputs::SiteHazard;
+use uplift_study::{Contour, ResolvedStudy};
+
+/// The spectra of one measure.
+#[derive(Debug, Clone)]
+pub struct Spectra {
+    /// The measure.
+    pub measure: IntensityMeasure,
+    /// Lengths of `[site, poe, strength]`.
+    pub shape: [usize; 3],
+    /// Ordinates over `[site, poe, strength]`, row-major.
+    pub ordinates: Vec<Ordinate>,
+    /// Spectra of each branch, for the sites that have branches.
+    pub branches: Vec<BranchSpectra>,
+    /// Mean annual frequencies over `[site, strength, threshold]`, 1/yr, if the study keeps them.
+    pub maf_per_year: Option<Vec<f64>>,
+}
+
+impl Spectra {
+    /// The spectrum of one site and probability, `[strength]`.
+    ///
+    /// # Panics
+    /// If an index is out of range, which is a bug of the caller.
+    pub fn spectrum(&self, site: usize, poe: usize) -> &[Ordinate] {
+        let [_, poes, strengths] = self.shape;
+        let start = (site * poes + poe) * strengths;
+        &self.ordinates[start..start + strengths]
+    }
+}
+
+/// How ordinates are read: the target rates and the thresholds of a study.
+pub(super) struct Reading {
+    /// Target rates, 1/yr, one a probability.
+    pub(super) targets: Vec<f64>,
+    grid: ThresholdGrid,
+    contour: Contour,
+}
+
+impl Reading {
+    pub(super) fn of(study: &ResolvedStudy) -> Result<Self, UpliftError> {
+        let rate = |&poe: &f64| rate_from_probability(poe, study.risk.years);
+        let targets = study.risk.poe.iter().map(rate).collect::<Result<Vec<_>, _>>();
+        let targets = targets.map_err(|error| UpliftError::input(error.to_string()))?;
+        let grid = ThresholdGrid::new(study.risk.thresholds_m.to_vec())
+            .map_err(|error| UpliftError::input(error.to_string()))?;
+        Ok(Self { targets, grid, contour: study.risk.contour })
+    }
+
+    /// The ordinates of one strength, one a probability.
+    pub(super) fn ordinates(&self, curve: &RiskCurve<'_>) -> Result<Vec<Ordinate>, RiskError> {
+        match self.contour {
+            Contour::Exact => curve.exact_ordinates(&self.targets),
+            Contour::Grid => self.targets.iter().map(|&target| curve.grid_ordinate(&self.grid, target)).collect(),
+        }
+    }
+}
+
+/// All demands of one strength, sorted once for all sites.
+pub(super) fn pooled_demand(
+    stripes: &Stripes,
+    strength: usize,
+) -> Result<PooledDemand, Box<dyn std::error::Error + Send + Sync>> {
+    let [records, strengths, levels] = stripes.edp.shape();
+    let edp_m = &stripes.edp.edp_m()[strength * levels..];
+    Ok(PooledDemand::new(&Stripe::strided(&stripes.levels, edp_m, records, strengths * levels)?)?)
+}
+
+/// One strength.
+#[derive(Default)]
+struct OfStrength {
+    /// `[site][poe]`.
+    ordinates: Vec<Vec<Ordinate>>,
+    /// `[site][branch, poe]`, m.
+    branches_m: Vec<Vec<f64>>,
+    /// Surface rows `[site]`.
+    rows: Vec<Vec<f64>>,
+}
+
+/// The spectra of all sites from the stripes of one measure.
+///
+/// Each strength is sorted once and serves every site and probability.
+///
+/// # Errors
+/// Numbers that do not fit together, which the checks of study and inputs rule out.
+pub fn uniform_risk_spectra(
+    study: &ResolvedStudy,
+    stripes: &Stripes,
+    hazard: &[SiteHazard],
+) -> Result<Spectra, UpliftError> {
+    let reading = Reading::of(study)?;
+    let (targets, grid) = (&reading.targets, &reading.grid);
+    let strengths = stripes.edp.shape()[1];
+
+    let of_strength = |strength: usize| -> Result<OfStrength, Box<dyn std::error::Error + Send + Sync>> {
+        let demand = pooled_demand(stripes, strength)?;
+        let read = |curve: &RiskCurve<'_>| reading.ordinates(curve);
+        let mut done = OfStrength::default();
+        for site in hazard {
+            let curve = RiskCurve::new(&demand, &site.curve.weights)?;
+            done.ordinates.push(read(&curve)?);
+            if study.risk.maf_surface {
+                done.rows.push(curve.mean_annual_frequencies(grid));
+            }
+            let mut branches_m = Vec::with_capacity(site.branches.len() * targets.len());
+            for branch in &site.branches {
+                let ordinates = read(&RiskCurve::new(&demand, &branch.input.weights)?)?;
+                branches_m.extend(ordinates.iter().map(|ordinate| ordinate.displacement_m));
+            }
+            done.branches_m.push(branches_m);
+        }
+        Ok(done)
+    };
+    let by_strength = (0..strengths)
+        .into_par_iter()
+        .map(of_strength)
+        .collect::<Result<Vec<OfStrength>, _>>()
+        .map_err(|error| UpliftError::input(error.to_string()))?;
+
+    let mut ordinates = Vec::with_capacity(hazard.len() * targets.len() * strengths);
+    let mut surface = Vec::new();
+    for site in 0..hazard.len() {
+        for poe in 0..targets.len() {
+            ordinates.extend(by_strength.iter().map(|done| done.ordinates[site][poe]));
+        }
+        if study.risk.maf_surface {
+            surface.extend(by_strength.iter().flat_map(|done| done.rows[site].iter().copied()));
+        }
+    }
+    let branches = hazard
+        .iter()
+        .enumerate()
+        .filter(|(_, site)| !site.branches.is_empty())
+        .map(|(index, site)| {
+            let cells = site.branches.len() * targets.len();
+            let spectra_m =
+                (0..cells).flat_map(|cell| by_strength.iter().map(move |done| done.branches_m[index][cell])).collect();
+            BranchSpectra::new(index, &site.branches, spectra_m)
+        })
+        .collect();
+    Ok(Spectra {
+        branches,
+        measure: stripes.measure,
+        shape: [hazard.len(), targets.len(), strengths],
+        ordinates,
+        maf_per_year: study.risk.maf_surface.then_some(surface),
+    })
+}
