@@ -35,6 +35,7 @@ test-cluster: build
 	tests/cluster/run.sh
 
 lint:
+	.ci/check-line-width
 	cargo fmt --all --check
 	cargo clippy --locked --workspace --all-targets -- -D warnings
 
