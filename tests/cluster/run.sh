@@ -67,7 +67,7 @@ until_true() {
     return 1
 }
 
-# Something of a shard is kept, and not yet all.
+# Some analysis rows of a shard are written, and not yet all.
 begun() { [ "$(cat results/study.shard-* 2>/dev/null | wc -c)" -gt 50000 ]; }
 
 queue_is_empty() { local queue && queue=$(squeue --noheader) && [ -z "$queue" ]; }
@@ -95,12 +95,12 @@ in_slurm() {
     scancel "$first"
     until_true 60 queue_is_empty ||
         { squeue; stuck "$version: a job that was cancelled, or its join, is still there" /dev/null; return; }
-    local kept
-    kept=$(cat results/study.shard-* | wc -c)
+    local written
+    written=$(cat results/study.shard-* | wc -c)
     [ ! -e results/study.h5 ] || fail "$version: a result of an array that was stopped"
     CPUS=1 "$repository/docs/cluster/slurm.sh" study.toml 3
     until_true 300 queue_is_empty || fail "$version: the jobs do not end"
-    grep -qh "^known " results/logs/*.log || fail "$version: nothing was taken over of the $kept bytes kept"
+    grep -qh "^known " results/logs/*.log || fail "$version: nothing was taken over of the $written bytes written"
     compare "$version, an array of 3, cancelled and submitted again"
 }
 
