@@ -11,7 +11,7 @@ use super::overrides;
 use super::paths::{Folders, tidy};
 use super::reader::{Finding, Ledger, Section};
 use super::resolve::{self, Kind};
-use super::resolved::ResolvedStudy;
+use super::resolved::{Output, ResolvedStudy};
 
 /// Largest study file \[bytes\]; one with 100 000 numbers written out has 2 MB.
 const LARGEST_FILE: u64 = 4 << 20;
@@ -31,6 +31,35 @@ pub enum AnyStudy {
     UniformRisk(Box<ResolvedStudy>),
     /// Of displacement spectra.
     Displacement(Box<DisplacementStudy>),
+}
+
+impl AnyStudy {
+    /// What is written where.
+    pub fn output(&self) -> &Output {
+        match self {
+            Self::UniformRisk(study) => &study.output,
+            Self::Displacement(study) => &study.output,
+        }
+    }
+
+    /// What is allowed but probably not meant.
+    pub fn warnings(&self) -> &[String] {
+        match self {
+            Self::UniformRisk(study) => &study.warnings,
+            Self::Displacement(study) => &study.warnings,
+        }
+    }
+
+    /// The study as TOML, complete and loadable.
+    ///
+    /// # Errors
+    /// Where TOML cannot hold a value; a study that was loaded has none such.
+    pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
+        match self {
+            Self::UniformRisk(study) => study.to_toml(),
+            Self::Displacement(study) => study.to_toml(),
+        }
+    }
 }
 
 impl Study {
