@@ -2,7 +2,7 @@
 //!
 //! Equations, tables and sections are those of Reggiani Manzo's dissertation, Chapters 2, 3, 5 and 6.
 //!
-//! | room | what is in it |
+//! | module | what is in it |
 //! |---|---|
 //! | [`geometry`] | width, height, slenderness and size of a block or column |
 //! | [`block`] | solitary bodies: Table 3.1, rows 1 to 4 |
