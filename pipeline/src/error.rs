@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use crate::checkpoint::CheckpointError;
+use uplift_ida::IdaError;
 use uplift_labelled::LabelledError;
 use uplift_study::StudyError;
 
@@ -20,13 +22,22 @@ pub enum UpliftError {
     /// A file cannot be read or written.
     #[error(transparent)]
     File(#[from] LabelledError),
+    /// A file of finished analysis rows cannot be used.
+    #[error(transparent)]
+    Checkpoint(#[from] CheckpointError),
+    /// An analysis cannot be planned or finished.
+    #[error(transparent)]
+    Analysis(IdaError),
     /// The user stopped the run.
     #[error(
         "interrupted: nothing was written, and an earlier result file is as it was. Run the same command to start again"
     )]
     Interrupted,
     /// The user stopped a computation that goes on where it stopped.
-    #[error("interrupted: {done} of {total} {what} are kept in {}. Run the same command to go on from there", path.display())]
+    #[error(
+        "interrupted: {done} of {total} {what} are in the checkpoint {}. Run the same command to go on from there",
+        path.display()
+    )]
     Paused {
         /// What is counted, in the plural.
         what: &'static str,
@@ -34,7 +45,7 @@ pub enum UpliftError {
         done: u64,
         /// In all.
         total: u64,
-        /// The file that keeps them.
+        /// The checkpoint that holds them.
         path: std::path::PathBuf,
     },
     /// The reader of the output went away, as `uplift … | head` does.
@@ -64,8 +75,17 @@ impl UpliftError {
             Self::OutputClosed => 0,
             Self::Usage(_) => 2,
             Self::Study(_) => 3,
-            Self::Inputs(_) | Self::File(_) => 4,
+            Self::Inputs(_) | Self::File(_) | Self::Checkpoint(_) | Self::Analysis(_) => 4,
             Self::Interrupted | Self::Paused { .. } => 5,
+        }
+    }
+}
+
+impl From<IdaError> for UpliftError {
+    fn from(error: IdaError) -> Self {
+        match error {
+            IdaError::Cancelled => Self::Interrupted,
+            other => Self::Analysis(other),
         }
     }
 }

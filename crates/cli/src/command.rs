@@ -30,7 +30,7 @@ use clap::{Args, Parser, Subcommand};
 
 use crate::terminal::Terminal;
 use uplift::UpliftError;
-use uplift_study::{AnyStudy, ResolvedStudy, Study};
+use uplift_study::{AnyStudy, Study};
 
 /// Uniform risk spectra for rocking structures.
 ///
@@ -104,10 +104,6 @@ struct StudyArguments {
 }
 
 impl StudyArguments {
-    fn load(&self) -> Result<ResolvedStudy, UpliftError> {
-        Ok(Study::load(&self.study, &self.overrides)?)
-    }
-
     fn load_any(&self) -> Result<AnyStudy, UpliftError> {
         Ok(Study::load_any(&self.study, &self.overrides)?)
     }

@@ -46,7 +46,10 @@ impl Axes {
     }
 
     /// Where the cell `[motion, system, scale]` is.
-    pub(crate) fn cell(self, [motion, system, scale]: [usize; 3]) -> usize {
+    ///
+    /// # Panics
+    /// If an index is out of range, which is a bug of the caller.
+    pub fn cell(self, [motion, system, scale]: [usize; 3]) -> usize {
         assert!(scale < self.scales, "scale {scale} of {self:?}");
         self.row(motion, system) * self.scales + scale
     }
