@@ -133,12 +133,18 @@ fn an_interrupted_run_says_what_is_finished_and_goes_on_from_there() {
 
     for input in ["results/study.h5", "study.toml"] {
         let status = study.uplift(&["status", input]).ok().stdout;
-        assert!(status.contains("checkpoint of an unfinished run") && status.contains(" of 640 analysis rows"), "{status}");
+        assert!(
+            status.contains("checkpoint of an unfinished run") && status.contains(" of 640 analysis rows"),
+            "{status}"
+        );
     }
     let (computed, all) = computed(&study, &["run", "study.toml"]);
     assert!(computed > 0 && computed < all, "{computed} of {all}");
     let status = study.uplift(&["status", "results/study.h5"]).ok().stdout;
-    assert!(status.contains("finished") && status.contains("Here, There") && !status.contains("checkpoint"), "{status}");
+    assert!(
+        status.contains("finished") && status.contains("Here, There") && !status.contains("checkpoint"),
+        "{status}"
+    );
     study.uplift(&["status", "absent.h5"]).fails(4, &["absent.h5", "no result"]);
 }
 
@@ -207,7 +213,9 @@ fn shards_make_the_same_result() {
     assert_eq!(std::fs::read(study.path().join(&two)).unwrap().len(), bytes.len());
     study.uplift(&["merge", "study.toml", &one, &two, &three]).ok();
     assert_eq!(content(&study.path().join("results/study.h5")), content(&study.path().join("whole.h5")));
-    study.uplift(&["merge", "study.toml", "study.toml"]).fails(4, &["study.toml", "not a file of finished analysis rows"]);
+    study
+        .uplift(&["merge", "study.toml", "study.toml"])
+        .fails(4, &["study.toml", "not a file of finished analysis rows"]);
     study.uplift(&["run", "study.toml", "--shard", "4/3"]).fails(2, &["1/8"]);
 }
 
