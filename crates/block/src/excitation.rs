@@ -57,7 +57,8 @@ impl Excitation<'_> {
         }
     }
 
-    /// Ground acceleration \[m/s²\] in the piece `piece`, in powers of (time − `offset_s`)/`step_s`, with times from its begin.
+    /// Ground acceleration \[m/s²\] in the piece `piece`, in powers of (time − `offset_s`)/`step_s`, with
+    /// times from its begin.
     pub(crate) fn taylor(&self, piece: usize, offset_s: f64, step_s: f64) -> Forcing {
         match self {
             Self::Record(record) => {

@@ -10,7 +10,8 @@ use crate::series::{Forcing, Series};
 
 /// Impacts in one piece after which a block that cannot be shown to come to rest is taken to be.
 ///
-/// Only nearly elastic blocks get there, with rebounds some 2e-11 of what gravity would draw them down during the piece.
+/// Only nearly elastic blocks get there, with rebounds some 2e-11 of what gravity would draw them
+/// down during the piece.
 const MOST_IMPACTS: u32 = 100_000;
 
 /// Longest step in units of 1/p: the series has converged by then at order 14 or so.
@@ -89,8 +90,9 @@ impl<'a, O: Observer> Motion<'a, O> {
         self.observer.see(HistoryRow { time_s, rotation_rad, velocity_rad_s, moment });
     }
 
-    /// Moves through a piece of `length_s` that begins at `start_s`; `shaking` gives the ground acceleration \[m/s²\] from an
-    /// offset in the piece on, in powers of (time − offset)/step. Ends early, if so told, when |θ| has passed a maximum.
+    /// Moves through a piece of `length_s` that begins at `start_s`; `shaking` gives the ground acceleration
+    /// \[m/s²\] from an offset in the piece on, in powers of (time − offset)/step. Ends early, if so told, when |θ|
+    /// has passed a maximum.
     pub(crate) fn pass(
         &mut self,
         start_s: f64,
@@ -249,7 +251,8 @@ impl<'a, O: Observer> Motion<'a, O> {
     }
 }
 
-/// First s in [0, 1) at which |A| rises above tan α, and the corner on which the block will then stand: against the ground.
+/// First s in [0, 1) at which |A| rises above tan α, and the corner on which the block will then
+/// stand: against the ground.
 fn first_uplift(forcing: &Forcing, tangent: f64) -> Option<(f64, f64)> {
     if forcing.bound() <= tangent {
         return None;
@@ -267,7 +270,8 @@ fn first_uplift(forcing: &Forcing, tangent: f64) -> Option<(f64, f64)> {
     }
 }
 
-/// First s in (0, 1) at which a rotation that begins at or above zero falls to zero. The zero it may begin at is divided out.
+/// First s in (0, 1) at which a rotation that begins at or above zero falls to zero. The zero it may
+/// begin at is divided out.
 fn first_touch(x: &[f64]) -> Option<f64> {
     let lead = x.iter().position(|x| *x != 0.0)?;
     let x = &x[lead..];

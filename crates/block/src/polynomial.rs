@@ -1,8 +1,8 @@
 //! Sign changes of a polynomial on [0, 1], without missing one: Bernstein form, Descartes' rule of signs, bisection.
 //!
-//! A polynomial has no more sign changes on an interval than the sequence of its Bernstein coefficients there, and as many up
-//! to an even number. None or one is therefore certain; in between the interval is halved (de Casteljau). A touch of zero
-//! without a change of sign, a double root, ends at the depth limit and is none.
+//! A polynomial has no more sign changes on an interval than the sequence of its Bernstein coefficients there, and as
+//! many up to an even number. None or one is therefore certain; in between the interval is halved (de Casteljau). A
+//! touch of zero without a change of sign, a double root, ends at the depth limit and is none.
 
 use std::ops::ControlFlow;
 
@@ -27,7 +27,8 @@ pub(crate) fn first_sign_change(c: &[f64]) -> Option<f64> {
     first
 }
 
-/// Calls `visit` with every sign change in (0, 1), ascending, until it breaks. A zero at an end of the interval is none.
+/// Calls `visit` with every sign change in (0, 1), ascending, until it breaks. A zero at an end of
+/// the interval is none.
 pub(crate) fn sign_changes(c: &[f64], visit: &mut impl FnMut(f64) -> ControlFlow<()>) -> ControlFlow<()> {
     if c.len() < 2 {
         return ControlFlow::Continue(());

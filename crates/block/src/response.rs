@@ -49,7 +49,8 @@ pub struct BlockResponse {
     pub time_s: f64,
     /// When the block first uplifts \[s\]; none if it never does, or was released from a tilt.
     pub uplift_s: Option<f64>,
-    /// Impacts, up to the end of the motion that is computed; of the infinitely many before a rest, those until it was certain.
+    /// Impacts, up to the end of the motion that is computed; of the infinitely many before a rest, those
+    /// until it was certain.
     pub impacts: u64,
     /// Whether the block overturns.
     pub overturning: Overturning,
@@ -64,14 +65,15 @@ impl BlockResponse {
     }
 }
 
-/// Response of `block`, at rest before, to `excitation`: Eq. 2.1 between impacts, Eq. 2.3 at them, uplift at |üg| > g tan α.
+/// Response of `block`, at rest before, to `excitation`: Eq. 2.1 between impacts, Eq. 2.3 at them,
+/// uplift at |üg| > g tan α.
 ///
-/// The block overturns if |θ| reaches π/2 while the ground moves (it then lies on its side; short of that it may come back,
-/// also from beyond α), or if, with the ground at rest, its energy and direction say that it will not come back.
+/// The block overturns if |θ| reaches π/2 while the ground moves (it then lies on its side; short of that it may come
+/// back, also from beyond α), or if, with the ground at rest, its energy and direction say that it will not come back.
 ///
 /// # Errors
-/// [`BlockError::TooLong`] for motions of more than 1e7/p, [`BlockError::OutOfRange`] for ground accelerations beyond 1e6 m/s²
-/// and a negative or infinite time of free rocking.
+/// [`BlockError::TooLong`] for motions of more than 1e7/p, [`BlockError::OutOfRange`] for ground accelerations beyond
+/// 1e6 m/s² and a negative or infinite time of free rocking.
 ///
 /// # Source
 /// Reggiani Manzo, Section 2.2, Eq. 2.1–2.3 and 2.10.
@@ -83,8 +85,8 @@ pub fn respond<'a>(
     run(block, Some(excitation.into()), 0.0, free, RestRule::Proven, Unobserved).map(|(response, _)| response)
 }
 
-/// The same, with the motion in time: a row at every sample (every sixteenth of a pulse's period, every 0.5/p of free rocking),
-/// uplift, impact and rest.
+/// The same, with the motion in time: a row at every sample (every sixteenth of a pulse's period, every 0.5/p of free
+/// rocking), uplift, impact and rest.
 ///
 /// # Errors
 /// As [`respond`].
@@ -96,7 +98,8 @@ pub fn respond_with_history<'a>(
     run(block, Some(excitation.into()), 0.0, free, RestRule::Proven, History::default())
 }
 
-/// Free rocking of `block`, let go from the tilt `rotation_rad` at time zero, for `duration_s` or until it rests or overturns.
+/// Free rocking of `block`, let go from the tilt `rotation_rad` at time zero, for `duration_s` or until
+/// it rests or overturns.
 ///
 /// # Errors
 /// As [`respond`], and unless the tilt is less than π/2 to either side.

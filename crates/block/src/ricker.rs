@@ -16,7 +16,8 @@ pub enum RickerShape {
 
 /// A Ricker wavelet of acceleration amplitude aₚ and period Tₚ, centred at time zero.
 ///
-/// It lasts from −3 Tₚ to 3 Tₚ, which the text does not say: outside, the acceleration is below 1e-22 aₚ, and taken as zero.
+/// It lasts from −3 Tₚ to 3 Tₚ, which the text does not say: outside, the acceleration is below 1e-22
+/// aₚ, and taken as zero.
 ///
 /// # Source
 /// Reggiani Manzo, Eq. 2.7–2.9; N. Ricker (1943, 1944).

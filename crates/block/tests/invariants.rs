@@ -37,8 +37,8 @@ fn shakings() -> impl Strategy<Value = Vec<f64>> {
     prop::collection::vec(-12.0..12.0_f64, 2..150)
 }
 
-/// Asserts that `other` is the response `one` of `block` to `motion` up to rounding, as the motion amplifies it: by how much a
-/// change of 1e-10 of the record changes the peak.
+/// Asserts that `other` is the response `one` of `block` to `motion` up to rounding, as the motion amplifies it: by how
+/// much a change of 1e-10 of the record changes the peak.
 fn nearly(block: &RockingBlock, motion: &Accelerogram, one: &BlockResponse, other: &BlockResponse) -> TestCaseResult {
     prop_assert_eq!(one.overturning, other.overturning);
     if one.is_overturned() || one.rotation_rad == 0.0 {
@@ -125,7 +125,8 @@ proptest! {
         prop_assert!(rows.iter().all(|row| row.rotation_rad.abs() <= response.rotation_rad * (1.0 + 1e-12)));
         let impacts = rows.iter().filter(|row| row.moment == Moment::AfterImpact).count() as u64;
         prop_assert_eq!(impacts, response.impacts);
-        // continuous: no step is longer than the mean of the velocities at its ends allows, and the largest acceleration
+        // continuous: no step is longer than the mean of the velocities at its ends allows, and
+        // the largest acceleration
         let p2 = block.frequency_parameter_rad_s().powi(2);
         for rows in rows.windows(2).filter(|rows| rows[1].moment != Moment::Rest) {
             let dt = rows[1].time_s - rows[0].time_s;

@@ -5,7 +5,8 @@ use crate::{FragilityError, Stripes};
 /// Checks a displacement threshold: finite and zero or positive.
 ///
 /// # Errors
-/// [`FragilityError::Threshold`] otherwise; an infinite threshold would be exceeded by nothing, not even by overturning.
+/// [`FragilityError::Threshold`] otherwise; an infinite threshold would be exceeded by nothing, not
+/// even by overturning.
 pub fn check_threshold(threshold_m: f64) -> Result<(), FragilityError> {
     if threshold_m.is_finite() && threshold_m >= 0.0 {
         Ok(())

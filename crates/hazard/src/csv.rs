@@ -106,8 +106,8 @@ pub fn table_text(path: &Path) -> Result<String, HazardError> {
 ///
 /// Two columns, separated by comma, semicolon, tab or blanks: the level, in the declared unit, and the annual rate of
 /// exceedance (1/yr) or the probability of exceedance in [`CsvOptions::years`]. A first row of column names, in any
-/// order and case, says which is which (`iml`, `im_g`, `pgv_cm_s`, `PGV [cm/s]`; `maf`, `afe`, `rate`; `poe`); without it
-/// [`CsvOptions::second_column`] decides. Lines that begin with `#` are kept as the curve's source; where they say
+/// order and case, says which is which (`iml`, `im_g`, `pgv_cm_s`, `PGV [cm/s]`; `maf`, `afe`, `rate`; `poe`); without
+/// it [`CsvOptions::second_column`] decides. Lines that begin with `#` are kept as the curve's source; where they say
 /// `IM: PGV [cm/s]` or `unit: cm/s` they must agree with the declaration; where they say how the horizontal components
 /// are combined (`IM: PGV [cm/s], geometric mean (GMRotI50)` or `component: RotD50`), the curve keeps it
 /// ([`HazardCurve::component`]).

@@ -50,7 +50,8 @@ pub struct SitePlace {
 }
 
 impl SitePlace {
-    /// Great-circle distance to a place given by longitude and latitude, degrees; km on a sphere of the earth's mean radius.
+    /// Great-circle distance to a place given by longitude and latitude, degrees; km on a sphere of the
+    /// earth's mean radius.
     pub fn distance_km(&self, longitude_deg: f64, latitude_deg: f64) -> f64 {
         selection::distance_km((self.longitude_deg, self.latitude_deg), (longitude_deg, latitude_deg))
     }

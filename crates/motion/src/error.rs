@@ -72,6 +72,7 @@ pub enum MotionError {
         /// The file.
         path: PathBuf,
         /// What the operating system says.
+        #[source]
         reason: std::io::Error,
     },
     /// A file is far larger than any accelerogram.
@@ -150,6 +151,7 @@ pub enum MotionError {
         /// The file.
         name: String,
         /// What is wrong with it.
+        #[source]
         reason: std::io::Error,
     },
     /// The file holds something else than acceleration.
@@ -263,6 +265,7 @@ pub enum MotionError {
         /// The file.
         name: String,
         /// What is wrong.
+        #[source]
         reason: Box<MotionError>,
     },
     /// An option of the synthetic record set is out of its range.

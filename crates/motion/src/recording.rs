@@ -141,8 +141,7 @@ impl RecordFile {
     ///
     /// # Errors
     ///
-    /// [`MotionError::Channel`] where there are several and none is chosen, or the chosen one is not
-    /// there.
+    /// [`MotionError::Channel`] where there are several and none is chosen, or the chosen one is not there.
     pub fn component(mut self, name: &str, channel: Option<usize>) -> Result<Recording, MotionError> {
         /// Components that a message names.
         const NAMED: usize = 24;

@@ -59,8 +59,8 @@ fn the_curves_of_table_4_2_are_recovered() {
     }
 }
 
-/// Four points solved by hand: at η = 0 the values 4 and 6, at η = 1 and 2 the values 3 and 2. The best curve passes through the mean 5
-/// and the two others: 4 q^η + 1 with q = 1/2.
+/// Four points solved by hand: at η = 0 the values 4 and 6, at η = 1 and 2 the values 3 and 2. The best curve passes
+/// through the mean 5 and the two others: 4 q^η + 1 with q = 1/2.
 #[test]
 fn four_points_by_hand() {
     let found = fit(&[0.0, 0.0, 1.0, 2.0], &[4.0, 6.0, 3.0, 2.0]).unwrap();

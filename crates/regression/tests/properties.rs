@@ -121,7 +121,8 @@ proptest! {
     #[test]
     fn scaling_displacements((eta, u) in noisy(), k in 1e-3..1e3_f64, power in -40..40_i32) {
         let Ok(plain) = fit(&eta, &u) else { return Ok(()) };
-        // A steep rising curve has an amplitude at η = 0 near the smallest numbers, which no scale may take further down.
+        // A steep rising curve has an amplitude at η = 0 near the smallest numbers, which no scale
+        // may take further down.
         if plain.c0.abs() < 1e-250 {
             return Ok(());
         }

@@ -6,7 +6,8 @@ use uplift_hazard::{HazardCurve, HazardPoint};
 /// The risk of a lognormal fragility.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LognormalRisk {
-    /// Mean annual frequency, 1/yr, upper tail included; intensities below the curve's first abscissa contribute nothing.
+    /// Mean annual frequency, 1/yr, upper tail included; intensities below the curve's first
+    /// abscissa contribute nothing.
     pub per_year: f64,
     /// The part of it from above the curve's last abscissa, where the fragility is taken as constant: P λ there, 1/yr.
     pub upper_tail_per_year: f64,

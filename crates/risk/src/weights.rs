@@ -62,8 +62,8 @@ impl StripeWeights {
     ///
     /// - `curve`: hazard of the same intensity measure, in the unit of `levels`.
     /// - `levels`: stripe levels, strictly increasing, `[level]`.
-    /// - `extrapolation`: what to do with a stripe outside the curve. With [`Extrapolation::LogLog`] a first stripe below
-    ///   the first abscissa has no lower tail.
+    /// - `extrapolation`: what to do with a stripe outside the curve. With [`Extrapolation::LogLog`] a first stripe
+    ///   below the first abscissa has no lower tail.
     ///
     /// # Errors
     /// A stripe outside the curve under [`Extrapolation::Refuse`]; otherwise as [`StripeWeights::new`].

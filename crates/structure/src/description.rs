@@ -1,10 +1,11 @@
 //! A structure as written in a TOML file.
 //!
 //! # Keys
-//! Every kind takes a geometry, and may give `uplift_displacement_m` (0.0005 if left out), `gravity_m_s2` (9.80665) and the coefficient of
-//! `restitution` at an impact, which no rule needs but an analysis does.
-//! The geometry is `width_m` and `height_m`, or a slenderness (`slenderness_rad` or `slenderness_deg`) and one of `size_m` (the semi-diagonal `R`),
-//! `height_m`, `width_m`. A `point-mass` and a `body` give the height of their mass centre, `centre_height_m`, in place of `height_m`.
+//! Every kind takes a geometry, and may give `uplift_displacement_m` (0.0005 if left out), `gravity_m_s2` (9.80665) and
+//! the coefficient of `restitution` at an impact, which no rule needs but an analysis does. The geometry is `width_m`
+//! and `height_m`, or a slenderness (`slenderness_rad` or `slenderness_deg`) and one of `size_m` (the semi-diagonal
+//! `R`), `height_m`, `width_m`. A `point-mass` and a `body` give the height of their mass centre, `centre_height_m`, in
+//! place of `height_m`.
 //!
 //! | kind | Table 3.1 | further keys |
 //! |---|---|---|
@@ -206,8 +207,9 @@ pub struct StructureDescription {
 impl StructureDescription {
     /// The equivalent oscillator, or every mistake of the description.
     ///
-    /// Mistakes of single quantities (missing, out of range, not for this kind) and of the choice of geometry are listed together; one that takes
-    /// several correct quantities to see, such as a capacity below the uplift displacement, is found once those are mended.
+    /// Mistakes of single quantities (missing, out of range, not for this kind) and of the choice of geometry are
+    /// listed together; one that takes several correct quantities to see, such as a capacity below the uplift
+    /// displacement, is found once those are mended.
     ///
     /// # Errors
     /// At least one mistake, each with key, value, unit and what to do.
@@ -236,11 +238,13 @@ impl StructureDescription {
         }
     }
 
-    /// Stiffness of the tendon and spring of each column that would give a restrained frame the displacement capacity `capacity_m` (m), N/m: the last
-    /// step of Section 3.4.5. Zero where the columns have it by themselves; none for a structure of another kind.
+    /// Stiffness of the tendon and spring of each column that would give a restrained frame the displacement capacity
+    /// `capacity_m` (m), N/m: the last step of Section 3.4.5. Zero where the columns have it by themselves; none for a
+    /// structure of another kind.
     ///
     /// # Errors
-    /// A mistake of the description, which [`resolve`](Self::resolve) lists with all others; a capacity that is not finite and positive.
+    /// A mistake of the description, which [`resolve`](Self::resolve) lists with all others; a capacity that is not
+    /// finite and positive.
     pub fn tendon_stiffness_for_capacity_n_m(&self, capacity_m: f64) -> Result<Option<f64>, StructureError> {
         let Some(anchorage) = self.tendon_anchorage.filter(|_| self.kind == Kind::RestrainedFrame) else {
             return Ok(None);

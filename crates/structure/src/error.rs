@@ -171,7 +171,8 @@ pub enum StructureError {
 }
 
 impl StructureError {
-    /// Keys of the description whose values are at fault, the one to change first before the others; empty where none is.
+    /// Keys of the description whose values are at fault, the one to change first before the others;
+    /// empty where none is.
     pub fn keys(&self) -> &[&'static str] {
         match self {
             Self::OutOfRange { key, .. } | Self::Missing { key, .. } | Self::Foreign { key, .. } => {

@@ -16,9 +16,10 @@
 //! | [`description`] | a structure as written in a TOML file |
 //!
 //! # From a spectrum to a structure
-//! A spectrum gives the displacement of a ZSBE oscillator under the ground motion itself. Table 3.1's oscillator is driven by `Γ` times
-//! that motion (Eq. 3.4). Since all forces scale together, its displacement is exactly `Γ` times that of the oscillator of strength `η/Γ`
-//! and uplift displacement `u_up/Γ` under the motion itself, and `η/Γ = α` in every row: a rigid structure uplifts at `α g`. So:
+//! A spectrum gives the displacement of a ZSBE oscillator under the ground motion itself. Table 3.1's oscillator is
+//! driven by `Γ` times that motion (Eq. 3.4). Since all forces scale together, its displacement is exactly `Γ` times
+//! that of the oscillator of strength `η/Γ` and uplift displacement `u_up/Γ` under the motion itself, and `η/Γ = α` in
+//! every row: a rigid structure uplifts at `α g`. So:
 //!
 //! 1. read the spectrum at [`EquivalentSystem::spectral_strength`];
 //! 2. multiply by `Γ`: [`EquivalentSystem::zero_stiffness_demand_m`];

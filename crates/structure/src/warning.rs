@@ -5,7 +5,8 @@ use std::fmt;
 /// A property of the structure that limits what its equivalent oscillator is worth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Warning {
-    /// The body is not slender: `tan α` and `α` differ by more than [`SLENDER_TOLERANCE`](crate::geometry::SLENDER_TOLERANCE).
+    /// The body is not slender: `tan α` and `α` differ by more than
+    /// [`SLENDER_TOLERANCE`](crate::geometry::SLENDER_TOLERANCE).
     Stocky {
         /// Slenderness `α`, rad.
         slenderness_rad: f64,
@@ -19,8 +20,8 @@ pub enum Warning {
         /// Stiffness after uplift, N/m.
         stiffness_n_m: f64,
     },
-    /// The curved extensions end before the force vanishes: the loop is trilinear, and the bilinear one replaces it by its chord from
-    /// uplift to the overturning of the extended base, which is never above it.
+    /// The curved extensions end before the force vanishes: the loop is trilinear, and the bilinear one replaces it by
+    /// its chord from uplift to the overturning of the extended base, which is never above it.
     ExtensionEnds {
         /// Displacement at which rolling ends, m.
         rolling_until_m: f64,

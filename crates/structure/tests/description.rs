@@ -144,7 +144,8 @@ fn unknown_words_are_refused_by_name() {
     }
 }
 
-// A spectrum counts strength in multiples of its own gravity; the force per mass at which the oscillator uplifts is one and the same.
+// A spectrum counts strength in multiples of its own gravity; the force per mass at which the oscillator
+// uplifts is one and the same.
 #[test]
 fn strength_in_a_spectrum_of_another_gravity() {
     let text = "kind = \"block\"\nwidth_m = 0.8\nheight_m = 4\nmass_kg = 8000\ngravity_m_s2 = 1.62\n";

@@ -70,7 +70,8 @@ fn row_4_block_at_its_top() {
 
 #[test]
 fn row_5_free_frame() {
-    // (1 + 4.5) · 2 · 300/3 = 1100 kg; 2 · 300 · 10/2 · (1 + 3) · 0.1 = 1200 N; 3 · 4/(2 · 5.5) = 12/11; η = 1200/11 000
+    // (1 + 4.5) · 2 · 300/3 = 1100 kg; 2 · 300 · 10/2 · (1 + 3) · 0.1 = 1200 N; 3 · 4/(2 · 5.5) =
+    // 12/11; η = 1200/11 000
     let system = frame().equivalent(rigid()).unwrap();
     assert_eq!(system.table_row(), 5);
     assert_system(&system, 1100.0, 1200.0, 1.0, 12.0 / 11.0, 12.0 / 110.0);
@@ -127,7 +128,8 @@ fn row_5_as_printed_up_to_the_slenderness_squared() {
 
 #[test]
 fn row_6_curved_ends() {
-    // 2b = 1 m, 2h = 10 m, r = 2.5 m: ρ = 1/4, 2b/(1 − 1/2) = 2 m; (300 + 900) · 10 · atan 0.1 = 12 000 · 0.0996687 = 1196.024 N
+    // 2b = 1 m, 2h = 10 m, r = 2.5 m: ρ = 1/4, 2b/(1 − 1/2) = 2 m; (300 + 900) · 10 · atan 0.1 = 12 000 ·
+    // 0.0996687 = 1196.024 N
     let frame = Frame::new(Geometry::from_width_and_height(1.0, 10.0).unwrap(), 2, 300.0, 900.0).unwrap();
     let curved = CurvedFrame::new(frame, 2.5, 2.4).unwrap();
     let system = curved.equivalent(rigid()).unwrap();
@@ -275,7 +277,8 @@ proptest! {
             prop_assert!((b.strength() / a.strength() - 1.0).abs() < 1e-12);
             prop_assert!((b.participation() / a.participation() - 1.0).abs() < 1e-12);
             prop_assert!((b.mass_kg() / a.mass_kg() / mass - 1.0).abs() < 1e-12);
-            // of positive and negative slopes alike; near the critical stiffness the difference of nearly equal numbers loses digits
+            // of positive and negative slopes alike; near the critical stiffness the difference of nearly
+            // equal numbers loses digits
             let slope = |system: &EquivalentSystem| system.post_uplift_stiffness_n_m() / system.uplift_force_n();
             prop_assert!((slope(b) * length - slope(a)).abs() < 1e-10 / slenderness);
         }
