@@ -1,7 +1,7 @@
 //! The rigid rocking block of Chapter 2 of Reggiani Manzo's dissertation: its full nonlinear motion under records and
 //! Ricker pulses, free rocking, and nondimensional rocking spectra.
 //!
-//! | room | what is in it |
+//! | module | what is in it |
 //! |---|---|
 //! | [`block`] | the block: size, slenderness, restitution |
 //! | [`excitation`] | what shakes it: a record, or a pulse |
@@ -34,8 +34,8 @@
 //! 8 to 20 µs per second of record at dt = 0.01 s on one core, a block at rest next to nothing, a point of a pulse
 //! spectrum about 40 µs.
 //!
-//! The motion itself is sensitive: it amplifies roundings along with everything else, and a block that just overturns
-//! has neighbours that do not.
+//! The motion itself is sensitive: it amplifies roundings along with everything else, and close to a block that just
+//! overturns there are blocks that do not.
 
 pub mod block;
 mod error;

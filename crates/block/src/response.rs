@@ -54,7 +54,7 @@ pub struct BlockResponse {
     pub impacts: u64,
     /// Whether the block overturns.
     pub overturning: Overturning,
-    /// Whether a nearly elastic block that rebounded 100,000 times in one piece of the excitation was put to rest.
+    /// Whether a nearly elastic block that rebounded 100,000 times in one segment of the excitation was put to rest.
     pub chatter_was_cut: bool,
 }
 
@@ -164,19 +164,19 @@ fn follow<O: Observer>(
 ) -> Option<Ending> {
     let mut end_s = 0.0;
     if let Some(excitation) = excitation {
-        let (start_s, length_s) = (excitation.start_s(), excitation.piece_s());
-        motion.see(start_s, Moment::Sample);
-        for piece in 0..excitation.pieces() {
-            let begin_s = start_s + piece as f64 * length_s;
-            let shaking = |offset, step| excitation.taylor(piece, offset, step);
-            if let ControlFlow::Break(ending) = motion.pass(begin_s, length_s, false, shaking) {
+        let (start_s, length_s) = (excitation.start_s(), excitation.segment_s());
+        motion.observe(start_s, Moment::Sample);
+        for segment in 0..excitation.segments() {
+            let begin_s = start_s + segment as f64 * length_s;
+            let shaking = |offset, step| excitation.taylor(segment, offset, step);
+            if let ControlFlow::Break(ending) = motion.advance(begin_s, length_s, false, shaking) {
                 return Some(ending);
             }
-            motion.see(start_s + (piece + 1) as f64 * length_s, Moment::Sample);
+            motion.observe(start_s + (segment + 1) as f64 * length_s, Moment::Sample);
         }
-        end_s = start_s + excitation.pieces() as f64 * length_s;
+        end_s = start_s + excitation.segments() as f64 * length_s;
     } else {
-        motion.see(0.0, Moment::Sample);
+        motion.observe(0.0, Moment::Sample);
     }
 
     let (until_peak, last_s) = match free {
@@ -193,10 +193,12 @@ fn follow<O: Observer>(
             return None;
         }
         let length_s = step_s.min(last_s - begin_s);
-        if let ControlFlow::Break(ending) = motion.pass(end_s + begin_s, length_s, until_peak, |_, _| Forcing::none()) {
+        if let ControlFlow::Break(ending) =
+            motion.advance(end_s + begin_s, length_s, until_peak, |_, _| Forcing::none())
+        {
             return Some(ending);
         }
-        motion.see(end_s + begin_s + length_s, Moment::Sample);
+        motion.observe(end_s + begin_s + length_s, Moment::Sample);
         steps += 1.0;
     }
 }

@@ -4,7 +4,7 @@
 //! is cut short only where this is certain, so that no threshold enters the result: [`RestRule::comes_to_rest`]
 //! proves that from the present impact on all rebounds are over before the ground could move the block again, and
 //! that none is as high as the peak so far. Nothing but the number of impacts, which is infinite, depends on the
-//! moment at which that is seen.
+//! moment at which that is proved.
 //!
 //! The proof. On the window w let |A| ≤ a < tan α and |dA/dt| ≤ a', and m = sin α − a cos α > 0. The block leaves the
 //! ground with velocity v.
@@ -63,7 +63,7 @@ fn is_proven(block: &Rebound, forcing: &Forcing, step_s: f64) -> bool {
     if slack <= 0.0 || restitution >= 1.0 {
         return false;
     }
-    // the time that it takes under constant shaking, with room for the bounds to be wider
+    // the time that it takes under constant shaking, with a margin for the bounds to be wider
     let window = step_s.min(8.0 * v / (p_squared * slack * (1.0 - restitution)));
     let forcing = forcing.stretched(window / step_s);
     let bound = forcing.bound();

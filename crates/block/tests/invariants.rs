@@ -27,7 +27,9 @@ fn refined(samples: &[f64]) -> Accelerogram {
 }
 
 prop_compose! {
-    fn blocks()(size in 0.3..50.0_f64, alpha in 0.05..0.6_f64, given in prop::option::of(0.3..1.0_f64)) -> RockingBlock {
+    fn blocks()(
+        size in 0.3..50.0_f64, alpha in 0.05..0.6_f64, given in prop::option::of(0.3..1.0_f64),
+    ) -> RockingBlock {
         let block = RockingBlock::new(size, alpha).unwrap();
         given.map_or(block, |r| block.with_restitution(r).unwrap())
     }
@@ -106,7 +108,9 @@ proptest! {
 
     /// θ depends on α, r and the shaking in units of g and 1/p alone (Eq. 2.4 and 2.6).
     #[test]
-    fn similar_blocks_respond_alike(block in blocks(), samples in shakings(), size in 0.1..10.0_f64, gravity in 0.1..10.0_f64) {
+    fn similar_blocks_respond_alike(
+        block in blocks(), samples in shakings(), size in 0.1..10.0_f64, gravity in 0.1..10.0_f64,
+    ) {
         let other = RockingBlock::new(size * block.size_m(), block.slenderness_rad()).unwrap();
         let other = other.with_restitution(block.restitution()).unwrap();
         let other = other.with_gravity(gravity * block.gravity_m_s2()).unwrap();
@@ -119,7 +123,8 @@ proptest! {
     #[test]
     fn a_history_holds_its_peak_and_no_gap(block in blocks(), samples in shakings()) {
         let motion = record(&samples);
-        let (response, history) = respond_with_history(&block, &motion, FreeRocking::Lasting { duration_s: 1.0 }).unwrap();
+        let free = FreeRocking::Lasting { duration_s: 1.0 };
+        let (response, history) = respond_with_history(&block, &motion, free).unwrap();
         let rows = &history.rows;
         prop_assert!(rows.windows(2).all(|rows| rows[0].time_s <= rows[1].time_s));
         prop_assert!(rows.iter().all(|row| row.rotation_rad.abs() <= response.rotation_rad * (1.0 + 1e-12)));

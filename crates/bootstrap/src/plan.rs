@@ -52,7 +52,7 @@ impl ResamplingPlan {
         Ok(Self { record_count, replicates, sizes: sizes.to_vec(), samples })
     }
 
-    /// A plan that was kept.
+    /// A plan that was stored.
     ///
     /// - `multiplicities`: how often each record was drawn, `[size, replicate, record]`.
     ///

@@ -265,7 +265,8 @@ fn read_header(fields: [&str; 2], options: &CsvOptions, place: &Place) -> Result
 
 fn content_without_header(options: &CsvOptions, place: &Place) -> Result<SecondColumn, HazardError> {
     options.second_column.ok_or_else(|| {
-        let reason = "no column names before the first numbers; add the line \"iml,maf\" or \"iml,poe\", or declare what the second column holds";
+        let reason = "no column names before the first numbers; add the line \"iml,maf\" or \"iml,poe\", or declare \
+                      what the second column holds";
         HazardError::Row { place: place.clone(), reason: reason.to_owned() }
     })
 }
@@ -291,7 +292,8 @@ fn note_component(
 ) -> Result<(), HazardError> {
     if let Some(doubtful) = &declaration.doubtful {
         let reason = format!(
-            "{} seems to say how horizontal components are combined, and is none of {}: write one of these, or other words",
+            "{} seems to say how horizontal components are combined, and is not one of {}: write one of these, or \
+             other words",
             excerpt(doubtful),
             ComponentDefinition::ACCEPTED
         );

@@ -75,7 +75,7 @@ pub(crate) fn column(name: &str, declared_measure: Option<&str>) -> Option<Colum
 ///
 /// Accepted keys: `im`, `imt`, `measure`, `intensity measure`; `unit`, `units`; `component`, `horizontal component`.
 /// The component may follow the measure without key, as in `IM: PGV [cm/s], geometric mean (GMRotI50)`. Prose after a
-/// key is no declaration: a measure is one word, and a unit outside brackets must be a known one.
+/// key is not a declaration: a measure is one word, and a unit outside brackets must be a known one.
 pub(crate) fn comment(text: &str) -> Declaration {
     let mut found = Declaration::default();
     for part in text.split([';', ',']) {
@@ -104,9 +104,9 @@ pub(crate) fn comment(text: &str) -> Declaration {
 }
 
 impl Declaration {
-    /// Takes `text` as the definition of the component, or as a doubtful one where it must be one that is not
+    /// Takes `text` as the definition of the component, or as an unknown one where it must be one that is not
     /// known: a single word where only a definition can stand, and words of which definitions are made. Other
-    /// prose is no declaration.
+    /// prose is not a declaration.
     fn note_component(&mut self, text: &str, alone: bool) {
         const WORDS: [&str; 8] = ["rot", "geometric", "geomean", "gmean", "larger", "arbitrary", "srss", "envelope"];
         if let Ok(component) = text.parse::<ComponentDefinition>() {

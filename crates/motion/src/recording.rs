@@ -83,7 +83,7 @@ impl Orientation {
     }
 }
 
-/// What a record file says beside the motion; what it does not say is none.
+/// What a record file says beside the motion; `None` where it says nothing.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct RecordingDescription {
     /// Name of the earthquake, or its identifier.

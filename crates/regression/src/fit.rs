@@ -78,10 +78,10 @@ impl ExponentialFit {
 /// repeat strengths. Which ones to fit is the caller's choice (the dissertation takes η > 0.05).
 ///
 /// For a given c1 the best c0 and c2 are known in closed form, so the search has one dimension: c1 of either sign, with
-/// |c1| from 0.001/(range of strengths) to 40/(distance of the end strength from the next), at most 1e6/(range), the exponentials
-/// between a straight line and a single point. It is scanned in steps of a factor 10^(1/10), across which the
-/// exponential hardly changes its shape, and every change of the error's slope from falling to rising is solved for a
-/// root of that slope, to the last digits of c1. The best of these minima and of the ends is the result. A better
+/// abs(c1) from 0.001/(range of strengths) to 40/(distance of the end strength from the next), at most 1e6/(range), the
+/// exponentials between a straight line and a single point. It is scanned in steps of a factor 10^(1/10), across which
+/// the exponential hardly changes its shape, and every change of the error's slope from falling to rising is solved for
+/// a root of that slope, to the last digits of c1. The best of these minima and of the ends is the result. A better
 /// minimum could hide between two scan points only if the exponentials there were nearly uncorrelated with the data.
 ///
 /// # Errors
@@ -151,7 +151,7 @@ fn search(problem: &Reduced) -> (Solution, bool) {
     let mut last = problem.solve(FLATTEST);
     let mut best = last;
     while last.s < steepest {
-        // The end itself, not its neighbour by rounding.
+        // The end itself, not the number next to it by rounding.
         let s = if last.s * ratio < steepest / ratio.sqrt() { last.s * ratio } else { steepest };
         let this = problem.solve(s);
         if this.sse < best.sse {

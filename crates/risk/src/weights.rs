@@ -196,7 +196,7 @@ mod tests {
         assert!((inside.rates_per_year()[0] - 0.25).abs() < 1e-15);
         assert!((inside.lower_tail_per_year() - 0.375).abs() < 1e-15);
 
-        // At the first abscissa the lower tail is empty; below it there is none to speak of.
+        // At the first abscissa the lower tail is empty; below it there is none.
         assert_eq!(refuse(&[1.0, 4.0]).unwrap().lower_tail_per_year(), 0.0);
         let below = loglog(&[0.5, 16.0]);
         assert_eq!(below.lower_tail_per_year(), 0.0);

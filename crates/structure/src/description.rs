@@ -5,7 +5,7 @@
 //! the coefficient of `restitution` at an impact, which no rule needs but an analysis does. The geometry is `width_m`
 //! and `height_m`, or a slenderness (`slenderness_rad` or `slenderness_deg`) and one of `size_m` (the semi-diagonal
 //! `R`), `height_m`, `width_m`. A `point-mass` and a `body` give the height of their mass centre, `centre_height_m`, in
-//! place of `height_m`.
+//! place of `height_m`. A tendon is anchored in the `"foundation"` or at the `"column"`.
 //!
 //! | kind | Table 3.1 | further keys |
 //! |---|---|---|
@@ -13,7 +13,7 @@
 //! | `block` | row 4, or row 2 with `displacement_of = "centre"` | `mass_kg` |
 //! | `body` | row 3 | `mass_kg`, `moment_of_inertia_kg_m2` about the pivot corner |
 //! | `frame` | row 5 without tendons | `columns`, `column_mass_kg` (each), `deck_mass_kg` |
-//! | `restrained-frame` | row 5 | those of `frame`, `tendon_stiffness_n_m` (each column's), `tendon_anchorage = "foundation"` or `"column"` |
+//! | `restrained-frame` | row 5 | those of `frame`, `tendon_stiffness_n_m` (a column's), `tendon_anchorage` |
 //! | `curved-frame` | row 6 | those of `frame`, `curvature_radius_m`, `extended_width_m` |
 //!
 //! # Examples
@@ -158,7 +158,7 @@ impl Kind {
     }
 }
 
-/// A structure as written: which keys belong to which kind is told in the [module documentation](self).
+/// A structure as written: which keys belong to which kind is listed in the [module documentation](self).
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StructureDescription {
@@ -252,7 +252,7 @@ impl StructureDescription {
         self.frame()?.tendon_stiffness_for_capacity_n_m(capacity_m, anchorage, self.conditions()?).map(Some)
     }
 
-    /// A quantity that [`audit`] has seen.
+    /// A quantity that [`audit`] has checked.
     fn need<T>(&self, key: &'static str, value: Option<T>) -> Result<T, StructureError> {
         value.ok_or(StructureError::Missing { key, unit: "", kind: self.kind.name() })
     }
@@ -290,7 +290,7 @@ impl StructureDescription {
     /// The geometry.
     ///
     /// # Errors
-    /// Any but exactly one of the accepted combinations, or a length that is none.
+    /// Any but exactly one of the accepted combinations, or an invalid length.
     pub fn geometry(&self) -> Result<Geometry, StructureError> {
         let height_m =
             if self.kind.is_by_centre() { self.centre_height_m.map(|centre_m| 2.0 * centre_m) } else { self.height_m };

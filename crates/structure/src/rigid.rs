@@ -1,7 +1,7 @@
 //! The solitary block that rotates exactly as a rigid structure does, with no small-angle simplification.
 //!
-//! A body that pivots about its corners obeys `I_o θ̈ + m g R sin(α − θ) = −m ü_g R cos(α − θ)`, which knows no more of
-//! the body than `α` and `I_o/(m R)`. That is Eq. 2.1 of a rectangular block of the same slenderness and the size
+//! A body that pivots about its corners obeys `I_o θ̈ + m g R sin(α − θ) = −m ü_g R cos(α − θ)`, which depends on the
+//! body by `α` and `I_o/(m R)` alone. That is Eq. 2.1 of a rectangular block of the same slenderness and the size
 //! parameter `R_b = (3/4) I_o/(m R)`. A frame of columns under a deck obeys the same equation (Makris and Vassiliou
 //! 2013, Section 2.4.3).
 //!

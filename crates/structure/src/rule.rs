@@ -3,7 +3,7 @@
 
 use crate::error::{StructureError, not_negative, positive, require};
 
-/// Uplift displacement and displacement capacity of a system: all that the rules know of it.
+/// Uplift displacement and displacement capacity of a system: all that the rules depend on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Capacity {
     uplift_displacement_m: f64,

@@ -94,7 +94,7 @@ fn intersection(spectrum: &[SpectrumPoint], height_m: f64) -> Result<f64, Struct
     if shortfall_m(&last) > 0.0 {
         return Err(StructureError::NeverStands { last_tangent: last.tangent, capacity_m: height_m * last.tangent });
     }
-    // a spectrum that starts at the origin touches the line there: that is no structure
+    // a spectrum that starts at the origin touches the line there: that is not a structure
     let touches = |point: &SpectrumPoint| shortfall_m(point) >= 0.0 && point.tangent > 0.0 || shortfall_m(point) > 0.0;
     let Some(left) = spectrum.iter().rposition(touches) else {
         let first = spectrum[0];

@@ -1,4 +1,4 @@
-//! What is said aloud about an equivalent system that is nevertheless computed.
+//! What limits an equivalent system that is nevertheless computed.
 
 use std::fmt;
 
@@ -37,7 +37,8 @@ impl fmt::Display for Warning {
         match self {
             Self::Stocky { slenderness_rad, linearisation_error } => write!(
                 f,
-                "slenderness {slenderness_rad:.4} rad: the body is stocky, the linearised uplift force is {:.1} % below the static one",
+                "slenderness {slenderness_rad:.4} rad: the body is stocky, the linearised uplift force is {:.1} % \
+                 below the static one",
                 100.0 * linearisation_error
             ),
             Self::ZeroStiffness => f.write_str(
@@ -45,13 +46,14 @@ impl fmt::Display for Warning {
             ),
             Self::PositiveStiffness { stiffness_n_m } => write!(
                 f,
-                "post-uplift stiffness {stiffness_n_m:.6e} N/m, positive: no displacement capacity, and spectra and rules of \
-                 negative-stiffness systems do not apply"
+                "post-uplift stiffness {stiffness_n_m:.6e} N/m, positive: no displacement capacity, and spectra and \
+                 rules of negative-stiffness systems do not apply"
             ),
             Self::ExtensionEnds { rolling_until_m, rolling_capacity_m, overturning_m } => write!(
                 f,
                 "the curved extensions end at {rolling_until_m:.4} m, before the force vanishes (rolling alone: {}): \
-                 the loop is trilinear, taken as the straight line to the overturning of the extended base at {overturning_m:.4} m",
+                 the loop is trilinear, taken as the straight line to the overturning of the extended base at \
+                 {overturning_m:.4} m",
                 if rolling_capacity_m.is_finite() { format!("{rolling_capacity_m:.4} m") } else { "never".to_owned() }
             ),
         }

@@ -26,7 +26,8 @@ proptest! {
     /// Table 3.1 was derived structure by structure: each row must be that of its block.
     #[test]
     fn the_equivalent_oscillator_of_the_block_is_that_of_the_structure(
-        alpha in 0.02..0.5_f64, size in 0.2..30.0_f64, ratio in 1.0..3.0_f64, deck in 0.0..20.0_f64, columns in 1..9_u32,
+        alpha in 0.02..0.5_f64, size in 0.2..30.0_f64, ratio in 1.0..3.0_f64, deck in 0.0..20.0_f64,
+        columns in 1..9_u32,
     ) {
         let geometry = Geometry::from_slenderness_and_size(alpha, size).unwrap();
         let conditions = Conditions::new(9.81, 0.0).unwrap();

@@ -241,7 +241,9 @@ proptest! {
     }
 
     #[test]
-    fn the_required_capacity_has_the_safety_factor(z in 1e-6_f64..10.0, uplift in 0.0_f64..0.1, factor in 1.0_f64..10.0, energy: bool) {
+    fn the_required_capacity_has_the_safety_factor(
+        z in 1e-6_f64..10.0, uplift in 0.0_f64..0.1, factor in 1.0_f64..10.0, energy: bool,
+    ) {
         let rule = if energy { Rule::EqualEnergy } else { Rule::EqualDisplacement };
         let required = rule.required_capacity_m(z, uplift, factor).unwrap();
         prop_assume!(required > uplift * (1.0 + 1e-9) && factor > 1.000_001);

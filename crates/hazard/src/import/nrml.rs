@@ -51,7 +51,7 @@ pub(super) fn entries(text: &str, name: &str) -> Result<Vec<Entry>, HazardError>
 
 /// Whether the parser can be given the text.
 ///
-/// It makes room for as many nodes and attributes as there are `<` and `=`, compares each attribute with all others of
+/// It allocates as many nodes and attributes as there are `<` and `=`, compares each attribute with all others of
 /// its tag and lets each element repeat the namespaces around it. A `<` cannot stand in the value of an attribute, so
 /// each piece between two holds at most one tag.
 fn is_modest(text: &str) -> bool {
