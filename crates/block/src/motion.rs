@@ -91,8 +91,8 @@ impl<'a, O: Observer> Motion<'a, O> {
     }
 
     /// Moves through a segment of `length_s` that begins at `start_s`; `shaking` gives the ground acceleration \[m/s²\]
-    /// from an offset in the segment on, in powers of (time − offset)/step. With `until_peak` it ends early, when |θ|
-    /// has passed a maximum.
+    /// from an offset in the segment on, in powers of (time − offset)/step. With `until_peak` it ends early,
+    /// when |θ| has passed a maximum.
     pub(crate) fn advance(
         &mut self,
         start_s: f64,
