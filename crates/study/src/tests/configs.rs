@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use super::super::{AnyStudy, RecordSource, ResolvedStudy, Study};
 
 fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../configs")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../configs")
 }
 
 fn config(name: &str) -> ResolvedStudy {

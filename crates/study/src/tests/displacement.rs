@@ -16,7 +16,7 @@ fn load(study: &str) -> DisplacementStudy {
 }
 
 fn config(name: &str) -> DisplacementStudy {
-    let path: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("../configs").join(name);
+    let path: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../configs").join(name);
     match Study::load_any(&path, &[]).unwrap() {
         AnyStudy::Displacement(study) => *study,
         AnyStudy::UniformRisk(_) => panic!("{name} is a study of uniform risk"),
@@ -158,7 +158,7 @@ noise_points = 20
 /// The keys that `chapter-3.toml` shows as comments are keys: with their marks taken away, no more is wrong than that a file is missing.
 #[test]
 fn commented_keys_are_keys() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../configs/chapter-3.toml");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../configs/chapter-3.toml");
     let mut text = fs::read_to_string(&path).unwrap();
     for key in ["manifest =", "first =", "file ="] {
         let marked = format!("\n# {key}");

@@ -145,7 +145,7 @@ fn written_form() {
 /// Every key of a written study is in the reference.
 #[test]
 fn reference_has_every_key() {
-    let reference = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/study-file.md");
+    let reference = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/study-file.md");
     let reference = fs::read_to_string(reference).unwrap();
     let complete = Folder::new(&COMPLETE.replace("../pgv.csv", "./pgv.csv"));
     let mut keys = Vec::new();
