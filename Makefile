@@ -1,5 +1,5 @@
-# Two commands do everything: `make run` and `make test`. Needs Rust (rustup, stable) and a C compiler; a cmake new enough for
-# the bundled HDF5 is looked for, or put under .tools, by .ci/provide-cmake.
+# Two commands do everything: `make run` and `make test`. Needs Rust (rustup, stable) and a C compiler; a cmake new
+# enough for the bundled HDF5 is looked for, or put under .tools, by .ci/provide-cmake.
 
 STUDY  ?= configs/europe.toml
 # A third of the strengths, so that the first look takes about a minute; `make run SET=` runs the study as it stands.
@@ -29,12 +29,13 @@ build:
 test: lint docs python
 	cargo test --locked --workspace
 
-# The engines of docs/cluster for real: Slurm, MPI, HyperQueue, as far as they can be had here. Apart from `test`: the first build with MPI
-# takes as long as that of the whole program.
+# The engines of docs/cluster for real: Slurm, MPI, HyperQueue, as far as they can be had here. Apart from `test`: the
+# first build with MPI takes as long as that of the whole program.
 test-cluster: build
 	tests/cluster/run.sh
 
 lint:
+	.ci/check-line-width
 	cargo fmt --all --check
 	cargo clippy --locked --workspace --all-targets -- -D warnings
 
@@ -60,7 +61,8 @@ fuzz: $(addprefix fuzz/,$(FUZZ))
 
 # No crate here has unsafe code, so no sanitizer is needed, and stable Rust will do.
 fuzz/%:
-	@cargo fuzz --version > /dev/null 2>&1 || { echo "cargo-fuzz is needed: cargo install --locked cargo-fuzz" >&2; exit 1; }
+	@cargo fuzz --version > /dev/null 2>&1 || \
+		{ echo "cargo-fuzz is needed: cargo install --locked cargo-fuzz" >&2; exit 1; }
 	mkdir -p crates/$(*D)/fuzz/corpus/$(*F)
 	cd crates/$(*D) && cargo fuzz run --sanitizer none $(*F) fuzz/corpus/$(*F) tests/samples -- \
 		-dict=fuzz/words.dict -max_len=65536 -rss_limit_mb=512 -timeout=5 -max_total_time=$(TIME) -print_final_stats=1

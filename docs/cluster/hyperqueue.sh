@@ -1,16 +1,18 @@
 #!/usr/bin/env bash
-# A study on many nodes under HyperQueue (https://it4innovations.github.io/hyperqueue): one task a shard of the stripes, then the join.
+# A study on many nodes under HyperQueue (https://it4innovations.github.io/hyperqueue): one task a shard of the stripes,
+# then the join.
 #
 #     hq server start &                                    once, on a login node
-#     hq alloc add slurm --time-limit 1h -- -p short       workers by Slurm or PBS as they are needed; or `hq worker start` on any machine
+#     hq alloc add slurm --time-limit 1h -- -p short       workers by Slurm or PBS as they are needed;
+#                                                          or `hq worker start` on any machine
 #     docs/cluster/hyperqueue.sh STUDY.toml SHARDS [RESULT.h5]
 #
-# waits for both, so call it in tmux or with nohup. RESULT is results/STUDY.h5 unless you name it. The folder you are in, the study, its
-# records and its hazard curves must be there on every node under the same paths.
+# waits for both, so call it in tmux or with nohup. RESULT is results/STUDY.h5 unless you name it. The folder you are
+# in, the study, its records and its hazard curves must be there on every node under the same paths.
 #
-# Tasks are handed to workers as these are free, so there may be many more shards than cores, and workers may come and go: HyperQueue
-# starts a task that lost its worker again, and it goes on where it stopped. After anything else (hq job cancel, a full disk), type
-# the same line again, with the same SHARDS.
+# Tasks are handed to workers as these are free, so there may be many more shards than cores, and workers may come and
+# go: HyperQueue starts a task that lost its worker again, and it goes on where it stopped. After anything else (hq job
+# cancel, a full disk), type the same line again, with the same SHARDS.
 #
 # The program is `uplift` in your PATH, or what the variable UPLIFT says; a task has CPUS cores (4 unless you set it).
 set -euo pipefail

@@ -3,19 +3,24 @@
 #
 #     docs/cluster/slurm.sh STUDY.toml SHARDS [RESULT.h5]
 #
-# on a login node submits both, and says their numbers. RESULT is results/STUDY.h5 unless you name it. The folder you are in, the study,
-# its records and its hazard curves must be there on every node under the same paths, as a home or a project folder is.
+# on a login node submits both, and says their numbers. RESULT is results/STUDY.h5 unless you name it. The folder you
+# are in, the study, its records and its hazard curves must be there on every node under the same paths, as a home or a
+# project folder is.
 #
-# Shards: any number; a task of some minutes is a good one. `uplift check STUDY.toml` says how long the stripes take on this machine.
+# Shards: any number; a task of some minutes is a good one. `uplift check STUDY.toml` says how long the stripes take on
+# this machine.
 #
-# When something stops (a node fails, the time is up, scancel, a full disk), type the same line again: every shard goes on where it
-# stopped, finished ones end at once, and the join waits for all of them. Keep SHARDS as it was: the division is part of a shard.
+# When something stops (a node fails, the time is up, scancel, a full disk), type the same line again: every shard goes
+# on where it stopped, finished ones end at once, and the join waits for all of them. Keep SHARDS as it was: the
+# division is part of a shard.
 #
-# The program is `uplift` in your PATH, or what the variable UPLIFT says; a task has CPUS threads (8 unless you set it): more threads and
-# fewer shards, or the other way, are the same to the result and almost so to the time. Account, partition and the like are Slurm's own
-# variables (man sbatch, "INPUT ENVIRONMENT VARIABLES"), which go before the lines below:
+# The program is `uplift` in your PATH, or what the variable UPLIFT says; a task has CPUS threads (8 unless you set it):
+# more threads and fewer shards, or the other way, are the same to the result and almost so to the time. Account,
+# partition and the like are Slurm's own variables (man sbatch, "INPUT ENVIRONMENT VARIABLES"), which go before the
+# lines below:
 #
-#     CPUS=16 SBATCH_ACCOUNT=quakes SBATCH_PARTITION=short SBATCH_TIMELIMIT=20 docs/cluster/slurm.sh studies/europe.toml 40
+#     CPUS=16 SBATCH_ACCOUNT=quakes SBATCH_PARTITION=short SBATCH_TIMELIMIT=20 \
+#         docs/cluster/slurm.sh studies/europe.toml 40
 #
 # Records and stripes, for all threads of a task together: `uplift check` says how much.
 #SBATCH --mem=2G
@@ -39,14 +44,17 @@ submit)
     mkdir -p "$(dirname "$result")/logs"
     log=$(dirname "$result")/logs/$(basename "$result" .h5)
     submit=(sbatch --parsable --cpus-per-task="${CPUS:-8}")
-    stripes=$("${submit[@]}" --job-name=uplift --array="1-$shards" --output="$log.%a.log" "$0" "$study" "$shards" "$result" stripes)
+    stripes=$("${submit[@]}" --job-name=uplift --array="1-$shards" \
+        --output="$log.%a.log" "$0" "$study" "$shards" "$result" stripes)
     # afterok: once every task has ended well; where one has not, the join is taken out of the queue
     join=$("${submit[@]}" --job-name=uplift-join --dependency="afterok:${stripes%%;*}" --kill-on-invalid-dep=yes \
         --output="$log.join.log" "$0" "$study" "$shards" "$result" join)
-    echo "stripes: job ${stripes%%;*}, $shards tasks; join: job ${join%%;*}. Logs: $log.*.log; how far it is: $uplift status $result"
+    echo "stripes: job ${stripes%%;*}, $shards tasks; join: job ${join%%;*}. Logs: $log.*.log;" \
+        "how far it is: $uplift status $result"
     ;;
 stripes)
-    # the number of shards is not SLURM_ARRAY_TASK_COUNT: that is smaller where only some tasks are submitted again (--array=3,7)
+    # the number of shards is not SLURM_ARRAY_TASK_COUNT: that is smaller where only some tasks are submitted again
+    # (--array=3,7)
     exec "$uplift" run "$study" --shard "$SLURM_ARRAY_TASK_ID/$shards" --output "$(shard "$SLURM_ARRAY_TASK_ID")" \
         --threads "$SLURM_CPUS_PER_TASK"
     ;;

@@ -1,4 +1,7 @@
-"""Draws the picture of the README from a result file: python urs.py results/europe.h5 urs.png (needs h5py, matplotlib)."""
+"""Draws the picture of the README from a result file: python urs.py results/europe.h5 urs.png.
+
+Needs h5py and matplotlib.
+"""
 
 import sys
 

@@ -1,4 +1,7 @@
-"""The tasks of docs/cluster/hyperqueue.sh, in a HyperQueue server and worker of this process: hyperqueue_tasks.py SCRIPT FOLDER SHARDS."""
+"""The tasks of docs/cluster/hyperqueue.sh, in a HyperQueue server and worker of this process.
+
+    python hyperqueue_tasks.py SCRIPT FOLDER SHARDS
+"""
 
 import os
 import sys

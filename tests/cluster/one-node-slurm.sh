@@ -1,4 +1,4 @@
-# Sourced: a Slurm cluster of one node, this machine, out of Debian's packages, with all its state in a folder of its own.
+# Sourced: a Slurm cluster of one node, this machine, out of Debian's packages, with all its state in its own folder.
 #
 #     start_slurm FOLDER     starts munged, slurmctld and slurmd, and sets SLURM_CONF
 #     stop_slurm             ends these three
@@ -49,7 +49,8 @@ NodeName=$name NodeAddr=127.0.0.1 CPUs=$(nproc) RealMemory=1000 State=UNKNOWN
 PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP OverSubscribe=NO
 CONF
     export SLURM_CONF=$folder/slurm.conf
-    # control groups belong to the system that this may run inside of. Before 23.02 they cannot be disabled, but v1 does nothing unasked
+    # control groups belong to the system that this may run inside of. Before 23.02 they cannot be disabled, but v1 does
+    # nothing unasked
     case $(slurmctld -V) in
     *\ 2[0-2].*) echo CgroupPlugin=cgroup/v1 ;;
     *) echo CgroupPlugin=disabled ;;

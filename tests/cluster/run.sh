@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Runs a small study through the engines of docs/cluster for real, stops it on the way, and compares what comes out with an undisturbed
-# run, bit by bit:
+# Runs a small study through the engines of docs/cluster for real, stops it on the way, and compares what comes out with
+# an undisturbed run, bit by bit:
 #
 #     tests/cluster/run.sh [slurm] [mpi] [hyperqueue]        all of them unless some are named; `make test-cluster`
 #
-# As root on Debian it installs what is missing (Slurm, Open MPI, libclang) and starts a Slurm cluster of this one node; HyperQueue comes
-# from PyPI. What cannot be had is skipped, and said so; only wrong results fail. UPLIFT names another built program than that of
-# `make build`.
+# As root on Debian it installs what is missing (Slurm, Open MPI, libclang) and starts a Slurm cluster of this one node;
+# HyperQueue comes from PyPI. What cannot be had is skipped, and said so; only wrong results fail. UPLIFT names another
+# built program than that of `make build`.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 repository=$PWD
@@ -67,7 +67,7 @@ until_true() {
     return 1
 }
 
-# Something of a shard is kept, and not yet all.
+# Some analysis rows of a shard are written, and not yet all.
 begun() { [ "$(cat results/study.shard-* 2>/dev/null | wc -c)" -gt 50000 ]; }
 
 queue_is_empty() { local queue && queue=$(squeue --noheader) && [ -z "$queue" ]; }
@@ -75,14 +75,16 @@ queue_is_empty() { local queue && queue=$(squeue --noheader) && [ -z "$queue" ];
 # The result is whole and that of the undisturbed run, and nothing is left of the shards.
 compare() {
     "$uplift" verify results/study.h5 >/dev/null || fail "$1: the result is not whole"
-    "$repository/.venv/bin/python" "$repository/tests/cluster/same.py" whole.h5 results/study.h5 || fail "$1: other numbers"
+    "$repository/.venv/bin/python" "$repository/tests/cluster/same.py" whole.h5 results/study.h5 ||
+        fail "$1: other numbers"
     ! ls results/study.shard-* 2>/dev/null || fail "$1: shards are left"
     rm -r results
     ran+=("$1")
 }
 
 in_slurm() {
-    provide sbatch slurmctld slurmd slurm-client munge && start_slurm "$folder/slurm" || { skip "slurm: no cluster can be started here"; return; }
+    provide sbatch slurmctld slurmd slurm-client munge && start_slurm "$folder/slurm" ||
+        { skip "slurm: no cluster can be started here"; return; }
     local version first said
     version="slurm ($(sinfo --version))"
     export SBATCH_MEM_PER_NODE=400
@@ -91,13 +93,14 @@ in_slurm() {
     first=$(sed -n 's/.*stripes: job \([0-9]*\).*/\1/p' <<<"$said")
     until_true 60 begun || { stuck "$version: no task is started" results/logs/*.log; return; }
     scancel "$first"
-    until_true 60 queue_is_empty || { squeue; stuck "$version: a job that was cancelled, or its join, is still there" /dev/null; return; }
-    local kept
-    kept=$(cat results/study.shard-* | wc -c)
+    until_true 60 queue_is_empty ||
+        { squeue; stuck "$version: a job that was cancelled, or its join, is still there" /dev/null; return; }
+    local written
+    written=$(cat results/study.shard-* | wc -c)
     [ ! -e results/study.h5 ] || fail "$version: a result of an array that was stopped"
     CPUS=1 "$repository/docs/cluster/slurm.sh" study.toml 3
     until_true 300 queue_is_empty || fail "$version: the jobs do not end"
-    grep -qh "^known " results/logs/*.log || fail "$version: nothing was taken over of the $kept bytes kept"
+    grep -qh "^known " results/logs/*.log || fail "$version: nothing was taken over of the $written bytes written"
     compare "$version, an array of 3, cancelled and submitted again"
 }
 
@@ -132,10 +135,12 @@ in_mpi() {
     rank=$(ps -o pid= --ppid "$started" | tail -n 1)
     kill -KILL $rank
     wait "$started" || code=$?
-    [ "$code" != 0 ] && ! ps -o pid= --ppid "$started" >/dev/null || { cat mpi.log; fail "mpi: a dead rank leaves $code"; }
+    [ "$code" != 0 ] && ! ps -o pid= --ppid "$started" >/dev/null ||
+        { cat mpi.log; fail "mpi: a dead rank leaves $code"; }
     "${ranks[@]}" >mpi.log 2>&1 || { cat mpi.log; fail "mpi: the run ends badly"; }
     # where the result is there, nothing is computed again
-    [ "$("${ranks[@]}" --json 2>/dev/null | grep -c '"analyses_computed": 0,')" = 2 ] || fail "mpi: finished analyses are computed again"
+    [ "$("${ranks[@]}" --json 2>/dev/null | grep -c '"analyses_computed": 0,')" = 2 ] ||
+        fail "mpi: finished analyses are computed again"
     # one rank, and none
     mpirun --oversubscribe -n 1 "$built" run study.toml --quiet --set risk.poe=[0.1] || fail "mpi: one rank"
     "$built" run study.toml --quiet || fail "mpi: without mpirun"
@@ -154,12 +159,14 @@ in_hyperqueue() {
         return
     fi
     # the wheel holds the server and the workers, but not the command hq: its tasks are submitted from Python
-    { python3 -m venv "$folder/hq-venv" && "$folder/hq-venv/bin/pip" install --quiet hyperqueue; } >"$folder/pip.log" 2>&1 ||
+    local wheel=$folder/hq-venv/bin version
+    { python3 -m venv "$folder/hq-venv" && "$wheel/pip" install --quiet hyperqueue; } >"$folder/pip.log" 2>&1 ||
         { skip "hyperqueue: neither hq nor its wheel"; return; }
-    (cd "$folder" && UPLIFT=$uplift CPUS=1 "$folder/hq-venv/bin/python" "$repository/tests/cluster/hyperqueue_tasks.py" \
+    (cd "$folder" && UPLIFT=$uplift CPUS=1 "$wheel/python" "$repository/tests/cluster/hyperqueue_tasks.py" \
         "$repository/docs/cluster/hyperqueue.sh" "$folder/study" 3) >"$folder/hq.log" 2>&1 ||
         { tail -n 30 "$folder/hq.log"; stuck "hyperqueue: the tasks" results/logs/*.log; return; }
-    compare "hyperqueue ($("$folder/hq-venv/bin/pip" list 2>/dev/null | sed -n 's/^hyperqueue *//p') from PyPI), an array of 3"
+    version=$("$wheel/pip" list 2>/dev/null | sed -n 's/^hyperqueue *//p')
+    compare "hyperqueue ($version from PyPI), an array of 3"
     skip "hyperqueue: hq is not here, so its line in docs/cluster/hyperqueue.sh was not run, only the tasks it submits"
 }
 

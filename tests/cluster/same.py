@@ -1,7 +1,7 @@
 """Whether two results hold the same numbers: same.py A.h5 B.h5.
 
-Every array of both is read and compared bit by bit, with its units and names; of the attributes of the file those that tell what was
-computed, not when, how long and by which command.
+Every array of both is read and compared bit by bit, with its units and names; of the attributes of the file those that
+tell what was computed, not when, how long and by which command.
 """
 
 import sys

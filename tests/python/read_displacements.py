@@ -1,4 +1,5 @@
-"""Opens the result of a study of displacement spectra as docs/hdf5-layout.md tells users to, and finds its percentiles with numpy.
+"""Opens the result of a study of displacement spectra as docs/hdf5-layout.md tells users to, and finds its percentiles
+with numpy.
 
     python read_displacements.py RESULT.h5
 """
