@@ -10,7 +10,7 @@ use crate::error::{HazardError, Place};
 use crate::input;
 use crate::rates::{AnnualRates, Row, annual_rates};
 use crate::text::{excerpt, number};
-use crate::unit::{Unit, same_unit};
+use crate::unit::{CurveUnit, same_unit};
 
 /// Largest file that [`read_path`] takes, unpacked, bytes: a hazard curve has some kilobytes.
 pub const MAX_FILE_BYTES: u64 = 4 << 20;
@@ -47,7 +47,7 @@ impl Declared {
             }
         }
         let unit = unit?;
-        let unit = Unit::parse(&unit).map_or(unit, |known| known.name().to_owned());
+        let unit = CurveUnit::parse(&unit).map_or(unit, |known| known.symbol().to_owned());
         Some(Self { measure: measure?.to_uppercase(), unit })
     }
 }

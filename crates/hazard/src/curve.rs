@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use crate::component::ComponentDefinition;
 use crate::error::{HazardError, Place};
-use crate::unit::{Dimension, Unit, same_unit};
+use crate::unit::{CurveUnit, Dimension, same_unit};
 
 /// One point of a hazard curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -200,8 +200,8 @@ impl HazardCurve {
     /// # Errors
     /// As [`HazardCurve::in_unit`].
     pub fn in_field_units(&self, gravity_m_s2: f64) -> Result<Self, HazardError> {
-        match Unit::parse(&self.unit) {
-            Some(unit) => self.in_unit(unit.dimension().field_unit().name(), gravity_m_s2),
+        match CurveUnit::parse(&self.unit) {
+            Some(unit) => self.in_unit(unit.dimension().field_unit().symbol(), gravity_m_s2),
             None => Ok(self.clone()),
         }
     }
@@ -222,7 +222,7 @@ impl HazardCurve {
             // No arithmetic, so no rounding.
             return Ok(Self { unit: unit.to_owned(), ..self.clone() });
         }
-        let (from, to) = match (Unit::parse(&self.unit), Unit::parse(unit)) {
+        let (from, to) = match (CurveUnit::parse(&self.unit), CurveUnit::parse(unit)) {
             (Some(from), Some(to)) if from.dimension() == to.dimension() => (from, to),
             _ => {
                 let (measure, from) = (self.measure.clone(), self.unit.clone());
@@ -244,7 +244,7 @@ fn check_labels(measure: &str, unit: &str) -> Result<(), HazardError> {
         }
     }
     match Dimension::of_measure(measure) {
-        Some(dimension) if Unit::parse(unit).map(Unit::dimension) != Some(dimension) => {
+        Some(dimension) if CurveUnit::parse(unit).map(CurveUnit::dimension) != Some(dimension) => {
             let (measure, unit) = (measure.to_owned(), unit.to_owned());
             Err(HazardError::UnitOfMeasure { measure, unit, expected: dimension.examples() })
         }

@@ -1,7 +1,7 @@
 //! What a table says about itself: measure, unit and component in a comment or a column name.
 
 use crate::component::ComponentDefinition;
-use crate::unit::Unit;
+use crate::unit::CurveUnit;
 
 /// Measure, unit and component as far as a text names them.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -92,7 +92,7 @@ pub(crate) fn comment(text: &str) -> Declaration {
                     found.unit = unit.map(str::to_owned).or(found.unit);
                 }
             }
-            "unit" | "units" if Unit::parse(value).is_some() => {
+            "unit" | "units" if CurveUnit::parse(value).is_some() => {
                 found.unit = Some(value.trim().to_owned());
             }
             "component" | "horizontal component" => found.note_component(value, true),
@@ -132,7 +132,7 @@ fn split_unit(name: &str) -> (&str, Option<&str>) {
     if let Some((plain, unit)) = name.strip_suffix(']').and_then(|rest| rest.split_once('[')) {
         return (plain.trim_end(), Some(unit.trim()));
     }
-    let is_unit = |unit: &str| Unit::parse(unit).is_some() || is_per_year(unit);
+    let is_unit = |unit: &str| CurveUnit::parse(unit).is_some() || is_per_year(unit);
     if let Some((plain, unit)) = name.strip_suffix(')').and_then(|rest| rest.split_once('('))
         && is_unit(unit)
     {

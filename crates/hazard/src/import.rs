@@ -67,7 +67,6 @@ impl fmt::Display for SitePlace {
 
 /// What a curve is over the logic tree.
 #[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
 pub enum Statistic {
     /// The weighted mean.
     Mean,

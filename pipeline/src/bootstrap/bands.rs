@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 use uplift_bootstrap::{
-    Band, BootstrapError, Interval, Replicates, ResamplingPlan, acceleration, error_of_median, leave_one_out,
-    range_of_interval, simultaneous_bands, weighted_quantile,
+    Band, BootstrapError, Replicates, ResamplingPlan, acceleration, error_of_median, leave_one_out, range_of_interval,
+    simultaneous_bands, weighted_quantile,
 };
 use uplift_motion::IntensityMeasure;
 use uplift_risk::{PooledDemand, StripeWeights};
@@ -101,13 +101,13 @@ pub fn bands_of_strength(
                 sorted.clear();
                 sorted.extend_from_slice(ordinates_m);
                 sorted.sort_unstable_by(f64::total_cmp);
-                let interval = match settings.interval {
-                    IntervalKind::Percentile => Interval::Percentile,
+                done.bands.push(match settings.interval {
+                    IntervalKind::Percentile => Band::percentile(&sorted, settings.confidence),
                     IntervalKind::Bca => {
-                        Interval::Bca { estimate_m, acceleration: acceleration(&without_each_m, size) }
+                        let acceleration = acceleration(&without_each_m, size);
+                        Band::bca(&sorted, settings.confidence, estimate_m, acceleration)
                     }
-                };
-                done.bands.push(Band::of(&sorted, settings.confidence, interval));
+                });
                 if settings.simultaneous {
                     done.replicates_m.extend_from_slice(ordinates_m);
                 }

@@ -78,11 +78,10 @@ pub fn read_hazard(study: &ResolvedStudy) -> Result<(Vec<Vec<SiteHazard>>, Vec<S
 }
 
 /// A level that hardly any site exceeds, and one that nearly every site does, in field units.
-fn extreme_levels(measure: IntensityMeasure) -> Option<[f64; 2]> {
+fn extreme_levels(measure: IntensityMeasure) -> [f64; 2] {
     match measure {
-        IntensityMeasure::Pgv => Some([1000.0, 0.3]),
-        IntensityMeasure::Pga => Some([10.0, 0.003]),
-        _ => None,
+        IntensityMeasure::Pgv => [1000.0, 0.3],
+        IntensityMeasure::Pga => [10.0, 0.003],
     }
 }
 
@@ -90,7 +89,7 @@ fn extreme_levels(measure: IntensityMeasure) -> Option<[f64; 2]> {
 pub(super) fn implausible(curve: &HazardCurve, measure: IntensityMeasure) -> Option<String> {
     /// Once in ten thousand years.
     const RARE_PER_YEAR: f64 = 1e-4;
-    let [strong, faint] = extreme_levels(measure)?;
+    let [strong, faint] = extreme_levels(measure);
     let unit = measure.unit();
     let at = |level: f64| curve.rate_at(level).ok();
     if let Some(rate) = at(strong).filter(|&rate| rate > RARE_PER_YEAR) {

@@ -41,7 +41,7 @@ impl Record {
     pub fn intensity(&self, measure: IntensityMeasure) -> f64 {
         match measure {
             IntensityMeasure::Pga => self.pga_g,
-            _ => self.pgv_cm_s,
+            IntensityMeasure::Pgv => self.pgv_cm_s,
         }
     }
 }

@@ -55,7 +55,7 @@ impl EarlierStripes {
         let intensities = reader
             .array_f64(match measure.measure {
                 IntensityMeasure::Pga => "/records/pga_g",
-                _ => "/records/pgv_cm_s",
+                IntensityMeasure::Pgv => "/records/pgv_cm_s",
             })?
             .values;
         let positions = |values: &[f64]| -> HashMap<u64, usize> {

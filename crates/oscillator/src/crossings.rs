@@ -1,12 +1,12 @@
-//! Where a motion passes a level inside one sample interval, without a general search.
+//! Where a motion crosses a level inside one sample interval, without a general search.
 //!
-//! While `ωh < π` the acceleration changes its sign once at most. From the states at both ends it then follows where the displacement
-//! turns and whether it can pass a level, and Newton's method finds the passage. Whatever is not as simple goes to the
-//! [nodes](crate::nodes).
+//! While `ωh < π` the acceleration changes its sign once at most. From the states at both ends it then follows where
+//! the displacement turns and whether it can cross a level, and Newton's method finds the crossing. Whatever is not as
+//! simple goes to the [nodes](crate::nodes).
 
 use crate::ahead::smaller;
 use crate::branch::LinearMotion;
-use crate::nodes::{Node, Nodes, crossing, monotone_root};
+use crate::nodes::{Node, Nodes, crossing_time, monotone_root};
 use crate::stumpff::Stumpff;
 
 /// Largest `(ωh)²` for the reasoning of this file: a little below π².
@@ -27,47 +27,47 @@ pub(crate) struct State {
 }
 
 impl State {
-    /// As seen from this side.
+    /// In the coordinates of this side.
     #[inline(always)]
     pub(crate) fn on(&self, side: f64) -> Self {
         Self { u: side * self.u, v: side * self.v, w: side * self.w }
     }
 }
 
-/// Whether an attached system is seen to stay inside the boundaries within `h`; `end` is its state then.
+/// Whether an attached system is shown to stay inside the boundaries within `h`; `end` is its state then.
 #[inline(always)]
 pub(crate) fn stays_inside(motion: &LinearMotion, h: f64, end: &State, boundary: f64) -> bool {
     end.u.abs() <= boundary && (is_monotone(motion, h, end) || turns_inside(motion, h, end, boundary))
 }
 
-/// Time at which an attached system passes one of the boundaries, outward, within `h`; `end` is its state then.
+/// Where an attached system crosses one of the boundaries, outward, within `h`; `end` is its state then.
 #[inline(always)]
-pub(crate) fn uplift_within(motion: &LinearMotion, h: f64, end: &State, boundary: f64) -> Option<Passage> {
+pub(crate) fn uplift_within(motion: &LinearMotion, h: f64, end: &State, boundary: f64) -> Option<Crossing> {
     if stays_inside(motion, h, end, boundary) {
         return None;
     }
     let inside = end.u.abs() <= boundary;
     let (from, to) = (Node { tau: 0.0, u: motion.u0 }, Node { tau: h, u: end.u });
     if is_monotone(motion, h, end) {
-        return Some(passage(motion, from, motion.v0, to, boundary.copysign(end.u)));
+        return Some(crossing(motion, from, motion.v0, to, boundary.copysign(end.u)));
     }
     if motion.k * h * h < SIMPLE && motion.v0 * end.v < 0.0 {
         // one turning point
-        if let Some(passage) = outward_passage(motion, h, boundary.copysign(motion.v0)) {
-            return Some(passage);
+        if let Some(crossing) = outward_crossing(motion, h, boundary.copysign(motion.v0)) {
+            return Some(crossing);
         }
         let tau = turning_time(motion, h, end.v);
         let turn = Node { tau, u: motion.state(tau).0 };
         if turn.u.abs() > boundary {
-            return Some(passage(motion, from, motion.v0, turn, boundary.copysign(turn.u)));
+            return Some(crossing(motion, from, motion.v0, turn, boundary.copysign(turn.u)));
         }
-        return (!inside).then(|| passage(motion, turn, 0.0, to, boundary.copysign(end.u)));
+        return (!inside).then(|| crossing(motion, turn, 0.0, to, boundary.copysign(end.u)));
     }
     first_crossing(motion, h, |u| (u.abs() > boundary).then(|| boundary.copysign(u)))
 }
 
-/// Whether an attached motion is seen to keep its direction for `h`: its velocity then has one extremum at most, and is zero nowhere
-/// if it has none or cannot fall that far.
+/// Whether an attached motion is shown to keep its direction for `h`: its velocity then has one extremum at most, and
+/// no zero if it has no extremum or cannot fall that far.
 #[inline(always)]
 fn is_monotone(motion: &LinearMotion, h: f64, end: &State) -> bool {
     motion.v0 * end.v > 0.0
@@ -79,9 +79,10 @@ fn is_monotone(motion: &LinearMotion, h: f64, end: &State) -> bool {
 
 /// True if no turning point of a motion with `k > 0` within `h` lies beyond the boundaries.
 ///
-/// The motion oscillates about the equilibrium `e = u + w/k`, which drifts at the constant rate `ė`, with the amplitude `A`. Where its
-/// velocity is zero the distance from the equilibrium is `√(A² − ė²/k)`. If it turns once and the acceleration keeps its sign, that is on the side to which the motion
-/// sets out, and as near to the zero of the chord of the velocity as the departure from the chord and the least acceleration tell.
+/// The motion oscillates about the equilibrium `e = u + w/k`, which drifts at the constant rate `ė`, with the amplitude
+/// `A`. Where its velocity is zero the distance from the equilibrium is `√(A² − ė²/k)`. If it turns once and the
+/// acceleration keeps its sign, that is on the side to which the motion starts, and as near to the zero of the chord of
+/// the velocity as follows from the departure from the chord and the least acceleration.
 #[inline(always)]
 fn turns_inside(motion: &LinearMotion, h: f64, end: &State, boundary: f64) -> bool {
     let flexibility = 1.0 / motion.k;
@@ -97,9 +98,9 @@ fn turns_inside(motion: &LinearMotion, h: f64, end: &State, boundary: f64) -> bo
     (start + drift * (0.5 * h)).abs() + drift.abs() * (0.5 * h) + distance <= boundary
 }
 
-/// A level passed: when, and how fast.
+/// A level crossed: when, and how fast.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Passage {
+pub(crate) struct Crossing {
     /// The level, m.
     pub(crate) level: f64,
     /// Time since the start of the motion, s.
@@ -108,8 +109,8 @@ pub(crate) struct Passage {
     pub(crate) v: f64,
 }
 
-impl Passage {
-    /// As seen from this side.
+impl Crossing {
+    /// In the coordinates of this side.
     #[inline(always)]
     pub(crate) fn on(&self, side: f64) -> Self {
         Self { level: side * self.level, tau: self.tau, v: side * self.v }
@@ -121,23 +122,23 @@ impl Passage {
     }
 }
 
-/// Where `motion` passes `level`, which it does once between `from`, where its velocity is `v`, and `to`: Newton's method in
-/// a bracket, from the root of the parabola through the state at `from` and the end.
+/// Where `motion` crosses `level`, which it does once between `from`, where its velocity is `v`, and `to`: Newton's
+/// method in a bracket, from the root of the parabola through the state at `from` and the end.
 #[inline(always)]
-pub(crate) fn passage(motion: &LinearMotion, from: Node, v: f64, to: Node, level: f64) -> Passage {
+pub(crate) fn crossing(motion: &LinearMotion, from: Node, v: f64, to: Node, level: f64) -> Crossing {
     let span = to.tau - from.tau;
     let distance = level - from.u;
     let ahead = 1.0_f64.copysign(to.u - level);
     if ahead * distance <= 0.0 && v * ahead > 0.0 {
         // there already, by rounding
-        return Passage { level, tau: from.tau, v };
+        return Crossing { level, tau: from.tau, v };
     }
     let curvature = (to.u - from.u - v * span) * (2.0 / (span * span));
     let discriminant = (v * v + 2.0 * curvature * distance).max(0.0);
     let (mut low, mut high) = (from.tau, to.tau);
     let mut tau = from.tau + 2.0 * distance / (v + ahead * discriminant.sqrt());
     if motion.k == 0.0
-        && let Some(found) = cubic_passage(motion, tau, level, CONVERGED * span)
+        && let Some(found) = cubic_crossing(motion, tau, level, CONVERGED * span)
         && found.tau >= low
         && found.tau <= high
         && found.v * ahead > 0.0
@@ -150,10 +151,10 @@ pub(crate) fn passage(motion: &LinearMotion, from: Node, v: f64, to: Node, level
             tau = 0.5 * (low + high);
         }
         let here = motion.restarted(tau);
-        if let Some((further, v)) = nearby_passage(&here, level, CONVERGED * span) {
+        if let Some((further, v)) = nearby_crossing(&here, level, CONVERGED * span) {
             let found = tau + further;
             if found >= low && found <= high && v * ahead > 0.0 {
-                return Passage { level, tau: found, v };
+                return Crossing { level, tau: found, v };
             }
         }
         if ahead * (here.u0 - level) > 0.0 {
@@ -165,12 +166,12 @@ pub(crate) fn passage(motion: &LinearMotion, from: Node, v: f64, to: Node, level
     }
     let from = Node { tau: low, u: motion.state(low).0 };
     let to = Node { tau: high, u: motion.state(high).0 };
-    Passage::of(motion, crossing(motion, from, to, level), level)
+    Crossing::of(motion, crossing_time(motion, from, to, level), level)
 }
 
-/// Newton's method from `tau` on for a motion without stiffness, which is a cubic; `None` where it does not settle.
+/// Newton's method from `tau` on for a motion without stiffness, which is a cubic; `None` where it does not converge.
 #[inline(always)]
-fn cubic_passage(motion: &LinearMotion, mut tau: f64, level: f64, converged: f64) -> Option<Passage> {
+fn cubic_crossing(motion: &LinearMotion, mut tau: f64, level: f64, converged: f64) -> Option<Crossing> {
     let (half, third) = (0.5 * motion.w0, motion.j0 * (1.0 / 6.0));
     let distance = level - motion.u0;
     for _ in 0..NEARBY_STEPS {
@@ -178,16 +179,17 @@ fn cubic_passage(motion: &LinearMotion, mut tau: f64, level: f64, converged: f64
         let step = (tau * (motion.v0 + tau * (half + tau * third)) - distance) / v;
         tau -= step;
         if step.abs() <= converged {
-            return Some(Passage { level, tau, v: v - step * (motion.w0 + tau * motion.j0) });
+            return Some(Crossing { level, tau, v: v - step * (motion.w0 + tau * motion.j0) });
         }
     }
     None
 }
 
-/// The passage of `level` outward within `h` of a motion that turns back once, tried from the parabola at its start: what settles with an outward velocity is it, since
-/// the way back is inward. `None` where there is none, or it is not found so simply.
+/// The crossing of `level` outward within `h` of a motion that turns back once, by Newton's method from the parabola at
+/// its start: a root with an outward velocity is the one sought, since the way back is inward. `None` where there is no
+/// such root, or the method does not converge.
 #[inline(always)]
-fn outward_passage(motion: &LinearMotion, h: f64, level: f64) -> Option<Passage> {
+fn outward_crossing(motion: &LinearMotion, h: f64, level: f64) -> Option<Crossing> {
     let distance = level - motion.u0;
     let discriminant = motion.v0 * motion.v0 + 2.0 * motion.w0 * distance;
     if !(discriminant > 0.0) {
@@ -197,15 +199,15 @@ fn outward_passage(motion: &LinearMotion, h: f64, level: f64) -> Option<Passage>
     if !(tau > 0.0 && tau < h) {
         return None;
     }
-    let (further, v) = nearby_passage(&motion.restarted(tau), level, CONVERGED * h)?;
+    let (further, v) = nearby_crossing(&motion.restarted(tau), level, CONVERGED * h)?;
     let found = tau + further;
-    (found >= 0.0 && found <= h && v * level > 0.0).then_some(Passage { level, tau: found, v })
+    (found >= 0.0 && found <= h && v * level > 0.0).then_some(Crossing { level, tau: found, v })
 }
 
-/// Time until `here` passes `level` and its velocity there, if that is so near that short series serve: one evaluation of the full
-/// ones then finds a passage.
+/// Time until `here` crosses `level` and its velocity there, if that is so near that short series suffice: one
+/// evaluation of the full ones then finds a crossing.
 #[inline(always)]
-fn nearby_passage(here: &LinearMotion, level: f64, converged: f64) -> Option<(f64, f64)> {
+fn nearby_crossing(here: &LinearMotion, level: f64, converged: f64) -> Option<(f64, f64)> {
     let mut tau = here.time_to(level);
     for _ in 0..NEARBY_STEPS {
         let short = Stumpff::near_zero(here.k * tau * tau)?;
@@ -250,16 +252,17 @@ pub(crate) fn turning_time(motion: &LinearMotion, h: f64, v1: f64) -> f64 {
     monotone_root((0.0, motion.v0), (h, v1), |tau| motion.rates(tau))
 }
 
-/// Time of the first crossing of a level that `level_beyond` names for the displacement at a node, over the monotone pieces of `motion`.
+/// Time of the first crossing of a level that `level_beyond` names for the displacement at a node, over the
+/// monotone parts of `motion`.
 pub(crate) fn first_crossing(
     motion: &LinearMotion,
     h: f64,
     mut level_beyond: impl FnMut(f64) -> Option<f64>,
-) -> Option<Passage> {
+) -> Option<Crossing> {
     let mut from = Node { tau: 0.0, u: motion.u0 };
     for to in Nodes::new(motion, h) {
         if let Some(level) = level_beyond(to.u) {
-            return Some(Passage::of(motion, crossing(motion, from, to, level), level));
+            return Some(Crossing::of(motion, crossing_time(motion, from, to, level), level));
         }
         from = to;
     }

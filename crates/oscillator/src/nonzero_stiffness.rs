@@ -1,21 +1,22 @@
-//! The motion of a system that is uplifted with a stiffness: a response to the record times the scale, plus a free motion.
+//! The motion of a system that is uplifted with a stiffness: a response to the record times the
+//! scale, plus a free motion.
 
 use crate::ahead::{AHEAD, Lanes, ahead, larger};
 use crate::branch::Branch;
+use crate::crossings::State;
 use crate::ground_motion::GroundMotion;
 use crate::particular::ParticularResponse;
-use crate::passages::State;
 use crate::run::Run;
 use crate::stumpff::Stumpff;
 use crate::sweep::growth;
-use crate::uplifted::Course;
+use crate::uplifted::UpliftedMotion;
 
-/// Largest response over the uplift displacement: it leaves 12 digits of the latter.
-const COARSEST: f64 = 1e4;
+/// Largest ratio of the response to the uplift displacement: it leaves 12 digits of the latter.
+const LARGEST_RATIO: f64 = 1e4;
 
-/// An uplifted branch with a stiffness, made ready for the runs of a sweep.
+/// An uplifted branch with a stiffness, prepared for the runs of a sweep.
 #[derive(Debug)]
-pub(crate) struct Stiffness {
+pub(crate) struct NonzeroStiffnessBranch {
     branch: Branch,
     response: ParticularResponse,
     /// Largest displacement of the response, m.
@@ -28,8 +29,9 @@ pub(crate) struct Stiffness {
     growth: f64,
 }
 
-impl Stiffness {
-    /// `None` for a branch without stiffness, and for one on which motions grow too fast, or turn too often between samples.
+impl NonzeroStiffnessBranch {
+    /// `None` for a branch without stiffness, and for one on which motions grow too fast, or turn too
+    /// often between samples.
     pub(crate) fn new(branch: Branch, ground: &GroundMotion<'_>) -> Option<Self> {
         let (k, dt_s) = (branch.stiffness_per_s2, ground.excitation.dt_s());
         if k == 0.0 {
@@ -51,18 +53,18 @@ impl Stiffness {
     }
 }
 
-impl Stiffness {
+impl NonzeroStiffnessBranch {
     /// Whether the rounding of the response times `scale` is small beside the uplift displacement.
     #[inline(always)]
-    pub(crate) fn is_fine(&self, scale: f64, uplift_displacement_m: f64) -> bool {
-        scale.abs() * self.largest_m <= COARSEST * uplift_displacement_m
+    pub(crate) fn keeps_digits(&self, scale: f64, uplift_displacement_m: f64) -> bool {
+        scale.abs() * self.largest_m <= LARGEST_RATIO * uplift_displacement_m
     }
 }
 
-/// With the time `t` since its base, the distance on its side is `y = c p + y0 + v0 t c1 − f0 t² c2`, where `p` is the response to the record,
-/// `c` the scale and the rest the free motion.
-pub(crate) struct Stiff<'a> {
-    stiffness: &'a Stiffness,
+/// With the time `t` since the sample `base`, the distance on its side is `y = c p + y0 + v0 t c1 − f0 t² c2`, where
+/// `p` is the response to the record, `c` the scale and the rest the free motion.
+pub(crate) struct NonzeroStiffnessMotion<'a> {
+    stiffness: &'a NonzeroStiffnessBranch,
     ground: &'a GroundMotion<'a>,
     /// `c`: the scale, with the sign of the side.
     scale: f64,
@@ -76,12 +78,12 @@ pub(crate) struct Stiff<'a> {
     f0: f64,
 }
 
-impl<'a> Stiff<'a> {
+impl<'a> NonzeroStiffnessMotion<'a> {
     /// The motion on `side` from the state at the sample `base` on.
     #[inline(always)]
-    pub(crate) fn new<const STIFF: bool>(
-        run: &Run<'a, STIFF>,
-        stiffness: &'a Stiffness,
+    pub(crate) fn new<const STIFFNESS: bool>(
+        run: &Run<'a, STIFFNESS>,
+        stiffness: &'a NonzeroStiffnessBranch,
         side: f64,
         base: usize,
         from: &State,
@@ -91,7 +93,7 @@ impl<'a> Stiff<'a> {
 
     #[inline(always)]
     fn at(
-        stiffness: &'a Stiffness,
+        stiffness: &'a NonzeroStiffnessBranch,
         ground: &'a GroundMotion<'a>,
         scale: f64,
         base: usize,
@@ -104,7 +106,7 @@ impl<'a> Stiff<'a> {
     }
 }
 
-impl Course for Stiff<'_> {
+impl UpliftedMotion for NonzeroStiffnessMotion<'_> {
     #[inline(always)]
     fn ahead(&self, j: usize) -> (Lanes, Lanes) {
         let stiffness = self.stiffness;
@@ -135,7 +137,7 @@ impl Course for Stiff<'_> {
     }
 
     #[inline(always)]
-    fn outward(&self, least: f64, greatest: f64) -> f64 {
+    fn outward_bound(&self, least: f64, greatest: f64) -> f64 {
         if greatest <= 0.0 {
             0.0
         } else if self.stiffness.branch.stiffness_per_s2 < 0.0 {
@@ -146,7 +148,7 @@ impl Course for Stiff<'_> {
     }
 
     #[inline(always)]
-    fn go_on(&mut self, j: usize, y: f64) {
+    fn restart_at(&mut self, j: usize, y: f64) {
         *self = Self::at(self.stiffness, self.ground, self.scale, j, (y, self.rate(j)));
     }
 }
