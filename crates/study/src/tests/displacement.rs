@@ -47,7 +47,7 @@ fn defaults_are_those_of_the_chapters() {
     assert_eq!(bare.design.unwrap().designed, designed);
 }
 
-const COMPLETE: &str = r#"kind = "displacement spectra"
+pub(super) const COMPLETE: &str = r#"kind = "displacement spectra"
 title = "sets"
 gravity_m_s2 = 9.81
 [records]

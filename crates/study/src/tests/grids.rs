@@ -2,7 +2,7 @@ use proptest::prelude::*;
 
 use uplift_motion::IntensityMeasure;
 
-use super::super::notation::{self, MOST_GRID_VALUES};
+use super::super::grid::notation::{self, MOST_GRID_VALUES};
 use super::load;
 
 fn values(text: &str) -> Vec<f64> {
