@@ -35,8 +35,8 @@ impl Structure {
     /// Reads the structure file `file`.
     ///
     /// # Errors
-    /// [`StudyError`] with every mistake of the file; those of TOML syntax come alone, and one that takes several correct
-    /// quantities to see, such as a capacity below the uplift displacement, is found once those are mended.
+    /// [`StudyError`] with every mistake of the file; those of TOML syntax come alone, and one that takes several
+    /// correct quantities to see, such as a capacity below the uplift displacement, is found once those are mended.
     pub fn load(file: &Path) -> Result<Self, StudyError> {
         let text = read_text(file)?;
         let document = parse_table(file, &text)?;

@@ -138,7 +138,7 @@ pub(super) fn read(
     }))
 }
 
-/// What the section `[design]` designs: the columns of Section 3.4.5 and the block of Section 2.4.3 unless it says otherwise.
+/// What the section designs: the columns of Section 3.4.5 and the block of Section 2.4.3 unless it says otherwise.
 fn designed(section: &mut Section<'_>, of_blocks: bool, structures: Option<&Structures>) -> Option<Designed> {
     if of_blocks {
         let height = section.number_or("height_m", "m", HEIGHT, 10.0);

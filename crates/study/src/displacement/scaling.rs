@@ -36,8 +36,8 @@ pub struct ScalingPlan {
 }
 
 impl ScalingPlan {
-    /// The ways of scaling that differ, and which of them each combination `[to][by]` is: motions that are not scaled are
-    /// the same whosever peak it would be.
+    /// The ways of scaling that differ, and which of them each combination `[to][by]` is: motions that are not scaled
+    /// are the same whosever peak it would be.
     pub fn ways(&self) -> (Vec<Scaling>, Vec<usize>) {
         let mut ways: Vec<Scaling> = Vec::new();
         let mut places = Vec::new();

@@ -1,7 +1,7 @@
 //! The notation of grids, `start:step:stop`, in exact arithmetic.
 //!
-//! Adding 0.001 a thousand times does not give 1. Here `0.001:0.001:3` gives the doubles nearest to 0.001, 0.002, …, and
-//! `0:1/300:1` those nearest to i/300: the numbers are fractions of integers until one division, which is correctly
+//! Adding 0.001 a thousand times does not give 1. Here `0.001:0.001:3` gives the doubles nearest to 0.001, 0.002, …,
+//! and `0:1/300:1` those nearest to i/300: the numbers are fractions of integers until one division, which is correctly
 //! rounded, gives each value.
 
 use super::GridError;

@@ -15,21 +15,21 @@ const fn key(names: &'static [&'static str], meaning: &'static str) -> Key {
 pub(crate) const KEYS: SectionKeys = SectionKeys {
     section: "records.select",
     keys: &[
-        key(&["magnitude"], "range of magnitude, a column of the manifest"),
-        key(&["rrup_km"], "range of the closest distance to the rupture, km, a column"),
-        key(&["repi_km"], "range of the distance to the epicentre, km, a column"),
-        key(&["vs30"], "range of the mean shear-wave velocity of the upper 30 m, m/s, a column"),
-        key(&["lowest_usable_hz"], "range of the lowest usable frequency, Hz, a column"),
-        key(&["pga_g"], "range of the PGA of the pair, g, combined as `intensity` says, from the record"),
-        key(&["pgv_cm_s"], "range of the PGV of the pair, cm/s, from the record"),
+        key(&["magnitude"], "range of magnitude (column of the manifest)"),
+        key(&["rrup_km"], "range of the closest distance to the rupture, km (column)"),
+        key(&["repi_km"], "range of the distance to the epicentre, km (column)"),
+        key(&["vs30"], "range of the mean shear-wave velocity of the upper 30 m, m/s (column)"),
+        key(&["lowest_usable_hz"], "range of the lowest usable frequency, Hz (column)"),
+        key(&["pga_g"], "range of the PGA of the pair, g, combined as `intensity` says (of the record itself)"),
+        key(&["pgv_cm_s"], "range of the PGV of the pair, cm/s (of the record itself)"),
         key(
             &["d5_75_s", "d5_95_s"],
-            "range of the significant duration, s, geometric mean of the components, from the record",
+            "range of the significant duration, s, geometric mean of the components (of the record itself)",
         ),
         key(
             &["pulse_like"],
-            "`true` or `false`: only motions with, or only motions without a velocity pulse (Shahi and Baker 2014), \
-             from the record",
+            "`true` or `false`: only motions with, or only motions without a velocity pulse (Shahi and Baker 2014; of \
+             the record itself)",
         ),
     ],
 };

@@ -155,7 +155,8 @@ noise_points = 20
     insta::assert_snapshot!(folder.rendered(&folder.load_displacement(&[]).unwrap_err()));
 }
 
-/// The keys that `chapter-3.toml` shows as comments are keys: with their marks taken away, no more is wrong than that a file is missing.
+/// The keys that `chapter-3.toml` shows as comments are keys: with their marks taken away, no more is wrong than that a
+/// file is missing.
 #[test]
 fn commented_keys_are_keys() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../configs/chapter-3.toml");
@@ -195,7 +196,8 @@ fn one_by_one() {
             "oscillator.capacity_m: the list has 0 items",
         ),
         (
-            "kind = \"displacement spectra\"\n[oscillator]\nuplift_displacement_m = \"0.001:0.001:90\"\n[strengths]\nvalues = \"0:1/300:1\"",
+            "kind = \"displacement spectra\"\n[oscillator]\nuplift_displacement_m = \"0.001:0.001:90\"\n[strengths]\n\
+             values = \"0:1/300:1\"",
             "the lists and grids make 27090000 structures",
         ),
         (
@@ -208,7 +210,8 @@ fn one_by_one() {
         ),
         ("kind = \"displacement spectra\"\n[oscillator]\n[scaling]\nby = []", "scaling.by: the list has 0 items"),
         (
-            "kind = \"displacement spectra\"\n[oscillator]\n[records]\nmanifest = \"manifest.csv\"\n[output]\nfile = \"manifest.csv\"",
+            "kind = \"displacement spectra\"\n[oscillator]\n[records]\nmanifest = \"manifest.csv\"\n[output]\n\
+             file = \"manifest.csv\"",
             "output.file: the results would overwrite an input",
         ),
     ] {

@@ -13,7 +13,8 @@ const RISING: &str = "[pga]\n[oscillator]\npost_uplift_stiffness_per_s2 = 0.5\n[
     [hazard]\nconversions = { from = \"larger\", to = \"arbitrary\", pga = 2, pgv = 3 }\n\
     [bootstrap]\nsizes = [20, 3]\ninterval = \"bca\"\nsimultaneous = true\n[output]\nfile = \"x.h5\"";
 const BRANCHES: &str = "[pgv]\n[output]\nfile = \"x.h5\"\n[[sites]]\nname = \"a\"\n[sites.pgv]\nkind = \"poe\"\n\
-    years = 50\nbranches = [{ file = \"pgv.csv\", weight = 0.25 }, { name = \"B\", file = \"pga.csv\", weight = 0.75 }]\n\
+    years = 50\n\
+    branches = [{ file = \"pgv.csv\", weight = 0.25 }, { name = \"B\", file = \"pga.csv\", weight = 0.75 }]\n\
     [sites.pga]\nfile = \"pga.csv\"\nunit = \"cm/s2\"\n[site_table]\npgv = \"pgv.csv\"\n";
 
 /// The text of a study, and what it is of.

@@ -75,7 +75,7 @@ pub struct Conversion {
     pub factors: Vec<(IntensityMeasure, f64)>,
 }
 
-#[allow(clippy::ref_option)] // as serde calls it
+#[allow(clippy::ref_option, clippy::trivially_copy_pass_by_ref)] // as serde calls it
 fn write_component<S: Serializer>(component: &Option<ComponentDefinition>, serializer: S) -> Result<S::Ok, S::Error> {
     component.map(ComponentDefinition::key).serialize(serializer)
 }

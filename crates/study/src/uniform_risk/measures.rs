@@ -75,8 +75,8 @@ pub(super) fn write<S: Serializer>(plans: &[MeasurePlan], serializer: S) -> Resu
     serializer.collect_map(plans.iter().map(|plan| (plan.measure.key(), Levels(plan))))
 }
 
-/// The default levels of `measure` that lie from `least` to `most`, as a study writes them: key and grid. None where all
-/// of them do, or hardly any.
+/// The default levels of `measure` that lie from `least` to `most`, as a study writes them: key and grid. None where
+/// all of them do, or hardly any.
 pub fn levels_within(measure: IntensityMeasure, least: f64, most: f64) -> Option<(String, String)> {
     let keys = MeasureKeys::of(measure);
     let mut parts = Vec::new();

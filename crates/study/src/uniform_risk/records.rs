@@ -104,7 +104,8 @@ pub(super) fn read(mut section: Section<'_>, paths: &Paths) -> Option<Records> {
     let first_field = section.field("first");
     let first = optional(first_field.as_ref(), |field| field.integer(1, LARGEST_INTEGER));
     let synthetic = record_source::synthetic(section.section("synthetic"));
-    // a manifest goes before: so one `--set records.manifest=…` turns a study of synthetic records into one of real ones
+    // a manifest goes before: so one `--set records.manifest=…` turns a study of synthetic records into one of real
+    // ones
     let source = if let Some(field) = manifest_field {
         let manifest = paths.input(&field);
         let tag = optional(tag_field.as_ref(), |field| field.filled_text().map(str::to_owned));

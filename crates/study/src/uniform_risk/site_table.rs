@@ -43,7 +43,7 @@ pub(super) const KEYS: SectionKeys = SectionKeys {
     ],
 };
 
-/// Farthest distance between a site and the site of an export that is taken for it, unless a study says otherwise \[km\].
+/// Farthest distance between a site and the site of an export that is taken for it, by default \[km\].
 const WITHIN_KM: f64 = 1.0;
 
 /// Many sites with the exports that hold their hazard curves.
@@ -57,8 +57,8 @@ pub struct SiteTable {
     pub exports: Vec<(IntensityMeasure, PathBuf)>,
     /// Farthest distance between a site and the site of an export that is taken for it \[km\].
     pub within_km: f64,
-    /// Strengths whose ordinates are written, all of them strengths of the study; if none, all into tables and a few into
-    /// the map.
+    /// Strengths whose ordinates are written, all of them strengths of the study; if none, all into tables and a few
+    /// into the map.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub strengths: Option<Grid>,
 }
