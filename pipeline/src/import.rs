@@ -26,8 +26,8 @@ pub use warnings::Warning;
 pub use warnings::of_pair as warnings_of_pair;
 
 use crate::error::UpliftError;
-use crate::inputs::checksum;
 use crate::events::{Events, Progress};
+use crate::inputs::checksum;
 use search_results::SearchResults;
 
 /// What the user says about files that do not say it themselves.
@@ -54,12 +54,17 @@ impl ImportOptions {
 /// One component of a file, without its samples.
 #[derive(Debug, Clone)]
 pub struct Component {
+    /// The file.
     pub path: PathBuf,
     /// Its number in a file with several.
     pub channel: Option<usize>,
+    /// Its layout.
     pub format: RecordFormat,
+    /// What its head says.
     pub description: RecordingDescription,
+    /// Time step, s.
     pub dt_s: f64,
+    /// Samples.
     pub points: usize,
     /// SHA-256 of the file.
     pub file_sha256: String,

@@ -28,14 +28,19 @@ pub mod export;
 pub mod import;
 pub mod influence;
 pub mod inputs;
+pub mod plan;
 pub mod pulses;
 pub mod result;
+pub mod run;
 pub mod structure;
 pub mod text;
 pub mod uniform_risk;
 
 pub use error::UpliftError;
 pub use events::{Events, Phase, Silent};
+pub use plan::{Plan, plan};
+pub use run::{RunOptions, RunReport, run};
+pub use uplift_study as study;
 
 /// Version of the program, and the commit it was built from where that is known.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -13,11 +13,13 @@ mod table;
 mod target;
 
 pub use displacements::{SpectrumPlace, StoredDisplacements, StoredMotions, StoredSet, StoredStructures};
-pub(crate) use extend::{extend_result, line, now, sign};
-pub(crate) use hazard::{axis_part, branch_group, unique_axis};
+pub(crate) use extend::{extend_result, line, sign};
+pub(crate) use hazard::branch_group;
+pub use hazard::{axis_part, unique_axis};
 pub use layout::{LAYOUT, level_axis};
 pub use lock::ResultLock;
-pub use provenance::{Origin, Provenance};
+pub(crate) use provenance::Origin;
+pub use provenance::Provenance;
 pub use read::{Fit, Spectrum, StoredResult, holds_displacement_spectra, open_any_result, open_result};
 pub use stored::{StoredMeasure, StoredStripes};
 pub use study_of::{SpectraOfResult, StudyOfResult};

@@ -4,7 +4,6 @@ mod bootstrap;
 mod check;
 mod confidence;
 mod design;
-mod displacement;
 mod export;
 mod figure_files;
 mod hazard;
@@ -20,7 +19,6 @@ mod report;
 mod response;
 mod result_of;
 mod run;
-mod site_table;
 mod status;
 mod structure;
 mod table;
@@ -30,8 +28,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
-use uplift::UpliftError;
 use crate::terminal::Terminal;
+use uplift::UpliftError;
 use uplift_study::{AnyStudy, ResolvedStudy, Study};
 
 /// Uniform risk spectra for rocking structures.
@@ -44,7 +42,7 @@ use uplift_study::{AnyStudy, ResolvedStudy, Study};
     after_help = "Exit codes: 0 done, 2 usage, 3 study or structure file, 4 input data or disk, 5 interrupted, 1 a bug.\n\
     Start with: uplift run configs/quick.toml"
 )]
-pub struct Arguments {
+pub(crate) struct Arguments {
     /// Threads to use; the numbers do not depend on it [default: all cores]
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
     threads: Option<u16>,
@@ -115,11 +113,16 @@ impl StudyArguments {
     }
 }
 
+/// What was typed, for the result.
+fn command_line() -> String {
+    std::env::args().collect::<Vec<_>>().join(" ")
+}
+
 /// Carry out what was typed.
 ///
 /// # Errors
 /// Whatever the user should know; see [`UpliftError::exit_code`].
-pub fn execute(arguments: &Arguments) -> Result<(), UpliftError> {
+pub(crate) fn execute(arguments: &Arguments) -> Result<(), UpliftError> {
     if let Some(threads) = arguments.threads {
         rayon::ThreadPoolBuilder::new()
             .num_threads(usize::from(threads))

@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use clap::Parser;
 
 mod command;
+mod show;
 mod terminal;
 
 use command::Arguments;

@@ -9,8 +9,8 @@ use std::sync::{Arc, Mutex, PoisonError, RwLock};
 use std::time::Duration;
 
 use miette::{GraphicalReportHandler, GraphicalTheme};
-use uplift::events::{Events, Phase};
 use uplift::UpliftError;
+use uplift::events::{Events, Phase};
 
 use progress::Progress;
 
@@ -21,7 +21,7 @@ const GRACE: Duration = Duration::from_millis(800);
 
 /// Where the user sits. Where nobody listens any more, a closed pipe or a full disk, what is said is lost, and the work
 /// goes on.
-pub struct Terminal {
+pub(crate) struct Terminal {
     quiet: bool,
     stop: Arc<AtomicBool>,
     /// What is said where an interruption cannot wait for the work in hand.
@@ -31,7 +31,7 @@ pub struct Terminal {
 
 impl Terminal {
     /// A terminal that hears Ctrl-C from now on; a quiet one tells results and errors only.
-    pub fn new(quiet: bool) -> Self {
+    pub(crate) fn new(quiet: bool) -> Self {
         let stop = Arc::new(AtomicBool::new(false));
         let farewell = Arc::new(Mutex::new(UpliftError::Interrupted.to_string()));
         let terminal = Self { quiet, stop: stop.clone(), farewell: farewell.clone(), progress: RwLock::new(None) };
@@ -52,7 +52,7 @@ impl Terminal {
     }
 
     /// Whether only results and errors are told.
-    pub fn is_quiet(&self) -> bool {
+    pub(crate) fn is_quiet(&self) -> bool {
         self.quiet
     }
 
@@ -124,7 +124,7 @@ pub(crate) fn tell(text: &str) {
 }
 
 /// Tells an error; a study's mistakes with their lines and carets.
-pub fn tell_error(error: &UpliftError) {
+pub(crate) fn tell_error(error: &UpliftError) {
     match error {
         UpliftError::OutputClosed => {}
         UpliftError::Study(error) => {

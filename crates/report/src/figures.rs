@@ -20,9 +20,9 @@ pub use spectra::hazard_figure;
 use std::path::Path;
 
 use uplift::UpliftError;
+use uplift::result::{StoredDisplacements, StoredStripes, holds_displacement_spectra, open_any_result, open_result};
 use uplift_labelled::LabelledReader;
 use uplift_plot::{Axis, Figure, Panel, Series, Tone};
-use uplift::result::{StoredDisplacements, StoredStripes, holds_displacement_spectra, open_any_result, open_result};
 
 /// The figures of the result at `path`, of either kind.
 ///

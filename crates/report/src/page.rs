@@ -13,8 +13,8 @@ use minijinja::{Environment, context};
 use serde::Serialize;
 
 use uplift::UpliftError;
-use uplift_plot::{Figure, Marks, PanelPlace, Width, svg};
 use uplift::result::{holds_displacement_spectra, open_any_result};
+use uplift_plot::{Figure, Marks, PanelPlace, Width, svg};
 
 /// What the page shows of one result.
 #[derive(Debug, Serialize)]

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 
 use uplift_bootstrap::Band;
 
+use crate::bootstrap::StrengthBands;
 use crate::error::UpliftError;
 use uplift_labelled::{LabelledReader, LabelledWriter};
-use crate::bootstrap::{StrengthBands};
 
 /// Finished strengths by measure and index.
 pub type Finished = BTreeMap<(&'static str, usize), StrengthBands>;

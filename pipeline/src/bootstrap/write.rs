@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use polars::prelude::Column;
 use uplift_bootstrap::ResamplingPlan;
 
-use crate::result::{StoredStripes, extend_result, line, sign, write_table};
-use crate::error::UpliftError;
-use uplift_labelled::{LabelledError, LabelledWriter};
 use crate::bootstrap::{BandSettings, Bands};
+use crate::error::UpliftError;
+use crate::result::{StoredStripes, extend_result, line, sign, write_table};
+use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_study::IntervalKind;
 
 /// Groups and axes of the file that bands replace.

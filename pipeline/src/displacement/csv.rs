@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
 
-use crate::bootstrap::percentile_name;
-use crate::result::write_table;
 use super::{DesignRow, DisplacementOutcome};
+use crate::bootstrap::percentile_name;
 use crate::error::UpliftError;
+use crate::result::write_table;
 use uplift_study::{ScaledTo, Structures};
 
 /// The tables beside the result file `result`: spectra, and the design example.

@@ -3,9 +3,9 @@
 use uplift_spectra::{Noisy, RestrainedExample, SolitaryExample};
 use uplift_structure::Rule;
 
+use crate::displacement::{Designs, RULES, strength};
 use crate::error::UpliftError;
 use uplift_labelled::{LabelledError, LabelledReader, LabelledWriter};
-use crate::displacement::{Designs, RULES, strength};
 use uplift_study::{DesignPlan, Designed, DisplacementStudy, Structures};
 
 /// What a value and its range are called, in their order.

@@ -6,13 +6,12 @@ use std::path::Path;
 use uplift_spectra::MotionSet;
 
 use super::design_rows as design;
-use crate::result::{Origin, Provenance, axis_part, unique_axis};
+use crate::displacement::{Designs, SetSpectra};
 use crate::error::UpliftError;
 use crate::inputs::{NamedSet, RecordSets};
+use crate::result::{Origin, Provenance, axis_part, unique_axis};
 use uplift_labelled::{LabelledError, LabelledWriter};
-use crate::displacement::{Designs, SetSpectra};
 use uplift_study::{DISPLACEMENT_SPECTRA, DisplacementStudy, Structures};
-
 
 /// All that a study of displacement spectra computed.
 #[derive(Debug)]

@@ -6,11 +6,11 @@ use polars::prelude::Column;
 use uplift_fragility::Dispersion;
 use uplift_regression::Line;
 
+use crate::efficiency::{Covariate, Predictor};
+use crate::error::UpliftError;
 use crate::result::level_axis;
 use crate::result::{StoredStripes, extend_result, line, sign, write_table};
-use crate::error::UpliftError;
 use uplift_labelled::{LabelledError, LabelledWriter};
-use crate::efficiency::{Covariate, Predictor};
 
 /// The groups that a new look replaces.
 const REPLACED: [&str; 2] = ["/efficiency", "/sufficiency"];

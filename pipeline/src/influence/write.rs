@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
 
-use crate::result::{StoredStripes, extend_result, line, sign, write_table};
 use crate::error::UpliftError;
+use crate::influence::Influence;
+use crate::result::{StoredStripes, extend_result, line, sign, write_table};
 use uplift_labelled::{LabelledError, LabelledWriter};
-use crate::influence::{Influence};
 
 /// The groups that a new look replaces.
 const REPLACED: [&str; 4] = ["/influence", "/disaggregation", "/axes/pgv_bin", "/axes/pga_bin"];

@@ -11,10 +11,13 @@ use uplift_motion::{AccelerationUnit, RecordFormat};
 /// A row of a manifest.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
+    /// Identifier of the record.
     pub id: String,
+    /// Both horizontal components.
     pub components: [ComponentFile; 2],
-    /// Of text files that do not say it.
+    /// Time step of text files that do not say it, s.
     pub dt_s: Option<f64>,
+    /// Unit of files that do not say it.
     pub unit: Option<AccelerationUnit>,
     /// Layout of both files; none to tell it by their content.
     pub format: Option<RecordFormat>,
@@ -25,6 +28,7 @@ pub struct Row {
 /// Where one component is.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ComponentFile {
+    /// The file.
     pub path: PathBuf,
     /// Which component of a file with several, counted from one.
     pub channel: Option<usize>,

@@ -17,8 +17,8 @@ use uplift_risk::StripeWeights;
 use self::export::{Index, Row, SharedCurve, Stream};
 use super::checksum_of_file;
 use crate::error::UpliftError;
-use uplift_study::{MeasurePlan, ResolvedStudy};
 use crate::text::thousands;
+use uplift_study::{MeasurePlan, ResolvedStudy};
 
 /// Sites that a warning names.
 const SITES_NAMED: usize = 4;

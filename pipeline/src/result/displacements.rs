@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use crate::error::UpliftError;
+use crate::result::open_any_result;
 use uplift_labelled::LabelledReader;
-use crate::result::{open_any_result};
 
 /// The displacement spectra of a result file.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,7 +5,7 @@ use std::time::{Duration, SystemTime};
 
 use super::StoredStripes;
 use crate::error::UpliftError;
-use crate::result::{ResultLock};
+use crate::result::ResultLock;
 use uplift_labelled::{LabelledError, LabelledReader, LabelledWriter, Seal, seal_of};
 
 /// Write the file of `stored` anew without the groups and axes `replaced`, and with what `add` writes.
@@ -13,7 +13,7 @@ use uplift_labelled::{LabelledError, LabelledReader, LabelledWriter, Seal, seal_
 /// # Errors
 /// Whatever keeps the file from being read or written; it is then as it was. A file that is not as it was written, or no longer the one
 /// that `stored` was read from.
-pub fn extend_result(
+pub(crate) fn extend_result(
     stored: &StoredStripes,
     replaced: &[&str],
     add: impl FnOnce(&mut LabelledWriter) -> Result<(), LabelledError>,
@@ -43,7 +43,7 @@ const LONGEST_WAIT: Duration = Duration::from_secs(60);
 ///
 /// # Errors
 /// A file that is damaged or was changed by another program.
-pub fn whole_seal(path: &Path) -> Result<String, UpliftError> {
+pub(crate) fn whole_seal(path: &Path) -> Result<String, UpliftError> {
     let fail = |reason: String| UpliftError::input(format!("{}: {reason}", path.display()));
     match seal_of(path).map_err(|error| fail(error.to_string()))? {
         Seal::Whole(seal) => Ok(seal),
@@ -54,7 +54,7 @@ pub fn whole_seal(path: &Path) -> Result<String, UpliftError> {
 }
 
 /// Note on the group `group` what made it, and when.
-pub fn sign(writer: &mut LabelledWriter, group: &str) -> Result<(), LabelledError> {
+pub(crate) fn sign(writer: &mut LabelledWriter, group: &str) -> Result<(), LabelledError> {
     writer.group(group)?;
     writer.attribute(group, "created", now().as_str())?;
     writer.attribute(group, "version", crate::VERSION)?;
@@ -62,7 +62,7 @@ pub fn sign(writer: &mut LabelledWriter, group: &str) -> Result<(), LabelledErro
 }
 
 /// One line for the head of a table made from `stored`: program, time, `what` it holds, file and records.
-pub fn line(stored: &StoredStripes, what: &str) -> String {
+pub(crate) fn line(stored: &StoredStripes, what: &str) -> String {
     format!(
         "uplift {} ({}), {}; {what}; result {}; records: {}",
         crate::VERSION,
@@ -75,6 +75,6 @@ pub fn line(stored: &StoredStripes, what: &str) -> String {
 }
 
 /// Coordinated universal time, `2026-01-31T12:00:00Z`.
-pub fn now() -> String {
+pub(crate) fn now() -> String {
     humantime::format_rfc3339_seconds(SystemTime::now()).to_string()
 }

@@ -9,7 +9,7 @@ use crate::error::UpliftError;
 use uplift_labelled::LabelledReader;
 
 /// Where the branch at `index` of a site and measure is.
-pub fn branch_group(site: &str, measure: &str, index: usize) -> String {
+pub(crate) fn branch_group(site: &str, measure: &str, index: usize) -> String {
     format!("/hazard/{site}/{measure}/branches/{}", index + 1)
 }
 

@@ -1,12 +1,14 @@
 //! Where the numbers of a result come from.
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 use super::LAYOUT;
 use super::extend::now;
 use crate::error::UpliftError;
-use uplift_labelled::LabelledWriter;
 use crate::inputs::{RecordSet, SiteHazard};
+use crate::run::{RunHead, RunOptions};
+use uplift_labelled::LabelledWriter;
 
 /// What someone needs to repeat a run.
 #[derive(Debug, Clone)]
@@ -27,7 +29,7 @@ pub struct Provenance {
 
 impl Provenance {
     /// Provenance of a run that is about to write its result.
-    pub fn new(study_file: &str, wall_time_s: f64, records: &RecordSet, hazard: &[Vec<SiteHazard>]) -> Self {
+    pub fn new(options: &RunOptions, records: &RecordSet, hazard: &[Vec<SiteHazard>]) -> Self {
         let mut input_checksums: BTreeMap<String, String> =
             records.records.iter().map(|record| (format!("record {}", record.id), record.checksum.clone())).collect();
         for curve in hazard.iter().flatten() {
@@ -39,18 +41,42 @@ impl Provenance {
                 input_checksums.insert(name, curve.curve.checksum.clone());
             }
         }
-        Self::of_inputs(study_file, wall_time_s, input_checksums)
+        Self::of_inputs(options, input_checksums)
     }
 
     /// Provenance of a run on these inputs, name to SHA-256.
-    pub fn of_inputs(study_file: &str, wall_time_s: f64, input_checksums: BTreeMap<String, String>) -> Self {
+    pub fn of_inputs(options: &RunOptions, input_checksums: BTreeMap<String, String>) -> Self {
         Self {
-            study_file: study_file.to_owned(),
-            command: std::env::args().collect::<Vec<_>>().join(" "),
+            study_file: options.study_file.display().to_string(),
+            command: options.command.clone(),
             created: now(),
             threads: rayon::current_num_threads(),
-            wall_time_s,
+            wall_time_s: 0.0,
             input_checksums,
+        }
+    }
+
+    /// What a run tells, whatever the kind of its study; `records` are the description of the set and whether it is
+    /// synthetic.
+    pub(crate) fn head(
+        &self,
+        title: &str,
+        (record_set, synthetic): (&str, bool),
+        warnings: &[String],
+        files: Vec<PathBuf>,
+        seconds: f64,
+    ) -> RunHead {
+        RunHead {
+            program: "uplift",
+            version: crate::VERSION,
+            commit: crate::COMMIT,
+            study: self.study_file.clone(),
+            title: title.to_owned(),
+            record_set: record_set.to_owned(),
+            synthetic,
+            files,
+            warnings: warnings.to_vec(),
+            seconds,
         }
     }
 
@@ -69,18 +95,18 @@ impl Provenance {
 }
 
 /// Where the numbers of a result come from: the attributes of the root that results of every kind have.
-pub struct Origin<'a> {
-    pub title: &'a str,
-    pub study_toml: &'a str,
-    pub gravity_m_s2: f64,
-    pub record_set: &'a str,
-    pub synthetic: bool,
-    pub warnings: &'a [String],
-    pub provenance: &'a Provenance,
+pub(crate) struct Origin<'a> {
+    pub(crate) title: &'a str,
+    pub(crate) study_toml: &'a str,
+    pub(crate) gravity_m_s2: f64,
+    pub(crate) record_set: &'a str,
+    pub(crate) synthetic: bool,
+    pub(crate) warnings: &'a [String],
+    pub(crate) provenance: &'a Provenance,
 }
 
 impl Origin<'_> {
-    pub fn write(&self, writer: &mut LabelledWriter) -> Result<(), UpliftError> {
+    pub(crate) fn write(&self, writer: &mut LabelledWriter) -> Result<(), UpliftError> {
         let provenance = self.provenance;
         let checksums = serde_json::to_string(&provenance.input_checksums)
             .map_err(|error| UpliftError::input(error.to_string()))?;

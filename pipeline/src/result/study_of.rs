@@ -9,9 +9,9 @@ use uplift_risk::StripeWeights;
 use super::hazard::read_curve;
 use super::open_result;
 use super::stored::poe_index;
+use crate::checkpoint::motion_key;
 use crate::error::UpliftError;
 use crate::inputs::{RecordSet, read_records};
-use crate::checkpoint::{motion_key};
 use uplift_labelled::{LabelledError, LabelledReader};
 use uplift_study::{Extrapolate, MeasurePlan, ResolvedStudy, Study};
 

@@ -10,8 +10,8 @@ use uplift_risk::{Ordinate, RiskCurve};
 use uplift_spectra::{NoiseSweep, Noisy};
 use uplift_structure::{Check, EquivalentSystem, Rule, StructureError, relative_error};
 
-use crate::displacement::RULES;
 use super::risk::{EventRisk, OVERTURNING_M, demand_of, risk_of_exceeding, stripes_of};
+use crate::displacement::RULES;
 use crate::error::UpliftError;
 use crate::inputs::RecordSet;
 use uplift_study::{MeasurePlan, ResolvedStudy};

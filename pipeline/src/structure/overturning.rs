@@ -6,10 +6,10 @@ use uplift_ida::{BlockPlan, IdaError, Watch, analyse_blocks};
 use uplift_oscillator::Oscillator;
 use uplift_risk::{PooledDemand, StripeWeights};
 
-use crate::uniform_risk::stripe_records;
 use super::risk::{EventRisk, OVERTURNING_M, risk_of_exceeding, stripes_of};
 use crate::error::UpliftError;
 use crate::inputs::RecordSet;
+use crate::uniform_risk::stripe_records;
 use uplift_study::{MeasurePlan, ResolvedStudy};
 
 /// How a structure is modelled.

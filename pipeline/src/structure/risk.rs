@@ -5,10 +5,10 @@ use uplift_ida::{Cells, Part, Watch};
 use uplift_oscillator::Oscillator;
 use uplift_risk::{PooledDemand, RiskCurve, StripeWeights};
 
-use crate::uniform_risk::pooled_demand;
-use crate::uniform_risk::{Stripes, analyse_stripes, plan_stripes};
 use crate::error::UpliftError;
 use crate::inputs::RecordSet;
+use crate::uniform_risk::pooled_demand;
+use crate::uniform_risk::{Stripes, analyse_stripes, plan_stripes};
 use uplift_study::{MeasurePlan, ResolvedStudy};
 
 /// The stripes of `oscillators`, which need not be those of `study`, over `[record, oscillator, level]`.

@@ -8,8 +8,8 @@ use uplift_motion::IntensityMeasure;
 
 use crate::checkpoint::oscillator_key;
 use crate::inputs::RecordSet;
+use crate::result::level_axis;
 use uplift_labelled::{LabelledError, LabelledReader, Seal, seal_of};
-use crate::result::{level_axis};
 use uplift_study::{MeasurePlan, ResolvedStudy};
 
 /// An earlier result at the place of the one to come.

@@ -12,13 +12,12 @@ use rayon::prelude::*;
 use uplift_ida::Watch;
 use uplift_risk::OrdinateFlag;
 
+use super::Stripes;
 use crate::UpliftError;
-use crate::inputs::{BatchSite, SiteCurves, SiteList, read_site_list};
 use crate::events::{Events, Progress};
-use crate::uniform_risk::{SiteTableFiles, SiteText, site_table_paths};
-use crate::uniform_risk::{SiteRisk, SiteSpectra, Stripes};
-use uplift_study::{ResolvedStudy, SiteTable};
+use crate::inputs::{BatchSite, SiteCurves, SiteList, read_site_list};
 use crate::text::{per_cent, thousands};
+use uplift_study::{ResolvedStudy, SiteTable};
 
 /// Bytes of text, about, that are in memory at a time.
 const BATCH_BYTES: usize = 16 << 20;
@@ -53,8 +52,7 @@ pub fn read(study: &ResolvedStudy, path: &Path, events: &dyn Events) -> Result<O
     }
     let list = read_site_list(study)?;
     if let Some(list) = &list {
-        events.remark("sites", &format!(
-"{}", list.description()));
+        events.remark("sites", &format!("{}", list.description()));
     }
     Ok(list)
 }

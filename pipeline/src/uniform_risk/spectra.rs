@@ -66,7 +66,7 @@ impl Reading {
 }
 
 /// All demands of one strength, sorted once for all sites.
-pub(super) fn pooled_demand(
+pub(crate) fn pooled_demand(
     stripes: &Stripes,
     strength: usize,
 ) -> Result<PooledDemand, Box<dyn std::error::Error + Send + Sync>> {

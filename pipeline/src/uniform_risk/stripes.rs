@@ -65,7 +65,7 @@ pub fn plan_stripes<'a>(
 }
 
 /// The records with the intensities that scale them.
-pub(super) fn stripe_records(set: &RecordSet, measure: IntensityMeasure) -> Vec<StripeRecord<'_>> {
+pub(crate) fn stripe_records(set: &RecordSet, measure: IntensityMeasure) -> Vec<StripeRecord<'_>> {
     set.records
         .iter()
         .map(|record| StripeRecord {

@@ -8,16 +8,16 @@ use uplift_ida::{Cells, Part, Piece, Watch};
 use uplift_oscillator::Oscillator;
 
 use crate::UpliftError;
-use crate::inputs::RecordSet;
 use crate::checkpoint::{KeptPieces, PieceFile, PieceFileHead, PieceKey, StripeKeys, motion_key};
-use crate::uniform_risk::{EarlierStripes};
 use crate::events::{Events, Progress};
+use crate::inputs::RecordSet;
+use crate::text::thousands;
+use crate::uniform_risk::EarlierStripes;
 use crate::uniform_risk::{Stripes, analyse_stripes, oscillators, plan_stripes};
 use uplift_study::ResolvedStudy;
-use crate::text::thousands;
 
 /// All analyses that a study asks for.
-pub struct Work<'a> {
+pub(crate) struct Work<'a> {
     study: &'a ResolvedStudy,
     records: &'a RecordSet,
     oscillators: Vec<Oscillator>,
@@ -27,8 +27,8 @@ pub struct Work<'a> {
 }
 
 /// What is known before anything is computed.
-pub struct Known {
-    pub kept: KeptPieces,
+pub(crate) struct Known {
+    pub(crate) kept: KeptPieces,
     /// Bytes of the file that were cut off or damaged.
     damaged_bytes: u64,
     earlier: Option<EarlierStripes>,
@@ -39,14 +39,14 @@ impl<'a> Work<'a> {
     ///
     /// # Errors
     /// A parameter of an oscillator that the study file's check let through: none is known.
-    pub fn new(study: &'a ResolvedStudy, records: &'a RecordSet) -> Result<Self, UpliftError> {
+    pub(crate) fn new(study: &'a ResolvedStudy, records: &'a RecordSet) -> Result<Self, UpliftError> {
         let motions: Vec<String> = records.records.iter().map(|record| motion_key(&record.accelerogram)).collect();
         let keys = study.measures.iter().map(|measure| StripeKeys::of(study, measure, records, &motions)).collect();
         Ok(Self { study, records, oscillators: oscillators(study)?, motions, keys })
     }
 
     /// The head of the file of one part.
-    pub fn head(&self, part: Part) -> PieceFileHead {
+    pub(crate) fn head(&self, part: Part) -> PieceFileHead {
         let mut hash = Sha256::new();
         let mut pieces = 0;
         for keys in &self.keys {
@@ -60,7 +60,7 @@ impl<'a> Work<'a> {
     }
 
     /// How many of the pieces of one part `kept` has, and how many there are.
-    pub fn share_of(&self, part: Part, kept: &KeptPieces) -> [u64; 2] {
+    pub(crate) fn share_of(&self, part: Part, kept: &KeptPieces) -> [u64; 2] {
         let of_part = |(record, strength, key): (usize, usize, PieceKey)| {
             part.contains(record, strength, self.study.strengths.len()).then_some(key)
         };
@@ -72,7 +72,7 @@ impl<'a> Work<'a> {
     ///
     /// # Errors
     /// [`UpliftError::Paused`] where the user stopped it; a file that can no longer be written, which stops it too.
-    pub fn carry_out(
+    pub(crate) fn carry_out(
         &self,
         known: &Known,
         file: &PieceFile,
@@ -96,32 +96,33 @@ impl<'a> Work<'a> {
         }
         if known.damaged_bytes > 0 {
             events.note(&format!(
-"{}: pieces that were cut off or damaged ({} bytes) are computed again",
+                "{}: pieces that were cut off or damaged ({} bytes) are computed again",
                 file.path().display(),
                 known.damaged_bytes
             ));
         }
         let before: u64 = cells.iter().map(Cells::count).sum();
         if before > 0 {
-            events.remark("known", &format!(
-"{} of {} analyses from before",
-                thousands(before.min(total)),
-                thousands(total)
-            ));
+            events.remark(
+                "known",
+                &format!("{} of {} analyses from before", thousands(before.min(total)), thousands(total)),
+            );
         }
         let finished = AtomicU64::new(before);
         let mut stripes = Vec::new();
         for (((measure, plan), keys), cells) in study.measures.iter().zip(&plans).zip(&self.keys).zip(cells) {
             let label = measure.measure.label();
-            events.remark(label, &format!(
-"{} records x {} strengths x {} levels = {} analyses",
-                self.records.records.len(),
-                study.strengths.len(),
-                measure.levels.len(),
-                thousands(plan.analyses())
-            ));
-            let progress =
-                Progress::begin(events, label, "analyses", share(plan.analyses()));
+            events.remark(
+                label,
+                &format!(
+                    "{} records x {} strengths x {} levels = {} analyses",
+                    self.records.records.len(),
+                    study.strengths.len(),
+                    measure.levels.len(),
+                    thousands(plan.analyses())
+                ),
+            );
+            let progress = Progress::begin(events, label, "analyses", share(plan.analyses()));
             let strengths = study.strengths.len();
             let known_in_rows: Vec<usize> = (0..self.records.records.len() * strengths)
                 .map(|row| cells.known_in_row(row / strengths, row % strengths))
@@ -162,7 +163,7 @@ impl<'a> Work<'a> {
 
 /// Analyses a second.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a rate for people")]
-pub fn rate(stripes: &Stripes) -> u64 {
+pub(crate) fn rate(stripes: &Stripes) -> u64 {
     (stripes.computed as f64 / stripes.seconds.max(1e-9)) as u64
 }
 
@@ -170,7 +171,7 @@ pub fn rate(stripes: &Stripes) -> u64 {
 ///
 /// # Errors
 /// A file that cannot be written, or that holds something else.
-pub fn open(
+pub(crate) fn open(
     path: &Path,
     head: &PieceFileHead,
     result: Option<&Path>,
@@ -182,7 +183,7 @@ pub fn open(
 
 /// Stops when the user says so, and when nothing more can be kept.
 struct UntilFull<'a> {
-    progress: &'a Progress,
+    progress: &'a Progress<'a>,
     file: &'a PieceFile,
 }
 

@@ -7,10 +7,10 @@ use uplift_risk::{Ordinate, OrdinateFlag};
 
 use super::Outcome;
 use super::write_hazard::{write_branches, write_hazard};
-use crate::result::{Origin, level_axis};
+use crate::checkpoint::{motion_key, oscillator_key};
 use crate::error::UpliftError;
 use crate::inputs::Record;
-use crate::checkpoint::{motion_key, oscillator_key};
+use crate::result::{Origin, level_axis};
 use uplift_labelled::{LabelledError, LabelledWriter};
 
 /// Write `outcome` to `path`, aside and renamed, so that an earlier file survives a failure.

@@ -1,7 +1,6 @@
 //! `uplift bootstrap`: how sure the spectra are (Section 4.5, Table 4.1).
 
 use std::path::{Path, PathBuf};
-use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use clap::Args;
@@ -14,10 +13,10 @@ use super::Terminal;
 use super::confidence::{self, Report};
 use super::result_of::ResultArguments;
 use uplift::UpliftError;
-use uplift::events::{Events, Progress};
-use uplift::bootstrap::{BandsFile, Checkpoint, write_bands};
-use uplift::result::{StoredStripes, check_target, open_result};
 use uplift::bootstrap::{BandSettings, Bands, StrengthBands, bands_of_strength, gather_bands};
+use uplift::bootstrap::{BandsFile, Checkpoint, write_bands};
+use uplift::events::{Events, Progress};
+use uplift::result::{StoredStripes, check_target, open_result};
 use uplift_study::{Bootstrap, IntervalKind};
 
 /// Sample sizes of Section 4.5 below the whole set.
@@ -136,15 +135,17 @@ fn kept_plan(path: &Path, stored: &StoredStripes) -> Result<ResamplingPlan, Upli
 }
 
 fn announce(stored: &StoredStripes, plan: &ResamplingPlan, session: &Terminal) {
-    session.remark("records", &format!(
-"{}", stored.record_set));
+    session.remark("records", &format!("{}", stored.record_set));
     let sizes: Vec<String> = plan.sizes().iter().map(u32::to_string).collect();
-    session.remark("plan", &format!(
-"samples of {} records, {} of each size, drawn with replacement from {}",
-        sizes.join(", "),
-        plan.replicates(),
-        plan.record_count()
-    ));
+    session.remark(
+        "plan",
+        &format!(
+            "samples of {} records, {} of each size, drawn with replacement from {}",
+            sizes.join(", "),
+            plan.replicates(),
+            plan.record_count()
+        ),
+    );
     if let Some(size) = plan.sizes().iter().find(|&&size| size as usize > plan.record_count()) {
         session.note(&format!(
 "samples of {size} records from a set of {} show how narrow the band would be with more records of the same kind",
@@ -176,8 +177,7 @@ fn compute(
             && done.replicates_m.len() == replicates
     });
     if !finished.is_empty() {
-        session.remark("resumed", &format!(
-"{} strengths from {}", finished.len(), checkpoint.path().display()));
+        session.remark("resumed", &format!("{} strengths from {}", finished.len(), checkpoint.path().display()));
     }
     let start = Instant::now();
     let strengths = stored.strengths.len();

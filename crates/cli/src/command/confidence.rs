@@ -6,11 +6,11 @@ use std::path::Path;
 use serde_json::json;
 
 use super::reference::ReferenceTable;
-use super::run::shown_path;
+use crate::show::shown_path;
 use uplift::UpliftError;
+use uplift::bootstrap::Bands;
 use uplift::bootstrap::{BandsFile, band_paths};
-use uplift::result::{StoredStripes};
-use uplift::bootstrap::{Bands};
+use uplift::result::StoredStripes;
 use uplift::text::{per_cent, table};
 
 /// A row of the reference: one site and sample size, figures by measure (`pgv`, `pga`) in per cent.

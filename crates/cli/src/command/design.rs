@@ -12,11 +12,13 @@ use uplift_structure::PostUplift;
 use super::Terminal;
 use super::structure::{StructureArguments, measure_index, site_index};
 use uplift::UpliftError;
-use uplift::events::{Events, Progress};
+use uplift::events::Progress;
 use uplift::result::{SpectraOfResult, StudyOfResult};
-use uplift::structure::{ExactDemand, OSCILLATORS, RuleOutcome, SpectrumReading, check_rules, exact_demand, read_spectrum};
-use uplift_study::{Structure, Uplifted};
+use uplift::structure::{
+    ExactDemand, OSCILLATORS, RuleOutcome, SpectrumReading, check_rules, exact_demand, read_spectrum,
+};
 use uplift::text::per_cent;
+use uplift_study::{Structure, Uplifted};
 
 #[derive(Debug, Args)]
 #[command(

@@ -7,7 +7,7 @@ use clap::Args;
 
 use super::Terminal;
 use super::records::refuse_foreign;
-use super::run::shown_path;
+use crate::show::shown_path;
 use uplift::UpliftError;
 use uplift::export::Export;
 use uplift::result::{write_aside, write_table};

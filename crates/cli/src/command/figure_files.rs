@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 
 use uplift::UpliftError;
+use uplift::result::write_aside;
 use uplift_plot::{Figure, Width, png, svg};
-use uplift::result::{write_aside};
 
 /// Of a PNG for print.
 const DOTS_PER_INCH: f32 = 300.0;

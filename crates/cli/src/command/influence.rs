@@ -7,11 +7,11 @@ use serde_json::json;
 
 use super::Terminal;
 use super::result_of::ResultArguments;
-use super::run::shown_path;
+use crate::show::shown_path;
 use uplift::UpliftError;
+use uplift::influence::{Influence, influence as influence_of, level_of_share};
 use uplift::influence::{RecordInfluence, influence_path, record_influence, write_influence};
 use uplift::result::{StoredStripes, check_target};
-use uplift::influence::{Influence, influence as influence_of, level_of_share};
 use uplift::text::{metres, nearest, per_cent, table};
 
 /// Strengths at which the risk is taken apart.

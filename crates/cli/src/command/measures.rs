@@ -7,11 +7,11 @@ use serde_json::json;
 
 use super::Terminal;
 use super::result_of::ResultArguments;
-use super::run::shown_path;
+use crate::show::shown_path;
 use uplift::UpliftError;
+use uplift::efficiency::{Covariate, Predictor, predictor};
 use uplift::efficiency::{covariates, predictors_path, write_predictors};
 use uplift::result::{StoredStripes, check_target};
-use uplift::efficiency::{Covariate, Predictor, predictor};
 use uplift::text::{nearest, table};
 
 /// Strengths shown.

@@ -15,13 +15,13 @@ use super::Terminal;
 use super::records::{refuse_foreign, refuse_overwriting};
 use super::structure::{StructureArguments, measure_index, site_index};
 use uplift::UpliftError;
-use uplift_report::figures::overturning_figure;
-use uplift_plot::{Width, png, svg};
-use uplift::events::{Events, Progress};
+use uplift::events::Progress;
 use uplift::result::{SpectraOfResult, StudyOfResult, write_aside};
 use uplift::structure::{Collapse, EventRisk, Model, collapse};
-use uplift_study::Structure;
 use uplift::text::per_cent;
+use uplift_plot::{Width, png, svg};
+use uplift_report::figures::overturning_figure;
+use uplift_study::Structure;
 
 /// Dots per inch of a PNG.
 const DOTS_PER_INCH: f32 = 300.0;

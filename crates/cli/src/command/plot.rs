@@ -8,7 +8,7 @@ use clap::Args;
 use super::Terminal;
 use super::figure_files::{FigureArguments, provide_folder};
 use super::result_of::ResultArguments;
-use super::run::shown_path;
+use crate::show::shown_path;
 use uplift::UpliftError;
 use uplift_report::figures::result_figures;
 

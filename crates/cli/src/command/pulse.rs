@@ -11,14 +11,14 @@ use uplift_block::RickerShape;
 
 use super::Terminal;
 use super::figure_files::{FigureArguments, provide_folder};
-use super::run::shown_path;
+use crate::show::shown_path;
 use uplift::UpliftError;
-use uplift_report::figures::pulse_figures;
-use uplift::events::{Events, Progress};
+use uplift::events::Progress;
 use uplift::pulses::{BlockPlan, PulsePlan, Summary, compute, summary, tables, wavelet};
-use uplift::result::{write_table};
-use uplift_study::Grid;
+use uplift::result::write_table;
 use uplift::text::{table, thousands};
+use uplift_report::figures::pulse_figures;
+use uplift_study::Grid;
 
 /// Points of a map that a figure can show, and then some.
 const MOST_POINTS: usize = 4_000_000;

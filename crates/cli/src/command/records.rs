@@ -14,6 +14,7 @@ use uplift_motion::{AccelerationUnit, Combination, RecordFormat, STANDARD_GRAVIT
 
 use super::Terminal;
 use uplift::UpliftError;
+use uplift::events::Events;
 use uplift::inputs::pairs::CheckedPair;
 use uplift::inputs::{manifest, pairs, selection};
 use uplift_study::{CRITERIA, Criterion, Range, RecordSelection};
@@ -151,8 +152,7 @@ impl SetArguments {
         let (chosen, notes) =
             selection::select(pairs, &self.criteria.selection(), self.intensity, STANDARD_GRAVITY_M_S2)?;
         for note in notes {
-            session.note(&format!(
-"{note}"));
+            session.note(&format!("{note}"));
         }
         Ok((chosen, count))
     }

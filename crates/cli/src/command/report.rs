@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::Terminal;
-use super::run::shown_path;
+use crate::show::shown_path;
 use uplift::UpliftError;
 use uplift_report::report as page;
 

@@ -13,9 +13,9 @@ use uplift_oscillator::{
 
 use super::records::refuse_foreign;
 use uplift::UpliftError;
-use uplift_report::figures::history_figure;
-use uplift_plot::{Width, png, svg};
 use uplift::result::{write_aside, write_table};
+use uplift_plot::{Width, png, svg};
+use uplift_report::figures::history_figure;
 
 #[derive(Debug, Args)]
 pub(super) struct ResponseArguments {

@@ -1,21 +1,14 @@
 //! From `STUDY|RESULT` to a result: the one that is there if it is the study's, else the study is run.
 
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
+use uplift::result::is_hdf5;
+use uplift::uniform_risk::result_of;
+use uplift::{RunOptions, UpliftError};
+use uplift_study::{Bootstrap, Study};
 
-use super::Terminal;
-use super::run::run_study;
-use uplift::UpliftError;
-use uplift::inputs::{read_hazard, read_records};
-use uplift::checkpoint::{motion_key, oscillator_key};
-use uplift_labelled::LabelledError;
-use uplift::result::{Provenance, is_hdf5, open_result};
-use uplift_study::{Bootstrap, ResolvedStudy, Study};
-
-/// Sections of a study on which its stripes and spectra do not depend.
-const WITHOUT_INFLUENCE: [&str; 3] = ["title", "bootstrap", "output"];
+use crate::terminal::Terminal;
 
 /// A result, or a study that has or makes one.
 #[derive(Debug, Args)]
@@ -47,62 +40,8 @@ impl ResultArguments {
             return Ok(FoundResult { path: self.input.clone(), bootstrap: None });
         }
         let study = Study::load(&self.input, &self.overrides)?;
-        let path = study.output.file.clone();
-        if path.exists() && is_result_of(&study, &path)? {
-            session.remark("result", &format!(
-"{} is that of the study", path.display()));
-        } else {
-            session.remark("result", &format!(
-"{} is made first", path.display()));
-            run_study(&study, &self.input, &path, session, |_, _, _| Ok(()))?;
-        }
+        let options = RunOptions { study_file: self.input.clone(), output: None, command: super::command_line() };
+        let path = result_of(&study, &options, session)?;
         Ok(FoundResult { path, bootstrap: Some(study.bootstrap.clone()) })
     }
-}
-
-/// Whether the file at `path` holds the stripes and spectra of `study`, made of the same records and hazard curves.
-fn is_result_of(study: &ResolvedStudy, path: &Path) -> Result<bool, UpliftError> {
-    let Ok(reader) = open_result(path) else { return Ok(false) };
-    let own = study.to_toml().map_err(|error| UpliftError::input(error.to_string()))?;
-    let kept = reader.attribute_text("/", "study_toml")?;
-    let (Some(own), Some(kept)) = (what_counts(&own), what_counts(&kept)) else { return Ok(false) };
-    if own != kept {
-        return Ok(false);
-    }
-    let (hazard, _) = read_hazard(study)?;
-    let records = read_records(study)?;
-    let provenance = Provenance::new("", 0.0, &records, &hazard);
-    let kept: Option<BTreeMap<String, String>> =
-        serde_json::from_str(&reader.attribute_text("/", "input_checksums")?).ok();
-    if kept != Some(provenance.input_checksums) {
-        return Ok(false);
-    }
-    // what a manifest says of its files counts too: the motions themselves, what they are scaled by, what is known of them
-    let same = || -> Result<bool, LabelledError> {
-        let motions: Vec<String> = records.records.iter().map(|record| motion_key(&record.accelerogram)).collect();
-        let bits = |values: Vec<f64>| values.into_iter().map(f64::to_bits).collect::<Vec<_>>();
-        let number = |key: &str| records.records.iter().map(|record| record.number(key)).collect::<Vec<f64>>();
-        let mut same = reader.array_text("/records/motion_sha256")?.values == motions
-            && bits(reader.array_f64("/records/pga_g")?.values)
-                == bits(records.records.iter().map(|r| r.pga_g).collect())
-            && bits(reader.array_f64("/records/pgv_cm_s")?.values)
-                == bits(records.records.iter().map(|r| r.pgv_cm_s).collect());
-        for key in ["magnitude", "rrup_km", "vs30"] {
-            same &= bits(reader.array_f64(&format!("/records/{key}"))?.values) == bits(number(key));
-        }
-        for measure in &study.measures {
-            let group = format!("/ida/{}", measure.measure.key());
-            same &= reader.attribute_text(&group, "oscillator_key")? == oscillator_key(study);
-        }
-        Ok(same)
-    };
-    Ok(same().unwrap_or(false))
-}
-
-fn what_counts(study_toml: &str) -> Option<toml::Table> {
-    let mut table: toml::Table = toml::from_str(study_toml).ok()?;
-    for section in WITHOUT_INFLUENCE {
-        table.remove(section);
-    }
-    Some(table)
 }

@@ -7,7 +7,7 @@ use clap::Args;
 
 use uplift::UpliftError;
 use uplift::checkpoint::{Finding, PieceFile, journal_path};
-use uplift::result::{ResultLock};
+use uplift::result::ResultLock;
 use uplift::result::{holds_displacement_spectra, is_hdf5, open_any_result};
 use uplift_study::{AnyStudy, Study};
 

@@ -6,11 +6,11 @@ use clap::Args;
 use serde_json::{Value, json};
 use uplift_structure::{EquivalentSystem, PostUplift};
 
-use super::run::shown_path;
+use crate::show::shown_path;
 use uplift::UpliftError;
 use uplift::inputs::RecordSet;
-use uplift::result::{StudyOfResult};
-use uplift::structure::{EventRisk};
+use uplift::result::StudyOfResult;
+use uplift::structure::EventRisk;
 use uplift_study::Structure;
 
 #[derive(Debug, Args)]

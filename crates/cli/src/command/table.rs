@@ -7,7 +7,7 @@ use clap::Args;
 use serde_json::json;
 use uplift_regression::Exponential;
 
-use super::displacement;
+mod displacement;
 use super::reference::ReferenceTable;
 use crate::terminal::tell;
 use uplift::UpliftError;

@@ -7,8 +7,8 @@ use clap::Args;
 
 use super::Terminal;
 use uplift::UpliftError;
+use uplift::result::open_any_result;
 use uplift_labelled::{Seal, verify as verify_file};
-use uplift::result::{open_any_result};
 
 #[derive(Debug, Args)]
 pub(super) struct VerifyArguments {

@@ -2,8 +2,8 @@
 
 use super::{FigureSource, STRENGTH};
 use uplift::UpliftError;
-use uplift_plot::{Axis, Band, Figure, Panel, Tone};
 use uplift::text::per_cent;
+use uplift_plot::{Axis, Band, Figure, Panel, Tone};
 
 /// The bands of one measure over `[site, poe, size, strength]`, m.
 struct StoredBands {

@@ -5,8 +5,8 @@ use uplift_risk::{RiskCurve, ThresholdGrid};
 
 use super::{FigureSource, STRENGTH};
 use uplift::UpliftError;
-use uplift_plot::{Axis, Figure, Panel, Series, Tone};
 use uplift::text::{nearest, per_cent};
+use uplift_plot::{Axis, Figure, Panel, Series, Tone};
 
 /// Strength of the oscillator shown.
 const SHOWN_STRENGTH: f64 = 0.2;

@@ -8,9 +8,9 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use uplift::UpliftError;
-use uplift_plot::{Axis, Figure, Panel, Series, Tone};
 use uplift::result::{SpectrumPlace, StoredDisplacements, StoredStructures, axis_part, unique_axis};
 use uplift::text::nearest;
+use uplift_plot::{Axis, Figure, Panel, Series, Tone};
 
 /// How many of its figures a result is asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -2,8 +2,8 @@
 
 use uplift_motion::IntensityMeasure;
 
+use uplift::structure::Collapse;
 use uplift_plot::{Axis, Figure, Marks, Panel, Series, Tone};
-use uplift::structure::{Collapse};
 
 /// Points on a fitted curve.
 const POINTS: u32 = 120;

@@ -2,9 +2,9 @@
 
 use super::{FigureSource, STRENGTH};
 use uplift::UpliftError;
+use uplift::efficiency::covariates;
+use uplift::efficiency::predictor;
 use uplift_plot::{Axis, Figure, Panel, Series, Tone};
-use uplift::efficiency::{covariates};
-use uplift::efficiency::{predictor};
 
 pub(super) fn predictors(source: &FigureSource) -> Result<Option<Figure>, UpliftError> {
     let stored = &source.stored;

@@ -3,8 +3,8 @@
 use uplift_block::{BlockResponse, Overturning, RickerShape, SpectrumPoint};
 
 use super::spanned;
-use uplift_plot::{Axis, Figure, Hatch, Map, Panel, Region, Series, Tone};
 use uplift::pulses::{PulsePlan, PulseSpectra, Spectrum, wavelet};
+use uplift_plot::{Axis, Figure, Hatch, Map, Panel, Region, Series, Tone};
 
 const FREQUENCY: &str = "size-frequency parameter ω_p/p";
 const ACCELERATION: &str = "acceleration a_p/(g tan α)";

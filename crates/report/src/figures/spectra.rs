@@ -2,10 +2,10 @@
 
 use super::{FigureSource, STRENGTH};
 use uplift::UpliftError;
-use uplift_plot::{Axis, Figure, Marks, Panel, Series, Tone};
-use uplift::result::{StoredResult};
+use uplift::result::StoredResult;
 use uplift::text::per_cent;
 use uplift_hazard::HazardCurve;
+use uplift_plot::{Axis, Figure, Marks, Panel, Series, Tone};
 use uplift_regression::Exponential;
 
 const RATE: &str = "mean annual frequency, 1/yr";

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use super::{Content, Table};
-use uplift::UpliftError;
 use crate::figures::{Extent, displacement_figures};
+use uplift::UpliftError;
 use uplift::displacement::{DesignRow, read_design};
 use uplift::result::{StoredDisplacements, StoredStructures, open_any_result};
 use uplift::text::thousands;

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use super::{Content, Table};
-use uplift::UpliftError;
 use crate::figures::FigureSource;
+use uplift::UpliftError;
 use uplift::result::{StoredResult, StoredStripes, open_result};
 use uplift::text::{metres, nearest, per_cent};
 

@@ -9,12 +9,12 @@ use std::path::{Path, PathBuf};
 use uplift_regression::ExponentialFit;
 use uplift_risk::Ordinate;
 
-use crate::uniform_risk::csv::flag_word;
+use super::spectra::SiteSpectra;
 use crate::error::UpliftError;
 use crate::inputs::{ListedSite, SiteList};
-use crate::uniform_risk::{SiteSpectra};
-use uplift_study::ResolvedStudy;
 use crate::text::nearest;
+use crate::uniform_risk::csv::flag_word;
+use uplift_study::ResolvedStudy;
 
 /// Strengths of which the map shows ordinates, unless the study names some.
 const SHOWN_ON_MAP: [f64; 3] = [0.1, 0.2, 0.4];

@@ -4,10 +4,10 @@ use rayon::prelude::*;
 use uplift_regression::ExponentialFit;
 use uplift_risk::{Ordinate, PooledDemand, RiskCurve, StripeWeights};
 
+use crate::error::UpliftError;
 use crate::uniform_risk::Stripes;
 use crate::uniform_risk::coefficients::fit_spectrum;
 use crate::uniform_risk::spectra::{Reading, pooled_demand};
-use crate::error::UpliftError;
 use uplift_study::ResolvedStudy;
 
 /// What turns the hazard of any site into spectra: the demands of one measure, sorted once for each strength.

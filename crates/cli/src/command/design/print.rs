@@ -7,10 +7,10 @@ use uplift_spectra::Noisy;
 use uplift_structure::{Check, Demand, Rule, relative_error};
 
 use super::Design;
-use crate::command::run::shown_path;
 use crate::command::structure::{capacity_m, finite, lines, risk_cells, risk_json, short, structure_json};
+use crate::show::shown_path;
 use uplift::UpliftError;
-use uplift::structure::{DemandNoise};
+use uplift::structure::DemandNoise;
 use uplift::text::{per_cent, table};
 
 /// A displacement; infinite where the structure overturns.

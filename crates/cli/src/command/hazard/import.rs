@@ -12,8 +12,8 @@ use uplift_hazard::{
 
 use uplift_motion::IntensityMeasure;
 
-use super::{Terminal, SiteArguments, UpliftError, distinct};
-use uplift::result::{write_aside};
+use super::{SiteArguments, Terminal, UpliftError, distinct};
+use uplift::result::write_aside;
 use uplift_study::levels_within;
 
 /// Distance of a site from the place asked for that needs no word, km.

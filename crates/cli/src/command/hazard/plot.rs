@@ -4,11 +4,11 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{NamedCurve, Terminal, SiteArguments, TableArguments, UpliftError, distinct, read};
+use super::{NamedCurve, SiteArguments, TableArguments, Terminal, UpliftError, distinct, read};
 use crate::command::records::refuse_overwriting;
-use uplift_report::figures::hazard_figure;
+use uplift::result::write_aside;
 use uplift_plot::{Width, png, svg};
-use uplift::result::{write_aside};
+use uplift_report::figures::hazard_figure;
 
 /// Of a PNG for print.
 const DOTS_PER_INCH: f32 = 300.0;

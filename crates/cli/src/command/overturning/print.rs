@@ -5,8 +5,8 @@ use std::io::Write;
 use serde_json::{Value, json};
 
 use super::Overturning;
-use crate::command::run::shown_path;
 use crate::command::structure::{lines, risk_cells, risk_json, structure_json};
+use crate::show::shown_path;
 use uplift::UpliftError;
 use uplift::structure::{Collapse, Model};
 use uplift::text::table;

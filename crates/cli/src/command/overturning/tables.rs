@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use polars::prelude::Column;
 
 use super::Overturning;
-use crate::command::run::shown_path;
+use crate::show::shown_path;
 use uplift::UpliftError;
-use uplift::result::{write_table};
+use uplift::result::write_table;
 
 /// The table of risks beside that of the fragility.
 pub(super) fn risk_path(fragility: &Path) -> PathBuf {

@@ -64,7 +64,8 @@ pub(super) fn import(arguments: &ImportArguments, session: &Terminal) -> Result<
             imported.components
         )));
     }
-    let line = format!("uplift {} ({}), records import, {} pairs", uplift::VERSION, uplift::COMMIT, imported.pairs.len());
+    let line =
+        format!("uplift {} ({}), records import, {} pairs", uplift::VERSION, uplift::COMMIT, imported.pairs.len());
     let columns = manifest_columns(&imported.pairs, folder, &options);
     write_table(&output, &line, columns.clone())?;
     let without: Vec<&str> = ["magnitude", "rrup_km", "vs30"]

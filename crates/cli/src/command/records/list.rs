@@ -5,7 +5,7 @@ use std::io::Write;
 use clap::Args;
 use uplift_motion::{IntensityMeasure, RecordPair, STANDARD_GRAVITY_M_S2, geometric_mean};
 
-use super::{Terminal, SetArguments, UpliftError};
+use super::{SetArguments, Terminal, UpliftError};
 use uplift::text::table;
 
 #[derive(Debug, Args)]

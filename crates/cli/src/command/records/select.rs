@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{Terminal, SetArguments, UpliftError, refuse_foreign, refuse_overwriting};
+use super::{SetArguments, Terminal, UpliftError, refuse_foreign, refuse_overwriting};
 use uplift::inputs::manifest;
-use uplift::result::{write_table};
+use uplift::result::write_table;
 
 #[derive(Debug, Args)]
 pub(super) struct SelectArguments {

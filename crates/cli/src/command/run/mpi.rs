@@ -15,7 +15,8 @@ use super::{
     KeptPieces, Part, RunArguments, Terminal, UpliftError, check_target, print_outcome, read_hazard, run_shard,
     run_study_from, shard_path, site_table,
 };
-use uplift::checkpoint::{PieceFile};
+use uplift::checkpoint::PieceFile;
+use uplift::events::Events;
 
 /// What the starters of ranks tell them: Open MPI, `PMIx` (Slurm among others), and PMI (MPICH, Intel MPI, Slurm).
 const STARTED_BY: [&str; 3] = ["OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"];

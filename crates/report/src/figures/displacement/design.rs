@@ -2,9 +2,9 @@
 
 use super::DisplacementSource;
 use uplift::UpliftError;
-use uplift_plot::{Axis, Figure, Marks, Panel, Series, Tone};
 use uplift::displacement::{DesignRow, read_design};
 use uplift::result::{SpectrumPlace, StoredStructures, open_any_result};
+use uplift_plot::{Axis, Figure, Marks, Panel, Series, Tone};
 
 /// What is predicted, and what time histories say, as the rows call them.
 struct Quantities {

@@ -2,8 +2,8 @@
 
 use super::DisplacementSource;
 use uplift::UpliftError;
+use uplift::result::SpectrumPlace;
 use uplift_plot::{Axis, Figure, Panel};
-use uplift::result::{SpectrumPlace};
 
 /// Motions of a set that are shown.
 const SHOWN: usize = 6;

@@ -4,8 +4,8 @@ use uplift_structure::{Capacity, Demand, Rule};
 
 use super::{DisplacementSource, Line};
 use uplift::UpliftError;
-use uplift_plot::{Axis, Figure, Panel, Series, Tone};
 use uplift::result::{SpectrumPlace, StoredStructures};
+use uplift_plot::{Axis, Figure, Panel, Series, Tone};
 
 /// One of the figures that show a percentile for all scalings.
 struct Shown {

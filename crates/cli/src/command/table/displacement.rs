@@ -9,10 +9,10 @@ use uplift_spectra::Noisy;
 use super::super::reference::ReferenceTable;
 use crate::terminal::tell;
 use uplift::UpliftError;
-use uplift_labelled::LabelledReader;
 use uplift::displacement::{DesignRow, read_design};
-use uplift_study::ScaledTo;
 use uplift::text::table as lines;
+use uplift_labelled::LabelledReader;
+use uplift_study::ScaledTo;
 
 /// A cell of the reference.
 struct Reference {
@@ -56,7 +56,7 @@ pub(super) fn json_row(row: &DesignRow) -> serde_json::Value {
 }
 
 /// Print the design tables of the result at `path`.
-pub(in super::super) fn table(
+pub(super) fn table(
     path: &Path,
     reader: &LabelledReader,
     reference: Option<&Path>,

@@ -1,106 +1,76 @@
-//! What a study of displacement spectra would cost.
+//! What a study of displacement spectra costs.
 
-use std::io::Write;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use serde_json::json;
+use serde::Serialize;
 use uplift_ida::Unwatched;
 use uplift_spectra::{MotionSet, System};
+use uplift_study::{DISPLACEMENT_SPECTRA, DisplacementStudy};
 
-use super::super::Terminal;
-use super::super::check::duration;
-use uplift::UpliftError;
-use uplift::inputs::{RecordSets, read_record_sets};
-use uplift::result::{check_target};
-use uplift::displacement::{analyses, design_analyses, shake, structures};
-use uplift_study::DisplacementStudy;
-use uplift::text::thousands;
+use super::report::SetReport;
+use super::{analyses, design_analyses, shake, structures};
+use crate::error::UpliftError;
+use crate::inputs::{RecordSets, read_record_sets};
+use crate::plan::PlanHead;
+use crate::result::check_target;
 
 /// Time spent to see how fast this machine is.
 const CALIBRATION: Duration = Duration::from_secs(2);
 /// Structures timed at a time.
 const AT_A_TIME: usize = 4;
 
-pub(in super::super) fn check(
-    study: &DisplacementStudy,
-    study_file: &Path,
-    json: bool,
-    session: &Terminal,
-) -> Result<(), UpliftError> {
+/// What a study of displacement spectra costs.
+#[derive(Debug, Clone, Serialize)]
+pub struct Plan {
+    /// What every kind tells.
+    #[serde(flatten)]
+    pub head: PlanHead,
+    /// `displacement spectra`.
+    pub kind: &'static str,
+    /// The record sets.
+    pub sets: Vec<SetReport>,
+    /// Nonlinear time histories of the design examples, at most.
+    pub design_analyses: u64,
+    /// Whether there are any.
+    #[serde(skip)]
+    pub has_design: bool,
+}
+
+/// Reads and checks all inputs of `study`, and times some of its analyses.
+pub(crate) fn plan(study: &DisplacementStudy, study_file: &Path) -> Result<Plan, UpliftError> {
     check_target(&study.output.file)?;
     let records = read_record_sets(study)?;
     let sets = records.motions(study.gravity_m_s2)?;
     let structures = structures(study)?;
-    let notes: Vec<&String> = study.warnings.iter().chain(&records.notes).collect();
+    let notes = study.warnings.iter().chain(&records.notes).cloned().collect();
 
     let of_spectra: u64 = sets.iter().map(|set| analyses(study, set)).sum();
     let of_design: u64 =
         study.design.iter().flat_map(|plan| sets.iter().map(|set| design_analyses(study, plan, set))).sum();
     let threads = rayon::current_num_threads();
     let seconds = (of_spectra + of_design) as f64 * seconds_per_analysis(study, &structures, &sets)?;
-    let size = Size::of(study, &records, &sets);
-
-    let mut out = std::io::stdout().lock();
-    if json {
-        let sets: Vec<serde_json::Value> = (records.sets.iter().zip(&sets))
-            .map(|(set, motions)| {
-                json!({
-                    "name": set.name,
-                    "records": set.members.len(),
-                    "motions": motions.motions().len(),
-                    "median_pga_g": motions.median_pga_g(),
-                    "median_pgv_cm_s": motions.median_pgv_cm_s(),
-                })
-            })
-            .collect();
-        let plan = json!({
-            "study": study_file,
-            "kind": uplift_study::DISPLACEMENT_SPECTRA,
-            "record_set": records.description,
-            "synthetic": records.synthetic,
-            "sets": sets,
-            "analyses": of_spectra,
-            "design_analyses": of_design,
-            "threads": threads,
-            "seconds": seconds,
-            "memory_bytes": size.memory_bytes,
-            "disk_bytes": size.disk_bytes,
-            "output": study.output.file,
-            "notes": notes,
-        });
-        writeln!(out, "{plan:#}")?;
-        return Ok(());
-    }
-    if !session.is_quiet() {
-        let toml = study.to_toml().map_err(|error| UpliftError::input(error.to_string()))?;
-        writeln!(out, "# The study with every default filled in\n{}", toml.trim_end())?;
-        writeln!(out, "\n# The plan")?;
-    }
-    writeln!(out, "records   {}", records.description)?;
-    for (set, motions) in records.sets.iter().zip(&sets) {
-        writeln!(
-            out,
-            "set       {}: {} records, {} motions, median PGA {:.3} g, median PGV {:.1} cm/s",
-            set.name,
-            set.members.len(),
-            motions.motions().len(),
-            motions.median_pga_g(),
-            motions.median_pgv_cm_s()
-        )?;
-    }
-    writeln!(out, "analyses  {}", thousands(of_spectra))?;
-    if study.design.is_some() {
-        writeln!(out, "design    about {} more", thousands(of_design))?;
-    }
-    writeln!(out, "time      about {} on {threads} threads", duration(seconds))?;
-    writeln!(out, "memory    about {} MB", size.memory_bytes / 1_000_000)?;
-    writeln!(out, "disk      at most about {} MB: {}", size.disk_bytes / 1_000_000, study.output.file.display())?;
-    for note in &notes {
-        writeln!(out, "note      {note}")?;
-    }
-    writeln!(out, "The study and its input data are in order.")?;
-    Ok(())
+    let Size { memory_bytes, disk_bytes } = Size::of(study, &records, &sets);
+    let reports = records.sets.iter().zip(&sets).map(|(set, motions)| SetReport::of(set, motions)).collect();
+    let head = PlanHead {
+        study: study_file.to_owned(),
+        record_set: records.description.clone(),
+        synthetic: records.synthetic,
+        analyses: of_spectra,
+        threads,
+        seconds,
+        memory_bytes,
+        disk_bytes,
+        output: study.output.file.clone(),
+        notes,
+    };
+    Ok(Plan {
+        head,
+        kind: DISPLACEMENT_SPECTRA,
+        sets: reports,
+        design_analyses: of_design,
+        has_design: study.design.is_some(),
+    })
 }
 
 /// Wall time of an analysis on all threads: some structures, spread over all, under every motion of every set in turn.

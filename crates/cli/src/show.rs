@@ -1,0 +1,26 @@
+//! What the jobs report, as a person reads it; a program gets the same values as JSON.
+
+mod displacement;
+mod plan;
+mod run;
+mod uniform_risk;
+
+pub(crate) use plan::print_plan;
+pub(crate) use run::print_run;
+
+use std::io::Write;
+use std::path::Path;
+
+use serde::Serialize;
+use uplift::UpliftError;
+
+/// A report for programs.
+pub(crate) fn print_json(report: &impl Serialize) -> Result<(), UpliftError> {
+    let value = serde_json::to_value(report).map_err(|error| UpliftError::input(error.to_string()))?;
+    Ok(writeln!(std::io::stdout(), "{value:#}")?)
+}
+
+/// A path as short as the user would type it.
+pub(crate) fn shown_path(path: &Path) -> &Path {
+    std::env::current_dir().ok().and_then(|folder| path.strip_prefix(folder).ok()).unwrap_or(path)
+}

@@ -1,0 +1,55 @@
+//! What a study would cost.
+
+use std::io::Write;
+
+use uplift::text::thousands;
+use uplift::{Plan, UpliftError};
+use uplift_study::AnyStudy;
+
+use crate::terminal::Terminal;
+
+/// The plan of `study`, which a terminal that is not quiet shows with every default filled in.
+pub(crate) fn print_plan(plan: &Plan, study: &AnyStudy, terminal: &Terminal) -> Result<(), UpliftError> {
+    let mut out = std::io::stdout().lock();
+    if !terminal.is_quiet() {
+        let toml = study.to_toml().map_err(|error| UpliftError::input(error.to_string()))?;
+        writeln!(out, "# The study with every default filled in\n{}", toml.trim_end())?;
+        writeln!(out, "\n# The plan")?;
+    }
+    let head = plan.head();
+    writeln!(out, "records   {}", head.record_set)?;
+    if let Plan::Displacement(plan) = plan {
+        for set in &plan.sets {
+            writeln!(
+                out,
+                "set       {}: {} records, {} motions, median PGA {:.3} g, median PGV {:.1} cm/s",
+                set.name, set.records, set.motions, set.median_pga_g, set.median_pgv_cm_s
+            )?;
+        }
+    }
+    writeln!(out, "analyses  {}", thousands(head.analyses))?;
+    match plan {
+        Plan::Displacement(plan) if plan.has_design => {
+            writeln!(out, "design    about {} more", thousands(plan.design_analyses))?;
+        }
+        Plan::Displacement(_) | Plan::UniformRisk(_) => {}
+    }
+    writeln!(out, "time      about {} on {} threads", duration(head.seconds), head.threads)?;
+    writeln!(out, "memory    about {} MB", head.memory_bytes / 1_000_000)?;
+    writeln!(out, "disk      at most about {} MB: {}", head.disk_bytes / 1_000_000, head.output.display())?;
+    for note in &head.notes {
+        writeln!(out, "note      {note}")?;
+    }
+    writeln!(out, "The study and its input data are in order.")?;
+    Ok(())
+}
+
+/// A time for people.
+fn duration(seconds: f64) -> String {
+    match seconds {
+        s if s < 1.0 => "a second".to_owned(),
+        s if s < 120.0 => format!("{s:.0} s"),
+        s if s < 7200.0 => format!("{:.0} min", s / 60.0),
+        s => format!("{:.1} h", s / 3600.0),
+    }
+}

@@ -1,0 +1,65 @@
+//! What a run of a study of uniform risk found: the spectra at a few strengths.
+
+use std::io::Write;
+
+use uplift::UpliftError;
+use uplift::text::{metres, nearest, per_cent, table};
+use uplift::uniform_risk::RunReport;
+
+/// Strengths shown.
+const SHOWN_STRENGTHS: [f64; 3] = [0.1, 0.2, 0.4];
+
+pub(super) fn print_spectra(out: &mut impl Write, report: &RunReport) -> Result<(), UpliftError> {
+    let shown = nearest(&report.strengths, &SHOWN_STRENGTHS);
+    let at: Vec<String> = shown.iter().map(|&index| format!("{:.3}", report.strengths[index])).collect();
+    for measure in &report.measures {
+        let own: Vec<_> = report.spectra.iter().filter(|spectrum| spectrum.im == measure.im).collect();
+        if own.is_empty() {
+            continue;
+        }
+        writeln!(
+            out,
+            "\nUniform risk spectra by {}: displacement in m at strength {}{}",
+            measure.im,
+            at.join(", "),
+            if report.head.synthetic { " (synthetic records)" } else { "" }
+        )?;
+        let mut header = vec!["site".to_owned()];
+        for poe in &report.poes {
+            header.push(format!("{} in {} yr", per_cent(*poe), report.years));
+            header.extend(std::iter::repeat_n(String::new(), shown.len() - 1));
+        }
+        // the spectra of a site follow each other, one a probability
+        let row = |of_site: &[&uplift::uniform_risk::SpectrumReport]| {
+            let cells = of_site.iter().flat_map(|spectrum| shown.iter().map(|&index| metres(spectrum.u_m[index])));
+            std::iter::once(of_site[0].site.clone()).chain(cells).collect()
+        };
+        let rows: Vec<Vec<String>> = own.chunks(report.poes.len()).map(row).collect();
+        let header: Vec<&str> = header.iter().map(String::as_str).collect();
+        writeln!(out, "{}", table(&header, &rows))?;
+    }
+    print_branches(out, report, &shown)
+}
+
+/// The spread of the spectra over weighted hazard curves, where a site has some.
+fn print_branches(out: &mut impl Write, report: &RunReport, shown: &[usize]) -> Result<(), UpliftError> {
+    let mut rows = Vec::new();
+    for branches in &report.branches {
+        for &strength in shown {
+            rows.push(vec![
+                branches.site.clone(),
+                branches.im.to_owned(),
+                per_cent(report.poes[branches.poe]),
+                format!("{:.3}", report.strengths[strength]),
+                metres(branches.low_m[strength]),
+                metres(branches.mean_m[strength]),
+                metres(branches.high_m[strength]),
+            ]);
+        }
+    }
+    if !rows.is_empty() {
+        writeln!(out, "\nSpread over the weighted hazard curves: displacement in m, 5 and 95 % fractile and mean")?;
+        writeln!(out, "{}", table(&["site", "im", "probability", "strength", "5 %", "mean", "95 %"], &rows))?;
+    }
+    Ok(())
+}

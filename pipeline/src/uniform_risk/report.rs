@@ -1,0 +1,179 @@
+//! What a run of a study of uniform risk tells.
+
+use std::path::PathBuf;
+
+use serde::Serialize;
+
+use super::{Outcome, Stripes};
+use crate::run::RunHead;
+
+/// What a run tells.
+#[derive(Debug, Clone, Serialize)]
+pub struct RunReport {
+    /// What every kind tells.
+    #[serde(flatten)]
+    pub head: RunHead,
+    /// The analysis of each measure.
+    pub measures: Vec<MeasureReport>,
+    /// The fits of Eq. 4.11 (Table 4.2), one a measure, site and probability.
+    pub coefficients: Vec<CoefficientsReport>,
+    /// Strengths of the spectra.
+    #[serde(skip)]
+    pub strengths: Vec<f64>,
+    /// Probabilities of exceedance.
+    #[serde(skip)]
+    pub poes: Vec<f64>,
+    /// Years that they refer to.
+    #[serde(skip)]
+    pub years: f64,
+    /// The spectra, one a measure, site and probability.
+    #[serde(skip)]
+    pub spectra: Vec<SpectrumReport>,
+    /// Their spread over weighted hazard curves, for the sites that have some.
+    #[serde(skip)]
+    pub branches: Vec<BranchReport>,
+}
+
+/// The analysis by one measure.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct MeasureReport {
+    /// `PGV` or `PGA`.
+    pub im: &'static str,
+    /// Nonlinear time histories.
+    pub analyses: u64,
+    /// Those of them that were not known from before.
+    pub analyses_computed: u64,
+    /// Wall time for these, s.
+    pub seconds: f64,
+    /// How fast they were.
+    pub analyses_per_second: u64,
+}
+
+/// One fit; the numbers are none where there is none.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the symbols of Eq. 4.11")]
+pub struct CoefficientsReport {
+    pub site: String,
+    pub im: &'static str,
+    pub poe: f64,
+    pub c0: Option<f64>,
+    pub c1: Option<f64>,
+    pub c2: Option<f64>,
+    pub rmse: Option<f64>,
+    pub bound_active: Option<bool>,
+}
+
+/// One spectrum.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SpectrumReport {
+    /// The site.
+    pub site: String,
+    /// `PGV` or `PGA`.
+    pub im: &'static str,
+    /// Position of the probability.
+    pub poe: usize,
+    /// Displacements over the strengths, m; infinite where censored.
+    pub u_m: Vec<f64>,
+}
+
+/// The spread of one spectrum over weighted hazard curves, over the strengths, m.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BranchReport {
+    /// The site.
+    pub site: String,
+    /// `PGV` or `PGA`.
+    pub im: &'static str,
+    /// Position of the probability.
+    pub poe: usize,
+    /// Lowest fractile.
+    pub low_m: Vec<f64>,
+    /// Weighted mean.
+    pub mean_m: Vec<f64>,
+    /// Highest fractile.
+    pub high_m: Vec<f64>,
+}
+
+impl RunReport {
+    /// The report on what was computed and written.
+    pub(super) fn of(outcome: &Outcome<'_>, files: Vec<PathBuf>, seconds: f64) -> Self {
+        let study = outcome.study;
+        let poes = study.risk.poe.len();
+        let fits = |coefficients: &super::Coefficients| -> Vec<CoefficientsReport> {
+            let im = coefficients.measure.label();
+            let report = |(row, fit): (usize, &Result<uplift_regression::ExponentialFit, _>)| {
+                let fit = fit.as_ref().ok();
+                CoefficientsReport {
+                    site: study.sites[row / poes].name.clone(),
+                    im,
+                    poe: study.risk.poe[row % poes],
+                    c0: fit.map(|fit| fit.c0),
+                    c1: fit.map(|fit| fit.c1),
+                    c2: fit.map(|fit| fit.c2),
+                    rmse: fit.map(|fit| fit.rmse),
+                    bound_active: fit.map(|fit| fit.bound_active),
+                }
+            };
+            coefficients.fits.iter().enumerate().map(report).collect()
+        };
+        let records = (outcome.records.description.as_str(), outcome.records.synthetic);
+        Self {
+            head: outcome.provenance.head(&study.title, records, outcome.warnings, files, seconds),
+            measures: outcome.stripes.iter().map(MeasureReport::of).collect(),
+            coefficients: outcome.coefficients.iter().flat_map(fits).collect(),
+            strengths: study.strengths.to_vec(),
+            poes: study.risk.poe.clone(),
+            years: study.risk.years,
+            spectra: spectra(outcome),
+            branches: branches(outcome),
+        }
+    }
+}
+
+fn spectra(outcome: &Outcome<'_>) -> Vec<SpectrumReport> {
+    let mut reports = Vec::new();
+    for spectra in outcome.spectra {
+        for (site, poe) in (0..spectra.shape[0]).flat_map(|site| (0..spectra.shape[1]).map(move |poe| (site, poe))) {
+            reports.push(SpectrumReport {
+                site: outcome.study.sites[site].name.clone(),
+                im: spectra.measure.label(),
+                poe,
+                u_m: spectra.spectrum(site, poe).iter().map(|ordinate| ordinate.displacement_m).collect(),
+            });
+        }
+    }
+    reports
+}
+
+fn branches(outcome: &Outcome<'_>) -> Vec<BranchReport> {
+    let strengths = outcome.study.strengths.len();
+    let mut reports = Vec::new();
+    for spectra in outcome.spectra {
+        for branches in &spectra.branches {
+            for poe in 0..outcome.study.risk.poe.len() {
+                let of_poe = |values: &[f64]| values[poe * strengths..(poe + 1) * strengths].to_vec();
+                let [low, .., high] = &branches.fractiles_m;
+                reports.push(BranchReport {
+                    site: outcome.study.sites[branches.site].name.clone(),
+                    im: spectra.measure.label(),
+                    poe,
+                    low_m: of_poe(low),
+                    mean_m: of_poe(&branches.mean_m),
+                    high_m: of_poe(high),
+                });
+            }
+        }
+    }
+    reports
+}
+
+impl MeasureReport {
+    fn of(stripes: &Stripes) -> Self {
+        Self {
+            im: stripes.measure.label(),
+            analyses: stripes.analyses,
+            analyses_computed: stripes.computed,
+            seconds: stripes.seconds,
+            analyses_per_second: super::rate(stripes),
+        }
+    }
+}
