@@ -38,21 +38,21 @@ pub struct Band {
 }
 
 impl Band {
-    /// The band of `sorted` replicates, m, at a `confidence` between 0 and 1, between their quantiles, as in Section 4.5:
-    /// at 5 and 95 % for a confidence of 0.9.
+    /// The band of `sorted` replicates, m, at a `confidence` between 0 and 1, between their quantiles, as in Section
+    /// 4.5: at 5 and 95 % for a confidence of 0.9.
     pub fn percentile(sorted: &[f64], confidence: f64) -> Self {
         let tail = 0.5 * (1.0 - confidence);
         Self::between(sorted, [tail, 1.0 - tail])
     }
 
-    /// The bias-corrected and accelerated band (BCa) of `sorted` replicates, m, at a `confidence` between 0 and 1: its
-    /// limits are quantiles at levels moved by the bias of the median and by the skewness of the influence of single
-    /// records.
+    /// The bias-corrected and accelerated band (BCa) of `sorted` replicates, m, at a `confidence` between 0 and
+    /// 1: its limits are quantiles at levels moved by the bias of the median and by the skewness of the
+    /// influence of single records.
     ///
     /// `estimate_m` is the ordinate of all records, m; `acceleration` that for the size of the sample, see
-    /// [`acceleration`](crate::acceleration). The median is that of the replicates. The limits are NaN where the
-    /// correction does not exist: all replicates on one side of the estimate, or single records that make the spectrum
-    /// infinite.
+    /// [`acceleration`](crate::acceleration). The median is that of the replicates. The limits are NaN where
+    /// the correction does not exist: all replicates on one side of the estimate, or single records that make
+    /// the spectrum infinite.
     ///
     /// # Source
     /// Efron and Tibshirani (1993), "An introduction to the bootstrap", Eq. 14.9 to 14.15.

@@ -82,8 +82,8 @@ impl fmt::Display for ComponentDefinition {
 impl FromStr for ComponentDefinition {
     type Err = HazardError;
 
-    /// Case, hyphens and words like "horizontal component" make no difference; what stands in brackets is the more exact
-    /// name, as in `geometric mean (GMRotI50)`.
+    /// Case, hyphens and words like "horizontal component" make no difference; what stands in brackets is the more
+    /// exact name, as in `geometric mean (GMRotI50)`.
     fn from_str(text: &str) -> Result<Self, HazardError> {
         let found = match text.split_once('(') {
             None => Self::named(text),
@@ -148,8 +148,8 @@ mod tests {
         let message = "\u{1b}GMRotD50".parse::<ComponentDefinition>().unwrap_err().to_string();
         assert_eq!(
             message,
-            "component definition \"\\u{1b}GMRotD50\" is not known; use one of geometric mean, GMRotI50, RotD50, RotD100, \
-             larger, arbitrary"
+            "component definition \"\\u{1b}GMRotD50\" is not known; use one of geometric mean, GMRotI50, RotD50, \
+             RotD100, larger, arbitrary"
         );
     }
 }

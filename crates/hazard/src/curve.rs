@@ -36,8 +36,8 @@ impl HazardCurve {
     /// Builds a curve from levels `im`, in `unit`, and annual rates of exceedance `maf`, 1/yr, one per level.
     ///
     /// `measure` is the intensity measure ("PGV", "PGA", "SA(1.0)", or any other name), `unit` its unit ("cm/s", "g"),
-    /// `source` says where the numbers come from and may be empty. PGV must be in a unit of velocity, PGA and SA in one of
-    /// acceleration; other measures may have any unit.
+    /// `source` says where the numbers come from and may be empty. PGV must be in a unit of velocity, PGA and SA in one
+    /// of acceleration; other measures may have any unit.
     ///
     /// # Errors
     /// [`HazardError`] with the index and both values for the first point that breaks a rule; an empty label; a unit
@@ -141,8 +141,8 @@ impl HazardCurve {
         Ok(curve.with_component(Some(to)))
     }
 
-    /// The curve as the text that [`read_csv`](crate::read_csv) reads back to the bit, the lines of `remarks` first as
-    /// comments.
+    /// The curve as the text that [`read_csv`](crate::read_csv) reads back to the bit, the lines of
+    /// `remarks` first as comments.
     pub fn to_csv(&self, remarks: &[String]) -> String {
         let component = self.component.map_or_else(String::new, |component| format!("; component: {component}"));
         let mut text = String::new();

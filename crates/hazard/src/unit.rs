@@ -86,7 +86,8 @@ impl CurveUnit {
         }
     }
 
-    /// How many of this unit make one SI unit (m/s or m/s²): whole numbers where possible, so that conversions round once.
+    /// How many of this unit make one SI unit (m/s or m/s²): whole numbers where possible, so that
+    /// conversions round once.
     pub(crate) fn per_si(self, gravity_m_s2: f64) -> f64 {
         match self {
             Self::MPerS | Self::MPerS2 => 1.0,

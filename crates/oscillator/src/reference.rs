@@ -124,7 +124,7 @@ impl<O: Observer> Run<O> {
         let mut i = 0_u32;
         loop {
             let elapsed_s = f64::from(i) * self.dt_s;
-            // written so that NaN ends the loop; what is left of a rounding error is no interval
+            // written so that NaN ends the loop; what is left of a rounding error is not an interval
             if !(seconds - elapsed_s > 1e-9 * self.dt_s) {
                 return;
             }

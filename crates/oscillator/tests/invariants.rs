@@ -153,7 +153,7 @@ proptest! {
         }
     }
 
-    // Whatever the numbers, a run ends and returns a peak that is no NaN.
+    // Whatever the numbers, a run ends and returns a peak that is not NaN.
     #[test]
     fn never_nan(
         record in prop::collection::vec(
