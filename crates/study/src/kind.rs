@@ -83,14 +83,6 @@ impl AnyStudy {
         }
     }
 
-    /// As [`output`](Self::output), to be changed.
-    pub fn output_mut(&mut self) -> &mut Output {
-        match self {
-            Self::UniformRisk(study) => &mut study.output,
-            Self::Displacement(study) => &mut study.output,
-        }
-    }
-
     /// What is allowed but probably not meant.
     pub fn warnings(&self) -> &[String] {
         match self {
