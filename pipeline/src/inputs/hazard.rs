@@ -68,7 +68,8 @@ pub fn read_hazard(study: &UniformRiskStudy) -> Result<(Vec<Vec<SiteHazard>>, Ve
     }
     notes.extend(undefined.first().map(|first| {
         format!(
-            "{} hazard curve(s) do not say how horizontal components are combined ({first}{}): taken as {}; say it with [hazard] component",
+            "{} hazard curve(s) do not say how horizontal components are combined ({first}{}): taken as {}; say it \
+             with [hazard] component",
             undefined.len(),
             if undefined.len() > 1 { ", …" } else { "" },
             definition_of(study.records.intensity)
@@ -205,7 +206,8 @@ impl SiteReader<'_> {
     }
 }
 
-/// The curve for the definition of the measure that the records are combined by; none where the definition of the curve is not known.
+/// The curve for the definition of the measure that the records are combined by; none where the definition of the curve
+/// is not known.
 pub(super) fn of_the_records_definition(
     study: &UniformRiskStudy,
     measure: IntensityMeasure,
@@ -218,7 +220,8 @@ pub(super) fn of_the_records_definition(
             return Ok(None);
         }
         return Err(format!(
-            "the curve does not say how horizontal components are combined, and the records are measured by the {wanted}: say what it is with [hazard] component = \"{}\"",
+            "the curve does not say how horizontal components are combined, and the records are measured by the \
+             {wanted}: say what it is with [hazard] component = \"{}\"",
             wanted.key()
         ));
     };
@@ -229,7 +232,10 @@ pub(super) fn of_the_records_definition(
         let key = measure.key();
         let (from, to) = (own.key(), wanted.key());
         return Err(format!(
-            "the curve is of the {own}, and the records are measured by the {wanted}: take a curve of the same definition, another records.intensity, or declare what the levels are multiplied by: [hazard] conversions = [{{ from = \"{from}\", to = \"{to}\", {key} = … }}], with the ratio of the two (docs/hazard.md, section 4)"
+            "the curve is of the {own}, and the records are measured by the {wanted}: take a curve of the same \
+             definition, another records.intensity, or declare what the levels are multiplied by: [hazard] conversions \
+             = [{{ from = \"{from}\", to = \"{to}\", {key} = … }}], with the ratio of the two (docs/hazard.md, section \
+             4)"
         ));
     };
     curve.converted(factor, wanted).map(Some).map_err(|error| error.to_string())

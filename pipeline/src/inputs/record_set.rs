@@ -100,7 +100,8 @@ fn of_unequal_length(pairs: &[CheckedPair], study: &UniformRiskStudy) -> Option<
     let matters = study.records.intensity != Combination::GeometricMean && !unequal.is_empty();
     matters.then(|| {
         format!(
-            "{} of {} records have components of different length ({}{}): if these do not begin together, their {} is wrong",
+            "{} of {} records have components of different length ({}{}): if these do not begin together, their {} is \
+             wrong",
             unequal.len(),
             pairs.len(),
             unequal.iter().take(5).copied().collect::<Vec<_>>().join(", "),
@@ -118,7 +119,8 @@ pub(super) fn alike(pairs: &[CheckedPair]) -> Vec<String> {
     match alike.len() {
         0 => Vec::new(),
         count => vec![format!(
-            "{count} of {} records have the same motion as both components ({shown}{}): the intensity is then that of the component, not a geometric mean",
+            "{count} of {} records have the same motion as both components ({shown}{}): the intensity is then that of \
+             the component, not a geometric mean",
             pairs.len(),
             if count > 5 { ", …" } else { "" }
         )],
@@ -169,7 +171,9 @@ fn analysis_records(pairs: Vec<CheckedPair>, study: &UniformRiskStudy) -> Result
             && let Some(apart_s) = pair.metadata.get(pairs::START_APART)
         {
             mistakes.push(format!(
-                "record {}: its components begin {apart_s} s apart, and a measure over all directions needs them together: use records.intensity = \"geometric-mean\", cut them to a common start, or leave the record out",
+                "record {}: its components begin {apart_s} s apart, and a measure over all directions needs them \
+                 together: use records.intensity = \"geometric-mean\", cut them to a common start, or leave the record \
+                 out",
                 pair.id
             ));
             continue;
@@ -185,7 +189,8 @@ fn analysis_records(pairs: Vec<CheckedPair>, study: &UniformRiskStudy) -> Result
         let (pga_g, pgv_cm_s) = (intensity(IntensityMeasure::Pga), intensity(IntensityMeasure::Pgv));
         if !(pga_g > 0.0 && pgv_cm_s > 0.0) {
             mistakes.push(format!(
-                "record {}: a component does not move (PGA {pga_g} g, PGV {pgv_cm_s} cm/s), so it cannot be scaled; leave the record out",
+                "record {}: a component does not move (PGA {pga_g} g, PGV {pgv_cm_s} cm/s), so it cannot be scaled; \
+                 leave the record out",
                 pair.id
             ));
             continue;
@@ -207,8 +212,8 @@ fn analysis_records(pairs: Vec<CheckedPair>, study: &UniformRiskStudy) -> Result
     if mistakes.is_empty() { Ok(records) } else { Err(UpliftError::Inputs(mistakes)) }
 }
 
-/// The component that `component = "random"` gives the pair `id`: from the study's seed and its name alone, so that it depends on neither
-/// threads nor the other pairs.
+/// The component that `component = "random"` gives the pair `id`: from the study's seed and its name alone, so that it
+/// depends on neither threads nor the other pairs.
 fn drawn(seed: u64, id: &str) -> Horizontal {
     let key = Sha256::new().chain_update(seed.to_le_bytes()).chain_update(id).finalize();
     if key[0] & 1 == 0 { Horizontal::H1 } else { Horizontal::H2 }

@@ -1,7 +1,7 @@
 //! Many sites: a table of them, and the exports that hold their hazard curves.
 //!
-//! The exports are gone through twice: before the analyses to find each site and every mistake, and after them for the curves, site
-//! by site, so that memory does not grow with the curves.
+//! The exports are gone through twice: before the analyses to find each site and every mistake, and after them for the
+//! curves, site by site, so that memory does not grow with the curves.
 
 mod export;
 mod places;

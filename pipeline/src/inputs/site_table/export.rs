@@ -156,7 +156,8 @@ impl Index {
         self.reasons.get(&row.item).map(String::as_str)
     }
 
-    /// The site nearest to a place and its distance, km, among those at most `within_km` away; the first one of several equally near.
+    /// The site nearest to a place and its distance, km, among those at most `within_km` away; the first one of several
+    /// equally near.
     pub(super) fn nearest(&self, longitude_deg: f64, latitude_deg: f64, within_km: f64) -> Option<(&Row, f64)> {
         let place = SitePlace { name: None, longitude_deg, latitude_deg };
         let row = |position: &u32| &self.rows[*position as usize];
@@ -228,7 +229,8 @@ impl Tally {
         let mut notes = Vec::new();
         if self.undefined > 0 {
             notes.push(format!(
-                "site table, {label}: {name} does not say how horizontal components are combined: taken as {}; say it with [hazard] component",
+                "site table, {label}: {name} does not say how horizontal components are combined: taken as {}; say it \
+                 with [hazard] component",
                 definition_of(study.records.intensity)
             ));
         }
@@ -238,7 +240,8 @@ impl Tally {
         }
         if self.shortened > 0 {
             notes.push(format!(
-                "site table, {label}: {} curves of {name} end in zeros or begin with probabilities of 1: such levels carry no rate and were dropped",
+                "site table, {label}: {} curves of {name} end in zeros or begin with probabilities of 1: such levels \
+                 carry no rate and were dropped",
                 self.shortened
             ));
         }
@@ -275,8 +278,8 @@ pub(super) type SharedCurve = Arc<Result<HazardCurve, String>>;
 
 /// The curves of an export in the order in which they are asked for.
 ///
-/// Those that stand before the one asked for and will be asked for later are held. So where the sites are in the order of the
-/// export hardly any is.
+/// Those that stand before the one asked for and will be asked for later are held. So where the sites are in the order
+/// of the export hardly any is.
 pub(super) struct Stream {
     curves: ExportedCurves,
     path: String,
