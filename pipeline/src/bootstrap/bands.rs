@@ -2,15 +2,14 @@
 
 use rayon::prelude::*;
 use uplift_bootstrap::{
-    Band, BootstrapError, Replicates, ResamplingPlan, acceleration, error_of_median, leave_one_out, range_of_interval,
-    simultaneous_bands, weighted_quantile,
+    Band, BootstrapError, Interval, Replicates, ResamplingPlan, acceleration, error_of_median, leave_one_out,
+    range_of_interval, simultaneous_bands, weighted_quantile,
 };
 use uplift_motion::IntensityMeasure;
 use uplift_risk::{PooledDemand, StripeWeights};
 
 use crate::error::UpliftError;
 use crate::result::{StoredMeasure, StoredStripes};
-use uplift_study::IntervalKind;
 
 /// What kind of bands.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,7 +17,7 @@ pub struct BandSettings {
     /// Share of the replicates between the limits.
     pub confidence: f64,
     /// How a limit is read.
-    pub interval: IntervalKind,
+    pub interval: Interval,
     /// Whether bands that hold whole spectra are made too.
     pub simultaneous: bool,
     /// Only strengths above this count in Eq. 4.9 and 4.10.
@@ -90,8 +89,8 @@ pub fn bands_of_strength(
         let sites: [&StripeWeights; 1] = [weights];
         let replicates = Replicates::of(&demand, &sites, targets, plan).map_err(|error| fail(&error))?;
         let without_each = match settings.interval {
-            IntervalKind::Percentile => Vec::new(),
-            IntervalKind::Bca => leave_one_out(&demand, weights, targets).map_err(|error| fail(&error))?,
+            Interval::Percentile => Vec::new(),
+            Interval::Bca => leave_one_out(&demand, weights, targets).map_err(|error| fail(&error))?,
         };
         for poe in 0..targets.len() {
             let estimate_m = measure.spectra_m[stored.ordinate(site, poe, index)];
@@ -102,8 +101,8 @@ pub fn bands_of_strength(
                 sorted.extend_from_slice(ordinates_m);
                 sorted.sort_unstable_by(f64::total_cmp);
                 done.bands.push(match settings.interval {
-                    IntervalKind::Percentile => Band::percentile(&sorted, settings.confidence),
-                    IntervalKind::Bca => {
+                    Interval::Percentile => Band::percentile(&sorted, settings.confidence),
+                    Interval::Bca => {
                         let acceleration = acceleration(&without_each_m, size);
                         Band::bca(&sorted, settings.confidence, estimate_m, acceleration)
                     }
