@@ -1,17 +1,17 @@
-//! What can go wrong in the program, and how it is said.
+//! What can go wrong in a job, and how it is said.
 
 use thiserror::Error;
 
 use uplift_labelled::LabelledError;
 use uplift_study::StudyError;
 
-/// Why a command did not do what it was asked.
+/// Why a job did not do what it was asked.
 #[derive(Debug, Error)]
 pub enum UpliftError {
     /// The study file has mistakes.
     #[error(transparent)]
     Study(#[from] StudyError),
-    /// The command line asks for something that does not fit together.
+    /// What a job is asked for does not fit together.
     #[error("{0}")]
     Usage(String),
     /// Records or hazard curves cannot be used; all that was found.
@@ -37,9 +37,6 @@ pub enum UpliftError {
         /// The file that keeps them.
         path: std::path::PathBuf,
     },
-    /// The reader of the output went away, as `uplift … | head` does.
-    #[error("the output was closed")]
-    OutputClosed,
 }
 
 fn list(mistakes: &[String]) -> String {
@@ -56,27 +53,5 @@ impl UpliftError {
     /// One mistake in the input data.
     pub fn input(message: impl Into<String>) -> Self {
         Self::Inputs(vec![message.into()])
-    }
-
-    /// What the shell sees: 2 usage, 3 study file, 4 input data or disk, 5 interrupted.
-    pub fn exit_code(&self) -> u8 {
-        match self {
-            Self::OutputClosed => 0,
-            Self::Usage(_) => 2,
-            Self::Study(_) => 3,
-            Self::Inputs(_) | Self::File(_) => 4,
-            Self::Interrupted | Self::Paused { .. } => 5,
-        }
-    }
-}
-
-impl From<std::io::Error> for UpliftError {
-    /// Only standard output is written through plain `io`; files have their own errors.
-    fn from(error: std::io::Error) -> Self {
-        if error.kind() == std::io::ErrorKind::BrokenPipe {
-            Self::OutputClosed
-        } else {
-            Self::input(format!("standard output cannot be written: {error}"))
-        }
     }
 }

@@ -28,8 +28,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+use crate::error::CommandError;
 use crate::terminal::Terminal;
-use uplift::UpliftError;
 use uplift_study::{AnyStudy, ResolvedStudy, Study};
 
 /// Uniform risk spectra for rocking structures.
@@ -104,11 +104,11 @@ struct StudyArguments {
 }
 
 impl StudyArguments {
-    fn load(&self) -> Result<ResolvedStudy, UpliftError> {
+    fn load(&self) -> Result<ResolvedStudy, CommandError> {
         Ok(Study::load(&self.study, &self.overrides)?)
     }
 
-    fn load_any(&self) -> Result<AnyStudy, UpliftError> {
+    fn load_any(&self) -> Result<AnyStudy, CommandError> {
         Ok(Study::load_any(&self.study, &self.overrides)?)
     }
 }
@@ -121,13 +121,13 @@ fn command_line() -> String {
 /// Carry out what was typed.
 ///
 /// # Errors
-/// Whatever the user should know; see [`UpliftError::exit_code`].
-pub(crate) fn execute(arguments: &Arguments) -> Result<(), UpliftError> {
+/// Whatever the user should know; see [`CommandError::exit_code`].
+pub(crate) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     if let Some(threads) = arguments.threads {
         rayon::ThreadPoolBuilder::new()
             .num_threads(usize::from(threads))
             .build_global()
-            .map_err(|error| UpliftError::Usage(format!("--threads {threads}: {error}")))?;
+            .map_err(|error| CommandError::Usage(format!("--threads {threads}: {error}")))?;
     }
     let session = Terminal::new(arguments.quiet);
     match &arguments.command {

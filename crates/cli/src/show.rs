@@ -11,12 +11,12 @@ pub(crate) use run::print_run;
 use std::io::Write;
 use std::path::Path;
 
+use crate::error::CommandError;
 use serde::Serialize;
-use uplift::UpliftError;
 
 /// A report for programs.
-pub(crate) fn print_json(report: &impl Serialize) -> Result<(), UpliftError> {
-    let value = serde_json::to_value(report).map_err(|error| UpliftError::input(error.to_string()))?;
+pub(crate) fn print_json(report: &impl Serialize) -> Result<(), CommandError> {
+    let value = serde_json::to_value(report).map_err(|error| CommandError::input(error.to_string()))?;
     Ok(writeln!(std::io::stdout(), "{value:#}")?)
 }
 

@@ -12,6 +12,7 @@ use miette::{GraphicalReportHandler, GraphicalTheme};
 use uplift::UpliftError;
 use uplift::events::{Events, Phase};
 
+use crate::error::CommandError;
 use progress::Progress;
 
 /// What the shell sees of an interruption.
@@ -124,10 +125,10 @@ pub(crate) fn tell(text: &str) {
 }
 
 /// Tells an error; a study's mistakes with their lines and carets.
-pub(crate) fn tell_error(error: &UpliftError) {
+pub(crate) fn tell_error(error: &CommandError) {
     match error {
-        UpliftError::OutputClosed => {}
-        UpliftError::Study(error) => {
+        CommandError::OutputClosed => {}
+        CommandError::Uplift(UpliftError::Study(error)) => {
             let theme = if std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none() {
                 GraphicalTheme::unicode()
             } else {

@@ -12,7 +12,7 @@ use uplift_ida::Watch;
 use super::Terminal;
 use super::confidence::{self, Report};
 use super::result_of::ResultArguments;
-use uplift::UpliftError;
+use crate::error::CommandError;
 use uplift::bootstrap::{BandSettings, Bands, StrengthBands, bands_of_strength, gather_bands};
 use uplift::bootstrap::{BandsFile, Checkpoint, write_bands};
 use uplift::events::{Events, Progress};
@@ -60,7 +60,7 @@ pub(super) struct BootstrapArguments {
     json: bool,
 }
 
-pub(super) fn bootstrap(arguments: &BootstrapArguments, session: &Terminal) -> Result<(), UpliftError> {
+pub(super) fn bootstrap(arguments: &BootstrapArguments, session: &Terminal) -> Result<(), CommandError> {
     let reference = arguments.reference.as_deref().map(confidence::read_reference).transpose()?;
     let found = arguments.result.find(session)?;
     let stored = StoredStripes::read(&found.path)?;
@@ -96,7 +96,7 @@ fn plan(
     arguments: &BootstrapArguments,
     wanted: &Bootstrap,
     stored: &StoredStripes,
-) -> Result<(ResamplingPlan, String), UpliftError> {
+) -> Result<(ResamplingPlan, String), CommandError> {
     if let Some(path) = &arguments.plan {
         return Ok((kept_plan(path, stored)?, format!("draws of {}", path.display())));
     }
@@ -109,14 +109,14 @@ fn plan(
     let seed = arguments.seed.unwrap_or(stored.seed);
     let count = usize::try_from(replicates).unwrap_or(usize::MAX);
     let plan = ResamplingPlan::draw(records, &sizes, count, seed)
-        .map_err(|error| UpliftError::Usage(format!("--sizes: {error}")))?;
+        .map_err(|error| CommandError::Usage(format!("--sizes: {error}")))?;
     Ok((plan, format!("seed {seed}")))
 }
 
 /// The plan that a result keeps, for the same records.
-fn kept_plan(path: &Path, stored: &StoredStripes) -> Result<ResamplingPlan, UpliftError> {
+fn kept_plan(path: &Path, stored: &StoredStripes) -> Result<ResamplingPlan, CommandError> {
     let reader = open_result(path)?;
-    let fail = |reason: String| UpliftError::input(format!("{}: {reason}", path.display()));
+    let fail = |reason: String| CommandError::input(format!("{}: {reason}", path.display()));
     if !reader.exists("/bootstrap/multiplicity") {
         return Err(fail("keeps no resampling plan: run `uplift bootstrap` on it first".to_owned()));
     }
@@ -160,7 +160,7 @@ fn compute(
     plan: &ResamplingPlan,
     settings: &BandSettings,
     session: &Terminal,
-) -> Result<Vec<Bands>, UpliftError> {
+) -> Result<Vec<Bands>, CommandError> {
     let checkpoint = checkpoint(stored, plan, settings);
     let keys: Vec<&'static str> = stored.measures.iter().map(|measure| measure.measure.key()).collect();
     let mut finished = checkpoint.load(&keys);
@@ -199,7 +199,7 @@ fn compute(
                     progress.finished(per_strength);
                     Ok(Some((strength, bands)))
                 })
-                .collect::<Result<_, UpliftError>>()?;
+                .collect::<Result<_, CommandError>>()?;
             finished.extend(done.into_iter().flatten().map(|(strength, bands)| ((key, strength), bands)));
             let stopped = session.cancelled();
             if stopped || kept.elapsed() > KEPT_EVERY {
@@ -208,12 +208,13 @@ fn compute(
             }
             if stopped {
                 drop(progress);
-                return Err(UpliftError::Paused {
+                return Err(uplift::UpliftError::Paused {
                     what: "strengths",
                     done: finished.len() as u64,
                     total: (strengths * stored.measures.len()) as u64,
                     path: checkpoint.path().to_owned(),
-                });
+                }
+                .into());
             }
         }
         drop(progress);

@@ -6,8 +6,8 @@ use std::path::Path;
 use serde_json::json;
 
 use super::reference::ReferenceTable;
+use crate::error::CommandError;
 use crate::show::shown_path;
-use uplift::UpliftError;
 use uplift::bootstrap::Bands;
 use uplift::bootstrap::{BandsFile, band_paths};
 use uplift::result::StoredStripes;
@@ -28,7 +28,7 @@ pub(super) struct Report<'a> {
 
 impl Report<'_> {
     /// The rows as JSON.
-    pub(super) fn print_json(&self, out: &mut impl Write) -> Result<(), UpliftError> {
+    pub(super) fn print_json(&self, out: &mut impl Write) -> Result<(), CommandError> {
         let BandsFile { stored, plan, bands, .. } = self.file;
         let sizes = plan.sizes();
         let mut rows = Vec::new();
@@ -50,7 +50,7 @@ impl Report<'_> {
     }
 
     /// The report for people; a `quiet` one is the tables alone.
-    pub(super) fn print(&self, out: &mut impl Write, quiet: bool) -> Result<(), UpliftError> {
+    pub(super) fn print(&self, out: &mut impl Write, quiet: bool) -> Result<(), CommandError> {
         let stored = self.file.stored;
         for (poe, &probability) in stored.poes.iter().enumerate() {
             // Table 4.1 is about the rarest
@@ -72,7 +72,7 @@ impl Report<'_> {
         Ok(())
     }
 
-    fn print_figures(&self, out: &mut impl Write, poe: usize, compared: bool) -> Result<(), UpliftError> {
+    fn print_figures(&self, out: &mut impl Write, poe: usize, compared: bool) -> Result<(), CommandError> {
         let BandsFile { stored, plan, bands, .. } = self.file;
         let sizes = plan.sizes();
         let reference = self.reference.filter(|_| compared);
@@ -119,7 +119,7 @@ impl Report<'_> {
     }
 
     /// What the figures mean, in sentences.
-    fn print_reading(&self, out: &mut impl Write) -> Result<(), UpliftError> {
+    fn print_reading(&self, out: &mut impl Write) -> Result<(), CommandError> {
         let BandsFile { stored, plan, bands, settings, .. } = self.file;
         let sizes = plan.sizes();
         writeln!(
@@ -166,7 +166,7 @@ impl Report<'_> {
     }
 
     /// Records and hazard together, for the sites with branches.
-    fn print_joint(&self, out: &mut impl Write) -> Result<(), UpliftError> {
+    fn print_joint(&self, out: &mut impl Write) -> Result<(), CommandError> {
         let BandsFile { stored, plan, bands, settings, .. } = self.file;
         let sizes = plan.sizes().len();
         let mut rows = Vec::new();
@@ -198,7 +198,7 @@ impl Report<'_> {
     }
 
     /// The bands where rocking begins (Section 4.5.2, Fig. 4.10).
-    fn print_initiation(&self, out: &mut impl Write) -> Result<(), UpliftError> {
+    fn print_initiation(&self, out: &mut impl Write) -> Result<(), CommandError> {
         let BandsFile { stored, plan, bands, .. } = self.file;
         let Some(size_index) = (0..plan.sizes().len()).max_by_key(|&index| plan.sizes()[index]) else { return Ok(()) };
         // the most frequent shaking is the one that may not lift the structure
@@ -252,7 +252,7 @@ fn initiation(stored: &StoredStripes, bands: &Bands, cell: usize) -> Vec<String>
 }
 
 /// Reads a table with the columns of Table 4.1.
-pub(super) fn read_reference(path: &Path) -> Result<Vec<Reference>, UpliftError> {
+pub(super) fn read_reference(path: &Path) -> Result<Vec<Reference>, CommandError> {
     let table = ReferenceTable::read(path)?;
     let columns = |key: &str| (format!("{key}_e_median_pct"), format!("{key}_r_90ci_pct"));
     let measures: Vec<&str> = ["pgv", "pga"]
@@ -275,7 +275,7 @@ pub(super) fn read_reference(path: &Path) -> Result<Vec<Reference>, UpliftError>
             Ok(Reference {
                 site: table.text("site", row),
                 sample_size: table.number("sample_size", row)?,
-                figures: figures.collect::<Result<_, UpliftError>>()?,
+                figures: figures.collect::<Result<_, CommandError>>()?,
             })
         })
         .collect()

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
-use uplift::UpliftError;
+use crate::error::CommandError;
 use uplift::result::write_aside;
 use uplift_plot::{Figure, Width, png, svg};
 
@@ -37,21 +37,21 @@ enum Columns {
 
 impl FigureArguments {
     /// Write `figure` into `folder`; the files written.
-    pub(super) fn write(&self, figure: &Figure, folder: &Path) -> Result<Vec<PathBuf>, UpliftError> {
+    pub(super) fn write(&self, figure: &Figure, folder: &Path) -> Result<Vec<PathBuf>, CommandError> {
         let width = match self.width {
             Columns::Single => Width::Single,
             Columns::Double => Width::Double,
         };
-        let drawing = svg(figure, width).map_err(|error| UpliftError::input(format!("{}: {error}", figure.id)))?;
+        let drawing = svg(figure, width).map_err(|error| CommandError::input(format!("{}: {error}", figure.id)))?;
         let mut written = Vec::new();
         let mut write = |extension: &str, bytes: &[u8]| {
             let file = folder.join(format!("{}.{extension}", figure.id));
             write_aside(&file, bytes)?;
             written.push(file);
-            Ok::<(), UpliftError>(())
+            Ok::<(), CommandError>(())
         };
         if self.format != Format::Svg {
-            let image = png(&drawing.svg, DOTS_PER_INCH).map_err(|error| UpliftError::input(error.to_string()))?;
+            let image = png(&drawing.svg, DOTS_PER_INCH).map_err(|error| CommandError::input(error.to_string()))?;
             write("png", &image)?;
         }
         if self.format != Format::Png {
@@ -62,7 +62,7 @@ impl FigureArguments {
 }
 
 /// A folder for figures.
-pub(super) fn provide_folder(folder: &Path) -> Result<(), UpliftError> {
+pub(super) fn provide_folder(folder: &Path) -> Result<(), CommandError> {
     std::fs::create_dir_all(folder)
-        .map_err(|error| UpliftError::input(format!("{} cannot be written: {error}", folder.display())))
+        .map_err(|error| CommandError::input(format!("{} cannot be written: {error}", folder.display())))
 }

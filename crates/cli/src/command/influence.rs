@@ -7,8 +7,8 @@ use serde_json::json;
 
 use super::Terminal;
 use super::result_of::ResultArguments;
+use crate::error::CommandError;
 use crate::show::shown_path;
-use uplift::UpliftError;
 use uplift::influence::{Influence, influence as influence_of, level_of_share};
 use uplift::influence::{RecordInfluence, influence_path, record_influence, write_influence};
 use uplift::result::{StoredStripes, check_target};
@@ -32,7 +32,7 @@ pub(super) struct InfluenceArguments {
     json: bool,
 }
 
-pub(super) fn influence(arguments: &InfluenceArguments, session: &Terminal) -> Result<(), UpliftError> {
+pub(super) fn influence(arguments: &InfluenceArguments, session: &Terminal) -> Result<(), CommandError> {
     let stored = StoredStripes::read(&arguments.result.find(session)?.path)?;
     check_target(&stored.path)?;
     let poe = stored.poe_index(arguments.poe)?;
@@ -79,7 +79,7 @@ impl View<'_> {
         format!("{} in {} years", per_cent(self.stored.poes[self.poe]), self.stored.years)
     }
 
-    fn print_records(&self, out: &mut impl Write) -> Result<(), UpliftError> {
+    fn print_records(&self, out: &mut impl Write) -> Result<(), CommandError> {
         let stored = self.stored;
         writeln!(
             out,
@@ -111,7 +111,7 @@ impl View<'_> {
         Ok(())
     }
 
-    fn print_intensities(&self, out: &mut impl Write) -> Result<(), UpliftError> {
+    fn print_intensities(&self, out: &mut impl Write) -> Result<(), CommandError> {
         let stored = self.stored;
         writeln!(
             out,
@@ -158,7 +158,7 @@ impl View<'_> {
         }
     }
 
-    fn print_json(&self, out: &mut impl Write) -> Result<(), UpliftError> {
+    fn print_json(&self, out: &mut impl Write) -> Result<(), CommandError> {
         let stored = self.stored;
         let mut records = Vec::new();
         for (influence, rankings) in self.influences.iter().zip(self.rankings) {

@@ -7,8 +7,8 @@ use serde_json::json;
 
 use super::Terminal;
 use super::result_of::ResultArguments;
+use crate::error::CommandError;
 use crate::show::shown_path;
-use uplift::UpliftError;
 use uplift::efficiency::{Covariate, Predictor, predictor};
 use uplift::efficiency::{covariates, predictors_path, write_predictors};
 use uplift::result::{StoredStripes, check_target};
@@ -28,7 +28,7 @@ pub(super) struct MeasuresArguments {
     json: bool,
 }
 
-pub(super) fn measures(arguments: &MeasuresArguments, session: &Terminal) -> Result<(), UpliftError> {
+pub(super) fn measures(arguments: &MeasuresArguments, session: &Terminal) -> Result<(), CommandError> {
     let stored = StoredStripes::read(&arguments.result.find(session)?.path)?;
     check_target(&stored.path)?;
     let covariates = covariates(&stored)?;
@@ -62,7 +62,7 @@ fn print_efficiency(
     stored: &StoredStripes,
     predictors: &[Predictor],
     shown: &[usize],
-) -> Result<(), UpliftError> {
+) -> Result<(), CommandError> {
     writeln!(
         out,
         "\nEfficiency: scatter (logarithmic) of the displacement at a given level once the structure rocks, of the level at which it\n\
@@ -96,7 +96,7 @@ fn print_sufficiency(
     covariates: &[Covariate],
     predictors: &[Predictor],
     shown: &[usize],
-) -> Result<(), UpliftError> {
+) -> Result<(), CommandError> {
     writeln!(
         out,
         "\nSufficiency: p-value of the trend of a record's mean residual with what the record is (below {SIGNIFICANT}, marked *: the measure\n\
@@ -140,7 +140,7 @@ fn print_reading(
     stored: &StoredStripes,
     predictors: &[Predictor],
     shown: &[usize],
-) -> Result<(), UpliftError> {
+) -> Result<(), CommandError> {
     writeln!(out, "\nIn words:")?;
     if let [first, second] = predictors {
         for (what, of) in [
@@ -184,7 +184,7 @@ fn print_json(
     stored: &StoredStripes,
     covariates: &[Covariate],
     predictors: &[Predictor],
-) -> Result<(), UpliftError> {
+) -> Result<(), CommandError> {
     let finite = |value: f64| value.is_finite().then_some(value);
     let mut rows = Vec::new();
     for predictor in predictors {

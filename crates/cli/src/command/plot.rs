@@ -8,8 +8,8 @@ use clap::Args;
 use super::Terminal;
 use super::figure_files::{FigureArguments, provide_folder};
 use super::result_of::ResultArguments;
+use crate::error::CommandError;
 use crate::show::shown_path;
-use uplift::UpliftError;
 use uplift_report::figures::result_figures;
 
 #[derive(Debug, Args)]
@@ -26,14 +26,14 @@ pub(super) struct PlotArguments {
     figures: FigureArguments,
 }
 
-pub(super) fn plot(arguments: &PlotArguments, session: &Terminal) -> Result<(), UpliftError> {
+pub(super) fn plot(arguments: &PlotArguments, session: &Terminal) -> Result<(), CommandError> {
     let path = arguments.result.find(session)?.path;
     let figures = result_figures(&path)?;
     let wanted = arguments.only.as_deref().unwrap_or_default();
     let chosen: Vec<_> = figures.iter().filter(|figure| figure.id.contains(wanted)).collect();
     if chosen.is_empty() {
         let names: Vec<&str> = figures.iter().map(|figure| figure.id.as_str()).collect();
-        return Err(UpliftError::Usage(format!("--only {wanted}: the result has the figures {}", names.join(", "))));
+        return Err(CommandError::Usage(format!("--only {wanted}: the result has the figures {}", names.join(", "))));
     }
     let folder = arguments.output.clone().unwrap_or_else(|| path.with_extension("figures"));
     provide_folder(&folder)?;

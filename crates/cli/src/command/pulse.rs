@@ -11,8 +11,8 @@ use uplift_block::RickerShape;
 
 use super::Terminal;
 use super::figure_files::{FigureArguments, provide_folder};
+use crate::error::CommandError;
 use crate::show::shown_path;
-use uplift::UpliftError;
 use uplift::events::Progress;
 use uplift::pulses::{BlockPlan, PulsePlan, Summary, compute, summary, tables, wavelet};
 use uplift::result::write_table;
@@ -130,12 +130,12 @@ impl PulseArguments {
     }
 }
 
-pub(super) fn pulse(arguments: &PulseArguments, session: &Terminal) -> Result<(), UpliftError> {
+pub(super) fn pulse(arguments: &PulseArguments, session: &Terminal) -> Result<(), CommandError> {
     let plan = arguments.plan();
     for (name, sizes) in [("--frequencies", &plan.frequencies), ("--half-widths", &plan.half_widths)] {
         let points = sizes.len() * plan.accelerations.len();
         if points > MOST_POINTS {
-            return Err(UpliftError::Usage(format!(
+            return Err(CommandError::Usage(format!(
                 "{name} and --accelerations make a map of {} points: take larger steps, {} points are the most",
                 thousands(points as u64),
                 thousands(MOST_POINTS as u64)
@@ -199,7 +199,7 @@ fn provenance(plan: &PulsePlan) -> String {
     )
 }
 
-fn print(out: &mut impl Write, summaries: &[Summary]) -> Result<(), UpliftError> {
+fn print(out: &mut impl Write, summaries: &[Summary]) -> Result<(), CommandError> {
     let number = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value}"));
     let row = |name: &str, cell: &dyn Fn(&Summary) -> String| {
         std::iter::once(name.to_owned()).chain(summaries.iter().map(cell)).collect::<Vec<String>>()

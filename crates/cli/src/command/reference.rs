@@ -5,7 +5,7 @@ use std::path::Path;
 
 use polars::prelude::{CsvParseOptions, CsvReadOptions, DataFrame, SerReader};
 
-use uplift::UpliftError;
+use crate::error::CommandError;
 
 /// A reference table, its cells as text.
 pub(super) struct ReferenceTable {
@@ -15,9 +15,9 @@ pub(super) struct ReferenceTable {
 
 impl ReferenceTable {
     /// Read the table at `path`; lines that begin with `#` are comments.
-    pub(super) fn read(path: &Path) -> Result<Self, UpliftError> {
+    pub(super) fn read(path: &Path) -> Result<Self, CommandError> {
         let name = path.display().to_string();
-        let fail = |reason: String| UpliftError::input(format!("reference {name}: {reason}"));
+        let fail = |reason: String| CommandError::input(format!("reference {name}: {reason}"));
         let bytes = std::fs::read(path).map_err(|error| fail(error.to_string()))?;
         let frame = CsvReadOptions::default()
             .with_has_header(true)
@@ -46,13 +46,13 @@ impl ReferenceTable {
     }
 
     /// A cell as a number.
-    pub(super) fn number<T: std::str::FromStr>(&self, column: &str, row: usize) -> Result<T, UpliftError> {
+    pub(super) fn number<T: std::str::FromStr>(&self, column: &str, row: usize) -> Result<T, CommandError> {
         let cell = self.text(column, row);
         cell.parse().map_err(|_| self.fail(format!("row {}, {column}: {cell:?} is not a number", row + 1)))
     }
 
     /// What is wrong with the table.
-    pub(super) fn fail(&self, reason: impl std::fmt::Display) -> UpliftError {
-        UpliftError::input(format!("reference {}: {reason}", self.name))
+    pub(super) fn fail(&self, reason: impl std::fmt::Display) -> CommandError {
+        CommandError::input(format!("reference {}: {reason}", self.name))
     }
 }

@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::Terminal;
+use crate::error::CommandError;
 use crate::show::shown_path;
-use uplift::UpliftError;
 use uplift_report::report as page;
 
 #[derive(Debug, Args)]
@@ -20,10 +20,10 @@ pub(super) struct ReportArguments {
     output: Option<PathBuf>,
 }
 
-pub(super) fn report(arguments: &ReportArguments, session: &Terminal) -> Result<(), UpliftError> {
+pub(super) fn report(arguments: &ReportArguments, session: &Terminal) -> Result<(), CommandError> {
     let target = arguments.output.clone().unwrap_or_else(|| arguments.results[0].with_extension("html"));
     if arguments.results.contains(&target) || target.extension().is_none_or(|extension| extension != "html") {
-        return Err(UpliftError::Usage(format!(
+        return Err(CommandError::Usage(format!(
             "-o {}: the report is an HTML file, give it a name that ends in .html",
             target.display()
         )));

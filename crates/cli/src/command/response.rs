@@ -12,7 +12,7 @@ use uplift_oscillator::{
 };
 
 use super::records::refuse_foreign;
-use uplift::UpliftError;
+use crate::error::CommandError;
 use uplift::result::{write_aside, write_table};
 use uplift_plot::{Width, png, svg};
 use uplift_report::figures::history_figure;
@@ -65,8 +65,8 @@ pub(super) struct ResponseArguments {
     plot: Option<PathBuf>,
 }
 
-pub(super) fn response(arguments: &ResponseArguments) -> Result<(), UpliftError> {
-    let usage = |reason: String| UpliftError::Usage(reason);
+pub(super) fn response(arguments: &ResponseArguments) -> Result<(), CommandError> {
+    let usage = |reason: String| CommandError::Usage(reason);
     let post_uplift = match (arguments.capacity_m, arguments.post_uplift_stiffness_per_s2) {
         (Some(capacity_m), _) => PostUplift::Negative { capacity_m },
         (None, Some(stiffness_per_s2)) => PostUplift::Positive { stiffness_per_s2 },
@@ -107,9 +107,10 @@ pub(super) fn response(arguments: &ResponseArguments) -> Result<(), UpliftError>
         channel: arguments.channel,
         format: None,
     };
-    let accelerogram = read_path(&arguments.record, &options).map_err(|error| UpliftError::input(error.to_string()))?;
+    let accelerogram =
+        read_path(&arguments.record, &options).map_err(|error| CommandError::input(error.to_string()))?;
     let excitation = Excitation::new(accelerogram.dt_s(), accelerogram.acceleration_m_s2())
-        .map_err(|error| UpliftError::input(format!("{}: {error}", arguments.record.display())))?
+        .map_err(|error| CommandError::input(format!("{}: {error}", arguments.record.display())))?
         .scaled(arguments.scale)
         .map_err(|error| usage(error.to_string()))?;
     let after = if free_s > 0.0 { FreeVibration::Seconds(free_s) } else { FreeVibration::None };
@@ -128,7 +129,7 @@ pub(super) fn response(arguments: &ResponseArguments) -> Result<(), UpliftError>
     print(arguments, &accelerogram, &result)
 }
 
-fn print(arguments: &ResponseArguments, accelerogram: &Accelerogram, result: &Response) -> Result<(), UpliftError> {
+fn print(arguments: &ResponseArguments, accelerogram: &Accelerogram, result: &Response) -> Result<(), CommandError> {
     let mut out = std::io::stdout().lock();
     let scale = arguments.scale.abs();
     let (pga_g, pgv_cm_s, pgd_m) = (
@@ -197,16 +198,16 @@ fn plot_history(
     arguments: &ResponseArguments,
     history: &History,
     excitation: &Excitation<'_>,
-) -> Result<(), UpliftError> {
+) -> Result<(), CommandError> {
     let record = arguments.record.file_name().unwrap_or_default().to_string_lossy();
     let title = format!("{record} times {}, strength {}", arguments.scale, arguments.strength);
     let figure = history_figure(&title, excitation, history, arguments.uplift_displacement_m);
-    let drawing = svg(&figure, Width::Double).map_err(UpliftError::input)?;
+    let drawing = svg(&figure, Width::Double).map_err(CommandError::input)?;
     if path.extension().is_some_and(|extension| extension == "png") {
-        let image = png(&drawing.svg, 300.0).map_err(|error| UpliftError::input(error.to_string()))?;
-        write_aside(path, &image)
+        let image = png(&drawing.svg, 300.0).map_err(|error| CommandError::input(error.to_string()))?;
+        Ok(write_aside(path, &image)?)
     } else {
-        write_aside(path, drawing.svg.as_bytes())
+        Ok(write_aside(path, drawing.svg.as_bytes())?)
     }
 }
 
@@ -216,7 +217,7 @@ fn write_history(
     arguments: &ResponseArguments,
     history: &History,
     excitation: &Excitation<'_>,
-) -> Result<(), UpliftError> {
+) -> Result<(), CommandError> {
     let (mut time, mut u, mut v, mut ground, mut event) = (Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let mut events = history.events.iter().peekable();
     let last_s = excitation.duration_s();
@@ -275,5 +276,5 @@ fn write_history(
         Column::new("ground_acceleration_m_s2".into(), ground),
         Column::new("event".into(), event),
     ];
-    write_table(path, &line, columns)
+    Ok(write_table(path, &line, columns)?)
 }

@@ -12,7 +12,7 @@ use ::mpi::topology::SimpleCommunicator;
 use ::mpi::traits::{Communicator, CommunicatorCollectives};
 
 use super::{
-    KeptPieces, Part, RunArguments, Terminal, UpliftError, check_target, print_outcome, read_hazard, run_shard,
+    CommandError, KeptPieces, Part, RunArguments, Terminal, check_target, print_outcome, read_hazard, run_shard,
     run_study_from, shard_path, site_table,
 };
 use uplift::checkpoint::PieceFile;
@@ -24,7 +24,7 @@ const STARTED_BY: [&str; 3] = ["OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"];
 const LOOK_EVERY: Duration = Duration::from_millis(20);
 
 /// Carries out a run as one of several ranks; none where this program was not started as such.
-pub(super) fn run(arguments: &RunArguments, session: &Terminal) -> Option<Result<(), UpliftError>> {
+pub(super) fn run(arguments: &RunArguments, session: &Terminal) -> Option<Result<(), CommandError>> {
     // without one of these MPI would be a world of one, at the price of starting it
     STARTED_BY.iter().find(|name| std::env::var_os(name).is_some())?;
     let (universe, _) = ::mpi::initialize_with_threading(Threading::Funneled)?;
@@ -36,9 +36,9 @@ pub(super) fn run(arguments: &RunArguments, session: &Terminal) -> Option<Result
     let part = Part { index, count };
     let outcome = catch_unwind(AssertUnwindSafe(|| run_rank(arguments, &world, part, session)));
     match outcome {
-        Ok(done @ (Ok(()) | Err(UpliftError::OutputClosed))) => Some(done),
+        Ok(done @ (Ok(()) | Err(CommandError::OutputClosed))) => Some(done),
         // a stop is sent to all ranks, and one says so
-        Ok(Err(error @ (UpliftError::Paused { .. } | UpliftError::Interrupted))) => {
+        Ok(Err(error @ (CommandError::Paused { .. } | CommandError::Interrupted))) => {
             if index == 0 {
                 tell_error(&error);
             }
@@ -62,14 +62,14 @@ fn run_rank(
     world: &SimpleCommunicator,
     part: Part,
     session: &Terminal,
-) -> Result<(), UpliftError> {
+) -> Result<(), CommandError> {
     let first = part.index == 0;
     // the first looks before the others do, so that a mistake is said once
     if !first {
         wait(world, session)?;
     }
     if arguments.shard.is_some() {
-        return Err(UpliftError::Usage("each rank takes its own shard: leave --shard out under mpirun".to_owned()));
+        return Err(CommandError::Usage("each rank takes its own shard: leave --shard out under mpirun".to_owned()));
     }
     let study = arguments.study.load()?;
     let path = arguments.output.clone().unwrap_or_else(|| study.output.file.clone());
@@ -88,7 +88,7 @@ fn run_rank(
     ));
     let shard = shard_path(&path, part);
     let pieces = run_shard(&study, &shard, part, Some(&path), &own)?;
-    wait(world, session).map_err(|_| UpliftError::Paused {
+    wait(world, session).map_err(|_| CommandError::Paused {
         what: "pieces",
         done: pieces,
         total: pieces,
@@ -103,13 +103,13 @@ fn run_rank(
     let shards: Vec<_> = (0..part.count).map(|index| shard_path(&path, Part { index, ..part })).collect();
     for shard in &shards {
         let found = PieceFile::read(shard)?.ok_or_else(|| {
-            UpliftError::input(format!(
+            CommandError::input(format!(
                 "{}: is not there: the result must lie in a folder that all ranks share",
                 shard.display()
             ))
         })?;
         if *work.get_or_insert_with(|| found.head.work.clone()) != found.head.work {
-            return Err(UpliftError::input(format!(
+            return Err(CommandError::input(format!(
                 "{}: is a shard of other work: every node must have the same study, records and program",
                 shard.display()
             )));
@@ -126,7 +126,7 @@ fn run_rank(
 }
 
 /// Waits until all ranks are here, without a core for it.
-fn wait(world: &SimpleCommunicator, session: &Terminal) -> Result<(), UpliftError> {
+fn wait(world: &SimpleCommunicator, session: &Terminal) -> Result<(), CommandError> {
     let mut all_here = world.immediate_barrier();
     loop {
         match all_here.test() {
@@ -136,7 +136,7 @@ fn wait(world: &SimpleCommunicator, session: &Terminal) -> Result<(), UpliftErro
         if session.cancelled() {
             // the program ends here; a request must not be dropped before it is complete
             std::mem::forget(all_here);
-            return Err(UpliftError::Interrupted);
+            return Err(CommandError::Interrupted);
         }
         std::thread::sleep(LOOK_EVERY);
     }
