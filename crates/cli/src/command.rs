@@ -129,25 +129,25 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
             .build_global()
             .map_err(|error| CommandError::Usage(format!("--threads {threads}: {error}")))?;
     }
-    let session = Terminal::new(arguments.quiet);
+    let terminal = Terminal::new(arguments.quiet);
     match &arguments.command {
-        Command::Run(arguments) => run::run(arguments, &session),
-        Command::Merge(arguments) => merge::merge(arguments, &session),
+        Command::Run(arguments) => run::run(arguments, &terminal),
+        Command::Merge(arguments) => merge::merge(arguments, &terminal),
         Command::Status(arguments) => status::status(arguments),
-        Command::Verify(arguments) => verify::verify(arguments, &session),
-        Command::Check(arguments) => check::check(arguments, &session),
+        Command::Verify(arguments) => verify::verify(arguments, &terminal),
+        Command::Check(arguments) => check::check(arguments, &terminal),
         Command::Response(arguments) => response::response(arguments),
-        Command::Pulse(arguments) => pulse::pulse(arguments, &session),
-        Command::Bootstrap(arguments) => bootstrap::bootstrap(arguments, &session),
-        Command::Influence(arguments) => influence::influence(arguments, &session),
-        Command::Measures(arguments) => measures::measures(arguments, &session),
-        Command::Design(arguments) => design::design(arguments, &session),
-        Command::Overturning(arguments) => overturning::overturning(arguments, &session),
-        Command::Records(arguments) => records::records(arguments, &session),
-        Command::Hazard(arguments) => hazard::hazard(arguments, &session),
-        Command::Plot(arguments) => plot::plot(arguments, &session),
-        Command::Report(arguments) => report::report(arguments, &session),
-        Command::Export(arguments) => export::export(arguments, &session),
+        Command::Pulse(arguments) => pulse::pulse(arguments, &terminal),
+        Command::Bootstrap(arguments) => bootstrap::bootstrap(arguments, &terminal),
+        Command::Influence(arguments) => influence::influence(arguments, &terminal),
+        Command::Measures(arguments) => measures::measures(arguments, &terminal),
+        Command::Design(arguments) => design::design(arguments, &terminal),
+        Command::Overturning(arguments) => overturning::overturning(arguments, &terminal),
+        Command::Records(arguments) => records::records(arguments, &terminal),
+        Command::Hazard(arguments) => hazard::hazard(arguments, &terminal),
+        Command::Plot(arguments) => plot::plot(arguments, &terminal),
+        Command::Report(arguments) => report::report(arguments, &terminal),
+        Command::Export(arguments) => export::export(arguments, &terminal),
         Command::Table(arguments) => table::table(arguments),
     }
 }

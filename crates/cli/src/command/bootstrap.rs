@@ -60,9 +60,9 @@ pub(super) struct BootstrapArguments {
     json: bool,
 }
 
-pub(super) fn bootstrap(arguments: &BootstrapArguments, session: &Terminal) -> Result<(), CommandError> {
+pub(super) fn bootstrap(arguments: &BootstrapArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let reference = arguments.reference.as_deref().map(confidence::read_reference).transpose()?;
-    let found = arguments.result.find(session)?;
+    let found = arguments.result.find(terminal)?;
     let stored = StoredStripes::read(&found.path)?;
     check_target(&stored.path)?;
     let wanted = found.bootstrap.unwrap_or_else(|| stored.bootstrap.clone());
@@ -77,18 +77,18 @@ pub(super) fn bootstrap(arguments: &BootstrapArguments, session: &Terminal) -> R
         strength_above: wanted.strength_above,
     };
     let (plan, plan_source) = plan(arguments, &wanted, &stored)?;
-    announce(&stored, &plan, session);
+    announce(&stored, &plan, terminal);
 
     let start = Instant::now();
-    let bands = compute(&stored, &plan, &settings, session)?;
-    session.remark("", &format!("{:.1} s", start.elapsed().as_secs_f64()));
+    let bands = compute(&stored, &plan, &settings, terminal)?;
+    terminal.remark("", &format!("{:.1} s", start.elapsed().as_secs_f64()));
     let file =
         BandsFile { stored: &stored, plan: &plan, plan_source: &plan_source, settings: &settings, bands: &bands };
     write_bands(&file)?;
     checkpoint(&stored, &plan, &settings).remove();
     let report = Report { file: &file, reference: reference.as_deref() };
     let mut out = std::io::stdout().lock();
-    if arguments.json { report.print_json(&mut out) } else { report.print(&mut out, session.is_quiet()) }
+    if arguments.json { report.print_json(&mut out) } else { report.print(&mut out, terminal.is_quiet()) }
 }
 
 /// The draws, and where they come from.
@@ -134,10 +134,10 @@ fn kept_plan(path: &Path, stored: &StoredStripes) -> Result<ResamplingPlan, Comm
         .map_err(|error| fail(error.to_string()))
 }
 
-fn announce(stored: &StoredStripes, plan: &ResamplingPlan, session: &Terminal) {
-    session.remark("records", &format!("{}", stored.record_set));
+fn announce(stored: &StoredStripes, plan: &ResamplingPlan, terminal: &Terminal) {
+    terminal.remark("records", &format!("{}", stored.record_set));
     let sizes: Vec<String> = plan.sizes().iter().map(u32::to_string).collect();
-    session.remark(
+    terminal.remark(
         "plan",
         &format!(
             "samples of {} records, {} of each size, drawn with replacement from {}",
@@ -147,7 +147,7 @@ fn announce(stored: &StoredStripes, plan: &ResamplingPlan, session: &Terminal) {
         ),
     );
     if let Some(size) = plan.sizes().iter().find(|&&size| size as usize > plan.record_count()) {
-        session.note(&format!(
+        terminal.note(&format!(
 "samples of {size} records from a set of {} show how narrow the band would be with more records of the same kind",
             plan.record_count()
         ));
@@ -159,7 +159,7 @@ fn compute(
     stored: &StoredStripes,
     plan: &ResamplingPlan,
     settings: &BandSettings,
-    session: &Terminal,
+    terminal: &Terminal,
 ) -> Result<Vec<Bands>, CommandError> {
     let checkpoint = checkpoint(stored, plan, settings);
     let keys: Vec<&'static str> = stored.measures.iter().map(|measure| measure.measure.key()).collect();
@@ -177,7 +177,7 @@ fn compute(
             && done.replicates_m.len() == replicates
     });
     if !finished.is_empty() {
-        session.remark("resumed", &format!("{} strengths from {}", finished.len(), checkpoint.path().display()));
+        terminal.remark("resumed", &format!("{} strengths from {}", finished.len(), checkpoint.path().display()));
     }
     let start = Instant::now();
     let strengths = stored.strengths.len();
@@ -186,7 +186,7 @@ fn compute(
         let key = measure.measure.key();
         let left: Vec<usize> = (0..strengths).filter(|&strength| !finished.contains_key(&(key, strength))).collect();
         let total = per_strength * left.len() as u64;
-        let progress = Progress::begin(session, measure.measure.label(), "ordinates", total);
+        let progress = Progress::begin(terminal, measure.measure.label(), "ordinates", total);
         let mut kept = Instant::now();
         for batch in left.chunks(BATCH * rayon::current_num_threads()) {
             let done: Vec<Option<(usize, StrengthBands)>> = batch
@@ -201,7 +201,7 @@ fn compute(
                 })
                 .collect::<Result<_, CommandError>>()?;
             finished.extend(done.into_iter().flatten().map(|(strength, bands)| ((key, strength), bands)));
-            let stopped = session.cancelled();
+            let stopped = terminal.cancelled();
             if stopped || kept.elapsed() > KEPT_EVERY {
                 checkpoint.save(&finished)?;
                 kept = Instant::now();

@@ -64,7 +64,7 @@ struct Design<'a> {
     notes: Vec<String>,
 }
 
-pub(super) fn design(arguments: &DesignArguments, session: &Terminal) -> Result<(), CommandError> {
+pub(super) fn design(arguments: &DesignArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let safety_factor = arguments.safety_factor;
     if !(safety_factor.is_finite() && safety_factor >= 1.0) {
         return Err(CommandError::Usage(format!("--safety-factor is {safety_factor}: give a number of at least 1")));
@@ -96,7 +96,7 @@ pub(super) fn design(arguments: &DesignArguments, session: &Terminal) -> Result<
             Ok(set) => {
                 let runs = (OSCILLATORS * set.records.len() * measure.plan.levels.len()) as u64;
                 let label = measure.measure().label();
-                let progress = Progress::begin(session, label, "analyses", runs);
+                let progress = Progress::begin(terminal, label, "analyses", runs);
                 let weighed = (&measure.plan, &measure.weights[site]);
                 let own = (system, restitution);
                 let exact = exact_demand(&source.study, weighed, &set, own, target_per_year, &progress);

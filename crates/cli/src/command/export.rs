@@ -30,7 +30,7 @@ pub(super) struct ExportArguments {
     output: Option<PathBuf>,
 }
 
-pub(super) fn export(arguments: &ExportArguments, session: &Terminal) -> Result<(), CommandError> {
+pub(super) fn export(arguments: &ExportArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let formats: Vec<&str> = [(arguments.csv, "spectra.csv"), (arguments.json, "json"), (arguments.mat, "mat")]
         .into_iter()
         .filter_map(|(wanted, extension)| wanted.then_some(extension))
@@ -52,7 +52,7 @@ pub(super) fn export(arguments: &ExportArguments, session: &Terminal) -> Result<
             "mat" => write_aside(&path, &export.matlab()?)?,
             _ => write_table(&path, export.provenance(), export.columns())?,
         }
-        if !session.is_quiet() {
+        if !terminal.is_quiet() {
             writeln!(std::io::stdout(), "{}", shown_path(&path).display())?;
         }
     }

@@ -35,11 +35,11 @@ enum HazardCommand {
     Plot(plot::PlotArguments),
 }
 
-pub(super) fn hazard(arguments: &HazardArguments, session: &Terminal) -> Result<(), CommandError> {
+pub(super) fn hazard(arguments: &HazardArguments, terminal: &Terminal) -> Result<(), CommandError> {
     match &arguments.command {
-        HazardCommand::Import(arguments) => import::import(arguments, session),
+        HazardCommand::Import(arguments) => import::import(arguments, terminal),
         HazardCommand::Show(arguments) => show::show(arguments),
-        HazardCommand::Plot(arguments) => plot::plot(arguments, session),
+        HazardCommand::Plot(arguments) => plot::plot(arguments, terminal),
     }
 }
 

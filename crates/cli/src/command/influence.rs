@@ -32,8 +32,8 @@ pub(super) struct InfluenceArguments {
     json: bool,
 }
 
-pub(super) fn influence(arguments: &InfluenceArguments, session: &Terminal) -> Result<(), CommandError> {
-    let stored = StoredStripes::read(&arguments.result.find(session)?.path)?;
+pub(super) fn influence(arguments: &InfluenceArguments, terminal: &Terminal) -> Result<(), CommandError> {
+    let stored = StoredStripes::read(&arguments.result.find(terminal)?.path)?;
     check_target(&stored.path)?;
     let poe = stored.poe_index(arguments.poe)?;
     let influences =
@@ -59,7 +59,7 @@ pub(super) fn influence(arguments: &InfluenceArguments, session: &Terminal) -> R
     }
     view.print_records(&mut out)?;
     view.print_intensities(&mut out)?;
-    if !session.is_quiet() {
+    if !terminal.is_quiet() {
         writeln!(out, "\nAll of it: /influence and /disaggregation in {}", shown_path(&stored.path).display())?;
         writeln!(out, "           {}", shown_path(&influence_path(&stored.path)).display())?;
     }

@@ -28,8 +28,8 @@ pub(super) struct MeasuresArguments {
     json: bool,
 }
 
-pub(super) fn measures(arguments: &MeasuresArguments, session: &Terminal) -> Result<(), CommandError> {
-    let stored = StoredStripes::read(&arguments.result.find(session)?.path)?;
+pub(super) fn measures(arguments: &MeasuresArguments, terminal: &Terminal) -> Result<(), CommandError> {
+    let stored = StoredStripes::read(&arguments.result.find(terminal)?.path)?;
     check_target(&stored.path)?;
     let covariates = covariates(&stored)?;
     let predictors = stored
@@ -45,7 +45,7 @@ pub(super) fn measures(arguments: &MeasuresArguments, session: &Terminal) -> Res
     }
     print_efficiency(&mut out, &stored, &predictors, &shown)?;
     print_sufficiency(&mut out, &stored, &covariates, &predictors, &shown)?;
-    if !session.is_quiet() {
+    if !terminal.is_quiet() {
         print_reading(&mut out, &stored, &predictors, &shown)?;
         writeln!(out, "\nAll of it: /efficiency and /sufficiency in {}", shown_path(&stored.path).display())?;
         writeln!(out, "           {}", shown_path(&predictors_path(&stored.path)).display())?;

@@ -67,7 +67,7 @@ struct Overturning<'a> {
     notes: Vec<String>,
 }
 
-pub(super) fn overturning(arguments: &OverturningArguments, session: &Terminal) -> Result<(), CommandError> {
+pub(super) fn overturning(arguments: &OverturningArguments, terminal: &Terminal) -> Result<(), CommandError> {
     check_outputs(arguments)?;
     let (structure, source) = arguments.structure.read()?;
     let sites = match &arguments.site {
@@ -101,7 +101,7 @@ pub(super) fn overturning(arguments: &OverturningArguments, session: &Terminal) 
         let of_model = |(model, _): &(Model, &'static str)| {
             let runs = (set.records.len() * measure.plan.levels.len()) as u64;
             let label = format!("{}, {}", measure.measure().label(), model.name());
-            let progress = Progress::begin(session, &label, "analyses", runs);
+            let progress = Progress::begin(terminal, &label, "analyses", runs);
             let demands_m = model.demands_m(&study, &measure.plan, &set, &progress);
             drop(progress);
             collapse(&measure.plan.levels, &demands_m?, &weights, years)
@@ -122,7 +122,7 @@ pub(super) fn overturning(arguments: &OverturningArguments, session: &Terminal) 
     if arguments.json { overturning.print_json(&mut out) } else { overturning.print(&mut out) }?;
     let risk = arguments.output.as_deref().map(tables::risk_path);
     for path in arguments.plot.iter().chain(&arguments.output).chain(&risk) {
-        session.say(&path.display().to_string());
+        terminal.say(&path.display().to_string());
     }
     Ok(())
 }

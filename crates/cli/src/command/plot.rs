@@ -26,8 +26,8 @@ pub(super) struct PlotArguments {
     figures: FigureArguments,
 }
 
-pub(super) fn plot(arguments: &PlotArguments, session: &Terminal) -> Result<(), CommandError> {
-    let path = arguments.result.find(session)?.path;
+pub(super) fn plot(arguments: &PlotArguments, terminal: &Terminal) -> Result<(), CommandError> {
+    let path = arguments.result.find(terminal)?.path;
     let figures = result_figures(&path)?;
     let wanted = arguments.only.as_deref().unwrap_or_default();
     let chosen: Vec<_> = figures.iter().filter(|figure| figure.id.contains(wanted)).collect();
@@ -40,7 +40,7 @@ pub(super) fn plot(arguments: &PlotArguments, session: &Terminal) -> Result<(), 
     let mut out = std::io::stdout().lock();
     for figure in chosen {
         for file in arguments.figures.write(figure, &folder)? {
-            if !session.is_quiet() {
+            if !terminal.is_quiet() {
                 writeln!(out, "{}", shown_path(&file).display())?;
             }
         }

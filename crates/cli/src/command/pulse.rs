@@ -130,7 +130,7 @@ impl PulseArguments {
     }
 }
 
-pub(super) fn pulse(arguments: &PulseArguments, session: &Terminal) -> Result<(), CommandError> {
+pub(super) fn pulse(arguments: &PulseArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let plan = arguments.plan();
     for (name, sizes) in [("--frequencies", &plan.frequencies), ("--half-widths", &plan.half_widths)] {
         let points = sizes.len() * plan.accelerations.len();
@@ -144,11 +144,11 @@ pub(super) fn pulse(arguments: &PulseArguments, session: &Terminal) -> Result<()
     }
     plan.check()?;
     provide_folder(&arguments.output)?;
-    let progress = Progress::begin(session, "pulses", "motions", plan.points());
+    let progress = Progress::begin(terminal, "pulses", "motions", plan.points());
     let computed = compute(&plan, &progress);
     drop(progress);
     let spectra = computed?;
-    session.set_farewell(format!(
+    terminal.set_farewell(format!(
         "interrupted: files in {} are of this run or an earlier one. Run the same command again",
         arguments.output.display()
     ));
@@ -175,7 +175,7 @@ pub(super) fn pulse(arguments: &PulseArguments, session: &Terminal) -> Result<()
         return Ok(());
     }
     print(&mut out, &summaries)?;
-    if !session.is_quiet() {
+    if !terminal.is_quiet() {
         writeln!(out)?;
         for file in files {
             writeln!(out, "{}", shown_path(&file).display())?;

@@ -39,13 +39,13 @@ enum RecordsCommand {
     Synthesize(synthesize::SynthesizeArguments),
 }
 
-pub(super) fn records(arguments: &RecordsArguments, session: &Terminal) -> Result<(), CommandError> {
+pub(super) fn records(arguments: &RecordsArguments, terminal: &Terminal) -> Result<(), CommandError> {
     match &arguments.command {
-        RecordsCommand::Import(arguments) => import::import(arguments, session),
-        RecordsCommand::List(arguments) => list::list(arguments, session),
+        RecordsCommand::Import(arguments) => import::import(arguments, terminal),
+        RecordsCommand::List(arguments) => list::list(arguments, terminal),
         RecordsCommand::Show(arguments) => show::show(arguments),
-        RecordsCommand::Select(arguments) => select::select(arguments, session),
-        RecordsCommand::Synthesize(arguments) => synthesize::synthesize(arguments, session),
+        RecordsCommand::Select(arguments) => select::select(arguments, terminal),
+        RecordsCommand::Synthesize(arguments) => synthesize::synthesize(arguments, terminal),
     }
 }
 
@@ -145,14 +145,14 @@ impl CriteriaArguments {
 
 impl SetArguments {
     /// The records of the set that are asked for, and how many it has in all.
-    fn read(&self, session: &Terminal) -> Result<(Vec<CheckedPair>, usize), CommandError> {
+    fn read(&self, terminal: &Terminal) -> Result<(Vec<CheckedPair>, usize), CommandError> {
         let rows = manifest::read(&self.set, self.tag.as_deref()).map_err(uplift::UpliftError::Inputs)?;
         let count = rows.len();
         let pairs = pairs::read(rows, STANDARD_GRAVITY_M_S2).map_err(uplift::UpliftError::Inputs)?;
         let (chosen, notes) =
             selection::select(pairs, &self.criteria.selection(), self.intensity, STANDARD_GRAVITY_M_S2)?;
         for note in notes {
-            session.note(&format!("{note}"));
+            terminal.note(&format!("{note}"));
         }
         Ok((chosen, count))
     }

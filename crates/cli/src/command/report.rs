@@ -20,7 +20,7 @@ pub(super) struct ReportArguments {
     output: Option<PathBuf>,
 }
 
-pub(super) fn report(arguments: &ReportArguments, session: &Terminal) -> Result<(), CommandError> {
+pub(super) fn report(arguments: &ReportArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let target = arguments.output.clone().unwrap_or_else(|| arguments.results[0].with_extension("html"));
     if arguments.results.contains(&target) || target.extension().is_none_or(|extension| extension != "html") {
         return Err(CommandError::Usage(format!(
@@ -30,7 +30,7 @@ pub(super) fn report(arguments: &ReportArguments, session: &Terminal) -> Result<
     }
     let html = page(&arguments.results)?;
     uplift::result::write_aside(&target, html.as_bytes())?;
-    if !session.is_quiet() {
+    if !terminal.is_quiet() {
         writeln!(std::io::stdout(), "{}", shown_path(&target).display())?;
     }
     Ok(())

@@ -31,7 +31,7 @@ pub(super) struct FoundResult {
 
 impl ResultArguments {
     /// The result; a study without one is run.
-    pub(super) fn find(&self, session: &Terminal) -> Result<FoundResult, CommandError> {
+    pub(super) fn find(&self, terminal: &Terminal) -> Result<FoundResult, CommandError> {
         if is_hdf5(&self.input) || self.input.extension().is_some_and(|extension| extension == "h5") {
             if !self.overrides.is_empty() {
                 return Err(CommandError::Usage(
@@ -42,7 +42,7 @@ impl ResultArguments {
         }
         let study = Study::load(&self.input, &self.overrides)?;
         let options = RunOptions { study_file: self.input.clone(), output: None, command: super::command_line() };
-        let path = result_of(&study, &options, session)?;
+        let path = result_of(&study, &options, terminal)?;
         Ok(FoundResult { path, bootstrap: Some(study.bootstrap.clone()) })
     }
 }

@@ -17,7 +17,7 @@ pub(super) struct VerifyArguments {
     results: Vec<PathBuf>,
 }
 
-pub(super) fn verify(arguments: &VerifyArguments, session: &Terminal) -> Result<(), CommandError> {
+pub(super) fn verify(arguments: &VerifyArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let mut mistakes = Vec::new();
     let mut out = std::io::stdout().lock();
     for path in &arguments.results {
@@ -41,7 +41,7 @@ pub(super) fn verify(arguments: &VerifyArguments, session: &Terminal) -> Result<
             Seal::Whole(_) => {}
         }
         if !verdict.unknown.is_empty() {
-            session.say(&format!(
+            terminal.say(&format!(
                 "{name}: {} arrays without a checksum: {}",
                 verdict.unknown.len(),
                 verdict.unknown.join(", ")

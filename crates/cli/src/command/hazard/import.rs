@@ -50,7 +50,7 @@ struct Written {
     weight: Option<f64>,
 }
 
-pub(super) fn import(arguments: &ImportArguments, session: &Terminal) -> Result<(), CommandError> {
+pub(super) fn import(arguments: &ImportArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let fail = |error: uplift_hazard::HazardError| CommandError::input(error.to_string());
     let weights = arguments.weights.as_ref().map(|path| read_realization_weights(path)).transpose().map_err(fail)?;
     let mut curves: Vec<ExportedCurve> = Vec::new();
@@ -70,7 +70,7 @@ pub(super) fn import(arguments: &ImportArguments, session: &Terminal) -> Result<
             )));
         }
         let far = if distance_km > NEAR_KM { ": is that near enough?" } else { "" };
-        session.say(&format!("nearest site: {site}, {distance_km:.1} km away{far}"));
+        terminal.say(&format!("nearest site: {site}, {distance_km:.1} km away{far}"));
     }
     let mut written: Vec<Written> = Vec::new();
     for exported in curves {
@@ -94,7 +94,7 @@ pub(super) fn import(arguments: &ImportArguments, session: &Terminal) -> Result<
             (exported.dropped_certain, "level(s) of probability 1 at the start"),
         ] {
             if count > 0 {
-                session.say(&format!("{file}: {count} {what} left out: no rate belongs to them"));
+                terminal.say(&format!("{file}: {count} {what} left out: no rate belongs to them"));
             }
         }
         let curve = exported.curve.clone();
@@ -109,12 +109,12 @@ pub(super) fn import(arguments: &ImportArguments, session: &Terminal) -> Result<
         write_aside(&path, text.as_bytes())?;
     }
     if arguments.component.is_none() && written.iter().any(|written| written.exported.curve.component().is_none()) {
-        session.say(
+        terminal.say(
             "the exports do not say how horizontal components are combined: --component says it, and a study checks it",
         );
     }
     for remark in remarks(&written) {
-        session.say(&remark);
+        terminal.say(&remark);
     }
     let mut out = std::io::stdout().lock();
     write!(out, "{}", study_lines(&written, folder, &site))?;

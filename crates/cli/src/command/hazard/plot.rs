@@ -29,7 +29,7 @@ pub(super) struct PlotArguments {
     table: TableArguments,
 }
 
-pub(super) fn plot(arguments: &PlotArguments, session: &Terminal) -> Result<(), CommandError> {
+pub(super) fn plot(arguments: &PlotArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let output = &arguments.output;
     let extension = output.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
     if !["svg", "png"].contains(&extension) {
@@ -55,6 +55,6 @@ pub(super) fn plot(arguments: &PlotArguments, session: &Terminal) -> Result<(), 
         _ => drawing.svg.into_bytes(),
     };
     write_aside(output, &bytes)?;
-    session.say(&output.display().to_string());
+    terminal.say(&output.display().to_string());
     Ok(())
 }

@@ -28,7 +28,7 @@ pub(super) struct ImportArguments {
     no_pulses: bool,
 }
 
-pub(super) fn import(arguments: &ImportArguments, session: &Terminal) -> Result<(), CommandError> {
+pub(super) fn import(arguments: &ImportArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let output =
         if arguments.output.is_dir() { arguments.output.join("manifest.csv") } else { arguments.output.clone() };
     if output.extension().is_none_or(|extension| extension != "csv") {
@@ -53,9 +53,9 @@ pub(super) fn import(arguments: &ImportArguments, session: &Terminal) -> Result<
     let FileArguments { format, unit, dt_s, gravity_m_s2 } = arguments.files;
     let options = ImportOptions { format, dt_s, unit, gravity_m_s2, pulses: !arguments.no_pulses };
     let start = std::time::Instant::now();
-    let imported = import_folder(&arguments.folder, &options, session)?;
+    let imported = import_folder(&arguments.folder, &options, terminal)?;
     let remarks = output.with_extension("remarks.txt");
-    let told = tell_remarks(&imported, &remarks, session.is_quiet());
+    let told = tell_remarks(&imported, &remarks, terminal.is_quiet());
     if !told.is_empty() {
         write_aside(&remarks, told.as_bytes())?;
     }
@@ -76,7 +76,7 @@ pub(super) fn import(arguments: &ImportArguments, session: &Terminal) -> Result<
         .filter(|key| columns.iter().any(|column| column.name() == key && all_blank(column)))
         .collect();
     if !without.is_empty() {
-        session.say(&format!(
+        terminal.say(&format!(
             "no file says {}: fill in the columns of the manifest, or put PEER's _SearchResults.csv into the folder and import again",
             without.join(", ")
         ));

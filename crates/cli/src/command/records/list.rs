@@ -14,8 +14,8 @@ pub(super) struct ListArguments {
     set: SetArguments,
 }
 
-pub(super) fn list(arguments: &ListArguments, session: &Terminal) -> Result<(), CommandError> {
-    let (pairs, count) = arguments.set.read(session)?;
+pub(super) fn list(arguments: &ListArguments, terminal: &Terminal) -> Result<(), CommandError> {
+    let (pairs, count) = arguments.set.read(terminal)?;
     let mut rows = Vec::new();
     for (pair, _) in &pairs {
         let peaks = arguments.set.intensity.peaks_of(pair).map_err(|error| CommandError::input(error.to_string()))?;

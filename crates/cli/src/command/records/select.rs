@@ -19,7 +19,7 @@ pub(super) struct SelectArguments {
     output: Option<PathBuf>,
 }
 
-pub(super) fn select(arguments: &SelectArguments, session: &Terminal) -> Result<(), CommandError> {
+pub(super) fn select(arguments: &SelectArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let selection = arguments.set.criteria.selection();
     if selection.is_empty() {
         return Err(CommandError::Usage("say which records, e.g. --magnitude 6.5:7.5 --pulse-like false".to_owned()));
@@ -29,7 +29,7 @@ pub(super) fn select(arguments: &SelectArguments, session: &Terminal) -> Result<
         refuse_overwriting(output, &[set])?;
         refuse_foreign(output)?;
     }
-    let (pairs, count) = arguments.set.read(session)?;
+    let (pairs, count) = arguments.set.read(terminal)?;
     let mut out = std::io::stdout().lock();
     writeln!(out, "# {} of {count} records; for a study:\n[records]", pairs.len())?;
     writeln!(out, "manifest = {}", toml::Value::from(set.display().to_string()))?;
@@ -50,6 +50,6 @@ pub(super) fn select(arguments: &SelectArguments, session: &Terminal) -> Result<
     let line =
         format!("uplift {} ({}), {} of {count} records: {selection}", uplift::VERSION, uplift::COMMIT, pairs.len());
     write_table(output, &line, columns)?;
-    session.say(&format!("{} records: {}", pairs.len(), output.display()));
+    terminal.say(&format!("{} records: {}", pairs.len(), output.display()));
     Ok(())
 }

@@ -64,7 +64,7 @@ fn number_or_range(text: &str) -> Result<Range, String> {
     }
 }
 
-pub(super) fn synthesize(arguments: &SynthesizeArguments, session: &Terminal) -> Result<(), CommandError> {
+pub(super) fn synthesize(arguments: &SynthesizeArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let folder = &arguments.output;
     let manifest = folder.join("manifest.csv");
     if manifest.exists() {
@@ -88,7 +88,7 @@ pub(super) fn synthesize(arguments: &SynthesizeArguments, session: &Terminal) ->
         },
         ..SyntheticSetOptions::default()
     };
-    session.say("synthetic records: not for design");
+    terminal.say("synthetic records: not for design");
     let pairs = generate(&options).map_err(|error| CommandError::Usage(error.to_string()))?;
     std::fs::create_dir_all(folder)
         .map_err(|error| CommandError::input(format!("{} cannot be made: {error}", folder.display())))?;
