@@ -1,8 +1,18 @@
 //! What can go wrong in a job, and how it is said.
 
-use thiserror::Error;
+use std::path::{Path, PathBuf};
 
+use thiserror::Error;
+use uplift_block::BlockError;
+use uplift_bootstrap::BootstrapError;
+use uplift_fragility::FragilityError;
+use uplift_hazard::HazardError;
+use uplift_ida::IdaError;
 use uplift_labelled::LabelledError;
+use uplift_oscillator::OscillatorError;
+use uplift_risk::RiskError;
+use uplift_spectra::SpectraError;
+use uplift_structure::StructureError;
 use uplift_study::StudyError;
 
 /// Why a job did not do what it was asked.
@@ -14,12 +24,57 @@ pub enum UpliftError {
     /// What a job is asked for does not fit together.
     #[error("{0}")]
     Usage(String),
+    /// A choice among what a result has, that it does not have or that was not made.
+    #[error("{option}{}: the result has {}", wanted.as_ref().map_or(String::new(), |wanted| format!(" {wanted}")), known.join(", "))]
+    Choice {
+        /// What is chosen, as the command line calls it: `--site`.
+        option: &'static str,
+        /// The choice made; none where there is none, and there are several.
+        wanted: Option<String>,
+        /// What the result has.
+        known: Vec<String>,
+    },
     /// Records or hazard curves cannot be used; all that was found.
     #[error("{}", list(.0))]
     Inputs(Vec<String>),
     /// A file cannot be read or written.
     #[error(transparent)]
     File(#[from] LabelledError),
+    /// One of the files that a job reads is at fault.
+    #[error("{}: {source}", path.display())]
+    InFile {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        source: Box<UpliftError>,
+    },
+    /// A structure that cannot be, or to which a rule does not apply.
+    #[error(transparent)]
+    Structure(#[from] StructureError),
+    /// An oscillator that cannot be.
+    #[error(transparent)]
+    Oscillator(#[from] OscillatorError),
+    /// A rocking block that cannot be.
+    #[error(transparent)]
+    Block(#[from] BlockError),
+    /// An analysis that cannot be planned or finished; one that was told to stop is [`Interrupted`](Self::Interrupted).
+    #[error(transparent)]
+    Ida(IdaError),
+    /// Demands of which no fragility can be made.
+    #[error(transparent)]
+    Fragility(#[from] FragilityError),
+    /// A hazard curve, a rate or a probability outside its range.
+    #[error(transparent)]
+    Hazard(Box<HazardError>),
+    /// Demands and hazard that do not fit together.
+    #[error(transparent)]
+    Risk(#[from] RiskError),
+    /// Resamples that cannot be drawn.
+    #[error(transparent)]
+    Bootstrap(#[from] BootstrapError),
+    /// A displacement spectrum that cannot be computed; one that was told to stop is [`Interrupted`](Self::Interrupted).
+    #[error(transparent)]
+    Spectra(SpectraError),
     /// The user stopped the run.
     #[error(
         "interrupted: nothing was written, and an earlier result file is as it was. Run the same command to start again"
@@ -35,7 +90,7 @@ pub enum UpliftError {
         /// In all.
         total: u64,
         /// The file that keeps them.
-        path: std::path::PathBuf,
+        path: PathBuf,
     },
 }
 
@@ -53,5 +108,38 @@ impl UpliftError {
     /// One mistake in the input data.
     pub fn input(message: impl Into<String>) -> Self {
         Self::Inputs(vec![message.into()])
+    }
+
+    /// The same, said of the file at `path`; one that was stopped was not stopped by the file.
+    #[must_use]
+    pub fn in_file(self, path: &Path) -> Self {
+        match self {
+            Self::Interrupted | Self::Paused { .. } => self,
+            source => Self::InFile { path: path.to_owned(), source: Box::new(source) },
+        }
+    }
+}
+
+impl From<IdaError> for UpliftError {
+    fn from(error: IdaError) -> Self {
+        match error {
+            IdaError::Cancelled => Self::Interrupted,
+            other => Self::Ida(other),
+        }
+    }
+}
+
+impl From<HazardError> for UpliftError {
+    fn from(error: HazardError) -> Self {
+        Self::Hazard(Box::new(error))
+    }
+}
+
+impl From<SpectraError> for UpliftError {
+    fn from(error: SpectraError) -> Self {
+        match error {
+            SpectraError::Cancelled => Self::Interrupted,
+            other => Self::Spectra(other),
+        }
     }
 }

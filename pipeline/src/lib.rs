@@ -13,6 +13,7 @@
 //! | [`result`](mod@result) | the HDF5 file and the tables beside it, written and read |
 //! | [`export`] | tables for other programs |
 //! | [`pulses`] | rocking spectra under wavelets, which need no study |
+//! | [`reference`](mod@reference) | tables of papers to compare with |
 //! | [`text`] | numbers in words |
 //!
 //! The science is in the crates below this one, the command line and the report in those above it. Nothing here prints,
@@ -30,6 +31,7 @@ pub mod influence;
 pub mod inputs;
 pub mod plan;
 pub mod pulses;
+pub mod reference;
 pub mod result;
 pub mod run;
 pub mod structure;

@@ -2,7 +2,6 @@
 
 mod bootstrap;
 mod check;
-mod confidence;
 mod design;
 mod export;
 mod figure_files;
@@ -14,7 +13,6 @@ mod overturning;
 mod plot;
 mod pulse;
 mod records;
-mod reference;
 mod report;
 mod response;
 mod result_of;

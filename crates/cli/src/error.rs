@@ -29,7 +29,7 @@ impl CommandError {
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
             Self::OutputClosed => 0,
-            Self::Usage(_) | Self::Uplift(UpliftError::Usage(_)) => 2,
+            Self::Usage(_) | Self::Uplift(UpliftError::Usage(_) | UpliftError::Choice { .. }) => 2,
             Self::Uplift(UpliftError::Study(_)) => 3,
             Self::Uplift(UpliftError::Interrupted | UpliftError::Paused { .. }) => 5,
             // whatever else a job meets is in the input data or on the disk

@@ -1,10 +1,16 @@
 //! What the jobs report, as a person reads it; a program gets the same values as JSON.
 
+mod bootstrap;
 mod displacement;
+mod efficiency;
+mod influence;
 mod plan;
 mod run;
 mod uniform_risk;
 
+pub(crate) use bootstrap::print_bootstrap;
+pub(crate) use efficiency::print_efficiency;
+pub(crate) use influence::print_influence;
 pub(crate) use plan::print_plan;
 pub(crate) use run::print_run;
 

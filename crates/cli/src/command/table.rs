@@ -8,9 +8,9 @@ use serde_json::json;
 use uplift_regression::Exponential;
 
 mod displacement;
-use super::reference::ReferenceTable;
 use crate::error::CommandError;
 use crate::terminal::tell;
+use uplift::reference::ReferenceTable;
 use uplift::result::{Spectrum, StoredResult, holds_displacement_spectra, open_any_result};
 use uplift::text::{per_cent, table as lines};
 
@@ -196,7 +196,7 @@ fn read_reference(path: &Path) -> Result<Vec<Reference>, CommandError> {
     let missing: Vec<&str> =
         ["site", poe_column, "c0_m", "c1", "c2_m"].into_iter().filter(|name| !table.has(name)).collect();
     if !missing.is_empty() {
-        return Err(table.fail(format!("has no column {}", missing.join(", "))));
+        return Err(table.fail(format!("has no column {}", missing.join(", "))).into());
     }
     (0..table.rows())
         .map(|row| {

@@ -6,10 +6,10 @@ use std::path::Path;
 use serde_json::json;
 use uplift_spectra::Noisy;
 
-use super::super::reference::ReferenceTable;
 use crate::error::CommandError;
 use crate::terminal::tell;
 use uplift::displacement::{DesignRow, read_design};
+use uplift::reference::ReferenceTable;
 use uplift::text::table as lines;
 use uplift_labelled::LabelledReader;
 use uplift_study::ScaledTo;
@@ -183,7 +183,7 @@ fn read_reference(path: &Path) -> Result<Vec<Reference>, CommandError> {
     let missing: Vec<&str> =
         ["record_set", "scaling", "quantity", "value"].into_iter().filter(|name| !table.has(name)).collect();
     if !missing.is_empty() {
-        return Err(table.fail(format!("has no column {}", missing.join(", "))));
+        return Err(table.fail(format!("has no column {}", missing.join(", "))).into());
     }
     (0..table.rows())
         .map(|row| {
