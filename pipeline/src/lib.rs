@@ -20,6 +20,7 @@
 
 pub mod bootstrap;
 pub mod checkpoint;
+mod checksum;
 pub mod displacement;
 pub mod efficiency;
 mod error;
