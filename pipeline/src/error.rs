@@ -2,7 +2,11 @@
 
 use thiserror::Error;
 
+use uplift_block::BlockError;
+use uplift_hazard::HazardError;
 use uplift_labelled::LabelledError;
+use uplift_motion::MotionError;
+use uplift_oscillator::OscillatorError;
 use uplift_study::StudyError;
 
 /// Why a job did not do what it was asked.
@@ -20,6 +24,18 @@ pub enum UpliftError {
     /// A file cannot be read or written.
     #[error(transparent)]
     File(#[from] LabelledError),
+    /// A record cannot be read or used, or no synthetic one can be made as asked.
+    #[error(transparent)]
+    Motion(#[from] MotionError),
+    /// A hazard curve cannot be read or used.
+    #[error(transparent)]
+    Hazard(#[from] HazardError),
+    /// An oscillator or its excitation that cannot be.
+    #[error(transparent)]
+    Oscillator(#[from] OscillatorError),
+    /// Blocks or pulses that cannot be; all that was found.
+    #[error("{}", list(.0))]
+    Blocks(Vec<BlockError>),
     /// The user stopped the run.
     #[error(
         "interrupted: nothing was written, and an earlier result file is as it was. Run the same command to start again"
@@ -39,11 +55,11 @@ pub enum UpliftError {
     },
 }
 
-fn list(mistakes: &[String]) -> String {
+fn list(mistakes: &[impl ToString]) -> String {
     match mistakes {
-        [one] => one.clone(),
+        [one] => one.to_string(),
         many => {
-            let lines: Vec<String> = many.iter().map(|mistake| format!("  - {mistake}")).collect();
+            let lines: Vec<String> = many.iter().map(|mistake| format!("  - {}", mistake.to_string())).collect();
             format!("{} things to mend in the input data:\n{}", many.len(), lines.join("\n"))
         }
     }

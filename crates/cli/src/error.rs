@@ -6,6 +6,7 @@ use thiserror::Error;
 use uplift::UpliftError;
 use uplift::study::StudyError;
 use uplift_labelled::LabelledError;
+use uplift_motion::MotionError;
 
 /// Why a command did not do what was typed.
 #[derive(Debug, Error)]
@@ -29,7 +30,12 @@ impl CommandError {
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
             Self::OutputClosed => 0,
-            Self::Usage(_) | Self::Uplift(UpliftError::Usage(_)) => 2,
+            Self::Usage(_) => 2,
+            Self::Uplift(UpliftError::Usage(_) | UpliftError::Oscillator(_) | UpliftError::Blocks(_)) => 2,
+            // what a synthetic record is asked to be is typed, too
+            Self::Uplift(UpliftError::Motion(
+                MotionError::SyntheticOption { .. } | MotionError::SyntheticCandidates { .. },
+            )) => 2,
             Self::Uplift(UpliftError::Study(_)) => 3,
             Self::Uplift(UpliftError::Interrupted | UpliftError::Paused { .. }) => 5,
             // whatever else a job meets is in the input data or on the disk
