@@ -9,6 +9,7 @@ use uplift_fragility::FragilityError;
 use uplift_hazard::HazardError;
 use uplift_ida::IdaError;
 use uplift_labelled::LabelledError;
+use uplift_motion::MotionError;
 use uplift_oscillator::OscillatorError;
 use uplift_risk::RiskError;
 use uplift_spectra::SpectraError;
@@ -25,7 +26,7 @@ pub enum UpliftError {
     #[error("{0}")]
     Usage(String),
     /// A choice among what a result has, that it does not have or that was not made.
-    #[error("{option}{}: the result has {}", wanted.as_ref().map_or(String::new(), |wanted| format!(" {wanted}")), known.join(", "))]
+    #[error("{}: the result has {}", choice(option, wanted.as_deref()), known.join(", "))]
     Choice {
         /// What is chosen, as the command line calls it: `--site`.
         option: &'static str,
@@ -51,21 +52,12 @@ pub enum UpliftError {
     /// A structure that cannot be, or to which a rule does not apply.
     #[error(transparent)]
     Structure(#[from] StructureError),
-    /// An oscillator that cannot be.
-    #[error(transparent)]
-    Oscillator(#[from] OscillatorError),
-    /// A rocking block that cannot be.
-    #[error(transparent)]
-    Block(#[from] BlockError),
     /// An analysis that cannot be planned or finished; one that was told to stop is [`Interrupted`](Self::Interrupted).
     #[error(transparent)]
     Ida(IdaError),
     /// Demands of which no fragility can be made.
     #[error(transparent)]
     Fragility(#[from] FragilityError),
-    /// A hazard curve, a rate or a probability outside its range.
-    #[error(transparent)]
-    Hazard(Box<HazardError>),
     /// Demands and hazard that do not fit together.
     #[error(transparent)]
     Risk(#[from] RiskError),
@@ -75,6 +67,18 @@ pub enum UpliftError {
     /// A displacement spectrum that cannot be computed; one that was told to stop is [`Interrupted`](Self::Interrupted).
     #[error(transparent)]
     Spectra(SpectraError),
+    /// A record cannot be read or used, or no synthetic one can be made as asked.
+    #[error(transparent)]
+    Motion(#[from] MotionError),
+    /// A hazard curve cannot be read or used.
+    #[error(transparent)]
+    Hazard(#[from] HazardError),
+    /// An oscillator or its excitation that cannot be.
+    #[error(transparent)]
+    Oscillator(#[from] OscillatorError),
+    /// Blocks or pulses that cannot be; all that was found.
+    #[error("{}", list(.0))]
+    Blocks(Vec<BlockError>),
     /// The user stopped the run.
     #[error(
         "interrupted: nothing was written, and an earlier result file is as it was. Run the same command to start again"
@@ -94,11 +98,16 @@ pub enum UpliftError {
     },
 }
 
-fn list(mistakes: &[String]) -> String {
+/// An option, with the value given to it.
+fn choice(option: &str, wanted: Option<&str>) -> String {
+    wanted.map_or_else(|| option.to_owned(), |wanted| format!("{option} {wanted}"))
+}
+
+fn list(mistakes: &[impl ToString]) -> String {
     match mistakes {
-        [one] => one.clone(),
+        [one] => one.to_string(),
         many => {
-            let lines: Vec<String> = many.iter().map(|mistake| format!("  - {mistake}")).collect();
+            let lines: Vec<String> = many.iter().map(|mistake| format!("  - {}", mistake.to_string())).collect();
             format!("{} things to mend in the input data:\n{}", many.len(), lines.join("\n"))
         }
     }
@@ -129,9 +138,9 @@ impl From<IdaError> for UpliftError {
     }
 }
 
-impl From<HazardError> for UpliftError {
-    fn from(error: HazardError) -> Self {
-        Self::Hazard(Box::new(error))
+impl From<BlockError> for UpliftError {
+    fn from(error: BlockError) -> Self {
+        Self::Blocks(vec![error])
     }
 }
 

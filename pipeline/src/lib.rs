@@ -21,6 +21,7 @@
 
 pub mod bootstrap;
 pub mod checkpoint;
+mod checksum;
 pub mod displacement;
 pub mod efficiency;
 mod error;
@@ -29,9 +30,11 @@ pub mod export;
 pub mod import;
 pub mod influence;
 pub mod inputs;
+pub mod outputs;
 pub mod plan;
 pub mod pulses;
 pub mod reference;
+pub mod response;
 pub mod result;
 pub mod run;
 pub mod structure;

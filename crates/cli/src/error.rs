@@ -6,6 +6,7 @@ use thiserror::Error;
 use uplift::UpliftError;
 use uplift::study::StudyError;
 use uplift_labelled::LabelledError;
+use uplift_motion::MotionError;
 
 /// Why a command did not do what was typed.
 #[derive(Debug, Error)]
@@ -30,6 +31,12 @@ impl CommandError {
         match self {
             Self::OutputClosed => 0,
             Self::Usage(_) | Self::Uplift(UpliftError::Usage(_) | UpliftError::Choice { .. }) => 2,
+            // oscillators, blocks and pulses are typed; those of a file are said to be of it
+            Self::Uplift(UpliftError::Oscillator(_) | UpliftError::Blocks(_)) => 2,
+            // what a synthetic record is asked to be is typed, too
+            Self::Uplift(UpliftError::Motion(
+                MotionError::SyntheticOption { .. } | MotionError::SyntheticCandidates { .. },
+            )) => 2,
             Self::Uplift(UpliftError::Study(_)) => 3,
             Self::Uplift(UpliftError::Interrupted | UpliftError::Paused { .. }) => 5,
             // whatever else a job meets is in the input data or on the disk

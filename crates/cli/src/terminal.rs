@@ -114,6 +114,13 @@ impl Events for Terminal {
         ));
     }
 
+    fn writing_into(&self, folder: &Path) {
+        self.set_farewell(format!(
+            "interrupted: files in {} are of this run or an earlier one. Run the same command again",
+            folder.display()
+        ));
+    }
+
     fn cancelled(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
     }

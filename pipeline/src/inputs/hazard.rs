@@ -6,7 +6,7 @@ use uplift_hazard::{CsvOptions, Extrapolation, HazardCurve, SecondColumn, read_p
 use uplift_motion::{Combination, IntensityMeasure};
 use uplift_risk::StripeWeights;
 
-use super::checksum;
+use crate::checksum::checksum;
 use crate::error::UpliftError;
 use uplift_study::{CurveFile, CurveKind, Extrapolate, MeasurePlan, ResolvedStudy, definition_of, definition_word};
 
