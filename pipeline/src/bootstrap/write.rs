@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use polars::prelude::Column;
 use uplift_bootstrap::ResamplingPlan;
 
-use crate::bootstrap::{BandSettings, Bands};
+use super::bands::{BandSettings, Bands};
 use crate::error::UpliftError;
 use crate::result::{StoredStripes, extend_result, line, sign, write_table};
 use uplift_labelled::{LabelledError, LabelledWriter};
@@ -14,22 +14,21 @@ use uplift_labelled::{LabelledError, LabelledWriter};
 const REPLACED: [&str; 3] = ["/bootstrap", "/axes/sample_size", "/axes/replicate"];
 
 /// All that is written of a bootstrap.
-#[derive(Debug)]
-pub struct BandsFile<'a> {
+pub(super) struct BandsFile<'a> {
     /// The result it was made from.
-    pub stored: &'a StoredStripes,
+    pub(super) stored: &'a StoredStripes,
     /// The draws.
-    pub plan: &'a ResamplingPlan,
+    pub(super) plan: &'a ResamplingPlan,
     /// Where the draws come from, in words.
-    pub plan_source: &'a str,
+    pub(super) plan_source: &'a str,
     /// What kind of bands.
-    pub settings: &'a BandSettings,
+    pub(super) settings: &'a BandSettings,
     /// The bands, a measure each.
-    pub bands: &'a [Bands],
+    pub(super) bands: &'a [Bands],
 }
 
 /// The tables beside the result file: bands, and the figures of Table 4.1.
-pub fn band_paths(result: &Path) -> [PathBuf; 2] {
+pub(super) fn band_paths(result: &Path) -> [PathBuf; 2] {
     ["bands.csv", "table-4-1.csv"].map(|extension| result.with_extension(extension))
 }
 
@@ -37,7 +36,7 @@ pub fn band_paths(result: &Path) -> [PathBuf; 2] {
 ///
 /// # Errors
 /// Whatever keeps the files from being written; the result file is then as it was.
-pub fn write_bands(file: &BandsFile<'_>) -> Result<(), UpliftError> {
+pub(super) fn write_bands(file: &BandsFile<'_>) -> Result<(), UpliftError> {
     let BandsFile { stored, plan, settings, .. } = file;
     extend_result(stored, &REPLACED, |writer| add_bands(writer, file))?;
     let what = format!(

@@ -6,7 +6,7 @@ use uplift_hazard::{CsvOptions, HazardCurve, SecondColumn, read_path};
 use uplift_motion::{Combination, IntensityMeasure};
 use uplift_risk::StripeWeights;
 
-use super::checksum;
+use crate::checksum::checksum;
 use crate::error::UpliftError;
 use uplift_study::{CurveFile, CurveKind, MeasurePlan, UniformRiskStudy, definition_of};
 

@@ -8,7 +8,8 @@ use uplift_motion::synthetic::SyntheticSetOptions;
 use uplift_motion::{Accelerogram, Combination, Component, Horizontal, IntensityMeasure};
 
 use super::pairs::{self, CheckedPair};
-use super::{cache, checksum, manifest, selection};
+use super::{cache, manifest, selection};
+use crate::checksum::checksum;
 use crate::error::UpliftError;
 use uplift_study::{RecordSource, UniformRiskStudy};
 

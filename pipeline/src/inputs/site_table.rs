@@ -15,7 +15,7 @@ use uplift_motion::IntensityMeasure;
 use uplift_risk::StripeWeights;
 
 use self::export::{Index, Row, SharedCurve, Stream};
-use super::checksum_of_file;
+use crate::checksum::checksum_of_file;
 use crate::error::UpliftError;
 use crate::text::thousands;
 use uplift_study::{MeasurePlan, UniformRiskStudy};

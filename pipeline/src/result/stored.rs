@@ -194,21 +194,19 @@ pub(super) fn poe_index(poes: &[f64], wanted: Option<f64>) -> Result<usize, Upli
         Some(wanted) => poes.iter().position(|poe| (poe - wanted).abs() < 1e-9),
         None => (0..poes.len()).min_by(|&a, &b| poes[a].total_cmp(&poes[b])),
     };
-    found.ok_or_else(|| {
-        let known: Vec<String> = poes.iter().map(f64::to_string).collect();
-        UpliftError::Usage(format!("--poe: the result has the probabilities {}", known.join(", ")))
+    found.ok_or_else(|| UpliftError::Choice {
+        option: "--poe",
+        wanted: wanted.map(|wanted| wanted.to_string()),
+        known: poes.iter().map(f64::to_string).collect(),
     })
 }
-
-/// Why stripes read from a file cannot be pooled.
-type DemandError = Box<dyn std::error::Error + Send + Sync>;
 
 impl StoredMeasure {
     /// The stripes of one strength of `strengths`.
     ///
     /// # Errors
     /// Demands that are none, in a file that was changed.
-    pub fn stripes(&self, strength: usize, strengths: usize) -> Result<Stripes<'_>, DemandError> {
+    pub fn stripes(&self, strength: usize, strengths: usize) -> Result<Stripes<'_>, UpliftError> {
         let levels = self.levels.len();
         let records = self.edp_m.len() / (strengths * levels);
         Ok(Stripes::strided(&self.levels, &self.edp_m[strength * levels..], records, strengths * levels)?)
@@ -218,7 +216,7 @@ impl StoredMeasure {
     ///
     /// # Errors
     /// As [`StoredMeasure::stripes`].
-    pub fn demand(&self, strength: usize, strengths: usize) -> Result<PooledDemand, DemandError> {
+    pub fn demand(&self, strength: usize, strengths: usize) -> Result<PooledDemand, UpliftError> {
         Ok(PooledDemand::new(&self.stripes(strength, strengths)?)?)
     }
 }

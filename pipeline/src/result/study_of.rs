@@ -66,7 +66,8 @@ impl StudyOfResult {
         let sites = reader.axis_text("site")?;
         let mut study = uniform_risk_study(&reader, path)?;
         if let Some(manifest) = manifest {
-            study.records.source = study.records.source.by_manifest(std::path::absolute(manifest)?);
+            study.records.source =
+                study.records.source.by_manifest(std::path::absolute(manifest).unwrap_or_else(|_| manifest.to_owned()));
         }
         let cells = sites.len() * study.risk.poe.len() * study.strengths.len();
         let measures = study

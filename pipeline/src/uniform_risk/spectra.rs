@@ -66,10 +66,7 @@ impl Reading {
 }
 
 /// All demands of one strength, sorted once for all sites.
-pub(crate) fn pooled_demand(
-    stripes: &Stripes,
-    strength: usize,
-) -> Result<PooledDemand, Box<dyn std::error::Error + Send + Sync>> {
+pub(crate) fn pooled_demand(stripes: &Stripes, strength: usize) -> Result<PooledDemand, UpliftError> {
     let [records, strengths, levels] = stripes.edp.shape();
     let edp_m = &stripes.edp.edp_m()[strength * levels..];
     Ok(PooledDemand::new(&Stripe::strided(&stripes.levels, edp_m, records, strengths * levels)?)?)

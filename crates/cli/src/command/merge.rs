@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::error::CommandError;
 use clap::Args;
-use uplift::UpliftError;
 use uplift::uniform_risk::merge as merge_shards;
 
 use super::StudyArguments;
@@ -26,7 +26,7 @@ pub(super) struct MergeArguments {
     json: bool,
 }
 
-pub(super) fn merge(arguments: &MergeArguments, terminal: &Terminal) -> Result<(), UpliftError> {
+pub(super) fn merge(arguments: &MergeArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let study = arguments.study.load()?;
     let options = run_options(&arguments.study, arguments.output.clone());
     let report = merge_shards(&study, &arguments.shards, &options, terminal)?;

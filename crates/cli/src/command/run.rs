@@ -6,9 +6,10 @@ mod mpi;
 use std::io::Write;
 use std::path::PathBuf;
 
+use crate::error::CommandError;
 use clap::Args;
+use uplift::RunOptions;
 use uplift::uniform_risk::{MOST_SHARDS, run_shard, shard_path};
-use uplift::{RunOptions, UpliftError};
 use uplift_ida::Part;
 use uplift_study::AnyStudy;
 
@@ -49,7 +50,7 @@ fn shard(text: &str) -> Result<Part, String> {
     }
 }
 
-pub(super) fn run(arguments: &RunArguments, terminal: &Terminal) -> Result<(), UpliftError> {
+pub(super) fn run(arguments: &RunArguments, terminal: &Terminal) -> Result<(), CommandError> {
     #[cfg(feature = "mpi")]
     if let Some(outcome) = mpi::run(arguments, terminal) {
         return outcome;
@@ -57,7 +58,7 @@ pub(super) fn run(arguments: &RunArguments, terminal: &Terminal) -> Result<(), U
     let study = arguments.study.load_any()?;
     if let Some(part) = arguments.shard {
         let AnyStudy::UniformRisk(study) = study else {
-            return Err(UpliftError::Usage(
+            return Err(CommandError::Usage(
                 "--shard cuts the stripes of a study of uniform risk; this one is of displacement spectra, a matter of \
                  minutes: run it as a whole"
                     .to_owned(),

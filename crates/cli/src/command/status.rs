@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use uplift::UpliftError;
+use crate::error::CommandError;
 use uplift::checkpoint::{Finding, PieceFile, journal_path};
 use uplift::result::ResultLock;
 use uplift::result::{holds_displacement_spectra, is_hdf5, open_any_result};
@@ -18,7 +18,7 @@ pub(super) struct StatusArguments {
     input: PathBuf,
 }
 
-pub(super) fn status(arguments: &StatusArguments) -> Result<(), UpliftError> {
+pub(super) fn status(arguments: &StatusArguments) -> Result<(), CommandError> {
     let input = &arguments.input;
     let mut out = std::io::stdout().lock();
     if input.is_file() && !is_hdf5(input) {
@@ -26,7 +26,7 @@ pub(super) fn status(arguments: &StatusArguments) -> Result<(), UpliftError> {
             return pieces(&mut out, input, &finding);
         }
         if input.extension().is_some_and(|extension| extension == "h5") {
-            return Err(UpliftError::input(format!("{} is no HDF5 file", input.display())));
+            return Err(CommandError::input(format!("{} is no HDF5 file", input.display())));
         }
     }
     let result = if input.extension().is_some_and(|extension| extension == "toml") {
@@ -53,7 +53,7 @@ pub(super) fn status(arguments: &StatusArguments) -> Result<(), UpliftError> {
     if let Some(holder) = ResultLock::holder(&result) {
         writeln!(out, "being written now, by {holder}")?;
     } else if nothing {
-        return Err(UpliftError::input(format!(
+        return Err(CommandError::input(format!(
             "{}: no result, and nothing kept of an unfinished run",
             result.display()
         )));
@@ -77,7 +77,7 @@ fn shards_of(result: &Path) -> Vec<PathBuf> {
     shards
 }
 
-fn finished(out: &mut impl Write, path: &Path) -> Result<(), UpliftError> {
+fn finished(out: &mut impl Write, path: &Path) -> Result<(), CommandError> {
     let reader = open_any_result(path)?;
     let text = |name: &str| reader.attribute_text("/", name).unwrap_or_default();
     writeln!(out, "{}: finished {}, uplift {} ({})", path.display(), text("created"), text("version"), text("commit"))?;
@@ -113,7 +113,7 @@ fn finished(out: &mut impl Write, path: &Path) -> Result<(), UpliftError> {
     Ok(())
 }
 
-fn pieces(out: &mut impl Write, path: &Path, finding: &Finding) -> Result<(), UpliftError> {
+fn pieces(out: &mut impl Write, path: &Path, finding: &Finding) -> Result<(), CommandError> {
     let head = &finding.head;
     let what = if head.shards > 1 {
         format!("shard {} of {}", head.shard, head.shards)

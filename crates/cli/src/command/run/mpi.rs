@@ -12,7 +12,7 @@ use ::mpi::topology::SimpleCommunicator;
 use ::mpi::traits::{Communicator, CommunicatorCollectives};
 
 use super::{
-    KeptPieces, Part, RunArguments, Terminal, UpliftError, check_target, print_outcome, read_hazard, run_shard,
+    CommandError, KeptPieces, Part, RunArguments, Terminal, check_target, print_outcome, read_hazard, run_shard,
     run_study_from, shard_path, site_table,
 };
 use uplift::checkpoint::PieceFile;
@@ -24,7 +24,7 @@ const STARTED_BY: [&str; 3] = ["OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"];
 const LOOK_EVERY: Duration = Duration::from_millis(20);
 
 /// Carries out a run as one of several ranks; none where this program was not started as such.
-pub(super) fn run(arguments: &RunArguments, session: &Terminal) -> Option<Result<(), UpliftError>> {
+pub(super) fn run(arguments: &RunArguments, terminal: &Terminal) -> Option<Result<(), CommandError>> {
     // without one of these MPI would be a world of one, at the price of starting it
     STARTED_BY.iter().find(|name| std::env::var_os(name).is_some())?;
     let (universe, _) = ::mpi::initialize_with_threading(Threading::Funneled)?;
@@ -34,11 +34,11 @@ pub(super) fn run(arguments: &RunArguments, session: &Terminal) -> Option<Result
         return None;
     }
     let part = Part { index, count };
-    let outcome = catch_unwind(AssertUnwindSafe(|| run_rank(arguments, &world, part, session)));
+    let outcome = catch_unwind(AssertUnwindSafe(|| run_rank(arguments, &world, part, terminal)));
     match outcome {
-        Ok(done @ (Ok(()) | Err(UpliftError::OutputClosed))) => Some(done),
+        Ok(done @ (Ok(()) | Err(CommandError::OutputClosed))) => Some(done),
         // a stop is sent to all ranks, and one says so
-        Ok(Err(error @ (UpliftError::Paused { .. } | UpliftError::Interrupted))) => {
+        Ok(Err(error @ (CommandError::Paused { .. } | CommandError::Interrupted))) => {
             if index == 0 {
                 tell_error(&error);
             }
@@ -46,7 +46,7 @@ pub(super) fn run(arguments: &RunArguments, session: &Terminal) -> Option<Result
         }
         // the others would wait for this rank for ever: it ends them
         Ok(Err(error)) => {
-            session.set_farewell(format!("rank {index} of {count} has ended the run"));
+            terminal.set_farewell(format!("rank {index} of {count} has ended the run"));
             let host = ::mpi::environment::processor_name().unwrap_or_default();
             eprintln!("uplift: rank {index} of {count} on {host} ends the run:");
             tell_error(&error);
@@ -61,24 +61,24 @@ fn run_rank(
     arguments: &RunArguments,
     world: &SimpleCommunicator,
     part: Part,
-    session: &Terminal,
-) -> Result<(), UpliftError> {
+    terminal: &Terminal,
+) -> Result<(), CommandError> {
     let first = part.index == 0;
     // the first looks before the others do, so that a mistake is said once
     if !first {
-        wait(world, session)?;
+        wait(world, terminal)?;
     }
     if arguments.shard.is_some() {
-        return Err(UpliftError::Usage("each rank takes its own shard: leave --shard out under mpirun".to_owned()));
+        return Err(CommandError::Usage("each rank takes its own shard: leave --shard out under mpirun".to_owned()));
     }
     let study = arguments.study.load()?;
     let path = arguments.output.clone().unwrap_or_else(|| study.output.file.clone());
-    let own = session.hushed(!first);
+    let own = terminal.hushed(!first);
     if first {
         check_target(&path)?;
         read_hazard(&study)?;
         site_table::read(&study, &path, &own)?;
-        wait(world, session)?;
+        wait(world, terminal)?;
     }
     let threads = rayon::current_num_threads();
     // said now, since a launcher that ends the ranks may no longer listen to them
@@ -88,7 +88,7 @@ fn run_rank(
     ));
     let shard = shard_path(&path, part);
     let pieces = run_shard(&study, &shard, part, Some(&path), &own)?;
-    wait(world, session).map_err(|_| UpliftError::Paused {
+    wait(world, terminal).map_err(|_| CommandError::Paused {
         what: "pieces",
         done: pieces,
         total: pieces,
@@ -103,21 +103,21 @@ fn run_rank(
     let shards: Vec<_> = (0..part.count).map(|index| shard_path(&path, Part { index, ..part })).collect();
     for shard in &shards {
         let found = PieceFile::read(shard)?.ok_or_else(|| {
-            UpliftError::input(format!(
+            CommandError::input(format!(
                 "{}: is not there: the result must lie in a folder that all ranks share",
                 shard.display()
             ))
         })?;
         if *work.get_or_insert_with(|| found.head.work.clone()) != found.head.work {
-            return Err(UpliftError::input(format!(
+            return Err(CommandError::input(format!(
                 "{}: is a shard of other work: every node must have the same study, records and program",
                 shard.display()
             )));
         }
         kept.extend(found.kept);
     }
-    run_study_from(&study, &arguments.study.study, &path, kept, session, |outcome, files, seconds| {
-        print_outcome(arguments.json, session, outcome, files, seconds)
+    run_study_from(&study, &arguments.study.study, &path, kept, terminal, |outcome, files, seconds| {
+        print_outcome(arguments.json, terminal, outcome, files, seconds)
     })?;
     for shard in &shards {
         let _ = std::fs::remove_file(shard);
@@ -126,17 +126,17 @@ fn run_rank(
 }
 
 /// Waits until all ranks are here, without a core for it.
-fn wait(world: &SimpleCommunicator, session: &Terminal) -> Result<(), UpliftError> {
+fn wait(world: &SimpleCommunicator, terminal: &Terminal) -> Result<(), CommandError> {
     let mut all_here = world.immediate_barrier();
     loop {
         match all_here.test() {
             Ok(_) => return Ok(()),
             Err(not_yet) => all_here = not_yet,
         }
-        if session.cancelled() {
+        if terminal.cancelled() {
             // the program ends here; a request must not be dropped before it is complete
             std::mem::forget(all_here);
-            return Err(UpliftError::Interrupted);
+            return Err(CommandError::Interrupted);
         }
         std::thread::sleep(LOOK_EVERY);
     }

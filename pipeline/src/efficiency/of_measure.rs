@@ -21,7 +21,7 @@ pub struct Covariate {
 
 /// Efficiency and sufficiency of one measure; arrays run over `[strength]` unless said otherwise.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Predictor {
+pub struct MeasureEfficiency {
     /// The measure.
     pub measure: IntensityMeasure,
     /// Scatter of the demand over `[strength, level]`.
@@ -45,13 +45,13 @@ type OfStrength = (Vec<Dispersion>, Vec<f64>, Vec<Option<Line>>);
 ///
 /// # Errors
 /// Numbers that do not fit together, in a file that was changed.
-pub fn predictor(
+pub fn efficiency_by(
     stored: &StoredStripes,
     measure: &StoredMeasure,
     covariates: &[Covariate],
-) -> Result<Predictor, UpliftError> {
+) -> Result<MeasureEfficiency, UpliftError> {
     let u_up = stored.uplift_displacement_m;
-    let of_strength = |strength: usize| -> Result<OfStrength, Box<dyn std::error::Error + Send + Sync>> {
+    let of_strength = |strength: usize| -> Result<OfStrength, UpliftError> {
         let stripes = measure.stripes(strength, stored.strengths.len())?;
         let dispersions = (0..measure.levels.len()).map(|level| Dispersion::of(&stripes, level)).collect();
         let uplift: Vec<f64> = uplift_levels(&stripes, u_up).into_iter().filter(|level| level.is_finite()).collect();
@@ -63,7 +63,7 @@ pub fn predictor(
         .into_par_iter()
         .map(of_strength)
         .collect::<Result<Vec<OfStrength>, _>>()
-        .map_err(|error| UpliftError::input(format!("{}: {error}", stored.path.display())))?;
+        .map_err(|error| error.in_file(&stored.path))?;
     let (mut rocking, mut undefined, mut initiation, mut initiation_records) = (vec![], vec![], vec![], vec![]);
     for (dispersions, uplift, _) in &by_strength {
         let all: Vec<f64> = dispersions
@@ -78,7 +78,7 @@ pub fn predictor(
         initiation.push(standard_deviation(&uplift.iter().map(|level| level.ln()).collect::<Vec<_>>()));
         initiation_records.push(u32::try_from(uplift.len()).unwrap_or(u32::MAX));
     }
-    Ok(Predictor {
+    Ok(MeasureEfficiency {
         measure: measure.measure,
         rocking,
         undefined,

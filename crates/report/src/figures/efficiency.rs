@@ -2,11 +2,10 @@
 
 use super::{FigureSource, STRENGTH};
 use uplift::UpliftError;
-use uplift::efficiency::covariates;
-use uplift::efficiency::predictor;
+use uplift::efficiency::{covariates, efficiency_by};
 use uplift_plot::{Axis, Figure, Panel, Series, Tone};
 
-pub(super) fn predictors(source: &FigureSource) -> Result<Option<Figure>, UpliftError> {
+pub(super) fn efficiency(source: &FigureSource) -> Result<Option<Figure>, UpliftError> {
     let stored = &source.stored;
     let covariates = covariates(stored)?;
     let panel = |title: &str, y: Axis| Panel::lines(title, Axis::linear(STRENGTH), y, Vec::new());
@@ -18,7 +17,7 @@ pub(super) fn predictors(source: &FigureSource) -> Result<Option<Figure>, Uplift
         panels.push(panel(&format!("trend with {}", covariate.key), Axis::log("p-value").between(1e-6, 1.0)));
     }
     for (index, measure) in stored.measures.iter().enumerate() {
-        let found = predictor(stored, measure, &covariates)?;
+        let found = efficiency_by(stored, measure, &covariates)?;
         let label = measure.measure.label();
         let tone = Tone::Distinct(index);
         panels[0].series.push(source.over_strengths(label, &found.rocking, tone));
