@@ -114,13 +114,13 @@ fn killed_at_any_moment_it_goes_on_and_ends_with_the_same_bits() {
 
 #[cfg(unix)]
 #[test]
-fn an_interrupted_run_says_what_is_kept_and_goes_on_from_there() {
+fn an_interrupted_run_says_what_is_finished_and_goes_on_from_there() {
     let study = study();
     let mut child = start(&study, &["run", "study.toml", "--threads", "1"]);
-    let journal = study.path().join("results/study.h5.part");
+    let checkpoint = study.path().join("results/study.h5.part");
     let begin = Instant::now();
-    while std::fs::metadata(&journal).map_or(0, |file| file.len()) < 20_000 {
-        assert!(begin.elapsed() < Duration::from_secs(60), "no journal");
+    while std::fs::metadata(&checkpoint).map_or(0, |file| file.len()) < 20_000 {
+        assert!(begin.elapsed() < Duration::from_secs(60), "no checkpoint");
         std::thread::sleep(Duration::from_millis(2));
     }
     assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
@@ -129,16 +129,22 @@ fn an_interrupted_run_says_what_is_kept_and_goes_on_from_there() {
     assert!(begin.elapsed() < Duration::from_secs(1), "{:?}", begin.elapsed());
     let mut said = String::new();
     std::io::Read::read_to_string(child.stderr.as_mut().unwrap(), &mut said).unwrap();
-    assert!(said.contains("analyses are kept in") && said.contains("study.h5.part"), "{said}");
+    assert!(said.contains("analyses are in the checkpoint") && said.contains("study.h5.part"), "{said}");
 
     for input in ["results/study.h5", "study.toml"] {
         let status = study.uplift(&["status", input]).ok().stdout;
-        assert!(status.contains("kept of an unfinished run") && status.contains(" of 640 pieces"), "{status}");
+        assert!(
+            status.contains("checkpoint of an unfinished run") && status.contains(" of 640 analysis rows"),
+            "{status}"
+        );
     }
     let (computed, all) = computed(&study, &["run", "study.toml"]);
     assert!(computed > 0 && computed < all, "{computed} of {all}");
     let status = study.uplift(&["status", "results/study.h5"]).ok().stdout;
-    assert!(status.contains("finished") && status.contains("Here, There") && !status.contains("kept"), "{status}");
+    assert!(
+        status.contains("finished") && status.contains("Here, There") && !status.contains("checkpoint"),
+        "{status}"
+    );
     study.uplift(&["status", "absent.h5"]).fails(4, &["absent.h5", "no result"]);
 }
 
@@ -179,13 +185,13 @@ fn shards_make_the_same_result() {
     study.uplift(&["run", "study.toml", "-o", "whole.h5"]).ok();
     for shard in ["3/3", "1/3", "2/3"] {
         let done = study.uplift(&["run", "study.toml", "--shard", shard]).ok();
-        assert!(done.stdout.contains("pieces"), "{}", done.stdout);
+        assert!(done.stdout.contains("analysis rows"), "{}", done.stdout);
     }
     let shard = |n: u32| format!("results/study.shard-{n}-of-3");
     let (one, two, three) = (shard(1), shard(2), shard(3));
     study.uplift(&["status", &two]).ok();
     let merged = study.uplift(&["merge", "study.toml", &three, &one, &two]).ok();
-    assert!(merged.stderr.contains("80 pieces of 3 shards"), "{}", merged.stderr);
+    assert!(merged.stderr.contains("80 analysis rows of 3 shards"), "{}", merged.stderr);
     assert_eq!(content(&study.path().join("results/study.h5")), content(&study.path().join("whole.h5")));
 
     std::fs::remove_file(study.path().join("results/study.h5")).unwrap();
@@ -202,12 +208,14 @@ fn shards_make_the_same_result() {
     study.write_bytes(&two, &bytes[..bytes.len() * 2 / 3]);
     study
         .uplift(&["merge", "study.toml", &one, &two, &three])
-        .fails(4, &["study.shard-2-of-3", "pieces", "--shard 2/3"]);
+        .fails(4, &["study.shard-2-of-3", "analysis rows", "--shard 2/3"]);
     study.uplift(&["run", "study.toml", "--shard", "2/3"]).ok();
     assert_eq!(std::fs::read(study.path().join(&two)).unwrap().len(), bytes.len());
     study.uplift(&["merge", "study.toml", &one, &two, &three]).ok();
     assert_eq!(content(&study.path().join("results/study.h5")), content(&study.path().join("whole.h5")));
-    study.uplift(&["merge", "study.toml", "study.toml"]).fails(4, &["study.toml", "no file of finished pieces"]);
+    study
+        .uplift(&["merge", "study.toml", "study.toml"])
+        .fails(4, &["study.toml", "not a file of finished analysis rows"]);
     study.uplift(&["run", "study.toml", "--shard", "4/3"]).fails(2, &["1/8"]);
 }
 
@@ -313,7 +321,7 @@ fn a_link_and_its_file_are_one_result() {
     let mut child = start(&study, &["run", "study.toml", "-o", "real/a.h5", "--threads", "1"]);
     let begin = Instant::now();
     while !study.path().join("real/a.h5.part").exists() {
-        assert!(begin.elapsed() < Duration::from_secs(60), "no journal");
+        assert!(begin.elapsed() < Duration::from_secs(60), "no checkpoint");
         std::thread::sleep(Duration::from_millis(1));
     }
     hold(&child);
@@ -391,7 +399,7 @@ fn one_run_at_a_time() {
     let mut child = start(&study, &["run", "study.toml", "--threads", "1"]);
     let begin = Instant::now();
     while !study.path().join("results/study.h5.part").exists() {
-        assert!(begin.elapsed() < Duration::from_secs(60), "no journal");
+        assert!(begin.elapsed() < Duration::from_secs(60), "no checkpoint");
         std::thread::sleep(Duration::from_millis(2));
     }
     hold(&child);
@@ -408,7 +416,7 @@ fn what_is_in_the_way_is_left_alone() {
     let study = SmallStudy::new();
     std::fs::create_dir(study.path().join("results")).unwrap();
     study.write("results/study.h5.part", "my own notes\n");
-    study.uplift(&["run", "study.toml"]).fails(4, &["study.h5.part", "no file of finished pieces"]);
+    study.uplift(&["run", "study.toml"]).fails(4, &["study.h5.part", "not a file of finished analysis rows"]);
     assert_eq!(std::fs::read_to_string(study.path().join("results/study.h5.part")).unwrap(), "my own notes\n");
     // an earlier result that only begins as one knows nothing, and gives way
     std::fs::remove_file(study.path().join("results/study.h5.part")).unwrap();

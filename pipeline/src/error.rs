@@ -16,6 +16,8 @@ use uplift_spectra::SpectraError;
 use uplift_structure::StructureError;
 use uplift_study::StudyError;
 
+use crate::checkpoint::CheckpointError;
+
 /// Why a job did not do what it was asked.
 #[derive(Debug, Error)]
 pub enum UpliftError {
@@ -79,13 +81,19 @@ pub enum UpliftError {
     /// Blocks or pulses that cannot be; all that was found.
     #[error("{}", list(.0))]
     Blocks(Vec<BlockError>),
+    /// A file of finished analysis rows cannot be used.
+    #[error(transparent)]
+    Checkpoint(#[from] CheckpointError),
     /// The user stopped the run.
     #[error(
         "interrupted: nothing was written, and an earlier result file is as it was. Run the same command to start again"
     )]
     Interrupted,
     /// The user stopped a computation that goes on where it stopped.
-    #[error("interrupted: {done} of {total} {what} are kept in {}. Run the same command to go on from there", path.display())]
+    #[error(
+        "interrupted: {done} of {total} {what} are in the checkpoint {}. Run the same command to go on from there",
+        path.display()
+    )]
     Paused {
         /// What is counted, in the plural.
         what: &'static str,
@@ -93,7 +101,7 @@ pub enum UpliftError {
         done: u64,
         /// In all.
         total: u64,
-        /// The file that keeps them.
+        /// The checkpoint that holds them.
         path: PathBuf,
     },
 }
@@ -147,7 +155,7 @@ impl From<BlockError> for UpliftError {
 impl From<SpectraError> for UpliftError {
     fn from(error: SpectraError) -> Self {
         match error {
-            SpectraError::Cancelled => Self::Interrupted,
+            SpectraError::Analysis(error) => error.into(),
             other => Self::Spectra(other),
         }
     }

@@ -28,7 +28,7 @@ use clap::{Args, Parser, Subcommand};
 
 use crate::error::CommandError;
 use crate::terminal::Terminal;
-use uplift_study::{AnyStudy, Study, UniformRiskStudy};
+use uplift_study::{AnyStudy, Study};
 
 /// Uniform risk spectra for rocking structures.
 ///
@@ -102,10 +102,6 @@ struct StudyArguments {
 }
 
 impl StudyArguments {
-    fn load(&self) -> Result<UniformRiskStudy, CommandError> {
-        Ok(Study::load(&self.study, &self.overrides)?)
-    }
-
     fn load_any(&self) -> Result<AnyStudy, CommandError> {
         Ok(Study::load_any(&self.study, &self.overrides)?)
     }

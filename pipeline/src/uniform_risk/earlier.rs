@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use uplift_ida::Cells;
+use uplift_ida::{Axes, Cells};
 use uplift_motion::IntensityMeasure;
 
 use crate::checkpoint::oscillator_key;
@@ -65,8 +65,9 @@ impl EarlierStripes {
         let levels = reader.axis_f64(&level_axis(measure.measure))?;
         let edp_m = reader.array_f64(&format!("{group}/edp_m"))?;
         let impacts = reader.array_u32(&format!("{group}/impacts"))?;
-        let shape = [stored_motions.len(), strengths.len(), levels.len()];
-        if edp_m.shape != shape || impacts.shape != shape || intensities.len() != shape[0] {
+        let stored = Axes { motions: stored_motions.len(), systems: strengths.len(), scales: levels.len() };
+        let shape = [stored.motions, stored.systems, stored.scales];
+        if edp_m.shape != shape || impacts.shape != shape || intensities.len() != stored.motions {
             return Ok(());
         }
         let records: HashMap<(&str, u64), usize> = (stored_motions.iter().zip(&intensities).enumerate())
@@ -80,7 +81,7 @@ impl EarlierStripes {
                 let Some(&from_strength) = of_strength.get(&value.to_bits()) else { continue };
                 for (level, value) in measure.levels.iter().enumerate() {
                     let Some(&from_level) = of_level.get(&value.to_bits()) else { continue };
-                    let index = (from_record * shape[1] + from_strength) * shape[2] + from_level;
+                    let index = stored.cell([from_record, from_strength, from_level]);
                     cells.set([record, strength, level], edp_m.values[index], impacts.values[index]);
                 }
             }

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 use uplift_fragility::Stripes as Stripe;
 use uplift_hazard::rate_from_probability;
+use uplift_ida::Axes;
 use uplift_motion::IntensityMeasure;
 use uplift_risk::{Ordinate, PooledDemand, RiskCurve, RiskError, ThresholdGrid};
 
@@ -66,9 +67,12 @@ impl Reading {
 }
 
 /// All demands of one strength, sorted once for all sites.
-pub(crate) fn pooled_demand(stripes: &Stripes, strength: usize) -> Result<PooledDemand, UpliftError> {
-    let [records, strengths, levels] = stripes.edp.shape();
-    let edp_m = &stripes.edp.edp_m()[strength * levels..];
+pub(crate) fn pooled_demand(
+    stripes: &Stripes,
+    strength: usize,
+) -> Result<PooledDemand, Box<dyn std::error::Error + Send + Sync>> {
+    let Axes { motions: records, systems: strengths, scales: levels } = stripes.peaks.axes();
+    let edp_m = &stripes.peaks.displacement_m()[strength * levels..];
     Ok(PooledDemand::new(&Stripe::strided(&stripes.levels, edp_m, records, strengths * levels)?)?)
 }
 
@@ -96,7 +100,7 @@ pub fn uniform_risk_spectra(
 ) -> Result<Spectra, UpliftError> {
     let reading = Reading::of(study)?;
     let (targets, grid) = (&reading.targets, &reading.grid);
-    let strengths = stripes.edp.shape()[1];
+    let strengths = stripes.peaks.axes().systems;
 
     let of_strength = |strength: usize| -> Result<OfStrength, Box<dyn std::error::Error + Send + Sync>> {
         let demand = pooled_demand(stripes, strength)?;

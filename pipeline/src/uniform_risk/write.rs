@@ -130,8 +130,14 @@ fn write_measure(
     let stripes = &outcome.stripes[index];
     let (group, dims) = (format!("/ida/{key}"), ["record", "strength", &level_axis(measure)]);
     let edp = format!("{group}/edp_m");
-    writer.array_f64(&edp, &dims, stripes.edp.edp_m(), "m", "peak displacement, infinite where overturned")?;
-    writer.array_u32(&format!("{group}/impacts"), &dims, stripes.edp.impacts(), "1", "number of impacts")?;
+    writer.array_f64(
+        &edp,
+        &dims,
+        stripes.peaks.displacement_m(),
+        "m",
+        "peak displacement, infinite where overturned",
+    )?;
+    writer.array_u32(&format!("{group}/impacts"), &dims, stripes.peaks.impacts(), "1", "number of impacts")?;
     writer.attribute(&group, "oscillator_key", oscillator_key(outcome.study).as_str())?;
     writer.attribute(&group, "analyses", stripes.analyses)?;
     writer.attribute(&group, "seconds", stripes.seconds)?;

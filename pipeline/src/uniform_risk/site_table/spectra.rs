@@ -33,7 +33,7 @@ impl<'a> SiteRisk<'a> {
     /// # Errors
     /// Numbers that do not fit together, which the check of the study rules out.
     pub fn new(study: &'a UniformRiskStudy, stripes: &Stripes) -> Result<Self, UpliftError> {
-        let demands = (0..stripes.edp.shape()[1])
+        let demands = (0..stripes.peaks.axes().systems)
             .into_par_iter()
             .map(|strength| pooled_demand(stripes, strength))
             .collect::<Result<_, _>>()

@@ -1,21 +1,18 @@
-//! The analyses of a study shared among machines: shards, and the joining of them.
+//! The work shared among machines: shards, and the joining of them.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use uplift_ida::Part;
-use uplift_study::{AnyStudy, UniformRiskStudy};
+use uplift_ida::Shard;
 
-use super::{Work, open};
-use crate::checkpoint::{KeptPieces, PieceFile, PieceFileHead};
+use super::Work;
+use crate::checkpoint::{Checkpoint, FinishedRows, RowFile, RowFileHead};
 use crate::error::UpliftError;
 use crate::events::Events;
-use crate::inputs::{read_hazard, read_records};
 use crate::result::ResultLock;
-use crate::run::{RunOptions, RunReport, run_with};
 
-/// Most parts that a run is cut into.
+/// Most shards that a work is cut into.
 pub const MOST_SHARDS: u64 = 100_000;
 /// Shards named in a message.
 const NAMED: usize = 10;
@@ -33,72 +30,65 @@ pub struct ShardReport {
     pub file: PathBuf,
 }
 
-/// Where one part of the analyses of the result at `result` is kept.
-pub fn shard_path(result: &Path, Part { index, count }: Part) -> PathBuf {
+/// Where the rows of one shard of the analyses of the result at `result` are kept.
+pub fn shard_path(result: &Path, Shard { index, count }: Shard) -> PathBuf {
     let width = count.to_string().len();
     result.with_extension(format!("shard-{:0width$}-of-{count}", index + 1))
 }
 
-/// Carries out one part of the analyses of a study into the file `path`, but for what is known from an `earlier` result.
+/// Makes the folder of the file of a shard, and keeps others off the file.
 ///
 /// # Errors
-/// As [`run`](crate::run()).
-pub fn run_shard(
-    study: &UniformRiskStudy,
-    path: &Path,
-    part: Part,
-    earlier: Option<&Path>,
-    events: &dyn Events,
-) -> Result<ShardReport, UpliftError> {
+/// A folder that cannot be made or written, another job that has the file.
+pub(crate) fn hold(path: &Path) -> Result<ResultLock, UpliftError> {
     if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder)
             .map_err(|error| UpliftError::input(format!("{} cannot be made: {error}", folder.display())))?;
     }
-    let _lock = ResultLock::acquire(path)?;
-    // a mistake in the hazard is found before, not when the shards are joined
-    read_hazard(study)?;
-    let records = read_records(study)?;
-    events.remark("records", &records.description);
-    let work = Work::new(study, &records)?;
-    let head = work.head(part);
-    let (file, known) = open(path, &head, earlier)?;
-    events.kept_in(path);
-    work.carry_out(&known, &file, part, events)?;
-    Ok(ShardReport { shard: part.index + 1, shards: part.count, rows: head.pieces, file: path.to_owned() })
+    ResultLock::acquire(path)
 }
 
-/// Joins the `shards` of a run into its result.
+/// Carries out one shard of `work` into the file `path`, and then whatever else of it `also` puts there.
 ///
 /// # Errors
-/// Every shard that is missing, there twice, unfinished or of other work, at once; else as [`run`](crate::run()).
-pub fn merge(
-    study: &UniformRiskStudy,
-    shards: &[PathBuf],
-    options: &RunOptions,
+/// As [`Work::carry_out`]; a file that is a shard of other work.
+pub(crate) fn carry_out_shard(
+    work: Work<'_>,
+    (path, shard): (&Path, Shard),
     events: &dyn Events,
-) -> Result<RunReport, UpliftError> {
-    let records = read_records(study)?;
-    let work = Work::new(study, &records)?;
-    let known = join(shards, &work)?;
-    drop(work);
-    drop(records);
-    events.remark("merged", &format!("{} pieces of {} shards", known.len(), shards.len()));
-    run_with(&AnyStudy::UniformRisk(Box::new(study.clone())), options, known, events)
+    also: &dyn Fn(&Checkpoint) -> Result<(), UpliftError>,
+) -> Result<ShardReport, UpliftError> {
+    let head = work.head(shard);
+    let checkpoint = Checkpoint::open(path, &head)?;
+    events.kept_in(path);
+    work.carry_out(&checkpoint, shard, events, &mut |_, _| Ok(()))?;
+    also(&checkpoint)?;
+    checkpoint.sync()?;
+    Ok(ShardReport { shard: shard.index + 1, shards: shard.count, rows: head.rows, file: path.to_owned() })
 }
 
-/// The pieces of all shards of `work`.
+/// Carries out one shard of `work`, asked of a result, into the file `path`.
+///
+/// # Errors
+/// As [`Work::carry_out`]; a file that is a shard of other work, or that another job has.
+pub fn run_shard(work: Work<'_>, path: &Path, shard: Shard, events: &dyn Events) -> Result<ShardReport, UpliftError> {
+    let _lock = hold(path)?;
+    carry_out_shard(work, (path, shard), events, &|_| Ok(()))
+}
+
+/// The analysis rows of all shards of `work`.
 ///
 /// # Errors
 /// Every shard that is missing, there twice, unfinished or of other work, at once.
-fn join(paths: &[PathBuf], work: &Work<'_>) -> Result<KeptPieces, UpliftError> {
-    let head = work.head(Part::WHOLE);
+pub fn join(paths: &[PathBuf], work: &Work<'_>) -> Result<FinishedRows, UpliftError> {
+    let head = work.head(Shard::WHOLE);
     let mut mistakes = Vec::new();
-    let mut kept = KeptPieces::default();
+    let mut rows = FinishedRows::default();
     let mut found: BTreeMap<u64, &Path> = BTreeMap::new();
     let mut count: Option<(u64, &Path)> = None;
     for path in paths {
         let name = path.display();
-        let finding = match PieceFile::read(path) {
+        let finding = match RowFile::read(path) {
             Ok(Some(finding)) => finding,
             Ok(None) => {
                 mistakes.push(format!("{name}: there is no such file"));
@@ -109,14 +99,15 @@ fn join(paths: &[PathBuf], work: &Work<'_>) -> Result<KeptPieces, UpliftError> {
                 continue;
             }
         };
-        let PieceFileHead { shard, shards, .. } = finding.head;
+        let RowFileHead { shard, shards, .. } = finding.head;
         if !(1..=MOST_SHARDS).contains(&shards) || !(1..=shards).contains(&shard) {
             mistakes.push(format!("{name}: claims to be shard {shard} of {shards}: the file is damaged"));
             continue;
         }
         if finding.head.work != head.work {
             mistakes.push(format!(
-                "{name}: is a shard of other work ({:?}): another study, other records, or another version of the program",
+                "{name}: is a shard of other work ({:?}): another study, other records, or another version of the \
+                 program",
                 finding.head.title
             ));
             continue;
@@ -132,13 +123,14 @@ fn join(paths: &[PathBuf], work: &Work<'_>) -> Result<KeptPieces, UpliftError> {
         if let Some(other) = found.insert(shard, path) {
             mistakes.push(format!("{name}: is shard {shard} of {shards}, which {} is too", other.display()));
         }
-        let [has, pieces] = work.share_of(Part { index: shard - 1, count: shards }, &finding.kept);
-        if has < pieces {
+        let [has, of_shard] = work.share_of(Shard { index: shard - 1, count: shards }, &finding.rows);
+        if has < of_shard {
             mistakes.push(format!(
-                "{name}: has {has} of its {pieces} pieces: run --shard {shard}/{shards} again, it goes on where it stopped"
+                "{name}: has {has} of its {of_shard} analysis rows: run --shard {shard}/{shards} again, it goes on where \
+                 it stopped"
             ));
         }
-        kept.extend(finding.kept);
+        rows.extend(finding.rows);
     }
     if let Some((shards, _)) = count {
         let missing: Vec<u64> = (1..=shards).filter(|shard| !found.contains_key(shard)).collect();
@@ -148,5 +140,5 @@ fn join(paths: &[PathBuf], work: &Work<'_>) -> Result<KeptPieces, UpliftError> {
             mistakes.push(format!("{} shard(s) missing: {}{more}", missing.len(), named.join(", ")));
         }
     }
-    if mistakes.is_empty() { Ok(kept) } else { Err(UpliftError::Inputs(mistakes)) }
+    if mistakes.is_empty() { Ok(rows) } else { Err(UpliftError::Inputs(mistakes)) }
 }
