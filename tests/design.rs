@@ -1,14 +1,12 @@
 //! `uplift design`: a structure against a spectrum, and against its own risk.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
-
-mod common;
 
 use std::path::Path;
 
-use common::{Finished, SmallStudy, repository, uplift};
 use serde_json::Value;
 use uplift_motion::{Accelerogram, ReadOptions, read_path};
 use uplift_oscillator::{Excitation, FreeVibration, Oscillator, PostUplift, respond};
+
+use crate::common::{Finished, SmallStudy, repository, uplift};
 
 const STUDY: &str = r#"title = "design"
 [records]

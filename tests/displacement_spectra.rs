@@ -1,15 +1,13 @@
 //! Displacement spectra of record sets from end to end: the arrays against the solvers called one by one, sets, tables, refusals.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-mod common;
-#[path = "displacement_spectra/single_runs.rs"]
 mod single_runs;
 
 use std::path::Path;
 use std::process::Command;
 
-use common::{EARLIER, SmallStudy, python, real_records, repository, uplift};
 use uplift_labelled::{LabelledArray, LabelledReader};
+
+use crate::common::{EARLIER, SmallStudy, python, real_records, repository, uplift};
 
 /// Small oscillators and slender blocks: the synthetic motions are gentle.
 const OSCILLATORS: &str = r#"kind = "displacement spectra"
@@ -311,7 +309,10 @@ fn interruption_keeps_the_earlier_result() {
     let study = SmallStudy::with(OSCILLATORS);
     study.write_bytes("r.h5", EARLIER);
     let long = ["run", "study.toml", "-o", "r.h5", "--set", "strengths.values=0:1/99999:1"];
-    study.uplift_stopped(&long).fails(5, &["interrupted: nothing was written"]);
+    let mut run = study.start(&long);
+    run.wait_until_said("analyses");
+    run.interrupt();
+    run.end().fails(5, &["interrupted: nothing was written"]);
     assert_eq!(std::fs::read(study.path().join("r.h5")).unwrap(), EARLIER);
 }
 

@@ -1,10 +1,8 @@
 //! Sites with several weighted hazard curves: spectra of the branches, their mean and fractiles, and the joint band with the bootstrap.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-mod common;
-
-use common::SmallStudy;
 use uplift_labelled::LabelledReader;
+
+use crate::common::SmallStudy;
 
 const HEAD: &str = r#"seed = 3
 [records]

@@ -1,11 +1,8 @@
 //! `uplift hazard`: exports of engines become curve files that a study takes, and definitions that differ are refused.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
-
-mod common;
 
 use std::fmt::Write as _;
 
-use common::{SMALL_STUDY, SmallStudy, uplift};
+use crate::common::{SMALL_STUDY, SmallStudy, uplift};
 
 /// An export as an engine writes it: probabilities in `years` of curves λ = k0 im⁻² at some sites.
 fn openquake(kind: &str, years: f64, sites: &[(&str, f64, f64, f64)]) -> String {

@@ -1,14 +1,12 @@
 //! `uplift records`: folders of downloads become manifests, records are listed, shown, chosen and made.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
-
-mod common;
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use common::{SMALL_STUDY, SmallStudy, real_records, repository, uplift};
 use polars::prelude::{CsvParseOptions, CsvReadOptions, SerReader};
+
+use crate::common::{SMALL_STUDY, SmallStudy, real_records, repository, uplift};
 
 /// A record that moves and comes to rest: its velocity is sin(0.1 i) exp(-0.01 i).
 fn wave(points: u32, scale: f64) -> Vec<f64> {

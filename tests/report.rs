@@ -1,12 +1,9 @@
 //! `uplift report` and `uplift plot`: what is in them, and what a browser makes of the page.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
-
-mod common;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use common::SmallStudy;
+use crate::common::{self, SmallStudy};
 
 /// A result with bands.
 fn study() -> SmallStudy {

@@ -1,12 +1,10 @@
 //! `uplift response`: one record through one oscillator, as typed.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
-
-mod common;
 
 use std::fmt::Write as _;
 
-use common::{real_records, repository, uplift};
 use serde_json::Value;
+
+use crate::common::{real_records, repository, uplift};
 
 fn json(text: &str) -> Value {
     serde_json::from_str(text).unwrap()

@@ -1,13 +1,11 @@
 //! `uplift run` and `uplift check` from end to end.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
-
-mod common;
 
 use std::path::Path;
 use std::process::Command;
 
-use common::{EARLIER, SmallStudy, python, repository};
 use uplift_labelled::LabelledReader;
+
+use crate::common::{self, EARLIER, SmallStudy, python, repository};
 
 fn arrays(path: &Path) -> Vec<(String, Vec<u64>)> {
     let reader = LabelledReader::open(path).unwrap();
@@ -162,8 +160,11 @@ fn interruption_keeps_the_earlier_result() {
     study.write_bytes("r.h5", EARLIER);
     let long =
         ["run", "study.toml", "-o", "r.h5", "--set", "strengths.values=0:1/20000:1", "--set", "risk.maf_surface=false"];
-    let stopped = study.uplift_stopped(&long);
-    assert_eq!(stopped.code, 5, "{}", stopped.stderr);
+    let mut run = study.start(&long);
+    let checkpoint = study.path().join("r.h5.part");
+    run.wait_until("a checkpoint", || checkpoint.exists());
+    run.interrupt();
+    run.end().fails(5, &["interrupted"]);
     assert_eq!(std::fs::read(study.path().join("r.h5")).unwrap(), EARLIER);
     assert_eq!(
         study

@@ -1,15 +1,13 @@
 //! Many sites: a table of them and an engine's exports become tables and a map.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
-
-mod common;
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use common::{SMALL_STUDY, SmallStudy};
 use serde_json::Value;
 use uplift_labelled::LabelledReader;
+
+use crate::common::{SMALL_STUDY, SmallStudy};
 
 /// A site of an export: name, longitude, latitude and k0 of the curve λ = k0 im⁻²; at sea k0 is 0.
 type Site = (&'static str, f64, f64, f64);

@@ -1,10 +1,8 @@
 //! Table 4.2 of the dissertation, ours beside it.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-mod common;
-
-use common::{SmallStudy, real_records, repository};
 use serde_json::Value;
+
+use crate::common::{self, SmallStudy, real_records, repository};
 
 /// With real records and the curves of hazard/, on a thinned grid: every tenth strength.
 ///
