@@ -21,7 +21,8 @@ fn rows(json: &str) -> Vec<Value> {
     serde_json::from_str(json).unwrap()
 }
 
-// A study is run first, its result is used afterwards; the rows agree with the arrays, which Eq. 4.9 and 4.10 are formed of here anew.
+// A study is run first, its result is used afterwards; the rows agree with the arrays, which Eq. 4.9 and 4.10 are
+// formed of here anew.
 #[test]
 fn a_study_becomes_bands() {
     let study = SmallStudy::new();
@@ -270,10 +271,11 @@ fn measures_are_compared() {
     assert!((dispersion[4 * 5 + 3] - expected).abs() < 1e-12);
 }
 
-/// The trends of Table 4.1 with real records, on every tenth strength: bands shrink about as one over the root of the sample size, those of PGA
-/// are wider than those of PGV where structures rock, and narrower where they begin to.
+/// The trends of Table 4.1 with real records, on every tenth strength: bands shrink about as one over the root of the
+/// sample size, those of PGA are wider than those of PGV where structures rock, and narrower where they begin to.
 ///
-/// The dissertation prints neither its records nor its hazard; so no digit of the table is held, and the figures are printed.
+/// The dissertation prints neither its records nor its hazard; so no digit of the table is held, and the figures are
+/// printed.
 #[test]
 fn trends_of_table_4_1_appear_with_real_records() {
     let Some(records) = real_records() else { return };

@@ -1,4 +1,5 @@
-//! Displacement spectra of record sets from end to end: the arrays against the solvers called one by one, sets, tables, refusals.
+//! Displacement spectra of record sets from end to end: the arrays against the solvers called one by one, sets, tables,
+//! refusals.
 
 mod single_runs;
 
@@ -249,7 +250,8 @@ fn tables_stand_beside_a_reference() {
         row.unwrap().clone()
     };
     let lowest = pick(&own, "component")["lowest"].as_f64().unwrap();
-    // as tests/reference writes it: a scaling without a blank, a number that is rounded to a tenth of a millimetre, below the range or at it
+    // as tests/reference writes it: a scaling without a blank, a number that is rounded to a tenth of a millimetre,
+    // below the range or at it
     for (value, within) in [(lowest - 0.00004, true), (lowest - 0.00011, false)] {
         let text = format!("rule,record_set,scaling,quantity,value\nEE,Synthetic,2.0PGA,u_dem_TH_m,{value:.4}\n");
         study.write("reference.csv", &text);
@@ -329,7 +331,8 @@ fn python_finds_the_percentiles_of_the_displacements() {
     }
 }
 
-/// The sets of FEMA P695 as Chapter 3 uses them: their sizes, and its medians within the noise of ours more often than not.
+/// The sets of FEMA P695 as Chapter 3 uses them: their sizes, and its medians within the noise of ours more often than
+/// not.
 #[test]
 fn the_sets_of_the_dissertation() {
     let Some(records) = real_records() else { return };

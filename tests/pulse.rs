@@ -1,4 +1,5 @@
-//! `uplift pulse`: rocking spectra under wavelets, against the block asked directly and against what the dissertation says of them.
+//! `uplift pulse`: rocking spectra under wavelets, against the block asked directly and against what the dissertation
+//! says of them.
 
 use std::collections::HashMap;
 use std::path::Path;

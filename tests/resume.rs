@@ -1,4 +1,5 @@
-//! Runs that are killed, stopped, cut into shards and gone on with: nothing is lost, and the numbers are those of an undisturbed run.
+//! Runs that are killed, stopped, cut into shards and gone on with: nothing is lost, and the numbers are those of an
+//! undisturbed run.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -395,7 +396,8 @@ fn what_is_in_the_way_is_left_alone() {
     study.uplift(&[&["run", "study.toml"][..], &set].concat()).fails(4, &["SYN002", "SYN002_H1.AT2"]);
 }
 
-// A file system of its own, so small that the run fills it: what is finished is kept, and once there is room the run goes on.
+// A file system of its own, so small that the run fills it: what is finished is kept, and once there is room the run
+// goes on.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_loses_nothing() {

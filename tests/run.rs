@@ -71,7 +71,8 @@ fn known_limits_come_out_right() {
     }
 }
 
-// The site There has half the rates of Here, given as probabilities in 50 years and in m/s: the same spectrum at half the rate.
+// The site There has half the rates of Here, given as probabilities in 50 years and in m/s: the same spectrum at half
+// the rate.
 #[test]
 fn probabilities_and_units_of_hazard_are_converted() {
     let study = SmallStudy::new();
@@ -98,7 +99,10 @@ fn summary_tables_and_provenance() {
     let mut lines = urs.lines();
     let first = lines.next().unwrap();
     assert!(first.starts_with("# uplift ") && first.contains("synthetic") && first.contains("study.toml"), "{first}");
-    insta::assert_snapshot!(lines.next().unwrap(), @"site,im,poe,years,strength,u_m,flag,lower_tail_share,upper_tail_share");
+    insta::assert_snapshot!(
+        lines.next().unwrap(),
+        @"site,im,poe,years,strength,u_m,flag,lower_tail_share,upper_tail_share"
+    );
     assert_eq!(lines.count(), 2 * 2 * 3 * 10);
     let regression = std::fs::read_to_string(study.path().join("out/r.regression.csv")).unwrap();
     insta::assert_snapshot!(

@@ -6,7 +6,8 @@ use uplift_motion::Accelerogram;
 use uplift_oscillator::{Excitation, FreeVibration, respond};
 use uplift_structure::{Block, Conditions, Geometry, Reference};
 
-// The models under one pulse: what linearisation and the small displacement before uplift leave goes with α², and Γ is 3/2.
+// The models under one pulse: what linearisation and the small displacement before uplift leave goes with α², and Γ is
+// 3/2.
 #[test]
 fn oscillator_and_block_agree_where_both_are_exact() {
     let difference = |alpha: f64| {
