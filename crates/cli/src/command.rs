@@ -30,7 +30,7 @@ use clap::{Args, Parser, Subcommand};
 
 use crate::terminal::Terminal;
 use uplift::UpliftError;
-use uplift_study::{AnyStudy, ResolvedStudy, Study};
+use uplift_study::{AnyStudy, Study, UniformRiskStudy};
 
 /// Uniform risk spectra for rocking structures.
 ///
@@ -104,7 +104,7 @@ struct StudyArguments {
 }
 
 impl StudyArguments {
-    fn load(&self) -> Result<ResolvedStudy, UpliftError> {
+    fn load(&self) -> Result<UniformRiskStudy, UpliftError> {
         Ok(Study::load(&self.study, &self.overrides)?)
     }
 

@@ -17,7 +17,8 @@ use uplift::bootstrap::{BandSettings, Bands, StrengthBands, bands_of_strength, g
 use uplift::bootstrap::{BandsFile, Checkpoint, write_bands};
 use uplift::events::{Events, Progress};
 use uplift::result::{StoredStripes, check_target, open_result};
-use uplift_study::{Bootstrap, IntervalKind};
+use uplift_bootstrap::Interval;
+use uplift_study::Bootstrap;
 
 /// Sample sizes of Section 4.5 below the whole set.
 const SIZES: [u32; 4] = [20, 40, 60, 80];
@@ -69,8 +70,8 @@ pub(super) fn bootstrap(arguments: &BootstrapArguments, session: &Terminal) -> R
     let settings = BandSettings {
         confidence: wanted.confidence,
         interval: match arguments.interval.as_deref() {
-            Some("bca") => IntervalKind::Bca,
-            Some(_) => IntervalKind::Percentile,
+            Some("bca") => Interval::Bca,
+            Some(_) => Interval::Percentile,
             None => wanted.interval,
         },
         simultaneous: arguments.simultaneous || wanted.simultaneous,

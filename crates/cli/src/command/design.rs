@@ -18,7 +18,8 @@ use uplift::structure::{
     ExactDemand, OSCILLATORS, RuleOutcome, SpectrumReading, check_rules, exact_demand, read_spectrum,
 };
 use uplift::text::per_cent;
-use uplift_study::{Structure, Uplifted};
+use uplift_oscillator::PostUplift as AfterUplift;
+use uplift_study::Structure;
 
 #[derive(Debug, Args)]
 #[command(
@@ -147,12 +148,12 @@ pub(super) fn design(arguments: &DesignArguments, session: &Terminal) -> Result<
 
 /// The rules start from the ZSBE system: a spectrum of another says nothing to them.
 fn refuse_other_proxies(source: &StudyOfResult) -> Result<(), UpliftError> {
-    let (what, key) = match source.study.oscillator.uplifted {
-        Uplifted::ZeroStiffness => return Ok(()),
-        Uplifted::NegativeStiffness { capacity_m } => {
+    let (what, key) = match source.study.oscillator.post_uplift {
+        AfterUplift::Zero => return Ok(()),
+        AfterUplift::Negative { capacity_m } => {
             (format!("of negative stiffness, with a capacity of {capacity_m} m"), "capacity_m")
         }
-        Uplifted::PositiveStiffness { stiffness_per_s2 } => {
+        AfterUplift::Positive { stiffness_per_s2 } => {
             (format!("of positive stiffness, {stiffness_per_s2} 1/s2 after uplift"), "post_uplift_stiffness_per_s2")
         }
     };
