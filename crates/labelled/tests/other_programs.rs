@@ -1,13 +1,15 @@
 //! Files of labelled arrays as other programs see them: Python's libraries and h5dump.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-mod common;
+#[path = "../../../tests/python.rs"]
+mod python;
 
 use std::path::Path;
 use std::process::{Command, Output};
 
-use common::{python, repository};
 use uplift_labelled::LabelledWriter;
+
+use python::{python, repository};
 
 fn texts(values: &[&str]) -> Vec<String> {
     values.iter().map(ToString::to_string).collect()
