@@ -36,6 +36,7 @@ test-cluster: build
 
 lint:
 	.ci/check-line-width
+	.ci/check-paths
 	cargo fmt --all --check
 	cargo clippy --locked --workspace --all-targets -- -D warnings
 

@@ -1,14 +1,12 @@
 //! Displacement spectra that are stopped, cut into shards and gone on with: the numbers are those of an undisturbed run.
-#![allow(clippy::unwrap_used)]
-
-mod common;
 
 use std::path::Path;
 use std::process::Stdio;
 use std::time::{Duration, Instant};
 
-use common::{SmallStudy, command};
 use uplift_labelled::LabelledReader;
+
+use crate::common::{SmallStudy, command};
 
 /// Oscillators of both kinds, and their design example.
 const OSCILLATORS: &str = r#"kind = "displacement spectra"

@@ -15,6 +15,7 @@
 //! | [`result`](mod@result) | the HDF5 file and the tables beside it, written and read |
 //! | [`export`] | tables for other programs |
 //! | [`pulses`] | rocking spectra under wavelets, which need no study |
+//! | [`reference`](mod@reference) | tables of papers to compare with |
 //! | [`text`] | numbers in words |
 //!
 //! The science is in the crates below this one, the command line and the report in those above it. Nothing here prints,
@@ -23,6 +24,7 @@
 pub mod analysis;
 pub mod bootstrap;
 pub mod checkpoint;
+mod checksum;
 pub mod displacement;
 pub mod efficiency;
 mod error;
@@ -31,8 +33,11 @@ pub mod export;
 pub mod import;
 pub mod influence;
 pub mod inputs;
+pub mod outputs;
 pub mod plan;
 pub mod pulses;
+pub mod reference;
+pub mod response;
 pub mod result;
 pub mod run;
 pub mod shard;

@@ -12,6 +12,7 @@ use miette::{GraphicalReportHandler, GraphicalTheme};
 use uplift::UpliftError;
 use uplift::events::{Events, Phase};
 
+use crate::error::CommandError;
 use progress::Progress;
 
 /// What the shell sees of an interruption.
@@ -113,6 +114,13 @@ impl Events for Terminal {
         ));
     }
 
+    fn writing_into(&self, folder: &Path) {
+        self.set_farewell(format!(
+            "interrupted: files in {} are of this run or an earlier one. Run the same command again",
+            folder.display()
+        ));
+    }
+
     fn cancelled(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
     }
@@ -124,10 +132,10 @@ pub(crate) fn tell(text: &str) {
 }
 
 /// Tells an error; a study's mistakes with their lines and carets.
-pub(crate) fn tell_error(error: &UpliftError) {
+pub(crate) fn tell_error(error: &CommandError) {
     match error {
-        UpliftError::OutputClosed => {}
-        UpliftError::Study(error) => {
+        CommandError::OutputClosed => {}
+        CommandError::Uplift(UpliftError::Study(error)) => {
             let theme = if std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none() {
                 GraphicalTheme::unicode()
             } else {

@@ -54,7 +54,7 @@ mod writer;
 pub use aside::final_place;
 pub use aside::{remove_leftovers, write_whole};
 pub use attribute::AttributeValue;
-pub use checksum::{Seal, seal_of};
+pub use checksum::{Seal, hexadecimal, seal_of};
 pub use error::LabelledError;
 pub use reader::{LabelledArray, LabelledReader};
 pub use verify::{Verdict, verify};

@@ -5,9 +5,9 @@
 mod confidence;
 mod demand;
 mod displacement;
+mod efficiency;
 mod history;
 mod overturning;
-mod predictors;
 mod pulses;
 mod spectra;
 
@@ -72,7 +72,7 @@ impl FigureSource {
         figures.extend(confidence::bands(self)?);
         figures.extend(confidence::measures_together(self)?);
         figures.extend(confidence::initiation(self)?);
-        figures.extend(predictors::predictors(self)?);
+        figures.extend(efficiency::efficiency(self)?);
         Ok(figures)
     }
 

@@ -5,32 +5,30 @@ use std::path::{Path, PathBuf};
 use polars::prelude::Column;
 use uplift_bootstrap::ResamplingPlan;
 
-use crate::bootstrap::{BandSettings, Bands};
+use super::bands::{BandSettings, Bands};
 use crate::error::UpliftError;
 use crate::result::{StoredStripes, extend_result, line, sign, write_table};
 use uplift_labelled::{LabelledError, LabelledWriter};
-use uplift_study::IntervalKind;
 
 /// Groups and axes of the file that bands replace.
 const REPLACED: [&str; 3] = ["/bootstrap", "/axes/sample_size", "/axes/replicate"];
 
 /// All that is written of a bootstrap.
-#[derive(Debug)]
-pub struct BandsFile<'a> {
+pub(super) struct BandsFile<'a> {
     /// The result it was made from.
-    pub stored: &'a StoredStripes,
+    pub(super) stored: &'a StoredStripes,
     /// The draws.
-    pub plan: &'a ResamplingPlan,
+    pub(super) plan: &'a ResamplingPlan,
     /// Where the draws come from, in words.
-    pub plan_source: &'a str,
+    pub(super) plan_source: &'a str,
     /// What kind of bands.
-    pub settings: &'a BandSettings,
+    pub(super) settings: &'a BandSettings,
     /// The bands, a measure each.
-    pub bands: &'a [Bands],
+    pub(super) bands: &'a [Bands],
 }
 
 /// The tables beside the result file: bands, and the figures of Table 4.1.
-pub fn band_paths(result: &Path) -> [PathBuf; 2] {
+pub(super) fn band_paths(result: &Path) -> [PathBuf; 2] {
     ["bands.csv", "table-4-1.csv"].map(|extension| result.with_extension(extension))
 }
 
@@ -38,14 +36,14 @@ pub fn band_paths(result: &Path) -> [PathBuf; 2] {
 ///
 /// # Errors
 /// Whatever keeps the files from being written; the result file is then as it was.
-pub fn write_bands(file: &BandsFile<'_>) -> Result<(), UpliftError> {
+pub(super) fn write_bands(file: &BandsFile<'_>) -> Result<(), UpliftError> {
     let BandsFile { stored, plan, settings, .. } = file;
     extend_result(stored, &REPLACED, |writer| add_bands(writer, file))?;
     let what = format!(
         "bootstrap: {}, {} replicates, {} interval, confidence {}",
         file.plan_source,
         plan.replicates(),
-        interval_name(settings.interval),
+        settings.interval.key(),
         settings.confidence
     );
     let line = line(stored, &what);
@@ -62,7 +60,7 @@ fn add_bands(writer: &mut LabelledWriter, file: &BandsFile<'_>) -> Result<(), La
     sign(writer, "/bootstrap")?;
     writer.attribute("/bootstrap", "plan", file.plan_source)?;
     writer.attribute("/bootstrap", "confidence", settings.confidence)?;
-    writer.attribute("/bootstrap", "interval", interval_name(settings.interval))?;
+    writer.attribute("/bootstrap", "interval", settings.interval.key())?;
     writer.attribute("/bootstrap", "strength_above", settings.strength_above)?;
     let long_name = "how often each record was drawn";
     let dims = ["sample_size", "replicate", "record"];
@@ -112,13 +110,6 @@ fn add_bands(writer: &mut LabelledWriter, file: &BandsFile<'_>) -> Result<(), La
         writer.array_f64(&format!("{group}/r_90ci"), &dims, &ranges, "%", "range of the interval (Eq. 4.10)")?;
     }
     Ok(())
-}
-
-fn interval_name(interval: IntervalKind) -> &'static str {
-    match interval {
-        IntervalKind::Percentile => "percentile",
-        IntervalKind::Bca => "bca",
-    }
 }
 
 /// Names of both limits and the median: `u05_m`, `u50_m`, `u95_m` for a confidence of 0.9, `u02_5_m` and `u97_5_m` for 0.95.

@@ -4,7 +4,8 @@ use sha2::{Digest, Sha256};
 use uplift_ida::{Axes, NUMERICS, Plan};
 use uplift_motion::Accelerogram;
 
-use uplift_study::{ResolvedStudy, Uplifted};
+use uplift_oscillator::PostUplift;
+use uplift_study::UniformRiskStudy;
 
 /// Key of an analysis row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -22,12 +23,12 @@ pub fn motion_key(motion: &Accelerogram) -> String {
 
 /// SHA-256 of the oscillator of a study but for its strength, and of the version of the solver's numbers, as hexadecimal digits: what
 /// a result says of its stripes, so that those of the same oscillator can be taken over cell by cell.
-pub fn oscillator_key(study: &ResolvedStudy) -> String {
+pub fn oscillator_key(study: &UniformRiskStudy) -> String {
     let oscillator = &study.oscillator;
-    let (kind, parameter) = match oscillator.uplifted {
-        Uplifted::ZeroStiffness => (0_u32, 0.0),
-        Uplifted::NegativeStiffness { capacity_m } => (1, capacity_m),
-        Uplifted::PositiveStiffness { stiffness_per_s2 } => (2, stiffness_per_s2),
+    let (kind, parameter) = match oscillator.post_uplift {
+        PostUplift::Zero => (0_u32, 0.0),
+        PostUplift::Negative { capacity_m } => (1, capacity_m),
+        PostUplift::Positive { stiffness_per_s2 } => (2, stiffness_per_s2),
     };
     let mut hash = Sha256::new();
     hash.update(NUMERICS.to_le_bytes());

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use serde::Serialize;
 use uplift_spectra::MotionSet;
-use uplift_study::{DISPLACEMENT_SPECTRA, DisplacementStudy};
+use uplift_study::{DisplacementStudy, Kind};
 
 use super::report::SetReport;
 use super::spectra::with_free_vibration;
@@ -69,7 +69,7 @@ pub(crate) fn plan(study: &DisplacementStudy, study_file: &Path) -> Result<Plan,
     };
     Ok(Plan {
         head,
-        kind: DISPLACEMENT_SPECTRA,
+        kind: Kind::Displacement.key(),
         sets: reports,
         design_analyses: of_design,
         has_design: study.design.is_some(),

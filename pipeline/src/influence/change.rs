@@ -10,14 +10,27 @@ use crate::result::{StoredMeasure, StoredStripes};
 
 /// Influence on the spectra of one measure.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Influence {
+pub(super) struct Influence {
     /// The measure.
-    pub measure: IntensityMeasure,
+    pub(super) measure: IntensityMeasure,
     /// Ordinates without each record over `[site, poe, record, strength]`, m; empty for a single record.
-    pub without_m: Vec<f64>,
+    pub(super) without_m: Vec<f64>,
     /// Shares of the risk at each ordinate over `[site, poe, strength, bin]`. Bin 0 lies below the first level, bin i between the levels i
     /// and i + 1 counted from 1, the last above all levels. NaN where there is no ordinate.
-    pub shares: Vec<f64>,
+    pub(super) shares: Vec<f64>,
+}
+
+/// How a record changes a spectrum.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct RecordInfluence {
+    /// Position of the record.
+    pub(super) record: usize,
+    /// Mean of the relative change of the ordinates without it, over the strengths above uplift.
+    pub(super) mean_change: f64,
+    /// The largest of these changes, by magnitude, with its sign.
+    pub(super) largest_change: f64,
+    /// The strength at which it is.
+    pub(super) strength: f64,
 }
 
 /// One strength: ordinates without each record `[site][record, poe]`, shares `[site, poe, bin]`.
@@ -27,10 +40,10 @@ type OfStrength = (Vec<Vec<f64>>, Vec<f64>);
 ///
 /// # Errors
 /// Numbers that do not fit together, in a file that was changed.
-pub fn influence(stored: &StoredStripes, measure: &StoredMeasure) -> Result<Influence, UpliftError> {
+pub(super) fn influence_by(stored: &StoredStripes, measure: &StoredMeasure) -> Result<Influence, UpliftError> {
     let (sites, poes, strengths) = (stored.sites.len(), stored.poes.len(), stored.strengths.len());
     let (records, bins) = (stored.records.len(), measure.levels.len() + 1);
-    let of_strength = |strength: usize| -> Result<OfStrength, Box<dyn std::error::Error + Send + Sync>> {
+    let of_strength = |strength: usize| -> Result<OfStrength, UpliftError> {
         let demand = measure.demand(strength, strengths)?;
         let (mut without, mut shares) = (Vec::new(), Vec::new());
         for (site, weights) in measure.weights.iter().enumerate() {
@@ -56,7 +69,7 @@ pub fn influence(stored: &StoredStripes, measure: &StoredMeasure) -> Result<Infl
         .into_par_iter()
         .map(of_strength)
         .collect::<Result<Vec<OfStrength>, _>>()
-        .map_err(|error| UpliftError::input(format!("{}: {error}", stored.path.display())))?;
+        .map_err(|error| error.in_file(&stored.path))?;
     let mut without_m = Vec::new();
     let mut shares = Vec::with_capacity(sites * poes * strengths * bins);
     for site in 0..sites {
@@ -75,11 +88,41 @@ pub fn influence(stored: &StoredStripes, measure: &StoredMeasure) -> Result<Infl
     Ok(Influence { measure: measure.measure, without_m, shares })
 }
 
+/// The influence of every record on one spectrum, the most influential first; empty where no ordinate lies above uplift.
+pub(super) fn rank_records(
+    stored: &StoredStripes,
+    influence: &Influence,
+    spectrum_m: &[f64],
+    row: usize,
+) -> Vec<RecordInfluence> {
+    let (records, strengths) = (stored.records.len(), stored.strengths.len());
+    if influence.without_m.is_empty() {
+        return Vec::new();
+    }
+    let mut all: Vec<RecordInfluence> = (0..records)
+        .filter_map(|record| {
+            let start = (row * records + record) * strengths;
+            let changes: Vec<(f64, f64)> = influence.without_m[start..start + strengths]
+                .iter()
+                .zip(spectrum_m)
+                .zip(&stored.strengths)
+                .filter(|((_, full), _)| full.is_finite() && **full > stored.uplift_displacement_m)
+                .map(|((without, full), &strength)| ((without - full) / full, strength))
+                .collect();
+            let &(largest_change, strength) = changes.iter().max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
+            let mean_change = changes.iter().map(|change| change.0).sum::<f64>() / changes.len() as f64;
+            Some(RecordInfluence { record, mean_change, largest_change, strength })
+        })
+        .collect();
+    all.sort_by(|a, b| b.mean_change.abs().total_cmp(&a.mean_change.abs()).then(a.record.cmp(&b.record)));
+    all
+}
+
 /// The level below which a share of the risk lies, in the unit of the levels: linear within a bin, 0 at its lower end for the first, the last
 /// level for the last. NaN where there is no ordinate.
 ///
 /// * `shares` — of one ordinate, as in [`Influence::shares`]
-pub fn level_of_share(levels: &[f64], shares: &[f64], share: f64) -> f64 {
+pub(super) fn level_of_share(levels: &[f64], shares: &[f64], share: f64) -> f64 {
     let mut sum = 0.0;
     for (bin, &part) in shares.iter().enumerate() {
         if part > 0.0 && sum + part >= share * (1.0 - 1e-12) {

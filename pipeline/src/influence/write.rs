@@ -4,59 +4,16 @@ use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
 
+use super::change::{Influence, RecordInfluence};
 use crate::error::UpliftError;
-use crate::influence::Influence;
 use crate::result::{StoredStripes, extend_result, line, sign, write_table};
 use uplift_labelled::{LabelledError, LabelledWriter};
 
 /// The groups that a new look replaces.
 const REPLACED: [&str; 4] = ["/influence", "/disaggregation", "/axes/pgv_bin", "/axes/pga_bin"];
 
-/// How a record changes a spectrum.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RecordInfluence {
-    /// Position of the record.
-    pub record: usize,
-    /// Mean of the relative change of the ordinates without it, over the strengths above uplift.
-    pub mean_change: f64,
-    /// The largest of these changes, by magnitude, with its sign.
-    pub largest_change: f64,
-    /// The strength at which it is.
-    pub strength: f64,
-}
-
-/// The influence of every record on one spectrum, the most influential first; empty where no ordinate lies above uplift.
-pub fn record_influence(
-    stored: &StoredStripes,
-    influence: &Influence,
-    spectrum_m: &[f64],
-    row: usize,
-) -> Vec<RecordInfluence> {
-    let (records, strengths) = (stored.records.len(), stored.strengths.len());
-    if influence.without_m.is_empty() {
-        return Vec::new();
-    }
-    let mut all: Vec<RecordInfluence> = (0..records)
-        .filter_map(|record| {
-            let start = (row * records + record) * strengths;
-            let changes: Vec<(f64, f64)> = influence.without_m[start..start + strengths]
-                .iter()
-                .zip(spectrum_m)
-                .zip(&stored.strengths)
-                .filter(|((_, full), _)| full.is_finite() && **full > stored.uplift_displacement_m)
-                .map(|((without, full), &strength)| ((without - full) / full, strength))
-                .collect();
-            let &(largest_change, strength) = changes.iter().max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
-            let mean_change = changes.iter().map(|change| change.0).sum::<f64>() / changes.len() as f64;
-            Some(RecordInfluence { record, mean_change, largest_change, strength })
-        })
-        .collect();
-    all.sort_by(|a, b| b.mean_change.abs().total_cmp(&a.mean_change.abs()).then(a.record.cmp(&b.record)));
-    all
-}
-
 /// The table beside the result file.
-pub fn influence_path(result: &Path) -> PathBuf {
+pub(super) fn influence_path(result: &Path) -> PathBuf {
     result.with_extension("influence.csv")
 }
 
@@ -64,7 +21,7 @@ pub fn influence_path(result: &Path) -> PathBuf {
 ///
 /// # Errors
 /// Whatever keeps the files from being written; the result file is then as it was.
-pub fn write_influence(
+pub(super) fn write_influence(
     stored: &StoredStripes,
     influences: &[Influence],
     rankings: &[Vec<Vec<RecordInfluence>>],

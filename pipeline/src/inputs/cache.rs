@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use uplift_motion::synthetic::{SyntheticSetOptions, generate};
 use uplift_motion::{Accelerogram, MotionError, RecordPair};
 
-use super::checksum;
+use crate::checksum::checksum;
 
 /// Hexadecimal digits of the checksum at the end of a file.
 const CHECKSUM_LENGTH: usize = 64;

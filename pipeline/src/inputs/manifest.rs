@@ -2,9 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Cursor;
-use std::path::{Path, PathBuf};
+use std::path::{Component as PathPart, Path, PathBuf};
 
-use crate::import::relative;
 use polars::prelude::{Column, CsvParseOptions, CsvReadOptions, DataFrame, SerReader};
 use uplift_motion::{AccelerationUnit, RecordFormat};
 
@@ -127,6 +126,23 @@ pub fn rows_of(path: &Path, ids: &BTreeSet<&str>, folder: &Path) -> Result<Vec<C
         Column::new(column.name().clone(), rows.iter().map(|&row| text(column, row)).collect::<Vec<String>>())
     };
     Ok(table.columns().iter().map(chosen).collect())
+}
+
+/// `path` seen from `folder`, as the manifest in that folder names it: both can be moved together.
+pub fn relative(path: &Path, folder: &Path) -> String {
+    let absolute = |path: &Path| std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    // the last part may be a link to elsewhere, and keeps its name
+    let file = path.file_name().unwrap_or_default();
+    let path =
+        absolute(path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))).join(file);
+    let folder = absolute(if folder.as_os_str().is_empty() { Path::new(".") } else { folder });
+    let (mut from, mut to) = (folder.components().peekable(), path.components().peekable());
+    while from.peek().is_some() && from.peek() == to.peek() {
+        from.next();
+        to.next();
+    }
+    let up = from.filter(|part| matches!(part, PathPart::Normal(_))).map(|_| PathPart::ParentDir);
+    up.chain(to).collect::<PathBuf>().to_string_lossy().into_owned()
 }
 
 /// All columns as text: an identifier such as 0012 must stay what it is. Spreadsheets of many countries separate

@@ -5,8 +5,8 @@ use std::path::Path;
 use rayon::prelude::*;
 use uplift_motion::{ReadOptions, RecordPair, Recording, read_record, record_bytes};
 
-use super::checksum;
 use super::manifest::{ComponentFile, Row};
+use crate::checksum::checksum;
 
 /// A pair with the SHA-256 of what each component was read from.
 pub type CheckedPair = (RecordPair, [String; 2]);

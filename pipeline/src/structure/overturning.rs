@@ -10,7 +10,7 @@ use super::risk::{EventRisk, OVERTURNING_M, risk_of_exceeding};
 use crate::error::UpliftError;
 use crate::inputs::RecordSet;
 use crate::uniform_risk::plan_stripes;
-use uplift_study::{MeasurePlan, ResolvedStudy};
+use uplift_study::{MeasurePlan, UniformRiskStudy};
 
 /// How a structure is modelled.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,7 +44,7 @@ impl Model {
     /// [`UpliftError::Interrupted`] if `watch` says so; a record that cannot be scaled.
     pub fn demands_m(
         &self,
-        study: &ResolvedStudy,
+        study: &UniformRiskStudy,
         plan: &MeasurePlan,
         set: &RecordSet,
         watch: &dyn Watch,

@@ -2,12 +2,12 @@
 
 use uplift_ida::{Peaks, Plan, StripeRecord, System};
 use uplift_motion::IntensityMeasure;
-use uplift_oscillator::{Oscillator, PostUplift};
+use uplift_oscillator::Oscillator;
 
 use crate::analysis::Analysed;
 use crate::error::UpliftError;
 use crate::inputs::RecordSet;
-use uplift_study::{MeasurePlan, ResolvedStudy, Uplifted};
+use uplift_study::{MeasurePlan, UniformRiskStudy};
 
 /// The analysed stripes of one measure.
 #[derive(Debug, Clone)]
@@ -38,19 +38,14 @@ impl Stripes {
 ///
 /// # Errors
 /// A parameter that the study file's check let through: none is known.
-pub fn systems(study: &ResolvedStudy) -> Result<Vec<System>, UpliftError> {
+pub fn systems(study: &UniformRiskStudy) -> Result<Vec<System>, UpliftError> {
     let parameters = &study.oscillator;
-    let post_uplift = match parameters.uplifted {
-        Uplifted::ZeroStiffness => PostUplift::Zero,
-        Uplifted::NegativeStiffness { capacity_m } => PostUplift::Negative { capacity_m },
-        Uplifted::PositiveStiffness { stiffness_per_s2 } => PostUplift::Positive { stiffness_per_s2 },
-    };
     study
         .strengths
         .iter()
         .map(|&strength| {
             let (u_up, restitution) = (parameters.uplift_displacement_m, parameters.restitution);
-            Oscillator::new(strength, study.gravity_m_s2, u_up, restitution, post_uplift)
+            Oscillator::new(strength, study.gravity_m_s2, u_up, restitution, parameters.post_uplift)
                 .map(System::Oscillator)
                 .map_err(|error| UpliftError::input(error.to_string()))
         })
@@ -62,7 +57,7 @@ pub fn systems(study: &ResolvedStudy) -> Result<Vec<System>, UpliftError> {
 /// # Errors
 /// A record that cannot be scaled.
 pub fn plan_stripes<'a>(
-    study: &ResolvedStudy,
+    study: &UniformRiskStudy,
     measure: &MeasurePlan,
     set: &'a RecordSet,
     systems: &'a [System],

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use uplift_ida::{Cells, Shard, System};
-use uplift_study::ResolvedStudy;
+use uplift_study::UniformRiskStudy;
 
 use super::{EarlierStripes, plan_stripes, systems};
 use crate::analysis::{LabelledPlan, ShardReport, Work, carry_out_shard};
@@ -26,7 +26,7 @@ impl Inputs {
     ///
     /// # Errors
     /// Records that cannot be used.
-    pub(crate) fn read(study: &ResolvedStudy) -> Result<Self, UpliftError> {
+    pub(crate) fn read(study: &UniformRiskStudy) -> Result<Self, UpliftError> {
         let records = read_records(study)?;
         let motions = records.records.iter().map(|record| motion_key(&record.accelerogram)).collect();
         Ok(Self { systems: systems(study)?, motions, records })
@@ -38,7 +38,7 @@ impl Inputs {
     /// A record that cannot be scaled.
     pub(crate) fn work<'a>(
         &'a self,
-        study: &'a ResolvedStudy,
+        study: &'a UniformRiskStudy,
         earlier: Option<&Path>,
     ) -> Result<Work<'a>, UpliftError> {
         let earlier = earlier.and_then(EarlierStripes::open);
@@ -67,7 +67,7 @@ impl Inputs {
 
 /// Carries out one shard of the stripes of a study into a file, but for what is known from an `earlier` result.
 pub(crate) fn run_shard(
-    study: &ResolvedStudy,
+    study: &UniformRiskStudy,
     place: (&Path, Shard),
     earlier: Option<&Path>,
     events: &dyn Events,

@@ -1,15 +1,8 @@
-//! Figures as files.
-
-use std::path::{Path, PathBuf};
+//! How figures are written, as arguments.
 
 use clap::{Args, ValueEnum};
-
-use uplift::UpliftError;
-use uplift::result::write_aside;
-use uplift_plot::{Figure, Width, png, svg};
-
-/// Of a PNG for print.
-const DOTS_PER_INCH: f32 = 300.0;
+use uplift_plot::Width;
+use uplift_report::{FigureFormat, FigureOptions};
 
 /// How figures are written.
 #[derive(Debug, Args)]
@@ -36,33 +29,17 @@ enum Columns {
 }
 
 impl FigureArguments {
-    /// Write `figure` into `folder`; the files written.
-    pub(super) fn write(&self, figure: &Figure, folder: &Path) -> Result<Vec<PathBuf>, UpliftError> {
-        let width = match self.width {
-            Columns::Single => Width::Single,
-            Columns::Double => Width::Double,
-        };
-        let drawing = svg(figure, width).map_err(|error| UpliftError::input(format!("{}: {error}", figure.id)))?;
-        let mut written = Vec::new();
-        let mut write = |extension: &str, bytes: &[u8]| {
-            let file = folder.join(format!("{}.{extension}", figure.id));
-            write_aside(&file, bytes)?;
-            written.push(file);
-            Ok::<(), UpliftError>(())
-        };
-        if self.format != Format::Svg {
-            let image = png(&drawing.svg, DOTS_PER_INCH).map_err(|error| UpliftError::input(error.to_string()))?;
-            write("png", &image)?;
+    pub(super) fn options(&self) -> FigureOptions {
+        FigureOptions {
+            format: match self.format {
+                Format::Svg => FigureFormat::Svg,
+                Format::Png => FigureFormat::Png,
+                Format::Both => FigureFormat::Both,
+            },
+            width: match self.width {
+                Columns::Single => Width::Single,
+                Columns::Double => Width::Double,
+            },
         }
-        if self.format != Format::Png {
-            write("svg", drawing.svg.as_bytes())?;
-        }
-        Ok(written)
     }
-}
-
-/// A folder for figures.
-pub(super) fn provide_folder(folder: &Path) -> Result<(), UpliftError> {
-    std::fs::create_dir_all(folder)
-        .map_err(|error| UpliftError::input(format!("{} cannot be written: {error}", folder.display())))
 }

@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::error::CommandError;
 use clap::Args;
-use uplift::UpliftError;
 
 use super::StudyArguments;
 use super::run::run_options;
@@ -25,7 +25,7 @@ pub(super) struct MergeArguments {
     json: bool,
 }
 
-pub(super) fn merge(arguments: &MergeArguments, terminal: &Terminal) -> Result<(), UpliftError> {
+pub(super) fn merge(arguments: &MergeArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let study = arguments.study.load_any()?;
     let options = run_options(&arguments.study, arguments.output.clone());
     let report = uplift::merge(&study, &arguments.shards, &options, terminal)?;

@@ -6,9 +6,10 @@ mod mpi;
 use std::io::Write;
 use std::path::PathBuf;
 
+use crate::error::CommandError;
 use clap::Args;
 use uplift::analysis::{MOST_SHARDS, ShardReport, shard_path};
-use uplift::{RunOptions, UpliftError, run_shard};
+use uplift::{RunOptions, run_shard};
 use uplift_ida::Shard;
 
 use super::StudyArguments;
@@ -48,7 +49,7 @@ pub(super) fn shard(text: &str) -> Result<Shard, String> {
     }
 }
 
-pub(super) fn run(arguments: &RunArguments, terminal: &Terminal) -> Result<(), UpliftError> {
+pub(super) fn run(arguments: &RunArguments, terminal: &Terminal) -> Result<(), CommandError> {
     #[cfg(feature = "mpi")]
     if let Some(outcome) = mpi::run(arguments, terminal) {
         return outcome;
@@ -64,7 +65,7 @@ pub(super) fn run(arguments: &RunArguments, terminal: &Terminal) -> Result<(), U
 }
 
 /// Which shard was computed, and where it is.
-pub(super) fn print_shard(report: &ShardReport) -> Result<(), UpliftError> {
+pub(super) fn print_shard(report: &ShardReport) -> Result<(), CommandError> {
     let ShardReport { shard, shards, rows, file } = report;
     let file = shown_path(file).display();
     Ok(writeln!(std::io::stdout(), "shard {shard} of {shards}, {rows} analysis rows: {file}")?)

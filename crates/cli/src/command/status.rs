@@ -1,15 +1,15 @@
 //! `uplift status`: how far a run is, and what a result holds.
 
+use crate::error::CommandError;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use uplift::UpliftError;
 use uplift::checkpoint::{Finding, RowFile, checkpoint_path};
 use uplift::result::ResultLock;
 use uplift::result::{holds_displacement_spectra, is_hdf5, open_any_result};
-use uplift_study::{AnyStudy, Study};
+use uplift_study::Study;
 
 #[derive(Debug, Args)]
 pub(super) struct StatusArguments {
@@ -18,7 +18,7 @@ pub(super) struct StatusArguments {
     input: PathBuf,
 }
 
-pub(super) fn status(arguments: &StatusArguments) -> Result<(), UpliftError> {
+pub(super) fn status(arguments: &StatusArguments) -> Result<(), CommandError> {
     let input = &arguments.input;
     let mut out = std::io::stdout().lock();
     if input.is_file() && !is_hdf5(input) {
@@ -26,14 +26,11 @@ pub(super) fn status(arguments: &StatusArguments) -> Result<(), UpliftError> {
             return unfinished(&mut out, input, &finding);
         }
         if input.extension().is_some_and(|extension| extension == "h5") {
-            return Err(UpliftError::input(format!("{} is no HDF5 file", input.display())));
+            return Err(CommandError::input(format!("{} is no HDF5 file", input.display())));
         }
     }
     let result = if input.extension().is_some_and(|extension| extension == "toml") {
-        match Study::load_any(input, &[])? {
-            AnyStudy::UniformRisk(study) => study.output.file,
-            AnyStudy::Displacement(study) => study.output.file,
-        }
+        Study::load_any(input, &[])?.output().file.clone()
     } else {
         input.clone()
     };
@@ -43,7 +40,7 @@ pub(super) fn status(arguments: &StatusArguments) -> Result<(), UpliftError> {
         nothing = false;
         finished(&mut out, &result)?;
     }
-    if let Some(finding) = RowFile::read(&checkpoint)? {
+    if let Some(finding) = RowFile::read(&checkpoint).map_err(uplift::UpliftError::from)? {
         nothing = false;
         unfinished(&mut out, &checkpoint, &finding)?;
     }
@@ -56,7 +53,7 @@ pub(super) fn status(arguments: &StatusArguments) -> Result<(), UpliftError> {
     if let Some(holder) = ResultLock::holder(&result) {
         writeln!(out, "being written now, by {holder}")?;
     } else if nothing {
-        return Err(UpliftError::input(format!(
+        return Err(CommandError::input(format!(
             "{}: no result, and no checkpoint of an unfinished run",
             result.display()
         )));
@@ -80,7 +77,7 @@ fn shards_of(result: &Path) -> Vec<PathBuf> {
     shards
 }
 
-fn finished(out: &mut impl Write, path: &Path) -> Result<(), UpliftError> {
+fn finished(out: &mut impl Write, path: &Path) -> Result<(), CommandError> {
     let reader = open_any_result(path)?;
     let text = |name: &str| reader.attribute_text("/", name).unwrap_or_default();
     writeln!(out, "{}: finished {}, uplift {} ({})", path.display(), text("created"), text("version"), text("commit"))?;
@@ -116,7 +113,7 @@ fn finished(out: &mut impl Write, path: &Path) -> Result<(), UpliftError> {
     Ok(())
 }
 
-fn unfinished(out: &mut impl Write, path: &Path, finding: &Finding) -> Result<(), UpliftError> {
+fn unfinished(out: &mut impl Write, path: &Path, finding: &Finding) -> Result<(), CommandError> {
     let head = &finding.head;
     let what = if head.shards > 1 {
         format!("shard {} of {}", head.shard, head.shards)

@@ -8,9 +8,9 @@ use serde_json::json;
 use uplift_regression::Exponential;
 
 mod displacement;
-use super::reference::ReferenceTable;
+use crate::error::CommandError;
 use crate::terminal::tell;
-use uplift::UpliftError;
+use uplift::reference::ReferenceTable;
 use uplift::result::{Spectrum, StoredResult, holds_displacement_spectra, open_any_result};
 use uplift::text::{per_cent, table as lines};
 
@@ -46,7 +46,7 @@ struct Reference {
     rmse_m: Option<f64>,
 }
 
-pub(super) fn table(arguments: &TableArguments) -> Result<(), UpliftError> {
+pub(super) fn table(arguments: &TableArguments) -> Result<(), CommandError> {
     let reader = open_any_result(&arguments.result)?;
     if holds_displacement_spectra(&reader) {
         return displacement::table(&arguments.result, &reader, arguments.reference.as_deref(), arguments.json);
@@ -66,7 +66,7 @@ pub(super) fn table(arguments: &TableArguments) -> Result<(), UpliftError> {
         .collect();
     if rows.is_empty() {
         let found = if result.spectra.is_empty() { "it has none" } else { "it has the other measure: use --im" };
-        return Err(UpliftError::input(format!(
+        return Err(CommandError::input(format!(
             "{}: has no spectra by {}: {found}",
             arguments.result.display(),
             wanted.to_uppercase()
@@ -115,7 +115,7 @@ fn print(
     result: &StoredResult,
     rows: &[(&Spectrum, Option<&Reference>)],
     compared: bool,
-) -> Result<(), UpliftError> {
+) -> Result<(), CommandError> {
     writeln!(out, "u = c0 exp(c1 strength) + c2, metres; records: {}", result.record_set)?;
     let ours = |spectrum: &Spectrum| {
         let fit = &spectrum.fit;
@@ -190,13 +190,13 @@ fn median_ratio(strengths: &[f64], spectrum: &Spectrum, reference: &Reference) -
     .filter(|ratio| ratio.is_finite())
 }
 
-fn read_reference(path: &Path) -> Result<Vec<Reference>, UpliftError> {
+fn read_reference(path: &Path) -> Result<Vec<Reference>, CommandError> {
     let table = ReferenceTable::read(path)?;
     let poe_column = if table.has("poe_50y") { "poe_50y" } else { "poe" };
     let missing: Vec<&str> =
         ["site", poe_column, "c0_m", "c1", "c2_m"].into_iter().filter(|name| !table.has(name)).collect();
     if !missing.is_empty() {
-        return Err(table.fail(format!("has no column {}", missing.join(", "))));
+        return Err(table.fail(format!("has no column {}", missing.join(", "))).into());
     }
     (0..table.rows())
         .map(|row| {

@@ -10,7 +10,7 @@ use uplift_risk::StripeWeights;
 use super::super::hazard::{implausible, of_the_records_definition, stripe_weights};
 use super::ListedSite;
 use crate::error::UpliftError;
-use uplift_study::{MeasurePlan, ResolvedStudy, definition_of};
+use uplift_study::{MeasurePlan, UniformRiskStudy, definition_of};
 
 /// Mistakes that are told one by one.
 const MISTAKES_TOLD: usize = 8;
@@ -61,7 +61,7 @@ impl Index {
     /// # Errors
     /// What is wrong with the file as a whole, a line each; a site without a usable curve is none of it.
     pub(super) fn read(
-        study: &ResolvedStudy,
+        study: &UniformRiskStudy,
         plan: &MeasurePlan,
         path: &Path,
         with_names: bool,
@@ -196,7 +196,7 @@ impl Tally {
     /// Whether the curve can be used; what holds for all curves of the export is a mistake of the whole.
     fn weigh(
         &mut self,
-        study: &ResolvedStudy,
+        study: &UniformRiskStudy,
         plan: &MeasurePlan,
         path: &Path,
         exported: &ExportedCurve,
@@ -224,7 +224,7 @@ impl Tally {
         stripe_weights(study, plan, &curve).map(|_| ())
     }
 
-    fn notes(&self, study: &ResolvedStudy, label: &str, path: &Path) -> Vec<String> {
+    fn notes(&self, study: &UniformRiskStudy, label: &str, path: &Path) -> Vec<String> {
         let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
         let mut notes = Vec::new();
         if self.undefined > 0 {
@@ -263,7 +263,11 @@ fn reason_of(error: &HazardError) -> String {
 }
 
 /// What each stripe of the study weighs at a site of an export.
-pub(super) fn weights(study: &ResolvedStudy, plan: &MeasurePlan, curve: &HazardCurve) -> Result<StripeWeights, String> {
+pub(super) fn weights(
+    study: &UniformRiskStudy,
+    plan: &MeasurePlan,
+    curve: &HazardCurve,
+) -> Result<StripeWeights, String> {
     let curve = curve.in_field_units(study.gravity_m_s2).map_err(|error| reason_of(&error))?;
     let curve = of_the_records_definition(study, plan.measure, &curve)?.unwrap_or(curve);
     stripe_weights(study, plan, &curve)

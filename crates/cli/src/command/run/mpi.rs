@@ -3,6 +3,7 @@
 //! The ranks share nothing but the file system. MPI says who they are, lets the first wait for the others, and ends all when one fails: the
 //! shards are then as those of any run that stopped, and the same command goes on from there.
 
+use crate::error::CommandError;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::Ordering;
 use std::time::Duration;
@@ -11,7 +12,7 @@ use ::mpi::Threading;
 use ::mpi::topology::SimpleCommunicator;
 use ::mpi::traits::{Communicator, CommunicatorCollectives};
 
-use super::{RunArguments, Shard, Terminal, UpliftError, run_options, run_shard, shard_path};
+use super::{CommandError, RunArguments, Shard, Terminal, run_options, run_shard, shard_path};
 use crate::show::{print_json, print_run};
 use crate::terminal::tell_error;
 use uplift::checkpoint::{FinishedRows, RowFile};
@@ -24,7 +25,7 @@ const STARTED_BY: [&str; 3] = ["OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"];
 const LOOK_EVERY: Duration = Duration::from_millis(20);
 
 /// Carries out a run as one of several ranks; none where this program was not started as such.
-pub(super) fn run(arguments: &RunArguments, session: &Terminal) -> Option<Result<(), UpliftError>> {
+pub(super) fn run(arguments: &RunArguments, terminal: &Terminal) -> Option<Result<(), CommandError>> {
     // without one of these MPI would be a world of one, at the price of starting it
     STARTED_BY.iter().find(|name| std::env::var_os(name).is_some())?;
     let (universe, _) = ::mpi::initialize_with_threading(Threading::Funneled)?;
@@ -36,9 +37,9 @@ pub(super) fn run(arguments: &RunArguments, session: &Terminal) -> Option<Result
     let shard = Shard { index, count };
     let outcome = catch_unwind(AssertUnwindSafe(|| run_rank(arguments, &world, shard, session)));
     match outcome {
-        Ok(done @ (Ok(()) | Err(UpliftError::OutputClosed))) => Some(done),
+        Ok(done @ (Ok(()) | Err(CommandError::OutputClosed))) => Some(done),
         // a stop is sent to all ranks, and one says so
-        Ok(Err(error @ (UpliftError::Paused { .. } | UpliftError::Interrupted))) => {
+        Ok(Err(error @ (CommandError::Paused { .. } | CommandError::Interrupted))) => {
             if index == 0 {
                 tell_error(&error);
             }
@@ -46,7 +47,7 @@ pub(super) fn run(arguments: &RunArguments, session: &Terminal) -> Option<Result
         }
         // the others would wait for this rank for ever: it ends them
         Ok(Err(error)) => {
-            session.set_farewell(format!("rank {index} of {count} has ended the run"));
+            terminal.set_farewell(format!("rank {index} of {count} has ended the run"));
             let host = ::mpi::environment::processor_name().unwrap_or_default();
             eprintln!("uplift: rank {index} of {count} on {host} ends the run:");
             tell_error(&error);
@@ -62,14 +63,14 @@ fn run_rank(
     world: &SimpleCommunicator,
     shard: Shard,
     session: &Terminal,
-) -> Result<(), UpliftError> {
+) -> Result<(), CommandError> {
     let first = shard.index == 0;
     // the first looks before the others do, so that a mistake is said once
     if !first {
-        wait(world, session)?;
+        wait(world, terminal)?;
     }
     if arguments.shard.is_some() {
-        return Err(UpliftError::Usage("each rank takes its own shard: leave --shard out under mpirun".to_owned()));
+        return Err(CommandError::Usage("each rank takes its own shard: leave --shard out under mpirun".to_owned()));
     }
     let study = arguments.study.load_any()?;
     let options = run_options(&arguments.study, arguments.output.clone());
@@ -88,7 +89,7 @@ fn run_rank(
     ));
     let file = shard_path(&path, shard);
     let rows = run_shard(&study, &file, shard, Some(&path), &own)?.rows;
-    wait(world, session).map_err(|_| UpliftError::Paused {
+    wait(world, session).map_err(|_| CommandError::Paused {
         what: "analysis rows",
         done: rows,
         total: rows,
@@ -103,13 +104,13 @@ fn run_rank(
     let files: Vec<_> = (0..shard.count).map(|index| shard_path(&path, Shard { index, ..shard })).collect();
     for file in &files {
         let found = RowFile::read(file)?.ok_or_else(|| {
-            UpliftError::input(format!(
+            CommandError::input(format!(
                 "{}: is not there: the result must lie in a folder that all ranks share",
                 file.display()
             ))
         })?;
         if *work.get_or_insert_with(|| found.head.work.clone()) != found.head.work {
-            return Err(UpliftError::input(format!(
+            return Err(CommandError::input(format!(
                 "{}: is a shard of other work: every node must have the same study, records and program",
                 file.display()
             )));
@@ -125,17 +126,17 @@ fn run_rank(
 }
 
 /// Waits until all ranks are here, without a core for it.
-fn wait(world: &SimpleCommunicator, session: &Terminal) -> Result<(), UpliftError> {
+fn wait(world: &SimpleCommunicator, terminal: &Terminal) -> Result<(), CommandError> {
     let mut all_here = world.immediate_barrier();
     loop {
         match all_here.test() {
             Ok(_) => return Ok(()),
             Err(not_yet) => all_here = not_yet,
         }
-        if session.cancelled() {
+        if terminal.cancelled() {
             // the program ends here; a request must not be dropped before it is complete
             std::mem::forget(all_here);
-            return Err(UpliftError::Interrupted);
+            return Err(CommandError::Interrupted);
         }
         std::thread::sleep(LOOK_EVERY);
     }

@@ -6,10 +6,10 @@ use std::path::Path;
 use serde_json::json;
 use uplift_spectra::Noisy;
 
-use super::super::reference::ReferenceTable;
+use crate::error::CommandError;
 use crate::terminal::tell;
-use uplift::UpliftError;
 use uplift::displacement::{DesignRow, read_design};
+use uplift::reference::ReferenceTable;
 use uplift::text::table as lines;
 use uplift_labelled::LabelledReader;
 use uplift_study::ScaledTo;
@@ -61,10 +61,10 @@ pub(super) fn table(
     reader: &LabelledReader,
     reference: Option<&Path>,
     json: bool,
-) -> Result<(), UpliftError> {
+) -> Result<(), CommandError> {
     let rows = read_design(reader)?;
     if rows.is_empty() {
-        return Err(UpliftError::input(format!(
+        return Err(CommandError::input(format!(
             "{}: has no design example: add a section [design] to the study, which may be empty, and run it again",
             path.display()
         )));
@@ -104,7 +104,7 @@ fn print<'a>(
     rows: &[DesignRow],
     compared: bool,
     of: &dyn Fn(&DesignRow) -> Option<&'a Reference>,
-) -> Result<(), UpliftError> {
+) -> Result<(), CommandError> {
     let number = |name: &str| reader.attribute_f64("/design", name).unwrap_or(f64::NAN);
     let by = distinct(rows.iter().map(|row| row.scaled_by.as_str()));
     let (mut held, mut compared_with) = (vec![0; by.len()], 0);
@@ -178,12 +178,12 @@ fn distinct<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
     found
 }
 
-fn read_reference(path: &Path) -> Result<Vec<Reference>, UpliftError> {
+fn read_reference(path: &Path) -> Result<Vec<Reference>, CommandError> {
     let table = ReferenceTable::read(path)?;
     let missing: Vec<&str> =
         ["record_set", "scaling", "quantity", "value"].into_iter().filter(|name| !table.has(name)).collect();
     if !missing.is_empty() {
-        return Err(table.fail(format!("has no column {}", missing.join(", "))));
+        return Err(table.fail(format!("has no column {}", missing.join(", "))).into());
     }
     (0..table.rows())
         .map(|row| {
