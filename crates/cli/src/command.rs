@@ -28,7 +28,7 @@ use clap::{Args, Parser, Subcommand};
 
 use crate::error::CommandError;
 use crate::terminal::Terminal;
-use uplift_study::{AnyStudy, ResolvedStudy, Study};
+use uplift_study::{AnyStudy, Study, UniformRiskStudy};
 
 /// Uniform risk spectra for rocking structures.
 ///
@@ -102,7 +102,7 @@ struct StudyArguments {
 }
 
 impl StudyArguments {
-    fn load(&self) -> Result<ResolvedStudy, CommandError> {
+    fn load(&self) -> Result<UniformRiskStudy, CommandError> {
         Ok(Study::load(&self.study, &self.overrides)?)
     }
 

@@ -10,7 +10,6 @@ use uplift_risk::{PooledDemand, StripeWeights};
 
 use crate::error::UpliftError;
 use crate::result::{StoredMeasure, StoredStripes};
-use uplift_study::IntervalKind;
 
 /// What kind of bands.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,7 +17,7 @@ pub(super) struct BandSettings {
     /// Share of the replicates between the limits.
     pub(super) confidence: f64,
     /// How a limit is read.
-    pub(super) interval: IntervalKind,
+    pub(super) interval: Interval,
     /// Whether bands that hold whole spectra are made too.
     pub(super) simultaneous: bool,
     /// Only strengths above this count in Eq. 4.9 and 4.10.
@@ -89,8 +88,8 @@ pub(super) fn bands_of_strength(
         let sites: [&StripeWeights; 1] = [weights];
         let replicates = Replicates::of(&demand, &sites, targets, plan)?;
         let without_each = match settings.interval {
-            IntervalKind::Percentile => Vec::new(),
-            IntervalKind::Bca => leave_one_out(&demand, weights, targets)?,
+            Interval::Percentile => Vec::new(),
+            Interval::Bca => leave_one_out(&demand, weights, targets)?,
         };
         for poe in 0..targets.len() {
             let estimate_m = measure.spectra_m[stored.ordinate(site, poe, index)];
@@ -100,13 +99,13 @@ pub(super) fn bands_of_strength(
                 sorted.clear();
                 sorted.extend_from_slice(ordinates_m);
                 sorted.sort_unstable_by(f64::total_cmp);
-                let interval = match settings.interval {
-                    IntervalKind::Percentile => Interval::Percentile,
-                    IntervalKind::Bca => {
-                        Interval::Bca { estimate_m, acceleration: acceleration(&without_each_m, size) }
+                done.bands.push(match settings.interval {
+                    Interval::Percentile => Band::percentile(&sorted, settings.confidence),
+                    Interval::Bca => {
+                        let acceleration = acceleration(&without_each_m, size);
+                        Band::bca(&sorted, settings.confidence, estimate_m, acceleration)
                     }
-                };
-                done.bands.push(Band::of(&sorted, settings.confidence, interval));
+                });
                 if settings.simultaneous {
                     done.replicates_m.extend_from_slice(ordinates_m);
                 }

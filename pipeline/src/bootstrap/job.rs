@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use uplift_study::{Bootstrap, IntervalKind};
+use uplift_bootstrap::Interval;
+use uplift_study::Bootstrap;
 
 use super::bands::BandSettings;
 use super::checkpoint::Checkpoint;
@@ -29,7 +30,7 @@ pub struct BootstrapOptions {
     /// Seed of the draws; that of the study in the result where none is given.
     pub seed: Option<u64>,
     /// How limits are read.
-    pub interval: Option<IntervalKind>,
+    pub interval: Option<Interval>,
     /// Also bands that hold whole spectra; false leaves it to the study.
     pub simultaneous: bool,
     /// A result whose draws are taken, in place of sizes, replicates and seed.

@@ -9,7 +9,6 @@ use super::bands::{BandSettings, Bands};
 use crate::error::UpliftError;
 use crate::result::{StoredStripes, extend_result, line, sign, write_table};
 use uplift_labelled::{LabelledError, LabelledWriter};
-use uplift_study::IntervalKind;
 
 /// Groups and axes of the file that bands replace.
 const REPLACED: [&str; 3] = ["/bootstrap", "/axes/sample_size", "/axes/replicate"];
@@ -44,7 +43,7 @@ pub(super) fn write_bands(file: &BandsFile<'_>) -> Result<(), UpliftError> {
         "bootstrap: {}, {} replicates, {} interval, confidence {}",
         file.plan_source,
         plan.replicates(),
-        interval_name(settings.interval),
+        settings.interval.key(),
         settings.confidence
     );
     let line = line(stored, &what);
@@ -61,7 +60,7 @@ fn add_bands(writer: &mut LabelledWriter, file: &BandsFile<'_>) -> Result<(), La
     sign(writer, "/bootstrap")?;
     writer.attribute("/bootstrap", "plan", file.plan_source)?;
     writer.attribute("/bootstrap", "confidence", settings.confidence)?;
-    writer.attribute("/bootstrap", "interval", interval_name(settings.interval))?;
+    writer.attribute("/bootstrap", "interval", settings.interval.key())?;
     writer.attribute("/bootstrap", "strength_above", settings.strength_above)?;
     let long_name = "how often each record was drawn";
     let dims = ["sample_size", "replicate", "record"];
@@ -111,13 +110,6 @@ fn add_bands(writer: &mut LabelledWriter, file: &BandsFile<'_>) -> Result<(), La
         writer.array_f64(&format!("{group}/r_90ci"), &dims, &ranges, "%", "range of the interval (Eq. 4.10)")?;
     }
     Ok(())
-}
-
-fn interval_name(interval: IntervalKind) -> &'static str {
-    match interval {
-        IntervalKind::Percentile => "percentile",
-        IntervalKind::Bca => "bca",
-    }
 }
 
 /// Names of both limits and the median: `u05_m`, `u50_m`, `u95_m` for a confidence of 0.9, `u02_5_m` and `u97_5_m` for 0.95.

@@ -6,7 +6,8 @@ use uplift_motion::Accelerogram;
 
 use crate::inputs::RecordSet;
 use uplift_labelled::hexadecimal;
-use uplift_study::{MeasurePlan, ResolvedStudy, Uplifted};
+use uplift_oscillator::PostUplift;
+use uplift_study::{MeasurePlan, UniformRiskStudy};
 
 /// Key of a piece.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -23,12 +24,12 @@ pub fn motion_key(motion: &Accelerogram) -> String {
 }
 
 /// SHA-256 of the oscillator of a study but for its strength, and of the version of the solver's numbers, as hexadecimal digits.
-pub fn oscillator_key(study: &ResolvedStudy) -> String {
+pub fn oscillator_key(study: &UniformRiskStudy) -> String {
     let oscillator = &study.oscillator;
-    let (kind, parameter) = match oscillator.uplifted {
-        Uplifted::ZeroStiffness => (0_u32, 0.0),
-        Uplifted::NegativeStiffness { capacity_m } => (1, capacity_m),
-        Uplifted::PositiveStiffness { stiffness_per_s2 } => (2, stiffness_per_s2),
+    let (kind, parameter) = match oscillator.post_uplift {
+        PostUplift::Zero => (0_u32, 0.0),
+        PostUplift::Negative { capacity_m } => (1, capacity_m),
+        PostUplift::Positive { stiffness_per_s2 } => (2, stiffness_per_s2),
     };
     let mut hash = Sha256::new();
     hash.update(NUMERICS.to_le_bytes());
@@ -50,7 +51,7 @@ pub struct StripeKeys {
 
 impl StripeKeys {
     /// The keys of the stripes that `study` asks for with `measure`; `motions` are the keys of the records' motions.
-    pub fn of(study: &ResolvedStudy, measure: &MeasurePlan, set: &RecordSet, motions: &[String]) -> Self {
+    pub fn of(study: &UniformRiskStudy, measure: &MeasurePlan, set: &RecordSet, motions: &[String]) -> Self {
         let mut common = Sha256::new();
         common.update(oscillator_key(study));
         for level in measure.levels.iter() {

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use serde::Serialize;
 use uplift_ida::Unwatched;
 use uplift_spectra::{MotionSet, System};
-use uplift_study::{DISPLACEMENT_SPECTRA, DisplacementStudy};
+use uplift_study::{DisplacementStudy, Kind};
 
 use super::report::SetReport;
 use super::{analyses, design_analyses, shake, structures};
@@ -66,7 +66,7 @@ pub(crate) fn plan(study: &DisplacementStudy, study_file: &Path) -> Result<Plan,
     };
     Ok(Plan {
         head,
-        kind: DISPLACEMENT_SPECTRA,
+        kind: Kind::Displacement.key(),
         sets: reports,
         design_analyses: of_design,
         has_design: study.design.is_some(),

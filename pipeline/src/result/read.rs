@@ -5,7 +5,7 @@ use std::path::Path;
 use super::LAYOUT;
 use crate::error::UpliftError;
 use uplift_labelled::LabelledReader;
-use uplift_study::DISPLACEMENT_SPECTRA;
+use uplift_study::Kind;
 
 /// A uniform risk spectrum.
 #[derive(Debug, Clone, PartialEq)]
@@ -118,7 +118,7 @@ pub fn open_result(path: &Path) -> Result<LabelledReader, UpliftError> {
 
 /// Whether a result is of displacement spectra.
 pub fn holds_displacement_spectra(reader: &LabelledReader) -> bool {
-    reader.attribute_text("/", "kind").is_ok_and(|kind| kind == DISPLACEMENT_SPECTRA)
+    reader.attribute_text("/", "kind").is_ok_and(|kind| kind == Kind::Displacement.key())
 }
 
 /// Open a result file of either kind.

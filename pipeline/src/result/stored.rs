@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use serde::Deserialize;
 use uplift_fragility::Stripes;
 use uplift_hazard::{Extrapolation, rate_from_probability};
 use uplift_motion::IntensityMeasure;
@@ -11,6 +10,7 @@ use uplift_risk::{PooledDemand, RiskCurve, StripeWeights};
 use super::extend::whole_seal;
 use super::hazard::{branch_group, read_curve};
 use super::open_result;
+use super::study_of::uniform_risk_study;
 use crate::error::UpliftError;
 use uplift_labelled::LabelledReader;
 use uplift_study::Bootstrap;
@@ -63,25 +63,6 @@ pub struct StoredMeasure {
     pub spectra_m: Vec<f64>,
 }
 
-/// The part of the stored study that is read again.
-#[derive(Debug, Deserialize)]
-struct StoredStudy {
-    risk: StoredRisk,
-    oscillator: StoredOscillator,
-    #[serde(default)]
-    bootstrap: Bootstrap,
-}
-
-#[derive(Debug, Deserialize)]
-struct StoredRisk {
-    extrapolate: String,
-}
-
-#[derive(Debug, Deserialize)]
-struct StoredOscillator {
-    uplift_displacement_m: f64,
-}
-
 impl StoredStripes {
     /// Read the result at `path`.
     ///
@@ -90,8 +71,7 @@ impl StoredStripes {
     pub fn read(path: &Path) -> Result<Self, UpliftError> {
         let reader = open_result(path)?;
         let fail = |reason: String| UpliftError::input(format!("{}: {reason}", path.display()));
-        let study: StoredStudy = toml::from_str(&reader.attribute_text("/", "study_toml")?)
-            .map_err(|error| fail(format!("the study in the file cannot be read: {error}")))?;
+        let study = uniform_risk_study(&reader, path)?;
         if !reader.exists("/axes/site") {
             return Err(fail("the study has no sites, and so no spectra: add [[sites]] and run it again".to_owned()));
         }
@@ -109,8 +89,7 @@ impl StoredStripes {
             .map(|&poe| rate_from_probability(poe, years))
             .collect::<Result<Vec<_>, _>>()
             .map_err(|error| fail(error.to_string()))?;
-        let extrapolation =
-            if study.risk.extrapolate == "loglog" { Extrapolation::LogLog } else { Extrapolation::Refuse };
+        let extrapolation = study.risk.extrapolate;
         let mut stored = Self {
             path: path.to_owned(),
             seal: whole_seal(path).ok(),

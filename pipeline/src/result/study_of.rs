@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use uplift_hazard::{Extrapolation, rate_from_probability};
+use uplift_hazard::rate_from_probability;
 use uplift_motion::IntensityMeasure;
 use uplift_risk::StripeWeights;
 
@@ -13,10 +13,7 @@ use crate::checkpoint::motion_key;
 use crate::error::UpliftError;
 use crate::inputs::{RecordSet, read_records};
 use uplift_labelled::{LabelledError, LabelledReader};
-use uplift_study::{Extrapolate, MeasurePlan, ResolvedStudy, Study};
-
-/// Parts of a study that the result holds itself, or that matter no more.
-const LEFT_OUT: [&str; 4] = ["sites", "site_table", "output", "bootstrap"];
+use uplift_study::{AnyStudy, MeasurePlan, Study, UniformRiskStudy};
 
 /// A result with its study.
 #[derive(Debug, Clone)]
@@ -27,14 +24,12 @@ pub struct StudyOfResult {
     pub record_set: String,
     /// True for motions made by the program.
     pub synthetic: bool,
-    /// The study, without its sites.
-    pub study: ResolvedStudy,
+    /// The study.
+    pub study: UniformRiskStudy,
     /// Names of the sites.
     pub sites: Vec<String>,
     /// The measures, in the order of the study.
     pub measures: Vec<SpectraOfResult>,
-    /// Why the study's records cannot even be looked for.
-    unreadable: Option<String>,
     /// `[record]`: SHA-256 of the motion, PGA in g, PGV in cm/s.
     motions: Vec<(String, f64, f64)>,
 }
@@ -69,13 +64,11 @@ impl StudyOfResult {
             return Err(fail("the study has no sites, and so no spectra: add [[sites]] and run it again"));
         }
         let sites = reader.axis_text("site")?;
-        let (study, unreadable) = resolve(&reader.attribute_text("/", "study_toml")?, manifest)
-            .map_err(|reason| fail(&format!("the study in the file cannot be read: {reason}")))?;
+        let mut study = uniform_risk_study(&reader, path)?;
+        if let Some(manifest) = manifest {
+            study.records.source = study.records.source.by_manifest(absolute(manifest)?);
+        }
         let cells = sites.len() * study.risk.poe.len() * study.strengths.len();
-        let extrapolation = match study.risk.extrapolate {
-            Extrapolate::Refuse => Extrapolation::Refuse,
-            Extrapolate::Loglog => Extrapolation::LogLog,
-        };
         let measures = study
             .measures
             .iter()
@@ -91,7 +84,7 @@ impl StudyOfResult {
                     .iter()
                     .map(|site| {
                         let curve = read_curve(&reader, &format!("/hazard/{site}/{key}"), plan.measure)?;
-                        StripeWeights::from_hazard(&curve, &plan.levels, extrapolation)
+                        StripeWeights::from_hazard(&curve, &plan.levels, study.risk.extrapolate)
                             .map_err(|error| fail(&format!("hazard of {site}: {error}")))
                     })
                     .collect::<Result<Vec<_>, _>>()?;
@@ -106,7 +99,6 @@ impl StudyOfResult {
             study,
             sites,
             measures,
-            unreadable,
         })
     }
 
@@ -115,9 +107,6 @@ impl StudyOfResult {
     /// # Errors
     /// Records that are not there, or are others: what is wrong, and what to do.
     pub fn records(&self) -> Result<RecordSet, String> {
-        if let Some(reason) = &self.unreadable {
-            return Err(reason.clone());
-        }
         let set = read_records(&self.study).map_err(|error| error.to_string())?;
         if set.records.len() != self.motions.len() {
             let (found, made) = (set.records.len(), self.motions.len());
@@ -168,6 +157,11 @@ impl StudyOfResult {
     }
 }
 
+/// A path that does not depend on the current folder.
+fn absolute(path: &Path) -> Result<PathBuf, UpliftError> {
+    std::path::absolute(path).map_err(|error| UpliftError::input(format!("{}: {error}", path.display())))
+}
+
 /// What identifies each record.
 fn motions(reader: &LabelledReader) -> Result<Vec<(String, f64, f64)>, LabelledError> {
     let motions = reader.array_text("/records/motion_sha256")?.values;
@@ -181,27 +175,20 @@ fn motions(reader: &LabelledReader) -> Result<Vec<(String, f64, f64)>, LabelledE
         .collect())
 }
 
-/// The stored study; where its manifest is gone, without its records, and why.
-fn resolve(study_toml: &str, manifest: Option<&Path>) -> Result<(ResolvedStudy, Option<String>), String> {
-    let mut table: toml::Table = toml::from_str(study_toml).map_err(|error| error.to_string())?;
-    for section in LEFT_OUT {
-        table.remove(section);
-    }
-    let study = |table: &toml::Table, overrides: &[String]| -> Result<ResolvedStudy, String> {
-        let text = toml::to_string(table).map_err(|error| error.to_string())?;
-        let name = Path::new("the study in the result");
-        Study::parse(name, text).and_then(|study| study.resolve(overrides)).map_err(|error| {
+/// The study of the result at `path`; its records and curves need not be there any more.
+///
+/// # Errors
+/// A study that cannot be read, or is of another kind.
+pub(super) fn uniform_risk_study(reader: &LabelledReader, path: &Path) -> Result<UniformRiskStudy, UpliftError> {
+    let fail = |reason: String| UpliftError::input(format!("{}: {reason}", path.display()));
+    match Study::stored(&reader.attribute_text("/", "study_toml")?) {
+        Ok(AnyStudy::UniformRisk(study)) => Ok(*study),
+        Ok(AnyStudy::Displacement(study)) => {
+            Err(fail(format!("the study {} has no uniform risk spectra", study.title)))
+        }
+        Err(error) => {
             let mistakes: Vec<String> = error.mistakes().iter().map(ToString::to_string).collect();
-            if mistakes.is_empty() { error.to_string() } else { mistakes.join("; ") }
-        })
-    };
-    let overrides: Vec<String> =
-        manifest.iter().map(|path| format!("records.manifest={:?}", path.display().to_string())).collect();
-    match study(&table, &overrides) {
-        Ok(study) => Ok((study, None)),
-        Err(reason) => {
-            table.remove("records");
-            study(&table, &[]).map(|study| (study, Some(reason)))
+            Err(fail(format!("the study in the file cannot be read: {}", mistakes.join("; "))))
         }
     }
 }

@@ -12,7 +12,7 @@ use super::sweep::{OF_STUDY, OWN, Sweep, ZERO_STIFFNESS};
 use crate::displacement::RULES;
 use crate::error::UpliftError;
 use crate::inputs::RecordSet;
-use uplift_study::{MeasurePlan, ResolvedStudy};
+use uplift_study::{MeasurePlan, UniformRiskStudy};
 
 /// What the structure's own stripes say, in its own displacement; infinite where it overturns more often than the target.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -71,7 +71,7 @@ pub struct RuleErrors {
 /// # Errors
 /// [`UpliftError::Interrupted`] if `watch` says so; a record that cannot be scaled.
 pub(super) fn exact_demand(
-    study: &ResolvedStudy,
+    study: &UniformRiskStudy,
     (measure, weights): (&MeasurePlan, &StripeWeights),
     set: &RecordSet,
     (system, sweep): (&EquivalentSystem, &Sweep),

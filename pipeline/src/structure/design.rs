@@ -9,8 +9,9 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use uplift_motion::IntensityMeasure;
+use uplift_oscillator::PostUplift;
 use uplift_risk::TAIL_SHARE_LIMIT;
-use uplift_study::{Structure, Uplifted};
+use uplift_study::Structure;
 
 use super::choice::{measure_index, records, site_index};
 use super::demand::{ExactDemand, exact_demand};
@@ -162,12 +163,12 @@ pub fn design(
 
 /// The rules start from the ZSBE system: a spectrum of another says nothing to them.
 fn require_zero_stiffness(source: &StudyOfResult) -> Result<(), UpliftError> {
-    let (what, key) = match source.study.oscillator.uplifted {
-        Uplifted::ZeroStiffness => return Ok(()),
-        Uplifted::NegativeStiffness { capacity_m } => {
+    let (what, key) = match source.study.oscillator.post_uplift {
+        PostUplift::Zero => return Ok(()),
+        PostUplift::Negative { capacity_m } => {
             (format!("of negative stiffness, with a capacity of {capacity_m} m"), "capacity_m")
         }
-        Uplifted::PositiveStiffness { stiffness_per_s2 } => {
+        PostUplift::Positive { stiffness_per_s2 } => {
             (format!("of positive stiffness, {stiffness_per_s2} 1/s2 after uplift"), "post_uplift_stiffness_per_s2")
         }
     };

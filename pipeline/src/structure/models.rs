@@ -4,7 +4,7 @@ use uplift_block::RockingBlock;
 use uplift_ida::{BlockPlan, Watch, analyse_blocks};
 use uplift_oscillator::Oscillator;
 use uplift_structure::PostUplift;
-use uplift_study::{MeasurePlan, ResolvedStudy, Structure};
+use uplift_study::{MeasurePlan, Structure, UniformRiskStudy};
 
 use super::risk::stripes_of;
 use crate::error::UpliftError;
@@ -44,7 +44,7 @@ impl Model {
     /// [`UpliftError::Interrupted`] if `watch` says so; a record that cannot be scaled.
     pub(super) fn demands_m(
         &self,
-        study: &ResolvedStudy,
+        study: &UniformRiskStudy,
         plan: &MeasurePlan,
         set: &RecordSet,
         watch: &dyn Watch,

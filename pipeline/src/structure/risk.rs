@@ -10,14 +10,14 @@ use crate::error::UpliftError;
 use crate::inputs::RecordSet;
 use crate::uniform_risk::pooled_demand;
 use crate::uniform_risk::{Stripes, analyse_stripes, plan_stripes};
-use uplift_study::{MeasurePlan, ResolvedStudy};
+use uplift_study::{MeasurePlan, UniformRiskStudy};
 
 /// The stripes of `oscillators`, which need not be those of `study`, over `[record, oscillator, level]`.
 ///
 /// # Errors
 /// [`UpliftError::Interrupted`] if `watch` says so; a record that cannot be scaled.
 pub(super) fn stripes_of(
-    study: &ResolvedStudy,
+    study: &UniformRiskStudy,
     measure: &MeasurePlan,
     set: &RecordSet,
     oscillators: &[Oscillator],

@@ -3,7 +3,7 @@
 use uplift_oscillator::{Oscillator, OscillatorError, PostUplift};
 use uplift_spectra::NoiseSweep;
 use uplift_structure::EquivalentSystem;
-use uplift_study::ResolvedStudy;
+use uplift_study::UniformRiskStudy;
 
 use crate::error::UpliftError;
 
@@ -33,7 +33,11 @@ impl Sweep {
     ///
     /// # Errors
     /// A system that has no oscillator.
-    pub(super) fn of(study: &ResolvedStudy, system: &EquivalentSystem, restitution: f64) -> Result<Self, UpliftError> {
+    pub(super) fn of(
+        study: &UniformRiskStudy,
+        system: &EquivalentSystem,
+        restitution: f64,
+    ) -> Result<Self, UpliftError> {
         let of_study = Oscillator::new(
             system.spectral_strength_at(study.gravity_m_s2),
             study.gravity_m_s2,

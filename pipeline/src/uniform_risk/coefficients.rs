@@ -5,7 +5,7 @@ use uplift_regression::{ExponentialFit, fit};
 use uplift_risk::Ordinate;
 
 use super::Spectra;
-use uplift_study::ResolvedStudy;
+use uplift_study::UniformRiskStudy;
 
 /// The fits of one measure.
 #[derive(Debug, Clone)]
@@ -17,14 +17,14 @@ pub struct Coefficients {
 }
 
 /// Fit every spectrum over the strengths above `regression.strength_above`.
-pub fn fit_spectra(study: &ResolvedStudy, spectra: &Spectra) -> Coefficients {
+pub fn fit_spectra(study: &UniformRiskStudy, spectra: &Spectra) -> Coefficients {
     let [sites, poes, _] = spectra.shape;
     let fits = (0..sites * poes).map(|row| fit_spectrum(study, spectra.spectrum(row / poes, row % poes))).collect();
     Coefficients { measure: spectra.measure, fits }
 }
 
 /// Fit one spectrum over the strengths above `regression.strength_above`, or say why there is no fit.
-pub(super) fn fit_spectrum(study: &ResolvedStudy, spectrum: &[Ordinate]) -> Result<ExponentialFit, String> {
+pub(super) fn fit_spectrum(study: &UniformRiskStudy, spectrum: &[Ordinate]) -> Result<ExponentialFit, String> {
     let from = study.strengths.partition_point(|&strength| strength <= study.regression.strength_above);
     let strengths = &study.strengths[from..];
     let displacements: Vec<f64> = spectrum[from..].iter().map(|ordinate| ordinate.displacement_m).collect();

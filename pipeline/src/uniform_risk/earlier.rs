@@ -10,7 +10,7 @@ use crate::checkpoint::oscillator_key;
 use crate::inputs::RecordSet;
 use crate::result::level_axis;
 use uplift_labelled::{LabelledError, LabelledReader, Seal, seal_of};
-use uplift_study::{MeasurePlan, ResolvedStudy};
+use uplift_study::{MeasurePlan, UniformRiskStudy};
 
 /// An earlier result at the place of the one to come.
 pub struct EarlierStripes {
@@ -28,7 +28,7 @@ impl EarlierStripes {
     /// oscillator, strength and level, by the same version of the solver. A file that is damaged, or of another layout, knows nothing.
     pub fn fill(
         &self,
-        study: &ResolvedStudy,
+        study: &UniformRiskStudy,
         measure: &MeasurePlan,
         set: &RecordSet,
         motions: &[String],
@@ -39,7 +39,7 @@ impl EarlierStripes {
 
     fn try_fill(
         &self,
-        study: &ResolvedStudy,
+        study: &UniformRiskStudy,
         measure: &MeasurePlan,
         set: &RecordSet,
         motions: &[String],
@@ -55,7 +55,7 @@ impl EarlierStripes {
         let intensities = reader
             .array_f64(match measure.measure {
                 IntensityMeasure::Pga => "/records/pga_g",
-                _ => "/records/pgv_cm_s",
+                IntensityMeasure::Pgv => "/records/pgv_cm_s",
             })?
             .values;
         let positions = |values: &[f64]| -> HashMap<u64, usize> {

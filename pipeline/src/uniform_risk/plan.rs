@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use serde::Serialize;
 use uplift_ida::estimate;
-use uplift_study::ResolvedStudy;
+use uplift_study::UniformRiskStudy;
 
 use super::{oscillators, plan_stripes, site_table};
 use crate::error::UpliftError;
@@ -26,7 +26,7 @@ pub struct Plan {
 }
 
 /// Reads and checks all inputs of `study`, and times some of its analyses.
-pub(crate) fn plan(study: &ResolvedStudy, study_file: &Path, events: &dyn Events) -> Result<Plan, UpliftError> {
+pub(crate) fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Events) -> Result<Plan, UpliftError> {
     check_target(&study.output.file)?;
     let (_, mut notes) = read_hazard(study)?;
     let site_list = site_table::read(study, &study.output.file, events)?;
@@ -69,7 +69,7 @@ struct Size {
 impl Size {
     /// The stripes hold 12 bytes an analysis; the surface 8 bytes a threshold, in memory twice while it is put in order; records 48
     /// bytes a sample with their integrals and extremes; a site of a table half a kilobyte, and as text 80 bytes an ordinate and 800 a fit.
-    fn of(study: &ResolvedStudy, set: &RecordSet, list: Option<&SiteList>) -> Self {
+    fn of(study: &UniformRiskStudy, set: &RecordSet, list: Option<&SiteList>) -> Self {
         let count = |n: usize| n as u64;
         let (records, strengths) = (count(set.records.len()), count(study.strengths.len()));
         let levels: u64 = study.measures.iter().map(|measure| count(measure.levels.len())).sum();

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use uplift_labelled::LabelledError;
-use uplift_study::{AnyStudy, ResolvedStudy};
+use uplift_study::{AnyStudy, UniformRiskStudy};
 
 use crate::checkpoint::{motion_key, oscillator_key};
 use crate::error::UpliftError;
@@ -20,7 +20,7 @@ const WITHOUT_INFLUENCE: [&str; 3] = ["title", "bootstrap", "output"];
 ///
 /// # Errors
 /// Inputs that cannot be used; as [`run`].
-pub fn result_of(study: &ResolvedStudy, options: &RunOptions, events: &dyn Events) -> Result<PathBuf, UpliftError> {
+pub fn result_of(study: &UniformRiskStudy, options: &RunOptions, events: &dyn Events) -> Result<PathBuf, UpliftError> {
     let path = options.result_file(&study.output.file);
     if path.exists() && is_result_of(study, path)? {
         events.remark("result", &format!("{} is that of the study", path.display()));
@@ -32,7 +32,7 @@ pub fn result_of(study: &ResolvedStudy, options: &RunOptions, events: &dyn Event
 }
 
 /// Whether the file at `path` holds the stripes and spectra of `study`, made of the same records and hazard curves.
-fn is_result_of(study: &ResolvedStudy, path: &Path) -> Result<bool, UpliftError> {
+fn is_result_of(study: &UniformRiskStudy, path: &Path) -> Result<bool, UpliftError> {
     let Ok(reader) = open_result(path) else { return Ok(false) };
     let own = study.to_toml().map_err(|error| UpliftError::input(error.to_string()))?;
     let kept = reader.attribute_text("/", "study_toml")?;

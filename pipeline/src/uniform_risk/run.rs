@@ -2,7 +2,7 @@
 
 use uplift_ida::Part;
 use uplift_risk::OrdinateFlag;
-use uplift_study::ResolvedStudy;
+use uplift_study::UniformRiskStudy;
 
 use super::report::RunReport;
 use super::{
@@ -19,7 +19,7 @@ use crate::text::per_cent;
 
 /// Carries out `study`, but for the rows of its analysis that are `known`.
 pub(crate) fn run(
-    study: &ResolvedStudy,
+    study: &UniformRiskStudy,
     place: &Place<'_>,
     known: KeptPieces,
     events: &dyn Events,
@@ -78,7 +78,7 @@ pub(crate) fn run(
 }
 
 fn warnings_of(
-    study: &ResolvedStudy,
+    study: &UniformRiskStudy,
     records: &RecordSet,
     spectra: &[Spectra],
     coefficients: &[Coefficients],

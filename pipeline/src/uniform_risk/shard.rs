@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use uplift_ida::Part;
-use uplift_study::{AnyStudy, ResolvedStudy};
+use uplift_study::{AnyStudy, UniformRiskStudy};
 
 use super::{Work, open};
 use crate::checkpoint::{KeptPieces, PieceFile, PieceFileHead};
@@ -44,7 +44,7 @@ pub fn shard_path(result: &Path, Part { index, count }: Part) -> PathBuf {
 /// # Errors
 /// As [`run`](crate::run()).
 pub fn run_shard(
-    study: &ResolvedStudy,
+    study: &UniformRiskStudy,
     path: &Path,
     part: Part,
     earlier: Option<&Path>,
@@ -72,7 +72,7 @@ pub fn run_shard(
 /// # Errors
 /// Every shard that is missing, there twice, unfinished or of other work, at once; else as [`run`](crate::run()).
 pub fn merge(
-    study: &ResolvedStudy,
+    study: &UniformRiskStudy,
     shards: &[PathBuf],
     options: &RunOptions,
     events: &dyn Events,

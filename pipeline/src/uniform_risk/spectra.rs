@@ -9,7 +9,7 @@ use uplift_risk::{Ordinate, PooledDemand, RiskCurve, RiskError, ThresholdGrid};
 use super::{BranchSpectra, Stripes};
 use crate::error::UpliftError;
 use crate::inputs::SiteHazard;
-use uplift_study::{Contour, ResolvedStudy};
+use uplift_study::{Contour, UniformRiskStudy};
 
 /// The spectra of one measure.
 #[derive(Debug, Clone)]
@@ -47,7 +47,7 @@ pub(super) struct Reading {
 }
 
 impl Reading {
-    pub(super) fn of(study: &ResolvedStudy) -> Result<Self, UpliftError> {
+    pub(super) fn of(study: &UniformRiskStudy) -> Result<Self, UpliftError> {
         let rate = |&poe: &f64| rate_from_probability(poe, study.risk.years);
         let targets = study.risk.poe.iter().map(rate).collect::<Result<Vec<_>, _>>();
         let targets = targets.map_err(|error| UpliftError::input(error.to_string()))?;
@@ -90,7 +90,7 @@ struct OfStrength {
 /// # Errors
 /// Numbers that do not fit together, which the checks of study and inputs rule out.
 pub fn uniform_risk_spectra(
-    study: &ResolvedStudy,
+    study: &UniformRiskStudy,
     stripes: &Stripes,
     hazard: &[SiteHazard],
 ) -> Result<Spectra, UpliftError> {

@@ -4,11 +4,11 @@ use std::time::Instant;
 
 use uplift_ida::{Cells, EdpArray, IdaError, Part, Piece, Plan, StripeRecord, Watch, complete};
 use uplift_motion::IntensityMeasure;
-use uplift_oscillator::{Oscillator, PostUplift};
+use uplift_oscillator::Oscillator;
 
 use crate::error::UpliftError;
 use crate::inputs::RecordSet;
-use uplift_study::{MeasurePlan, ResolvedStudy, Uplifted};
+use uplift_study::{MeasurePlan, UniformRiskStudy};
 
 /// The analysed stripes of one measure.
 #[derive(Debug, Clone)]
@@ -31,19 +31,14 @@ pub struct Stripes {
 ///
 /// # Errors
 /// A parameter that the study file's check let through: none is known.
-pub fn oscillators(study: &ResolvedStudy) -> Result<Vec<Oscillator>, UpliftError> {
+pub fn oscillators(study: &UniformRiskStudy) -> Result<Vec<Oscillator>, UpliftError> {
     let parameters = &study.oscillator;
-    let post_uplift = match parameters.uplifted {
-        Uplifted::ZeroStiffness => PostUplift::Zero,
-        Uplifted::NegativeStiffness { capacity_m } => PostUplift::Negative { capacity_m },
-        Uplifted::PositiveStiffness { stiffness_per_s2 } => PostUplift::Positive { stiffness_per_s2 },
-    };
     study
         .strengths
         .iter()
         .map(|&strength| {
             let (u_up, restitution) = (parameters.uplift_displacement_m, parameters.restitution);
-            Oscillator::new(strength, study.gravity_m_s2, u_up, restitution, post_uplift)
+            Oscillator::new(strength, study.gravity_m_s2, u_up, restitution, parameters.post_uplift)
                 .map_err(|error| UpliftError::input(error.to_string()))
         })
         .collect()
@@ -54,7 +49,7 @@ pub fn oscillators(study: &ResolvedStudy) -> Result<Vec<Oscillator>, UpliftError
 /// # Errors
 /// A record that cannot be scaled.
 pub fn plan_stripes<'a>(
-    study: &'a ResolvedStudy,
+    study: &'a UniformRiskStudy,
     measure: &'a MeasurePlan,
     set: &'a RecordSet,
     oscillators: &'a [Oscillator],

@@ -15,11 +15,11 @@ use crate::inputs::RecordSet;
 use crate::text::thousands;
 use crate::uniform_risk::EarlierStripes;
 use crate::uniform_risk::{Stripes, analyse_stripes, oscillators, plan_stripes};
-use uplift_study::ResolvedStudy;
+use uplift_study::UniformRiskStudy;
 
 /// All analyses that a study asks for.
 pub(crate) struct Work<'a> {
-    study: &'a ResolvedStudy,
+    study: &'a UniformRiskStudy,
     records: &'a RecordSet,
     oscillators: Vec<Oscillator>,
     motions: Vec<String>,
@@ -40,7 +40,7 @@ impl<'a> Work<'a> {
     ///
     /// # Errors
     /// A parameter of an oscillator that the study file's check let through: none is known.
-    pub(crate) fn new(study: &'a ResolvedStudy, records: &'a RecordSet) -> Result<Self, UpliftError> {
+    pub(crate) fn new(study: &'a UniformRiskStudy, records: &'a RecordSet) -> Result<Self, UpliftError> {
         let motions: Vec<String> = records.records.iter().map(|record| motion_key(&record.accelerogram)).collect();
         let keys = study.measures.iter().map(|measure| StripeKeys::of(study, measure, records, &motions)).collect();
         Ok(Self { study, records, oscillators: oscillators(study)?, motions, keys })

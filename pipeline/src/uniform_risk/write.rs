@@ -45,11 +45,7 @@ fn write_root(writer: &mut LabelledWriter, outcome: &Outcome<'_>) -> Result<(), 
     origin.write(writer)?;
     writer.attribute("/", "seed", study.seed)?;
     writer.attribute("/", "poe_years", study.risk.years)?;
-    writer.attribute(
-        "/",
-        "contour",
-        if study.risk.contour == uplift_study::Contour::Exact { "exact" } else { "grid" },
-    )?;
+    writer.attribute("/", "contour", study.risk.contour.key())?;
     Ok(())
 }
 

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use uplift::bootstrap::{BootstrapOptions, bootstrap as run, read_reference};
-use uplift_study::IntervalKind;
+use uplift_bootstrap::Interval;
 
 use super::result_of::ResultArguments;
 use crate::error::CommandError;
@@ -54,7 +54,7 @@ pub(super) fn bootstrap(arguments: &BootstrapArguments, terminal: &Terminal) -> 
         sizes: arguments.sizes.clone(),
         replicates: arguments.replicates,
         seed: arguments.seed,
-        interval: interval.map(|word| if word == "bca" { IntervalKind::Bca } else { IntervalKind::Percentile }),
+        interval: interval.map(|word| if word == "bca" { Interval::Bca } else { Interval::Percentile }),
         simultaneous: arguments.simultaneous,
         plan: arguments.plan.clone(),
         reference: reference.unwrap_or_default(),

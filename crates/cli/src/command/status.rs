@@ -9,7 +9,7 @@ use crate::error::CommandError;
 use uplift::checkpoint::{Finding, PieceFile, journal_path};
 use uplift::result::ResultLock;
 use uplift::result::{holds_displacement_spectra, is_hdf5, open_any_result};
-use uplift_study::{AnyStudy, Study};
+use uplift_study::Study;
 
 #[derive(Debug, Args)]
 pub(super) struct StatusArguments {
@@ -30,10 +30,7 @@ pub(super) fn status(arguments: &StatusArguments) -> Result<(), CommandError> {
         }
     }
     let result = if input.extension().is_some_and(|extension| extension == "toml") {
-        match Study::load_any(input, &[])? {
-            AnyStudy::UniformRisk(study) => study.output.file,
-            AnyStudy::Displacement(study) => study.output.file,
-        }
+        Study::load_any(input, &[])?.output().file.clone()
     } else {
         input.clone()
     };

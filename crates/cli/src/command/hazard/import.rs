@@ -212,7 +212,7 @@ fn file_stem(exported: &ExportedCurve) -> String {
             let fitting = |c: char| if c.is_ascii_alphanumeric() { c } else { '-' };
             format!("{measure}-{}", path.chars().map(fitting).take(80).collect::<String>())
         }
-        _ => measure,
+        Statistic::Mean | Statistic::Unspecified => measure,
     }
 }
 
@@ -222,7 +222,7 @@ fn weight_of(kind: &Statistic, weights: &BTreeMap<u32, RealizationWeight>) -> Op
         Statistic::Branch(path) => {
             weights.values().find(|weight| weight.branch_path == *path).map(|weight| weight.weight)
         }
-        _ => None,
+        Statistic::Mean | Statistic::Quantile(_) | Statistic::Unspecified => None,
     }
 }
 
