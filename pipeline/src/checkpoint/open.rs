@@ -44,7 +44,7 @@ impl Checkpoint {
     /// command and the structure, say. Where no file can be written there, or another job has it, this one goes on without, and
     /// says so.
     pub fn beside(result: &Path, name: &str, head: &RowFileHead, events: &dyn Events) -> Self {
-        let path = path_beside(result, name);
+        let path = path_beside(result, name, "part");
         let opened =
             ResultLock::acquire(&path).and_then(|lock| Ok(Self { _lock: Some(lock), ..Self::open(&path, head)? }));
         match opened {
@@ -139,13 +139,13 @@ impl Checkpoint {
     }
 }
 
-/// `europe.h5` and `design pier` make `europe.h5.design-pier.part`.
-fn path_beside(result: &Path, name: &str) -> PathBuf {
+/// `europe.h5`, `design pier` and `part` make `europe.h5.design-pier.part`.
+pub(crate) fn path_beside(result: &Path, name: &str, extension: &str) -> PathBuf {
     let result = &final_place(result).unwrap_or_else(|_| result.to_owned());
     let plain: String =
         name.chars().map(|letter| if letter.is_alphanumeric() || letter == '_' { letter } else { '-' }).collect();
     let mut file = result.file_name().unwrap_or(result.as_os_str()).to_owned();
-    file.push(format!(".{plain}.part"));
+    file.push(format!(".{plain}.{extension}"));
     result.with_file_name(file)
 }
 
