@@ -66,8 +66,7 @@ impl StudyOfResult {
         let sites = reader.axis_text("site")?;
         let mut study = uniform_risk_study(&reader, path)?;
         if let Some(manifest) = manifest {
-            study.records.source =
-                study.records.source.by_manifest(std::path::absolute(manifest).unwrap_or_else(|_| manifest.to_owned()));
+            study.records.source = study.records.source.by_manifest(absolute(manifest)?);
         }
         let cells = sites.len() * study.risk.poe.len() * study.strengths.len();
         let measures = study
@@ -156,6 +155,11 @@ impl StudyOfResult {
         let start = (site * self.study.risk.poe.len() + poe) * strengths;
         &measure.u_m[start..start + strengths]
     }
+}
+
+/// A path that does not depend on the current folder.
+fn absolute(path: &Path) -> Result<PathBuf, UpliftError> {
+    std::path::absolute(path).map_err(|error| UpliftError::input(format!("{}: {error}", path.display())))
 }
 
 /// What identifies each record.
