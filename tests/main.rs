@@ -23,4 +23,5 @@ mod response;
 mod resume;
 mod run;
 mod site_table;
+mod structure_resume;
 mod table_4_2;

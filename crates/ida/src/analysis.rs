@@ -23,14 +23,15 @@ pub fn analyse(plan: &Plan<'_>, watch: &dyn Watch) -> Result<Peaks, IdaError> {
     Ok(cells.peaks)
 }
 
-/// Carry out what `cells` lacks of one `shard` of `plan`, and hand every row to `keep` when it is finished, from any thread.
+/// Carry out what `cells` lacks of one `shard` of `plan`, and hand every row to `keep` when it is finished, from any
+/// thread.
 ///
 /// A cell depends on its motion, system and scale factor alone: whatever was known before, the numbers are those of an
 /// undisturbed [`analyse`], to the bit. A row of which everything is known is not handed over again.
 ///
-/// Rows are shared out among the threads; the scale factors of a system that is not [swept](System::is_swept) as well, so that
-/// a few long rows keep all threads busy too. `watch` is asked before every row, and before every run of a system that is not
-/// swept.
+/// Rows are shared out among the threads; the scale factors of a system that is not [swept](System::is_swept) as well,
+/// so that a few long rows keep all threads busy too. `watch` is asked before every row, and before every run of a
+/// system that is not swept.
 ///
 /// # Errors
 /// As [`analyse`]; what `keep` was given is finished all the same.
@@ -134,7 +135,11 @@ pub(crate) fn single(
 fn rocked(block: &RockingBlock, motion: &ScaledMotion<'_>, scale: f64, with_free_peak: bool) -> Result<Peak, IdaError> {
     let free = if with_free_peak { FreeRocking::FirstPeak } else { FreeRocking::Lasting { duration_s: 0.0 } };
     let named = || motion.id.to_owned();
-    let ground = motion.accelerogram.scaled(scale).map_err(|source| IdaError::Motion { motion: named(), source })?;
-    let response = respond(block, &ground, free).map_err(|source| IdaError::Block { motion: named(), source })?;
+    let ground = motion
+        .accelerogram
+        .scaled(scale)
+        .map_err(|source| IdaError::Motion { motion: named(), source: source.into() })?;
+    let response =
+        respond(block, &ground, free).map_err(|source| IdaError::Block { motion: named(), source: source.into() })?;
     Ok(Peak { displacement_m: response.displacement_m, impacts: u32::try_from(response.impacts).unwrap_or(u32::MAX) })
 }

@@ -1,4 +1,5 @@
-//! How often a structure overturns, by its equivalent oscillator and by the rigid block that rotates as it does (Section 2.4.3).
+//! How often a structure overturns, by its equivalent oscillator and by the rigid block that rotates as it does
+//! (Section 2.4.3).
 
 use std::path::{Path, PathBuf};
 
@@ -33,8 +34,8 @@ pub struct OverturningOptions {
     pub site: Option<String>,
     /// Intensity measure; all of the result where none is given.
     pub measure: Option<IntensityMeasure>,
-    /// One coefficient of restitution for both models, in place of the structure's, the study's (oscillator) and that of
-    /// angular momentum (block).
+    /// One coefficient of restitution for both models, in place of the structure's, the study's (oscillator) and that
+    /// of angular momentum (block).
     pub restitution: Option<f64>,
     /// CSV file of the collapse fragility to write; the risk goes to one that ends in .risk.csv beside it.
     pub table: Option<PathBuf>,
@@ -124,10 +125,10 @@ pub struct SiteRisk {
 /// How often `structure` overturns under the records and the hazard of the result at `result`.
 ///
 /// # Errors
-/// A file that is missing, damaged, no result, or without sites; a site or measure that it does not have; a restitution that
-/// cannot be; records that cannot be read; tables that cannot be written or would replace something else; shards that do not
-/// belong together; [`UpliftError::Paused`] where `events` say so, [`UpliftError::Interrupted`] where no checkpoint can be written
-/// beside the result.
+/// A file that is missing, damaged, no result, or without sites; a site or measure that it does not have; a restitution
+/// that cannot be; records that cannot be read; tables that cannot be written or would replace something else; shards
+/// that do not belong together; [`UpliftError::Paused`] where `events` say so, [`UpliftError::Interrupted`] where no
+/// checkpoint can be written beside the result.
 pub fn overturning(
     structure: &Structure,
     result: &Path,
