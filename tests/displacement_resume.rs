@@ -89,12 +89,13 @@ fn shards_make_the_same_result() {
         study.uplift(&["merge", "study.toml", "foreign", all[1], all[2]]).fails(4, &["foreign", "other work"]);
         // one that was cut off is gone on with
         let bytes = std::fs::read(study.path().join(all[0])).unwrap();
-        study.write_bytes(all[0], &bytes[..bytes.len() / 3]);
+        let head = bytes.iter().position(|byte| *byte == b'\n').unwrap() + 1;
+        study.write_bytes(all[0], &bytes[..head + 500]);
         study.uplift(&[&["merge", "study.toml"][..], &all].concat()).fails(4, &["analysis rows", "--shard 1/3"]);
         study.uplift(&["run", "study.toml", "--shard", "1/3", "-q"]).ok();
         study.uplift(&[&["merge", "study.toml", "-o", "again.h5", "-q"][..], &all].concat()).ok();
         assert_eq!(content(&study.path().join("again.h5")), whole);
-        assert!(left(study.path()).iter().all(|name| !name.ends_with(".part")), "{:?}", left(study.path()));
+        assert!(!left(study.path()).iter().any(|name| name.contains(".part")), "{:?}", left(study.path()));
     }
 }
 

@@ -68,7 +68,7 @@ fn from_any_checkpoint_the_answer_is_the_same() {
         study.uplift(&[job, "block.toml", "--urs", "r.h5", "--shard", "1/1", "-q"]).ok();
         let rows = std::fs::read(study.path().join(format!("r.h5.{job}-block.shard-1-of-1"))).unwrap();
         let checkpoint = format!("r.h5.{job}-block.part");
-        for (share, threads) in [(1, "1"), (3, "3"), (4, "1")] {
+        for (share, threads) in [(2, "1"), (3, "3"), (4, "1")] {
             study.write_bytes(&checkpoint, &rows[..rows.len() * share / 4]);
             let done = study.uplift(&[&ask[..], &["--threads", threads]].concat()).ok();
             assert!(done.stderr.contains("analyses from before"), "{}", done.stderr);
@@ -90,8 +90,8 @@ fn ctrl_c_leaves_a_checkpoint() {
     let study = study();
     // long enough to be stopped
     study.uplift(&["records", "synthesize", "-o", "many", "--count", "60", "-q"]).ok();
-    study.uplift(&["records", "import", "many", "-o", "manifest.csv", "-q"]).ok();
-    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    study.uplift(&["records", "import", "many", "-o", "many.csv", "-q"]).ok();
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q", "--set", "records.manifest=many.csv"]).ok();
     let ask = ["design", "block.toml", "--urs", "r.h5", "--json"];
     let mut child = command(study.path())
         .args(ask)
