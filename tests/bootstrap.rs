@@ -7,7 +7,7 @@ use std::path::Path;
 
 use common::{SmallStudy, command, real_records, repository};
 use serde_json::Value;
-use uplift::labelled::LabelledReader;
+use uplift_labelled::LabelledReader;
 
 fn array(path: &Path, name: &str) -> Vec<f64> {
     LabelledReader::open(path).unwrap().array_f64(name).unwrap().values

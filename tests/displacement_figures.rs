@@ -7,7 +7,7 @@ use std::collections::HashMap;
 
 use common::SmallStudy;
 use serde_json::Value;
-use uplift::labelled::LabelledReader;
+use uplift_labelled::LabelledReader;
 
 /// Small oscillators: the synthetic motions are gentle.
 const OSCILLATORS: &str = r#"kind = "displacement spectra"

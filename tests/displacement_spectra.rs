@@ -9,7 +9,7 @@ use std::path::Path;
 use std::process::Command;
 
 use common::{EARLIER, SmallStudy, python, real_records, repository, uplift};
-use uplift::labelled::{LabelledArray, LabelledReader};
+use uplift_labelled::{LabelledArray, LabelledReader};
 
 /// Small oscillators and slender blocks: the synthetic motions are gentle.
 const OSCILLATORS: &str = r#"kind = "displacement spectra"

@@ -4,7 +4,7 @@
 mod common;
 
 use common::SmallStudy;
-use uplift::labelled::LabelledReader;
+use uplift_labelled::LabelledReader;
 
 const HEAD: &str = r#"seed = 3
 [records]

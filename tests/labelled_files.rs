@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 use common::{python, repository};
-use uplift::labelled::LabelledWriter;
+use uplift_labelled::LabelledWriter;
 
 fn texts(values: &[&str]) -> Vec<String> {
     values.iter().map(ToString::to_string).collect()

@@ -9,7 +9,7 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use common::{EARLIER, SMALL_STUDY, SmallStudy, command};
-use uplift::labelled::LabelledReader;
+use uplift_labelled::LabelledReader;
 
 /// A study of about a second of work on one thread.
 fn study() -> SmallStudy {
@@ -294,7 +294,7 @@ fn bands_are_not_written_into_another_result() {
 fn files_of_other_programs_stay() {
     let study = SmallStudy::new();
     let other = study.path().join("thesis.h5");
-    let mut writer = uplift::labelled::LabelledWriter::create(&other).unwrap();
+    let mut writer = uplift_labelled::LabelledWriter::create(&other).unwrap();
     writer.attribute("/", "author", "somebody").unwrap();
     writer.finish().unwrap();
     let before = std::fs::read(&other).unwrap();

@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::Command;
 
 use common::{EARLIER, SmallStudy, python, repository};
-use uplift::labelled::LabelledReader;
+use uplift_labelled::LabelledReader;
 
 fn arrays(path: &Path) -> Vec<(String, Vec<u64>)> {
     let reader = LabelledReader::open(path).unwrap();

@@ -9,7 +9,7 @@ use std::path::Path;
 
 use common::{SMALL_STUDY, SmallStudy};
 use serde_json::Value;
-use uplift::labelled::LabelledReader;
+use uplift_labelled::LabelledReader;
 
 /// A site of an export: name, longitude, latitude and k0 of the curve λ = k0 im⁻²; at sea k0 is 0.
 type Site = (&'static str, f64, f64, f64);
