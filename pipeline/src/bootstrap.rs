@@ -6,5 +6,4 @@ mod write;
 
 pub use bands::{BandSettings, Bands, JointBands, StrengthBands, bands_of_strength, gather_bands};
 pub use checkpoint::{Checkpoint, Finished};
-pub(crate) use write::percentile_name;
 pub use write::{BandsFile, band_paths, write_bands};

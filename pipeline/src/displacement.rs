@@ -10,8 +10,8 @@ mod spectra;
 mod write;
 
 pub use csv::{displacement_csv_paths, write_displacement_csv};
-pub use design_example::{Designs, RULES, design_analyses, design_examples, strength};
-pub use design_rows::{DesignRow, read_design};
+pub use crate::result::{DesignRow, RULES};
+pub use design_example::{Designs, design_analyses, design_examples, strength};
 pub use plan::Plan;
 pub(crate) use plan::plan;
 pub use report::{RunReport, SetReport, SpectraReport};

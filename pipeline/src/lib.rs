@@ -18,6 +18,7 @@
 //! The science is in the crates below this one, the command line and the report in those above it. Nothing here prints,
 //! reads arguments or handles signals.
 
+mod array;
 pub mod bootstrap;
 pub mod checkpoint;
 pub mod displacement;
@@ -36,6 +37,7 @@ pub mod structure;
 pub mod text;
 pub mod uniform_risk;
 
+pub use array::{Array, ShapeError};
 pub use error::UpliftError;
 pub use events::{Events, Phase, Silent};
 pub use plan::{Plan, plan};

@@ -5,14 +5,12 @@ use uplift_ida::Watch;
 use uplift_spectra::{
     MotionSet, RestrainedDesign, RestrainedExample, Scaling, SolitaryDesign, SolitaryExample, SpectraError,
 };
-use uplift_structure::Rule;
 
 use super::spectra::{of_spectra, with_free_vibration};
 use crate::error::UpliftError;
+use crate::result::RULES;
 use uplift_study::{DesignPlan, Designed, DisplacementStudy, Structures};
 
-/// The rules that a restrained bridge is designed by, in the order of the results.
-pub const RULES: [Rule; 2] = [Rule::EqualDisplacement, Rule::EqualEnergy];
 /// Ratio of neighbouring slendernesses in the search for the intersection: a range in which the block does not stand may be missed if it is narrower.
 const SEARCH_RATIO: f64 = 1.02;
 /// Halvings, at most, after that search.

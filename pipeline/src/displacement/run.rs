@@ -3,19 +3,18 @@
 use std::collections::BTreeMap;
 use std::time::Instant;
 
-use uplift_labelled::LabelledReader;
 use uplift_spectra::MotionSet;
 use uplift_study::DisplacementStudy;
 
 use super::report::RunReport;
 use super::{
-    Designs, DisplacementOutcome, analyses, design_examples, read_design, set_spectra, structures,
+    Designs, DisplacementOutcome, analyses, design_examples, set_spectra, structures,
     write_displacement_csv, write_displacements,
 };
 use crate::error::UpliftError;
 use crate::events::{Events, Progress};
 use crate::inputs::{RecordSets, read_record_sets};
-use crate::result::Provenance;
+use crate::result::{Provenance, ResultFile};
 use crate::run::{Place, SYNTHETIC};
 use crate::text::thousands;
 
@@ -74,7 +73,7 @@ pub(crate) fn run(study: &DisplacementStudy, place: &Place<'_>, events: &dyn Eve
     write_displacements(path, &outcome)?;
     let mut files = vec![path.to_owned()];
     // the tables say what the file says
-    let rows = read_design(&LabelledReader::open(path)?)?;
+    let rows = ResultFile::open(path)?.design()?.map_or_else(Vec::new, |design| design.rows);
     if study.output.csv {
         files.extend(write_displacement_csv(path, &outcome, &rows)?);
     }

@@ -52,7 +52,7 @@ pub fn predictor(
 ) -> Result<Predictor, UpliftError> {
     let u_up = stored.uplift_displacement_m;
     let of_strength = |strength: usize| -> Result<OfStrength, Box<dyn std::error::Error + Send + Sync>> {
-        let stripes = measure.stripes(strength, stored.strengths.len())?;
+        let stripes = measure.stripes(strength)?;
         let dispersions = (0..measure.levels.len()).map(|level| Dispersion::of(&stripes, level)).collect();
         let uplift: Vec<f64> = uplift_levels(&stripes, u_up).into_iter().filter(|level| level.is_finite()).collect();
         let residuals = mean_residuals(&stripes, u_up);

@@ -3,14 +3,19 @@
 use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
+use uplift_motion::IntensityMeasure;
 
 use crate::error::UpliftError;
 use crate::influence::Influence;
-use crate::result::{StoredStripes, extend_result, line, sign, write_table};
+use crate::result::layout::{axis, disaggregation, influence};
+use crate::result::{StoredMeasure, StoredStripes, extend_result, line, sign, write_table};
 use uplift_labelled::{LabelledError, LabelledWriter};
 
 /// The groups that a new look replaces.
-const REPLACED: [&str; 4] = ["/influence", "/disaggregation", "/axes/pgv_bin", "/axes/pga_bin"];
+fn replaced() -> Vec<String> {
+    let bins = IntensityMeasure::ALL.map(|measure| axis::path(&axis::bin(measure)));
+    [influence::ROOT, disaggregation::ROOT].map(str::to_owned).into_iter().chain(bins).collect()
+}
 
 /// How a record changes a spectrum.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,23 +30,27 @@ pub struct RecordInfluence {
     pub strength: f64,
 }
 
-/// The influence of every record on one spectrum, the most influential first; empty where no ordinate lies above uplift.
+/// The influence of every record on one spectrum, the most influential first; empty where no ordinate lies above
+/// uplift.
+///
+/// * `at` — site and probability of the spectrum, by position
+///
+/// Ordinates without a record are compared with those of `measure` with all of them, both exact: the change is never
+/// that between an exact ordinate and one of the study's grid.
 pub fn record_influence(
     stored: &StoredStripes,
+    measure: &StoredMeasure,
     influence: &Influence,
-    spectrum_m: &[f64],
-    row: usize,
+    at: [usize; 2],
 ) -> Vec<RecordInfluence> {
-    let (records, strengths) = (stored.records.len(), stored.strengths.len());
-    if influence.without_m.is_empty() {
-        return Vec::new();
-    }
-    let mut all: Vec<RecordInfluence> = (0..records)
+    let [site, poe] = at;
+    let Some(without_m) = &influence.without_m else { return Vec::new() };
+    let mut all: Vec<RecordInfluence> = (0..stored.records.len())
         .filter_map(|record| {
-            let start = (row * records + record) * strengths;
-            let changes: Vec<(f64, f64)> = influence.without_m[start..start + strengths]
+            let changes: Vec<(f64, f64)> = without_m
+                .block([site, poe, record])
                 .iter()
-                .zip(spectrum_m)
+                .zip(measure.exact_m.block(at))
                 .zip(&stored.strengths)
                 .filter(|((_, full), _)| full.is_finite() && **full > stored.uplift_displacement_m)
                 .map(|((without, full), &strength)| ((without - full) / full, strength))
@@ -69,7 +78,7 @@ pub fn write_influence(
     influences: &[Influence],
     rankings: &[Vec<Vec<RecordInfluence>>],
 ) -> Result<(), UpliftError> {
-    extend_result(stored, &REPLACED, |writer| add(writer, stored, influences))?;
+    extend_result(stored, &replaced(), |writer| add(writer, stored, influences))?;
     write_table(
         &influence_path(&stored.path),
         &line(stored, "spectra without each record"),
@@ -78,23 +87,22 @@ pub fn write_influence(
 }
 
 fn add(writer: &mut LabelledWriter, stored: &StoredStripes, influences: &[Influence]) -> Result<(), LabelledError> {
-    sign(writer, "/influence")?;
-    sign(writer, "/disaggregation")?;
-    for (influence, measure) in influences.iter().zip(&stored.measures) {
-        let key = influence.measure.key();
-        if !influence.without_m.is_empty() {
-            let dims = ["site", "poe", "record", "strength"];
+    sign(writer, influence::ROOT)?;
+    sign(writer, disaggregation::ROOT)?;
+    for (found, measure) in influences.iter().zip(&stored.measures) {
+        if let Some(without_m) = &found.without_m {
+            let dims = [axis::SITE, axis::POE, axis::RECORD, axis::STRENGTH];
             let long_name = "uniform risk displacement without the record";
-            writer.array_f64(&format!("/influence/{key}/u_without_m"), &dims, &influence.without_m, "m", long_name)?;
+            writer.array_f64(&influence::u_without_m(found.measure), &dims, without_m.values(), "m", long_name)?;
         }
         let from: Vec<f64> = std::iter::once(0.0).chain(measure.levels.iter().copied()).collect();
-        let bin = format!("{key}_bin");
+        let bin = axis::bin(found.measure);
         let long_name =
-            format!("{} from which a bin reaches up to the next, the last without end", influence.measure.label());
-        writer.axis_f64(&bin, &from, influence.measure.unit(), &long_name)?;
-        let dims = ["site", "poe", "strength", &bin];
+            format!("{} from which a bin reaches up to the next, the last without end", found.measure.label());
+        writer.axis_f64(&bin, &from, found.measure.unit(), &long_name)?;
+        let dims = [axis::SITE, axis::POE, axis::STRENGTH, &bin];
         let long_name = "share of the risk at the ordinate";
-        writer.array_f64(&format!("/disaggregation/{key}/share"), &dims, &influence.shares, "1", long_name)?;
+        writer.array_f64(&disaggregation::share(found.measure), &dims, found.shares.values(), "1", long_name)?;
     }
     Ok(())
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use super::LAYOUT;
+use super::layout::LAYOUT;
 use super::extend::now;
 use crate::error::UpliftError;
 use crate::inputs::{RecordSet, SiteHazard};

@@ -1,22 +1,24 @@
-//! The study of a result, to be asked something new: its spectra and hazard as the file holds them, its records read again.
+//! The study of a result, to be asked something new: its spectra and hazard as the file holds them, its records read
+//! again.
 
 use std::path::{Path, PathBuf};
 
-use uplift_hazard::{Extrapolation, rate_from_probability};
+use uplift_hazard::rate_from_probability;
 use uplift_motion::IntensityMeasure;
 use uplift_risk::StripeWeights;
+use uplift_study::{MeasurePlan, ResolvedStudy, Study};
 
-use super::hazard::read_curve;
-use super::open_result;
-use super::stored::poe_index;
+use super::file::ResultFile;
+use super::layout::{axis, urs};
+use super::records::StoredRecords;
+use super::stripes::{extrapolation, poe_index};
+use crate::array::Array;
 use crate::checkpoint::motion_key;
 use crate::error::UpliftError;
 use crate::inputs::{RecordSet, read_records};
-use uplift_labelled::{LabelledError, LabelledReader};
-use uplift_study::{Extrapolate, MeasurePlan, ResolvedStudy, Study};
 
 /// Parts of a study that the result holds itself, or that matter no more.
-const LEFT_OUT: [&str; 4] = ["sites", "site_table", "output", "bootstrap"];
+const LEFT_OUT: [&str; 3] = ["sites", "site_table", "output"];
 
 /// A result with its study.
 #[derive(Debug, Clone)]
@@ -35,8 +37,8 @@ pub struct StudyOfResult {
     pub measures: Vec<SpectraOfResult>,
     /// Why the study's records cannot even be looked for.
     unreadable: Option<String>,
-    /// `[record]`: SHA-256 of the motion, PGA in g, PGV in cm/s.
-    motions: Vec<(String, f64, f64)>,
+    /// What identifies the records.
+    made_from: StoredRecords,
 }
 
 /// Spectra and hazard of one measure.
@@ -44,8 +46,8 @@ pub struct StudyOfResult {
 pub struct SpectraOfResult {
     /// The measure with its levels.
     pub plan: MeasurePlan,
-    /// The spectra over `[site, poe, strength]`, m; infinite where censored.
-    pub u_m: Vec<f64>,
+    /// The spectra `[site, poe, strength]`, m; infinite where censored.
+    pub u_m: Array<3>,
     /// What each stripe weighs, `[site]`.
     pub weights: Vec<StripeWeights>,
 }
@@ -57,59 +59,58 @@ impl SpectraOfResult {
     }
 }
 
-impl StudyOfResult {
-    /// Read the result at `path`, and its study; its records are looked for in `manifest` if one is given.
+impl ResultFile {
+    /// The study of a result of uniform risk, with its spectra; its records are looked for in `manifest` if one is
+    /// given.
     ///
     /// # Errors
-    /// A file that is missing, damaged, no result, or of another layout; a study without sites; a manifest for records that have none.
-    pub fn read(path: &Path, manifest: Option<&Path>) -> Result<Self, UpliftError> {
-        let reader = open_result(path)?;
-        let fail = |reason: &str| UpliftError::input(format!("{}: {reason}", path.display()));
-        if !reader.exists("/axes/site") {
-            return Err(fail("the study has no sites, and so no spectra: add [[sites]] and run it again"));
-        }
-        let sites = reader.axis_text("site")?;
-        let (study, unreadable) = resolve(&reader.attribute_text("/", "study_toml")?, manifest)
-            .map_err(|reason| fail(&format!("the study in the file cannot be read: {reason}")))?;
-        let cells = sites.len() * study.risk.poe.len() * study.strengths.len();
-        let extrapolation = match study.risk.extrapolate {
-            Extrapolate::Refuse => Extrapolation::Refuse,
-            Extrapolate::Loglog => Extrapolation::LogLog,
-        };
+    /// A file that is damaged, or of another kind; a study without sites; a manifest for records that have none.
+    pub fn study(&self, manifest: Option<&Path>) -> Result<StudyOfResult, UpliftError> {
+        let axes = self.axes_with_sites()?;
+        let (study, unreadable) = self.stored_study(manifest)?;
+        let lengths = [
+            (axis::SITE, axes.sites.len()),
+            (axis::POE, study.risk.poe.len()),
+            (axis::STRENGTH, study.strengths.len()),
+        ];
         let measures = study
             .measures
             .iter()
             .map(|plan| {
-                let key = plan.measure.key();
-                let u_m = reader.array_f64(&format!("/urs/{key}/u_m"))?.values;
-                if u_m.len() != cells {
-                    return Err(fail(&format!(
-                        "/urs/{key}/u_m does not have the shape of its axes: the file is damaged"
-                    )));
-                }
-                let weights = sites
-                    .iter()
-                    .map(|site| {
-                        let curve = read_curve(&reader, &format!("/hazard/{site}/{key}"), plan.measure)?;
-                        StripeWeights::from_hazard(&curve, &plan.levels, extrapolation)
-                            .map_err(|error| fail(&format!("hazard of {site}: {error}")))
-                    })
-                    .collect::<Result<Vec<_>, _>>()?;
-                Ok(SpectraOfResult { plan: plan.clone(), u_m, weights })
+                let weigh = |site: &String| {
+                    let curve = self.curves(site, plan.measure)?.curve;
+                    self.weigh(site, &curve, &plan.levels, extrapolation(&study))
+                };
+                Ok(SpectraOfResult {
+                    plan: plan.clone(),
+                    u_m: self.array(&urs::u_m(plan.measure), lengths)?,
+                    weights: axes.sites.iter().map(weigh).collect::<Result<_, _>>()?,
+                })
             })
             .collect::<Result<Vec<_>, UpliftError>>()?;
-        Ok(Self {
-            path: path.to_owned(),
-            record_set: reader.attribute_text("/", "record_set")?,
-            synthetic: reader.attribute_i64("/", "synthetic")? == 1,
-            motions: motions(&reader)?,
+        Ok(StudyOfResult {
+            path: self.path.clone(),
+            record_set: self.record_set()?,
+            synthetic: self.is_synthetic()?,
+            made_from: self.records()?,
             study,
-            sites,
+            sites: axes.sites,
             measures,
             unreadable,
         })
     }
 
+    /// The stored study; where its manifest is gone, without its records, and why.
+    pub(super) fn stored_study(
+        &self,
+        manifest: Option<&Path>,
+    ) -> Result<(ResolvedStudy, Option<String>), UpliftError> {
+        resolve(&self.reader.attribute_text("/", "study_toml")?, manifest)
+            .map_err(|reason| self.fail(format!("the study in the file cannot be read: {reason}")))
+    }
+}
+
+impl StudyOfResult {
     /// The records of the study, the very motions that the result was made from, with the same intensities.
     ///
     /// # Errors
@@ -119,20 +120,21 @@ impl StudyOfResult {
             return Err(reason.clone());
         }
         let set = read_records(&self.study).map_err(|error| error.to_string())?;
-        if set.records.len() != self.motions.len() {
-            let (found, made) = (set.records.len(), self.motions.len());
+        let made_from = &self.made_from;
+        if set.records.len() != made_from.ids.len() {
+            let (found, made) = (set.records.len(), made_from.ids.len());
             return Err(format!(
                 "there are {found} records now, and the result was made from {made}: run the study again"
             ));
         }
-        let other = set.records.iter().zip(&self.motions).find(|(record, (motion, pga_g, pgv_cm_s))| {
-            let same = |a: f64, b: &f64| a.to_bits() == b.to_bits();
-            motion_key(&record.accelerogram) != *motion
-                || !same(record.pga_g, pga_g)
-                || !same(record.pgv_cm_s, pgv_cm_s)
+        let other = set.records.iter().enumerate().find(|(index, record)| {
+            let same = |a: f64, b: f64| a.to_bits() == b.to_bits();
+            motion_key(&record.accelerogram) != made_from.motion_sha256[*index]
+                || !same(record.pga_g, made_from.pga_g[*index])
+                || !same(record.pgv_cm_s, made_from.pgv_cm_s[*index])
         });
         match other {
-            Some((record, _)) => Err(format!(
+            Some((_, record)) => Err(format!(
                 "record {} is not the motion that the result was made from: put that file back, or run the study again",
                 record.id
             )),
@@ -162,23 +164,8 @@ impl StudyOfResult {
     /// # Panics
     /// If an index is out of range, which is a bug of the caller.
     pub fn spectrum<'a>(&self, measure: &'a SpectraOfResult, site: usize, poe: usize) -> &'a [f64] {
-        let strengths = self.study.strengths.len();
-        let start = (site * self.study.risk.poe.len() + poe) * strengths;
-        &measure.u_m[start..start + strengths]
+        measure.u_m.block([site, poe])
     }
-}
-
-/// What identifies each record.
-fn motions(reader: &LabelledReader) -> Result<Vec<(String, f64, f64)>, LabelledError> {
-    let motions = reader.array_text("/records/motion_sha256")?.values;
-    let pga_g = reader.array_f64("/records/pga_g")?.values;
-    let pgv_cm_s = reader.array_f64("/records/pgv_cm_s")?.values;
-    Ok(motions
-        .into_iter()
-        .zip(pga_g)
-        .zip(pgv_cm_s)
-        .map(|((motion, pga_g), pgv_cm_s)| (motion, pga_g, pgv_cm_s))
-        .collect())
 }
 
 /// The stored study; where its manifest is gone, without its records, and why.
