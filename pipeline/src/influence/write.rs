@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use polars::prelude::Column;
 use uplift_motion::IntensityMeasure;
 
+use crate::array::Array;
 use crate::error::UpliftError;
 use crate::influence::Influence;
 use crate::result::layout::{axis, disaggregation, influence};
@@ -71,12 +72,14 @@ pub fn influence_path(result: &Path) -> PathBuf {
 
 /// Write the influence into the result file, in place of an earlier one, and into a table beside it.
 ///
+/// * `rankings` — what [`record_influence`] says of each measure's spectra `[site, poe]`
+///
 /// # Errors
 /// Whatever keeps the files from being written; the result file is then as it was.
 pub fn write_influence(
     stored: &StoredStripes,
     influences: &[Influence],
-    rankings: &[Vec<Vec<RecordInfluence>>],
+    rankings: &[Array<2, Vec<RecordInfluence>>],
 ) -> Result<(), UpliftError> {
     extend_result(stored, &replaced(), |writer| add(writer, stored, influences))?;
     write_table(
@@ -110,16 +113,16 @@ fn add(writer: &mut LabelledWriter, stored: &StoredStripes, influences: &[Influe
 fn ranking_table(
     stored: &StoredStripes,
     influences: &[Influence],
-    rankings: &[Vec<Vec<RecordInfluence>>],
+    rankings: &[Array<2, Vec<RecordInfluence>>],
 ) -> Vec<Column> {
     let (mut site, mut im, mut poe, mut record) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let (mut mean, mut largest, mut strength) = (Vec::new(), Vec::new(), Vec::new());
     for (influence, rankings) in influences.iter().zip(rankings) {
-        for (row, ranking) in rankings.iter().enumerate() {
-            for entry in ranking {
-                site.push(stored.sites[row / stored.poes.len()].as_str());
+        for ([site_index, poe_index], ranking) in rankings.blocks() {
+            for entry in &ranking[0] {
+                site.push(stored.sites[site_index].as_str());
                 im.push(influence.measure.label());
-                poe.push(stored.poes[row % stored.poes.len()]);
+                poe.push(stored.poes[poe_index]);
                 record.push(stored.records[entry.record].as_str());
                 mean.push(100.0 * entry.mean_change);
                 largest.push(100.0 * entry.largest_change);

@@ -16,7 +16,7 @@ use uplift::UpliftError;
 use uplift::bootstrap::{BandSettings, Bands, StrengthBands, bands_of_strength, gather_bands};
 use uplift::bootstrap::{BandsFile, Checkpoint, write_bands};
 use uplift::events::{Events, Progress};
-use uplift::result::{StoredStripes, check_target, open_result};
+use uplift::result::{ResultFile, StoredStripes, check_target};
 use uplift_study::{Bootstrap, IntervalKind};
 
 /// Sample sizes of Section 4.5 below the whole set.
@@ -63,7 +63,7 @@ pub(super) struct BootstrapArguments {
 pub(super) fn bootstrap(arguments: &BootstrapArguments, session: &Terminal) -> Result<(), UpliftError> {
     let reference = arguments.reference.as_deref().map(confidence::read_reference).transpose()?;
     let found = arguments.result.find(session)?;
-    let stored = StoredStripes::read(&found.path)?;
+    let stored = ResultFile::open(&found.path)?.stripes()?;
     check_target(&stored.path)?;
     let wanted = found.bootstrap.unwrap_or_else(|| stored.bootstrap.clone());
     let settings = BandSettings {
@@ -115,23 +115,18 @@ fn plan(
 
 /// The plan that a result keeps, for the same records.
 fn kept_plan(path: &Path, stored: &StoredStripes) -> Result<ResamplingPlan, UpliftError> {
-    let reader = open_result(path)?;
+    let file = ResultFile::open(path)?;
     let fail = |reason: String| UpliftError::input(format!("{}: {reason}", path.display()));
-    if !reader.exists("/bootstrap/multiplicity") {
+    let Some(plan) = file.resampling_plan()? else {
         return Err(fail("keeps no resampling plan: run `uplift bootstrap` on it first".to_owned()));
-    }
-    if reader.axis_text("record")? != stored.records {
+    };
+    if file.axes()?.records != stored.records {
         return Err(fail(format!(
             "its plan draws from other records than those of {}, or in another order",
             stored.path.display()
         )));
     }
-    let counts = reader.array_u32("/bootstrap/multiplicity")?;
-    let [_, replicates, records] = counts.shape[..] else {
-        return Err(fail("its resampling plan is damaged".to_owned()));
-    };
-    ResamplingPlan::from_multiplicities(records, &reader.axis_u32("sample_size")?, replicates, &counts.values)
-        .map_err(|error| fail(error.to_string()))
+    Ok(plan)
 }
 
 fn announce(stored: &StoredStripes, plan: &ResamplingPlan, session: &Terminal) {
@@ -248,7 +243,7 @@ fn checkpoint(stored: &StoredStripes, plan: &ResamplingPlan, settings: &BandSett
     add(&stored.strengths);
     for measure in &stored.measures {
         add(&measure.levels);
-        add(&measure.edp_m);
+        add(measure.edp_m.values());
         for weights in measure.weights.iter().chain(measure.branches.iter().flatten().map(|(_, weights)| weights)) {
             add(&weights.per_year());
         }

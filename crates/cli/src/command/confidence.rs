@@ -33,15 +33,14 @@ impl Report<'_> {
         let sizes = plan.sizes();
         let mut rows = Vec::new();
         for bands in *bands {
-            for (cell, (error, range)) in bands.error_of_median.iter().zip(&bands.range_of_interval).enumerate() {
-                let spectrum = cell / sizes.len();
+            for (at @ [site, poe, size], error) in bands.error_of_median.blocks() {
                 rows.push(json!({
-                    "site": stored.sites[spectrum / stored.poes.len()],
+                    "site": stored.sites[site],
                     "im": bands.measure.label(),
-                    "poe": stored.poes[spectrum % stored.poes.len()],
-                    "sample_size": sizes[cell % sizes.len()],
-                    "e_median": error.map(|error| 100.0 * error),
-                    "r_90ci": range.map(|range| 100.0 * range),
+                    "poe": stored.poes[poe],
+                    "sample_size": sizes[size],
+                    "e_median": error[0].map(|error| 100.0 * error),
+                    "r_90ci": bands.range_of_interval[at].map(|range| 100.0 * range),
                 }));
             }
         }
@@ -95,12 +94,12 @@ impl Report<'_> {
         let mut rows = Vec::new();
         for (site, name) in stored.sites.iter().enumerate() {
             for (size_index, &size) in sizes.iter().enumerate() {
-                let cell = (site * stored.poes.len() + poe) * sizes.len() + size_index;
+                let at = [site, poe, size_index];
                 let shown = if size_index == 0 { name.clone() } else { String::new() };
                 let mut row = vec![shown, size.to_string()];
                 for bands in *bands {
-                    row.push(figure(bands.error_of_median[cell], 1));
-                    row.push(figure(bands.range_of_interval[cell], 0));
+                    row.push(figure(bands.error_of_median[at], 1));
+                    row.push(figure(bands.range_of_interval[at], 0));
                     if let Some(reference) = reference {
                         let found = reference
                             .iter()
@@ -131,9 +130,7 @@ impl Report<'_> {
             for (poe, &probability) in stored.poes.iter().enumerate() {
                 let widths = |size: usize| -> Vec<f64> {
                     (0..stored.sites.len())
-                        .filter_map(|site| {
-                            bands.range_of_interval[(site * stored.poes.len() + poe) * sizes.len() + size]
-                        })
+                        .filter_map(|site| bands.range_of_interval[[site, poe, size]])
                         .collect()
                 };
                 let parts: Vec<String> = sizes
@@ -168,19 +165,18 @@ impl Report<'_> {
     /// Records and hazard together, for the sites with branches.
     fn print_joint(&self, out: &mut impl Write) -> Result<(), UpliftError> {
         let BandsFile { stored, plan, bands, settings, .. } = self.file;
-        let sizes = plan.sizes().len();
         let mut rows = Vec::new();
         for bands in *bands {
             for joint in &bands.joint {
-                for (cell, range) in joint.range_of_interval.iter().enumerate() {
-                    let of_records = bands.range_of_interval[joint.site * stored.poes.len() * sizes + cell];
+                for ([poe, size], range) in joint.range_of_interval.blocks() {
+                    let of_records = bands.range_of_interval[[joint.site, poe, size]];
                     rows.push(vec![
                         stored.sites[joint.site].clone(),
                         bands.measure.label().to_owned(),
-                        per_cent(stored.poes[cell / sizes]),
-                        plan.sizes()[cell % sizes].to_string(),
+                        per_cent(stored.poes[poe]),
+                        plan.sizes()[size].to_string(),
                         figure(of_records, 0),
-                        figure(*range, 0),
+                        figure(range[0], 0),
                     ]);
                 }
             }
@@ -208,10 +204,9 @@ impl Report<'_> {
         let mut rows = Vec::new();
         for (site, name) in stored.sites.iter().enumerate() {
             for (index, bands) in bands.iter().enumerate() {
-                let cell = (site * stored.poes.len() + poe) * plan.sizes().len() + size_index;
                 let mut row = vec![if index == 0 { name.clone() } else { String::new() }];
                 row.push(bands.measure.label().to_owned());
-                row.extend(initiation(stored, bands, cell));
+                row.extend(initiation(stored, bands, [site, poe, size_index]));
                 rows.push(row);
             }
         }
@@ -236,11 +231,9 @@ fn figure(ratio: Option<f64>, digits: usize) -> String {
 
 /// Strengths at which the lower limit, the median and the upper limit fall to the uplift displacement, and the relative width of the
 /// band at that of the median.
-fn initiation(stored: &StoredStripes, bands: &Bands, cell: usize) -> Vec<String> {
-    let count = stored.strengths.len();
-    let row = cell * count..(cell + 1) * count;
+fn initiation(stored: &StoredStripes, bands: &Bands, at: [usize; 3]) -> Vec<String> {
     let at_uplift = |values: &[f64]| values.iter().position(|&u_m| u_m <= stored.uplift_displacement_m);
-    let (lower, median, upper) = (&bands.lower_m[row.clone()], &bands.median_m[row.clone()], &bands.upper_m[row]);
+    let (lower, median, upper) = (bands.lower_m.block(at), bands.median_m.block(at), bands.upper_m.block(at));
     let strength = |values: &[f64]| {
         at_uplift(values).map_or_else(|| "above all".to_owned(), |index| format!("{:.3}", stored.strengths[index]))
     };

@@ -8,10 +8,10 @@ use serde_json::json;
 use super::Terminal;
 use super::result_of::ResultArguments;
 use crate::show::shown_path;
-use uplift::UpliftError;
+use uplift::{Array, UpliftError};
 use uplift::influence::{Influence, influence as influence_of, level_of_share};
 use uplift::influence::{RecordInfluence, influence_path, record_influence, write_influence};
-use uplift::result::{StoredStripes, check_target};
+use uplift::result::{ResultFile, StoredStripes, check_target};
 use uplift::text::{metres, nearest, per_cent, table};
 
 /// Strengths at which the risk is taken apart.
@@ -33,23 +33,16 @@ pub(super) struct InfluenceArguments {
 }
 
 pub(super) fn influence(arguments: &InfluenceArguments, session: &Terminal) -> Result<(), UpliftError> {
-    let stored = StoredStripes::read(&arguments.result.find(session)?.path)?;
+    let stored = ResultFile::open(&arguments.result.find(session)?.path)?.stripes()?;
     check_target(&stored.path)?;
     let poe = stored.poe_index(arguments.poe)?;
     let influences =
         stored.measures.iter().map(|measure| influence_of(&stored, measure)).collect::<Result<Vec<_>, _>>()?;
-    let rankings: Vec<Vec<Vec<RecordInfluence>>> = influences
+    let shape = [stored.sites.len(), stored.poes.len()];
+    let rankings: Vec<Array<2, Vec<RecordInfluence>>> = influences
         .iter()
         .zip(&stored.measures)
-        .map(|(influence, measure)| {
-            (0..stored.sites.len() * stored.poes.len())
-                .map(|row| {
-                    let spectrum =
-                        stored.spectrum(&measure.spectra_m, row / stored.poes.len(), row % stored.poes.len());
-                    record_influence(&stored, influence, spectrum, row)
-                })
-                .collect()
-        })
+        .map(|(influence, measure)| Array::from_fn(shape, |at| record_influence(&stored, measure, influence, at)))
         .collect();
     write_influence(&stored, &influences, &rankings)?;
     let view = View { stored: &stored, influences: &influences, rankings: &rankings, poe, top: arguments.top };
@@ -69,7 +62,7 @@ pub(super) fn influence(arguments: &InfluenceArguments, session: &Terminal) -> R
 struct View<'a> {
     stored: &'a StoredStripes,
     influences: &'a [Influence],
-    rankings: &'a [Vec<Vec<RecordInfluence>>],
+    rankings: &'a [Array<2, Vec<RecordInfluence>>],
     poe: usize,
     top: usize,
 }
@@ -90,7 +83,7 @@ impl View<'_> {
         let mut rows = Vec::new();
         for (influence, rankings) in self.influences.iter().zip(self.rankings) {
             for (site, name) in stored.sites.iter().enumerate() {
-                let ranking = &rankings[site * stored.poes.len() + self.poe];
+                let ranking = &rankings[[site, self.poe]];
                 for (place, entry) in ranking.iter().take(self.top).enumerate() {
                     rows.push(vec![
                         if place == 0 { name.clone() } else { String::new() },
@@ -147,12 +140,11 @@ impl View<'_> {
         let stored = self.stored;
         let shown = nearest(&stored.strengths, &SHOWN_STRENGTHS);
         for (influence, measure) in self.influences.iter().zip(&stored.measures) {
-            let bins = measure.levels.len() + 1;
             for site in 0..stored.sites.len() {
                 for (row, &strength) in shown.iter().enumerate() {
-                    let ordinate = stored.ordinate(site, self.poe, strength);
-                    let shares = &influence.shares[ordinate * bins..(ordinate + 1) * bins];
-                    show(site, row, measure, stored.strengths[strength], measure.spectra_m[ordinate], shares);
+                    let at = [site, self.poe, strength];
+                    let shares = influence.shares.block(at);
+                    show(site, row, measure, stored.strengths[strength], measure.exact_m[at], shares);
                 }
             }
         }
@@ -162,12 +154,12 @@ impl View<'_> {
         let stored = self.stored;
         let mut records = Vec::new();
         for (influence, rankings) in self.influences.iter().zip(self.rankings) {
-            for (row, ranking) in rankings.iter().enumerate() {
-                for entry in ranking.iter().take(self.top) {
+            for ([site, poe], ranking) in rankings.blocks() {
+                for entry in ranking[0].iter().take(self.top) {
                     records.push(json!({
-                        "site": stored.sites[row / stored.poes.len()],
+                        "site": stored.sites[site],
                         "im": influence.measure.label(),
-                        "poe": stored.poes[row % stored.poes.len()],
+                        "poe": stored.poes[poe],
                         "record": stored.records[entry.record],
                         "mean_change_pct": 100.0 * entry.mean_change,
                         "largest_change_pct": 100.0 * entry.largest_change,

@@ -11,7 +11,7 @@ use crate::show::shown_path;
 use uplift::UpliftError;
 use uplift::efficiency::{Covariate, Predictor, predictor};
 use uplift::efficiency::{covariates, predictors_path, write_predictors};
-use uplift::result::{StoredStripes, check_target};
+use uplift::result::{ResultFile, StoredStripes, check_target};
 use uplift::text::{nearest, table};
 
 /// Strengths shown.
@@ -29,9 +29,10 @@ pub(super) struct MeasuresArguments {
 }
 
 pub(super) fn measures(arguments: &MeasuresArguments, session: &Terminal) -> Result<(), UpliftError> {
-    let stored = StoredStripes::read(&arguments.result.find(session)?.path)?;
+    let file = ResultFile::open(&arguments.result.find(session)?.path)?;
+    let stored = file.stripes()?;
     check_target(&stored.path)?;
-    let covariates = covariates(&stored)?;
+    let covariates = covariates(&file.records()?);
     let predictors = stored
         .measures
         .iter()

@@ -9,7 +9,7 @@ use uplift_structure::{EquivalentSystem, PostUplift};
 use crate::show::shown_path;
 use uplift::UpliftError;
 use uplift::inputs::RecordSet;
-use uplift::result::StudyOfResult;
+use uplift::result::{ResultFile, StudyOfResult};
 use uplift::structure::EventRisk;
 use uplift_study::Structure;
 
@@ -34,7 +34,7 @@ impl StructureArguments {
     /// Structure and result.
     pub(super) fn read(&self) -> Result<(Structure, StudyOfResult), UpliftError> {
         let structure = Structure::load(&self.structure)?;
-        Ok((structure, StudyOfResult::read(&self.urs, self.manifest.as_deref())?))
+        Ok((structure, ResultFile::open(&self.urs)?.study(self.manifest.as_deref())?))
     }
 
     /// The records of the result; none where they cannot be read, with the reason, unless a manifest was given for them.

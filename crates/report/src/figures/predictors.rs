@@ -2,13 +2,12 @@
 
 use super::{FigureSource, STRENGTH};
 use uplift::UpliftError;
-use uplift::efficiency::covariates;
-use uplift::efficiency::predictor;
+use uplift::efficiency::{covariates, predictor};
 use uplift_plot::{Axis, Figure, Panel, Series, Tone};
 
-pub(super) fn predictors(source: &FigureSource) -> Result<Option<Figure>, UpliftError> {
+pub(super) fn predictors(source: &FigureSource) -> Result<Figure, UpliftError> {
     let stored = &source.stored;
-    let covariates = covariates(stored)?;
+    let covariates = covariates(&source.records);
     let panel = |title: &str, y: Axis| Panel::lines(title, Axis::linear(STRENGTH), y, Vec::new());
     let mut panels = vec![
         panel("rocking structures", Axis::linear("dispersion of ln u")),
@@ -33,5 +32,5 @@ pub(super) fn predictors(source: &FigureSource) -> Result<Option<Figure>, Uplift
         panel.series.push(Series::line("p = 0.05", vec![(0.0, 0.05), (1.0, 0.05)], Tone::Distinct(2)));
     }
     let caption = "Efficiency: scatter of the displacement of rocking structures at a given level, and of the level at which rocking begins: less is better. Sufficiency: p-values of the trend of a record's mean residual with what the record is; below 0.05 the measure leaves something out.";
-    Ok(Some(source.figure("measures", "Which measure to trust", caption, panels)))
+    Ok(source.figure("measures", "Which measure to trust", caption, panels))
 }

@@ -18,7 +18,7 @@ pub(super) fn motions(source: &DisplacementSource<'_>) -> Result<Vec<Figure>, Up
     let lines = source.lines(uplift);
     let mut figures = Vec::new();
     for (set, of_set) in stored.sets.iter().enumerate() {
-        let motions = stored.motions(&source.path, set)?;
+        let motions = source.file.motions(set)?;
         let place = SpectrumPlace { set, scaling, scaled_by: 0 };
         let panels = spread(&motions.pgv_cm_s)
             .into_iter()
@@ -26,7 +26,7 @@ pub(super) fn motions(source: &DisplacementSource<'_>) -> Result<Vec<Figure>, Up
                 let series = lines
                     .iter()
                     .map(|line| {
-                        let ordinates_m = stored.motion_m(&motions, place, line.position, motion);
+                        let ordinates_m = motions.of_motion_m(place, line.position, motion);
                         source.line_beyond_overturning(line, ordinates_m)
                     })
                     .collect();

@@ -100,7 +100,7 @@ pub(super) fn by_equal_energy(source: &DisplacementSource<'_>) -> Result<Vec<Fig
             .iter()
             .map(|&capacity_m| Capacity::new(shown.uplift_m.unwrap_or_default(), capacity_m))
             .collect::<Result<Vec<_>, _>>()
-            .map_err(|error| UpliftError::input(format!("{}: {error}", source.path.display())))?;
+            .map_err(|error| UpliftError::input(format!("{}: {error}", source.file.path().display())))?;
         let first = shown.uplift * capacity_m.len();
         Ok(source.over_scalings(&shown, kind, caption, |place, line| {
             let own_m = stored.percentile_m(place, line.position, shown.percentile);
