@@ -150,7 +150,10 @@ mod tests {
         let array: Array<3> = Array::new([0, 2, 3], Vec::new()).unwrap();
         assert_eq!(array.blocks::<2>().count(), 0);
         let array: Array<2> = Array::new([3, 0], Vec::new()).unwrap();
-        assert_eq!(array.blocks().map(|([row], values)| (row, values.len())).collect::<Vec<_>>(), [(0, 0), (1, 0), (2, 0)]);
+        assert_eq!(
+            array.blocks().map(|([row], values)| (row, values.len())).collect::<Vec<_>>(),
+            [(0, 0), (1, 0), (2, 0)]
+        );
     }
 
     #[test]

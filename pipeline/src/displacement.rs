@@ -9,8 +9,8 @@ mod run;
 mod spectra;
 mod write;
 
-pub use csv::{displacement_csv_paths, write_displacement_csv};
 pub use crate::result::{DesignRow, RULES};
+pub use csv::{displacement_csv_paths, write_displacement_csv};
 pub use design_example::{Designs, design_analyses, design_examples, strength};
 pub use plan::Plan;
 pub(crate) use plan::plan;

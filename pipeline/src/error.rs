@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use uplift_atomic_file::FileError;
 use uplift_labelled::LabelledError;
 use uplift_study::StudyError;
 
@@ -17,9 +18,12 @@ pub enum UpliftError {
     /// Records or hazard curves cannot be used; all that was found.
     #[error("{}", list(.0))]
     Inputs(Vec<String>),
-    /// A file cannot be read or written.
+    /// A file cannot be opened or written.
     #[error(transparent)]
-    File(#[from] LabelledError),
+    File(#[from] FileError),
+    /// A file of labelled arrays, a result above all, cannot be read or written.
+    #[error(transparent)]
+    Labelled(#[from] LabelledError),
     /// The user stopped the run.
     #[error(
         "interrupted: nothing was written, and an earlier result file is as it was. Run the same command to start again"
@@ -64,7 +68,7 @@ impl UpliftError {
             Self::OutputClosed => 0,
             Self::Usage(_) => 2,
             Self::Study(_) => 3,
-            Self::Inputs(_) | Self::File(_) => 4,
+            Self::Inputs(_) | Self::File(_) | Self::Labelled(_) => 4,
             Self::Interrupted | Self::Paused { .. } => 5,
         }
     }

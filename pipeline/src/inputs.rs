@@ -18,6 +18,7 @@ use std::io::Read;
 use std::path::Path;
 
 use sha2::{Digest, Sha256};
+use uplift_labelled::hexadecimal;
 
 /// SHA-256 of a file of any size, as hexadecimal digits.
 pub fn checksum_of_file(path: &Path) -> std::io::Result<String> {
@@ -35,8 +36,4 @@ pub fn checksum_of_file(path: &Path) -> std::io::Result<String> {
 /// SHA-256 of some bytes, as hexadecimal digits.
 pub fn checksum(bytes: &[u8]) -> String {
     hexadecimal(&Sha256::digest(bytes))
-}
-
-fn hexadecimal(bytes: &[u8]) -> String {
-    bytes.iter().fold(String::new(), |text, byte| text + &format!("{byte:02x}"))
 }

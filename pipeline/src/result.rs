@@ -34,5 +34,5 @@ pub use records::StoredRecords;
 pub use spectra::{Fit, MeasureSpectra, Spectrum, StoredSpectra};
 pub use stripes::{DemandError, StoredMeasure, StoredStripes};
 pub use study::{SpectraOfResult, StudyOfResult};
-pub use table::{write_aside, write_table};
+pub use table::{write_atomically, write_table};
 pub use target::{check_target, is_hdf5};

@@ -54,11 +54,12 @@ pub(super) fn of_values<T: Hashed>(values: &[T]) -> String {
     for value in values {
         value.enter(&mut hash);
     }
-    hexadecimal(hash)
+    hexadecimal(&hash.finalize())
 }
 
-fn hexadecimal(hash: Sha256) -> String {
-    hash.finalize().iter().fold(String::new(), |text, byte| text + &format!("{byte:02x}"))
+/// Bytes as hexadecimal digits, the way checksums are written.
+pub fn hexadecimal(bytes: &[u8]) -> String {
+    bytes.iter().fold(String::new(), |text, byte| text + &format!("{byte:02x}"))
 }
 
 /// Takes the next `length` bytes, or all, into a checksum.
@@ -79,7 +80,7 @@ pub(super) fn seal(file: &mut File) -> io::Result<()> {
     let mut hash = Sha256::new();
     absorb(&*file, u64::MAX, &mut hash)?;
     file.seek(SeekFrom::End(0))?;
-    file.write_all(&[BEFORE, hexadecimal(hash).as_bytes(), b"\n"].concat())
+    file.write_all(&[BEFORE, hexadecimal(&hash.finalize()).as_bytes(), b"\n"].concat())
 }
 
 /// What the line behind the end of a file says.
@@ -110,6 +111,6 @@ pub fn seal_of(path: &Path) -> io::Result<Seal> {
     file.seek(SeekFrom::Start(0))?;
     let mut hash = Sha256::new();
     absorb(&file, content, &mut hash)?;
-    let found = hexadecimal(hash);
+    let found = hexadecimal(&hash.finalize());
     Ok(if found.as_bytes() == stored { Seal::Whole(found) } else { Seal::Broken })
 }

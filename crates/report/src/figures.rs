@@ -20,9 +20,9 @@ pub use spectra::hazard_figure;
 
 use std::path::Path;
 
+use uplift::Array;
 use uplift::UpliftError;
 use uplift::result::{Kind, ResultFile, StoredBands, StoredHazard, StoredRecords, StoredSpectra, StoredStripes};
-use uplift::Array;
 use uplift_motion::IntensityMeasure;
 use uplift_plot::{Axis, Figure, Panel, Series, Tone};
 

@@ -2,7 +2,8 @@
 
 use rayon::prelude::*;
 use uplift_bootstrap::{
-    Band, BootstrapError, Interval, Replicates, ResamplingPlan, acceleration, leave_one_out, simultaneous_bands, weighted_quantile,
+    Band, BootstrapError, Interval, Replicates, ResamplingPlan, acceleration, leave_one_out, simultaneous_bands,
+    weighted_quantile,
 };
 use uplift_motion::IntensityMeasure;
 use uplift_risk::{PooledDemand, StripeWeights};

@@ -2,6 +2,7 @@
 
 use sha2::{Digest, Sha256};
 use uplift_ida::NUMERICS;
+use uplift_labelled::hexadecimal;
 use uplift_motion::Accelerogram;
 
 use crate::inputs::RecordSet;
@@ -83,8 +84,4 @@ impl StripeKeys {
     pub fn iter(&self) -> impl Iterator<Item = (usize, usize, PieceKey)> + '_ {
         self.keys.iter().enumerate().map(|(index, key)| (index / self.strengths, index % self.strengths, *key))
     }
-}
-
-fn hexadecimal(bytes: &[u8]) -> String {
-    bytes.iter().fold(String::new(), |text, byte| text + &format!("{byte:02x}"))
 }

@@ -17,7 +17,7 @@ use uplift_ida::{Cells, Piece};
 
 use super::key::{PieceKey, StripeKeys};
 use crate::error::UpliftError;
-use uplift_labelled::{final_place, write_whole};
+use uplift_atomic_file::{final_place, write_whole};
 
 /// What the first line says it is.
 const FORMAT: &str = "uplift pieces 1";

@@ -80,5 +80,11 @@ fn write_solitary(writer: &mut LabelledWriter, examples: &[Option<SolitaryExampl
     }
     let width_m: Vec<f64> =
         examples.iter().map(|example| example.as_ref().map_or(f64::NAN, |example| example.capacity_m)).collect();
-    writer.array_f64(&design::array("capacity_m"), &dims[..3], &width_m, "m", "width 2b of the designed block, its capacity")
+    writer.array_f64(
+        &design::array("capacity_m"),
+        &dims[..3],
+        &width_m,
+        "m",
+        "width 2b of the designed block, its capacity",
+    )
 }

@@ -8,8 +8,8 @@ use uplift_study::DisplacementStudy;
 
 use super::report::RunReport;
 use super::{
-    Designs, DisplacementOutcome, analyses, design_examples, set_spectra, structures,
-    write_displacement_csv, write_displacements,
+    Designs, DisplacementOutcome, analyses, design_examples, set_spectra, structures, write_displacement_csv,
+    write_displacements,
 };
 use crate::error::UpliftError;
 use crate::events::{Events, Progress};

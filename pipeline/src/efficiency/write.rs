@@ -64,11 +64,7 @@ fn add(writer: &mut LabelledWriter, covariates: &[Covariate], predictors: &[Pred
             writer.array_f64(&path, &[axis::STRENGTH, &axis::level(measure)], &values, unit, long_name)?;
         }
         let of_strength = [
-            (
-                efficiency::rocking(measure),
-                &predictor.rocking,
-                "median dispersion of the stripes whose median rocks",
-            ),
+            (efficiency::rocking(measure), &predictor.rocking, "median dispersion of the stripes whose median rocks"),
             (
                 efficiency::undefined(measure),
                 &predictor.undefined,

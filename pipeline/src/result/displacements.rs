@@ -139,14 +139,8 @@ impl ResultFile {
         let percentiles = reader.axis_f64(axis::PERCENTILE)?;
         let abscissas = reader.axis_f64(structures.abscissa_axis())?;
         let sets = reader.axis_text(axis::RECORD_SET)?;
-        let shape = [
-            sets.len(),
-            scalings.len(),
-            scaled_by.len(),
-            structures.lines(),
-            percentiles.len(),
-            abscissas.len(),
-        ];
+        let shape =
+            [sets.len(), scalings.len(), scaled_by.len(), structures.lines(), percentiles.len(), abscissas.len()];
         if shape.contains(&0) {
             return Err(self.damaged("an axis of its spectra is empty"));
         }

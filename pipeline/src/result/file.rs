@@ -148,11 +148,7 @@ impl ResultFile {
     }
 
     /// An array over `axes`, each its name and length.
-    pub(super) fn array<const N: usize>(
-        &self,
-        path: &str,
-        axes: [(&str, usize); N],
-    ) -> Result<Array<N>, UpliftError> {
+    pub(super) fn array<const N: usize>(&self, path: &str, axes: [(&str, usize); N]) -> Result<Array<N>, UpliftError> {
         self.over(path, self.reader.array_f64(path)?, axes)
     }
 
@@ -177,7 +173,11 @@ impl ResultFile {
         let names: Vec<&str> = axes.iter().map(|(name, _)| *name).collect();
         let shape: Vec<usize> = axes.iter().map(|(_, length)| *length).collect();
         if array.dims != names {
-            return Err(self.damaged(format!("{path} runs over {}, not over {}", array.dims.join(", "), names.join(", "))));
+            return Err(self.damaged(format!(
+                "{path} runs over {}, not over {}",
+                array.dims.join(", "),
+                names.join(", ")
+            )));
         }
         if array.shape != shape {
             return Err(self.damaged(format!("{path} has the shape {:?}, not {shape:?} as its axes", array.shape)));

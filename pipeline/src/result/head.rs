@@ -143,8 +143,7 @@ impl ResultFile {
             }
         }
         let sites = reader.exists(&axis::path(axis::SITE)).then(|| reader.axis_text(axis::SITE)).transpose()?;
-        let added =
-            [(bootstrap::ROOT, "bootstrap"), (influence::ROOT, "influence"), (efficiency::ROOT, "measures")];
+        let added = [(bootstrap::ROOT, "bootstrap"), (influence::ROOT, "influence"), (efficiency::ROOT, "measures")];
         Ok(Overview::UniformRisk {
             analyses,
             sites: sites.unwrap_or_default(),

@@ -169,8 +169,11 @@ impl ResultFile {
     ) -> Result<StoredMeasure, UpliftError> {
         let level = axis::level(measure);
         let levels = self.reader.axis_f64(&level)?;
-        let lengths =
-            [(axis::RECORD, axes.records.len()), (axis::STRENGTH, axes.strengths.len()), (level.as_str(), levels.len())];
+        let lengths = [
+            (axis::RECORD, axes.records.len()),
+            (axis::STRENGTH, axes.strengths.len()),
+            (level.as_str(), levels.len()),
+        ];
         let edp_m = self.array(&ida::edp_m(measure), lengths)?;
         let (mut weights, mut branches) = (Vec::new(), Vec::new());
         for site in &axes.sites {

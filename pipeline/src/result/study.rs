@@ -101,10 +101,7 @@ impl ResultFile {
     }
 
     /// The stored study; where its manifest is gone, without its records, and why.
-    pub(super) fn stored_study(
-        &self,
-        manifest: Option<&Path>,
-    ) -> Result<(ResolvedStudy, Option<String>), UpliftError> {
+    pub(super) fn stored_study(&self, manifest: Option<&Path>) -> Result<(ResolvedStudy, Option<String>), UpliftError> {
         resolve(&self.reader.attribute_text("/", "study_toml")?, manifest)
             .map_err(|reason| self.fail(format!("the study in the file cannot be read: {reason}")))
     }

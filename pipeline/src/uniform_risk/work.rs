@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use sha2::{Digest, Sha256};
 use uplift_ida::{Cells, Part, Piece, Watch};
+use uplift_labelled::hexadecimal;
 use uplift_oscillator::Oscillator;
 
 use crate::UpliftError;
@@ -55,7 +56,7 @@ impl<'a> Work<'a> {
                 pieces += u64::from(part.contains(record, strength, self.study.strengths.len()));
             }
         }
-        let work = hash.finalize().iter().fold(String::new(), |text, byte| text + &format!("{byte:02x}"));
+        let work = hexadecimal(&hash.finalize());
         PieceFileHead::new(work, &self.study.title, [part.index + 1, part.count], pieces)
     }
 

@@ -129,9 +129,7 @@ impl Report<'_> {
         for bands in *bands {
             for (poe, &probability) in stored.poes.iter().enumerate() {
                 let widths = |size: usize| -> Vec<f64> {
-                    (0..stored.sites.len())
-                        .filter_map(|site| bands.range_of_interval[[site, poe, size]])
-                        .collect()
+                    (0..stored.sites.len()).filter_map(|site| bands.range_of_interval[[site, poe, size]]).collect()
                 };
                 let parts: Vec<String> = sizes
                     .iter()

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 
 use uplift::UpliftError;
-use uplift::result::write_aside;
+use uplift::result::write_atomically;
 use uplift_plot::{Figure, Width, png, svg};
 
 /// Of a PNG for print.
@@ -46,7 +46,7 @@ impl FigureArguments {
         let mut written = Vec::new();
         let mut write = |extension: &str, bytes: &[u8]| {
             let file = folder.join(format!("{}.{extension}", figure.id));
-            write_aside(&file, bytes)?;
+            write_atomically(&file, bytes)?;
             written.push(file);
             Ok::<(), UpliftError>(())
         };

@@ -8,11 +8,11 @@ use serde_json::json;
 use super::Terminal;
 use super::result_of::ResultArguments;
 use crate::show::shown_path;
-use uplift::{Array, UpliftError};
 use uplift::influence::{Influence, influence as influence_of, level_of_share};
 use uplift::influence::{RecordInfluence, influence_path, record_influence, write_influence};
 use uplift::result::{ResultFile, StoredStripes, check_target};
 use uplift::text::{metres, nearest, per_cent, table};
+use uplift::{Array, UpliftError};
 
 /// Strengths at which the risk is taken apart.
 const SHOWN_STRENGTHS: [f64; 3] = [0.1, 0.2, 0.4];

@@ -16,7 +16,7 @@ use super::records::{refuse_foreign, refuse_overwriting};
 use super::structure::{StructureArguments, measure_index, site_index};
 use uplift::UpliftError;
 use uplift::events::Progress;
-use uplift::result::{SpectraOfResult, StudyOfResult, write_aside};
+use uplift::result::{SpectraOfResult, StudyOfResult, write_atomically};
 use uplift::structure::{Collapse, EventRisk, Model, collapse};
 use uplift::text::per_cent;
 use uplift_plot::{Width, png, svg};
@@ -239,9 +239,9 @@ impl Overturning<'_> {
         let drawing = svg(&figure, Width::Double).map_err(UpliftError::input)?;
         if path.extension().is_some_and(|extension| extension == "png") {
             let image = png(&drawing.svg, DOTS_PER_INCH).map_err(|error| UpliftError::input(error.to_string()))?;
-            write_aside(path, &image)
+            write_atomically(path, &image)
         } else {
-            write_aside(path, drawing.svg.as_bytes())
+            write_atomically(path, drawing.svg.as_bytes())
         }
     }
 }

@@ -29,7 +29,7 @@ pub(super) fn report(arguments: &ReportArguments, session: &Terminal) -> Result<
         )));
     }
     let html = page(&arguments.results)?;
-    uplift::result::write_aside(&target, html.as_bytes())?;
+    uplift::result::write_atomically(&target, html.as_bytes())?;
     if !session.is_quiet() {
         writeln!(std::io::stdout(), "{}", shown_path(&target).display())?;
     }

@@ -13,7 +13,7 @@ use uplift_oscillator::{
 
 use super::records::refuse_foreign;
 use uplift::UpliftError;
-use uplift::result::{write_aside, write_table};
+use uplift::result::{write_atomically, write_table};
 use uplift_plot::{Width, png, svg};
 use uplift_report::figures::history_figure;
 
@@ -204,9 +204,9 @@ fn plot_history(
     let drawing = svg(&figure, Width::Double).map_err(UpliftError::input)?;
     if path.extension().is_some_and(|extension| extension == "png") {
         let image = png(&drawing.svg, 300.0).map_err(|error| UpliftError::input(error.to_string()))?;
-        write_aside(path, &image)
+        write_atomically(path, &image)
     } else {
-        write_aside(path, drawing.svg.as_bytes())
+        write_atomically(path, drawing.svg.as_bytes())
     }
 }
 

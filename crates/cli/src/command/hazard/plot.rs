@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::{NamedCurve, SiteArguments, TableArguments, Terminal, UpliftError, distinct, read};
 use crate::command::records::refuse_overwriting;
-use uplift::result::write_aside;
+use uplift::result::write_atomically;
 use uplift_plot::{Width, png, svg};
 use uplift_report::figures::hazard_figure;
 
@@ -54,7 +54,7 @@ pub(super) fn plot(arguments: &PlotArguments, session: &Terminal) -> Result<(), 
         "png" => png(&drawing.svg, DOTS_PER_INCH).map_err(|error| UpliftError::input(error.to_string()))?,
         _ => drawing.svg.into_bytes(),
     };
-    write_aside(output, &bytes)?;
+    write_atomically(output, &bytes)?;
     session.say(&output.display().to_string());
     Ok(())
 }

@@ -9,7 +9,7 @@ use polars::prelude::Column;
 
 use super::{FileArguments, Terminal, UpliftError};
 use uplift::import::{ImportOptions, Imported, Warning, import as import_folder, manifest_columns};
-use uplift::result::{write_aside, write_table};
+use uplift::result::{write_atomically, write_table};
 
 /// Remarks of one kind that are shown.
 const SHOWN: usize = 5;
@@ -54,7 +54,7 @@ pub(super) fn import(arguments: &ImportArguments, session: &Terminal) -> Result<
     let remarks = output.with_extension("remarks.txt");
     let told = tell_remarks(&imported, &remarks, session.is_quiet());
     if !told.is_empty() {
-        write_aside(&remarks, told.as_bytes())?;
+        write_atomically(&remarks, told.as_bytes())?;
     }
     if imported.pairs.is_empty() {
         return Err(UpliftError::input(format!(

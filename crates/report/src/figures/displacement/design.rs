@@ -34,8 +34,9 @@ pub(super) fn procedure(source: &DisplacementSource<'_>, design: &StoredDesign) 
             let line = stored.abscissas.iter().map(|&tangent| (tangent, own_m * tangent)).collect();
             let capacity = Series::line(format!("capacity 2H tan α, 2H = {own_m} m"), line, Tone::Distinct(1));
             let point = tangent.map(|tangent| {
-                let displacement_m =
-                    |height_m| value(rows, source, place, &StoredDesigned::block_quantity(height_m)).map(|u_m| (tangent, u_m));
+                let displacement_m = |height_m| {
+                    value(rows, source, place, &StoredDesigned::block_quantity(height_m)).map(|u_m| (tangent, u_m))
+                };
                 let points = [displacement_m(endless_m), displacement_m(own_m)].into_iter().flatten().collect();
                 Series { name: "design".to_owned(), points, tone: Tone::Distinct(3), marks: Marks::Only }
             });
