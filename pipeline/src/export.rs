@@ -9,6 +9,7 @@ use serde_json::json;
 
 use crate::error::UpliftError;
 use crate::result::{Fit, Head, ResultFile, Spectrum, StoredSpectra};
+use crate::text::finite;
 use matlab::{MatFile, Shape};
 
 /// A coefficient of a spectrum.
@@ -77,7 +78,6 @@ impl Export {
 
     /// Everything as one JSON object; what is not finite is null.
     pub fn json(&self) -> serde_json::Value {
-        let finite = |value: f64| value.is_finite().then_some(value);
         let spectra: Vec<serde_json::Value> = self
             .spectra
             .rows()
@@ -86,7 +86,7 @@ impl Export {
                     "site": site,
                     "im": measure.label(),
                     "poe": poe,
-                    "u_m": u_m.iter().map(|&u_m| finite(u_m)).collect::<Vec<_>>(),
+                    "u_m": u_m.iter().copied().map(finite).collect::<Vec<_>>(),
                     "fit": {
                         "c0_m": finite(fit.c0_m),
                         "c1": finite(fit.c1),

@@ -9,8 +9,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::error::{FileError, io_error};
 
-/// A hidden, empty file in the folder of the target; it takes the target's place by [`AtomicFile::replace`] and vanishes
-/// when dropped before.
+/// A hidden, empty file in the folder of the target; it takes the target's place by [`AtomicFile::replace`] and
+/// vanishes when dropped before.
 #[derive(Debug)]
 pub struct AtomicFile {
     target: PathBuf,
@@ -21,8 +21,8 @@ impl AtomicFile {
     /// Makes `.<name>.partial-<process>-<count>` beside `path`, and the folders above it.
     ///
     /// # Errors
-    /// [`FileError::NotAFile`] where `path` is a folder or a device, [`FileError::Io`] where the folder cannot be made or
-    /// written to.
+    /// [`FileError::NotAFile`] where `path` is a folder or a device, [`FileError::Io`] where the folder cannot be made
+    /// or written to.
     pub fn reserve(path: &Path) -> Result<Self, FileError> {
         let target = final_place(path)?;
         let Some(name) = target.file_name() else {

@@ -1,7 +1,7 @@
 //! Files that appear under their names complete, or not at all.
 //!
-//! A file is written under a hidden name beside its place, brought to the disk, and renamed: whoever looks finds the old
-//! one or the new one, whatever happens in between.
+//! A file is written under a hidden name beside its place, brought to the disk, and renamed: whoever looks finds the
+//! old one or the new one, whatever happens in between.
 //!
 //! ```
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {

@@ -19,7 +19,8 @@ pub enum LabelledError {
         bytes: u64,
     },
     /// The end of the file is missing.
-    #[error("{}: the HDF5 file is cut short ({bytes} bytes are there): copy it again or repeat the run", path.display())]
+    #[error("{}: the HDF5 file is cut short ({bytes} bytes are there): copy it again or repeat the \
+             run", path.display())]
     Truncated {
         /// The file.
         path: PathBuf,

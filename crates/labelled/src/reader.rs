@@ -36,8 +36,8 @@ impl LabelledReader {
     ///
     /// # Errors
     /// [`LabelledError::File`] where the file is missing, may not be read or is not a file,
-    /// [`LabelledError::NotHdf5`] and [`LabelledError::Truncated`] where it is something else, [`LabelledError::Locked`]
-    /// where another program is writing to it.
+    /// [`LabelledError::NotHdf5`] and [`LabelledError::Truncated`] where it is something else,
+    /// [`LabelledError::Locked`] where another program is writing to it.
     pub fn open(path: &Path) -> Result<Self, LabelledError> {
         let metadata = fs::metadata(path).map_err(io_error(path, "open the file"))?;
         require_file(path, &metadata)?;

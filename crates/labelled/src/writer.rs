@@ -212,7 +212,8 @@ impl LabelledWriter {
     /// Completes the file, brings it to the disk and puts it in place of any older one.
     ///
     /// # Errors
-    /// [`LabelledError::Hdf5`] or [`LabelledError::File`] where the disk is full or fails; an older file is then untouched.
+    /// [`LabelledError::Hdf5`] or [`LabelledError::File`] where the disk is full or fails; an older file is then
+    /// untouched.
     pub fn finish(self) -> Result<(), LabelledError> {
         for (name, axis) in self.axes.iter().filter(|(_, axis)| !axis.uses.is_empty()) {
             let path = format!("{AXES}/{name}");

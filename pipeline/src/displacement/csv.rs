@@ -15,7 +15,8 @@ pub fn displacement_csv_paths(result: &Path) -> [PathBuf; 2] {
     ["displacements.csv", "design.csv"].map(|extension| result.with_extension(extension))
 }
 
-/// Write the tables of `outcome` and its `design` beside the result file `result`, one comment line of provenance first; the files.
+/// Write the tables of `outcome` and its `design` beside the result file `result`, one comment line of provenance
+/// first; the files.
 ///
 /// # Errors
 /// A file that cannot be written.

@@ -7,6 +7,7 @@ use uplift_spectra::MotionSet;
 use uplift_study::{DISPLACEMENT_SPECTRA, Structures};
 
 use super::{DesignRow, DisplacementOutcome};
+use crate::text::finite;
 use crate::inputs::NamedSet;
 use crate::run::RunHead;
 
@@ -125,7 +126,6 @@ impl Serialize for DesignRow {
     /// The value beside its range; null where it does not exist or is infinite.
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         use serde::ser::SerializeStruct;
-        let finite = |value: f64| value.is_finite().then_some(value);
         let mut row = serializer.serialize_struct("DesignRow", 8)?;
         row.serialize_field("record_set", &self.record_set)?;
         row.serialize_field("scaling", &self.scaling)?;

@@ -10,6 +10,7 @@ use crate::efficiency::{Covariate, Predictor};
 use crate::error::UpliftError;
 use crate::result::layout::{axis, efficiency, sufficiency};
 use crate::result::{StoredStripes, extend_result, line, sign, write_table};
+use crate::text::finite;
 use uplift_labelled::{LabelledError, LabelledWriter};
 
 /// The groups that a new look replaces.
@@ -114,7 +115,7 @@ fn predictors_table(stored: &StoredStripes, covariates: &[Covariate], predictors
     let join = |value: fn(&Predictor) -> &Vec<f64>| -> Vec<Option<f64>> {
         predictors
             .iter()
-            .flat_map(|predictor| value(predictor).iter().map(|&value| value.is_finite().then_some(value)))
+            .flat_map(|predictor| value(predictor).iter().copied().map(finite))
             .collect()
     };
     let mut columns = vec![

@@ -11,8 +11,8 @@ use uplift_labelled::{LabelledError, LabelledReader, LabelledWriter, Seal, seal_
 /// Write the file of `stored` anew without the groups and axes `replaced`, and with what `add` writes.
 ///
 /// # Errors
-/// Whatever keeps the file from being read or written; it is then as it was. A file that is not as it was written, or no longer the one
-/// that `stored` was read from.
+/// Whatever keeps the file from being read or written; it is then as it was. A file that is not as it was written, or
+/// no longer the one that `stored` was read from.
 pub(crate) fn extend_result(
     stored: &StoredStripes,
     replaced: &[impl AsRef<str>],

@@ -5,11 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 
 use uplift::UpliftError;
-use uplift::result::write_atomically;
-use uplift_plot::{Figure, Width, png, svg};
-
-/// Of a PNG for print.
-const DOTS_PER_INCH: f32 = 300.0;
+use uplift_plot::{Figure, Width};
+use uplift_report::write_figure;
 
 /// How figures are written.
 #[derive(Debug, Args)]
@@ -42,22 +39,17 @@ impl FigureArguments {
             Columns::Single => Width::Single,
             Columns::Double => Width::Double,
         };
-        let drawing = svg(figure, width).map_err(|error| UpliftError::input(format!("{}: {error}", figure.id)))?;
-        let mut written = Vec::new();
-        let mut write = |extension: &str, bytes: &[u8]| {
-            let file = folder.join(format!("{}.{extension}", figure.id));
-            write_atomically(&file, bytes)?;
-            written.push(file);
-            Ok::<(), UpliftError>(())
+        let extensions: &[&str] = match self.format {
+            Format::Svg => &["svg"],
+            Format::Png => &["png"],
+            Format::Both => &["png", "svg"],
         };
-        if self.format != Format::Svg {
-            let image = png(&drawing.svg, DOTS_PER_INCH).map_err(|error| UpliftError::input(error.to_string()))?;
-            write("png", &image)?;
-        }
-        if self.format != Format::Png {
-            write("svg", drawing.svg.as_bytes())?;
-        }
-        Ok(written)
+        let write = |extension: &&str| {
+            let file = folder.join(format!("{}.{extension}", figure.id));
+            write_figure(figure, width, &file)?;
+            Ok(file)
+        };
+        extensions.iter().map(write).collect()
     }
 }
 

@@ -16,15 +16,14 @@ use super::records::{refuse_foreign, refuse_overwriting};
 use super::structure::{StructureArguments, measure_index, site_index};
 use uplift::UpliftError;
 use uplift::events::Progress;
-use uplift::result::{SpectraOfResult, StudyOfResult, write_atomically};
+use uplift::result::{SpectraOfResult, StudyOfResult};
 use uplift::structure::{Collapse, EventRisk, Model, collapse};
 use uplift::text::per_cent;
-use uplift_plot::{Width, png, svg};
+use uplift_plot::Width;
 use uplift_report::figures::overturning_figure;
+use uplift_report::write_figure;
 use uplift_study::Structure;
 
-/// Dots per inch of a PNG.
-const DOTS_PER_INCH: f32 = 300.0;
 
 #[derive(Debug, Args)]
 #[command(
@@ -236,12 +235,6 @@ impl Overturning<'_> {
             .collect();
         let remark = if self.source.synthetic { "synthetic records: not for design" } else { "" };
         let figure = overturning_figure(&format!("Overturning of {}", self.structure.name()), remark, &measures);
-        let drawing = svg(&figure, Width::Double).map_err(UpliftError::input)?;
-        if path.extension().is_some_and(|extension| extension == "png") {
-            let image = png(&drawing.svg, DOTS_PER_INCH).map_err(|error| UpliftError::input(error.to_string()))?;
-            write_atomically(path, &image)
-        } else {
-            write_atomically(path, drawing.svg.as_bytes())
-        }
+        write_figure(&figure, Width::Double, path)
     }
 }

@@ -13,9 +13,10 @@ use uplift_oscillator::{
 
 use super::records::refuse_foreign;
 use uplift::UpliftError;
-use uplift::result::{write_atomically, write_table};
-use uplift_plot::{Width, png, svg};
+use uplift::result::write_table;
+use uplift_plot::Width;
 use uplift_report::figures::history_figure;
+use uplift_report::write_figure;
 
 #[derive(Debug, Args)]
 pub(super) struct ResponseArguments {
@@ -201,13 +202,7 @@ fn plot_history(
     let record = arguments.record.file_name().unwrap_or_default().to_string_lossy();
     let title = format!("{record} times {}, strength {}", arguments.scale, arguments.strength);
     let figure = history_figure(&title, excitation, history, arguments.uplift_displacement_m);
-    let drawing = svg(&figure, Width::Double).map_err(UpliftError::input)?;
-    if path.extension().is_some_and(|extension| extension == "png") {
-        let image = png(&drawing.svg, 300.0).map_err(|error| UpliftError::input(error.to_string()))?;
-        write_atomically(path, &image)
-    } else {
-        write_atomically(path, drawing.svg.as_bytes())
-    }
+    write_figure(&figure, Width::Double, path)
 }
 
 /// Samples and events in the order of time; an impact has two rows, before and after.

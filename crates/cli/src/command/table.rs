@@ -12,7 +12,7 @@ use super::reference::ReferenceTable;
 use crate::terminal::tell;
 use uplift::UpliftError;
 use uplift::result::{Kind, ResultFile, Spectrum, StoredSpectra};
-use uplift::text::{per_cent, table as lines};
+use uplift::text::{finite, per_cent, table as lines};
 
 /// Strengths above this are compared, up to 1 (the range of Table 4.2's fits).
 const COMPARED_ABOVE: f64 = 0.05;
@@ -89,7 +89,6 @@ pub(super) fn table(arguments: &TableArguments) -> Result<(), UpliftError> {
         let json: Vec<serde_json::Value> = rows
             .iter()
             .map(|(spectrum, reference)| {
-                let finite = |value: f64| value.is_finite().then_some(value);
                 json!({
                     "site": spectrum.site,
                     "im": spectrum.measure.label(),

@@ -61,7 +61,8 @@ pub(super) fn ida_curves(source: &FigureSource) -> Result<Option<Figure>, Uplift
         ));
     }
     let title = format!("Incremental dynamic analysis at strength {:.3}", stored.strengths[strength]);
-    let caption = "Peak displacement of every record scaled to every level (grey), of the first record, and percentiles over the records at each level (Fig. A2.13, A2.14).";
+    let caption = "Peak displacement of every record scaled to every level (grey), of the first record, and \
+                   percentiles over the records at each level (Fig. A2.13, A2.14).";
     Ok(Some(source.figure("ida", title, caption, panels)))
 }
 
@@ -130,7 +131,8 @@ pub(super) fn risk_curves(source: &FigureSource) -> Result<Vec<Figure>, UpliftEr
             }
         }
         let label = measure.measure.label();
-        let caption = "Mean annual frequency of exceeding a displacement: rows of the risk surface (Fig. 4.4a). Where a curve meets a target rate lies the ordinate of the uniform risk spectrum.";
+        let caption = "Mean annual frequency of exceeding a displacement: rows of the risk surface (Fig. 4.4a). Where \
+                       a curve meets a target rate lies the ordinate of the uniform risk spectrum.";
         figures.push(source.figure(
             format!("risk-{}", measure.measure.key()),
             format!("Risk of exceeding a displacement, by {label}"),
@@ -180,7 +182,8 @@ pub(super) fn risk_surfaces(source: &FigureSource) -> Result<Vec<Figure>, Uplift
             })
             .collect();
         let label = measure.measure.label();
-        let caption = "The risk surface seen from above: lines of equal mean annual frequency of exceedance. The contour of a target rate is the uniform risk spectrum (Fig. 4.4).";
+        let caption = "The risk surface seen from above: lines of equal mean annual frequency of exceedance. The \
+                       contour of a target rate is the uniform risk spectrum (Fig. 4.4).";
         let id = format!("surface-{}", measure.measure.key());
         figures.push(source.figure(id, format!("Risk surface by {label}"), caption, panels));
     }

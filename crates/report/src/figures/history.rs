@@ -37,7 +37,8 @@ pub fn history_figure(
     Figure {
         id: "history".to_owned(),
         title: title.to_owned(),
-        caption: "Ground acceleration and the displacement it causes; dots are impacts, dashed lines the displacement at uplift.".to_owned(),
+        caption: "Ground acceleration and the displacement it causes; dots are impacts, dashed lines the displacement \
+                  at uplift.".to_owned(),
         remark: String::new(),
         panels: vec![
             panel("ground acceleration, m/s²", vec![Series::line("ground acceleration", ground, Tone::Faint)]),

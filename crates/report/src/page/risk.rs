@@ -51,7 +51,8 @@ fn summary(stored: &StoredSpectra) -> Table {
         id: "summary".to_owned(),
         title: "Displacements to survive".to_owned(),
         note: format!(
-            "Displacement in metres that is exceeded with the stated probability in {} years, for the uplift strength f_up/(m g) after the dot.",
+            "Displacement in metres that is exceeded with the stated probability in {} years, for the uplift strength \
+             f_up/(m g) after the dot.",
             stored.years
         ),
         header,
@@ -82,7 +83,8 @@ fn coefficients(spectra: &StoredSpectra) -> Table {
         id: "table-4-2".to_owned(),
         title: "Coefficients (Table 4.2)".to_owned(),
         note: format!(
-            "u = c0 exp(c1 strength) + c2 with c2 not negative, for strengths above 0.05 or as the study says; probabilities in {} years.",
+            "u = c0 exp(c1 strength) + c2 with c2 not negative, for strengths above 0.05 or as the study says; \
+             probabilities in {} years.",
             spectra.years
         ),
         header: ["site", "measure", "probability", "c0, m", "c1", "c2, m", "RMSE, m"].map(str::to_owned).to_vec(),

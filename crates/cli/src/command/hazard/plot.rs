@@ -6,12 +6,10 @@ use clap::Args;
 
 use super::{NamedCurve, SiteArguments, TableArguments, Terminal, UpliftError, distinct, read};
 use crate::command::records::refuse_overwriting;
-use uplift::result::write_atomically;
-use uplift_plot::{Width, png, svg};
+use uplift_plot::Width;
 use uplift_report::figures::hazard_figure;
+use uplift_report::write_figure;
 
-/// Of a PNG for print.
-const DOTS_PER_INCH: f32 = 300.0;
 /// Curves that a figure can tell apart, and then some.
 const MOST_CURVES: usize = 50;
 
@@ -48,13 +46,7 @@ pub(super) fn plot(arguments: &PlotArguments, session: &Terminal) -> Result<(), 
         )));
     }
     let named: Vec<(String, _)> = curves.into_iter().map(|NamedCurve { name, curve }| (name, curve)).collect();
-    let figure = hazard_figure(&named);
-    let drawing = svg(&figure, Width::Double).map_err(UpliftError::input)?;
-    let bytes = match extension {
-        "png" => png(&drawing.svg, DOTS_PER_INCH).map_err(|error| UpliftError::input(error.to_string()))?,
-        _ => drawing.svg.into_bytes(),
-    };
-    write_atomically(output, &bytes)?;
+    write_figure(&hazard_figure(&named), Width::Double, output)?;
     session.say(&output.display().to_string());
     Ok(())
 }

@@ -10,7 +10,7 @@ use super::super::reference::ReferenceTable;
 use crate::terminal::tell;
 use uplift::UpliftError;
 use uplift::result::{DesignRow, ResultFile, StoredDesign};
-use uplift::text::table as lines;
+use uplift::text::{finite, table as lines};
 use uplift_study::ScaledTo;
 
 /// A cell of the reference.
@@ -41,7 +41,6 @@ impl Reference {
 
 /// A design value with its range and, where there is a reference, what it says and whether the range holds it.
 pub(super) fn json_row(row: &DesignRow) -> serde_json::Value {
-    let finite = |value: f64| value.is_finite().then_some(value);
     json!({
         "record_set": row.record_set,
         "scaling": row.scaling,
