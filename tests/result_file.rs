@@ -1,14 +1,12 @@
 //! Reading results: one of version 0.1, one read off the grid of thresholds, damaged ones.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
-
-mod common;
 
 use std::collections::HashMap;
 
-use common::{SMALL_STUDY, SmallStudy, repository};
 use serde_json::Value;
 use uplift::result::{Kind, ResultFile};
 use uplift_labelled::{LabelledReader, LabelledWriter};
+
+use crate::common::{SMALL_STUDY, SmallStudy, repository};
 
 /// The lines of each panel of a figure in a report, by name.
 fn lines(page: &str, id: &str) -> Vec<HashMap<String, Vec<(f64, f64)>>> {

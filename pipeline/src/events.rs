@@ -37,6 +37,11 @@ pub trait Events: Sync {
         let _ = checkpoint;
     }
 
+    /// From now on files are put into `folder` one by one: a stop leaves some of this job and some of an earlier one.
+    fn writing_into(&self, folder: &Path) {
+        let _ = folder;
+    }
+
     /// True to stop the job at its next chance; it then ends with
     /// [`UpliftError::Interrupted`](crate::UpliftError::Interrupted) or [`Paused`](crate::UpliftError::Paused).
     fn cancelled(&self) -> bool {

@@ -21,13 +21,12 @@ use uplift_motion::{
 
 pub use measured::PairMeasures;
 pub use table::manifest_columns;
-pub use table::relative;
 pub use warnings::Warning;
 pub use warnings::of_pair as warnings_of_pair;
 
+use crate::checksum::checksum;
 use crate::error::UpliftError;
 use crate::events::{Events, Progress};
-use crate::inputs::checksum;
 use search_results::SearchResults;
 
 /// What the user says about files that do not say it themselves.

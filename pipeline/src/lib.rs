@@ -5,22 +5,27 @@
 //! | [`events`] | what a job tells while it works, and how it is stopped |
 //! | [`inputs`] | records and hazard curves, read and checked before anything is computed |
 //! | [`import`] | record files found in a folder, paired, measured and listed in a manifest |
+//! | [`shard`] | a study shared among machines |
 //! | [`uniform_risk`] | studies of uniform risk: stripes, spectra, coefficients |
 //! | [`displacement`] | studies of displacement spectra of record sets |
 //! | [`bootstrap`], [`influence`], [`efficiency`] | how sure a spectrum is, and what carries it |
 //! | [`structure`] | a structure under the records and hazard of a result |
+//! | [`analysis`] | plans carried out with a checkpoint, whole or in shards |
 //! | [`checkpoint`] | finished rows of the analysis by their keys: what outlives a stopped run |
 //! | [`result`](mod@result) | the HDF5 file and the tables beside it, written and read |
 //! | [`export`] | tables for other programs |
 //! | [`pulses`] | rocking spectra under wavelets, which need no study |
+//! | [`reference`](mod@reference) | tables of papers to compare with |
 //! | [`text`] | numbers in words |
 //!
 //! The science is in the crates below this one, the command line and the report in those above it. Nothing here prints,
 //! reads arguments or handles signals.
 
+pub mod analysis;
 mod array;
 pub mod bootstrap;
 pub mod checkpoint;
+mod checksum;
 pub mod displacement;
 pub mod efficiency;
 mod error;
@@ -29,10 +34,14 @@ pub mod export;
 pub mod import;
 pub mod influence;
 pub mod inputs;
+pub mod outputs;
 pub mod plan;
 pub mod pulses;
+pub mod reference;
+pub mod response;
 pub mod result;
 pub mod run;
+pub mod shard;
 pub mod structure;
 pub mod text;
 pub mod uniform_risk;
@@ -42,6 +51,7 @@ pub use error::UpliftError;
 pub use events::{Events, Phase, Silent};
 pub use plan::{Plan, plan};
 pub use run::{RunOptions, RunReport, run};
+pub use shard::{check_inputs, merge, run_shard};
 pub use uplift_study as study;
 
 /// Version of the program, and the commit it was built from where that is known.

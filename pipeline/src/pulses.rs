@@ -1,12 +1,14 @@
-//! Rocking spectra of a rigid block under Ricker wavelets (Sections 2.2 and 2.3): what is asked for, computed, written as tables
-//! and summed up.
+//! Rocking spectra of a rigid block under Ricker wavelets (Sections 2.2 and 2.3): what is asked for, computed, written as
+//! tables and summed up.
 
 mod compute;
 mod plan;
+mod run;
 mod summary;
 mod tables;
 
 pub use compute::{BlockResponses, PulseSpectra, Spectrum, compute};
 pub use plan::{BlockPlan, PulsePlan, wavelet};
+pub use run::{PulseOptions, PulseReport, pulses};
 pub use summary::{Summary, summary};
 pub use tables::{PulseTable, tables};

@@ -26,13 +26,14 @@ pub use displacements::{SpectrumPlace, StoredDisplacements, StoredMotions, Store
 pub(crate) use extend::{extend_result, line, sign};
 pub use file::{ResultFile, RiskAxes};
 pub use hazard::{StoredCurves, StoredHazard};
-pub use head::{Head, Kind, Overview};
+pub use head::{Head, Overview};
 pub use lock::ResultLock;
 pub(crate) use provenance::Origin;
 pub use provenance::Provenance;
 pub use records::StoredRecords;
 pub use spectra::{Fit, MeasureSpectra, Spectrum, StoredSpectra};
-pub use stripes::{DemandError, StoredMeasure, StoredStripes};
+pub use stripes::{StoredMeasure, StoredStripes};
 pub use study::{SpectraOfResult, StudyOfResult};
 pub use table::{write_atomically, write_table};
 pub use target::{check_target, is_hdf5};
+pub use uplift_study::Kind;

@@ -10,7 +10,7 @@ use serde::Serialize;
 use uplift_atomic_file::remove_leftovers;
 use uplift_study::AnyStudy;
 
-use crate::checkpoint::KeptPieces;
+use crate::checkpoint::FinishedRows;
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::result::{ResultLock, check_target};
@@ -94,7 +94,7 @@ impl RunReport {
 /// Inputs that cannot be used; a result that cannot be written; [`UpliftError::Paused`] or [`UpliftError::Interrupted`] where
 /// `events` say so.
 pub fn run(study: &AnyStudy, options: &RunOptions, events: &dyn Events) -> Result<RunReport, UpliftError> {
-    run_with(study, options, KeptPieces::default(), events)
+    run_with(study, options, FinishedRows::default(), events)
 }
 
 /// As [`run`], with rows of the analysis that are `known` from elsewhere.
@@ -104,7 +104,7 @@ pub fn run(study: &AnyStudy, options: &RunOptions, events: &dyn Events) -> Resul
 pub fn run_with(
     study: &AnyStudy,
     options: &RunOptions,
-    known: KeptPieces,
+    known: FinishedRows,
     events: &dyn Events,
 ) -> Result<RunReport, UpliftError> {
     let start = Instant::now();
@@ -119,7 +119,7 @@ pub fn run_with(
     let place = Place { path, options, start };
     match study {
         AnyStudy::UniformRisk(study) => uniform_risk::run(study, &place, known, events).map(RunReport::UniformRisk),
-        AnyStudy::Displacement(study) => displacement::run(study, &place, events).map(RunReport::Displacement),
+        AnyStudy::Displacement(study) => displacement::run(study, &place, known, events).map(RunReport::Displacement),
     }
 }
 

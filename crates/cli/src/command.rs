@@ -2,7 +2,6 @@
 
 mod bootstrap;
 mod check;
-mod confidence;
 mod design;
 mod export;
 mod figure_files;
@@ -14,7 +13,6 @@ mod overturning;
 mod plot;
 mod pulse;
 mod records;
-mod reference;
 mod report;
 mod response;
 mod result_of;
@@ -28,9 +26,9 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+use crate::error::CommandError;
 use crate::terminal::Terminal;
-use uplift::UpliftError;
-use uplift_study::{AnyStudy, ResolvedStudy, Study};
+use uplift_study::{AnyStudy, Study};
 
 /// Uniform risk spectra for rocking structures.
 ///
@@ -104,11 +102,7 @@ struct StudyArguments {
 }
 
 impl StudyArguments {
-    fn load(&self) -> Result<ResolvedStudy, UpliftError> {
-        Ok(Study::load(&self.study, &self.overrides)?)
-    }
-
-    fn load_any(&self) -> Result<AnyStudy, UpliftError> {
+    fn load_any(&self) -> Result<AnyStudy, CommandError> {
         Ok(Study::load_any(&self.study, &self.overrides)?)
     }
 }
@@ -121,33 +115,33 @@ fn command_line() -> String {
 /// Carry out what was typed.
 ///
 /// # Errors
-/// Whatever the user should know; see [`UpliftError::exit_code`].
-pub(crate) fn execute(arguments: &Arguments) -> Result<(), UpliftError> {
+/// Whatever the user should know; see [`CommandError::exit_code`].
+pub(crate) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     if let Some(threads) = arguments.threads {
         rayon::ThreadPoolBuilder::new()
             .num_threads(usize::from(threads))
             .build_global()
-            .map_err(|error| UpliftError::Usage(format!("--threads {threads}: {error}")))?;
+            .map_err(|error| CommandError::Usage(format!("--threads {threads}: {error}")))?;
     }
-    let session = Terminal::new(arguments.quiet);
+    let terminal = Terminal::new(arguments.quiet);
     match &arguments.command {
-        Command::Run(arguments) => run::run(arguments, &session),
-        Command::Merge(arguments) => merge::merge(arguments, &session),
+        Command::Run(arguments) => run::run(arguments, &terminal),
+        Command::Merge(arguments) => merge::merge(arguments, &terminal),
         Command::Status(arguments) => status::status(arguments),
-        Command::Verify(arguments) => verify::verify(arguments, &session),
-        Command::Check(arguments) => check::check(arguments, &session),
+        Command::Verify(arguments) => verify::verify(arguments, &terminal),
+        Command::Check(arguments) => check::check(arguments, &terminal),
         Command::Response(arguments) => response::response(arguments),
-        Command::Pulse(arguments) => pulse::pulse(arguments, &session),
-        Command::Bootstrap(arguments) => bootstrap::bootstrap(arguments, &session),
-        Command::Influence(arguments) => influence::influence(arguments, &session),
-        Command::Measures(arguments) => measures::measures(arguments, &session),
-        Command::Design(arguments) => design::design(arguments, &session),
-        Command::Overturning(arguments) => overturning::overturning(arguments, &session),
-        Command::Records(arguments) => records::records(arguments, &session),
-        Command::Hazard(arguments) => hazard::hazard(arguments, &session),
-        Command::Plot(arguments) => plot::plot(arguments, &session),
-        Command::Report(arguments) => report::report(arguments, &session),
-        Command::Export(arguments) => export::export(arguments, &session),
+        Command::Pulse(arguments) => pulse::pulse(arguments, &terminal),
+        Command::Bootstrap(arguments) => bootstrap::bootstrap(arguments, &terminal),
+        Command::Influence(arguments) => influence::influence(arguments, &terminal),
+        Command::Measures(arguments) => measures::measures(arguments, &terminal),
+        Command::Design(arguments) => design::design(arguments, &terminal),
+        Command::Overturning(arguments) => overturning::overturning(arguments, &terminal),
+        Command::Records(arguments) => records::records(arguments, &terminal),
+        Command::Hazard(arguments) => hazard::hazard(arguments, &terminal),
+        Command::Plot(arguments) => plot::plot(arguments, &terminal),
+        Command::Report(arguments) => report::report(arguments, &terminal),
+        Command::Export(arguments) => export::export(arguments, &terminal),
         Command::Table(arguments) => table::table(arguments),
     }
 }

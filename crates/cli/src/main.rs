@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use clap::Parser;
 
 mod command;
+mod error;
 mod show;
 mod terminal;
 

@@ -1,23 +1,46 @@
 //! What the jobs report, as a person reads it; a program gets the same values as JSON.
 
+mod bootstrap;
 mod displacement;
+mod efficiency;
+mod influence;
 mod plan;
+mod pulse;
+mod response;
 mod run;
 mod uniform_risk;
 
+pub(crate) use bootstrap::print_bootstrap;
+pub(crate) use efficiency::print_efficiency;
+pub(crate) use influence::print_influence;
 pub(crate) use plan::print_plan;
+pub(crate) use pulse::print_pulses;
+pub(crate) use response::print_response;
 pub(crate) use run::print_run;
 
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use crate::error::CommandError;
 use serde::Serialize;
-use uplift::UpliftError;
+
+use crate::terminal::Terminal;
 
 /// A report for programs.
-pub(crate) fn print_json(report: &impl Serialize) -> Result<(), UpliftError> {
-    let value = serde_json::to_value(report).map_err(|error| UpliftError::input(error.to_string()))?;
+pub(crate) fn print_json(report: &impl Serialize) -> Result<(), CommandError> {
+    let value = serde_json::to_value(report).map_err(|error| CommandError::input(error.to_string()))?;
     Ok(writeln!(std::io::stdout(), "{value:#}")?)
+}
+
+/// Files that were written; a quiet terminal shows none.
+pub(crate) fn print_files(files: &[PathBuf], terminal: &Terminal) -> Result<(), CommandError> {
+    if !terminal.is_quiet() {
+        let mut out = std::io::stdout().lock();
+        for file in files {
+            writeln!(out, "{}", shown_path(file).display())?;
+        }
+    }
+    Ok(())
 }
 
 /// A path as short as the user would type it.

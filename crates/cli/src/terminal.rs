@@ -12,6 +12,7 @@ use miette::{GraphicalReportHandler, GraphicalTheme};
 use uplift::UpliftError;
 use uplift::events::{Events, Phase};
 
+use crate::error::CommandError;
 use progress::Progress;
 
 /// What the shell sees of an interruption.
@@ -108,8 +109,15 @@ impl Events for Terminal {
 
     fn kept_in(&self, checkpoint: &Path) {
         self.set_farewell(format!(
-            "interrupted: all that is finished is kept in {}. Run the same command to go on from there",
+            "interrupted: all that is finished is in the checkpoint {}. Run the same command to go on from there",
             checkpoint.display()
+        ));
+    }
+
+    fn writing_into(&self, folder: &Path) {
+        self.set_farewell(format!(
+            "interrupted: files in {} are of this run or an earlier one. Run the same command again",
+            folder.display()
         ));
     }
 
@@ -124,10 +132,10 @@ pub(crate) fn tell(text: &str) {
 }
 
 /// Tells an error; a study's mistakes with their lines and carets.
-pub(crate) fn tell_error(error: &UpliftError) {
+pub(crate) fn tell_error(error: &CommandError) {
     match error {
-        UpliftError::OutputClosed => {}
-        UpliftError::Study(error) => {
+        CommandError::OutputClosed => {}
+        CommandError::Uplift(UpliftError::Study(error)) => {
             let theme = if std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none() {
                 GraphicalTheme::unicode()
             } else {

@@ -1,7 +1,7 @@
 //! Checksums: of every array in its attributes, and of the whole file behind its end.
 //!
-//! HDF5 reads a file by the addresses in it and does not look behind its last one, so a line there disturbs no reader,
-//! and covers every byte before it.
+//! HDF5 reads a file by the addresses in it and does not look behind its last one, so a line there disturbs no reader, and covers
+//! every byte before it.
 
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
@@ -57,7 +57,7 @@ pub(super) fn of_values<T: Hashed>(values: &[T]) -> String {
     hexadecimal(&hash.finalize())
 }
 
-/// Bytes as hexadecimal digits, the way checksums are written.
+/// Bytes as hexadecimal digits, two a byte, in lower case.
 pub fn hexadecimal(bytes: &[u8]) -> String {
     bytes.iter().fold(String::new(), |text, byte| text + &format!("{byte:02x}"))
 }

@@ -6,9 +6,9 @@
 mod confidence;
 mod demand;
 mod displacement;
+mod efficiency;
 mod history;
 mod overturning;
-mod predictors;
 mod pulses;
 mod spectra;
 
@@ -85,7 +85,7 @@ impl FigureSource {
         figures.extend(confidence::bands(self));
         figures.extend(confidence::measures_together(self));
         figures.extend(confidence::initiation(self));
-        figures.push(predictors::predictors(self)?);
+        figures.push(efficiency::efficiency(self)?);
         Ok(figures)
     }
 

@@ -3,12 +3,19 @@
 //! | module | what is in it |
 //! |---|---|
 //! | [`figures`] | what the figures of Chapters 2 to 4 show |
-//! | [`write_figure`] | a figure as an SVG or PNG file |
+//! | [`files`] | figures as SVG and PNG files |
+//! | [`plot`](mod@plot) | the figures of results, curves, pulses and responses, written |
 //! | [`page`](mod@page) | one HTML page with every figure and table of results |
+//! | [`report`](mod@report) | that page, written |
+//!
+//! Nothing here prints or reads arguments: [`plot()`] and [`report()`] are jobs like those of [`uplift`].
 
-mod figure_file;
 pub mod figures;
+pub mod files;
 pub mod page;
+pub mod plot;
+pub mod report;
 
-pub use figure_file::write_figure;
-pub use page::report;
+pub use files::{FigureFormat, FigureOptions, check_figure_file, write_figure_file};
+pub use plot::{PlotOptions, PlotReport, plot, plot_pulses, plot_response};
+pub use report::{PageReport, ReportOptions, report};

@@ -7,12 +7,14 @@ mod displacement;
 mod risk;
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use minijinja::{Environment, context};
 use serde::Serialize;
 
+use crate::files::refused;
 use uplift::UpliftError;
+use uplift::events::Events;
 use uplift::result::{Kind, ResultFile};
 use uplift_plot::{Figure, Marks, PanelPlace, Width, svg};
 
@@ -72,16 +74,18 @@ struct ReadableLine {
     points: Vec<(f64, f64)>,
 }
 
-/// The page on the results at `paths`, in their order.
+/// The page on the results at `paths`, in their order, as HTML.
 ///
 /// # Errors
 /// A result that is missing, damaged or without sites.
-pub fn report(paths: &[impl AsRef<Path>]) -> Result<String, UpliftError> {
-    let sections = paths
-        .iter()
-        .enumerate()
-        .map(|(index, path)| section(&format!("r{}", index + 1), path.as_ref()))
-        .collect::<Result<Vec<_>, _>>()?;
+pub fn page(paths: &[PathBuf], events: &dyn Events) -> Result<String, UpliftError> {
+    let mut sections = Vec::new();
+    for (index, path) in paths.iter().enumerate() {
+        if events.cancelled() {
+            return Err(UpliftError::Interrupted);
+        }
+        sections.push(section(&format!("r{}", index + 1), path)?);
+    }
     let mut subjects: Vec<&str> = sections.iter().map(|section| section.subject).collect();
     subjects.dedup();
     let subjects = subjects.join(", ");
@@ -152,7 +156,7 @@ fn section(key: &str, path: &Path) -> Result<Section, UpliftError> {
 }
 
 fn drawn(key: &str, figure: &Figure) -> Result<DrawnFigure, UpliftError> {
-    let drawing = svg(figure, Width::Double).map_err(|error| UpliftError::input(format!("{}: {error}", figure.id)))?;
+    let drawing = svg(figure, Width::Double).map_err(|reason| refused(figure, reason))?;
     let panels = figure
         .panels
         .iter()

@@ -2,14 +2,11 @@
 //! (Tables 2.1–2.3).
 
 use uplift_block::RockingBlock;
-use uplift_ida::Watch;
+use uplift_ida::System;
 
-use crate::displacements::{System, displacements};
+use crate::demand::Case;
 use crate::error::SpectraError;
-use crate::motion_set::MotionSet;
 use crate::noise::{NoiseSweep, Noisy, errors};
-use crate::scaling::Scaling;
-use crate::statistics::percentile;
 
 /// What is designed, and how.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -56,20 +53,13 @@ impl SolitaryDesign {
     /// `2H tan α`, times the safety factor; then both blocks at that slenderness.
     ///
     /// # Errors
-    /// [`SpectraError::NoIntersection`]; what the block refuses; [`SpectraError::Cancelled`].
+    /// [`SpectraError::NoIntersection`]; what the block refuses; what carrying out ends with.
     ///
     /// # Source
     /// Reggiani Manzo, Section 2.4.3.
-    pub fn example(
-        &self,
-        set: &MotionSet<'_>,
-        scaling: Scaling,
-        noise: NoiseSweep,
-        watch: &dyn Watch,
-    ) -> Result<SolitaryExample, SpectraError> {
-        let demand_m = |height_m: f64, tangents: &[f64]| self.demand_m(set, scaling, height_m, tangents, watch);
-        let critical =
-            self.intersection(set, scaling, &|tangent| Ok(demand_m(self.endless_height_m, &[tangent])?[0]))?;
+    pub fn example(&self, case: Case<'_>, noise: NoiseSweep) -> Result<SolitaryExample, SpectraError> {
+        let demand_m = |height_m: f64, tangents: &[f64]| self.demand_m(case, height_m, tangents);
+        let critical = self.intersection(case, &|tangent| Ok(demand_m(self.endless_height_m, &[tangent])?[0]))?;
         let around = |tangent: f64| -> Vec<f64> { noise.factors().iter().map(|factor| factor * tangent).collect() };
         // where the capacity line would meet each of the demands around the intersection
         let demands_m = demand_m(self.endless_height_m, &around(critical))?;
@@ -88,14 +78,7 @@ impl SolitaryDesign {
     }
 
     /// Percentile of the displacements of blocks of one height, m, one a slenderness.
-    fn demand_m(
-        &self,
-        set: &MotionSet<'_>,
-        scaling: Scaling,
-        height_m: f64,
-        tangents: &[f64],
-        watch: &dyn Watch,
-    ) -> Result<Vec<f64>, SpectraError> {
+    fn demand_m(&self, case: Case<'_>, height_m: f64, tangents: &[f64]) -> Result<Vec<f64>, SpectraError> {
         let blocks = tangents
             .iter()
             .map(|tangent| {
@@ -104,23 +87,21 @@ impl SolitaryDesign {
                 Ok(System::Block(block))
             })
             .collect::<Result<Vec<_>, SpectraError>>()?;
-        let shaken = displacements(set, &[scaling], &blocks, true, watch)?;
-        Ok((0..blocks.len()).map(|block| percentile(shaken.of_m(0, block), self.percent)).collect())
+        case.demands_m(&blocks, true, self.percent)
     }
 
     /// The largest `tan α` in the range at which `demand_m` reaches the capacity line: down from the highest until it lies above,
     /// then by halving.
     fn intersection(
         &self,
-        set: &MotionSet<'_>,
-        scaling: Scaling,
+        case: Case<'_>,
         demand_m: &dyn Fn(f64) -> Result<f64, SpectraError>,
     ) -> Result<f64, SpectraError> {
         let [lowest, highest] = self.search;
         let stands = |tangent: f64| Ok::<_, SpectraError>(demand_m(tangent)? <= self.height_m * tangent);
         let nowhere = || SpectraError::NoIntersection {
-            set: set.name().to_owned(),
-            scaling: scaling.to_string(),
+            set: case.set.name().to_owned(),
+            scaling: case.scaling.to_string(),
             lowest,
             highest,
         };

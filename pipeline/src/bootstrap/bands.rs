@@ -11,28 +11,27 @@ use uplift_risk::{PooledDemand, StripeWeights};
 use crate::array::Array;
 use crate::error::UpliftError;
 use crate::result::{StoredMeasure, StoredStripes};
-use uplift_study::IntervalKind;
 
 /// What kind of bands.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BandSettings {
+pub(super) struct BandSettings {
     /// Share of the replicates between the limits.
-    pub confidence: f64,
+    pub(super) confidence: f64,
     /// How a limit is read.
-    pub interval: IntervalKind,
+    pub(super) interval: Interval,
     /// Whether bands that hold whole spectra are made too.
-    pub simultaneous: bool,
+    pub(super) simultaneous: bool,
     /// Only strengths above this count in Eq. 4.9 and 4.10.
-    pub strength_above: f64,
+    pub(super) strength_above: f64,
 }
 
 /// The bands of one strength.
 #[derive(Debug, Clone, PartialEq)]
-pub struct StrengthBands {
+pub(super) struct StrengthBands {
     /// Over `[site, poe, size]`; after these the joint ones over `[site with branches, poe, size]`.
-    pub bands: Vec<Band>,
+    pub(super) bands: Vec<Band>,
     /// All replicates over `[site, poe, size, replicate]`, m, where whole spectra are wanted.
-    pub replicates_m: Vec<f64>,
+    pub(super) replicates_m: Vec<f64>,
 }
 
 /// The bands of one measure.
@@ -75,24 +74,23 @@ pub struct JointBands {
 ///
 /// # Errors
 /// Numbers that do not fit together, in a file that was changed.
-pub fn bands_of_strength(
+pub(super) fn bands_of_strength(
     stored: &StoredStripes,
     measure: &StoredMeasure,
     index: usize,
     plan: &ResamplingPlan,
     settings: &BandSettings,
 ) -> Result<StrengthBands, UpliftError> {
-    let fail = |error: &dyn std::fmt::Display| UpliftError::input(format!("{}: {error}", stored.path.display()));
-    let demand = measure.demand(index).map_err(|error| fail(&error))?;
+    let demand = measure.demand(index)?;
     let targets = &stored.targets_per_year;
     let mut done = StrengthBands { bands: Vec::new(), replicates_m: Vec::new() };
     let mut sorted = Vec::new();
     for (site, weights) in measure.weights.iter().enumerate() {
         let sites: [&StripeWeights; 1] = [weights];
-        let replicates = Replicates::of(&demand, &sites, targets, plan).map_err(|error| fail(&error))?;
+        let replicates = Replicates::of(&demand, &sites, targets, plan)?;
         let without_each = match settings.interval {
-            IntervalKind::Percentile => Vec::new(),
-            IntervalKind::Bca => leave_one_out(&demand, weights, targets).map_err(|error| fail(&error))?,
+            Interval::Percentile => Vec::new(),
+            Interval::Bca => leave_one_out(&demand, weights, targets)?,
         };
         for poe in 0..targets.len() {
             let estimate_m = measure.exact_m[[site, poe, index]];
@@ -102,13 +100,13 @@ pub fn bands_of_strength(
                 sorted.clear();
                 sorted.extend_from_slice(ordinates_m);
                 sorted.sort_unstable_by(f64::total_cmp);
-                let interval = match settings.interval {
-                    IntervalKind::Percentile => Interval::Percentile,
-                    IntervalKind::Bca => {
-                        Interval::Bca { estimate_m, acceleration: acceleration(&without_each_m, size) }
+                done.bands.push(match settings.interval {
+                    Interval::Percentile => Band::percentile(&sorted, settings.confidence),
+                    Interval::Bca => {
+                        let acceleration = acceleration(&without_each_m, size);
+                        Band::bca(&sorted, settings.confidence, estimate_m, acceleration)
                     }
-                };
-                done.bands.push(Band::of(&sorted, settings.confidence, interval));
+                });
                 if settings.simultaneous {
                     done.replicates_m.extend_from_slice(ordinates_m);
                 }
@@ -116,7 +114,7 @@ pub fn bands_of_strength(
         }
     }
     for branches in measure.branches.iter().filter(|branches| !branches.is_empty()) {
-        done.bands.extend(joint_bands(&demand, branches, targets, plan, settings).map_err(|error| fail(&error))?);
+        done.bands.extend(joint_bands(&demand, branches, targets, plan, settings)?);
     }
     Ok(done)
 }
@@ -151,7 +149,7 @@ fn joint_bands(
 }
 
 /// The bands of all strengths, in order, as arrays; with the two figures of Table 4.1.
-pub fn gather_bands(
+pub(super) fn gather_bands(
     stored: &StoredStripes,
     measure: &StoredMeasure,
     plan: &ResamplingPlan,

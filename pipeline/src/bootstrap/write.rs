@@ -5,13 +5,12 @@ use std::path::{Path, PathBuf};
 use polars::prelude::Column;
 use uplift_bootstrap::ResamplingPlan;
 
+use super::bands::{BandSettings, Bands};
 use crate::array::Array;
-use crate::bootstrap::{BandSettings, Bands};
 use crate::error::UpliftError;
 use crate::result::layout::{MULTIPLICITY, axis, band, bootstrap, joint_band, limit_names};
 use crate::result::{StoredStripes, extend_result, line, sign, write_table};
 use uplift_labelled::{LabelledError, LabelledWriter};
-use uplift_study::IntervalKind;
 
 /// Groups and axes of the file that bands replace.
 fn replaced() -> [String; 3] {
@@ -19,22 +18,21 @@ fn replaced() -> [String; 3] {
 }
 
 /// All that is written of a bootstrap.
-#[derive(Debug)]
-pub struct BandsFile<'a> {
+pub(super) struct BandsFile<'a> {
     /// The result it was made from.
-    pub stored: &'a StoredStripes,
+    pub(super) stored: &'a StoredStripes,
     /// The draws.
-    pub plan: &'a ResamplingPlan,
+    pub(super) plan: &'a ResamplingPlan,
     /// Where the draws come from, in words.
-    pub plan_source: &'a str,
+    pub(super) plan_source: &'a str,
     /// What kind of bands.
-    pub settings: &'a BandSettings,
+    pub(super) settings: &'a BandSettings,
     /// The bands, a measure each.
-    pub bands: &'a [Bands],
+    pub(super) bands: &'a [Bands],
 }
 
 /// The tables beside the result file: bands, and the figures of Table 4.1.
-pub fn band_paths(result: &Path) -> [PathBuf; 2] {
+pub(super) fn band_paths(result: &Path) -> [PathBuf; 2] {
     ["bands.csv", "table-4-1.csv"].map(|extension| result.with_extension(extension))
 }
 
@@ -42,14 +40,14 @@ pub fn band_paths(result: &Path) -> [PathBuf; 2] {
 ///
 /// # Errors
 /// Whatever keeps the files from being written; the result file is then as it was.
-pub fn write_bands(file: &BandsFile<'_>) -> Result<(), UpliftError> {
+pub(super) fn write_bands(file: &BandsFile<'_>) -> Result<(), UpliftError> {
     let BandsFile { stored, plan, settings, .. } = file;
     extend_result(stored, &replaced(), |writer| add_bands(writer, file))?;
     let what = format!(
         "bootstrap: {}, {} replicates, {} interval, confidence {}",
         file.plan_source,
         plan.replicates(),
-        interval_name(settings.interval),
+        settings.interval.key(),
         settings.confidence
     );
     let line = line(stored, &what);
@@ -67,7 +65,7 @@ fn add_bands(writer: &mut LabelledWriter, file: &BandsFile<'_>) -> Result<(), La
     sign(writer, root)?;
     writer.attribute(root, "plan", file.plan_source)?;
     writer.attribute(root, "confidence", settings.confidence)?;
-    writer.attribute(root, "interval", interval_name(settings.interval))?;
+    writer.attribute(root, "interval", settings.interval.key())?;
     writer.attribute(root, "strength_above", settings.strength_above)?;
     let long_name = "how often each record was drawn";
     let dims = [axis::SAMPLE_SIZE, axis::REPLICATE, axis::RECORD];
@@ -113,13 +111,6 @@ fn add_bands(writer: &mut LabelledWriter, file: &BandsFile<'_>) -> Result<(), La
 /// Shares in per cent; NaN for none.
 fn percent<const N: usize>(values: &Array<N, Option<f64>>) -> Vec<f64> {
     values.map(|value| value.map_or(f64::NAN, |value| 100.0 * value)).into_values()
-}
-
-fn interval_name(interval: IntervalKind) -> &'static str {
-    match interval {
-        IntervalKind::Percentile => "percentile",
-        IntervalKind::Bca => "bca",
-    }
 }
 
 fn bands_table(file: &BandsFile<'_>) -> Vec<Column> {

@@ -4,12 +4,12 @@ use std::path::PathBuf;
 
 use serde::{Serialize, Serializer};
 use uplift_spectra::MotionSet;
-use uplift_study::{DISPLACEMENT_SPECTRA, Structures};
+use uplift_study::{Kind, Structures};
 
 use super::{DesignRow, DisplacementOutcome};
-use crate::text::finite;
 use crate::inputs::NamedSet;
 use crate::run::RunHead;
+use crate::text::finite;
 
 /// What a run tells.
 #[derive(Debug, Clone, Serialize)]
@@ -92,7 +92,7 @@ impl RunReport {
         let sets = outcome.records.sets.iter().zip(outcome.sets);
         Self {
             head: outcome.provenance.head(&study.title, records, outcome.warnings, files, seconds),
-            kind: DISPLACEMENT_SPECTRA,
+            kind: Kind::Displacement.key(),
             sets: sets.map(|(set, motions)| SetReport::of(set, motions)).collect(),
             analyses: outcome.analyses,
             design,

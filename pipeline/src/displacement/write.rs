@@ -12,7 +12,7 @@ use crate::inputs::{NamedSet, RecordSets};
 use crate::result::layout::{axis as axes, set as layout, spectra};
 use crate::result::{Origin, Provenance};
 use uplift_labelled::{LabelledError, LabelledWriter};
-use uplift_study::{DISPLACEMENT_SPECTRA, DisplacementStudy, Structures};
+use uplift_study::{DisplacementStudy, Kind, Structures};
 
 /// All that a study of displacement spectra computed.
 #[derive(Debug)]
@@ -94,7 +94,7 @@ fn write_root(writer: &mut LabelledWriter, outcome: &DisplacementOutcome<'_>) ->
         provenance: outcome.provenance,
     };
     origin.write(writer)?;
-    writer.attribute("/", "kind", DISPLACEMENT_SPECTRA)?;
+    writer.attribute("/", "kind", Kind::Displacement.key())?;
     let structure = match study.structures {
         Structures::Oscillators(_) => "oscillator",
         Structures::Blocks(_) => "block",

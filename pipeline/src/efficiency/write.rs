@@ -6,7 +6,7 @@ use polars::prelude::Column;
 use uplift_fragility::Dispersion;
 use uplift_regression::Line;
 
-use crate::efficiency::{Covariate, Predictor};
+use super::of_measure::{Covariate, MeasureEfficiency};
 use crate::error::UpliftError;
 use crate::result::layout::{axis, efficiency, sufficiency};
 use crate::result::{StoredStripes, extend_result, line, sign, write_table};
@@ -17,7 +17,7 @@ use uplift_labelled::{LabelledError, LabelledWriter};
 const REPLACED: [&str; 2] = [efficiency::ROOT, sufficiency::ROOT];
 
 /// The table beside the result file.
-pub fn predictors_path(result: &Path) -> PathBuf {
+pub(super) fn efficiency_path(result: &Path) -> PathBuf {
     result.with_extension("measures.csv")
 }
 
@@ -25,25 +25,29 @@ pub fn predictors_path(result: &Path) -> PathBuf {
 ///
 /// # Errors
 /// Whatever keeps the files from being written; the result file is then as it was.
-pub fn write_predictors(
+pub(super) fn write_efficiency(
     stored: &StoredStripes,
     covariates: &[Covariate],
-    predictors: &[Predictor],
+    measures: &[MeasureEfficiency],
 ) -> Result<(), UpliftError> {
-    extend_result(stored, &REPLACED, |writer| add(writer, covariates, predictors))?;
+    extend_result(stored, &REPLACED, |writer| add(writer, covariates, measures))?;
     write_table(
-        &predictors_path(&stored.path),
+        &efficiency_path(&stored.path),
         &line(stored, "efficiency and sufficiency"),
-        predictors_table(stored, covariates, predictors),
+        efficiency_table(stored, covariates, measures),
     )
 }
 
-fn add(writer: &mut LabelledWriter, covariates: &[Covariate], predictors: &[Predictor]) -> Result<(), LabelledError> {
+fn add(
+    writer: &mut LabelledWriter,
+    covariates: &[Covariate],
+    measures: &[MeasureEfficiency],
+) -> Result<(), LabelledError> {
     sign(writer, efficiency::ROOT)?;
     sign(writer, sufficiency::ROOT)?;
-    for predictor in predictors {
-        let measure = predictor.measure;
-        let of = |value: fn(&Dispersion) -> f64| -> Vec<f64> { predictor.dispersions.iter().map(value).collect() };
+    for found in measures {
+        let measure = found.measure;
+        let of = |value: fn(&Dispersion) -> f64| -> Vec<f64> { found.dispersions.iter().map(value).collect() };
         let stripes: [(String, Vec<f64>, &str, &str); 5] = [
             (efficiency::median_m(measure), of(|scatter| scatter.median_m), "m", "median demand"),
             (
@@ -65,15 +69,15 @@ fn add(writer: &mut LabelledWriter, covariates: &[Covariate], predictors: &[Pred
             writer.array_f64(&path, &[axis::STRENGTH, &axis::level(measure)], &values, unit, long_name)?;
         }
         let of_strength = [
-            (efficiency::rocking(measure), &predictor.rocking, "median dispersion of the stripes whose median rocks"),
+            (efficiency::rocking(measure), &found.rocking, "median dispersion of the stripes whose median rocks"),
             (
                 efficiency::undefined(measure),
-                &predictor.undefined,
+                &found.undefined,
                 "share of these stripes that have none, for zeros or overturning",
             ),
             (
                 efficiency::initiation(measure),
-                &predictor.initiation,
+                &found.initiation,
                 "deviation of the logarithm of the level at first uplift",
             ),
         ];
@@ -84,11 +88,11 @@ fn add(writer: &mut LabelledWriter, covariates: &[Covariate], predictors: &[Pred
         writer.array_u32(
             &efficiency::initiation_records(measure),
             &[axis::STRENGTH],
-            &predictor.initiation_records,
+            &found.initiation_records,
             "1",
             long_name,
         )?;
-        for (covariate, lines) in covariates.iter().zip(&predictor.lines) {
+        for (covariate, lines) in covariates.iter().zip(&found.lines) {
             let of = |value: fn(&Line) -> f64| -> Vec<f64> {
                 lines.iter().map(|line| line.as_ref().map_or(f64::NAN, value)).collect()
             };
@@ -107,29 +111,26 @@ fn add(writer: &mut LabelledWriter, covariates: &[Covariate], predictors: &[Pred
     Ok(())
 }
 
-fn predictors_table(stored: &StoredStripes, covariates: &[Covariate], predictors: &[Predictor]) -> Vec<Column> {
+fn efficiency_table(stored: &StoredStripes, covariates: &[Covariate], measures: &[MeasureEfficiency]) -> Vec<Column> {
     let strengths = stored.strengths.len();
     let im: Vec<&str> =
-        predictors.iter().flat_map(|predictor| std::iter::repeat_n(predictor.measure.label(), strengths)).collect();
-    let strength: Vec<f64> = predictors.iter().flat_map(|_| stored.strengths.iter().copied()).collect();
-    let join = |value: fn(&Predictor) -> &Vec<f64>| -> Vec<Option<f64>> {
-        predictors
-            .iter()
-            .flat_map(|predictor| value(predictor).iter().copied().map(finite))
-            .collect()
+        measures.iter().flat_map(|efficiency| std::iter::repeat_n(efficiency.measure.label(), strengths)).collect();
+    let strength: Vec<f64> = measures.iter().flat_map(|_| stored.strengths.iter().copied()).collect();
+    let join = |value: fn(&MeasureEfficiency) -> &Vec<f64>| -> Vec<Option<f64>> {
+        measures.iter().flat_map(|efficiency| value(efficiency).iter().copied().map(finite)).collect()
     };
     let mut columns = vec![
         Column::new("im".into(), im),
         Column::new("strength".into(), strength),
-        Column::new("dispersion_rocking".into(), join(|predictor| &predictor.rocking)),
-        Column::new("undefined_share".into(), join(|predictor| &predictor.undefined)),
-        Column::new("dispersion_initiation".into(), join(|predictor| &predictor.initiation)),
+        Column::new("dispersion_rocking".into(), join(|efficiency| &efficiency.rocking)),
+        Column::new("undefined_share".into(), join(|efficiency| &efficiency.undefined)),
+        Column::new("dispersion_initiation".into(), join(|efficiency| &efficiency.initiation)),
     ];
     for (index, covariate) in covariates.iter().enumerate() {
         let of = |value: fn(&Line) -> f64| -> Vec<Option<f64>> {
-            predictors
+            measures
                 .iter()
-                .flat_map(|predictor| predictor.lines[index].iter().map(move |line| line.as_ref().map(value)))
+                .flat_map(|efficiency| efficiency.lines[index].iter().map(move |line| line.as_ref().map(value)))
                 .collect()
         };
         columns.push(Column::new(format!("{}_slope", covariate.key).into(), of(|line| line.slope)));

@@ -7,7 +7,7 @@ use uplift_motion::{
 
 use super::group::Candidate;
 use super::{ImportOptions, ImportedPair, warnings};
-use crate::inputs::checksum;
+use crate::checksum::checksum;
 
 /// Measures of a pair; of those of single components the geometric mean.
 #[derive(Debug, Clone)]

@@ -1,11 +1,12 @@
 //! The manifest of imported records.
 
-use std::path::{Component as PathPart, Path, PathBuf};
+use std::path::Path;
 
 use polars::prelude::Column;
 use uplift_motion::{AccelerationUnit, Orientation, RecordingDescription};
 
 use super::{ImportOptions, ImportedPair};
+use crate::inputs::manifest::relative;
 
 /// A cell with the name of its column.
 type Cell = (&'static str, String);
@@ -130,21 +131,4 @@ fn rounded(value: Option<f64>) -> String {
         let text = format!("{value:.5e}");
         text.parse::<f64>().map_or(text, |short| short.to_string())
     })
-}
-
-/// `path` seen from `folder`, so that manifest and records can be moved together.
-pub fn relative(path: &Path, folder: &Path) -> String {
-    let absolute = |path: &Path| std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-    // the last part may be a link to elsewhere, and keeps its name
-    let file = path.file_name().unwrap_or_default();
-    let path =
-        absolute(path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))).join(file);
-    let folder = absolute(if folder.as_os_str().is_empty() { Path::new(".") } else { folder });
-    let (mut from, mut to) = (folder.components().peekable(), path.components().peekable());
-    while from.peek().is_some() && from.peek() == to.peek() {
-        from.next();
-        to.next();
-    }
-    let up = from.filter(|part| matches!(part, PathPart::Normal(_))).map(|_| PathPart::ParentDir);
-    up.chain(to).collect::<PathBuf>().to_string_lossy().into_owned()
 }

@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use polars::prelude::Column;
 use uplift_motion::IntensityMeasure;
 
+use super::change::{Influence, RecordInfluence};
 use crate::array::Array;
 use crate::error::UpliftError;
-use crate::influence::Influence;
 use crate::result::layout::{axis, disaggregation, influence};
-use crate::result::{StoredMeasure, StoredStripes, extend_result, line, sign, write_table};
+use crate::result::{StoredStripes, extend_result, line, sign, write_table};
 use uplift_labelled::{LabelledError, LabelledWriter};
 
 /// The groups that a new look replaces.
@@ -18,65 +18,18 @@ fn replaced() -> Vec<String> {
     [influence::ROOT, disaggregation::ROOT].map(str::to_owned).into_iter().chain(bins).collect()
 }
 
-/// How a record changes a spectrum.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RecordInfluence {
-    /// Position of the record.
-    pub record: usize,
-    /// Mean of the relative change of the ordinates without it, over the strengths above uplift.
-    pub mean_change: f64,
-    /// The largest of these changes, by magnitude, with its sign.
-    pub largest_change: f64,
-    /// The strength at which it is.
-    pub strength: f64,
-}
-
-/// The influence of every record on one spectrum, the most influential first; empty where no ordinate lies above
-/// uplift.
-///
-/// * `at` — site and probability of the spectrum, by position
-///
-/// Ordinates without a record are compared with those of `measure` with all of them, both exact: the change is never
-/// that between an exact ordinate and one of the study's grid.
-pub fn record_influence(
-    stored: &StoredStripes,
-    measure: &StoredMeasure,
-    influence: &Influence,
-    at: [usize; 2],
-) -> Vec<RecordInfluence> {
-    let [site, poe] = at;
-    let Some(without_m) = &influence.without_m else { return Vec::new() };
-    let mut all: Vec<RecordInfluence> = (0..stored.records.len())
-        .filter_map(|record| {
-            let changes: Vec<(f64, f64)> = without_m
-                .block([site, poe, record])
-                .iter()
-                .zip(measure.exact_m.block(at))
-                .zip(&stored.strengths)
-                .filter(|((_, full), _)| full.is_finite() && **full > stored.uplift_displacement_m)
-                .map(|((without, full), &strength)| ((without - full) / full, strength))
-                .collect();
-            let &(largest_change, strength) = changes.iter().max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
-            let mean_change = changes.iter().map(|change| change.0).sum::<f64>() / changes.len() as f64;
-            Some(RecordInfluence { record, mean_change, largest_change, strength })
-        })
-        .collect();
-    all.sort_by(|a, b| b.mean_change.abs().total_cmp(&a.mean_change.abs()).then(a.record.cmp(&b.record)));
-    all
-}
-
 /// The table beside the result file.
-pub fn influence_path(result: &Path) -> PathBuf {
+pub(super) fn influence_path(result: &Path) -> PathBuf {
     result.with_extension("influence.csv")
 }
 
 /// Write the influence into the result file, in place of an earlier one, and into a table beside it.
 ///
-/// * `rankings` — what [`record_influence`] says of each measure's spectra `[site, poe]`
+/// * `rankings` — what `rank_records` says of each measure's spectra `[site, poe]`
 ///
 /// # Errors
 /// Whatever keeps the files from being written; the result file is then as it was.
-pub fn write_influence(
+pub(super) fn write_influence(
     stored: &StoredStripes,
     influences: &[Influence],
     rankings: &[Array<2, Vec<RecordInfluence>>],

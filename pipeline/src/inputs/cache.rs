@@ -1,7 +1,8 @@
 //! The synthetic record set, kept in the user's cache folder so that it is generated once.
 //!
-//! The folder is `$UPLIFT_CACHE`, or `uplift` in `$XDG_CACHE_HOME` or `~/.cache`. A file holds a JSON header, the samples as they are in
-//! memory, and a checksum; whatever is not as it should be is generated again, and a folder that cannot be written is no error.
+//! The folder is `$UPLIFT_CACHE`, or `uplift` in `$XDG_CACHE_HOME` or `~/.cache`. A file holds a JSON header, the
+//! samples as they are in memory, and a checksum; whatever is not as it should be is generated again, and a folder that
+//! cannot be written is no error.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -10,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use uplift_motion::synthetic::{SyntheticSetOptions, generate};
 use uplift_motion::{Accelerogram, MotionError, RecordPair};
 
-use super::checksum;
+use crate::checksum::checksum;
 
 /// Hexadecimal digits of the checksum at the end of a file.
 const CHECKSUM_LENGTH: usize = 64;

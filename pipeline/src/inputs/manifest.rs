@@ -2,9 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Cursor;
-use std::path::{Path, PathBuf};
+use std::path::{Component as PathPart, Path, PathBuf};
 
-use crate::import::relative;
 use polars::prelude::{Column, CsvParseOptions, CsvReadOptions, DataFrame, SerReader};
 use uplift_motion::{AccelerationUnit, RecordFormat};
 
@@ -129,8 +128,25 @@ pub fn rows_of(path: &Path, ids: &BTreeSet<&str>, folder: &Path) -> Result<Vec<C
     Ok(table.columns().iter().map(chosen).collect())
 }
 
-/// All columns as text: an identifier such as 0012 must stay what it is. Spreadsheets of many countries separate columns by semicolons,
-/// and what is copied from one has tabs.
+/// `path` seen from `folder`, as the manifest in that folder names it: both can be moved together.
+pub fn relative(path: &Path, folder: &Path) -> String {
+    let absolute = |path: &Path| std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    // the last part may be a link to elsewhere, and keeps its name
+    let file = path.file_name().unwrap_or_default();
+    let path =
+        absolute(path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))).join(file);
+    let folder = absolute(if folder.as_os_str().is_empty() { Path::new(".") } else { folder });
+    let (mut from, mut to) = (folder.components().peekable(), path.components().peekable());
+    while from.peek().is_some() && from.peek() == to.peek() {
+        from.next();
+        to.next();
+    }
+    let up = from.filter(|part| matches!(part, PathPart::Normal(_))).map(|_| PathPart::ParentDir);
+    up.chain(to).collect::<PathBuf>().to_string_lossy().into_owned()
+}
+
+/// All columns as text: an identifier such as 0012 must stay what it is. Spreadsheets of many countries separate
+/// columns by semicolons, and what is copied from one has tabs.
 pub(super) fn parse(bytes: &[u8]) -> Result<DataFrame, polars::prelude::PolarsError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let header = bytes.split(|&byte| byte == b'\n').find(|line| !line.starts_with(b"#")).unwrap_or_default();
@@ -163,23 +179,27 @@ fn row(cells: &mut BTreeMap<String, String>, folder: &Path) -> Result<Row, Vec<S
     let components = [1, 2].map(|number| {
         let column = &format!("file_h{number}");
         let path = match cells.remove(column).map(|text| folder.join(text)) {
-        Some(path) if path.is_file() => path,
-        Some(path) => {
-            mistakes.push(format!("record {id}: {column} {} is not a file", path.display()));
-            path
-        }
-        None => {
-            mistakes.push(format!(
-                "record {id}: {column} is blank: both horizontal components are needed, since the intensity is their geometric mean"
+            Some(path) if path.is_file() => path,
+            Some(path) => {
+                mistakes.push(format!("record {id}: {column} {} is not a file", path.display()));
+                path
+            }
+            None => {
+                mistakes.push(format!(
+                "record {id}: {column} is blank: both horizontal components are needed, since the intensity is their \
+                 geometric mean"
             ));
-            PathBuf::new()
-        }
+                PathBuf::new()
+            }
         };
         let key = format!("channel_h{number}");
         let channel = cells.remove(&key).and_then(|text| match text.parse::<usize>() {
             Ok(channel) if channel > 0 => Some(channel),
             _ => {
-                mistakes.push(format!("record {id}: {key} is {text:?}: give the number of the component in its file, 1 or above"));
+                mistakes.push(format!(
+                    "record {id}: {key} is {text:?}: give the number of the component in its file, 1 \
+                                       or above"
+                ));
                 None
             }
         });

@@ -50,7 +50,7 @@ pub struct BlockResponses {
 /// Compute what `plan` asks for, wavelet by wavelet.
 ///
 /// # Errors
-/// What no block and no pulse has, as a mistake of usage; an interruption by `watch`.
+/// What no block and no pulse has; an interruption by `watch`.
 ///
 /// # Source
 /// Reggiani Manzo, Sections 2.2 and 2.3.
@@ -75,8 +75,8 @@ pub fn compute(plan: &PulsePlan, watch: &impl Watch) -> Result<Vec<PulseSpectra>
         .collect()
 }
 
-fn refused(error: &BlockError) -> UpliftError {
-    UpliftError::Usage(error.to_string())
+fn refused(error: BlockError) -> UpliftError {
+    UpliftError::Blocks(vec![error])
 }
 
 fn go_on(watch: &impl Watch) -> Result<(), UpliftError> {
@@ -89,7 +89,7 @@ fn spectrum(plan: PulseSpectrumPlan, watch: &impl Watch) -> Result<Spectrum, Upl
     for &acceleration in &plan.accelerations {
         go_on(watch)?;
         let row = PulseSpectrumPlan { accelerations: vec![acceleration], ..plan.clone() };
-        points.extend(pulse_spectrum(&row).map_err(|error| refused(&error))?.points());
+        points.extend(pulse_spectrum(&row).map_err(refused)?.points());
         watch.finished(plan.sizes.len() as u64);
     }
     Ok(Spectrum { plan, points })
@@ -98,7 +98,7 @@ fn spectrum(plan: PulseSpectrumPlan, watch: &impl Watch) -> Result<Spectrum, Upl
 /// The blocks of Figure 2.6.
 fn blocks(plan: &PulsePlan, shape: RickerShape, watch: &impl Watch) -> Result<BlockResponses, UpliftError> {
     let of_plan = &plan.blocks;
-    let pulse = of_plan.pulse(shape).map_err(|error| refused(&error))?;
+    let pulse = of_plan.pulse(shape).map_err(refused)?;
     let respond_of = |size_m: f64, slenderness_rad: f64| {
         respond(&plan.block(size_m, slenderness_rad)?, pulse, FreeRocking::FirstPeak)
     };
@@ -107,7 +107,7 @@ fn blocks(plan: &PulsePlan, shape: RickerShape, watch: &impl Watch) -> Result<Bl
         go_on(watch)?;
         let row: Result<Vec<_>, _> =
             of_plan.sizes_m.par_iter().map(|&size_m| respond_of(size_m, slenderness_rad)).collect();
-        responses.extend(row.map_err(|error| refused(&error))?);
+        responses.extend(row.map_err(refused)?);
         watch.finished(of_plan.sizes_m.len() as u64);
     }
     Ok(BlockResponses {

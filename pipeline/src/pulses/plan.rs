@@ -4,6 +4,10 @@ use uplift_block::{BlockError, PulseSpectrumPlan, RickerPulse, RickerShape, Rock
 use uplift_motion::STANDARD_GRAVITY_M_S2;
 
 use crate::error::UpliftError;
+use crate::text::thousands;
+
+/// Points of a map that a figure can show, and then some.
+const MOST_POINTS: usize = 4_000_000;
 
 /// The spectra of Figures 2.2 to 2.7. All axes have values above zero, increasing.
 #[derive(Debug, Clone, PartialEq)]
@@ -68,21 +72,31 @@ impl BlockPlan {
 }
 
 impl PulsePlan {
-    /// Whether there are such blocks and pulses, so that a mistake is told before the work.
+    /// Whether there are such blocks and pulses, and no more of them than a figure shows, so that a mistake is told before
+    /// the work.
     ///
     /// # Errors
-    /// A slenderness, size, restitution, amplitude or period that no block or pulse has, as a mistake of usage.
+    /// A slenderness, size, restitution, amplitude or period that no block or pulse has; a map of too many points.
     pub fn check(&self) -> Result<(), UpliftError> {
+        for (name, sizes) in [("frequencies", &self.frequencies), ("half-widths", &self.half_widths)] {
+            let points = sizes.len() * self.accelerations.len();
+            if points > MOST_POINTS {
+                return Err(UpliftError::Usage(format!(
+                    "the axes of {name} and accelerations make a map of {} points: take larger steps, {} points are the most",
+                    thousands(points as u64),
+                    thousands(MOST_POINTS as u64)
+                )));
+            }
+        }
         let sizes_m = [self.blocks.sizes_m.first(), self.blocks.sizes_m.last()];
         let slendernesses = std::iter::once(&self.slenderness_rad).chain(&self.blocks.slendernesses_rad);
         let blocks = slendernesses.flat_map(|&alpha| sizes_m.into_iter().flatten().map(move |&size_m| (size_m, alpha)));
-        let mut mistakes: Vec<String> = blocks
+        let mut mistakes: Vec<BlockError> = blocks
             .filter_map(|(size_m, alpha)| self.block(size_m, alpha).err())
             .chain(self.shapes.iter().filter_map(|&shape| self.blocks.pulse(shape).err()))
-            .map(|error| error.to_string())
             .collect();
-        mistakes.dedup();
-        if mistakes.is_empty() { Ok(()) } else { Err(UpliftError::Usage(mistakes.join("\nuplift: "))) }
+        mistakes.dedup_by_key(|error| error.to_string());
+        if mistakes.is_empty() { Ok(()) } else { Err(UpliftError::Blocks(mistakes)) }
     }
 
     /// A block with the restitution that was asked for.

@@ -2,9 +2,9 @@
 
 use uplift_spectra::Noisy;
 use uplift_structure::Rule;
+use uplift_study::Kind;
 
 use super::file::ResultFile;
-use super::head::Kind;
 use super::layout::{axis, design};
 use crate::array::Array;
 use crate::error::UpliftError;

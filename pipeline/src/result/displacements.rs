@@ -1,9 +1,9 @@
 //! The displacement spectra of a result, as figures and tables read them.
 
 use serde::Serialize;
+use uplift_study::Kind;
 
 use super::file::ResultFile;
-use super::head::Kind;
 use super::layout::{axis, set, spectra};
 use crate::array::Array;
 use crate::error::UpliftError;

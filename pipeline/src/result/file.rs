@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use uplift_labelled::{LabelledArray, LabelledReader};
+use uplift_study::Kind;
 
-use super::head::Kind;
+use super::head::kind_of;
 use super::layout::{LAYOUT, axis};
 use crate::array::Array;
 use crate::error::UpliftError;
@@ -85,7 +86,7 @@ impl ResultFile {
                 crate::VERSION
             )));
         }
-        let kind = Kind::of(&reader);
+        let kind = kind_of(&reader);
         Ok(Self { path: path.to_owned(), reader, kind })
     }
 

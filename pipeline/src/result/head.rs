@@ -5,31 +5,14 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 use uplift_labelled::LabelledReader;
 use uplift_motion::IntensityMeasure;
-use uplift_study::DISPLACEMENT_SPECTRA;
+use uplift_study::Kind;
 
 use super::file::ResultFile;
 use super::layout::{axis, bootstrap, design, efficiency, ida, influence, set, spectra};
 use crate::error::UpliftError;
 
-/// What a study is of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-pub enum Kind {
-    /// Uniform risk spectra (Chapter 4).
-    UniformRisk,
-    /// Displacement spectra of record sets (Chapters 2 and 3).
-    Displacement,
-}
-
-impl Kind {
-    /// What the result in `reader` is of; uniform risk where it does not say.
-    pub(super) fn of(reader: &LabelledReader) -> Self {
-        let displacement = reader.attribute_text("/", "kind").is_ok_and(|kind| kind == DISPLACEMENT_SPECTRA);
-        if displacement { Self::Displacement } else { Self::UniformRisk }
-    }
-}
-
 /// Where the numbers of a result come from: what results of every kind say at their root.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Head {
     /// What the study is of.
     pub kind: Kind,
@@ -82,6 +65,12 @@ pub enum Overview {
         /// Whether there is a design example.
         designed: bool,
     },
+}
+
+/// What the result in `reader` is of; uniform risk where it does not say.
+pub(super) fn kind_of(reader: &LabelledReader) -> Kind {
+    let is = |kind: &Kind| reader.attribute_text("/", "kind").is_ok_and(|word| word == kind.key());
+    Kind::ALL.into_iter().find(is).unwrap_or(Kind::UniformRisk)
 }
 
 impl ResultFile {

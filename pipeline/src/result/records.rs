@@ -1,9 +1,9 @@
 //! What a result knows of its records.
 
 use uplift_motion::IntensityMeasure;
+use uplift_study::Kind;
 
 use super::file::ResultFile;
-use super::head::Kind;
 use super::layout::{axis, ida, records};
 use crate::error::UpliftError;
 

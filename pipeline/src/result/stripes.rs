@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
-use uplift_fragility::{FragilityError, Stripes};
+use uplift_fragility::Stripes;
 use uplift_hazard::{Extrapolation, HazardCurve, rate_from_probability};
 use uplift_motion::IntensityMeasure;
-use uplift_risk::{PooledDemand, RiskCurve, RiskError, StripeWeights};
-use uplift_study::{Bootstrap, Extrapolate, ResolvedStudy};
+use uplift_risk::{PooledDemand, RiskCurve, StripeWeights};
+use uplift_study::Bootstrap;
 
 use super::RiskAxes;
 use super::extend::whole_seal;
@@ -67,17 +67,6 @@ pub struct StoredMeasure {
     pub exact_m: Array<3>,
 }
 
-/// Why stripes cannot be pooled, in a file that was changed.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum DemandError {
-    /// The stripes contradict themselves.
-    #[error(transparent)]
-    Stripes(#[from] FragilityError),
-    /// They cannot be joined with the hazard.
-    #[error(transparent)]
-    Risk(#[from] RiskError),
-}
-
 impl StoredStripes {
     /// Position of the probability `wanted`, or of the smallest.
     ///
@@ -97,9 +86,10 @@ pub(super) fn poe_index(poes: &[f64], wanted: Option<f64>) -> Result<usize, Upli
         Some(wanted) => poes.iter().position(|poe| (poe - wanted).abs() < 1e-9),
         None => (0..poes.len()).min_by(|&a, &b| poes[a].total_cmp(&poes[b])),
     };
-    found.ok_or_else(|| {
-        let known: Vec<String> = poes.iter().map(f64::to_string).collect();
-        UpliftError::Usage(format!("--poe: the result has the probabilities {}", known.join(", ")))
+    found.ok_or_else(|| UpliftError::Choice {
+        option: "--poe",
+        wanted: wanted.map(|wanted| wanted.to_string()),
+        known: poes.iter().map(f64::to_string).collect(),
     })
 }
 
@@ -108,7 +98,7 @@ impl StoredMeasure {
     ///
     /// # Errors
     /// Demands that are not demands, in a file that was changed.
-    pub fn stripes(&self, strength: usize) -> Result<Stripes<'_>, DemandError> {
+    pub fn stripes(&self, strength: usize) -> Result<Stripes<'_>, UpliftError> {
         let [records, strengths, levels] = self.edp_m.shape();
         let edp_m = &self.edp_m.values()[strength * levels..];
         Ok(Stripes::strided(&self.levels, edp_m, records, strengths * levels)?)
@@ -118,7 +108,7 @@ impl StoredMeasure {
     ///
     /// # Errors
     /// As [`StoredMeasure::stripes`].
-    pub fn demand(&self, strength: usize) -> Result<PooledDemand, DemandError> {
+    pub fn demand(&self, strength: usize) -> Result<PooledDemand, UpliftError> {
         Ok(PooledDemand::new(&self.stripes(strength)?)?)
     }
 }
@@ -130,17 +120,17 @@ impl ResultFile {
     /// A file that is damaged, or of another kind; a study without sites.
     pub fn stripes(&self) -> Result<StoredStripes, UpliftError> {
         let axes = self.axes_with_sites()?;
-        let study = self.stored_study(None)?.0;
+        let study = self.stored_study()?;
         let targets_per_year = axes
             .poes
             .iter()
             .map(|&poe| rate_from_probability(poe, axes.years))
             .collect::<Result<Vec<_>, _>>()
-            .map_err(|error| self.fail(error))?;
+            .map_err(|error| UpliftError::from(error).in_file(&self.path))?;
         let measures = self
             .measures()
             .into_iter()
-            .map(|measure| self.stored_measure(&axes, &targets_per_year, measure, extrapolation(&study)))
+            .map(|measure| self.stored_measure(&axes, &targets_per_year, measure, study.risk.extrapolate))
             .collect::<Result<Vec<_>, UpliftError>>()?;
         let RiskAxes { records, strengths, poes, years, sites } = axes;
         Ok(StoredStripes {
@@ -185,7 +175,7 @@ impl ResultFile {
         }
         let exact_m = Array::from_fn([axes.sites.len(), axes.poes.len(), axes.strengths.len()], |_| 0.0);
         let mut measure = StoredMeasure { measure, levels, edp_m, weights, branches, exact_m };
-        measure.exact_m = exact_ordinates(&measure, targets_per_year).map_err(|error| self.fail(error))?;
+        measure.exact_m = exact_ordinates(&measure, targets_per_year).map_err(|error| error.in_file(&self.path))?;
         Ok(measure)
     }
 
@@ -203,7 +193,7 @@ impl ResultFile {
 }
 
 /// Exact ordinates `[site, poe, strength]` of all spectra, m.
-fn exact_ordinates(measure: &StoredMeasure, targets_per_year: &[f64]) -> Result<Array<3>, DemandError> {
+fn exact_ordinates(measure: &StoredMeasure, targets_per_year: &[f64]) -> Result<Array<3>, UpliftError> {
     let [_, strengths, _] = measure.edp_m.shape();
     // [strength][site][poe]: each strength is sorted once
     let mut by_strength = Vec::with_capacity(strengths);
@@ -214,12 +204,4 @@ fn exact_ordinates(measure: &StoredMeasure, targets_per_year: &[f64]) -> Result<
     }
     let shape = [measure.weights.len(), targets_per_year.len(), strengths];
     Ok(Array::from_fn(shape, |[site, poe, strength]| by_strength[strength][site][poe].displacement_m))
-}
-
-/// How hazard curves are read beyond their ends, as the study says.
-pub(super) fn extrapolation(study: &ResolvedStudy) -> Extrapolation {
-    match study.risk.extrapolate {
-        Extrapolate::Refuse => Extrapolation::Refuse,
-        Extrapolate::Loglog => Extrapolation::LogLog,
-    }
 }

@@ -6,19 +6,16 @@ use std::path::{Path, PathBuf};
 use uplift_hazard::rate_from_probability;
 use uplift_motion::IntensityMeasure;
 use uplift_risk::StripeWeights;
-use uplift_study::{MeasurePlan, ResolvedStudy, Study};
 
 use super::file::ResultFile;
 use super::layout::{axis, urs};
 use super::records::StoredRecords;
-use super::stripes::{extrapolation, poe_index};
+use super::stripes::poe_index;
 use crate::array::Array;
 use crate::checkpoint::motion_key;
 use crate::error::UpliftError;
 use crate::inputs::{RecordSet, read_records};
-
-/// Parts of a study that the result holds itself, or that matter no more.
-const LEFT_OUT: [&str; 3] = ["sites", "site_table", "output"];
+use uplift_study::{AnyStudy, MeasurePlan, Study, UniformRiskStudy};
 
 /// A result with its study.
 #[derive(Debug, Clone)]
@@ -29,14 +26,12 @@ pub struct StudyOfResult {
     pub record_set: String,
     /// True for motions made by the program.
     pub synthetic: bool,
-    /// The study, without its sites.
-    pub study: ResolvedStudy,
+    /// The study.
+    pub study: UniformRiskStudy,
     /// Names of the sites.
     pub sites: Vec<String>,
     /// The measures, in the order of the study.
     pub measures: Vec<SpectraOfResult>,
-    /// Why the study's records cannot even be looked for.
-    unreadable: Option<String>,
     /// What identifies the records.
     made_from: StoredRecords,
 }
@@ -64,10 +59,14 @@ impl ResultFile {
     /// given.
     ///
     /// # Errors
-    /// A file that is damaged, or of another kind; a study without sites; a manifest for records that have none.
+    /// A file that is damaged, or of another kind; a study without sites.
     pub fn study(&self, manifest: Option<&Path>) -> Result<StudyOfResult, UpliftError> {
         let axes = self.axes_with_sites()?;
-        let (study, unreadable) = self.stored_study(manifest)?;
+        let mut study = self.stored_study()?;
+        if let Some(manifest) = manifest {
+            let manifest = std::path::absolute(manifest).unwrap_or_else(|_| manifest.to_owned());
+            study.records.source = study.records.source.by_manifest(manifest);
+        }
         let lengths = [
             (axis::SITE, axes.sites.len()),
             (axis::POE, study.risk.poe.len()),
@@ -79,7 +78,7 @@ impl ResultFile {
             .map(|plan| {
                 let weigh = |site: &String| {
                     let curve = self.curves(site, plan.measure)?.curve;
-                    self.weigh(site, &curve, &plan.levels, extrapolation(&study))
+                    self.weigh(site, &curve, &plan.levels, study.risk.extrapolate)
                 };
                 Ok(SpectraOfResult {
                     plan: plan.clone(),
@@ -96,14 +95,21 @@ impl ResultFile {
             study,
             sites: axes.sites,
             measures,
-            unreadable,
         })
     }
 
-    /// The stored study; where its manifest is gone, without its records, and why.
-    pub(super) fn stored_study(&self, manifest: Option<&Path>) -> Result<(ResolvedStudy, Option<String>), UpliftError> {
-        resolve(&self.reader.attribute_text("/", "study_toml")?, manifest)
-            .map_err(|reason| self.fail(format!("the study in the file cannot be read: {reason}")))
+    /// The study; its records and curves need not be there any more.
+    pub(super) fn stored_study(&self) -> Result<UniformRiskStudy, UpliftError> {
+        match Study::stored(&self.reader.attribute_text("/", "study_toml")?) {
+            Ok(AnyStudy::UniformRisk(study)) => Ok(*study),
+            Ok(AnyStudy::Displacement(study)) => {
+                Err(self.fail(format!("the study {} has no uniform risk spectra", study.title)))
+            }
+            Err(error) => {
+                let mistakes: Vec<String> = error.mistakes().iter().map(ToString::to_string).collect();
+                Err(self.fail(format!("the study in the file cannot be read: {}", mistakes.join("; "))))
+            }
+        }
     }
 }
 
@@ -113,9 +119,6 @@ impl StudyOfResult {
     /// # Errors
     /// Records that are not there, or are others: what is wrong, and what to do.
     pub fn records(&self) -> Result<RecordSet, String> {
-        if let Some(reason) = &self.unreadable {
-            return Err(reason.clone());
-        }
         let set = read_records(&self.study).map_err(|error| error.to_string())?;
         let made_from = &self.made_from;
         if set.records.len() != made_from.ids.len() {
@@ -162,30 +165,5 @@ impl StudyOfResult {
     /// If an index is out of range, which is a bug of the caller.
     pub fn spectrum<'a>(&self, measure: &'a SpectraOfResult, site: usize, poe: usize) -> &'a [f64] {
         measure.u_m.block([site, poe])
-    }
-}
-
-/// The stored study; where its manifest is gone, without its records, and why.
-fn resolve(study_toml: &str, manifest: Option<&Path>) -> Result<(ResolvedStudy, Option<String>), String> {
-    let mut table: toml::Table = toml::from_str(study_toml).map_err(|error| error.to_string())?;
-    for section in LEFT_OUT {
-        table.remove(section);
-    }
-    let study = |table: &toml::Table, overrides: &[String]| -> Result<ResolvedStudy, String> {
-        let text = toml::to_string(table).map_err(|error| error.to_string())?;
-        let name = Path::new("the study in the result");
-        Study::parse(name, text).and_then(|study| study.resolve(overrides)).map_err(|error| {
-            let mistakes: Vec<String> = error.mistakes().iter().map(ToString::to_string).collect();
-            if mistakes.is_empty() { error.to_string() } else { mistakes.join("; ") }
-        })
-    };
-    let overrides: Vec<String> =
-        manifest.iter().map(|path| format!("records.manifest={:?}", path.display().to_string())).collect();
-    match study(&table, &overrides) {
-        Ok(study) => Ok((study, None)),
-        Err(reason) => {
-            table.remove("records");
-            study(&table, &[]).map(|study| (study, Some(reason)))
-        }
     }
 }

@@ -1,6 +1,5 @@
 //! Tables beside a result file, for spreadsheets and scripts.
 
-use std::io::Write;
 use std::path::Path;
 
 use polars::prelude::{Column, CsvWriter, DataFrame, SerWriter};
@@ -16,7 +15,7 @@ pub fn write_table(path: &Path, line: &str, columns: Vec<Column>) -> Result<(), 
     let fail = |reason: String| UpliftError::input(format!("{} cannot be written: {reason}", path.display()));
     let mut content = Vec::new();
     if !line.is_empty() {
-        writeln!(content, "# {line}")?;
+        content.extend_from_slice(format!("# {line}\n").as_bytes());
     }
     DataFrame::new_infer_height(columns)
         .and_then(|mut table| CsvWriter::new(&mut content).finish(&mut table))

@@ -14,7 +14,7 @@ use super::risk::{EventRisk, OVERTURNING_M, demand_of, risk_of_exceeding, stripe
 use crate::displacement::RULES;
 use crate::error::UpliftError;
 use crate::inputs::RecordSet;
-use uplift_study::{MeasurePlan, ResolvedStudy};
+use uplift_study::{MeasurePlan, UniformRiskStudy};
 
 /// Where a spectrum was read.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -82,7 +82,7 @@ pub struct ExactDemand {
 /// # Errors
 /// [`UpliftError::Interrupted`] if `watch` says so; a system that has no oscillator.
 pub fn exact_demand(
-    study: &ResolvedStudy,
+    study: &UniformRiskStudy,
     (measure, weights): (&MeasurePlan, &uplift_risk::StripeWeights),
     set: &RecordSet,
     (system, restitution): (&EquivalentSystem, f64),

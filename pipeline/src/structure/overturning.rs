@@ -2,15 +2,15 @@
 
 use uplift_block::RockingBlock;
 use uplift_fragility::{FragilityError, LognormalFit, StripeCount, Stripes as Stripe, fit_lognormal, stripe_counts};
-use uplift_ida::{BlockPlan, IdaError, Watch, analyse_blocks};
+use uplift_ida::{System, Watch, analyse};
 use uplift_oscillator::Oscillator;
 use uplift_risk::{PooledDemand, StripeWeights};
 
-use super::risk::{EventRisk, OVERTURNING_M, risk_of_exceeding, stripes_of};
+use super::risk::{EventRisk, OVERTURNING_M, risk_of_exceeding};
 use crate::error::UpliftError;
 use crate::inputs::RecordSet;
-use crate::uniform_risk::stripe_records;
-use uplift_study::{MeasurePlan, ResolvedStudy};
+use crate::uniform_risk::plan_stripes;
+use uplift_study::{MeasurePlan, UniformRiskStudy};
 
 /// How a structure is modelled.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,26 +44,17 @@ impl Model {
     /// [`UpliftError::Interrupted`] if `watch` says so; a record that cannot be scaled.
     pub fn demands_m(
         &self,
-        study: &ResolvedStudy,
+        study: &UniformRiskStudy,
         plan: &MeasurePlan,
         set: &RecordSet,
         watch: &dyn Watch,
     ) -> Result<Vec<f64>, UpliftError> {
-        match self {
-            Self::Oscillator(oscillator) => {
-                let stripes = stripes_of(study, plan, set, std::slice::from_ref(oscillator), watch)?;
-                Ok(stripes.edp.of_strength(0))
-            }
-            Self::Block(block) => {
-                let (records, blocks) = (stripe_records(set, plan.measure), std::slice::from_ref(block));
-                let plan = BlockPlan::new(records, blocks, &plan.levels, study.oscillator.free_vibration);
-                let edp = plan.and_then(|plan| analyse_blocks(&plan, watch)).map_err(|error| match error {
-                    IdaError::Cancelled => UpliftError::Interrupted,
-                    other => UpliftError::input(other.to_string()),
-                })?;
-                Ok(edp.of_strength(0))
-            }
-        }
+        let systems = [match self {
+            Self::Oscillator(oscillator) => System::Oscillator(oscillator.clone()),
+            Self::Block(block) => System::Block(*block),
+        }];
+        let plan = plan_stripes(study, plan, set, &systems)?;
+        Ok(analyse(&plan, watch)?.of_system_m(0))
     }
 }
 

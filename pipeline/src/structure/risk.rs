@@ -1,30 +1,34 @@
 //! A structure under the records of a study: the stripes of its own oscillators, and how often it goes too far.
 
 use uplift_hazard::probability_from_rate;
-use uplift_ida::{Cells, Part, Watch};
+use uplift_ida::{System, Watch, analyse};
 use uplift_oscillator::Oscillator;
 use uplift_risk::{PooledDemand, RiskCurve, StripeWeights};
 
+use crate::analysis::Analysed;
 use crate::error::UpliftError;
 use crate::inputs::RecordSet;
 use crate::uniform_risk::pooled_demand;
-use crate::uniform_risk::{Stripes, analyse_stripes, plan_stripes};
-use uplift_study::{MeasurePlan, ResolvedStudy};
+use crate::uniform_risk::{Stripes, plan_stripes};
+use uplift_study::{MeasurePlan, UniformRiskStudy};
 
 /// The stripes of `oscillators`, which need not be those of `study`, over `[record, oscillator, level]`.
 ///
 /// # Errors
 /// [`UpliftError::Interrupted`] if `watch` says so; a record that cannot be scaled.
 pub fn stripes_of(
-    study: &ResolvedStudy,
+    study: &UniformRiskStudy,
     measure: &MeasurePlan,
     set: &RecordSet,
     oscillators: &[Oscillator],
     watch: &dyn Watch,
 ) -> Result<Stripes, UpliftError> {
-    let plan = plan_stripes(study, measure, set, oscillators)?;
-    let cells = Cells::unknown(&plan);
-    analyse_stripes(measure, &plan, cells, Part::WHOLE, watch, &|_| {})?.ok_or(UpliftError::Interrupted)
+    let systems: Vec<System> = oscillators.iter().cloned().map(System::Oscillator).collect();
+    let plan = plan_stripes(study, measure, set, &systems)?;
+    let start = std::time::Instant::now();
+    let peaks = analyse(&plan, watch)?;
+    let (analyses, seconds) = (plan.analyses(), start.elapsed().as_secs_f64());
+    Ok(Stripes::of(measure, Analysed { peaks, analyses, computed: analyses, seconds }))
 }
 
 /// How often something happens to a structure at a site.

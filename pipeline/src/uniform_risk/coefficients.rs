@@ -6,7 +6,7 @@ use uplift_risk::Ordinate;
 
 use super::Spectra;
 use crate::array::Array;
-use uplift_study::ResolvedStudy;
+use uplift_study::UniformRiskStudy;
 
 /// The fits of one measure.
 #[derive(Debug, Clone)]
@@ -18,14 +18,14 @@ pub struct Coefficients {
 }
 
 /// Fit every spectrum over the strengths above `regression.strength_above`.
-pub fn fit_spectra(study: &ResolvedStudy, spectra: &Spectra) -> Coefficients {
+pub fn fit_spectra(study: &UniformRiskStudy, spectra: &Spectra) -> Coefficients {
     let [sites, poes, _] = spectra.ordinates.shape();
     let fits = Array::from_fn([sites, poes], |[site, poe]| fit_spectrum(study, spectra.spectrum(site, poe)));
     Coefficients { measure: spectra.measure, fits }
 }
 
 /// Fit one spectrum over the strengths above `regression.strength_above`, or say why there is no fit.
-pub(super) fn fit_spectrum(study: &ResolvedStudy, spectrum: &[Ordinate]) -> Result<ExponentialFit, String> {
+pub(super) fn fit_spectrum(study: &UniformRiskStudy, spectrum: &[Ordinate]) -> Result<ExponentialFit, String> {
     let from = study.strengths.partition_point(|&strength| strength <= study.regression.strength_above);
     let strengths = &study.strengths[from..];
     let displacements: Vec<f64> = spectrum[from..].iter().map(|ordinate| ordinate.displacement_m).collect();

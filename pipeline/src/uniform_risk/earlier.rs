@@ -3,14 +3,14 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use uplift_ida::Cells;
+use uplift_ida::{Axes, Cells};
 use uplift_motion::IntensityMeasure;
 
 use crate::checkpoint::oscillator_key;
 use crate::inputs::RecordSet;
 use crate::result::layout::{axis, ida, records};
 use uplift_labelled::{LabelledError, LabelledReader, Seal, seal_of};
-use uplift_study::{MeasurePlan, ResolvedStudy};
+use uplift_study::{MeasurePlan, UniformRiskStudy};
 
 /// An earlier result at the place of the one to come.
 pub struct EarlierStripes {
@@ -28,7 +28,7 @@ impl EarlierStripes {
     /// oscillator, strength and level, by the same version of the solver. A file that is damaged, or of another layout, knows nothing.
     pub fn fill(
         &self,
-        study: &ResolvedStudy,
+        study: &UniformRiskStudy,
         measure: &MeasurePlan,
         set: &RecordSet,
         motions: &[String],
@@ -39,7 +39,7 @@ impl EarlierStripes {
 
     fn try_fill(
         &self,
-        study: &ResolvedStudy,
+        study: &UniformRiskStudy,
         measure: &MeasurePlan,
         set: &RecordSet,
         motions: &[String],
@@ -54,7 +54,7 @@ impl EarlierStripes {
         let intensities = reader
             .array_f64(match measure.measure {
                 IntensityMeasure::Pga => records::PGA_G,
-                _ => records::PGV_CM_S,
+                IntensityMeasure::Pgv => records::PGV_CM_S,
             })?
             .values;
         let positions = |values: &[f64]| -> HashMap<u64, usize> {
@@ -64,8 +64,9 @@ impl EarlierStripes {
         let levels = reader.axis_f64(&axis::level(measure.measure))?;
         let edp_m = reader.array_f64(&ida::edp_m(measure.measure))?;
         let impacts = reader.array_u32(&ida::impacts(measure.measure))?;
-        let shape = [stored_motions.len(), strengths.len(), levels.len()];
-        if edp_m.shape != shape || impacts.shape != shape || intensities.len() != shape[0] {
+        let stored = Axes { motions: stored_motions.len(), systems: strengths.len(), scales: levels.len() };
+        let shape = [stored.motions, stored.systems, stored.scales];
+        if edp_m.shape != shape || impacts.shape != shape || intensities.len() != stored.motions {
             return Ok(());
         }
         let records: HashMap<(&str, u64), usize> = (stored_motions.iter().zip(&intensities).enumerate())
@@ -79,7 +80,7 @@ impl EarlierStripes {
                 let Some(&from_strength) = of_strength.get(&value.to_bits()) else { continue };
                 for (level, value) in measure.levels.iter().enumerate() {
                     let Some(&from_level) = of_level.get(&value.to_bits()) else { continue };
-                    let index = (from_record * shape[1] + from_strength) * shape[2] + from_level;
+                    let index = stored.cell([from_record, from_strength, from_level]);
                     cells.set([record, strength, level], edp_m.values[index], impacts.values[index]);
                 }
             }

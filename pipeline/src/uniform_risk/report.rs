@@ -172,7 +172,7 @@ impl MeasureReport {
             analyses: stripes.analyses,
             analyses_computed: stripes.computed,
             seconds: stripes.seconds,
-            analyses_per_second: super::rate(stripes),
+            analyses_per_second: crate::analysis::rate(stripes.computed, stripes.seconds),
         }
     }
 }

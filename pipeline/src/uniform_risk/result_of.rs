@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use uplift_study::{AnyStudy, ResolvedStudy};
+use uplift_study::{AnyStudy, UniformRiskStudy};
 
 use crate::checkpoint::{motion_key, oscillator_key};
 use crate::error::UpliftError;
@@ -18,7 +18,7 @@ const WITHOUT_INFLUENCE: [&str; 3] = ["title", "bootstrap", "output"];
 ///
 /// # Errors
 /// Inputs that cannot be used; as [`run`].
-pub fn result_of(study: &ResolvedStudy, options: &RunOptions, events: &dyn Events) -> Result<PathBuf, UpliftError> {
+pub fn result_of(study: &UniformRiskStudy, options: &RunOptions, events: &dyn Events) -> Result<PathBuf, UpliftError> {
     let path = options.result_file(&study.output.file);
     if path.exists() && is_result_of(study, path)? {
         events.remark("result", &format!("{} is that of the study", path.display()));
@@ -30,7 +30,7 @@ pub fn result_of(study: &ResolvedStudy, options: &RunOptions, events: &dyn Event
 }
 
 /// Whether the file at `path` holds the stripes and spectra of `study`, made of the same records and hazard curves.
-fn is_result_of(study: &ResolvedStudy, path: &Path) -> Result<bool, UpliftError> {
+fn is_result_of(study: &UniformRiskStudy, path: &Path) -> Result<bool, UpliftError> {
     let Ok(file) = ResultFile::open(path) else { return Ok(false) };
     if file.kind() != Kind::UniformRisk {
         return Ok(false);
@@ -52,7 +52,7 @@ fn is_result_of(study: &ResolvedStudy, path: &Path) -> Result<bool, UpliftError>
 
 /// What a manifest says of its files counts too: the motions themselves, what they are scaled by, what is known of
 /// them.
-fn is_of_records(file: &ResultFile, study: &ResolvedStudy, records: &[Record]) -> Result<bool, UpliftError> {
+fn is_of_records(file: &ResultFile, study: &UniformRiskStudy, records: &[Record]) -> Result<bool, UpliftError> {
     let kept = file.records()?;
     let motions: Vec<String> = records.iter().map(|record| motion_key(&record.accelerogram)).collect();
     let same = |kept: &[f64], own: &dyn Fn(&Record) -> f64| {

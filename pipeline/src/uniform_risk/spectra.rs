@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 use uplift_fragility::Stripes as Stripe;
 use uplift_hazard::rate_from_probability;
+use uplift_ida::Axes;
 use uplift_motion::IntensityMeasure;
 use uplift_risk::{Ordinate, PooledDemand, RiskCurve, RiskError, ThresholdGrid};
 
@@ -10,7 +11,7 @@ use super::{BranchSpectra, Stripes};
 use crate::array::Array;
 use crate::error::UpliftError;
 use crate::inputs::{BranchHazard, SiteHazard};
-use uplift_study::{Contour, ResolvedStudy};
+use uplift_study::{Contour, UniformRiskStudy};
 
 /// The spectra of one measure.
 #[derive(Debug, Clone)]
@@ -44,7 +45,7 @@ pub(super) struct Reading {
 }
 
 impl Reading {
-    pub(super) fn of(study: &ResolvedStudy) -> Result<Self, UpliftError> {
+    pub(super) fn of(study: &UniformRiskStudy) -> Result<Self, UpliftError> {
         let rate = |&poe: &f64| rate_from_probability(poe, study.risk.years);
         let targets = study.risk.poe.iter().map(rate).collect::<Result<Vec<_>, _>>();
         let targets = targets.map_err(|error| UpliftError::input(error.to_string()))?;
@@ -67,8 +68,8 @@ pub(crate) fn pooled_demand(
     stripes: &Stripes,
     strength: usize,
 ) -> Result<PooledDemand, Box<dyn std::error::Error + Send + Sync>> {
-    let [records, strengths, levels] = stripes.edp.shape();
-    let edp_m = &stripes.edp.edp_m()[strength * levels..];
+    let Axes { motions: records, systems: strengths, scales: levels } = stripes.peaks.axes();
+    let edp_m = &stripes.peaks.displacement_m()[strength * levels..];
     Ok(PooledDemand::new(&Stripe::strided(&stripes.levels, edp_m, records, strengths * levels)?)?)
 }
 
@@ -90,13 +91,13 @@ struct OfStrength {
 /// # Errors
 /// Numbers that do not fit together, which the checks of study and inputs rule out.
 pub fn uniform_risk_spectra(
-    study: &ResolvedStudy,
+    study: &UniformRiskStudy,
     stripes: &Stripes,
     hazard: &[SiteHazard],
 ) -> Result<Spectra, UpliftError> {
     let reading = Reading::of(study)?;
     let (targets, grid) = (&reading.targets, &reading.grid);
-    let strengths = stripes.edp.shape()[1];
+    let strengths = stripes.peaks.axes().systems;
 
     let of_strength = |strength: usize| -> Result<OfStrength, Box<dyn std::error::Error + Send + Sync>> {
         let demand = pooled_demand(stripes, strength)?;

@@ -46,11 +46,7 @@ fn write_root(writer: &mut LabelledWriter, outcome: &Outcome<'_>) -> Result<(), 
     origin.write(writer)?;
     writer.attribute("/", "seed", study.seed)?;
     writer.attribute("/", "poe_years", study.risk.years)?;
-    writer.attribute(
-        "/",
-        "contour",
-        if study.risk.contour == uplift_study::Contour::Exact { "exact" } else { "grid" },
-    )?;
+    writer.attribute("/", "contour", study.risk.contour.key())?;
     Ok(())
 }
 
@@ -134,8 +130,8 @@ fn write_measure(
     let stripes = &outcome.stripes[index];
     let (group, dims) = (ida::group(measure), [axis::RECORD, axis::STRENGTH, &axis::level(measure)]);
     let long_name = "peak displacement, infinite where overturned";
-    writer.array_f64(&ida::edp_m(measure), &dims, stripes.edp.edp_m(), "m", long_name)?;
-    writer.array_u32(&ida::impacts(measure), &dims, stripes.edp.impacts(), "1", "number of impacts")?;
+    writer.array_f64(&ida::edp_m(measure), &dims, stripes.peaks.displacement_m(), "m", long_name)?;
+    writer.array_u32(&ida::impacts(measure), &dims, stripes.peaks.impacts(), "1", "number of impacts")?;
     writer.attribute(&group, "oscillator_key", oscillator_key(outcome.study).as_str())?;
     writer.attribute(&group, "analyses", stripes.analyses)?;
     writer.attribute(&group, "seconds", stripes.seconds)?;

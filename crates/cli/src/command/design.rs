@@ -11,14 +11,15 @@ use uplift_structure::PostUplift;
 
 use super::Terminal;
 use super::structure::{StructureArguments, measure_index, site_index};
-use uplift::UpliftError;
+use crate::error::CommandError;
 use uplift::events::Progress;
 use uplift::result::{SpectraOfResult, StudyOfResult};
 use uplift::structure::{
     ExactDemand, OSCILLATORS, RuleOutcome, SpectrumReading, check_rules, exact_demand, read_spectrum,
 };
 use uplift::text::per_cent;
-use uplift_study::{Structure, Uplifted};
+use uplift_oscillator::PostUplift as AfterUplift;
+use uplift_study::Structure;
 
 #[derive(Debug, Args)]
 #[command(
@@ -64,10 +65,10 @@ struct Design<'a> {
     notes: Vec<String>,
 }
 
-pub(super) fn design(arguments: &DesignArguments, session: &Terminal) -> Result<(), UpliftError> {
+pub(super) fn design(arguments: &DesignArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let safety_factor = arguments.safety_factor;
     if !(safety_factor.is_finite() && safety_factor >= 1.0) {
-        return Err(UpliftError::Usage(format!("--safety-factor is {safety_factor}: give a number of at least 1")));
+        return Err(CommandError::Usage(format!("--safety-factor is {safety_factor}: give a number of at least 1")));
     }
     let (structure, source) = arguments.structure.read()?;
     refuse_other_proxies(&source)?;
@@ -96,7 +97,7 @@ pub(super) fn design(arguments: &DesignArguments, session: &Terminal) -> Result<
             Ok(set) => {
                 let runs = (OSCILLATORS * set.records.len() * measure.plan.levels.len()) as u64;
                 let label = measure.measure().label();
-                let progress = Progress::begin(session, label, "analyses", runs);
+                let progress = Progress::begin(terminal, label, "analyses", runs);
                 let weighed = (&measure.plan, &measure.weights[site]);
                 let own = (system, restitution);
                 let exact = exact_demand(&source.study, weighed, &set, own, target_per_year, &progress);
@@ -117,7 +118,7 @@ pub(super) fn design(arguments: &DesignArguments, session: &Terminal) -> Result<
             let read_m = reading.map(|reading| system.participation() * reading.ordinate_m);
             let exact_m = exact.map(|exact| exact.zero_stiffness_m).filter(|demand_m| demand_m.is_finite());
             let rules = check_rules(system, safety_factor, read_m, exact_m);
-            Some(rules.map_err(|error| UpliftError::input(error.to_string()))?)
+            Some(rules.map_err(|error| CommandError::input(error.to_string()))?)
         }
     };
     if let Some(exact) = &exact {
@@ -139,24 +140,24 @@ pub(super) fn design(arguments: &DesignArguments, session: &Terminal) -> Result<
     };
     let mut out = std::io::stdout().lock();
     if arguments.json {
-        writeln!(out, "{:#}", design.json()).map_err(UpliftError::from)
+        writeln!(out, "{:#}", design.json()).map_err(CommandError::from)
     } else {
         design.print(&mut out)
     }
 }
 
 /// The rules start from the ZSBE system: a spectrum of another says nothing to them.
-fn refuse_other_proxies(source: &StudyOfResult) -> Result<(), UpliftError> {
-    let (what, key) = match source.study.oscillator.uplifted {
-        Uplifted::ZeroStiffness => return Ok(()),
-        Uplifted::NegativeStiffness { capacity_m } => {
+fn refuse_other_proxies(source: &StudyOfResult) -> Result<(), CommandError> {
+    let (what, key) = match source.study.oscillator.post_uplift {
+        AfterUplift::Zero => return Ok(()),
+        AfterUplift::Negative { capacity_m } => {
             (format!("of negative stiffness, with a capacity of {capacity_m} m"), "capacity_m")
         }
-        Uplifted::PositiveStiffness { stiffness_per_s2 } => {
+        AfterUplift::Positive { stiffness_per_s2 } => {
             (format!("of positive stiffness, {stiffness_per_s2} 1/s2 after uplift"), "post_uplift_stiffness_per_s2")
         }
     };
-    Err(UpliftError::input(format!(
+    Err(CommandError::input(format!(
         "{}: its spectra are those of an oscillator {what}; the rules start from zero stiffness (ZSBE): run the study without oscillator.{key}",
         source.path.display()
     )))

@@ -7,8 +7,8 @@ use clap::Args;
 
 use super::Terminal;
 use super::records::refuse_foreign;
+use crate::error::CommandError;
 use crate::show::shown_path;
-use uplift::UpliftError;
 use uplift::export::Export;
 use uplift::result::{write_atomically, write_table};
 
@@ -30,19 +30,19 @@ pub(super) struct ExportArguments {
     output: Option<PathBuf>,
 }
 
-pub(super) fn export(arguments: &ExportArguments, session: &Terminal) -> Result<(), UpliftError> {
+pub(super) fn export(arguments: &ExportArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let formats: Vec<&str> = [(arguments.csv, "spectra.csv"), (arguments.json, "json"), (arguments.mat, "mat")]
         .into_iter()
         .filter_map(|(wanted, extension)| wanted.then_some(extension))
         .collect();
     if formats.is_empty() || (arguments.output.is_some() && formats.len() > 1) {
-        return Err(UpliftError::Usage("say --csv, --json or --mat; -o goes with one of them".to_owned()));
+        return Err(CommandError::Usage("say --csv, --json or --mat; -o goes with one of them".to_owned()));
     }
     let export = Export::read(&arguments.result)?;
     for format in formats {
         let path = arguments.output.clone().unwrap_or_else(|| arguments.result.with_extension(format));
         if path == arguments.result {
-            return Err(UpliftError::Usage(format!("-o {}: this is the result itself", path.display())));
+            return Err(CommandError::Usage(format!("-o {}: this is the result itself", path.display())));
         }
         if arguments.output.is_some() && format != "mat" {
             refuse_foreign(&path)?;
@@ -52,7 +52,7 @@ pub(super) fn export(arguments: &ExportArguments, session: &Terminal) -> Result<
             "mat" => write_atomically(&path, &export.matlab()?)?,
             _ => write_table(&path, export.provenance(), export.columns())?,
         }
-        if !session.is_quiet() {
+        if !terminal.is_quiet() {
             writeln!(std::io::stdout(), "{}", shown_path(&path).display())?;
         }
     }

@@ -1,12 +1,8 @@
-//! Figures as files.
-
-use std::path::{Path, PathBuf};
+//! How figures are written, as arguments.
 
 use clap::{Args, ValueEnum};
-
-use uplift::UpliftError;
-use uplift_plot::{Figure, Width};
-use uplift_report::write_figure;
+use uplift_plot::Width;
+use uplift_report::{FigureFormat, FigureOptions};
 
 /// How figures are written.
 #[derive(Debug, Args)]
@@ -33,28 +29,17 @@ enum Columns {
 }
 
 impl FigureArguments {
-    /// Write `figure` into `folder`; the files written.
-    pub(super) fn write(&self, figure: &Figure, folder: &Path) -> Result<Vec<PathBuf>, UpliftError> {
-        let width = match self.width {
-            Columns::Single => Width::Single,
-            Columns::Double => Width::Double,
-        };
-        let extensions: &[&str] = match self.format {
-            Format::Svg => &["svg"],
-            Format::Png => &["png"],
-            Format::Both => &["png", "svg"],
-        };
-        let write = |extension: &&str| {
-            let file = folder.join(format!("{}.{extension}", figure.id));
-            write_figure(figure, width, &file)?;
-            Ok(file)
-        };
-        extensions.iter().map(write).collect()
+    pub(super) fn options(&self) -> FigureOptions {
+        FigureOptions {
+            format: match self.format {
+                Format::Svg => FigureFormat::Svg,
+                Format::Png => FigureFormat::Png,
+                Format::Both => FigureFormat::Both,
+            },
+            width: match self.width {
+                Columns::Single => Width::Single,
+                Columns::Double => Width::Double,
+            },
+        }
     }
-}
-
-/// A folder for figures.
-pub(super) fn provide_folder(folder: &Path) -> Result<(), UpliftError> {
-    std::fs::create_dir_all(folder)
-        .map_err(|error| UpliftError::input(format!("{} cannot be written: {error}", folder.display())))
 }

@@ -16,8 +16,8 @@ use uplift_hazard::{
 use uplift_motion::STANDARD_GRAVITY_M_S2;
 
 use super::Terminal;
+use crate::error::CommandError;
 use crate::terminal::tell;
-use uplift::UpliftError;
 
 #[derive(Debug, Args)]
 pub(super) struct HazardArguments {
@@ -35,11 +35,11 @@ enum HazardCommand {
     Plot(plot::PlotArguments),
 }
 
-pub(super) fn hazard(arguments: &HazardArguments, session: &Terminal) -> Result<(), UpliftError> {
+pub(super) fn hazard(arguments: &HazardArguments, terminal: &Terminal) -> Result<(), CommandError> {
     match &arguments.command {
-        HazardCommand::Import(arguments) => import::import(arguments, session),
+        HazardCommand::Import(arguments) => import::import(arguments, terminal),
         HazardCommand::Show(arguments) => show::show(arguments),
-        HazardCommand::Plot(arguments) => plot::plot(arguments, session),
+        HazardCommand::Plot(arguments) => plot::plot(arguments, terminal),
     }
 }
 
@@ -95,7 +95,7 @@ struct NamedCurve {
 }
 
 /// The curves of a file: those of an export, or the one of a table with two columns.
-fn read(path: &Path, site: &SiteArguments, table: &TableArguments) -> Result<Vec<NamedCurve>, UpliftError> {
+fn read(path: &Path, site: &SiteArguments, table: &TableArguments) -> Result<Vec<NamedCurve>, CommandError> {
     let export = match curves_of(path, &site.selection()) {
         Ok(curves) => {
             if let Some(far) = curves.iter().filter_map(|curve| curve.distance_km).reduce(f64::max) {
@@ -105,7 +105,7 @@ fn read(path: &Path, site: &SiteArguments, table: &TableArguments) -> Result<Vec
         }
         Err(error) => error,
     };
-    let fail = |reason: String| UpliftError::input(reason);
+    let fail = |reason: String| CommandError::input(reason);
     let text = table_text(path).map_err(|error| fail(error.to_string()))?;
     // what looks like an export but cannot be read as one is told as such
     let begins = text.trim_start_matches('\u{feff}').trim_start();
@@ -171,8 +171,8 @@ fn named(path: &Path, exported: ExportedCurve) -> NamedCurve {
     NamedCurve { name: format!("{place}, {kind}"), curve: exported.curve }
 }
 
-fn in_field_units(curve: &HazardCurve) -> Result<HazardCurve, UpliftError> {
-    curve.in_field_units(STANDARD_GRAVITY_M_S2).map_err(|error| UpliftError::input(error.to_string()))
+fn in_field_units(curve: &HazardCurve) -> Result<HazardCurve, CommandError> {
+    curve.in_field_units(STANDARD_GRAVITY_M_S2).map_err(|error| CommandError::input(error.to_string()))
 }
 
 /// The files given, each once.

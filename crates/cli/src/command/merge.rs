@@ -2,9 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::error::CommandError;
 use clap::Args;
-use uplift::UpliftError;
-use uplift::uniform_risk::merge as merge_shards;
 
 use super::StudyArguments;
 use super::run::run_options;
@@ -26,9 +25,9 @@ pub(super) struct MergeArguments {
     json: bool,
 }
 
-pub(super) fn merge(arguments: &MergeArguments, terminal: &Terminal) -> Result<(), UpliftError> {
-    let study = arguments.study.load()?;
+pub(super) fn merge(arguments: &MergeArguments, terminal: &Terminal) -> Result<(), CommandError> {
+    let study = arguments.study.load_any()?;
     let options = run_options(&arguments.study, arguments.output.clone());
-    let report = merge_shards(&study, &arguments.shards, &options, terminal)?;
+    let report = uplift::merge(&study, &arguments.shards, &options, terminal)?;
     if arguments.json { print_json(&report) } else { print_run(&report, terminal) }
 }

@@ -14,16 +14,17 @@ use uplift_structure::PostUplift;
 use super::Terminal;
 use super::records::{refuse_foreign, refuse_overwriting};
 use super::structure::{StructureArguments, measure_index, site_index};
-use uplift::UpliftError;
+use crate::error::CommandError;
 use uplift::events::Progress;
-use uplift::result::{SpectraOfResult, StudyOfResult};
+use uplift::result::{SpectraOfResult, StudyOfResult, write_atomically};
 use uplift::structure::{Collapse, EventRisk, Model, collapse};
 use uplift::text::per_cent;
-use uplift_plot::Width;
+use uplift_plot::{Width, png, svg};
 use uplift_report::figures::overturning_figure;
-use uplift_report::write_figure;
 use uplift_study::Structure;
 
+/// Dots per inch of a PNG.
+const DOTS_PER_INCH: f32 = 300.0;
 
 #[derive(Debug, Args)]
 #[command(
@@ -66,7 +67,7 @@ struct Overturning<'a> {
     notes: Vec<String>,
 }
 
-pub(super) fn overturning(arguments: &OverturningArguments, session: &Terminal) -> Result<(), UpliftError> {
+pub(super) fn overturning(arguments: &OverturningArguments, terminal: &Terminal) -> Result<(), CommandError> {
     check_outputs(arguments)?;
     let (structure, source) = arguments.structure.read()?;
     let sites = match &arguments.site {
@@ -80,7 +81,7 @@ pub(super) fn overturning(arguments: &OverturningArguments, session: &Terminal) 
     let mut notes = Vec::new();
     let models = models(&structure, &source, arguments.restitution, &mut notes)?;
     let set = arguments.structure.records(&source)?.map_err(|reason| {
-        UpliftError::input(format!(
+        CommandError::input(format!(
             "{reason}; overturning needs the records that the result was made from (--manifest says where they are)"
         ))
     })?;
@@ -100,7 +101,7 @@ pub(super) fn overturning(arguments: &OverturningArguments, session: &Terminal) 
         let of_model = |(model, _): &(Model, &'static str)| {
             let runs = (set.records.len() * measure.plan.levels.len()) as u64;
             let label = format!("{}, {}", measure.measure().label(), model.name());
-            let progress = Progress::begin(session, &label, "analyses", runs);
+            let progress = Progress::begin(terminal, &label, "analyses", runs);
             let demands_m = model.demands_m(&study, &measure.plan, &set, &progress);
             drop(progress);
             collapse(&measure.plan.levels, &demands_m?, &weights, years)
@@ -121,21 +122,21 @@ pub(super) fn overturning(arguments: &OverturningArguments, session: &Terminal) 
     if arguments.json { overturning.print_json(&mut out) } else { overturning.print(&mut out) }?;
     let risk = arguments.output.as_deref().map(tables::risk_path);
     for path in arguments.plot.iter().chain(&arguments.output).chain(&risk) {
-        session.say(&path.display().to_string());
+        terminal.say(&path.display().to_string());
     }
     Ok(())
 }
 
 /// Names that would lose something, before anything is computed.
-fn check_outputs(arguments: &OverturningArguments) -> Result<(), UpliftError> {
+fn check_outputs(arguments: &OverturningArguments) -> Result<(), CommandError> {
     if let Some(path) = &arguments.plot
         && !path.extension().is_some_and(|extension| extension == "svg" || extension == "png")
     {
-        return Err(UpliftError::Usage(format!("--plot {}: give a name that ends in .svg or .png", path.display())));
+        return Err(CommandError::Usage(format!("--plot {}: give a name that ends in .svg or .png", path.display())));
     }
     if let Some(path) = &arguments.output {
         if path.extension().is_none_or(|extension| extension != "csv") {
-            return Err(UpliftError::Usage(format!("-o {}: give a name that ends in .csv", path.display())));
+            return Err(CommandError::Usage(format!("-o {}: give a name that ends in .csv", path.display())));
         }
         refuse_foreign(path)?;
         refuse_foreign(&tables::risk_path(path))?;
@@ -152,13 +153,13 @@ fn models(
     source: &StudyOfResult,
     for_both: Option<f64>,
     notes: &mut Vec<String>,
-) -> Result<Vec<(Model, &'static str)>, UpliftError> {
+) -> Result<Vec<(Model, &'static str)>, CommandError> {
     let (study, own) = (&source.study, structure.description.restitution);
     let chosen = for_both.map(|value| (value, "--restitution")).or(own.map(|value| (value, "the structure file")));
     let (restitution, origin) = chosen.unwrap_or((study.oscillator.restitution, "the study"));
     let fail = |error: &dyn std::fmt::Display| match for_both {
-        Some(_) => UpliftError::Usage(format!("--restitution: {error}")),
-        None => UpliftError::input(error.to_string()),
+        Some(_) => CommandError::Usage(format!("--restitution: {error}")),
+        None => CommandError::input(error.to_string()),
     };
     let oscillator = structure.system.spectral_oscillator(restitution).map_err(|error| fail(&error))?;
     let mut models = vec![(Model::Oscillator(oscillator), origin)];
@@ -224,7 +225,7 @@ impl Overturning<'_> {
         }
     }
 
-    fn plot(&self, path: &Path) -> Result<(), UpliftError> {
+    fn plot(&self, path: &Path) -> Result<(), CommandError> {
         let measures: Vec<(IntensityMeasure, Vec<(&str, &Collapse)>)> = self
             .found
             .iter()
@@ -235,6 +236,12 @@ impl Overturning<'_> {
             .collect();
         let remark = if self.source.synthetic { "synthetic records: not for design" } else { "" };
         let figure = overturning_figure(&format!("Overturning of {}", self.structure.name()), remark, &measures);
-        write_figure(&figure, Width::Double, path)
+        let drawing = svg(&figure, Width::Double).map_err(CommandError::input)?;
+        if path.extension().is_some_and(|extension| extension == "png") {
+            let image = png(&drawing.svg, DOTS_PER_INCH).map_err(|error| CommandError::input(error.to_string()))?;
+            Ok(write_atomically(path, &image)?)
+        } else {
+            Ok(write_atomically(path, drawing.svg.as_bytes())?)
+        }
     }
 }

@@ -1,16 +1,15 @@
 //! `uplift plot`: the figures of a result as files.
 
-use std::io::Write;
 use std::path::PathBuf;
 
 use clap::Args;
+use uplift_report::{PlotOptions, plot as plot_result};
 
-use super::Terminal;
-use super::figure_files::{FigureArguments, provide_folder};
+use super::figure_files::FigureArguments;
 use super::result_of::ResultArguments;
-use crate::show::shown_path;
-use uplift::UpliftError;
-use uplift_report::figures::result_figures;
+use crate::error::CommandError;
+use crate::show::print_files;
+use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
 pub(super) struct PlotArguments {
@@ -26,24 +25,12 @@ pub(super) struct PlotArguments {
     figures: FigureArguments,
 }
 
-pub(super) fn plot(arguments: &PlotArguments, session: &Terminal) -> Result<(), UpliftError> {
-    let path = arguments.result.find(session)?.path;
-    let figures = result_figures(&path)?;
-    let wanted = arguments.only.as_deref().unwrap_or_default();
-    let chosen: Vec<_> = figures.iter().filter(|figure| figure.id.contains(wanted)).collect();
-    if chosen.is_empty() {
-        let names: Vec<&str> = figures.iter().map(|figure| figure.id.as_str()).collect();
-        return Err(UpliftError::Usage(format!("--only {wanted}: the result has the figures {}", names.join(", "))));
-    }
-    let folder = arguments.output.clone().unwrap_or_else(|| path.with_extension("figures"));
-    provide_folder(&folder)?;
-    let mut out = std::io::stdout().lock();
-    for figure in chosen {
-        for file in arguments.figures.write(figure, &folder)? {
-            if !session.is_quiet() {
-                writeln!(out, "{}", shown_path(&file).display())?;
-            }
-        }
-    }
-    Ok(())
+pub(super) fn plot(arguments: &PlotArguments, terminal: &Terminal) -> Result<(), CommandError> {
+    let options = PlotOptions {
+        result: arguments.result.find(terminal)?.path,
+        folder: arguments.output.clone(),
+        only: arguments.only.clone(),
+        figures: arguments.figures.options(),
+    };
+    print_files(&plot_result(&options, terminal)?.files, terminal)
 }

@@ -2,26 +2,19 @@
 
 #![allow(clippy::doc_markdown)] // what --help prints has no backticks
 
-use std::io::Write;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use serde_json::json;
+use uplift::pulses::{BlockPlan, PulseOptions, PulsePlan, pulses};
 use uplift_block::RickerShape;
-
-use super::Terminal;
-use super::figure_files::{FigureArguments, provide_folder};
-use crate::show::shown_path;
-use uplift::UpliftError;
-use uplift::events::Progress;
-use uplift::pulses::{BlockPlan, PulsePlan, Summary, compute, summary, tables, wavelet};
-use uplift::result::write_table;
-use uplift::text::{table, thousands};
-use uplift_report::figures::pulse_figures;
+use uplift_report::plot_pulses;
 use uplift_study::Grid;
 
-/// Points of a map that a figure can show, and then some.
-const MOST_POINTS: usize = 4_000_000;
+use super::figure_files::FigureArguments;
+use crate::error::CommandError;
+use crate::show::{print_json, print_pulses};
+use crate::terminal::Terminal;
+
 /// Lines that a figure can tell apart.
 const MOST_LINES: usize = 7;
 
@@ -130,92 +123,10 @@ impl PulseArguments {
     }
 }
 
-pub(super) fn pulse(arguments: &PulseArguments, session: &Terminal) -> Result<(), UpliftError> {
-    let plan = arguments.plan();
-    for (name, sizes) in [("--frequencies", &plan.frequencies), ("--half-widths", &plan.half_widths)] {
-        let points = sizes.len() * plan.accelerations.len();
-        if points > MOST_POINTS {
-            return Err(UpliftError::Usage(format!(
-                "{name} and --accelerations make a map of {} points: take larger steps, {} points are the most",
-                thousands(points as u64),
-                thousands(MOST_POINTS as u64)
-            )));
-        }
-    }
-    plan.check()?;
-    provide_folder(&arguments.output)?;
-    let progress = Progress::begin(session, "pulses", "motions", plan.points());
-    let computed = compute(&plan, &progress);
-    drop(progress);
-    let spectra = computed?;
-    session.set_farewell(format!(
-        "interrupted: files in {} are of this run or an earlier one. Run the same command again",
-        arguments.output.display()
-    ));
-    let mut files = Vec::new();
-    for figure in pulse_figures(&plan, &spectra) {
-        files.extend(arguments.figures.write(&figure, &arguments.output)?);
-    }
-    for table in tables(&spectra) {
-        let file = arguments.output.join(format!("{}.csv", table.id));
-        write_table(&file, &provenance(&plan), table.columns)?;
-        files.push(file);
-    }
-    let summaries: Vec<Summary> = spectra.iter().map(summary).collect();
-    let mut out = std::io::stdout().lock();
-    if arguments.json {
-        let files: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
-        let json = json!({
-            "slenderness_rad": plan.slenderness_rad,
-            "restitution": plan.restitution,
-            "wavelets": summaries,
-            "files": files,
-        });
-        writeln!(out, "{json:#}")?;
-        return Ok(());
-    }
-    print(&mut out, &summaries)?;
-    if !session.is_quiet() {
-        writeln!(out)?;
-        for file in files {
-            writeln!(out, "{}", shown_path(&file).display())?;
-        }
-    }
-    Ok(())
-}
-
-/// First line of the tables.
-fn provenance(plan: &PulsePlan) -> String {
-    let restitution = plan.restitution.map_or("Housner's restitution".to_owned(), |r| format!("restitution {r}"));
-    let periods: Vec<String> =
-        plan.shapes.iter().map(|&shape| format!("{} s ({})", plan.blocks.period_s(shape), wavelet(shape))).collect();
-    format!(
-        "uplift {} ({}); Ricker wavelets, {restitution}; alpha = {} rad, or as given; blocks with a size: a_p = {} g, T_p = {}; overturned = inf",
-        uplift::VERSION,
-        uplift::COMMIT,
-        plan.slenderness_rad,
-        plan.blocks.amplitude_g,
-        periods.join(", ")
-    )
-}
-
-fn print(out: &mut impl Write, summaries: &[Summary]) -> Result<(), UpliftError> {
-    let number = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value}"));
-    let row = |name: &str, cell: &dyn Fn(&Summary) -> String| {
-        std::iter::once(name.to_owned()).chain(summaries.iter().map(cell)).collect::<Vec<String>>()
-    };
-    let header: Vec<&str> = std::iter::once("Ricker wavelet").chain(summaries.iter().map(|of| of.wavelet)).collect();
-    let rows = [
-        row("motions over ω_p/p", &|of| thousands(of.points as u64)),
-        row("overturn without impact", &|of| thousands(of.overturned_without_impact as u64)),
-        row("overturn after impact", &|of| thousands(of.overturned_after_impact as u64)),
-        row("overturn from a_p/(g tan α)", &|of| number(of.smallest_overturning_acceleration)),
-        row("overturn up to ω_p/p", &|of| number(of.largest_overturning_frequency)),
-        row("overturn up to a base 2b ω_p²/a_p", &|of| {
-            let beyond = if of.larger_bases_may_overturn { " or more" } else { "" };
-            format!("{}{beyond}", number(of.largest_overturning_base))
-        }),
-    ];
-    writeln!(out, "{}", table(&header, &rows))?;
-    Ok(())
+pub(super) fn pulse(arguments: &PulseArguments, terminal: &Terminal) -> Result<(), CommandError> {
+    let folder = &arguments.output;
+    let mut report = pulses(&PulseOptions { plan: arguments.plan(), folder: Some(folder.clone()) }, terminal)?;
+    let figures = plot_pulses(&report, folder, &arguments.figures.options())?;
+    report.files.splice(..0, figures);
+    if arguments.json { print_json(&report) } else { print_pulses(&report, terminal) }
 }

@@ -13,7 +13,7 @@ use clap::{Args, Subcommand};
 use uplift_motion::{AccelerationUnit, Combination, RecordFormat, STANDARD_GRAVITY_M_S2};
 
 use super::Terminal;
-use uplift::UpliftError;
+use crate::error::CommandError;
 use uplift::events::Events;
 use uplift::inputs::pairs::CheckedPair;
 use uplift::inputs::{manifest, pairs, selection};
@@ -39,13 +39,13 @@ enum RecordsCommand {
     Synthesize(synthesize::SynthesizeArguments),
 }
 
-pub(super) fn records(arguments: &RecordsArguments, session: &Terminal) -> Result<(), UpliftError> {
+pub(super) fn records(arguments: &RecordsArguments, terminal: &Terminal) -> Result<(), CommandError> {
     match &arguments.command {
-        RecordsCommand::Import(arguments) => import::import(arguments, session),
-        RecordsCommand::List(arguments) => list::list(arguments, session),
+        RecordsCommand::Import(arguments) => import::import(arguments, terminal),
+        RecordsCommand::List(arguments) => list::list(arguments, terminal),
         RecordsCommand::Show(arguments) => show::show(arguments),
-        RecordsCommand::Select(arguments) => select::select(arguments, session),
-        RecordsCommand::Synthesize(arguments) => synthesize::synthesize(arguments, session),
+        RecordsCommand::Select(arguments) => select::select(arguments, terminal),
+        RecordsCommand::Synthesize(arguments) => synthesize::synthesize(arguments, terminal),
     }
 }
 
@@ -145,25 +145,25 @@ impl CriteriaArguments {
 
 impl SetArguments {
     /// The records of the set that are asked for, and how many it has in all.
-    fn read(&self, session: &Terminal) -> Result<(Vec<CheckedPair>, usize), UpliftError> {
-        let rows = manifest::read(&self.set, self.tag.as_deref()).map_err(UpliftError::Inputs)?;
+    fn read(&self, terminal: &Terminal) -> Result<(Vec<CheckedPair>, usize), CommandError> {
+        let rows = manifest::read(&self.set, self.tag.as_deref()).map_err(uplift::UpliftError::Inputs)?;
         let count = rows.len();
-        let pairs = pairs::read(rows, STANDARD_GRAVITY_M_S2).map_err(UpliftError::Inputs)?;
+        let pairs = pairs::read(rows, STANDARD_GRAVITY_M_S2).map_err(uplift::UpliftError::Inputs)?;
         let (chosen, notes) =
             selection::select(pairs, &self.criteria.selection(), self.intensity, STANDARD_GRAVITY_M_S2)?;
         for note in notes {
-            session.note(&format!("{note}"));
+            terminal.note(&format!("{note}"));
         }
         Ok((chosen, count))
     }
 }
 
 /// A file that is there already gives way only if this program wrote it.
-pub(super) fn refuse_foreign(output: &Path) -> Result<(), UpliftError> {
+pub(super) fn refuse_foreign(output: &Path) -> Result<(), CommandError> {
     let mut head = Vec::new();
     let read = std::fs::File::open(output).and_then(|file| file.take(4096).read_to_end(&mut head));
     if read.is_ok() && !head.windows(7).any(|word| word == b"uplift ") {
-        return Err(UpliftError::Usage(format!(
+        return Err(CommandError::Usage(format!(
             "{} is there already, and was not written by this program: give another name",
             output.display()
         )));
@@ -172,11 +172,11 @@ pub(super) fn refuse_foreign(output: &Path) -> Result<(), UpliftError> {
 }
 
 /// A path that must not be one of the inputs.
-pub(super) fn refuse_overwriting(output: &Path, inputs: &[&Path]) -> Result<(), UpliftError> {
+pub(super) fn refuse_overwriting(output: &Path, inputs: &[&Path]) -> Result<(), CommandError> {
     let same = |input: &&&Path| matches!((output.canonicalize(), input.canonicalize()), (Ok(a), Ok(b)) if a == b);
     match inputs.iter().find(same) {
         Some(_) => {
-            Err(UpliftError::Usage(format!("-o {} would overwrite an input: give another name", output.display())))
+            Err(CommandError::Usage(format!("-o {} would overwrite an input: give another name", output.display())))
         }
         None => Ok(()),
     }

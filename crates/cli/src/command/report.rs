@@ -1,14 +1,13 @@
 //! `uplift report`: one page to hand over.
 
-use std::io::Write;
 use std::path::PathBuf;
 
 use clap::Args;
+use uplift_report::{ReportOptions, report as write_report};
 
-use super::Terminal;
-use crate::show::shown_path;
-use uplift::UpliftError;
-use uplift_report::report as page;
+use crate::error::CommandError;
+use crate::show::print_files;
+use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
 pub(super) struct ReportArguments {
@@ -20,18 +19,7 @@ pub(super) struct ReportArguments {
     output: Option<PathBuf>,
 }
 
-pub(super) fn report(arguments: &ReportArguments, session: &Terminal) -> Result<(), UpliftError> {
-    let target = arguments.output.clone().unwrap_or_else(|| arguments.results[0].with_extension("html"));
-    if arguments.results.contains(&target) || target.extension().is_none_or(|extension| extension != "html") {
-        return Err(UpliftError::Usage(format!(
-            "-o {}: the report is an HTML file, give it a name that ends in .html",
-            target.display()
-        )));
-    }
-    let html = page(&arguments.results)?;
-    uplift::result::write_atomically(&target, html.as_bytes())?;
-    if !session.is_quiet() {
-        writeln!(std::io::stdout(), "{}", shown_path(&target).display())?;
-    }
-    Ok(())
+pub(super) fn report(arguments: &ReportArguments, terminal: &Terminal) -> Result<(), CommandError> {
+    let options = ReportOptions { results: arguments.results.clone(), output: arguments.output.clone() };
+    print_files(&[write_report(&options, terminal)?.file], terminal)
 }

@@ -2,10 +2,11 @@
 
 use std::path::PathBuf;
 
+use crate::error::CommandError;
 use clap::Args;
+use uplift::RunOptions;
 use uplift::result::is_hdf5;
 use uplift::uniform_risk::result_of;
-use uplift::{RunOptions, UpliftError};
 use uplift_study::{Bootstrap, Study};
 
 use crate::terminal::Terminal;
@@ -30,10 +31,10 @@ pub(super) struct FoundResult {
 
 impl ResultArguments {
     /// The result; a study without one is run.
-    pub(super) fn find(&self, session: &Terminal) -> Result<FoundResult, UpliftError> {
+    pub(super) fn find(&self, terminal: &Terminal) -> Result<FoundResult, CommandError> {
         if is_hdf5(&self.input) || self.input.extension().is_some_and(|extension| extension == "h5") {
             if !self.overrides.is_empty() {
-                return Err(UpliftError::Usage(
+                return Err(CommandError::Usage(
                     "--set changes a study, and a result was given: give the study file instead".to_owned(),
                 ));
             }
@@ -41,7 +42,7 @@ impl ResultArguments {
         }
         let study = Study::load(&self.input, &self.overrides)?;
         let options = RunOptions { study_file: self.input.clone(), output: None, command: super::command_line() };
-        let path = result_of(&study, &options, session)?;
+        let path = result_of(&study, &options, terminal)?;
         Ok(FoundResult { path, bootstrap: Some(study.bootstrap.clone()) })
     }
 }

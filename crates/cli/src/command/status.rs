@@ -1,14 +1,14 @@
 //! `uplift status`: how far a run is, and what a result holds.
 
+use crate::error::CommandError;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use uplift::UpliftError;
-use uplift::checkpoint::{Finding, PieceFile, journal_path};
+use uplift::checkpoint::{Finding, RowFile, checkpoint_path};
 use uplift::result::{Overview, ResultFile, ResultLock, is_hdf5};
-use uplift_study::{AnyStudy, Study};
+use uplift_study::Study;
 
 #[derive(Debug, Args)]
 pub(super) struct StatusArguments {
@@ -17,46 +17,43 @@ pub(super) struct StatusArguments {
     input: PathBuf,
 }
 
-pub(super) fn status(arguments: &StatusArguments) -> Result<(), UpliftError> {
+pub(super) fn status(arguments: &StatusArguments) -> Result<(), CommandError> {
     let input = &arguments.input;
     let mut out = std::io::stdout().lock();
     if input.is_file() && !is_hdf5(input) {
-        if let Ok(Some(finding)) = PieceFile::read(input) {
-            return pieces(&mut out, input, &finding);
+        if let Ok(Some(finding)) = RowFile::read(input) {
+            return unfinished(&mut out, input, &finding);
         }
         if input.extension().is_some_and(|extension| extension == "h5") {
-            return Err(UpliftError::input(format!("{} is no HDF5 file", input.display())));
+            return Err(CommandError::input(format!("{} is no HDF5 file", input.display())));
         }
     }
     let result = if input.extension().is_some_and(|extension| extension == "toml") {
-        match Study::load_any(input, &[])? {
-            AnyStudy::UniformRisk(study) => study.output.file,
-            AnyStudy::Displacement(study) => study.output.file,
-        }
+        Study::load_any(input, &[])?.output().file.clone()
     } else {
         input.clone()
     };
-    let journal = journal_path(&result);
+    let checkpoint = checkpoint_path(&result);
     let mut nothing = true;
     if result.is_file() {
         nothing = false;
         finished(&mut out, &result)?;
     }
-    if let Some(finding) = PieceFile::read(&journal)? {
+    if let Some(finding) = RowFile::read(&checkpoint).map_err(uplift::UpliftError::from)? {
         nothing = false;
-        pieces(&mut out, &journal, &finding)?;
+        unfinished(&mut out, &checkpoint, &finding)?;
     }
     for shard in shards_of(&result) {
-        if let Ok(Some(finding)) = PieceFile::read(&shard) {
+        if let Ok(Some(finding)) = RowFile::read(&shard) {
             nothing = false;
-            pieces(&mut out, &shard, &finding)?;
+            unfinished(&mut out, &shard, &finding)?;
         }
     }
     if let Some(holder) = ResultLock::holder(&result) {
         writeln!(out, "being written now, by {holder}")?;
     } else if nothing {
-        return Err(UpliftError::input(format!(
-            "{}: no result, and nothing kept of an unfinished run",
+        return Err(CommandError::input(format!(
+            "{}: no result, and no checkpoint of an unfinished run",
             result.display()
         )));
     }
@@ -79,7 +76,7 @@ fn shards_of(result: &Path) -> Vec<PathBuf> {
     shards
 }
 
-fn finished(out: &mut impl Write, path: &Path) -> Result<(), UpliftError> {
+fn finished(out: &mut impl Write, path: &Path) -> Result<(), CommandError> {
     let file = ResultFile::open(path)?;
     let head = file.head()?;
     writeln!(out, "{}: finished {}, uplift {} ({})", path.display(), head.created, head.version, head.commit)?;
@@ -110,27 +107,27 @@ fn finished(out: &mut impl Write, path: &Path) -> Result<(), UpliftError> {
     Ok(())
 }
 
-fn pieces(out: &mut impl Write, path: &Path, finding: &Finding) -> Result<(), UpliftError> {
+fn unfinished(out: &mut impl Write, path: &Path, finding: &Finding) -> Result<(), CommandError> {
     let head = &finding.head;
     let what = if head.shards > 1 {
         format!("shard {} of {}", head.shard, head.shards)
     } else {
-        "kept of an unfinished run".to_owned()
+        "checkpoint of an unfinished run".to_owned()
     };
-    // pieces of another study may be among them
-    let done = (finding.kept.len() as u64).min(head.pieces);
+    // rows of another study may be among them, and those of design examples, which nobody counts before they are found
+    let done = (finding.rows.len() as u64).min(head.rows);
     writeln!(
         out,
-        "{}: {what}, {done} of {} pieces ({:.0} %) {}",
+        "{}: {what}, {done} of {} analysis rows ({:.0} %) {}",
         path.display(),
-        head.pieces,
-        100.0 * done as f64 / head.pieces.max(1) as f64,
+        head.rows,
+        100.0 * done as f64 / head.rows.max(1) as f64,
         head.title
     )?;
     if finding.damaged_bytes > 0 {
         writeln!(
             out,
-            "  pieces that were cut off or damaged ({} bytes) will be computed again",
+            "  analysis rows that were cut off or damaged ({} bytes) will be computed again",
             finding.damaged_bytes
         )?;
     }

@@ -6,8 +6,8 @@ use clap::Args;
 use serde_json::{Value, json};
 use uplift_structure::{EquivalentSystem, PostUplift};
 
+use crate::error::CommandError;
 use crate::show::shown_path;
-use uplift::UpliftError;
 use uplift::inputs::RecordSet;
 use uplift::result::{ResultFile, StudyOfResult};
 use uplift::structure::EventRisk;
@@ -32,41 +32,41 @@ impl StructureArguments {
     }
 
     /// Structure and result.
-    pub(super) fn read(&self) -> Result<(Structure, StudyOfResult), UpliftError> {
+    pub(super) fn read(&self) -> Result<(Structure, StudyOfResult), CommandError> {
         let structure = Structure::load(&self.structure)?;
         Ok((structure, ResultFile::open(&self.urs)?.study(self.manifest.as_deref())?))
     }
 
     /// The records of the result; none where they cannot be read, with the reason, unless a manifest was given for them.
-    pub(super) fn records(&self, source: &StudyOfResult) -> Result<Result<RecordSet, String>, UpliftError> {
+    pub(super) fn records(&self, source: &StudyOfResult) -> Result<Result<RecordSet, String>, CommandError> {
         match source.records() {
-            Err(reason) if self.manifest.is_some() => Err(UpliftError::input(reason)),
+            Err(reason) if self.manifest.is_some() => Err(CommandError::input(reason)),
             other => Ok(other),
         }
     }
 }
 
 /// Position of the site `wanted`; of the only one where none is.
-pub(super) fn site_index(source: &StudyOfResult, wanted: Option<&str>) -> Result<usize, UpliftError> {
+pub(super) fn site_index(source: &StudyOfResult, wanted: Option<&str>) -> Result<usize, CommandError> {
     let found = match wanted {
         Some(wanted) => source.sites.iter().position(|site| site.eq_ignore_ascii_case(wanted)),
         None => (source.sites.len() == 1).then_some(0),
     };
-    found.ok_or_else(|| UpliftError::Usage(format!("--site: the result has {}", source.sites.join(", "))))
+    found.ok_or_else(|| CommandError::Usage(format!("--site: the result has {}", source.sites.join(", "))))
 }
 
 /// Position of the measure `wanted`; of the first where none is, which is PGV if the result has it.
 pub(super) fn measure_index(
     source: &StudyOfResult,
     wanted: Option<uplift_motion::IntensityMeasure>,
-) -> Result<usize, UpliftError> {
+) -> Result<usize, CommandError> {
     let found = match wanted {
         Some(wanted) => source.measures.iter().position(|measure| measure.measure() == wanted),
         None => (!source.measures.is_empty()).then_some(0),
     };
     found.ok_or_else(|| {
         let known: Vec<&str> = source.measures.iter().map(|measure| measure.measure().key()).collect();
-        UpliftError::Usage(format!("--measure: the result has {}", known.join(", ")))
+        CommandError::Usage(format!("--measure: the result has {}", known.join(", ")))
     })
 }
 

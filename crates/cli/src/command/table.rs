@@ -8,9 +8,9 @@ use serde_json::json;
 use uplift_regression::Exponential;
 
 mod displacement;
-use super::reference::ReferenceTable;
+use crate::error::CommandError;
 use crate::terminal::tell;
-use uplift::UpliftError;
+use uplift::reference::ReferenceTable;
 use uplift::result::{Kind, ResultFile, Spectrum, StoredSpectra};
 use uplift::text::{finite, per_cent, table as lines};
 
@@ -46,7 +46,7 @@ struct Reference {
     rmse_m: Option<f64>,
 }
 
-pub(super) fn table(arguments: &TableArguments) -> Result<(), UpliftError> {
+pub(super) fn table(arguments: &TableArguments) -> Result<(), CommandError> {
     let file = ResultFile::open(&arguments.result)?;
     if file.kind() == Kind::Displacement {
         return displacement::table(&file, arguments.reference.as_deref(), arguments.json);
@@ -64,7 +64,7 @@ pub(super) fn table(arguments: &TableArguments) -> Result<(), UpliftError> {
         .collect();
     if rows.is_empty() {
         let found = if result.measures.is_empty() { "it has none" } else { "it has the other measure: use --im" };
-        return Err(UpliftError::input(format!(
+        return Err(CommandError::input(format!(
             "{}: has no spectra by {}: {found}",
             arguments.result.display(),
             wanted.to_uppercase()
@@ -114,7 +114,7 @@ fn print(
     result: &StoredSpectra,
     rows: &[(Spectrum<'_>, Option<&Reference>)],
     compared: bool,
-) -> Result<(), UpliftError> {
+) -> Result<(), CommandError> {
     writeln!(out, "u = c0 exp(c1 strength) + c2, metres; records: {record_set}")?;
     let ours = |spectrum: &Spectrum<'_>| {
         let fit = &spectrum.fit;
@@ -189,13 +189,13 @@ fn median_ratio(strengths: &[f64], spectrum: &Spectrum<'_>, reference: &Referenc
     .filter(|ratio| ratio.is_finite())
 }
 
-fn read_reference(path: &Path) -> Result<Vec<Reference>, UpliftError> {
+fn read_reference(path: &Path) -> Result<Vec<Reference>, CommandError> {
     let table = ReferenceTable::read(path)?;
     let poe_column = if table.has("poe_50y") { "poe_50y" } else { "poe" };
     let missing: Vec<&str> =
         ["site", poe_column, "c0_m", "c1", "c2_m"].into_iter().filter(|name| !table.has(name)).collect();
     if !missing.is_empty() {
-        return Err(table.fail(format!("has no column {}", missing.join(", "))));
+        return Err(table.fail(format!("has no column {}", missing.join(", "))).into());
     }
     (0..table.rows())
         .map(|row| {

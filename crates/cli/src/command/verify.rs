@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::Terminal;
-use uplift::UpliftError;
+use crate::error::CommandError;
 use uplift::result::ResultFile;
 use uplift_labelled::{Seal, verify as verify_file};
 
@@ -17,7 +17,7 @@ pub(super) struct VerifyArguments {
     results: Vec<PathBuf>,
 }
 
-pub(super) fn verify(arguments: &VerifyArguments, session: &Terminal) -> Result<(), UpliftError> {
+pub(super) fn verify(arguments: &VerifyArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let mut mistakes = Vec::new();
     let mut out = std::io::stdout().lock();
     for path in &arguments.results {
@@ -41,7 +41,7 @@ pub(super) fn verify(arguments: &VerifyArguments, session: &Terminal) -> Result<
             Seal::Whole(_) => {}
         }
         if !verdict.unknown.is_empty() {
-            session.say(&format!(
+            terminal.say(&format!(
                 "{name}: {} arrays without a checksum: {}",
                 verdict.unknown.len(),
                 verdict.unknown.join(", ")
@@ -51,5 +51,5 @@ pub(super) fn verify(arguments: &VerifyArguments, session: &Terminal) -> Result<
             writeln!(out, "{name}: {} arrays as they were written, and every byte of the file", verdict.sound)?;
         }
     }
-    if mistakes.is_empty() { Ok(()) } else { Err(UpliftError::Inputs(mistakes)) }
+    if mistakes.is_empty() { Ok(()) } else { Err(uplift::UpliftError::Inputs(mistakes).into()) }
 }

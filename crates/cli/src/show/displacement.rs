@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use uplift::UpliftError;
+use crate::error::CommandError;
 use uplift::displacement::RunReport;
 use uplift::text::{metres, nearest, table};
 use uplift_study::Structures;
@@ -10,7 +10,7 @@ use uplift_study::Structures;
 /// Strengths or slendernesses shown.
 const SHOWN: [f64; 3] = [0.1, 0.2, 0.4];
 
-pub(super) fn print_spectra(out: &mut impl Write, report: &RunReport) -> Result<(), UpliftError> {
+pub(super) fn print_spectra(out: &mut impl Write, report: &RunReport) -> Result<(), CommandError> {
     let abscissa = report.structures.abscissa();
     let shown = nearest(abscissa, &SHOWN);
     // of the lines, the one that overturns last

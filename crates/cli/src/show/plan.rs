@@ -2,17 +2,18 @@
 
 use std::io::Write;
 
+use crate::error::CommandError;
+use uplift::Plan;
 use uplift::text::thousands;
-use uplift::{Plan, UpliftError};
 use uplift_study::AnyStudy;
 
 use crate::terminal::Terminal;
 
 /// The plan of `study`, which a terminal that is not quiet shows with every default filled in.
-pub(crate) fn print_plan(plan: &Plan, study: &AnyStudy, terminal: &Terminal) -> Result<(), UpliftError> {
+pub(crate) fn print_plan(plan: &Plan, study: &AnyStudy, terminal: &Terminal) -> Result<(), CommandError> {
     let mut out = std::io::stdout().lock();
     if !terminal.is_quiet() {
-        let toml = study.to_toml().map_err(|error| UpliftError::input(error.to_string()))?;
+        let toml = study.to_toml().map_err(|error| CommandError::input(error.to_string()))?;
         writeln!(out, "# The study with every default filled in\n{}", toml.trim_end())?;
         writeln!(out, "\n# The plan")?;
     }

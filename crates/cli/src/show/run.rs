@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use uplift::UpliftError;
+use crate::error::CommandError;
 use uplift::run::{RunHead, RunReport};
 
 use super::{displacement, shown_path, uniform_risk};
@@ -12,7 +12,7 @@ use crate::terminal::Terminal;
 const WARNINGS_SHOWN: usize = 12;
 
 /// The summary of a run; a quiet terminal shows nothing.
-pub(crate) fn print_run(report: &RunReport, terminal: &Terminal) -> Result<(), UpliftError> {
+pub(crate) fn print_run(report: &RunReport, terminal: &Terminal) -> Result<(), CommandError> {
     if terminal.is_quiet() {
         return Ok(());
     }
@@ -35,7 +35,7 @@ pub(crate) fn print_run(report: &RunReport, terminal: &Terminal) -> Result<(), U
 }
 
 /// What every run ends with: warnings, files, time.
-fn print_end(out: &mut impl Write, head: &RunHead) -> Result<(), UpliftError> {
+fn print_end(out: &mut impl Write, head: &RunHead) -> Result<(), CommandError> {
     let warnings = &head.warnings;
     if !warnings.is_empty() {
         writeln!(out, "\nBefore you use these numbers:")?;

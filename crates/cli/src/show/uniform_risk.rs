@@ -2,14 +2,14 @@
 
 use std::io::Write;
 
-use uplift::UpliftError;
+use crate::error::CommandError;
 use uplift::text::{metres, nearest, per_cent, table};
 use uplift::uniform_risk::RunReport;
 
 /// Strengths shown.
 const SHOWN_STRENGTHS: [f64; 3] = [0.1, 0.2, 0.4];
 
-pub(super) fn print_spectra(out: &mut impl Write, report: &RunReport) -> Result<(), UpliftError> {
+pub(super) fn print_spectra(out: &mut impl Write, report: &RunReport) -> Result<(), CommandError> {
     let shown = nearest(&report.strengths, &SHOWN_STRENGTHS);
     let at: Vec<String> = shown.iter().map(|&index| format!("{:.3}", report.strengths[index])).collect();
     for measure in &report.measures {
@@ -42,7 +42,7 @@ pub(super) fn print_spectra(out: &mut impl Write, report: &RunReport) -> Result<
 }
 
 /// The spread of the spectra over weighted hazard curves, where a site has some.
-fn print_branches(out: &mut impl Write, report: &RunReport, shown: &[usize]) -> Result<(), UpliftError> {
+fn print_branches(out: &mut impl Write, report: &RunReport, shown: &[usize]) -> Result<(), CommandError> {
     let mut rows = Vec::new();
     for branches in &report.branches {
         for &strength in shown {

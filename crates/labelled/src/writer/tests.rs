@@ -225,7 +225,7 @@ fn a_full_disk_is_an_error_wherever_it_strikes() {
         let child = Command::new("sh")
             .args(["-c", &script])
             .arg(std::env::current_exe().unwrap())
-            .args(["--exact", "labelled::writer::tests::disk_full_child", "--nocapture"])
+            .args(["--exact", "writer::tests::disk_full_child", "--nocapture"])
             .env("UPLIFT_TEST_DISK_FULL", folder.path())
             .output()
             .unwrap();

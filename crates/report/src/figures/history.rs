@@ -1,30 +1,28 @@
 //! The time history of one run, its impacts marked.
 
-use uplift_oscillator::{EventKind, Excitation, History};
-
+use uplift::response::{HistoryRow, ResponseHistory};
 use uplift_plot::{Axis, Figure, Marks, Panel, Series, Tone};
 
 /// Ground acceleration above, displacement with the impacts and the uplift displacement below.
 ///
 /// * `title` — of the figure
 /// * `uplift_displacement_m` — displacement at uplift, m
-pub fn history_figure(
-    title: &str,
-    excitation: &Excitation<'_>,
-    history: &History,
-    uplift_displacement_m: f64,
-) -> Figure {
-    let end_s = history.samples.last().map_or(1.0, |sample| sample.time_s);
+pub fn history_figure(title: &str, history: &ResponseHistory, uplift_displacement_m: f64) -> Figure {
+    let samples = || history.rows.iter().filter(|row| row.event.is_none());
+    let end_s = samples().last().map_or(1.0, |sample| sample.time_s);
     let time = || Axis::linear("time, s").between(0.0, end_s);
-    let (dt_s, scale) = (excitation.dt_s(), excitation.scale());
-    let ground =
-        excitation.acceleration_m_s2().iter().enumerate().map(|(index, a)| (index as f64 * dt_s, scale * a)).collect();
-    let displacement = history.samples.iter().map(|sample| (sample.time_s, sample.displacement_m)).collect();
-    let impacts = history
-        .events
+    let ground = history
+        .ground_acceleration_m_s2
         .iter()
-        .filter(|event| event.kind == EventKind::Impact)
-        .map(|event| (event.time_s, event.displacement_m))
+        .enumerate()
+        .map(|(index, &a)| (index as f64 * history.dt_s, a))
+        .collect();
+    let displacement = samples().map(|sample| (sample.time_s, sample.displacement_m)).collect();
+    let impacts = history
+        .rows
+        .iter()
+        .filter(|row| row.event == Some(HistoryRow::AFTER_IMPACT))
+        .map(|row| (row.time_s, row.displacement_m))
         .collect();
     let boundary = |sign: f64, name: &str| {
         Series::line(
@@ -38,7 +36,8 @@ pub fn history_figure(
         id: "history".to_owned(),
         title: title.to_owned(),
         caption: "Ground acceleration and the displacement it causes; dots are impacts, dashed lines the displacement \
-                  at uplift.".to_owned(),
+                  at uplift."
+            .to_owned(),
         remark: String::new(),
         panels: vec![
             panel("ground acceleration, m/s²", vec![Series::line("ground acceleration", ground, Tone::Faint)]),

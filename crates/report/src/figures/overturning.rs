@@ -34,7 +34,8 @@ pub fn overturning_figure(
         id: "overturning".to_owned(),
         title: title.to_owned(),
         caption: "Collapse fragility: the share of the records that overturn the structure at each level (dots) and \
-                  the lognormal curve of maximum likelihood (lines).".to_owned(),
+                  the lognormal curve of maximum likelihood (lines)."
+            .to_owned(),
         remark: remark.to_owned(),
         columns: panels.len().min(2),
         panels,

@@ -15,7 +15,7 @@ use crate::error::UpliftError;
 use crate::inputs::{ListedSite, SiteList};
 use crate::text::nearest;
 use crate::uniform_risk::csv::flag_word;
-use uplift_study::ResolvedStudy;
+use uplift_study::UniformRiskStudy;
 
 /// Strengths of which the map shows ordinates, unless the study names some.
 const SHOWN_ON_MAP: [f64; 3] = [0.1, 0.2, 0.4];
@@ -83,7 +83,7 @@ impl SiteTableFiles {
     ///
     /// # Errors
     /// A file that cannot be written.
-    pub fn create(result: &Path, study: &ResolvedStudy, list: &SiteList, line: &str) -> Result<Self, UpliftError> {
+    pub fn create(result: &Path, study: &UniformRiskStudy, list: &SiteList, line: &str) -> Result<Self, UpliftError> {
         let layout = SiteTableLayout::of(study, list);
         let paths = site_table_paths(result);
         let [spectra, coefficients, map] = &paths;
@@ -133,7 +133,7 @@ impl SiteTableFiles {
 }
 
 impl SiteTableLayout {
-    fn of(study: &ResolvedStudy, list: &SiteList) -> Self {
+    fn of(study: &UniformRiskStudy, list: &SiteList) -> Self {
         let chosen = study.site_table.as_ref().and_then(|table| table.strengths.as_ref()).map(|chosen| {
             let is_chosen = |&index: &usize| chosen.contains(&study.strengths[index]);
             (0..study.strengths.len()).filter(is_chosen).collect::<Vec<usize>>()

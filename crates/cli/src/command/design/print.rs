@@ -8,8 +8,8 @@ use uplift_structure::{Check, Demand, Rule, relative_error};
 
 use super::Design;
 use crate::command::structure::{capacity_m, finite, lines, risk_cells, risk_json, short, structure_json};
+use crate::error::CommandError;
 use crate::show::shown_path;
-use uplift::UpliftError;
 use uplift::structure::DemandNoise;
 use uplift::text::{per_cent, table};
 
@@ -33,7 +33,7 @@ fn key(rule: Rule) -> &'static str {
 }
 
 impl Design<'_> {
-    pub(super) fn print(&self, out: &mut impl Write) -> Result<(), UpliftError> {
+    pub(super) fn print(&self, out: &mut impl Write) -> Result<(), CommandError> {
         for line in lines(self.structure, Some(self.restitution)) {
             writeln!(out, "{line}")?;
         }
@@ -58,7 +58,7 @@ impl Design<'_> {
     }
 
     /// Displacements of the structure, from the spectrum and exact.
-    fn print_demands(&self, out: &mut impl Write) -> Result<(), UpliftError> {
+    fn print_demands(&self, out: &mut impl Write) -> Result<(), CommandError> {
         let factor = self.structure.system.participation();
         let strength = self.structure.system.spectral_strength_at(self.source.study.gravity_m_s2);
         let mut rows = Vec::new();
@@ -86,7 +86,7 @@ impl Design<'_> {
         Ok(())
     }
 
-    fn print_rules(&self, out: &mut impl Write) -> Result<(), UpliftError> {
+    fn print_rules(&self, out: &mut impl Write) -> Result<(), CommandError> {
         let Some(rules) = &self.rules else {
             writeln!(
                 out,
@@ -116,7 +116,7 @@ impl Design<'_> {
     }
 
     /// Required capacity and verdict.
-    fn print_checks(&self, out: &mut impl Write) -> Result<(), UpliftError> {
+    fn print_checks(&self, out: &mut impl Write) -> Result<(), CommandError> {
         let mut rows = Vec::new();
         for outcome in self.rules.iter().flatten() {
             let Some(check) = outcome.check() else { continue };
@@ -168,7 +168,7 @@ impl Design<'_> {
         self.structure.description.tendon_stiffness_for_capacity_n_m(check.required_capacity_m).ok()?
     }
 
-    fn print_risk(&self, out: &mut impl Write) -> Result<(), UpliftError> {
+    fn print_risk(&self, out: &mut impl Write) -> Result<(), CommandError> {
         let Some(exact) = &self.exact else { return Ok(()) };
         let Some(capacity_m) = capacity_m(&self.structure.system) else { return Ok(()) };
         let mut rows = Vec::new();
@@ -195,7 +195,7 @@ impl Design<'_> {
     }
 
     /// What of these numbers is noise.
-    fn print_noise(&self, out: &mut impl Write) -> Result<(), UpliftError> {
+    fn print_noise(&self, out: &mut impl Write) -> Result<(), CommandError> {
         let Some(DemandNoise { structure_m, rule_errors, beyond_capacity_per_year, overturning_per_year }) =
             self.exact.map(|exact| exact.noise)
         else {

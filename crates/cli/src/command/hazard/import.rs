@@ -12,7 +12,7 @@ use uplift_hazard::{
 
 use uplift_motion::IntensityMeasure;
 
-use super::{SiteArguments, Terminal, UpliftError, distinct};
+use super::{CommandError, SiteArguments, Terminal, distinct};
 use uplift::result::write_atomically;
 use uplift_study::levels_within;
 
@@ -50,8 +50,8 @@ struct Written {
     weight: Option<f64>,
 }
 
-pub(super) fn import(arguments: &ImportArguments, session: &Terminal) -> Result<(), UpliftError> {
-    let fail = |error: uplift_hazard::HazardError| UpliftError::input(error.to_string());
+pub(super) fn import(arguments: &ImportArguments, terminal: &Terminal) -> Result<(), CommandError> {
+    let fail = |error: uplift_hazard::HazardError| CommandError::input(error.to_string());
     let weights = arguments.weights.as_ref().map(|path| read_realization_weights(path)).transpose().map_err(fail)?;
     let mut curves: Vec<ExportedCurve> = Vec::new();
     for export in distinct(&arguments.exports) {
@@ -64,19 +64,19 @@ pub(super) fn import(arguments: &ImportArguments, session: &Terminal) -> Result<
     if let Some(distance_km) = curves.iter().filter_map(|curve| curve.distance_km).reduce(f64::max) {
         // a NaN is no distance to be within
         if !(distance_km <= arguments.within_km) {
-            return Err(UpliftError::input(format!(
+            return Err(CommandError::input(format!(
                 "the nearest site, {site}, is {distance_km:.1} km away: give a nearer place, or --within-km {:.0} if it will do",
                 distance_km.ceil()
             )));
         }
         let far = if distance_km > NEAR_KM { ": is that near enough?" } else { "" };
-        session.say(&format!("nearest site: {site}, {distance_km:.1} km away{far}"));
+        terminal.say(&format!("nearest site: {site}, {distance_km:.1} km away{far}"));
     }
     let mut written: Vec<Written> = Vec::new();
     for exported in curves {
         let file = format!("{}.csv", file_stem(&exported));
         if written.iter().any(|other| other.file == file) {
-            return Err(UpliftError::input(format!(
+            return Err(CommandError::input(format!(
                 "two curves of {} {} for {site}: give the export of one calculation",
                 exported.curve.measure(),
                 exported.kind
@@ -87,21 +87,21 @@ pub(super) fn import(arguments: &ImportArguments, session: &Terminal) -> Result<
     }
     let folder = &arguments.output;
     std::fs::create_dir_all(folder)
-        .map_err(|error| UpliftError::input(format!("{} cannot be made: {error}", folder.display())))?;
+        .map_err(|error| CommandError::input(format!("{} cannot be made: {error}", folder.display())))?;
     for Written { exported, file, .. } in &written {
         for (count, what) in [
             (exported.dropped_zeros, "level(s) of zero at the end"),
             (exported.dropped_certain, "level(s) of probability 1 at the start"),
         ] {
             if count > 0 {
-                session.say(&format!("{file}: {count} {what} left out: no rate belongs to them"));
+                terminal.say(&format!("{file}: {count} {what} left out: no rate belongs to them"));
             }
         }
         let curve = exported.curve.clone();
         let component = curve.component().or(arguments.component);
         let (path, text) = (folder.join(file), curve_text(&curve.with_component(component), exported));
         if std::fs::read(&path).is_ok_and(|there| there != text.as_bytes()) {
-            return Err(UpliftError::Usage(format!(
+            return Err(CommandError::Usage(format!(
                 "{} is there already, with another curve: give another folder with -o, or remove it",
                 path.display()
             )));
@@ -109,12 +109,12 @@ pub(super) fn import(arguments: &ImportArguments, session: &Terminal) -> Result<
         write_atomically(&path, text.as_bytes())?;
     }
     if arguments.component.is_none() && written.iter().any(|written| written.exported.curve.component().is_none()) {
-        session.say(
+        terminal.say(
             "the exports do not say how horizontal components are combined: --component says it, and a study checks it",
         );
     }
     for remark in remarks(&written) {
-        session.say(&remark);
+        terminal.say(&remark);
     }
     let mut out = std::io::stdout().lock();
     write!(out, "{}", study_lines(&written, folder, &site))?;
@@ -122,7 +122,7 @@ pub(super) fn import(arguments: &ImportArguments, session: &Terminal) -> Result<
 }
 
 /// Refuses weights of only some realizations of a measure.
-fn check_weights(curves: &[ExportedCurve], weights: &BTreeMap<u32, RealizationWeight>) -> Result<(), UpliftError> {
+fn check_weights(curves: &[ExportedCurve], weights: &BTreeMap<u32, RealizationWeight>) -> Result<(), CommandError> {
     let mut sums: BTreeMap<&str, (f64, usize)> = BTreeMap::new();
     for curve in curves {
         if let Some(weight) = weight_of(&curve.kind, weights) {
@@ -131,7 +131,7 @@ fn check_weights(curves: &[ExportedCurve], weights: &BTreeMap<u32, RealizationWe
         }
     }
     match sums.iter().find(|(_, (sum, _))| (sum - 1.0).abs() > 1e-4) {
-        Some((measure, (sum, count))) => Err(UpliftError::input(format!(
+        Some((measure, (sum, count))) => Err(CommandError::input(format!(
             "{measure}: {count} of {} realizations are given, and their weights add up to {sum:.4}: give the exports of all realizations",
             weights.len()
         ))),
@@ -166,9 +166,9 @@ fn remarks(written: &[Written]) -> Vec<String> {
 }
 
 /// The name of the site that all curves belong to.
-fn one_site(curves: &[ExportedCurve], arguments: &ImportArguments) -> Result<String, UpliftError> {
+fn one_site(curves: &[ExportedCurve], arguments: &ImportArguments) -> Result<String, CommandError> {
     let Some(first) = curves.first() else {
-        return Err(UpliftError::input("the export holds no hazard curve".to_owned()));
+        return Err(CommandError::input("the export holds no hazard curve".to_owned()));
     };
     let key = |curve: &ExportedCurve| {
         (curve.site.name.clone(), curve.site.longitude_deg.to_bits(), curve.site.latitude_deg.to_bits())
@@ -184,7 +184,7 @@ fn one_site(curves: &[ExportedCurve], arguments: &ImportArguments) -> Result<Str
             .iter()
             .find(|other| other.site.distance_km(first.site.longitude_deg, first.site.latitude_deg) > ONE_PLACE_KM),
     ) {
-        return Err(UpliftError::input(format!(
+        return Err(CommandError::input(format!(
             "the exports give two places for one site, {} and {}, {:.1} km apart: import them one by one, or give exports of the same sites",
             first.site,
             other.site,
@@ -192,7 +192,7 @@ fn one_site(curves: &[ExportedCurve], arguments: &ImportArguments) -> Result<Str
         )));
     }
     if sites.len() > 1 && !chosen {
-        return Err(UpliftError::Usage(format!(
+        return Err(CommandError::Usage(format!(
             "the exports hold {} sites: pick one by --near LON,LAT{}",
             sites.len(),
             if sites.iter().any(|(name, ..)| name.is_some()) { " or --name NAME" } else { "" }
@@ -212,7 +212,7 @@ fn file_stem(exported: &ExportedCurve) -> String {
             let fitting = |c: char| if c.is_ascii_alphanumeric() { c } else { '-' };
             format!("{measure}-{}", path.chars().map(fitting).take(80).collect::<String>())
         }
-        _ => measure,
+        Statistic::Mean | Statistic::Unspecified => measure,
     }
 }
 
@@ -222,7 +222,7 @@ fn weight_of(kind: &Statistic, weights: &BTreeMap<u32, RealizationWeight>) -> Op
         Statistic::Branch(path) => {
             weights.values().find(|weight| weight.branch_path == *path).map(|weight| weight.weight)
         }
-        _ => None,
+        Statistic::Mean | Statistic::Quantile(_) | Statistic::Unspecified => None,
     }
 }
 

@@ -4,12 +4,14 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{NamedCurve, SiteArguments, TableArguments, Terminal, UpliftError, distinct, read};
+use super::{CommandError, NamedCurve, SiteArguments, TableArguments, Terminal, distinct, read};
 use crate::command::records::refuse_overwriting;
-use uplift_plot::Width;
+use uplift::result::write_atomically;
+use uplift_plot::{Width, png, svg};
 use uplift_report::figures::hazard_figure;
-use uplift_report::write_figure;
 
+/// Of a PNG for print.
+const DOTS_PER_INCH: f32 = 300.0;
 /// Curves that a figure can tell apart, and then some.
 const MOST_CURVES: usize = 50;
 
@@ -27,11 +29,11 @@ pub(super) struct PlotArguments {
     table: TableArguments,
 }
 
-pub(super) fn plot(arguments: &PlotArguments, session: &Terminal) -> Result<(), UpliftError> {
+pub(super) fn plot(arguments: &PlotArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let output = &arguments.output;
     let extension = output.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
     if !["svg", "png"].contains(&extension) {
-        return Err(UpliftError::Usage(format!("-o {}: give a name that ends in .svg or .png", output.display())));
+        return Err(CommandError::Usage(format!("-o {}: give a name that ends in .svg or .png", output.display())));
     }
     let inputs: Vec<&std::path::Path> = arguments.files.iter().map(PathBuf::as_path).collect();
     refuse_overwriting(output, &inputs)?;
@@ -40,13 +42,19 @@ pub(super) fn plot(arguments: &PlotArguments, session: &Terminal) -> Result<(), 
         curves.extend(read(file, &arguments.site, &arguments.table)?);
     }
     if curves.len() > MOST_CURVES {
-        return Err(UpliftError::Usage(format!(
+        return Err(CommandError::Usage(format!(
             "{} curves cannot be told apart in one figure: pick a site by --name or --near LON,LAT",
             curves.len()
         )));
     }
     let named: Vec<(String, _)> = curves.into_iter().map(|NamedCurve { name, curve }| (name, curve)).collect();
-    write_figure(&hazard_figure(&named), Width::Double, output)?;
-    session.say(&output.display().to_string());
+    let figure = hazard_figure(&named);
+    let drawing = svg(&figure, Width::Double).map_err(CommandError::input)?;
+    let bytes = match extension {
+        "png" => png(&drawing.svg, DOTS_PER_INCH).map_err(|error| CommandError::input(error.to_string()))?,
+        _ => drawing.svg.into_bytes(),
+    };
+    write_atomically(output, &bytes)?;
+    terminal.say(&output.display().to_string());
     Ok(())
 }

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 use uplift_hazard::{HazardCurve, rate_from_probability};
 
-use super::{NamedCurve, SiteArguments, TableArguments, UpliftError, read};
+use super::{CommandError, NamedCurve, SiteArguments, TableArguments, read};
 use uplift::text::{per_cent, table};
 
 /// Probabilities in 50 years at which levels are told.
@@ -26,7 +26,7 @@ pub(super) struct ShowArguments {
     table: TableArguments,
 }
 
-pub(super) fn show(arguments: &ShowArguments) -> Result<(), UpliftError> {
+pub(super) fn show(arguments: &ShowArguments) -> Result<(), CommandError> {
     let curves = read(&arguments.file, &arguments.site, &arguments.table)?;
     let mut out = std::io::stdout().lock();
     let mut rows = Vec::new();

@@ -6,13 +6,13 @@ use serde_json::{Value, json};
 
 use super::Overturning;
 use crate::command::structure::{lines, risk_cells, risk_json, structure_json};
+use crate::error::CommandError;
 use crate::show::shown_path;
-use uplift::UpliftError;
 use uplift::structure::{Collapse, Model};
 use uplift::text::table;
 
 impl Overturning<'_> {
-    pub(super) fn print(&self, out: &mut impl Write) -> Result<(), UpliftError> {
+    pub(super) fn print(&self, out: &mut impl Write) -> Result<(), CommandError> {
         for line in lines(self.structure, None) {
             writeln!(out, "{line}")?;
         }
@@ -38,7 +38,7 @@ impl Overturning<'_> {
         self.print_risk(out)
     }
 
-    fn print_fragility(&self, out: &mut impl Write) -> Result<(), UpliftError> {
+    fn print_fragility(&self, out: &mut impl Write) -> Result<(), CommandError> {
         let mut rows = Vec::new();
         for (measure, found) in &self.found {
             for (found, (model, _)) in found.iter().zip(&self.models) {
@@ -69,7 +69,7 @@ impl Overturning<'_> {
         Ok(())
     }
 
-    fn print_risk(&self, out: &mut impl Write) -> Result<(), UpliftError> {
+    fn print_risk(&self, out: &mut impl Write) -> Result<(), CommandError> {
         let mut rows = Vec::new();
         for (index, &site) in self.sites.iter().enumerate() {
             let mut name = self.source.sites[site].clone();
@@ -103,7 +103,7 @@ impl Overturning<'_> {
         Ok(())
     }
 
-    pub(super) fn print_json(&self, out: &mut impl Write) -> Result<(), UpliftError> {
+    pub(super) fn print_json(&self, out: &mut impl Write) -> Result<(), CommandError> {
         let models: Vec<Value> = self
             .models
             .iter()

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use polars::prelude::Column;
 
 use super::Overturning;
+use crate::error::CommandError;
 use crate::show::shown_path;
-use uplift::UpliftError;
 use uplift::result::write_table;
 
 /// The table of risks beside that of the fragility.
@@ -16,7 +16,7 @@ pub(super) fn risk_path(fragility: &Path) -> PathBuf {
 
 impl Overturning<'_> {
     /// Writes the fragility to `path`, and the risk beside it.
-    pub(super) fn write(&self, path: &Path) -> Result<(), UpliftError> {
+    pub(super) fn write(&self, path: &Path) -> Result<(), CommandError> {
         let line = format!(
             "uplift {} ({}); overturning of {} ({}); result {}; records: {}",
             uplift::VERSION,
@@ -28,7 +28,7 @@ impl Overturning<'_> {
         )
         .replace(['\n', '\r'], " ");
         write_table(path, &line, self.fragility())?;
-        write_table(&risk_path(path), &line, self.risk())
+        Ok(write_table(&risk_path(path), &line, self.risk())?)
     }
 
     /// A row a measure, model and level.

@@ -7,7 +7,7 @@ use crate::terminal::tell;
 use clap::Args;
 use polars::prelude::Column;
 
-use super::{FileArguments, Terminal, UpliftError};
+use super::{CommandError, FileArguments, Terminal};
 use uplift::import::{ImportOptions, Imported, Warning, import as import_folder, manifest_columns};
 use uplift::result::{write_atomically, write_table};
 
@@ -28,36 +28,39 @@ pub(super) struct ImportArguments {
     no_pulses: bool,
 }
 
-pub(super) fn import(arguments: &ImportArguments, session: &Terminal) -> Result<(), UpliftError> {
+pub(super) fn import(arguments: &ImportArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let output =
         if arguments.output.is_dir() { arguments.output.join("manifest.csv") } else { arguments.output.clone() };
     if output.extension().is_none_or(|extension| extension != "csv") {
-        return Err(UpliftError::Usage(format!("-o {}: give a name that ends in .csv, or a folder", output.display())));
+        return Err(CommandError::Usage(format!(
+            "-o {}: give a name that ends in .csv, or a folder",
+            output.display()
+        )));
     }
     if output.exists() {
-        return Err(UpliftError::Usage(format!(
+        return Err(CommandError::Usage(format!(
             "{} is there already, perhaps with columns of yours: give another name, or remove it",
             output.display()
         )));
     }
     if !arguments.folder.is_dir() {
-        return Err(UpliftError::input(format!("{} is not a folder", arguments.folder.display())));
+        return Err(CommandError::input(format!("{} is not a folder", arguments.folder.display())));
     }
     let folder = output.parent().unwrap_or(Path::new(""));
     if !folder.as_os_str().is_empty() && !folder.is_dir() {
-        return Err(UpliftError::input(format!("{} is not a folder: make it first", folder.display())));
+        return Err(CommandError::input(format!("{} is not a folder: make it first", folder.display())));
     }
     let FileArguments { format, unit, dt_s, gravity_m_s2 } = arguments.files;
     let options = ImportOptions { format, dt_s, unit, gravity_m_s2, pulses: !arguments.no_pulses };
     let start = std::time::Instant::now();
-    let imported = import_folder(&arguments.folder, &options, session)?;
+    let imported = import_folder(&arguments.folder, &options, terminal)?;
     let remarks = output.with_extension("remarks.txt");
-    let told = tell_remarks(&imported, &remarks, session.is_quiet());
+    let told = tell_remarks(&imported, &remarks, terminal.is_quiet());
     if !told.is_empty() {
         write_atomically(&remarks, told.as_bytes())?;
     }
     if imported.pairs.is_empty() {
-        return Err(UpliftError::input(format!(
+        return Err(CommandError::input(format!(
             "no pair of horizontal components in {}: {} files read, {} components found",
             arguments.folder.display(),
             imported.files,
@@ -73,7 +76,7 @@ pub(super) fn import(arguments: &ImportArguments, session: &Terminal) -> Result<
         .filter(|key| columns.iter().any(|column| column.name() == key && all_blank(column)))
         .collect();
     if !without.is_empty() {
-        session.say(&format!(
+        terminal.say(&format!(
             "no file says {}: fill in the columns of the manifest, or put PEER's _SearchResults.csv into the folder and import again",
             without.join(", ")
         ));

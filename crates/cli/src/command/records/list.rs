@@ -5,7 +5,7 @@ use std::io::Write;
 use clap::Args;
 use uplift_motion::{IntensityMeasure, RecordPair, STANDARD_GRAVITY_M_S2, geometric_mean};
 
-use super::{SetArguments, Terminal, UpliftError};
+use super::{CommandError, SetArguments, Terminal};
 use uplift::text::table;
 
 #[derive(Debug, Args)]
@@ -14,11 +14,11 @@ pub(super) struct ListArguments {
     set: SetArguments,
 }
 
-pub(super) fn list(arguments: &ListArguments, session: &Terminal) -> Result<(), UpliftError> {
-    let (pairs, count) = arguments.set.read(session)?;
+pub(super) fn list(arguments: &ListArguments, terminal: &Terminal) -> Result<(), CommandError> {
+    let (pairs, count) = arguments.set.read(terminal)?;
     let mut rows = Vec::new();
     for (pair, _) in &pairs {
-        let peaks = arguments.set.intensity.peaks_of(pair).map_err(|error| UpliftError::input(error.to_string()))?;
+        let peaks = arguments.set.intensity.peaks_of(pair).map_err(|error| CommandError::input(error.to_string()))?;
         let [pga_g, pgv_cm_s] = [IntensityMeasure::Pga, IntensityMeasure::Pgv]
             .map(|measure| measure.of_peaks(peaks, STANDARD_GRAVITY_M_S2));
         let duration_s = geometric_mean(pair.h1.d5_75_s(), pair.h2.d5_75_s());

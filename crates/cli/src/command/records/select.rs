@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{SetArguments, Terminal, UpliftError, refuse_foreign, refuse_overwriting};
+use super::{CommandError, SetArguments, Terminal, refuse_foreign, refuse_overwriting};
 use uplift::inputs::manifest;
 use uplift::result::write_table;
 
@@ -19,17 +19,17 @@ pub(super) struct SelectArguments {
     output: Option<PathBuf>,
 }
 
-pub(super) fn select(arguments: &SelectArguments, session: &Terminal) -> Result<(), UpliftError> {
+pub(super) fn select(arguments: &SelectArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let selection = arguments.set.criteria.selection();
     if selection.is_empty() {
-        return Err(UpliftError::Usage("say which records, e.g. --magnitude 6.5:7.5 --pulse-like false".to_owned()));
+        return Err(CommandError::Usage("say which records, e.g. --magnitude 6.5:7.5 --pulse-like false".to_owned()));
     }
     let set = &arguments.set.set;
     if let Some(output) = &arguments.output {
         refuse_overwriting(output, &[set])?;
         refuse_foreign(output)?;
     }
-    let (pairs, count) = arguments.set.read(session)?;
+    let (pairs, count) = arguments.set.read(terminal)?;
     let mut out = std::io::stdout().lock();
     writeln!(out, "# {} of {count} records; for a study:\n[records]", pairs.len())?;
     writeln!(out, "manifest = {}", toml::Value::from(set.display().to_string()))?;
@@ -46,10 +46,10 @@ pub(super) fn select(arguments: &SelectArguments, session: &Terminal) -> Result<
     let Some(output) = &arguments.output else { return Ok(()) };
     let ids: BTreeSet<&str> = pairs.iter().map(|(pair, _)| pair.id.as_str()).collect();
     let folder = output.parent().unwrap_or(Path::new(""));
-    let columns = manifest::rows_of(set, &ids, folder).map_err(UpliftError::Inputs)?;
+    let columns = manifest::rows_of(set, &ids, folder).map_err(uplift::UpliftError::Inputs)?;
     let line =
         format!("uplift {} ({}), {} of {count} records: {selection}", uplift::VERSION, uplift::COMMIT, pairs.len());
     write_table(output, &line, columns)?;
-    session.say(&format!("{} records: {}", pairs.len(), output.display()));
+    terminal.say(&format!("{} records: {}", pairs.len(), output.display()));
     Ok(())
 }

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 use uplift_motion::{Accelerogram, Combination, Orientation, ReadOptions, RecordPair, Recording, read_record_file};
 
-use super::{FileArguments, UpliftError};
+use super::{CommandError, FileArguments};
 use uplift::import::{PairMeasures, warnings_of_pair};
 use uplift::inputs::manifest;
 use uplift::inputs::pairs::read_component;
@@ -22,15 +22,15 @@ pub(super) struct ShowArguments {
     files: FileArguments,
 }
 
-pub(super) fn show(arguments: &ShowArguments) -> Result<(), UpliftError> {
-    let fail = |error: uplift_motion::MotionError| UpliftError::input(error.to_string());
+pub(super) fn show(arguments: &ShowArguments) -> Result<(), CommandError> {
+    let fail = |error: uplift_motion::MotionError| CommandError::input(error.to_string());
     let FileArguments { format, unit, dt_s, gravity_m_s2 } = arguments.files;
     let mut out = std::io::stdout().lock();
     let Some(id) = &arguments.record else {
         if arguments.input.extension().is_some_and(|extension| extension == "csv")
             && manifest::read(&arguments.input, None).is_ok()
         {
-            return Err(UpliftError::Usage(format!(
+            return Err(CommandError::Usage(format!(
                 "{} is a manifest: name one of its records too; uplift records list shows them",
                 arguments.input.display()
             )));
@@ -44,19 +44,19 @@ pub(super) fn show(arguments: &ShowArguments) -> Result<(), UpliftError> {
         }
         return Ok(());
     };
-    let rows = manifest::read(&arguments.input, None).map_err(UpliftError::Inputs)?;
+    let rows = manifest::read(&arguments.input, None).map_err(uplift::UpliftError::Inputs)?;
     let Some(row) = rows.into_iter().find(|row| row.id == *id) else {
-        return Err(UpliftError::input(format!(
+        return Err(CommandError::input(format!(
             "{} has no record {id:?}; uplift records list shows its records",
             arguments.input.display()
         )));
     };
-    let component = |file: &manifest::ComponentFile| -> Result<Recording, UpliftError> {
+    let component = |file: &manifest::ComponentFile| -> Result<Recording, CommandError> {
         let (format, channel) = (row.format, file.channel);
         let options = ReadOptions { format, channel, dt_s: row.dt_s, unit: row.unit, gravity_m_s2 };
         read_component(file, &options)
             .map(|(recording, _)| recording)
-            .map_err(|reason| UpliftError::input(format!("record {id}: {reason}")))
+            .map_err(|reason| CommandError::input(format!("record {id}: {reason}")))
     };
     let [one, other] = [component(&row.components[0])?, component(&row.components[1])?];
     writeln!(out, "record {id}")?;

@@ -8,7 +8,7 @@ use polars::prelude::Column;
 use uplift_motion::synthetic::{Faulting, ScenarioRange, SyntheticSetOptions, generate};
 use uplift_motion::{RecordPair, STANDARD_GRAVITY_M_S2, at2_text};
 
-use super::{Range, Terminal, UpliftError, range};
+use super::{CommandError, Range, Terminal, range};
 use uplift::result::{write_atomically, write_table};
 
 /// Synthetic records after Rezaeian and Der Kiureghian (2010, 2012), as AT2 files with a manifest.
@@ -64,11 +64,11 @@ fn number_or_range(text: &str) -> Result<Range, String> {
     }
 }
 
-pub(super) fn synthesize(arguments: &SynthesizeArguments, session: &Terminal) -> Result<(), UpliftError> {
+pub(super) fn synthesize(arguments: &SynthesizeArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let folder = &arguments.output;
     let manifest = folder.join("manifest.csv");
     if manifest.exists() {
-        return Err(UpliftError::Usage(format!("{} is there already: name another folder", manifest.display())));
+        return Err(CommandError::Usage(format!("{} is there already: name another folder", manifest.display())));
     }
     let ends = |range: Range| [range.from, range.to];
     let options = SyntheticSetOptions {
@@ -88,10 +88,10 @@ pub(super) fn synthesize(arguments: &SynthesizeArguments, session: &Terminal) ->
         },
         ..SyntheticSetOptions::default()
     };
-    session.say("synthetic records: not for design");
-    let pairs = generate(&options).map_err(|error| UpliftError::Usage(error.to_string()))?;
+    terminal.say("synthetic records: not for design");
+    let pairs = generate(&options).map_err(|error| CommandError::Usage(error.to_string()))?;
     std::fs::create_dir_all(folder)
-        .map_err(|error| UpliftError::input(format!("{} cannot be made: {error}", folder.display())))?;
+        .map_err(|error| CommandError::input(format!("{} cannot be made: {error}", folder.display())))?;
     for pair in &pairs {
         for (component, motion) in [("H1", &pair.h1), ("H2", &pair.h2)] {
             let said = |key: &str| pair.metadata.get(key).map_or("", String::as_str);

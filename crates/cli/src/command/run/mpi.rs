@@ -1,8 +1,9 @@
-//! `uplift run` under `mpirun`: every rank computes one shard of the stripes, and the first joins them.
+//! `uplift run` under `mpirun`: every rank computes one shard of the analyses, and the first joins them.
 //!
 //! The ranks share nothing but the file system. MPI says who they are, lets the first wait for the others, and ends all when one fails: the
 //! shards are then as those of any run that stopped, and the same command goes on from there.
 
+use crate::error::CommandError;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::Ordering;
 use std::time::Duration;
@@ -11,12 +12,12 @@ use ::mpi::Threading;
 use ::mpi::topology::SimpleCommunicator;
 use ::mpi::traits::{Communicator, CommunicatorCollectives};
 
-use super::{
-    KeptPieces, Part, RunArguments, Terminal, UpliftError, check_target, print_outcome, read_hazard, run_shard,
-    run_study_from, shard_path, site_table,
-};
-use uplift::checkpoint::PieceFile;
+use super::{CommandError, RunArguments, Shard, Terminal, run_options, run_shard, shard_path};
+use crate::show::{print_json, print_run};
+use crate::terminal::tell_error;
+use uplift::checkpoint::{FinishedRows, RowFile};
 use uplift::events::Events;
+use uplift::run::run_with;
 
 /// What the starters of ranks tell them: Open MPI, `PMIx` (Slurm among others), and PMI (MPICH, Intel MPI, Slurm).
 const STARTED_BY: [&str; 3] = ["OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"];
@@ -24,7 +25,7 @@ const STARTED_BY: [&str; 3] = ["OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"];
 const LOOK_EVERY: Duration = Duration::from_millis(20);
 
 /// Carries out a run as one of several ranks; none where this program was not started as such.
-pub(super) fn run(arguments: &RunArguments, session: &Terminal) -> Option<Result<(), UpliftError>> {
+pub(super) fn run(arguments: &RunArguments, terminal: &Terminal) -> Option<Result<(), CommandError>> {
     // without one of these MPI would be a world of one, at the price of starting it
     STARTED_BY.iter().find(|name| std::env::var_os(name).is_some())?;
     let (universe, _) = ::mpi::initialize_with_threading(Threading::Funneled)?;
@@ -33,12 +34,12 @@ pub(super) fn run(arguments: &RunArguments, session: &Terminal) -> Option<Result
     if count < 2 {
         return None;
     }
-    let part = Part { index, count };
-    let outcome = catch_unwind(AssertUnwindSafe(|| run_rank(arguments, &world, part, session)));
+    let shard = Shard { index, count };
+    let outcome = catch_unwind(AssertUnwindSafe(|| run_rank(arguments, &world, shard, session)));
     match outcome {
-        Ok(done @ (Ok(()) | Err(UpliftError::OutputClosed))) => Some(done),
+        Ok(done @ (Ok(()) | Err(CommandError::OutputClosed))) => Some(done),
         // a stop is sent to all ranks, and one says so
-        Ok(Err(error @ (UpliftError::Paused { .. } | UpliftError::Interrupted))) => {
+        Ok(Err(error @ (CommandError::Paused { .. } | CommandError::Interrupted))) => {
             if index == 0 {
                 tell_error(&error);
             }
@@ -46,7 +47,7 @@ pub(super) fn run(arguments: &RunArguments, session: &Terminal) -> Option<Result
         }
         // the others would wait for this rank for ever: it ends them
         Ok(Err(error)) => {
-            session.set_farewell(format!("rank {index} of {count} has ended the run"));
+            terminal.set_farewell(format!("rank {index} of {count} has ended the run"));
             let host = ::mpi::environment::processor_name().unwrap_or_default();
             eprintln!("uplift: rank {index} of {count} on {host} ends the run:");
             tell_error(&error);
@@ -56,87 +57,86 @@ pub(super) fn run(arguments: &RunArguments, session: &Terminal) -> Option<Result
     }
 }
 
-/// The part of one rank, and for the first all that comes after the stripes.
+/// The part of one rank, and for the first all that comes after the analyses.
 fn run_rank(
     arguments: &RunArguments,
     world: &SimpleCommunicator,
-    part: Part,
+    shard: Shard,
     session: &Terminal,
-) -> Result<(), UpliftError> {
-    let first = part.index == 0;
+) -> Result<(), CommandError> {
+    let first = shard.index == 0;
     // the first looks before the others do, so that a mistake is said once
     if !first {
-        wait(world, session)?;
+        wait(world, terminal)?;
     }
     if arguments.shard.is_some() {
-        return Err(UpliftError::Usage("each rank takes its own shard: leave --shard out under mpirun".to_owned()));
+        return Err(CommandError::Usage("each rank takes its own shard: leave --shard out under mpirun".to_owned()));
     }
-    let study = arguments.study.load()?;
-    let path = arguments.output.clone().unwrap_or_else(|| study.output.file.clone());
+    let study = arguments.study.load_any()?;
+    let options = run_options(&arguments.study, arguments.output.clone());
+    let path = options.result_file(&study.output().file).to_owned();
     let own = session.hushed(!first);
     if first {
-        check_target(&path)?;
-        read_hazard(&study)?;
-        site_table::read(&study, &path, &own)?;
+        uplift::check_inputs(&study, &path, &own)?;
         wait(world, session)?;
     }
     let threads = rayon::current_num_threads();
     // said now, since a launcher that ends the ranks may no longer listen to them
     own.say(&format!(
-        "ranks    {}, this one with {threads} threads; whatever ends them, what they finished is kept and the same command goes on",
-        part.count
+        "ranks    {}, this one with {threads} threads; whatever ends them, what they finished is in their files and \
+         the same command goes on",
+        shard.count
     ));
-    let shard = shard_path(&path, part);
-    let pieces = run_shard(&study, &shard, part, Some(&path), &own)?;
-    wait(world, session).map_err(|_| UpliftError::Paused {
-        what: "pieces",
-        done: pieces,
-        total: pieces,
-        path: shard,
+    let file = shard_path(&path, shard);
+    let rows = run_shard(&study, &file, shard, Some(&path), &own)?.rows;
+    wait(world, session).map_err(|_| CommandError::Paused {
+        what: "analysis rows",
+        done: rows,
+        total: rows,
+        path: file,
     })?;
     if !first {
         return Ok(());
     }
 
-    let mut kept = KeptPieces::default();
+    let mut known = FinishedRows::default();
     let mut work = None;
-    let shards: Vec<_> = (0..part.count).map(|index| shard_path(&path, Part { index, ..part })).collect();
-    for shard in &shards {
-        let found = PieceFile::read(shard)?.ok_or_else(|| {
-            UpliftError::input(format!(
+    let files: Vec<_> = (0..shard.count).map(|index| shard_path(&path, Shard { index, ..shard })).collect();
+    for file in &files {
+        let found = RowFile::read(file)?.ok_or_else(|| {
+            CommandError::input(format!(
                 "{}: is not there: the result must lie in a folder that all ranks share",
-                shard.display()
+                file.display()
             ))
         })?;
         if *work.get_or_insert_with(|| found.head.work.clone()) != found.head.work {
-            return Err(UpliftError::input(format!(
+            return Err(CommandError::input(format!(
                 "{}: is a shard of other work: every node must have the same study, records and program",
-                shard.display()
+                file.display()
             )));
         }
-        kept.extend(found.kept);
+        known.extend(found.rows);
     }
-    run_study_from(&study, &arguments.study.study, &path, kept, session, |outcome, files, seconds| {
-        print_outcome(arguments.json, session, outcome, files, seconds)
-    })?;
-    for shard in &shards {
-        let _ = std::fs::remove_file(shard);
+    let report = run_with(&study, &options, known, session)?;
+    if arguments.json { print_json(&report) } else { print_run(&report, session) }?;
+    for file in &files {
+        let _ = std::fs::remove_file(file);
     }
     Ok(())
 }
 
 /// Waits until all ranks are here, without a core for it.
-fn wait(world: &SimpleCommunicator, session: &Terminal) -> Result<(), UpliftError> {
+fn wait(world: &SimpleCommunicator, terminal: &Terminal) -> Result<(), CommandError> {
     let mut all_here = world.immediate_barrier();
     loop {
         match all_here.test() {
             Ok(_) => return Ok(()),
             Err(not_yet) => all_here = not_yet,
         }
-        if session.cancelled() {
+        if terminal.cancelled() {
             // the program ends here; a request must not be dropped before it is complete
             std::mem::forget(all_here);
-            return Err(UpliftError::Interrupted);
+            return Err(CommandError::Interrupted);
         }
         std::thread::sleep(LOOK_EVERY);
     }

@@ -6,9 +6,9 @@ use std::path::Path;
 use serde_json::json;
 use uplift_spectra::Noisy;
 
-use super::super::reference::ReferenceTable;
+use crate::error::CommandError;
 use crate::terminal::tell;
-use uplift::UpliftError;
+use uplift::reference::ReferenceTable;
 use uplift::result::{DesignRow, ResultFile, StoredDesign};
 use uplift::text::{finite, table as lines};
 use uplift_study::ScaledTo;
@@ -54,9 +54,9 @@ pub(super) fn json_row(row: &DesignRow) -> serde_json::Value {
 }
 
 /// Print the design tables of the result `file`.
-pub(super) fn table(file: &ResultFile, reference: Option<&Path>, json: bool) -> Result<(), UpliftError> {
+pub(super) fn table(file: &ResultFile, reference: Option<&Path>, json: bool) -> Result<(), CommandError> {
     let Some(design) = file.design()? else {
-        return Err(UpliftError::input(format!(
+        return Err(CommandError::input(format!(
             "{}: has no design example: add a section [design] to the study, which may be empty, and run it again",
             file.path().display()
         )));
@@ -97,7 +97,7 @@ fn print<'a>(
     design: &StoredDesign,
     compared: bool,
     of: &dyn Fn(&DesignRow) -> Option<&'a Reference>,
-) -> Result<(), UpliftError> {
+) -> Result<(), CommandError> {
     let rows = &design.rows[..];
     let by = distinct(rows.iter().map(|row| row.scaled_by.as_str()));
     let (mut held, mut compared_with) = (vec![0; by.len()], 0);
@@ -170,12 +170,12 @@ fn distinct<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
     found
 }
 
-fn read_reference(path: &Path) -> Result<Vec<Reference>, UpliftError> {
+fn read_reference(path: &Path) -> Result<Vec<Reference>, CommandError> {
     let table = ReferenceTable::read(path)?;
     let missing: Vec<&str> =
         ["record_set", "scaling", "quantity", "value"].into_iter().filter(|name| !table.has(name)).collect();
     if !missing.is_empty() {
-        return Err(table.fail(format!("has no column {}", missing.join(", "))));
+        return Err(table.fail(format!("has no column {}", missing.join(", "))).into());
     }
     (0..table.rows())
         .map(|row| {

@@ -1,0 +1,86 @@
+//! Figures of results, curves, pulses and responses, written.
+
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+use uplift::UpliftError;
+use uplift::events::Events;
+use uplift::outputs::provide_folder;
+use uplift::pulses::PulseReport;
+use uplift::response::ResponseReport;
+
+use crate::figures::{history_figure, pulse_figures, result_figures};
+use crate::files::{FigureOptions, write_figure_file};
+
+/// Which figures of a result are drawn, and where.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PlotOptions {
+    /// The result file.
+    pub result: PathBuf,
+    /// Folder for the figures; beside the result and named after it if none is given.
+    pub folder: Option<PathBuf>,
+    /// Only figures whose name contains this, for instance `urs`.
+    pub only: Option<String>,
+    /// How they are written.
+    pub figures: FigureOptions,
+}
+
+/// What was drawn.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct PlotReport {
+    /// The files, in the order of the figures.
+    pub files: Vec<PathBuf>,
+}
+
+/// Draws the figures of a result, of either kind.
+///
+/// # Errors
+/// A file that is no result or damaged, a figure that it does not have, a folder that cannot be written.
+pub fn plot(options: &PlotOptions, events: &dyn Events) -> Result<PlotReport, UpliftError> {
+    let figures = result_figures(&options.result)?;
+    let wanted = options.only.as_deref().unwrap_or_default();
+    let chosen: Vec<_> = figures.iter().filter(|figure| figure.id.contains(wanted)).collect();
+    if chosen.is_empty() {
+        let names: Vec<&str> = figures.iter().map(|figure| figure.id.as_str()).collect();
+        return Err(UpliftError::Usage(format!(
+            "no figure is called {wanted}: the result has the figures {}",
+            names.join(", ")
+        )));
+    }
+    let folder = options.folder.clone().unwrap_or_else(|| options.result.with_extension("figures"));
+    provide_folder(&folder)?;
+    let mut files = Vec::new();
+    for figure in chosen {
+        if events.cancelled() {
+            return Err(UpliftError::Interrupted);
+        }
+        files.extend(options.figures.write(figure, &folder)?);
+    }
+    Ok(PlotReport { files })
+}
+
+/// Draws the rocking spectra of Figures 2.2 to 2.7 into `folder`; the files written.
+///
+/// # Errors
+/// A folder that cannot be written.
+pub fn plot_pulses(report: &PulseReport, folder: &Path, figures: &FigureOptions) -> Result<Vec<PathBuf>, UpliftError> {
+    provide_folder(folder)?;
+    let mut files = Vec::new();
+    for figure in pulse_figures(&report.plan, &report.spectra) {
+        files.extend(figures.write(&figure, folder)?);
+    }
+    Ok(files)
+}
+
+/// Draws the time history of a response to `file`, .svg or .png.
+///
+/// # Errors
+/// A report without a history; a file that cannot be written.
+pub fn plot_response(report: &ResponseReport, file: &Path) -> Result<(), UpliftError> {
+    let Some(history) = &report.history else {
+        return Err(UpliftError::Usage("the response was computed without its time history: ask for it".to_owned()));
+    };
+    let record = report.record.file_name().unwrap_or_default().to_string_lossy();
+    let title = format!("{record} times {}, strength {}", report.scale, report.strength);
+    write_figure_file(&history_figure(&title, history, report.uplift_displacement_m), file)
+}

@@ -1,0 +1,45 @@
+//! The page of results, written.
+
+use std::path::PathBuf;
+
+use serde::Serialize;
+use uplift::UpliftError;
+use uplift::events::Events;
+use uplift::result::write_atomically;
+
+use crate::page::page;
+
+/// Which results a page is of.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ReportOptions {
+    /// The result files, one or more; several stand side by side.
+    pub results: Vec<PathBuf>,
+    /// The page; the first result with `.html` if none is given.
+    pub output: Option<PathBuf>,
+}
+
+/// The page that was written.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct PageReport {
+    /// Its file.
+    pub file: PathBuf,
+}
+
+/// Writes one HTML file with every figure and table of the results, to hand over.
+///
+/// # Errors
+/// A result that is missing, damaged or without sites; a file that cannot be written.
+pub fn report(options: &ReportOptions, events: &dyn Events) -> Result<PageReport, UpliftError> {
+    let Some(first) = options.results.first() else {
+        return Err(UpliftError::Usage("a report is of one result or more: give one".to_owned()));
+    };
+    let file = options.output.clone().unwrap_or_else(|| first.with_extension("html"));
+    if options.results.contains(&file) || file.extension().is_none_or(|extension| extension != "html") {
+        return Err(UpliftError::Usage(format!(
+            "{}: the report is an HTML file, give it a name that ends in .html",
+            file.display()
+        )));
+    }
+    write_atomically(&file, page(&options.results, events)?.as_bytes())?;
+    Ok(PageReport { file })
+}
