@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
+use uplift_atomic_file::FileError;
 use uplift_block::BlockError;
 use uplift_bootstrap::BootstrapError;
 use uplift_fragility::FragilityError;
@@ -40,9 +41,12 @@ pub enum UpliftError {
     /// Records or hazard curves cannot be used; all that was found.
     #[error("{}", list(.0))]
     Inputs(Vec<String>),
-    /// A file cannot be read or written.
+    /// A file cannot be opened or written.
     #[error(transparent)]
-    File(#[from] LabelledError),
+    File(#[from] FileError),
+    /// A file of labelled arrays, a result above all, cannot be read or written.
+    #[error(transparent)]
+    Labelled(#[from] LabelledError),
     /// One of the files that a job reads is at fault.
     #[error("{}: {source}", path.display())]
     InFile {

@@ -22,6 +22,7 @@
 //! reads arguments or handles signals.
 
 pub mod analysis;
+mod array;
 pub mod bootstrap;
 pub mod checkpoint;
 mod checksum;
@@ -45,6 +46,7 @@ pub mod structure;
 pub mod text;
 pub mod uniform_risk;
 
+pub use array::{Array, ShapeError};
 pub use error::UpliftError;
 pub use events::{Events, Phase, Silent};
 pub use plan::{Plan, plan};

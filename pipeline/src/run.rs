@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use serde::Serialize;
-use uplift_labelled::remove_leftovers;
+use uplift_atomic_file::remove_leftovers;
 use uplift_study::AnyStudy;
 
 use crate::checkpoint::FinishedRows;

@@ -15,7 +15,7 @@ use super::report::BootstrapReport;
 use super::write::{BandsFile, band_paths, write_bands};
 use crate::error::UpliftError;
 use crate::events::Events;
-use crate::result::{StoredStripes, check_target};
+use crate::result::{ResultFile, check_target};
 
 /// What is asked of a bootstrap. What is left open is as a study says: as `study`, else as the one in the result.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -52,7 +52,7 @@ pub fn bootstrap(
     options: &BootstrapOptions,
     events: &dyn Events,
 ) -> Result<BootstrapReport, UpliftError> {
-    let stored = StoredStripes::read(result)?;
+    let stored = ResultFile::open(result)?.stripes()?;
     check_target(&stored.path)?;
     let study = options.study.as_ref().unwrap_or(&stored.bootstrap);
     let settings = BandSettings {

@@ -5,19 +5,17 @@ use uplift_ida::{Plan, Shard, Watch};
 use uplift_spectra::{
     Case, MotionSet, RestrainedDesign, RestrainedExample, Scaling, SolitaryDesign, SolitaryExample, SpectraError,
 };
-use uplift_structure::Rule;
 
 use super::Sets;
 use super::spectra::{of_spectra, with_free_vibration};
 use crate::checkpoint::Checkpoint;
 use crate::error::UpliftError;
 use crate::events::{Events, Progress};
+use crate::result::RULES;
 use uplift_study::{DesignPlan, Designed, DisplacementStudy, Structures};
 
-/// The rules that a restrained bridge is designed by, in the order of the results.
-pub const RULES: [Rule; 2] = [Rule::EqualDisplacement, Rule::EqualEnergy];
-/// Ratio of neighbouring slendernesses in the search for the intersection: a range in which the block does not stand may be missed
-/// if it is narrower.
+/// Ratio of neighbouring slendernesses in the search for the intersection: a range in which the block does not stand
+/// may be missed if it is narrower.
 const SEARCH_RATIO: f64 = 1.02;
 /// Halvings, at most, after that search.
 const HALVINGS: u64 = 16;

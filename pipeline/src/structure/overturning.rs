@@ -20,7 +20,7 @@ use crate::error::UpliftError;
 use crate::events::Events;
 use crate::inputs::RecordSet;
 use crate::outputs::{refuse_foreign, refuse_overwriting};
-use crate::result::{SpectraOfResult, StudyOfResult};
+use crate::result::{ResultFile, SpectraOfResult, StudyOfResult};
 use crate::text::per_cent;
 use crate::uniform_risk::{motion_keys, plan_stripes};
 
@@ -135,7 +135,7 @@ pub fn overturning(
     events: &dyn Events,
 ) -> Result<OverturningReport, UpliftError> {
     check_table(structure, result, options)?;
-    let source = StudyOfResult::read(result, options.manifest.as_deref())?;
+    let source = ResultFile::open(result)?.study(options.manifest.as_deref())?;
     let sites = match &options.site {
         Some(site) => vec![site_index(&source, Some(site))?],
         None => (0..source.sites.len()).collect(),
@@ -204,7 +204,7 @@ pub fn overturning_shard(
     shard: Shard,
     events: &dyn Events,
 ) -> Result<ShardReport, UpliftError> {
-    let source = StudyOfResult::read(result, options.manifest.as_deref())?;
+    let source = ResultFile::open(result)?.study(options.manifest.as_deref())?;
     let measures = measures(&source, options.measure)?;
     let models = models(structure, &source, options.restitution, &mut Vec::new())?;
     let shaken = Shaken::of(&source, options.manifest.as_deref())?;

@@ -57,7 +57,7 @@ pub fn read(study: &UniformRiskStudy, path: &Path, events: &dyn Events) -> Resul
     Ok(list)
 }
 
-/// Spectra and coefficients of every site of the list, written aside site by site; `line` says where the numbers come from.
+/// Spectra and coefficients of every site of the list, written site by site; `line` says where the numbers come from.
 pub fn compute(
     study: &UniformRiskStudy,
     list: Option<&SiteList>,

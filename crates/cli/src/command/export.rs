@@ -10,7 +10,7 @@ use super::records::refuse_foreign;
 use crate::error::CommandError;
 use crate::show::shown_path;
 use uplift::export::Export;
-use uplift::result::{write_aside, write_table};
+use uplift::result::{write_atomically, write_table};
 
 #[derive(Debug, Args)]
 pub(super) struct ExportArguments {
@@ -48,8 +48,8 @@ pub(super) fn export(arguments: &ExportArguments, terminal: &Terminal) -> Result
             refuse_foreign(&path)?;
         }
         match format {
-            "json" => write_aside(&path, format!("{:#}\n", export.json()).as_bytes())?,
-            "mat" => write_aside(&path, &export.matlab()?)?,
+            "json" => write_atomically(&path, format!("{:#}\n", export.json()).as_bytes())?,
+            "mat" => write_atomically(&path, &export.matlab()?)?,
             _ => write_table(&path, export.provenance(), export.columns())?,
         }
         if !terminal.is_quiet() {

@@ -7,8 +7,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use uplift::checkpoint::{Finding, RowFile, checkpoint_path};
-use uplift::result::ResultLock;
-use uplift::result::{holds_displacement_spectra, is_hdf5, open_any_result};
+use uplift::result::{Overview, ResultFile, ResultLock, is_hdf5};
 use uplift_study::Study;
 
 #[derive(Debug, Args)]
@@ -78,37 +77,32 @@ fn shards_of(result: &Path) -> Vec<PathBuf> {
 }
 
 fn finished(out: &mut impl Write, path: &Path) -> Result<(), CommandError> {
-    let reader = open_any_result(path)?;
-    let text = |name: &str| reader.attribute_text("/", name).unwrap_or_default();
-    writeln!(out, "{}: finished {}, uplift {} ({})", path.display(), text("created"), text("version"), text("commit"))?;
-    writeln!(out, "  study    {} {}", text("study_file"), text("title"))?;
-    writeln!(out, "  records  {}", text("record_set"))?;
-    if holds_displacement_spectra(&reader) {
-        let analyses = reader.attribute_u64("/spectra", "analyses").unwrap_or_default();
-        writeln!(out, "  spectra  displacement spectra of {}s, {analyses} analyses", text("structure"))?;
-        for set in reader.children("/sets").unwrap_or_default() {
-            let records = reader.attribute_u64(&format!("/sets/{set}"), "records").unwrap_or_default();
-            writeln!(out, "  set      {set}: {records} records, {} motions", 2 * records)?;
+    let file = ResultFile::open(path)?;
+    let head = file.head()?;
+    writeln!(out, "{}: finished {}, uplift {} ({})", path.display(), head.created, head.version, head.commit)?;
+    writeln!(out, "  study    {} {}", head.study_file, head.title)?;
+    writeln!(out, "  records  {}", head.record_set)?;
+    match file.overview()? {
+        Overview::Displacement { structure, analyses, sets, designed } => {
+            writeln!(out, "  spectra  displacement spectra of {structure}s, {analyses} analyses")?;
+            for (set, records) in sets {
+                writeln!(out, "  set      {set}: {records} records, {} motions", 2 * records)?;
+            }
+            if designed {
+                writeln!(out, "  design   uplift table {}", path.display())?;
+            }
         }
-        if reader.exists("/design") {
-            writeln!(out, "  design   uplift table {}", path.display())?;
+        Overview::UniformRisk { analyses, sites, added } => {
+            for (measure, analyses) in analyses {
+                writeln!(out, "  {:<8} {analyses} analyses", measure.to_uppercase())?;
+            }
+            if !sites.is_empty() {
+                writeln!(out, "  sites    {}", sites.join(", "))?;
+            }
+            if !added.is_empty() {
+                writeln!(out, "  added    {}", added.join(", "))?;
+            }
         }
-        return Ok(());
-    }
-    for measure in reader.children("/ida").unwrap_or_default() {
-        let analyses = reader.attribute_u64(&format!("/ida/{measure}"), "analyses").unwrap_or_default();
-        writeln!(out, "  {:<8} {analyses} analyses", measure.to_uppercase())?;
-    }
-    if let Ok(sites) = reader.axis_text("site") {
-        writeln!(out, "  sites    {}", sites.join(", "))?;
-    }
-    let added: Vec<String> = reader
-        .children("/")?
-        .into_iter()
-        .filter(|group| ["bootstrap", "influence", "measures"].contains(&group.as_str()))
-        .collect();
-    if !added.is_empty() {
-        writeln!(out, "  added    {}", added.join(", "))?;
     }
     Ok(())
 }

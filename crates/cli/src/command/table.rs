@@ -11,8 +11,8 @@ mod displacement;
 use crate::error::CommandError;
 use crate::terminal::tell;
 use uplift::reference::ReferenceTable;
-use uplift::result::{Spectrum, StoredResult, holds_displacement_spectra, open_any_result};
-use uplift::text::{per_cent, table as lines};
+use uplift::result::{Kind, ResultFile, Spectrum, StoredSpectra};
+use uplift::text::{finite, per_cent, table as lines};
 
 /// Strengths above this are compared, up to 1 (the range of Table 4.2's fits).
 const COMPARED_ABOVE: f64 = 0.05;
@@ -47,25 +47,23 @@ struct Reference {
 }
 
 pub(super) fn table(arguments: &TableArguments) -> Result<(), CommandError> {
-    let reader = open_any_result(&arguments.result)?;
-    if holds_displacement_spectra(&reader) {
-        return displacement::table(&arguments.result, &reader, arguments.reference.as_deref(), arguments.json);
+    let file = ResultFile::open(&arguments.result)?;
+    if file.kind() == Kind::Displacement {
+        return displacement::table(&file, arguments.reference.as_deref(), arguments.json);
     }
-    drop(reader);
-    let result = StoredResult::read(&arguments.result)?;
+    let result = file.spectra()?;
     let references = match &arguments.reference {
         Some(path) => read_reference(path)?,
         None => Vec::new(),
     };
     let wanted = arguments.im.to_lowercase();
-    let rows: Vec<(&Spectrum, Option<&Reference>)> = result
-        .spectra
-        .iter()
-        .filter(|spectrum| wanted == "all" || spectrum.im.to_lowercase() == wanted)
-        .map(|spectrum| (spectrum, references.iter().find(|reference| same(spectrum, reference))))
+    let rows: Vec<(Spectrum<'_>, Option<&Reference>)> = result
+        .rows()
+        .filter(|spectrum| wanted == "all" || spectrum.measure.key() == wanted)
+        .map(|spectrum| (spectrum, references.iter().find(|reference| same(&spectrum, reference))))
         .collect();
     if rows.is_empty() {
-        let found = if result.spectra.is_empty() { "it has none" } else { "it has the other measure: use --im" };
+        let found = if result.measures.is_empty() { "it has none" } else { "it has the other measure: use --im" };
         return Err(CommandError::input(format!(
             "{}: has no spectra by {}: {found}",
             arguments.result.display(),
@@ -83,7 +81,7 @@ pub(super) fn table(arguments: &TableArguments) -> Result<(), CommandError> {
         tell(&format!(
             "note: no row of the reference has a site and probability of the result: it has {}, the result {}",
             names(&mut references.iter().map(|reference| reference.site.as_str())),
-            names(&mut rows.iter().map(|(spectrum, _)| spectrum.site.as_str()))
+            names(&mut rows.iter().map(|(spectrum, _)| spectrum.site))
         ));
     }
     let mut out = std::io::stdout().lock();
@@ -91,10 +89,9 @@ pub(super) fn table(arguments: &TableArguments) -> Result<(), CommandError> {
         let json: Vec<serde_json::Value> = rows
             .iter()
             .map(|(spectrum, reference)| {
-                let finite = |value: f64| value.is_finite().then_some(value);
                 json!({
                     "site": spectrum.site,
-                    "im": spectrum.im,
+                    "im": spectrum.measure.label(),
                     "poe": spectrum.poe,
                     "c0": finite(spectrum.fit.c0_m),
                     "c1": finite(spectrum.fit.c1),
@@ -107,17 +104,19 @@ pub(super) fn table(arguments: &TableArguments) -> Result<(), CommandError> {
         writeln!(out, "{:#}", serde_json::Value::Array(json))?;
         return Ok(());
     }
-    print(&mut out, &result, &rows, arguments.reference.is_some())
+    let record_set = file.head()?.record_set;
+    print(&mut out, &record_set, &result, &rows, arguments.reference.is_some())
 }
 
 fn print(
     out: &mut impl Write,
-    result: &StoredResult,
-    rows: &[(&Spectrum, Option<&Reference>)],
+    record_set: &str,
+    result: &StoredSpectra,
+    rows: &[(Spectrum<'_>, Option<&Reference>)],
     compared: bool,
 ) -> Result<(), CommandError> {
-    writeln!(out, "u = c0 exp(c1 strength) + c2, metres; records: {}", result.record_set)?;
-    let ours = |spectrum: &Spectrum| {
+    writeln!(out, "u = c0 exp(c1 strength) + c2, metres; records: {record_set}")?;
+    let ours = |spectrum: &Spectrum<'_>| {
         let fit = &spectrum.fit;
         if fit.c0_m.is_nan() {
             return vec!["no fit".to_owned(), String::new(), String::new(), String::new()];
@@ -137,7 +136,7 @@ fn print(
     let cells: Vec<Vec<String>> = rows
         .iter()
         .map(|(spectrum, reference)| {
-            let mut row = vec![spectrum.site.clone(), spectrum.im.clone(), per_cent(spectrum.poe)];
+            let mut row = vec![spectrum.site.to_owned(), spectrum.measure.label().to_owned(), per_cent(spectrum.poe)];
             row.extend(ours(spectrum));
             if compared {
                 let Some(reference) = reference else {
@@ -166,15 +165,15 @@ fn print(
     Ok(())
 }
 
-fn same(spectrum: &Spectrum, reference: &Reference) -> bool {
+fn same(spectrum: &Spectrum<'_>, reference: &Reference) -> bool {
     spectrum.site.to_lowercase() == reference.site.to_lowercase() && (spectrum.poe - reference.poe).abs() < 1e-9
 }
 
 /// Median of our ordinates over the reference curve, where it can be compared.
-fn median_ratio(strengths: &[f64], spectrum: &Spectrum, reference: &Reference) -> Option<f64> {
+fn median_ratio(strengths: &[f64], spectrum: &Spectrum<'_>, reference: &Reference) -> Option<f64> {
     let mut ratios: Vec<f64> = strengths
         .iter()
-        .zip(&spectrum.u_m)
+        .zip(spectrum.u_m)
         .filter(|(strength, _)| **strength > COMPARED_ABOVE && **strength <= 1.0)
         .map(|(&strength, u_m)| (u_m, reference.curve.at(strength)))
         .filter(|(_, reference_m)| *reference_m > COMPARED_FROM_M)

@@ -7,7 +7,7 @@ use clap::Args;
 
 use super::Terminal;
 use crate::error::CommandError;
-use uplift::result::open_any_result;
+use uplift::result::ResultFile;
 use uplift_labelled::{Seal, verify as verify_file};
 
 #[derive(Debug, Args)]
@@ -22,7 +22,7 @@ pub(super) fn verify(arguments: &VerifyArguments, terminal: &Terminal) -> Result
     let mut out = std::io::stdout().lock();
     for path in &arguments.results {
         let name = path.display();
-        let verdict = match open_any_result(path).and_then(|_| Ok(verify_file(path)?)) {
+        let verdict = match ResultFile::open(path).and_then(|_| Ok(verify_file(path)?)) {
             Ok(verdict) => verdict,
             Err(error) => {
                 mistakes.push(error.to_string());

@@ -13,7 +13,7 @@ use uplift_hazard::{
 use uplift_motion::IntensityMeasure;
 
 use super::{CommandError, SiteArguments, Terminal, distinct};
-use uplift::result::write_aside;
+use uplift::result::write_atomically;
 use uplift_study::levels_within;
 
 /// Distance of a site from the place asked for that needs no word, km.
@@ -106,7 +106,7 @@ pub(super) fn import(arguments: &ImportArguments, terminal: &Terminal) -> Result
                 path.display()
             )));
         }
-        write_aside(&path, text.as_bytes())?;
+        write_atomically(&path, text.as_bytes())?;
     }
     if arguments.component.is_none() && written.iter().any(|written| written.exported.curve.component().is_none()) {
         terminal.say(

@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::{CommandError, NamedCurve, SiteArguments, TableArguments, Terminal, distinct, read};
 use crate::command::records::refuse_overwriting;
-use uplift::result::write_aside;
+use uplift::result::write_atomically;
 use uplift_plot::{Width, png, svg};
 use uplift_report::figures::hazard_figure;
 
@@ -54,7 +54,7 @@ pub(super) fn plot(arguments: &PlotArguments, terminal: &Terminal) -> Result<(),
         "png" => png(&drawing.svg, DOTS_PER_INCH).map_err(|error| CommandError::input(error.to_string()))?,
         _ => drawing.svg.into_bytes(),
     };
-    write_aside(output, &bytes)?;
+    write_atomically(output, &bytes)?;
     terminal.say(&output.display().to_string());
     Ok(())
 }

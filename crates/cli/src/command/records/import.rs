@@ -9,7 +9,7 @@ use polars::prelude::Column;
 
 use super::{CommandError, FileArguments, Terminal};
 use uplift::import::{ImportOptions, Imported, Warning, import as import_folder, manifest_columns};
-use uplift::result::{write_aside, write_table};
+use uplift::result::{write_atomically, write_table};
 
 /// Remarks of one kind that are shown.
 const SHOWN: usize = 5;
@@ -57,7 +57,7 @@ pub(super) fn import(arguments: &ImportArguments, terminal: &Terminal) -> Result
     let remarks = output.with_extension("remarks.txt");
     let told = tell_remarks(&imported, &remarks, terminal.is_quiet());
     if !told.is_empty() {
-        write_aside(&remarks, told.as_bytes())?;
+        write_atomically(&remarks, told.as_bytes())?;
     }
     if imported.pairs.is_empty() {
         return Err(CommandError::input(format!(

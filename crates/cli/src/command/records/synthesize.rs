@@ -9,7 +9,7 @@ use uplift_motion::synthetic::{Faulting, ScenarioRange, SyntheticSetOptions, gen
 use uplift_motion::{RecordPair, STANDARD_GRAVITY_M_S2, at2_text};
 
 use super::{CommandError, Range, Terminal, range};
-use uplift::result::{write_aside, write_table};
+use uplift::result::{write_atomically, write_table};
 
 /// Synthetic records after Rezaeian and Der Kiureghian (2010, 2012), as AT2 files with a manifest.
 ///
@@ -98,7 +98,7 @@ pub(super) fn synthesize(arguments: &SynthesizeArguments, terminal: &Terminal) -
             let title = format!("SYNTHETIC MOTION, NOT RECORDED: uplift {}", uplift::VERSION);
             let head = [said("event"), "none", said("station"), component];
             let text = at2_text(motion, &title, head, STANDARD_GRAVITY_M_S2);
-            write_aside(&folder.join(file_name(pair, component)), text.as_bytes())?;
+            write_atomically(&folder.join(file_name(pair, component)), text.as_bytes())?;
         }
     }
     let line = format!("uplift {} ({}), synthetic records: {options:?}", uplift::VERSION, uplift::COMMIT);

@@ -8,10 +8,9 @@ use uplift_spectra::Noisy;
 
 use crate::error::CommandError;
 use crate::terminal::tell;
-use uplift::displacement::{DesignRow, read_design};
 use uplift::reference::ReferenceTable;
-use uplift::text::table as lines;
-use uplift_labelled::LabelledReader;
+use uplift::result::{DesignRow, ResultFile, StoredDesign};
+use uplift::text::{finite, table as lines};
 use uplift_study::ScaledTo;
 
 /// A cell of the reference.
@@ -42,7 +41,6 @@ impl Reference {
 
 /// A design value with its range and, where there is a reference, what it says and whether the range holds it.
 pub(super) fn json_row(row: &DesignRow) -> serde_json::Value {
-    let finite = |value: f64| value.is_finite().then_some(value);
     json!({
         "record_set": row.record_set,
         "scaling": row.scaling,
@@ -55,20 +53,15 @@ pub(super) fn json_row(row: &DesignRow) -> serde_json::Value {
     })
 }
 
-/// Print the design tables of the result at `path`.
-pub(super) fn table(
-    path: &Path,
-    reader: &LabelledReader,
-    reference: Option<&Path>,
-    json: bool,
-) -> Result<(), CommandError> {
-    let rows = read_design(reader)?;
-    if rows.is_empty() {
+/// Print the design tables of the result `file`.
+pub(super) fn table(file: &ResultFile, reference: Option<&Path>, json: bool) -> Result<(), CommandError> {
+    let Some(design) = file.design()? else {
         return Err(CommandError::input(format!(
             "{}: has no design example: add a section [design] to the study, which may be empty, and run it again",
-            path.display()
+            file.path().display()
         )));
-    }
+    };
+    let rows = &design.rows;
     let references = reference.map_or_else(|| Ok(Vec::new()), read_reference)?;
     let of = |row: &DesignRow| references.iter().find(|reference| reference.is_of(row));
     if reference.is_some() && rows.iter().all(|row| of(row).is_none()) {
@@ -94,21 +87,20 @@ pub(super) fn table(
         writeln!(out, "{:#}", serde_json::Value::Array(rows))?;
         return Ok(());
     }
-    print(&mut out, reader, &rows, reference.is_some(), &of)
+    writeln!(out, "records: {}", file.head()?.record_set)?;
+    print(&mut out, &design, reference.is_some(), &of)
 }
 
 /// One table a set and rule: a line a quantity and scaling, a column for each of those whose peak is scaled.
 fn print<'a>(
     out: &mut impl Write,
-    reader: &LabelledReader,
-    rows: &[DesignRow],
+    design: &StoredDesign,
     compared: bool,
     of: &dyn Fn(&DesignRow) -> Option<&'a Reference>,
 ) -> Result<(), CommandError> {
-    let number = |name: &str| reader.attribute_f64("/design", name).unwrap_or(f64::NAN);
+    let rows = &design.rows[..];
     let by = distinct(rows.iter().map(|row| row.scaled_by.as_str()));
     let (mut held, mut compared_with) = (vec![0; by.len()], 0);
-    writeln!(out, "records: {}", reader.attribute_text("/", "record_set")?)?;
     let mut rest = rows;
     while let Some(first) = rest.first() {
         let same = rest.iter().take_while(|row| row.record_set == first.record_set && row.rule == first.rule).count();
@@ -119,7 +111,7 @@ fn print<'a>(
             Some(_) => ", equal energy rule",
             None => "",
         };
-        writeln!(out, "\n{}{rule}, FS = {}", first.record_set, number("safety_factor"))?;
+        writeln!(out, "\n{}{rule}, FS = {}", first.record_set, design.safety_factor)?;
         let mut header = vec!["quantity".to_owned(), "scaling".to_owned()];
         header.extend(by.iter().map(|by| format!("by {by}")));
         if compared {
@@ -156,9 +148,9 @@ fn print<'a>(
     writeln!(
         out,
         "\nin brackets: lowest and highest over {} points from {} to {} times the abscissa",
-        reader.attribute_u64("/design", "noise_points").unwrap_or_default(),
-        1.0 - number("noise_relative"),
-        1.0 + number("noise_relative")
+        design.noise_points,
+        1.0 - design.noise_relative,
+        1.0 + design.noise_relative
     )?;
     if compared {
         let held: Vec<String> =

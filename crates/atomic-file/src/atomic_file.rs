@@ -1,4 +1,4 @@
-//! Writing aside: a result appears under its name complete, or not at all.
+//! A file that is written under another name, and renamed when it is complete.
 
 use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions};
@@ -7,21 +7,26 @@ use std::path::{Path, PathBuf};
 use std::process;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::LabelledError;
+use crate::error::{FileError, io_error};
 
-/// A hidden, empty file in the folder of the target; it takes the target's place by [`Aside::replace`] and vanishes
-/// when dropped before.
-pub(super) struct Aside {
+/// A hidden, empty file in the folder of the target; it takes the target's place by [`AtomicFile::replace`] and
+/// vanishes when dropped before.
+#[derive(Debug)]
+pub struct AtomicFile {
     target: PathBuf,
     partial: PathBuf,
 }
 
-impl Aside {
+impl AtomicFile {
     /// Makes `.<name>.partial-<process>-<count>` beside `path`, and the folders above it.
-    pub(super) fn reserve(path: &Path) -> Result<Self, LabelledError> {
+    ///
+    /// # Errors
+    /// [`FileError::NotAFile`] where `path` is a folder or a device, [`FileError::Io`] where the folder cannot be made
+    /// or written to.
+    pub fn reserve(path: &Path) -> Result<Self, FileError> {
         let target = final_place(path)?;
         let Some(name) = target.file_name() else {
-            return Err(LabelledError::NotAFile { path: path.to_owned(), found: "a folder" });
+            return Err(FileError::NotAFile { path: path.to_owned(), found: "a folder" });
         };
         let folder = folder_of(&target);
         fs::create_dir_all(folder).map_err(io_error(folder, "create the folder"))?;
@@ -35,17 +40,20 @@ impl Aside {
     }
 
     /// The place of the result.
-    pub(super) fn target(&self) -> &Path {
+    pub fn target(&self) -> &Path {
         &self.target
     }
 
     /// The file to write to.
-    pub(super) fn partial(&self) -> &Path {
+    pub fn partial(&self) -> &Path {
         &self.partial
     }
 
     /// Puts the written file in the target's place, durably: the content reaches the disk before the name does.
-    pub(super) fn replace(self) -> Result<(), LabelledError> {
+    ///
+    /// # Errors
+    /// [`FileError::Io`] where the disk is full or fails; an older file is then untouched.
+    pub fn replace(self) -> Result<(), FileError> {
         File::options()
             .read(true)
             .write(true)
@@ -57,25 +65,25 @@ impl Aside {
     }
 }
 
-impl Drop for Aside {
+impl Drop for AtomicFile {
     fn drop(&mut self) {
         // After `replace` there is nothing left under this name, and nobody to tell of a failure.
         let _ = fs::remove_file(&self.partial);
     }
 }
 
-/// Writes `content` to `path` as every file of a result is written: aside, brought to the disk, and put in place at once.
+/// Writes `content` to `path` at once: under another name, brought to the disk, and put in place.
 ///
 /// # Errors
-/// [`LabelledError::Io`] where the disk is full or fails; an older file is then untouched.
-pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), LabelledError> {
-    let aside = Aside::reserve(path)?;
-    fs::write(aside.partial(), content).map_err(io_error(path, "write the file"))?;
-    aside.replace()
+/// [`FileError::Io`] where the disk is full or fails; an older file is then untouched.
+pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), FileError> {
+    let file = AtomicFile::reserve(path)?;
+    fs::write(file.partial(), content).map_err(io_error(path, "write the file"))?;
+    file.replace()
 }
 
-/// Takes away what earlier writers of the result at `path` and of the tables beside it left behind when they were killed. Nobody else
-/// may be writing them meanwhile.
+/// Takes away what earlier writers of the result at `path` and of the tables beside it left behind when they were
+/// killed. Nobody else may be writing them meanwhile.
 pub fn remove_leftovers(path: &Path) {
     let Ok(target) = final_place(path) else { return };
     let Some(stem) = target.file_stem().and_then(|stem| stem.to_str()) else { return };
@@ -89,7 +97,10 @@ pub fn remove_leftovers(path: &Path) {
 }
 
 /// Follows a symbolic link, so that the result replaces the file and not the link.
-pub fn final_place(path: &Path) -> Result<PathBuf, LabelledError> {
+///
+/// # Errors
+/// [`FileError::NotAFile`] where `path` is a folder or a device, [`FileError::Io`] where it cannot be looked at.
+pub fn final_place(path: &Path) -> Result<PathBuf, FileError> {
     let metadata = match fs::metadata(path) {
         Ok(metadata) => metadata,
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(path.to_owned()),
@@ -100,17 +111,15 @@ pub fn final_place(path: &Path) -> Result<PathBuf, LabelledError> {
 }
 
 /// Refuses folders, devices and pipes.
-pub(super) fn require_file(path: &Path, metadata: &fs::Metadata) -> Result<(), LabelledError> {
+///
+/// # Errors
+/// [`FileError::NotAFile`] for these.
+pub fn require_file(path: &Path, metadata: &fs::Metadata) -> Result<(), FileError> {
     if metadata.is_file() {
         return Ok(());
     }
     let found = if metadata.is_dir() { "a folder" } else { "a special file" };
-    Err(LabelledError::NotAFile { path: path.to_owned(), found })
-}
-
-/// Attaches the path and the action to an error of the operating system.
-pub(super) fn io_error(path: &Path, action: &'static str) -> impl FnOnce(io::Error) -> LabelledError {
-    move |source| LabelledError::Io { path: path.to_owned(), action, source }
+    Err(FileError::NotAFile { path: path.to_owned(), found })
 }
 
 fn folder_of(target: &Path) -> &Path {
@@ -141,4 +150,51 @@ fn sync_folder(folder: &Path) -> io::Result<()> {
 #[cfg(not(unix))]
 fn sync_folder(_: &Path) -> io::Result<()> {
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    fn files_in(folder: &Path) -> Vec<String> {
+        let name = |entry: io::Result<fs::DirEntry>| entry.unwrap().file_name().into_string().unwrap();
+        let mut names: Vec<String> = fs::read_dir(folder).unwrap().map(name).collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn whole_or_not_at_all() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("new/result.h5");
+        write_whole(&path, b"first").unwrap();
+        let file = AtomicFile::reserve(&path).unwrap();
+        fs::write(file.partial(), "half").unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"first");
+        drop(file);
+        write_whole(&path, b"second").unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"second");
+        assert_eq!(files_in(&folder.path().join("new")), ["result.h5"]);
+    }
+
+    #[test]
+    fn leftovers_of_the_killed_go_and_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("result.h5");
+        for name in [".result.h5.partial-1-0", ".result.urs.csv.partial-1-1", ".other.h5.partial-1-2", "result.h5"] {
+            fs::write(folder.path().join(name), "").unwrap();
+        }
+        remove_leftovers(&path);
+        assert_eq!(files_in(folder.path()), [".other.h5.partial-1-2", "result.h5"]);
+    }
+
+    #[test]
+    fn folders_are_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        assert!(matches!(write_whole(folder.path(), b""), Err(FileError::NotAFile { found: "a folder", .. })));
+        let below_a_file = folder.path().join("file/result.h5");
+        fs::write(folder.path().join("file"), "").unwrap();
+        assert!(matches!(write_whole(&below_a_file, b""), Err(FileError::Io { .. })));
+    }
 }
