@@ -1,5 +1,7 @@
 //! What can go wrong in a job, and how it is said.
 
+use std::path::PathBuf;
+
 use thiserror::Error;
 
 use uplift_block::BlockError;
@@ -8,6 +10,8 @@ use uplift_labelled::LabelledError;
 use uplift_motion::MotionError;
 use uplift_oscillator::OscillatorError;
 use uplift_study::StudyError;
+
+use crate::import::ImportReport;
 
 /// Why a job did not do what it was asked.
 #[derive(Debug, Error)]
@@ -36,6 +40,17 @@ pub enum UpliftError {
     /// Blocks or pulses that cannot be; all that was found.
     #[error("{}", list(.0))]
     Blocks(Vec<BlockError>),
+    /// A folder holds no pair of records to import.
+    #[error(
+        "no pair of horizontal components in {}: {} files read, {} components found",
+        folder.display(), found.files, found.components
+    )]
+    NoPairs {
+        /// The folder.
+        folder: PathBuf,
+        /// What was found in it; there is no manifest.
+        found: Box<ImportReport>,
+    },
     /// The user stopped the run.
     #[error(
         "interrupted: nothing was written, and an earlier result file is as it was. Run the same command to start again"
@@ -51,7 +66,7 @@ pub enum UpliftError {
         /// In all.
         total: u64,
         /// The file that keeps them.
-        path: std::path::PathBuf,
+        path: PathBuf,
     },
 }
 

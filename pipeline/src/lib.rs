@@ -32,6 +32,7 @@ pub mod inputs;
 pub mod outputs;
 pub mod plan;
 pub mod pulses;
+pub mod records;
 pub mod response;
 pub mod result;
 pub mod run;
