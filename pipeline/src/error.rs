@@ -23,7 +23,7 @@ pub enum UpliftError {
     #[error("{0}")]
     Usage(String),
     /// Records or hazard curves cannot be used; all that was found.
-    #[error("{}", list(.0))]
+    #[error("{}", list(" in the input data", .0))]
     Inputs(Vec<String>),
     /// A file cannot be read or written.
     #[error(transparent)]
@@ -38,7 +38,7 @@ pub enum UpliftError {
     #[error(transparent)]
     Oscillator(#[from] OscillatorError),
     /// Blocks or pulses that cannot be; all that was found.
-    #[error("{}", list(.0))]
+    #[error("{}", list("", .0))]
     Blocks(Vec<BlockError>),
     /// A folder holds no pair of records to import.
     #[error(
@@ -70,12 +70,12 @@ pub enum UpliftError {
     },
 }
 
-fn list(mistakes: &[impl ToString]) -> String {
+fn list(place: &str, mistakes: &[impl ToString]) -> String {
     match mistakes {
         [one] => one.to_string(),
         many => {
             let lines: Vec<String> = many.iter().map(|mistake| format!("  - {}", mistake.to_string())).collect();
-            format!("{} things to mend in the input data:\n{}", many.len(), lines.join("\n"))
+            format!("{} things to mend{place}:\n{}", many.len(), lines.join("\n"))
         }
     }
 }

@@ -26,6 +26,7 @@ pub mod efficiency;
 mod error;
 pub mod events;
 pub mod export;
+pub mod hazard_curves;
 pub mod import;
 pub mod influence;
 pub mod inputs;

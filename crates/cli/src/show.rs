@@ -1,14 +1,20 @@
 //! What the jobs report, as a person reads it; a program gets the same values as JSON.
 
 mod displacement;
+mod hazard;
+mod import;
 mod plan;
 mod pulse;
+mod records;
 mod response;
 mod run;
 mod uniform_risk;
 
+pub(crate) use hazard::{print_curves, print_hazard_import};
+pub(crate) use import::{print_import, tell_remarks};
 pub(crate) use plan::print_plan;
 pub(crate) use pulse::print_pulses;
+pub(crate) use records::{print_record, print_records, print_selection};
 pub(crate) use response::print_response;
 pub(crate) use run::print_run;
 

@@ -6,10 +6,10 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::Terminal;
-use super::records::refuse_foreign;
 use crate::error::CommandError;
 use crate::show::shown_path;
 use uplift::export::Export;
+use uplift::outputs::refuse_foreign;
 use uplift::result::{write_aside, write_table};
 
 #[derive(Debug, Args)]

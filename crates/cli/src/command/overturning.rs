@@ -12,10 +12,10 @@ use uplift_risk::{StripeWeights, TAIL_SHARE_LIMIT};
 use uplift_structure::PostUplift;
 
 use super::Terminal;
-use super::records::{refuse_foreign, refuse_overwriting};
 use super::structure::{StructureArguments, measure_index, site_index};
 use crate::error::CommandError;
 use uplift::events::Progress;
+use uplift::outputs::{refuse_foreign, refuse_overwriting};
 use uplift::result::{SpectraOfResult, StudyOfResult, write_aside};
 use uplift::structure::{Collapse, EventRisk, Model, collapse};
 use uplift::text::per_cent;

@@ -2,9 +2,9 @@
 
 use super::{FigureSource, STRENGTH};
 use uplift::UpliftError;
+use uplift::hazard_curves::NamedCurve;
 use uplift::result::StoredResult;
 use uplift::text::per_cent;
-use uplift_hazard::HazardCurve;
 use uplift_plot::{Axis, Figure, Marks, Panel, Series, Tone};
 use uplift_regression::Exponential;
 
@@ -34,9 +34,9 @@ pub(super) fn hazard(source: &FigureSource) -> Result<Option<Figure>, UpliftErro
 }
 
 /// Curves from files, a panel for each measure and unit.
-pub fn hazard_figure(curves: &[(String, HazardCurve)]) -> Figure {
+pub fn hazard_figure(curves: &[NamedCurve]) -> Figure {
     let mut panels: Vec<Panel> = Vec::new();
-    for (index, (name, curve)) in curves.iter().enumerate() {
+    for (index, NamedCurve { name, curve }) in curves.iter().enumerate() {
         let label = format!("{}, {}", curve.measure(), curve.unit());
         let points = curve.points().map(|point| (point.im, point.maf)).collect();
         let series = Series::line(name, points, Tone::Distinct(index));
