@@ -37,9 +37,12 @@ pub mod records;
 pub mod response;
 pub mod result;
 pub mod run;
+pub mod status;
 pub mod structure;
+pub mod table;
 pub mod text;
 pub mod uniform_risk;
+pub mod verify;
 
 pub use error::UpliftError;
 pub use events::{Events, Phase, Silent};

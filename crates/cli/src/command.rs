@@ -14,7 +14,6 @@ mod overturning;
 mod plot;
 mod pulse;
 mod records;
-mod reference;
 mod report;
 mod response;
 mod result_of;
@@ -148,6 +147,6 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         Command::Plot(arguments) => plot::plot(arguments, &terminal),
         Command::Report(arguments) => report::report(arguments, &terminal),
         Command::Export(arguments) => export::export(arguments, &terminal),
-        Command::Table(arguments) => table::table(arguments),
+        Command::Table(arguments) => table::table(arguments, &terminal),
     }
 }

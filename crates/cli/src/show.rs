@@ -8,7 +8,10 @@ mod pulse;
 mod records;
 mod response;
 mod run;
+mod status;
+mod table;
 mod uniform_risk;
+mod verify;
 
 pub(crate) use hazard::{print_curves, print_hazard_import};
 pub(crate) use import::{print_import, tell_remarks};
@@ -17,6 +20,9 @@ pub(crate) use pulse::print_pulses;
 pub(crate) use records::{print_record, print_records, print_selection};
 pub(crate) use response::print_response;
 pub(crate) use run::print_run;
+pub(crate) use status::print_status;
+pub(crate) use table::print_table;
+pub(crate) use verify::print_verified;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};

@@ -5,12 +5,12 @@ use std::path::Path;
 
 use serde_json::json;
 
-use super::reference::ReferenceTable;
 use crate::error::CommandError;
 use crate::show::shown_path;
 use uplift::bootstrap::Bands;
 use uplift::bootstrap::{BandsFile, band_paths};
 use uplift::result::StoredStripes;
+use uplift::table::ReferenceTable;
 use uplift::text::{per_cent, table};
 
 /// A row of the reference: one site and sample size, figures by measure (`pgv`, `pga`) in per cent.

@@ -1,15 +1,12 @@
 //! `uplift status`: how far a run is, and what a result holds.
 
-use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
+use uplift::status::status as status_of;
 
 use crate::error::CommandError;
-use uplift::checkpoint::{Finding, PieceFile, journal_path};
-use uplift::result::ResultLock;
-use uplift::result::{holds_displacement_spectra, is_hdf5, open_any_result};
-use uplift_study::{AnyStudy, Study};
+use crate::show::print_status;
 
 #[derive(Debug, Args)]
 pub(super) struct StatusArguments {
@@ -19,126 +16,5 @@ pub(super) struct StatusArguments {
 }
 
 pub(super) fn status(arguments: &StatusArguments) -> Result<(), CommandError> {
-    let input = &arguments.input;
-    let mut out = std::io::stdout().lock();
-    if input.is_file() && !is_hdf5(input) {
-        if let Ok(Some(finding)) = PieceFile::read(input) {
-            return pieces(&mut out, input, &finding);
-        }
-        if input.extension().is_some_and(|extension| extension == "h5") {
-            return Err(CommandError::input(format!("{} is no HDF5 file", input.display())));
-        }
-    }
-    let result = if input.extension().is_some_and(|extension| extension == "toml") {
-        match Study::load_any(input, &[])? {
-            AnyStudy::UniformRisk(study) => study.output.file,
-            AnyStudy::Displacement(study) => study.output.file,
-        }
-    } else {
-        input.clone()
-    };
-    let journal = journal_path(&result);
-    let mut nothing = true;
-    if result.is_file() {
-        nothing = false;
-        finished(&mut out, &result)?;
-    }
-    if let Some(finding) = PieceFile::read(&journal)? {
-        nothing = false;
-        pieces(&mut out, &journal, &finding)?;
-    }
-    for shard in shards_of(&result) {
-        if let Ok(Some(finding)) = PieceFile::read(&shard) {
-            nothing = false;
-            pieces(&mut out, &shard, &finding)?;
-        }
-    }
-    if let Some(holder) = ResultLock::holder(&result) {
-        writeln!(out, "being written now, by {holder}")?;
-    } else if nothing {
-        return Err(CommandError::input(format!(
-            "{}: no result, and nothing kept of an unfinished run",
-            result.display()
-        )));
-    }
-    Ok(())
-}
-
-/// Files named as the shards of the result at `result`.
-fn shards_of(result: &Path) -> Vec<PathBuf> {
-    let stem = result.file_stem().unwrap_or(result.as_os_str()).to_string_lossy();
-    let beginning = format!("{stem}.shard-");
-    let folder = result.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut shards: Vec<PathBuf> = std::fs::read_dir(folder)
-        .into_iter()
-        .flatten()
-        .flatten()
-        .filter(|entry| entry.file_name().to_string_lossy().starts_with(&beginning))
-        .map(|entry| entry.path())
-        .collect();
-    shards.sort();
-    shards
-}
-
-fn finished(out: &mut impl Write, path: &Path) -> Result<(), CommandError> {
-    let reader = open_any_result(path)?;
-    let text = |name: &str| reader.attribute_text("/", name).unwrap_or_default();
-    writeln!(out, "{}: finished {}, uplift {} ({})", path.display(), text("created"), text("version"), text("commit"))?;
-    writeln!(out, "  study    {} {}", text("study_file"), text("title"))?;
-    writeln!(out, "  records  {}", text("record_set"))?;
-    if holds_displacement_spectra(&reader) {
-        let analyses = reader.attribute_u64("/spectra", "analyses").unwrap_or_default();
-        writeln!(out, "  spectra  displacement spectra of {}s, {analyses} analyses", text("structure"))?;
-        for set in reader.children("/sets").unwrap_or_default() {
-            let records = reader.attribute_u64(&format!("/sets/{set}"), "records").unwrap_or_default();
-            writeln!(out, "  set      {set}: {records} records, {} motions", 2 * records)?;
-        }
-        if reader.exists("/design") {
-            writeln!(out, "  design   uplift table {}", path.display())?;
-        }
-        return Ok(());
-    }
-    for measure in reader.children("/ida").unwrap_or_default() {
-        let analyses = reader.attribute_u64(&format!("/ida/{measure}"), "analyses").unwrap_or_default();
-        writeln!(out, "  {:<8} {analyses} analyses", measure.to_uppercase())?;
-    }
-    if let Ok(sites) = reader.axis_text("site") {
-        writeln!(out, "  sites    {}", sites.join(", "))?;
-    }
-    let added: Vec<String> = reader
-        .children("/")?
-        .into_iter()
-        .filter(|group| ["bootstrap", "influence", "measures"].contains(&group.as_str()))
-        .collect();
-    if !added.is_empty() {
-        writeln!(out, "  added    {}", added.join(", "))?;
-    }
-    Ok(())
-}
-
-fn pieces(out: &mut impl Write, path: &Path, finding: &Finding) -> Result<(), CommandError> {
-    let head = &finding.head;
-    let what = if head.shards > 1 {
-        format!("shard {} of {}", head.shard, head.shards)
-    } else {
-        "kept of an unfinished run".to_owned()
-    };
-    // pieces of another study may be among them
-    let done = (finding.kept.len() as u64).min(head.pieces);
-    writeln!(
-        out,
-        "{}: {what}, {done} of {} pieces ({:.0} %) {}",
-        path.display(),
-        head.pieces,
-        100.0 * done as f64 / head.pieces.max(1) as f64,
-        head.title
-    )?;
-    if finding.damaged_bytes > 0 {
-        writeln!(
-            out,
-            "  pieces that were cut off or damaged ({} bytes) will be computed again",
-            finding.damaged_bytes
-        )?;
-    }
-    Ok(())
+    print_status(&status_of(&arguments.input)?)
 }
