@@ -142,6 +142,6 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         Command::Plot(arguments) => plot::plot(arguments, &terminal),
         Command::Report(arguments) => report::report(arguments, &terminal),
         Command::Export(arguments) => export::export(arguments, &terminal),
-        Command::Table(arguments) => table::table(arguments),
+        Command::Table(arguments) => table::table(arguments, &terminal),
     }
 }

@@ -5,9 +5,10 @@ use std::path::Path;
 
 use uplift_motion::Orientation;
 
+use super::collect::Component;
+use super::name;
 use super::search_results::{Entry, SearchResults};
 use super::warnings::Warning;
-use super::{Component, name};
 
 /// Two horizontal components of one record, not measured yet.
 #[derive(Debug, Clone)]
