@@ -64,7 +64,8 @@ pub enum UpliftError {
     /// Resamples that cannot be drawn.
     #[error(transparent)]
     Bootstrap(#[from] BootstrapError),
-    /// A displacement spectrum that cannot be computed; one that was told to stop is [`Interrupted`](Self::Interrupted).
+    /// A displacement spectrum that cannot be computed; one that was told to stop is
+    /// [`Interrupted`](Self::Interrupted).
     #[error(transparent)]
     Spectra(SpectraError),
     /// A record cannot be read or used, or no synthetic one can be made as asked.
@@ -85,7 +86,10 @@ pub enum UpliftError {
     )]
     Interrupted,
     /// The user stopped a computation that goes on where it stopped.
-    #[error("interrupted: {done} of {total} {what} are kept in {}. Run the same command to go on from there", path.display())]
+    #[error(
+        "interrupted: {done} of {total} {what} are kept in {}. Run the same command to go on from there",
+        path.display()
+    )]
     Paused {
         /// What is counted, in the plural.
         what: &'static str,

@@ -118,8 +118,8 @@ pub(super) fn bands_of_strength(
     Ok(done)
 }
 
-/// The bands of one strength and site over `[poe, size]`, of all pairs of a replicate and a branch: a replicate counts as much in every branch, and a branch
-/// as much as it weighs.
+/// The bands of one strength and site over `[poe, size]`, of all pairs of a replicate and a branch: a replicate counts
+/// as much in every branch, and a branch as much as it weighs.
 fn joint_bands(
     demand: &PooledDemand,
     branches: &[(f64, StripeWeights)],

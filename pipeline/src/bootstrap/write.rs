@@ -112,7 +112,8 @@ fn add_bands(writer: &mut LabelledWriter, file: &BandsFile<'_>) -> Result<(), La
     Ok(())
 }
 
-/// Names of both limits and the median: `u05_m`, `u50_m`, `u95_m` for a confidence of 0.9, `u02_5_m` and `u97_5_m` for 0.95.
+/// Names of both limits and the median: `u05_m`, `u50_m`, `u95_m` for a confidence of 0.9, `u02_5_m` and `u97_5_m` for
+/// 0.95.
 fn limit_names(confidence: f64) -> [String; 3] {
     let tail = 0.5 * (1.0 - confidence);
     [tail, 0.5, 1.0 - tail].map(|level| percentile_name(100.0 * level))

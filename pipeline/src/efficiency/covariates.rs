@@ -7,8 +7,8 @@ use crate::result::{StoredStripes, open_result};
 /// Key, array, what it is, and the form in which it enters a line.
 type Form = (&'static str, &'static str, &'static str, fn(f64) -> f64);
 
-/// What a result knows of its records, in the form in which a demand may depend on it: magnitude, the logarithm of the distance, the logarithm
-/// of the significant duration. What is known of fewer than three records is left out.
+/// What a result knows of its records, in the form in which a demand may depend on it: magnitude, the logarithm of the
+/// distance, the logarithm of the significant duration. What is known of fewer than three records is left out.
 ///
 /// # Errors
 /// A file that is damaged.

@@ -34,7 +34,8 @@ pub struct MeasureEfficiency {
     pub initiation: Vec<f64>,
     /// Records that have such a level.
     pub initiation_records: Vec<u32>,
-    /// The line of the mean residuals over each covariate, `[covariate][strength]`; none where there are too few records or stripes.
+    /// The line of the mean residuals over each covariate, `[covariate][strength]`; none where there are too few
+    /// records or stripes.
     pub lines: Vec<Vec<Option<Line>>>,
 }
 

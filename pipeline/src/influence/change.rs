@@ -15,8 +15,8 @@ pub(super) struct Influence {
     pub(super) measure: IntensityMeasure,
     /// Ordinates without each record over `[site, poe, record, strength]`, m; empty for a single record.
     pub(super) without_m: Vec<f64>,
-    /// Shares of the risk at each ordinate over `[site, poe, strength, bin]`. Bin 0 lies below the first level, bin i between the levels i
-    /// and i + 1 counted from 1, the last above all levels. NaN where there is no ordinate.
+    /// Shares of the risk at each ordinate over `[site, poe, strength, bin]`. Bin 0 lies below the first level, bin i
+    /// between the levels i and i + 1 counted from 1, the last above all levels. NaN where there is no ordinate.
     pub(super) shares: Vec<f64>,
 }
 
@@ -88,7 +88,8 @@ pub(super) fn influence_by(stored: &StoredStripes, measure: &StoredMeasure) -> R
     Ok(Influence { measure: measure.measure, without_m, shares })
 }
 
-/// The influence of every record on one spectrum, the most influential first; empty where no ordinate lies above uplift.
+/// The influence of every record on one spectrum, the most influential first; empty where no ordinate lies above
+/// uplift.
 pub(super) fn rank_records(
     stored: &StoredStripes,
     influence: &Influence,
@@ -118,8 +119,8 @@ pub(super) fn rank_records(
     all
 }
 
-/// The level below which a share of the risk lies, in the unit of the levels: linear within a bin, 0 at its lower end for the first, the last
-/// level for the last. NaN where there is no ordinate.
+/// The level below which a share of the risk lies, in the unit of the levels: linear within a bin, 0 at its lower end
+/// for the first, the last level for the last. NaN where there is no ordinate.
 ///
 /// * `shares` — of one ordinate, as in [`Influence::shares`]
 pub(super) fn level_of_share(levels: &[f64], shares: &[f64], share: f64) -> f64 {

@@ -1,4 +1,5 @@
-//! How often a structure overturns, by its equivalent oscillator and by the rigid block that rotates as it does (Section 2.4.3).
+//! How often a structure overturns, by its equivalent oscillator and by the rigid block that rotates as it does
+//! (Section 2.4.3).
 
 use std::path::{Path, PathBuf};
 
@@ -29,8 +30,8 @@ pub struct OverturningOptions {
     pub site: Option<String>,
     /// Intensity measure; all of the result where none is given.
     pub measure: Option<IntensityMeasure>,
-    /// One coefficient of restitution for both models, in place of the structure's, the study's (oscillator) and that of
-    /// angular momentum (block).
+    /// One coefficient of restitution for both models, in place of the structure's, the study's (oscillator) and that
+    /// of angular momentum (block).
     pub restitution: Option<f64>,
     /// CSV file of the collapse fragility to write; the risk goes to one that ends in .risk.csv beside it.
     pub table: Option<PathBuf>,
@@ -118,8 +119,8 @@ pub struct SiteRisk {
 /// How often `structure` overturns under the records and the hazard of the result at `result`.
 ///
 /// # Errors
-/// A file that is missing, damaged, no result, or without sites; a site or measure that it does not have; a restitution that
-/// cannot be; records that cannot be read; tables that cannot be written or would replace something else;
+/// A file that is missing, damaged, no result, or without sites; a site or measure that it does not have; a restitution
+/// that cannot be; records that cannot be read; tables that cannot be written or would replace something else;
 /// [`UpliftError::Interrupted`] where `events` say so.
 pub fn overturning(
     structure: &Structure,
@@ -149,7 +150,8 @@ pub fn overturning(
         // what is lost when a record ends has overturned, whoever looks
         study.oscillator.free_vibration = true;
         notes.push(
-            "the study ends with its records (free_vibration = false); here what falls after their end counts as overturned"
+            "the study ends with its records (free_vibration = false); here what falls after their end counts as \
+             overturned"
                 .to_owned(),
         );
     }
@@ -221,8 +223,8 @@ fn notes_on(
         && a.restitution().to_bits() != b.restitution().to_bits()
     {
         notes.push(format!(
-            "the oscillator keeps {} of its velocity at an impact, the block {:.4}: part of what they differ by is that \
-             (--restitution gives both the same)",
+            "the oscillator keeps {} of its velocity at an impact, the block {:.4}: part of what they differ by is \
+             that (--restitution gives both the same)",
             a.restitution(),
             b.restitution()
         ));
@@ -236,8 +238,8 @@ fn notes_on(
             let largest = found.risks.iter().map(EventRisk::tail_share).fold(0.0, f64::max);
             if largest > TAIL_SHARE_LIMIT {
                 notes.push(format!(
-                    "up to {} of the risk of the {} by {label} comes from outside the analysed levels: they should reach \
-                     further",
+                    "up to {} of the risk of the {} by {label} comes from outside the analysed levels: they should \
+                     reach further",
                     per_cent((1000.0 * largest).round() / 1000.0),
                     model.name()
                 ));
