@@ -71,7 +71,8 @@ pub enum UpliftError {
     /// Resamples that cannot be drawn.
     #[error(transparent)]
     Bootstrap(#[from] BootstrapError),
-    /// A displacement spectrum that cannot be computed; one that was told to stop is [`Interrupted`](Self::Interrupted).
+    /// A displacement spectrum that cannot be computed; one that was told to stop is
+    /// [`Interrupted`](Self::Interrupted).
     #[error(transparent)]
     Spectra(SpectraError),
     /// A record cannot be read or used, or no synthetic one can be made as asked.

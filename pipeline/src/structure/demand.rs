@@ -1,4 +1,5 @@
-//! The demand on a structure itself: its own oscillator put through the records and the hazard that a spectrum was made from.
+//! The demand on a structure itself: its own oscillator put through the records and the hazard that a spectrum was made
+//! from.
 
 use serde::Serialize;
 use uplift_oscillator::PostUplift;
@@ -12,14 +13,17 @@ use crate::displacement::RULES;
 use crate::error::UpliftError;
 use crate::uniform_risk::Stripes;
 
-/// What the structure's own stripes say, in its own displacement; infinite where it overturns more often than the target.
+/// What the structure's own stripes say, in its own displacement; infinite where it overturns more often than the
+/// target.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ExactDemand {
     /// Nonlinear time histories.
     pub analyses: u64,
-    /// Demand on the study's ZSBE oscillator at the structure's strength, m: what the spectrum has there, without interpolation.
+    /// Demand on the study's ZSBE oscillator at the structure's strength, m: what the spectrum has there, without
+    /// interpolation.
     pub zero_stiffness_demand_of_spectrum_m: f64,
-    /// Demand on the structure's own ZSBE oscillator, with its uplift displacement and restitution, m: what the rules start from.
+    /// Demand on the structure's own ZSBE oscillator, with its uplift displacement and restitution, m: what the rules
+    /// start from.
     pub zero_stiffness_demand_m: f64,
     /// Demand on the structure, m.
     pub demand_m: f64,
@@ -38,14 +42,14 @@ pub struct ExactDemand {
     pub noise: DemandNoise,
 }
 
-/// The same for structures whose strength is up to one percent lower or higher: what is left of a number in the noise of a
-/// chaotic system.
+/// The same for structures whose strength is up to one percent lower or higher: what is left of a number in the noise
+/// of a chaotic system.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct DemandNoise {
     /// Demand on the structure, m.
     pub demand_m: Noisy,
-    /// Error of the rules against it, from the exact demand on the ZSBE oscillator of the same strength; none for a structure
-    /// without capacity.
+    /// Error of the rules against it, from the exact demand on the ZSBE oscillator of the same strength; none for a
+    /// structure without capacity.
     pub rule_errors: Option<RuleErrors>,
     /// Frequency of exceeding the capacity, 1/yr; none for a structure without one.
     pub beyond_capacity_per_year: Option<Noisy>,

@@ -1,9 +1,10 @@
-//! A structure checked against a uniform risk spectrum, and the check itself put to the test (Sections 3.3.2 and 3.4.5).
+//! A structure checked against a uniform risk spectrum, and the check itself put to the test (Sections 3.3.2 and
+//! 3.4.5).
 //!
-//! The rules take the demand on a structure from that on the ZSBE oscillator of the same strength. Under one set of records scaled
-//! to one intensity their error is known (Tables 3.2 to 3.7); here it is that of the ordinate of a given risk, over all
-//! intensities of a site: the structure's own oscillator is put through the records and the hazard that the spectrum was made
-//! from.
+//! The rules take the demand on a structure from that on the ZSBE oscillator of the same strength. Under one set of
+//! records scaled to one intensity their error is known (Tables 3.2 to 3.7); here it is that of the ordinate of a given
+//! risk, over all intensities of a site: the structure's own oscillator is put through the records and the hazard that
+//! the spectrum was made from.
 
 use std::path::{Path, PathBuf};
 
@@ -293,7 +294,8 @@ fn differences(structure: &Structure, source: &StudyOfResult, restitution: f64) 
     let uplift_m = system.spectral_uplift_displacement_m();
     if apart(uplift_m, oscillator.uplift_displacement_m) {
         notes.push(format!(
-            "the spectrum is of an uplift displacement of {} mm, the structure's is {} mm, over Γ {:.3} mm (Section 3.5)",
+            "the spectrum is of an uplift displacement of {} mm, the structure's is {} mm, over Γ {:.3} mm (Section \
+             3.5)",
             1e3 * oscillator.uplift_displacement_m,
             1e3 * system.conditions().uplift_displacement_m(),
             1e3 * uplift_m

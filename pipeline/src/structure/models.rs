@@ -1,4 +1,5 @@
-//! How a structure is modelled where it may overturn: as its equivalent oscillator, and as the block that rotates as it does.
+//! How a structure is modelled where it may overturn: as its equivalent oscillator, and as the block that rotates as it
+//! does.
 
 use uplift_block::RockingBlock;
 use uplift_ida::System;

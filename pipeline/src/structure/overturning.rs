@@ -1,4 +1,5 @@
-//! How often a structure overturns, by its equivalent oscillator and by the rigid block that rotates as it does (Section 2.4.3).
+//! How often a structure overturns, by its equivalent oscillator and by the rigid block that rotates as it does
+//! (Section 2.4.3).
 
 use std::path::{Path, PathBuf};
 
@@ -33,8 +34,8 @@ pub struct OverturningOptions {
     pub site: Option<String>,
     /// Intensity measure; all of the result where none is given.
     pub measure: Option<IntensityMeasure>,
-    /// One coefficient of restitution for both models, in place of the structure's, the study's (oscillator) and that of
-    /// angular momentum (block).
+    /// One coefficient of restitution for both models, in place of the structure's, the study's (oscillator) and that
+    /// of angular momentum (block).
     pub restitution: Option<f64>,
     /// CSV file of the collapse fragility to write; the risk goes to one that ends in .risk.csv beside it.
     pub table: Option<PathBuf>,
@@ -293,8 +294,8 @@ fn notes_on(
         && a.restitution().to_bits() != b.restitution().to_bits()
     {
         notes.push(format!(
-            "the oscillator keeps {} of its velocity at an impact, the block {:.4}: part of what they differ by is that \
-             (--restitution gives both the same)",
+            "the oscillator keeps {} of its velocity at an impact, the block {:.4}: part of what they differ by is \
+             that (--restitution gives both the same)",
             a.restitution(),
             b.restitution()
         ));
@@ -308,8 +309,8 @@ fn notes_on(
             let largest = found.risks.iter().map(EventRisk::tail_share).fold(0.0, f64::max);
             if largest > TAIL_SHARE_LIMIT {
                 notes.push(format!(
-                    "up to {} of the risk of the {} by {label} comes from outside the analysed levels: they should reach \
-                     further",
+                    "up to {} of the risk of the {} by {label} comes from outside the analysed levels: they should \
+                     reach further",
                     per_cent((1000.0 * largest).round() / 1000.0),
                     model.kind()
                 ));

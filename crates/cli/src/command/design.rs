@@ -27,7 +27,12 @@ pub(super) struct DesignArguments {
     #[arg(long)]
     measure: Option<IntensityMeasure>,
     /// Safety factor on the demand (Eq. 3.15)
-    #[arg(long, value_name = "FS", default_value_t = DesignOptions::default().safety_factor, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "FS",
+        default_value_t = DesignOptions::default().safety_factor,
+        allow_negative_numbers = true
+    )]
     safety_factor: f64,
     /// Read the spectrum and apply the rules, without analysing the structure itself
     #[arg(long)]

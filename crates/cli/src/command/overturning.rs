@@ -1,5 +1,5 @@
-//! `uplift overturning`: how often a structure overturns, by its equivalent oscillator and by the rigid block that rotates as it
-//! does.
+//! `uplift overturning`: how often a structure overturns, by its equivalent oscillator and by the rigid block that
+//! rotates as it does.
 
 use std::path::PathBuf;
 
@@ -28,7 +28,8 @@ pub(super) struct OverturningArguments {
     /// Intensity measure: pgv or pga [default: all of the result]
     #[arg(long)]
     measure: Option<IntensityMeasure>,
-    /// One coefficient of restitution for both models, in place of the structure's, the study's (oscillator) and that of angular momentum (block)
+    /// One coefficient of restitution for both models, in place of the structure's, the study's (oscillator) and that
+    /// of angular momentum (block)
     #[arg(long, value_name = "R", allow_negative_numbers = true)]
     restitution: Option<f64>,
     /// Print everything as JSON
