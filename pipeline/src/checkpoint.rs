@@ -19,7 +19,7 @@ mod open;
 mod row_file;
 
 pub use error::CheckpointError;
-pub(crate) use key::hexadecimal;
+
 pub use key::{RowKey, RowKeys, motion_key, oscillator_key};
 pub use open::Checkpoint;
 pub use row_file::{Finding, FinishedRows, RowFile, RowFileHead, checkpoint_path};

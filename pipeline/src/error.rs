@@ -60,7 +60,7 @@ pub enum UpliftError {
     Structure(#[from] StructureError),
     /// An analysis that cannot be planned or finished; one that was told to stop is [`Interrupted`](Self::Interrupted).
     #[error(transparent)]
-    Ida(IdaError),
+    Analysis(IdaError),
     /// Demands of which no fragility can be made.
     #[error(transparent)]
     Fragility(#[from] FragilityError),
@@ -145,7 +145,7 @@ impl From<IdaError> for UpliftError {
     fn from(error: IdaError) -> Self {
         match error {
             IdaError::Cancelled => Self::Interrupted,
-            other => Self::Ida(other),
+            other => Self::Analysis(other),
         }
     }
 }

@@ -1,18 +1,23 @@
 //! What the jobs report, as a person reads it; a program gets the same values as JSON.
 
 mod bootstrap;
+mod design;
 mod displacement;
 mod efficiency;
 mod influence;
+mod overturning;
 mod plan;
 mod pulse;
 mod response;
 mod run;
+mod structure;
 mod uniform_risk;
 
 pub(crate) use bootstrap::print_bootstrap;
+pub(crate) use design::print_design;
 pub(crate) use efficiency::print_efficiency;
 pub(crate) use influence::print_influence;
+pub(crate) use overturning::print_overturning;
 pub(crate) use plan::print_plan;
 pub(crate) use pulse::print_pulses;
 pub(crate) use response::print_response;

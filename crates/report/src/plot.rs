@@ -1,4 +1,4 @@
-//! Figures of results, curves, pulses and responses, written.
+//! Figures of results, curves, pulses, responses and overturnings, written.
 
 use std::path::{Path, PathBuf};
 
@@ -8,8 +8,9 @@ use uplift::events::Events;
 use uplift::outputs::provide_folder;
 use uplift::pulses::PulseReport;
 use uplift::response::ResponseReport;
+use uplift::structure::OverturningReport;
 
-use crate::figures::{history_figure, pulse_figures, result_figures};
+use crate::figures::{history_figure, overturning_figure, pulse_figures, result_figures};
 use crate::files::{FigureOptions, write_figure_file};
 
 /// Which figures of a result are drawn, and where.
@@ -83,4 +84,12 @@ pub fn plot_response(report: &ResponseReport, file: &Path) -> Result<(), UpliftE
     let record = report.record.file_name().unwrap_or_default().to_string_lossy();
     let title = format!("{record} times {}, strength {}", report.scale, report.strength);
     write_figure_file(&history_figure(&title, history, report.uplift_displacement_m), file)
+}
+
+/// Draws the collapse fragility of a structure as `file`, whose ending tells the format.
+///
+/// # Errors
+/// As [`write_figure_file`].
+pub fn plot_overturning(report: &OverturningReport, file: &Path) -> Result<(), UpliftError> {
+    write_figure_file(&overturning_figure(report), file)
 }

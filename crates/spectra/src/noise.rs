@@ -39,7 +39,7 @@ impl NoiseSweep {
 }
 
 /// A value with its range over a sweep.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Noisy {
     /// At the point itself.
     pub value: f64,

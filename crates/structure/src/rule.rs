@@ -89,7 +89,7 @@ impl Demand {
 /// assert!((demand.displacement_m() - 0.576).abs() < 0.001);
 /// # Ok::<(), uplift_structure::StructureError>(())
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Rule {
     /// Both systems reach the same displacement.

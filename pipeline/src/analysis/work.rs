@@ -6,10 +6,11 @@ use std::time::{Duration, Instant};
 use sha2::{Digest, Sha256};
 use uplift_ida::{AnalysisRow, Cells, IdaError, Peaks, Plan, Shard, estimate};
 
-use crate::checkpoint::{Checkpoint, FinishedRows, RowFileHead, RowKey, RowKeys, hexadecimal};
+use crate::checkpoint::{Checkpoint, FinishedRows, RowFileHead, RowKey, RowKeys};
 use crate::error::UpliftError;
 use crate::events::{Events, Progress};
 use crate::text::thousands;
+use uplift_labelled::hexadecimal;
 
 /// A plan, and what is told of it.
 #[derive(Debug)]

@@ -4,6 +4,7 @@ use sha2::{Digest, Sha256};
 use uplift_ida::{Axes, NUMERICS, Plan};
 use uplift_motion::Accelerogram;
 
+use uplift_labelled::hexadecimal;
 use uplift_oscillator::PostUplift;
 use uplift_study::UniformRiskStudy;
 
@@ -97,10 +98,6 @@ impl RowKeys {
 /// So many numbers, and these: lists that follow each other are not taken for others.
 fn bytes(values: &[f64]) -> Vec<u8> {
     (values.len() as u64).to_le_bytes().into_iter().chain(values.iter().flat_map(|value| value.to_le_bytes())).collect()
-}
-
-pub(crate) fn hexadecimal(bytes: &[u8]) -> String {
-    bytes.iter().fold(String::new(), |text, byte| text + &format!("{byte:02x}"))
 }
 
 #[cfg(test)]

@@ -64,10 +64,7 @@ impl Reading {
 }
 
 /// All demands of one strength, sorted once for all sites.
-pub(crate) fn pooled_demand(
-    stripes: &Stripes,
-    strength: usize,
-) -> Result<PooledDemand, Box<dyn std::error::Error + Send + Sync>> {
+pub(crate) fn pooled_demand(stripes: &Stripes, strength: usize) -> Result<PooledDemand, UpliftError> {
     let Axes { motions: records, systems: strengths, scales: levels } = stripes.peaks.axes();
     let edp_m = &stripes.peaks.displacement_m()[strength * levels..];
     Ok(PooledDemand::new(&Stripe::strided(&stripes.levels, edp_m, records, strengths * levels)?)?)
