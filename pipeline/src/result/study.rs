@@ -64,8 +64,9 @@ impl ResultFile {
         let axes = self.axes_with_sites()?;
         let mut study = self.stored_study()?;
         if let Some(manifest) = manifest {
-            let manifest = std::path::absolute(manifest).unwrap_or_else(|_| manifest.to_owned());
-            study.records.source = study.records.source.by_manifest(manifest);
+            let absolute = std::path::absolute(manifest)
+                .map_err(|error| UpliftError::input(format!("{}: {error}", manifest.display())))?;
+            study.records.source = study.records.source.by_manifest(absolute);
         }
         let lengths = [
             (axis::SITE, axes.sites.len()),
