@@ -264,7 +264,8 @@ pub(super) fn read_reference(path: &Path) -> Result<Vec<Reference>, CommandError
         .collect();
     if !table.has("site") || !table.has("sample_size") || measures.is_empty() {
         return Err(table
-            .fail("needs the columns site, sample_size, and pgv_e_median_pct with pgv_r_90ci_pct or the same of pga"));
+            .fail("needs the columns site, sample_size, and pgv_e_median_pct with pgv_r_90ci_pct or the same of pga")
+            .into());
     }
     (0..table.rows())
         .map(|row| {
