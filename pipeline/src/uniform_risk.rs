@@ -27,7 +27,7 @@ pub(crate) use plan::plan;
 pub use report::{BranchReport, CoefficientsReport, MeasureReport, RunReport, SpectrumReport};
 pub use result_of::result_of;
 pub(crate) use run::run;
-pub use shard::{MOST_SHARDS, ShardReport, merge, run_shard, shard_path};
+pub use shard::{MOST_SHARDS, ShardReport, check_shards, merge, run_shard, shard_path};
 pub(crate) use spectra::pooled_demand;
 pub use spectra::{Spectra, uniform_risk_spectra};
 pub(crate) use stripes::stripe_records;

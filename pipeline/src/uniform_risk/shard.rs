@@ -7,12 +7,12 @@ use serde::Serialize;
 use uplift_ida::Part;
 use uplift_study::{AnyStudy, ResolvedStudy};
 
-use super::{Work, open};
+use super::{Work, open, site_table};
 use crate::checkpoint::{KeptPieces, PieceFile, PieceFileHead};
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::inputs::{read_hazard, read_records};
-use crate::result::ResultLock;
+use crate::result::{ResultLock, check_target};
 use crate::run::{RunOptions, RunReport, run_with};
 
 /// Most parts that a run is cut into.
@@ -65,6 +65,18 @@ pub fn run_shard(
     events.kept_in(path);
     work.carry_out(&known, &file, part, events)?;
     Ok(ShardReport { shard: part.index + 1, shards: part.count, rows: head.pieces, file: path.to_owned() })
+}
+
+/// Looks at everything that shards of a study share before machines begin with theirs, so that a mistake is said once: the
+/// place of the result at `path`, the hazard, the table of sites.
+///
+/// # Errors
+/// As [`run`](crate::run()).
+pub fn check_shards(study: &ResolvedStudy, path: &Path, events: &dyn Events) -> Result<(), UpliftError> {
+    check_target(path)?;
+    read_hazard(study)?;
+    site_table::read(study, path, events)?;
+    Ok(())
 }
 
 /// Joins the `shards` of a run into its result.

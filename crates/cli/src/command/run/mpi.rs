@@ -1,22 +1,25 @@
 //! `uplift run` under `mpirun`: every rank computes one shard of the stripes, and the first joins them.
 //!
-//! The ranks share nothing but the file system. MPI says who they are, lets the first wait for the others, and ends all when one fails: the
-//! shards are then as those of any run that stopped, and the same command goes on from there.
+//! The ranks share nothing but the file system. MPI says who they are, lets the first wait for the others, and ends all
+//! when one fails: the shards are then as those of any run that stopped, and the same command goes on from there.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::Ordering;
+use std::path::PathBuf;
 use std::time::Duration;
 
 use ::mpi::Threading;
 use ::mpi::topology::SimpleCommunicator;
 use ::mpi::traits::{Communicator, CommunicatorCollectives};
 
-use super::{
-    CommandError, KeptPieces, Part, RunArguments, Terminal, check_target, print_outcome, read_hazard, run_shard,
-    run_study_from, shard_path, site_table,
-};
-use uplift::checkpoint::PieceFile;
 use uplift::events::Events;
+use uplift::uniform_risk::{check_shards, merge, run_shard, shard_path};
+use uplift::{UpliftError, study::ResolvedStudy};
+use uplift_ida::Part;
+
+use super::{RunArguments, run_options};
+use crate::error::CommandError;
+use crate::show::{print_json, print_run};
+use crate::terminal::{Terminal, tell, tell_error};
 
 /// What the starters of ranks tell them: Open MPI, `PMIx` (Slurm among others), and PMI (MPICH, Intel MPI, Slurm).
 const STARTED_BY: [&str; 3] = ["OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"];
@@ -38,7 +41,7 @@ pub(super) fn run(arguments: &RunArguments, terminal: &Terminal) -> Option<Resul
     match outcome {
         Ok(done @ (Ok(()) | Err(CommandError::OutputClosed))) => Some(done),
         // a stop is sent to all ranks, and one says so
-        Ok(Err(error @ (CommandError::Paused { .. } | CommandError::Interrupted))) => {
+        Ok(Err(error @ CommandError::Uplift(UpliftError::Paused { .. } | UpliftError::Interrupted))) => {
             if index == 0 {
                 tell_error(&error);
             }
@@ -48,7 +51,7 @@ pub(super) fn run(arguments: &RunArguments, terminal: &Terminal) -> Option<Resul
         Ok(Err(error)) => {
             terminal.set_farewell(format!("rank {index} of {count} has ended the run"));
             let host = ::mpi::environment::processor_name().unwrap_or_default();
-            eprintln!("uplift: rank {index} of {count} on {host} ends the run:");
+            tell(&format!("uplift: rank {index} of {count} on {host} ends the run:"));
             tell_error(&error);
             world.abort(error.exit_code().into())
         }
@@ -72,53 +75,48 @@ fn run_rank(
         return Err(CommandError::Usage("each rank takes its own shard: leave --shard out under mpirun".to_owned()));
     }
     let study = arguments.study.load()?;
-    let path = arguments.output.clone().unwrap_or_else(|| study.output.file.clone());
+    let options = run_options(&arguments.study, arguments.output.clone());
+    let path = options.result_file(&study.output.file);
     let own = terminal.hushed(!first);
     if first {
-        check_target(&path)?;
-        read_hazard(&study)?;
-        site_table::read(&study, &path, &own)?;
+        check_shards(&study, path, &own)?;
         wait(world, terminal)?;
     }
     let threads = rayon::current_num_threads();
     // said now, since a launcher that ends the ranks may no longer listen to them
     own.say(&format!(
-        "ranks    {}, this one with {threads} threads; whatever ends them, what they finished is kept and the same command goes on",
+        "ranks    {}, this one with {threads} threads; whatever ends them, what they finished is kept and the same \
+         command goes on",
         part.count
     ));
-    let shard = shard_path(&path, part);
-    let pieces = run_shard(&study, &shard, part, Some(&path), &own)?;
-    wait(world, terminal).map_err(|_| CommandError::Paused {
+    let shard = shard_path(path, part);
+    let report = run_shard(&study, &shard, part, Some(path), &own)?;
+    wait(world, terminal).map_err(|_| UpliftError::Paused {
         what: "pieces",
-        done: pieces,
-        total: pieces,
+        done: report.rows,
+        total: report.rows,
         path: shard,
     })?;
-    if !first {
-        return Ok(());
-    }
+    if first { join(arguments, &study, part.count, terminal) } else { Ok(()) }
+}
 
-    let mut kept = KeptPieces::default();
-    let mut work = None;
-    let shards: Vec<_> = (0..part.count).map(|index| shard_path(&path, Part { index, ..part })).collect();
-    for shard in &shards {
-        let found = PieceFile::read(shard)?.ok_or_else(|| {
-            CommandError::input(format!(
-                "{}: is not there: the result must lie in a folder that all ranks share",
-                shard.display()
-            ))
-        })?;
-        if *work.get_or_insert_with(|| found.head.work.clone()) != found.head.work {
-            return Err(CommandError::input(format!(
-                "{}: is a shard of other work: every node must have the same study, records and program",
-                shard.display()
-            )));
-        }
-        kept.extend(found.kept);
+/// Makes the result of the shards of all ranks, which are then of no use.
+fn join(arguments: &RunArguments, study: &ResolvedStudy, count: u64, terminal: &Terminal) -> Result<(), CommandError> {
+    let options = run_options(&arguments.study, arguments.output.clone());
+    let path = options.result_file(&study.output.file);
+    let shards: Vec<PathBuf> = (0..count).map(|index| shard_path(path, Part { index, count })).collect();
+    if let Some(missing) = shards.iter().find(|shard| !shard.exists()) {
+        return Err(CommandError::input(format!(
+            "{}: is not there: the result must lie in a folder that all ranks share",
+            missing.display()
+        )));
     }
-    run_study_from(&study, &arguments.study.study, &path, kept, terminal, |outcome, files, seconds| {
-        print_outcome(arguments.json, terminal, outcome, files, seconds)
-    })?;
+    let report = merge(study, &shards, &options, terminal)?;
+    if arguments.json {
+        print_json(&report)?
+    } else {
+        print_run(&report, terminal)?
+    }
     for shard in &shards {
         let _ = std::fs::remove_file(shard);
     }
@@ -136,7 +134,7 @@ fn wait(world: &SimpleCommunicator, terminal: &Terminal) -> Result<(), CommandEr
         if terminal.cancelled() {
             // the program ends here; a request must not be dropped before it is complete
             std::mem::forget(all_here);
-            return Err(CommandError::Interrupted);
+            return Err(UpliftError::Interrupted.into());
         }
         std::thread::sleep(LOOK_EVERY);
     }
