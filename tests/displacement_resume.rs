@@ -1,4 +1,5 @@
-//! Displacement spectra that are stopped, cut into shards and gone on with: the numbers are those of an undisturbed run.
+//! Displacement spectra that are stopped, cut into shards and gone on with: the numbers are those of an undisturbed
+//! run.
 
 use std::path::Path;
 use std::process::Stdio;

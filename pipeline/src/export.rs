@@ -61,8 +61,8 @@ pub struct ExportReport {
 /// Writes the spectra and coefficients of a result for other programs.
 ///
 /// # Errors
-/// No format, or several for one file; a file that is no result, is damaged or has no spectra; a file that would overwrite the
-/// result or what is not this program's, or cannot be written.
+/// No format, or several for one file; a file that is no result, is damaged or has no spectra; a file that would
+/// overwrite the result or what is not this program's, or cannot be written.
 pub fn export(options: &ExportOptions, events: &dyn Events) -> Result<ExportReport, UpliftError> {
     if options.formats.is_empty() || (options.output.is_some() && options.formats.len() > 1) {
         return Err(UpliftError::Usage("say --csv, --json or --mat; -o goes with one of them".to_owned()));

@@ -24,7 +24,8 @@ pub struct TableOptions {
     /// The result file.
     pub result: PathBuf,
     /// CSV table to compare with: for uniform risk spectra with the columns `site`, `poe_50y` (or `poe`), `c0_m`, `c1`,
-    /// `c2_m`, `rmse_m`; for displacement spectra `record_set`, `scaling`, `quantity`, `value` and, for oscillators, `rule`.
+    /// `c2_m`, `rmse_m`; for displacement spectra `record_set`, `scaling`, `quantity`, `value` and, for oscillators,
+    /// `rule`.
     pub reference: Option<PathBuf>,
     /// Which intensity measure, none for all; not of displacement spectra.
     pub measure: Option<IntensityMeasure>,

@@ -112,8 +112,8 @@ pub struct HazardPlotOptions {
 /// Draws hazard curves in one figure.
 ///
 /// # Errors
-/// Curves that cannot be read, or are too many for one figure; a figure that would overwrite one of the files, or cannot be
-/// written.
+/// Curves that cannot be read, or are too many for one figure; a figure that would overwrite one of the files, or
+/// cannot be written.
 pub fn plot_hazard(options: &HazardPlotOptions, events: &dyn Events) -> Result<PlotReport, UpliftError> {
     check_figure_file(&options.output)?;
     refuse_overwriting(&options.output, &options.files)?;

@@ -12,7 +12,8 @@ use crate::error::UpliftError;
 use crate::events::Events;
 use crate::result::ResultLock;
 
-/// Finished analysis rows of a job: those known from before, and a file that takes up each further one when it is finished.
+/// Finished analysis rows of a job: those known from before, and a file that takes up each further one when it is
+/// finished.
 #[derive(Debug)]
 pub struct Checkpoint {
     /// None where a job goes on without one.
@@ -30,8 +31,8 @@ impl Checkpoint {
         Self { file: None, rows: FinishedRows::default(), damaged_bytes: 0, _lock: None }
     }
 
-    /// The file at `path` of the work that `head` tells of, with the rows that it holds. The caller sees to it that no other job
-    /// has it too.
+    /// The file at `path` of the work that `head` tells of, with the rows that it holds. The caller sees to it that no
+    /// other job has it too.
     ///
     /// # Errors
     /// A file that cannot be written, or that holds something else.
@@ -40,9 +41,9 @@ impl Checkpoint {
         Ok(Self { file: Some(file), rows: found.rows, damaged_bytes: found.damaged_bytes, _lock: None })
     }
 
-    /// The checkpoint of a job that was asked of the result at `result`: a file beside it with `name` in its own name, that of the
-    /// command and the structure, say. Where no file can be written there, or another job has it, this one goes on without, and
-    /// says so.
+    /// The checkpoint of a job that was asked of the result at `result`: a file beside it with `name` in its own name,
+    /// that of the command and the structure, say. Where no file can be written there, or another job has it, this one
+    /// goes on without, and says so.
     pub fn beside(result: &Path, name: &str, head: &RowFileHead, events: &dyn Events) -> Self {
         let path = path_beside(result, name, "part");
         let opened =
@@ -84,7 +85,8 @@ impl Checkpoint {
     /// Carries out what is missing of one shard of `plan`; every finished row goes to the file, and then to `keep`.
     ///
     /// # Errors
-    /// [`IdaError::Cancelled`] where `watch` says so, and where the file takes up no more: see [`stopped`](Self::stopped).
+    /// [`IdaError::Cancelled`] where `watch` says so, and where the file takes up no more: see
+    /// [`stopped`](Self::stopped).
     pub(crate) fn complete(
         &self,
         (plan, keys): (&Plan<'_>, &RowKeys),
@@ -113,7 +115,8 @@ impl Checkpoint {
         cells.complete().ok_or(IdaError::Cancelled)
     }
 
-    /// What a job ends with that was stopped, `done` of `total` analyses finished: by the user, or by a file that takes up no more.
+    /// What a job ends with that was stopped, `done` of `total` analyses finished: by the user, or by a file that takes
+    /// up no more.
     pub(crate) fn stopped(&self, done: u64, total: u64) -> UpliftError {
         let Some(file) = &self.file else { return UpliftError::Interrupted };
         match file.sync().map_or_else(Some, |()| file.full()) {

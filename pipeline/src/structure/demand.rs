@@ -67,8 +67,8 @@ pub struct RuleErrors {
     pub equal_energy: Noisy,
 }
 
-/// The demand on `system`, whose oscillators are `sweep` with the `stripes` over `[record, oscillator, level]`, of the rate
-/// `target_per_year` at the site of `weights`, exactly as spectra are made.
+/// The demand on `system`, whose oscillators are `sweep` with the `stripes` over `[record, oscillator, level]`, of the
+/// rate `target_per_year` at the site of `weights`, exactly as spectra are made.
 ///
 /// # Errors
 /// Stripes and weights that do not fit together.
@@ -84,7 +84,8 @@ pub(super) fn exact_demand(
         Ok(Ordinate { displacement_m: factor * ordinate.displacement_m, ..ordinate })
     };
     let own = demand_of(stripes, OWN)?;
-    // all of it is scaled by the same factor: the oscillator exceeds capacity/factor where the structure exceeds its capacity
+    // all of it is scaled by the same factor: the oscillator exceeds capacity/factor where the structure exceeds its
+    // capacity
     let capacity_m = match sweep.oscillators[OWN].post_uplift() {
         PostUplift::Negative { capacity_m } => Some(capacity_m),
         PostUplift::Zero | PostUplift::Positive { .. } => None,

@@ -99,10 +99,10 @@ pub struct DesignReport {
 /// Designs `structure` by a spectrum of the result at `result`, and tests the design by the structure's own risk.
 ///
 /// # Errors
-/// A safety factor below 1; a file that is missing, damaged, no result, or without sites; spectra of another system than ZSBE; a
-/// site, measure or probability that the result does not have; records of a manifest that was given and cannot be read; shards
-/// that do not belong together; [`UpliftError::Paused`] where `events` say so, [`UpliftError::Interrupted`] where no checkpoint can
-/// be written beside the result.
+/// A safety factor below 1; a file that is missing, damaged, no result, or without sites; spectra of another system
+/// than ZSBE; a site, measure or probability that the result does not have; records of a manifest that was given and
+/// cannot be read; shards that do not belong together; [`UpliftError::Paused`] where `events` say so,
+/// [`UpliftError::Interrupted`] where no checkpoint can be written beside the result.
 pub fn design(
     structure: &Structure,
     result: &Path,

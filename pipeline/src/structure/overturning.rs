@@ -125,10 +125,10 @@ pub struct SiteRisk {
 /// How often `structure` overturns under the records and the hazard of the result at `result`.
 ///
 /// # Errors
-/// A file that is missing, damaged, no result, or without sites; a site or measure that it does not have; a restitution that
-/// cannot be; records that cannot be read; tables that cannot be written or would replace something else; shards that do not
-/// belong together; [`UpliftError::Paused`] where `events` say so, [`UpliftError::Interrupted`] where no checkpoint can be written
-/// beside the result.
+/// A file that is missing, damaged, no result, or without sites; a site or measure that it does not have; a restitution
+/// that cannot be; records that cannot be read; tables that cannot be written or would replace something else; shards
+/// that do not belong together; [`UpliftError::Paused`] where `events` say so, [`UpliftError::Interrupted`] where no
+/// checkpoint can be written beside the result.
 pub fn overturning(
     structure: &Structure,
     result: &Path,

@@ -54,8 +54,8 @@ pub struct CoefficientRow {
     /// Root mean square error with n − 3 degrees of freedom, m.
     #[serde(rename = "rmse")]
     pub rmse_m: f64,
-    /// Median of our spectrum over the curve of the reference, for strengths in ([`COMPARED_ABOVE`], 1] where that curve
-    /// exceeds [`COMPARED_FROM_M`]; none where the reference has no such row.
+    /// Median of our spectrum over the curve of the reference, for strengths in ([`COMPARED_ABOVE`], 1] where that
+    /// curve exceeds [`COMPARED_FROM_M`]; none where the reference has no such row.
     pub median_ratio: Option<f64>,
     /// Whether c2 is held at 0.
     #[serde(skip)]
