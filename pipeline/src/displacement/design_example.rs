@@ -6,7 +6,7 @@ use uplift_spectra::{
     Case, MotionSet, RestrainedDesign, RestrainedExample, Scaling, SolitaryDesign, SolitaryExample, SpectraError,
 };
 
-use super::Sets;
+use super::KeyedMotions;
 use super::spectra::{of_spectra, with_free_vibration};
 use crate::checkpoint::Checkpoint;
 use crate::error::UpliftError;
@@ -55,7 +55,7 @@ pub fn design_analyses(study: &DisplacementStudy, plan: &DesignPlan, set: &Motio
 /// [`UpliftError::Paused`] or [`UpliftError::Interrupted`] where `events` say so; what the solvers and rules refuse.
 pub(crate) fn carry_out_designs(
     study: &DisplacementStudy,
-    sets: &Sets<'_>,
+    sets: &KeyedMotions<'_>,
     shard: Shard,
     (checkpoint, analyses): (&Checkpoint, u64),
     events: &dyn Events,
@@ -78,7 +78,7 @@ pub(crate) fn carry_out_designs(
 
 /// What carries out the plans of the examples.
 struct Carrier<'a> {
-    sets: &'a Sets<'a>,
+    sets: &'a KeyedMotions<'a>,
     shard: Shard,
     checkpoint: &'a Checkpoint,
     /// Told of finished examples.
