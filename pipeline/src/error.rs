@@ -61,7 +61,7 @@ pub enum UpliftError {
     Structure(#[from] StructureError),
     /// An analysis that cannot be planned or finished; one that was told to stop is [`Interrupted`](Self::Interrupted).
     #[error(transparent)]
-    Analysis(IdaError),
+    Analysis(Box<IdaError>),
     /// Demands of which no fragility can be made.
     #[error(transparent)]
     Fragility(#[from] FragilityError),
@@ -158,7 +158,7 @@ impl From<IdaError> for UpliftError {
     fn from(error: IdaError) -> Self {
         match error {
             IdaError::Cancelled => Self::Interrupted,
-            other => Self::Analysis(other),
+            other => Self::Analysis(Box::new(other)),
         }
     }
 }

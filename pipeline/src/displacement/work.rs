@@ -23,7 +23,7 @@ pub(crate) struct Inputs {
 
 /// The motions of every set, with their keys.
 pub(crate) struct KeyedMotions<'a> {
-    pub(crate) sets: Vec<MotionSet<'a>>,
+    pub(crate) motions: Vec<MotionSet<'a>>,
     /// Keys of the motions of each set.
     pub(crate) keys: Vec<Vec<String>>,
     structures: &'a [System],
@@ -45,7 +45,7 @@ impl Inputs {
     pub(crate) fn sets(&self, study: &DisplacementStudy) -> Result<KeyedMotions<'_>, UpliftError> {
         let sets = self.records.motions(study.gravity_m_s2)?;
         let keys = |set: &MotionSet<'_>| set.motions().iter().map(|motion| motion_key(motion.accelerogram)).collect();
-        Ok(KeyedMotions { keys: sets.iter().map(keys).collect(), sets, structures: &self.structures })
+        Ok(KeyedMotions { keys: sets.iter().map(keys).collect(), motions: sets, structures: &self.structures })
     }
 }
 
@@ -57,7 +57,7 @@ impl KeyedMotions<'_> {
     pub(crate) fn work(&self, study: &DisplacementStudy) -> Result<Work<'_>, UpliftError> {
         let ways = study.scaling.ways().0;
         let mut plans = Vec::new();
-        for (set, motions) in self.sets.iter().zip(&self.keys) {
+        for (set, motions) in self.motions.iter().zip(&self.keys) {
             let plan = set.plan(&ways, self.structures, with_free_vibration(study))?;
             let text = format!(
                 "{} motions x {} scalings x {} structures = {} analyses",
