@@ -39,14 +39,14 @@ pub struct BootstrapOptions {
     pub reference: Vec<ReferenceRow>,
 }
 
-/// How sure the spectra of the result at `result` are: bands from resampled records, written into the file and into tables
-/// beside it (Section 4.5).
+/// How sure the spectra of the result at `result` are: bands from resampled records, written into the file and into
+/// tables beside it (Section 4.5).
 ///
 /// Finished strengths outlive whatever stops the job, in a checkpoint beside the result.
 ///
 /// # Errors
-/// A file that is missing, damaged, no result, or without sites; draws that cannot be made or do not belong to its records; a
-/// file that cannot be written; [`UpliftError::Paused`] where `events` say so.
+/// A file that is missing, damaged, no result, or without sites; draws that cannot be made or do not belong to its
+/// records; a file that cannot be written; [`UpliftError::Paused`] where `events` say so.
 pub fn bootstrap(
     result: &Path,
     options: &BootstrapOptions,

@@ -49,7 +49,8 @@ pub struct BootstrapReport {
     pub reference: Vec<ReferenceRow>,
 }
 
-/// The figures of Table 4.1 of one spectrum and sample size; none where overturning or a displacement of zero leaves none.
+/// The figures of Table 4.1 of one spectrum and sample size; none where overturning or a displacement of zero leaves
+/// none.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BootstrapRow {
     /// The site.
@@ -66,8 +67,8 @@ pub struct BootstrapRow {
     pub r_90ci: Option<f64>,
 }
 
-/// Where rocking begins (Section 4.5.2, Fig. 4.10): the strengths at which the band falls to the uplift displacement; none
-/// where it is above it at every strength.
+/// Where rocking begins (Section 4.5.2, Fig. 4.10): the strengths at which the band falls to the uplift displacement;
+/// none where it is above it at every strength.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Initiation {
     /// Of the lower limit.

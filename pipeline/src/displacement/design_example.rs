@@ -45,10 +45,11 @@ pub fn design_analyses(study: &DisplacementStudy, plan: &DesignPlan, set: &Motio
     each * (set.motions().len() * study.scaling.ways().0.len()) as u64
 }
 
-/// Carry out one shard of the design examples: sets scaled in one way are dealt to the shards like analysis rows. Their many small
-/// plans share the `checkpoint` of the spectra, of which `analyses` are finished.
+/// Carry out one shard of the design examples: sets scaled in one way are dealt to the shards like analysis rows. Their
+/// many small plans share the `checkpoint` of the spectra, of which `analyses` are finished.
 ///
-/// Returned, if the shard is the whole and the study asks for them, are the designs, with a note on each that does not exist.
+/// Returned, if the shard is the whole and the study asks for them, are the designs, with a note on each that does not
+/// exist.
 ///
 /// # Errors
 /// [`UpliftError::Paused`] or [`UpliftError::Interrupted`] where `events` say so; what the solvers and rules refuse.

@@ -83,8 +83,8 @@ struct Size {
 }
 
 impl Size {
-    /// A displacement is held twice while its set is being computed, and once later, again when its file is written; records take 48
-    /// bytes a sample with their integrals and extremes; a row of the table 100 bytes.
+    /// A displacement is held twice while its set is being computed, and once later, again when its file is written;
+    /// records take 48 bytes a sample with their integrals and extremes; a row of the table 100 bytes.
     fn of(study: &DisplacementStudy, records: &RecordSets, sets: &[MotionSet<'_>]) -> Self {
         let structures = (study.structures.lines() * study.structures.abscissa().len()) as u64;
         let ways = (study.scaling.to.len() * study.scaling.by.len()) as u64;

@@ -8,8 +8,8 @@ use uplift_spectra::{MotionSet, SpectraError, critical, percentile};
 use crate::error::UpliftError;
 use uplift_study::{BlockFamily, DisplacementStudy, OscillatorFamily, Structures};
 
-/// What a set asks of the structures. A way of scaling is `[to, by]` of the study; a line is a combination of uplift displacement and
-/// capacity, or a height; the abscissa is a strength or a slenderness.
+/// What a set asks of the structures. A way of scaling is `[to, by]` of the study; a line is a combination of uplift
+/// displacement and capacity, or a height; the abscissa is a strength or a slenderness.
 #[derive(Debug, Clone)]
 pub struct SetSpectra {
     /// Peak displacements over `[way, line, abscissa, motion]`, m; infinite where the structure overturned.

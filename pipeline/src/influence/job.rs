@@ -29,8 +29,8 @@ impl Default for InfluenceOptions {
 /// (disaggregation): written into the file and into a table beside it.
 ///
 /// # Errors
-/// A file that is missing, damaged, no result, or without sites; a probability that it does not have; a file that cannot be
-/// written; [`UpliftError::Interrupted`] where `events` say so.
+/// A file that is missing, damaged, no result, or without sites; a probability that it does not have; a file that
+/// cannot be written; [`UpliftError::Interrupted`] where `events` say so.
 pub fn influence(
     result: &Path,
     options: &InfluenceOptions,

@@ -24,8 +24,9 @@ impl EarlierStripes {
         whole.then(|| LabelledReader::open(path).ok()).flatten().map(|reader| Self { reader })
     }
 
-    /// Puts into `cells` what the file knows of the stripes that `study` asks for with `measure`: cells of the same motion, intensity,
-    /// oscillator, strength and level, by the same version of the solver. A file that is damaged, or of another layout, knows nothing.
+    /// Puts into `cells` what the file knows of the stripes that `study` asks for with `measure`: cells of the same
+    /// motion, intensity, oscillator, strength and level, by the same version of the solver. A file that is damaged, or
+    /// of another layout, knows nothing.
     pub fn fill(
         &self,
         study: &UniformRiskStudy,

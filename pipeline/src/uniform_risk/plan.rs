@@ -63,8 +63,9 @@ struct Size {
 }
 
 impl Size {
-    /// The stripes hold 12 bytes an analysis; the surface 8 bytes a threshold, in memory twice while it is put in order; records 48
-    /// bytes a sample with their integrals and extremes; a site of a table half a kilobyte, and as text 80 bytes an ordinate and 800 a fit.
+    /// The stripes hold 12 bytes an analysis; the surface 8 bytes a threshold, in memory twice while it is put in
+    /// order; records 48 bytes a sample with their integrals and extremes; a site of a table half a kilobyte, and as
+    /// text 80 bytes an ordinate and 800 a fit.
     fn of(study: &UniformRiskStudy, set: &RecordSet, list: Option<&SiteList>) -> Self {
         let count = |n: usize| n as u64;
         let (records, strengths) = (count(set.records.len()), count(study.strengths.len()));

@@ -39,7 +39,8 @@ impl SiteOutput {
     }
 }
 
-/// The study's table of sites, found in its exports; no file that is read is to be overwritten by the results at `path`.
+/// The study's table of sites, found in its exports; no file that is read is to be overwritten by the results at
+/// `path`.
 pub fn read(study: &UniformRiskStudy, path: &Path, events: &dyn Events) -> Result<Option<SiteList>, UpliftError> {
     for input in study.site_table.iter().flat_map(SiteTable::files) {
         let same = |output: &PathBuf| output.canonicalize().is_ok_and(|output| output == input);
