@@ -9,6 +9,7 @@ mod common;
 mod bootstrap;
 mod design;
 mod displacement_figures;
+mod displacement_resume;
 mod displacement_spectra;
 mod epistemic;
 mod hazard;

@@ -18,6 +18,7 @@ use uplift_structure::StructureError;
 use uplift_study::StudyError;
 
 use crate::checkpoint::CheckpointError;
+use crate::import::ImportReport;
 
 /// Why a job did not do what it was asked.
 #[derive(Debug, Error)]
@@ -39,7 +40,7 @@ pub enum UpliftError {
         known: Vec<String>,
     },
     /// Records or hazard curves cannot be used; all that was found.
-    #[error("{}", list(.0))]
+    #[error("{}", list(" in the input data", .0))]
     Inputs(Vec<String>),
     /// A file cannot be opened or written.
     #[error(transparent)]
@@ -70,7 +71,8 @@ pub enum UpliftError {
     /// Resamples that cannot be drawn.
     #[error(transparent)]
     Bootstrap(#[from] BootstrapError),
-    /// A displacement spectrum that cannot be computed; one that was told to stop is [`Interrupted`](Self::Interrupted).
+    /// A displacement spectrum that cannot be computed; one that was told to stop is
+    /// [`Interrupted`](Self::Interrupted).
     #[error(transparent)]
     Spectra(SpectraError),
     /// A record cannot be read or used, or no synthetic one can be made as asked.
@@ -83,11 +85,22 @@ pub enum UpliftError {
     #[error(transparent)]
     Oscillator(#[from] OscillatorError),
     /// Blocks or pulses that cannot be; all that was found.
-    #[error("{}", list(.0))]
+    #[error("{}", list("", .0))]
     Blocks(Vec<BlockError>),
     /// A file of finished analysis rows cannot be used.
     #[error(transparent)]
     Checkpoint(#[from] CheckpointError),
+    /// A folder holds no pair of records to import.
+    #[error(
+        "no pair of horizontal components in {}: {} files read, {} components found",
+        folder.display(), found.files, found.components
+    )]
+    NoPairs {
+        /// The folder.
+        folder: PathBuf,
+        /// What was found in it; there is no manifest.
+        found: Box<ImportReport>,
+    },
     /// The user stopped the run.
     #[error(
         "interrupted: nothing was written, and an earlier result file is as it was. Run the same command to start again"
@@ -115,12 +128,12 @@ fn choice(option: &str, wanted: Option<&str>) -> String {
     wanted.map_or_else(|| option.to_owned(), |wanted| format!("{option} {wanted}"))
 }
 
-fn list(mistakes: &[impl ToString]) -> String {
+fn list(place: &str, mistakes: &[impl ToString]) -> String {
     match mistakes {
         [one] => one.to_string(),
         many => {
             let lines: Vec<String> = many.iter().map(|mistake| format!("  - {}", mistake.to_string())).collect();
-            format!("{} things to mend in the input data:\n{}", many.len(), lines.join("\n"))
+            format!("{} things to mend{place}:\n{}", many.len(), lines.join("\n"))
         }
     }
 }

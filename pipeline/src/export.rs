@@ -2,20 +2,95 @@
 
 mod matlab;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
+use serde::Serialize;
 use serde_json::json;
 
 use crate::error::UpliftError;
-use crate::result::{Fit, Head, ResultFile, Spectrum, StoredSpectra};
+use crate::events::Events;
+use crate::outputs::refuse_foreign;
+use crate::result::{Fit, Head, ResultFile, Spectrum, StoredSpectra, write_atomically, write_table};
 use crate::text::finite;
 use matlab::{MatFile, Shape};
 
 /// A coefficient of a spectrum.
 type Value = fn(&Fit) -> f64;
 
-/// What is exported, and where it comes from.
+/// Formats of other programs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ExportFormat {
+    /// A tidy table: `site`, `im`, `poe`, `years`, `strength`, `u_m`, `fit_m`; one comment line first.
+    Csv,
+    /// One object with the spectra and their coefficients.
+    Json,
+    /// A file that MATLAB and `scipy.io` load; `u_pgv_m` is strength × probability × site.
+    Matlab,
+}
+
+impl ExportFormat {
+    /// How the files end that are named after the result.
+    pub fn extension(self) -> &'static str {
+        match self {
+            Self::Csv => "spectra.csv",
+            Self::Json => "json",
+            Self::Matlab => "mat",
+        }
+    }
+}
+
+/// What is exported, and where it goes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ExportOptions {
+    /// The result file.
+    pub result: PathBuf,
+    /// The formats, one or more.
+    pub formats: Vec<ExportFormat>,
+    /// The file, beside one format; the result with the ending of each format if none is given.
+    pub output: Option<PathBuf>,
+}
+
+/// What was exported.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct ExportReport {
+    /// The files, in the order of the formats.
+    pub files: Vec<PathBuf>,
+}
+
+/// Writes the spectra and coefficients of a result for other programs.
+///
+/// # Errors
+/// No format, or several for one file; a file that is no result, is damaged or has no spectra; a file that would
+/// overwrite the result or what is not this program's, or cannot be written.
+pub fn export(options: &ExportOptions, events: &dyn Events) -> Result<ExportReport, UpliftError> {
+    if options.formats.is_empty() || (options.output.is_some() && options.formats.len() > 1) {
+        return Err(UpliftError::Usage("say --csv, --json or --mat; -o goes with one of them".to_owned()));
+    }
+    let export = Export::read(&options.result)?;
+    let mut files = Vec::new();
+    for format in &options.formats {
+        if events.cancelled() {
+            return Err(UpliftError::Interrupted);
+        }
+        let file = options.output.clone().unwrap_or_else(|| options.result.with_extension(format.extension()));
+        if file == options.result {
+            return Err(UpliftError::Usage(format!("{}: this is the result itself", file.display())));
+        }
+        if options.output.is_some() && *format != ExportFormat::Matlab {
+            refuse_foreign(&file)?;
+        }
+        match format {
+            ExportFormat::Csv => write_table(&file, export.provenance(), export.columns())?,
+            ExportFormat::Json => write_atomically(&file, format!("{:#}\n", export.json()).as_bytes())?,
+            ExportFormat::Matlab => write_atomically(&file, &export.matlab()?)?,
+        }
+        files.push(file);
+    }
+    Ok(ExportReport { files })
+}
+
+/// The spectra and coefficients of a result, and where they come from.
 pub struct Export {
     head: Head,
     spectra: StoredSpectra,

@@ -14,7 +14,8 @@ use crate::run::{RunOptions, RunReport, run_with};
 use crate::uniform_risk::site_table;
 use crate::{displacement, uniform_risk};
 
-/// Carries out one shard of the analyses of a study into the file `path`, but for what is known from an `earlier` result.
+/// Carries out one shard of the analyses of a study into the file `path`, but for what is known from an `earlier`
+/// result.
 ///
 /// # Errors
 /// As [`run`](crate::run()).

@@ -14,8 +14,10 @@ mod sweep;
 mod tables;
 
 pub use demand::{DemandNoise, ExactDemand, RuleErrors};
-pub use design::{DesignOptions, DesignReport, design};
-pub use overturning::{CollapseReport, ModelReport, OverturningOptions, OverturningReport, SiteRisk, overturning};
+pub use design::{DesignOptions, DesignReport, design, design_shard};
+pub use overturning::{
+    CollapseReport, ModelReport, OverturningOptions, OverturningReport, SiteRisk, overturning, overturning_shard,
+};
 pub use report::StructureReport;
 pub use risk::EventRisk;
 pub use rules::{RuleCheck, RuleOutcome};

@@ -29,5 +29,5 @@ pub(crate) use run::run;
 pub(crate) use spectra::pooled_demand;
 pub use spectra::{Spectra, uniform_risk_spectra};
 pub use stripes::{Stripes, plan_stripes, systems};
-pub(crate) use work::{Inputs, run_shard};
+pub(crate) use work::{Inputs, motion_keys, run_shard};
 pub use write::write_result;

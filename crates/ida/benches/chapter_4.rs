@@ -1,4 +1,5 @@
-//! Analyses a second on the thinned grid of Chapter 4, with records of the embedded synthetic set, and one of them on its own.
+//! Analyses a second on the thinned grid of Chapter 4, with records of the embedded synthetic set, and one of them on
+//! its own.
 #![allow(missing_docs, clippy::unwrap_used)]
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};

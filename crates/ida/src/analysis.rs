@@ -23,14 +23,15 @@ pub fn analyse(plan: &Plan<'_>, watch: &dyn Watch) -> Result<Peaks, IdaError> {
     Ok(cells.peaks)
 }
 
-/// Carry out what `cells` lacks of one `shard` of `plan`, and hand every row to `keep` when it is finished, from any thread.
+/// Carry out what `cells` lacks of one `shard` of `plan`, and hand every row to `keep` when it is finished, from any
+/// thread.
 ///
 /// A cell depends on its motion, system and scale factor alone: whatever was known before, the numbers are those of an
 /// undisturbed [`analyse`], to the bit. A row of which everything is known is not handed over again.
 ///
-/// Rows are shared out among the threads; the scale factors of a system that is not [swept](System::is_swept) as well, so that
-/// a few long rows keep all threads busy too. `watch` is asked before every row, and before every run of a system that is not
-/// swept.
+/// Rows are shared out among the threads; the scale factors of a system that is not [swept](System::is_swept) as well,
+/// so that a few long rows keep all threads busy too. `watch` is asked before every row, and before every run of a
+/// system that is not swept.
 ///
 /// # Errors
 /// As [`analyse`]; what `keep` was given is finished all the same.

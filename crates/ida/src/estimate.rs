@@ -19,14 +19,14 @@ pub struct Estimate {
 
 /// Rows timed at least, however small the budget.
 const LEAST_ROWS: usize = 16;
-/// Steps that leave no region out however early a visit ends: the golden ratio for the rows, √2 for the scale factors, so
-/// that the two go their own ways.
+/// Steps that leave no region out however early a visit ends: the golden ratio for the rows, √2 for the scale factors,
+/// so that the two go their own ways.
 const STEPS: [f64; 2] = [0.618_033_988_749_894_9, std::f64::consts::SQRT_2 - 1.0];
 
 /// Time rows of `plan` spread over motions and systems until `budget` is spent, and extrapolate.
 ///
-/// Of a system that is not swept together a single run stands for its row: a row of an expensive one would take the budget many
-/// times over.
+/// Of a system that is not swept together a single run stands for its row: a row of an expensive one would take the
+/// budget many times over.
 pub fn estimate(plan: &Plan<'_>, budget: Duration) -> Estimate {
     let axes = plan.axes();
     let start = Instant::now();

@@ -1,5 +1,5 @@
-//! Incremental dynamic analysis: every motion, multiplied by each of its scale factors, through every system (Section 4.3.3
-//! of Reggiani Manzo's dissertation; with factors of another origin, Sections 2.4 and 3.4).
+//! Incremental dynamic analysis: every motion, multiplied by each of its scale factors, through every system (Section
+//! 4.3.3 of Reggiani Manzo's dissertation; with factors of another origin, Sections 2.4 and 3.4).
 //!
 //! | module | what is in it |
 //! |---|---|
@@ -12,8 +12,8 @@
 //! | [`estimate`](mod@estimate) | how long a plan will take here |
 //! | [`watch`] | progress and cancellation |
 //!
-//! A number depends on its own motion, system and scale factor alone: the bits are the same for any number of threads, any
-//! division into shards, and whatever was known before.
+//! A number depends on its own motion, system and scale factor alone: the bits are the same for any number of threads,
+//! any division into shards, and whatever was known before.
 
 pub mod analysis;
 pub mod cells;

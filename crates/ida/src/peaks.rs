@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-/// Lengths of the axes of an analysis. Cells lie motion after motion, in each system after system, in each scale after scale;
-/// all scales of a motion and system are a row.
+/// Lengths of the axes of an analysis. Cells lie motion after motion, in each system after system, in each scale after
+/// scale; all scales of a motion and system are a row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Axes {
     /// Ground motions.

@@ -18,8 +18,8 @@ impl Shard {
         self.count == 1
     }
 
-    /// Whether a row belongs to this shard, by its place among the rows of a plan: rows are dealt like cards, so that shards cost
-    /// about the same.
+    /// Whether a row belongs to this shard, by its place among the rows of a plan: rows are dealt like cards, so that
+    /// shards cost about the same.
     pub fn contains(self, row: usize) -> bool {
         row as u64 % self.count == self.index
     }

@@ -5,14 +5,15 @@ use uplift_oscillator::{Oscillator, PostUplift};
 
 /// A system of any kind.
 ///
-/// Another kind (a frame whose equations are integrated in time, say, at a thousand times the cost of an oscillator) is a
-/// variant here, with its numbers in [`identity`](Self::identity), its peak at one scale factor beside the block's in
+/// Another kind (a frame whose equations are integrated in time, say, at a thousand times the cost of an oscillator) is
+/// a variant here, with its numbers in [`identity`](Self::identity), its peak at one scale factor beside the block's in
 /// [`analysis`](crate::analysis), and `false` from [`is_swept`](Self::is_swept).
 #[derive(Debug, Clone, PartialEq)]
 pub enum System {
     /// An uplifting oscillator (Eq. 3.1–3.3).
     Oscillator(Oscillator),
-    /// A rigid rocking block (Eq. 2.1–2.3) with its full nonlinear motion; its displacement is that of its top (Eq. 2.10).
+    /// A rigid rocking block (Eq. 2.1–2.3) with its full nonlinear motion; its displacement is that of its top (Eq.
+    /// 2.10).
     Block(RockingBlock),
 }
 
@@ -33,8 +34,8 @@ impl System {
         }
     }
 
-    /// Whether all scale factors of a motion are followed together, at a fraction of their cost one by one. What is not swept
-    /// may be stopped between any two scale factors, and shares them out among the threads.
+    /// Whether all scale factors of a motion are followed together, at a fraction of their cost one by one. What is not
+    /// swept may be stopped between any two scale factors, and shares them out among the threads.
     pub fn is_swept(&self) -> bool {
         match self {
             Self::Oscillator(_) => true,
@@ -42,8 +43,8 @@ impl System {
         }
     }
 
-    /// All that its motion depends on but the ground's: a number for the kind, then the parameters. Systems of the same identity
-    /// have the same peaks, to the bit.
+    /// All that its motion depends on but the ground's: a number for the kind, then the parameters. Systems of the same
+    /// identity have the same peaks, to the bit.
     pub fn identity(&self) -> Vec<f64> {
         match self {
             Self::Oscillator(oscillator) => {

@@ -1,5 +1,6 @@
-//! What a fixed step makes of the medians of Section 3.4.5: central differences at a tenth of the sampling interval, impacts at the end
-//! of the step in which they happen, beside the exact solution and its noise, all of them to the end of the record. The program itself steps nowhere.
+//! What a fixed step makes of the medians of Section 3.4.5: central differences at a tenth of the sampling interval,
+//! impacts at the end of the step in which they happen, beside the exact solution and its noise, all of them to the end
+//! of the record. The program itself steps nowhere.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 #[path = "../tests/real_records/real.rs"]

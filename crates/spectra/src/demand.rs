@@ -7,8 +7,8 @@ use crate::motion_set::MotionSet;
 use crate::scaling::Scaling;
 use crate::statistics::percentile;
 
-/// How the plans of a design are carried out: by [`analyse`](uplift_ida::analyse), or by someone who knows some of their rows
-/// from before.
+/// How the plans of a design are carried out: by [`analyse`](uplift_ida::analyse), or by someone who knows some of
+/// their rows from before.
 pub type CarryOut<'a> = dyn Fn(&Plan<'_>) -> Result<Peaks, IdaError> + 'a;
 
 /// A set scaled in one way, and how its plans are carried out.
@@ -23,8 +23,8 @@ pub struct Case<'a> {
 }
 
 impl Case<'_> {
-    /// The percentile at `percent` of the peak displacements of each of `systems`, m; infinite where it falls on one that
-    /// overturned.
+    /// The percentile at `percent` of the peak displacements of each of `systems`, m; infinite where it falls on one
+    /// that overturned.
     ///
     /// # Errors
     /// What the solvers refuse, and what carrying out ends with.

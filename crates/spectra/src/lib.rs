@@ -1,7 +1,8 @@
 //! Displacement spectra of record sets: what a set of ground motions asks of rocking structures, without any hazard.
 //!
-//! Chapters 2 and 3 of Reggiani Manzo's dissertation take every horizontal component of a record set as an independent motion, scale all
-//! of them in one way, and draw a percentile of the peak displacements against the slenderness of a block or the strength of an oscillator.
+//! Chapters 2 and 3 of Reggiani Manzo's dissertation take every horizontal component of a record set as an independent
+//! motion, scale all of them in one way, and draw a percentile of the peak displacements against the slenderness of a
+//! block or the strength of an oscillator.
 //!
 //! | module | what is in it |
 //! |---|---|
@@ -11,7 +12,7 @@
 //! | [`statistics`] | percentiles, and where a line of a figure begins |
 //! | [`noise`] | how much a value moves in a small sweep around its point |
 //! | [`restrained`] | the design example of Section 3.4.5: both rules beside the time histories (Tables 3.2–3.7) |
-//! | [`solitary`] | the design example of Section 2.4.3: the size-independent spectrum beside a block of its size (Tables 2.1–2.3) |
+//! | [`solitary`] | the design example of Section 2.4.3: endless block beside block (Tables 2.1–2.3) |
 //!
 //! The systems are shaken by [`uplift_ida`]: [`MotionSet::plan`] says by what.
 //!

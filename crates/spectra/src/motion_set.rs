@@ -133,8 +133,8 @@ impl<'a> MotionSet<'a> {
         self.motions.iter().map(factor).collect()
     }
 
-    /// The plan of shaking each of `systems` by every motion, scaled in each of the ways of `scalings`: these are the last axis of
-    /// its result.
+    /// The plan of shaking each of `systems` by every motion, scaled in each of the ways of `scalings`: these are the
+    /// last axis of its result.
     ///
     /// * `with_free_peak` — whether the first peak of the free motion after a record counts
     ///

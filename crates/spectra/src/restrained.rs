@@ -45,8 +45,8 @@ pub struct RestrainedExample {
 }
 
 impl RestrainedDesign {
-    /// Design by `rule` for a set at a scaling, and check the design by time histories; the whole procedure at every strength of
-    /// the sweep.
+    /// Design by `rule` for a set at a scaling, and check the design by time histories; the whole procedure at every
+    /// strength of the sweep.
     ///
     /// # Errors
     /// What the oscillator, the rule and the solver refuse; what carrying out ends with.

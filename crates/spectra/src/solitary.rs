@@ -1,5 +1,5 @@
-//! The design example of Section 2.4.3: a slenderness from the size-independent spectrum, checked with a block of its own size
-//! (Tables 2.1–2.3).
+//! The design example of Section 2.4.3: a slenderness from the size-independent spectrum, checked with a block of its
+//! own size (Tables 2.1–2.3).
 
 use uplift_block::RockingBlock;
 use uplift_ida::System;
@@ -25,15 +25,16 @@ pub struct SolitaryDesign {
     pub percent: f64,
     /// Slendernesses `tan α` between which the intersection is looked for, from the highest down.
     pub search: [f64; 2],
-    /// Ratio of neighbouring slendernesses in that search, above 1: a range narrower than that in which the block does not stand may be missed.
+    /// Ratio of neighbouring slendernesses in that search, above 1: a range narrower than that in which the block does
+    /// not stand may be missed.
     pub search_ratio: f64,
 }
 
 /// One column of a table, with the noise of each of its values.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SolitaryExample {
-    /// Design slenderness `tan α_D`; its noise is that of the demands around the intersection, each put on the capacity line: the search itself is not
-    /// repeated.
+    /// Design slenderness `tan α_D`; its noise is that of the demands around the intersection, each put on the capacity
+    /// line: the search itself is not repeated.
     pub design_tangent: Noisy,
     /// Displacement of the endless block at the design slenderness, m: what the size-independent spectrum predicts.
     pub endless_m: Noisy,
@@ -49,8 +50,8 @@ pub struct SolitaryExample {
 const INTERSECTION_WIDTH: f64 = 1e-4;
 
 impl SolitaryDesign {
-    /// Design for a set at a scaling: the largest `tan α_k` at which the demand of the endless block meets the capacity line
-    /// `2H tan α`, times the safety factor; then both blocks at that slenderness.
+    /// Design for a set at a scaling: the largest `tan α_k` at which the demand of the endless block meets the capacity
+    /// line `2H tan α`, times the safety factor; then both blocks at that slenderness.
     ///
     /// # Errors
     /// [`SpectraError::NoIntersection`]; what the block refuses; what carrying out ends with.
@@ -90,8 +91,8 @@ impl SolitaryDesign {
         case.demands_m(&blocks, true, self.percent)
     }
 
-    /// The largest `tan α` in the range at which `demand_m` reaches the capacity line: down from the highest until it lies above,
-    /// then by halving.
+    /// The largest `tan α` in the range at which `demand_m` reaches the capacity line: down from the highest until it
+    /// lies above, then by halving.
     fn intersection(
         &self,
         case: Case<'_>,

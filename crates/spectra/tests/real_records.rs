@@ -9,7 +9,8 @@ use uplift_motion::IntensityMeasure::{Pga, Pgv};
 use uplift_oscillator::Oscillator;
 use uplift_spectra::{NoiseSweep, Noisy, ScaledBy, Scaling, percentile};
 
-/// Medians of an independent prototype with another solver (m): set, then 0.5, 1, 2 PGA and 0.5, 1, 2 PGV, by component.
+/// Medians of an independent prototype with another solver (m): set, then 0.5, 1, 2 PGA and 0.5, 1, 2 PGV, by
+/// component.
 const PROTOTYPE_M: [(&str, [f64; 6]); 2] = [
     ("near-field no pulse-like", [0.081, 0.247, 0.469, 0.069, 0.231, 0.655]),
     ("far-field", [0.031, 0.169, 0.491, 0.032, 0.141, 0.425]),

@@ -85,12 +85,12 @@ impl<'a> Work<'a> {
         self.keys.iter().flat_map(of_plan)
     }
 
-    /// Carries out one shard, plan after plan: finished rows go to the checkpoint, and if the shard is the whole, each plan's place
-    /// and result to `each`.
+    /// Carries out one shard, plan after plan: finished rows go to the checkpoint, and if the shard is the whole, each
+    /// plan's place and result to `each`.
     ///
     /// # Errors
-    /// [`UpliftError::Paused`] where the user stopped it, [`UpliftError::Interrupted`] if there is no file; a file that can no
-    /// longer be written, which stops it too; what `each` ends with.
+    /// [`UpliftError::Paused`] where the user stopped it, [`UpliftError::Interrupted`] if there is no file; a file that
+    /// can no longer be written, which stops it too; what `each` ends with.
     pub fn carry_out(
         self,
         checkpoint: &Checkpoint,
@@ -196,7 +196,8 @@ fn known(labelled: &LabelledPlan<'_>, keys: &RowKeys, checkpoint: &Checkpoint) -
     keys.as_slice().iter().enumerate().map(in_row).sum()
 }
 
-/// Wall time of `plans` on the threads of the current rayon pool, s: rows of each are timed until its part of `budget` is spent.
+/// Wall time of `plans` on the threads of the current rayon pool, s: rows of each are timed until its part of `budget`
+/// is spent.
 pub fn seconds(plans: &[Plan<'_>], budget: Duration) -> f64 {
     let each = budget / u32::try_from(plans.len().max(1)).unwrap_or(u32::MAX);
     let one_thread: f64 = plans.iter().map(|plan| estimate(plan, each).seconds_one_thread).sum();

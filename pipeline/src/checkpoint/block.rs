@@ -1,5 +1,5 @@
-//! A finished row as it is written, little-endian: the key (16 bytes), the number of scale factors (u32), the peak displacements in m
-//! (f64 each), the impacts (u32 each), and a CRC-32 of all that.
+//! A finished row as it is written, little-endian: the key (16 bytes), the number of scale factors (u32), the peak
+//! displacements in m (f64 each), the impacts (u32 each), and a CRC-32 of all that.
 
 use std::io::Read;
 

@@ -22,8 +22,9 @@ pub fn motion_key(motion: &Accelerogram) -> String {
     hexadecimal(&hash.finalize())
 }
 
-/// SHA-256 of the oscillator of a study but for its strength, and of the version of the solver's numbers, as hexadecimal digits: what
-/// a result says of its stripes, so that those of the same oscillator can be taken over cell by cell.
+/// SHA-256 of the oscillator of a study but for its strength, and of the version of the solver's numbers, as
+/// hexadecimal digits: what a result says of its stripes, so that those of the same oscillator can be taken over cell
+/// by cell.
 pub fn oscillator_key(study: &UniformRiskStudy) -> String {
     let oscillator = &study.oscillator;
     let (kind, parameter) = match oscillator.post_uplift {

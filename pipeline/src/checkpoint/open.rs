@@ -12,7 +12,8 @@ use crate::error::UpliftError;
 use crate::events::Events;
 use crate::result::ResultLock;
 
-/// Finished analysis rows of a job: those known from before, and a file that takes up each further one when it is finished.
+/// Finished analysis rows of a job: those known from before, and a file that takes up each further one when it is
+/// finished.
 #[derive(Debug)]
 pub struct Checkpoint {
     /// None where a job goes on without one.
@@ -30,8 +31,8 @@ impl Checkpoint {
         Self { file: None, rows: FinishedRows::default(), damaged_bytes: 0, _lock: None }
     }
 
-    /// The file at `path` of the work that `head` tells of, with the rows that it holds. The caller sees to it that no other job
-    /// has it too.
+    /// The file at `path` of the work that `head` tells of, with the rows that it holds. The caller sees to it that no
+    /// other job has it too.
     ///
     /// # Errors
     /// A file that cannot be written, or that holds something else.
@@ -40,11 +41,11 @@ impl Checkpoint {
         Ok(Self { file: Some(file), rows: found.rows, damaged_bytes: found.damaged_bytes, _lock: None })
     }
 
-    /// The checkpoint of a job that was asked of the result at `result`: a file beside it with `name` in its own name, that of the
-    /// command and the structure, say. Where no file can be written there, or another job has it, this one goes on without, and
-    /// says so.
+    /// The checkpoint of a job that was asked of the result at `result`: a file beside it with `name` in its own name,
+    /// that of the command and the structure, say. Where no file can be written there, or another job has it, this one
+    /// goes on without, and says so.
     pub fn beside(result: &Path, name: &str, head: &RowFileHead, events: &dyn Events) -> Self {
-        let path = path_beside(result, name);
+        let path = path_beside(result, name, "part");
         let opened =
             ResultLock::acquire(&path).and_then(|lock| Ok(Self { _lock: Some(lock), ..Self::open(&path, head)? }));
         match opened {
@@ -84,7 +85,8 @@ impl Checkpoint {
     /// Carries out what is missing of one shard of `plan`; every finished row goes to the file, and then to `keep`.
     ///
     /// # Errors
-    /// [`IdaError::Cancelled`] where `watch` says so, and where the file takes up no more: see [`stopped`](Self::stopped).
+    /// [`IdaError::Cancelled`] where `watch` says so, and where the file takes up no more: see
+    /// [`stopped`](Self::stopped).
     pub(crate) fn complete(
         &self,
         (plan, keys): (&Plan<'_>, &RowKeys),
@@ -113,7 +115,8 @@ impl Checkpoint {
         cells.complete().ok_or(IdaError::Cancelled)
     }
 
-    /// What a job ends with that was stopped, `done` of `total` analyses finished: by the user, or by a file that takes up no more.
+    /// What a job ends with that was stopped, `done` of `total` analyses finished: by the user, or by a file that takes
+    /// up no more.
     pub(crate) fn stopped(&self, done: u64, total: u64) -> UpliftError {
         let Some(file) = &self.file else { return UpliftError::Interrupted };
         match file.sync().map_or_else(Some, |()| file.full()) {
@@ -139,13 +142,13 @@ impl Checkpoint {
     }
 }
 
-/// `europe.h5` and `design pier` make `europe.h5.design-pier.part`.
-fn path_beside(result: &Path, name: &str) -> PathBuf {
+/// `europe.h5`, `design pier` and `part` make `europe.h5.design-pier.part`.
+pub(crate) fn path_beside(result: &Path, name: &str, extension: &str) -> PathBuf {
     let result = &final_place(result).unwrap_or_else(|_| result.to_owned());
     let plain: String =
         name.chars().map(|letter| if letter.is_alphanumeric() || letter == '_' { letter } else { '-' }).collect();
     let mut file = result.file_name().unwrap_or(result.as_os_str()).to_owned();
-    file.push(format!(".{plain}.part"));
+    file.push(format!(".{plain}.{extension}"));
     result.with_file_name(file)
 }
 

@@ -1,7 +1,8 @@
 //! Finished analysis rows in a file, appended as they come.
 //!
-//! The file is a line of JSON, then one block a row. A block that was damaged is passed over, and one that was cut off ends what is
-//! read; when the file is gone on with they are gone. Whatever stops the program, at most the rows in work are lost.
+//! The file is a line of JSON, then one block a row. A block that was damaged is passed over, and one that was cut off
+//! ends what is read; when the file is gone on with they are gone. Whatever stops the program, at most the rows in work
+//! are lost.
 
 use std::collections::HashMap;
 use std::fs::File;
@@ -155,10 +156,12 @@ impl RowFile {
         Ok(Some(Finding { head, rows, damaged_bytes: length.saturating_sub(sound) }))
     }
 
-    /// Opens the file at `path` to append to it, a new one with `head` unless a sound one of the same work is there; with what it holds.
+    /// Opens the file at `path` to append to it, a new one with `head` unless a sound one of the same work is there;
+    /// with what it holds.
     ///
     /// # Errors
-    /// A file that cannot be written, that holds something else, or that is a shard of other work: nothing else is overwritten.
+    /// A file that cannot be written, that holds something else, or that is a shard of other work: nothing else is
+    /// overwritten.
     pub fn open(path: &Path, head: &RowFileHead) -> Result<(Self, Finding), UpliftError> {
         let fail = |source| CheckpointError::Write { path: path.to_owned(), source };
         // what cannot be read to its first line was cut off in it

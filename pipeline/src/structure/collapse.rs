@@ -1,4 +1,5 @@
-//! How often a structure overturns, and at which intensity: counts, a fragility, a risk (Section 2.4.3, Eq. 2.1 to 2.3).
+//! How often a structure overturns, and at which intensity: counts, a fragility, a risk (Section 2.4.3, Eq. 2.1 to
+//! 2.3).
 
 use uplift_fragility::{FragilityError, LognormalFit, StripeCount, Stripes as Stripe, fit_lognormal, stripe_counts};
 use uplift_risk::{PooledDemand, StripeWeights};
@@ -58,7 +59,8 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
 
-    /// Two records, levels 1, 2, 4 with rates 1, 1/2, 1/4 per year, nothing below: one overturns from 2 on, the other at 4 and, weaving, at 1.
+    /// Two records, levels 1, 2, 4 with rates 1, 1/2, 1/4 per year, nothing below: one overturns from 2 on, the other
+    /// at 4 and, weaving, at 1.
     #[test]
     fn a_case_by_hand() {
         let inf = f64::INFINITY;

@@ -1,27 +1,29 @@
-//! The demand on a structure itself: its own oscillator put through the records and the hazard that a spectrum was made from.
+//! The demand on a structure itself: its own oscillator put through the records and the hazard that a spectrum was made
+//! from.
 
 use serde::Serialize;
-use uplift_ida::Watch;
 use uplift_oscillator::PostUplift;
 use uplift_risk::{Ordinate, RiskCurve, StripeWeights};
 use uplift_spectra::Noisy;
 use uplift_structure::{EquivalentSystem, relative_error};
 
-use super::risk::{EventRisk, OVERTURNING_M, demand_of, risk_of_exceeding, stripes_of};
+use super::risk::{EventRisk, OVERTURNING_M, demand_of, risk_of_exceeding};
 use super::sweep::{OF_STUDY, OWN, Sweep, ZERO_STIFFNESS};
 use crate::displacement::RULES;
 use crate::error::UpliftError;
-use crate::inputs::RecordSet;
-use uplift_study::{MeasurePlan, UniformRiskStudy};
+use crate::uniform_risk::Stripes;
 
-/// What the structure's own stripes say, in its own displacement; infinite where it overturns more often than the target.
+/// What the structure's own stripes say, in its own displacement; infinite where it overturns more often than the
+/// target.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ExactDemand {
     /// Nonlinear time histories.
     pub analyses: u64,
-    /// Demand on the study's ZSBE oscillator at the structure's strength, m: what the spectrum has there, without interpolation.
+    /// Demand on the study's ZSBE oscillator at the structure's strength, m: what the spectrum has there, without
+    /// interpolation.
     pub zero_stiffness_demand_of_spectrum_m: f64,
-    /// Demand on the structure's own ZSBE oscillator, with its uplift displacement and restitution, m: what the rules start from.
+    /// Demand on the structure's own ZSBE oscillator, with its uplift displacement and restitution, m: what the rules
+    /// start from.
     pub zero_stiffness_demand_m: f64,
     /// Demand on the structure, m.
     pub demand_m: f64,
@@ -40,14 +42,14 @@ pub struct ExactDemand {
     pub noise: DemandNoise,
 }
 
-/// The same for structures whose strength is up to one percent lower or higher: what is left of a number in the noise of a
-/// chaotic system.
+/// The same for structures whose strength is up to one percent lower or higher: what is left of a number in the noise
+/// of a chaotic system.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct DemandNoise {
     /// Demand on the structure, m.
     pub demand_m: Noisy,
-    /// Error of the rules against it, from the exact demand on the ZSBE oscillator of the same strength; none for a structure
-    /// without capacity.
+    /// Error of the rules against it, from the exact demand on the ZSBE oscillator of the same strength; none for a
+    /// structure without capacity.
     pub rule_errors: Option<RuleErrors>,
     /// Frequency of exceeding the capacity, 1/yr; none for a structure without one.
     pub beyond_capacity_per_year: Option<Noisy>,
@@ -65,29 +67,25 @@ pub struct RuleErrors {
     pub equal_energy: Noisy,
 }
 
-/// The demand on `system`, whose oscillators are `sweep`, of the rate `target_per_year` at the site of `weights`, exactly as
-/// spectra are made.
+/// The demand on `system`, whose oscillators are `sweep` with the `stripes` over `[record, oscillator, level]`, of the
+/// rate `target_per_year` at the site of `weights`, exactly as spectra are made.
 ///
 /// # Errors
-/// [`UpliftError::Interrupted`] if `watch` says so; a record that cannot be scaled.
+/// Stripes and weights that do not fit together.
 pub(super) fn exact_demand(
-    study: &UniformRiskStudy,
-    (measure, weights): (&MeasurePlan, &StripeWeights),
-    set: &RecordSet,
+    (stripes, weights): (&Stripes, &StripeWeights),
     (system, sweep): (&EquivalentSystem, &Sweep),
-    target_per_year: f64,
-    watch: &dyn Watch,
+    (target_per_year, years): (f64, f64),
 ) -> Result<ExactDemand, UpliftError> {
-    let stripes = stripes_of(study, measure, set, &sweep.oscillators, watch)?;
     let factor = system.participation();
     let ordinate = |oscillator: usize| -> Result<Ordinate, UpliftError> {
-        let demand = demand_of(&stripes, oscillator)?;
+        let demand = demand_of(stripes, oscillator)?;
         let ordinate = RiskCurve::new(&demand, weights)?.exact_ordinate(target_per_year)?;
         Ok(Ordinate { displacement_m: factor * ordinate.displacement_m, ..ordinate })
     };
-    let own = demand_of(&stripes, OWN)?;
-    let years = study.risk.years;
-    // all of it is scaled by the same factor: the oscillator exceeds capacity/factor where the structure exceeds its capacity
+    let own = demand_of(stripes, OWN)?;
+    // all of it is scaled by the same factor: the oscillator exceeds capacity/factor where the structure exceeds its
+    // capacity
     let capacity_m = match sweep.oscillators[OWN].post_uplift() {
         PostUplift::Negative { capacity_m } => Some(capacity_m),
         PostUplift::Zero | PostUplift::Positive { .. } => None,
@@ -97,7 +95,7 @@ pub(super) fn exact_demand(
     let (mut demands_m, mut beyond, mut overturned, mut errors) = (vec![], vec![], vec![], [vec![], vec![]]);
     for &[zero, own] in &sweep.pairs {
         let (zero_m, own_m) = (ordinate(zero)?.displacement_m, ordinate(own)?.displacement_m);
-        let pool = demand_of(&stripes, own)?;
+        let pool = demand_of(stripes, own)?;
         demands_m.push(own_m);
         overturned.push(risk_of_exceeding(&pool, weights, OVERTURNING_M, years)?.per_year);
         if let Some(capacity_m) = capacity_m {

@@ -1,13 +1,15 @@
-//! A structure checked against a uniform risk spectrum, and the check itself put to the test (Sections 3.3.2 and 3.4.5).
+//! A structure checked against a uniform risk spectrum, and the check itself put to the test (Sections 3.3.2 and
+//! 3.4.5).
 //!
-//! The rules take the demand on a structure from that on the ZSBE oscillator of the same strength. Under one set of records scaled
-//! to one intensity their error is known (Tables 3.2 to 3.7); here it is that of the ordinate of a given risk, over all
-//! intensities of a site: the structure's own oscillator is put through the records and the hazard that the spectrum was made
-//! from.
+//! The rules take the demand on a structure from that on the ZSBE oscillator of the same strength. Under one set of
+//! records scaled to one intensity their error is known (Tables 3.2 to 3.7); here it is that of the ordinate of a given
+//! risk, over all intensities of a site: the structure's own oscillator is put through the records and the hazard that
+//! the spectrum was made from.
 
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
+use uplift_ida::{Shard, System};
 use uplift_motion::IntensityMeasure;
 use uplift_oscillator::PostUplift;
 use uplift_risk::TAIL_SHARE_LIMIT;
@@ -19,10 +21,13 @@ use super::report::StructureReport;
 use super::rules::{RuleDemands, RuleOutcome, apply_rules};
 use super::spectrum::{SpectrumDemand, read_spectrum};
 use super::sweep::Sweep;
+use crate::analysis::{Beside, LabelledPlan, ShardReport, Work};
 use crate::error::UpliftError;
-use crate::events::{Events, Progress};
-use crate::result::{ResultFile, StudyOfResult};
+use crate::events::Events;
+use crate::inputs::RecordSet;
+use crate::result::{ResultFile, SpectraOfResult, StudyOfResult};
 use crate::text::per_cent;
+use crate::uniform_risk::{Stripes, motion_keys, plan_stripes};
 
 /// What is asked of a design.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,12 +44,22 @@ pub struct DesignOptions {
     pub safety_factor: f64,
     /// Read the spectrum and apply the rules, without analysing the structure itself.
     pub spectrum_only: bool,
+    /// Every shard of the structure's own analysis, as [`design_shard`] wrote them; none to compute it here.
+    pub shards: Vec<PathBuf>,
 }
 
 impl Default for DesignOptions {
     /// The safety factor of Section 3.4.5, 2.5.
     fn default() -> Self {
-        Self { manifest: None, site: None, poe: None, measure: None, safety_factor: 2.5, spectrum_only: false }
+        Self {
+            manifest: None,
+            site: None,
+            poe: None,
+            measure: None,
+            safety_factor: 2.5,
+            spectrum_only: false,
+            shards: Vec::new(),
+        }
     }
 }
 
@@ -84,9 +99,10 @@ pub struct DesignReport {
 /// Designs `structure` by a spectrum of the result at `result`, and tests the design by the structure's own risk.
 ///
 /// # Errors
-/// A safety factor below 1; a file that is missing, damaged, no result, or without sites; spectra of another system than ZSBE; a
-/// site, measure or probability that the result does not have; records of a manifest that was given and cannot be read;
-/// [`UpliftError::Interrupted`] where `events` say so.
+/// A safety factor below 1; a file that is missing, damaged, no result, or without sites; spectra of another system
+/// than ZSBE; a site, measure or probability that the result does not have; records of a manifest that was given and
+/// cannot be read; shards that do not belong together; [`UpliftError::Paused`] where `events` say so,
+/// [`UpliftError::Interrupted`] where no checkpoint can be written beside the result.
 pub fn design(
     structure: &Structure,
     result: &Path,
@@ -110,20 +126,24 @@ pub fn design(
     if spectrum.is_none() {
         notes.push(beyond_spectrum(structure, &source));
     }
+    let years = source.study.risk.years;
+    let mut checkpoint = None;
     let exact = if options.spectrum_only {
         None
     } else {
         match records(&source, options.manifest.as_deref())? {
             Ok(set) => {
-                let sweep = Sweep::of(&source.study, &structure.system, restitution)
-                    .map_err(|error| error.in_file(&structure.file))?;
-                let runs = (sweep.oscillators.len() * set.records.len() * measure.plan.levels.len()) as u64;
-                let progress = Progress::begin(events, measure.measure().label(), "analyses", runs);
-                let weighed = (&measure.plan, &measure.weights[site]);
-                let own = (&structure.system, &sweep);
-                let exact = exact_demand(&source.study, weighed, &set, own, target_per_year, &progress);
-                drop(progress);
-                Some(exact?)
+                let shaken = Shaken::of(structure, &source, set, restitution)?;
+                let asked = name(structure);
+                let beside = Beside { result, name: &asked };
+                let (analysed, left) =
+                    beside.results(shaken.work(&source, measure, &asked)?, &options.shards, events)?;
+                checkpoint = Some(left);
+                let stripes = analysed.into_iter().map(|analysed| Stripes::of(&measure.plan, analysed));
+                let own = (&structure.system, &shaken.sweep);
+                let exact =
+                    |stripes: Stripes| exact_demand((&stripes, &measure.weights[site]), own, (target_per_year, years));
+                stripes.map(exact).next().transpose()?
             }
             Err(reason) => {
                 notes.push(format!(
@@ -142,6 +162,9 @@ pub fn design(
     if let Some(exact) = &exact {
         notes.extend(tails(exact));
     }
+    if let Some(checkpoint) = checkpoint {
+        checkpoint.remove();
+    }
     let risk = &source.study.risk;
     Ok(DesignReport {
         structure: StructureReport::of(structure, Some(restitution)),
@@ -159,6 +182,62 @@ pub fn design(
         rules,
         notes,
     })
+}
+
+/// Computes one shard of the structure's own analysis into a file beside the result, for [`DesignOptions::shards`].
+///
+/// # Errors
+/// As [`design`], and where the records of the result cannot be read.
+pub fn design_shard(
+    structure: &Structure,
+    result: &Path,
+    options: &DesignOptions,
+    shard: Shard,
+    events: &dyn Events,
+) -> Result<ShardReport, UpliftError> {
+    let source = ResultFile::open(result)?.study(options.manifest.as_deref())?;
+    require_zero_stiffness(&source)?;
+    let measure = &source.measures[measure_index(&source, options.measure)?];
+    let restitution = structure.description.restitution.unwrap_or(source.study.oscillator.restitution);
+    let set = records(&source, options.manifest.as_deref())?.map_err(UpliftError::input)?;
+    let shaken = Shaken::of(structure, &source, set, restitution)?;
+    let asked = name(structure);
+    Beside { result, name: &asked }.shard(shaken.work(&source, measure, &asked)?, shard, events)
+}
+
+/// What is asked, for the names of files.
+fn name(structure: &Structure) -> String {
+    format!("design {}", structure.file.file_stem().unwrap_or_default().to_string_lossy())
+}
+
+/// The oscillators of a structure, and the records that shake them.
+struct Shaken {
+    set: RecordSet,
+    /// Keys of the records' motions.
+    motions: Vec<String>,
+    sweep: Sweep,
+    systems: Vec<System>,
+}
+
+impl Shaken {
+    fn of(
+        structure: &Structure,
+        source: &StudyOfResult,
+        set: RecordSet,
+        restitution: f64,
+    ) -> Result<Self, UpliftError> {
+        let sweep =
+            Sweep::of(&source.study, &structure.system, restitution).map_err(|error| error.in_file(&structure.file))?;
+        Ok(Self { motions: motion_keys(&set), systems: sweep.systems(), sweep, set })
+    }
+
+    /// Their stripes of one measure.
+    fn work(&self, source: &StudyOfResult, measure: &SpectraOfResult, title: &str) -> Result<Work<'_>, UpliftError> {
+        let plan = plan_stripes(&source.study, &measure.plan, &self.set, &self.systems)?;
+        let label = measure.measure().label().to_owned();
+        let labelled = LabelledPlan { label, remark: None, plan, motions: &self.motions, known: None };
+        Ok(Work::new(title, vec![labelled]))
+    }
 }
 
 /// The rules start from the ZSBE system: a spectrum of another says nothing to them.
@@ -215,7 +294,8 @@ fn differences(structure: &Structure, source: &StudyOfResult, restitution: f64) 
     let uplift_m = system.spectral_uplift_displacement_m();
     if apart(uplift_m, oscillator.uplift_displacement_m) {
         notes.push(format!(
-            "the spectrum is of an uplift displacement of {} mm, the structure's is {} mm, over Γ {:.3} mm (Section 3.5)",
+            "the spectrum is of an uplift displacement of {} mm, the structure's is {} mm, over Γ {:.3} mm (Section \
+             3.5)",
             1e3 * oscillator.uplift_displacement_m,
             1e3 * system.conditions().uplift_displacement_m(),
             1e3 * uplift_m

@@ -1,61 +1,13 @@
-//! How a structure is modelled where it may overturn: as its equivalent oscillator, and as the block that rotates as it does.
+//! How a structure is modelled where it may overturn: as its equivalent oscillator, and as the block that rotates as it
+//! does.
 
 use uplift_block::RockingBlock;
-use uplift_ida::{System, Watch, analyse};
-use uplift_oscillator::Oscillator;
+use uplift_ida::System;
 use uplift_structure::PostUplift;
-use uplift_study::{MeasurePlan, Structure, UniformRiskStudy};
+use uplift_study::Structure;
 
 use crate::error::UpliftError;
-use crate::inputs::RecordSet;
 use crate::result::StudyOfResult;
-use crate::uniform_risk::plan_stripes;
-
-/// How a structure is modelled.
-#[derive(Debug, Clone)]
-pub(super) enum Model {
-    /// The equivalent oscillator of Table 3.1, linearised.
-    Oscillator(Oscillator),
-    /// The solitary block that rotates as the structure does: full nonlinear motion.
-    Block(RockingBlock),
-}
-
-impl Model {
-    /// Name in tables and files.
-    pub(super) fn name(&self) -> &'static str {
-        match self {
-            Self::Oscillator(_) => "oscillator",
-            Self::Block(_) => "block",
-        }
-    }
-
-    /// Velocity after over before an impact.
-    pub(super) fn restitution(&self) -> f64 {
-        match self {
-            Self::Oscillator(oscillator) => oscillator.restitution(),
-            Self::Block(block) => block.restitution(),
-        }
-    }
-
-    /// Peak displacements over `[record, level]`, m; infinite where it overturned.
-    ///
-    /// # Errors
-    /// [`UpliftError::Interrupted`] if `watch` says so; a record that cannot be scaled.
-    pub(super) fn demands_m(
-        &self,
-        study: &UniformRiskStudy,
-        plan: &MeasurePlan,
-        set: &RecordSet,
-        watch: &dyn Watch,
-    ) -> Result<Vec<f64>, UpliftError> {
-        let systems = [match self {
-            Self::Oscillator(oscillator) => System::Oscillator(oscillator.clone()),
-            Self::Block(block) => System::Block(*block),
-        }];
-        let plan = plan_stripes(study, plan, set, &systems)?;
-        Ok(analyse(&plan, watch)?.of_system_m(0))
-    }
-}
 
 /// The models of a structure, each with the origin of its restitution.
 pub(super) fn models(
@@ -63,7 +15,7 @@ pub(super) fn models(
     source: &StudyOfResult,
     for_both: Option<f64>,
     notes: &mut Vec<String>,
-) -> Result<Vec<(Model, &'static str)>, UpliftError> {
+) -> Result<Vec<(System, &'static str)>, UpliftError> {
     let (study, own) = (&source.study, structure.description.restitution);
     let chosen = for_both.map(|value| (value, "--restitution")).or(own.map(|value| (value, "the structure file")));
     let (restitution, origin) = chosen.unwrap_or((study.oscillator.restitution, "the study"));
@@ -72,7 +24,7 @@ pub(super) fn models(
         None => error.in_file(&structure.file),
     };
     let oscillator = structure.system.spectral_oscillator(restitution).map_err(|error| fail(error.into()))?;
-    let mut models = vec![(Model::Oscillator(oscillator), origin)];
+    let mut models = vec![(System::Oscillator(oscillator), origin)];
     match structure.system.post_uplift() {
         PostUplift::Negative { .. } => {}
         PostUplift::Zero | PostUplift::Positive { .. } => notes.push(
@@ -97,6 +49,6 @@ pub(super) fn models(
         .with_gravity(structure.system.conditions().gravity_m_s2())
         .and_then(|block| block.with_restitution(restitution))
         .map_err(|error| fail(error.into()))?;
-    models.push((Model::Block(block), origin));
+    models.push((System::Block(block), origin));
     Ok(models)
 }

@@ -1,24 +1,29 @@
-//! How often a structure overturns, by its equivalent oscillator and by the rigid block that rotates as it does (Section 2.4.3).
+//! How often a structure overturns, by its equivalent oscillator and by the rigid block that rotates as it does
+//! (Section 2.4.3).
 
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use uplift_fragility::LognormalFit;
+use uplift_ida::{Shard, System};
 use uplift_motion::IntensityMeasure;
 use uplift_risk::{StripeWeights, TAIL_SHARE_LIMIT};
-use uplift_study::Structure;
+use uplift_study::{Structure, UniformRiskStudy};
 
 use super::choice::{measure_index, records, site_index};
 use super::collapse::{Collapse, collapse};
-use super::models::{Model, models};
+use super::models::models;
 use super::report::StructureReport;
 use super::risk::EventRisk;
 use super::tables::{risk_path, write_tables};
+use crate::analysis::{Beside, LabelledPlan, ShardReport, Work};
 use crate::error::UpliftError;
-use crate::events::{Events, Progress};
+use crate::events::Events;
+use crate::inputs::RecordSet;
 use crate::outputs::{refuse_foreign, refuse_overwriting};
 use crate::result::{ResultFile, SpectraOfResult, StudyOfResult};
 use crate::text::per_cent;
+use crate::uniform_risk::{motion_keys, plan_stripes};
 
 /// What is asked of the overturning of a structure.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -29,11 +34,13 @@ pub struct OverturningOptions {
     pub site: Option<String>,
     /// Intensity measure; all of the result where none is given.
     pub measure: Option<IntensityMeasure>,
-    /// One coefficient of restitution for both models, in place of the structure's, the study's (oscillator) and that of
-    /// angular momentum (block).
+    /// One coefficient of restitution for both models, in place of the structure's, the study's (oscillator) and that
+    /// of angular momentum (block).
     pub restitution: Option<f64>,
     /// CSV file of the collapse fragility to write; the risk goes to one that ends in .risk.csv beside it.
     pub table: Option<PathBuf>,
+    /// Every shard of the analyses, as [`overturning_shard`] wrote them; none to compute them here.
+    pub shards: Vec<PathBuf>,
 }
 
 /// What the overturning of a structure tells.
@@ -118,9 +125,10 @@ pub struct SiteRisk {
 /// How often `structure` overturns under the records and the hazard of the result at `result`.
 ///
 /// # Errors
-/// A file that is missing, damaged, no result, or without sites; a site or measure that it does not have; a restitution that
-/// cannot be; records that cannot be read; tables that cannot be written or would replace something else;
-/// [`UpliftError::Interrupted`] where `events` say so.
+/// A file that is missing, damaged, no result, or without sites; a site or measure that it does not have; a restitution
+/// that cannot be; records that cannot be read; tables that cannot be written or would replace something else; shards
+/// that do not belong together; [`UpliftError::Paused`] where `events` say so, [`UpliftError::Interrupted`] where no
+/// checkpoint can be written beside the result.
 pub fn overturning(
     structure: &Structure,
     result: &Path,
@@ -133,46 +141,37 @@ pub fn overturning(
         Some(site) => vec![site_index(&source, Some(site))?],
         None => (0..source.sites.len()).collect(),
     };
-    let measures: Vec<&SpectraOfResult> = match options.measure {
-        Some(measure) => vec![&source.measures[measure_index(&source, Some(measure))?]],
-        None => source.measures.iter().collect(),
-    };
+    let measures = measures(&source, options.measure)?;
     let mut notes = Vec::new();
     let models = models(structure, &source, options.restitution, &mut notes)?;
-    let set = records(&source, options.manifest.as_deref())?.map_err(|reason| {
-        UpliftError::input(format!(
-            "{reason}; overturning needs the records that the result was made from (--manifest says where they are)"
-        ))
-    })?;
-    let mut study = source.study.clone();
-    if !study.oscillator.free_vibration {
-        // what is lost when a record ends has overturned, whoever looks
-        study.oscillator.free_vibration = true;
+    let shaken = Shaken::of(&source, options.manifest.as_deref())?;
+    if !source.study.oscillator.free_vibration {
         notes.push(
-            "the study ends with its records (free_vibration = false); here what falls after their end counts as overturned"
+            "the study ends with its records (free_vibration = false); here what falls after their end counts as \
+             overturned"
                 .to_owned(),
         );
     }
+    let asked = name(structure);
+    let beside = Beside { result, name: &asked };
+    let (analysed, checkpoint) = beside.results(shaken.work(&measures, &models, &asked)?, &options.shards, events)?;
+    let Shaken { study, set, .. } = &shaken;
+    let mut analysed = analysed.into_iter();
     let mut found: Vec<(&SpectraOfResult, Vec<Collapse>)> = Vec::new();
     for measure in measures {
         let weights: Vec<&StripeWeights> = sites.iter().map(|&site| &measure.weights[site]).collect();
-        let of_model = |(model, _): &(Model, &'static str)| {
-            let runs = (set.records.len() * measure.plan.levels.len()) as u64;
-            let label = format!("{}, {}", measure.measure().label(), model.name());
-            let progress = Progress::begin(events, &label, "analyses", runs);
-            let demands_m = model.demands_m(&study, &measure.plan, &set, &progress);
-            drop(progress);
-            collapse(&measure.plan.levels, &demands_m?, &weights, study.risk.years)
-        };
-        let of_models = models.iter().map(of_model).collect::<Result<Vec<_>, _>>()?;
-        found.push((measure, of_models));
+        let of_models = analysed
+            .by_ref()
+            .take(models.len())
+            .map(|analysed| collapse(&measure.plan.levels, &analysed.peaks.of_system_m(0), &weights, study.risk.years));
+        found.push((measure, of_models.collect::<Result<_, _>>()?));
     }
     notes.extend(notes_on(&source, &models, &found));
     let records = u32::try_from(set.records.len()).unwrap_or(u32::MAX);
     let of_measure = |(measure, found): &(&SpectraOfResult, Vec<Collapse>)| -> Vec<CollapseReport> {
         let names = sites.iter().map(|&site| source.sites[site].as_str());
-        let report = |(found, (model, _)): (&Collapse, &(Model, _))| {
-            CollapseReport::of(found, measure.measure(), model.name(), records, names.clone())
+        let report = |(found, (model, _)): (&Collapse, &(System, _))| {
+            CollapseReport::of(found, measure.measure(), model.kind(), records, names.clone())
         };
         found.iter().zip(&models).map(report).collect()
     };
@@ -191,7 +190,81 @@ pub fn overturning(
         write_tables(path, &report)?;
         report.files = vec![path.clone(), risk_path(path)];
     }
+    checkpoint.remove();
     Ok(report)
+}
+
+/// Computes one shard of the analyses into a file beside the result, for [`OverturningOptions::shards`].
+///
+/// # Errors
+/// As [`overturning`].
+pub fn overturning_shard(
+    structure: &Structure,
+    result: &Path,
+    options: &OverturningOptions,
+    shard: Shard,
+    events: &dyn Events,
+) -> Result<ShardReport, UpliftError> {
+    let source = ResultFile::open(result)?.study(options.manifest.as_deref())?;
+    let measures = measures(&source, options.measure)?;
+    let models = models(structure, &source, options.restitution, &mut Vec::new())?;
+    let shaken = Shaken::of(&source, options.manifest.as_deref())?;
+    let asked = name(structure);
+    Beside { result, name: &asked }.shard(shaken.work(&measures, &models, &asked)?, shard, events)
+}
+
+/// What is asked, for the names of files.
+fn name(structure: &Structure) -> String {
+    format!("overturning {}", structure.file.file_stem().unwrap_or_default().to_string_lossy())
+}
+
+/// The measure `wanted` of a result; all where none is.
+fn measures(source: &StudyOfResult, wanted: Option<IntensityMeasure>) -> Result<Vec<&SpectraOfResult>, UpliftError> {
+    match wanted {
+        Some(measure) => Ok(vec![&source.measures[measure_index(source, Some(measure))?]]),
+        None => Ok(source.measures.iter().collect()),
+    }
+}
+
+/// The records that shake the models.
+struct Shaken {
+    /// The study of the result, with what happens after the end of a record.
+    study: UniformRiskStudy,
+    set: RecordSet,
+    /// Keys of the records' motions.
+    motions: Vec<String>,
+}
+
+impl Shaken {
+    fn of(source: &StudyOfResult, manifest: Option<&Path>) -> Result<Self, UpliftError> {
+        let set = records(source, manifest)?.map_err(|reason| {
+            UpliftError::input(format!(
+                "{reason}; overturning needs the records that the result was made from (--manifest says where they are)"
+            ))
+        })?;
+        let mut study = source.study.clone();
+        // what is lost when a record ends has overturned, whoever looks
+        study.oscillator.free_vibration = true;
+        Ok(Self { motions: motion_keys(&set), study, set })
+    }
+
+    /// The stripes of each model by each measure, the models running fastest.
+    fn work<'a>(
+        &'a self,
+        measures: &[&SpectraOfResult],
+        models: &'a [(System, &'static str)],
+        title: &str,
+    ) -> Result<Work<'a>, UpliftError> {
+        let mut plans = Vec::new();
+        for measure in measures {
+            for (model, _) in models {
+                let plan = plan_stripes(&self.study, &measure.plan, &self.set, std::slice::from_ref(model))?;
+                let label = format!("{}, {}", measure.measure().label(), model.kind());
+                plans.push(LabelledPlan { label, remark: None, plan, motions: &self.motions, known: None });
+            }
+        }
+        Ok(Work::new(title, plans))
+    }
 }
 
 /// Names that would lose something, before anything is computed.
@@ -210,7 +283,7 @@ fn check_table(structure: &Structure, result: &Path, options: &OverturningOption
 /// What the numbers rest on.
 fn notes_on(
     source: &StudyOfResult,
-    models: &[(Model, &'static str)],
+    models: &[(System, &'static str)],
     found: &[(&SpectraOfResult, Vec<Collapse>)],
 ) -> Vec<String> {
     let mut notes = Vec::new();
@@ -221,8 +294,8 @@ fn notes_on(
         && a.restitution().to_bits() != b.restitution().to_bits()
     {
         notes.push(format!(
-            "the oscillator keeps {} of its velocity at an impact, the block {:.4}: part of what they differ by is that \
-             (--restitution gives both the same)",
+            "the oscillator keeps {} of its velocity at an impact, the block {:.4}: part of what they differ by is \
+             that (--restitution gives both the same)",
             a.restitution(),
             b.restitution()
         ));
@@ -231,15 +304,15 @@ fn notes_on(
         let label = measure.measure().label();
         for (found, (model, _)) in found.iter().zip(models) {
             if let Err(reason) = &found.fit {
-                notes.push(format!("no lognormal fragility of the {} by {label}: {reason}", model.name()));
+                notes.push(format!("no lognormal fragility of the {} by {label}: {reason}", model.kind()));
             }
             let largest = found.risks.iter().map(EventRisk::tail_share).fold(0.0, f64::max);
             if largest > TAIL_SHARE_LIMIT {
                 notes.push(format!(
-                    "up to {} of the risk of the {} by {label} comes from outside the analysed levels: they should reach \
-                     further",
+                    "up to {} of the risk of the {} by {label} comes from outside the analysed levels: they should \
+                     reach further",
                     per_cent((1000.0 * largest).round() / 1000.0),
-                    model.name()
+                    model.kind()
                 ));
             }
         }
@@ -248,13 +321,13 @@ fn notes_on(
 }
 
 impl ModelReport {
-    fn of(model: &Model, restitution_from: &'static str) -> Self {
+    fn of(model: &System, restitution_from: &'static str) -> Self {
         let block = match model {
-            Model::Oscillator(_) => None,
-            Model::Block(block) => Some(block),
+            System::Oscillator(_) => None,
+            System::Block(block) => Some(block),
         };
         Self {
-            model: model.name(),
+            model: model.kind(),
             restitution: model.restitution(),
             restitution_from,
             size_m: block.map(uplift_block::RockingBlock::size_m),

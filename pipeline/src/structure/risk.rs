@@ -1,36 +1,11 @@
-//! A structure under the records of a study: the stripes of its own oscillators, and how often it goes too far.
+//! A structure under the records of a study: how often it goes too far.
 
 use serde::Serialize;
 use uplift_hazard::probability_from_rate;
-use uplift_ida::{System, Watch, analyse};
-use uplift_oscillator::Oscillator;
 use uplift_risk::{PooledDemand, RiskCurve, StripeWeights};
 
-use crate::analysis::Analysed;
 use crate::error::UpliftError;
-use crate::inputs::RecordSet;
-use crate::uniform_risk::pooled_demand;
-use crate::uniform_risk::{Stripes, plan_stripes};
-use uplift_study::{MeasurePlan, UniformRiskStudy};
-
-/// The stripes of `oscillators`, which need not be those of `study`, over `[record, oscillator, level]`.
-///
-/// # Errors
-/// [`UpliftError::Interrupted`] if `watch` says so; a record that cannot be scaled.
-pub(super) fn stripes_of(
-    study: &UniformRiskStudy,
-    measure: &MeasurePlan,
-    set: &RecordSet,
-    oscillators: &[Oscillator],
-    watch: &dyn Watch,
-) -> Result<Stripes, UpliftError> {
-    let systems: Vec<System> = oscillators.iter().cloned().map(System::Oscillator).collect();
-    let plan = plan_stripes(study, measure, set, &systems)?;
-    let start = std::time::Instant::now();
-    let peaks = analyse(&plan, watch)?;
-    let (analyses, seconds) = (plan.analyses(), start.elapsed().as_secs_f64());
-    Ok(Stripes::of(measure, Analysed { peaks, analyses, computed: analyses, seconds }))
-}
+use crate::uniform_risk::{Stripes, pooled_demand};
 
 /// How often something happens to a structure at a site.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

@@ -13,8 +13,8 @@ pub struct RuleOutcome {
     pub rule: Rule,
     /// From the spectrum as an engineer reads it; none where it cannot be read.
     pub from_spectrum: Option<RuleCheck>,
-    /// From the exact demand on the structure's ZSBE oscillator: what is wrong with it is the rule's own error. None where
-    /// there is no such demand.
+    /// From the exact demand on the structure's ZSBE oscillator: what is wrong with it is the rule's own error. None
+    /// where there is no such demand.
     pub from_exact: Option<RuleCheck>,
 }
 

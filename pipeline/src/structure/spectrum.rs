@@ -25,7 +25,8 @@ pub(super) struct SpectrumReading {
     pub(super) ordinate_m: f64,
 }
 
-/// Reads a spectrum at `strength`, linear between its strengths; none outside them, and beside an ordinate that is censored.
+/// Reads a spectrum at `strength`, linear between its strengths; none outside them, and beside an ordinate that is
+/// censored.
 ///
 /// * `strengths` — ascending
 /// * `u_m` — the ordinates, m

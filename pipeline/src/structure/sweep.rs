@@ -1,5 +1,6 @@
 //! The oscillators of a structure, and those of structures a little weaker and stronger.
 
+use uplift_ida::System;
 use uplift_oscillator::{Oscillator, OscillatorError, PostUplift};
 use uplift_spectra::NoiseSweep;
 use uplift_structure::EquivalentSystem;
@@ -66,6 +67,11 @@ impl Sweep {
             }
         }
         Ok(Self { oscillators, pairs })
+    }
+
+    /// All of them, to be shaken.
+    pub(super) fn systems(&self) -> Vec<System> {
+        self.oscillators.iter().cloned().map(System::Oscillator).collect()
     }
 }
 

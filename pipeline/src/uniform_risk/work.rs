@@ -28,8 +28,7 @@ impl Inputs {
     /// Records that cannot be used.
     pub(crate) fn read(study: &UniformRiskStudy) -> Result<Self, UpliftError> {
         let records = read_records(study)?;
-        let motions = records.records.iter().map(|record| motion_key(&record.accelerogram)).collect();
-        Ok(Self { systems: systems(study)?, motions, records })
+        Ok(Self { systems: systems(study)?, motions: motion_keys(&records), records })
     }
 
     /// The stripes of every measure, but for what is known of them from a result at `earlier`.
@@ -63,6 +62,11 @@ impl Inputs {
         }
         Ok(Work::new(&study.title, plans))
     }
+}
+
+/// Keys of the records' motions.
+pub(crate) fn motion_keys(set: &RecordSet) -> Vec<String> {
+    set.records.iter().map(|record| motion_key(&record.accelerogram)).collect()
 }
 
 /// Carries out one shard of the stripes of a study into a file, but for what is known from an `earlier` result.

@@ -37,7 +37,8 @@ pub(super) struct BootstrapArguments {
     #[arg(
         long,
         value_name = "FILE.csv",
-        help = "Table to compare with: CSV with the columns of Table 4.1 (site, sample_size, pgv_e_median_pct, pgv_r_90ci_pct, …)"
+        help = "Table to compare with: CSV with the columns of Table 4.1 (site, sample_size, pgv_e_median_pct, \
+                pgv_r_90ci_pct, …)"
     )]
     reference: Option<PathBuf>,
     /// Print the rows as JSON

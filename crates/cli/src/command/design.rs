@@ -1,9 +1,10 @@
 //! `uplift design`: a structure against a uniform risk spectrum, and against its own risk.
 
 use clap::Args;
-use uplift::structure::{DesignOptions, design as run};
+use uplift::structure::{DesignOptions, design as run, design_shard};
 use uplift_motion::IntensityMeasure;
 
+use super::run::print_shard;
 use super::structure::StructureArguments;
 use crate::error::CommandError;
 use crate::show::{print_design, print_json};
@@ -26,7 +27,12 @@ pub(super) struct DesignArguments {
     #[arg(long)]
     measure: Option<IntensityMeasure>,
     /// Safety factor on the demand (Eq. 3.15)
-    #[arg(long, value_name = "FS", default_value_t = DesignOptions::default().safety_factor, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "FS",
+        default_value_t = DesignOptions::default().safety_factor,
+        allow_negative_numbers = true
+    )]
     safety_factor: f64,
     /// Read the spectrum and apply the rules, without analysing the structure itself
     #[arg(long)]
@@ -37,7 +43,7 @@ pub(super) struct DesignArguments {
 }
 
 pub(super) fn design(arguments: &DesignArguments, terminal: &Terminal) -> Result<(), CommandError> {
-    let StructureArguments { urs, manifest, .. } = &arguments.structure;
+    let StructureArguments { urs, manifest, shard, shards, .. } = &arguments.structure;
     let options = DesignOptions {
         manifest: manifest.clone(),
         site: arguments.site.clone(),
@@ -45,7 +51,12 @@ pub(super) fn design(arguments: &DesignArguments, terminal: &Terminal) -> Result
         measure: arguments.measure,
         safety_factor: arguments.safety_factor,
         spectrum_only: arguments.spectrum_only,
+        shards: shards.clone(),
     };
-    let report = run(&arguments.structure.load()?, urs, &options, terminal)?;
+    let structure = arguments.structure.load()?;
+    if let Some(shard) = shard {
+        return print_shard(&design_shard(&structure, urs, &options, *shard, terminal)?);
+    }
+    let report = run(&structure, urs, &options, terminal)?;
     if arguments.json { print_json(&report) } else { print_design(&report) }
 }

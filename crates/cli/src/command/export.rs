@@ -1,16 +1,13 @@
 //! `uplift export`: a result for other programs.
 
-use std::io::Write;
 use std::path::PathBuf;
 
 use clap::Args;
+use uplift::export::{ExportFormat, ExportOptions, export as export_result};
 
-use super::Terminal;
-use super::records::refuse_foreign;
 use crate::error::CommandError;
-use crate::show::shown_path;
-use uplift::export::Export;
-use uplift::result::{write_atomically, write_table};
+use crate::show::print_files;
+use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
 pub(super) struct ExportArguments {
@@ -30,31 +27,20 @@ pub(super) struct ExportArguments {
     output: Option<PathBuf>,
 }
 
+impl ExportArguments {
+    fn formats(&self) -> Vec<ExportFormat> {
+        [(self.csv, ExportFormat::Csv), (self.json, ExportFormat::Json), (self.mat, ExportFormat::Matlab)]
+            .into_iter()
+            .filter_map(|(wanted, format)| wanted.then_some(format))
+            .collect()
+    }
+}
+
 pub(super) fn export(arguments: &ExportArguments, terminal: &Terminal) -> Result<(), CommandError> {
-    let formats: Vec<&str> = [(arguments.csv, "spectra.csv"), (arguments.json, "json"), (arguments.mat, "mat")]
-        .into_iter()
-        .filter_map(|(wanted, extension)| wanted.then_some(extension))
-        .collect();
-    if formats.is_empty() || (arguments.output.is_some() && formats.len() > 1) {
-        return Err(CommandError::Usage("say --csv, --json or --mat; -o goes with one of them".to_owned()));
-    }
-    let export = Export::read(&arguments.result)?;
-    for format in formats {
-        let path = arguments.output.clone().unwrap_or_else(|| arguments.result.with_extension(format));
-        if path == arguments.result {
-            return Err(CommandError::Usage(format!("-o {}: this is the result itself", path.display())));
-        }
-        if arguments.output.is_some() && format != "mat" {
-            refuse_foreign(&path)?;
-        }
-        match format {
-            "json" => write_atomically(&path, format!("{:#}\n", export.json()).as_bytes())?,
-            "mat" => write_atomically(&path, &export.matlab()?)?,
-            _ => write_table(&path, export.provenance(), export.columns())?,
-        }
-        if !terminal.is_quiet() {
-            writeln!(std::io::stdout(), "{}", shown_path(&path).display())?;
-        }
-    }
-    Ok(())
+    let options = ExportOptions {
+        result: arguments.result.clone(),
+        formats: arguments.formats(),
+        output: arguments.output.clone(),
+    };
+    print_files(&export_result(&options, terminal)?.files, terminal)
 }

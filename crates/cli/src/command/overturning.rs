@@ -1,14 +1,15 @@
-//! `uplift overturning`: how often a structure overturns, by its equivalent oscillator and by the rigid block that rotates as it
-//! does.
+//! `uplift overturning`: how often a structure overturns, by its equivalent oscillator and by the rigid block that
+//! rotates as it does.
 
 use std::path::PathBuf;
 
 use clap::Args;
 use uplift::outputs::refuse_overwriting;
-use uplift::structure::{OverturningOptions, overturning as run};
+use uplift::structure::{OverturningOptions, overturning as run, overturning_shard};
 use uplift_motion::IntensityMeasure;
 use uplift_report::{check_figure_file, plot_overturning};
 
+use super::run::print_shard;
 use super::structure::StructureArguments;
 use crate::error::CommandError;
 use crate::show::{print_json, print_overturning};
@@ -27,7 +28,8 @@ pub(super) struct OverturningArguments {
     /// Intensity measure: pgv or pga [default: all of the result]
     #[arg(long)]
     measure: Option<IntensityMeasure>,
-    /// One coefficient of restitution for both models, in place of the structure's, the study's (oscillator) and that of angular momentum (block)
+    /// One coefficient of restitution for both models, in place of the structure's, the study's (oscillator) and that
+    /// of angular momentum (block)
     #[arg(long, value_name = "R", allow_negative_numbers = true)]
     restitution: Option<f64>,
     /// Print everything as JSON
@@ -46,15 +48,20 @@ pub(super) fn overturning(arguments: &OverturningArguments, terminal: &Terminal)
         check_figure_file(figure)?;
         refuse_overwriting(figure, &arguments.structure.inputs())?;
     }
-    let StructureArguments { urs, manifest, .. } = &arguments.structure;
+    let StructureArguments { urs, manifest, shard, shards, .. } = &arguments.structure;
     let options = OverturningOptions {
         manifest: manifest.clone(),
         site: arguments.site.clone(),
         measure: arguments.measure,
         restitution: arguments.restitution,
         table: arguments.output.clone(),
+        shards: shards.clone(),
     };
-    let report = run(&arguments.structure.load()?, urs, &options, terminal)?;
+    let structure = arguments.structure.load()?;
+    if let Some(shard) = shard {
+        return print_shard(&overturning_shard(&structure, urs, &options, *shard, terminal)?);
+    }
+    let report = run(&structure, urs, &options, terminal)?;
     if let Some(figure) = &arguments.plot {
         plot_overturning(&report, figure)?;
     }

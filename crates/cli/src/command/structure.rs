@@ -3,8 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use uplift_ida::Shard;
 use uplift_study::Structure;
 
+use super::run::shard;
 use crate::error::CommandError;
 
 #[derive(Debug, Args)]
@@ -17,6 +19,12 @@ pub(super) struct StructureArguments {
     /// Manifest of the records, where it is no longer where the study says
     #[arg(long, value_name = "CSV")]
     pub(super) manifest: Option<PathBuf>,
+    /// Compute only shard I of N of the structure's own analyses, into a file beside the result; nothing else is told
+    #[arg(long, value_name = "I/N", value_parser = shard, conflicts_with_all = ["shards", "json"])]
+    pub(super) shard: Option<Shard>,
+    /// Every shard of these analyses, as --shard wrote them, instead of computing them here
+    #[arg(long, value_name = "FILE", num_args = 1..)]
+    pub(super) shards: Vec<PathBuf>,
 }
 
 impl StructureArguments {

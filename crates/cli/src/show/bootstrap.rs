@@ -41,7 +41,8 @@ fn print_figures(
     let reference = Some(&report.reference).filter(|rows| compared && !rows.is_empty());
     writeln!(
         out,
-        "\nHow sure the spectra of {} in {} years are: error of the median e and width r of the {} interval, per cent{}",
+        "\nHow sure the spectra of {} in {} years are: error of the median e and width r of the {} interval, per \
+         cent{}",
         per_cent(report.poes[poe]),
         report.years,
         per_cent(report.confidence),
@@ -87,7 +88,8 @@ fn print_reading(out: &mut impl Write, report: &BootstrapReport) -> Result<(), C
     writeln!(
         out,
         "\nIn words, at the strength where the interval is widest in metres, in {} of the resamples (where \
-         displacements are small, at higher strengths, the interval may be many times as wide in per cent: see the bands):",
+         displacements are small, at higher strengths, the interval may be many times as wide in per cent: see the \
+         bands):",
         per_cent(report.confidence)
     )?;
     for bands in &report.bands {
@@ -189,8 +191,8 @@ fn figure(ratio: Option<f64>, digits: usize) -> String {
     ratio.map_or_else(|| "-".to_owned(), |ratio| format!("{:.digits$}", 100.0 * ratio))
 }
 
-/// Strengths at which the lower limit, the median and the upper limit fall to the uplift displacement, and the width of the
-/// band at that of the median.
+/// Strengths at which the lower limit, the median and the upper limit fall to the uplift displacement, and the width of
+/// the band at that of the median.
 fn initiation(found: Initiation) -> [String; 4] {
     let strength = |strength: Option<f64>| strength.map_or_else(|| "above all".to_owned(), |eta| format!("{eta:.3}"));
     let [lower, median, upper] = [found.lower, found.median, found.upper].map(strength);

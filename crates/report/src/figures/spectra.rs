@@ -1,8 +1,8 @@
 //! Hazard curves, uniform risk spectra and their fits (Figures 4.5, 4.6, 4.7, 4.11).
 
 use super::{FigureSource, STRENGTH};
+use uplift::hazard_curves::NamedCurve;
 use uplift::text::per_cent;
-use uplift_hazard::HazardCurve;
 use uplift_motion::IntensityMeasure;
 use uplift_plot::{Axis, Figure, Marks, Panel, Series, Tone};
 
@@ -22,9 +22,9 @@ pub(super) fn hazard(source: &FigureSource) -> Figure {
 }
 
 /// Curves from files, a panel for each measure and unit.
-pub fn hazard_figure(curves: &[(String, HazardCurve)]) -> Figure {
+pub fn hazard_figure(curves: &[NamedCurve]) -> Figure {
     let mut panels: Vec<Panel> = Vec::new();
-    for (index, (name, curve)) in curves.iter().enumerate() {
+    for (index, NamedCurve { name, curve }) in curves.iter().enumerate() {
         let label = format!("{}, {}", curve.measure(), curve.unit());
         let points = curve.points().map(|point| (point.im, point.maf)).collect();
         let series = Series::line(name, points, Tone::Distinct(index));

@@ -43,7 +43,8 @@ fn cut_at_every_byte() {
     }
 }
 
-// A flipped byte costs one row, or those behind it where it is the length that is wrong; and what is gone on with is sound.
+// A flipped byte costs one row, or those behind it where it is the length that is wrong; and what is gone on with is
+// sound.
 #[test]
 fn a_flipped_byte_costs_its_row() {
     let folder = tempfile::tempdir().unwrap();
@@ -102,7 +103,8 @@ fn a_file_of_the_version_before_is_no_mistake() {
     let block = write_block(RowKey([1; 16]), &[0.5], &[3]);
     let write = |shards: u64| {
         let head = format!(
-            "{{\"format\":\"uplift pieces 1\",\"work\":\"ab\",\"title\":\"old\",\"shard\":1,\"shards\":{shards},\"pieces\":9}}\n"
+            "{{\"format\":\"uplift pieces \
+             1\",\"work\":\"ab\",\"title\":\"old\",\"shard\":1,\"shards\":{shards},\"pieces\":9}}\n"
         );
         std::fs::write(&path, [head.as_bytes(), &block].concat()).unwrap();
     };

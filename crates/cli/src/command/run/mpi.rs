@@ -1,23 +1,26 @@
 //! `uplift run` under `mpirun`: every rank computes one shard of the analyses, and the first joins them.
 //!
-//! The ranks share nothing but the file system. MPI says who they are, lets the first wait for the others, and ends all when one fails: the
-//! shards are then as those of any run that stopped, and the same command goes on from there.
+//! The ranks share nothing but the file system. MPI says who they are, lets the first wait for the others, and ends all
+//! when one fails: the shards are then as those of any run that stopped, and the same command goes on from there.
 
-use crate::error::CommandError;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use ::mpi::Threading;
 use ::mpi::topology::SimpleCommunicator;
 use ::mpi::traits::{Communicator, CommunicatorCollectives};
 
-use super::{CommandError, RunArguments, Shard, Terminal, run_options, run_shard, shard_path};
-use crate::show::{print_json, print_run};
-use crate::terminal::tell_error;
+use uplift::analysis::shard_path;
 use uplift::checkpoint::{FinishedRows, RowFile};
 use uplift::events::Events;
 use uplift::run::run_with;
+use uplift::{UpliftError, run_shard};
+use uplift_ida::Shard;
+
+use super::{RunArguments, run_options};
+use crate::error::CommandError;
+use crate::show::{print_json, print_run};
+use crate::terminal::{Terminal, tell, tell_error};
 
 /// What the starters of ranks tell them: Open MPI, `PMIx` (Slurm among others), and PMI (MPICH, Intel MPI, Slurm).
 const STARTED_BY: [&str; 3] = ["OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"];
@@ -35,11 +38,11 @@ pub(super) fn run(arguments: &RunArguments, terminal: &Terminal) -> Option<Resul
         return None;
     }
     let shard = Shard { index, count };
-    let outcome = catch_unwind(AssertUnwindSafe(|| run_rank(arguments, &world, shard, session)));
+    let outcome = catch_unwind(AssertUnwindSafe(|| run_rank(arguments, &world, shard, terminal)));
     match outcome {
         Ok(done @ (Ok(()) | Err(CommandError::OutputClosed))) => Some(done),
         // a stop is sent to all ranks, and one says so
-        Ok(Err(error @ (CommandError::Paused { .. } | CommandError::Interrupted))) => {
+        Ok(Err(error @ (CommandError::Uplift(UpliftError::Paused { .. } | UpliftError::Interrupted)))) => {
             if index == 0 {
                 tell_error(&error);
             }
@@ -49,7 +52,7 @@ pub(super) fn run(arguments: &RunArguments, terminal: &Terminal) -> Option<Resul
         Ok(Err(error)) => {
             terminal.set_farewell(format!("rank {index} of {count} has ended the run"));
             let host = ::mpi::environment::processor_name().unwrap_or_default();
-            eprintln!("uplift: rank {index} of {count} on {host} ends the run:");
+            tell(&format!("uplift: rank {index} of {count} on {host} ends the run:"));
             tell_error(&error);
             world.abort(error.exit_code().into())
         }
@@ -62,7 +65,7 @@ fn run_rank(
     arguments: &RunArguments,
     world: &SimpleCommunicator,
     shard: Shard,
-    session: &Terminal,
+    terminal: &Terminal,
 ) -> Result<(), CommandError> {
     let first = shard.index == 0;
     // the first looks before the others do, so that a mistake is said once
@@ -75,10 +78,10 @@ fn run_rank(
     let study = arguments.study.load_any()?;
     let options = run_options(&arguments.study, arguments.output.clone());
     let path = options.result_file(&study.output().file).to_owned();
-    let own = session.hushed(!first);
+    let own = terminal.hushed(!first);
     if first {
         uplift::check_inputs(&study, &path, &own)?;
-        wait(world, session)?;
+        wait(world, terminal)?;
     }
     let threads = rayon::current_num_threads();
     // said now, since a launcher that ends the ranks may no longer listen to them
@@ -89,7 +92,7 @@ fn run_rank(
     ));
     let file = shard_path(&path, shard);
     let rows = run_shard(&study, &file, shard, Some(&path), &own)?.rows;
-    wait(world, session).map_err(|_| CommandError::Paused {
+    wait(world, terminal).map_err(|_| UpliftError::Paused {
         what: "analysis rows",
         done: rows,
         total: rows,
@@ -103,7 +106,7 @@ fn run_rank(
     let mut work = None;
     let files: Vec<_> = (0..shard.count).map(|index| shard_path(&path, Shard { index, ..shard })).collect();
     for file in &files {
-        let found = RowFile::read(file)?.ok_or_else(|| {
+        let found = RowFile::read(file).map_err(UpliftError::from)?.ok_or_else(|| {
             CommandError::input(format!(
                 "{}: is not there: the result must lie in a folder that all ranks share",
                 file.display()
@@ -117,8 +120,8 @@ fn run_rank(
         }
         known.extend(found.rows);
     }
-    let report = run_with(&study, &options, known, session)?;
-    if arguments.json { print_json(&report) } else { print_run(&report, session) }?;
+    let report = run_with(&study, &options, known, terminal)?;
+    if arguments.json { print_json(&report) } else { print_run(&report, terminal) }?;
     for file in &files {
         let _ = std::fs::remove_file(file);
     }
@@ -136,7 +139,7 @@ fn wait(world: &SimpleCommunicator, terminal: &Terminal) -> Result<(), CommandEr
         if terminal.cancelled() {
             // the program ends here; a request must not be dropped before it is complete
             std::mem::forget(all_here);
-            return Err(CommandError::Interrupted);
+            return Err(UpliftError::Interrupted.into());
         }
         std::thread::sleep(LOOK_EVERY);
     }

@@ -18,7 +18,7 @@ impl ReferenceTable {
     /// Reads the table at `path`; lines that begin with `#` are comments.
     ///
     /// # Errors
-    /// A file that cannot be read, or is not a table.
+    /// A file that cannot be read, or is not CSV with a header row.
     pub fn read(path: &Path) -> Result<Self, UpliftError> {
         let name = path.display().to_string();
         let fail = |reason: String| UpliftError::input(format!("reference {name}: {reason}"));
@@ -52,7 +52,7 @@ impl ReferenceTable {
     /// A cell as a number.
     ///
     /// # Errors
-    /// A cell that is not one.
+    /// A cell that is not one, or is not there.
     pub fn number<T: std::str::FromStr>(&self, column: &str, row: usize) -> Result<T, UpliftError> {
         let cell = self.text(column, row);
         cell.parse().map_err(|_| self.fail(format!("row {}, {column}: {cell:?} is not a number", row + 1)))
