@@ -11,8 +11,6 @@ use uplift_motion::MotionError;
 use uplift_oscillator::OscillatorError;
 use uplift_study::StudyError;
 
-use crate::import::ImportReport;
-
 /// Why a job did not do what it was asked.
 #[derive(Debug, Error)]
 pub enum UpliftError {
@@ -40,17 +38,6 @@ pub enum UpliftError {
     /// Blocks or pulses that cannot be; all that was found.
     #[error("{}", list("", .0))]
     Blocks(Vec<BlockError>),
-    /// A folder holds no pair of records to import.
-    #[error(
-        "no pair of horizontal components in {}: {} files read, {} components found",
-        folder.display(), found.files, found.components
-    )]
-    NoPairs {
-        /// The folder.
-        folder: PathBuf,
-        /// What was found in it; there is no manifest.
-        found: Box<ImportReport>,
-    },
     /// The user stopped the run.
     #[error(
         "interrupted: nothing was written, and an earlier result file is as it was. Run the same command to start again"
