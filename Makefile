@@ -23,7 +23,7 @@ run: build
 	@$(UPLIFT) report $(OUTPUT)
 
 build:
-	cargo build --release --locked --package uplift
+	cargo build --release --locked --package uplift-cli
 
 # Formatting, lints, documentation, then every test: crates, the built program, its result file from Python.
 test: lint docs python
@@ -36,6 +36,7 @@ test-cluster: build
 
 lint:
 	.ci/check-line-width
+	.ci/check-paths
 	cargo fmt --all --check
 	cargo clippy --locked --workspace --all-targets -- -D warnings
 

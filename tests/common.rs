@@ -1,14 +1,15 @@
 //! What the end-to-end tests share: the built program, small studies, the places of things.
-#![allow(dead_code, clippy::unwrap_used, clippy::print_stdout, unreachable_pub)]
 
+use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Child, Command, Output, Stdio};
+use std::sync::{Arc, Mutex};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
 
-pub fn repository() -> &'static Path {
-    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
-}
+pub use crate::python::{python, repository};
 
 /// What a run of the program left behind.
 #[derive(Debug)]
@@ -129,18 +130,103 @@ impl SmallStudy {
         uplift(self.path(), arguments)
     }
 
-    /// The same, stopped by Ctrl-C after two seconds.
+    /// The same, at work while the test goes on.
+    pub fn start(&self, arguments: &[&str]) -> Running {
+        Running::of(command(self.path()).args(arguments))
+    }
+}
+
+/// Longer than anything here takes, however busy the machine.
+const PATIENCE: Duration = Duration::from_secs(120);
+
+/// A run of the program that the test stops or looks at on its way; ended with the test, if not before.
+#[derive(Debug)]
+pub struct Running {
+    child: Child,
+    /// Standard error so far.
+    said: Arc<Mutex<String>>,
+    listener: Option<JoinHandle<()>>,
+}
+
+impl Running {
+    fn of(command: &mut Command) -> Self {
+        let mut child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+        let said = Arc::new(Mutex::new(String::new()));
+        let (stderr, heard) = (BufReader::new(child.stderr.take().unwrap()), said.clone());
+        let listener = std::thread::spawn(move || {
+            for line in stderr.lines() {
+                *heard.lock().unwrap() += &(line.unwrap() + "\n");
+            }
+        });
+        Self { child, said, listener: Some(listener) }
+    }
+
+    /// What it has said so far on standard error.
+    pub fn said(&self) -> String {
+        self.said.lock().unwrap().clone()
+    }
+
+    /// False once it has ended, by itself or not.
+    pub fn is_at_work(&mut self) -> bool {
+        self.child.try_wait().unwrap().is_none()
+    }
+
+    /// Waits for the moment that `reached` knows; a run that ends before fails the test.
+    pub fn wait_until(&mut self, moment: &str, reached: impl Fn() -> bool) {
+        let begin = Instant::now();
+        while !reached() {
+            assert!(self.is_at_work(), "it ended before: {moment}\n{}", self.said());
+            assert!(begin.elapsed() < PATIENCE, "never: {moment}\n{}", self.said());
+            std::thread::sleep(Duration::from_millis(1));
+        }
+    }
+
+    /// Waits until it has said `words` on standard error.
+    pub fn wait_until_said(&mut self, words: &str) {
+        let said = self.said.clone();
+        self.wait_until(words, || said.lock().unwrap().contains(words));
+    }
+
+    /// Ctrl-C.
     #[cfg(unix)]
-    pub fn uplift_stopped(&self, arguments: &[&str]) -> Finished {
-        let child = command(self.path())
-            .args(arguments)
-            .stdout(std::process::Stdio::piped())
-            .stderr(std::process::Stdio::piped())
-            .spawn()
-            .unwrap();
-        std::thread::sleep(std::time::Duration::from_secs(2));
-        Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
-        Finished::of(child.wait_with_output().unwrap())
+    pub fn interrupt(&self) {
+        self.signal("-INT");
+    }
+
+    /// Holds it in its tracks, so that it is not over before something else is, however fast it is.
+    #[cfg(unix)]
+    pub fn hold(&self) {
+        self.signal("-STOP");
+    }
+
+    /// Lets it go on.
+    #[cfg(unix)]
+    pub fn release(&self) {
+        self.signal("-CONT");
+    }
+
+    #[cfg(unix)]
+    fn signal(&self, signal: &str) {
+        assert!(Command::new("kill").args([signal, &self.child.id().to_string()]).status().unwrap().success());
+    }
+
+    /// Ends it without a warning.
+    pub fn kill(mut self) {
+        self.child.kill().unwrap();
+    }
+
+    /// Waits for its end, and tells what it said on standard error.
+    pub fn end(mut self) -> Finished {
+        let code = self.child.wait().unwrap().code().unwrap_or(-1);
+        self.listener.take().unwrap().join().unwrap();
+        Finished { code, stdout: String::new(), stderr: self.said() }
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
     }
 }
 
@@ -152,17 +238,5 @@ pub fn real_records() -> Option<PathBuf> {
         return Some(folder.canonicalize().unwrap());
     }
     println!("skipped: no real records (set UPLIFT_RECORDS to a folder with a manifest.csv)");
-    None
-}
-
-/// The Python of `UPLIFT_PYTHON`, else of the repository's `.venv`; none skips the test, on a build server fails it.
-pub fn python() -> Option<PathBuf> {
-    let python = std::env::var_os("UPLIFT_PYTHON").map_or_else(|| repository().join(".venv/bin/python"), PathBuf::from);
-    let works = Command::new(&python).args(["-c", "import h5py, xarray, netCDF4, h5netcdf, pandas"]).output();
-    if works.is_ok_and(|output| output.status.success()) {
-        return Some(python);
-    }
-    assert!(std::env::var_os("CI").is_none(), "no Python with h5py, xarray, netCDF4, h5netcdf and pandas");
-    println!("skipped: no Python with h5py, xarray, netCDF4, h5netcdf and pandas (set UPLIFT_PYTHON)");
     None
 }

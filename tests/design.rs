@@ -1,14 +1,12 @@
 //! `uplift design`: a structure against a spectrum, and against its own risk.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
-
-mod common;
 
 use std::path::Path;
 
-use common::{Finished, SmallStudy, repository, uplift};
 use serde_json::Value;
 use uplift_motion::{Accelerogram, ReadOptions, read_path};
 use uplift_oscillator::{Excitation, FreeVibration, Oscillator, PostUplift, respond};
+
+use crate::common::{Finished, SmallStudy, repository, uplift};
 
 const STUDY: &str = r#"title = "design"
 [records]
@@ -62,7 +60,8 @@ fn records(folder: &Path) -> Vec<(Accelerogram, f64)> {
         .collect()
 }
 
-/// Peaks over `[record][level]`, m, of an oscillator that is driven by `factor` times the motion (Eq. 3.4), by the readable solver.
+/// Peaks over `[record][level]`, m, of an oscillator that is driven by `factor` times the motion (Eq. 3.4), by the
+/// readable solver.
 fn peaks_m(records: &[(Accelerogram, f64)], oscillator: &Oscillator, factor: f64) -> Vec<Vec<f64>> {
     let peak = |(record, pgv_cm_s): &(Accelerogram, f64), level: f64| {
         let excitation = Excitation::new(record.dt_s(), record.acceleration_m_s2()).unwrap();
@@ -107,7 +106,8 @@ fn holds(range: &Value, values: impl Iterator<Item = f64>) {
     }
 }
 
-// Every number once more, for a block that uplifts at 5 mm, so that no chaos of hundreds of impacts blurs them: Table 3.1 for a block by hand, driven by Γ times the motion, the readable solver, plain sums.
+// Every number once more, for a block that uplifts at 5 mm, so that no chaos of hundreds of impacts blurs them: Table
+// 3.1 for a block by hand, driven by Γ times the motion, the readable solver, plain sums.
 #[test]
 fn every_number_by_hand() {
     const UPLIFT_M: f64 = 0.005;
@@ -156,7 +156,8 @@ fn every_number_by_hand() {
     }
 }
 
-// The ranges beside these numbers, by the same means; impacts that take most of the velocity leave no chaos at any strength of the sweep.
+// The ranges beside these numbers, by the same means; impacts that take most of the velocity leave no chaos at any
+// strength of the sweep.
 #[test]
 fn ranges_are_those_of_neighbouring_strengths() {
     const UPLIFT_M: f64 = 0.005;
@@ -184,14 +185,15 @@ fn ranges_are_those_of_neighbouring_strengths() {
     assert!(noise["demand_m"]["lowest"].as_f64() < noise["demand_m"]["highest"].as_f64(), "{noise}");
 }
 
-// A point mass is followed where the motion acts, Γ = 1: at a strength of the study its ZSBE demand is the ordinate itself, to the bit.
+// A point mass is followed where the motion acts, Γ = 1: at a strength of the study its ZSBE demand is the ordinate
+// itself, to the bit.
 #[test]
 fn the_exact_demand_is_the_ordinate_where_the_spectrum_has_one() {
     let study = study();
     study.write("mast.toml", "kind = \"point-mass\"\nslenderness_rad = 0.2\nsize_m = 5\nmass_kg = 10\n");
     study.write("between.toml", "kind = \"point-mass\"\nslenderness_rad = 0.16\nsize_m = 5\nmass_kg = 10\n");
     let u_m = |strength: usize| {
-        let reader = uplift::labelled::LabelledReader::open(&study.path().join("r.h5")).unwrap();
+        let reader = uplift_labelled::LabelledReader::open(&study.path().join("r.h5")).unwrap();
         reader.array_f64("/urs/pgv/u_m").unwrap().values[strength]
     };
     let found = design(&study, "mast.toml", &["--poe", "0.02"]);
@@ -248,7 +250,8 @@ fn structures_without_a_capacity() {
     let study = study();
     let frame = |stiffness: f64| {
         format!(
-            "kind = \"restrained-frame\"\ncolumns = 2\nwidth_m = 1\nheight_m = 10\ncolumn_mass_kg = 0\ndeck_mass_kg = 1e5\n\
+            "kind = \"restrained-frame\"\ncolumns = 2\nwidth_m = 1\nheight_m = 10\ncolumn_mass_kg = 0\n\
+             deck_mass_kg = 1e5\n\
              tendon_stiffness_n_m = {stiffness}\ntendon_anchorage = \"foundation\"\n"
         )
     };
@@ -264,12 +267,14 @@ fn structures_without_a_capacity() {
     assert!(shown.contains("do not apply") && shown.contains("warning    post-uplift stiffness"), "{shown}");
 }
 
-// The last step of Section 3.4.5: with the tendons that the program names, the structure has the capacity that it asks for.
+// The last step of Section 3.4.5: with the tendons that the program names, the structure has the capacity that it asks
+// for.
 #[test]
 fn tendons_of_the_required_capacity() {
     let study = study();
     let pier = |stiffness: f64| {
-        let text = "kind = \"restrained-frame\"\ncolumns = 2\nwidth_m = 0.3\nheight_m = 3\ncolumn_mass_kg = 500\ndeck_mass_kg = 20000\n";
+        let text = "kind = \"restrained-frame\"\ncolumns = 2\nwidth_m = 0.3\nheight_m = 3\ncolumn_mass_kg = 500\n\
+            deck_mass_kg = 20000\n";
         let file = study
             .write("pier.toml", &format!("{text}tendon_anchorage = \"column\"\ntendon_stiffness_n_m = {stiffness}\n"));
         design(&study, file.to_str().unwrap(), &["--safety-factor", "4"])
@@ -337,7 +342,8 @@ fn mistakes_are_said_at_once_with_their_lines() {
     let study = study();
     study.write(
         "wrong.toml",
-        "kind = \"restrained-frame\"\nwidth_m = \"1.6\"\nheight_m = -9.6\ncolumns = 2.5\nmass_kg = 3\ntendon_anchorage = \"colum\"\n\
+        "kind = \"restrained-frame\"\nwidth_m = \"1.6\"\nheight_m = -9.6\ncolumns = 2.5\nmass_kg = 3\n\
+         tendon_anchorage = \"colum\"\n\
          deck_mass = 1\ncolumn_mass_kg = 1000\nrestitution = 1.5\nuplift_displacement_m = 0\n",
     );
     let lines = [

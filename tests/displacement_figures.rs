@@ -1,13 +1,11 @@
 //! Figures and report of displacement spectra: what can be read off them against the arrays of the result.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
-
-mod common;
 
 use std::collections::HashMap;
 
-use common::SmallStudy;
 use serde_json::Value;
-use uplift::labelled::LabelledReader;
+use uplift_labelled::LabelledReader;
+
+use crate::common::SmallStudy;
 
 /// Small oscillators: the synthetic motions are gentle.
 const OSCILLATORS: &str = r#"kind = "displacement spectra"

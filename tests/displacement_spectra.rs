@@ -1,15 +1,14 @@
-//! Displacement spectra of record sets from end to end: the arrays against the solvers called one by one, sets, tables, refusals.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
+//! Displacement spectra of record sets from end to end: the arrays against the solvers called one by one, sets, tables,
+//! refusals.
 
-mod common;
-#[path = "displacement_spectra/single_runs.rs"]
 mod single_runs;
 
 use std::path::Path;
 use std::process::Command;
 
-use common::{EARLIER, SmallStudy, python, real_records, repository, uplift};
-use uplift::labelled::{LabelledArray, LabelledReader};
+use uplift_labelled::{LabelledArray, LabelledReader};
+
+use crate::common::{EARLIER, SmallStudy, python, real_records, repository, uplift};
 
 /// Small oscillators and slender blocks: the synthetic motions are gentle.
 const OSCILLATORS: &str = r#"kind = "displacement spectra"
@@ -251,7 +250,8 @@ fn tables_stand_beside_a_reference() {
         row.unwrap().clone()
     };
     let lowest = pick(&own, "component")["lowest"].as_f64().unwrap();
-    // as tests/reference writes it: a scaling without a blank, a number that is rounded to a tenth of a millimetre, below the range or at it
+    // as tests/reference writes it: a scaling without a blank, a number that is rounded to a tenth of a millimetre,
+    // below the range or at it
     for (value, within) in [(lowest - 0.00004, true), (lowest - 0.00011, false)] {
         let text = format!("rule,record_set,scaling,quantity,value\nEE,Synthetic,2.0PGA,u_dem_TH_m,{value:.4}\n");
         study.write("reference.csv", &text);
@@ -311,7 +311,10 @@ fn interruption_keeps_the_earlier_result() {
     let study = SmallStudy::with(OSCILLATORS);
     study.write_bytes("r.h5", EARLIER);
     let long = ["run", "study.toml", "-o", "r.h5", "--set", "strengths.values=0:1/99999:1"];
-    study.uplift_stopped(&long).fails(5, &["interrupted: nothing was written"]);
+    let mut run = study.start(&long);
+    run.wait_until_said("analyses");
+    run.interrupt();
+    run.end().fails(5, &["interrupted: nothing was written"]);
     assert_eq!(std::fs::read(study.path().join("r.h5")).unwrap(), EARLIER);
 }
 
@@ -328,7 +331,8 @@ fn python_finds_the_percentiles_of_the_displacements() {
     }
 }
 
-/// The sets of FEMA P695 as Chapter 3 uses them: their sizes, and its medians within the noise of ours more often than not.
+/// The sets of FEMA P695 as Chapter 3 uses them: their sizes, and its medians within the noise of ours more often than
+/// not.
 #[test]
 fn the_sets_of_the_dissertation() {
     let Some(records) = real_records() else { return };

@@ -1,10 +1,9 @@
-//! Sites with several weighted hazard curves: spectra of the branches, their mean and fractiles, and the joint band with the bootstrap.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
+//! Sites with several weighted hazard curves: spectra of the branches, their mean and fractiles, and the joint band
+//! with the bootstrap.
 
-mod common;
+use uplift_labelled::LabelledReader;
 
-use common::SmallStudy;
-use uplift::labelled::LabelledReader;
+use crate::common::SmallStudy;
 
 const HEAD: &str = r#"seed = 3
 [records]
@@ -25,7 +24,8 @@ name = "Here"
 /// Two power laws, one twice the other, and their mean with weights 0.3 and 0.7, which is 1.7 times the first.
 fn study() -> SmallStudy {
     let study = SmallStudy::with(&format!(
-        "{HEAD}[sites.pgv]\n[[sites.pgv.branches]]\nfile = \"a.csv\"\nweight = 0.3\n[[sites.pgv.branches]]\nname = \"twice\"\nfile = \"b.csv\"\nweight = 0.7\n"
+        "{HEAD}[sites.pgv]\n[[sites.pgv.branches]]\nfile = \"a.csv\"\nweight = 0.3\n[[sites.pgv.branches]]\n\
+         name = \"twice\"\nfile = \"b.csv\"\nweight = 0.7\n"
     ));
     for (name, factor) in [("a", 1.0), ("b", 2.0), ("mean", 1.7)] {
         let rows: Vec<String> =

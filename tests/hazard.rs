@@ -1,17 +1,15 @@
 //! `uplift hazard`: exports of engines become curve files that a study takes, and definitions that differ are refused.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
-
-mod common;
 
 use std::fmt::Write as _;
 
-use common::{SMALL_STUDY, SmallStudy, uplift};
+use crate::common::{SMALL_STUDY, SmallStudy, uplift};
 
 /// An export as an engine writes it: probabilities in `years` of curves λ = k0 im⁻² at some sites.
 fn openquake(kind: &str, years: f64, sites: &[(&str, f64, f64, f64)]) -> String {
     let levels = [0.5, 2.0, 20.0, 300.0];
     let mut text = format!(
-        "#,,,,,,\"generated_by='OpenQuake engine 3.26.2', start_date='2026-01-01T00:00:00', checksum=1, kind='{kind}', investigation_time={years}, imt='PGV'\"\n\
+        "#,,,,,,\"generated_by='OpenQuake engine 3.26.2', start_date='2026-01-01T00:00:00', checksum=1, \
+         kind='{kind}', investigation_time={years}, imt='PGV'\"\n\
          custom_site_id,lon,lat,depth"
     );
     for level in levels {
@@ -62,7 +60,14 @@ fn a_site_of_an_export_becomes_a_study() {
         assert!((rate / (0.1 / (level * level)) - 1.0).abs() < 1e-7, "{rate}");
     }
     // the printed lines are a study's
-    study.write("mine.toml", &format!("[records]\nintensity = \"rotd50\"\nfirst = 2\n[strengths]\nvalues = 0.2\n[pgv]\nlevels_cm_s = [1, 10, 100]\n{}", done.stdout));
+    study.write(
+        "mine.toml",
+        &format!(
+            "[records]\nintensity = \"rotd50\"\nfirst = 2\n[strengths]\nvalues = 0.2\n\
+        [pgv]\nlevels_cm_s = [1, 10, 100]\n{}",
+            done.stdout
+        ),
+    );
     study.uplift(&["run", "mine.toml"]).ok();
 
     let shown = study.uplift(&["hazard", "show", "export.csv"]).ok().stdout;
@@ -158,7 +163,8 @@ fn a_curve_of_another_definition_is_refused_unless_converted() {
     study
         .uplift(&["check", "study.toml", "--set", converted, "--set", "records.intensity=\"rotd100\""])
         .fails(4, &["RotD100"]);
-    // what says something that is not understood is not passed over, and what says nothing is the geometric mean or is refused
+    // what says something that is not understood is not passed over, and what says nothing is the geometric mean or is
+    // refused
     study.write("there-pgv.csv", "# component: GMRotD50\niml,poe\n0.005,0.9\n3,0.0001\n");
     study
         .uplift(&["check", "study.toml", "--set", converted])
@@ -194,7 +200,8 @@ fn a_curve_of_another_definition_is_refused_unless_converted() {
         ("hazard.conversions=[{ from = \"larger\", to = \"RotD50\" }]", &["factor"]),
         ("hazard.conversions=[{ from = \"larger\", to = \"RotD50\", pgv = 0 }]", &["above zero"]),
         (
-            "hazard.conversions=[{ from = \"larger\", to = \"RotD50\", pgv = 1 }, { from = \"larger\", to = \"RotD50\", pga = 1 }]",
+            "hazard.conversions=[{ from = \"larger\", to = \"RotD50\", pgv = 1 }, { from = \"larger\", to = \
+             \"RotD50\", pga = 1 }]",
             &["twice"],
         ),
     ] {

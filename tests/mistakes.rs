@@ -1,9 +1,6 @@
 //! Bad input: each gets a message with file, line or key, value, and what to do, and the exit code of its kind.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-mod common;
-
-use common::{EARLIER, SMALL_STUDY, SmallStudy};
+use crate::common::{self, EARLIER, SMALL_STUDY, SmallStudy};
 
 const MANIFEST: &str = "record_id,file_h1,file_h2,set_tags,dt_s,unit\n";
 

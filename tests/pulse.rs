@@ -1,17 +1,16 @@
-//! `uplift pulse`: rocking spectra under wavelets, against the block asked directly and against what the dissertation says of them.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
-
-mod common;
+//! `uplift pulse`: rocking spectra under wavelets, against the block asked directly and against what the dissertation
+//! says of them.
 
 use std::collections::HashMap;
 use std::path::Path;
 
-use common::uplift;
 use serde_json::Value;
 use uplift_block::{
     FreeRocking, Overturning, PulseSpectrumPlan, RickerPulse, RickerShape, RockingBlock, SizeMeasure, pulse_spectrum,
     respond,
 };
+
+use crate::common::uplift;
 
 const SMALL: [&str; 12] = [
     "--frequencies",

@@ -1,14 +1,12 @@
 //! `uplift records`: folders of downloads become manifests, records are listed, shown, chosen and made.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
-
-mod common;
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use common::{SMALL_STUDY, SmallStudy, real_records, repository, uplift};
 use polars::prelude::{CsvParseOptions, CsvReadOptions, SerReader};
+
+use crate::common::{SMALL_STUDY, SmallStudy, real_records, repository, uplift};
 
 /// A record that moves and comes to rest: its velocity is sin(0.1 i) exp(-0.01 i).
 fn wave(points: u32, scale: f64) -> Vec<f64> {
@@ -83,9 +81,13 @@ fn download() -> tempfile::TempDir {
     write(
         "_SearchResults.csv",
         "PEER Ground Motion Database\n\n -- Summary of Metadata of Selected Records --\n\
-         Result ID, Spectral Ordinate, Record Sequence Number, Scale Factor, Earthquake Name, Year, Station Name, Magnitude, Mechanism, Rjb (km), Rrup (km), Vs30 (m/sec), Lowest Useable Frequency (Hz), Horizontal-1 Acc. Filename, Horizontal-2 Acc. Filename, Vertical Acc. Filename\n\
-         1,SRSS,12,1.0,\"Some Event, Somewhere\",1999,\"A Station\",6.7,strike slip,10.1,12.3,450.0,0.125,RSN12_EVENT_STA360.AT2,RSN12_EVENT_STA090.AT2,RSN12_EVENT_STA-UP.AT2\n\
-         2,SRSS,99,1.0,Other,2000,Nowhere,7.0,reverse,20.1,22.3,350.0,0.25,x.AT2,y.AT2,z.AT2\n\n -- Spectra --\nT,a\n0.1,0.2\n",
+         Result ID, Spectral Ordinate, Record Sequence Number, Scale Factor, Earthquake Name, Year, Station Name, \
+         Magnitude, Mechanism, Rjb (km), Rrup (km), Vs30 (m/sec), Lowest Useable Frequency (Hz), Horizontal-1 Acc. \
+         Filename, Horizontal-2 Acc. Filename, Vertical Acc. Filename\n\
+         1,SRSS,12,1.0,\"Some Event, Somewhere\",1999,\"A Station\",6.7,strike slip,10.1,12.3,450.0,0.125,\
+         RSN12_EVENT_STA360.AT2,RSN12_EVENT_STA090.AT2,RSN12_EVENT_STA-UP.AT2\n\
+         2,SRSS,99,1.0,Other,2000,Nowhere,7.0,reverse,20.1,22.3,350.0,0.25,x.AT2,y.AT2,z.AT2\n\n -- Spectra --\nT,a\n\
+         0.1,0.2\n",
     );
     folder
 }
@@ -147,7 +149,8 @@ fn a_study_runs_on_what_was_imported() {
     uplift(folder.path(), &["records", "import", ".", "-o", "set.csv", "--quiet"]).ok();
     let study = SmallStudy::with(&SMALL_STUDY.replace(
         "first = 4\n[records.synthetic]\npairs = 4\n",
-        "manifest = \"set.csv\"\nintensity = \"rotd50\"\n[records.select]\nmagnitude = \"6:7\"\n[hazard]\ncomponent = \"RotD50\"\n",
+        "manifest = \"set.csv\"\nintensity = \"rotd50\"\n[records.select]\nmagnitude = \"6:7\"\n[hazard]\n\
+         component = \"RotD50\"\n",
     ));
     std::fs::copy(folder.path().join("set.csv"), study.path().join("moved.csv")).unwrap();
     let text = std::fs::read_to_string(study.path().join("study.toml")).unwrap();

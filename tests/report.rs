@@ -1,12 +1,9 @@
 //! `uplift report` and `uplift plot`: what is in them, and what a browser makes of the page.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
-
-mod common;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use common::SmallStudy;
+use crate::common::{self, SmallStudy};
 
 /// A result with bands.
 fn study() -> SmallStudy {
@@ -118,7 +115,8 @@ fn browse(browser: &Path, path: &Path, arguments: &[&str]) -> (String, String) {
     (String::from_utf8_lossy(&output.stdout).into_owned(), String::from_utf8_lossy(&output.stderr).into_owned())
 }
 
-/// Hovers over the first panel of the spectra, walks with the arrow keys, sorts a table, and leaves what it saw in the page.
+/// Hovers over the first panel of the spectra, walks with the arrow keys, sorts a table, and leaves what it saw in the
+/// page.
 const PROBE: &str = r"<script>
 const plot = document.querySelector('#r1-urs-pgv .plot');
 const svg = plot.querySelector('svg');
@@ -126,10 +124,11 @@ const place = JSON.parse(document.querySelector('#r1-urs-pgv script').textConten
 plot.scrollIntoView();
 const box = svg.getBoundingClientRect(), zoom = box.width / svg.viewBox.baseVal.width;
 const at = (pair, share) => (pair[0] + share * (pair[1] - pair[0])) * zoom;
-plot.dispatchEvent(new PointerEvent('pointermove', { clientX: box.left + at(place.x_pixels, 0.5), clientY: box.top + at(place.y_pixels, 0.5) }));
+const middle = { clientX: box.left + at(place.x_pixels, 0.5), clientY: box.top + at(place.y_pixels, 0.5) };
+plot.dispatchEvent(new PointerEvent('pointermove', middle));
 document.body.dataset.hover = document.getElementById('tip').textContent;
 plot.dispatchEvent(new PointerEvent('pointerleave'));
-plot.dispatchEvent(new PointerEvent('pointerdown', { clientX: box.left + at(place.x_pixels, 0.5), clientY: box.top + at(place.y_pixels, 0.5) }));
+plot.dispatchEvent(new PointerEvent('pointerdown', middle));
 document.body.dataset.tap = document.getElementById('tip').hidden;
 plot.dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowRight' }));
 document.body.dataset.keys = document.querySelector('#r1-urs-pgv .reading').textContent;

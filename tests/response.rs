@@ -1,18 +1,17 @@
 //! `uplift response`: one record through one oscillator, as typed.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
-
-mod common;
 
 use std::fmt::Write as _;
 
-use common::{real_records, repository, uplift};
 use serde_json::Value;
+
+use crate::common::{real_records, repository, uplift};
 
 fn json(text: &str) -> Value {
     serde_json::from_str(text).unwrap()
 }
 
-// The exact cases typed at the command line: what the file format, the units and the options do to them is tested with them.
+// The exact cases typed at the command line: what the file format, the units and the options do to them is tested with
+// them.
 #[test]
 fn exact_cases_through_the_command_line() {
     let folder = tempfile::tempdir().unwrap();
@@ -74,7 +73,10 @@ fn history_holds_samples_and_events_in_order() {
     let text = std::fs::read_to_string(folder.path().join("h.csv")).unwrap();
     let mut lines = text.lines();
     assert!(lines.next().unwrap().starts_with("# uplift "));
-    insta::assert_snapshot!(lines.next().unwrap(), @"time_s,displacement_m,velocity_m_s,ground_acceleration_m_s2,event");
+    insta::assert_snapshot!(
+        lines.next().unwrap(),
+        @"time_s,displacement_m,velocity_m_s,ground_acceleration_m_s2,event"
+    );
     let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
     let times: Vec<f64> = rows.iter().map(|row| row[0].parse().unwrap()).collect();
     assert!(times.windows(2).all(|pair| pair[0] <= pair[1]));

@@ -1,13 +1,11 @@
 //! `uplift run` and `uplift check` from end to end.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
-
-mod common;
 
 use std::path::Path;
 use std::process::Command;
 
-use common::{EARLIER, SmallStudy, python, repository};
-use uplift::labelled::LabelledReader;
+use uplift_labelled::LabelledReader;
+
+use crate::common::{self, EARLIER, SmallStudy, python, repository};
 
 fn arrays(path: &Path) -> Vec<(String, Vec<u64>)> {
     let reader = LabelledReader::open(path).unwrap();
@@ -73,7 +71,8 @@ fn known_limits_come_out_right() {
     }
 }
 
-// The site There has half the rates of Here, given as probabilities in 50 years and in m/s: the same spectrum at half the rate.
+// The site There has half the rates of Here, given as probabilities in 50 years and in m/s: the same spectrum at half
+// the rate.
 #[test]
 fn probabilities_and_units_of_hazard_are_converted() {
     let study = SmallStudy::new();
@@ -100,7 +99,10 @@ fn summary_tables_and_provenance() {
     let mut lines = urs.lines();
     let first = lines.next().unwrap();
     assert!(first.starts_with("# uplift ") && first.contains("synthetic") && first.contains("study.toml"), "{first}");
-    insta::assert_snapshot!(lines.next().unwrap(), @"site,im,poe,years,strength,u_m,flag,lower_tail_share,upper_tail_share");
+    insta::assert_snapshot!(
+        lines.next().unwrap(),
+        @"site,im,poe,years,strength,u_m,flag,lower_tail_share,upper_tail_share"
+    );
     assert_eq!(lines.count(), 2 * 2 * 3 * 10);
     let regression = std::fs::read_to_string(study.path().join("out/r.regression.csv")).unwrap();
     insta::assert_snapshot!(
@@ -162,8 +164,11 @@ fn interruption_keeps_the_earlier_result() {
     study.write_bytes("r.h5", EARLIER);
     let long =
         ["run", "study.toml", "-o", "r.h5", "--set", "strengths.values=0:1/20000:1", "--set", "risk.maf_surface=false"];
-    let stopped = study.uplift_stopped(&long);
-    assert_eq!(stopped.code, 5, "{}", stopped.stderr);
+    let mut run = study.start(&long);
+    let checkpoint = study.path().join("r.h5.part");
+    run.wait_until("a checkpoint", || checkpoint.exists());
+    run.interrupt();
+    run.end().fails(5, &["interrupted"]);
     assert_eq!(std::fs::read(study.path().join("r.h5")).unwrap(), EARLIER);
     assert_eq!(
         study

@@ -1,15 +1,13 @@
 //! Many sites: a table of them and an engine's exports become tables and a map.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
-
-mod common;
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use common::{SMALL_STUDY, SmallStudy};
 use serde_json::Value;
-use uplift::labelled::LabelledReader;
+use uplift_labelled::LabelledReader;
+
+use crate::common::{SMALL_STUDY, SmallStudy};
 
 /// A site of an export: name, longitude, latitude and k0 of the curve λ = k0 im⁻²; at sea k0 is 0.
 type Site = (&'static str, f64, f64, f64);
@@ -25,7 +23,8 @@ const SITES: [Site; 5] = [
 /// An export as `OpenQuake` writes it: probabilities in one year.
 fn openquake(measure: &str, levels: &[f64], sites: &[Site]) -> String {
     let mut text = format!(
-        "#,,,,,,\"generated_by='OpenQuake engine 3.26.2', checksum=1, kind='mean', investigation_time=1.0, imt='{measure}'\"\n\
+        "#,,,,,,\"generated_by='OpenQuake engine 3.26.2', checksum=1, kind='mean', investigation_time=1.0, \
+         imt='{measure}'\"\n\
          custom_site_id,lon,lat,depth"
     );
     for level in levels {
@@ -43,9 +42,11 @@ fn openquake(measure: &str, levels: &[f64], sites: &[Site]) -> String {
 const PGV_LEVELS: [f64; 5] = [0.5, 2.0, 20.0, 100.0, 300.0];
 const PGA_LEVELS: [f64; 4] = [0.01, 0.1, 1.0, 3.0];
 
-/// Sites in another order than those of the export, one of them twice and one unknown; no hazard curve of theirs is anywhere else.
+/// Sites in another order than those of the export, one of them twice and one unknown; no hazard curve of theirs is
+/// anywhere else.
 const TABLE: &str = "site_id;Lon;LAT [deg];vs30;problem\n\
-    Delta, Upper;12.001;45.2;0800;yes\nAlpha;10;45.004;760;\n;12.0;45.0;;\nSea;11;45;1;\nGamma;-170;-20;1;\nAlpha again;10;45;2;\nNowhere;0;0;3;\n";
+    Delta, Upper;12.001;45.2;0800;yes\nAlpha;10;45.004;760;\n;12.0;45.0;;\nSea;11;45;1;\nGamma;-170;-20;1;\n\
+    Alpha again;10;45;2;\nNowhere;0;0;3;\n";
 
 fn many(text: &str) -> SmallStudy {
     let study = SmallStudy::with(text);
@@ -85,7 +86,9 @@ fn rows(text: &str, wanted: &[&str]) -> BTreeMap<String, Vec<Vec<String>>> {
 fn spectra_are_to_the_bit_those_of_the_same_curves_as_sites() {
     for contour in ["exact", "grid"] {
         let study = many(&format!(
-            "{}[site_table]\npgv = \"pgv-export.csv\"\npga = \"pga-export.csv\"\n[[sites]]\nname = \"alpha\"\npgv = \"alpha/pgv.csv\"\npga = \"alpha/pga.csv\"\n[[sites]]\nname = \"delta\"\npgv = \"delta/pgv.csv\"\npga = \"delta/pga.csv\"\n",
+            "{}[site_table]\npgv = \"pgv-export.csv\"\npga = \"pga-export.csv\"\n[[sites]]\nname = \"alpha\"\n\
+             pgv = \"alpha/pgv.csv\"\npga = \"alpha/pga.csv\"\n[[sites]]\nname = \"delta\"\n\
+             pgv = \"delta/pgv.csv\"\npga = \"delta/pga.csv\"\n",
             without_sites()
         ));
         for name in ["alpha", "delta"] {
@@ -377,7 +380,9 @@ fn other_formats_of_exports() {
     };
     let nrml = |statistics: &str| {
         format!(
-            "<?xml version=\"1.0\"?><nrml xmlns:gml=\"http://www.opengis.net/gml\" xmlns=\"http://openquake.org/xmlns/nrml/0.4\"><hazardCurves {statistics} investigationTime=\"50\" IMT=\"PGV\"><IMLs>0.5 2 20 100</IMLs>{}{}</hazardCurves></nrml>",
+            "<?xml version=\"1.0\"?><nrml xmlns:gml=\"http://www.opengis.net/gml\" \
+             xmlns=\"http://openquake.org/xmlns/nrml/0.4\"><hazardCurves {statistics} investigationTime=\"50\" \
+             IMT=\"PGV\"><IMLs>0.5 2 20 100</IMLs>{}{}</hazardCurves></nrml>",
             curve(10.0, "0.99 0.5 0.01 0.0001"),
             curve(11.0, "0 0 0 0"),
         )

@@ -1,16 +1,15 @@
 //! Table 4.2 of the dissertation, ours beside it.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-mod common;
-
-use common::{SmallStudy, real_records, repository};
 use serde_json::Value;
+
+use crate::common::{self, SmallStudy, real_records, repository};
 
 /// With real records and the curves of hazard/, on a thinned grid: every tenth strength.
 ///
-/// The dissertation prints neither its 105 records nor its hazard curves, so the comparison is statistical, curve by curve, and most of
-/// what differs is the hazard, which was reconstructed (hazard/README.md): the same median ratios were found with an independent solver.
-/// The test holds the order of magnitude, which a wrong unit, component or weight would break, and prints the ratios.
+/// The dissertation prints neither its 105 records nor its hazard curves, so the comparison is statistical, curve by
+/// curve, and most of what differs is the hazard, which was reconstructed (hazard/README.md): the same median ratios
+/// were found with an independent solver. The test holds the order of magnitude, which a wrong unit, component or
+/// weight would break, and prints the ratios.
 #[test]
 fn spectra_of_real_records_resemble_the_table() {
     let Some(records) = real_records() else { return };
@@ -36,7 +35,8 @@ fn spectra_of_real_records_resemble_the_table() {
         if row["poe"] == 0.02 {
             let ratio = row["median_ratio"].as_f64().unwrap();
             assert!((0.5..1.5).contains(&ratio), "{row}");
-            // as in the table, c2 is on its bound at 2 % in 50 years at the three sites of high seismicity, and only there
+            // as in the table, c2 is on its bound at 2 % in 50 years at the three sites of high seismicity, and only
+            // there
             let high = ["Athens", "Focsani", "Perugia"].contains(&row["site"].as_str().unwrap());
             assert_eq!(high, row["c2"] == 0.0, "{row}");
         }

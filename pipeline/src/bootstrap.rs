@@ -2,9 +2,14 @@
 
 mod bands;
 mod checkpoint;
+mod compute;
+mod draws;
+mod job;
+mod reference;
+mod report;
 mod write;
 
-pub use bands::{BandSettings, Bands, JointBands, StrengthBands, bands_of_strength, gather_bands};
-pub use checkpoint::{Checkpoint, Finished};
-pub(crate) use write::percentile_name;
-pub use write::{BandsFile, band_paths, write_bands};
+pub use bands::{Bands, JointBands};
+pub use job::{BootstrapOptions, bootstrap};
+pub use reference::{ReferenceRow, read_reference};
+pub use report::{BootstrapReport, BootstrapRow, Initiation};

@@ -1,15 +1,25 @@
-//! What outlives a run: finished pieces of the stripes, keyed by all that they depend on.
+//! What outlives a run: finished analysis rows, keyed by all that they depend on.
 //!
 //! | module | what is in it |
 //! |---|---|
-//! | `key` | from record, oscillator and levels to the key of a piece |
-//! | `row_file` | finished pieces, appended as they come: the journal of a run, or the shard of one machine |
+//! | `key` | from a plan to the keys of its rows |
+//! | `row_file` | finished rows in a file, appended as they come: a checkpoint, or the shard of one machine |
+//! | `block` | how a row is written in such a file |
+//! | `open` | a checkpoint in use: what is known from it, and what is added |
+//! | `error` | why one cannot be used |
 //!
-//! A piece is one record through one oscillator at all levels. Its key is a hash of the motion, its intensity, the oscillator, the levels and the
-//! version of the solver's numbers: a key that is known again has the same numbers, whatever else of a study has changed.
+//! An analysis row is one motion through one system at all its scale factors. Its key is a hash of the motion, the
+//! factors, the system and the version of the solver's numbers: a key that is known again has the same numbers,
+//! whatever else of a study has changed, and whatever asked for it.
 
+mod block;
+mod error;
 mod key;
+mod open;
 mod row_file;
 
-pub use key::{PieceKey, StripeKeys, motion_key, oscillator_key};
-pub use row_file::{Finding, KeptPieces, PieceFile, PieceFileHead, journal_path};
+pub use error::CheckpointError;
+pub use key::{RowKey, RowKeys, motion_key, oscillator_key};
+pub use open::Checkpoint;
+pub(crate) use open::path_beside;
+pub use row_file::{Finding, FinishedRows, RowFile, RowFileHead, checkpoint_path};

@@ -1,9 +1,12 @@
 //! Which intensity measure to trust: efficiency and sufficiency.
 
 mod covariates;
-mod predictor;
+mod job;
+mod of_measure;
+mod report;
 mod write;
 
 pub use covariates::covariates;
-pub use predictor::{Covariate, Predictor, predictor};
-pub use write::{predictors_path, write_predictors};
+pub use job::efficiency;
+pub use of_measure::{Covariate, MeasureEfficiency, efficiency_by};
+pub use report::{EfficiencyReport, EfficiencyRow, Trend};

@@ -1,15 +1,23 @@
 //! What can go wrong in a job, and how it is said.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use thiserror::Error;
-
+use uplift_atomic_file::FileError;
 use uplift_block::BlockError;
+use uplift_bootstrap::BootstrapError;
+use uplift_fragility::FragilityError;
 use uplift_hazard::HazardError;
+use uplift_ida::IdaError;
 use uplift_labelled::LabelledError;
 use uplift_motion::MotionError;
 use uplift_oscillator::OscillatorError;
+use uplift_risk::RiskError;
+use uplift_spectra::SpectraError;
+use uplift_structure::StructureError;
 use uplift_study::StudyError;
+
+use crate::checkpoint::CheckpointError;
 
 /// Why a job did not do what it was asked.
 #[derive(Debug, Error)]
@@ -20,12 +28,52 @@ pub enum UpliftError {
     /// What a job is asked for does not fit together.
     #[error("{0}")]
     Usage(String),
+    /// A choice among what a result has, that it does not have or that was not made.
+    #[error("{}: the result has {}", choice(option, wanted.as_deref()), known.join(", "))]
+    Choice {
+        /// What is chosen, as the command line calls it: `--site`.
+        option: &'static str,
+        /// The choice made; none where there is none, and there are several.
+        wanted: Option<String>,
+        /// What the result has.
+        known: Vec<String>,
+    },
     /// Records or hazard curves cannot be used; all that was found.
     #[error("{}", list(" in the input data", .0))]
     Inputs(Vec<String>),
-    /// A file cannot be read or written.
+    /// A file cannot be opened or written.
     #[error(transparent)]
-    File(#[from] LabelledError),
+    File(#[from] FileError),
+    /// A file of labelled arrays, a result above all, cannot be read or written.
+    #[error(transparent)]
+    Labelled(#[from] LabelledError),
+    /// One of the files that a job reads is at fault.
+    #[error("{}: {source}", path.display())]
+    InFile {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        source: Box<UpliftError>,
+    },
+    /// A structure that cannot be, or to which a rule does not apply.
+    #[error(transparent)]
+    Structure(#[from] StructureError),
+    /// An analysis that cannot be planned or finished; one that was told to stop is [`Interrupted`](Self::Interrupted).
+    #[error(transparent)]
+    Analysis(IdaError),
+    /// Demands of which no fragility can be made.
+    #[error(transparent)]
+    Fragility(#[from] FragilityError),
+    /// Demands and hazard that do not fit together.
+    #[error(transparent)]
+    Risk(#[from] RiskError),
+    /// Resamples that cannot be drawn.
+    #[error(transparent)]
+    Bootstrap(#[from] BootstrapError),
+    /// A displacement spectrum that cannot be computed; one that was told to stop is
+    /// [`Interrupted`](Self::Interrupted).
+    #[error(transparent)]
+    Spectra(SpectraError),
     /// A record cannot be read or used, or no synthetic one can be made as asked.
     #[error(transparent)]
     Motion(#[from] MotionError),
@@ -38,13 +86,19 @@ pub enum UpliftError {
     /// Blocks or pulses that cannot be; all that was found.
     #[error("{}", list("", .0))]
     Blocks(Vec<BlockError>),
+    /// A file of finished analysis rows cannot be used.
+    #[error(transparent)]
+    Checkpoint(#[from] CheckpointError),
     /// The user stopped the run.
     #[error(
         "interrupted: nothing was written, and an earlier result file is as it was. Run the same command to start again"
     )]
     Interrupted,
     /// The user stopped a computation that goes on where it stopped.
-    #[error("interrupted: {done} of {total} {what} are kept in {}. Run the same command to go on from there", path.display())]
+    #[error(
+        "interrupted: {done} of {total} {what} are in the checkpoint {}. Run the same command to go on from there",
+        path.display()
+    )]
     Paused {
         /// What is counted, in the plural.
         what: &'static str,
@@ -52,9 +106,14 @@ pub enum UpliftError {
         done: u64,
         /// In all.
         total: u64,
-        /// The file that keeps them.
+        /// The checkpoint that holds them.
         path: PathBuf,
     },
+}
+
+/// An option, with the value given to it.
+fn choice(option: &str, wanted: Option<&str>) -> String {
+    wanted.map_or_else(|| option.to_owned(), |wanted| format!("{option} {wanted}"))
 }
 
 fn list(place: &str, mistakes: &[impl ToString]) -> String {
@@ -71,5 +130,38 @@ impl UpliftError {
     /// One mistake in the input data.
     pub fn input(message: impl Into<String>) -> Self {
         Self::Inputs(vec![message.into()])
+    }
+
+    /// The same, said of the file at `path`; one that was stopped was not stopped by the file.
+    #[must_use]
+    pub fn in_file(self, path: &Path) -> Self {
+        match self {
+            Self::Interrupted | Self::Paused { .. } => self,
+            source => Self::InFile { path: path.to_owned(), source: Box::new(source) },
+        }
+    }
+}
+
+impl From<IdaError> for UpliftError {
+    fn from(error: IdaError) -> Self {
+        match error {
+            IdaError::Cancelled => Self::Interrupted,
+            other => Self::Analysis(other),
+        }
+    }
+}
+
+impl From<BlockError> for UpliftError {
+    fn from(error: BlockError) -> Self {
+        Self::Blocks(vec![error])
+    }
+}
+
+impl From<SpectraError> for UpliftError {
+    fn from(error: SpectraError) -> Self {
+        match error {
+            SpectraError::Analysis(error) => error.into(),
+            other => Self::Spectra(other),
+        }
     }
 }

@@ -24,7 +24,7 @@ pub use warnings::of_pair as warnings_of_pair;
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::inputs::FileOptions;
-use crate::result::{write_aside, write_table};
+use crate::result::{write_atomically, write_table};
 use collect::find_pairs;
 
 /// Columns of a manifest by which records are chosen, and which not every file says.
@@ -109,7 +109,7 @@ pub fn import(options: &ImportOptions, events: &dyn Events) -> Result<ImportRepo
     let remarks_file = (!remarks.is_empty()).then(|| manifest.with_extension("remarks.txt"));
     if let Some(file) = &remarks_file {
         let text: String = remarks.iter().map(ToString::to_string).collect();
-        write_aside(file, text.as_bytes())?;
+        write_atomically(file, text.as_bytes())?;
     }
     let mut report = ImportReport {
         manifest: None,

@@ -1,7 +1,9 @@
 //! Which records carry the spectra, and which intensities.
 
 mod change;
+mod job;
+mod report;
 mod write;
 
-pub use change::{Influence, influence, level_of_share};
-pub use write::{RecordInfluence, influence_path, record_influence, write_influence};
+pub use job::{InfluenceOptions, influence};
+pub use report::{InfluenceReport, IntensityShares, RecordChange};

@@ -5,19 +5,24 @@
 //! | [`events`] | what a job tells while it works, and how it is stopped |
 //! | [`inputs`] | records and hazard curves, read and checked before anything is computed |
 //! | [`import`] | record files found in a folder, paired, measured and listed in a manifest |
+//! | [`shard`] | a study shared among machines |
 //! | [`uniform_risk`] | studies of uniform risk: stripes, spectra, coefficients |
 //! | [`displacement`] | studies of displacement spectra of record sets |
 //! | [`bootstrap`], [`influence`], [`efficiency`] | how sure a spectrum is, and what carries it |
 //! | [`structure`] | a structure under the records and hazard of a result |
+//! | [`analysis`] | plans carried out with a checkpoint, whole or in shards |
 //! | [`checkpoint`] | finished rows of the analysis by their keys: what outlives a stopped run |
 //! | [`result`](mod@result) | the HDF5 file and the tables beside it, written and read |
 //! | [`export`] | tables for other programs |
 //! | [`pulses`] | rocking spectra under wavelets, which need no study |
+//! | [`reference`](mod@reference) | tables of papers to compare with |
 //! | [`text`] | numbers in words |
 //!
 //! The science is in the crates below this one, the command line and the report in those above it. Nothing here prints,
 //! reads arguments or handles signals.
 
+pub mod analysis;
+mod array;
 pub mod bootstrap;
 pub mod checkpoint;
 mod checksum;
@@ -37,6 +42,7 @@ pub mod records;
 pub mod response;
 pub mod result;
 pub mod run;
+pub mod shard;
 pub mod status;
 pub mod structure;
 pub mod table;
@@ -44,10 +50,12 @@ pub mod text;
 pub mod uniform_risk;
 pub mod verify;
 
+pub use array::{Array, ShapeError};
 pub use error::UpliftError;
 pub use events::{Events, Phase, Silent};
 pub use plan::{Plan, plan};
 pub use run::{RunOptions, RunReport, run};
+pub use shard::{check_inputs, merge, run_shard};
 pub use uplift_study as study;
 
 /// Version of the program, and the commit it was built from where that is known.

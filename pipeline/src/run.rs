@@ -1,16 +1,17 @@
 //! A study carried out, of whichever kind: the frame that all kinds share.
 //!
-//! A kind has a folder of its own, [`uniform_risk`](crate::uniform_risk) or [`displacement`](crate::displacement), with the
-//! same files in it: `plan` (what it costs), `run` (from the inputs to the result file), `report` (what a run tells).
+//! A kind has a folder of its own, [`uniform_risk`](crate::uniform_risk) or [`displacement`](crate::displacement), with
+//! the same files in it: `plan` (what it costs), `run` (from the inputs to the result file), `report` (what a run
+//! tells).
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use serde::Serialize;
-use uplift_labelled::remove_leftovers;
+use uplift_atomic_file::remove_leftovers;
 use uplift_study::AnyStudy;
 
-use crate::checkpoint::KeptPieces;
+use crate::checkpoint::FinishedRows;
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::result::{ResultLock, check_target};
@@ -84,17 +85,17 @@ impl RunReport {
     }
 }
 
-/// Carries out a study: records and hazard are read and checked, everything that is not known from before is computed, and
-/// the result file and its tables are written.
+/// Carries out a study: records and hazard are read and checked, everything that is not known from before is computed,
+/// and the result file and its tables are written.
 ///
-/// Finished rows of the analysis outlive whatever stops the run, in a checkpoint beside the result; an earlier result stays
-/// until the new one is complete.
+/// Finished rows of the analysis outlive whatever stops the run, in a checkpoint beside the result; an earlier result
+/// stays until the new one is complete.
 ///
 /// # Errors
-/// Inputs that cannot be used; a result that cannot be written; [`UpliftError::Paused`] or [`UpliftError::Interrupted`] where
-/// `events` say so.
+/// Inputs that cannot be used; a result that cannot be written; [`UpliftError::Paused`] or [`UpliftError::Interrupted`]
+/// where `events` say so.
 pub fn run(study: &AnyStudy, options: &RunOptions, events: &dyn Events) -> Result<RunReport, UpliftError> {
-    run_with(study, options, KeptPieces::default(), events)
+    run_with(study, options, FinishedRows::default(), events)
 }
 
 /// As [`run`], with rows of the analysis that are `known` from elsewhere.
@@ -104,7 +105,7 @@ pub fn run(study: &AnyStudy, options: &RunOptions, events: &dyn Events) -> Resul
 pub fn run_with(
     study: &AnyStudy,
     options: &RunOptions,
-    known: KeptPieces,
+    known: FinishedRows,
     events: &dyn Events,
 ) -> Result<RunReport, UpliftError> {
     let start = Instant::now();
@@ -119,7 +120,7 @@ pub fn run_with(
     let place = Place { path, options, start };
     match study {
         AnyStudy::UniformRisk(study) => uniform_risk::run(study, &place, known, events).map(RunReport::UniformRisk),
-        AnyStudy::Displacement(study) => displacement::run(study, &place, events).map(RunReport::Displacement),
+        AnyStudy::Displacement(study) => displacement::run(study, &place, known, events).map(RunReport::Displacement),
     }
 }
 

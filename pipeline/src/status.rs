@@ -3,12 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use uplift_labelled::LabelledReader;
 use uplift_study::Study;
 
-use crate::checkpoint::{Finding, PieceFile, journal_path};
+use crate::checkpoint::{Finding, RowFile, checkpoint_path};
 use crate::error::UpliftError;
-use crate::result::{ResultLock, holds_displacement_spectra, is_hdf5, open_any_result};
+use crate::result::{Overview, ResultFile, ResultLock, is_hdf5};
 
 /// What is there of a run: at least one of its parts.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -95,7 +94,7 @@ pub struct UnfinishedStatus {
 /// A study with mistakes, a file that is none of these or damaged, and where there is nothing at all.
 pub fn status(input: &Path) -> Result<StatusReport, UpliftError> {
     if input.is_file() && !is_hdf5(input) {
-        if let Ok(Some(finding)) = PieceFile::read(input) {
+        if let Ok(Some(finding)) = RowFile::read(input) {
             let unfinished = vec![UnfinishedStatus::of(input, &finding)];
             return Ok(StatusReport { result: None, unfinished, written_by: None });
         }
@@ -109,20 +108,20 @@ pub fn status(input: &Path) -> Result<StatusReport, UpliftError> {
         input.to_owned()
     };
     let result = path.is_file().then(|| ResultStatus::read(&path)).transpose()?;
-    let journal = journal_path(&path);
+    let checkpoint = checkpoint_path(&path);
     let mut unfinished = Vec::new();
-    if let Some(finding) = PieceFile::read(&journal)? {
-        unfinished.push(UnfinishedStatus::of(&journal, &finding));
+    if let Some(finding) = RowFile::read(&checkpoint)? {
+        unfinished.push(UnfinishedStatus::of(&checkpoint, &finding));
     }
     for shard in shards_of(&path) {
-        if let Ok(Some(finding)) = PieceFile::read(&shard) {
+        if let Ok(Some(finding)) = RowFile::read(&shard) {
             unfinished.push(UnfinishedStatus::of(&shard, &finding));
         }
     }
     let written_by = ResultLock::holder(&path);
     if result.is_none() && unfinished.is_empty() && written_by.is_none() {
         return Err(UpliftError::input(format!(
-            "{}: no result, and nothing kept of an unfinished run",
+            "{}: no result, and no checkpoint of an unfinished run",
             path.display()
         )));
     }
@@ -147,52 +146,32 @@ fn shards_of(result: &Path) -> Vec<PathBuf> {
 
 impl ResultStatus {
     fn read(path: &Path) -> Result<Self, UpliftError> {
-        let reader = open_any_result(path)?;
-        let text = |name: &str| reader.attribute_text("/", name).unwrap_or_default();
-        let content = if holds_displacement_spectra(&reader) {
-            ResultContent::displacement(&reader)
-        } else {
-            ResultContent::uniform_risk(&reader)?
-        };
+        let file = ResultFile::open(path)?;
+        let head = file.head()?;
         Ok(Self {
             file: path.to_owned(),
-            created: text("created"),
-            version: text("version"),
-            commit: text("commit"),
-            study: text("study_file"),
-            title: text("title"),
-            record_set: text("record_set"),
-            content,
+            created: head.created,
+            version: head.version,
+            commit: head.commit,
+            study: head.study_file,
+            title: head.title,
+            record_set: head.record_set,
+            content: ResultContent::of(file.overview()?),
         })
     }
 }
 
 impl ResultContent {
-    fn displacement(reader: &LabelledReader) -> Self {
-        let records = |set: String| {
-            let records = reader.attribute_u64(&format!("/sets/{set}"), "records").unwrap_or_default();
-            (set, records)
-        };
-        Self::Displacement {
-            structure: reader.attribute_text("/", "structure").unwrap_or_default(),
-            analyses: reader.attribute_u64("/spectra", "analyses").unwrap_or_default(),
-            sets: reader.children("/sets").unwrap_or_default().into_iter().map(records).collect(),
-            has_design: reader.exists("/design"),
+    fn of(overview: Overview) -> Self {
+        match overview {
+            Overview::Displacement { structure, analyses, sets, designed } => {
+                Self::Displacement { structure, analyses, sets, has_design: designed }
+            }
+            Overview::UniformRisk { analyses, sites, added } => {
+                let analyses = analyses.into_iter().map(|(measure, count)| (measure.to_uppercase(), count)).collect();
+                Self::UniformRisk { analyses, sites, added: added.into_iter().map(str::to_owned).collect() }
+            }
         }
-    }
-
-    fn uniform_risk(reader: &LabelledReader) -> Result<Self, UpliftError> {
-        let analyses = |measure: String| {
-            let analyses = reader.attribute_u64(&format!("/ida/{measure}"), "analyses").unwrap_or_default();
-            (measure.to_uppercase(), analyses)
-        };
-        let mut added = reader.children("/")?;
-        added.retain(|group| ["bootstrap", "influence", "measures"].contains(&group.as_str()));
-        Ok(Self::UniformRisk {
-            analyses: reader.children("/ida").unwrap_or_default().into_iter().map(analyses).collect(),
-            sites: reader.axis_text("site").unwrap_or_default(),
-            added,
-        })
     }
 }
 
@@ -204,9 +183,10 @@ impl UnfinishedStatus {
             title: head.title.clone(),
             shard: head.shard,
             shards: head.shards,
-            // rows of another study may be among them
-            done: (finding.kept.len() as u64).min(head.pieces),
-            rows: head.pieces,
+            // rows of another study may be among them, and those of design examples, which nobody counts before
+            // they are found
+            done: (finding.rows.len() as u64).min(head.rows),
+            rows: head.rows,
             damaged_bytes: finding.damaged_bytes,
         }
     }

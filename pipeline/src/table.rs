@@ -16,7 +16,7 @@ pub use reference::ReferenceTable;
 
 use crate::error::UpliftError;
 use crate::events::Events;
-use crate::result::{holds_displacement_spectra, open_any_result};
+use crate::result::{Kind, ResultFile};
 
 /// Which table, and what stands beside it.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,7 +24,8 @@ pub struct TableOptions {
     /// The result file.
     pub result: PathBuf,
     /// CSV table to compare with: for uniform risk spectra with the columns `site`, `poe_50y` (or `poe`), `c0_m`, `c1`,
-    /// `c2_m`, `rmse_m`; for displacement spectra `record_set`, `scaling`, `quantity`, `value` and, for oscillators, `rule`.
+    /// `c2_m`, `rmse_m`; for displacement spectra `record_set`, `scaling`, `quantity`, `value` and, for oscillators,
+    /// `rule`.
     pub reference: Option<PathBuf>,
     /// Which intensity measure, none for all; not of displacement spectra.
     pub measure: Option<IntensityMeasure>,
@@ -45,10 +46,9 @@ pub enum TableReport {
 /// # Errors
 /// A file that is missing, damaged or no result; a result without such a table; a reference that cannot be read.
 pub fn table(options: &TableOptions, events: &dyn Events) -> Result<TableReport, UpliftError> {
-    let reader = open_any_result(&options.result)?;
-    if holds_displacement_spectra(&reader) {
-        return design::read(options, &reader, events).map(TableReport::Design);
+    let file = ResultFile::open(&options.result)?;
+    match file.kind() {
+        Kind::UniformRisk => coefficients::read(options, &file, events).map(TableReport::Coefficients),
+        Kind::Displacement => design::read(options, &file, events).map(TableReport::Design),
     }
-    drop(reader);
-    coefficients::read(options, events).map(TableReport::Coefficients)
 }

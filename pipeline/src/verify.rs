@@ -7,7 +7,7 @@ use uplift_labelled::{Seal, Verdict, verify as verify_file};
 
 use crate::error::UpliftError;
 use crate::events::Events;
-use crate::result::open_any_result;
+use crate::result::ResultFile;
 
 /// What was found of some results.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -46,7 +46,7 @@ pub fn verify(files: &[PathBuf], events: &dyn Events) -> Result<VerifyReport, Up
         if events.cancelled() {
             return Err(UpliftError::Interrupted);
         }
-        found.push(match open_any_result(file).and_then(|_| Ok(verify_file(file)?)) {
+        found.push(match ResultFile::open(file).and_then(|_| Ok(verify_file(file)?)) {
             Ok(verdict) => VerifiedFile::of(file.clone(), verdict),
             Err(error) => {
                 let mistakes = vec![error.to_string()];

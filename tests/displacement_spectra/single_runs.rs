@@ -5,8 +5,8 @@ use uplift_motion::synthetic::{SyntheticSetOptions, generate};
 use uplift_motion::{Accelerogram, RecordPair, STANDARD_GRAVITY_M_S2 as G};
 use uplift_oscillator::{Excitation, GroundMotion, Oscillator, PostUplift, Sweep};
 
-use super::common::SmallStudy;
 use super::{BLOCKS, OSCILLATORS, array, close, read};
+use crate::common::SmallStudy;
 
 /// The motions of the synthetic set, and the geometric mean of the peaks of each record, given a peak.
 fn motions(pairs: &[RecordPair]) -> Vec<&Accelerogram> {

@@ -6,7 +6,8 @@ use std::hint::black_box;
 use uplift_block::{FreeRocking, PulseSpectrumPlan, RickerShape, RockingBlock, SizeMeasure, pulse_spectrum, respond};
 use uplift_motion::synthetic::{SyntheticSetOptions, generate};
 
-/// A synthetic record, scaled to 0.4 g, per block; printed beside: its duration and how often the block hits the ground.
+/// A synthetic record, scaled to 0.4 g, per block; printed beside: its duration and how often the
+/// block hits the ground.
 fn record(criterion: &mut Criterion) {
     let pair = generate(&SyntheticSetOptions { pairs: 1, ..SyntheticSetOptions::default() }).unwrap().remove(0);
     let largest = pair.h1.acceleration_m_s2().iter().fold(0.0_f64, |peak, a| peak.max(a.abs()));

@@ -10,7 +10,8 @@ use crate::error::{BlockError, within};
 /// (Figure 2.1). It neither slides nor leaves the ground.
 ///
 /// # Source
-/// Reggiani Manzo, Section 2.2; G. W. Housner (1963), "The behavior of inverted pendulum structures during earthquakes".
+/// Reggiani Manzo, Section 2.2; G. W. Housner (1963), "The behavior of inverted pendulum structures
+/// during earthquakes".
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RockingBlock {
     size_m: f64,
@@ -24,8 +25,8 @@ impl RockingBlock {
     /// restitution (Eq. 2.3) and standard gravity.
     ///
     /// # Errors
-    /// [`BlockError::OutOfRange`] unless 1e-6 m ≤ R ≤ 1e9 m and 1e-6 ≤ α < 0.9553 (54.7°), beyond which Housner's restitution
-    /// is negative: such a block does not rock on.
+    /// [`BlockError::OutOfRange`] unless 1e-6 m ≤ R ≤ 1e9 m and 1e-6 ≤ α < 0.9553 (54.7°), beyond which Housner's
+    /// restitution is negative: such a block does not rock on.
     pub fn new(size_m: f64, slenderness_rad: f64) -> Result<Self, BlockError> {
         let size_m = within("size parameter R", size_m, "m", 1e-6..=1e9, "between 1e-6 m and 1e9 m")?;
         let slenderness_rad = within(
@@ -126,11 +127,11 @@ impl RockingBlock {
         (4.0 * self.size_m * half.sin() * (self.slenderness_rad - half).cos()).copysign(rotation_rad)
     }
 
-    /// Whether a block tilted by `tilt_rad` ≥ 0 and moving outward with `rate_rad_s` (inward if negative) never comes back
-    /// without further shaking: θ̇ ≥ 2p sin((α − θ)/2).
+    /// Whether a block tilted by `tilt_rad` ≥ 0 and moving outward with `rate_rad_s` (inward if negative) never comes
+    /// back without further shaking: θ̇ ≥ 2p sin((α − θ)/2).
     ///
-    /// That is the separatrix of Eq. 2.1: short of θ = α it says that the kinetic energy carries the block over its corner,
-    /// beyond, that it does not suffice to bring it back.
+    /// That is the separatrix of Eq. 2.1: short of θ = α it says that the kinetic energy carries the block over its
+    /// corner, beyond, that it does not suffice to bring it back.
     pub(crate) fn is_lost(&self, tilt_rad: f64, rate_rad_s: f64) -> bool {
         rate_rad_s >= 2.0 * self.frequency_parameter_rad_s() * (0.5 * (self.slenderness_rad - tilt_rad)).sin()
     }

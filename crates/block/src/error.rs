@@ -20,8 +20,8 @@ pub enum BlockError {
     },
     /// The motion would last too many times the block's own time.
     #[error(
-        "{duration_s} s are {ratio:e} times 1/p = {time_s} s, the block's own time: at most {most:e} times are computed; \
-         give a shorter motion or a larger block"
+        "{duration_s} s are {ratio:e} times 1/p = {time_s} s, the block's own time: at most {most:e} times are \
+         computed; give a shorter motion or a larger block"
     )]
     TooLong {
         /// Duration of the motion, s.

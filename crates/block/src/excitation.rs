@@ -6,12 +6,12 @@ use crate::error::{BlockError, within};
 use crate::ricker::RickerPulse;
 use crate::series::Forcing;
 
-/// Ground acceleration, smooth on pieces of equal length; there is none before the first piece nor after the last.
+/// Ground acceleration, smooth on segments of equal length, zero before the first and after the last.
 #[derive(Debug, Clone, Copy)]
 pub enum Excitation<'a> {
-    /// A record, linear between its samples: a piece is a sample interval.
+    /// A record, linear between its samples: a segment is a sample interval.
     Record(&'a Accelerogram),
-    /// A Ricker wavelet, analytic: a piece is a sixteenth of its period.
+    /// A Ricker wavelet, analytic: a segment is a sixteenth of its period.
     Pulse(RickerPulse),
 }
 
@@ -38,30 +38,31 @@ impl Excitation<'_> {
 
     /// How long the shaking lasts \[s\].
     pub fn duration_s(&self) -> f64 {
-        self.pieces() as f64 * self.piece_s()
+        self.segments() as f64 * self.segment_s()
     }
 
-    /// Number of pieces.
-    pub(crate) fn pieces(&self) -> usize {
+    /// Number of segments.
+    pub(crate) fn segments(&self) -> usize {
         match self {
             Self::Record(record) => record.len() - 1,
-            Self::Pulse(_) => RickerPulse::pieces(),
+            Self::Pulse(_) => RickerPulse::segments(),
         }
     }
 
-    /// Length of a piece \[s\].
-    pub(crate) fn piece_s(&self) -> f64 {
+    /// Length of a segment \[s\].
+    pub(crate) fn segment_s(&self) -> f64 {
         match self {
             Self::Record(record) => record.dt_s(),
-            Self::Pulse(pulse) => pulse.piece_s(),
+            Self::Pulse(pulse) => pulse.segment_s(),
         }
     }
 
-    /// Ground acceleration \[m/s²\] in the piece `piece`, in powers of (time − `offset_s`)/`step_s`, with times from its begin.
-    pub(crate) fn taylor(&self, piece: usize, offset_s: f64, step_s: f64) -> Forcing {
+    /// Ground acceleration \[m/s²\] in the segment `segment`, in powers of (time − `offset_s`)/`step_s`, with
+    /// times from its start.
+    pub(crate) fn taylor(&self, segment: usize, offset_s: f64, step_s: f64) -> Forcing {
         match self {
             Self::Record(record) => {
-                let [begin, end] = [piece, piece + 1].map(|i| record.acceleration_m_s2()[i]);
+                let [begin, end] = [segment, segment + 1].map(|i| record.acceleration_m_s2()[i]);
                 let slope = (end - begin) / record.dt_s();
                 let mut forcing = Forcing::default();
                 forcing.push(begin + slope * offset_s);
@@ -69,7 +70,7 @@ impl Excitation<'_> {
                 forcing
             }
             Self::Pulse(pulse) => {
-                let t_s = pulse.start_s() + (piece as f64 * pulse.piece_s() + offset_s);
+                let t_s = pulse.start_s() + (segment as f64 * pulse.segment_s() + offset_s);
                 pulse.taylor(t_s, step_s)
             }
         }

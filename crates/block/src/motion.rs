@@ -1,4 +1,4 @@
-//! The motion itself: rest, uplift, rocking and impacts, piece by piece of the excitation.
+//! The motion itself: rest, uplift, rocking and impacts, segment by segment of the excitation.
 
 use std::ops::ControlFlow;
 
@@ -8,9 +8,10 @@ use crate::polynomial::{first_sign_change, leading_sign, sign_changes, value};
 use crate::rest::{Rebound, RestRule};
 use crate::series::{Forcing, Series};
 
-/// Impacts in one piece after which a block that cannot be shown to come to rest is taken to be.
+/// Impacts in one segment after which a block that cannot be shown to come to rest is taken to be.
 ///
-/// Only nearly elastic blocks get there, with rebounds some 2e-11 of what gravity would draw them down during the piece.
+/// Only nearly elastic blocks get there, with rebounds some 2e-11 of what gravity would draw them
+/// down during the segment.
 const MOST_IMPACTS: u32 = 100_000;
 
 /// Longest step in units of 1/p: the series has converged by then at order 14 or so.
@@ -25,7 +26,7 @@ pub(crate) enum Ending {
     PeakPassed,
 }
 
-/// State of a block on its way, in the frame of the corner it stands on.
+/// State of a block in motion, in the frame of the corner it stands on.
 #[derive(Debug)]
 pub(crate) struct Motion<'a, O> {
     block: &'a RockingBlock,
@@ -84,14 +85,15 @@ impl<'a, O: Observer> Motion<'a, O> {
         !self.resting && self.block.is_lost(self.x, self.v)
     }
 
-    pub(crate) fn see(&mut self, time_s: f64, moment: Moment) {
+    pub(crate) fn observe(&mut self, time_s: f64, moment: Moment) {
         let (rotation_rad, velocity_rad_s) = (self.side * self.x, self.side * self.v);
-        self.observer.see(HistoryRow { time_s, rotation_rad, velocity_rad_s, moment });
+        self.observer.observe(HistoryRow { time_s, rotation_rad, velocity_rad_s, moment });
     }
 
-    /// Moves through a piece of `length_s` that begins at `start_s`; `shaking` gives the ground acceleration \[m/s²\] from an
-    /// offset in the piece on, in powers of (time − offset)/step. Ends early, if so told, when |θ| has passed a maximum.
-    pub(crate) fn pass(
+    /// Moves through a segment of `length_s` that begins at `start_s`; `shaking` gives the ground acceleration \[m/s²\]
+    /// from an offset in the segment on, in powers of (time − offset)/step. With `until_peak` it ends early,
+    /// when |θ| has passed a maximum.
+    pub(crate) fn advance(
         &mut self,
         start_s: f64,
         length_s: f64,
@@ -111,7 +113,7 @@ impl<'a, O: Observer> Motion<'a, O> {
                 offset += s * remaining;
                 (self.side, self.x, self.v) = (side, 0.0, 0.0);
                 if offset >= length_s {
-                    break; // at the very end: the next piece finds it
+                    break; // at the very end: the next segment finds it
                 }
             }
 
@@ -145,7 +147,7 @@ impl<'a, O: Observer> Motion<'a, O> {
                 }
                 self.resting = false;
                 self.uplift_s.get_or_insert(start_s + offset);
-                self.see(start_s + offset, Moment::Uplift);
+                self.observe(start_s + offset, Moment::Uplift);
             }
 
             let begin = offset;
@@ -210,11 +212,11 @@ impl<'a, O: Observer> Motion<'a, O> {
     /// The block hits the ground with the velocity `v` ≤ 0 and stands on its other corner (Eq. 2.3).
     fn impact(&mut self, v: f64, time_s: f64) {
         (self.x, self.v) = (0.0, v.min(0.0)); // above zero by a rounding at most
-        self.see(time_s, Moment::BeforeImpact);
+        self.observe(time_s, Moment::BeforeImpact);
         self.side = -self.side;
         self.v *= -self.block.restitution();
         self.impacts += 1;
-        self.see(time_s, Moment::AfterImpact);
+        self.observe(time_s, Moment::AfterImpact);
         if self.v == 0.0 {
             self.come_to_rest(time_s);
         }
@@ -222,13 +224,13 @@ impl<'a, O: Observer> Motion<'a, O> {
 
     pub(crate) fn overturn(&mut self, time_s: f64) -> Ending {
         (self.peak, self.peak_s) = (f64::INFINITY, time_s);
-        self.see(time_s, Moment::Overturned);
+        self.observe(time_s, Moment::Overturned);
         Ending::Overturned
     }
 
     fn come_to_rest(&mut self, time_s: f64) {
         (self.x, self.v, self.resting) = (0.0, 0.0, true);
-        self.see(time_s, Moment::Rest);
+        self.observe(time_s, Moment::Rest);
     }
 
     fn raise_peak(&mut self, x: f64, time_s: f64) {
@@ -249,7 +251,8 @@ impl<'a, O: Observer> Motion<'a, O> {
     }
 }
 
-/// First s in [0, 1) at which |A| rises above tan α, and the corner on which the block will then stand: against the ground.
+/// First s in [0, 1) at which |A| rises above tan α, and the corner on which the block will then
+/// stand: against the ground.
 fn first_uplift(forcing: &Forcing, tangent: f64) -> Option<(f64, f64)> {
     if forcing.bound() <= tangent {
         return None;
@@ -267,7 +270,8 @@ fn first_uplift(forcing: &Forcing, tangent: f64) -> Option<(f64, f64)> {
     }
 }
 
-/// First s in (0, 1) at which a rotation that begins at or above zero falls to zero. The zero it may begin at is divided out.
+/// First s in (0, 1) at which a rotation that begins at or above zero falls to zero. The zero it may
+/// begin at is divided out.
 fn first_touch(x: &[f64]) -> Option<f64> {
     let lead = x.iter().position(|x| *x != 0.0)?;
     let x = &x[lead..];

@@ -1,9 +1,9 @@
-//! What is kept of a motion beside its peak.
+//! What is recorded of a motion beside its peak.
 
 /// Why a row of a history is there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Moment {
-    /// A sample of the record, an end of a piece of the pulse, a step of free rocking.
+    /// A sample of the record, an end of a segment of the pulse, a step of free rocking.
     Sample,
     /// The block begins to rock, from rest.
     Uplift,
@@ -13,7 +13,7 @@ pub enum Moment {
     AfterImpact,
     /// The block has come to rest.
     Rest,
-    /// The block lies on its side, or is on the way there for certain: the last row.
+    /// The block lies on its side, or is certain to: the last row.
     Overturned,
 }
 
@@ -37,21 +37,21 @@ pub struct HistoryRow {
     pub moment: Moment,
 }
 
-/// Told every moment of a motion; what it does with it costs nothing where it does nothing.
+/// Receives every moment of a motion; `()` ignores them at no cost.
 pub(crate) trait Observer {
-    fn see(&mut self, row: HistoryRow);
+    fn observe(&mut self, row: HistoryRow);
 }
 
 /// Keeps nothing.
 pub(crate) struct Unobserved;
 
 impl Observer for Unobserved {
-    fn see(&mut self, _: HistoryRow) {}
+    fn observe(&mut self, _: HistoryRow) {}
 }
 
 impl Observer for History {
-    fn see(&mut self, mut row: HistoryRow) {
-        // an event next to the end of a piece may be a rounding beyond it
+    fn observe(&mut self, mut row: HistoryRow) {
+        // an event next to the end of a segment may be a rounding beyond it
         row.time_s = self.rows.last().map_or(row.time_s, |last| row.time_s.max(last.time_s));
         self.rows.push(row);
     }

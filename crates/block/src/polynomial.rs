@@ -1,8 +1,8 @@
 //! Sign changes of a polynomial on [0, 1], without missing one: Bernstein form, Descartes' rule of signs, bisection.
 //!
-//! A polynomial has no more sign changes on an interval than the sequence of its Bernstein coefficients there, and as many up
-//! to an even number. None or one is therefore certain; in between the interval is halved (de Casteljau). A touch of zero
-//! without a change of sign, a double root, ends at the depth limit and is none.
+//! A polynomial has no more sign changes on an interval than the sequence of its Bernstein coefficients there, and as
+//! many up to an even number. None or one is therefore certain; in between the interval is halved (de Casteljau). A
+//! touch of zero without a change of sign, a double root, ends at the depth limit and does not count.
 
 use std::ops::ControlFlow;
 
@@ -27,7 +27,8 @@ pub(crate) fn first_sign_change(c: &[f64]) -> Option<f64> {
     first
 }
 
-/// Calls `visit` with every sign change in (0, 1), ascending, until it breaks. A zero at an end of the interval is none.
+/// Calls `visit` with every sign change in (0, 1), ascending, until it breaks. A zero at an end of
+/// the interval does not count.
 pub(crate) fn sign_changes(c: &[f64], visit: &mut impl FnMut(f64) -> ControlFlow<()>) -> ControlFlow<()> {
     if c.len() < 2 {
         return ControlFlow::Continue(());
@@ -62,7 +63,7 @@ fn search(
     }
     let middle = 0.5 * (lo + hi);
     search(c, left, [lo, middle], depth - 1, visit)?;
-    // a root exactly there is an end of both halves, and none of theirs
+    // a root exactly there is an end of both halves, and inside neither
     if right[0] == 0.0 && leading_sign(left.iter().rev()) * leading_sign(right.iter()) < 0.0 {
         visit(middle)?;
     }

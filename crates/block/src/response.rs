@@ -49,11 +49,12 @@ pub struct BlockResponse {
     pub time_s: f64,
     /// When the block first uplifts \[s\]; none if it never does, or was released from a tilt.
     pub uplift_s: Option<f64>,
-    /// Impacts, up to the end of the motion that is computed; of the infinitely many before a rest, those until it was certain.
+    /// Impacts, up to the end of the motion that is computed; of the infinitely many before a rest, those
+    /// until it was certain.
     pub impacts: u64,
     /// Whether the block overturns.
     pub overturning: Overturning,
-    /// Whether a nearly elastic block that rebounded 100,000 times in one piece of the excitation was put to rest.
+    /// Whether a nearly elastic block that rebounded 100,000 times in one segment of the excitation was put to rest.
     pub chatter_was_cut: bool,
 }
 
@@ -64,14 +65,15 @@ impl BlockResponse {
     }
 }
 
-/// Response of `block`, at rest before, to `excitation`: Eq. 2.1 between impacts, Eq. 2.3 at them, uplift at |üg| > g tan α.
+/// Response of `block`, at rest before, to `excitation`: Eq. 2.1 between impacts, Eq. 2.3 at them,
+/// uplift at |üg| > g tan α.
 ///
-/// The block overturns if |θ| reaches π/2 while the ground moves (it then lies on its side; short of that it may come back,
-/// also from beyond α), or if, with the ground at rest, its energy and direction say that it will not come back.
+/// The block overturns if |θ| reaches π/2 while the ground moves (it then lies on its side; short of that it may come
+/// back, also from beyond α), or if, with the ground at rest, its energy and direction say that it will not come back.
 ///
 /// # Errors
-/// [`BlockError::TooLong`] for motions of more than 1e7/p, [`BlockError::OutOfRange`] for ground accelerations beyond 1e6 m/s²
-/// and a negative or infinite time of free rocking.
+/// [`BlockError::TooLong`] for motions of more than 1e7/p, [`BlockError::OutOfRange`] for ground accelerations beyond
+/// 1e6 m/s² and a negative or infinite time of free rocking.
 ///
 /// # Source
 /// Reggiani Manzo, Section 2.2, Eq. 2.1–2.3 and 2.10.
@@ -83,8 +85,8 @@ pub fn respond<'a>(
     run(block, Some(excitation.into()), 0.0, free, RestRule::Proven, Unobserved).map(|(response, _)| response)
 }
 
-/// The same, with the motion in time: a row at every sample (every sixteenth of a pulse's period, every 0.5/p of free rocking),
-/// uplift, impact and rest.
+/// The same, with the motion in time: a row at every sample (every sixteenth of a pulse's period, every 0.5/p of free
+/// rocking), uplift, impact and rest.
 ///
 /// # Errors
 /// As [`respond`].
@@ -96,7 +98,8 @@ pub fn respond_with_history<'a>(
     run(block, Some(excitation.into()), 0.0, free, RestRule::Proven, History::default())
 }
 
-/// Free rocking of `block`, let go from the tilt `rotation_rad` at time zero, for `duration_s` or until it rests or overturns.
+/// Free rocking of `block`, let go from the tilt `rotation_rad` at time zero, for `duration_s` or until
+/// it rests or overturns.
 ///
 /// # Errors
 /// As [`respond`], and unless the tilt is less than π/2 to either side.
@@ -161,19 +164,19 @@ fn follow<O: Observer>(
 ) -> Option<Ending> {
     let mut end_s = 0.0;
     if let Some(excitation) = excitation {
-        let (start_s, length_s) = (excitation.start_s(), excitation.piece_s());
-        motion.see(start_s, Moment::Sample);
-        for piece in 0..excitation.pieces() {
-            let begin_s = start_s + piece as f64 * length_s;
-            let shaking = |offset, step| excitation.taylor(piece, offset, step);
-            if let ControlFlow::Break(ending) = motion.pass(begin_s, length_s, false, shaking) {
+        let (start_s, length_s) = (excitation.start_s(), excitation.segment_s());
+        motion.observe(start_s, Moment::Sample);
+        for segment in 0..excitation.segments() {
+            let begin_s = start_s + segment as f64 * length_s;
+            let shaking = |offset, step| excitation.taylor(segment, offset, step);
+            if let ControlFlow::Break(ending) = motion.advance(begin_s, length_s, false, shaking) {
                 return Some(ending);
             }
-            motion.see(start_s + (piece + 1) as f64 * length_s, Moment::Sample);
+            motion.observe(start_s + (segment + 1) as f64 * length_s, Moment::Sample);
         }
-        end_s = start_s + excitation.pieces() as f64 * length_s;
+        end_s = start_s + excitation.segments() as f64 * length_s;
     } else {
-        motion.see(0.0, Moment::Sample);
+        motion.observe(0.0, Moment::Sample);
     }
 
     let (until_peak, last_s) = match free {
@@ -190,10 +193,12 @@ fn follow<O: Observer>(
             return None;
         }
         let length_s = step_s.min(last_s - begin_s);
-        if let ControlFlow::Break(ending) = motion.pass(end_s + begin_s, length_s, until_peak, |_, _| Forcing::none()) {
+        if let ControlFlow::Break(ending) =
+            motion.advance(end_s + begin_s, length_s, until_peak, |_, _| Forcing::none())
+        {
             return Some(ending);
         }
-        motion.see(end_s + begin_s + length_s, Moment::Sample);
+        motion.observe(end_s + begin_s + length_s, Moment::Sample);
         steps += 1.0;
     }
 }

@@ -1,18 +1,19 @@
 //! When a chattering block comes to rest.
 //!
-//! A block that loses velocity at every impact makes infinitely many of them in a finite time, then rests. The motion is cut
-//! short only where this is certain, so that no threshold enters the result: [`RestRule::comes_to_rest`] proves that from the
-//! present impact on all rebounds are over before the ground could move the block again, and that none is as high as the
-//! peak so far. Nothing but the number of impacts, which is infinite, depends on the moment at which that is seen.
+//! A block that loses velocity at every impact makes infinitely many of them in a finite time, then rests. The motion
+//! is cut short only where this is certain, so that no threshold enters the result: [`RestRule::comes_to_rest`]
+//! proves that from the present impact on all rebounds are over before the ground could move the block again, and
+//! that none is as high as the peak so far. Nothing but the number of impacts, which is infinite, depends on the
+//! moment at which that is proved.
 //!
-//! The proof. On the window w let |A| ≤ a < tan α and |dA/dt| ≤ a', and m = sin α − a cos α > 0. The block leaves the ground
-//! with velocity v.
+//! The proof. On the window w let |A| ≤ a < tan α and |dA/dt| ≤ a', and m = sin α − a cos α > 0. The block leaves the
+//! ground with velocity v.
 //! 1. While x ≤ x̂ = v²/(p² m), it is drawn back with at least p² (m − (1 + a) x̂), which is d = p² m/2 or more if
 //!    v² (1 + a) ≤ p² m²/2. Then it indeed rises by no more than v²/(2d) = x̂, and is back within 2v/d.
-//! 2. Rising and falling through the same x, it is drawn by forces that differ by p² a' (2v/d) at most. So it lands with
-//!    v √(1 + ε) at most, ε = 2 p² a' v/d², and leaves with ϱ v, ϱ = r √(1 + ε).
-//! 3. If ϱ < 1 all of this holds for the next rebound, with ϱ v for v: the velocities are bounded by a geometric series, and
-//!    so are the durations, whose sum is at most 2v/(d (1 − ϱ)).
+//! 2. Rising and falling through the same x, it is drawn by forces that differ by p² a' (2v/d) at most. So it lands
+//!    with v √(1 + ε) at most, ε = 2 p² a' v/d², and leaves with ϱ v, ϱ = r √(1 + ε).
+//! 3. If ϱ < 1 all of this holds for the next rebound, with ϱ v for v: the velocities are bounded by a geometric
+//!    series, and so are the durations, whose sum is at most 2v/(d (1 − ϱ)).
 //!
 //! If that is no longer than w, the block is at rest by then, and stays so within w, as |A| < tan α.
 
@@ -62,7 +63,7 @@ fn is_proven(block: &Rebound, forcing: &Forcing, step_s: f64) -> bool {
     if slack <= 0.0 || restitution >= 1.0 {
         return false;
     }
-    // the time that it takes under constant shaking, with room for the bounds to be wider
+    // the time that it takes under constant shaking, with a margin for the bounds to be wider
     let window = step_s.min(8.0 * v / (p_squared * slack * (1.0 - restitution)));
     let forcing = forcing.stretched(window / step_s);
     let bound = forcing.bound();
@@ -86,8 +87,8 @@ mod tests {
     use crate::response::{BlockResponse, FreeRocking, run};
     use uplift_motion::Accelerogram;
 
-    /// Bursts of noise, each stronger than the one before, with quiet in between, m/s²: the block rocks, chatters, rests, and has
-    /// its peak in the last.
+    /// Bursts of noise, each stronger than the one before, with quiet in between, m/s²: the block rocks, chatters,
+    /// rests, and has its peak in the last.
     fn bursts(seed: u64) -> Accelerogram {
         let mut state = seed;
         let samples = (0..3000_u32).map(|i| {

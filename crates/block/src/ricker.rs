@@ -16,7 +16,8 @@ pub enum RickerShape {
 
 /// A Ricker wavelet of acceleration amplitude aₚ and period Tₚ, centred at time zero.
 ///
-/// It lasts from −3 Tₚ to 3 Tₚ, which the text does not say: outside, the acceleration is below 1e-22 aₚ, and taken as zero.
+/// It lasts from −3 Tₚ to 3 Tₚ, which the text does not say: outside, the acceleration is below 1e-22
+/// aₚ, and taken as zero.
 ///
 /// # Source
 /// Reggiani Manzo, Eq. 2.7–2.9; N. Ricker (1943, 1944).
@@ -111,11 +112,11 @@ impl RickerPulse {
         -HALF_DURATION_PERIODS * self.period_s
     }
 
-    pub(crate) fn pieces() -> usize {
+    pub(crate) fn segments() -> usize {
         (2 * 3 * PIECES_PER_PERIOD) as usize
     }
 
-    pub(crate) fn piece_s(&self) -> f64 {
+    pub(crate) fn segment_s(&self) -> f64 {
         self.period_s / f64::from(PIECES_PER_PERIOD)
     }
 
@@ -168,7 +169,7 @@ mod tests {
             for i in -60..60 {
                 let t = f64::from(i) / 20.0 + 0.013;
                 assert!((pulse.acceleration_m_s2(t) - printed(shape, t)).abs() < 2e-15, "{shape:?} {t}");
-                let step = pulse.piece_s();
+                let step = pulse.segment_s();
                 let series = pulse.taylor(t, step);
                 for s in [0.3, 1.0] {
                     assert!((series.value(s) - printed(shape, t + s * step)).abs() < 4e-15, "{shape:?} {t} {s}");

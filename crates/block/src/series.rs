@@ -10,12 +10,13 @@
 //! * (k+1) vₖ₊₁ = −p² h (Sₖ + Σ Aⱼ Cₖ₋ⱼ), (k+1) xₖ₊₁ = h vₖ,
 //! * (k+1) Sₖ₊₁ = −h Σ Cⱼ vₖ₋ⱼ, (k+1) Cₖ₊₁ = h Σ Sⱼ vₖ₋ⱼ,
 //!
-//! for powers of s = time/h. One sine and one cosine a step; no stages, no interpolant: the step is its own dense output.
-//! The series goes on until two terms running are below half a rounding of its largest, or, at [`ORDER`], the step is
-//! shortened until they are.
+//! for powers of s = time/h. One sine and one cosine a step; no stages, no interpolant: the step is its own dense
+//! output. The series goes on until two terms running are below half a rounding of its largest, or, at [`ORDER`], the
+//! step is shortened until they are.
 //!
 //! # Source
-//! E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, Section I.8 (recursive Taylor coefficients).
+//! E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, Section I.8 (recursive
+//! Taylor coefficients).
 
 use crate::polynomial::{DEGREE, value};
 
@@ -103,7 +104,8 @@ pub(crate) struct Series {
 }
 
 impl Series {
-    /// The motion from the rotation `x` and velocity `v`, with p² and α, under `forcing` in units of g on a step of `step_s`.
+    /// The motion from the rotation `x` and velocity `v`, with p² and α, under `forcing` in units of g
+    /// on a step of `step_s`.
     pub(crate) fn expand(x: f64, v: f64, forcing: &Forcing, step_s: f64, p_squared: f64, alpha: f64) -> Self {
         let h = step_s;
         let mut xs = [0.0; DEGREE + 1];

@@ -65,12 +65,12 @@ impl PulseSpectrum {
     }
 }
 
-/// Computes a spectrum on the threads of the current rayon pool. Every point depends on its own values alone: the numbers are
-/// the same for any number of threads.
+/// Computes a spectrum on the threads of the current rayon pool. Every point depends on its own values alone: the
+/// numbers are the same for any number of threads.
 ///
 /// # Errors
-/// [`BlockError::Empty`] for an axis without values, [`BlockError::OutOfRange`] for one that is not above zero (and below 1e6),
-/// or for what no block and no pulse has; [`BlockError::TooLong`] for a pulse of more than 1e7/p.
+/// [`BlockError::Empty`] for an axis without values, [`BlockError::OutOfRange`] for one that is not above zero (and
+/// below 1e6), or for what no block and no pulse has; [`BlockError::TooLong`] for a pulse of more than 1e7/p.
 ///
 /// # Source
 /// Reggiani Manzo, Sections 2.2 and 2.3.

@@ -27,7 +27,9 @@ fn refined(samples: &[f64]) -> Accelerogram {
 }
 
 prop_compose! {
-    fn blocks()(size in 0.3..50.0_f64, alpha in 0.05..0.6_f64, given in prop::option::of(0.3..1.0_f64)) -> RockingBlock {
+    fn blocks()(
+        size in 0.3..50.0_f64, alpha in 0.05..0.6_f64, given in prop::option::of(0.3..1.0_f64),
+    ) -> RockingBlock {
         let block = RockingBlock::new(size, alpha).unwrap();
         given.map_or(block, |r| block.with_restitution(r).unwrap())
     }
@@ -37,8 +39,8 @@ fn shakings() -> impl Strategy<Value = Vec<f64>> {
     prop::collection::vec(-12.0..12.0_f64, 2..150)
 }
 
-/// Asserts that `other` is the response `one` of `block` to `motion` up to rounding, as the motion amplifies it: by how much a
-/// change of 1e-10 of the record changes the peak.
+/// Asserts that `other` is the response `one` of `block` to `motion` up to rounding, as the motion amplifies it: by how
+/// much a change of 1e-10 of the record changes the peak.
 fn nearly(block: &RockingBlock, motion: &Accelerogram, one: &BlockResponse, other: &BlockResponse) -> TestCaseResult {
     prop_assert_eq!(one.overturning, other.overturning);
     if one.is_overturned() || one.rotation_rad == 0.0 {
@@ -106,7 +108,9 @@ proptest! {
 
     /// θ depends on α, r and the shaking in units of g and 1/p alone (Eq. 2.4 and 2.6).
     #[test]
-    fn similar_blocks_respond_alike(block in blocks(), samples in shakings(), size in 0.1..10.0_f64, gravity in 0.1..10.0_f64) {
+    fn similar_blocks_respond_alike(
+        block in blocks(), samples in shakings(), size in 0.1..10.0_f64, gravity in 0.1..10.0_f64,
+    ) {
         let other = RockingBlock::new(size * block.size_m(), block.slenderness_rad()).unwrap();
         let other = other.with_restitution(block.restitution()).unwrap();
         let other = other.with_gravity(gravity * block.gravity_m_s2()).unwrap();
@@ -119,13 +123,15 @@ proptest! {
     #[test]
     fn a_history_holds_its_peak_and_no_gap(block in blocks(), samples in shakings()) {
         let motion = record(&samples);
-        let (response, history) = respond_with_history(&block, &motion, FreeRocking::Lasting { duration_s: 1.0 }).unwrap();
+        let free = FreeRocking::Lasting { duration_s: 1.0 };
+        let (response, history) = respond_with_history(&block, &motion, free).unwrap();
         let rows = &history.rows;
         prop_assert!(rows.windows(2).all(|rows| rows[0].time_s <= rows[1].time_s));
         prop_assert!(rows.iter().all(|row| row.rotation_rad.abs() <= response.rotation_rad * (1.0 + 1e-12)));
         let impacts = rows.iter().filter(|row| row.moment == Moment::AfterImpact).count() as u64;
         prop_assert_eq!(impacts, response.impacts);
-        // continuous: no step is longer than the mean of the velocities at its ends allows, and the largest acceleration
+        // continuous: no step is longer than the mean of the velocities at its ends allows, and
+        // the largest acceleration
         let p2 = block.frequency_parameter_rad_s().powi(2);
         for rows in rows.windows(2).filter(|rows| rows[1].moment != Moment::Rest) {
             let dt = rows[1].time_s - rows[0].time_s;

@@ -131,8 +131,8 @@ fn a_spectrum_shows_what_the_text_says() {
     }
 }
 
-/// Section 2.3.2: a base 2b of roughly nine times the length scale aₚ/ωₚ² is enough for any acceleration; Figure 2.7's measure
-/// is Figure 2.3's at other points.
+/// Section 2.3.2: a base 2b of roughly nine times the length scale aₚ/ωₚ² is enough for any acceleration; Figure 2.7's
+/// measure is Figure 2.3's at other points.
 #[test]
 fn a_base_of_nine_length_scales_is_enough() {
     for shape in SHAPES {

@@ -1,16 +1,19 @@
 //! The two figures of Table 4.1.
 
-/// Error of the median spectrum `e_median`, a ratio (Eq. 4.9): the largest `|u_median − u|` over the strengths, over u there.
+/// Error of the median spectrum `e_median`, a ratio (Eq. 4.9): the largest `|u_median − u|` over the
+/// strengths, over u there.
 ///
 /// - `median_m`: median of the replicates, m, `[strength]`.
 /// - `spectrum_m`: the spectrum of all records, m, `[strength]`.
 ///
-/// None where it does not exist: an ordinate that is not finite, or a difference where the spectrum is 0. No difference at all is 0.
+/// None where it does not exist: an ordinate that is not finite, or a difference where the spectrum is 0. No
+/// difference at all is 0.
 pub fn error_of_median(median_m: &[f64], spectrum_m: &[f64]) -> Option<f64> {
     largest_ratio(median_m.iter().zip(spectrum_m).map(|(median, spectrum)| ((median - spectrum).abs(), *spectrum)))
 }
 
-/// Range of the confidence interval `r_90CI`, a ratio (Eq. 4.10): the largest `u95 − u5` over the strengths, over the median there.
+/// Range of the confidence interval `r_90CI`, a ratio (Eq. 4.10): the largest `u95 − u5` over the strengths,
+/// over the median there.
 ///
 /// - `lower_m`, `median_m`, `upper_m`: the band, m, `[strength]`.
 ///

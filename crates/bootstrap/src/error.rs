@@ -8,7 +8,8 @@ use uplift_risk::RiskError;
 pub enum BootstrapError {
     /// Nothing to draw from, or nothing to draw.
     #[error(
-        "a resampling plan needs records, sample sizes and replicates: found {records} records, {sizes} sizes and {replicates} replicates"
+        "a resampling plan needs records, sample sizes and replicates: found {records} records, {sizes} sizes and \
+         {replicates} replicates"
     )]
     Empty {
         /// Records.
@@ -18,7 +19,7 @@ pub enum BootstrapError {
         /// Replicates of each size.
         replicates: usize,
     },
-    /// A sample size that is none, or is there twice.
+    /// An invalid sample size, or one given twice.
     #[error("sample size {size}: sizes are whole numbers from 1 to {limit}, each given once")]
     Size {
         /// The size.

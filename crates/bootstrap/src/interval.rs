@@ -4,18 +4,26 @@ use statrs::distribution::{ContinuousCDF, Normal};
 use uplift_fragility::quantile;
 
 /// How an interval is read from the replicates.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Interval {
-    /// Quantiles of the replicates, as in Section 4.5: 5 and 95 % for a confidence of 0.9.
+    /// Quantiles of the replicates: [`Band::percentile`].
+    #[default]
     Percentile,
-    /// Bias-corrected and accelerated (BCa): quantiles at levels moved by the bias of the median and by the skewness of the
-    /// influence of single records (Efron and Tibshirani, Eq. 14.9 to 14.15).
-    Bca {
-        /// The ordinate of all records, m.
-        estimate_m: f64,
-        /// Acceleration for the size of the sample; see [`acceleration`](crate::acceleration).
-        acceleration: f64,
-    },
+    /// Quantiles at levels corrected for bias and skewness: [`Band::bca`].
+    Bca,
+}
+
+impl Interval {
+    /// Every interval.
+    pub const ALL: [Self; 2] = [Self::Percentile, Self::Bca];
+
+    /// Name in files and keys: percentile, bca.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Percentile => "percentile",
+            Self::Bca => "bca",
+        }
+    }
 }
 
 /// An interval of an ordinate and its median.
@@ -30,16 +38,30 @@ pub struct Band {
 }
 
 impl Band {
-    /// The band of `sorted` replicates, m, at a `confidence` between 0 and 1.
-    ///
-    /// The median is that of the replicates in every case. The limits of BCa are NaN where its correction does not exist: all
-    /// replicates on one side of the estimate, or single records that make the spectrum infinite.
-    pub fn of(sorted: &[f64], confidence: f64, interval: Interval) -> Self {
+    /// The band of `sorted` replicates, m, at a `confidence` between 0 and 1, between their quantiles, as in Section
+    /// 4.5: at 5 and 95 % for a confidence of 0.9.
+    pub fn percentile(sorted: &[f64], confidence: f64) -> Self {
         let tail = 0.5 * (1.0 - confidence);
-        let [low, high] = match interval {
-            Interval::Percentile => [tail, 1.0 - tail],
-            Interval::Bca { estimate_m, acceleration } => bca_levels(sorted, tail, estimate_m, acceleration),
-        };
+        Self::between(sorted, [tail, 1.0 - tail])
+    }
+
+    /// The bias-corrected and accelerated band (BCa) of `sorted` replicates, m, at a `confidence` between 0 and
+    /// 1: its limits are quantiles at levels moved by the bias of the median and by the skewness of the
+    /// influence of single records.
+    ///
+    /// `estimate_m` is the ordinate of all records, m; `acceleration` that for the size of the sample, see
+    /// [`acceleration`](crate::acceleration). The median is that of the replicates. The limits are NaN where
+    /// the correction does not exist: all replicates on one side of the estimate, or single records that make
+    /// the spectrum infinite.
+    ///
+    /// # Source
+    /// Efron and Tibshirani (1993), "An introduction to the bootstrap", Eq. 14.9 to 14.15.
+    pub fn bca(sorted: &[f64], confidence: f64, estimate_m: f64, acceleration: f64) -> Self {
+        let tail = 0.5 * (1.0 - confidence);
+        Self::between(sorted, bca_levels(sorted, tail, estimate_m, acceleration))
+    }
+
+    fn between(sorted: &[f64], [low, high]: [f64; 2]) -> Self {
         let at = |level: f64| if level.is_nan() { f64::NAN } else { quantile(sorted, level) };
         Self { lower_m: at(low), median_m: quantile(sorted, 0.5), upper_m: at(high) }
     }
@@ -72,7 +94,7 @@ mod tests {
 
     #[test]
     fn percentiles_are_quantiles() {
-        let band = Band::of(&replicates(), 0.9, Interval::Percentile);
+        let band = Band::percentile(&replicates(), 0.9);
         for (found, expected) in [(band.lower_m, 0.05), (band.median_m, 0.5), (band.upper_m, 0.95)] {
             assert!((found - expected).abs() < 1e-12, "{band:?}");
         }
@@ -80,8 +102,8 @@ mod tests {
 
     #[test]
     fn bca_without_bias_and_skewness_is_percentiles() {
-        let plain = Band::of(&replicates(), 0.9, Interval::Percentile);
-        let bca = Band::of(&replicates(), 0.9, Interval::Bca { estimate_m: 0.5, acceleration: 0.0 });
+        let plain = Band::percentile(&replicates(), 0.9);
+        let bca = Band::bca(&replicates(), 0.9, 0.5, 0.0);
         assert!((plain.lower_m - bca.lower_m).abs() < 1e-9 && (plain.upper_m - bca.upper_m).abs() < 1e-9);
     }
 
@@ -90,16 +112,16 @@ mod tests {
     // 0.2533471 + 1.8982007/(1 − 0.18982007) = 2.5962805 → Φ = 0.995288.
     #[test]
     fn bca_by_hand() {
-        let band = Band::of(&replicates(), 0.9, Interval::Bca { estimate_m: 0.6, acceleration: 0.1 });
+        let band = Band::bca(&replicates(), 0.9, 0.6, 0.1);
         assert!((band.lower_m - 0.166_477).abs() < 2e-3 && (band.upper_m - 0.995_288).abs() < 1e-3, "{band:?}");
         assert!((band.median_m - 0.5).abs() < 1e-12);
     }
 
     #[test]
     fn bca_says_where_it_does_not_exist() {
-        let band = Band::of(&replicates(), 0.9, Interval::Bca { estimate_m: 2.0, acceleration: 0.0 });
+        let band = Band::bca(&replicates(), 0.9, 2.0, 0.0);
         assert!(band.lower_m.is_nan() && band.upper_m.is_nan() && band.median_m == 0.5);
-        let zeros = Band::of(&[0.0; 9], 0.9, Interval::Bca { estimate_m: 0.0, acceleration: 0.0 });
+        let zeros = Band::bca(&[0.0; 9], 0.9, 0.0, 0.0);
         assert_eq!(zeros, Band { lower_m: 0.0, median_m: 0.0, upper_m: 0.0 });
     }
 }

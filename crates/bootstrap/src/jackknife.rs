@@ -34,8 +34,8 @@ pub fn leave_one_out(
 /// - `without_each_m`: the ordinate without each record, m.
 ///
 /// With d the mean of the values less each value, `a = Σ d³ / (6 (Σ d²)^1.5)`. This is the skewness of the mean of n
-/// influences over 6, so samples of another size have it times `√(n/size)`. It is 0 where all values are alike and NaN where one is
-/// infinite or there are none.
+/// influences over 6, so samples of another size have it times `√(n/size)`. It is 0 where all values are alike and NaN
+/// where one is infinite or there are none.
 pub fn acceleration(without_each_m: &[f64], size: u32) -> f64 {
     let n = without_each_m.len() as f64;
     let mean = without_each_m.iter().sum::<f64>() / n;

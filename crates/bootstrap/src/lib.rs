@@ -2,7 +2,8 @@
 //!
 //! - [`ResamplingPlan`]: which records each replicate draws; planned before any computing, from counter-based streams.
 //! - [`Replicates`]: the ordinates of one strength for all replicates, sites and probabilities.
-//! - [`Interval`], [`Band`]: confidence intervals of an ordinate, by percentiles or bias-corrected and accelerated (BCa).
+//! - [`Interval`], [`Band`]: confidence intervals of an ordinate, by percentiles or bias-corrected and
+//!   accelerated (BCa).
 //! - [`simultaneous_bands`]: a band that holds whole spectra.
 //! - [`error_of_median`], [`range_of_interval`]: the two figures of Table 4.1 (Eq. 4.9, 4.10).
 //! - [`leave_one_out`]: the ordinates without each record, for influence and for BCa.
@@ -11,9 +12,8 @@
 //! measures (common random numbers), so differences between them are not blurred by the resampling.
 //!
 //! # Source
-//! N. Reggiani Manzo, dissertation, Section 4.5; B. Efron and R. J. Tibshirani, An Introduction to the Bootstrap (1993),
-//! chapters 13 and 14; global rank envelopes: M. Myllymäki et al., J. R. Stat. Soc. B 79
-//! (2017).
+//! N. Reggiani Manzo, dissertation, Section 4.5; B. Efron and R. J. Tibshirani, An Introduction to the Bootstrap
+//! (1993), chapters 13 and 14; global rank envelopes: M. Myllymäki et al., J. R. Stat. Soc. B 79 (2017).
 
 mod accuracy;
 mod error;

@@ -14,9 +14,9 @@ const LARGEST_SIZE: u32 = 100_000;
 
 /// The draws of every replicate of every sample size.
 ///
-/// Each replicate has its own stream of the counter-based generator `ChaCha8`, numbered by its size and its number. So it
-/// depends on nothing but the seed, the size, its number and the number of records: not on the other sizes, on the number of
-/// replicates or on threads.
+/// Each replicate has its own stream of the counter-based generator `ChaCha8`, numbered by its size and its number. So
+/// it depends on nothing but the seed, the size, its number and the number of records: not on the other sizes, on the
+/// number of replicates or on threads.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ResamplingPlan {
     record_count: usize,
@@ -52,12 +52,13 @@ impl ResamplingPlan {
         Ok(Self { record_count, replicates, sizes: sizes.to_vec(), samples })
     }
 
-    /// A plan that was kept.
+    /// A plan that was stored.
     ///
     /// - `multiplicities`: how often each record was drawn, `[size, replicate, record]`.
     ///
     /// # Errors
-    /// As [`ResamplingPlan::draw`]; another number of multiplicities; a replicate that does not draw as many records as its size says.
+    /// As [`ResamplingPlan::draw`]; another number of multiplicities; a replicate that does not draw as many
+    /// records as its size says.
     pub fn from_multiplicities(
         record_count: usize,
         sizes: &[u32],
@@ -104,7 +105,8 @@ impl ResamplingPlan {
         &self.samples
     }
 
-    /// How often each record was drawn, `[size, replicate, record]`: what [`ResamplingPlan::from_multiplicities`] takes.
+    /// How often each record was drawn, `[size, replicate, record]`: what
+    /// [`ResamplingPlan::from_multiplicities`] takes.
     pub fn multiplicities(&self) -> Vec<u32> {
         self.samples.iter().flat_map(|sample| sample.multiplicities().iter().copied()).collect()
     }
@@ -135,8 +137,8 @@ impl Stream {
         Self(generator)
     }
 
-    /// Uniform on `0..bound`, without bias: the high half of a product, where its low half does not fall into the uneven rest
-    /// (D. Lemire, ACM Trans. Model. Comput. Simul. 29, 2019).
+    /// Uniform on `0..bound`, without bias: the high half of a product, where its low half does not fall into the
+    /// uneven rest (D. Lemire, ACM Trans. Model. Comput. Simul. 29, 2019).
     fn below(&mut self, bound: u32) -> u32 {
         let uneven = bound.wrapping_neg() % bound;
         loop {

@@ -1,12 +1,14 @@
 //! Bands that hold whole spectra.
 
-/// Limits of a simultaneous band, m, `[strength]` of (lower, upper): at least `confidence` of the replicate spectra lie wholly within.
+/// Limits of a simultaneous band, m, `[strength]` of (lower, upper): at least `confidence` of the replicate
+/// spectra lie wholly within.
 ///
 /// - `replicates_m`: the ordinates, `[strength][replicate]`, in the same order of replicates at each strength.
 ///
-/// Each spectrum has a depth: over all strengths, the least number of replicates that are at most, or at least, as large as it is. The band runs
-/// between the k-th smallest and the k-th largest ordinate at each strength, with the largest k that leaves the asked share of the spectra no shallower than k.
-/// So the limits are as rare at each strength as at any other, and no scale enters.
+/// Each spectrum has a depth: over all strengths, the least number of replicates that are at most, or at least, as
+/// large as it is. The band runs between the k-th smallest and the k-th largest ordinate at each strength, with the
+/// largest k that leaves the asked share of the spectra no shallower than k. So the limits are as rare at each strength
+/// as at any other, and no scale enters.
 pub fn simultaneous_bands(replicates_m: &[Vec<f64>], confidence: f64) -> Vec<(f64, f64)> {
     let count = replicates_m.first().map_or(0, Vec::len);
     if count == 0 {

@@ -26,7 +26,7 @@ mod tests {
         for (probability, expected) in [(0.0, 1.0), (0.2, 1.0), (0.21, 2.0), (0.7, 2.0), (0.71, 3.0), (1.0, 3.0)] {
             assert_eq!(weighted_quantile(&pairs, probability), expected, "{probability}");
         }
-        // a value of no weight is no value
+        // a value without weight does not count
         assert_eq!(weighted_quantile(&[(1.0, 0.0), (2.0, 1.0)], 0.0), 2.0);
         assert!(weighted_quantile(&[], 0.5).is_nan());
     }

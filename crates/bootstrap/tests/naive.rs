@@ -1,7 +1,7 @@
 //! The bootstrap against the plain way: write the drawn records out, count fragilities, integrate, invert, sort.
 #![allow(clippy::unwrap_used)]
 
-use uplift_bootstrap::{Band, Interval, Replicates, ResamplingPlan, leave_one_out};
+use uplift_bootstrap::{Band, Replicates, ResamplingPlan, leave_one_out};
 use uplift_fragility::Stripes;
 use uplift_hazard::{Extrapolation, HazardCurve};
 use uplift_risk::{PooledDemand, StripeWeights, mean_annual_frequency};
@@ -77,7 +77,7 @@ fn bands_are_those_of_the_plain_way() {
                 plain.sort_by(f64::total_cmp);
                 let mut sorted = replicates.ordinates_m(site, target_index, size_index).to_vec();
                 sorted.sort_by(f64::total_cmp);
-                let band = Band::of(&sorted, 0.9, Interval::Percentile);
+                let band = Band::percentile(&sorted, 0.9);
                 // numpy's definition: positions 0.05 · 59 = 2.95, 29.5 and 56.05
                 let at = |index: usize, part: f64| plain[index] * (1.0 - part) + plain[index + 1] * part;
                 for (found, expected) in
@@ -120,7 +120,7 @@ fn one_record_and_one_replicate_are_defined() {
         let expected = plain_ordinate(edp_m, &weights, target);
         for size in 0..2 {
             assert_eq!(replicates.ordinates_m(0, index, size), [expected]);
-            let band = Band::of(&[expected], 0.9, Interval::Percentile);
+            let band = Band::percentile(&[expected], 0.9);
             assert_eq!((band.lower_m, band.median_m, band.upper_m), (expected, expected, expected));
         }
     }

@@ -2,7 +2,6 @@
 
 mod bootstrap;
 mod check;
-mod confidence;
 mod design;
 mod export;
 mod figure_files;
@@ -29,16 +28,17 @@ use clap::{Args, Parser, Subcommand};
 
 use crate::error::CommandError;
 use crate::terminal::Terminal;
-use uplift_study::{AnyStudy, ResolvedStudy, Study};
+use uplift_study::{AnyStudy, Study};
 
 /// Uniform risk spectra for rocking structures.
 ///
-/// From ground motions and site hazard to the displacement that a structure of a given uplift strength must survive so that its
-/// annual risk is what the engineer chose.
+/// From ground motions and site hazard to the displacement that a structure of a given uplift strength must survive so
+/// that its annual risk is what the engineer chose.
 #[derive(Debug, Parser)]
 #[command(name = "uplift", version = uplift::VERSION_AND_COMMIT, max_term_width = 100)]
 #[command(
-    after_help = "Exit codes: 0 done, 2 usage, 3 study or structure file, 4 input data or disk, 5 interrupted, 1 a bug.\n\
+    after_help = "Exit codes: 0 done, 2 usage, 3 study or structure file, 4 input data or disk, 5 interrupted, 1 a \
+                  bug.\n\
     Start with: uplift run configs/quick.toml"
 )]
 pub(crate) struct Arguments {
@@ -54,7 +54,8 @@ pub(crate) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Run a study: uniform risk spectra with their coefficients, or displacement spectra of record sets; one result file
+    /// Run a study: uniform risk spectra with their coefficients, or displacement spectra of record sets; one result
+    /// file
     Run(run::RunArguments),
     /// Join the shards of a run into its result
     Merge(merge::MergeArguments),
@@ -88,7 +89,8 @@ enum Command {
     Report(report::ReportArguments),
     /// Write the spectra and coefficients of a result as CSV, JSON or a MATLAB file
     Export(export::ExportArguments),
-    /// Print the coefficients of a result (Table 4.2), or its design example (Tables 2.1-2.3, 3.2-3.7), beside a reference if one is given
+    /// Print the coefficients of a result (Table 4.2), or its design example (Tables 2.1-2.3, 3.2-3.7), beside a
+    /// reference if one is given
     Table(table::TableArguments),
 }
 
@@ -97,16 +99,13 @@ enum Command {
 struct StudyArguments {
     /// Study file (TOML), for instance configs/europe.toml
     study: PathBuf,
-    /// Change a key of the study for this run, for instance --set records.first=20; paths are relative to the current directory
+    /// Change a key of the study for this run, for instance --set records.first=20; paths are relative to the current
+    /// directory
     #[arg(long = "set", value_name = "KEY=VALUE")]
     overrides: Vec<String>,
 }
 
 impl StudyArguments {
-    fn load(&self) -> Result<ResolvedStudy, CommandError> {
-        Ok(Study::load(&self.study, &self.overrides)?)
-    }
-
     fn load_any(&self) -> Result<AnyStudy, CommandError> {
         Ok(Study::load_any(&self.study, &self.overrides)?)
     }

@@ -30,8 +30,9 @@ impl CommandError {
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
             Self::OutputClosed => 0,
-            Self::Usage(_) => 2,
-            Self::Uplift(UpliftError::Usage(_) | UpliftError::Oscillator(_) | UpliftError::Blocks(_)) => 2,
+            Self::Usage(_) | Self::Uplift(UpliftError::Usage(_) | UpliftError::Choice { .. }) => 2,
+            // oscillators, blocks and pulses are typed; those of a file are said to be of it
+            Self::Uplift(UpliftError::Oscillator(_) | UpliftError::Blocks(_)) => 2,
             // what a synthetic record is asked to be is typed, too
             Self::Uplift(UpliftError::Motion(
                 MotionError::SyntheticOption { .. } | MotionError::SyntheticCandidates { .. },

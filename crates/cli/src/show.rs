@@ -1,20 +1,31 @@
 //! What the jobs report, as a person reads it; a program gets the same values as JSON.
 
+mod bootstrap;
+mod design;
 mod displacement;
+mod efficiency;
 mod hazard;
 mod import;
+mod influence;
+mod overturning;
 mod plan;
 mod pulse;
 mod records;
 mod response;
 mod run;
 mod status;
+mod structure;
 mod table;
 mod uniform_risk;
 mod verify;
 
+pub(crate) use bootstrap::print_bootstrap;
+pub(crate) use design::print_design;
+pub(crate) use efficiency::print_efficiency;
 pub(crate) use hazard::{print_curves, print_hazard_import};
 pub(crate) use import::{print_import, tell_remarks};
+pub(crate) use influence::print_influence;
+pub(crate) use overturning::print_overturning;
 pub(crate) use plan::print_plan;
 pub(crate) use pulse::print_pulses;
 pub(crate) use records::{print_record, print_records, print_selection};

@@ -109,7 +109,7 @@ impl Events for Terminal {
 
     fn kept_in(&self, checkpoint: &Path) {
         self.set_farewell(format!(
-            "interrupted: all that is finished is kept in {}. Run the same command to go on from there",
+            "interrupted: all that is finished is in the checkpoint {}. Run the same command to go on from there",
             checkpoint.display()
         ));
     }

@@ -1,7 +1,8 @@
-//! How much the demands of a stripe scatter: the efficiency of an intensity measure (Luco and Cornell, Earthquake Spectra 23, 2007).
+//! How much the demands of a stripe scatter: the efficiency of an intensity measure (Luco and Cornell,
+//! Earthquake Spectra 23, 2007).
 //!
-//! An efficient measure leaves little scatter in the demand at a given level. Demands of zero and overturned runs have no logarithm:
-//! they are counted, and a dispersion that would have to ignore them is not given.
+//! An efficient measure leaves little scatter in the demand at a given level. Demands of zero and overturned runs have
+//! no logarithm: they are counted, and a dispersion that would have to ignore them is not given.
 
 use crate::{Stripes, quantile};
 
@@ -14,10 +15,12 @@ pub struct Dispersion {
     pub overturned: usize,
     /// Median demand, m; +∞ where half of the runs or more overturn.
     pub median_m: f64,
-    /// Half the logarithm of the ratio of the 84th to the 16th percentile: the dispersion of a lognormal demand. All runs take part; NaN
-    /// where more than about 16 % are zero or overturned, or there are too few runs for these percentiles.
+    /// Half the logarithm of the ratio of the 84th to the 16th percentile: the dispersion of a lognormal
+    /// demand. All runs take part; NaN where more than about 16 % are zero or overturned, or there are too few
+    /// runs for these percentiles.
     pub by_percentiles: f64,
-    /// Standard deviation of the logarithm, with n − 1 degrees of freedom; NaN where a run has none, or there are fewer than two.
+    /// Standard deviation of the logarithm, with n − 1 degrees of freedom; NaN where a run has none, or
+    /// there are fewer than two.
     pub of_logarithm: f64,
 }
 
@@ -44,11 +47,11 @@ impl Dispersion {
     }
 }
 
-/// The level at which each record first lifts the structure, in the unit of the levels, `[record]`; NaN where no level of the record stays below
-/// uplift, or none shakes it at all.
+/// The level at which each record first lifts the structure, in the unit of the levels, `[record]`; NaN where no level
+/// of the record stays below uplift, or none shakes it at all.
 ///
-/// Below uplift the structure is elastic and its demand proportional to the level: so `level · u_up/EDP`, from the highest level whose demand and all demands
-/// below it stay under `uplift_displacement_m`, is exact.
+/// Below uplift the structure is elastic and its demand proportional to the level: so `level · u_up/EDP`, from the
+/// highest level whose demand and all demands below it stay under `uplift_displacement_m`, is exact.
 pub fn uplift_levels(stripes: &Stripes<'_>, uplift_displacement_m: f64) -> Vec<f64> {
     (0..stripes.record_count())
         .map(|record| {
@@ -62,10 +65,11 @@ pub fn uplift_levels(stripes: &Stripes<'_>, uplift_displacement_m: f64) -> Vec<f
         .collect()
 }
 
-/// The mean over levels of each record's deviation from the stripe: `ln EDP` less the mean of `ln EDP` over the records, `[record]`.
+/// The mean over levels of each record's deviation from the stripe: `ln EDP` less the mean of `ln EDP` over the
+/// records, `[record]`.
 ///
-/// Only stripes count whose median exceeds `median_above_m` and in which every demand has a logarithm; empty where there is none such.
-/// A record is one observation, however many levels it was scaled to.
+/// Only stripes count whose median exceeds `median_above_m` and in which every demand has a logarithm; empty where
+/// there is none such. A record is one observation, however many levels it was scaled to.
 pub fn mean_residuals(stripes: &Stripes<'_>, median_above_m: f64) -> Vec<f64> {
     let mut sums = vec![0.0; stripes.record_count()];
     let mut levels = 0;
@@ -128,7 +132,8 @@ mod tests {
 
     #[test]
     fn uplift_is_found_by_proportion() {
-        // record 0 is elastic with 1e-4 m per unit: uplift of 5e-4 m at 5; record 1 never stays below; record 2 never moves
+        // record 0 is elastic with 1e-4 m per unit: uplift of 5e-4 m at 5; record 1 never stays
+        // below; record 2 never moves
         let edp_m = [1e-4, 4e-4, 3e-2, 6e-4, 7e-4, 8e-4, 0.0, 0.0, 0.0];
         let found = uplift_levels(&Stripes::new(&[1.0, 4.0, 16.0], &edp_m).unwrap(), 5e-4);
         assert!((found[0] - 5.0).abs() < 1e-12 && found[1].is_nan() && found[2].is_nan(), "{found:?}");

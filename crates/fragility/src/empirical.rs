@@ -5,7 +5,8 @@ use crate::{FragilityError, Stripes};
 /// Checks a displacement threshold: finite and zero or positive.
 ///
 /// # Errors
-/// [`FragilityError::Threshold`] otherwise; an infinite threshold would be exceeded by nothing, not even by overturning.
+/// [`FragilityError::Threshold`] otherwise; an infinite threshold would be exceeded by nothing, not
+/// even by overturning.
 pub fn check_threshold(threshold_m: f64) -> Result<(), FragilityError> {
     if threshold_m.is_finite() && threshold_m >= 0.0 {
         Ok(())
@@ -117,7 +118,9 @@ mod tests {
     proptest! {
         #[test]
         fn sorted_stripes_agree_with_counting(
-            edp in prop::collection::vec(prop_oneof![Just(0.0), Just(f64::INFINITY), (0_u8..8).prop_map(f64::from), 0.0..9.0], 12..60),
+            edp in prop::collection::vec(
+                prop_oneof![Just(0.0), Just(f64::INFINITY), (0_u8..8).prop_map(f64::from), 0.0..9.0], 12..60
+            ),
             thresholds in prop::collection::vec(prop_oneof![(0_u8..8).prop_map(f64::from), 0.0..10.0], 1..8),
         ) {
             let levels = [1.0, 2.0, 4.0];

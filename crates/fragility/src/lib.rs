@@ -6,8 +6,8 @@
 //! No curve is inverted: the response of rocking structures weaves, so a record may exceed a threshold at one
 //! level and stay below it at the next.
 //!
-//! How much the demands scatter at a level, and whether that depends on what the records are, tells how good the intensity measure
-//! is: [`Dispersion`], [`uplift_levels`], [`mean_residuals`].
+//! How much the demands scatter at a level, and whether that depends on what the records are, shows how good the
+//! intensity measure is: [`Dispersion`], [`uplift_levels`], [`mean_residuals`].
 //!
 //! Beside it, never instead of it, [`fit_lognormal`] gives the maximum-likelihood lognormal fragility.
 //!

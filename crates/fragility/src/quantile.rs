@@ -2,8 +2,8 @@
 
 /// The quantile of `sorted` values at `probability`: linear between order statistics, at position `p (n − 1)` from 0.
 ///
-/// That is the definition of numpy, R (type 7) and Excel (`PERCENTILE.INC`). An infinite neighbour makes the quantile infinite,
-/// unless it falls on a finite value exactly. NaN where there is no value.
+/// That is the definition of numpy, R (type 7) and Excel (`PERCENTILE.INC`). An infinite value next to it makes the
+/// quantile infinite, unless it falls on a finite value exactly. NaN where there is no value.
 pub fn quantile(sorted: &[f64], probability: f64) -> f64 {
     let Some(last) = sorted.len().checked_sub(1) else {
         return f64::NAN;

@@ -16,7 +16,6 @@ use crate::text::excerpt;
 /// "Orientation-independent, nongeometric-mean measures"; Beyer and Bommer (2006), "Relationships between median values
 /// and between aleatory variabilities for different definitions of the horizontal component of motion".
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[non_exhaustive]
 pub enum ComponentDefinition {
     /// Geometric mean of the two components as recorded.
     GeometricMean,
@@ -35,6 +34,22 @@ pub enum ComponentDefinition {
 impl ComponentDefinition {
     /// Names to suggest in a message.
     pub const ACCEPTED: &'static str = "geometric mean, GMRotI50, RotD50, RotD100, larger, arbitrary";
+
+    /// Every definition.
+    pub const ALL: [Self; 6] =
+        [Self::GeometricMean, Self::GmRotI50, Self::RotD50, Self::RotD100, Self::Larger, Self::Arbitrary];
+
+    /// Name in files and keys: one of [`ACCEPTED`](Self::ACCEPTED).
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::GeometricMean => "geometric mean",
+            Self::GmRotI50 => "GMRotI50",
+            Self::RotD50 => "RotD50",
+            Self::RotD100 => "RotD100",
+            Self::Larger => "larger",
+            Self::Arbitrary => "arbitrary",
+        }
+    }
 
     /// The definition named by `text` without brackets; none for other text.
     fn named(text: &str) -> Option<Self> {
@@ -56,22 +71,19 @@ impl ComponentDefinition {
 
 impl fmt::Display for ComponentDefinition {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::GeometricMean => "geometric mean",
-            Self::GmRotI50 => "GMRotI50",
-            Self::RotD50 => "RotD50",
-            Self::RotD100 => "RotD100",
-            Self::Larger => "larger component",
-            Self::Arbitrary => "arbitrary component",
-        })
+        f.write_str(self.key())?;
+        match self {
+            Self::GeometricMean | Self::GmRotI50 | Self::RotD50 | Self::RotD100 => Ok(()),
+            Self::Larger | Self::Arbitrary => f.write_str(" component"),
+        }
     }
 }
 
 impl FromStr for ComponentDefinition {
     type Err = HazardError;
 
-    /// Case, hyphens and words like "horizontal component" make no difference; what stands in brackets is the more exact
-    /// name, as in `geometric mean (GMRotI50)`.
+    /// Case, hyphens and words like "horizontal component" make no difference; what stands in brackets is the more
+    /// exact name, as in `geometric mean (GMRotI50)`.
     fn from_str(text: &str) -> Result<Self, HazardError> {
         let found = match text.split_once('(') {
             None => Self::named(text),
@@ -119,13 +131,10 @@ mod tests {
 
     #[test]
     fn names_are_read_back() {
-        let all = [GeometricMean, GmRotI50, RotD50, RotD100, Larger, Arbitrary];
-        for definition in all {
+        for definition in ComponentDefinition::ALL {
             assert_eq!(definition.to_string().parse(), Ok(definition));
         }
-        let accepted: Vec<ComponentDefinition> =
-            ComponentDefinition::ACCEPTED.split(',').map(|name| name.parse().unwrap()).collect();
-        assert_eq!(accepted, all);
+        assert_eq!(ComponentDefinition::ALL.map(ComponentDefinition::key).join(", "), ComponentDefinition::ACCEPTED);
     }
 
     #[test]
@@ -139,8 +148,8 @@ mod tests {
         let message = "\u{1b}GMRotD50".parse::<ComponentDefinition>().unwrap_err().to_string();
         assert_eq!(
             message,
-            "component definition \"\\u{1b}GMRotD50\" is not known; use one of geometric mean, GMRotI50, RotD50, RotD100, \
-             larger, arbitrary"
+            "component definition \"\\u{1b}GMRotD50\" is not known; use one of geometric mean, GMRotI50, RotD50, \
+             RotD100, larger, arbitrary"
         );
     }
 }

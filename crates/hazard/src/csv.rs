@@ -10,7 +10,7 @@ use crate::error::{HazardError, Place};
 use crate::input;
 use crate::rates::{AnnualRates, Row, annual_rates};
 use crate::text::{excerpt, number};
-use crate::unit::{Unit, same_unit};
+use crate::unit::{CurveUnit, same_unit};
 
 /// Largest file that [`read_path`] takes, unpacked, bytes: a hazard curve has some kilobytes.
 pub const MAX_FILE_BYTES: u64 = 4 << 20;
@@ -47,7 +47,7 @@ impl Declared {
             }
         }
         let unit = unit?;
-        let unit = Unit::parse(&unit).map_or(unit, |known| known.name().to_owned());
+        let unit = CurveUnit::parse(&unit).map_or(unit, |known| known.symbol().to_owned());
         Some(Self { measure: measure?.to_uppercase(), unit })
     }
 }
@@ -106,8 +106,8 @@ pub fn table_text(path: &Path) -> Result<String, HazardError> {
 ///
 /// Two columns, separated by comma, semicolon, tab or blanks: the level, in the declared unit, and the annual rate of
 /// exceedance (1/yr) or the probability of exceedance in [`CsvOptions::years`]. A first row of column names, in any
-/// order and case, says which is which (`iml`, `im_g`, `pgv_cm_s`, `PGV [cm/s]`; `maf`, `afe`, `rate`; `poe`); without it
-/// [`CsvOptions::second_column`] decides. Lines that begin with `#` are kept as the curve's source; where they say
+/// order and case, says which is which (`iml`, `im_g`, `pgv_cm_s`, `PGV [cm/s]`; `maf`, `afe`, `rate`; `poe`); without
+/// it [`CsvOptions::second_column`] decides. Lines that begin with `#` are kept as the curve's source; where they say
 /// `IM: PGV [cm/s]` or `unit: cm/s` they must agree with the declaration; where they say how the horizontal components
 /// are combined (`IM: PGV [cm/s], geometric mean (GMRotI50)` or `component: RotD50`), the curve keeps it
 /// ([`HazardCurve::component`]).
@@ -265,7 +265,8 @@ fn read_header(fields: [&str; 2], options: &CsvOptions, place: &Place) -> Result
 
 fn content_without_header(options: &CsvOptions, place: &Place) -> Result<SecondColumn, HazardError> {
     options.second_column.ok_or_else(|| {
-        let reason = "no column names before the first numbers; add the line \"iml,maf\" or \"iml,poe\", or declare what the second column holds";
+        let reason = "no column names before the first numbers; add the line \"iml,maf\" or \"iml,poe\", or declare \
+                      what the second column holds";
         HazardError::Row { place: place.clone(), reason: reason.to_owned() }
     })
 }
@@ -291,7 +292,8 @@ fn note_component(
 ) -> Result<(), HazardError> {
     if let Some(doubtful) = &declaration.doubtful {
         let reason = format!(
-            "{} seems to say how horizontal components are combined, and is none of {}: write one of these, or other words",
+            "{} seems to say how horizontal components are combined, and is not one of {}: write one of these, or \
+             other words",
             excerpt(doubtful),
             ComponentDefinition::ACCEPTED
         );

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use crate::component::ComponentDefinition;
 use crate::error::{HazardError, Place};
-use crate::unit::{Dimension, Unit, same_unit};
+use crate::unit::{CurveUnit, Dimension, same_unit};
 
 /// One point of a hazard curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,8 +36,8 @@ impl HazardCurve {
     /// Builds a curve from levels `im`, in `unit`, and annual rates of exceedance `maf`, 1/yr, one per level.
     ///
     /// `measure` is the intensity measure ("PGV", "PGA", "SA(1.0)", or any other name), `unit` its unit ("cm/s", "g"),
-    /// `source` says where the numbers come from and may be empty. PGV must be in a unit of velocity, PGA and SA in one of
-    /// acceleration; other measures may have any unit.
+    /// `source` says where the numbers come from and may be empty. PGV must be in a unit of velocity, PGA and SA in one
+    /// of acceleration; other measures may have any unit.
     ///
     /// # Errors
     /// [`HazardError`] with the index and both values for the first point that breaks a rule; an empty label; a unit
@@ -141,8 +141,8 @@ impl HazardCurve {
         Ok(curve.with_component(Some(to)))
     }
 
-    /// The curve as the text that [`read_csv`](crate::read_csv) reads back to the bit, the lines of `remarks` first as
-    /// comments.
+    /// The curve as the text that [`read_csv`](crate::read_csv) reads back to the bit, the lines of
+    /// `remarks` first as comments.
     pub fn to_csv(&self, remarks: &[String]) -> String {
         let component = self.component.map_or_else(String::new, |component| format!("; component: {component}"));
         let mut text = String::new();
@@ -200,8 +200,8 @@ impl HazardCurve {
     /// # Errors
     /// As [`HazardCurve::in_unit`].
     pub fn in_field_units(&self, gravity_m_s2: f64) -> Result<Self, HazardError> {
-        match Unit::parse(&self.unit) {
-            Some(unit) => self.in_unit(unit.dimension().field_unit().name(), gravity_m_s2),
+        match CurveUnit::parse(&self.unit) {
+            Some(unit) => self.in_unit(unit.dimension().field_unit().symbol(), gravity_m_s2),
             None => Ok(self.clone()),
         }
     }
@@ -222,7 +222,7 @@ impl HazardCurve {
             // No arithmetic, so no rounding.
             return Ok(Self { unit: unit.to_owned(), ..self.clone() });
         }
-        let (from, to) = match (Unit::parse(&self.unit), Unit::parse(unit)) {
+        let (from, to) = match (CurveUnit::parse(&self.unit), CurveUnit::parse(unit)) {
             (Some(from), Some(to)) if from.dimension() == to.dimension() => (from, to),
             _ => {
                 let (measure, from) = (self.measure.clone(), self.unit.clone());
@@ -244,7 +244,7 @@ fn check_labels(measure: &str, unit: &str) -> Result<(), HazardError> {
         }
     }
     match Dimension::of_measure(measure) {
-        Some(dimension) if Unit::parse(unit).map(Unit::dimension) != Some(dimension) => {
+        Some(dimension) if CurveUnit::parse(unit).map(CurveUnit::dimension) != Some(dimension) => {
             let (measure, unit) = (measure.to_owned(), unit.to_owned());
             Err(HazardError::UnitOfMeasure { measure, unit, expected: dimension.examples() })
         }

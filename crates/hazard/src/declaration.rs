@@ -1,7 +1,7 @@
 //! What a table says about itself: measure, unit and component in a comment or a column name.
 
 use crate::component::ComponentDefinition;
-use crate::unit::Unit;
+use crate::unit::CurveUnit;
 
 /// Measure, unit and component as far as a text names them.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -70,11 +70,12 @@ pub(crate) fn column(name: &str, declared_measure: Option<&str>) -> Option<Colum
         .then(|| Column::Intensity(Declaration { measure: Some(plain.to_owned()), unit, ..Declaration::default() }))
 }
 
-/// Reads `IM: PGV [cm/s]`, `unit: cm/s` and `component: RotD50` out of a comment, among other text separated by `;` or `,`.
+/// Reads `IM: PGV [cm/s]`, `unit: cm/s` and `component: RotD50` out of a comment, among other text
+/// separated by `;` or `,`.
 ///
-/// Accepted keys: `im`, `imt`, `measure`, `intensity measure`; `unit`, `units`; `component`, `horizontal component`. The
-/// component may follow the measure without key, as in `IM: PGV [cm/s], geometric mean (GMRotI50)`. Prose after a key is no declaration: a
-/// measure is one word, and a unit outside brackets must be a known one.
+/// Accepted keys: `im`, `imt`, `measure`, `intensity measure`; `unit`, `units`; `component`, `horizontal component`.
+/// The component may follow the measure without key, as in `IM: PGV [cm/s], geometric mean (GMRotI50)`. Prose after a
+/// key is not a declaration: a measure is one word, and a unit outside brackets must be a known one.
 pub(crate) fn comment(text: &str) -> Declaration {
     let mut found = Declaration::default();
     for part in text.split([';', ',']) {
@@ -92,7 +93,7 @@ pub(crate) fn comment(text: &str) -> Declaration {
                     found.unit = unit.map(str::to_owned).or(found.unit);
                 }
             }
-            "unit" | "units" if Unit::parse(value).is_some() => {
+            "unit" | "units" if CurveUnit::parse(value).is_some() => {
                 found.unit = Some(value.trim().to_owned());
             }
             "component" | "horizontal component" => found.note_component(value, true),
@@ -103,8 +104,9 @@ pub(crate) fn comment(text: &str) -> Declaration {
 }
 
 impl Declaration {
-    /// Takes `text` as the definition of the component, or as a doubtful one where it must be one that is not known: a single word
-    /// where only a definition can stand, and words of which definitions are made. Other prose is no declaration.
+    /// Takes `text` as the definition of the component, or as an unknown one where it must be one that is not
+    /// known: a single word where only a definition can stand, and words of which definitions are made. Other
+    /// prose is not a declaration.
     fn note_component(&mut self, text: &str, alone: bool) {
         const WORDS: [&str; 8] = ["rot", "geometric", "geomean", "gmean", "larger", "arbitrary", "srss", "envelope"];
         if let Ok(component) = text.parse::<ComponentDefinition>() {
@@ -127,12 +129,13 @@ pub(crate) fn same_measure(a: &str, b: &str) -> bool {
     plain(a) == plain(b)
 }
 
-/// Splits `PGV [cm/s]`, `PGV (cm/s)`, `pgv_cm_s` and `maf_1_yr` into name and unit. Only brackets may hold an unknown unit.
+/// Splits `PGV [cm/s]`, `PGV (cm/s)`, `pgv_cm_s` and `maf_1_yr` into name and unit. Only brackets may
+/// hold an unknown unit.
 fn split_unit(name: &str) -> (&str, Option<&str>) {
     if let Some((plain, unit)) = name.strip_suffix(']').and_then(|rest| rest.split_once('[')) {
         return (plain.trim_end(), Some(unit.trim()));
     }
-    let is_unit = |unit: &str| Unit::parse(unit).is_some() || is_per_year(unit);
+    let is_unit = |unit: &str| CurveUnit::parse(unit).is_some() || is_per_year(unit);
     if let Some((plain, unit)) = name.strip_suffix(')').and_then(|rest| rest.split_once('('))
         && is_unit(unit)
     {

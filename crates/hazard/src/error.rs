@@ -75,7 +75,8 @@ pub enum HazardError {
     },
     /// Levels that do not increase.
     #[error(
-        "{place}: intensity {value} {unit} does not exceed {previous} {unit} at {previous_place}; sort the rows by intensity and remove repeated ones"
+        "{place}: intensity {value} {unit} does not exceed {previous} {unit} at {previous_place}; sort the rows by \
+         intensity and remove repeated ones"
     )]
     LevelsNotIncreasing {
         /// Where the offending level stands.
@@ -91,7 +92,8 @@ pub enum HazardError {
     },
     /// Rates that do not decrease.
     #[error(
-        "{place}: annual rate {value} 1/yr is not below {previous} 1/yr at {previous_place}; a hazard curve must fall strictly: correct the rates, export them with more digits, or remove the row"
+        "{place}: annual rate {value} 1/yr is not below {previous} 1/yr at {previous_place}; a hazard curve must fall \
+         strictly: correct the rates, export them with more digits, or remove the row"
     )]
     RatesNotDecreasing {
         /// Where the offending rate stands.
@@ -115,7 +117,8 @@ pub enum HazardError {
     },
     /// No conversion is known between two units.
     #[error(
-        "hazard curve of {measure}: cannot convert \"{from}\" to \"{to}\"; known are cm/s and m/s, and g, m/s2 and cm/s2"
+        "hazard curve of {measure}: cannot convert \"{from}\" to \"{to}\"; known are cm/s and m/s, and g, m/s2 and \
+         cm/s2"
     )]
     Conversion {
         /// The measure.
@@ -129,7 +132,9 @@ pub enum HazardError {
     // Evaluation
     /// An intensity outside the curve, extrapolation refused.
     #[error(
-        "{measure} = {value} {unit} lies outside the hazard curve, which spans {first} to {last} {unit}; check the unit of the curve, give a curve that covers it, or choose log-log extrapolation (risk.extrapolate = \"loglog\")"
+        "{measure} = {value} {unit} lies outside the hazard curve, which spans {first} to {last} {unit}; check the \
+         unit of the curve, give a curve that covers it, or choose log-log extrapolation \
+         (risk.extrapolate = \"loglog\")"
     )]
     LevelOutside {
         /// The measure.
@@ -145,7 +150,8 @@ pub enum HazardError {
     },
     /// A rate outside the curve, extrapolation refused.
     #[error(
-        "annual rate {value} 1/yr lies outside the hazard curve of {measure}, which spans {first} down to {last} 1/yr; give a curve that covers it, or choose log-log extrapolation (risk.extrapolate = \"loglog\")"
+        "annual rate {value} 1/yr lies outside the hazard curve of {measure}, which spans {first} down to {last} \
+         1/yr; give a curve that covers it, or choose log-log extrapolation (risk.extrapolate = \"loglog\")"
     )]
     RateOutside {
         /// The measure.
@@ -169,7 +175,8 @@ pub enum HazardError {
     },
     /// An extrapolated value too large or too small for a number.
     #[error(
-        "extrapolating the hazard curve of {measure} to {value} {unit} leaves the range of numbers; stay nearer to the curve"
+        "extrapolating the hazard curve of {measure} to {value} {unit} leaves the range of numbers; stay nearer to \
+         the curve"
     )]
     ExtrapolationRange {
         /// The measure.
@@ -219,7 +226,8 @@ pub enum HazardError {
     },
     /// A table of probabilities without the period they belong to.
     #[error(
-        "{place}: probabilities of exceedance need the period they refer to; give years (the engine's investigation time, often 1 or 50)"
+        "{place}: probabilities of exceedance need the period they refer to; give years (the engine's investigation \
+         time, often 1 or 50)"
     )]
     YearsMissing {
         /// File and line.
@@ -237,7 +245,8 @@ pub enum HazardError {
     },
     /// A rate or probability of zero before the end of the table.
     #[error(
-        "{place}: zero here, but {later_place} has {later} again; only zeros at the end can be dropped, so correct or remove this row"
+        "{place}: zero here, but {later_place} has {later} again; only zeros at the end can be dropped, so correct or \
+         remove this row"
     )]
     ZeroInside {
         /// Where the zero stands.
@@ -250,7 +259,10 @@ pub enum HazardError {
 
     // Names and exports
     /// A way to combine horizontal components that is not known.
-    #[error("component definition {found} is not known; use one of {accepted}", accepted = crate::ComponentDefinition::ACCEPTED)]
+    #[error(
+        "component definition {found} is not known; use one of {accepted}",
+        accepted = crate::ComponentDefinition::ACCEPTED
+    )]
     Component {
         /// What was given, quoted.
         found: String,

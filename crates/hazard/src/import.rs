@@ -6,7 +6,7 @@
 //! | `OpenQuake` engine before version 3 | NRML (XML) | probabilities in the investigation time | `nrml` |
 //! | USGS hazard services (nshmp-haz) | JSON | annual frequencies | `usgs` |
 //!
-//! The format is told by the content, and gzip is unpacked. All become [`ExportedCurve`]s:
+//! The format is recognised by the content, and gzip is unpacked. All become [`ExportedCurve`]s:
 //!
 //! - [`read_export`]: the curves of one site or of all ([`SiteSelection`]).
 //! - [`ExportedCurves`]: the curves of a file one after the other; of `OpenQuake`'s CSV only one row is in memory.
@@ -50,7 +50,8 @@ pub struct SitePlace {
 }
 
 impl SitePlace {
-    /// Great-circle distance to a place given by longitude and latitude, degrees; km on a sphere of the earth's mean radius.
+    /// Great-circle distance to a place given by longitude and latitude, degrees; km on a sphere of the
+    /// earth's mean radius.
     pub fn distance_km(&self, longitude_deg: f64, latitude_deg: f64) -> f64 {
         selection::distance_km((self.longitude_deg, self.latitude_deg), (longitude_deg, latitude_deg))
     }
@@ -67,7 +68,6 @@ impl fmt::Display for SitePlace {
 
 /// What a curve is over the logic tree.
 #[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
 pub enum Statistic {
     /// The weighted mean.
     Mean,
@@ -146,11 +146,11 @@ pub fn read_export(path: &Path, selection: &SiteSelection) -> Result<Vec<Exporte
 ///
 /// # Errors
 /// Each item: [`HazardError::File`] for what cannot be read at all, which ends the iteration;
-/// [`HazardError::DuplicateSite`]; errors naming file, line and level for values that are no hazard curve.
+/// [`HazardError::DuplicateSite`]; errors naming file, line and level for values that are not a hazard curve.
 pub struct ExportedCurves {
     name: String,
     entries: Entries,
-    /// Line of each curve met, by a hash of what tells it from others.
+    /// Line of each curve met, by a hash of what distinguishes it from others.
     met: HashMap<u64, Option<usize>>,
 }
 
@@ -265,7 +265,7 @@ fn coordinates(
         return Ok((longitude_deg, latitude_deg));
     }
     let reason = format!(
-        "longitude {longitude_deg}, latitude {latitude_deg} is no place on earth; give degrees, longitude first"
+        "longitude {longitude_deg}, latitude {latitude_deg} is not a place on earth; give degrees, longitude first"
     );
     Err(HazardError::Row { place: place(), reason })
 }

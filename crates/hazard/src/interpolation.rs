@@ -4,13 +4,26 @@ use crate::curve::{HazardCurve, HazardPoint};
 use crate::error::HazardError;
 
 /// What to do with a value outside the curve.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Extrapolation {
     /// It is an error.
     #[default]
     Refuse,
     /// The first or last segment is continued as a straight line in log–log axes.
     LogLog,
+}
+
+impl Extrapolation {
+    /// Every choice.
+    pub const ALL: [Self; 2] = [Self::Refuse, Self::LogLog];
+
+    /// Name in files and keys: refuse, loglog.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Refuse => "refuse",
+            Self::LogLog => "loglog",
+        }
+    }
 }
 
 impl HazardCurve {

@@ -8,6 +8,7 @@
 //!   against what the caller [`Declared`].
 //! - [`read_export`], [`ExportedCurves`]: curves of one site or many as `OpenQuake` and the USGS export them;
 //!   [`read_realization_weights`]: the logic tree weights that go with them.
+//! - [`CurveUnit`]: the units that levels convert between.
 //! - [`ComponentDefinition`]: how two horizontal components are combined in the measure of a curve.
 //!
 //! Rates are per year. Levels stay in the unit the curve names; [`HazardCurve::in_field_units`] turns velocities into
@@ -50,3 +51,4 @@ pub use import::{
 };
 pub use interpolation::Extrapolation;
 pub use probability::{probability_from_rate, rate_from_probability};
+pub use unit::CurveUnit;

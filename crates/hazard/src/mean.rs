@@ -5,8 +5,9 @@ use crate::{HazardCurve, HazardError};
 impl HazardCurve {
     /// The weighted mean of curves of one measure in one unit: `λ(im) = Σ w λ_b(im)/Σ w`.
     ///
-    /// It is exact at every abscissa of every curve and at every level of `also_at` that lies within all of them; between, it is read as any curve. It
-    /// reaches as far as all curves do. It keeps the definition of the component where all curves have the same.
+    /// It is exact at every abscissa of every curve and at every level of `also_at` that lies within all of them;
+    /// between, it is read as any curve. It reaches as far as all curves do. It keeps the definition of the component
+    /// where all curves have the same.
     ///
     /// - `branches`: weight and curve.
     /// - `also_at`: further levels, in the unit of the curves, stripe levels for instance.

@@ -2,7 +2,7 @@
 
 use crate::error::{HazardError, Place};
 
-/// A finite number; `place` is asked for only where there is none.
+/// A finite number; `place` is called only where `field` is not one.
 ///
 /// # Errors
 /// [`HazardError::Row`] with the field.

@@ -28,27 +28,35 @@ impl Dimension {
     }
 
     /// The unit of the field: cm/s for velocities, g for accelerations.
-    pub(crate) fn field_unit(self) -> Unit {
+    pub(crate) fn field_unit(self) -> CurveUnit {
         match self {
-            Self::Velocity => Unit::CmPerS,
-            Self::Acceleration => Unit::G,
+            Self::Velocity => CurveUnit::CmPerS,
+            Self::Acceleration => CurveUnit::G,
         }
     }
 }
 
-/// The units that convert into each other.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Unit {
+/// Units of the levels of a hazard curve that convert into each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum CurveUnit {
+    /// Centimetres per second.
     CmPerS,
+    /// Metres per second.
     MPerS,
+    /// The acceleration of gravity.
     G,
+    /// Metres per second squared.
     MPerS2,
+    /// Centimetres per second squared.
     CmPerS2,
 }
 
-impl Unit {
+impl CurveUnit {
+    /// Every unit.
+    pub const ALL: [Self; 5] = [Self::CmPerS, Self::MPerS, Self::G, Self::MPerS2, Self::CmPerS2];
+
     /// Recognises a unit as people write it; column names cannot hold a slash, so `_` stands for it too.
-    pub(crate) fn parse(text: &str) -> Option<Self> {
+    pub fn parse(text: &str) -> Option<Self> {
         let plain = text.trim().to_ascii_lowercase().replace('²', "2").replace('^', "");
         match plain.as_str() {
             "cm/s" | "cm_s" | "cm/sec" | "cm s-1" => Some(Self::CmPerS),
@@ -60,7 +68,8 @@ impl Unit {
         }
     }
 
-    pub(crate) fn name(self) -> &'static str {
+    /// Name in text, files and keys: cm/s, m/s, g, m/s2, cm/s2.
+    pub fn symbol(self) -> &'static str {
         match self {
             Self::CmPerS => "cm/s",
             Self::MPerS => "m/s",
@@ -77,7 +86,8 @@ impl Unit {
         }
     }
 
-    /// How many of this unit make one SI unit (m/s or m/s²): whole numbers where possible, so that conversions round once.
+    /// How many of this unit make one SI unit (m/s or m/s²): whole numbers where possible, so that
+    /// conversions round once.
     pub(crate) fn per_si(self, gravity_m_s2: f64) -> f64 {
         match self {
             Self::MPerS | Self::MPerS2 => 1.0,
@@ -89,7 +99,7 @@ impl Unit {
 
 /// Whether two texts name the same unit.
 pub(crate) fn same_unit(a: &str, b: &str) -> bool {
-    match (Unit::parse(a), Unit::parse(b)) {
+    match (CurveUnit::parse(a), CurveUnit::parse(b)) {
         (Some(a), Some(b)) => a == b,
         (None, None) => a.trim() == b.trim(),
         _ => false,
@@ -103,23 +113,24 @@ mod tests {
     #[test]
     fn spellings() {
         for (text, unit) in [
-            ("cm/s", Unit::CmPerS),
-            ("CM_S", Unit::CmPerS),
-            ("cm s^-1", Unit::CmPerS),
-            ("m/s", Unit::MPerS),
-            ("m/s2", Unit::MPerS2),
-            ("m/s^2", Unit::MPerS2),
-            ("m/s²", Unit::MPerS2),
-            ("m/s/s", Unit::MPerS2),
-            ("gal", Unit::CmPerS2),
-            ("cm_s2", Unit::CmPerS2),
-            (" g ", Unit::G),
+            ("cm/s", CurveUnit::CmPerS),
+            ("CM_S", CurveUnit::CmPerS),
+            ("cm s^-1", CurveUnit::CmPerS),
+            ("m/s", CurveUnit::MPerS),
+            ("m/s2", CurveUnit::MPerS2),
+            ("m/s^2", CurveUnit::MPerS2),
+            ("m/s²", CurveUnit::MPerS2),
+            ("m/s/s", CurveUnit::MPerS2),
+            ("gal", CurveUnit::CmPerS2),
+            ("cm_s2", CurveUnit::CmPerS2),
+            (" g ", CurveUnit::G),
         ] {
-            assert_eq!(Unit::parse(text), Some(unit), "{text}");
-            assert_eq!(Unit::parse(unit.name()), Some(unit));
+            assert_eq!(CurveUnit::parse(text), Some(unit), "{text}");
+            assert_eq!(CurveUnit::parse(unit.symbol()), Some(unit));
         }
+        assert!(CurveUnit::ALL.iter().all(|unit| CurveUnit::parse(unit.symbol()) == Some(*unit)));
         for text in ["", "mm/s", "ms", "kg", "%g", "s", "m"] {
-            assert_eq!(Unit::parse(text), None, "{text}");
+            assert_eq!(CurveUnit::parse(text), None, "{text}");
         }
     }
 

@@ -206,7 +206,8 @@ fn the_component_is_what_the_comments_say() {
     }
     assert_eq!(
         component("# IM: PGV, RotD50\n# component: larger").unwrap_err().to_string(),
-        "site.csv, line 2: the file says component larger component, but RotD50 is declared; correct the one that is wrong"
+        "site.csv, line 2: the file says component larger component, but RotD50 is declared; correct the one that is \
+         wrong"
     );
 }
 

@@ -53,8 +53,8 @@ fn outside_the_curve_is_refused_with_the_way_out() {
     let curve = power_law();
     assert_eq!(
         curve.rate_at(250.0).unwrap_err().to_string(),
-        "PGV = 250 cm/s lies outside the hazard curve, which spans 1 to 100 cm/s; check the unit of the curve, give a curve that covers it, or \
-         choose log-log extrapolation (risk.extrapolate = \"loglog\")"
+        "PGV = 250 cm/s lies outside the hazard curve, which spans 1 to 100 cm/s; check the unit of the curve, give a \
+         curve that covers it, or choose log-log extrapolation (risk.extrapolate = \"loglog\")"
     );
     assert!(matches!(curve.rate_at(0.999), Err(HazardError::LevelOutside { .. })));
     assert!(matches!(curve.im_at_rate(0.11), Err(HazardError::RateOutside { .. })));
@@ -90,8 +90,8 @@ fn broken_rules_are_named_with_index_and_values() {
     };
     assert_eq!(
         message(&[1.0, 2.0, 2.0], &[0.3, 0.2, 0.1]),
-        "point 2 (counted from 0): intensity 2 cm/s does not exceed 2 cm/s at point 1 (counted from 0); sort the rows by \
-         intensity and remove repeated ones"
+        "point 2 (counted from 0): intensity 2 cm/s does not exceed 2 cm/s at point 1 (counted from 0); sort the rows \
+         by intensity and remove repeated ones"
     );
     assert!(message(&[1.0, 2.0, 3.0], &[0.3, 0.2, 0.2]).starts_with(
         "point 2 (counted from 0): annual rate 0.2 1/yr is not below 0.2 1/yr at point 1 (counted from 0)"

@@ -94,7 +94,7 @@ fn what_is_wrong_is_named() {
         (one(MEAN, "0.5 0.2 0.2"), "x.xml, line 6, at PGA = 0.4 g: annual rate"),
         (one(MEAN, "0 0 0"), "x.xml, line 6: a hazard curve needs at least 2 points with a positive rate, found 0"),
         (one(MEAN, good).replace("6.1 50.8", "6.1"), "x.xml, line 6: hazardCurve without the longitude and latitude"),
-        (one(MEAN, good).replace("6.1 50.8", "6.1 95"), "x.xml, line 6: longitude 6.1, latitude 95 is no place"),
+        (one(MEAN, good).replace("6.1 50.8", "6.1 95"), "x.xml, line 6: longitude 6.1, latitude 95 is not a place"),
         (one(MEAN, good).replace("poEs", "poes"), "x.xml, line 6: hazardCurve without poEs"),
         (one(MEAN, good).replace("IMLs", "imls"), "x.xml, line 3: hazardCurves must have one element IMLs"),
         (one("IMT=\"PGA\"", good), "x.xml, line 3: hazardCurves without attribute investigationTime"),

@@ -182,7 +182,7 @@ fn what_is_no_hazard_curve_is_named() {
         (values("0.5,0.2,0.1").replace("23.7,", "?,"), "x.csv, line 3: \"?\" is not a number"),
         (
             values("0.5,0.2,0.1").replace("23.7,38", "38,123.7"),
-            "x.csv, line 3: longitude 38, latitude 123.7 is no place",
+            "x.csv, line 3: longitude 38, latitude 123.7 is not a place",
         ),
         (
             format!("{COMMENT}lon,lat,poe-1,poe-2\n1,2,0.5,0.1\n3,4,0.5,0.1\n1,2,0.4,0.1\n"),
@@ -231,7 +231,8 @@ fn what_is_no_export_is_told_so() {
         ("iml,maf\n1,0.2\n2,0.1\n".to_owned(), "x.csv, line 1: no columns \"poe-...\": not an OpenQuake export"),
         // The first lines of realizations_1.csv, which the engine writes beside the curves.
         (
-            "#,,\"generated_by='OpenQuake engine 3.26.2', checksum=1\"\nrlz_id,branch_path,weight\n0,AA~A,1.8000001e-01\n"
+            "#,,\"generated_by='OpenQuake engine 3.26.2', checksum=1\"\n\
+             rlz_id,branch_path,weight\n0,AA~A,1.8000001e-01\n"
                 .to_owned(),
             "x.csv, line 2: the realizations of a logic tree with their weights, no hazard curves",
         ),

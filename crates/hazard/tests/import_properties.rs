@@ -69,7 +69,8 @@ impl Export {
     fn nrml(&self) -> String {
         let list = |values: &[f64]| values.iter().map(|value| format!("{value:e}")).collect::<Vec<_>>().join(" ");
         let mut text = format!(
-            "<nrml xmlns:gml=\"g\" xmlns=\"n\"><hazardCurves IMT=\"PGA\" statistics=\"mean\" investigationTime=\"{:?}\">\n\
+            "<nrml xmlns:gml=\"g\" xmlns=\"n\">\
+             <hazardCurves IMT=\"PGA\" statistics=\"mean\" investigationTime=\"{:?}\">\n\
              <IMLs>{}</IMLs>\n",
             self.years,
             list(&self.levels)
@@ -92,7 +93,8 @@ impl Export {
         let site = &self.sites[0];
         let range = self.certain..self.levels.len();
         let ys: Vec<f64> = site.poes[range.clone()].iter().map(|&poe| rate(poe, self.years)).collect();
-        json!({"status": "success", "request": {"longitude": site.longitude_deg, "latitude": site.latitude_deg, "vs30": 760},
+        json!({"status": "success",
+            "request": {"longitude": site.longitude_deg, "latitude": site.latitude_deg, "vs30": 760},
             "response": {"hazardCurves": [{"imt": {"value": "PGA"}, "data": [
                 {"component": "Total", "values": {"xs": &self.levels[range], "ys": ys}}]}]}})
         .to_string()
@@ -189,14 +191,14 @@ proptest! {
     }
 
     #[test]
-    fn shuffled_pieces_never_panic(start in 0..4_usize, pieces in prop::collection::vec(prop::sample::select(vec![
-        "#", "kind='mean'", "imt='PGA'", "investigation_time=1.0", "lon", "lat", "poe-0.1", "poe-0.2", "custom_site_id", ",",
-        ";", "\n", "\"", "'", "1", "0.5", "0", "-1", "nan", "1e999", "é", "\u{feff}", "<", ">", "</", "hazardCurves", "/>",
-        "hazardCurve", "IMLs", "poEs", "pos", " IMT=\"PGA\"", "<!--", "{", "}", "[", "]", ":", "\"response\"", "\"imt\"", "\"data\"",
-        "\"xs\"", "\"ys\"", "\"values\"", "\"Total\"",
+    fn shuffled_fragments_never_panic(start in 0..4_usize, fragments in prop::collection::vec(prop::sample::select(vec![
+        "#", "kind='mean'", "imt='PGA'", "investigation_time=1.0", "lon", "lat", "poe-0.1", "poe-0.2", "custom_site_id",
+        ",", ";", "\n", "\"", "'", "1", "0.5", "0", "-1", "nan", "1e999", "é", "\u{feff}", "<", ">", "</",
+        "hazardCurves", "/>", "hazardCurve", "IMLs", "poEs", "pos", " IMT=\"PGA\"", "<!--", "{", "}", "[", "]", ":",
+        "\"response\"", "\"imt\"", "\"data\"", "\"xs\"", "\"ys\"", "\"values\"", "\"Total\"",
     ]), 0..80)) {
         let start = ["", "# kind='mean', investigation_time=1.0, imt='PGA'\nlon,lat,poe-1,poe-2\n", "<a>", "{"][start];
-        survive(format!("{start}{}", pieces.concat()).as_bytes())?;
+        survive(format!("{start}{}", fragments.concat()).as_bytes())?;
     }
 
     #[test]

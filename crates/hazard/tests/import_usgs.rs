@@ -37,13 +37,15 @@ fn first() -> Value {
         {"metadata": {
             "latitude": 34.05, "longitude": -118.25, "imt": {"value": "SA0P2"}, "vs30": {"value": "760"},
             "xlabel": X_LABEL, "ylabel": Y_LABEL, "xvalues": XS},
-         "data": [{"component": "Grid", "yvalues": [0.1]}, {"component": "Total", "yvalues": [0.5, 0.1, 0.01, 0.001]}]}]})
+         "data": [{"component": "Grid", "yvalues": [0.1]},
+                  {"component": "Total", "yvalues": [0.5, 0.1, 0.01, 0.001]}]}]})
 }
 
 /// As `nshmp-haz` version 2 answers.
 fn second() -> Value {
     json!({"name": "Hazard Service", "status": "success", "url": "https://example.org/hazard/-118.25/34.05/760",
-        "request": {"longitude": -118.25, "latitude": 34.05, "vs30": 760.0, "truncate": false, "maxdir": false, "imts": ["PGA"]},
+        "request": {"longitude": -118.25, "latitude": 34.05, "vs30": 760.0, "truncate": false, "maxdir": false,
+            "imts": ["PGA"]},
         "response": {"metadata": {"server": {}, "xlabel": X_LABEL, "ylabel": Y_LABEL}, "hazardCurves": [
             {"imt": {"display": "PGA", "value": "PGA"}, "data": [
                 {"component": "Total", "values": {"xs": XS, "ys": YS}},
@@ -64,7 +66,8 @@ fn between() -> Value {
 fn precomputed() -> Value {
     json!({"status": "success", "response": [{"metadata": {
         "imt": {"value": "PGA"}, "vs30": {"value": "760"}, "xlabel": X_LABEL, "ylabel": Y_LABEL, "xvals": XS},
-        "data": [{"latitude": "34.0", "longitude": "-118.0", "yvals": YS}, {"latitude": 34.1, "longitude": -118.0, "yvals": YS}]}]})
+        "data": [{"latitude": "34.0", "longitude": "-118.0", "yvals": YS},
+                 {"latitude": 34.1, "longitude": -118.0, "yvals": YS}]}]})
 }
 
 fn check(curve: &ExportedCurve, measure: &str) {
@@ -149,7 +152,7 @@ fn what_is_wrong_is_named() {
         (changed(&ys, json!([0.1, 0.05, -0.1, -0.2])), "x.json, at PGA = 0.5 g: annual rate [1/yr] is -0.1"),
         (changed(&ys, json!([0, 0, 0, 0])), "x.json, PGA: a hazard curve needs at least 2 points"),
         (changed("/request/latitude", json!(null)), "x.json: \"PGA\": no longitude and latitude"),
-        (changed("/request/latitude", json!(-118)), "x.json, \"PGA\": longitude -118.25, latitude -118 is no place"),
+        (changed("/request/latitude", json!(-118)), "x.json, \"PGA\": longitude -118.25, latitude -118 is not a place"),
         (
             changed("/response/metadata/xlabel", json!("Ground Motion (m/s2)")),
             "x.json, \"PGA\": the file says unit \"Ground Motion (m/s2)\", but g is declared",

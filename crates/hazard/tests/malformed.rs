@@ -238,7 +238,8 @@ fn hostile_files_cost_little() {
     };
     let nested = |path: &str, depth: usize| {
         let open = format!(
-            "<hazardCurves IMT=\"PGA\" investigationTime=\"1\" sourceModelTreePath=\"{path}\" gsimTreePath=\"b\"><IMLs>1 2</IMLs><hazardCurve>"
+            "<hazardCurves IMT=\"PGA\" investigationTime=\"1\" sourceModelTreePath=\"{path}\" \
+             gsimTreePath=\"b\"><IMLs>1 2</IMLs><hazardCurve>"
         );
         let close = "<p><pos>1 2</pos></p><poEs>.5 .1</poEs></hazardCurve></hazardCurves>";
         format!("<nrml>{}{}</nrml>", open.repeat(depth), close.repeat(depth))

@@ -61,7 +61,8 @@ fn a_project_curve_read_as_something_else_is_refused() {
     }
 }
 
-/// The uniform-hazard value of the public risk-targeted ground motion test "Fox Plaza" (usgs/earthquake-rtgm-calculator).
+/// The uniform-hazard value of the public risk-targeted ground motion test "Fox Plaza"
+/// (usgs/earthquake-rtgm-calculator).
 #[test]
 fn uniform_hazard_value_of_the_outside_reference() {
     let file = repository().join("../shared/reference/rtgm_fox_plaza.csv");

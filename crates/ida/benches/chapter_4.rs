@@ -1,9 +1,10 @@
-//! Analyses a second on the thinned grid of Chapter 4, with records of the embedded synthetic set, and one of them on its own.
+//! Analyses a second on the thinned grid of Chapter 4, with records of the embedded synthetic set, and one of them on
+//! its own.
 #![allow(missing_docs, clippy::unwrap_used)]
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
-use uplift_ida::{Plan, StripeRecord, Unwatched, analyse};
+use uplift_ida::{Plan, StripeRecord, System, Unwatched, analyse};
 use uplift_motion::synthetic::{SyntheticSetOptions, generate};
 use uplift_motion::{IntensityMeasure, RecordPair};
 use uplift_oscillator::{Excitation, FreeVibration, GroundMotion, Oscillator, Sweep, respond};
@@ -49,7 +50,8 @@ fn one_record(criterion: &mut Criterion) {
 
 fn thinned_grid(criterion: &mut Criterion) {
     let pairs = pairs();
-    let oscillators: Vec<Oscillator> = (0..=10).map(|i| Oscillator::zsbe(f64::from(i) / 10.0).unwrap()).collect();
+    let systems: Vec<System> =
+        (0..=10).map(|i| System::Oscillator(Oscillator::zsbe(f64::from(i) / 10.0).unwrap())).collect();
     let levels = levels();
     let records = pairs
         .iter()
@@ -59,7 +61,7 @@ fn thinned_grid(criterion: &mut Criterion) {
             intensity: IntensityMeasure::Pgv.of_pair(pair, G),
         })
         .collect();
-    let plan = Plan::new(records, &oscillators, &levels, true).unwrap();
+    let plan = Plan::stripes(records, &systems, &levels, true).unwrap();
     let mut group = criterion.benchmark_group("thinned grid, analyses");
     group.throughput(Throughput::Elements(plan.analyses()));
     group.sample_size(10);

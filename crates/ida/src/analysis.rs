@@ -1,78 +1,141 @@
 //! The plan carried out on all cores.
 
 use rayon::prelude::*;
-use uplift_oscillator::{GroundMotion, Sweep};
+use uplift_block::{FreeRocking, RockingBlock, respond};
+use uplift_oscillator::{GroundMotion, Oscillator, Peak, Sweep};
 
-use crate::cells::{Cells, Part, Piece};
-use crate::edp::EdpArray;
+use crate::cells::{AnalysisRow, Cells};
 use crate::error::IdaError;
-use crate::plan::{Plan, excitation};
+use crate::peaks::Peaks;
+use crate::plan::{Plan, ScaledMotion};
+use crate::shard::Shard;
+use crate::system::System;
 use crate::watch::Watch;
 
 /// Carry out `plan` on the threads of the current rayon pool.
 ///
-/// The work is cut into one piece a record and strength. Each piece has its own place in the result and depends on nothing else,
-/// so the numbers are the same for any number of threads. Memory: 13 bytes an analysis, and a level's worth of scratch a piece.
+/// Memory: 13 bytes an analysis, and a row's worth of scratch a thread.
 ///
 /// # Errors
-/// [`IdaError::Cancelled`] if `watch` says so.
-pub fn analyse(plan: &Plan<'_>, watch: &dyn Watch) -> Result<EdpArray, IdaError> {
-    let cells = complete(plan, Cells::unknown(plan), Part::WHOLE, watch, &|_| {})?;
-    Ok(cells.edp)
+/// [`IdaError::Cancelled`] if `watch` says so; [`IdaError::Block`] and [`IdaError::Motion`] for what is not computed.
+pub fn analyse(plan: &Plan<'_>, watch: &dyn Watch) -> Result<Peaks, IdaError> {
+    let cells = complete(plan, Cells::unknown(plan), Shard::WHOLE, watch, &|_| {})?;
+    Ok(cells.peaks)
 }
 
-/// Carry out what `cells` lacks of one `part` of `plan`, and hand every piece to `keep` when it is finished, from any thread.
+/// Carry out what `cells` lacks of one `shard` of `plan`, and hand every row to `keep` when it is finished, from any
+/// thread.
 ///
-/// A cell depends on its record, strength and level alone: whatever was known before, the numbers are those of an undisturbed
-/// [`analyse`], to the bit. A piece of which everything is known is not handed over again.
+/// A cell depends on its motion, system and scale factor alone: whatever was known before, the numbers are those of an
+/// undisturbed [`analyse`], to the bit. A row of which everything is known is not handed over again.
+///
+/// Rows are shared out among the threads; the scale factors of a system that is not [swept](System::is_swept) as well,
+/// so that a few long rows keep all threads busy too. `watch` is asked before every row, and before every run of a
+/// system that is not swept.
 ///
 /// # Errors
-/// [`IdaError::Cancelled`] if `watch` says so; what `keep` was given is finished all the same.
+/// As [`analyse`]; what `keep` was given is finished all the same.
 pub fn complete(
     plan: &Plan<'_>,
     mut cells: Cells,
-    part: Part,
+    shard: Shard,
     watch: &dyn Watch,
-    keep: &(dyn Fn(&Piece<'_>) + Sync),
+    keep: &(dyn Fn(&AnalysisRow<'_>) + Sync),
 ) -> Result<Cells, IdaError> {
-    let (strengths, levels) = (plan.oscillators.len(), plan.levels.len());
-    // a ground motion is made ready only if something of it is missing
-    let ground_motions = plan
-        .records
-        .iter()
-        .enumerate()
-        .map(|(record, stripe)| {
-            let missing =
-                |strength: usize| part.contains(record, strength, strengths) && !cells.is_row_known(record, strength);
-            (0..strengths).any(missing).then(|| excitation(stripe).map(GroundMotion::new)).transpose()
-        })
-        .collect::<Result<Vec<_>, _>>()?;
-    let edp_m = cells.edp.edp_m.par_chunks_mut(levels);
-    let impacts = cells.edp.impacts.par_chunks_mut(levels);
-    edp_m.zip(impacts).zip(cells.known.par_chunks_mut(levels)).enumerate().try_for_each(
-        |(piece, ((edp_m, impacts), known))| {
-            let (record, strength) = (piece / strengths, piece % strengths);
+    let axes = plan.axes();
+    let ground_motions = ground_motions(plan, &cells, shard)?;
+    let displacement_m = cells.peaks.displacement_m.par_chunks_mut(axes.scales);
+    let impacts = cells.peaks.impacts.par_chunks_mut(axes.scales);
+    displacement_m.zip(impacts).zip(cells.known.par_chunks_mut(axes.scales)).enumerate().try_for_each(
+        |(row, ((displacement_m, impacts), known))| {
             if watch.cancelled() {
                 return Err(IdaError::Cancelled);
             }
-            if !part.contains(record, strength, strengths) {
+            if !shard.contains(row) {
                 return Ok(());
             }
-            if let (Some(ground_motion), true) = (&ground_motions[record], known.iter().any(|known| !known)) {
-                let sweep = Sweep::new(&plan.oscillators[strength], ground_motion, plan.with_free_peak);
-                let intensity = plan.records[record].intensity;
-                let missing: Vec<usize> = (0..levels).filter(|level| !known[*level]).collect();
-                let scales: Vec<f64> = missing.iter().map(|level| plan.levels[*level] / intensity).collect();
-                for (level, peak) in missing.into_iter().zip(sweep.peaks(&scales)) {
-                    edp_m[level] = peak.displacement_m;
-                    impacts[level] = peak.impacts;
-                }
-                known.fill(true);
-                keep(&Piece { record, strength, edp_m, impacts });
+            let (motion, system) = axes.of_row(row);
+            let missing: Vec<usize> = (0..axes.scales).filter(|scale| !known[*scale]).collect();
+            if missing.is_empty() {
+                watch.finished(axes.scales as u64);
+                return Ok(());
             }
-            watch.finished(levels as u64);
+            let of_motion = &plan.motions()[motion];
+            let scales: Vec<f64> = missing.iter().map(|scale| of_motion.scales[*scale]).collect();
+            let peaks = match (&plan.systems()[system], &ground_motions[motion]) {
+                (System::Oscillator(oscillator), Some(ground_motion)) => {
+                    swept(oscillator, ground_motion, plan.with_free_peak(), &scales)
+                }
+                (one_by_one, _) => {
+                    let run = |scale: &f64| {
+                        if watch.cancelled() {
+                            return Err(IdaError::Cancelled);
+                        }
+                        let peak = single(one_by_one, of_motion, *scale, plan.with_free_peak())?;
+                        watch.finished(1);
+                        Ok(peak)
+                    };
+                    scales.par_iter().map(run).collect::<Result<Vec<_>, _>>()?
+                }
+            };
+            for (scale, peak) in missing.iter().zip(&peaks) {
+                displacement_m[*scale] = peak.displacement_m;
+                impacts[*scale] = peak.impacts;
+            }
+            known.fill(true);
+            keep(&AnalysisRow { motion, system, displacement_m, impacts });
+            // what is run one by one is told one by one
+            let told = if plan.systems()[system].is_swept() { 0 } else { missing.len() };
+            watch.finished((axes.scales - told) as u64);
             Ok(())
         },
     )?;
     Ok(cells)
+}
+
+/// What oscillators share under each motion, made ready only where a row of one is missing.
+fn ground_motions<'a>(plan: &Plan<'a>, cells: &Cells, shard: Shard) -> Result<Vec<Option<GroundMotion<'a>>>, IdaError> {
+    let axes = plan.axes();
+    let of_motion = |(motion, scaled): (usize, &ScaledMotion<'a>)| {
+        let missing = |(system, shaken): (usize, &System)| {
+            shaken.is_swept() && shard.contains(axes.row(motion, system)) && !cells.is_row_known(motion, system)
+        };
+        plan.systems().iter().enumerate().any(missing).then(|| scaled.excitation().map(GroundMotion::new)).transpose()
+    };
+    plan.motions().par_iter().enumerate().map(of_motion).collect()
+}
+
+/// Peaks of an oscillator at all `scales` together.
+pub(crate) fn swept(
+    oscillator: &Oscillator,
+    ground_motion: &GroundMotion<'_>,
+    with_free_peak: bool,
+    scales: &[f64],
+) -> Vec<Peak> {
+    Sweep::new(oscillator, ground_motion, with_free_peak).peaks(scales)
+}
+
+/// The peak of any system at one scale factor.
+pub(crate) fn single(
+    system: &System,
+    motion: &ScaledMotion<'_>,
+    scale: f64,
+    with_free_peak: bool,
+) -> Result<Peak, IdaError> {
+    match system {
+        System::Oscillator(oscillator) => {
+            let ground_motion = GroundMotion::new(motion.excitation()?);
+            Ok(Sweep::new(oscillator, &ground_motion, with_free_peak).peak(scale))
+        }
+        System::Block(block) => rocked(block, motion, scale, with_free_peak),
+        // a frame: its equations integrated under the scaled motion
+    }
+}
+
+fn rocked(block: &RockingBlock, motion: &ScaledMotion<'_>, scale: f64, with_free_peak: bool) -> Result<Peak, IdaError> {
+    let free = if with_free_peak { FreeRocking::FirstPeak } else { FreeRocking::Lasting { duration_s: 0.0 } };
+    let named = || motion.id.to_owned();
+    let ground = motion.accelerogram.scaled(scale).map_err(|source| IdaError::Motion { motion: named(), source })?;
+    let response = respond(block, &ground, free).map_err(|source| IdaError::Block { motion: named(), source })?;
+    Ok(Peak { displacement_m: response.displacement_m, impacts: u32::try_from(response.impacts).unwrap_or(u32::MAX) })
 }

@@ -1,6 +1,6 @@
-//! What is known of an array of engineering demand parameters before and after a part of the work.
+//! What is known of the result of a plan before and after a part of the work.
 
-use crate::edp::EdpArray;
+use crate::peaks::{Axes, Peaks};
 use crate::plan::Plan;
 
 /// Version of the numbers: raised whenever a change of the solver or of the order of its arithmetic changes any of
@@ -8,48 +8,61 @@ use crate::plan::Plan;
 /// together.
 pub const NUMERICS: u32 = 3;
 
-/// The array of a plan, each cell known or not.
+/// The result of a plan, each cell known or not.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cells {
-    pub(crate) edp: EdpArray,
-    /// Row-major as the array.
+    pub(crate) peaks: Peaks,
+    /// As the cells of the result.
     pub(crate) known: Vec<bool>,
 }
 
 impl Cells {
-    /// The array of `plan`, of which nothing is known.
+    /// The result of `plan`, of which nothing is known.
     pub fn unknown(plan: &Plan<'_>) -> Self {
-        let shape = [plan.records.len(), plan.oscillators.len(), plan.levels.len()];
-        let total = shape.iter().product();
-        Self { edp: EdpArray { shape, edp_m: vec![0.0; total], impacts: vec![0; total] }, known: vec![false; total] }
+        let axes = plan.axes();
+        let total = axes.cells();
+        let peaks = Peaks { axes, displacement_m: vec![0.0; total], impacts: vec![0; total] };
+        Self { peaks, known: vec![false; total] }
     }
 
-    /// Puts in what is known of the cell `[record, strength, level]`.
+    /// Lengths of the axes.
+    pub fn axes(&self) -> Axes {
+        self.peaks.axes
+    }
+
+    /// Puts in what is known of the cell `[motion, system, scale]`.
     ///
     /// # Panics
     /// If an index is out of range, which is a bug of the caller.
-    pub fn set(&mut self, [record, strength, level]: [usize; 3], edp_m: f64, impacts: u32) {
-        let [records, strengths, levels] = self.edp.shape;
-        assert!(record < records && strength < strengths && level < levels, "cell out of range");
-        let index = (record * strengths + strength) * levels + level;
-        self.edp.edp_m[index] = edp_m;
-        self.edp.impacts[index] = impacts;
+    pub fn set(&mut self, cell: [usize; 3], displacement_m: f64, impacts: u32) {
+        let index = self.peaks.axes.cell(cell);
+        self.peaks.displacement_m[index] = displacement_m;
+        self.peaks.impacts[index] = impacts;
         self.known[index] = true;
     }
 
-    /// Number of levels in a row.
-    pub fn levels(&self) -> usize {
-        self.edp.shape[2]
-    }
-
-    /// Number of cells known of the row of a record and strength.
+    /// Puts in a row that is known; false, and nothing is put in, if it is of another length.
     ///
     /// # Panics
     /// If an index is out of range, which is a bug of the caller.
-    pub fn known_in_row(&self, record: usize, strength: usize) -> usize {
-        let [_, strengths, levels] = self.edp.shape;
-        let start = (record * strengths + strength) * levels;
-        self.known[start..start + levels].iter().filter(|known| **known).count()
+    pub fn set_row(&mut self, row: &AnalysisRow<'_>) -> bool {
+        let scales = self.peaks.axes.scales;
+        if row.displacement_m.len() != scales || row.impacts.len() != scales {
+            return false;
+        }
+        let cells = self.peaks.axes.cells_of(row.motion, row.system);
+        self.peaks.displacement_m[cells.clone()].copy_from_slice(row.displacement_m);
+        self.peaks.impacts[cells.clone()].copy_from_slice(row.impacts);
+        self.known[cells].fill(true);
+        true
+    }
+
+    /// Number of cells known of the row of a motion and system.
+    ///
+    /// # Panics
+    /// If an index is out of range, which is a bug of the caller.
+    pub fn known_in_row(&self, motion: usize, system: usize) -> usize {
+        self.known[self.peaks.axes.cells_of(motion, system)].iter().filter(|known| **known).count()
     }
 
     /// Number of cells known.
@@ -57,49 +70,29 @@ impl Cells {
         self.known.iter().filter(|known| **known).count() as u64
     }
 
-    /// Whether the whole row of a record and strength is known.
+    /// Whether the whole row of a motion and system is known.
     ///
     /// # Panics
     /// If an index is out of range, which is a bug of the caller.
-    pub fn is_row_known(&self, record: usize, strength: usize) -> bool {
-        self.known_in_row(record, strength) == self.levels()
+    pub fn is_row_known(&self, motion: usize, system: usize) -> bool {
+        self.known_in_row(motion, system) == self.peaks.axes.scales
     }
 
-    /// The array, once every cell is known.
-    pub fn complete(self) -> Option<EdpArray> {
-        self.known.iter().all(|known| *known).then_some(self.edp)
+    /// The result, once every cell is known.
+    pub fn complete(self) -> Option<Peaks> {
+        self.known.iter().all(|known| *known).then_some(self.peaks)
     }
 }
 
-/// The row of one record and strength, finished.
+/// The row of one motion and system over all scale factors, finished: what outlives a run that stops.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Piece<'a> {
-    /// Index of the record.
-    pub record: usize,
-    /// Index of the strength.
-    pub strength: usize,
-    /// Peak displacements over the levels, m; `+∞` where overturned.
-    pub edp_m: &'a [f64],
-    /// Impacts over the levels.
+pub struct AnalysisRow<'a> {
+    /// Index of the motion.
+    pub motion: usize,
+    /// Index of the system.
+    pub system: usize,
+    /// Peak displacements over the scales, m; `+∞` where overturned.
+    pub displacement_m: &'a [f64],
+    /// Impacts over the scales.
     pub impacts: &'a [u32],
-}
-
-/// One of several parts that a plan is cut into, each for a machine of its own.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Part {
-    /// Which, from 0.
-    pub index: u64,
-    /// Of how many, at least 1.
-    pub count: u64,
-}
-
-impl Part {
-    /// The whole.
-    pub const WHOLE: Self = Self { index: 0, count: 1 };
-
-    /// Whether the piece of `record` and `strength` belongs to this part: pieces are dealt like cards, strength after
-    /// strength, so that parts cost about the same.
-    pub fn contains(self, record: usize, strength: usize, strengths: usize) -> bool {
-        (record as u64 * strengths as u64 + strength as u64) % self.count == self.index
-    }
 }

@@ -1,15 +1,17 @@
 //! What can be wrong with a plan, or end an analysis.
 
 use thiserror::Error;
+use uplift_block::BlockError;
+use uplift_motion::MotionError;
 use uplift_oscillator::OscillatorError;
 
 /// Why an incremental dynamic analysis cannot be planned or finished.
-#[derive(Debug, Clone, PartialEq, Error)]
+#[derive(Debug, Error)]
 pub enum IdaError {
     /// One of the three axes of the analysis is empty.
     #[error("the analysis has no {what}: give at least one")]
     Empty {
-        /// Records, strengths, blocks or levels.
+        /// Records or motions, systems, levels or scale factors.
         what: &'static str,
     },
     /// A level is not positive and finite, or does not exceed the one before.
@@ -30,21 +32,49 @@ pub enum IdaError {
         /// Its intensity measure.
         value: f64,
     },
-    /// The record or the scale factor does not suit the oscillator.
-    #[error("record {record}: {source}")]
+    /// A motion has not as many scale factors as the first.
+    #[error("record {motion}: {count} scale factors, and {expected} of the first motion: all must have as many")]
+    Scales {
+        /// The motion.
+        motion: String,
+        /// How many it has.
+        count: usize,
+        /// How many the first has.
+        expected: usize,
+    },
+    /// A scale factor that is not a finite number.
+    #[error("record {motion}: its scale factor {index} is {value}: it must be finite")]
+    Scale {
+        /// The motion.
+        motion: String,
+        /// Index of the factor, from 0.
+        index: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// The motion does not suit the oscillator.
+    #[error("record {motion}: {source}")]
     Oscillator {
-        /// Identifier of the record.
-        record: String,
+        /// The motion.
+        motion: String,
         /// What is wrong.
         source: OscillatorError,
     },
-    /// The motion of a block under a record is not computed.
-    #[error("record {record}: {reason}")]
+    /// The response of a block to a motion is not computed.
+    #[error("record {motion}: {source}")]
     Block {
-        /// Identifier of the record.
-        record: String,
+        /// The motion.
+        motion: String,
         /// What is wrong.
-        reason: String,
+        source: BlockError,
+    },
+    /// A motion that cannot be multiplied so.
+    #[error("record {motion}: {source}")]
+    Motion {
+        /// The motion.
+        motion: String,
+        /// What is wrong.
+        source: MotionError,
     },
     /// The analysis was told to stop.
     #[error("the analysis was interrupted")]

@@ -1,52 +1,66 @@
-//! How long a plan will take on this very machine: a spread of its pieces, timed.
+//! How long a plan will take on this very machine: a spread of its rows, timed.
 
 use std::time::{Duration, Instant};
 
-use uplift_oscillator::{GroundMotion, Sweep};
+use uplift_oscillator::GroundMotion;
 
-use crate::plan::{Plan, excitation};
+use crate::analysis::{single, swept};
+use crate::plan::Plan;
+use crate::system::System;
 
 /// A prediction of the time that a plan takes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Estimate {
     /// Seconds on one thread.
     pub seconds_one_thread: f64,
-    /// Pieces (a record and a strength each) that were timed.
-    pub pieces_timed: usize,
+    /// Analysis rows that were timed, of systems that are not swept by one of their runs.
+    pub rows_timed: usize,
 }
 
-/// Pieces timed at least, however small the budget.
-const LEAST_PIECES: usize = 16;
+/// Rows timed at least, however small the budget.
+const LEAST_ROWS: usize = 16;
+/// Steps that leave no region out however early a visit ends: the golden ratio for the rows, √2 for the scale factors,
+/// so that the two go their own ways.
+const STEPS: [f64; 2] = [0.618_033_988_749_894_9, std::f64::consts::SQRT_2 - 1.0];
 
-/// Time pieces of `plan` spread over records and strengths until `budget` is spent, and extrapolate.
+/// Time rows of `plan` spread over motions and systems until `budget` is spent, and extrapolate.
 ///
-/// The pieces are visited in steps of the golden ratio, which leaves no region out however early the visit ends.
+/// Of a system that is not swept together a single run stands for its row: a row of an expensive one would take the
+/// budget many times over.
 pub fn estimate(plan: &Plan<'_>, budget: Duration) -> Estimate {
-    let strengths = plan.oscillators.len();
-    let pieces = plan.records.len() * strengths;
+    let axes = plan.axes();
     let start = Instant::now();
-    let mut preparation = Duration::ZERO;
+    let mut spent = Duration::ZERO;
     let mut timed = 0;
-    while timed < pieces && (timed < LEAST_PIECES || start.elapsed() < budget) {
-        let piece = spread(timed, pieces);
-        let record = &plan.records[piece / strengths];
-        let begin = Instant::now();
-        let Ok(ground) = excitation(record).map(GroundMotion::new) else { break };
-        // done once a record, not once a piece
-        preparation += begin.elapsed();
-        let sweep = Sweep::new(&plan.oscillators[piece % strengths], &ground, plan.with_free_peak);
-        let scales: Vec<f64> = plan.levels.iter().map(|level| level / record.intensity).collect();
-        std::hint::black_box(sweep.peaks(&scales));
+    while timed < axes.rows() && (timed < LEAST_ROWS || start.elapsed() < budget) {
+        let (motion, system) = axes.of_row(spread(timed, axes.rows(), STEPS[0]));
+        let motion = &plan.motions()[motion];
+        match &plan.systems()[system] {
+            System::Oscillator(oscillator) => {
+                // made ready once a motion, not once a row
+                let Ok(ground) = motion.excitation().map(GroundMotion::new) else { break };
+                let begin = Instant::now();
+                std::hint::black_box(swept(oscillator, &ground, plan.with_free_peak(), &motion.scales));
+                spent += begin.elapsed();
+            }
+            one_by_one @ System::Block(_) => {
+                let begin = Instant::now();
+                let scale = motion.scales[spread(timed, axes.scales, STEPS[1])];
+                if std::hint::black_box(single(one_by_one, motion, scale, plan.with_free_peak())).is_err() {
+                    break;
+                }
+                spent += begin.elapsed() * u32::try_from(axes.scales).unwrap_or(u32::MAX);
+            }
+        }
         timed += 1;
     }
-    let per_piece = (start.elapsed().saturating_sub(preparation)).as_secs_f64() / timed.max(1) as f64;
-    Estimate { seconds_one_thread: per_piece * pieces as f64, pieces_timed: timed }
+    let per_row = spent.as_secs_f64() / timed.max(1) as f64;
+    Estimate { seconds_one_thread: per_row * axes.rows() as f64, rows_timed: timed }
 }
 
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a fraction of a count")]
-fn spread(index: usize, count: usize) -> usize {
-    let golden = 0.618_033_988_749_894_9;
-    (((index as f64 + 0.5) * golden).fract() * count as f64) as usize
+fn spread(index: usize, count: usize, step: f64) -> usize {
+    (((index as f64 + 0.5) * step).fract() * count as f64) as usize
 }
 
 #[cfg(test)]
@@ -55,11 +69,13 @@ mod tests {
 
     #[test]
     fn the_visit_reaches_every_region() {
-        let mut seen = [false; 10];
-        for index in 0..20 {
-            seen[spread(index, 10)] = true;
+        for step in STEPS {
+            let mut seen = [false; 10];
+            for index in 0..20 {
+                seen[spread(index, 10, step)] = true;
+            }
+            assert!(seen.iter().all(|&seen| seen), "{step}");
+            assert!((0..1000).all(|index| spread(index, 7, step) < 7));
         }
-        assert!(seen.iter().all(|&seen| seen));
-        assert!((0..1000).all(|index| spread(index, 7) < 7));
     }
 }

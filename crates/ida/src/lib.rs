@@ -1,30 +1,36 @@
-//! Incremental dynamic analysis: every record, scaled to every intensity level, through every oscillator (Section 4.3.3
-//! of Reggiani Manzo's dissertation).
+//! Incremental dynamic analysis: every motion, multiplied by each of its scale factors, through every system (Section
+//! 4.3.3 of Reggiani Manzo's dissertation; with factors of another origin, Sections 2.4 and 3.4).
 //!
-//! | room | what is in it |
+//! | module | what is in it |
 //! |---|---|
-//! | [`plan`] | records, oscillators and levels, checked |
+//! | [`system`] | what is shaken: an oscillator, a rigid block |
+//! | [`plan`] | motions with their scale factors, and systems, checked |
 //! | [`analysis`] | the plan carried out on all cores |
-//! | [`block`] | the same for rigid rocking blocks, with their full nonlinear motion |
-//! | [`cells`] | what is known of that array already, and the parts that several machines share |
-//! | [`edp`] | the array of engineering demand parameters it leaves |
+//! | [`cells`] | what is known of the result already, and rows as they are finished |
+//! | [`shard`] | the parts that several machines share |
+//! | [`peaks`] | the result: peak displacements and impacts over motions, systems and scales |
 //! | [`estimate`](mod@estimate) | how long a plan will take here |
 //! | [`watch`] | progress and cancellation |
+//!
+//! A number depends on its own motion, system and scale factor alone: the bits are the same for any number of threads,
+//! any division into shards, and whatever was known before.
 
 pub mod analysis;
-pub mod block;
 pub mod cells;
-pub mod edp;
 mod error;
 pub mod estimate;
+pub mod peaks;
 pub mod plan;
+pub mod shard;
+pub mod system;
 pub mod watch;
 
 pub use analysis::{analyse, complete};
-pub use block::{BlockPlan, analyse_blocks};
-pub use cells::{Cells, NUMERICS, Part, Piece};
-pub use edp::EdpArray;
+pub use cells::{AnalysisRow, Cells, NUMERICS};
 pub use error::IdaError;
 pub use estimate::{Estimate, estimate};
-pub use plan::{Plan, StripeRecord};
+pub use peaks::{Axes, Peaks};
+pub use plan::{Plan, ScaledMotion, StripeRecord};
+pub use shard::Shard;
+pub use system::System;
 pub use watch::{Unwatched, Watch};

@@ -1,11 +1,13 @@
-//! Records, oscillators and levels, checked before the first analysis.
+//! Motions with their scale factors, and systems, checked before the first analysis.
 
 use uplift_motion::Accelerogram;
-use uplift_oscillator::{Excitation, Oscillator};
+use uplift_oscillator::Excitation;
 
 use crate::error::IdaError;
+use crate::peaks::Axes;
+use crate::system::System;
 
-/// A record as the stripes need it: one component, and the intensity that the scale factors refer to.
+/// A record as stripes need it: one component, and the intensity that the scale factors refer to.
 #[derive(Debug, Clone, Copy)]
 pub struct StripeRecord<'a> {
     /// Identifier, for messages.
@@ -16,71 +18,130 @@ pub struct StripeRecord<'a> {
     pub intensity: f64,
 }
 
-/// A checked plan.
+/// A motion with what it is multiplied by.
+#[derive(Debug, Clone)]
+pub struct ScaledMotion<'a> {
+    /// Identifier, for messages.
+    pub id: &'a str,
+    /// The component that shakes the planar model.
+    pub accelerogram: &'a Accelerogram,
+    /// Its scale factors, as many as every other motion of the plan has.
+    pub scales: Vec<f64>,
+}
+
+/// A checked plan: every system under every motion at each of the motion's scale factors.
 #[derive(Debug, Clone)]
 pub struct Plan<'a> {
-    pub(crate) records: Vec<StripeRecord<'a>>,
-    pub(crate) oscillators: &'a [Oscillator],
-    pub(crate) levels: &'a [f64],
-    pub(crate) with_free_peak: bool,
+    motions: Vec<ScaledMotion<'a>>,
+    systems: &'a [System],
+    with_free_peak: bool,
 }
 
 impl<'a> Plan<'a> {
-    /// Plan the stripes.
+    /// Plan stripes: every record scaled to every level of an intensity measure.
     ///
     /// * `records` — with their unscaled intensities
-    /// * `oscillators` — one a strength
+    /// * `systems` — one a strength, say
     /// * `levels` — intensity levels of the stripes, ascending, in the unit of the records' intensities
-    /// * `with_free_peak` — whether the first peak of the free vibration after a record counts
+    /// * `with_free_peak` — whether the first peak of the free motion after a record counts
     ///
     /// # Errors
     /// An empty axis, levels that do not ascend, a record of zero intensity.
-    pub fn new(
+    pub fn stripes(
         records: Vec<StripeRecord<'a>>,
-        oscillators: &'a [Oscillator],
-        levels: &'a [f64],
+        systems: &'a [System],
+        levels: &[f64],
         with_free_peak: bool,
     ) -> Result<Self, IdaError> {
-        check_axes(&records, ("strengths", oscillators.len()), levels)?;
-        for record in &records {
-            excitation(record)?;
+        if levels.is_empty() {
+            return Err(IdaError::Empty { what: "levels" });
         }
-        Ok(Self { records, oscillators, levels, with_free_peak })
+        let mut before = 0.0;
+        for (index, &value) in levels.iter().enumerate() {
+            if !(value.is_finite() && value > before) {
+                return Err(IdaError::Levels { index, value, before });
+            }
+            before = value;
+        }
+        let scaled = |StripeRecord { id, accelerogram, intensity }: StripeRecord<'a>| {
+            if !(intensity.is_finite() && intensity > 0.0) {
+                return Err(IdaError::Unscalable { record: id.to_owned(), value: intensity });
+            }
+            Ok(ScaledMotion { id, accelerogram, scales: levels.iter().map(|level| level / intensity).collect() })
+        };
+        Self::checked("records", records.into_iter().map(scaled).collect::<Result<_, _>>()?, systems, with_free_peak)
+    }
+
+    /// Plan motions with given scale factors.
+    ///
+    /// * `motions` — each with as many scale factors as the first
+    /// * `systems`, `with_free_peak` — as for [`stripes`](Self::stripes)
+    ///
+    /// # Errors
+    /// An empty axis, another number of factors than the first motion has, a factor that is not finite.
+    pub fn scaled(
+        motions: Vec<ScaledMotion<'a>>,
+        systems: &'a [System],
+        with_free_peak: bool,
+    ) -> Result<Self, IdaError> {
+        Self::checked("motions", motions, systems, with_free_peak)
+    }
+
+    fn checked(
+        called: &'static str,
+        motions: Vec<ScaledMotion<'a>>,
+        systems: &'a [System],
+        with_free_peak: bool,
+    ) -> Result<Self, IdaError> {
+        let expected = motions.first().ok_or(IdaError::Empty { what: called })?.scales.len();
+        for (what, length) in [("systems", systems.len()), ("scale factors", expected)] {
+            if length == 0 {
+                return Err(IdaError::Empty { what });
+            }
+        }
+        for motion in &motions {
+            let named = || motion.id.to_owned();
+            if motion.scales.len() != expected {
+                return Err(IdaError::Scales { motion: named(), count: motion.scales.len(), expected });
+            }
+            if let Some((index, &value)) = motion.scales.iter().enumerate().find(|(_, scale)| !scale.is_finite()) {
+                return Err(IdaError::Scale { motion: named(), index, value });
+            }
+            motion.excitation()?;
+        }
+        Ok(Self { motions, systems, with_free_peak })
+    }
+
+    /// Lengths of the axes of its result.
+    pub fn axes(&self) -> Axes {
+        let scales = self.motions.first().map_or(0, |motion| motion.scales.len());
+        Axes { motions: self.motions.len(), systems: self.systems.len(), scales }
     }
 
     /// Number of nonlinear time histories in the plan.
     pub fn analyses(&self) -> u64 {
-        (self.records.len() * self.oscillators.len() * self.levels.len()) as u64
+        self.axes().cells() as u64
+    }
+
+    /// The motions, the first axis of the result.
+    pub fn motions(&self) -> &[ScaledMotion<'a>] {
+        &self.motions
+    }
+
+    /// The systems, the second axis of the result.
+    pub fn systems(&self) -> &'a [System] {
+        self.systems
+    }
+
+    /// Whether the first peak of the free motion after a record counts.
+    pub fn with_free_peak(&self) -> bool {
+        self.with_free_peak
     }
 }
 
-/// Refuses an empty axis, levels that do not ascend, and records that cannot be scaled; `systems` is what shakes, by name and number.
-pub(crate) fn check_axes(
-    records: &[StripeRecord<'_>],
-    systems: (&'static str, usize),
-    levels: &[f64],
-) -> Result<(), IdaError> {
-    for (what, length) in [("records", records.len()), systems, ("levels", levels.len())] {
-        if length == 0 {
-            return Err(IdaError::Empty { what });
-        }
+impl<'a> ScaledMotion<'a> {
+    pub(crate) fn excitation(&self) -> Result<Excitation<'a>, IdaError> {
+        Excitation::new(self.accelerogram.dt_s(), self.accelerogram.acceleration_m_s2())
+            .map_err(|source| IdaError::Oscillator { motion: self.id.to_owned(), source })
     }
-    let mut before = 0.0;
-    for (index, &value) in levels.iter().enumerate() {
-        if !(value.is_finite() && value > before) {
-            return Err(IdaError::Levels { index, value, before });
-        }
-        before = value;
-    }
-    for record in records {
-        if !(record.intensity.is_finite() && record.intensity > 0.0) {
-            return Err(IdaError::Unscalable { record: record.id.to_owned(), value: record.intensity });
-        }
-    }
-    Ok(())
-}
-
-pub(crate) fn excitation<'a>(record: &StripeRecord<'a>) -> Result<Excitation<'a>, IdaError> {
-    Excitation::new(record.accelerogram.dt_s(), record.accelerogram.acceleration_m_s2())
-        .map_err(|source| IdaError::Oscillator { record: record.id.to_owned(), source })
 }

@@ -1,12 +1,15 @@
-//! Going on from what is known, and parts of a plan: the bits are those of an undisturbed analysis.
+//! Going on from what is known, and shards of a plan: the bits are those of an undisturbed analysis.
 #![allow(clippy::unwrap_used)]
 
 use std::sync::Mutex;
 
 use proptest::prelude::*;
-use uplift_ida::{Cells, EdpArray, NUMERICS, Part, Plan, StripeRecord, Unwatched, analyse, complete};
+use uplift_block::RockingBlock;
+use uplift_ida::{
+    AnalysisRow, Cells, NUMERICS, Peaks, Plan, Shard, StripeRecord, System, Unwatched, analyse, complete, estimate,
+};
 use uplift_motion::Accelerogram;
-use uplift_oscillator::Oscillator;
+use uplift_oscillator::{Oscillator, PostUplift};
 
 const LEVELS: [f64; 5] = [0.1, 0.3, 0.7, 1.5, 4.0];
 
@@ -23,54 +26,106 @@ fn noise(seed: u32) -> Accelerogram {
 
 struct Case {
     accelerograms: Vec<Accelerogram>,
-    oscillators: Vec<Oscillator>,
+    systems: Vec<System>,
 }
 
 impl Case {
     fn new() -> Self {
         Self {
             accelerograms: (1..=3).map(noise).collect(),
-            oscillators: [0.05, 0.2, 0.4, 0.8].map(|strength| Oscillator::zsbe(strength).unwrap()).to_vec(),
+            systems: [0.05, 0.2, 0.4, 0.8]
+                .map(|strength| System::Oscillator(Oscillator::zsbe(strength).unwrap()))
+                .into(),
         }
+    }
+
+    /// Oscillators and blocks in one plan.
+    fn of_both_kinds() -> Self {
+        let mut case = Self::new();
+        for (place, slenderness) in [(1, 0.2), (3, 0.1)] {
+            case.systems[place] = System::Block(RockingBlock::new(1.0, slenderness).unwrap());
+        }
+        case
     }
 
     fn plan(&self) -> Plan<'_> {
         let record = |accelerogram| StripeRecord { id: "noise", accelerogram, intensity: 1.0 };
-        Plan::new(self.accelerograms.iter().map(record).collect(), &self.oscillators, &LEVELS, true).unwrap()
+        Plan::stripes(self.accelerograms.iter().map(record).collect(), &self.systems, &LEVELS, true).unwrap()
     }
 }
 
-fn same_bits(one: &EdpArray, other: &EdpArray) -> bool {
-    let bits = |array: &EdpArray| array.edp_m().iter().map(|value| value.to_bits()).collect::<Vec<_>>();
-    bits(one) == bits(other) && one.impacts() == other.impacts() && one.shape() == other.shape()
+fn bits(peaks: &Peaks) -> Vec<(u64, u32)> {
+    peaks.displacement_m().iter().map(|value| value.to_bits()).zip(peaks.impacts().iter().copied()).collect()
+}
+
+/// A finished row that outlives the analysis.
+type Kept = (usize, usize, Vec<f64>, Vec<u32>);
+
+fn kept(row: &AnalysisRow<'_>) -> Kept {
+    (row.motion, row.system, row.displacement_m.to_vec(), row.impacts.to_vec())
 }
 
 #[test]
 fn what_is_known_is_not_computed_again() {
-    let case = Case::new();
+    for case in [Case::new(), Case::of_both_kinds()] {
+        let plan = case.plan();
+        let whole = analyse(&plan, &Unwatched).unwrap();
+        proptest!(ProptestConfig::with_cases(24), |(known in prop::collection::vec(any::<bool>(), 60))| {
+            let mut cells = Cells::unknown(&plan);
+            for (index, _) in known.iter().enumerate().filter(|(_, known)| **known) {
+                let cell = [index / 20, index / 5 % 4, index % 5];
+                cells.set(cell, whole.displacement_m()[index], whole.impacts()[index]);
+            }
+            let count = known.iter().filter(|known| **known).count() as u64;
+            prop_assert_eq!(cells.count(), count);
+            let rows = Mutex::new(Vec::new());
+            let done = complete(&plan, cells, Shard::WHOLE, &Unwatched, &|row| rows.lock().unwrap().push(kept(row)));
+            prop_assert_eq!(bits(&done.unwrap().complete().unwrap()), bits(&whole));
+            // exactly the rows that lacked something
+            let mut rows: Vec<(usize, usize)> = rows.into_inner().unwrap().into_iter().map(|(motion, system, m, _)| {
+                assert_eq!(m, whole.row_m(motion, system));
+                (motion, system)
+            }).collect();
+            rows.sort_unstable();
+            let lacking = (0..12).filter(|row| known[row * 5..row * 5 + 5].iter().any(|known| !known));
+            prop_assert_eq!(rows, lacking.map(|row| (row / 4, row % 4)).collect::<Vec<_>>());
+        });
+    }
+}
+
+/// Any division into shards, each with any rows of its own known from before, on any number of threads.
+#[test]
+fn any_division_and_any_known_rows_give_the_same_bits() {
+    let case = Case::of_both_kinds();
     let plan = case.plan();
     let whole = analyse(&plan, &Unwatched).unwrap();
-    proptest!(ProptestConfig::with_cases(24), |(known in prop::collection::vec(any::<bool>(), 60))| {
-        let mut cells = Cells::unknown(&plan);
-        for (index, _) in known.iter().enumerate().filter(|(_, known)| **known) {
-            cells.set([index / 20, index / 5 % 4, index % 5], whole.edp_m()[index], whole.impacts()[index]);
+    assert!(whole.displacement_m().iter().any(|value| value.is_infinite()));
+    assert!((0..4).all(|system| whole.of_system_m(system).iter().any(|&value| value > 0.0 && value.is_finite())));
+    let split = (1_u64..15, prop::collection::vec(any::<bool>(), 12), 1_usize..4);
+    proptest!(ProptestConfig::with_cases(32), |((count, known, threads) in split)| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let mut joined = Cells::unknown(&plan);
+        for index in 0..count {
+            let mut cells = Cells::unknown(&plan);
+            for row in (0..12).filter(|row| known[*row]) {
+                let at = row * 5..row * 5 + 5;
+                let (displacement_m, impacts) = (&whole.displacement_m()[at.clone()], &whole.impacts()[at]);
+                let (motion, system) = plan.axes().of_row(row);
+                let fits = cells.set_row(&AnalysisRow { motion, system, displacement_m, impacts });
+                prop_assert!(fits);
+            }
+            let rows = Mutex::new(Vec::new());
+            let shard = Shard { index, count };
+            let keep = |row: &AnalysisRow<'_>| rows.lock().unwrap().push(kept(row));
+            let cells = pool.install(|| complete(&plan, cells, shard, &Unwatched, &keep)).unwrap();
+            for (motion, system, displacement_m, impacts) in rows.into_inner().unwrap() {
+                prop_assert!(cells.is_row_known(motion, system) && !joined.is_row_known(motion, system));
+                joined.set_row(&AnalysisRow { motion, system, displacement_m: &displacement_m, impacts: &impacts });
+            }
         }
-        let count = known.iter().filter(|known| **known).count() as u64;
-        prop_assert_eq!(cells.count(), count);
-        let kept = Mutex::new(Vec::new());
-        let done = complete(&plan, cells, Part::WHOLE, &Unwatched, &|piece| {
-            kept.lock().unwrap().push((piece.record, piece.strength, piece.edp_m.to_vec()));
-        });
-        prop_assert!(same_bits(&done.unwrap().complete().unwrap(), &whole));
-        // exactly the rows that lacked something
-        let mut rows: Vec<(usize, usize)> = kept.lock().unwrap().iter().map(|(record, strength, edp_m)| {
-            let start = (record * 4 + strength) * 5;
-            assert_eq!(edp_m, &whole.edp_m()[start..start + 5]);
-            (*record, *strength)
-        }).collect();
-        rows.sort_unstable();
-        let lacking = (0..12).filter(|row| known[row * 5..row * 5 + 5].iter().any(|known| !known));
-        prop_assert_eq!(rows, lacking.map(|row| (row / 4, row % 4)).collect::<Vec<_>>());
+        prop_assert_eq!(joined.count(), 5 * known.iter().filter(|known| !**known).count() as u64);
+        let rest = complete(&plan, joined, Shard::WHOLE, &Unwatched, &|_| {}).unwrap();
+        prop_assert_eq!(bits(&rest.complete().unwrap()), bits(&whole));
     });
 }
 
@@ -81,35 +136,61 @@ fn what_is_known_is_taken_as_it_is() {
     let plan = case.plan();
     let mut cells = Cells::unknown(&plan);
     cells.set([1, 2, 3], 123.0, 45);
-    let done = complete(&plan, cells, Part::WHOLE, &Unwatched, &|_| {}).unwrap().complete().unwrap();
+    assert!(!cells.set_row(&AnalysisRow { motion: 0, system: 0, displacement_m: &[1.0], impacts: &[1] }));
+    let done = complete(&plan, cells, Shard::WHOLE, &Unwatched, &|_| {}).unwrap().complete().unwrap();
     let index = (4 + 2) * 5 + 3;
-    assert_eq!((done.edp_m()[index], done.impacts()[index]), (123.0, 45));
+    assert_eq!((done.at_m([1, 2, 3]), done.displacement_m()[index], done.impacts()[index]), (123.0, 123.0, 45));
 }
 
 #[test]
-fn parts_make_the_whole() {
+fn shards_make_the_whole() {
     let case = Case::new();
     let plan = case.plan();
     let whole = analyse(&plan, &Unwatched).unwrap();
     for count in [1, 2, 5, 12, 20] {
         let mut joined = Cells::unknown(&plan);
         for index in 0..count {
-            let part = Part { index, count };
             let rows = Mutex::new(Vec::new());
-            let cells = complete(&plan, Cells::unknown(&plan), part, &Unwatched, &|piece| {
-                rows.lock().unwrap().push((piece.record, piece.strength, piece.edp_m.to_vec(), piece.impacts.to_vec()));
-            });
+            let keep = |row: &AnalysisRow<'_>| rows.lock().unwrap().push(kept(row));
+            let cells = complete(&plan, Cells::unknown(&plan), Shard { index, count }, &Unwatched, &keep);
             let rows = rows.into_inner().unwrap();
             assert_eq!(cells.unwrap().count(), 5 * rows.len() as u64);
-            for (record, strength, edp_m, impacts) in rows {
-                assert!(!joined.is_row_known(record, strength), "two parts have the same piece");
-                for level in 0..5 {
-                    joined.set([record, strength, level], edp_m[level], impacts[level]);
-                }
+            for (motion, system, displacement_m, impacts) in rows {
+                assert!(!joined.is_row_known(motion, system), "two shards have the same row");
+                joined.set_row(&AnalysisRow { motion, system, displacement_m: &displacement_m, impacts: &impacts });
             }
         }
-        assert!(same_bits(&joined.complete().unwrap(), &whole), "{count} parts");
+        assert_eq!(bits(&joined.complete().unwrap()), bits(&whole), "{count} shards");
     }
+}
+
+#[test]
+fn systems_of_one_identity_are_the_same() {
+    let oscillator = |strength, gravity| {
+        System::Oscillator(Oscillator::new(strength, gravity, 0.0005, 0.95, PostUplift::Zero).unwrap())
+    };
+    let block = |slenderness| System::Block(RockingBlock::new(1.0, slenderness).unwrap());
+    let systems = [
+        oscillator(0.1, 9.8),
+        oscillator(0.1, 9.81),
+        oscillator(0.2, 9.8),
+        block(0.1),
+        block(0.2),
+        System::Oscillator(Oscillator::new(0.1, 9.8, 0.0005, 0.95, PostUplift::Negative { capacity_m: 1.0 }).unwrap()),
+    ];
+    for (i, one) in systems.iter().enumerate() {
+        for (j, other) in systems.iter().enumerate() {
+            assert_eq!(one.identity() == other.identity(), i == j, "{one:?} {other:?}");
+        }
+    }
+    assert_eq!((systems[0].kind(), systems[3].kind()), ("oscillator", "block"));
+}
+
+#[test]
+fn the_time_of_any_plan_can_be_told() {
+    let case = Case::of_both_kinds();
+    let found = estimate(&case.plan(), std::time::Duration::ZERO);
+    assert!(found.rows_timed == 12 && found.seconds_one_thread > 0.0, "{found:?}");
 }
 
 // Whoever changes these bits raises NUMERICS: results kept by an earlier version are then not mixed with new ones.
@@ -119,7 +200,9 @@ fn the_version_of_the_numbers_goes_with_their_bits() {
     let case = Case::new();
     let whole = analyse(&case.plan(), &Unwatched).unwrap();
     let mut hash = 0xcbf2_9ce4_8422_2325_u64;
-    for word in whole.edp_m().iter().map(|value| value.to_bits()).chain(whole.impacts().iter().map(|&n| u64::from(n))) {
+    for word in
+        whole.displacement_m().iter().map(|value| value.to_bits()).chain(whole.impacts().iter().map(|&n| u64::from(n)))
+    {
         hash = (hash ^ word).wrapping_mul(0x100_0000_01b3);
     }
     assert_eq!((NUMERICS, format!("{hash:016x}").as_str()), (3, "542a6417ac2eb4cd"));

@@ -72,6 +72,7 @@ pub enum MotionError {
         /// The file.
         path: PathBuf,
         /// What the operating system says.
+        #[source]
         reason: std::io::Error,
     },
     /// A file is far larger than any accelerogram.
@@ -112,7 +113,8 @@ pub enum MotionError {
     },
     /// The head lacks something that the motion cannot be had without.
     #[error(
-        "{name}: the head of this {format} file has no {key}: the file is damaged or cut, or it has another format; name the format, or get the file again"
+        "{name}: the head of this {format} file has no {key}: the file is damaged or cut, or it has another format; \
+         name the format, or get the file again"
     )]
     HeaderLacks {
         /// The file.
@@ -150,6 +152,7 @@ pub enum MotionError {
         /// The file.
         name: String,
         /// What is wrong with it.
+        #[source]
         reason: std::io::Error,
     },
     /// The file holds something else than acceleration.
@@ -176,7 +179,8 @@ pub enum MotionError {
     },
     /// The values are counts of a recorder, and the head does not say what one count is.
     #[error(
-        "{name}, line {line}: \"{text}\": counts, and the head gives no scale (least significant bit in microvolts, sensitivity in volts per g); give the processed record (Volume 1 or 2)"
+        "{name}, line {line}: \"{text}\": counts, and the head gives no scale (least significant bit in microvolts, \
+         sensitivity in volts per g); give the processed record (Volume 1 or 2)"
     )]
     CountsWithoutScale {
         /// The file.
@@ -196,7 +200,8 @@ pub enum MotionError {
     },
     /// Neither the file nor the caller says the time step.
     #[error(
-        "{name}: one column of accelerations and no time step; give the time step in seconds, or a file with two columns (time, acceleration)"
+        "{name}: one column of accelerations and no time step; give the time step in seconds, or a file with two \
+         columns (time, acceleration)"
     )]
     MissingTimeStep {
         /// The file.
@@ -257,12 +262,13 @@ pub enum MotionError {
         /// A further hint, or nothing.
         hint: &'static str,
     },
-    /// What a file holds is no accelerogram.
+    /// What a file holds is not an accelerogram.
     #[error("{name}: {reason}")]
     InFile {
         /// The file.
         name: String,
         /// What is wrong.
+        #[source]
         reason: Box<MotionError>,
     },
     /// An option of the synthetic record set is out of its range.

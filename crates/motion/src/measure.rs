@@ -9,10 +9,10 @@ use crate::pair::RecordPair;
 
 /// Intensity measure on which responses are conditioned.
 ///
-/// A further measure is a further variant: its description and its value in
-/// [`IntensityMeasure::of_pair`].
+/// A further measure is a further variant; whatever depends on the measure is a `match` over all of them, so that
+/// nothing compiles until the new one is given its description, its value in [`IntensityMeasure::of_pair`] and
+/// its place elsewhere.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[non_exhaustive]
 pub enum IntensityMeasure {
     /// Peak ground velocity \[cm/s\], geometric mean of the two horizontal components (Eq. 4.6).
     Pgv,

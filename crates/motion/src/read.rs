@@ -25,13 +25,13 @@ use crate::unit::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
 /// Largest file that is read, unpacked \[bytes\]: a few million points, far above any accelerogram.
 const LARGEST_FILE_BYTES: u64 = 64 * 1024 * 1024;
 
-/// Beginning of a file by which its layout is told \[bytes\].
+/// Beginning of a file by which its layout is recognised \[bytes\].
 const HEAD_BYTES: usize = 16 * 1024;
 
 /// What the caller knows about a file; what the file itself says takes precedence over step and unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReadOptions {
-    /// Layout of the file; none to tell it by the content.
+    /// Layout of the file; none to recognise it by the content.
     pub format: Option<RecordFormat>,
     /// Which component of a file with several, counted from one.
     pub channel: Option<usize>,
@@ -86,13 +86,13 @@ pub fn read_record_file(path: &Path, options: &ReadOptions) -> Result<RecordFile
 /// Reads every acceleration component of a record file from `bytes`, unpacked first where they are
 /// gzip; `name` stands in messages. [`ReadOptions::channel`] makes no difference here.
 ///
-/// The layout is that of [`ReadOptions::format`], or else told by the content: each has its own
+/// The layout is that of [`ReadOptions::format`], or else recognised by the content: each has its own
 /// words in the head. What has none of them is read as columns.
 ///
 /// # Errors
 ///
 /// [`MotionError::Compressed`], [`MotionError::TooLarge`], and those of the reader: a head that
-/// lacks something or cannot be read, a number that is none, fewer values than the head says.
+/// lacks something or cannot be read, an invalid number, fewer values than the head says.
 pub fn read_record(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<RecordFile, MotionError> {
     let bytes = unpacked(bytes, name)?;
     let format = options.format.unwrap_or_else(|| detect(&bytes, name));

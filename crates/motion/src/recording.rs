@@ -83,7 +83,7 @@ impl Orientation {
     }
 }
 
-/// What a record file says beside the motion; what it does not say is none.
+/// What a record file says beside the motion; `None` where it says nothing.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct RecordingDescription {
     /// Name of the earthquake, or its identifier.
@@ -141,8 +141,7 @@ impl RecordFile {
     ///
     /// # Errors
     ///
-    /// [`MotionError::Channel`] where there are several and none is chosen, or the chosen one is not
-    /// there.
+    /// [`MotionError::Channel`] where there are several and none is chosen, or the chosen one is not there.
     pub fn component(mut self, name: &str, channel: Option<usize>) -> Result<Recording, MotionError> {
         /// Components that a message names.
         const NAMED: usize = 24;

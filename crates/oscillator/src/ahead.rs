@@ -1,8 +1,8 @@
-//! Several samples ahead looked at together, which the compiler turns into vector instructions.
+//! Several samples ahead evaluated together, which the compiler turns into vector instructions.
 //!
-//! Arrays that are looked at in this way are longer by [`AHEAD`] samples than the record.
+//! Arrays that are read in this way are longer by [`AHEAD`] samples than the record.
 
-/// Samples looked at together, a power of two.
+/// Samples evaluated together, a power of two.
 pub(crate) const AHEAD: usize = 16;
 
 /// One number of each of the samples.
@@ -21,7 +21,7 @@ pub(crate) fn ahead(samples: &[f64], first: usize) -> &Lanes {
     samples[first..].first_chunk().unwrap_or(&[0.0; AHEAD])
 }
 
-/// The largest, by halves: side by side, not one after the other.
+/// The largest, by halves, so that the comparisons do not depend on each other.
 #[inline(always)]
 pub(crate) fn largest(mut x: Lanes) -> f64 {
     let mut half = AHEAD / 2;

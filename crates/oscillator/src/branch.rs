@@ -13,7 +13,8 @@ pub struct Branch {
 }
 
 impl Branch {
-    /// Restoring force per mass at the displacement `u`, m/s², on the side `sign` (±1, or 0 where the branch is attached).
+    /// Restoring force per mass at the displacement `u`, m/s², on the side `sign` (±1, or 0 where the
+    /// branch is attached).
     pub fn restoring(&self, sign: f64, u: f64) -> f64 {
         sign * self.offset_m_s2 + self.stiffness_per_s2 * u
     }
@@ -22,7 +23,8 @@ impl Branch {
 /// The motion on one branch while the ground acceleration is linear in time: `ü + k u = f0 + f1 τ`.
 ///
 /// In terms of the initial displacement, velocity, acceleration `w0` and the rate `j0 = f1 − k v0`,
-/// `u(τ) = u0 + v0 τ + w0 τ² c2(kτ²) + j0 τ³ c3(kτ²)`: increments on the initial state, so nothing cancels for short times.
+/// `u(τ) = u0 + v0 τ + w0 τ² c2(kτ²) + j0 τ³ c3(kτ²)`: increments on the initial state, so nothing
+/// cancels for short times.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinearMotion {
     /// Displacement at `τ = 0`, m.
@@ -59,7 +61,7 @@ impl LinearMotion {
         self.state_with(tau, &Stumpff::at(self.k * tau * tau))
     }
 
-    /// The same motion told from `τ` seconds on.
+    /// The same motion with `τ` seconds as its start.
     #[must_use]
     #[inline(always)]
     pub fn restarted(&self, tau: f64) -> Self {
@@ -70,7 +72,8 @@ impl LinearMotion {
         Self { u0, v0, w0, j0, k: self.k }
     }
 
-    /// Time until a near `level` is reached, by the inverse series to the third term: the error is of the fourth order in that time.
+    /// Time until a near `level` is reached, by the inverse series to the third term: the error is of the
+    /// fourth order in that time.
     #[inline(always)]
     pub(crate) fn time_to(&self, level: f64) -> f64 {
         let inverse = 1.0 / self.v0;
@@ -89,8 +92,8 @@ impl LinearMotion {
 
     /// A bound on `abs(ü)` over `[0, h]` given the acceleration `w1` at its end, m/s².
     ///
-    /// The acceleration obeys `ẅ = −k w`, so it is convex towards zero where `k ≤ 0` (its largest magnitude is at an end), at
-    /// most `max(abs(w0), abs(w1))/(1 − k h²/8)` where `k h²` is small, and never above its amplitude.
+    /// The acceleration obeys `ẅ = −k w`, so it is convex towards zero where `k ≤ 0` (its largest magnitude is at an
+    /// end), at most `max(abs(w0), abs(w1))/(1 − k h²/8)` where `k h²` is small, and never above its amplitude.
     #[inline(always)]
     pub fn acceleration_bound(&self, h: f64, w1: f64) -> f64 {
         let ends = self.w0.abs().max(w1.abs());
@@ -106,7 +109,8 @@ impl LinearMotion {
 
     /// A bound on how far the velocity departs within `h` seconds from its chord, `v1` being its value then.
     ///
-    /// That is `h²/8 max abs(w')`, and the second derivative of the velocity `w'`, as the acceleration, obeys `w''' = −k w'`.
+    /// That is `h²/8 max abs(w')`, and the second derivative of the velocity `w'`, as the acceleration, obeys
+    /// `w''' = −k w'`.
     #[inline(always)]
     pub(crate) fn departure_of_velocity(&self, h: f64, v1: f64) -> f64 {
         let x = self.k * h * h;
@@ -114,7 +118,7 @@ impl LinearMotion {
         if x < 4.0 { 0.125 * h * h * ends / (1.0 - 0.125 * larger(x, 0.0)) } else { f64::INFINITY }
     }
 
-    /// Whether the velocity, of one sign at the start and as `v1` after `h` seconds, is seen to keep it in between.
+    /// Whether the velocity, of one sign at the start and as `v1` after `h` seconds, is shown to keep it in between.
     #[inline(always)]
     pub(crate) fn keeps_direction(&self, h: f64, v1: f64) -> bool {
         // it lies below the slower end by `S (1 − Δ/4S)² ≤ S − Δ/4` at most, where Δ is the difference of both

@@ -1,7 +1,7 @@
-//! The attached response to a unit-scale record: linear, so it serves every scale.
+//! The attached response to a unit-scale record: linear, so it holds for every scale.
 //!
-//! Until the first uplift the response is this one times the scale factor. Later, whenever the system is attached, it differs from it
-//! by a free vibration of constant amplitude. So a run needs no step from sample to sample.
+//! Until the first uplift the response is this one times the scale factor. Later, whenever the system is attached, it
+//! differs from it by a free vibration of constant amplitude. So a run needs no step from sample to sample.
 
 use crate::ahead::{AHEAD, larger, padded};
 use crate::branch::{Branch, LinearMotion};

@@ -20,7 +20,8 @@ pub enum OscillatorError {
     /// The displacement capacity of a negative-stiffness system does not exceed its uplift displacement.
     #[error(
         "capacity_m is {capacity_m} m, not above uplift_displacement_m = {uplift_displacement_m} m: \
-         the force would have to vanish before the system uplifts; give a larger capacity or leave it out for the ZSBE system"
+         the force would have to vanish before the system uplifts; give a larger capacity or leave it out for the \
+         ZSBE system"
     )]
     CapacityBelowUplift {
         /// Displacement at which the restoring force vanishes, m.

@@ -1,73 +1,73 @@
-//! The events of several runs found side by side: the same reasoning as in [`passages`](crate::passages), without branches, so that
-//! the compiler turns it into vector instructions.
+//! The events of several runs found side by side: the same reasoning as in [`crossings`](crate::crossings), without
+//! conditional branches, so that the compiler turns it into vector instructions.
 //!
-//! Only what is simple is settled here. The rest is left to the [passages](crate::passages), run by run.
+//! Only simple cases are solved here. The rest is left to the [crossings](crate::crossings), run by run.
 
-// what is lazy is a branch, and a loop over branches is not made into vectors
+// a lazy operator is a branch, and a loop over branches is not made into vectors
 #![allow(clippy::needless_bitwise_bool, clippy::needless_range_loop)]
 
 use crate::ahead::{larger, smaller};
 use crate::branch::LinearMotion;
-use crate::passages::{CONVERGED, Passage, State};
+use crate::crossings::{CONVERGED, Crossing, State};
 use crate::stumpff::{NEAR, NEAR_TERMS, Stumpff};
 
 /// Newton steps after the first guess and the inverse series about it.
 const STEPS: usize = 2;
 
-/// A number of each run.
-pub(crate) type Each<const RUNS: usize> = [f64; RUNS];
+/// One number a run.
+pub(crate) type PerRun<const RUNS: usize> = [f64; RUNS];
 
-/// What the attached stretches of all runs have in common.
+/// What the attached segments of all runs have in common.
 #[derive(Debug)]
 pub(crate) struct Attached {
     /// Stiffness, 1/s²; positive.
     pub(crate) k: f64,
     /// How far the acceleration between samples may exceed its ends; see [`growth`](crate::sweep::growth).
     pub(crate) growth: f64,
-    /// Terms of the series that serve over a whole sample interval.
+    /// Terms of the series that suffice for a whole sample interval.
     pub(crate) terms: usize,
     /// Displacement of the boundaries, m.
     pub(crate) boundary: f64,
 }
 
-/// A stretch of each run: the motion from its start on, and the state at its end.
+/// A segment of each run: the motion from its start on, and the state at its end.
 #[derive(Debug)]
 #[repr(align(64))]
-pub(crate) struct Stretches<const RUNS: usize> {
-    pub(crate) u0: Each<RUNS>,
-    pub(crate) v0: Each<RUNS>,
-    pub(crate) w0: Each<RUNS>,
-    pub(crate) j0: Each<RUNS>,
+pub(crate) struct Segments<const RUNS: usize> {
+    pub(crate) u0: PerRun<RUNS>,
+    pub(crate) v0: PerRun<RUNS>,
+    pub(crate) w0: PerRun<RUNS>,
+    pub(crate) j0: PerRun<RUNS>,
     /// Duration, s.
-    pub(crate) h: Each<RUNS>,
-    pub(crate) u1: Each<RUNS>,
-    pub(crate) v1: Each<RUNS>,
-    pub(crate) w1: Each<RUNS>,
+    pub(crate) h: PerRun<RUNS>,
+    pub(crate) u1: PerRun<RUNS>,
+    pub(crate) v1: PerRun<RUNS>,
+    pub(crate) w1: PerRun<RUNS>,
 }
 
-/// What was found in the stretch of each run.
+/// What was found in the segment of each run.
 #[derive(Debug)]
 #[repr(align(64))]
 pub(crate) struct Events<const RUNS: usize> {
-    /// The level passed, m.
-    level: Each<RUNS>,
-    /// Time since the start of the stretch, s: NaN where it is not settled.
-    tau: Each<RUNS>,
+    /// The level crossed, m.
+    level: PerRun<RUNS>,
+    /// Time since the start of the segment, s: NaN where it is not found.
+    tau: PerRun<RUNS>,
     /// Velocity then, m/s.
-    v: Each<RUNS>,
+    v: PerRun<RUNS>,
 }
 
 impl<const RUNS: usize> Events<RUNS> {
-    /// The passage of a run, if it was found.
+    /// The crossing of a run, if it was found.
     #[inline(always)]
-    pub(crate) fn passage(&self, run: usize) -> Option<Passage> {
+    pub(crate) fn crossing(&self, run: usize) -> Option<Crossing> {
         let (level, tau, v) = (self.level[run], self.tau[run], self.v[run]);
-        (!tau.is_nan()).then_some(Passage { level, tau, v })
+        (!tau.is_nan()).then_some(Crossing { level, tau, v })
     }
 }
 
-impl<const RUNS: usize> Stretches<RUNS> {
-    pub(crate) const IDLE: Self = {
+impl<const RUNS: usize> Segments<RUNS> {
+    pub(crate) const EMPTY: Self = {
         let none = [0.0; RUNS];
         Self { u0: none, v0: none, w0: none, j0: none, h: none, u1: none, v1: none, w1: none }
     };
@@ -94,7 +94,7 @@ impl<const RUNS: usize> Stretches<RUNS> {
         LinearMotion { u0: self.u0[run], v0: self.v0[run], w0: self.w0[run], j0: self.j0[run], k }
     }
 
-    /// The states at the ends of attached stretches.
+    /// The states at the ends of attached segments.
     #[inline(always)]
     pub(crate) fn advance(&mut self, Attached { k, terms, .. }: &Attached) {
         let series = stumpff(&self.h.map(|h| k * h * h), *terms);
@@ -107,7 +107,8 @@ impl<const RUNS: usize> Stretches<RUNS> {
         }
     }
 
-    /// Whether attached systems are seen to stay inside the boundaries; see [`stays_inside`](crate::passages::stays_inside).
+    /// Whether attached systems are shown to stay inside the boundaries; see
+    /// [`stays_inside`](crate::crossings::stays_inside).
     #[inline(always)]
     pub(crate) fn stay_inside(&self, attached: &Attached) -> [bool; RUNS] {
         let &Attached { k, growth, boundary, .. } = attached;
@@ -124,7 +125,7 @@ impl<const RUNS: usize> Stretches<RUNS> {
         stays
     }
 
-    /// Where attached systems pass one of the boundaries, outward.
+    /// Where attached systems cross one of the boundaries, outward.
     #[inline(always)]
     pub(crate) fn uplifts(&self, attached: &Attached) -> Events<RUNS> {
         let &Attached { k, growth, terms, boundary } = attached;
@@ -158,7 +159,7 @@ impl<const RUNS: usize> Stretches<RUNS> {
         for run in 0..RUNS {
             let (u0, v0, w0, j0, h) = (self.u0[run], self.v0[run], self.w0[run], self.j0[run], self.h[run]);
             let (c0, c1, c2, c3) = (series.c0[run], series.c1[run], series.c2[run], series.c3[run]);
-            // the same motion told from the guess on
+            // the same motion with the guess as its start
             let (tau, level) = (found.tau[run], found.level[run]);
             let u = u0 + tau * (v0 + tau * (w0 * c2 + tau * j0 * c3));
             let v = v0 + tau * (w0 * c1 + tau * j0 * c2);
@@ -185,10 +186,10 @@ impl<const RUNS: usize> Stretches<RUNS> {
         found
     }
 
-    /// Where flights without stiffness that are down at the end come down to the boundary, told on their own side, and the highest points of
-    /// the way there.
+    /// Where uplifted systems without stiffness that are below the boundary at the end of their segments come down to
+    /// it, in the coordinates of their sides, and the highest points of the way there.
     #[inline(always)]
-    pub(crate) fn landings(&self, boundary: f64) -> (Events<RUNS>, Each<RUNS>) {
+    pub(crate) fn impacts(&self, boundary: f64) -> (Events<RUNS>, PerRun<RUNS>) {
         let mut found = Events { level: [boundary; RUNS], tau: [0.0; RUNS], v: [0.0; RUNS] };
         let mut tops = [0.0; RUNS];
         for run in 0..RUNS {
@@ -206,7 +207,7 @@ impl<const RUNS: usize> Stretches<RUNS> {
             let rising = v0 > 0.0;
             let over = if rising { -(v0 + root) } else { 2.0 * distance };
             let tau = over / if rising { curvature } else { v0 - root };
-            // as for uplifts; the series are finite here
+            // as for uplifts; the motion is a cubic here
             let u = tau * (v0 + tau * (0.5 * w0 + tau * (j0 * (1.0 / 6.0)))) - distance;
             let v = v0 + tau * (w0 + tau * (0.5 * j0));
             let here = LinearMotion { u0: u, v0: v, w0: w0 + tau * j0, j0, k: 0.0 };
@@ -226,9 +227,9 @@ impl<const RUNS: usize> Stretches<RUNS> {
     }
 }
 
-/// What is seen of the velocity of an attached motion from both ends; see [`passages`](crate::passages).
+/// What the states at both ends show of the velocity of an attached motion; see [`crossings`](crate::crossings).
 struct Direction {
-    /// The velocity has the same sign at both ends and is seen to keep it between them.
+    /// The velocity has the same sign at both ends and is shown to keep it between them.
     monotone: bool,
     /// A bound on its departure from its chord, m/s.
     departure: f64,
@@ -246,7 +247,8 @@ impl Direction {
     }
 }
 
-/// Where an attached motion turns, told on the side to which it sets out; see [`passages`](crate::passages).
+/// Where an attached motion turns, in the coordinates of the side to which it starts; see
+/// [`crossings`](crate::crossings).
 struct Turn {
     /// Distance from the equilibrium, m.
     distance: f64,
@@ -271,7 +273,8 @@ impl Turn {
         let start = u0 + equilibrium;
         let drift = v0 + lag;
         let distance = larger(equilibrium * equilibrium + (lag * lag - drift * drift) * flexibility, 0.0).sqrt();
-        // the zero of the chord of the velocity, then a step towards that of the cubic with the accelerations at both ends
+        // the zero of the chord of the velocity, then a step towards that of the cubic with the
+        // accelerations at both ends
         let part = v0 / (v0 - v1);
         let rest = 1.0 - part;
         let v = (v0 * rest * (1.0 + 2.0 * part) + h * w0 * rest * part) * rest
@@ -289,15 +292,15 @@ impl Turn {
 /// Stumpff functions, one argument of each run.
 #[repr(align(64))]
 struct Functions<const RUNS: usize> {
-    c0: Each<RUNS>,
-    c1: Each<RUNS>,
-    c2: Each<RUNS>,
-    c3: Each<RUNS>,
+    c0: PerRun<RUNS>,
+    c1: PerRun<RUNS>,
+    c2: PerRun<RUNS>,
+    c3: PerRun<RUNS>,
 }
 
 /// The functions by `terms` of their series, an even number; see [`Stumpff`].
 #[inline(always)]
-fn stumpff<const RUNS: usize>(x: &Each<RUNS>, terms: usize) -> Functions<RUNS> {
+fn stumpff<const RUNS: usize>(x: &PerRun<RUNS>, terms: usize) -> Functions<RUNS> {
     let square = x.map(|x| x * x);
     let (mut c2, mut c3) = ([0.0; RUNS], [0.0; RUNS]);
     for pair in Stumpff::TABLE[..terms].chunks_exact(2).rev() {
@@ -317,27 +320,27 @@ fn stumpff<const RUNS: usize>(x: &Each<RUNS>, terms: usize) -> Functions<RUNS> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::nodes::{Node, Nodes, crossing};
-    use crate::passages::first_crossing;
+    use crate::crossings::first_crossing;
+    use crate::nodes::{Node, Nodes, crossing_time};
     use crate::sweep::growth;
     use proptest::prelude::*;
 
     const BOUNDARY: f64 = 1.0;
 
-    fn one(motion: &LinearMotion, h: f64) -> Stretches<1> {
-        let mut stretch = Stretches::IDLE;
-        stretch.put(0, motion, h);
+    fn one(motion: &LinearMotion, h: f64) -> Segments<1> {
+        let mut segment = Segments::EMPTY;
+        segment.put(0, motion, h);
         let (u, v) = motion.state(h);
-        stretch.put_end(0, &State { u, v, w: motion.rates(h).1 });
-        stretch
+        segment.put_end(0, &State { u, v, w: motion.rates(h).1 });
+        segment
     }
 
-    fn uplift(phase: f64, h: f64, stretch: &Stretches<1>) -> (bool, Option<Passage>) {
-        // the stretch may be a part of an interval
+    fn uplift(phase: f64, h: f64, segment: &Segments<1>) -> (bool, Option<Crossing>) {
+        // the segment may be a part of an interval
         let whole = 1.2 * phase;
         let terms = Stumpff::terms(whole * whole).unwrap_or_default();
         let attached = Attached { k: (phase / h) * (phase / h), growth: growth(whole), terms, boundary: BOUNDARY };
-        (stretch.stay_inside(&attached)[0], stretch.uplifts(&attached).passage(0))
+        (segment.stay_inside(&attached)[0], segment.uplifts(&attached).crossing(0))
     }
 
     proptest! {
@@ -346,65 +349,68 @@ mod tests {
         // Against the safe search over the nodes of the motion.
         #[test]
         fn uplifts_are_the_first_crossings(
-            phase in 0.001_f64..2.4, u0 in prop_oneof![-1.0_f64..1.0, Just(1.0), Just(-1.0)], v0 in -2.0_f64..2.0, w0 in -3.0_f64..3.0, j0 in -3.0_f64..3.0,
+            phase in 0.001_f64..2.4, u0 in prop_oneof![-1.0_f64..1.0, Just(1.0), Just(-1.0)], v0 in -2.0_f64..2.0,
+            w0 in -3.0_f64..3.0, j0 in -3.0_f64..3.0,
         ) {
             let h = 0.7;
             let k = (phase / h) * (phase / h);
             // at the boundary a system moves inward
             let v0 = if u0.abs() == BOUNDARY { -u0 * v0.abs() } else { v0 };
             let motion = LinearMotion { u0, v0: 3.0 * v0, w0: 3.0 * w0, j0: 5.0 * j0, k };
-            let stretch = one(&motion, h);
-            let (stays_inside, passage) = uplift(phase, h, &stretch);
+            let segment = one(&motion, h);
+            let (stays_inside, crossing) = uplift(phase, h, &segment);
             let beyond = |u: f64| (u.abs() > BOUNDARY).then(|| BOUNDARY.copysign(u));
             let first = first_crossing(&motion, h, beyond);
             if stays_inside {
                 let highest = Nodes::new(&motion, h).map(|node| node.u.abs()).fold(0.0, f64::max);
                 prop_assert!(highest <= BOUNDARY + 1e-14, "{highest}");
-            } else if let Some(passage) = passage {
-                // a way out and back that rounding decides may be seen by one of them only
-                let Some(first) = first else { prop_assert!(passage.v.abs() < 1e-6); return Ok(()) };
-                prop_assert_eq!(passage.level, first.level);
-                prop_assert!((passage.v - first.v).abs() < 1e-9 * (1.0 + 1.0 / first.v.abs()), "{passage:?} {first:?}");
-                prop_assert!((passage.tau - first.tau).abs() * first.v.abs() < 1e-13, "{passage:?} {first:?}");
+            } else if let Some(crossing) = crossing {
+                // a way out and back that rounding decides may be found by one of them only
+                let Some(first) = first else { prop_assert!(crossing.v.abs() < 1e-6); return Ok(()) };
+                prop_assert_eq!(crossing.level, first.level);
+                let allowed = 1e-9 * (1.0 + 1.0 / first.v.abs());
+                prop_assert!((crossing.v - first.v).abs() < allowed, "{crossing:?} {first:?}");
+                prop_assert!((crossing.tau - first.tau).abs() * first.v.abs() < 1e-13, "{crossing:?} {first:?}");
             }
         }
 
         #[test]
-        fn landings_are_the_first_crossings(
-            above in prop_oneof![Just(0.0), 0.0_f64..0.5], below in 0.0_f64..0.5, w0 in -5.0_f64..1.0, j0 in -5.0_f64..5.0,
+        fn impacts_are_the_first_crossings(
+            above in prop_oneof![Just(0.0), 0.0_f64..0.5], below in 0.0_f64..0.5, w0 in -5.0_f64..1.0,
+            j0 in -5.0_f64..5.0,
         ) {
             let h = 0.7;
             let above = if above == 0.0 && (below / h + h * (0.5 * w0 + h * j0 / 6.0)) > 0.0 { below } else { above };
             let v0 = -(above + below) / h - h * (0.5 * w0 + h * j0 / 6.0);
             let motion = LinearMotion { u0: BOUNDARY + above, v0, w0, j0, k: 0.0 };
-            let stretch = one(&motion, h);
-            let (found, tops) = stretch.landings(BOUNDARY);
-            if let Some(passage) = found.passage(0) {
-                let highest = Nodes::new(&motion, passage.tau).map(|node| node.u).fold(motion.u0, f64::max);
+            let segment = one(&motion, h);
+            let (found, tops) = segment.impacts(BOUNDARY);
+            if let Some(crossing) = found.crossing(0) {
+                let highest = Nodes::new(&motion, crossing.tau).map(|node| node.u).fold(motion.u0, f64::max);
                 prop_assert!((tops[0] - highest).abs() < 1e-14, "{} {highest}", tops[0]);
                 let from = Nodes::new(&motion, h).take_while(|node| node.u >= BOUNDARY).last();
                 let from = from.unwrap_or(Node { tau: 0.0, u: motion.u0 });
-                let to = Node { tau: h, u: stretch.u1[0] };
-                let tau = crossing(&motion, from, to, BOUNDARY);
-                prop_assert!((passage.tau - tau).abs() * passage.v.abs() < 1e-13, "{passage:?} {tau}");
-                prop_assert!((passage.v - motion.state(tau).1).abs() < 1e-9 * (1.0 + 1.0 / passage.v.abs()));
+                let to = Node { tau: h, u: segment.u1[0] };
+                let tau = crossing_time(&motion, from, to, BOUNDARY);
+                prop_assert!((crossing.tau - tau).abs() * crossing.v.abs() < 1e-13, "{crossing:?} {tau}");
+                prop_assert!((crossing.v - motion.state(tau).1).abs() < 1e-9 * (1.0 + 1.0 / crossing.v.abs()));
             }
         }
     }
 
-    // Tests of what is found would pass if nothing ever were.
+    // The tests of what is found would pass if nothing were ever found.
     #[test]
     fn most_events_are_found() {
-        let (mut uplifts, mut landings) = (0, 0);
+        let (mut uplifts, mut impacts) = (0, 0);
         for i in 0..1000 {
             let part = |step: f64| (f64::from(i) * step).fract();
             let (v0, ground, slope) = (2.0 * part(0.618), part(0.377) - 0.5, part(0.911) - 0.5);
             let rebound = LinearMotion { u0: -1.0, v0, w0: 1.0 + ground, j0: -v0 + slope, k: 1.0 };
-            let (stays_inside, passage) = uplift(1.0, 1.0, &one(&rebound, 1.0));
-            uplifts += u32::from(stays_inside || passage.is_some());
-            let flight = LinearMotion { u0: 1.0, v0: 0.4 * v0, w0: -2.0 + ground, j0: slope, k: 0.0 };
-            landings += u32::from(one(&flight, 1.0).landings(BOUNDARY).0.passage(0).is_some());
+            let (stays_inside, crossing) = uplift(1.0, 1.0, &one(&rebound, 1.0));
+            uplifts += u32::from(stays_inside || crossing.is_some());
+            let uplifted = LinearMotion { u0: 1.0, v0: 0.4 * v0, w0: -2.0 + ground, j0: slope, k: 0.0 };
+            impacts += u32::from(one(&uplifted, 1.0).impacts(BOUNDARY).0.crossing(0).is_some());
         }
-        assert!(uplifts > 900 && landings > 900, "{uplifts} {landings}");
+        assert!(uplifts > 900 && impacts > 900, "{uplifts} {impacts}");
     }
 }

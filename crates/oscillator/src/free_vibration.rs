@@ -1,8 +1,8 @@
 //! The first peak after the record, in closed form.
 //!
-//! With the ground at rest the energy on a branch is constant and each impact takes a share, so the first peak of `abs(u)` is the
-//! largest of the whole free motion. On a branch with restoring force `r` (now, per mass) and stiffness `k`, a system that
-//! moves outward at speed `v` stops after the distance `d` with `r d + k d²/2 = v²/2`.
+//! With the ground at rest the energy on a branch is constant and each impact takes a share, so the first peak of
+//! `abs(u)` is the largest of the whole free motion. On a branch with restoring force `r` (now, per mass) and stiffness
+//! `k`, a system that moves outward at speed `v` stops after the distance `d` with `r d + k d²/2 = v²/2`.
 
 use crate::branch::Branch;
 
@@ -116,8 +116,8 @@ fn uplift(uplifted: &Branch, boundary_m: f64, speed: f64, elapsed: f64) -> FreeP
     }
 }
 
-/// Distance (m) and time (s) until a system that moves outward at `v` against the force `r` of a branch of stiffness `k` stops;
-/// `None` if it never does.
+/// Distance (m) and time (s) until a system that moves outward at `v` against the force `r` of a branch of stiffness
+/// `k` stops; `None` if it never does.
 fn stop(k: f64, r: f64, v: f64) -> Option<(f64, f64)> {
     if v == 0.0 {
         return Some((0.0, 0.0));

@@ -1,7 +1,8 @@
 //! A record prepared for many runs: its integrals.
 //!
-//! A system without post-uplift stiffness flies, relative to the ground, on a parabola minus the scaled ground displacement. With the
-//! integrals of the record at hand its state at any sample is known from the start of the flight alone.
+//! While uplifted, a system without post-uplift stiffness moves, relative to the ground, on a parabola
+//! minus the scaled ground displacement. With the integrals of the record its state at any sample follows
+//! from the state at uplift alone.
 
 use crate::ahead::padded;
 use crate::excitation::Excitation;
@@ -10,8 +11,8 @@ use crate::excitation::Excitation;
 #[derive(Debug, Clone)]
 pub struct GroundMotion<'a> {
     pub(crate) excitation: Excitation<'a>,
-    /// Ground acceleration, velocity and displacement at the samples, the latter from rest; m/s², m/s and m. The samples of acceleration
-    /// and displacement are followed by padding.
+    /// Ground acceleration, velocity and displacement at the samples, the latter from rest; m/s², m/s and m. The
+    /// samples of acceleration and displacement are followed by padding.
     pub(crate) acceleration_m_s2: Vec<f64>,
     pub(crate) velocity_m_s: Vec<f64>,
     pub(crate) displacement_m: Vec<f64>,

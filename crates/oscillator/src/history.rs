@@ -11,7 +11,7 @@ pub struct Sample {
     pub velocity_m_s: f64,
 }
 
-/// What happens when the displacement passes `±u_up`.
+/// What happens when the displacement crosses `±u_up`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EventKind {
     /// `abs(u)` rises above the uplift displacement; free of loss.
@@ -44,7 +44,7 @@ pub struct History {
     pub events: Vec<Event>,
 }
 
-/// Someone who watches a run; `()` watches nothing and costs nothing.
+/// Receives the samples and events of a run; `()` ignores them at no cost.
 pub(crate) trait Observer {
     fn sample(&mut self, sample: Sample);
     fn event(&mut self, event: Event);

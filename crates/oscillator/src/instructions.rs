@@ -1,11 +1,11 @@
 //! The same runs, compiled for more of the processor's instructions.
 //!
-//! Longer vectors, operations with three operands and more registers save a tenth of the time on real records. The arithmetic is the same, operation by
-//! operation, and so are the bits: nothing is fused.
+//! Longer vectors, operations with three operands and more registers save a tenth of the time on real records. The
+//! arithmetic is the same, operation by operation, and so are the bits: nothing is fused.
 
 #![allow(unsafe_code)]
 
-use crate::side_by_side::{self, Waiting};
+use crate::side_by_side::{self, PendingRun};
 use crate::sweep::{Peak, Sweep};
 
 /// What this processor is known to have: only [`best`](Self::best) says so.
@@ -41,39 +41,42 @@ impl Instructions {
     }
 }
 
-/// Follow all of `waiting` to their ends; see [`follow`](side_by_side::follow).
-///
+/// Follow all of `pending` to their ends; see [`follow`](side_by_side::follow).
 #[inline]
-pub(crate) fn follow<const RUNS: usize, const STIFF: bool>(
+pub(crate) fn follow<const RUNS: usize, const STIFFNESS: bool>(
     instructions: Instructions,
     sweep: &Sweep<'_>,
-    waiting: &[Waiting],
+    pending: &[PendingRun],
     peaks: &mut [Peak],
 ) {
     match instructions.0 {
-        Set::Any => side_by_side::follow::<RUNS, STIFF>(sweep, waiting, peaks),
+        Set::Any => side_by_side::follow::<RUNS, STIFFNESS>(sweep, pending, peaks),
         // SAFETY: the processor has what the functions are compiled for, since no other value is made.
         #[cfg(target_arch = "x86_64")]
-        Set::Avx2 => unsafe { follow_with_avx2::<RUNS, STIFF>(sweep, waiting, peaks) },
+        Set::Avx2 => unsafe { follow_with_avx2::<RUNS, STIFFNESS>(sweep, pending, peaks) },
         #[cfg(target_arch = "x86_64")]
-        Set::Avx512 => unsafe { follow_with_avx512::<RUNS, STIFF>(sweep, waiting, peaks) },
+        Set::Avx512 => unsafe { follow_with_avx512::<RUNS, STIFFNESS>(sweep, pending, peaks) },
     }
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn follow_with_avx2<const RUNS: usize, const STIFF: bool>(sweep: &Sweep<'_>, waiting: &[Waiting], peaks: &mut [Peak]) {
-    side_by_side::follow::<RUNS, STIFF>(sweep, waiting, peaks);
+fn follow_with_avx2<const RUNS: usize, const STIFFNESS: bool>(
+    sweep: &Sweep<'_>,
+    pending: &[PendingRun],
+    peaks: &mut [Peak],
+) {
+    side_by_side::follow::<RUNS, STIFFNESS>(sweep, pending, peaks);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq")]
-fn follow_with_avx512<const RUNS: usize, const STIFF: bool>(
+fn follow_with_avx512<const RUNS: usize, const STIFFNESS: bool>(
     sweep: &Sweep<'_>,
-    waiting: &[Waiting],
+    pending: &[PendingRun],
     peaks: &mut [Peak],
 ) {
-    side_by_side::follow::<RUNS, STIFF>(sweep, waiting, peaks);
+    side_by_side::follow::<RUNS, STIFFNESS>(sweep, pending, peaks);
 }
 
 #[cfg(test)]
@@ -95,7 +98,7 @@ mod tests {
 
     // Impacts multiply any difference: one operation done otherwise would show.
     #[test]
-    fn the_bits_are_the_same_on_any_processor_and_in_any_company() {
+    fn the_bits_are_the_same_on_any_processor_and_beside_any_other_runs() {
         let scales = [0.6, 1.0, 1.3, 1.7, 2.0, 2.5, 3.0, 4.0, 5.0, 8.0, 10.0];
         let mut impacts = 0;
         for seed in 0..6 {
@@ -119,12 +122,12 @@ mod tests {
                     let few = sweep.peaks(&[2.2, *scale, 0.9])[1];
                     let mut others = vec![sweep.peak(*scale), few];
                     if let Some(interval) = sweep.elastic.first_interval_above(sweep.boundary_m / scale) {
-                        let waiting = [Waiting { index: 0, scale: *scale, interval }];
+                        let pending = [PendingRun { index: 0, scale: *scale, interval }];
                         for instructions in available() {
                             let mut peak = [Peak { displacement_m: f64::NAN, impacts: 0 }];
                             match post_uplift {
-                                PostUplift::Zero => follow::<8, false>(instructions, &sweep, &waiting, &mut peak),
-                                _ => follow::<8, true>(instructions, &sweep, &waiting, &mut peak),
+                                PostUplift::Zero => follow::<8, false>(instructions, &sweep, &pending, &mut peak),
+                                _ => follow::<8, true>(instructions, &sweep, &pending, &mut peak),
                             }
                             others.extend(peak);
                         }

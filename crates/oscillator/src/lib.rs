@@ -1,12 +1,13 @@
 //! Exact piecewise-linear oscillators that uplift: the zero-stiffness bilinear elastic system (ZSBE), the
 //! negative-stiffness one (NSBE) and systems with a positive post-uplift stiffness.
 //!
-//! The equation of motion, normalised by the mass, is `ü + r(u) = −a_g(t)` (Eq. 3.1–3.3, 4.1–4.3 of Reggiani Manzo's
-//! dissertation), from rest, with the ground acceleration `a_g` linear between its samples. Every branch of `r` is linear, so inside a
-//! sample interval the motion is known in closed form and there is no time-step error. The one nonlinearity is the
-//! event: uplift (free of loss) and impact, where the velocity is multiplied by the coefficient of restitution.
+//! The equation of motion, normalised by the mass, is `ü + r(u) = −a_g(t)` (Eq. 3.1–3.3, 4.1–4.3 of Reggiani
+//! Manzo's dissertation), from rest, with the ground acceleration `a_g` linear between its samples. Every branch of
+//! `r` is linear, so inside a sample interval the motion is known in closed form and there is no time-step error.
+//! The one nonlinearity is the event: uplift (free of loss) and impact, where the velocity is multiplied by the
+//! coefficient of restitution.
 //!
-//! | room | what is in it |
+//! | module | what is in it |
 //! |---|---|
 //! | [`oscillator`] | parameters of a system, checked once |
 //! | [`excitation`] | a ground acceleration history and its scale |
@@ -28,28 +29,28 @@
 mod ahead;
 mod attached;
 pub mod branch;
+mod crossings;
 mod elastic;
 mod error;
 mod events;
 pub mod excitation;
-mod flight;
 pub mod free_vibration;
 pub mod ground_motion;
 pub mod history;
 mod instructions;
 pub mod nodes;
+mod nonzero_stiffness;
 pub mod oscillator;
 mod particular;
-mod passages;
 pub mod problems;
 pub mod reference;
 pub mod response;
 mod run;
 mod side_by_side;
-mod stiff;
 pub mod stumpff;
 pub mod sweep;
 mod uplifted;
+mod zero_stiffness;
 
 pub use error::OscillatorError;
 pub use excitation::Excitation;

@@ -1,9 +1,10 @@
 //! The instants between which a motion is monotone.
 //!
-//! Inside a sample interval there may be two or more crossings, a grazing one, or a peak. Searching for roots by sampling misses
-//! them; here the motion is cut where it turns. The acceleration of a [`LinearMotion`] is a single sine, line or hyperbolic
-//! function, whose zeros are known in closed form; between two of them the velocity is monotone and has at most one zero;
-//! between two of those the displacement is monotone and crosses a level at most once.
+//! Inside a sample interval there may be two or more crossings, a grazing one, or a peak. Searching for roots
+//! by sampling misses them; here the motion is divided where it turns. The acceleration of a [`LinearMotion`]
+//! is a single sine, line or hyperbolic function, whose zeros are known in closed form; between two of them
+//! the velocity is monotone and has at most one zero; between two of those the displacement is monotone and
+//! crosses a level at most once.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -25,7 +26,8 @@ impl AccelerationZeros {
             if m.w0 == 0.0 && m.j0 == 0.0 {
                 (f64::INFINITY, f64::INFINITY)
             } else {
-                // w = R cos(ωτ − φ); of ±w the positive one, so that a motion and its mirror image turn at the same bit
+                // w = R cos(ωτ − φ); of ±w the positive one, so that a motion and its mirror image turn
+                // at the same time to the bit
                 let turned = 1.0_f64.copysign(m.w0);
                 let phase = (turned * m.j0 / omega).atan2(m.w0.abs());
                 ((phase + FRAC_PI_2).rem_euclid(PI) / omega, PI / omega)
@@ -70,16 +72,16 @@ pub struct Node {
     pub u: f64,
 }
 
-/// The nodes of a motion over `(0, h]`, ascending, the last one at `h`: between neighbours (and between 0 and the first) the
-/// displacement is monotone.
+/// The nodes of a motion over `(0, h]`, ascending, the last one at `h`: between neighbours (and between 0 and the
+/// first) the displacement is monotone.
 #[derive(Debug, Clone)]
 pub struct Nodes<'a> {
     motion: &'a LinearMotion,
     zeros: AccelerationZeros,
     h: f64,
-    /// Time and velocity at the end of the piece scanned last.
+    /// Time and velocity at the end of the part scanned last.
     at: (f64, f64),
-    /// End of the current piece, waiting behind a turning point.
+    /// End of the current part, to be returned after a turning point.
     pending: Option<f64>,
     done: bool,
 }
@@ -122,19 +124,19 @@ impl Iterator for Nodes<'_> {
     }
 }
 
-/// The first time in `(from, to]` at which a displacement that is monotone there equals `level`, the ends being on either
-/// side of it (or on it).
+/// The first time in `(from, to]` at which a displacement that is monotone there equals `level`, the ends being on
+/// either side of it (or on it).
 ///
 /// * `from`, `to` — time (s) and displacement (m) of the ends
-pub fn crossing(motion: &LinearMotion, from: Node, to: Node, level: f64) -> f64 {
+pub fn crossing_time(motion: &LinearMotion, from: Node, to: Node, level: f64) -> f64 {
     monotone_root((from.tau, from.u - level), (to.tau, to.u - level), |tau| {
         let (u, v) = motion.state(tau);
         (u - level, v)
     })
 }
 
-/// Root of a function that is monotone between `a` and `b` (time, value), where its values differ in sign: Newton's method kept
-/// inside a shrinking bracket, bisection where Newton leaves it or stalls (a double root).
+/// Root of a function that is monotone between `a` and `b` (time, value), where its values differ in sign: Newton's
+/// method kept inside a shrinking bracket, bisection where Newton leaves it or stalls (a double root).
 ///
 /// `f` returns value and slope.
 pub(crate) fn monotone_root(mut a: (f64, f64), mut b: (f64, f64), f: impl Fn(f64) -> (f64, f64)) -> f64 {
@@ -168,7 +170,8 @@ pub(crate) fn monotone_root(mut a: (f64, f64), mut b: (f64, f64), f: impl Fn(f64
         if (newton - x).abs() <= f64::EPSILON * x.abs() {
             return newton.clamp(a.0, b.0);
         }
-        // Newton converges from one side, so the bracket need not shrink on the other; only a slow step calls for bisection
+        // Newton converges from one side, so the bracket need not shrink on the other; only a slow
+        // step calls for bisection
         let step = (newton - x).abs();
         x = if step < 0.5 * width_before { newton } else { a.0 + 0.5 * (b.0 - a.0) };
         width_before = step.max(f64::EPSILON * x.abs());
@@ -180,7 +183,8 @@ pub(crate) fn monotone_root(mut a: (f64, f64), mut b: (f64, f64), f: impl Fn(f64
 mod tests {
     use super::*;
 
-    // u = cos(ωτ), ω = 140 rad/s: three turning points inside 0.08 s, at multiples of π/ω, and the crossings of ±1/2 between them.
+    // u = cos(ωτ), ω = 140 rad/s: three turning points inside 0.08 s, at multiples of π/ω, and the
+    // crossings of ±1/2 between them.
     #[test]
     fn stiff_oscillation_turns_several_times_in_one_interval() {
         let omega = 140.0_f64;
@@ -191,7 +195,7 @@ mod tests {
         for (found, exact) in turning.iter().zip([1.0, 2.0, 3.0]) {
             assert!((found - exact).abs() < 1e-14);
         }
-        let tau = crossing(&motion, Node { tau: 0.0, u: 1.0 }, nodes[1], 0.5);
+        let tau = crossing_time(&motion, Node { tau: 0.0, u: 1.0 }, nodes[1], 0.5);
         assert!((tau - PI / 3.0 / omega).abs() < 1e-17);
     }
 
@@ -201,7 +205,7 @@ mod tests {
         let motion = LinearMotion { u0: -1.0 / 6.0, v0: 0.5, w0: -1.0, j0: 1.0, k: 0.0 };
         let nodes: Vec<Node> = Nodes::new(&motion, 3.0).collect();
         assert!(nodes.windows(2).all(|pair| pair[0].u <= pair[1].u));
-        let tau = crossing(&motion, nodes[0], nodes[1], 4.0 / 3.0 / 6.0);
+        let tau = crossing_time(&motion, nodes[0], nodes[1], 4.0 / 3.0 / 6.0);
         assert!((tau - (1.0 + (4.0_f64 / 3.0).cbrt())).abs() < 1e-14);
     }
 

@@ -32,8 +32,9 @@ pub enum PostUplift {
 /// | uplifted, NSBE | `sgn(u) η g (u_cap − abs(u))/(u_cap − u_up)` |
 /// | uplifted, positive stiffness | `sgn(u) (η g + k (abs(u) − u_up))` |
 ///
-/// When `abs(u)` comes down to `u_up` the velocity is multiplied by the coefficient of restitution (Eq. 4.3). Strength zero
-/// without post-uplift stiffness is a free mass: no force, no uplift, no impact, so its peak is the peak ground displacement.
+/// When `abs(u)` comes down to `u_up` the velocity is multiplied by the coefficient of restitution (Eq. 4.3).
+/// Strength zero without post-uplift stiffness is a free mass: no force, no uplift, no impact, so its peak is
+/// the peak ground displacement.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Oscillator {
     strength: f64,
@@ -54,7 +55,8 @@ fn require(
 }
 
 impl Oscillator {
-    /// A ZSBE oscillator of strength `η = f_up/(m g)` with the dissertation's `u_up = 0.5 mm`, `r_c = 0.95` and standard gravity.
+    /// A ZSBE oscillator of strength `η = f_up/(m g)` with the dissertation's `u_up = 0.5 mm`,
+    /// `r_c = 0.95` and standard gravity.
     ///
     /// # Errors
     /// The strength must be finite and not negative.

@@ -1,7 +1,8 @@
 //! The response of one branch from rest: any motion on the branch is this one times the scale plus a free motion.
 //!
-//! It is told anew every few samples, again from rest: over a whole record it would grow beyond all bounds where the stiffness is negative, and be large
-//! beside the motions it is to tell elsewhere, which would cost digits. Where it grows too fast even so, there is none.
+//! It starts again from rest every few samples: over a whole record it would grow beyond all bounds where the stiffness
+//! is negative, and be large beside the motions it is a part of elsewhere, which would cost digits. Where it grows too
+//! fast even so, it is not used.
 
 use crate::ahead::{AHEAD, larger};
 use crate::ground_motion::GroundMotion;
@@ -10,10 +11,10 @@ use crate::stumpff::Stumpff;
 /// Samples after which the response begins again from rest, at most and at least: powers of two.
 const LONGEST: usize = 64;
 const SHORTEST: usize = 16;
-/// Largest growth over what is told from one state of rest, as the exponent of e: a digit and a half.
+/// Largest growth after one state of rest, as the exponent of e: a digit and a half.
 const GROWTH: f64 = 3.0;
 
-/// Displacement and velocity at the samples of every block, and as many after it as are looked at together.
+/// Displacement and velocity at the samples of every block, and as many after it as are evaluated together.
 #[derive(Debug, Clone)]
 pub(crate) struct ParticularResponse {
     /// Samples of a block, as the power of two.
@@ -27,9 +28,9 @@ impl ParticularResponse {
     pub(crate) fn new(k: f64, ground: &GroundMotion<'_>) -> Option<Self> {
         let dt_s = ground.excitation.dt_s();
         let growth_a_sample = (-k).max(0.0).sqrt() * dt_s;
-        let serves = |block: usize| growth_a_sample * (block + AHEAD) as f64 <= GROWTH;
+        let suits = |block: usize| growth_a_sample * (block + AHEAD) as f64 <= GROWTH;
         let mut block = LONGEST;
-        while !serves(block) {
+        while !suits(block) {
             block /= 2;
             if block < SHORTEST {
                 return None;
@@ -56,7 +57,7 @@ impl ParticularResponse {
         self.displacement_m.iter().fold(0.0, |largest, u| larger(u.abs(), largest))
     }
 
-    /// Displacements (m) and velocities (m/s) at the sample `j` and those ahead of it, told from the same state of rest.
+    /// Displacements (m) and velocities (m/s) at the sample `j` and those ahead of it, from the same state of rest.
     #[inline(always)]
     pub(crate) fn from(&self, j: usize) -> (&[f64], &[f64]) {
         let index = j + (j >> self.block) * AHEAD;
@@ -64,7 +65,7 @@ impl ParticularResponse {
     }
 }
 
-/// From sample to sample on a branch: the state turns, and the ground adds to it,
+/// From sample to sample on a branch: the free motion, and what the ground adds to it,
 /// `u' = c0 u + h c1 v + …`, `v' = −k h c1 u + c0 v + …`.
 pub(crate) struct Step {
     k: f64,

@@ -2,7 +2,8 @@
 
 use std::f64::consts::PI;
 
-/// Two samples of the same acceleration (m/s²), the sampling interval being the duration: a constant push that ends with a jump.
+/// Two samples of the same acceleration (m/s²), the sampling interval being the duration: a constant
+/// push that ends with a jump.
 ///
 /// Pushing a ZSBE system with `a_g = −A` moves it by `u(T)` until the push ends; by energy its free peak is then
 /// `u_up/2 + (A/(η g)) u(T)`.
@@ -10,7 +11,8 @@ pub fn constant_push(acceleration_m_s2: f64) -> [f64; 2] {
     [acceleration_m_s2; 2]
 }
 
-/// The symmetric Ricker pulse (Eq. 2.7), `a_g(t) = a_p (1 − s²) exp(−s²/2)`, `s = √2 π (t − t_c)/T_p`, sampled over `0 … 2 t_c`.
+/// The symmetric Ricker pulse (Eq. 2.7), `a_g(t) = a_p (1 − s²) exp(−s²/2)`, `s = √2 π (t − t_c)/T_p`, sampled over
+/// `0 … 2 t_c`.
 ///
 /// * `amplitude_m_s2` — `a_p`, m/s²
 /// * `period_s` — `T_p`, s
@@ -26,8 +28,8 @@ pub fn symmetric_ricker_pulse(amplitude_m_s2: f64, period_s: f64, dt_s: f64, sam
         .collect()
 }
 
-/// Broad-band noise of bounded amplitude (m/s²) from a fixed multiplicative congruential generator, shaped by a half sine in time: an
-/// event-rich excitation that is the same on every machine.
+/// Broad-band noise of bounded amplitude (m/s²) from a fixed multiplicative congruential generator, shaped by a half
+/// sine in time: an event-rich excitation that is the same on every machine.
 pub fn shaped_noise(amplitude_m_s2: f64, samples: usize, seed: u64) -> Vec<f64> {
     let mut state = seed.wrapping_mul(2).wrapping_add(1);
     (0..samples)

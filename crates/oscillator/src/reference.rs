@@ -1,14 +1,15 @@
 //! The readable solver: interval by interval, event by event.
 //!
-//! In each sample interval the motion on the current branch is advanced in one step. A bound on its curvature shows at once that most
-//! intervals hold neither an event nor a new peak; the others are cut at their [nodes](crate::nodes) and searched
-//! piece by piece. At an event the state is put on the boundary exactly, the branch changes and the rest of the interval follows.
+//! In each sample interval the motion on the current branch is advanced in one step. A bound on its curvature shows at
+//! once that most intervals hold neither an event nor a new peak; the others are divided at their
+//! [nodes](crate::nodes) and searched part by part. At an event the state is put on the boundary exactly, the branch
+//! changes and the rest of the interval follows.
 
 use crate::branch::{Branch, LinearMotion};
 use crate::excitation::Excitation;
 use crate::free_vibration::{self, FreePeak};
 use crate::history::{Event, EventKind, History, Observer, Sample};
-use crate::nodes::{Node, Nodes, crossing};
+use crate::nodes::{Node, Nodes, crossing_time};
 use crate::oscillator::Oscillator;
 use crate::response::{FreeVibration, Response};
 use crate::stumpff::Stumpff;
@@ -30,7 +31,7 @@ pub fn respond_with_history(
     Run::new(oscillator, excitation.dt_s(), History::default()).follow(excitation, free_vibration)
 }
 
-/// A linear piece of the ground acceleration: `duration_s` long, from `from_m_s2` with the given slope.
+/// A linear segment of the ground acceleration: `duration_s` long, from `from_m_s2` with the given slope.
 #[derive(Debug, Clone, Copy)]
 struct Ground {
     duration_s: f64,
@@ -45,8 +46,8 @@ struct State {
     side: f64,
     u: f64,
     v: f64,
-    /// Restoring force per mass. Carried so that it is `± η g` to the bit on both sides of an event: were it computed from either
-    /// branch, the two could differ in the last digit and send the state to and fro.
+    /// Restoring force per mass. Carried so that it is `± η g` to the bit on both sides of an event: were it computed
+    /// from either branch, the two could differ in the last digit and send the state to and fro.
     restoring: f64,
 }
 
@@ -105,7 +106,7 @@ impl<O: Observer> Run<O> {
             self.interval(Ground { duration_s: self.dt_s, from_m_s2: from, slope_m_s3: (to - from) / self.dt_s });
             self.time_s = (i + 1) as f64 * self.dt_s;
             self.observe();
-            if self.has_left() {
+            if self.has_overturned() {
                 return self.finish();
             }
         }
@@ -123,7 +124,7 @@ impl<O: Observer> Run<O> {
         let mut i = 0_u32;
         loop {
             let elapsed_s = f64::from(i) * self.dt_s;
-            // written so that NaN ends the loop; what is left of a rounding error is no interval
+            // written so that NaN ends the loop; what is left of a rounding error is not an interval
             if !(seconds - elapsed_s > 1e-9 * self.dt_s) {
                 return;
             }
@@ -183,7 +184,7 @@ impl<O: Observer> Run<O> {
 
     /// During shaking: so far beyond the capacity that no ground motion brings the system back. Also ends a run
     /// whose numbers overflow, which only an unstable branch can do.
-    fn has_left(&mut self) -> bool {
+    fn has_overturned(&mut self) -> bool {
         if self.capacity_m.is_finite() && !(self.state.u.abs() <= OVERTURNED_CAPACITIES * self.capacity_m) {
             self.overturned = true;
         }
@@ -195,7 +196,7 @@ impl<O: Observer> Run<O> {
         free_vibration::cannot_return(&self.uplifted, (self.state.side, self.state.u, self.state.v))
     }
 
-    /// Advance by one piece of ground acceleration.
+    /// Advance by one segment of ground acceleration.
     fn interval(&mut self, ground: Ground) {
         let mut elapsed = 0.0;
         loop {
@@ -219,7 +220,7 @@ impl<O: Observer> Run<O> {
             let restoring1 = branch.restoring(side, u1);
             let w1 = -restoring1 - (ground.from_m_s2 + ground.slope_m_s3 * ground.duration_s);
 
-            // abs(u − chord) ≤ h²/8 max abs(ü): enough to see that nothing happens in most intervals
+            // abs(u − chord) ≤ h²/8 max abs(ü): enough to show that nothing happens in most intervals
             let sag = 0.125 * rest * rest * motion.acceleration_bound(rest, w1);
             let highest = u.abs().max(u1.abs()) + sag;
             let quiet =
@@ -230,7 +231,7 @@ impl<O: Observer> Run<O> {
                 self.state = State { side, u: u1, v: v1, restoring: restoring1 };
                 return;
             };
-            self.pass_boundary(&motion, tau, self.time_s + elapsed + tau);
+            self.cross_boundary(&motion, tau, self.time_s + elapsed + tau);
             elapsed += tau;
             if elapsed >= ground.duration_s {
                 return;
@@ -238,7 +239,8 @@ impl<O: Observer> Run<O> {
         }
     }
 
-    /// Raise the peak over the monotone pieces of `motion` up to its first event within `h` seconds, and return the time of that.
+    /// Raise the peak over the monotone parts of `motion` up to its first event within `h` seconds, and return the time
+    /// of that.
     fn search(&mut self, motion: &LinearMotion, h: f64, elapsed: f64) -> Option<f64> {
         let side = self.state.side;
         let mut from = Node { tau: 0.0, u: motion.u0 };
@@ -251,7 +253,7 @@ impl<O: Observer> Run<O> {
                 (side * to.u < self.boundary_m).then_some(side * self.boundary_m)
             };
             if let Some(level) = level {
-                let tau = crossing(motion, from, to, level);
+                let tau = crossing_time(motion, from, to, level);
                 self.raise_peak(level, self.time_s + elapsed + tau);
                 return Some(tau);
             }
@@ -269,7 +271,7 @@ impl<O: Observer> Run<O> {
     }
 
     /// Put the state on the boundary `tau` seconds into `motion` and change the branch.
-    fn pass_boundary(&mut self, motion: &LinearMotion, tau: f64, time_s: f64) {
+    fn cross_boundary(&mut self, motion: &LinearMotion, tau: f64, time_s: f64) {
         let (u, v) = motion.state(tau);
         let leaving = self.state.side == 0.0;
         let side = if leaving { 1.0_f64.copysign(u) } else { self.state.side };

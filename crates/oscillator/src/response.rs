@@ -5,7 +5,8 @@
 pub enum FreeVibration {
     /// The run ends with the record.
     None,
-    /// The first peak of the free motion counts, in closed form: no later one is larger, since impacts only take energy.
+    /// The first peak of the free motion counts, in closed form: no later one is larger, since
+    /// impacts only take energy.
     #[default]
     FirstPeak,
     /// The motion is followed for this many seconds more.

@@ -1,14 +1,14 @@
 //! One run of the fast solver: from phase to phase, over one record at one scale.
 
 use crate::branch::LinearMotion;
+use crate::crossings::{Crossing, State};
 use crate::free_vibration::{FreePeak, first_peak};
-use crate::passages::{Passage, State};
 use crate::stumpff::Stumpff;
 use crate::sweep::{Peak, Sweep};
 
 /// A state inside a sample interval.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct At {
+pub(crate) struct IntervalState {
     pub(crate) interval: usize,
     /// Time since the start of the interval, s; below the sampling interval.
     pub(crate) offset_s: f64,
@@ -21,8 +21,8 @@ pub(crate) struct At {
 /// Where a run stands between events.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Phase {
-    Attached(At),
-    Uplifted(f64, At),
+    Attached(IntervalState),
+    Uplifted(f64, IntervalState),
     Overturned,
     /// The record has ended on this side, with this displacement and velocity.
     RecordEnd(f64, f64, f64),
@@ -36,8 +36,8 @@ impl Phase {
 
 /// The motion over a sample interval, or the rest of one.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Stretch {
-    pub(crate) at: At,
+pub(crate) struct Segment {
+    pub(crate) at: IntervalState,
     pub(crate) motion: LinearMotion,
     /// Duration, s.
     pub(crate) h: f64,
@@ -46,25 +46,31 @@ pub(crate) struct Stretch {
 
 /// One run, its peak and impacts so far.
 ///
-/// * `STIFF` — whether there is a post-uplift stiffness
+/// * `STIFFNESS` — whether there is a post-uplift stiffness
 #[derive(Debug)]
-pub(crate) struct Run<'a, const STIFF: bool> {
+pub(crate) struct Run<'a, const STIFFNESS: bool> {
     pub(crate) sweep: &'a Sweep<'a>,
     pub(crate) scale: f64,
     pub(crate) peak_m: f64,
     impacts: u32,
 }
 
-impl<'a, const STIFF: bool> Run<'a, STIFF> {
+impl<'a, const STIFFNESS: bool> Run<'a, STIFFNESS> {
     pub(crate) fn new(sweep: &'a Sweep<'a>, scale: f64) -> Self {
         Self { sweep, scale, peak_m: sweep.boundary_m, impacts: 0 }
     }
 
-    /// The phase at the start of the `interval` of the first uplift.
+    /// The phase at the start of `interval`, that of the first uplift.
     pub(crate) fn start(&self, interval: usize) -> Phase {
         let u = self.scale * self.sweep.elastic.displacement_m[interval];
         let v = self.scale * self.sweep.elastic.velocity_m_s[interval];
-        Phase::Attached(At { interval, offset_s: 0.0, u, v, force: self.sweep.attached.stiffness_per_s2 * u })
+        Phase::Attached(IntervalState {
+            interval,
+            offset_s: 0.0,
+            u,
+            v,
+            force: self.sweep.attached.stiffness_per_s2 * u,
+        })
     }
 
     /// From phase to phase to the end of the run.
@@ -100,14 +106,14 @@ impl<'a, const STIFF: bool> Run<'a, STIFF> {
 
     /// The motion from `at` on a branch of stiffness `k`.
     #[inline(always)]
-    pub(crate) fn motion(&self, at: &At, k: f64) -> LinearMotion {
+    pub(crate) fn motion(&self, at: &IntervalState, k: f64) -> LinearMotion {
         let (from, slope) = self.ground(at.interval);
         LinearMotion { u0: at.u, v0: at.v, w0: -at.force - (from + slope * at.offset_s), j0: -slope - k * at.v, k }
     }
 
     /// The state of `motion` at the end of the interval of `at`.
     #[inline(always)]
-    pub(crate) fn end_of_interval(&self, motion: &LinearMotion, at: &At, whole: &Stumpff) -> (f64, f64) {
+    pub(crate) fn end_of_interval(&self, motion: &LinearMotion, at: &IntervalState, whole: &Stumpff) -> (f64, f64) {
         if at.offset_s == 0.0 {
             motion.state_with(self.sweep.dt_s, whole)
         } else {
@@ -122,13 +128,13 @@ impl<'a, const STIFF: bool> Run<'a, STIFF> {
     }
 
     #[inline(always)]
-    pub(crate) fn uplift(&self, passage: Passage, at: &At) -> Phase {
+    pub(crate) fn uplift(&self, crossing: Crossing, at: &IntervalState) -> Phase {
         let sweep = self.sweep;
-        let side = 1.0_f64.copysign(passage.level);
-        let v = side * (side * passage.v).max(0.0);
-        let displaced = At {
+        let side = 1.0_f64.copysign(crossing.level);
+        let v = side * (side * crossing.v).max(0.0);
+        let displaced = IntervalState {
             interval: at.interval,
-            offset_s: at.offset_s + passage.tau,
+            offset_s: at.offset_s + crossing.tau,
             u: side * sweep.boundary_m,
             v,
             force: side * sweep.at_boundary_m_s2,
@@ -138,19 +144,23 @@ impl<'a, const STIFF: bool> Run<'a, STIFF> {
 
     /// A state at the very end of an interval belongs to the next one.
     #[inline(always)]
-    fn normalised(&self, at: At) -> At {
-        if at.offset_s < self.sweep.dt_s { at } else { At { interval: at.interval + 1, offset_s: 0.0, ..at } }
+    fn normalised(&self, at: IntervalState) -> IntervalState {
+        if at.offset_s < self.sweep.dt_s {
+            at
+        } else {
+            IntervalState { interval: at.interval + 1, offset_s: 0.0, ..at }
+        }
     }
 
     #[inline(always)]
-    pub(crate) fn impact(&mut self, passage: Passage, side: f64, at: &At) -> Phase {
+    pub(crate) fn impact(&mut self, crossing: Crossing, side: f64, at: &IntervalState) -> Phase {
         let sweep = self.sweep;
         self.impacts += 1;
-        Phase::Attached(self.normalised(At {
+        Phase::Attached(self.normalised(IntervalState {
             interval: at.interval,
-            offset_s: at.offset_s + passage.tau,
+            offset_s: at.offset_s + crossing.tau,
             u: side * sweep.boundary_m,
-            v: sweep.restitution * side * (side * passage.v).min(0.0),
+            v: sweep.restitution * side * (side * crossing.v).min(0.0),
             force: side * sweep.at_boundary_m_s2,
         }))
     }

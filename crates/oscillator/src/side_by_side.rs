@@ -1,17 +1,18 @@
-//! Several runs of one oscillator under one record side by side, each at its own time: they go from event to event together.
+//! Several runs of one oscillator under one record side by side, each at its own time: they go from
+//! event to event together.
 //!
-//! All of them are attached, then all of them are uplifted, each wherever it has come to in the record. So an event of one does not hold up the
-//! others, and the [events](crate::events) of all are found together. Each run is computed as if it were alone: its bits do not depend on its
-//! neighbours.
+//! All of them are attached, then all of them are uplifted, each wherever it has come to in the record. So an event of
+//! one does not delay the others, and the [events](crate::events) of all are found together. Each run is computed as
+//! if it were alone: its bits do not depend on the runs beside it.
 
 use crate::ahead::larger;
-use crate::events::{Attached, Stretches};
-use crate::run::{Phase, Run, Stretch};
+use crate::events::{Attached, Segments};
+use crate::run::{Phase, Run, Segment};
 use crate::sweep::{Peak, Sweep};
 
-/// A run that waits for its turn.
+/// A run that is not started yet.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Waiting {
+pub(crate) struct PendingRun {
     /// Where its peak belongs.
     pub(crate) index: usize,
     pub(crate) scale: f64,
@@ -19,53 +20,57 @@ pub(crate) struct Waiting {
     pub(crate) interval: usize,
 }
 
-struct Lane<'a, const STIFF: bool> {
+struct Lane<'a, const STIFFNESS: bool> {
     index: usize,
-    run: Run<'a, STIFF>,
+    run: Run<'a, STIFFNESS>,
     phase: Phase,
 }
 
-/// Follow all of `waiting` to their ends and put their peaks where they belong.
+/// Follow all of `pending` to their ends and put their peaks where they belong.
 ///
 /// * `RUNS` — how many are followed side by side
-/// * `STIFF` — whether there is a post-uplift stiffness
+/// * `STIFFNESS` — whether there is a post-uplift stiffness
 #[inline(always)]
-pub(crate) fn follow<const RUNS: usize, const STIFF: bool>(sweep: &Sweep<'_>, waiting: &[Waiting], peaks: &mut [Peak]) {
+pub(crate) fn follow<const RUNS: usize, const STIFFNESS: bool>(
+    sweep: &Sweep<'_>,
+    pending: &[PendingRun],
+    peaks: &mut [Peak],
+) {
     match sweep.terms {
-        Some(terms) => follow_together::<RUNS, STIFF>(sweep, terms, waiting, peaks),
-        None => follow_alone::<STIFF>(sweep, waiting, peaks),
+        Some(terms) => follow_together::<RUNS, STIFFNESS>(sweep, terms, pending, peaks),
+        None => follow_alone::<STIFFNESS>(sweep, pending, peaks),
     }
 }
 
-/// One by one, where the series do not serve.
+/// One by one, where the series do not suffice.
 #[inline(always)]
-fn follow_alone<const STIFF: bool>(sweep: &Sweep<'_>, waiting: &[Waiting], peaks: &mut [Peak]) {
-    for &Waiting { index, scale, interval } in waiting {
-        let mut run = Run::<STIFF>::new(sweep, scale);
+fn follow_alone<const STIFFNESS: bool>(sweep: &Sweep<'_>, pending: &[PendingRun], peaks: &mut [Peak]) {
+    for &PendingRun { index, scale, interval } in pending {
+        let mut run = Run::<STIFFNESS>::new(sweep, scale);
         let phase = run.follow(run.start(interval));
         peaks[index] = run.peak(phase);
     }
 }
 
 #[inline(always)]
-fn follow_together<const RUNS: usize, const STIFF: bool>(
+fn follow_together<const RUNS: usize, const STIFFNESS: bool>(
     sweep: &Sweep<'_>,
     terms: usize,
-    waiting: &[Waiting],
+    pending: &[PendingRun],
     peaks: &mut [Peak],
 ) {
     let (k, growth, boundary) = (sweep.attached.stiffness_per_s2, sweep.growth, sweep.boundary_m);
     let branch = Attached { k, growth, terms, boundary };
-    let mut waiting = waiting.iter();
-    let mut lanes: [Option<Lane<'_, STIFF>>; RUNS] = [const { None }; RUNS];
+    let mut pending = pending.iter();
+    let mut lanes: [Option<Lane<'_, STIFFNESS>>; RUNS] = [const { None }; RUNS];
     loop {
         for lane in &mut lanes {
             if let Some(Lane { index, run, phase }) = lane.take_if(|lane| lane.phase.is_over()) {
                 peaks[index] = run.peak(phase);
             }
             if lane.is_none() {
-                *lane = waiting.next().map(|next| {
-                    let run = Run::<STIFF>::new(sweep, next.scale);
+                *lane = pending.next().map(|next| {
+                    let run = Run::<STIFFNESS>::new(sweep, next.scale);
                     let phase = run.start(next.interval);
                     Lane { index: next.index, run, phase }
                 });
@@ -81,14 +86,14 @@ fn follow_together<const RUNS: usize, const STIFF: bool>(
 
 /// All attached runs to their next uplift.
 #[inline(always)]
-fn attached<const RUNS: usize, const STIFF: bool>(
+fn attached<const RUNS: usize, const STIFFNESS: bool>(
     sweep: &Sweep<'_>,
     branch: &Attached,
-    lanes: &mut [Option<Lane<'_, STIFF>>; RUNS],
+    lanes: &mut [Option<Lane<'_, STIFFNESS>>; RUNS],
 ) {
     let (n, k) = (sweep.ground.intervals(), branch.k);
     // the rest of the intervals of the impacts
-    let mut motions = Stretches::<RUNS>::IDLE;
+    let mut motions = Segments::<RUNS>::EMPTY;
     for (i, lane) in lanes.iter().enumerate() {
         if let Some(Lane { run, phase: Phase::Attached(at), .. }) = lane
             && at.interval < n
@@ -99,7 +104,7 @@ fn attached<const RUNS: usize, const STIFF: bool>(
     motions.advance(branch);
     let stays_inside = motions.stay_inside(branch);
     // the intervals of the uplifts
-    let mut stretches: [Option<Stretch>; RUNS] = [None; RUNS];
+    let mut segments: [Option<Segment>; RUNS] = [None; RUNS];
     for (i, lane) in lanes.iter_mut().enumerate() {
         let Some(Lane { run, phase, .. }) = lane else { continue };
         let Phase::Attached(at) = *phase else { continue };
@@ -108,22 +113,22 @@ fn attached<const RUNS: usize, const STIFF: bool>(
         } else if stays_inside[i] {
             match run.seek_uplift(at.interval + 1, &motions.end(i)) {
                 Err(over) => *phase = over,
-                Ok(stretch) => {
-                    motions.put(i, &stretch.motion, stretch.h);
-                    motions.put_end(i, &stretch.end);
-                    stretches[i] = Some(stretch);
+                Ok(segment) => {
+                    motions.put(i, &segment.motion, segment.h);
+                    motions.put_end(i, &segment.end);
+                    segments[i] = Some(segment);
                 }
             }
         } else {
-            stretches[i] = Some(Stretch { at, motion: motions.motion(i, k), h: motions.h[i], end: motions.end(i) });
+            segments[i] = Some(Segment { at, motion: motions.motion(i, k), h: motions.h[i], end: motions.end(i) });
         }
     }
     let found = motions.uplifts(branch);
     for (i, lane) in lanes.iter_mut().enumerate() {
-        if let (Some(Lane { run, phase, .. }), Some(stretch)) = (lane, &stretches[i]) {
-            *phase = match found.passage(i) {
-                Some(passage) => run.uplift(passage, &stretch.at),
-                None => run.attached_from(stretch),
+        if let (Some(Lane { run, phase, .. }), Some(segment)) = (lane, &segments[i]) {
+            *phase = match found.crossing(i) {
+                Some(crossing) => run.uplift(crossing, &segment.at),
+                None => run.attached_from(segment),
             };
         }
     }
@@ -131,11 +136,14 @@ fn attached<const RUNS: usize, const STIFF: bool>(
 
 /// All uplifted runs to their next impact.
 #[inline(always)]
-fn uplifted<const RUNS: usize, const STIFF: bool>(sweep: &Sweep<'_>, lanes: &mut [Option<Lane<'_, STIFF>>; RUNS]) {
+fn uplifted<const RUNS: usize, const STIFFNESS: bool>(
+    sweep: &Sweep<'_>,
+    lanes: &mut [Option<Lane<'_, STIFFNESS>>; RUNS],
+) {
     let (n, boundary) = (sweep.ground.intervals(), sweep.boundary_m);
-    // the intervals of the landings, each told on its own side
-    let mut motions = Stretches::<RUNS>::IDLE;
-    let mut stretches: [Option<(f64, Stretch)>; RUNS] = [None; RUNS];
+    // the intervals of the impacts, each in the coordinates of its side
+    let mut motions = Segments::<RUNS>::EMPTY;
+    let mut segments: [Option<(f64, Segment)>; RUNS] = [None; RUNS];
     for (i, lane) in lanes.iter_mut().enumerate() {
         let Some(Lane { run, phase, .. }) = lane else { continue };
         let Phase::Uplifted(side, at) = *phase else { continue };
@@ -143,32 +151,32 @@ fn uplifted<const RUNS: usize, const STIFF: bool>(sweep: &Sweep<'_>, lanes: &mut
             *phase = Phase::RecordEnd(side, at.u, at.v);
             continue;
         }
-        let mut stretch = run.rest_of_interval_uplifted(side, at);
+        let mut segment = run.rest_of_interval_uplifted(side, at);
         *phase = loop {
-            if !STIFF && side * stretch.end.u < boundary {
-                motions.put(i, &stretch.motion.on(side), stretch.h);
-                motions.put_end(i, &stretch.end.on(side));
-                stretches[i] = Some((side, stretch));
+            if !STIFFNESS && side * segment.end.u < boundary {
+                motions.put(i, &segment.motion.on(side), segment.h);
+                motions.put_end(i, &segment.end.on(side));
+                segments[i] = Some((side, segment));
                 break *phase;
             }
-            if let Some(passage) = run.uplifted_interval(side, &stretch) {
-                break run.impact(passage, side, &stretch.at);
+            if let Some(crossing) = run.uplifted_interval(side, &segment) {
+                break run.impact(crossing, side, &segment.at);
             }
-            match run.seek_landing(side, stretch.at.interval + 1, &stretch.end) {
-                Ok(further) => stretch = further,
+            match run.seek_impact(side, segment.at.interval + 1, &segment.end) {
+                Ok(further) => segment = further,
                 Err(over) => break over,
             }
         };
     }
-    let (found, tops) = motions.landings(boundary);
+    let (found, tops) = motions.impacts(boundary);
     for (i, lane) in lanes.iter_mut().enumerate() {
-        if let (Some(Lane { run, phase, .. }), Some((side, stretch))) = (lane, &stretches[i]) {
-            *phase = match found.passage(i) {
-                Some(passage) => {
+        if let (Some(Lane { run, phase, .. }), Some((side, segment))) = (lane, &segments[i]) {
+            *phase = match found.crossing(i) {
+                Some(crossing) => {
                     run.peak_m = larger(tops[i], run.peak_m);
-                    run.impact(passage.on(*side), *side, &stretch.at)
+                    run.impact(crossing.on(*side), *side, &segment.at)
                 }
-                None => run.uplifted_from(*side, stretch),
+                None => run.uplifted_from(*side, segment),
             };
         }
     }

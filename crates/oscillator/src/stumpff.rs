@@ -1,8 +1,8 @@
 //! Stumpff functions: one formula for harmonic, parabolic and hyperbolic motion.
 //!
-//! `c_n(x) = Σ_j (−x)^j/(2j + n)!`, so with `x = k t²` and `z = √x`: `c0 = cos z`, `c1 = sin z/z`, `c2 = (1 − cos z)/z²`,
-//! `c3 = (z − sin z)/z³` where `k > 0`; `cosh` and `sinh` where `k < 0`; `1, 1, 1/2, 1/6` where `k = 0`. They stay accurate where
-//! the differences of trigonometric functions cancel.
+//! `c_n(x) = Σ_j (−x)^j/(2j + n)!`, so with `x = k t²` and `z = √x`: `c0 = cos z`, `c1 = sin z/z`,
+//! `c2 = (1 − cos z)/z²`, `c3 = (z − sin z)/z³` where `k > 0`; `cosh` and `sinh` where `k < 0`; `1, 1, 1/2, 1/6` where
+//! `k = 0`. They stay accurate where the differences of trigonometric functions cancel.
 //!
 //! # Source
 //! K. Stumpff, Himmelsmechanik I (1959), as used in universal-variable orbit propagation.
@@ -20,7 +20,8 @@ pub struct Stumpff {
     pub c3: f64,
 }
 
-/// Largest arguments of the series and the terms that serve up to there: the first one left out is below 2e-17 of the sum.
+/// Largest arguments of the series and the terms that suffice up to there: the first one left out is
+/// below 2e-17 of the sum.
 pub(crate) const NEAR: f64 = 0.1;
 pub(crate) const NEAR_TERMS: usize = 6;
 const MIDDLE: f64 = 1.0;
@@ -90,7 +91,8 @@ impl Stumpff {
         Self { c0, c1, c2: (1.0 - c0) / x, c3: (1.0 - c1) / x }
     }
 
-    /// Both series to `N` terms, `N` even: by pairs of terms and then Horner in `x²`, which halves the chain of dependent operations.
+    /// Both series to `N` terms, `N` even: by pairs of terms and then Horner in `x²`, which halves the
+    /// chain of dependent operations.
     #[inline(always)]
     pub(crate) fn series<const N: usize>(x: f64) -> Self {
         let square = x * x;

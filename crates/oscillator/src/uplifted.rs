@@ -1,29 +1,30 @@
 //! A run while the system is uplifted, whatever the stiffness.
 
 use crate::ahead::{AHEAD, Lanes, larger, largest, smaller};
-use crate::flight::{Flight, PARABOLIC};
+use crate::crossings::{Crossing, SIMPLE, State, crossing, first_crossing, turning_time};
 use crate::nodes::Node;
-use crate::passages::{Passage, SIMPLE, State, first_crossing, passage, turning_time};
-use crate::run::{At, Phase, Run, Stretch};
-use crate::stiff::Stiff;
+use crate::nonzero_stiffness::NonzeroStiffnessMotion;
+use crate::run::{IntervalState, Phase, Run, Segment};
+use crate::zero_stiffness::{PARABOLIC, ZeroStiffnessMotion};
 
-/// An uplifted motion over the samples ahead, told on its own side.
-pub(crate) trait Course {
+/// An uplifted motion over the samples ahead, in the coordinates of its side.
+pub(crate) trait UpliftedMotion {
     /// Distance and acceleration at the samples after `j`.
     fn ahead(&self, j: usize) -> (Lanes, Lanes);
     /// Rate of the distance at the sample `j`.
     fn rate(&self, j: usize) -> f64;
     /// Restoring force per mass at the distance `y`.
     fn force(&self, y: f64) -> f64;
-    /// A bound on the outward acceleration between samples, from the least and the greatest one at samples: at least zero.
-    fn outward(&self, least: f64, greatest: f64) -> f64;
-    /// Told from the sample `j` on, where the distance is `y`; it is not looked at before that sample any more.
-    fn go_on(&mut self, j: usize, y: f64);
+    /// A bound on the outward acceleration between samples, from the least and the greatest one at
+    /// samples; at least zero.
+    fn outward_bound(&self, least: f64, greatest: f64) -> f64;
+    /// Makes the sample `j`, where the distance is `y`, the start; no sample before it is asked for any more.
+    fn restart_at(&mut self, j: usize, y: f64);
 }
 
-impl<const STIFF: bool> Run<'_, STIFF> {
+impl<const STIFFNESS: bool> Run<'_, STIFFNESS> {
     #[inline(always)]
-    pub(crate) fn uplifted(&mut self, side: f64, start: At) -> Phase {
+    pub(crate) fn uplifted(&mut self, side: f64, start: IntervalState) -> Phase {
         if start.interval == self.sweep.ground.intervals() {
             return Phase::RecordEnd(side, start.u, start.v);
         }
@@ -32,45 +33,45 @@ impl<const STIFF: bool> Run<'_, STIFF> {
 
     /// The rest of the interval of an uplift.
     #[inline(always)]
-    pub(crate) fn rest_of_interval_uplifted(&self, side: f64, at: At) -> Stretch {
+    pub(crate) fn rest_of_interval_uplifted(&self, side: f64, at: IntervalState) -> Segment {
         let branch = &self.sweep.uplifted;
         let motion = self.motion(&at, branch.stiffness_per_s2);
         let h = self.sweep.dt_s - at.offset_s;
-        let (u, v) = if STIFF { motion.state(h) } else { motion.state_with(h, &PARABOLIC) };
-        let force = if STIFF { branch.restoring(side, u) } else { at.force };
-        Stretch { at, motion, h, end: State { u, v, w: -force - self.ground_end(at.interval) } }
+        let (u, v) = if STIFFNESS { motion.state(h) } else { motion.state_with(h, &PARABOLIC) };
+        let force = if STIFFNESS { branch.restoring(side, u) } else { at.force };
+        Segment { at, motion, h, end: State { u, v, w: -force - self.ground_end(at.interval) } }
     }
 
-    /// Uplifted from the start of a stretch on.
+    /// Uplifted from the start of a segment on.
     #[inline(always)]
-    pub(crate) fn uplifted_from(&mut self, side: f64, stretch: &Stretch) -> Phase {
-        let mut stretch = *stretch;
+    pub(crate) fn uplifted_from(&mut self, side: f64, segment: &Segment) -> Phase {
+        let mut segment = *segment;
         loop {
-            if let Some(passage) = self.uplifted_interval(side, &stretch) {
-                return self.impact(passage, side, &stretch.at);
+            if let Some(crossing) = self.uplifted_interval(side, &segment) {
+                return self.impact(crossing, side, &segment.at);
             }
-            match self.seek_landing(side, stretch.at.interval + 1, &stretch.end) {
-                Ok(further) => stretch = further,
+            match self.seek_impact(side, segment.at.interval + 1, &segment.end) {
+                Ok(further) => segment = further,
                 Err(over) => return over,
             }
         }
     }
 
-    /// The first interval from the sample `j` on in which the system may come down, or turn back beyond the peak, or how the run ends before; the
-    /// peak is raised on the way.
+    /// The first interval from the sample `j` on in which the system may come down, or turn back beyond the peak, or
+    /// how the run ends before; the peak is raised on the way.
     #[inline(always)]
-    pub(crate) fn seek_landing(&mut self, side: f64, j: usize, start: &State) -> Result<Stretch, Phase> {
-        match &self.sweep.stiff {
-            _ if !STIFF => self.seek_on(Flight::new(self, side, j, start), side, j, start),
-            Some(stiffness) if stiffness.is_fine(self.scale, self.sweep.boundary_m) => {
-                self.seek_on(Stiff::new(self, stiffness, side, j, start), side, j, start)
+    pub(crate) fn seek_impact(&mut self, side: f64, j: usize, start: &State) -> Result<Segment, Phase> {
+        match &self.sweep.nonzero_stiffness {
+            _ if !STIFFNESS => self.seek_impact_of(ZeroStiffnessMotion::new(self, side, j, start), side, j, start),
+            Some(stiffness) if stiffness.keeps_digits(self.scale, self.sweep.boundary_m) => {
+                self.seek_impact_of(NonzeroStiffnessMotion::new(self, stiffness, side, j, start), side, j, start)
             }
             _ => self.next_interval_uplifted(side, j, start),
         }
     }
 
-    /// The interval after the sample `j`, where nothing tells what lies further ahead.
-    fn next_interval_uplifted(&self, side: f64, j: usize, start: &State) -> Result<Stretch, Phase> {
+    /// The interval after the sample `j`, where the samples further ahead cannot be evaluated together.
+    fn next_interval_uplifted(&self, side: f64, j: usize, start: &State) -> Result<Segment, Phase> {
         if !(side * start.u <= self.sweep.overturned_m) {
             return Err(Phase::Overturned);
         }
@@ -78,12 +79,18 @@ impl<const STIFF: bool> Run<'_, STIFF> {
             return Err(Phase::RecordEnd(side, start.u, start.v));
         }
         let force = self.sweep.uplifted.restoring(side, start.u);
-        let at = At { interval: j, offset_s: 0.0, u: start.u, v: start.v, force };
+        let at = IntervalState { interval: j, offset_s: 0.0, u: start.u, v: start.v, force };
         Ok(self.rest_of_interval_uplifted(side, at))
     }
 
     #[inline(always)]
-    fn seek_on(&mut self, mut course: impl Course, side: f64, mut j: usize, start: &State) -> Result<Stretch, Phase> {
+    fn seek_impact_of(
+        &mut self,
+        mut uplifted: impl UpliftedMotion,
+        side: f64,
+        mut j: usize,
+        start: &State,
+    ) -> Result<Segment, Phase> {
         let sweep = self.sweep;
         let (n, dt_s, boundary) = (sweep.ground.intervals(), sweep.dt_s, sweep.boundary_m);
         let eighth = 0.125 * dt_s * dt_s;
@@ -93,16 +100,16 @@ impl<const STIFF: bool> Run<'_, STIFF> {
         }
         while j < n {
             let count = AHEAD.min(n - j);
-            let (y, w) = course.ahead(j);
-            // nothing in all of them, or else one by one
+            let (y, w) = uplifted.ahead(j);
+            // no event in all of them, or else one by one
             let (lowest, highest) = (smaller(-largest(y.map(|y| -y)), y0), larger(largest(y), y0));
             let (least, greatest) = (smaller(-largest(w.map(|w| -w)), w0), larger(largest(w), w0));
-            let stays_up = lowest - eighth * course.outward(least, greatest) >= boundary;
-            let no_new_peak =
-                highest + eighth * course.outward(-greatest, -least) <= smaller(self.peak_m, sweep.overturned_m);
-            let first = match (stays_up, no_new_peak) {
+            let stays_uplifted = lowest - eighth * uplifted.outward_bound(least, greatest) >= boundary;
+            let no_new_peak = highest + eighth * uplifted.outward_bound(-greatest, -least)
+                <= smaller(self.peak_m, sweep.overturned_m);
+            let first = match (stays_uplifted, no_new_peak) {
                 (true, true) => count,
-                // falls freely: comes down where it is down at a sample
+                // without outward acceleration it comes down only where it is below at a sample
                 (false, true) if greatest <= 0.0 => y[..count].iter().position(|y| *y < boundary).unwrap_or(count),
                 _ => 0,
             };
@@ -110,14 +117,14 @@ impl<const STIFF: bool> Run<'_, STIFF> {
                 (y0, w0) = (y[first - 1], w[first - 1]);
             }
             for m in first..count {
-                if self.may_land_or_peak(&course, (y0, w0), (y[m], w[m])) {
+                if self.may_impact_or_peak(&uplifted, (y0, w0), (y[m], w[m])) {
                     let interval = j + m;
-                    let (rate0, rate1) = (course.rate(interval), course.rate(interval + 1));
-                    let force = side * course.force(y0);
-                    let at = At { interval, offset_s: 0.0, u: side * y0, v: side * rate0, force };
+                    let (rate0, rate1) = (uplifted.rate(interval), uplifted.rate(interval + 1));
+                    let force = side * uplifted.force(y0);
+                    let at = IntervalState { interval, offset_s: 0.0, u: side * y0, v: side * rate0, force };
                     let motion = self.motion(&at, sweep.uplifted.stiffness_per_s2);
                     let end = State { u: side * y[m], v: side * rate1, w: side * w[m] };
-                    return Ok(Stretch { at, motion, h: dt_s, end });
+                    return Ok(Segment { at, motion, h: dt_s, end });
                 }
                 if !(y[m] <= sweep.overturned_m) {
                     return Err(Phase::Overturned);
@@ -127,29 +134,29 @@ impl<const STIFF: bool> Run<'_, STIFF> {
             }
             (y0, w0) = (y[count - 1], w[count - 1]);
             j += count;
-            course.go_on(j, y0);
+            uplifted.restart_at(j, y0);
         }
-        Err(Phase::RecordEnd(side, side * y0, side * course.rate(n)))
+        Err(Phase::RecordEnd(side, side * y0, side * uplifted.rate(n)))
     }
 
-    /// Whether the system may come down, or turn back beyond the peak, between two samples, from distance and acceleration there; see
-    /// [`may_uplift`](Self::may_uplift).
+    /// Whether the system may come down, or turn back beyond the peak, between two samples, from distance and
+    /// acceleration there; see [`may_uplift`](Self::may_uplift).
     #[inline(always)]
-    fn may_land_or_peak(&self, course: &impl Course, (y0, w0): (f64, f64), (y1, w1): (f64, f64)) -> bool {
+    fn may_impact_or_peak(&self, uplifted: &impl UpliftedMotion, (y0, w0): (f64, f64), (y1, w1): (f64, f64)) -> bool {
         let eighth = 0.125 * self.sweep.dt_s * self.sweep.dt_s;
         let quarter = 0.25 * (y1 - y0).abs();
         let (least, greatest) = (smaller(w0, w1), larger(w0, w1));
-        let dip = larger(eighth * course.outward(least, greatest) - quarter, 0.0);
-        let rise = larger(eighth * course.outward(-greatest, -least) - quarter, 0.0);
-        let stays_up = smaller(y0, y1) - dip >= self.sweep.boundary_m;
+        let dip = larger(eighth * uplifted.outward_bound(least, greatest) - quarter, 0.0);
+        let rise = larger(eighth * uplifted.outward_bound(-greatest, -least) - quarter, 0.0);
+        let stays_uplifted = smaller(y0, y1) - dip >= self.sweep.boundary_m;
         let no_new_peak = larger(y0, y1) + rise <= self.peak_m || rise == 0.0;
-        !(stays_up && no_new_peak)
+        !(stays_uplifted && no_new_peak)
     }
 
-    /// Raise the peak over one stretch, or up to the impact in it, whose time is returned.
+    /// Raise the peak over one segment, or up to the impact in it, which is returned.
     #[inline(always)]
-    pub(crate) fn uplifted_interval(&mut self, side: f64, stretch: &Stretch) -> Option<Passage> {
-        let Stretch { motion, h, end, .. } = stretch;
+    pub(crate) fn uplifted_interval(&mut self, side: f64, segment: &Segment) -> Option<Crossing> {
+        let Segment { motion, h, end, .. } = segment;
         let (h, boundary) = (*h, self.sweep.boundary_m);
         let (from, to) = (side * motion.u0, side * end.u);
         let (v0, v1) = (side * motion.v0, side * end.v);
@@ -165,7 +172,7 @@ impl<const STIFF: bool> Run<'_, STIFF> {
             if to >= boundary {
                 return None;
             }
-            return Some(passage(motion, start, motion.v0, end_node, side * boundary));
+            return Some(crossing(motion, start, motion.v0, end_node, side * boundary));
         }
         let sag = 0.125 * h * h * motion.acceleration_bound(h, end.w);
         if from.min(to) - sag >= boundary && from.max(to) + sag <= self.peak_m {

@@ -16,9 +16,10 @@ fn post_uplift() -> impl Strategy<Value = PostUplift> {
     ]
 }
 
-/// How much relative changes by 1e-10 of the scale, of the uplift displacement, of the restitution and of every sample for itself change the
-/// peak, relative to that change: the conditioning of this very run. The scale alone does not tell: a system of strength zero hardly notices it,
-/// and yet its impacts multiply what rounding does, at any time and in any direction.
+/// How much relative changes by 1e-10 of the scale, of the uplift displacement, of the restitution and of every
+/// sample for itself change the peak, relative to that change: the conditioning of this very run. The scale alone
+/// does not tell: a system of strength zero hardly notices it, and yet its impacts multiply what rounding does, at
+/// any time and in any direction.
 fn amplification(oscillator: &Oscillator, excitation: &Excitation<'_>, after: FreeVibration) -> f64 {
     let peak = |record: &[f64], scale: f64, u_up: f64, restitution: f64| {
         let changed = Oscillator::new(
@@ -90,8 +91,10 @@ proptest! {
 
     #[test]
     fn noise(
-        seed in any::<u64>(), strength in prop_oneof![0.0_f64..0.1, 0.1_f64..1.0, Just(0.0)], scale in prop_oneof![0.01_f64..1.0, 1.0_f64..10.0, -2.0_f64..0.0],
-        post_uplift in post_uplift(), restitution in 0.0_f64..=1.0, dt_s in prop_oneof![Just(0.005), Just(0.01), 0.002_f64..0.025],
+        seed in any::<u64>(), strength in prop_oneof![0.0_f64..0.1, 0.1_f64..1.0, Just(0.0)],
+        scale in prop_oneof![0.01_f64..1.0, 1.0_f64..10.0, -2.0_f64..0.0],
+        post_uplift in post_uplift(), restitution in 0.0_f64..=1.0,
+        dt_s in prop_oneof![Just(0.005), Just(0.01), 0.002_f64..0.025],
         u_up in prop_oneof![3 => Just(0.0005), 1 => (-6.0_f64..-2.0).prop_map(|digits| 10_f64.powf(digits))],
         samples in 2_usize..700, with_free_peak in any::<bool>(),
     ) {
@@ -101,7 +104,8 @@ proptest! {
 
     #[test]
     fn pulses(
-        period_s in 0.1_f64..3.0, strength in 0.001_f64..1.0, scale in 0.05_f64..20.0, u_up in prop_oneof![Just(0.0005), 1e-5_f64..0.1],
+        period_s in 0.1_f64..3.0, strength in 0.001_f64..1.0, scale in 0.05_f64..20.0,
+        u_up in prop_oneof![Just(0.0005), 1e-5_f64..0.1],
         post_uplift in post_uplift(), dt_s in 0.002_f64..0.02, with_free_peak in any::<bool>(),
     ) {
         let post_uplift = match post_uplift {
@@ -135,8 +139,8 @@ fn most_runs_are_judged() {
     assert!(impacts > 10 * runs);
 }
 
-// Strength zero with a post-uplift stiffness: no force while attached, so the system drifts to the boundary after the record, is
-// stopped by the stiffness and no linear response bounds it.
+// Strength zero with a post-uplift stiffness: no force while attached, so the system drifts to the boundary after the
+// record, is stopped by the stiffness and no linear response bounds it.
 #[test]
 fn drift_after_the_record_reaches_the_boundary() {
     let post_uplift = PostUplift::Positive { stiffness_per_s2: 0.1 };

@@ -44,7 +44,8 @@ pub enum RegressionError {
     },
     /// A coefficient or an error leaves the range of numbers.
     #[error(
-        "the fit with c1 = {c1} has {what} outside the range of numbers; scale the data or move the strengths nearer to 0"
+        "the fit with c1 = {c1} has {what} outside the range of numbers; scale the data or move the strengths nearer \
+         to 0"
     )]
     Overflow {
         /// The exponent of the best fit.

@@ -4,7 +4,8 @@ use crate::error::RegressionError;
 use crate::reduced::{Reduced, Solution};
 use crate::root::rising_root;
 
-/// Smallest decay searched, |c1| times the range of strengths: here the exponential differs from a straight line by 1e-4 of its drop.
+/// Smallest decay searched, |c1| times the range of strengths: here the exponential differs from a straight line
+/// by 1e-4 of its drop.
 const FLATTEST: f64 = 1e-3;
 /// Largest decay searched, |c1| times the smallest distance between the end and the next strength: here all but the end
 /// point see an exponential of 5e-18, a change of c1 no longer shows.
@@ -55,8 +56,9 @@ pub struct ExponentialFit {
     pub max_abs_residual_strength: f64,
     /// c2 is held at 0: without the bound the best c2 would be negative.
     pub bound_active: bool,
-    /// The best c1 lies at an end of the range searched: the data are a straight line or a step rather than an exponential, and the
-    /// coefficients have no meaning one by one, though the curve is as near to the data as the range allows.
+    /// The best c1 lies at an end of the range searched: the data are a straight line or a step rather than an
+    /// exponential, and the coefficients have no meaning one by one, though the curve is as near to the data
+    /// as the range allows.
     pub at_search_limit: bool,
     /// Number of points fitted.
     pub points: usize,
@@ -69,21 +71,22 @@ impl ExponentialFit {
     }
 }
 
-/// Fits u = c0 exp(c1 η) + c2 (Eq. 4.11) with c2 ≥ 0 to `displacements` (m, or any unit) at `strengths` η by least squares.
+/// Fits u = c0 exp(c1 η) + c2 (Eq. 4.11) with c2 ≥ 0 to `displacements` (m, or any unit) at
+/// `strengths` η by least squares.
 ///
-/// Neither c0 nor the sign of c1 is constrained; spectra give c0 > 0 and c1 < 0. The points may be in any order and repeat strengths.
-/// Which ones to fit is the caller's choice (the dissertation takes η > 0.05).
+/// Neither c0 nor the sign of c1 is constrained; spectra give c0 > 0 and c1 < 0. The points may be in any order and
+/// repeat strengths. Which ones to fit is the caller's choice (the dissertation takes η > 0.05).
 ///
 /// For a given c1 the best c0 and c2 are known in closed form, so the search has one dimension: c1 of either sign, with
-/// |c1| from 0.001/(range of strengths) to 40/(distance of the end strength from the next), at most 1e6/(range), the exponentials
-/// between a straight line and a single point. It is scanned in steps of a factor 10^(1/10), across which the exponential hardly changes its shape, and every
-/// change of the error's slope from falling to rising is solved for a root of that slope, to the last digits of c1. The best of these minima and of
-/// the ends is the result. A better minimum could hide between two scan points only if the exponentials there were nearly
-/// uncorrelated with the data.
+/// abs(c1) from 0.001/(range of strengths) to 40/(distance of the end strength from the next), at most 1e6/(range), the
+/// exponentials between a straight line and a single point. It is scanned in steps of a factor 10^(1/10), across which
+/// the exponential hardly changes its shape, and every change of the error's slope from falling to rising is solved for
+/// a root of that slope, to the last digits of c1. The best of these minima and of the ends is the result. A better
+/// minimum could hide between two scan points only if the exponentials there were nearly uncorrelated with the data.
 ///
 /// # Errors
-/// [`RegressionError`] for inputs of different length, fewer than 4 points, fewer than 3 different strengths, values that are not finite,
-/// displacements that are all equal, and results outside the range of numbers.
+/// [`RegressionError`] for inputs of different length, fewer than 4 points, fewer than 3 different strengths, values
+/// that are not finite, displacements that are all equal, and results outside the range of numbers.
 ///
 /// # Source
 /// Reggiani Manzo, dissertation, Section 4.6, Eq. 4.11 and Table 4.2.
@@ -148,7 +151,7 @@ fn search(problem: &Reduced) -> (Solution, bool) {
     let mut last = problem.solve(FLATTEST);
     let mut best = last;
     while last.s < steepest {
-        // The end itself, not its neighbour by rounding.
+        // The end itself, not the number next to it by rounding.
         let s = if last.s * ratio < steepest / ratio.sqrt() { last.s * ratio } else { steepest };
         let this = problem.solve(s);
         if this.sse < best.sse {

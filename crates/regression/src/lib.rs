@@ -1,8 +1,9 @@
-//! The analytical approximation of a uniform risk spectrum, u(η) = c0 exp(c1 η) + c2 (Eq. 4.11), by least squares with c2 ≥ 0.
+//! The analytical approximation of a uniform risk spectrum, u(η) = c0 exp(c1 η) + c2 (Eq. 4.11), by least
+//! squares with c2 ≥ 0.
 //!
-//! [`fit`] returns the global minimum in a stated range of c1 as an [`ExponentialFit`]: the coefficients, the errors and whether the
-//! bound on c2 or the end of the range holds the solution. [`Exponential`] is the curve itself, to evaluate.
-//! [`fit_line`] is the straight line with the test of its slope, for residuals against what the records are.
+//! [`fit`] returns the global minimum in a stated range of c1 as an [`ExponentialFit`]: the coefficients, the errors
+//! and whether the bound on c2 or the end of the range holds the solution. [`Exponential`] is the curve itself, to
+//! evaluate. [`fit_line`] is the straight line with the test of its slope, for residuals against what the records are.
 //!
 //! ```
 //! use uplift_regression::{Exponential, fit};
@@ -16,8 +17,8 @@
 //! ```
 //!
 //! # Source
-//! N. Reggiani Manzo, dissertation, Section 4.6. The idea of removing the linear coefficients: G. H. Golub and V. Pereyra
-//! (1973), SIAM Journal on Numerical Analysis 10, 413–432.
+//! N. Reggiani Manzo, dissertation, Section 4.6. The idea of removing the linear coefficients: G. H. Golub and V.
+//! Pereyra (1973), SIAM Journal on Numerical Analysis 10, 413–432.
 
 mod error;
 mod fit;

@@ -13,7 +13,8 @@ pub struct Line {
     pub slope: f64,
     /// Standard error of the slope.
     pub slope_error: f64,
-    /// Probability of a slope at least as steep, up or down, if there were none: Student's t with n − 2 degrees of freedom.
+    /// Probability of a slope at least as steep, up or down, if there were none: Student's t with n −
+    /// 2 degrees of freedom.
     pub p_value: f64,
     /// Share of the variance of y that the line explains; NaN where y does not vary.
     pub r_squared: f64,

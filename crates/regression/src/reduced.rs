@@ -2,8 +2,8 @@
 
 /// Points in the variables of the search, without units and without large numbers.
 ///
-/// The abscissa x ∈ [0, 1] is the distance from the end where the exponential is largest, over the range of strengths; the model
-/// is amplitude · exp(−s x) + offset, offset ≥ 0, s > 0, whose exponential never exceeds 1.
+/// The abscissa x ∈ [0, 1] is the distance from the end where the exponential is largest, over the range of strengths;
+/// the model is amplitude · exp(−s x) + offset, offset ≥ 0, s > 0, whose exponential never exceeds 1.
 pub(crate) struct Reduced {
     pub(crate) x: Vec<f64>,
     pub(crate) u: Vec<f64>,
@@ -30,8 +30,8 @@ impl Reduced {
         Self { x, u, mean }
     }
 
-    /// The best amplitude and offset for decay `s`: the free solution, or where its offset is negative the one on the bound. (With one
-    /// bound on a strictly convex problem these two cases are all.)
+    /// The best amplitude and offset for decay `s`: the free solution, or where its offset is negative the one on the
+    /// bound. (With one bound on a strictly convex problem these two cases are all.)
     ///
     /// The error is differentiable in s through the change of case, and since both coefficients are optimal only the
     /// exponential's own dependence on s counts: dE/ds = 2 Σ r · amplitude · x exp(−s x), r the residual.

@@ -2,8 +2,8 @@
 
 /// Where `f` crosses zero from below, for f(`low`) < 0 ≤ f(`high`), to the resolution of the numbers.
 ///
-/// The ITP method: a step of false position, pulled towards the middle just enough that the number of evaluations never exceeds
-/// bisection's by more than one, while smooth functions need about ten.
+/// The ITP method: a step of false position, pulled towards the middle just enough that the number of evaluations never
+/// exceeds bisection's by more than one, while smooth functions need about ten.
 ///
 /// # Source
 /// I. F. D. Oliveira and R. H. C. Takahashi (2020), ACM Transactions on Mathematical Software 47 (1), 5.

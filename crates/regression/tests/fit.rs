@@ -59,8 +59,8 @@ fn the_curves_of_table_4_2_are_recovered() {
     }
 }
 
-/// Four points solved by hand: at η = 0 the values 4 and 6, at η = 1 and 2 the values 3 and 2. The best curve passes through the mean 5
-/// and the two others: 4 q^η + 1 with q = 1/2.
+/// Four points solved by hand: at η = 0 the values 4 and 6, at η = 1 and 2 the values 3 and 2. The best curve passes
+/// through the mean 5 and the two others: 4 q^η + 1 with q = 1/2.
 #[test]
 fn four_points_by_hand() {
     let found = fit(&[0.0, 0.0, 1.0, 2.0], &[4.0, 6.0, 3.0, 2.0]).unwrap();
@@ -169,7 +169,7 @@ fn what_cannot_be_fitted_is_refused_with_its_reason() {
         "all 4 displacements equal 0.5: a constant does not determine c0 and c1"
     );
     assert!(message(&[0.1, 0.2, 0.3, 0.4], &[0.0; 4]).starts_with("all 4 displacements equal 0:"));
-    // An exponential far from η = 0 has an amplitude there that is no number.
+    // An exponential far from η = 0 has an amplitude there that overflows.
     let far: Vec<f64> = (0..20).map(|i| 1000.0 + f64::from(i) * 0.05).collect();
     let u: Vec<f64> = far.iter().map(|eta| (-5.0 * (eta - 1000.0)).exp() + 0.01).collect();
     assert!(matches!(fit(&far, &u), Err(RegressionError::Overflow { what: "c0", .. })));

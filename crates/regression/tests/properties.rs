@@ -61,7 +61,7 @@ proptest! {
         }
     }
 
-    /// Data that are no exponential at all: the search is still global.
+    /// Data that are not an exponential at all: the search is still global.
     #[test]
     fn no_grid_point_is_better_for_pure_noise(points in prop::collection::vec((0.0..1.0_f64, -1.0..1.0_f64), 5..30)) {
         let (eta, u): (Vec<f64>, Vec<f64>) = points.into_iter().unzip();
@@ -121,7 +121,8 @@ proptest! {
     #[test]
     fn scaling_displacements((eta, u) in noisy(), k in 1e-3..1e3_f64, power in -40..40_i32) {
         let Ok(plain) = fit(&eta, &u) else { return Ok(()) };
-        // A steep rising curve has an amplitude at η = 0 near the smallest numbers, which no scale may take further down.
+        // A steep rising curve has an amplitude at η = 0 near the smallest numbers, which no scale
+        // may take further down.
         if plain.c0.abs() < 1e-250 {
             return Ok(());
         }
@@ -148,7 +149,7 @@ proptest! {
             return Ok(());
         }
         let moved = match fit(&eta.iter().map(|eta| q * eta + d).collect::<Vec<_>>(), &u) {
-            // A steep curve moved away from η = 0 may have an amplitude there that is no number.
+            // A steep curve moved away from η = 0 may have an amplitude there that overflows.
             Err(RegressionError::Overflow { c1, .. }) => {
                 prop_assert!(c1.abs() > 100.0);
                 return Ok(());

@@ -1,4 +1,4 @@
-//! Figures of results, curves, pulses and responses, written.
+//! Figures of results, curves, pulses, responses and overturnings, written.
 
 use std::path::{Path, PathBuf};
 
@@ -9,8 +9,9 @@ use uplift::hazard_curves::{CurveOptions, read as read_curves};
 use uplift::outputs::{provide_folder, refuse_overwriting};
 use uplift::pulses::PulseReport;
 use uplift::response::ResponseReport;
+use uplift::structure::OverturningReport;
 
-use crate::figures::{hazard_figure, history_figure, pulse_figures, result_figures};
+use crate::figures::{hazard_figure, history_figure, overturning_figure, pulse_figures, result_figures};
 use crate::files::{FigureOptions, check_figure_file, write_figure_file};
 
 /// Curves that a figure can tell apart, and then some.
@@ -89,6 +90,14 @@ pub fn plot_response(report: &ResponseReport, file: &Path) -> Result<(), UpliftE
     write_figure_file(&history_figure(&title, history, report.uplift_displacement_m), file)
 }
 
+/// Draws the collapse fragility of a structure as `file`, whose ending tells the format.
+///
+/// # Errors
+/// As [`write_figure_file`].
+pub fn plot_overturning(report: &OverturningReport, file: &Path) -> Result<(), UpliftError> {
+    write_figure_file(&overturning_figure(report), file)
+}
+
 /// Which hazard curves are drawn, and where.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HazardPlotOptions {
@@ -103,8 +112,8 @@ pub struct HazardPlotOptions {
 /// Draws hazard curves in one figure.
 ///
 /// # Errors
-/// Curves that cannot be read, or are too many for one figure; a figure that would overwrite one of the files, or cannot be
-/// written.
+/// Curves that cannot be read, or are too many for one figure; a figure that would overwrite one of the files, or
+/// cannot be written.
 pub fn plot_hazard(options: &HazardPlotOptions, events: &dyn Events) -> Result<PlotReport, UpliftError> {
     check_figure_file(&options.output)?;
     refuse_overwriting(&options.output, &options.files)?;

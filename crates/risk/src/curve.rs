@@ -10,8 +10,8 @@ use crate::{
 
 /// The risk curve λ(c) of one oscillator at one site, for all records or for a sample of them.
 ///
-/// λ(c) = Σ w(level) m(record)/n over the runs with EDP > c: a right-continuous step function that falls at the demands.
-/// It is a view: nothing is computed before it is asked for.
+/// λ(c) = Σ w(level) m(record)/n over the runs with EDP > c: a right-continuous step function that falls at the
+/// demands. It is a view: nothing is computed before it is asked for.
 #[derive(Debug, Clone, Copy)]
 pub struct RiskCurve<'a> {
     demand: &'a PooledDemand,
@@ -107,8 +107,9 @@ impl<'a> RiskCurve<'a> {
 
     /// The ordinate as read off a grid: ln λ is linear between the two thresholds whose rates enclose the target.
     ///
-    /// Grid and exact ordinate lie in the same step of the grid, and so differ by at most its width, in either direction. Where λ is 0 at the upper threshold, that threshold is taken.
-    /// Beyond the last threshold the ordinate is censored: +∞, also where the exact one exists.
+    /// Grid and exact ordinate lie in the same step of the grid, and so differ by at most its width, in either
+    /// direction. Where λ is 0 at the upper threshold, that threshold is taken. Beyond the last threshold the ordinate
+    /// is censored: +∞, also where the exact one exists.
     ///
     /// # Errors
     /// A target that is not positive and finite.
@@ -185,7 +186,8 @@ impl<'a> RiskCurve<'a> {
         }
     }
 
-    /// Goes on with a sweep, in the order of falling demand, to the first run whose inclusion lifts the sum above `limit`.
+    /// Goes on with a sweep, in the order of falling demand, to the first run whose inclusion lifts
+    /// the sum above `limit`.
     fn crossing(&self, mut sweep: Sweep, limit: u128) -> Sweep {
         /// Sums are exact, so whole blocks may be added before looking.
         const BLOCK: usize = 64;

@@ -40,7 +40,7 @@ pub enum RiskError {
         /// Rate of the first stripe, 1/yr.
         first_stripe: f64,
     },
-    /// Two inputs speak of different numbers of levels or records.
+    /// Two inputs are of different numbers of levels or records.
     #[error("{found} {what} given, {expected} expected: the inputs do not belong together")]
     Count {
         /// What was counted.

@@ -6,7 +6,8 @@ use uplift_hazard::{HazardCurve, HazardPoint};
 /// The risk of a lognormal fragility.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LognormalRisk {
-    /// Mean annual frequency, 1/yr, upper tail included; intensities below the curve's first abscissa contribute nothing.
+    /// Mean annual frequency, 1/yr, upper tail included; intensities below the curve's first
+    /// abscissa contribute nothing.
     pub per_year: f64,
     /// The part of it from above the curve's last abscissa, where the fragility is taken as constant: P λ there, 1/yr.
     pub upper_tail_per_year: f64,
@@ -75,7 +76,9 @@ mod tests {
     proptest! {
         /// Against a fine trapezoid in λ on the same log–log curve.
         #[test]
-        fn agrees_with_brute_force(median in 0.2_f64..8.0, beta in 0.1_f64..1.2, k1 in 0.3_f64..3.0, k2 in 0.3_f64..5.0) {
+        fn agrees_with_brute_force(
+            median in 0.2_f64..8.0, beta in 0.1_f64..1.2, k1 in 0.3_f64..3.0, k2 in 0.3_f64..5.0,
+        ) {
             let rates = vec![1.0, 2.0_f64.powf(-k1), 2.0_f64.powf(-k1 - k2)];
             let curve = HazardCurve::new("PGV", "cm/s", "", vec![1.0, 2.0, 4.0], rates).unwrap();
             let fragility = LognormalFragility::new(median, beta).unwrap();

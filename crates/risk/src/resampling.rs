@@ -1,9 +1,10 @@
 //! The same ordinates for thousands of record samples: λ split by record, so that a resample costs a few dot products.
 //!
-//! λ(c) = Σ m(record)/n · W(record, c), where W is what the runs of one record with EDP > c weigh together. W is kept at every
-//! [`BLOCK`]-th demand of the pool. A search over these gives the block that holds the ordinate, a walk through the block the
-//! ordinate itself. Sums are in double precision with their error bound; where it leaves doubt whether λ ≤ target, the exact sum of
-//! [`RiskCurve`] decides. So the ordinates are those of [`RiskCurve::exact_ordinate`], to the bit.
+//! λ(c) = Σ m(record)/n · W(record, c), where W is what the runs of one record with EDP > c weigh together. W is stored
+//! at every [`BLOCK`]-th demand of the pool. A search over these gives the block that holds the ordinate, a walk
+//! through the block the ordinate itself. Sums are in double precision with their error bound; where it leaves doubt
+//! whether λ ≤ target, the exact sum of [`RiskCurve`] decides. So the ordinates are those of
+//! [`RiskCurve::exact_ordinate`], to the bit.
 
 use crate::fixed_point::{QUANTUM_PER_YEAR, rate_per_year};
 use crate::{PooledDemand, RecordSample, RiskCurve, RiskError, StripeWeights};
@@ -62,7 +63,7 @@ impl<'a> ResamplingTable<'a> {
     /// A sample of another number of records; a target that is not positive and finite.
     ///
     /// # Panics
-    /// Unless there is room for one ordinate a target, which is a bug of the caller.
+    /// Unless there is space for one ordinate a target, which is a bug of the caller.
     pub fn ordinates(
         &self,
         sample: &RecordSample,

@@ -62,8 +62,8 @@ impl StripeWeights {
     ///
     /// - `curve`: hazard of the same intensity measure, in the unit of `levels`.
     /// - `levels`: stripe levels, strictly increasing, `[level]`.
-    /// - `extrapolation`: what to do with a stripe outside the curve. With [`Extrapolation::LogLog`] a first stripe below
-    ///   the first abscissa has no lower tail.
+    /// - `extrapolation`: what to do with a stripe outside the curve. With [`Extrapolation::LogLog`] a first stripe
+    ///   below the first abscissa has no lower tail.
     ///
     /// # Errors
     /// A stripe outside the curve under [`Extrapolation::Refuse`]; otherwise as [`StripeWeights::new`].
@@ -196,7 +196,7 @@ mod tests {
         assert!((inside.rates_per_year()[0] - 0.25).abs() < 1e-15);
         assert!((inside.lower_tail_per_year() - 0.375).abs() < 1e-15);
 
-        // At the first abscissa the lower tail is empty; below it there is none to speak of.
+        // At the first abscissa the lower tail is empty; below it there is none.
         assert_eq!(refuse(&[1.0, 4.0]).unwrap().lower_tail_per_year(), 0.0);
         let below = loglog(&[0.5, 16.0]);
         assert_eq!(below.lower_tail_per_year(), 0.0);

@@ -309,7 +309,9 @@ proptest! {
     }
 
     #[test]
-    fn the_order_of_records_does_not_matter_to_the_last_bit(case in case(), turn in 0_usize..90, target in 1e-6_f64..1.0) {
+    fn the_order_of_records_does_not_matter_to_the_last_bit(
+        case in case(), turn in 0_usize..90, target in 1e-6_f64..1.0,
+    ) {
         let mut turned = case.clone();
         turned.edp.rotate_left((turn % case.records) * case.levels.len());
         let (pool, other) = (case.pool(), turned.pool());

@@ -1,7 +1,8 @@
 //! An outside golden case: the risk-targeted ground motion of the U.S. Geological Survey, public test "Fox Plaza".
 //!
-//! The hazard points, the uniform-hazard value, the iterates of the risk-targeted ground motion and their risk ratios are
-//! those of the public test of the USGS risk-targeted ground motion calculator (github.com/usgs/earthquake-rtgm-calculator).
+//! The hazard points, the uniform-hazard value, the iterates of the risk-targeted ground motion and their risk ratios
+//! are those of the public test of the USGS risk-targeted ground motion calculator
+//! (github.com/usgs/earthquake-rtgm-calculator).
 #![allow(clippy::unwrap_used)]
 
 use uplift_fragility::LognormalFragility;
@@ -63,7 +64,8 @@ fn target() -> f64 {
     rate_from_probability(0.01, 50.0).unwrap()
 }
 
-/// The reference's own scheme: the curve resampled at a constant ratio, ∫ λ p dx by trapezoids, p the lognormal density.
+/// The reference's own scheme: the curve resampled at a constant ratio, ∫ λ p dx by trapezoids, p
+/// the lognormal density.
 fn trapezoid_ratio(ratio: f64, fragility: &LognormalFragility) -> f64 {
     let hazard = hazard();
     let (first, last) = (hazard.first().im, hazard.last().im);

@@ -1,15 +1,16 @@
-//! What a fixed step makes of the medians of Section 3.4.5: central differences at a tenth of the sampling interval, impacts at the end
-//! of the step in which they happen, beside the exact solution and its noise, all of them to the end of the record. The program itself steps nowhere.
+//! What a fixed step makes of the medians of Section 3.4.5: central differences at a tenth of the sampling interval,
+//! impacts at the end of the step in which they happen, beside the exact solution and its noise, all of them to the end
+//! of the record. The program itself steps nowhere.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 #[path = "../tests/real_records/real.rs"]
 mod real;
 
-use uplift_ida::Unwatched;
+use uplift_ida::{System, Unwatched, analyse};
 use uplift_motion::IntensityMeasure::{Pga, Pgv};
 use uplift_motion::STANDARD_GRAVITY_M_S2;
 use uplift_oscillator::Oscillator;
-use uplift_spectra::{Motion, NoiseSweep, Noisy, ScaledBy, Scaling, System, displacements, percentile};
+use uplift_spectra::{Motion, NoiseSweep, Noisy, ScaledBy, Scaling, percentile};
 
 const UPLIFT_M: f64 = 0.0005;
 const RESTITUTION: f64 = 0.95;
@@ -53,8 +54,9 @@ fn main() {
                 [Pga, Pgv].into_iter().flat_map(|measure| [0.5, 1.0, 2.0].map(|to| (measure, to)))
             {
                 let scaling = Scaling::To { measure, multiple, by };
-                let all = displacements(&set, &[scaling], &systems, false, &Unwatched).unwrap();
-                let exact: Vec<f64> = (0..systems.len()).map(|system| percentile(all.of_m(0, system), 50.0)).collect();
+                let all = analyse(&set.plan(&[scaling], &systems, false).unwrap(), &Unwatched).unwrap();
+                let exact: Vec<f64> =
+                    (0..systems.len()).map(|system| percentile(&all.over_motions_m(system, 0), 50.0)).collect();
                 let stepped = |steps| {
                     let medians = strengths.iter().map(|strength| {
                         let factors = set.factors(scaling);

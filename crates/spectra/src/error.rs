@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 use uplift_block::BlockError;
-use uplift_motion::MotionError;
+use uplift_ida::IdaError;
 use uplift_oscillator::OscillatorError;
 use uplift_structure::StructureError;
 
@@ -37,7 +37,8 @@ pub enum SpectraError {
     },
     /// No slenderness of the search range lets the block stand, or every one does.
     #[error(
-        "record set {set:?}, {scaling}: the demand meets the capacity line 2H tan(alpha) nowhere between tan(alpha) = {lowest} and {highest}; widen the range"
+        "record set {set:?}, {scaling}: the demand meets the capacity line 2H tan(alpha) nowhere between \
+         tan(alpha) = {lowest} and {highest}; widen the range"
     )]
     NoIntersection {
         /// Name of the set.
@@ -49,32 +50,16 @@ pub enum SpectraError {
         /// Highest tangent searched.
         highest: f64,
     },
-    /// A motion that the oscillator refuses.
-    #[error("{motion}: {source}")]
-    Oscillator {
-        /// The component.
-        motion: String,
-        /// Why.
-        source: OscillatorError,
-    },
-    /// A system that is none.
+    /// Not a system that can be solved.
     #[error(transparent)]
     System(#[from] OscillatorError),
-    /// A block, or a motion that it refuses.
+    /// Not a block that can be solved.
     #[error(transparent)]
     Block(#[from] BlockError),
-    /// A motion that cannot be scaled so.
-    #[error("{motion}: {source}")]
-    Motion {
-        /// The component.
-        motion: String,
-        /// Why.
-        source: MotionError,
-    },
     /// A rule refused.
     #[error(transparent)]
     Rule(#[from] StructureError),
-    /// Stopped from outside.
-    #[error("stopped before the spectra were complete")]
-    Cancelled,
+    /// An analysis that cannot be planned or finished, or was stopped from outside.
+    #[error(transparent)]
+    Analysis(#[from] IdaError),
 }

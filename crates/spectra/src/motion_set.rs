@@ -1,6 +1,7 @@
 //! The components of a record set as independent motions.
 
 use uplift_fragility::quantile;
+use uplift_ida::{IdaError, Plan, ScaledMotion, System};
 use uplift_motion::{Accelerogram, IntensityMeasure, geometric_mean};
 
 use crate::error::SpectraError;
@@ -38,8 +39,8 @@ impl Motion<'_> {
         match (measure, by) {
             (IntensityMeasure::Pga, ScaledBy::Component) => self.pga_g,
             (IntensityMeasure::Pga, ScaledBy::Record) => self.record_pga_g,
-            (_, ScaledBy::Component) => self.pgv_cm_s,
-            (_, ScaledBy::Record) => self.record_pgv_cm_s,
+            (IntensityMeasure::Pgv, ScaledBy::Component) => self.pgv_cm_s,
+            (IntensityMeasure::Pgv, ScaledBy::Record) => self.record_pgv_cm_s,
         }
     }
 }
@@ -119,7 +120,7 @@ impl<'a> MotionSet<'a> {
     pub fn median(&self, measure: IntensityMeasure) -> f64 {
         match measure {
             IntensityMeasure::Pga => self.median_pga_g,
-            _ => self.median_pgv_cm_s,
+            IntensityMeasure::Pgv => self.median_pgv_cm_s,
         }
     }
 
@@ -130,6 +131,28 @@ impl<'a> MotionSet<'a> {
             Scaling::To { measure, multiple, by } => multiple * self.median(measure) / motion.peak(measure, by),
         };
         self.motions.iter().map(factor).collect()
+    }
+
+    /// The plan of shaking each of `systems` by every motion, scaled in each of the ways of `scalings`: these are the
+    /// last axis of its result.
+    ///
+    /// * `with_free_peak` — whether the first peak of the free motion after a record counts
+    ///
+    /// # Errors
+    /// No system, no scaling, a factor that is not finite.
+    pub fn plan<'b>(
+        &'b self,
+        scalings: &[Scaling],
+        systems: &'b [System],
+        with_free_peak: bool,
+    ) -> Result<Plan<'b>, IdaError> {
+        let factors: Vec<Vec<f64>> = scalings.iter().map(|scaling| self.factors(*scaling)).collect();
+        let scaled = |(place, motion): (usize, &'b Motion<'a>)| ScaledMotion {
+            id: &motion.id,
+            accelerogram: motion.accelerogram,
+            scales: factors.iter().map(|of_scaling| of_scaling[place]).collect(),
+        };
+        Plan::scaled(self.motions.iter().enumerate().map(scaled).collect(), systems, with_free_peak)
     }
 }
 

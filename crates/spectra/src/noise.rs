@@ -1,7 +1,7 @@
 //! How much a value moves in a small sweep around its point.
 //!
-//! Rocking is chaotic: a median of some thirty responses can move by a quarter when the strength changes by one percent. A comparison
-//! with someone else's value means little without that noise beside it.
+//! Rocking is chaotic: a median of some thirty responses can move by a quarter when the strength changes by one
+//! percent. A comparison with someone else's value means little without that noise beside it.
 
 use uplift_structure::relative_error;
 
@@ -15,7 +15,8 @@ pub struct NoiseSweep {
 }
 
 impl NoiseSweep {
-    /// `points` points, an odd number so that the middle one is the point itself, from `1 − relative` to `1 + relative` times it.
+    /// `points` points, an odd number so that the middle one is the point itself, from `1 − relative` to `1 + relative`
+    /// times it.
     ///
     /// # Errors
     /// [`SpectraError::OutOfRange`] for a width outside 0 to 0.5, and for an even number of points.
@@ -39,7 +40,7 @@ impl NoiseSweep {
 }
 
 /// A value with its range over a sweep.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Noisy {
     /// At the point itself.
     pub value: f64,

@@ -1,15 +1,12 @@
 //! The design example of Section 3.4.5: a restrained bridge by both rules, and by time histories (Tables 3.2–3.7).
 
-use uplift_ida::Watch;
+use uplift_ida::System;
 use uplift_oscillator::{Oscillator, PostUplift};
-use uplift_structure::{Capacity, Rule};
+use uplift_structure::{Capacity, Rule, design};
 
-use crate::displacements::{System, displacements};
+use crate::demand::Case;
 use crate::error::SpectraError;
-use crate::motion_set::MotionSet;
 use crate::noise::{NoiseSweep, Noisy, errors};
-use crate::scaling::Scaling;
-use crate::statistics::percentile;
 
 /// What is designed, and how.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,22 +45,15 @@ pub struct RestrainedExample {
 }
 
 impl RestrainedDesign {
-    /// Design by `rule` for a set at a scaling, and check the design by time histories; the whole procedure at every strength of
-    /// the sweep.
+    /// Design by `rule` for a set at a scaling, and check the design by time histories; the whole procedure at every
+    /// strength of the sweep.
     ///
     /// # Errors
-    /// What the oscillator, the rule and the solver refuse; [`SpectraError::Cancelled`].
+    /// What the oscillator, the rule and the solver refuse; what carrying out ends with.
     ///
     /// # Source
     /// Reggiani Manzo, Section 3.4.5.
-    pub fn example(
-        &self,
-        set: &MotionSet<'_>,
-        scaling: Scaling,
-        rule: Rule,
-        noise: NoiseSweep,
-        watch: &dyn Watch,
-    ) -> Result<RestrainedExample, SpectraError> {
+    pub fn example(&self, case: Case<'_>, rule: Rule, noise: NoiseSweep) -> Result<RestrainedExample, SpectraError> {
         let strengths: Vec<f64> = noise.factors().iter().map(|factor| factor * self.strength).collect();
         let demands_m = |post_uplift: &[PostUplift]| -> Result<Vec<f64>, SpectraError> {
             let systems = strengths
@@ -71,28 +61,19 @@ impl RestrainedDesign {
                 .zip(post_uplift)
                 .map(|(strength, post_uplift)| self.oscillator(*strength, *post_uplift).map(System::Oscillator))
                 .collect::<Result<Vec<_>, _>>()?;
-            let shaken = displacements(set, &[scaling], &systems, self.with_free_vibration, watch)?;
-            Ok((0..systems.len()).map(|system| percentile(shaken.of_m(0, system), self.percent)).collect())
+            case.demands_m(&systems, self.with_free_vibration, self.percent)
         };
         let zero_stiffness_m = demands_m(&vec![PostUplift::Zero; strengths.len()])?;
-        let capacity_m = zero_stiffness_m
+        let own = Capacity::new(self.uplift_displacement_m, self.least_capacity_m)?;
+        let checks = zero_stiffness_m
             .iter()
-            .map(|zero_m| {
-                let required_m = rule.required_capacity_m(*zero_m, self.uplift_displacement_m, self.safety_factor)?;
-                Ok(required_m.max(self.least_capacity_m))
-            })
-            .collect::<Result<Vec<f64>, SpectraError>>()?;
+            .map(|zero_m| design(&own, rule, self.safety_factor, *zero_m))
+            .collect::<Result<Vec<_>, _>>()?;
+        let capacity_m: Vec<f64> = checks.iter().map(|check| check.capacity_m).collect();
         let negative: Vec<_> =
             capacity_m.iter().map(|capacity_m| PostUplift::Negative { capacity_m: *capacity_m }).collect();
         let time_history_m = demands_m(&negative)?;
-        let rule_m = zero_stiffness_m
-            .iter()
-            .zip(&capacity_m)
-            .map(|(zero_m, capacity_m)| {
-                let capacity = Capacity::new(self.uplift_displacement_m, *capacity_m)?;
-                Ok(rule.demand(&capacity, *zero_m)?.displacement_m())
-            })
-            .collect::<Result<Vec<f64>, SpectraError>>()?;
+        let rule_m: Vec<f64> = checks.iter().map(|check| check.demand.displacement_m()).collect();
         let error = errors(&rule_m, &time_history_m);
         Ok(RestrainedExample {
             zero_stiffness_m: Noisy::of(&zero_stiffness_m),

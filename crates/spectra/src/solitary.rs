@@ -1,15 +1,12 @@
-//! The design example of Section 2.4.3: a slenderness from the size-independent spectrum, checked with a block of its own size
-//! (Tables 2.1–2.3).
+//! The design example of Section 2.4.3: a slenderness from the size-independent spectrum, checked with a block of its
+//! own size (Tables 2.1–2.3).
 
 use uplift_block::RockingBlock;
-use uplift_ida::Watch;
+use uplift_ida::System;
 
-use crate::displacements::{System, displacements};
+use crate::demand::Case;
 use crate::error::SpectraError;
-use crate::motion_set::MotionSet;
 use crate::noise::{NoiseSweep, Noisy, errors};
-use crate::scaling::Scaling;
-use crate::statistics::percentile;
 
 /// What is designed, and how.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,15 +25,16 @@ pub struct SolitaryDesign {
     pub percent: f64,
     /// Slendernesses `tan α` between which the intersection is looked for, from the highest down.
     pub search: [f64; 2],
-    /// Ratio of neighbouring slendernesses in that search, above 1: a range narrower than that in which the block does not stand may be missed.
+    /// Ratio of neighbouring slendernesses in that search, above 1: a range narrower than that in which the block does
+    /// not stand may be missed.
     pub search_ratio: f64,
 }
 
 /// One column of a table, with the noise of each of its values.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SolitaryExample {
-    /// Design slenderness `tan α_D`; its noise is that of the demands around the intersection, each put on the capacity line: the search itself is not
-    /// repeated.
+    /// Design slenderness `tan α_D`; its noise is that of the demands around the intersection, each put on the capacity
+    /// line: the search itself is not repeated.
     pub design_tangent: Noisy,
     /// Displacement of the endless block at the design slenderness, m: what the size-independent spectrum predicts.
     pub endless_m: Noisy,
@@ -52,24 +50,17 @@ pub struct SolitaryExample {
 const INTERSECTION_WIDTH: f64 = 1e-4;
 
 impl SolitaryDesign {
-    /// Design for a set at a scaling: the largest `tan α_k` at which the demand of the endless block meets the capacity line
-    /// `2H tan α`, times the safety factor; then both blocks at that slenderness.
+    /// Design for a set at a scaling: the largest `tan α_k` at which the demand of the endless block meets the capacity
+    /// line `2H tan α`, times the safety factor; then both blocks at that slenderness.
     ///
     /// # Errors
-    /// [`SpectraError::NoIntersection`]; what the block refuses; [`SpectraError::Cancelled`].
+    /// [`SpectraError::NoIntersection`]; what the block refuses; what carrying out ends with.
     ///
     /// # Source
     /// Reggiani Manzo, Section 2.4.3.
-    pub fn example(
-        &self,
-        set: &MotionSet<'_>,
-        scaling: Scaling,
-        noise: NoiseSweep,
-        watch: &dyn Watch,
-    ) -> Result<SolitaryExample, SpectraError> {
-        let demand_m = |height_m: f64, tangents: &[f64]| self.demand_m(set, scaling, height_m, tangents, watch);
-        let critical =
-            self.intersection(set, scaling, &|tangent| Ok(demand_m(self.endless_height_m, &[tangent])?[0]))?;
+    pub fn example(&self, case: Case<'_>, noise: NoiseSweep) -> Result<SolitaryExample, SpectraError> {
+        let demand_m = |height_m: f64, tangents: &[f64]| self.demand_m(case, height_m, tangents);
+        let critical = self.intersection(case, &|tangent| Ok(demand_m(self.endless_height_m, &[tangent])?[0]))?;
         let around = |tangent: f64| -> Vec<f64> { noise.factors().iter().map(|factor| factor * tangent).collect() };
         // where the capacity line would meet each of the demands around the intersection
         let demands_m = demand_m(self.endless_height_m, &around(critical))?;
@@ -88,14 +79,7 @@ impl SolitaryDesign {
     }
 
     /// Percentile of the displacements of blocks of one height, m, one a slenderness.
-    fn demand_m(
-        &self,
-        set: &MotionSet<'_>,
-        scaling: Scaling,
-        height_m: f64,
-        tangents: &[f64],
-        watch: &dyn Watch,
-    ) -> Result<Vec<f64>, SpectraError> {
+    fn demand_m(&self, case: Case<'_>, height_m: f64, tangents: &[f64]) -> Result<Vec<f64>, SpectraError> {
         let blocks = tangents
             .iter()
             .map(|tangent| {
@@ -104,23 +88,21 @@ impl SolitaryDesign {
                 Ok(System::Block(block))
             })
             .collect::<Result<Vec<_>, SpectraError>>()?;
-        let shaken = displacements(set, &[scaling], &blocks, true, watch)?;
-        Ok((0..blocks.len()).map(|block| percentile(shaken.of_m(0, block), self.percent)).collect())
+        case.demands_m(&blocks, true, self.percent)
     }
 
-    /// The largest `tan α` in the range at which `demand_m` reaches the capacity line: down from the highest until it lies above,
-    /// then by halving.
+    /// The largest `tan α` in the range at which `demand_m` reaches the capacity line: down from the highest until it
+    /// lies above, then by halving.
     fn intersection(
         &self,
-        set: &MotionSet<'_>,
-        scaling: Scaling,
+        case: Case<'_>,
         demand_m: &dyn Fn(f64) -> Result<f64, SpectraError>,
     ) -> Result<f64, SpectraError> {
         let [lowest, highest] = self.search;
         let stands = |tangent: f64| Ok::<_, SpectraError>(demand_m(tangent)? <= self.height_m * tangent);
         let nowhere = || SpectraError::NoIntersection {
-            set: set.name().to_owned(),
-            scaling: scaling.to_string(),
+            set: case.set.name().to_owned(),
+            scaling: case.scaling.to_string(),
             lowest,
             highest,
         };

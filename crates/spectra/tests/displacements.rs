@@ -5,13 +5,13 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use proptest::prelude::*;
 use uplift_block::{FreeRocking, RockingBlock};
-use uplift_ida::{Unwatched, Watch};
+use uplift_ida::{IdaError, Peaks, System, Unwatched, Watch, analyse};
 use uplift_motion::IntensityMeasure::{Pga, Pgv};
 use uplift_motion::{Accelerogram, STANDARD_GRAVITY_M_S2 as G};
 use uplift_oscillator::{Excitation, FreeVibration, Oscillator, PostUplift};
 use uplift_spectra::{
-    MotionSet, NoiseSweep, RecordOfSet, RestrainedDesign, ScaledBy, Scaling, SolitaryDesign, SpectraError, System,
-    critical, displacements, percentile,
+    Case, MotionSet, NoiseSweep, RecordOfSet, RestrainedDesign, ScaledBy, Scaling, SolitaryDesign, SpectraError,
+    critical, percentile,
 };
 use uplift_structure::Rule;
 
@@ -32,6 +32,20 @@ fn records() -> Vec<(String, [Accelerogram; 2])> {
 fn set(records: &[(String, [Accelerogram; 2])]) -> MotionSet<'_> {
     let records = records.iter().map(|(id, [h1, h2])| RecordOfSet { id, components: [h1, h2] });
     MotionSet::new("waves", records, G).unwrap()
+}
+
+/// Peak displacements over `[motion, system, scaling]`.
+fn displacements(
+    set: &MotionSet<'_>,
+    scalings: &[Scaling],
+    systems: &[System],
+    watch: &dyn Watch,
+) -> Result<Peaks, IdaError> {
+    analyse(&set.plan(scalings, systems, true)?, watch)
+}
+
+fn case<'a>(set: &'a MotionSet<'a>, scaling: Scaling) -> Case<'a> {
+    Case { set, scaling, carry_out: &|plan| analyse(plan, &Unwatched) }
 }
 
 fn to(measure: uplift_motion::IntensityMeasure, multiple: f64, by: ScaledBy) -> Scaling {
@@ -79,7 +93,7 @@ fn displacements_are_those_of_the_solvers_called_one_by_one() {
         System::Oscillator(oscillator(negative)),
         System::Block(block),
     ];
-    let all = displacements(&set, &scalings, &systems, true, &Unwatched).unwrap();
+    let all = displacements(&set, &scalings, &systems, &Unwatched).unwrap();
     let (mut overturned, mut moved) = (0, 0);
     for (at, scaling) in scalings.iter().enumerate() {
         for (motion, factor) in set.factors(*scaling).into_iter().enumerate() {
@@ -87,20 +101,20 @@ fn displacements_are_those_of_the_solvers_called_one_by_one() {
             let excitation = Excitation::new(scaled.dt_s(), scaled.acceleration_m_s2()).unwrap();
             for (system, post_uplift) in [PostUplift::Zero, negative].into_iter().enumerate() {
                 let one = uplift_oscillator::respond(&oscillator(post_uplift), &excitation, FreeVibration::FirstPeak);
-                let (expected, found) = (one.peak_displacement_m, all.of_m(at, system)[motion]);
+                let (expected, found) = (one.peak_displacement_m, all.at_m([motion, system, at]));
                 assert!(
                     found == expected || (found / expected - 1.0).abs() < 1e-8,
                     "{scaling} {motion}: {found} {expected}"
                 );
             }
             let one = uplift_block::respond(&block, &scaled, FreeRocking::FirstPeak).unwrap();
-            assert_eq!(all.of_m(at, 2)[motion].to_bits(), one.displacement_m.to_bits());
+            assert_eq!(all.at_m([motion, 2, at]).to_bits(), one.displacement_m.to_bits());
             moved += usize::from(one.displacement_m > 0.0);
             overturned += usize::from(one.displacement_m.is_infinite());
         }
     }
     assert!(moved > 10 && overturned > 0 && overturned < moved, "{moved} {overturned}");
-    assert_eq!(all.all_m().len(), 3 * 3 * 6);
+    assert_eq!(all.displacement_m().len(), 3 * 3 * 6);
 }
 
 #[test]
@@ -110,7 +124,7 @@ fn the_same_bits_for_any_number_of_threads() {
     let systems: Vec<_> = (1..20).map(|i| System::Oscillator(Oscillator::zsbe(0.02 * f64::from(i)).unwrap())).collect();
     let on = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| displacements(&set, &[Scaling::Unscaled], &systems, true, &Unwatched).unwrap())
+        pool.install(|| displacements(&set, &[Scaling::Unscaled], &systems, &Unwatched).unwrap())
     };
     assert_eq!(on(1), on(3));
 }
@@ -135,10 +149,10 @@ fn every_analysis_is_counted_and_work_can_be_stopped() {
     let systems: Vec<_> = (1..5).map(|i| System::Oscillator(Oscillator::zsbe(0.1 * f64::from(i)).unwrap())).collect();
     let scalings = [Scaling::Unscaled, to(Pga, 1.0, ScaledBy::Record)];
     let count = StopAfter(AtomicU64::new(0), u64::MAX);
-    displacements(&set, &scalings, &systems, true, &count).unwrap();
+    displacements(&set, &scalings, &systems, &count).unwrap();
     assert_eq!(count.0.into_inner(), 2 * 4 * 6);
-    let stopped = displacements(&set, &scalings, &systems, true, &StopAfter(AtomicU64::new(0), 10));
-    assert!(matches!(stopped, Err(SpectraError::Cancelled)));
+    let stopped = displacements(&set, &scalings, &systems, &StopAfter(AtomicU64::new(0), 10));
+    assert!(matches!(stopped, Err(IdaError::Cancelled)));
 }
 
 #[test]
@@ -171,11 +185,11 @@ fn a_restrained_design_is_its_procedure_step_by_step() {
     let noise = NoiseSweep::new(0.01, 3).unwrap();
     let median = |strength, post_uplift| {
         let system = System::Oscillator(Oscillator::new(strength, G, 0.0005, 0.95, post_uplift).unwrap());
-        percentile(displacements(&set, &[scaling], &[system], true, &Unwatched).unwrap().of_m(0, 0), 50.0)
+        percentile(&displacements(&set, &[scaling], &[system], &Unwatched).unwrap().over_motions_m(0, 0), 50.0)
     };
     let zero_m = median(0.08, PostUplift::Zero);
     for (rule, factor) in [(Rule::EqualDisplacement, 2.5), (Rule::EqualEnergy, 3.125)] {
-        let example = design.example(&set, scaling, rule, noise, &Unwatched).unwrap();
+        let example = design.example(case(&set, scaling), rule, noise).unwrap();
         assert_eq!(example.zero_stiffness_m.value, zero_m);
         // Eq. 3.15, whose equal energy is 3.125 times but for the uplift displacement
         let capacity_m = example.capacity_m.value;
@@ -189,7 +203,7 @@ fn a_restrained_design_is_its_procedure_step_by_step() {
     }
     // a structure with a large capacity of its own needs no restraint
     let wide = RestrainedDesign { least_capacity_m: 50.0, ..design };
-    let example = wide.example(&set, scaling, Rule::EqualEnergy, noise, &Unwatched).unwrap();
+    let example = wide.example(case(&set, scaling), Rule::EqualEnergy, noise).unwrap();
     assert_eq!(example.capacity_m.value, 50.0);
 }
 
@@ -208,10 +222,10 @@ fn a_solitary_design_lies_on_the_capacity_line() {
         search_ratio: 1.05,
     };
     let noise = NoiseSweep::new(0.01, 3).unwrap();
-    let example = design.example(&set, Scaling::Unscaled, noise, &Unwatched).unwrap();
+    let example = design.example(case(&set, Scaling::Unscaled), noise).unwrap();
     let median = |height_m, tangent: f64| {
         let block = System::Block(RockingBlock::from_height(height_m, tangent.atan()).unwrap());
-        percentile(displacements(&set, &[Scaling::Unscaled], &[block], true, &Unwatched).unwrap().of_m(0, 0), 50.0)
+        percentile(&displacements(&set, &[Scaling::Unscaled], &[block], &Unwatched).unwrap().over_motions_m(0, 0), 50.0)
     };
     let tangent = example.design_tangent.value;
     // the endless block stands at the intersection and not a little below it
@@ -221,7 +235,7 @@ fn a_solitary_design_lies_on_the_capacity_line() {
     assert_eq!(example.endless_m.value, median(1000.0, tangent));
     assert_eq!(example.block_m.value, median(10.0, tangent));
     assert!(example.block_m.value > 0.0 && (example.capacity_m - 10.0 * tangent).abs() < 1e-12);
-    let low = SolitaryDesign { search: [0.5, 1.0], ..design }.example(&set, Scaling::Unscaled, noise, &Unwatched);
+    let low = SolitaryDesign { search: [0.5, 1.0], ..design }.example(case(&set, Scaling::Unscaled), noise);
     assert!(low.unwrap_err().to_string().contains("nowhere between tan(alpha) = 0.5 and 1"));
 }
 
@@ -238,8 +252,8 @@ proptest! {
         };
         let systems = [PostUplift::Zero, PostUplift::Negative { capacity_m: 1e7 }].map(oscillator);
         let scaling = to(Pgv, multiple, ScaledBy::Component);
-        let all = displacements(&set, &[scaling], &systems, true, &Unwatched).unwrap();
-        for (zero, negative) in all.of_m(0, 0).iter().zip(all.of_m(0, 1)) {
+        let all = displacements(&set, &[scaling], &systems, &Unwatched).unwrap();
+        for (zero, negative) in all.over_motions_m(0, 0).iter().zip(all.over_motions_m(1, 0)) {
             // every impact ends the motion, so nothing here is chaotic
             prop_assert!((zero - negative).abs() <= 1e-4 * zero.max(1e-3), "{zero} {negative}");
         }

@@ -1,11 +1,12 @@
-//! Where block, negative and zero stiffness must meet. Impacts that take most of the velocity keep the runs from being chaotic.
+//! Where block, negative and zero stiffness must meet. Impacts that take most of the velocity keep the runs from being
+//! chaotic.
 #![allow(clippy::unwrap_used)]
 
 use uplift_block::RockingBlock;
-use uplift_ida::Unwatched;
+use uplift_ida::{System, Unwatched, analyse};
 use uplift_motion::{Accelerogram, STANDARD_GRAVITY_M_S2 as G};
 use uplift_oscillator::{Oscillator, PostUplift};
-use uplift_spectra::{MotionSet, RecordOfSet, Scaling, System, displacements};
+use uplift_spectra::{MotionSet, RecordOfSet, Scaling};
 
 /// Six seconds of ground that ends where it began, at rest: the second derivative of `A sin⁴(πt/6) sin(ωt)`, m/s².
 fn ground(amplitude_m: f64, omega: f64) -> Accelerogram {
@@ -25,9 +26,9 @@ fn ground(amplitude_m: f64, omega: f64) -> Accelerogram {
 fn peaks_m(grounds: &[Accelerogram], systems: &[System]) -> Vec<Vec<f64>> {
     let records = grounds.iter().map(|ground| RecordOfSet { id: "ground", components: [ground, ground] });
     let set = MotionSet::new("grounds", records, G).unwrap();
-    let all = displacements(&set, &[Scaling::Unscaled], systems, true, &Unwatched).unwrap();
+    let all = analyse(&set.plan(&[Scaling::Unscaled], systems, true).unwrap(), &Unwatched).unwrap();
     // both components are the same
-    (0..systems.len()).map(|system| all.of_m(0, system).iter().step_by(2).copied().collect()).collect()
+    (0..systems.len()).map(|system| all.over_motions_m(system, 0).into_iter().step_by(2).collect()).collect()
 }
 
 fn grounds() -> Vec<Accelerogram> {

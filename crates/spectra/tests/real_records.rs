@@ -4,12 +4,13 @@
 #[path = "real_records/real.rs"]
 mod real;
 
-use uplift_ida::Unwatched;
+use uplift_ida::{System, Unwatched, analyse};
 use uplift_motion::IntensityMeasure::{Pga, Pgv};
 use uplift_oscillator::Oscillator;
-use uplift_spectra::{NoiseSweep, Noisy, ScaledBy, Scaling, System, displacements, percentile};
+use uplift_spectra::{NoiseSweep, Noisy, ScaledBy, Scaling, percentile};
 
-/// Medians of an independent prototype with another solver (m): set, then 0.5, 1, 2 PGA and 0.5, 1, 2 PGV, by component.
+/// Medians of an independent prototype with another solver (m): set, then 0.5, 1, 2 PGA and 0.5, 1, 2 PGV, by
+/// component.
 const PROTOTYPE_M: [(&str, [f64; 6]); 2] = [
     ("near-field no pulse-like", [0.081, 0.247, 0.469, 0.069, 0.231, 0.655]),
     ("far-field", [0.031, 0.169, 0.491, 0.032, 0.141, 0.425]),
@@ -36,10 +37,11 @@ fn medians_are_those_of_an_independent_prototype_within_their_noise() {
             .flat_map(|measure| [0.5, 1.0, 2.0].map(|multiple| (measure, multiple)))
             .map(|(measure, multiple)| Scaling::To { measure, multiple, by: ScaledBy::Component })
             .collect();
-        let all = displacements(&set, &scalings, &systems, true, &Unwatched).unwrap();
+        let all = analyse(&set.plan(&scalings, &systems, true).unwrap(), &Unwatched).unwrap();
         let Some((_, expected)) = PROTOTYPE_M.iter().find(|(name, _)| *name == set.name()) else { continue };
         for (at, expected_m) in expected.iter().enumerate() {
-            let medians_m: Vec<f64> = (0..systems.len()).map(|system| percentile(all.of_m(at, system), 50.0)).collect();
+            let medians_m: Vec<f64> =
+                (0..systems.len()).map(|system| percentile(&all.over_motions_m(system, at), 50.0)).collect();
             let ours = Noisy::of(&medians_m);
             println!(
                 "{} {}: {:.3} ({:.3} to {:.3}) m, prototype {expected_m}",

@@ -1,8 +1,8 @@
 //! Solitary rocking bodies: Table 3.1, rows 1 to 4.
 //!
 //! All of them pivot about a corner at distance `R` from the mass centre, with slenderness `α` (Figure 3.1), and obey
-//! `I_o θ̈ + m g R sin(α − θ) = −m ü_g R cos(α − θ)`, which is Eq. 3.5 for a rectangular block (`I_o = 4/3 m R²`). Linearised and expressed
-//! in the displacement `u = R θ` of the centre or `u = 2R θ` of the top, it is Eq. 3.4:
+//! `I_o θ̈ + m g R sin(α − θ) = −m ü_g R cos(α − θ)`, which is Eq. 3.5 for a rectangular block (`I_o = 4/3 m R²`).
+//! Linearised and expressed in the displacement `u = R θ` of the centre or `u = 2R θ` of the top, it is Eq. 3.4:
 //!
 //! | row | body | displacement of | `m̃` | `f̃_up` | `ũ_cap` | `Γ` |
 //! |---|---|---|---|---|---|---|
@@ -28,7 +28,8 @@ pub enum Reference {
 
 /// All the mass at a point that rocks on a massless body: row 1.
 ///
-/// The geometry is that of the block around the point: `2b` the width of the base and `2h` twice the height of the mass.
+/// The geometry is that of the block around the point: `2b` the width of the base and `2h` twice
+/// the height of the mass.
 ///
 /// ```
 /// use uplift_structure::{Conditions, Geometry, PointMass};
@@ -118,7 +119,8 @@ impl Block {
 
 /// A body of any shape, symmetric about the vertical through its mass centre: row 3.
 ///
-/// The geometry is that of the rectangle around which it rocks: `2b` the width of the base and `2h` twice the height of the mass centre.
+/// The geometry is that of the rectangle around which it rocks: `2b` the width of the base and `2h` twice the
+/// height of the mass centre.
 ///
 /// ```
 /// use uplift_structure::{Body, Conditions, Geometry};
@@ -140,7 +142,8 @@ impl Body {
     /// From geometry, mass `m`, kg, and moment of inertia `I_o` about the pivot corner, kg m².
     ///
     /// # Errors
-    /// Mass and moment of inertia must be finite and positive, the latter at least `m R²`: less is impossible (parallel axes).
+    /// Mass and moment of inertia must be finite and positive, the latter at least `m R²`: less is
+    /// impossible (parallel axes).
     pub fn new(geometry: Geometry, mass_kg: f64, moment_of_inertia_kg_m2: f64) -> Result<Self, StructureError> {
         let mass_kg = positive("mass_kg", mass_kg, "kg")?;
         let moment_of_inertia_kg_m2 = positive("moment_of_inertia_kg_m2", moment_of_inertia_kg_m2, "kg m²")?;

@@ -1,8 +1,9 @@
 //! Frames of columns whose flat ends are extended by curved parts (Table 3.1, row 6; Figure 3.5).
 //!
-//! Both ends of every column carry circular extensions of radius `r`, tangent to the flat part of width `2b` at its corners; the deck rolls
-//! on the upper ones. Then the column rolls about a centre of curvature at height `r` and lateral distance `b`, the lever of gravity is
-//! `b cos θ − (h − r) sin θ`, and the linearised force vanishes at the rotation `b/(h − r)`:
+//! Both ends of every column carry circular extensions of radius `r`, tangent to the flat part of width `2b` at its
+//! corners; the deck rolls on the upper ones. Then the column rolls about a centre of curvature at height `r` and
+//! lateral distance `b`, the lever of gravity is `b cos θ − (h − r) sin θ`, and the linearised force vanishes at the
+//! rotation `b/(h − r)`:
 //!
 //! | | row 6 |
 //! |---|---|
@@ -11,20 +12,23 @@
 //! | `ũ_cap` | `2R sin α/(1 − 2ρ)`, at most `2R' sin α'` |
 //! | `Γ` | `3(1 + 2γ_m)/(2(1 + 3γ_m))` |
 //!
-//! with `m` the mass of all columns. The text does not say what `ρ` is; by the derivation above `ρ = r/(2h)` (for slender columns the
-//! same as `r/(2R)`), and `R'`, `α'` belong to the column with its extensions, so that `2R' sin α'` is the extended width `2b'`.
+//! with `m` the mass of all columns. The text does not say what `ρ` is; by the derivation above `ρ = r/(2h)` (for
+//! slender columns the same as `r/(2R)`), and `R'`, `α'` belong to the column with its extensions, so that `2R' sin α'`
+//! is the extended width `2b'`.
 //!
-//! The bound is not a matter of taste: rolling reaches the end of the extension before the force vanishes exactly if `2b/(1 − 2ρ) > 2b'`
-//! (to the order of the linearisation). From there the column rocks about the end of the extension and overturns at `2b'`: the loop is trilinear.
-//! Then `ũ_cap = 2b'`, the bilinear loop is the chord of the trilinear one, never above it, and a warning says so. This includes
-//! `2ρ ≥ 1`, where the force does not fall at all while the column rolls.
+//! The bound is not a matter of taste: rolling reaches the end of the extension before the force vanishes exactly if
+//! `2b/(1 − 2ρ) > 2b'` (to the order of the linearisation). From there the column rocks about the end of the
+//! extension and overturns at `2b'`: the loop is trilinear. Then `ũ_cap = 2b'`, the bilinear loop is the chord of the
+//! trilinear one, never above it, and a warning says so. This includes `2ρ ≥ 1`, where the force does not fall at all
+//! while the column rolls.
 
 use crate::equivalent::{Conditions, EquivalentSystem};
 use crate::error::{StructureError, not_negative, positive};
 use crate::frame::Frame;
 use crate::warning::Warning;
 
-/// A frame of columns with curved extensions at both ends: row 6. Without a deck and with one column it is a solitary block with a curved base.
+/// A frame of columns with curved extensions at both ends: row 6. Without a deck and with one column it is a solitary
+/// block with a curved base.
 ///
 /// ```
 /// use uplift_structure::{Conditions, CurvedFrame, Frame, Geometry};
@@ -42,11 +46,12 @@ pub struct CurvedFrame {
 }
 
 impl CurvedFrame {
-    /// From the frame with flat ends, the radius of curvature `r` of the extensions, m, and the width `2b'` of a column end including both
-    /// extensions, m. Radius 0 is the sharp corner of the free frame.
+    /// From the frame with flat ends, the radius of curvature `r` of the extensions, m, and the width `2b'` of a column
+    /// end including both extensions, m. Radius 0 is the sharp corner of the free frame.
     ///
     /// # Errors
-    /// The radius must be finite and not negative, and the extended width between the flat width and that plus two radii.
+    /// The radius must be finite and not negative, and the extended width between the flat width and
+    /// that plus two radii.
     pub fn new(frame: Frame, curvature_radius_m: f64, extended_width_m: f64) -> Result<Self, StructureError> {
         let radius_m = not_negative("curvature_radius_m", curvature_radius_m, "m")?;
         let extended_width_m = positive("extended_width_m", extended_width_m, "m")?;
@@ -62,7 +67,8 @@ impl CurvedFrame {
         self.radius_m / self.frame.geometry().height_m()
     }
 
-    /// Displacement `2b/(1 − 2ρ)` at which rolling alone loses all force, m; infinite where rolling does not soften (`2ρ ≥ 1`).
+    /// Displacement `2b/(1 − 2ρ)` at which rolling alone loses all force, m; infinite where rolling does
+    /// not soften (`2ρ ≥ 1`).
     pub fn rolling_capacity_m(&self) -> f64 {
         let softening = 1.0 - 2.0 * self.radius_ratio();
         if softening > 0.0 { self.frame.geometry().width_m() / softening } else { f64::INFINITY }

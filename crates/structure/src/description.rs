@@ -1,10 +1,11 @@
 //! A structure as written in a TOML file.
 //!
 //! # Keys
-//! Every kind takes a geometry, and may give `uplift_displacement_m` (0.0005 if left out), `gravity_m_s2` (9.80665) and the coefficient of
-//! `restitution` at an impact, which no rule needs but an analysis does.
-//! The geometry is `width_m` and `height_m`, or a slenderness (`slenderness_rad` or `slenderness_deg`) and one of `size_m` (the semi-diagonal `R`),
-//! `height_m`, `width_m`. A `point-mass` and a `body` give the height of their mass centre, `centre_height_m`, in place of `height_m`.
+//! Every kind takes a geometry, and may give `uplift_displacement_m` (0.0005 if left out), `gravity_m_s2` (9.80665) and
+//! the coefficient of `restitution` at an impact, which no rule needs but an analysis does. The geometry is `width_m`
+//! and `height_m`, or a slenderness (`slenderness_rad` or `slenderness_deg`) and one of `size_m` (the semi-diagonal
+//! `R`), `height_m`, `width_m`. A `point-mass` and a `body` give the height of their mass centre, `centre_height_m`, in
+//! place of `height_m`. A tendon is anchored in the `"foundation"` or at the `"column"`.
 //!
 //! | kind | Table 3.1 | further keys |
 //! |---|---|---|
@@ -12,7 +13,7 @@
 //! | `block` | row 4, or row 2 with `displacement_of = "centre"` | `mass_kg` |
 //! | `body` | row 3 | `mass_kg`, `moment_of_inertia_kg_m2` about the pivot corner |
 //! | `frame` | row 5 without tendons | `columns`, `column_mass_kg` (each), `deck_mass_kg` |
-//! | `restrained-frame` | row 5 | those of `frame`, `tendon_stiffness_n_m` (each column's), `tendon_anchorage = "foundation"` or `"column"` |
+//! | `restrained-frame` | row 5 | those of `frame`, `tendon_stiffness_n_m` (a column's), `tendon_anchorage` |
 //! | `curved-frame` | row 6 | those of `frame`, `curvature_radius_m`, `extended_width_m` |
 //!
 //! # Examples
@@ -157,7 +158,7 @@ impl Kind {
     }
 }
 
-/// A structure as written: which keys belong to which kind is told in the [module documentation](self).
+/// A structure as written: which keys belong to which kind is listed in the [module documentation](self).
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StructureDescription {
@@ -206,8 +207,9 @@ pub struct StructureDescription {
 impl StructureDescription {
     /// The equivalent oscillator, or every mistake of the description.
     ///
-    /// Mistakes of single quantities (missing, out of range, not for this kind) and of the choice of geometry are listed together; one that takes
-    /// several correct quantities to see, such as a capacity below the uplift displacement, is found once those are mended.
+    /// Mistakes of single quantities (missing, out of range, not for this kind) and of the choice of geometry are
+    /// listed together; one that takes several correct quantities to see, such as a capacity below the uplift
+    /// displacement, is found once those are mended.
     ///
     /// # Errors
     /// At least one mistake, each with key, value, unit and what to do.
@@ -236,11 +238,13 @@ impl StructureDescription {
         }
     }
 
-    /// Stiffness of the tendon and spring of each column that would give a restrained frame the displacement capacity `capacity_m` (m), N/m: the last
-    /// step of Section 3.4.5. Zero where the columns have it by themselves; none for a structure of another kind.
+    /// Stiffness of the tendon and spring of each column that would give a restrained frame the displacement capacity
+    /// `capacity_m` (m), N/m: the last step of Section 3.4.5. Zero where the columns have it by themselves; none for a
+    /// structure of another kind.
     ///
     /// # Errors
-    /// A mistake of the description, which [`resolve`](Self::resolve) lists with all others; a capacity that is not finite and positive.
+    /// A mistake of the description, which [`resolve`](Self::resolve) lists with all others; a capacity that is not
+    /// finite and positive.
     pub fn tendon_stiffness_for_capacity_n_m(&self, capacity_m: f64) -> Result<Option<f64>, StructureError> {
         let Some(anchorage) = self.tendon_anchorage.filter(|_| self.kind == Kind::RestrainedFrame) else {
             return Ok(None);
@@ -248,7 +252,7 @@ impl StructureDescription {
         self.frame()?.tendon_stiffness_for_capacity_n_m(capacity_m, anchorage, self.conditions()?).map(Some)
     }
 
-    /// A quantity that [`audit`] has seen.
+    /// A quantity that [`audit`] has checked.
     fn need<T>(&self, key: &'static str, value: Option<T>) -> Result<T, StructureError> {
         value.ok_or(StructureError::Missing { key, unit: "", kind: self.kind.name() })
     }
@@ -286,7 +290,7 @@ impl StructureDescription {
     /// The geometry.
     ///
     /// # Errors
-    /// Any but exactly one of the accepted combinations, or a length that is none.
+    /// Any but exactly one of the accepted combinations, or an invalid length.
     pub fn geometry(&self) -> Result<Geometry, StructureError> {
         let height_m =
             if self.kind.is_by_centre() { self.centre_height_m.map(|centre_m| 2.0 * centre_m) } else { self.height_m };

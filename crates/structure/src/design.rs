@@ -18,7 +18,8 @@ pub struct Check {
 }
 
 impl Check {
-    /// Check a structure against a ZSBE demand on its own displacement, m (see [`EquivalentSystem::zero_stiffness_demand_m`]).
+    /// Check a structure against a ZSBE demand on its own displacement, m (see
+    /// [`EquivalentSystem::zero_stiffness_demand_m`]).
     ///
     /// # Errors
     /// Positive post-uplift stiffness, a safety factor below 1, or a demand that is not a finite number.
@@ -71,8 +72,8 @@ impl Check {
 
 /// Step (c) of Section 3.4.5: choose the capacity of a structure whose unrestrained capacity is `own` and check it.
 ///
-/// The capacity is that of Eq. 3.15, or the structure's own where that is larger: a restraint can only add to it. The tables of the section
-/// do the same, with 1.60 m of the columns themselves. The tendons follow from
+/// The capacity is that of Eq. 3.15, or the structure's own where that is larger: a restraint can only add to it. The
+/// tables of the section do the same, with 1.60 m of the columns themselves. The tendons follow from
 /// [`Frame::tendon_stiffness_for_capacity_n_m`](crate::Frame::tendon_stiffness_for_capacity_n_m).
 ///
 /// ```

@@ -22,7 +22,8 @@ impl Default for Conditions {
 }
 
 impl Conditions {
-    /// Acceleration of gravity, m/s², and uplift displacement `u_up` of the point whose displacement counts, m; 0 for a rigid structure.
+    /// Acceleration of gravity, m/s², and uplift displacement `u_up` of the point whose displacement counts, m; 0
+    /// for a rigid structure.
     ///
     /// # Errors
     /// Gravity must be finite and positive, the uplift displacement finite and not negative.
@@ -61,9 +62,11 @@ pub enum PostUplift {
     },
 }
 
-/// The oscillator of Table 3.1: mass `m̃`, force at uplift `f̃_up`, displacement capacity `ũ_cap` and the factor `Γ` on the excitation.
+/// The oscillator of Table 3.1: mass `m̃`, force at uplift `f̃_up`, displacement capacity `ũ_cap` and the factor
+/// `Γ` on the excitation.
 ///
-/// `m̃ ü + f(u) = −Γ m̃ ü_g` (Eq. 3.4), where `f` rises to `f̃_up` at `u_up` (Eq. 3.1) and then follows Eq. 3.2 with `abs(u)` for `u`.
+/// `m̃ ü + f(u) = −Γ m̃ ü_g` (Eq. 3.4), where `f` rises to `f̃_up` at `u_up` (Eq. 3.1) and then follows Eq. 3.2
+/// with `abs(u)` for `u`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EquivalentSystem {
     pub(crate) table_row: u8,
@@ -131,8 +134,8 @@ impl EquivalentSystem {
         Ok(system)
     }
 
-    /// The same mass and `Γ` with strength and capacity from a nonlinear static analysis of the deformable structure, as Section 3.2 asks
-    /// for where the structure is not rigid.
+    /// The same mass and `Γ` with strength and capacity from a nonlinear static analysis of the deformable structure,
+    /// as Section 3.2 asks for where the structure is not rigid.
     ///
     /// * `uplift_force_n` — `f̃_up`, N, at the point whose displacement counts
     /// * `uplift_displacement_m` — `ũ_up`, m
@@ -242,12 +245,14 @@ impl EquivalentSystem {
         if displacement_m == 0.0 { 0.0 } else { displacement_m.signum() * force_n }
     }
 
-    /// Strength `η/Γ` at which to read a spectrum of ZSBE oscillators that are driven by the ground motion itself: `α` in all of Table 3.1.
+    /// Strength `η/Γ` at which to read a spectrum of ZSBE oscillators that are driven by the ground motion itself: `α`
+    /// in all of Table 3.1.
     pub fn spectral_strength(&self) -> f64 {
         self.strength() / self.participation
     }
 
-    /// The same where the spectrum is of another gravity (m/s²): it counts in multiples of its own, and the force per mass is what it is.
+    /// The same where the spectrum is of another gravity (m/s²): it counts in multiples of its own, and the force
+    /// per mass is what it is.
     pub fn spectral_strength_at(&self, gravity_m_s2: f64) -> f64 {
         let own_m_s2 = self.conditions().gravity_m_s2();
         if own_m_s2 == gravity_m_s2 {
@@ -309,7 +314,8 @@ impl EquivalentSystem {
     }
 }
 
-/// The branch of Eq. 3.2 through `zero_m`, where its force vanishes: falling where that lies ahead, rising where it lies behind.
+/// The branch of Eq. 3.2 through `zero_m`, where its force vanishes: falling where that lies ahead, rising
+/// where it lies behind.
 fn following(uplift_force_n: f64, uplift_displacement_m: f64, zero_m: f64) -> Result<PostUplift, StructureError> {
     if zero_m > 0.0 {
         Capacity::new(uplift_displacement_m, zero_m)?;

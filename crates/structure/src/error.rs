@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-/// Why a structure has no equivalent oscillator, or a rule or design no answer.
+/// Why a structure has no equivalent oscillator, or a rule or design gives no answer.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum StructureError {
     /// A number is outside the range that makes physical sense.
@@ -33,8 +33,11 @@ pub enum StructureError {
          the stiffness of the former counts four times"
     )]
     MissingAnchorage,
-    /// A description gives a quantity that means nothing for its kind.
-    #[error("`{key}` = {value}{} means nothing for kind \"{kind}\": remove it or choose another kind", after_value(.unit))]
+    /// A description gives a quantity that its kind does not have.
+    #[error(
+        "`{key}` = {value}{} means nothing for kind \"{kind}\": remove it or choose another kind",
+        after_value(.unit)
+    )]
     Foreign {
         /// Name of the quantity.
         key: &'static str,
@@ -69,8 +72,8 @@ pub enum StructureError {
     },
     /// The curved extensions cannot reach the extended width.
     #[error(
-        "`extended_width_m` is {extended_width_m} m: with `width_m` = {width_m} m and `curvature_radius_m` = {radius_m} m \
-         it must lie between `width_m` and `width_m` + 2 `curvature_radius_m`"
+        "`extended_width_m` is {extended_width_m} m: with `width_m` = {width_m} m and `curvature_radius_m` = \
+         {radius_m} m it must lie between `width_m` and `width_m` + 2 `curvature_radius_m`"
     )]
     Extension {
         /// Width of the base with its extensions, m.
@@ -83,7 +86,8 @@ pub enum StructureError {
     /// The displacement capacity does not exceed the uplift displacement.
     #[error(
         "the displacement capacity {capacity_m} m is not above `uplift_displacement_m` = {uplift_displacement_m} m: \
-         the restoring force would vanish before the structure uplifts; check the geometry or give a smaller uplift displacement"
+         the restoring force would vanish before the structure uplifts; check the geometry or give a smaller uplift \
+         displacement"
     )]
     CapacityBelowUplift {
         /// Displacement at which the restoring force vanishes, m.
@@ -93,8 +97,9 @@ pub enum StructureError {
     },
     /// The force rises after uplift: there is no displacement capacity, and the rules do not apply.
     #[error(
-        "the post-uplift stiffness is {stiffness_n_m} N/m, positive: the force never vanishes, and the equal displacement and equal \
-         energy rules hold for negative stiffness only; analyse the positive-stiffness oscillator itself or soften the tendons"
+        "the post-uplift stiffness is {stiffness_n_m} N/m, positive: the force never vanishes, and the equal \
+         displacement and equal energy rules hold for negative stiffness only; analyse the positive-stiffness \
+         oscillator itself or soften the tendons"
     )]
     PositiveStiffness {
         /// Stiffness after uplift, N/m.
@@ -110,7 +115,8 @@ pub enum StructureError {
     },
     /// A demand of the structure beyond its capacity corresponds to no demand of the ZSBE system.
     #[error(
-        "`demand_m` is {demand_m} m, above the displacement capacity {capacity_m} m: beyond it the structure has overturned"
+        "`demand_m` is {demand_m} m, above the displacement capacity {capacity_m} m: beyond it the structure has \
+         overturned"
     )]
     DemandAboveCapacity {
         /// Demand given, m.
@@ -160,7 +166,8 @@ pub enum StructureError {
     },
     /// The design slenderness lies beyond the spectrum.
     #[error(
-        "the design tan α = {design_tangent} lies beyond the last point {last_tangent} of the spectrum: continue the spectrum to it"
+        "the design tan α = {design_tangent} lies beyond the last point {last_tangent} of the spectrum: continue the \
+         spectrum to it"
     )]
     BeyondSpectrum {
         /// Slenderness asked for, as a tangent.
@@ -171,7 +178,8 @@ pub enum StructureError {
 }
 
 impl StructureError {
-    /// Keys of the description whose values are at fault, the one to change first before the others; empty where none is.
+    /// Keys of the description whose values are at fault, the one to change first before the others;
+    /// empty where none is.
     pub fn keys(&self) -> &[&'static str] {
         match self {
             Self::OutOfRange { key, .. } | Self::Missing { key, .. } | Self::Foreign { key, .. } => {

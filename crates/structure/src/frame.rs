@@ -1,7 +1,7 @@
 //! Rocking frames: equal columns under a rigid deck, free or restrained by tendons (Table 3.1, row 5; Eq. 6.1 and 6.2).
 //!
-//! With `N` columns of mass `m` each, a deck of mass `m_b` and `γ_m = m_b/(N m)`, row 5 reads, in masses rather than their ratio so that
-//! massless columns and a missing deck are plain cases,
+//! With `N` columns of mass `m` each, a deck of mass `m_b` and `γ_m = m_b/(N m)`, row 5 reads, in masses rather than
+//! their ratio so that massless columns and a missing deck are plain cases,
 //!
 //! | | row 5 | here |
 //! |---|---|---|
@@ -10,17 +10,18 @@
 //! | `ũ_cap` | `2b (½ + γ_m)/((½ + γ_m) − (EA/(m g)) α²)` | `2b/(1 − κ)` |
 //! | `Γ` | `3(1 + 2γ_m)/(2(1 + 3γ_m))` | `(N m/2 + m_b)/(N m/3 + m_b)` |
 //!
-//! `κ` is the share of the softening by gravity that the tendons take back. A tendon with spring of stiffness `k_res` in every column
-//! gives
+//! `κ` is the share of the softening by gravity that the tendons take back. A tendon with spring of stiffness `k_res`
+//! in every column gives
 //!
 //! * `κ = 2 N k_res b α/((N m/2 + m_b) g)` if it is anchored in the foundation (Eq. 6.1),
 //! * a quarter of that if it is anchored within the column (Eq. 6.2), since the gap opens at one end only.
 //!
-//! Row 5 is the first of these with `EA = 2h k_res`, where `b ≈ h α`: its `EA` is the axial stiffness (N) of a tendon as long as the column.
-//! Section 3.4.5 prints the limit `γ_m → ∞` as `1 − (N EA/m_b) α²`, which lacks `g` beside `m_b`.
+//! Row 5 is the first of these with `EA = 2h k_res`, where `b ≈ h α`: its `EA` is the axial stiffness (N) of
+//! a tendon as long as the column. Section 3.4.5 prints the limit `γ_m → ∞` as `1 − (N EA/m_b) α²`, which
+//! lacks `g` beside `m_b`.
 //!
-//! `κ < 1` is negative post-uplift stiffness, `κ = 1` the ZSBE system, `κ > 1` positive stiffness without a displacement capacity.
-//! Tendons are not prestressed: they do not change the force at uplift (Section 3.4.5).
+//! `κ < 1` is negative post-uplift stiffness, `κ = 1` the ZSBE system, `κ > 1` positive stiffness without a
+//! displacement capacity. Tendons are not prestressed: they do not change the force at uplift (Section 3.4.5).
 
 use crate::equivalent::{Conditions, EquivalentSystem, Row};
 use crate::error::{StructureError, not_negative, positive, require};
@@ -64,7 +65,8 @@ impl Anchorage {
 }
 
 impl Frame {
-    /// From the geometry of a column, the number of columns, the mass of each (kg) and the mass of the deck (kg). One of the masses may be 0.
+    /// From the geometry of a column, the number of columns, the mass of each (kg) and the mass of the deck (kg). One
+    /// of the masses may be 0.
     ///
     /// # Errors
     /// There must be a column and a mass; masses must be finite and not negative.
@@ -129,28 +131,31 @@ impl Frame {
         EquivalentSystem::of(&row, &self.geometry, conditions)
     }
 
-    /// Height `2H` of the solitary block of the same slenderness that rotates as this frame does (Section 2.4.3, after Makris and
-    /// Vassiliou 2013), m: `2h (1 + 3γ_m)/(1 + 2γ_m)`.
+    /// Height `2H` of the solitary block of the same slenderness that rotates as this frame does (Section 2.4.3, after
+    /// Makris and Vassiliou 2013), m: `2h (1 + 3γ_m)/(1 + 2γ_m)`.
     ///
-    /// The top of that block moves by `(1 + 3γ_m)/(1 + 2γ_m)` times the displacement of the deck; demand over capacity is the same.
+    /// The top of that block moves by `(1 + 3γ_m)/(1 + 2γ_m)` times the displacement of the deck; demand over
+    /// capacity is the same.
     pub fn equivalent_block_height_m(&self) -> f64 {
         1.5 * self.geometry.height_m() * self.inertial_mass_kg() / self.gravitating_mass_kg()
     }
 
-    /// What an impact takes of the angular velocity, in units of `sin²α`: `(3/2)(1 + 4γ_m)/(1 + 3γ_m)` (see [`rigid`](crate::rigid)).
+    /// What an impact takes of the angular velocity, in units of `sin²α`: `(3/2)(1 + 4γ_m)/(1 + 3γ_m)` (see
+    /// [`rigid`](crate::rigid)).
     pub(crate) fn impact_loss(&self) -> f64 {
         0.5 * (self.columns_mass_kg() + 4.0 * self.deck_mass_kg) / self.inertial_mass_kg()
     }
 
-    /// Stiffness of the tendon and spring of each column at which the post-uplift stiffness is zero, `k_crit` of Section 6.2.1, N/m:
-    /// `(1 + 2γ_m) m g/(4 b α)` for [`Anchorage::Foundation`], four times that for [`Anchorage::Column`].
+    /// Stiffness of the tendon and spring of each column at which the post-uplift stiffness is zero, `k_crit` of
+    /// Section 6.2.1, N/m: `(1 + 2γ_m) m g/(4 b α)` for [`Anchorage::Foundation`], four times that for
+    /// [`Anchorage::Column`].
     pub fn critical_tendon_stiffness_n_m(&self, anchorage: Anchorage, conditions: Conditions) -> f64 {
         let lever = anchorage.leverage() * self.geometry.half_width_m() * self.geometry.slenderness_rad();
         self.gravitating_mass_kg() * conditions.gravity_m_s2() / (f64::from(self.columns) * lever)
     }
 
-    /// Stiffness of the tendon and spring of each column that gives the frame a displacement capacity (m), N/m: row 5 solved for `EA`,
-    /// the last step of Section 3.4.5. Zero where the columns have that capacity by themselves.
+    /// Stiffness of the tendon and spring of each column that gives the frame a displacement capacity (m), N/m: row 5
+    /// solved for `EA`, the last step of Section 3.4.5. Zero where the columns have that capacity by themselves.
     ///
     /// # Errors
     /// The capacity must be finite and positive.
@@ -184,7 +189,8 @@ pub struct RestrainedFrame {
 }
 
 impl RestrainedFrame {
-    /// From a free frame and the stiffness `k_res` of the tendon and spring of each column, in series, N/m; 0 is the free frame.
+    /// From a free frame and the stiffness `k_res` of the tendon and spring of each column, in series, N/m;
+    /// 0 is the free frame.
     ///
     /// # Errors
     /// The stiffness must be finite and not negative.

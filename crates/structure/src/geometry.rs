@@ -9,9 +9,9 @@ pub const SLENDER_TOLERANCE: f64 = 0.05;
 
 /// Half width `b` and half height `h` of a block, both positive.
 ///
-/// `R = √(b² + h²)` is the distance from a pivot corner to the centre and `α = atan(b/h)` the slenderness, so `2b = 2R sin α` and
-/// `2h = 2R cos α`. The text writes `α` for `atan(b/h)` and, in the linearised formulas of Sections 3.5 and 6.3.3, also for `b/h`;
-/// here `α` is always the angle.
+/// `R = √(b² + h²)` is the distance from a pivot corner to the centre and `α = atan(b/h)` the slenderness, so
+/// `2b = 2R sin α` and `2h = 2R cos α`. The text writes `α` for `atan(b/h)` and, in the linearised formulas of Sections
+/// 3.5 and 6.3.3, also for `b/h`; here `α` is always the angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Geometry {
     half_width_m: f64,

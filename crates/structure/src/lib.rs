@@ -2,7 +2,7 @@
 //!
 //! Equations, tables and sections are those of Reggiani Manzo's dissertation, Chapters 2, 3, 5 and 6.
 //!
-//! | room | what is in it |
+//! | module | what is in it |
 //! |---|---|
 //! | [`geometry`] | width, height, slenderness and size of a block or column |
 //! | [`block`] | solitary bodies: Table 3.1, rows 1 to 4 |
@@ -16,9 +16,10 @@
 //! | [`description`] | a structure as written in a TOML file |
 //!
 //! # From a spectrum to a structure
-//! A spectrum gives the displacement of a ZSBE oscillator under the ground motion itself. Table 3.1's oscillator is driven by `Γ` times
-//! that motion (Eq. 3.4). Since all forces scale together, its displacement is exactly `Γ` times that of the oscillator of strength `η/Γ`
-//! and uplift displacement `u_up/Γ` under the motion itself, and `η/Γ = α` in every row: a rigid structure uplifts at `α g`. So:
+//! A spectrum gives the displacement of a ZSBE oscillator under the ground motion itself. Table 3.1's oscillator is
+//! driven by `Γ` times that motion (Eq. 3.4). Since all forces scale together, its displacement is exactly `Γ` times
+//! that of the oscillator of strength `η/Γ` and uplift displacement `u_up/Γ` under the motion itself, and `η/Γ = α` in
+//! every row: a rigid structure uplifts at `α g`. So:
 //!
 //! 1. read the spectrum at [`EquivalentSystem::spectral_strength`];
 //! 2. multiply by `Γ`: [`EquivalentSystem::zero_stiffness_demand_m`];
@@ -46,17 +47,18 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! # Where the text is silent or errs
+//! # Where the dissertation is incomplete or in error
 //! | where | text | here |
 //! |---|---|---|
-//! | Table 3.1 | its figures define `α`; Section 3.5 takes `f_up/(m g) = tan α` | `α = atan(b/h)`, linearised as in the table |
-//! | row 5 | `EA`, without saying where the tendon is anchored | `k_res` and an [`Anchorage`]; the row is `EA = 2h k_res` in the foundation |
+//! | Table 3.1 | `α` in figures; Section 3.5 has `f_up/(m g) = tan α` | `α = atan(b/h)`, linearised as in Table 3.1 |
+//! | row 5 | `EA`, no anchorage of the tendon | `k_res`, [`Anchorage`]; the row is `EA = 2h k_res`, in the foundation |
 //! | row 6 | `ρ` undefined, `m` without `N` | `ρ = r/(2h)`, `m` of all columns; see [`curved`] |
 //! | row 6 | the bound `2R' sin α'` | reached: `ũ_cap` is the bound, and a warning says that the loop is trilinear |
 //! | Eq. 3.2 | `u_cap − u` | `u_cap − abs(u)` |
 //! | Eq. 3.11 | no lower end of its domain | `γ = 1` up to `u_up`, where nothing has uplifted |
 //! | Section 3.4.5 | `1 − (N EA/m_b) α²` | `1 − (N EA/(m_b g)) α²` |
-//! | Section 3.4.5 | `u_dem,EE = γ_ED u_dem,ZS` and `u_dem,ED = γ_EE u_dem,ZS` | the other way round; Tables 3.5–3.7 label `u_dem,EE` as `u_dem,ED` |
+//! | Section 3.4.5 | `u_dem,EE = γ_ED u_dem,ZS`, `u_dem,ED = γ_EE u_dem,ZS` | the other way round |
+//! | Tables 3.5–3.7 | `u_dem,ED` | `u_dem,EE` |
 //!
 //! Units are SI: metres, kilograms, newtons, radians. Everything is linearised for slender bodies, as in Table 3.1;
 //! a [`Warning`] says where a body is stocky.

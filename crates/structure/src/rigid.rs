@@ -1,11 +1,12 @@
 //! The solitary block that rotates exactly as a rigid structure does, with no small-angle simplification.
 //!
-//! A body that pivots about its corners obeys `I_o θ̈ + m g R sin(α − θ) = −m ü_g R cos(α − θ)`, which knows no more of the body than `α` and
-//! `I_o/(m R)`. That is Eq. 2.1 of a rectangular block of the same slenderness and the size parameter `R_b = (3/4) I_o/(m R)`. A frame of columns
-//! under a deck obeys the same equation (Makris and Vassiliou 2013, Section 2.4.3).
+//! A body that pivots about its corners obeys `I_o θ̈ + m g R sin(α − θ) = −m ü_g R cos(α − θ)`, which depends on the
+//! body by `α` and `I_o/(m R)` alone. That is Eq. 2.1 of a rectangular block of the same slenderness and the size
+//! parameter `R_b = (3/4) I_o/(m R)`. A frame of columns under a deck obeys the same equation (Makris and Vassiliou
+//! 2013, Section 2.4.3).
 //!
-//! An impact conserves the angular momentum about the next pivot; for the frame, of each column with the impulse that the deck hands to its
-//! new corner:
+//! An impact conserves the angular momentum about the next pivot; for the frame, of each column with the impulse that
+//! the deck hands to its new corner:
 //!
 //! | structure | `R_b` | `θ̇` after over before an impact |
 //! |---|---|---|
@@ -29,7 +30,8 @@ pub struct RotatingBlock {
     pub size_m: f64,
     /// Slenderness `α`, rad: that of the structure.
     pub slenderness_rad: f64,
-    /// Angular velocity after over before an impact, by conservation of angular momentum; 0 where that would be negative.
+    /// Angular velocity after over before an impact, by conservation of angular momentum; 0 where
+    /// that would be negative.
     pub restitution: f64,
 }
 

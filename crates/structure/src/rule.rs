@@ -1,8 +1,9 @@
-//! From the displacement of the zero-stiffness (ZSBE) system to that of the negative-stiffness (NSBE) one, and back (Section 3.3.2).
+//! From the displacement of the zero-stiffness (ZSBE) system to that of the negative-stiffness (NSBE) one, and
+//! back (Section 3.3.2).
 
 use crate::error::{StructureError, not_negative, positive, require};
 
-/// Uplift displacement and displacement capacity of a system: all that the rules know of it.
+/// Uplift displacement and displacement capacity of a system: all that the rules depend on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Capacity {
     uplift_displacement_m: f64,
@@ -66,7 +67,8 @@ impl Demand {
     }
 }
 
-/// How the demand of a negative-stiffness system follows from that of the ZSBE system of the same strength and uplift displacement.
+/// How the demand of a negative-stiffness system follows from that of the ZSBE system of the same strength and
+/// uplift displacement.
 ///
 /// With `z` for `u_dem,ZS` and `n` for `u_dem,NS`, both above `u_up`:
 ///
@@ -76,8 +78,9 @@ impl Demand {
 /// | back | `z = n` | `z = n − (n − u_up)²/(2(u_cap − u_up))` |
 /// | stands if | `z ≤ u_cap` | `z ≤ (u_cap + u_up)/2` (Eq. 3.14) |
 ///
-/// Up to `u_up` both systems are the same, so `n = z` for either rule: Eq. 3.11 itself is meant for uplifted systems and falls below 1 there.
-/// As `u_cap → ∞` equal energy becomes equal displacement. The text proposes equal energy, the more conservative one (Section 3.4.4).
+/// Up to `u_up` both systems are the same, so `n = z` for either rule: Eq. 3.11 itself is meant for uplifted systems
+/// and falls below 1 there. As `u_cap → ∞` equal energy becomes equal displacement. The text proposes equal energy, the
+/// more conservative one (Section 3.4.4).
 ///
 /// ```
 /// use uplift_structure::{Capacity, Demand, Rule};
@@ -86,7 +89,7 @@ impl Demand {
 /// assert!((demand.displacement_m() - 0.576).abs() < 0.001);
 /// # Ok::<(), uplift_structure::StructureError>(())
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Rule {
     /// Both systems reach the same displacement.
@@ -125,7 +128,8 @@ impl Rule {
         Ok(Demand::Stands { displacement_m, ratio: displacement_m / z })
     }
 
-    /// Demand on the ZSBE system that goes with a demand (m) on the negative-stiffness one: the inverse of [`demand`](Self::demand), m.
+    /// Demand on the ZSBE system that goes with a demand (m) on the negative-stiffness one: the inverse of
+    /// [`demand`](Self::demand), m.
     ///
     /// # Errors
     /// The demand must be finite, not negative and at most the capacity.
@@ -145,8 +149,9 @@ impl Rule {
     /// Smallest capacity that is `FS` times the demand it brings about, `u_cap = FS γ u_dem,ZS` (Eq. 3.15), m.
     ///
     /// With equal energy `γ` depends on `u_cap`; the equation is quadratic and its larger root is
-    /// `u_cap = (z + √(z² − k u_up (2z − u_up)))/k` with `k = (2 FS − 1)/FS²`. For `u_up = 0` that is `2 FS²/(2 FS − 1) z`: 3.125 z for `FS = 2.5`,
-    /// against 2.5 z by equal displacement. Up to `u_up` the demand is `z` itself and `u_cap = FS z`.
+    /// `u_cap = (z + √(z² − k u_up (2z − u_up)))/k` with `k = (2 FS − 1)/FS²`. For `u_up = 0` that is
+    /// `2 FS²/(2 FS − 1) z`: 3.125 z for `FS = 2.5`, against 2.5 z by equal displacement. Up to `u_up` the demand is
+    /// `z` itself and `u_cap = FS z`.
     ///
     /// # Errors
     /// The demand and the uplift displacement must be finite and not negative, the safety factor finite and at least 1.
@@ -170,8 +175,8 @@ impl Rule {
     }
 }
 
-/// Error of a demand (m) against the exact one, `(u − u_exact)/u_exact` \[-\]: negative on the unsafe side. `−1` where only the exact one is
-/// infinite, `+∞` where only the other is, 0 where both are; none where the exact one is 0.
+/// Error of a demand (m) against the exact one, `(u − u_exact)/u_exact` \[-\]: negative on the unsafe side. `−1` where
+/// only the exact one is infinite, `+∞` where only the other is, 0 where both are; none where the exact one is 0.
 pub fn relative_error(demand_m: f64, exact_m: f64) -> Option<f64> {
     match (demand_m.is_infinite(), exact_m.is_infinite()) {
         (true, true) => Some(0.0),

@@ -8,7 +8,8 @@ use crate::rule::checked_safety_factor;
 pub struct SpectrumPoint {
     /// Slenderness as a tangent, `tan α = b/h`.
     pub tangent: f64,
-    /// Displacement demand of the top, m: for a solitary block 3/2 times the ordinate of the ZSBE spectrum at `η = tan α` (row 4).
+    /// Displacement demand of the top, m: for a solitary block 3/2 times the ordinate of the ZSBE spectrum at
+    /// `η = tan α` (row 4).
     pub demand_m: f64,
 }
 
@@ -37,16 +38,19 @@ impl SlendernessDesign {
     }
 }
 
-/// Slenderness of a block of height `2H` (m): the intersection of capacity line and spectrum, times a safety factor (2.5 in the text).
+/// Slenderness of a block of height `2H` (m): the intersection of capacity line and spectrum, times a safety
+/// factor (2.5 in the text).
 ///
-/// For a frame, `2H` is [`Frame::equivalent_block_height_m`](crate::Frame::equivalent_block_height_m). The spectrum is linear between its points. Where it meets
-/// the capacity line more than once, the largest `tan α` counts: to the right of it every block stands.
+/// For a frame, `2H` is [`Frame::equivalent_block_height_m`](crate::Frame::equivalent_block_height_m). The spectrum is
+/// linear between its points. Where it meets the capacity line more than once, the largest `tan α` counts: to the right
+/// of it every block stands.
 ///
-/// The text calls the factor 2.5 a safety factor: it multiplies the slenderness, so capacity over demand at the design point is larger than 2.5
-/// wherever the spectrum falls.
+/// The text calls the factor 2.5 a safety factor: it multiplies the slenderness, so capacity over demand at the design
+/// point is larger than 2.5 wherever the spectrum falls.
 ///
 /// # Errors
-/// The spectrum must have two points or more with rising tangents and finite demands, meet the capacity line, and reach the design slenderness.
+/// The spectrum must have two points or more with rising tangents and finite demands, meet the capacity line, and reach
+/// the design slenderness.
 pub fn design_slenderness(
     spectrum: &[SpectrumPoint],
     height_m: f64,
@@ -90,7 +94,7 @@ fn intersection(spectrum: &[SpectrumPoint], height_m: f64) -> Result<f64, Struct
     if shortfall_m(&last) > 0.0 {
         return Err(StructureError::NeverStands { last_tangent: last.tangent, capacity_m: height_m * last.tangent });
     }
-    // a spectrum that starts at the origin touches the line there: that is no structure
+    // a spectrum that starts at the origin touches the line there: that is not a structure
     let touches = |point: &SpectrumPoint| shortfall_m(point) >= 0.0 && point.tangent > 0.0 || shortfall_m(point) > 0.0;
     let Some(left) = spectrum.iter().rposition(touches) else {
         let first = spectrum[0];

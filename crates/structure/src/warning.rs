@@ -1,11 +1,12 @@
-//! What is said aloud about an equivalent system that is nevertheless computed.
+//! What limits an equivalent system that is nevertheless computed.
 
 use std::fmt;
 
 /// A property of the structure that limits what its equivalent oscillator is worth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Warning {
-    /// The body is not slender: `tan α` and `α` differ by more than [`SLENDER_TOLERANCE`](crate::geometry::SLENDER_TOLERANCE).
+    /// The body is not slender: `tan α` and `α` differ by more than
+    /// [`SLENDER_TOLERANCE`](crate::geometry::SLENDER_TOLERANCE).
     Stocky {
         /// Slenderness `α`, rad.
         slenderness_rad: f64,
@@ -19,8 +20,8 @@ pub enum Warning {
         /// Stiffness after uplift, N/m.
         stiffness_n_m: f64,
     },
-    /// The curved extensions end before the force vanishes: the loop is trilinear, and the bilinear one replaces it by its chord from
-    /// uplift to the overturning of the extended base, which is never above it.
+    /// The curved extensions end before the force vanishes: the loop is trilinear, and the bilinear one replaces it by
+    /// its chord from uplift to the overturning of the extended base, which is never above it.
     ExtensionEnds {
         /// Displacement at which rolling ends, m.
         rolling_until_m: f64,
@@ -36,7 +37,8 @@ impl fmt::Display for Warning {
         match self {
             Self::Stocky { slenderness_rad, linearisation_error } => write!(
                 f,
-                "slenderness {slenderness_rad:.4} rad: the body is stocky, the linearised uplift force is {:.1} % below the static one",
+                "slenderness {slenderness_rad:.4} rad: the body is stocky, the linearised uplift force is {:.1} % \
+                 below the static one",
                 100.0 * linearisation_error
             ),
             Self::ZeroStiffness => f.write_str(
@@ -44,13 +46,14 @@ impl fmt::Display for Warning {
             ),
             Self::PositiveStiffness { stiffness_n_m } => write!(
                 f,
-                "post-uplift stiffness {stiffness_n_m:.6e} N/m, positive: no displacement capacity, and spectra and rules of \
-                 negative-stiffness systems do not apply"
+                "post-uplift stiffness {stiffness_n_m:.6e} N/m, positive: no displacement capacity, and spectra and \
+                 rules of negative-stiffness systems do not apply"
             ),
             Self::ExtensionEnds { rolling_until_m, rolling_capacity_m, overturning_m } => write!(
                 f,
                 "the curved extensions end at {rolling_until_m:.4} m, before the force vanishes (rolling alone: {}): \
-                 the loop is trilinear, taken as the straight line to the overturning of the extended base at {overturning_m:.4} m",
+                 the loop is trilinear, taken as the straight line to the overturning of the extended base at \
+                 {overturning_m:.4} m",
                 if rolling_capacity_m.is_finite() { format!("{rolling_capacity_m:.4} m") } else { "never".to_owned() }
             ),
         }

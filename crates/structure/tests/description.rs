@@ -100,7 +100,7 @@ fn geometries_that_do_not_determine_a_block() {
     assert_eq!(geometry("slenderness_deg = 0.1").len(), 1);
     // a range and a choice are both said
     assert_eq!(geometry("slenderness_deg = 95").len(), 2);
-    // the height of the body is no height of the centre: it is foreign, and then the height is missing
+    // the height of the body is not that of the centre: it does not belong here, and then the height is missing
     let body = mistakes("kind = \"body\"\nmass_kg = 1\nmoment_of_inertia_kg_m2 = 99\nwidth_m = 1\nheight_m = 10");
     assert_eq!(body.len(), 2);
     assert!(body[1].starts_with("the geometry is given by `width_m` = 1 m: "), "{body:?}");
@@ -144,7 +144,8 @@ fn unknown_words_are_refused_by_name() {
     }
 }
 
-// A spectrum counts strength in multiples of its own gravity; the force per mass at which the oscillator uplifts is one and the same.
+// A spectrum counts strength in multiples of its own gravity; the force per mass at which the oscillator
+// uplifts is one and the same.
 #[test]
 fn strength_in_a_spectrum_of_another_gravity() {
     let text = "kind = \"block\"\nwidth_m = 0.8\nheight_m = 4\nmass_kg = 8000\ngravity_m_s2 = 1.62\n";

@@ -1,5 +1,5 @@
-//! The linearised rows against the exact statics of rigid bodies, from potential energies that share no formula with the crate, and
-//! against the oscillator that computes the spectra.
+//! The linearised rows against the exact statics of rigid bodies, from potential energies that share no formula with
+//! the crate, and against the oscillator that computes the spectra.
 #![allow(clippy::unwrap_used)]
 
 use uplift_oscillator::{Excitation, FreeVibration, problems, respond};
@@ -48,7 +48,8 @@ fn pose(b: f64, h: f64, rotation: f64) -> Pose {
     }
 }
 
-/// Lateral force at the deck from a potential energy and the deck's displacement as functions of the rotation: `(dV/dθ)/(du/dθ)`.
+/// Lateral force at the deck from a potential energy and the deck's displacement as functions of the
+/// rotation: `(dV/dθ)/(du/dθ)`.
 fn force(energy: impl Fn(f64) -> f64, displacement: impl Fn(f64) -> f64, rotation: f64) -> f64 {
     let step = 1e-4 * rotation;
     (energy(rotation + step) - energy(rotation - step))
@@ -111,7 +112,8 @@ fn frames_with_curved_ends() {
     for radius in [1.0, 2.5, 4.0] {
         let curved = CurvedFrame::new(frame, radius, 2.0 * b + radius).unwrap();
         let system = curved.equivalent(Conditions::new(GRAVITY, 0.0).unwrap()).unwrap();
-        // the centres of curvature stay at the radius above the ground and below the deck, and move by the arc that is rolled off
+        // the centres of curvature stay at the radius above the ground and below the deck, and move by the
+        // arc that is rolled off
         let to_column = |rotation: f64| rotated((-b, h - radius), rotation);
         let between = |rotation: f64| rotated((-2.0 * b, 2.0 * (h - radius)), rotation);
         let energy = |rotation: f64| {
@@ -128,8 +130,8 @@ fn frames_with_curved_ends() {
 
 #[test]
 fn the_shake_table_specimen() {
-    // Section 6.3.3: four columns, 4b = 394 mm, 2R = 1.463 m, slab 94.35 kN, columns 1.22 kN less a half each in the force at the deck,
-    // k_res = 1720 kN/m within the column; the printed 374 mm follow with α = atan(b/h)
+    // Section 6.3.3: four columns, 4b = 394 mm, 2R = 1.463 m, slab 94.35 kN, columns 1.22 kN less a half each in the
+    // force at the deck, k_res = 1720 kN/m within the column; the printed 374 mm follow with α = atan(b/h)
     let b: f64 = 0.0985;
     let h = (0.7315_f64.powi(2) - b * b).sqrt();
     let frame = Frame::new(Geometry::from_width_and_height(2.0 * b, 2.0 * h).unwrap(), 4, 122.0, 9435.0).unwrap();

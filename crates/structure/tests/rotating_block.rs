@@ -10,7 +10,8 @@ fn close(a: f64, b: f64) -> bool {
     (a - b).abs() <= 1e-12 * a.abs().max(b.abs())
 }
 
-/// What the rotation of a linearised system depends on: the acceleration that lifts it, over g, and the rate of its divergence, 1/s².
+/// What the rotation of a linearised system depends on: the acceleration that lifts it, over g, and the rate of
+/// its divergence, 1/s².
 fn rotation(system: &EquivalentSystem) -> [f64; 2] {
     let capacity_m = system.capacity().unwrap().capacity_m();
     [system.spectral_strength(), system.strength() * system.conditions().gravity_m_s2() / capacity_m]
@@ -25,7 +26,8 @@ proptest! {
     /// Table 3.1 was derived structure by structure: each row must be that of its block.
     #[test]
     fn the_equivalent_oscillator_of_the_block_is_that_of_the_structure(
-        alpha in 0.02..0.5_f64, size in 0.2..30.0_f64, ratio in 1.0..3.0_f64, deck in 0.0..20.0_f64, columns in 1..9_u32,
+        alpha in 0.02..0.5_f64, size in 0.2..30.0_f64, ratio in 1.0..3.0_f64, deck in 0.0..20.0_f64,
+        columns in 1..9_u32,
     ) {
         let geometry = Geometry::from_slenderness_and_size(alpha, size).unwrap();
         let conditions = Conditions::new(9.81, 0.0).unwrap();
@@ -55,7 +57,8 @@ proptest! {
         let (b, h, m) = (geometry.half_width_m(), geometry.half_height_m(), 700.0);
         let frame = Frame::new(geometry, columns, m, f64::from(columns) * deck * m).unwrap();
         let r = frame.rotating_block().restitution;
-        // unit rate before: the centre moves by h to the side and b down, the deck by 2h and 2b; afterwards all turn about the other corner
+        // unit rate before: the centre moves by h to the side and b down, the deck by 2h and 2b; afterwards all turn
+        // about the other corner
         let spin = m * (b * b + h * h) / 3.0;
         let column_before = spin + m * (h * h - b * b);
         let column_after = r * (spin + m * (h * h + b * b));
@@ -80,7 +83,8 @@ fn special_cases_are_each_other() {
     for other in [columns, body] {
         assert!(close(other.size_m, 5.0) && close(other.restitution, block.restitution), "{other:?}");
     }
-    // massless columns: the deck moves with the tops, twice as far as a mass at the centre; cos 2α at the impact (Makris and Vassiliou 2013)
+    // massless columns: the deck moves with the tops, twice as far as a mass at the centre; cos 2α at the impact
+    // (Makris and Vassiliou 2013)
     let deck = Frame::new(geometry, 3, 0.0, 900.0).unwrap().rotating_block();
     let point = PointMass::new(geometry, 900.0).unwrap().rotating_block();
     assert!(close(deck.size_m, 7.5) && close(deck.restitution, 0.4_f64.cos()), "{deck:?}");

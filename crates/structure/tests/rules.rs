@@ -61,7 +61,8 @@ fn required_capacity_by_hand() {
     assert_eq!(Rule::EqualDisplacement.required_capacity_m(1.0, 0.0, 2.5).unwrap(), 2.5);
     // FS = 1 is the edge of Eq. 3.14: 2 · 1.5 − 0.5
     assert!((Rule::EqualEnergy.required_capacity_m(1.5, 0.5, 1.0).unwrap() - 2.5).abs() < 1e-15);
-    // z = 1.25, u_up = 0.5, FS = 2: k = 0.75, (1.25 + √(1.5625 − 0.75 · 0.5 · 2))/0.75 = (1.25 + √0.8125)/0.75 = 2.868517
+    // z = 1.25, u_up = 0.5, FS = 2: k = 0.75, (1.25 + √(1.5625 − 0.75 · 0.5 · 2))/0.75 = (1.25 +
+    // √0.8125)/0.75 = 2.868517
     let required = Rule::EqualEnergy.required_capacity_m(1.25, 0.5, 2.0).unwrap();
     assert!((required - 2.868_517_091_8).abs() < 1e-9, "{required}");
     // no uplift
@@ -162,7 +163,8 @@ fn slenderness_by_hand() {
     ] {
         assert!((found - expected).abs() < 1e-14, "{found} {expected}");
     }
-    // a hump: 0.5 at 0.1 is below 10 t, 3 at 0.2 above again; from there to 0 at 0.3: 3 − 30 (t − 0.2) = 10 t at t = 0.225
+    // a hump: 0.5 at 0.1 is below 10 t, 3 at 0.2 above again; from there to 0 at 0.3: 3 − 30 (t −
+    // 0.2) = 10 t at t = 0.225
     let hump = [point(0.0, 1.0), point(0.1, 0.5), point(0.2, 3.0), point(0.3, 0.0), point(1.0, 0.0)];
     let found = design_slenderness(&hump, 10.0, 2.0).unwrap();
     assert!((found.critical_tangent - 0.225).abs() < 1e-15 && found.demand_m == 0.0);
@@ -239,7 +241,9 @@ proptest! {
     }
 
     #[test]
-    fn the_required_capacity_has_the_safety_factor(z in 1e-6_f64..10.0, uplift in 0.0_f64..0.1, factor in 1.0_f64..10.0, energy: bool) {
+    fn the_required_capacity_has_the_safety_factor(
+        z in 1e-6_f64..10.0, uplift in 0.0_f64..0.1, factor in 1.0_f64..10.0, energy: bool,
+    ) {
         let rule = if energy { Rule::EqualEnergy } else { Rule::EqualDisplacement };
         let required = rule.required_capacity_m(z, uplift, factor).unwrap();
         prop_assume!(required > uplift * (1.0 + 1e-9) && factor > 1.000_001);

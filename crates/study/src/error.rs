@@ -27,8 +27,7 @@ pub enum Place {
 /// One mistake of a study file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct StudyMistake {
-    /// The key as a dotted path with list positions from zero, e.g. `risk.poe[1]`; empty for a
-    /// mistake of TOML syntax.
+    /// The key as a dotted path with list positions from zero, e.g. `risk.poe[1]`; empty for a mistake of TOML syntax.
     pub key: String,
     /// Where it lies.
     pub place: Place,
@@ -68,6 +67,33 @@ impl Diagnostic for StudyMistake {
     }
 }
 
+/// Why a study file cannot be read.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Unreadable {
+    /// The system does not give it.
+    #[error(transparent)]
+    System(#[from] std::io::Error),
+    /// There is no current directory that a relative path could start from.
+    #[error("no current directory: {0}")]
+    NoCurrentDirectory(std::io::Error),
+    /// It is a folder, a pipe or the like.
+    #[error("it is not a file")]
+    NotAFile,
+    /// It is larger than what people write.
+    #[error("it has more than {most_bytes} bytes; is it a study file?")]
+    TooLarge {
+        /// The largest size \[bytes\].
+        most_bytes: u64,
+    },
+    /// It is not UTF-8 text.
+    #[error("line {line} is not UTF-8 text; save it as UTF-8")]
+    NotUtf8 {
+        /// The first such line, from one.
+        line: usize,
+    },
+}
+
 /// Why a study cannot be run.
 ///
 /// It is a [`miette::Diagnostic`]: every mistake is shown with its line and a caret below it.
@@ -79,8 +105,8 @@ pub enum StudyError {
     Unreadable {
         /// The file as given.
         file: String,
-        /// The reason, as the system or this program puts it.
-        reason: String,
+        /// The reason.
+        reason: Unreadable,
     },
     /// The file is read, and holds mistakes.
     #[error("{file}: {}", count(mistakes.len(), *left_out))]
@@ -97,7 +123,7 @@ pub enum StudyError {
 }
 
 /// More mistakes than this are counted, not listed.
-pub(super) const MOST_LISTED: usize = 100;
+pub(crate) const MOST_LISTED: usize = 100;
 
 fn count(listed: usize, left_out: usize) -> String {
     match (listed, left_out) {
@@ -110,8 +136,13 @@ fn count(listed: usize, left_out: usize) -> String {
 }
 
 impl StudyError {
+    /// The file `file` cannot be read.
+    pub(crate) fn unreadable(file: &Path, reason: Unreadable) -> Self {
+        Self::Unreadable { file: file.display().to_string(), reason }
+    }
+
     /// The `mistakes`, in order, of the study file named `file` with the contents `text`; so many more are `left_out`.
-    pub(super) fn of_mistakes(file: &Path, text: String, mistakes: Vec<StudyMistake>, left_out: usize) -> Self {
+    pub(crate) fn of_mistakes(file: &Path, text: String, mistakes: Vec<StudyMistake>, left_out: usize) -> Self {
         let file = file.display().to_string();
         Self::Mistakes { text: Box::new(NamedSource::new(&file, text)), file, mistakes, left_out }
     }

@@ -1,17 +1,29 @@
 //! Grids: increasing numbers with the notation that gives them.
 
+pub(crate) mod notation;
+
 use std::fmt;
 use std::ops::Deref;
 use std::str::FromStr;
 
 use serde::Serialize;
 
-use super::document::{Node, Origin, Value};
-use super::notation::{self, Fault, MOST_GRID_VALUES};
-use super::reader::{Field, Ledger, Rule, Section, quantity};
+use crate::reading::{Field, Findings, Node, Origin, Rule, Section, Value, quantity};
+pub use notation::MOST_GRID_VALUES;
 
-/// A strictly increasing list of finite numbers, not empty, with the notation in which it was
-/// given; it reads as a slice of its values and is written as its notation.
+/// What is wrong with the notation of a grid, and what to do.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{message}: {help}")]
+pub struct GridError {
+    /// What is wrong.
+    pub message: String,
+    /// What to do.
+    pub help: String,
+}
+
+/// A strictly increasing list of finite numbers, not empty, with the notation in which it was given.
+///
+/// It reads as a slice of its values and is written as its notation.
 #[derive(Clone, PartialEq)]
 pub struct Grid {
     pieces: Vec<Piece>,
@@ -49,33 +61,34 @@ impl Serialize for Grid {
 
 /// What the values of a grid must be.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct GridRule {
-    pub(super) unit: &'static str,
-    pub(super) each: Rule,
-    pub(super) least_count: usize,
+pub(crate) struct GridRule {
+    pub(crate) unit: &'static str,
+    pub(crate) each: Rule,
+    pub(crate) least_count: usize,
 }
 
 impl Grid {
     /// The grid of `key` in `section`, or that of the notations `default` where it is not given.
-    pub(super) fn of_key(
+    pub(crate) fn of_key(
         section: &mut Section<'_>,
         key: &'static str,
         rule: GridRule,
         default: &[&str],
-        ledger: &Ledger,
     ) -> Option<Self> {
-        section.field(key).map_or_else(|| Self::of_default(default, rule, ledger), |field| Self::read(&field, rule))
+        match section.field(key) {
+            Some(field) => Self::read(&field, rule),
+            None => Self::of_default(default, rule, section.findings),
+        }
     }
 
-    fn of_default(default: &[&str], rule: GridRule, ledger: &Ledger) -> Option<Self> {
+    fn of_default(default: &[&str], rule: GridRule, findings: &Findings) -> Option<Self> {
         let node = |value| Node { origin: Origin::Study, value };
         let items = default.iter().map(|text| node(Value::Text((*text).to_owned())));
-        Self::read(&Field { key: "default".to_owned(), node: &node(Value::List(items.collect())), ledger }, rule)
+        Self::read(&Field { key: "default".to_owned(), node: &node(Value::List(items.collect())), findings }, rule)
     }
 
-    /// Reads and checks a grid: a number, a notation, a table of start, stop and count, or a list
-    /// of these.
-    pub(super) fn read(field: &Field<'_>, rule: GridRule) -> Option<Self> {
+    /// Reads and checks a grid: a number, a notation, a table of start, stop and count, or a list of these.
+    pub(crate) fn read(field: &Field<'_>, rule: GridRule) -> Option<Self> {
         let too_many = || {
             field.mistake(format!("the grid has more than {MOST_GRID_VALUES} values"), "take a larger step");
             None
@@ -109,14 +122,14 @@ impl Grid {
         if !values.iter().all(|&value| item.check(value, rule.unit, rule.each)) {
             return None;
         }
-        self.extend(piece, &values, rule.unit).map_err(|Fault { message, help }| item.mistake(message, help)).ok()
+        self.extend(piece, &values, rule.unit).map_err(|error| item.mistake(error.message, error.help)).ok()
     }
 
     /// Appends the values of a piece, which must go on increasing.
-    fn extend(&mut self, piece: Piece, values: &[f64], unit: &str) -> Result<(), Fault> {
+    fn extend(&mut self, piece: Piece, values: &[f64], unit: &str) -> Result<(), GridError> {
         for &value in values {
             if let Some(&last) = self.values.last().filter(|&&last| value <= last) {
-                return Err(Fault {
+                return Err(GridError {
                     message: format!(
                         "{} follows {}, but a grid must increase",
                         quantity(value, unit),
@@ -132,24 +145,15 @@ impl Grid {
     }
 }
 
-/// What is wrong with a grid that was typed, and what to do.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{message}: {help}")]
-pub struct GridError {
-    message: String,
-    help: String,
-}
-
 impl FromStr for Grid {
     type Err = GridError;
 
-    /// The grid of numbers, fractions and `start:step:stop`, set apart by commas, as it is typed on a command line: `0.5,1:1/4:10`.
+    /// The grid of numbers, fractions and `start:step:stop`, set apart by commas, as it is typed on a command line:
+    /// `0.5,1:1/4:10`.
     fn from_str(text: &str) -> Result<Self, GridError> {
         let mut grid = Self { pieces: Vec::new(), values: Vec::new() };
         for item in text.split(',') {
-            notation::values(item)
-                .and_then(|values| grid.extend(Piece::Range(item.trim().to_owned()), &values, ""))
-                .map_err(|Fault { message, help }| GridError { message, help })?;
+            notation::values(item).and_then(|values| grid.extend(Piece::Range(item.trim().to_owned()), &values, ""))?;
         }
         Ok(grid)
     }
@@ -159,7 +163,7 @@ impl FromStr for Grid {
 fn piece(item: &Field<'_>, unit: &str) -> Option<(Piece, Vec<f64>)> {
     let expanded = |text: &str| match notation::values(text) {
         Ok(values) => Some((Piece::Range(text.to_owned()), values)),
-        Err(Fault { message, help }) => {
+        Err(GridError { message, help }) => {
             item.mistake(message, help);
             None
         }
@@ -216,7 +220,7 @@ fn equal_steps(item: &Field<'_>, unit: &str) -> Option<String> {
     let (start, stop, count) = (start?, stop?, i64::try_from(count?).ok()?);
     match notation::equal_steps(start, stop, count) {
         Ok(notation) => Some(notation),
-        Err(Fault { message, help }) => {
+        Err(GridError { message, help }) => {
             item.mistake(message, help);
             None
         }

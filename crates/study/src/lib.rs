@@ -1,9 +1,9 @@
 //! The study file: what a user writes, checked as a whole before anything is computed.
 //!
-//! A study file is TOML. It is parsed into a [`Study`], in which every key and value knows its
-//! place in the file, and resolved into a [`ResolvedStudy`]: every default filled in, every path
-//! found, every unit checked. All mistakes are reported at once, each with its line, its value
-//! and what to do ([`StudyError`]).
+//! A study file is TOML. It is parsed into a [`Study`], in which every key and value knows its place in the file, and
+//! resolved into a [`UniformRiskStudy`] or a [`DisplacementStudy`], or an [`AnyStudy`] where either will do: every
+//! default filled in, every path found, every unit checked. All mistakes are reported at once, each with its line, its
+//! value and what to do ([`StudyError`]).
 //!
 //! ```no_run
 //! use std::path::Path;
@@ -13,30 +13,40 @@
 //! assert_eq!(study.risk.years, 100.0);
 //! # Ok::<(), uplift_study::StudyError>(())
 //! ```
+//!
+//! | to | call |
+//! |---|---|
+//! | load a study of uniform risk, with `--set` | [`Study::load`] |
+//! | load one of any kind | [`Study::load_any`] |
+//! | take text that is in no file | [`Study::parse`], then [`Study::resolve`] or [`Study::resolve_any`] |
+//! | write a resolved study, complete | [`AnyStudy::to_toml`] |
+//! | read that again, when its files may be gone | [`Study::stored`] |
+//! | tell what the keys are | [`Kind::keys`] |
+//! | load a structure file | [`Structure::load`] |
+//!
+//! # Where things are
+//!
+//! A section of a study file is one module: its resolved type, the reading with its rules and defaults, the writing and
+//! the documentation of its keys. `sections` has those of every kind, `uniform_risk` and `displacement` those of their
+//! kind; `reading` is what all of them read with, `grid` the notation of grids.
+//!
+//! **A new key** is a field of the section's type, a line of its `read` and one of its `KEYS`; tests say when one is
+//! missing. Then `UPDATE_DOCS=1 cargo test -p uplift-study` writes the tables of the documentation.
+//!
+//! **A new kind of study** is a module and folder beside `uniform_risk` and `displacement`, with the type of the study,
+//! `read` and `KEYS`; a variant of [`Kind`] and of [`AnyStudy`] in `kind.rs`; and its page in `tests/reference.rs`. The
+//! compiler names the rest.
 
-mod bootstrap;
-mod branches;
 mod displacement;
-mod document;
 mod error;
-mod form;
 mod grid;
-mod hazard;
-mod measures;
-mod notation;
-mod overrides;
-mod paths;
-mod reader;
-mod records;
-mod resolve;
-mod resolved;
-mod selection;
-mod site_table;
-mod sites;
-mod source;
+mod keys;
+mod kind;
+mod reading;
+mod sections;
 mod structure;
-mod suggestion;
-mod warnings;
+mod study;
+mod uniform_risk;
 
 #[cfg(test)]
 mod tests;
@@ -45,18 +55,16 @@ pub use displacement::{
     BlockFamily, DesignPlan, Designed, DisplacementStudy, OscillatorFamily, ScaledTo, ScalingPlan, SetPlan, SetRecords,
     Structures,
 };
-pub use error::{Place, StudyError, StudyMistake};
-pub use grid::{Grid, GridError};
-pub use hazard::{Conversion, Hazard, definition_of, definition_word};
-pub use measures::levels_within;
-pub use notation::MOST_GRID_VALUES;
-pub use resolve::DISPLACEMENT_SPECTRA;
-pub use resolved::{
-    Bootstrap, Branch, Contour, CurveFile, CurveKind, CurveUnit, DEFAULT_SYNTHETIC_PAIRS, DEFAULT_SYNTHETIC_SEED,
-    Extrapolate, IntervalKind, MeasurePlan, Oscillator, Output, RecordSource, Records, Regression, ResolvedStudy, Risk,
-    Site, Uplifted,
-};
-pub use selection::{CRITERIA, Criterion, Range, RecordSelection};
-pub use site_table::SiteTable;
-pub use source::{AnyStudy, Study};
+pub use error::{Place, StudyError, StudyMistake, Unreadable};
+pub use grid::{Grid, GridError, MOST_GRID_VALUES};
+pub use keys::{Key, SectionKeys};
+pub use kind::{AnyStudy, Kind};
+pub use sections::output::Output;
+pub use sections::record_source::{DEFAULT_SYNTHETIC_PAIRS, DEFAULT_SYNTHETIC_SEED, RecordSource};
+pub use sections::selection::{CRITERIA, Criterion, Range, RecordSelection};
 pub use structure::Structure;
+pub use study::Study;
+pub use uniform_risk::{
+    Bootstrap, Branch, Contour, Conversion, CurveFile, CurveKind, Hazard, MeasurePlan, Oscillator, Records, Regression,
+    Risk, Site, SiteTable, UniformRiskStudy, definition_of, levels_within,
+};

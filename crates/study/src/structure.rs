@@ -8,11 +8,10 @@ use uplift_structure::{
     Anchorage, EquivalentSystem, Kind, Reference, RotatingBlock, StructureDescription, StructureError,
 };
 
-use super::document::{Origin, Table};
-use super::error::StudyError;
-use super::reader::{Field, Finding, Ledger, Rule, Section};
-use super::resolve::UPLIFT_DISPLACEMENT;
-use super::source::{parse_table, read_text, refused};
+use crate::error::StudyError;
+use crate::reading::findings::refused;
+use crate::reading::text::{parse_table, read_text};
+use crate::reading::{Field, Finding, Findings, Origin, Rule, Section, Table, UPLIFT_DISPLACEMENT};
 
 /// What a number must be is judged by the description.
 const ANY: Rule = Rule { holds: |_| true, words: "finite" };
@@ -36,14 +35,14 @@ impl Structure {
     /// Reads the structure file `file`.
     ///
     /// # Errors
-    /// [`StudyError`] with every mistake of the file; those of TOML syntax come alone, and one that takes several correct quantities to see, such
-    /// as a capacity below the uplift displacement, is found once those are mended.
+    /// [`StudyError`] with every mistake of the file; those of TOML syntax come alone, and one that takes several
+    /// correct quantities to see, such as a capacity below the uplift displacement, is found once those are mended.
     pub fn load(file: &Path) -> Result<Self, StudyError> {
         let text = read_text(file)?;
         let document = parse_table(file, &text)?;
-        let ledger = Ledger::default();
-        let description = read(Section::root(&document, &ledger));
-        let mut findings = ledger.into_findings();
+        let findings = Findings::default();
+        let description = read(Section::root(&document, &findings));
+        let mut findings = findings.into_vec();
         if let Some(description) = description {
             match resolve(&description) {
                 Ok((system, block)) if findings.is_empty() => {

@@ -6,7 +6,9 @@ mod displacement;
 mod grids;
 mod mistakes;
 mod overriding;
+mod reference;
 mod resolving;
+mod written;
 
 use std::fs;
 use std::path::PathBuf;
@@ -14,7 +16,7 @@ use std::path::PathBuf;
 use miette::{GraphicalReportHandler, GraphicalTheme};
 use tempfile::TempDir;
 
-use super::{AnyStudy, DisplacementStudy, ResolvedStudy, Study, StudyError};
+use super::{AnyStudy, DisplacementStudy, Study, StudyError, UniformRiskStudy};
 
 /// A folder with a study file, two hazard curves and a manifest.
 struct Folder {
@@ -35,7 +37,7 @@ impl Folder {
         fs::canonicalize(self.folder.path()).unwrap().join(name)
     }
 
-    fn load(&self, overrides: &[&str]) -> Result<ResolvedStudy, StudyError> {
+    fn load(&self, overrides: &[&str]) -> Result<UniformRiskStudy, StudyError> {
         let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
         Study::load(&self.path("study.toml"), &overrides)
     }
@@ -65,7 +67,7 @@ fn render(error: &StudyError) -> String {
     shown
 }
 
-fn load(study: &str) -> Result<ResolvedStudy, StudyError> {
+fn load(study: &str) -> Result<UniformRiskStudy, StudyError> {
     Folder::new(study).load(&[])
 }
 

@@ -3,35 +3,59 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use uplift_bootstrap::Band;
+use sha2::{Digest, Sha256};
+use uplift_bootstrap::{Band, ResamplingPlan};
 
-use crate::bootstrap::StrengthBands;
+use super::bands::{BandSettings, StrengthBands};
 use crate::error::UpliftError;
+use crate::result::StoredStripes;
 use uplift_labelled::{LabelledReader, LabelledWriter};
 
 /// Finished strengths by measure and index.
-pub type Finished = BTreeMap<(&'static str, usize), StrengthBands>;
+pub(super) type Finished = BTreeMap<(&'static str, usize), StrengthBands>;
 
 /// The file beside a result that holds the finished part of its bootstrap.
 #[derive(Debug)]
-pub struct Checkpoint {
+pub(super) struct Checkpoint {
     path: PathBuf,
     fingerprint: String,
 }
 
 impl Checkpoint {
-    /// The checkpoint of the result at `result`; `fingerprint` stands for everything that the bands depend on.
-    pub fn of(result: &Path, fingerprint: String) -> Self {
-        Self { path: result.with_extension("bootstrap.part.h5"), fingerprint }
+    /// The checkpoint of this very bootstrap: its fingerprint covers all numbers that the bands depend on.
+    pub(super) fn of(stored: &StoredStripes, plan: &ResamplingPlan, settings: &BandSettings) -> Self {
+        let mut hash = Sha256::new();
+        let mut add = |values: &[f64]| {
+            hash.update((values.len() as u64).to_le_bytes());
+            for value in values {
+                hash.update(value.to_le_bytes());
+            }
+        };
+        add(&stored.targets_per_year);
+        add(&stored.strengths);
+        for measure in &stored.measures {
+            add(&measure.levels);
+            add(measure.edp_m.values());
+            for weights in measure.weights.iter().chain(measure.branches.iter().flatten().map(|(_, weights)| weights)) {
+                add(&weights.per_year());
+            }
+            let branch_weights: Vec<f64> = measure.branches.iter().flatten().map(|(weight, _)| *weight).collect();
+            add(&branch_weights);
+        }
+        hash.update(format!("{:?} {} {:?}", plan.sizes(), plan.replicates(), settings));
+        for count in plan.multiplicities() {
+            hash.update(count.to_le_bytes());
+        }
+        Self { path: stored.path.with_extension("bootstrap.part.h5"), fingerprint: format!("{:x?}", hash.finalize()) }
     }
 
     /// Where it is.
-    pub fn path(&self) -> &Path {
+    pub(super) fn path(&self) -> &Path {
         &self.path
     }
 
     /// What is there already of the measures `keys`; nothing if it belongs to other numbers or cannot be read.
-    pub fn load(&self, keys: &[&'static str]) -> Finished {
+    pub(super) fn load(&self, keys: &[&'static str]) -> Finished {
         let read = || -> Result<Finished, UpliftError> {
             let reader = LabelledReader::open(&self.path)?;
             let mut finished = Finished::new();
@@ -65,7 +89,7 @@ impl Checkpoint {
     ///
     /// # Errors
     /// A file that cannot be written.
-    pub fn save(&self, finished: &Finished) -> Result<(), UpliftError> {
+    pub(super) fn save(&self, finished: &Finished) -> Result<(), UpliftError> {
         let mut writer = LabelledWriter::create(&self.path)?;
         writer.attribute("/", "program", "uplift")?;
         writer.attribute("/", "fingerprint", self.fingerprint.as_str())?;
@@ -108,7 +132,7 @@ impl Checkpoint {
     }
 
     /// Take the file away, once its numbers are in the result.
-    pub fn remove(&self) {
+    pub(super) fn remove(&self) {
         let _ = std::fs::remove_file(&self.path);
     }
 }

@@ -1,16 +1,16 @@
 //! Keys: everything that a number depends on, in a hash.
 
 use sha2::{Digest, Sha256};
-use uplift_ida::NUMERICS;
+use uplift_ida::{Axes, NUMERICS, Plan};
 use uplift_motion::Accelerogram;
 
-use crate::inputs::RecordSet;
 use uplift_labelled::hexadecimal;
-use uplift_study::{MeasurePlan, ResolvedStudy, Uplifted};
+use uplift_oscillator::PostUplift;
+use uplift_study::UniformRiskStudy;
 
-/// Key of a piece.
+/// Key of an analysis row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct PieceKey(pub [u8; 16]);
+pub struct RowKey(pub [u8; 16]);
 
 /// SHA-256 of a motion's time step and samples, as hexadecimal digits.
 pub fn motion_key(motion: &Accelerogram) -> String {
@@ -22,13 +22,15 @@ pub fn motion_key(motion: &Accelerogram) -> String {
     hexadecimal(&hash.finalize())
 }
 
-/// SHA-256 of the oscillator of a study but for its strength, and of the version of the solver's numbers, as hexadecimal digits.
-pub fn oscillator_key(study: &ResolvedStudy) -> String {
+/// SHA-256 of the oscillator of a study but for its strength, and of the version of the solver's numbers, as
+/// hexadecimal digits: what a result says of its stripes, so that those of the same oscillator can be taken over cell
+/// by cell.
+pub fn oscillator_key(study: &UniformRiskStudy) -> String {
     let oscillator = &study.oscillator;
-    let (kind, parameter) = match oscillator.uplifted {
-        Uplifted::ZeroStiffness => (0_u32, 0.0),
-        Uplifted::NegativeStiffness { capacity_m } => (1, capacity_m),
-        Uplifted::PositiveStiffness { stiffness_per_s2 } => (2, stiffness_per_s2),
+    let (kind, parameter) = match oscillator.post_uplift {
+        PostUplift::Zero => (0_u32, 0.0),
+        PostUplift::Negative { capacity_m } => (1, capacity_m),
+        PostUplift::Positive { stiffness_per_s2 } => (2, stiffness_per_s2),
     };
     let mut hash = Sha256::new();
     hash.update(NUMERICS.to_le_bytes());
@@ -40,48 +42,96 @@ pub fn oscillator_key(study: &ResolvedStudy) -> String {
     hexadecimal(&hash.finalize())
 }
 
-/// The keys of the stripes of one measure.
+/// The keys of the rows of a plan.
 #[derive(Debug, Clone)]
-pub struct StripeKeys {
-    /// `[record, strength]`.
-    keys: Vec<PieceKey>,
-    strengths: usize,
+pub struct RowKeys {
+    axes: Axes,
+    /// As the rows of the plan.
+    keys: Vec<RowKey>,
 }
 
-impl StripeKeys {
-    /// The keys of the stripes that `study` asks for with `measure`; `motions` are the keys of the records' motions.
-    pub fn of(study: &ResolvedStudy, measure: &MeasurePlan, set: &RecordSet, motions: &[String]) -> Self {
-        let mut common = Sha256::new();
-        common.update(oscillator_key(study));
-        for level in measure.levels.iter() {
-            common.update(level.to_le_bytes());
-        }
-        let mut keys = Vec::with_capacity(set.records.len() * study.strengths.len());
-        for (record, motion) in set.records.iter().zip(motions) {
-            let mut of_record = common.clone();
-            of_record.update(motion);
-            of_record.update(record.intensity(measure.measure).to_le_bytes());
-            for strength in study.strengths.iter() {
-                let mut hash = of_record.clone();
-                hash.update(strength.to_le_bytes());
+impl RowKeys {
+    /// The keys of the rows of `plan`, whose motions have the keys `motions` (see [`motion_key`]).
+    ///
+    /// # Panics
+    /// If there are not as many keys as motions, which is a bug of the caller.
+    pub fn of(plan: &Plan<'_>, motions: &[String]) -> Self {
+        let axes = plan.axes();
+        assert_eq!(motions.len(), axes.motions, "keys of motions");
+        let systems: Vec<Vec<u8>> = plan.systems().iter().map(|system| bytes(&system.identity())).collect();
+        let mut keys = Vec::with_capacity(axes.rows());
+        for (motion, key) in plan.motions().iter().zip(motions) {
+            let mut of_motion = Sha256::new();
+            of_motion.update(NUMERICS.to_le_bytes());
+            of_motion.update(u32::from(plan.with_free_peak()).to_le_bytes());
+            of_motion.update(key);
+            of_motion.update(bytes(&motion.scales));
+            for system in &systems {
+                let mut hash = of_motion.clone();
+                hash.update(system);
                 let mut key = [0; 16];
                 key.copy_from_slice(&hash.finalize()[..16]);
-                keys.push(PieceKey(key));
+                keys.push(RowKey(key));
             }
         }
-        Self { keys, strengths: study.strengths.len() }
+        Self { axes, keys }
     }
 
-    /// The key of one piece.
+    /// The key of one row.
     ///
     /// # Panics
     /// If an index is out of range, which is a bug of the caller.
-    pub fn at(&self, record: usize, strength: usize) -> PieceKey {
-        self.keys[record * self.strengths + strength]
+    pub fn at(&self, motion: usize, system: usize) -> RowKey {
+        self.keys[self.axes.row(motion, system)]
     }
 
-    /// Every key with record and strength.
-    pub fn iter(&self) -> impl Iterator<Item = (usize, usize, PieceKey)> + '_ {
-        self.keys.iter().enumerate().map(|(index, key)| (index / self.strengths, index % self.strengths, *key))
+    /// The keys in the order of the rows.
+    pub fn as_slice(&self) -> &[RowKey] {
+        &self.keys
+    }
+
+    /// Lengths of the axes of the plan.
+    pub fn axes(&self) -> Axes {
+        self.axes
+    }
+}
+
+/// So many numbers, and these: lists that follow each other are not taken for others.
+fn bytes(values: &[f64]) -> Vec<u8> {
+    (values.len() as u64).to_le_bytes().into_iter().chain(values.iter().flat_map(|value| value.to_le_bytes())).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use std::collections::HashSet;
+
+    use uplift_block::RockingBlock;
+    use uplift_ida::{ScaledMotion, System};
+    use uplift_oscillator::Oscillator;
+
+    use super::*;
+
+    /// Whatever a number depends on changes the key of its row, and nothing else does.
+    #[test]
+    fn a_key_is_all_that_its_row_depends_on() {
+        let [one, other] = [[1.0, 2.0], [1.0, 3.0]].map(|samples| Accelerogram::new(0.1, samples.to_vec()).unwrap());
+        let systems = [
+            System::Oscillator(Oscillator::zsbe(0.1).unwrap()),
+            System::Oscillator(Oscillator::zsbe(0.2).unwrap()),
+            System::Block(RockingBlock::new(1.0, 0.1).unwrap()),
+        ];
+        let keys = |motion: &Accelerogram, scales: &[f64], systems: &[System], free: bool| {
+            let motions = vec![ScaledMotion { id: "any", accelerogram: motion, scales: scales.to_vec() }];
+            RowKeys::of(&Plan::scaled(motions, systems, free).unwrap(), &[motion_key(motion)]).keys
+        };
+        let mut seen: HashSet<RowKey> = keys(&one, &[1.0, 2.0], &systems, true).into_iter().collect();
+        seen.extend(keys(&other, &[1.0, 2.0], &systems, true));
+        seen.extend(keys(&one, &[1.0], &systems, true));
+        seen.extend(keys(&one, &[2.0, 1.0], &systems, true));
+        seen.extend(keys(&one, &[1.0, 2.0], &systems, false));
+        assert_eq!(seen.len(), 5 * systems.len());
+        // the same row among others
+        assert_eq!(keys(&one, &[1.0, 2.0], &systems[2..], true)[0], keys(&one, &[1.0, 2.0], &systems, true)[2]);
     }
 }

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use polars::prelude::Column;
 
 use super::{DesignRow, DisplacementOutcome};
-use crate::bootstrap::percentile_name;
 use crate::error::UpliftError;
+use crate::result::layout::percentile_name;
 use crate::result::write_table;
 use uplift_study::{ScaledTo, Structures};
 
@@ -15,7 +15,8 @@ pub fn displacement_csv_paths(result: &Path) -> [PathBuf; 2] {
     ["displacements.csv", "design.csv"].map(|extension| result.with_extension(extension))
 }
 
-/// Write the tables of `outcome` and its `design` beside the result file `result`, one comment line of provenance first; the files.
+/// Write the tables of `outcome` and its `design` beside the result file `result`, one comment line of provenance
+/// first; the files.
 ///
 /// # Errors
 /// A file that cannot be written.

@@ -1,19 +1,21 @@
 //! The design examples of Sections 2.4.3 and 3.4.5 for every set and way of scaling.
 
 use rayon::prelude::*;
-use uplift_ida::Watch;
+use uplift_ida::{Plan, Shard, Watch};
 use uplift_spectra::{
-    MotionSet, RestrainedDesign, RestrainedExample, Scaling, SolitaryDesign, SolitaryExample, SpectraError,
+    Case, MotionSet, RestrainedDesign, RestrainedExample, Scaling, SolitaryDesign, SolitaryExample, SpectraError,
 };
-use uplift_structure::Rule;
 
+use super::Sets;
 use super::spectra::{of_spectra, with_free_vibration};
+use crate::checkpoint::Checkpoint;
 use crate::error::UpliftError;
+use crate::events::{Events, Progress};
+use crate::result::RULES;
 use uplift_study::{DesignPlan, Designed, DisplacementStudy, Structures};
 
-/// The rules that a restrained bridge is designed by, in the order of the results.
-pub const RULES: [Rule; 2] = [Rule::EqualDisplacement, Rule::EqualEnergy];
-/// Ratio of neighbouring slendernesses in the search for the intersection: a range in which the block does not stand may be missed if it is narrower.
+/// Ratio of neighbouring slendernesses in the search for the intersection: a range in which the block does not stand
+/// may be missed if it is narrower.
 const SEARCH_RATIO: f64 = 1.02;
 /// Halvings, at most, after that search.
 const HALVINGS: u64 = 16;
@@ -26,9 +28,6 @@ pub enum Designs {
     /// Solitary blocks over `[set, way]`; none where the capacity line meets no demand.
     Solitary(Vec<Option<SolitaryExample>>),
 }
-
-/// One set, scaled in one way.
-type Case<'a> = (&'a MotionSet<'a>, Scaling);
 
 /// Nonlinear time histories of the design examples; for blocks, whose design is looked for, at most.
 pub fn design_analyses(study: &DisplacementStudy, plan: &DesignPlan, set: &MotionSet<'_>) -> u64 {
@@ -46,24 +45,76 @@ pub fn design_analyses(study: &DisplacementStudy, plan: &DesignPlan, set: &Motio
     each * (set.motions().len() * study.scaling.ways().0.len()) as u64
 }
 
-/// Carry out the design examples; `watch` is told of finished examples.
+/// Carry out one shard of the design examples: sets scaled in one way are dealt to the shards like analysis rows. Their
+/// many small plans share the `checkpoint` of the spectra, of which `analyses` are finished.
 ///
-/// Returned with them is a note on each that does not exist.
+/// Returned, if the shard is the whole and the study asks for them, are the designs, with a note on each that does not
+/// exist.
 ///
 /// # Errors
-/// [`UpliftError::Interrupted`] where `watch` says so; what the solvers and rules refuse.
-pub fn design_examples(
+/// [`UpliftError::Paused`] or [`UpliftError::Interrupted`] where `events` say so; what the solvers and rules refuse.
+pub(crate) fn carry_out_designs(
+    study: &DisplacementStudy,
+    sets: &Sets<'_>,
+    shard: Shard,
+    (checkpoint, analyses): (&Checkpoint, u64),
+    events: &dyn Events,
+) -> Result<Option<(Designs, Vec<String>)>, UpliftError> {
+    let Some(plan) = &study.design else { return Ok(None) };
+    let examples = (sets.sets.len() * study.scaling.ways().0.len()) as u64;
+    events.remark("design", &format!("{examples} examples, {} points around each value", plan.noise_points));
+    let progress = Progress::begin(events, "design", "examples", examples / shard.count);
+    let carrier = Carrier { sets, shard, checkpoint, watch: &progress };
+    let designs = design_examples(study, plan, &carrier);
+    drop(progress);
+    match designs {
+        Err(UpliftError::Interrupted) => Err(checkpoint.stopped(analyses, analyses)),
+        other => {
+            checkpoint.sync()?;
+            other
+        }
+    }
+}
+
+/// What carries out the plans of the examples.
+struct Carrier<'a> {
+    sets: &'a Sets<'a>,
+    shard: Shard,
+    checkpoint: &'a Checkpoint,
+    /// Told of finished examples.
+    watch: &'a dyn Watch,
+}
+
+impl Carrier<'_> {
+    /// `of` each set scaled in each of the `ways` that belongs to the shard, on all cores.
+    fn each<T: Send>(
+        &self,
+        ways: &[Scaling],
+        of: impl Fn(Case<'_>) -> Result<T, SpectraError> + Sync,
+    ) -> Result<Vec<T>, UpliftError> {
+        let places: Vec<(usize, Scaling)> =
+            (0..self.sets.sets.len()).flat_map(|set| ways.iter().map(move |way| (set, *way))).collect();
+        let example = |&(set, scaling): &(usize, Scaling)| {
+            let carry_out = |plan: &Plan<'_>| self.checkpoint.peaks(plan, &self.sets.keys[set], &Within(self.watch));
+            let example = of(Case { set: &self.sets.sets[set], scaling, carry_out: &carry_out })?;
+            self.watch.finished(1);
+            Ok(example)
+        };
+        let places = places.par_iter().enumerate().filter(|(place, _)| self.shard.contains(*place));
+        places.map(|(_, place)| example(place)).collect::<Result<Vec<T>, SpectraError>>().map_err(of_spectra)
+    }
+}
+
+fn design_examples(
     study: &DisplacementStudy,
     plan: &DesignPlan,
-    sets: &[MotionSet<'_>],
-    watch: &dyn Watch,
-) -> Result<(Designs, Vec<String>), UpliftError> {
+    carrier: &Carrier<'_>,
+) -> Result<Option<(Designs, Vec<String>)>, UpliftError> {
     let (ways, places) = study.scaling.ways();
-    let cases: Vec<Case<'_>> = sets.iter().flat_map(|set| ways.iter().map(move |way| (set, *way))).collect();
     let noise = plan.noise().map_err(of_spectra)?;
     // what is not scaled stands under every `by`
     let everywhere = |case: usize| case / places.len() * ways.len() + places[case % places.len()];
-    let all = 0..sets.len() * places.len();
+    let all = 0..carrier.sets.sets.len() * places.len();
     match (plan.designed, &study.structures) {
         (Designed::Bridge { width_m, height_m }, Structures::Oscillators(family)) => {
             let design = RestrainedDesign {
@@ -76,10 +127,11 @@ pub fn design_examples(
                 percent: plan.percentile,
                 with_free_vibration: with_free_vibration(study),
             };
-            let found = each(&cases, watch, |(set, way), inner| {
-                RULES.iter().map(|&rule| design.example(set, way, rule, noise, inner)).collect::<Result<Vec<_>, _>>()
+            let found = carrier.each(&ways, |case| {
+                RULES.iter().map(|&rule| design.example(case, rule, noise)).collect::<Result<Vec<_>, _>>()
             })?;
-            Ok((Designs::Restrained(all.flat_map(|case| found[everywhere(case)].clone()).collect()), Vec::new()))
+            let designs = || all.flat_map(|case| found[everywhere(case)].clone()).collect();
+            Ok(carrier.shard.is_whole().then(|| (Designs::Restrained(designs()), Vec::new())))
         }
         (Designed::Block { height_m, endless_height_m }, Structures::Blocks(family)) => {
             let abscissa = &family.slendernesses;
@@ -93,37 +145,25 @@ pub fn design_examples(
                 search: [abscissa[0], abscissa[abscissa.len() - 1]],
                 search_ratio: SEARCH_RATIO,
             };
-            let found = each(&cases, watch, |(set, way), inner| match design.example(set, way, noise, inner) {
+            let found = carrier.each(&ways, |case| match design.example(case, noise) {
                 Ok(example) => Ok(Ok(example)),
                 Err(error @ SpectraError::NoIntersection { .. }) => Ok(Err(error.to_string())),
                 Err(error) => Err(error),
             })?;
             let notes = found.iter().filter_map(|example| example.as_ref().err().cloned()).collect();
-            let designs = all.map(|case| found[everywhere(case)].as_ref().ok().copied()).collect();
-            Ok((Designs::Solitary(designs), notes))
+            let designs = || all.map(|case| found[everywhere(case)].as_ref().ok().copied()).collect();
+            Ok(carrier.shard.is_whole().then(|| (Designs::Solitary(designs()), notes)))
         }
         // the study's reader gives neither the design of the other
-        _ => Err(UpliftError::input("a bridge is designed with oscillators, a block with blocks")),
+        (Designed::Bridge { .. }, Structures::Blocks(_)) | (Designed::Block { .. }, Structures::Oscillators(_)) => {
+            Err(UpliftError::input("a bridge is designed with oscillators, a block with blocks"))
+        }
     }
 }
 
 /// Strength of a column that rocks, `tan(2b/2h)` as Section 3.5 writes it.
 pub fn strength(width_m: f64, height_m: f64) -> f64 {
     (width_m / height_m).tan()
-}
-
-/// `of` every case, on all cores.
-fn each<'a, T: Send>(
-    cases: &[Case<'a>],
-    watch: &dyn Watch,
-    of: impl Fn(Case<'a>, &dyn Watch) -> Result<T, SpectraError> + Sync,
-) -> Result<Vec<T>, UpliftError> {
-    let shake = |case: &Case<'a>| {
-        let example = of(*case, &Within(watch))?;
-        watch.finished(1);
-        Ok(example)
-    };
-    cases.par_iter().map(shake).collect::<Result<Vec<T>, SpectraError>>().map_err(of_spectra)
 }
 
 /// Passes on that the work is to stop, and nothing of its progress: that is told example by example.

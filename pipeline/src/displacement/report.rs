@@ -4,11 +4,12 @@ use std::path::PathBuf;
 
 use serde::{Serialize, Serializer};
 use uplift_spectra::MotionSet;
-use uplift_study::{DISPLACEMENT_SPECTRA, Structures};
+use uplift_study::{Kind, Structures};
 
 use super::{DesignRow, DisplacementOutcome};
 use crate::inputs::NamedSet;
 use crate::run::RunHead;
+use crate::text::finite;
 
 /// What a run tells.
 #[derive(Debug, Clone, Serialize)]
@@ -91,7 +92,7 @@ impl RunReport {
         let sets = outcome.records.sets.iter().zip(outcome.sets);
         Self {
             head: outcome.provenance.head(&study.title, records, outcome.warnings, files, seconds),
-            kind: DISPLACEMENT_SPECTRA,
+            kind: Kind::Displacement.key(),
             sets: sets.map(|(set, motions)| SetReport::of(set, motions)).collect(),
             analyses: outcome.analyses,
             design,
@@ -125,7 +126,6 @@ impl Serialize for DesignRow {
     /// The value beside its range; null where it does not exist or is infinite.
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         use serde::ser::SerializeStruct;
-        let finite = |value: f64| value.is_finite().then_some(value);
         let mut row = serializer.serialize_struct("DesignRow", 8)?;
         row.serialize_field("record_set", &self.record_set)?;
         row.serialize_field("scaling", &self.scaling)?;

@@ -3,67 +3,62 @@
 use std::collections::BTreeMap;
 use std::time::Instant;
 
-use uplift_labelled::LabelledReader;
+use uplift_ida::Shard;
 use uplift_spectra::MotionSet;
 use uplift_study::DisplacementStudy;
 
 use super::report::RunReport;
-use super::{
-    Designs, DisplacementOutcome, analyses, design_examples, read_design, set_spectra, structures,
-    write_displacement_csv, write_displacements,
-};
+use super::{DisplacementOutcome, Inputs, carry_out_designs, set_spectra, write_displacement_csv, write_displacements};
+use crate::checkpoint::{Checkpoint, FinishedRows, checkpoint_path};
 use crate::error::UpliftError;
-use crate::events::{Events, Progress};
-use crate::inputs::{RecordSets, read_record_sets};
-use crate::result::Provenance;
+use crate::events::Events;
+use crate::inputs::RecordSets;
+use crate::result::{Provenance, ResultFile};
 use crate::run::{Place, SYNTHETIC};
-use crate::text::thousands;
 
 /// With fewer motions beyond a percentile than this, one of them decides it.
 const FEW_BEYOND: f64 = 5.0;
 
-/// Carries out `study`.
-pub(crate) fn run(study: &DisplacementStudy, place: &Place<'_>, events: &dyn Events) -> Result<RunReport, UpliftError> {
+/// Carries out `study`, but for the rows of its analysis that are `known`.
+pub(crate) fn run(
+    study: &DisplacementStudy,
+    place: &Place<'_>,
+    known: FinishedRows,
+    events: &dyn Events,
+) -> Result<RunReport, UpliftError> {
     let path = place.path;
-    let records = read_record_sets(study)?;
+    let inputs = Inputs::read(study)?;
+    let records = &inputs.records;
     events.remark("records", &records.description);
-    let sets = records.motions(study.gravity_m_s2)?;
-    let structures = structures(study)?;
+    let sets = inputs.sets(study)?;
 
+    let work = sets.work(study)?;
+    let total = work.analyses();
+    let mut checkpoint = Checkpoint::open(&checkpoint_path(path), &work.head(Shard::WHOLE))?;
+    checkpoint.extend(known);
+    checkpoint.path().into_iter().for_each(|path| events.kept_in(path));
     let begin = Instant::now();
     let mut spectra = Vec::new();
-    let mut total = 0;
-    for set in &sets {
-        let count = analyses(study, set);
-        total += count;
-        events.remark(
-            &format!("{}:", set.name()),
-            &format!(
-                "{} motions x {} scalings x {} structures = {} analyses",
-                set.motions().len(),
-                study.scaling.ways().0.len(),
-                structures.len(),
-                thousands(count)
-            ),
-        );
-        let progress = Progress::begin(events, set.name(), "analyses", count);
-        spectra.push(set_spectra(study, &structures, set, &progress)?);
-    }
+    work.carry_out(&checkpoint, Shard::WHOLE, events, &mut |set, analysed| {
+        spectra.push(set_spectra(study, &sets.sets[set], &analysed.peaks));
+        Ok(())
+    })?;
     let seconds = begin.elapsed().as_secs_f64();
-    let (designs, without_design) = design(study, &sets, events)?.unzip();
+    let designs = carry_out_designs(study, &sets, Shard::WHOLE, (&checkpoint, total), events)?;
+    let (designs, without_design) = designs.unzip();
     let mut warnings = records.notes.clone();
-    warnings.extend(warnings_of(study, &records, &sets));
+    warnings.extend(warnings_of(study, records, &sets.sets));
     warnings.extend(without_design.into_iter().flatten());
     if events.cancelled() {
-        return Err(UpliftError::Interrupted);
+        return Err(checkpoint.stopped(total, total));
     }
 
-    let mut provenance = Provenance::of_inputs(place.options, checksums(&records));
+    let mut provenance = Provenance::of_inputs(place.options, checksums(records));
     provenance.wall_time_s = place.start.elapsed().as_secs_f64();
     let outcome = DisplacementOutcome {
         study,
-        records: &records,
-        sets: &sets,
+        records,
+        sets: &sets.sets,
         spectra: &spectra,
         designs: designs.as_ref(),
         analyses: total,
@@ -72,28 +67,14 @@ pub(crate) fn run(study: &DisplacementStudy, place: &Place<'_>, events: &dyn Eve
         provenance: &provenance,
     };
     write_displacements(path, &outcome)?;
+    checkpoint.remove();
     let mut files = vec![path.to_owned()];
     // the tables say what the file says
-    let rows = read_design(&LabelledReader::open(path)?)?;
+    let rows = ResultFile::open(path)?.design()?.map_or_else(Vec::new, |design| design.rows);
     if study.output.csv {
         files.extend(write_displacement_csv(path, &outcome, &rows)?);
     }
     Ok(RunReport::of(&outcome, rows, files, place.start.elapsed().as_secs_f64()))
-}
-
-/// The design examples, if the study asks for them, with notes.
-fn design(
-    study: &DisplacementStudy,
-    sets: &[MotionSet<'_>],
-    events: &dyn Events,
-) -> Result<Option<(Designs, Vec<String>)>, UpliftError> {
-    let Some(plan) = &study.design else { return Ok(None) };
-    let examples = (sets.len() * study.scaling.ways().0.len()) as u64;
-    events.remark("design", &format!("{examples} examples, {} points around each value", plan.noise_points));
-    let progress = Progress::begin(events, "design", "examples", examples);
-    let designs = design_examples(study, plan, sets, &progress);
-    drop(progress);
-    designs.map(Some)
 }
 
 fn checksums(records: &RecordSets) -> BTreeMap<String, String> {
@@ -118,7 +99,8 @@ fn warnings_of(study: &DisplacementStudy, records: &RecordSets, sets: &[MotionSe
             .collect();
         if !few.is_empty() {
             warnings.push(format!(
-                "{}: {motions} motions are few for the percentiles {}: fewer than {FEW_BEYOND} lie beyond, and one of them decides",
+                "{}: {motions} motions are few for the percentiles {}: fewer than {FEW_BEYOND} lie beyond, and one of \
+                 them decides",
                 set.name(),
                 few.join(", ")
             ));

@@ -1,15 +1,15 @@
 //! Displacement spectra of a record set: every structure under every motion, and percentiles over the motions.
 
 use uplift_block::RockingBlock;
-use uplift_ida::Watch;
+use uplift_ida::{Peaks, System};
 use uplift_oscillator::{Oscillator, PostUplift};
-use uplift_spectra::{Displacements, MotionSet, SpectraError, System, critical, displacements, percentile};
+use uplift_spectra::{MotionSet, SpectraError, critical, percentile};
 
 use crate::error::UpliftError;
 use uplift_study::{BlockFamily, DisplacementStudy, OscillatorFamily, Structures};
 
-/// What a set asks of the structures. A way of scaling is `[to, by]` of the study; a line is a combination of uplift displacement and
-/// capacity, or a height; the abscissa is a strength or a slenderness.
+/// What a set asks of the structures. A way of scaling is `[to, by]` of the study; a line is a combination of uplift
+/// displacement and capacity, or a height; the abscissa is a strength or a slenderness.
 #[derive(Debug, Clone)]
 pub struct SetSpectra {
     /// Peak displacements over `[way, line, abscissa, motion]`, m; infinite where the structure overturned.
@@ -65,12 +65,6 @@ fn blocks(family: &BlockFamily, gravity_m_s2: f64) -> Result<Vec<System>, Spectr
     Ok(systems)
 }
 
-/// Nonlinear time histories of the spectra of one set.
-pub fn analyses(study: &DisplacementStudy, set: &MotionSet<'_>) -> u64 {
-    let structures = study.structures.lines() * study.structures.abscissa().len();
-    (study.scaling.ways().0.len() * structures * set.motions().len()) as u64
-}
-
 /// Whether the first peak of the free motion after a record counts; a block is always followed to it.
 pub(super) fn with_free_vibration(study: &DisplacementStudy) -> bool {
     match &study.structures {
@@ -79,34 +73,14 @@ pub(super) fn with_free_vibration(study: &DisplacementStudy) -> bool {
     }
 }
 
-/// Shake `structures` by every motion of `set`, scaled in every way of `study`: peak displacements [way that differs, structure, motion].
+/// What `set` asks of the structures of `study`.
 ///
-/// # Errors
-/// [`UpliftError::Interrupted`] where `watch` says so; what the solvers refuse.
-pub fn shake(
-    study: &DisplacementStudy,
-    structures: &[System],
-    set: &MotionSet<'_>,
-    watch: &dyn Watch,
-) -> Result<Displacements, UpliftError> {
-    displacements(set, &study.scaling.ways().0, structures, with_free_vibration(study), watch).map_err(of_spectra)
-}
-
-/// What `set` asks of the `structures` of `study`.
-///
-/// # Errors
-/// [`UpliftError::Interrupted`] where `watch` says so; what the solvers refuse.
-pub fn set_spectra(
-    study: &DisplacementStudy,
-    structures: &[System],
-    set: &MotionSet<'_>,
-    watch: &dyn Watch,
-) -> Result<SetSpectra, UpliftError> {
+/// * `peaks` — over `[motion, structure, way of scaling that differs]`
+pub fn set_spectra(study: &DisplacementStudy, set: &MotionSet<'_>, peaks: &Peaks) -> SetSpectra {
     let (ways, places) = study.scaling.ways();
-    let shaken = shake(study, structures, set, watch)?;
     let (abscissae, motions) = (study.structures.abscissa(), set.motions().len());
     let mut spectra = SetSpectra {
-        displacement_m: Vec::with_capacity(places.len() * structures.len() * motions),
+        displacement_m: Vec::with_capacity(places.len() * peaks.axes().systems * motions),
         factors: places.iter().flat_map(|&place| set.factors(ways[place])).collect(),
         percentile_m: Vec::new(),
         overturned: Vec::new(),
@@ -114,8 +88,8 @@ pub fn set_spectra(
     };
     for &place in &places {
         for line in 0..study.structures.lines() {
-            let samples: Vec<&[f64]> =
-                (0..abscissae.len()).map(|at| shaken.of_m(place, line * abscissae.len() + at)).collect();
+            let of_line = |at: usize| peaks.over_motions_m(line * abscissae.len() + at, place);
+            let samples: Vec<Vec<f64>> = (0..abscissae.len()).map(of_line).collect();
             for sample in &samples {
                 spectra.displacement_m.extend_from_slice(sample);
                 let overturned = sample.iter().filter(|displacement_m| displacement_m.is_infinite()).count();
@@ -128,13 +102,13 @@ pub fn set_spectra(
             }
         }
     }
-    Ok(spectra)
+    spectra
 }
 
 /// A refusal of the science, as the program tells it.
 pub(super) fn of_spectra(error: SpectraError) -> UpliftError {
     match error {
-        SpectraError::Cancelled => UpliftError::Interrupted,
+        SpectraError::Analysis(error) => error.into(),
         other => UpliftError::input(other.to_string()),
     }
 }

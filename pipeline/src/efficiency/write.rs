@@ -6,17 +6,18 @@ use polars::prelude::Column;
 use uplift_fragility::Dispersion;
 use uplift_regression::Line;
 
-use crate::efficiency::{Covariate, Predictor};
+use super::of_measure::{Covariate, MeasureEfficiency};
 use crate::error::UpliftError;
-use crate::result::level_axis;
+use crate::result::layout::{axis, efficiency, sufficiency};
 use crate::result::{StoredStripes, extend_result, line, sign, write_table};
+use crate::text::finite;
 use uplift_labelled::{LabelledError, LabelledWriter};
 
 /// The groups that a new look replaces.
-const REPLACED: [&str; 2] = ["/efficiency", "/sufficiency"];
+const REPLACED: [&str; 2] = [efficiency::ROOT, sufficiency::ROOT];
 
 /// The table beside the result file.
-pub fn predictors_path(result: &Path) -> PathBuf {
+pub(super) fn efficiency_path(result: &Path) -> PathBuf {
     result.with_extension("measures.csv")
 }
 
@@ -24,69 +25,74 @@ pub fn predictors_path(result: &Path) -> PathBuf {
 ///
 /// # Errors
 /// Whatever keeps the files from being written; the result file is then as it was.
-pub fn write_predictors(
+pub(super) fn write_efficiency(
     stored: &StoredStripes,
     covariates: &[Covariate],
-    predictors: &[Predictor],
+    measures: &[MeasureEfficiency],
 ) -> Result<(), UpliftError> {
-    extend_result(stored, &REPLACED, |writer| add(writer, covariates, predictors))?;
+    extend_result(stored, &REPLACED, |writer| add(writer, covariates, measures))?;
     write_table(
-        &predictors_path(&stored.path),
+        &efficiency_path(&stored.path),
         &line(stored, "efficiency and sufficiency"),
-        predictors_table(stored, covariates, predictors),
+        efficiency_table(stored, covariates, measures),
     )
 }
 
-fn add(writer: &mut LabelledWriter, covariates: &[Covariate], predictors: &[Predictor]) -> Result<(), LabelledError> {
-    sign(writer, "/efficiency")?;
-    sign(writer, "/sufficiency")?;
-    for predictor in predictors {
-        let key = predictor.measure.key();
-        let group = format!("/efficiency/{key}");
-        let of = |value: fn(&Dispersion) -> f64| -> Vec<f64> { predictor.dispersions.iter().map(value).collect() };
-        let stripes: [(&str, Vec<f64>, &str, &str); 5] = [
-            ("median_m", of(|scatter| scatter.median_m), "m", "median demand"),
+fn add(
+    writer: &mut LabelledWriter,
+    covariates: &[Covariate],
+    measures: &[MeasureEfficiency],
+) -> Result<(), LabelledError> {
+    sign(writer, efficiency::ROOT)?;
+    sign(writer, sufficiency::ROOT)?;
+    for found in measures {
+        let measure = found.measure;
+        let of = |value: fn(&Dispersion) -> f64| -> Vec<f64> { found.dispersions.iter().map(value).collect() };
+        let stripes: [(String, Vec<f64>, &str, &str); 5] = [
+            (efficiency::median_m(measure), of(|scatter| scatter.median_m), "m", "median demand"),
             (
-                "dispersion",
+                efficiency::dispersion(measure),
                 of(|scatter| scatter.by_percentiles),
                 "1",
                 "half the logarithm of the 84th over the 16th percentile",
             ),
             (
-                "ln_deviation",
+                efficiency::ln_deviation(measure),
                 of(|scatter| scatter.of_logarithm),
                 "1",
                 "standard deviation of the logarithm of the demand",
             ),
-            ("zeros", of(|scatter| scatter.zeros as f64), "1", "demands of zero"),
-            ("overturned", of(|scatter| scatter.overturned as f64), "1", "overturned runs"),
+            (efficiency::zeros(measure), of(|scatter| scatter.zeros as f64), "1", "demands of zero"),
+            (efficiency::overturned(measure), of(|scatter| scatter.overturned as f64), "1", "overturned runs"),
         ];
-        for (name, values, unit, long_name) in stripes {
-            writer.array_f64(
-                &format!("{group}/{name}"),
-                &["strength", &level_axis(predictor.measure)],
-                &values,
-                unit,
-                long_name,
-            )?;
+        for (path, values, unit, long_name) in stripes {
+            writer.array_f64(&path, &[axis::STRENGTH, &axis::level(measure)], &values, unit, long_name)?;
         }
-        for (name, values, long_name) in [
-            ("rocking", &predictor.rocking, "median dispersion of the stripes whose median rocks"),
-            ("undefined", &predictor.undefined, "share of these stripes that have none, for zeros or overturning"),
-            ("initiation", &predictor.initiation, "deviation of the logarithm of the level at first uplift"),
-        ] {
-            writer.array_f64(&format!("{group}/{name}"), &["strength"], values, "1", long_name)?;
+        let of_strength = [
+            (efficiency::rocking(measure), &found.rocking, "median dispersion of the stripes whose median rocks"),
+            (
+                efficiency::undefined(measure),
+                &found.undefined,
+                "share of these stripes that have none, for zeros or overturning",
+            ),
+            (
+                efficiency::initiation(measure),
+                &found.initiation,
+                "deviation of the logarithm of the level at first uplift",
+            ),
+        ];
+        for (path, values, long_name) in of_strength {
+            writer.array_f64(&path, &[axis::STRENGTH], values, "1", long_name)?;
         }
         let long_name = "records whose level at first uplift is known";
         writer.array_u32(
-            &format!("{group}/initiation_records"),
-            &["strength"],
-            &predictor.initiation_records,
+            &efficiency::initiation_records(measure),
+            &[axis::STRENGTH],
+            &found.initiation_records,
             "1",
             long_name,
         )?;
-        for (covariate, lines) in covariates.iter().zip(&predictor.lines) {
-            let group = format!("/sufficiency/{key}/{}", covariate.key);
+        for (covariate, lines) in covariates.iter().zip(&found.lines) {
             let of = |value: fn(&Line) -> f64| -> Vec<f64> {
                 lines.iter().map(|line| line.as_ref().map_or(f64::NAN, value)).collect()
             };
@@ -97,36 +103,34 @@ fn add(writer: &mut LabelledWriter, covariates: &[Covariate], predictors: &[Pred
                 ("r_squared", of(|line| line.r_squared), "share of the variance explained"),
             ] {
                 let long_name = format!("{}: {long_name}", covariate.long_name);
-                writer.array_f64(&format!("{group}/{name}"), &["strength"], &values, "1", &long_name)?;
+                let path = sufficiency::array(measure, covariate.key, name);
+                writer.array_f64(&path, &[axis::STRENGTH], &values, "1", &long_name)?;
             }
         }
     }
     Ok(())
 }
 
-fn predictors_table(stored: &StoredStripes, covariates: &[Covariate], predictors: &[Predictor]) -> Vec<Column> {
+fn efficiency_table(stored: &StoredStripes, covariates: &[Covariate], measures: &[MeasureEfficiency]) -> Vec<Column> {
     let strengths = stored.strengths.len();
     let im: Vec<&str> =
-        predictors.iter().flat_map(|predictor| std::iter::repeat_n(predictor.measure.label(), strengths)).collect();
-    let strength: Vec<f64> = predictors.iter().flat_map(|_| stored.strengths.iter().copied()).collect();
-    let join = |value: fn(&Predictor) -> &Vec<f64>| -> Vec<Option<f64>> {
-        predictors
-            .iter()
-            .flat_map(|predictor| value(predictor).iter().map(|&value| value.is_finite().then_some(value)))
-            .collect()
+        measures.iter().flat_map(|efficiency| std::iter::repeat_n(efficiency.measure.label(), strengths)).collect();
+    let strength: Vec<f64> = measures.iter().flat_map(|_| stored.strengths.iter().copied()).collect();
+    let join = |value: fn(&MeasureEfficiency) -> &Vec<f64>| -> Vec<Option<f64>> {
+        measures.iter().flat_map(|efficiency| value(efficiency).iter().copied().map(finite)).collect()
     };
     let mut columns = vec![
         Column::new("im".into(), im),
         Column::new("strength".into(), strength),
-        Column::new("dispersion_rocking".into(), join(|predictor| &predictor.rocking)),
-        Column::new("undefined_share".into(), join(|predictor| &predictor.undefined)),
-        Column::new("dispersion_initiation".into(), join(|predictor| &predictor.initiation)),
+        Column::new("dispersion_rocking".into(), join(|efficiency| &efficiency.rocking)),
+        Column::new("undefined_share".into(), join(|efficiency| &efficiency.undefined)),
+        Column::new("dispersion_initiation".into(), join(|efficiency| &efficiency.initiation)),
     ];
     for (index, covariate) in covariates.iter().enumerate() {
         let of = |value: fn(&Line) -> f64| -> Vec<Option<f64>> {
-            predictors
+            measures
                 .iter()
-                .flat_map(|predictor| predictor.lines[index].iter().map(move |line| line.as_ref().map(value)))
+                .flat_map(|efficiency| efficiency.lines[index].iter().map(move |line| line.as_ref().map(value)))
                 .collect()
         };
         columns.push(Column::new(format!("{}_slope", covariate.key).into(), of(|line| line.slope)));

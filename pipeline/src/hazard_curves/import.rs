@@ -16,7 +16,7 @@ use super::read::distinct;
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::outputs::provide_folder;
-use crate::result::write_aside;
+use crate::result::write_atomically;
 use check::{check_weights, one_site, remarks};
 use text::{curve_text, file_stem, study_lines};
 
@@ -26,7 +26,8 @@ const NEAR_KM: f64 = 10.0;
 /// Which curves are taken, and where they go.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HazardImportOptions {
-    /// Exports: OpenQuake CSV or NRML, USGS JSON; several for several measures, or for the realizations of a logic tree.
+    /// Exports: OpenQuake CSV or NRML, USGS JSON; several for several measures, or for the realizations of a logic
+    /// tree.
     pub exports: Vec<PathBuf>,
     /// Folder for the curve files; made if it is not there.
     pub folder: PathBuf,
@@ -76,8 +77,8 @@ struct Chosen {
 /// Takes the curves of one site from the exports of an engine.
 ///
 /// # Errors
-/// Exports that cannot be read, hold several sites or none that is near; weights of only some realizations; a curve file that
-/// is there already with another curve.
+/// Exports that cannot be read, hold several sites or none that is near; weights of only some realizations; a curve
+/// file that is there already with another curve.
 pub fn import(options: &HazardImportOptions, events: &dyn Events) -> Result<HazardImportReport, UpliftError> {
     let weights = options.weights.as_ref().map(|path| read_realization_weights(path)).transpose()?;
     let mut curves: Vec<ExportedCurve> = Vec::new();
@@ -128,7 +129,8 @@ fn check_distance(
     // a NaN is no distance to be within
     if !(distance_km <= options.within_km) {
         return Err(UpliftError::input(format!(
-            "the nearest site, {site}, is {distance_km:.1} km away: give a nearer place, or --within-km {:.0} if it will do",
+            "the nearest site, {site}, is {distance_km:.1} km away: give a nearer place, or --within-km {:.0} if it \
+             will do",
             distance_km.ceil()
         )));
     }
@@ -180,7 +182,7 @@ fn write(
             path.display()
         )));
     }
-    write_aside(&path, text.as_bytes())
+    write_atomically(&path, text.as_bytes())
 }
 
 fn weight_of(kind: &Statistic, weights: &BTreeMap<u32, RealizationWeight>) -> Option<f64> {

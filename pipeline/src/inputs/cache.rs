@@ -1,7 +1,8 @@
 //! The synthetic record set, kept in the user's cache folder so that it is generated once.
 //!
-//! The folder is `$UPLIFT_CACHE`, or `uplift` in `$XDG_CACHE_HOME` or `~/.cache`. A file holds a JSON header, the samples as they are in
-//! memory, and a checksum; whatever is not as it should be is generated again, and a folder that cannot be written is no error.
+//! The folder is `$UPLIFT_CACHE`, or `uplift` in `$XDG_CACHE_HOME` or `~/.cache`. A file holds a JSON header, the
+//! samples as they are in memory, and a checksum; whatever is not as it should be is generated again, and a folder that
+//! cannot be written is no error.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

@@ -2,13 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use uplift_hazard::{CsvOptions, Extrapolation, HazardCurve, SecondColumn, read_path};
+use uplift_hazard::{CsvOptions, HazardCurve, SecondColumn, read_path};
 use uplift_motion::{Combination, IntensityMeasure};
 use uplift_risk::StripeWeights;
 
 use crate::checksum::checksum;
 use crate::error::UpliftError;
-use uplift_study::{CurveFile, CurveKind, Extrapolate, MeasurePlan, ResolvedStudy, definition_of, definition_word};
+use uplift_study::{CurveFile, CurveKind, MeasurePlan, UniformRiskStudy, definition_of};
 
 /// The hazard of one site in one measure.
 #[derive(Debug, Clone)]
@@ -51,7 +51,7 @@ pub struct BranchHazard {
 ///
 /// # Errors
 /// Everything that is wrong with them, at once.
-pub fn read_hazard(study: &ResolvedStudy) -> Result<(Vec<Vec<SiteHazard>>, Vec<String>), UpliftError> {
+pub fn read_hazard(study: &UniformRiskStudy) -> Result<(Vec<Vec<SiteHazard>>, Vec<String>), UpliftError> {
     let mut mistakes = Vec::new();
     let mut notes = Vec::new();
     let mut undefined = Vec::new();
@@ -68,7 +68,8 @@ pub fn read_hazard(study: &ResolvedStudy) -> Result<(Vec<Vec<SiteHazard>>, Vec<S
     }
     notes.extend(undefined.first().map(|first| {
         format!(
-            "{} hazard curve(s) do not say how horizontal components are combined ({first}{}): taken as {}; say it with [hazard] component",
+            "{} hazard curve(s) do not say how horizontal components are combined ({first}{}): taken as {}; say it \
+             with [hazard] component",
             undefined.len(),
             if undefined.len() > 1 { ", …" } else { "" },
             definition_of(study.records.intensity)
@@ -78,11 +79,10 @@ pub fn read_hazard(study: &ResolvedStudy) -> Result<(Vec<Vec<SiteHazard>>, Vec<S
 }
 
 /// A level that hardly any site exceeds, and one that nearly every site does, in field units.
-fn extreme_levels(measure: IntensityMeasure) -> Option<[f64; 2]> {
+fn extreme_levels(measure: IntensityMeasure) -> [f64; 2] {
     match measure {
-        IntensityMeasure::Pgv => Some([1000.0, 0.3]),
-        IntensityMeasure::Pga => Some([10.0, 0.003]),
-        _ => None,
+        IntensityMeasure::Pgv => [1000.0, 0.3],
+        IntensityMeasure::Pga => [10.0, 0.003],
     }
 }
 
@@ -90,7 +90,7 @@ fn extreme_levels(measure: IntensityMeasure) -> Option<[f64; 2]> {
 pub(super) fn implausible(curve: &HazardCurve, measure: IntensityMeasure) -> Option<String> {
     /// Once in ten thousand years.
     const RARE_PER_YEAR: f64 = 1e-4;
-    let [strong, faint] = extreme_levels(measure)?;
+    let [strong, faint] = extreme_levels(measure);
     let unit = measure.unit();
     let at = |level: f64| curve.rate_at(level).ok();
     if let Some(rate) = at(strong).filter(|&rate| rate > RARE_PER_YEAR) {
@@ -109,7 +109,7 @@ struct SiteReader<'a> {
     site: &'a str,
     file: &'a CurveFile,
     plan: &'a MeasurePlan,
-    study: &'a ResolvedStudy,
+    study: &'a UniformRiskStudy,
     notes: &'a mut Vec<String>,
     /// Curves that do not say which definition of the measure they are of.
     undefined: &'a mut Vec<String>,
@@ -206,9 +206,10 @@ impl SiteReader<'_> {
     }
 }
 
-/// The curve for the definition of the measure that the records are combined by; none where the definition of the curve is not known.
+/// The curve for the definition of the measure that the records are combined by; none where the definition of the curve
+/// is not known.
 pub(super) fn of_the_records_definition(
-    study: &ResolvedStudy,
+    study: &UniformRiskStudy,
     measure: IntensityMeasure,
     curve: &HazardCurve,
 ) -> Result<Option<HazardCurve>, String> {
@@ -219,8 +220,9 @@ pub(super) fn of_the_records_definition(
             return Ok(None);
         }
         return Err(format!(
-            "the curve does not say how horizontal components are combined, and the records are measured by the {wanted}: say what it is with [hazard] component = \"{}\"",
-            definition_word(wanted)
+            "the curve does not say how horizontal components are combined, and the records are measured by the \
+             {wanted}: say what it is with [hazard] component = \"{}\"",
+            wanted.key()
         ));
     };
     if own == wanted {
@@ -228,9 +230,12 @@ pub(super) fn of_the_records_definition(
     }
     let Some(factor) = study.hazard.factor(own, wanted, measure) else {
         let key = measure.key();
-        let (from, to) = (definition_word(own), definition_word(wanted));
+        let (from, to) = (own.key(), wanted.key());
         return Err(format!(
-            "the curve is of the {own}, and the records are measured by the {wanted}: take a curve of the same definition, another records.intensity, or declare what the levels are multiplied by: [hazard] conversions = [{{ from = \"{from}\", to = \"{to}\", {key} = … }}], with the ratio of the two (docs/hazard.md, section 4)"
+            "the curve is of the {own}, and the records are measured by the {wanted}: take a curve of the same \
+             definition, another records.intensity, or declare what the levels are multiplied by: [hazard] conversions \
+             = [{{ from = \"{from}\", to = \"{to}\", {key} = … }}], with the ratio of the two (docs/hazard.md, section \
+             4)"
         ));
     };
     curve.converted(factor, wanted).map(Some).map_err(|error| error.to_string())
@@ -238,14 +243,10 @@ pub(super) fn of_the_records_definition(
 
 /// What each stripe of the study weighs at a site of this hazard.
 pub(super) fn stripe_weights(
-    study: &ResolvedStudy,
+    study: &UniformRiskStudy,
     plan: &MeasurePlan,
     curve: &HazardCurve,
 ) -> Result<StripeWeights, String> {
-    let extrapolation = match study.risk.extrapolate {
-        Extrapolate::Refuse => Extrapolation::Refuse,
-        Extrapolate::Loglog => Extrapolation::LogLog,
-    };
-    StripeWeights::from_hazard(curve, &plan.levels, extrapolation)
+    StripeWeights::from_hazard(curve, &plan.levels, study.risk.extrapolate)
         .map_err(|error| format!("{error}; or leave the level out of [{}]", plan.measure.key()))
 }

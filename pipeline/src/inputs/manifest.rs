@@ -145,8 +145,8 @@ pub fn relative(path: &Path, folder: &Path) -> String {
     up.chain(to).collect::<PathBuf>().to_string_lossy().into_owned()
 }
 
-/// All columns as text: an identifier such as 0012 must stay what it is. Spreadsheets of many countries separate columns by semicolons,
-/// and what is copied from one has tabs.
+/// All columns as text: an identifier such as 0012 must stay what it is. Spreadsheets of many countries separate
+/// columns by semicolons, and what is copied from one has tabs.
 pub(super) fn parse(bytes: &[u8]) -> Result<DataFrame, polars::prelude::PolarsError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let header = bytes.split(|&byte| byte == b'\n').find(|line| !line.starts_with(b"#")).unwrap_or_default();
@@ -179,23 +179,27 @@ fn row(cells: &mut BTreeMap<String, String>, folder: &Path) -> Result<Row, Vec<S
     let components = [1, 2].map(|number| {
         let column = &format!("file_h{number}");
         let path = match cells.remove(column).map(|text| folder.join(text)) {
-        Some(path) if path.is_file() => path,
-        Some(path) => {
-            mistakes.push(format!("record {id}: {column} {} is not a file", path.display()));
-            path
-        }
-        None => {
-            mistakes.push(format!(
-                "record {id}: {column} is blank: both horizontal components are needed, since the intensity is their geometric mean"
+            Some(path) if path.is_file() => path,
+            Some(path) => {
+                mistakes.push(format!("record {id}: {column} {} is not a file", path.display()));
+                path
+            }
+            None => {
+                mistakes.push(format!(
+                "record {id}: {column} is blank: both horizontal components are needed, since the intensity is their \
+                 geometric mean"
             ));
-            PathBuf::new()
-        }
+                PathBuf::new()
+            }
         };
         let key = format!("channel_h{number}");
         let channel = cells.remove(&key).and_then(|text| match text.parse::<usize>() {
             Ok(channel) if channel > 0 => Some(channel),
             _ => {
-                mistakes.push(format!("record {id}: {key} is {text:?}: give the number of the component in its file, 1 or above"));
+                mistakes.push(format!(
+                    "record {id}: {key} is {text:?}: give the number of the component in its file, 1 \
+                                       or above"
+                ));
                 None
             }
         });

@@ -11,7 +11,7 @@ use super::pairs::{self, CheckedPair};
 use super::{cache, manifest, selection};
 use crate::checksum::checksum;
 use crate::error::UpliftError;
-use uplift_study::{RecordSource, ResolvedStudy};
+use uplift_study::{RecordSource, UniformRiskStudy};
 
 /// One analysis record: a component of a pair with the intensity of the pair.
 #[derive(Debug, Clone)]
@@ -42,7 +42,7 @@ impl Record {
     pub fn intensity(&self, measure: IntensityMeasure) -> f64 {
         match measure {
             IntensityMeasure::Pga => self.pga_g,
-            _ => self.pgv_cm_s,
+            IntensityMeasure::Pgv => self.pgv_cm_s,
         }
     }
 }
@@ -64,7 +64,7 @@ pub struct RecordSet {
 ///
 /// # Errors
 /// Everything that is wrong with the manifest or the record files, at once.
-pub fn read_records(study: &ResolvedStudy) -> Result<RecordSet, UpliftError> {
+pub fn read_records(study: &UniformRiskStudy) -> Result<RecordSet, UpliftError> {
     let (pairs, source, synthetic) = match &study.records.source {
         RecordSource::Synthetic { pairs, seed } => (synthetic_pairs(*pairs, *seed)?, format!("seed {seed}"), true),
         RecordSource::Manifest { manifest, tag } => {
@@ -95,13 +95,14 @@ pub(super) fn is_made((pair, _): &CheckedPair) -> bool {
 }
 
 /// Records that may not be synchronised, where that matters.
-fn of_unequal_length(pairs: &[CheckedPair], study: &ResolvedStudy) -> Option<String> {
+fn of_unequal_length(pairs: &[CheckedPair], study: &UniformRiskStudy) -> Option<String> {
     let unequal: Vec<&str> =
         pairs.iter().filter(|(pair, _)| pair.h1.len() != pair.h2.len()).map(|(pair, _)| pair.id.as_str()).collect();
     let matters = study.records.intensity != Combination::GeometricMean && !unequal.is_empty();
     matters.then(|| {
         format!(
-            "{} of {} records have components of different length ({}{}): if these do not begin together, their {} is wrong",
+            "{} of {} records have components of different length ({}{}): if these do not begin together, their {} is \
+             wrong",
             unequal.len(),
             pairs.len(),
             unequal.iter().take(5).copied().collect::<Vec<_>>().join(", "),
@@ -119,7 +120,8 @@ pub(super) fn alike(pairs: &[CheckedPair]) -> Vec<String> {
     match alike.len() {
         0 => Vec::new(),
         count => vec![format!(
-            "{count} of {} records have the same motion as both components ({shown}{}): the intensity is then that of the component, not a geometric mean",
+            "{count} of {} records have the same motion as both components ({shown}{}): the intensity is then that of \
+             the component, not a geometric mean",
             pairs.len(),
             if count > 5 { ", …" } else { "" }
         )],
@@ -142,7 +144,11 @@ pub(super) fn synthetic_pairs(pairs: u64, seed: u64) -> Result<Vec<CheckedPair>,
         .collect())
 }
 
-fn manifest_pairs(manifest: &Path, tag: Option<&str>, study: &ResolvedStudy) -> Result<Vec<CheckedPair>, UpliftError> {
+fn manifest_pairs(
+    manifest: &Path,
+    tag: Option<&str>,
+    study: &UniformRiskStudy,
+) -> Result<Vec<CheckedPair>, UpliftError> {
     let mut rows = manifest::read(manifest, tag).map_err(UpliftError::Inputs)?;
     // nothing is read in vain
     if study.records.select.is_empty() {
@@ -152,12 +158,12 @@ fn manifest_pairs(manifest: &Path, tag: Option<&str>, study: &ResolvedStudy) -> 
 }
 
 /// How many of the selected records are used at most.
-fn first_of(study: &ResolvedStudy) -> usize {
+fn first_of(study: &UniformRiskStudy) -> usize {
     study.records.first.map_or(usize::MAX, |first| usize::try_from(first).unwrap_or(usize::MAX))
 }
 
 /// The components that a study analyses, each with the intensities of its pair.
-fn analysis_records(pairs: Vec<CheckedPair>, study: &ResolvedStudy) -> Result<Vec<Record>, UpliftError> {
+fn analysis_records(pairs: Vec<CheckedPair>, study: &UniformRiskStudy) -> Result<Vec<Record>, UpliftError> {
     let component = study.records.component;
     let mut records = Vec::new();
     let mut mistakes = Vec::new();
@@ -166,7 +172,9 @@ fn analysis_records(pairs: Vec<CheckedPair>, study: &ResolvedStudy) -> Result<Ve
             && let Some(apart_s) = pair.metadata.get(pairs::START_APART)
         {
             mistakes.push(format!(
-                "record {}: its components begin {apart_s} s apart, and a measure over all directions needs them together: use records.intensity = \"geometric-mean\", cut them to a common start, or leave the record out",
+                "record {}: its components begin {apart_s} s apart, and a measure over all directions needs them \
+                 together: use records.intensity = \"geometric-mean\", cut them to a common start, or leave the record \
+                 out",
                 pair.id
             ));
             continue;
@@ -182,7 +190,8 @@ fn analysis_records(pairs: Vec<CheckedPair>, study: &ResolvedStudy) -> Result<Ve
         let (pga_g, pgv_cm_s) = (intensity(IntensityMeasure::Pga), intensity(IntensityMeasure::Pgv));
         if !(pga_g > 0.0 && pgv_cm_s > 0.0) {
             mistakes.push(format!(
-                "record {}: a component does not move (PGA {pga_g} g, PGV {pgv_cm_s} cm/s), so it cannot be scaled; leave the record out",
+                "record {}: a component does not move (PGA {pga_g} g, PGV {pgv_cm_s} cm/s), so it cannot be scaled; \
+                 leave the record out",
                 pair.id
             ));
             continue;
@@ -204,8 +213,8 @@ fn analysis_records(pairs: Vec<CheckedPair>, study: &ResolvedStudy) -> Result<Ve
     if mistakes.is_empty() { Ok(records) } else { Err(UpliftError::Inputs(mistakes)) }
 }
 
-/// The component that `component = "random"` gives the pair `id`: from the study's seed and its name alone, so that it depends on neither
-/// threads nor the other pairs.
+/// The component that `component = "random"` gives the pair `id`: from the study's seed and its name alone, so that it
+/// depends on neither threads nor the other pairs.
 fn drawn(seed: u64, id: &str) -> Horizontal {
     let key = Sha256::new().chain_update(seed.to_le_bytes()).chain_update(id).finalize();
     if key[0] & 1 == 0 { Horizontal::H1 } else { Horizontal::H2 }

@@ -95,7 +95,10 @@ pub fn read_record_sets(study: &DisplacementStudy) -> Result<RecordSets, UpliftE
         &RecordSource::Synthetic { pairs, seed } => {
             let named = study.record_sets.len();
             let unused = (named > 0).then(|| {
-                format!("no manifest, so the {named} record sets of the study are not used: all synthetic records are one set")
+                format!(
+                    "no manifest, so the {named} record sets of the study are not used: all synthetic records are \
+                         one set"
+                )
             });
             let pairs = synthetic_pairs(pairs, seed)?;
             let ids = pairs.iter().map(|(pair, _)| pair.id.clone()).collect();

@@ -7,8 +7,8 @@ use super::pairs::CheckedPair;
 use crate::error::UpliftError;
 use uplift_study::RecordSelection;
 
-/// The pairs that pass `selection`, their peaks combined as `intensity` says and in multiples of `gravity_m_s2`; and notes about
-/// those of which something is not known.
+/// The pairs that pass `selection`, their peaks combined as `intensity` says and in multiples of `gravity_m_s2`; and
+/// notes about those of which something is not known.
 ///
 /// # Errors
 /// Where none passes, or a measure cannot be had.
@@ -49,7 +49,10 @@ pub fn select(
     let lacking: Vec<String> = unknown
         .iter()
         .map(|(key, lacking)| {
-            format!("{lacking} of {count} records have no number for {key} in the manifest, which is asked for, and are left out")
+            format!(
+                "{lacking} of {count} records have no number for {key} in the manifest, which is asked for, and \
+                     are left out"
+            )
         })
         .collect();
     if chosen.is_empty() {

@@ -1,7 +1,7 @@
 //! Many sites: a table of them, and the exports that hold their hazard curves.
 //!
-//! The exports are gone through twice: before the analyses to find each site and every mistake, and after them for the curves, site
-//! by site, so that memory does not grow with the curves.
+//! The exports are gone through twice: before the analyses to find each site and every mistake, and after them for the
+//! curves, site by site, so that memory does not grow with the curves.
 
 mod export;
 mod places;
@@ -18,7 +18,7 @@ use self::export::{Index, Row, SharedCurve, Stream};
 use crate::checksum::checksum_of_file;
 use crate::error::UpliftError;
 use crate::text::thousands;
-use uplift_study::{MeasurePlan, ResolvedStudy};
+use uplift_study::{MeasurePlan, UniformRiskStudy};
 
 /// Sites that a warning names.
 const SITES_NAMED: usize = 4;
@@ -77,11 +77,11 @@ impl SiteExport {
     ///
     /// # Errors
     /// A curve that does not cover the levels, for instance; as the reason for a table.
-    pub fn weights(&self, study: &ResolvedStudy, curve: &HazardCurve) -> Result<StripeWeights, String> {
+    pub fn weights(&self, study: &UniformRiskStudy, curve: &HazardCurve) -> Result<StripeWeights, String> {
         export::weights(study, self.plan_of(study)?, curve)
     }
 
-    fn plan_of<'a>(&self, study: &'a ResolvedStudy) -> Result<&'a MeasurePlan, String> {
+    fn plan_of<'a>(&self, study: &'a UniformRiskStudy) -> Result<&'a MeasurePlan, String> {
         study.measures.get(self.plan).ok_or_else(|| "the measure is not one of the study's".to_owned())
     }
 }
@@ -90,7 +90,7 @@ impl SiteExport {
 ///
 /// # Errors
 /// Everything that is wrong with the files, at once; no site with a curve that can be used.
-pub fn read_site_list(study: &ResolvedStudy) -> Result<Option<SiteList>, UpliftError> {
+pub fn read_site_list(study: &UniformRiskStudy) -> Result<Option<SiteList>, UpliftError> {
     let Some(table) = &study.site_table else { return Ok(None) };
     let mut mistakes = Vec::new();
     let places = table.sites.as_deref().and_then(|path| noted(places::read(path), &mut mistakes));

@@ -10,7 +10,7 @@ use uplift_motion::{RecordPair, STANDARD_GRAVITY_M_S2, at2_text};
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::outputs::provide_folder;
-use crate::result::{write_aside, write_table};
+use crate::result::{write_atomically, write_table};
 
 /// Which records are made, and where they go.
 #[derive(Debug, Clone)]
@@ -52,7 +52,7 @@ pub fn synthesize(options: &SynthesizeOptions, events: &dyn Events) -> Result<Sy
             let title = format!("SYNTHETIC MOTION, NOT RECORDED: uplift {}", crate::VERSION);
             let head = [said("event"), "none", said("station"), component];
             let text = at2_text(motion, &title, head, STANDARD_GRAVITY_M_S2);
-            write_aside(&folder.join(file_name(pair, component)), text.as_bytes())?;
+            write_atomically(&folder.join(file_name(pair, component)), text.as_bytes())?;
         }
     }
     let line = format!("uplift {} ({}), synthetic records: {set:?}", crate::VERSION, crate::COMMIT);

@@ -1,251 +1,337 @@
-//! A structure checked against a uniform risk spectrum, and the check itself put to the test (Sections 3.3.2 and 3.4.5).
+//! A structure checked against a uniform risk spectrum, and the check itself put to the test (Sections 3.3.2 and
+//! 3.4.5).
 //!
-//! The rules take the demand on a structure from that on the ZSBE oscillator of the same strength. Under one set of records scaled to one
-//! intensity their error is known (Tables 3.2 to 3.7); here it is that of the ordinate of a given risk, over all intensities of a site: the
-//! structure's own oscillator is put through the records and the hazard that the spectrum was made from.
+//! The rules take the demand on a structure from that on the ZSBE oscillator of the same strength. Under one set of
+//! records scaled to one intensity their error is known (Tables 3.2 to 3.7); here it is that of the ordinate of a given
+//! risk, over all intensities of a site: the structure's own oscillator is put through the records and the hazard that
+//! the spectrum was made from.
 
-use uplift_ida::Watch;
-use uplift_oscillator::{Oscillator, OscillatorError, PostUplift};
-use uplift_risk::{Ordinate, RiskCurve};
-use uplift_spectra::{NoiseSweep, Noisy};
-use uplift_structure::{Check, EquivalentSystem, Rule, StructureError, relative_error};
+use std::path::{Path, PathBuf};
 
-use super::risk::{EventRisk, OVERTURNING_M, demand_of, risk_of_exceeding, stripes_of};
-use crate::displacement::RULES;
+use serde::Serialize;
+use uplift_ida::{Shard, System};
+use uplift_motion::IntensityMeasure;
+use uplift_oscillator::PostUplift;
+use uplift_risk::TAIL_SHARE_LIMIT;
+use uplift_study::Structure;
+
+use super::choice::{measure_index, records, site_index};
+use super::demand::{ExactDemand, exact_demand};
+use super::report::StructureReport;
+use super::rules::{RuleDemands, RuleOutcome, apply_rules};
+use super::spectrum::{SpectrumDemand, read_spectrum};
+use super::sweep::Sweep;
+use crate::analysis::{Beside, LabelledPlan, ShardReport, Work};
 use crate::error::UpliftError;
+use crate::events::Events;
 use crate::inputs::RecordSet;
-use uplift_study::{MeasurePlan, ResolvedStudy};
+use crate::result::{ResultFile, SpectraOfResult, StudyOfResult};
+use crate::text::per_cent;
+use crate::uniform_risk::{Stripes, motion_keys, plan_stripes};
 
-/// Where a spectrum was read.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SpectrumReading {
-    /// The strengths between which it was read, those of two ordinates that exist.
-    pub between: (f64, f64),
-    /// The ordinate, m.
-    pub ordinate_m: f64,
+/// What is asked of a design.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DesignOptions {
+    /// Manifest of the records, where it is no longer where the study says.
+    pub manifest: Option<PathBuf>,
+    /// Site of the result; its only one where none is given.
+    pub site: Option<String>,
+    /// Probability of exceedance, one of the result; the smallest where none is given.
+    pub poe: Option<f64>,
+    /// Measure of the spectrum; PGV where none is given and the result has it.
+    pub measure: Option<IntensityMeasure>,
+    /// Safety factor on the demand (Eq. 3.15), at least 1.
+    pub safety_factor: f64,
+    /// Read the spectrum and apply the rules, without analysing the structure itself.
+    pub spectrum_only: bool,
+    /// Every shard of the structure's own analysis, as [`design_shard`] wrote them; none to compute it here.
+    pub shards: Vec<PathBuf>,
 }
 
-/// Reads a spectrum at `strength`, linear between its strengths; none outside them, and beside an ordinate that is censored.
-///
-/// * `strengths` — ascending
-/// * `u_m` — the ordinates, m
-pub fn read_spectrum(strengths: &[f64], u_m: &[f64], strength: f64) -> Option<SpectrumReading> {
-    let right = strengths.iter().position(|&value| value >= strength)?;
-    let left = if strengths[right] == strength { right } else { right.checked_sub(1)? };
-    let (a, b) = (strengths[left], strengths[right]);
-    let share = if b > a { (strength - a) / (b - a) } else { 0.0 };
-    let ordinate_m = u_m[left] + share * (u_m[right] - u_m[left]);
-    ordinate_m.is_finite().then_some(SpectrumReading { between: (a, b), ordinate_m })
+impl Default for DesignOptions {
+    /// The safety factor of Section 3.4.5, 2.5.
+    fn default() -> Self {
+        Self {
+            manifest: None,
+            site: None,
+            poe: None,
+            measure: None,
+            safety_factor: 2.5,
+            spectrum_only: false,
+            shards: Vec::new(),
+        }
+    }
 }
 
-/// Half the width of the sweep around the strength, relative to it.
-const NOISE_RELATIVE: f64 = 0.01;
-/// Strengths in that sweep, with the structure's own in the middle.
-const NOISE_POINTS: usize = 11;
-/// Oscillators behind an [`ExactDemand`].
-pub const OSCILLATORS: usize = 1 + 2 * NOISE_POINTS;
-
-/// The same for structures whose strength is up to one percent lower or higher: what is left of a number in the noise of a chaotic system.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DemandNoise {
-    /// Demand on the structure, m.
-    pub structure_m: Noisy,
-    /// Error of the rules against it, from the exact demand on the ZSBE oscillator of the same strength; none for a structure without capacity.
-    pub rule_errors: Option<[Noisy; 2]>,
-    /// Frequency of exceeding the capacity, 1/yr; none for a structure without one.
-    pub beyond_capacity_per_year: Option<Noisy>,
-    /// Frequency of overturning, 1/yr.
-    pub overturning_per_year: Noisy,
+/// What a design tells.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DesignReport {
+    /// The structure, with the restitution of its oscillator.
+    pub structure: StructureReport,
+    /// The result file.
+    pub result: PathBuf,
+    /// Where its records come from, in a line.
+    pub record_set: String,
+    /// Whether they are synthetic.
+    pub synthetic: bool,
+    /// The site.
+    pub site: String,
+    /// `PGV` or `PGA`.
+    pub im: &'static str,
+    /// Probability of exceedance.
+    pub poe: f64,
+    /// Years that it refers to.
+    pub years: f64,
+    /// Its rate, 1/yr (Eq. 4.8).
+    pub target_per_year: f64,
+    /// Safety factor asked for.
+    pub required_safety_factor: f64,
+    /// What the spectrum says; none where it cannot be read.
+    pub spectrum: Option<SpectrumDemand>,
+    /// What the structure's own analysis says; none where there is none.
+    pub exact: Option<ExactDemand>,
+    /// The rules; none where they do not apply, to positive post-uplift stiffness.
+    pub rules: Vec<RuleOutcome>,
+    /// What to know before using the numbers.
+    pub notes: Vec<String>,
 }
 
-/// What the structure's own stripes say, in its own displacement.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ExactDemand {
-    /// Demand on the study's ZSBE oscillator at the structure's strength, m: what the spectrum has there, without interpolation.
-    pub of_spectrum_m: f64,
-    /// Demand on the structure's own ZSBE oscillator, with its uplift displacement and restitution, m: what the rules start from.
-    pub zero_stiffness_m: f64,
-    /// Demand on the structure; infinite where it overturns more often than the target rate.
-    pub structure: Ordinate,
-    /// The displacement capacity is exceeded; none for a structure without one.
-    pub beyond_capacity: Option<EventRisk>,
-    /// It overturns.
-    pub overturning: EventRisk,
-    /// What a small change of the strength makes of it.
-    pub noise: DemandNoise,
-    /// Nonlinear time histories.
-    pub analyses: u64,
-}
-
-/// The demand on `system` of the rate `target_per_year` at the site of `weights`, exactly as spectra are made.
+/// Designs `structure` by a spectrum of the result at `result`, and tests the design by the structure's own risk.
 ///
 /// # Errors
-/// [`UpliftError::Interrupted`] if `watch` says so; a system that has no oscillator.
-pub fn exact_demand(
-    study: &ResolvedStudy,
-    (measure, weights): (&MeasurePlan, &uplift_risk::StripeWeights),
-    set: &RecordSet,
-    (system, restitution): (&EquivalentSystem, f64),
-    target_per_year: f64,
-    watch: &dyn Watch,
-) -> Result<ExactDemand, UpliftError> {
-    let fail = |error: &dyn std::fmt::Display| UpliftError::input(error.to_string());
-    let of_study = Oscillator::new(
-        system.spectral_strength_at(study.gravity_m_s2),
-        study.gravity_m_s2,
-        study.oscillator.uplift_displacement_m,
-        study.oscillator.restitution,
-        PostUplift::Zero,
-    );
-    let uplift_m = system.conditions().uplift_displacement_m();
-    let zero_stiffness =
-        system.with_static_analysis(system.uplift_force_n(), uplift_m, f64::INFINITY).map_err(|error| fail(&error))?;
-    let mut oscillators =
-        [of_study, zero_stiffness.spectral_oscillator(restitution), system.spectral_oscillator(restitution)]
-            .into_iter()
-            .collect::<Result<Vec<_>, _>>()
-            .map_err(|error| fail(&error))?;
-    let sweep = NoiseSweep::new(NOISE_RELATIVE, NOISE_POINTS).map_err(|error| fail(&error))?;
-    // the middle of the sweep is the structure itself
-    let mut pairs = Vec::new();
-    for (point, change) in sweep.factors().into_iter().enumerate() {
-        if point == NOISE_POINTS / 2 {
-            pairs.push([1, 2]);
-            continue;
-        }
-        pairs.push([oscillators.len(), oscillators.len() + 1]);
-        for own in [1, 2] {
-            let stronger = strengthened(&oscillators[own], change).map_err(|error| fail(&error))?;
-            oscillators.push(stronger);
-        }
+/// A safety factor below 1; a file that is missing, damaged, no result, or without sites; spectra of another system
+/// than ZSBE; a site, measure or probability that the result does not have; records of a manifest that was given and
+/// cannot be read; shards that do not belong together; [`UpliftError::Paused`] where `events` say so,
+/// [`UpliftError::Interrupted`] where no checkpoint can be written beside the result.
+pub fn design(
+    structure: &Structure,
+    result: &Path,
+    options: &DesignOptions,
+    events: &dyn Events,
+) -> Result<DesignReport, UpliftError> {
+    let safety_factor = options.safety_factor;
+    if !(safety_factor.is_finite() && safety_factor >= 1.0) {
+        return Err(UpliftError::Usage(format!("--safety-factor is {safety_factor}: give a number of at least 1")));
     }
-    let stripes = stripes_of(study, measure, set, &oscillators, watch)?;
-    let factor = system.participation();
-    let ordinate = |oscillator: usize| -> Result<Ordinate, UpliftError> {
-        let demand = demand_of(&stripes, oscillator)?;
-        let ordinate = RiskCurve::new(&demand, weights).and_then(|curve| curve.exact_ordinate(target_per_year));
-        let ordinate = ordinate.map_err(|error| fail(&error))?;
-        Ok(Ordinate { displacement_m: factor * ordinate.displacement_m, ..ordinate })
-    };
-    let own = demand_of(&stripes, 2)?;
-    let years = study.risk.years;
-    // all of it is scaled by the same factor: the oscillator exceeds capacity/factor where the structure exceeds its capacity
-    let capacity_m = match oscillators[2].post_uplift() {
-        PostUplift::Negative { capacity_m } => Some(capacity_m),
-        PostUplift::Zero | PostUplift::Positive { .. } => None,
-    };
-    let beyond_capacity =
-        capacity_m.map(|capacity_m| risk_of_exceeding(&own, weights, capacity_m, years)).transpose()?;
-    let (mut demands_m, mut beyond, mut overturned, mut errors) = (vec![], vec![], vec![], [vec![], vec![]]);
-    for [zero, own] in pairs {
-        let (zero_m, own_m) = (ordinate(zero)?.displacement_m, ordinate(own)?.displacement_m);
-        let pool = demand_of(&stripes, own)?;
-        demands_m.push(own_m);
-        overturned.push(risk_of_exceeding(&pool, weights, OVERTURNING_M, years)?.per_year);
-        if let Some(capacity_m) = capacity_m {
-            beyond.push(risk_of_exceeding(&pool, weights, capacity_m, years)?.per_year);
-            for (rule, errors) in RULES.into_iter().zip(&mut errors) {
-                let demand = system.capacity().and_then(|capacity| rule.demand(&capacity, zero_m));
-                let demand_m = demand.map_err(|error| fail(&error))?.displacement_m();
-                errors.push(relative_error(demand_m, own_m).unwrap_or(f64::NAN));
+    let source = ResultFile::open(result)?.study(options.manifest.as_deref())?;
+    require_zero_stiffness(&source)?;
+    let site = site_index(&source, options.site.as_deref())?;
+    let measure = &source.measures[measure_index(&source, options.measure)?];
+    let poe = source.poe_index(options.poe)?;
+    let target_per_year = source.target_per_year(poe)?;
+    let restitution = structure.description.restitution.unwrap_or(source.study.oscillator.restitution);
+    let mut notes = differences(structure, &source, restitution);
+
+    let spectrum = spectrum_demand(structure, &source, source.spectrum(measure, site, poe));
+    if spectrum.is_none() {
+        notes.push(beyond_spectrum(structure, &source));
+    }
+    let years = source.study.risk.years;
+    let mut checkpoint = None;
+    let exact = if options.spectrum_only {
+        None
+    } else {
+        match records(&source, options.manifest.as_deref())? {
+            Ok(set) => {
+                let shaken = Shaken::of(structure, &source, set, restitution)?;
+                let asked = name(structure);
+                let beside = Beside { result, name: &asked };
+                let (analysed, left) =
+                    beside.results(shaken.work(&source, measure, &asked)?, &options.shards, events)?;
+                checkpoint = Some(left);
+                let stripes = analysed.into_iter().map(|analysed| Stripes::of(&measure.plan, analysed));
+                let own = (&structure.system, &shaken.sweep);
+                let exact =
+                    |stripes: Stripes| exact_demand((&stripes, &measure.weights[site]), own, (target_per_year, years));
+                stripes.map(exact).next().transpose()?
+            }
+            Err(reason) => {
+                notes.push(format!(
+                    "the structure itself is not analysed, and what follows is what the spectrum alone says: {reason}"
+                ));
+                None
             }
         }
-    }
-    let noise = DemandNoise {
-        structure_m: Noisy::of(&demands_m),
-        rule_errors: capacity_m.map(|_| errors.map(|errors| Noisy::of(&errors))),
-        beyond_capacity_per_year: capacity_m.map(|_| Noisy::of(&beyond)),
-        overturning_per_year: Noisy::of(&overturned),
     };
-    Ok(ExactDemand {
-        of_spectrum_m: ordinate(0)?.displacement_m,
-        zero_stiffness_m: ordinate(1)?.displacement_m,
-        structure: ordinate(2)?,
-        beyond_capacity,
-        overturning: risk_of_exceeding(&own, weights, OVERTURNING_M, years)?,
-        noise,
-        analyses: stripes.analyses,
+    let demands = RuleDemands {
+        of_spectrum_m: spectrum.map(|spectrum| spectrum.zero_stiffness_demand_m),
+        exact_m: exact.map(|exact| exact.zero_stiffness_demand_m).filter(|demand_m| demand_m.is_finite()),
+        of_structure_m: exact.map(|exact| exact.demand_m),
+    };
+    let rules = apply_rules(structure, safety_factor, demands)?;
+    if let Some(exact) = &exact {
+        notes.extend(tails(exact));
+    }
+    if let Some(checkpoint) = checkpoint {
+        checkpoint.remove();
+    }
+    let risk = &source.study.risk;
+    Ok(DesignReport {
+        structure: StructureReport::of(structure, Some(restitution)),
+        site: source.sites[site].clone(),
+        im: measure.measure().label(),
+        poe: risk.poe[poe],
+        years: risk.years,
+        result: source.path,
+        record_set: source.record_set,
+        synthetic: source.synthetic,
+        target_per_year,
+        required_safety_factor: safety_factor,
+        spectrum,
+        exact,
+        rules,
+        notes,
     })
 }
 
-/// The oscillator with its strength times `change`.
-fn strengthened(oscillator: &Oscillator, change: f64) -> Result<Oscillator, OscillatorError> {
-    let strength = oscillator.strength();
-    Oscillator::new(
-        change * strength,
-        oscillator.uplift_acceleration_m_s2() / strength,
-        oscillator.uplift_displacement_m(),
-        oscillator.restitution(),
-        oscillator.post_uplift(),
+/// Computes one shard of the structure's own analysis into a file beside the result, for [`DesignOptions::shards`].
+///
+/// # Errors
+/// As [`design`], and where the records of the result cannot be read.
+pub fn design_shard(
+    structure: &Structure,
+    result: &Path,
+    options: &DesignOptions,
+    shard: Shard,
+    events: &dyn Events,
+) -> Result<ShardReport, UpliftError> {
+    let source = ResultFile::open(result)?.study(options.manifest.as_deref())?;
+    require_zero_stiffness(&source)?;
+    let measure = &source.measures[measure_index(&source, options.measure)?];
+    let restitution = structure.description.restitution.unwrap_or(source.study.oscillator.restitution);
+    let set = records(&source, options.manifest.as_deref())?.map_err(UpliftError::input)?;
+    let shaken = Shaken::of(structure, &source, set, restitution)?;
+    let asked = name(structure);
+    Beside { result, name: &asked }.shard(shaken.work(&source, measure, &asked)?, shard, events)
+}
+
+/// What is asked, for the names of files.
+fn name(structure: &Structure) -> String {
+    format!("design {}", structure.file.file_stem().unwrap_or_default().to_string_lossy())
+}
+
+/// The oscillators of a structure, and the records that shake them.
+struct Shaken {
+    set: RecordSet,
+    /// Keys of the records' motions.
+    motions: Vec<String>,
+    sweep: Sweep,
+    systems: Vec<System>,
+}
+
+impl Shaken {
+    fn of(
+        structure: &Structure,
+        source: &StudyOfResult,
+        set: RecordSet,
+        restitution: f64,
+    ) -> Result<Self, UpliftError> {
+        let sweep =
+            Sweep::of(&source.study, &structure.system, restitution).map_err(|error| error.in_file(&structure.file))?;
+        Ok(Self { motions: motion_keys(&set), systems: sweep.systems(), sweep, set })
+    }
+
+    /// Their stripes of one measure.
+    fn work(&self, source: &StudyOfResult, measure: &SpectraOfResult, title: &str) -> Result<Work<'_>, UpliftError> {
+        let plan = plan_stripes(&source.study, &measure.plan, &self.set, &self.systems)?;
+        let label = measure.measure().label().to_owned();
+        let labelled = LabelledPlan { label, remark: None, plan, motions: &self.motions, known: None };
+        Ok(Work::new(title, vec![labelled]))
+    }
+}
+
+/// The rules start from the ZSBE system: a spectrum of another says nothing to them.
+fn require_zero_stiffness(source: &StudyOfResult) -> Result<(), UpliftError> {
+    let (what, key) = match source.study.oscillator.post_uplift {
+        PostUplift::Zero => return Ok(()),
+        PostUplift::Negative { capacity_m } => {
+            (format!("of negative stiffness, with a capacity of {capacity_m} m"), "capacity_m")
+        }
+        PostUplift::Positive { stiffness_per_s2 } => {
+            (format!("of positive stiffness, {stiffness_per_s2} 1/s2 after uplift"), "post_uplift_stiffness_per_s2")
+        }
+    };
+    Err(UpliftError::input(format!(
+        "{}: its spectra are those of an oscillator {what}; the rules start from zero stiffness (ZSBE): run the study \
+         without oscillator.{key}",
+        source.path.display()
+    )))
+}
+
+/// The spectrum read at the strength of the structure; none where it cannot be.
+fn spectrum_demand(structure: &Structure, source: &StudyOfResult, u_m: &[f64]) -> Option<SpectrumDemand> {
+    let system = &structure.system;
+    let strength = system.spectral_strength_at(source.study.gravity_m_s2);
+    let reading = read_spectrum(&source.study.strengths, u_m, strength)?;
+    Some(SpectrumDemand {
+        strength,
+        between_strengths: reading.between,
+        ordinate_m: reading.ordinate_m,
+        zero_stiffness_demand_m: system.participation() * reading.ordinate_m,
+    })
+}
+
+/// Why the spectrum cannot be read.
+fn beyond_spectrum(structure: &Structure, source: &StudyOfResult) -> String {
+    let strengths = &source.study.strengths;
+    format!(
+        "the spectrum cannot be read at strength {:.4}: its strengths go from {} to {}, and beside a censored ordinate \
+         there is nothing to read",
+        structure.system.spectral_strength_at(source.study.gravity_m_s2),
+        strengths[0],
+        strengths[strengths.len() - 1]
     )
 }
 
-/// A rule applied to the ordinate of a spectrum, and to the exact ZSBE demand.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RuleOutcome {
-    /// The rule.
-    pub rule: Rule,
-    /// From the spectrum as an engineer reads it.
-    pub from_spectrum: Option<Check>,
-    /// From the exact demand on the structure's ZSBE oscillator: what is wrong with it is the rule's own error.
-    pub from_exact: Option<Check>,
-}
-
-impl RuleOutcome {
-    /// The check that counts: from the spectrum, or where that cannot be read from the exact demand.
-    pub fn check(&self) -> Option<&Check> {
-        self.from_spectrum.as_ref().or(self.from_exact.as_ref())
+/// What the structure and the study's oscillator do not have in common.
+fn differences(structure: &Structure, source: &StudyOfResult, restitution: f64) -> Vec<String> {
+    let (system, oscillator) = (&structure.system, &source.study.oscillator);
+    let apart = |a: f64, b: f64| (a - b).abs() > 1e-9 * a.abs().max(b.abs());
+    let mut notes = Vec::new();
+    if source.synthetic {
+        notes.push(super::SYNTHETIC.to_owned());
     }
+    let uplift_m = system.spectral_uplift_displacement_m();
+    if apart(uplift_m, oscillator.uplift_displacement_m) {
+        notes.push(format!(
+            "the spectrum is of an uplift displacement of {} mm, the structure's is {} mm, over Γ {:.3} mm (Section \
+             3.5)",
+            1e3 * oscillator.uplift_displacement_m,
+            1e3 * system.conditions().uplift_displacement_m(),
+            1e3 * uplift_m
+        ));
+    }
+    if apart(restitution, oscillator.restitution) {
+        notes.push(format!(
+            "the spectrum is of a restitution of {}, the structure's is {restitution}",
+            oscillator.restitution
+        ));
+    }
+    let gravity_m_s2 = system.conditions().gravity_m_s2();
+    if apart(gravity_m_s2, source.study.gravity_m_s2) {
+        notes.push(format!(
+            "the spectrum is of a gravity of {} m/s2, the structure's is {gravity_m_s2} m/s2",
+            source.study.gravity_m_s2
+        ));
+    }
+    notes
 }
 
-/// Both rules of Section 3.3.2.
-///
-/// * `from_spectrum_m`, `zero_stiffness_m` — demand on the ZSBE system, in the structure's displacement, m; the latter exact
-///
-/// # Errors
-/// Positive post-uplift stiffness, a safety factor below 1, a demand that is not finite.
-pub fn check_rules(
-    system: &EquivalentSystem,
-    safety_factor: f64,
-    from_spectrum_m: Option<f64>,
-    zero_stiffness_m: Option<f64>,
-) -> Result<[RuleOutcome; 2], StructureError> {
-    let check = |rule: Rule, demand_m: Option<f64>| {
-        demand_m.map(|demand_m| Check::of(system, rule, safety_factor, demand_m)).transpose()
-    };
-    let outcome = |rule: Rule| -> Result<RuleOutcome, StructureError> {
-        Ok(RuleOutcome {
-            rule,
-            from_spectrum: check(rule, from_spectrum_m)?,
-            from_exact: check(rule, zero_stiffness_m)?,
+/// Risks that come from outside the stripes.
+fn tails(exact: &ExactDemand) -> Vec<String> {
+    let shares = [
+        ("the demand on the structure", exact.lower_tail_share.max(exact.upper_tail_share)),
+        ("exceeding the capacity", exact.beyond_capacity.map_or(0.0, |risk| risk.tail_share())),
+        ("overturning", exact.overturning.tail_share()),
+    ];
+    shares
+        .into_iter()
+        .filter(|(_, share)| *share > TAIL_SHARE_LIMIT)
+        .map(|(what, share)| {
+            format!(
+                "{} of the risk of {what} comes from outside the analysed levels: they should reach further",
+                per_cent((1000.0 * share).round() / 1000.0)
+            )
         })
-    };
-    let [displacement, energy] = RULES;
-    Ok([outcome(displacement)?, outcome(energy)?])
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_spectrum_is_read_between_its_strengths_only() {
-        let (strengths, u_m) = ([0.1, 0.2, 0.4], [1.0, 0.5, f64::INFINITY]);
-        let read = |strength: f64| read_spectrum(&strengths, &u_m, strength).map(|reading| reading.ordinate_m);
-        assert_eq!(read(0.1), Some(1.0));
-        assert_eq!(read(0.2), Some(0.5));
-        assert_eq!(read(0.125), Some(0.875));
-        assert_eq!([read(0.09), read(0.3), read(0.4), read(0.5)], [None; 4]);
-        assert_eq!(read_spectrum(&strengths, &u_m, 0.15).map(|reading| reading.between), Some((0.1, 0.2)));
-    }
-
-    #[test]
-    fn errors_have_the_sign_of_their_danger() {
-        let inf = f64::INFINITY;
-        assert_eq!(relative_error(0.9, 1.0), Some(0.9 - 1.0));
-        assert_eq!(relative_error(2.0, inf), Some(-1.0));
-        assert_eq!(relative_error(inf, 2.0), Some(inf));
-        assert_eq!(relative_error(inf, inf), Some(0.0));
-        assert_eq!(relative_error(0.0, 0.0), None);
-    }
+        .collect()
 }

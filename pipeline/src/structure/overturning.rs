@@ -1,152 +1,367 @@
-//! Overturning: how often, at which intensity, by the equivalent oscillator and by the rigid block (Section 2.4.3, Eq. 2.1 to 2.3).
+//! How often a structure overturns, by its equivalent oscillator and by the rigid block that rotates as it does
+//! (Section 2.4.3).
 
-use uplift_block::RockingBlock;
-use uplift_fragility::{FragilityError, LognormalFit, StripeCount, Stripes as Stripe, fit_lognormal, stripe_counts};
-use uplift_ida::{BlockPlan, IdaError, Watch, analyse_blocks};
-use uplift_oscillator::Oscillator;
-use uplift_risk::{PooledDemand, StripeWeights};
+use std::path::{Path, PathBuf};
 
-use super::risk::{EventRisk, OVERTURNING_M, risk_of_exceeding, stripes_of};
+use serde::Serialize;
+use uplift_fragility::LognormalFit;
+use uplift_ida::{Shard, System};
+use uplift_motion::IntensityMeasure;
+use uplift_risk::{StripeWeights, TAIL_SHARE_LIMIT};
+use uplift_study::{Structure, UniformRiskStudy};
+
+use super::choice::{measure_index, records, site_index};
+use super::collapse::{Collapse, collapse};
+use super::models::models;
+use super::report::StructureReport;
+use super::risk::EventRisk;
+use super::tables::{risk_path, write_tables};
+use crate::analysis::{Beside, LabelledPlan, ShardReport, Work};
 use crate::error::UpliftError;
+use crate::events::Events;
 use crate::inputs::RecordSet;
-use crate::uniform_risk::stripe_records;
-use uplift_study::{MeasurePlan, ResolvedStudy};
+use crate::outputs::{refuse_foreign, refuse_overwriting};
+use crate::result::{ResultFile, SpectraOfResult, StudyOfResult};
+use crate::text::per_cent;
+use crate::uniform_risk::{motion_keys, plan_stripes};
 
-/// How a structure is modelled.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Model {
-    /// The equivalent oscillator of Table 3.1, linearised.
-    Oscillator(Oscillator),
-    /// The solitary block that rotates as the structure does: full nonlinear motion.
-    Block(RockingBlock),
+/// What is asked of the overturning of a structure.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct OverturningOptions {
+    /// Manifest of the records, where it is no longer where the study says.
+    pub manifest: Option<PathBuf>,
+    /// Site of the result; all where none is given.
+    pub site: Option<String>,
+    /// Intensity measure; all of the result where none is given.
+    pub measure: Option<IntensityMeasure>,
+    /// One coefficient of restitution for both models, in place of the structure's, the study's (oscillator) and that
+    /// of angular momentum (block).
+    pub restitution: Option<f64>,
+    /// CSV file of the collapse fragility to write; the risk goes to one that ends in .risk.csv beside it.
+    pub table: Option<PathBuf>,
+    /// Every shard of the analyses, as [`overturning_shard`] wrote them; none to compute them here.
+    pub shards: Vec<PathBuf>,
 }
 
-impl Model {
-    /// Name in tables and files.
-    pub fn name(&self) -> &'static str {
-        match self {
-            Self::Oscillator(_) => "oscillator",
-            Self::Block(_) => "block",
-        }
-    }
+/// What the overturning of a structure tells.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct OverturningReport {
+    /// The structure; each model has its own restitution.
+    pub structure: StructureReport,
+    /// The result file.
+    pub result: PathBuf,
+    /// Where its records come from, in a line.
+    pub record_set: String,
+    /// Whether they are synthetic.
+    pub synthetic: bool,
+    /// Years that probabilities refer to.
+    pub years: f64,
+    /// How the structure is modelled.
+    pub models: Vec<ModelReport>,
+    /// Fragility and risk, one a measure and model, in this order.
+    pub overturning: Vec<CollapseReport>,
+    /// What to know before using the numbers.
+    pub notes: Vec<String>,
+    /// What was written.
+    #[serde(skip)]
+    pub files: Vec<PathBuf>,
+}
 
-    /// Velocity after over before an impact.
-    pub fn restitution(&self) -> f64 {
-        match self {
-            Self::Oscillator(oscillator) => oscillator.restitution(),
-            Self::Block(block) => block.restitution(),
-        }
-    }
-
-    /// Peak displacements over `[record, level]`, m; infinite where it overturned.
-    ///
-    /// # Errors
-    /// [`UpliftError::Interrupted`] if `watch` says so; a record that cannot be scaled.
-    pub fn demands_m(
-        &self,
-        study: &ResolvedStudy,
-        plan: &MeasurePlan,
-        set: &RecordSet,
-        watch: &dyn Watch,
-    ) -> Result<Vec<f64>, UpliftError> {
-        match self {
-            Self::Oscillator(oscillator) => {
-                let stripes = stripes_of(study, plan, set, std::slice::from_ref(oscillator), watch)?;
-                Ok(stripes.edp.of_strength(0))
-            }
-            Self::Block(block) => {
-                let (records, blocks) = (stripe_records(set, plan.measure), std::slice::from_ref(block));
-                let plan = BlockPlan::new(records, blocks, &plan.levels, study.oscillator.free_vibration);
-                let edp = plan.and_then(|plan| analyse_blocks(&plan, watch)).map_err(|error| match error {
-                    IdaError::Cancelled => UpliftError::Interrupted,
-                    other => UpliftError::input(other.to_string()),
-                })?;
-                Ok(edp.of_strength(0))
-            }
-        }
-    }
+/// A model of a structure.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ModelReport {
+    /// `oscillator` or `block`.
+    pub model: &'static str,
+    /// Coefficient of restitution.
+    pub restitution: f64,
+    /// Where that comes from.
+    pub restitution_from: &'static str,
+    /// Half diagonal R of the block, m; none for the oscillator.
+    pub size_m: Option<f64>,
+    /// Slenderness α of the block, rad; none for the oscillator.
+    pub slenderness_rad: Option<f64>,
 }
 
 /// Overturning of one model by one measure.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Collapse {
-    /// Overturned records at each level, `[level]`.
-    pub counts: Vec<StripeCount>,
-    /// The lognormal fragility of maximum likelihood, or why there is none.
-    pub fit: Result<LognormalFit, FragilityError>,
-    /// The risk of overturning, `[site]`: from the counts, with no curve fitted.
-    pub risks: Vec<EventRisk>,
-    /// The same by the fitted fragility in place of the counts, `[site]`; none without a fit.
-    pub fitted: Option<Vec<EventRisk>>,
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CollapseReport {
+    /// `PGV` or `PGA`.
+    pub im: &'static str,
+    /// Unit of the levels.
+    pub unit: &'static str,
+    /// `oscillator` or `block`.
+    pub model: &'static str,
+    /// Levels of the stripes, ascending.
+    pub levels: Vec<f64>,
+    /// Records that overturn the structure at each level.
+    pub overturned: Vec<u32>,
+    /// Records.
+    pub records: u32,
+    /// Median of the lognormal fragility of maximum likelihood; none where there is no fit.
+    pub theta: Option<f64>,
+    /// Its dispersion.
+    pub beta: Option<f64>,
+    /// Its logarithmic likelihood.
+    pub log_likelihood: Option<f64>,
+    /// The risk at each site.
+    pub sites: Vec<SiteRisk>,
+    /// The fit itself.
+    #[serde(skip)]
+    pub fit: Option<LognormalFit>,
 }
 
-/// Counts, fits and weighs what overturned among `demands_m`.
-///
-/// * `levels` — of the stripes, ascending
-/// * `demands_m` — over `[record, level]`, m; infinite where overturned
-/// * `weights` — what each stripe weighs, `[site]`
-/// * `years` — that the probabilities refer to
+/// The risk of overturning at one site.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SiteRisk {
+    /// The site.
+    pub site: String,
+    /// From the counts, with no curve fitted.
+    #[serde(flatten)]
+    pub risk: EventRisk,
+    /// Frequency with the lognormal fragility in place of the counts, 1/yr; none without a fit.
+    pub lognormal_per_year: Option<f64>,
+}
+
+/// How often `structure` overturns under the records and the hazard of the result at `result`.
 ///
 /// # Errors
-/// Arrays that do not fit together.
-pub fn collapse(
-    levels: &[f64],
-    demands_m: &[f64],
-    weights: &[&StripeWeights],
-    years: f64,
-) -> Result<Collapse, UpliftError> {
-    let fail = |error: &dyn std::fmt::Display| UpliftError::input(error.to_string());
-    let stripes = Stripe::new(levels, demands_m).map_err(|error| fail(&error))?;
-    let counts = stripe_counts(&stripes, OVERTURNING_M).map_err(|error| fail(&error))?;
-    let demand = PooledDemand::new(&stripes).map_err(|error| fail(&error))?;
-    let risks = weights
-        .iter()
-        .map(|weights| risk_of_exceeding(&demand, weights, OVERTURNING_M, years))
-        .collect::<Result<Vec<_>, _>>()?;
-    let fit = fit_lognormal(&counts);
-    let fitted = fit.as_ref().ok().map(|fit| {
-        let probabilities: Vec<f64> = levels.iter().map(|&level| fit.fragility.probability(level)).collect();
-        let of_site = |weights: &&StripeWeights| {
-            let parts = weights.disaggregate(&probabilities).map_err(|error| fail(&error))?;
-            EventRisk::new(parts.total_per_year(), [parts.lower_tail_per_year, parts.upper_tail_per_year], years)
+/// A file that is missing, damaged, no result, or without sites; a site or measure that it does not have; a restitution
+/// that cannot be; records that cannot be read; tables that cannot be written or would replace something else; shards
+/// that do not belong together; [`UpliftError::Paused`] where `events` say so, [`UpliftError::Interrupted`] where no
+/// checkpoint can be written beside the result.
+pub fn overturning(
+    structure: &Structure,
+    result: &Path,
+    options: &OverturningOptions,
+    events: &dyn Events,
+) -> Result<OverturningReport, UpliftError> {
+    check_table(structure, result, options)?;
+    let source = ResultFile::open(result)?.study(options.manifest.as_deref())?;
+    let sites = match &options.site {
+        Some(site) => vec![site_index(&source, Some(site))?],
+        None => (0..source.sites.len()).collect(),
+    };
+    let measures = measures(&source, options.measure)?;
+    let mut notes = Vec::new();
+    let models = models(structure, &source, options.restitution, &mut notes)?;
+    let shaken = Shaken::of(&source, options.manifest.as_deref())?;
+    if !source.study.oscillator.free_vibration {
+        notes.push(
+            "the study ends with its records (free_vibration = false); here what falls after their end counts as \
+             overturned"
+                .to_owned(),
+        );
+    }
+    let asked = name(structure);
+    let beside = Beside { result, name: &asked };
+    let (analysed, checkpoint) = beside.results(shaken.work(&measures, &models, &asked)?, &options.shards, events)?;
+    let Shaken { study, set, .. } = &shaken;
+    let mut analysed = analysed.into_iter();
+    let mut found: Vec<(&SpectraOfResult, Vec<Collapse>)> = Vec::new();
+    for measure in measures {
+        let weights: Vec<&StripeWeights> = sites.iter().map(|&site| &measure.weights[site]).collect();
+        let of_models = analysed
+            .by_ref()
+            .take(models.len())
+            .map(|analysed| collapse(&measure.plan.levels, &analysed.peaks.of_system_m(0), &weights, study.risk.years));
+        found.push((measure, of_models.collect::<Result<_, _>>()?));
+    }
+    notes.extend(notes_on(&source, &models, &found));
+    let records = u32::try_from(set.records.len()).unwrap_or(u32::MAX);
+    let of_measure = |(measure, found): &(&SpectraOfResult, Vec<Collapse>)| -> Vec<CollapseReport> {
+        let names = sites.iter().map(|&site| source.sites[site].as_str());
+        let report = |(found, (model, _)): (&Collapse, &(System, _))| {
+            CollapseReport::of(found, measure.measure(), model.kind(), records, names.clone())
         };
-        weights.iter().map(of_site).collect::<Result<Vec<_>, UpliftError>>()
-    });
-    Ok(Collapse { counts, fit, risks, fitted: fitted.transpose()? })
+        found.iter().zip(&models).map(report).collect()
+    };
+    let mut report = OverturningReport {
+        structure: StructureReport::of(structure, None),
+        years: study.risk.years,
+        models: models.iter().map(|(model, origin)| ModelReport::of(model, origin)).collect(),
+        overturning: found.iter().flat_map(of_measure).collect(),
+        notes,
+        files: Vec::new(),
+        result: source.path.clone(),
+        record_set: source.record_set.clone(),
+        synthetic: source.synthetic,
+    };
+    if let Some(path) = &options.table {
+        write_tables(path, &report)?;
+        report.files = vec![path.clone(), risk_path(path)];
+    }
+    checkpoint.remove();
+    Ok(report)
 }
 
-#[cfg(test)]
-mod tests {
-    #![allow(clippy::unwrap_used)]
-    use super::*;
+/// Computes one shard of the analyses into a file beside the result, for [`OverturningOptions::shards`].
+///
+/// # Errors
+/// As [`overturning`].
+pub fn overturning_shard(
+    structure: &Structure,
+    result: &Path,
+    options: &OverturningOptions,
+    shard: Shard,
+    events: &dyn Events,
+) -> Result<ShardReport, UpliftError> {
+    let source = ResultFile::open(result)?.study(options.manifest.as_deref())?;
+    let measures = measures(&source, options.measure)?;
+    let models = models(structure, &source, options.restitution, &mut Vec::new())?;
+    let shaken = Shaken::of(&source, options.manifest.as_deref())?;
+    let asked = name(structure);
+    Beside { result, name: &asked }.shard(shaken.work(&measures, &models, &asked)?, shard, events)
+}
 
-    /// Two records, levels 1, 2, 4 with rates 1, 1/2, 1/4 per year, nothing below: one overturns from 2 on, the other at 4 and, weaving, at 1.
-    #[test]
-    fn a_case_by_hand() {
-        let inf = f64::INFINITY;
-        let weights = StripeWeights::new(&[1.0, 0.5, 0.25], None).unwrap();
-        let found = collapse(&[1.0, 2.0, 4.0], &[0.1, inf, inf, inf, 0.3, inf], &[&weights], 2.0).unwrap();
-        let counts: Vec<(u32, u32)> = found.counts.iter().map(|count| (count.exceedances, count.trials)).collect();
-        assert_eq!(counts, [(1, 2), (1, 2), (2, 2)]);
-        // ½ (½ + ½)(1 − ½) + ½ (½ + 1)(½ − ¼) + 1 · ¼
-        let rate = 0.25 + 0.1875 + 0.25;
-        let risk = found.risks[0];
-        assert_eq!(risk.per_year, rate);
-        assert_eq!(risk.probability, -(-2.0 * rate).exp_m1());
-        assert_eq!((risk.lower_tail_share, risk.upper_tail_share), (0.0, 0.25 / rate));
-        // the fit is another fragility, and so another number, of the same integral
-        let fragility = found.fit.unwrap().fragility;
-        let [p1, p2, p4] = [1.0, 2.0, 4.0].map(|level| fragility.probability(level));
-        let by_hand = 0.25 * (p1 + p2) + 0.125 * (p2 + p4) + 0.25 * p4;
-        assert!((found.fitted.unwrap()[0].per_year - by_hand).abs() < 1e-15);
+/// What is asked, for the names of files.
+fn name(structure: &Structure) -> String {
+    format!("overturning {}", structure.file.file_stem().unwrap_or_default().to_string_lossy())
+}
+
+/// The measure `wanted` of a result; all where none is.
+fn measures(source: &StudyOfResult, wanted: Option<IntensityMeasure>) -> Result<Vec<&SpectraOfResult>, UpliftError> {
+    match wanted {
+        Some(measure) => Ok(vec![&source.measures[measure_index(source, Some(measure))?]]),
+        None => Ok(source.measures.iter().collect()),
+    }
+}
+
+/// The records that shake the models.
+struct Shaken {
+    /// The study of the result, with what happens after the end of a record.
+    study: UniformRiskStudy,
+    set: RecordSet,
+    /// Keys of the records' motions.
+    motions: Vec<String>,
+}
+
+impl Shaken {
+    fn of(source: &StudyOfResult, manifest: Option<&Path>) -> Result<Self, UpliftError> {
+        let set = records(source, manifest)?.map_err(|reason| {
+            UpliftError::input(format!(
+                "{reason}; overturning needs the records that the result was made from (--manifest says where they are)"
+            ))
+        })?;
+        let mut study = source.study.clone();
+        // what is lost when a record ends has overturned, whoever looks
+        study.oscillator.free_vibration = true;
+        Ok(Self { motions: motion_keys(&set), study, set })
     }
 
-    #[test]
-    fn a_structure_that_stands_has_no_risk_and_no_fit() {
-        let weights = StripeWeights::new(&[1.0, 0.5], None).unwrap();
-        let found = collapse(&[1.0, 2.0], &[0.1, 0.2, 0.3, 1e9], &[&weights], 50.0).unwrap();
-        assert_eq!(found.fit, Err(FragilityError::NoExceedance));
-        assert_eq!((found.risks[0].per_year, found.risks[0].upper_tail_share), (0.0, 0.0));
-        assert!(found.fitted.is_none());
+    /// The stripes of each model by each measure, the models running fastest.
+    fn work<'a>(
+        &'a self,
+        measures: &[&SpectraOfResult],
+        models: &'a [(System, &'static str)],
+        title: &str,
+    ) -> Result<Work<'a>, UpliftError> {
+        let mut plans = Vec::new();
+        for measure in measures {
+            for (model, _) in models {
+                let plan = plan_stripes(&self.study, &measure.plan, &self.set, std::slice::from_ref(model))?;
+                let label = format!("{}, {}", measure.measure().label(), model.kind());
+                plans.push(LabelledPlan { label, remark: None, plan, motions: &self.motions, known: None });
+            }
+        }
+        Ok(Work::new(title, plans))
+    }
+}
+
+/// Names that would lose something, before anything is computed.
+fn check_table(structure: &Structure, result: &Path, options: &OverturningOptions) -> Result<(), UpliftError> {
+    let Some(path) = &options.table else { return Ok(()) };
+    if path.extension().is_none_or(|extension| extension != "csv") {
+        return Err(UpliftError::Usage(format!("-o {}: give a name that ends in .csv", path.display())));
+    }
+    refuse_foreign(path)?;
+    refuse_foreign(&risk_path(path))?;
+    let inputs: Vec<&Path> =
+        [structure.file.as_path(), result].into_iter().chain(options.manifest.as_deref()).collect();
+    refuse_overwriting(path, &inputs)
+}
+
+/// What the numbers rest on.
+fn notes_on(
+    source: &StudyOfResult,
+    models: &[(System, &'static str)],
+    found: &[(&SpectraOfResult, Vec<Collapse>)],
+) -> Vec<String> {
+    let mut notes = Vec::new();
+    if source.synthetic {
+        notes.push(super::SYNTHETIC.to_owned());
+    }
+    if let [(a, _), (b, _)] = models
+        && a.restitution().to_bits() != b.restitution().to_bits()
+    {
+        notes.push(format!(
+            "the oscillator keeps {} of its velocity at an impact, the block {:.4}: part of what they differ by is \
+             that (--restitution gives both the same)",
+            a.restitution(),
+            b.restitution()
+        ));
+    }
+    for (measure, found) in found {
+        let label = measure.measure().label();
+        for (found, (model, _)) in found.iter().zip(models) {
+            if let Err(reason) = &found.fit {
+                notes.push(format!("no lognormal fragility of the {} by {label}: {reason}", model.kind()));
+            }
+            let largest = found.risks.iter().map(EventRisk::tail_share).fold(0.0, f64::max);
+            if largest > TAIL_SHARE_LIMIT {
+                notes.push(format!(
+                    "up to {} of the risk of the {} by {label} comes from outside the analysed levels: they should \
+                     reach further",
+                    per_cent((1000.0 * largest).round() / 1000.0),
+                    model.kind()
+                ));
+            }
+        }
+    }
+    notes
+}
+
+impl ModelReport {
+    fn of(model: &System, restitution_from: &'static str) -> Self {
+        let block = match model {
+            System::Oscillator(_) => None,
+            System::Block(block) => Some(block),
+        };
+        Self {
+            model: model.kind(),
+            restitution: model.restitution(),
+            restitution_from,
+            size_m: block.map(uplift_block::RockingBlock::size_m),
+            slenderness_rad: block.map(uplift_block::RockingBlock::slenderness_rad),
+        }
+    }
+}
+
+impl CollapseReport {
+    fn of<'a>(
+        found: &Collapse,
+        measure: IntensityMeasure,
+        model: &'static str,
+        records: u32,
+        sites: impl Iterator<Item = &'a str>,
+    ) -> Self {
+        let fit = found.fit.as_ref().ok();
+        let site = |(index, site): (usize, &str)| SiteRisk {
+            site: site.to_owned(),
+            risk: found.risks[index],
+            lognormal_per_year: found.fitted.as_ref().map(|fitted| fitted[index].per_year),
+        };
+        Self {
+            im: measure.label(),
+            unit: measure.unit(),
+            model,
+            levels: found.counts.iter().map(|count| count.level).collect(),
+            overturned: found.counts.iter().map(|count| count.exceedances).collect(),
+            records,
+            theta: fit.map(|fit| fit.fragility.median()),
+            beta: fit.map(|fit| fit.fragility.dispersion()),
+            log_likelihood: fit.map(|fit| fit.log_likelihood),
+            sites: sites.enumerate().map(site).collect(),
+            fit: fit.copied(),
+        }
     }
 }

@@ -1,34 +1,14 @@
-//! A structure under the records of a study: the stripes of its own oscillators, and how often it goes too far.
+//! A structure under the records of a study: how often it goes too far.
 
+use serde::Serialize;
 use uplift_hazard::probability_from_rate;
-use uplift_ida::{Cells, Part, Watch};
-use uplift_oscillator::Oscillator;
 use uplift_risk::{PooledDemand, RiskCurve, StripeWeights};
 
 use crate::error::UpliftError;
-use crate::inputs::RecordSet;
-use crate::uniform_risk::pooled_demand;
-use crate::uniform_risk::{Stripes, analyse_stripes, plan_stripes};
-use uplift_study::{MeasurePlan, ResolvedStudy};
-
-/// The stripes of `oscillators`, which need not be those of `study`, over `[record, oscillator, level]`.
-///
-/// # Errors
-/// [`UpliftError::Interrupted`] if `watch` says so; a record that cannot be scaled.
-pub fn stripes_of(
-    study: &ResolvedStudy,
-    measure: &MeasurePlan,
-    set: &RecordSet,
-    oscillators: &[Oscillator],
-    watch: &dyn Watch,
-) -> Result<Stripes, UpliftError> {
-    let plan = plan_stripes(study, measure, set, oscillators)?;
-    let cells = Cells::unknown(&plan);
-    analyse_stripes(measure, &plan, cells, Part::WHOLE, watch, &|_| {})?.ok_or(UpliftError::Interrupted)
-}
+use crate::uniform_risk::{Stripes, pooled_demand};
 
 /// How often something happens to a structure at a site.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct EventRisk {
     /// Mean annual frequency, 1/yr (Eq. 4.4).
     pub per_year: f64,
@@ -45,10 +25,9 @@ impl EventRisk {
     ///
     /// # Errors
     /// Numbers that are no rate and no time, which the checks of study and inputs rule out.
-    pub fn new(per_year: f64, [lower_tail, upper_tail]: [f64; 2], years: f64) -> Result<Self, UpliftError> {
+    pub(super) fn new(per_year: f64, [lower_tail, upper_tail]: [f64; 2], years: f64) -> Result<Self, UpliftError> {
         let share = |tail: f64| if per_year > 0.0 { (tail / per_year).min(1.0) } else { 0.0 };
-        let probability =
-            probability_from_rate(per_year, years).map_err(|error| UpliftError::input(error.to_string()))?;
+        let probability = probability_from_rate(per_year, years)?;
         Ok(Self { per_year, probability, lower_tail_share: share(lower_tail), upper_tail_share: share(upper_tail) })
     }
 
@@ -59,22 +38,21 @@ impl EventRisk {
 }
 
 /// A threshold that nothing but overturning exceeds.
-pub const OVERTURNING_M: f64 = f64::MAX;
+pub(super) const OVERTURNING_M: f64 = f64::MAX;
 
 /// The risk of exceeding `threshold_m`.
 ///
 /// # Errors
 /// Stripes and weights of different levels; a threshold that is none.
-pub fn risk_of_exceeding(
+pub(super) fn risk_of_exceeding(
     demand: &PooledDemand,
     weights: &StripeWeights,
     threshold_m: f64,
     years: f64,
 ) -> Result<EventRisk, UpliftError> {
-    let fail = |error: uplift_risk::RiskError| UpliftError::input(error.to_string());
-    let curve = RiskCurve::new(demand, weights).map_err(fail)?;
-    let per_year = curve.mean_annual_frequency(threshold_m).map_err(fail)?;
-    let parts = curve.disaggregation(threshold_m).map_err(fail)?;
+    let curve = RiskCurve::new(demand, weights)?;
+    let per_year = curve.mean_annual_frequency(threshold_m)?;
+    let parts = curve.disaggregation(threshold_m)?;
     EventRisk::new(per_year, [parts.lower_tail_per_year, parts.upper_tail_per_year], years)
 }
 
@@ -82,6 +60,6 @@ pub fn risk_of_exceeding(
 ///
 /// # Errors
 /// None for stripes that were computed.
-pub fn demand_of(stripes: &Stripes, oscillator: usize) -> Result<PooledDemand, UpliftError> {
-    pooled_demand(stripes, oscillator).map_err(|error| UpliftError::input(error.to_string()))
+pub(super) fn demand_of(stripes: &Stripes, oscillator: usize) -> Result<PooledDemand, UpliftError> {
+    pooled_demand(stripes, oscillator)
 }

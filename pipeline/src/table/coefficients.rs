@@ -3,13 +3,14 @@
 use std::path::Path;
 
 use serde::Serialize;
+use uplift_motion::IntensityMeasure;
 use uplift_regression::Exponential;
 
 use super::TableOptions;
 use super::reference::ReferenceTable;
 use crate::error::UpliftError;
 use crate::events::Events;
-use crate::result::{Spectrum, StoredResult};
+use crate::result::{ResultFile, Spectrum};
 
 /// Strengths above this are compared, up to 1 (the range of Table 4.2's fits).
 pub const COMPARED_ABOVE: f64 = 0.05;
@@ -53,8 +54,8 @@ pub struct CoefficientRow {
     /// Root mean square error with n − 3 degrees of freedom, m.
     #[serde(rename = "rmse")]
     pub rmse_m: f64,
-    /// Median of our spectrum over the curve of the reference, for strengths in ([`COMPARED_ABOVE`], 1] where that curve
-    /// exceeds [`COMPARED_FROM_M`]; none where the reference has no such row.
+    /// Median of our spectrum over the curve of the reference, for strengths in ([`COMPARED_ABOVE`], 1] where that
+    /// curve exceeds [`COMPARED_FROM_M`]; none where the reference has no such row.
     pub median_ratio: Option<f64>,
     /// Whether c2 is held at 0.
     #[serde(skip)]
@@ -84,25 +85,27 @@ struct Reference {
     fit: ReferenceFit,
 }
 
-pub(super) fn read(options: &TableOptions, events: &dyn Events) -> Result<CoefficientTable, UpliftError> {
-    let result = StoredResult::read(&options.result)?;
+pub(super) fn read(
+    options: &TableOptions,
+    file: &ResultFile,
+    events: &dyn Events,
+) -> Result<CoefficientTable, UpliftError> {
+    let result = file.spectra()?;
     let references = options.reference.as_deref().map_or_else(|| Ok(Vec::new()), read_reference)?;
-    let wanted = options.measure.map(|measure| measure.key());
     let rows: Vec<CoefficientRow> = result
-        .spectra
-        .iter()
-        .filter(|spectrum| wanted.is_none_or(|wanted| spectrum.im.eq_ignore_ascii_case(wanted)))
+        .rows()
+        .filter(|spectrum| options.measure.is_none_or(|wanted| spectrum.measure == wanted))
         .map(|spectrum| {
-            let reference = references.iter().find(|reference| same(spectrum, reference));
-            CoefficientRow::of(&result.strengths, spectrum, reference.map(|reference| reference.fit))
+            let reference = references.iter().find(|reference| same(&spectrum, reference));
+            CoefficientRow::of(&result.strengths, &spectrum, reference.map(|reference| reference.fit))
         })
         .collect();
     if rows.is_empty() {
-        let found = if result.spectra.is_empty() { "it has none" } else { "it has the other measure: use --im" };
+        let found = if result.measures.is_empty() { "it has none" } else { "it has the other measure: use --im" };
         return Err(UpliftError::input(format!(
             "{}: has no spectra by {}: {found}",
             options.result.display(),
-            wanted.unwrap_or("all").to_uppercase()
+            options.measure.map_or("ALL", IntensityMeasure::label)
         )));
     }
     let compared = options.reference.is_some();
@@ -114,21 +117,21 @@ pub(super) fn read(options: &TableOptions, events: &dyn Events) -> Result<Coeffi
             names(rows.iter().map(|row| row.site.as_str()))
         ));
     }
-    Ok(CoefficientTable { rows, record_set: result.record_set, years: result.years, compared })
+    Ok(CoefficientTable { rows, record_set: file.head()?.record_set, years: result.years, compared })
 }
 
 impl CoefficientRow {
-    fn of(strengths: &[f64], spectrum: &Spectrum, reference: Option<ReferenceFit>) -> Self {
+    fn of(strengths: &[f64], spectrum: &Spectrum<'_>, reference: Option<ReferenceFit>) -> Self {
         let fit = &spectrum.fit;
         Self {
-            site: spectrum.site.clone(),
-            im: spectrum.im.clone(),
+            site: spectrum.site.to_owned(),
+            im: spectrum.measure.label().to_owned(),
             poe: spectrum.poe,
             c0_m: fit.c0_m,
             c1: fit.c1,
             c2_m: fit.c2_m,
             rmse_m: fit.rmse_m,
-            median_ratio: reference.and_then(|reference| median_ratio(strengths, &spectrum.u_m, &reference)),
+            median_ratio: reference.and_then(|reference| median_ratio(strengths, spectrum.u_m, &reference)),
             bound_active: fit.bound_active,
             reference,
         }
@@ -143,7 +146,7 @@ fn names<'a>(of: impl Iterator<Item = &'a str>) -> String {
     names.join(", ")
 }
 
-fn same(spectrum: &Spectrum, reference: &Reference) -> bool {
+fn same(spectrum: &Spectrum<'_>, reference: &Reference) -> bool {
     spectrum.site.to_lowercase() == reference.site.to_lowercase() && (spectrum.poe - reference.poe).abs() < 1e-9
 }
 

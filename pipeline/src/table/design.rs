@@ -3,15 +3,14 @@
 use std::path::Path;
 
 use serde::Serialize;
-use uplift_labelled::LabelledReader;
 use uplift_spectra::Noisy;
 use uplift_study::ScaledTo;
 
 use super::TableOptions;
 use super::reference::ReferenceTable;
-use crate::displacement::{DesignRow, read_design};
 use crate::error::UpliftError;
 use crate::events::Events;
+use crate::result::{DesignRow, ResultFile};
 
 /// The design tables of a result; serialized, the rows.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -76,21 +75,17 @@ impl Reference {
     }
 }
 
-pub(super) fn read(
-    options: &TableOptions,
-    reader: &LabelledReader,
-    events: &dyn Events,
-) -> Result<DesignTable, UpliftError> {
-    let rows = read_design(reader)?;
-    if rows.is_empty() {
+pub(super) fn read(options: &TableOptions, file: &ResultFile, events: &dyn Events) -> Result<DesignTable, UpliftError> {
+    let Some(design) = file.design()? else {
         return Err(UpliftError::input(format!(
             "{}: has no design example: add a section [design] to the study, which may be empty, and run it again",
             options.result.display()
         )));
-    }
+    };
     let references = options.reference.as_deref().map_or_else(|| Ok(Vec::new()), read_reference)?;
     let compared = options.reference.is_some();
-    let rows: Vec<DesignTableRow> = rows
+    let rows: Vec<DesignTableRow> = design
+        .rows
         .into_iter()
         .map(|row| {
             let reference = references.iter().find(|reference| reference.is_of(&row));
@@ -109,13 +104,12 @@ pub(super) fn read(
             distinct(rows.iter().map(|row| row.row.record_set.as_str())).join(", ")
         ));
     }
-    let number = |name: &str| reader.attribute_f64("/design", name).unwrap_or(f64::NAN);
     Ok(DesignTable {
         rows,
-        record_set: reader.attribute_text("/", "record_set")?,
-        safety_factor: number("safety_factor"),
-        noise_points: reader.attribute_u64("/design", "noise_points").unwrap_or_default(),
-        noise_relative: number("noise_relative"),
+        record_set: file.head()?.record_set,
+        safety_factor: design.safety_factor,
+        noise_points: design.noise_points,
+        noise_relative: design.noise_relative,
         compared,
     })
 }

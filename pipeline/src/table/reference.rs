@@ -8,6 +8,7 @@ use polars::prelude::{CsvParseOptions, CsvReadOptions, DataFrame, SerReader};
 use crate::error::UpliftError;
 
 /// A reference table, its cells as text.
+#[derive(Debug)]
 pub struct ReferenceTable {
     name: String,
     frame: DataFrame,

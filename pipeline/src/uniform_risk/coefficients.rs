@@ -5,26 +5,27 @@ use uplift_regression::{ExponentialFit, fit};
 use uplift_risk::Ordinate;
 
 use super::Spectra;
-use uplift_study::ResolvedStudy;
+use crate::array::Array;
+use uplift_study::UniformRiskStudy;
 
 /// The fits of one measure.
 #[derive(Debug, Clone)]
 pub struct Coefficients {
     /// The measure.
     pub measure: IntensityMeasure,
-    /// A fit, or why there is none, over `[site, poe]`, row-major.
-    pub fits: Vec<Result<ExponentialFit, String>>,
+    /// A fit, or why there is none, `[site, poe]`.
+    pub fits: Array<2, Result<ExponentialFit, String>>,
 }
 
 /// Fit every spectrum over the strengths above `regression.strength_above`.
-pub fn fit_spectra(study: &ResolvedStudy, spectra: &Spectra) -> Coefficients {
-    let [sites, poes, _] = spectra.shape;
-    let fits = (0..sites * poes).map(|row| fit_spectrum(study, spectra.spectrum(row / poes, row % poes))).collect();
+pub fn fit_spectra(study: &UniformRiskStudy, spectra: &Spectra) -> Coefficients {
+    let [sites, poes, _] = spectra.ordinates.shape();
+    let fits = Array::from_fn([sites, poes], |[site, poe]| fit_spectrum(study, spectra.spectrum(site, poe)));
     Coefficients { measure: spectra.measure, fits }
 }
 
 /// Fit one spectrum over the strengths above `regression.strength_above`, or say why there is no fit.
-pub(super) fn fit_spectrum(study: &ResolvedStudy, spectrum: &[Ordinate]) -> Result<ExponentialFit, String> {
+pub(super) fn fit_spectrum(study: &UniformRiskStudy, spectrum: &[Ordinate]) -> Result<ExponentialFit, String> {
     let from = study.strengths.partition_point(|&strength| strength <= study.regression.strength_above);
     let strengths = &study.strengths[from..];
     let displacements: Vec<f64> = spectrum[from..].iter().map(|ordinate| ordinate.displacement_m).collect();

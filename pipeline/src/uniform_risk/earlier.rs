@@ -3,14 +3,14 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use uplift_ida::Cells;
+use uplift_ida::{Axes, Cells};
 use uplift_motion::IntensityMeasure;
 
 use crate::checkpoint::oscillator_key;
 use crate::inputs::RecordSet;
-use crate::result::level_axis;
+use crate::result::layout::{axis, ida, records};
 use uplift_labelled::{LabelledError, LabelledReader, Seal, seal_of};
-use uplift_study::{MeasurePlan, ResolvedStudy};
+use uplift_study::{MeasurePlan, UniformRiskStudy};
 
 /// An earlier result at the place of the one to come.
 pub struct EarlierStripes {
@@ -24,11 +24,12 @@ impl EarlierStripes {
         whole.then(|| LabelledReader::open(path).ok()).flatten().map(|reader| Self { reader })
     }
 
-    /// Puts into `cells` what the file knows of the stripes that `study` asks for with `measure`: cells of the same motion, intensity,
-    /// oscillator, strength and level, by the same version of the solver. A file that is damaged, or of another layout, knows nothing.
+    /// Puts into `cells` what the file knows of the stripes that `study` asks for with `measure`: cells of the same
+    /// motion, intensity, oscillator, strength and level, by the same version of the solver. A file that is damaged, or
+    /// of another layout, knows nothing.
     pub fn fill(
         &self,
-        study: &ResolvedStudy,
+        study: &UniformRiskStudy,
         measure: &MeasurePlan,
         set: &RecordSet,
         motions: &[String],
@@ -39,34 +40,34 @@ impl EarlierStripes {
 
     fn try_fill(
         &self,
-        study: &ResolvedStudy,
+        study: &UniformRiskStudy,
         measure: &MeasurePlan,
         set: &RecordSet,
         motions: &[String],
         cells: &mut Cells,
     ) -> Result<(), LabelledError> {
         let reader = &self.reader;
-        let key = measure.measure.key();
-        let group = format!("/ida/{key}");
+        let group = ida::group(measure.measure);
         if !reader.exists(&group) || reader.attribute_text(&group, "oscillator_key")? != oscillator_key(study) {
             return Ok(());
         }
-        let stored_motions = reader.array_text("/records/motion_sha256")?.values;
+        let stored_motions = reader.array_text(records::MOTION_SHA256)?.values;
         let intensities = reader
             .array_f64(match measure.measure {
-                IntensityMeasure::Pga => "/records/pga_g",
-                _ => "/records/pgv_cm_s",
+                IntensityMeasure::Pga => records::PGA_G,
+                IntensityMeasure::Pgv => records::PGV_CM_S,
             })?
             .values;
         let positions = |values: &[f64]| -> HashMap<u64, usize> {
             values.iter().enumerate().map(|(index, value)| (value.to_bits(), index)).collect()
         };
-        let strengths = reader.axis_f64("strength")?;
-        let levels = reader.axis_f64(&level_axis(measure.measure))?;
-        let edp_m = reader.array_f64(&format!("{group}/edp_m"))?;
-        let impacts = reader.array_u32(&format!("{group}/impacts"))?;
-        let shape = [stored_motions.len(), strengths.len(), levels.len()];
-        if edp_m.shape != shape || impacts.shape != shape || intensities.len() != shape[0] {
+        let strengths = reader.axis_f64(axis::STRENGTH)?;
+        let levels = reader.axis_f64(&axis::level(measure.measure))?;
+        let edp_m = reader.array_f64(&ida::edp_m(measure.measure))?;
+        let impacts = reader.array_u32(&ida::impacts(measure.measure))?;
+        let stored = Axes { motions: stored_motions.len(), systems: strengths.len(), scales: levels.len() };
+        let shape = [stored.motions, stored.systems, stored.scales];
+        if edp_m.shape != shape || impacts.shape != shape || intensities.len() != stored.motions {
             return Ok(());
         }
         let records: HashMap<(&str, u64), usize> = (stored_motions.iter().zip(&intensities).enumerate())
@@ -80,7 +81,7 @@ impl EarlierStripes {
                 let Some(&from_strength) = of_strength.get(&value.to_bits()) else { continue };
                 for (level, value) in measure.levels.iter().enumerate() {
                     let Some(&from_level) = of_level.get(&value.to_bits()) else { continue };
-                    let index = (from_record * shape[1] + from_strength) * shape[2] + from_level;
+                    let index = stored.cell([from_record, from_strength, from_level]);
                     cells.set([record, strength, level], edp_m.values[index], impacts.values[index]);
                 }
             }

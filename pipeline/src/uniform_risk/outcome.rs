@@ -1,6 +1,6 @@
 //! All that a study of uniform risk computed.
 
-use uplift_study::ResolvedStudy;
+use uplift_study::UniformRiskStudy;
 
 use super::{Coefficients, Spectra, Stripes};
 use crate::inputs::{RecordSet, SiteHazard};
@@ -10,7 +10,7 @@ use crate::result::Provenance;
 #[derive(Debug)]
 pub struct Outcome<'a> {
     /// The study.
-    pub study: &'a ResolvedStudy,
+    pub study: &'a UniformRiskStudy,
     /// Its records.
     pub records: &'a RecordSet,
     /// Its hazard, `[measure][site]`.

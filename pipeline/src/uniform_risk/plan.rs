@@ -4,10 +4,10 @@ use std::path::Path;
 use std::time::Duration;
 
 use serde::Serialize;
-use uplift_ida::estimate;
-use uplift_study::ResolvedStudy;
+use uplift_study::UniformRiskStudy;
 
-use super::{oscillators, plan_stripes, site_table};
+use super::{plan_stripes, site_table, systems};
+use crate::analysis::seconds;
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::inputs::{RecordSet, SiteList, read_hazard, read_records};
@@ -26,31 +26,27 @@ pub struct Plan {
 }
 
 /// Reads and checks all inputs of `study`, and times some of its analyses.
-pub(crate) fn plan(study: &ResolvedStudy, study_file: &Path, events: &dyn Events) -> Result<Plan, UpliftError> {
+pub(crate) fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Events) -> Result<Plan, UpliftError> {
     check_target(&study.output.file)?;
     let (_, mut notes) = read_hazard(study)?;
     let site_list = site_table::read(study, &study.output.file, events)?;
     notes.extend(site_list.iter().flat_map(|list| list.notes.iter().cloned()));
     let records = read_records(study)?;
-    let oscillators = oscillators(study)?;
+    let systems = systems(study)?;
     notes.splice(0..0, study.warnings.iter().cloned());
     notes.extend(records.notes.iter().cloned());
 
-    let threads = rayon::current_num_threads();
-    let mut analyses = 0;
-    let mut seconds = 0.0;
-    for measure in &study.measures {
-        let plan = plan_stripes(study, measure, &records, &oscillators)?;
-        analyses += plan.analyses();
-        seconds += estimate(&plan, CALIBRATION).seconds_one_thread / threads as f64;
-    }
+    let plans = (study.measures.iter())
+        .map(|measure| plan_stripes(study, measure, &records, &systems))
+        .collect::<Result<Vec<_>, _>>()?;
+    let seconds = seconds(&plans, CALIBRATION * u32::try_from(plans.len()).unwrap_or(u32::MAX));
     let Size { memory_bytes, disk_bytes } = Size::of(study, &records, site_list.as_ref());
     let head = PlanHead {
         study: study_file.to_owned(),
-        record_set: records.description,
+        record_set: records.description.clone(),
         synthetic: records.synthetic,
-        analyses,
-        threads,
+        analyses: plans.iter().map(uplift_ida::Plan::analyses).sum(),
+        threads: rayon::current_num_threads(),
         seconds,
         memory_bytes,
         disk_bytes,
@@ -67,9 +63,10 @@ struct Size {
 }
 
 impl Size {
-    /// The stripes hold 12 bytes an analysis; the surface 8 bytes a threshold, in memory twice while it is put in order; records 48
-    /// bytes a sample with their integrals and extremes; a site of a table half a kilobyte, and as text 80 bytes an ordinate and 800 a fit.
-    fn of(study: &ResolvedStudy, set: &RecordSet, list: Option<&SiteList>) -> Self {
+    /// The stripes hold 12 bytes an analysis; the surface 8 bytes a threshold, in memory twice while it is put in
+    /// order; records 48 bytes a sample with their integrals and extremes; a site of a table half a kilobyte, and as
+    /// text 80 bytes an ordinate and 800 a fit.
+    fn of(study: &UniformRiskStudy, set: &RecordSet, list: Option<&SiteList>) -> Self {
         let count = |n: usize| n as u64;
         let (records, strengths) = (count(set.records.len()), count(study.strengths.len()));
         let levels: u64 = study.measures.iter().map(|measure| count(measure.levels.len())).sum();

@@ -1,41 +1,45 @@
 //! A study of uniform risk, from its inputs to the result file.
 
-use uplift_ida::Part;
+use uplift_ida::Shard;
 use uplift_risk::OrdinateFlag;
-use uplift_study::ResolvedStudy;
+use uplift_study::UniformRiskStudy;
 
 use super::report::RunReport;
 use super::{
-    Coefficients, Outcome, Spectra, Work, csv_paths, fit_spectra, open, site_table, uniform_risk_spectra, write_csv,
-    write_result,
+    Coefficients, Inputs, Outcome, Spectra, Stripes, csv_paths, fit_spectra, site_table, uniform_risk_spectra,
+    write_csv, write_result,
 };
-use crate::checkpoint::{KeptPieces, journal_path};
+use crate::checkpoint::{Checkpoint, FinishedRows, checkpoint_path};
 use crate::error::UpliftError;
 use crate::events::Events;
-use crate::inputs::{RecordSet, read_hazard, read_records};
+use crate::inputs::{RecordSet, read_hazard};
 use crate::result::Provenance;
 use crate::run::{FEW_RECORDS, Place, SYNTHETIC};
 use crate::text::per_cent;
 
 /// Carries out `study`, but for the rows of its analysis that are `known`.
 pub(crate) fn run(
-    study: &ResolvedStudy,
+    study: &UniformRiskStudy,
     place: &Place<'_>,
-    known: KeptPieces,
+    known: FinishedRows,
     events: &dyn Events,
 ) -> Result<RunReport, UpliftError> {
     let path = place.path;
     let (hazard, notes) = read_hazard(study)?;
     let site_list = site_table::read(study, path, events)?;
-    let records = read_records(study)?;
+    let inputs = Inputs::read(study)?;
+    let records = &inputs.records;
     events.remark("records", &records.description);
 
-    let work = Work::new(study, &records)?;
-    let (journal, mut kept) = open(&journal_path(path), &work.head(Part::WHOLE), Some(path))?;
-    kept.kept.extend(known);
-    events.kept_in(journal.path());
-    let stripes = work.carry_out(&kept, &journal, Part::WHOLE, events)?;
-    drop(kept);
+    let work = inputs.work(study, Some(path))?;
+    let total = work.analyses();
+    let mut checkpoint = Checkpoint::open(&checkpoint_path(path), &work.head(Shard::WHOLE))?;
+    checkpoint.extend(known);
+    checkpoint.path().into_iter().for_each(|path| events.kept_in(path));
+    let analysed = work.results(&checkpoint, events)?;
+    checkpoint.release_rows();
+    let stripes: Vec<Stripes> =
+        study.measures.iter().zip(analysed).map(|(measure, analysed)| Stripes::of(measure, analysed)).collect();
     let mut spectra = Vec::new();
     for (stripes, hazard) in stripes.iter().zip(&hazard) {
         spectra.push(uniform_risk_spectra(study, stripes, hazard)?);
@@ -44,13 +48,12 @@ pub(crate) fn run(
     let mut warnings = notes;
     warnings.extend(site_list.iter().flat_map(|list| list.notes.iter().cloned()));
     warnings.extend(records.notes.iter().cloned());
-    warnings.extend(warnings_of(study, &records, &spectra, &coefficients));
+    warnings.extend(warnings_of(study, records, &spectra, &coefficients));
 
     if events.cancelled() {
-        let total = stripes.iter().map(|stripes| stripes.analyses).sum();
-        return Err(UpliftError::Paused { what: "analyses", done: total, total, path: journal.path().to_owned() });
+        return Err(checkpoint.stopped(total, total));
     }
-    let mut provenance = Provenance::new(place.options, &records, &hazard);
+    let mut provenance = Provenance::new(place.options, records, &hazard);
     provenance.input_checksums.extend(site_list.iter().flat_map(|list| list.checksums.clone()));
     let line = provenance.line(&study.title, &records.description);
     let mut sites = site_table::compute(study, site_list.as_ref(), &stripes, path, &line, events)?;
@@ -58,7 +61,7 @@ pub(crate) fn run(
     provenance.wall_time_s = place.start.elapsed().as_secs_f64();
     let outcome = Outcome {
         study,
-        records: &records,
+        records,
         hazard: &hazard,
         stripes: &stripes,
         spectra: &spectra,
@@ -67,7 +70,7 @@ pub(crate) fn run(
         provenance: &provenance,
     };
     write_result(path, &outcome)?;
-    journal.remove();
+    checkpoint.remove();
     let mut files = vec![path.to_owned()];
     if study.output.csv && !study.sites.is_empty() {
         write_csv(path, &outcome)?;
@@ -78,7 +81,7 @@ pub(crate) fn run(
 }
 
 fn warnings_of(
-    study: &ResolvedStudy,
+    study: &UniformRiskStudy,
     records: &RecordSet,
     spectra: &[Spectra],
     coefficients: &[Coefficients],
@@ -94,15 +97,14 @@ fn warnings_of(
         ));
     }
     for spectra in spectra {
-        let [sites, poes, _] = spectra.shape;
         let label = spectra.measure.label();
-        for (site, poe) in (0..sites).flat_map(|site| (0..poes).map(move |poe| (site, poe))) {
-            let spectrum = spectra.spectrum(site, poe);
+        for ([site, poe], spectrum) in spectra.ordinates.blocks() {
             let name = format!("{label}, {}, {}", study.sites[site].name, per_cent(study.risk.poe[poe]));
             let censored = spectrum.iter().filter(|ordinate| ordinate.flag == OrdinateFlag::Censored).count();
             if censored > 0 {
                 warnings.push(format!(
-                    "{name}: {censored} of {} ordinates are censored: overturned runs, or the last threshold, exceed the target risk",
+                    "{name}: {censored} of {} ordinates are censored: overturned runs, or the last threshold, exceed \
+                     the target risk",
                     spectrum.len()
                 ));
             }
@@ -112,7 +114,8 @@ fn warnings_of(
                 let lower = spectrum.iter().fold(0.0_f64, |most, ordinate| most.max(ordinate.lower_tail_share));
                 let upper = spectrum.iter().fold(0.0_f64, |most, ordinate| most.max(ordinate.upper_tail_share));
                 warnings.push(format!(
-                    "{name}: {heavy} of {} ordinates take more than 1 % of their risk from outside the stripes (at most {} below the first, {} above the last)",
+                    "{name}: {heavy} of {} ordinates take more than 1 % of their risk from outside the stripes (at \
+                     most {} below the first, {} above the last)",
                     spectrum.len(),
                     share(lower),
                     share(upper)
@@ -121,15 +124,14 @@ fn warnings_of(
         }
     }
     for coefficients in coefficients {
-        for (row, fit) in coefficients.fits.iter().enumerate() {
-            let poes = study.risk.poe.len();
+        for ([site, poe], fit) in coefficients.fits.blocks() {
             let name = format!(
                 "{}, {}, {}",
                 coefficients.measure.label(),
-                study.sites[row / poes].name,
-                per_cent(study.risk.poe[row % poes])
+                study.sites[site].name,
+                per_cent(study.risk.poe[poe])
             );
-            match fit {
+            match &fit[0] {
                 Err(reason) => warnings.push(format!("{name}: no fit: {reason}")),
                 Ok(fit) if fit.at_search_limit => warnings.push(format!(
                     "{name}: the spectrum is no decaying exponential: its coefficients mean nothing one by one"

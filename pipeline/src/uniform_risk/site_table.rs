@@ -17,7 +17,7 @@ use crate::UpliftError;
 use crate::events::{Events, Progress};
 use crate::inputs::{BatchSite, SiteCurves, SiteList, read_site_list};
 use crate::text::{per_cent, thousands};
-use uplift_study::{ResolvedStudy, SiteTable};
+use uplift_study::{SiteTable, UniformRiskStudy};
 
 /// Bytes of text, about, that are in memory at a time.
 const BATCH_BYTES: usize = 16 << 20;
@@ -39,8 +39,9 @@ impl SiteOutput {
     }
 }
 
-/// The study's table of sites, found in its exports; no file that is read is to be overwritten by the results at `path`.
-pub fn read(study: &ResolvedStudy, path: &Path, events: &dyn Events) -> Result<Option<SiteList>, UpliftError> {
+/// The study's table of sites, found in its exports; no file that is read is to be overwritten by the results at
+/// `path`.
+pub fn read(study: &UniformRiskStudy, path: &Path, events: &dyn Events) -> Result<Option<SiteList>, UpliftError> {
     for input in study.site_table.iter().flat_map(SiteTable::files) {
         let same = |output: &PathBuf| output.canonicalize().is_ok_and(|output| output == input);
         if let Some(output) = site_table_paths(path).iter().find(|output| same(output)) {
@@ -57,9 +58,9 @@ pub fn read(study: &ResolvedStudy, path: &Path, events: &dyn Events) -> Result<O
     Ok(list)
 }
 
-/// Spectra and coefficients of every site of the list, written aside site by site; `line` says where the numbers come from.
+/// Spectra and coefficients of every site of the list, written site by site; `line` says where the numbers come from.
 pub fn compute(
-    study: &ResolvedStudy,
+    study: &UniformRiskStudy,
     list: Option<&SiteList>,
     stripes: &[Stripes],
     path: &Path,
@@ -101,7 +102,7 @@ type SiteFindings = Vec<Vec<[bool; FINDINGS]>>;
 const FINDINGS: usize = 4;
 
 fn spectra_of(
-    study: &ResolvedStudy,
+    study: &UniformRiskStudy,
     list: &SiteList,
     risks: &[SiteRisk<'_>],
     files: &SiteTableFiles,
@@ -118,7 +119,7 @@ fn spectra_of(
     (files.layout().text(&list.sites[site.site], &spectra), findings.collect())
 }
 
-fn found(study: &ResolvedStudy, spectra: &SiteSpectra) -> Vec<[bool; FINDINGS]> {
+fn found(study: &UniformRiskStudy, spectra: &SiteSpectra) -> Vec<[bool; FINDINGS]> {
     let spectrum = |ordinates: &[uplift_risk::Ordinate]| {
         [
             ordinates.iter().any(|ordinate| ordinate.flag == OrdinateFlag::Censored),
@@ -141,7 +142,7 @@ struct Tally {
 }
 
 impl Tally {
-    fn new(study: &ResolvedStudy, list: &SiteList) -> Self {
+    fn new(study: &UniformRiskStudy, list: &SiteList) -> Self {
         Self { counts: vec![vec![[0; FINDINGS]; study.risk.poe.len()]; list.exports.len()] }
     }
 
@@ -153,7 +154,7 @@ impl Tally {
         }
     }
 
-    fn warnings(&self, study: &ResolvedStudy, list: &SiteList) -> Vec<String> {
+    fn warnings(&self, study: &UniformRiskStudy, list: &SiteList) -> Vec<String> {
         const WORDS: [&str; FINDINGS] = [
             "have ordinates that are censored: overturned runs, or the last threshold, exceed the target risk",
             "have ordinates that take more than 1 % of their risk from outside the stripes",

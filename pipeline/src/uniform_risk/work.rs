@@ -1,199 +1,84 @@
-//! The stripes of a study: what is known from before, what is computed now, and what is kept if it stops.
+//! The stripes of a study as work: records x strengths x levels of each measure.
 
 use std::path::Path;
-use std::sync::atomic::{AtomicU64, Ordering};
 
-use sha2::{Digest, Sha256};
-use uplift_ida::{Cells, Part, Piece, Watch};
-use uplift_labelled::hexadecimal;
-use uplift_oscillator::Oscillator;
+use uplift_ida::{Cells, Shard, System};
+use uplift_study::UniformRiskStudy;
 
-use crate::UpliftError;
-use crate::checkpoint::{KeptPieces, PieceFile, PieceFileHead, PieceKey, StripeKeys, motion_key};
-use crate::events::{Events, Progress};
-use crate::inputs::RecordSet;
+use super::{EarlierStripes, plan_stripes, systems};
+use crate::analysis::{LabelledPlan, ShardReport, Work, carry_out_shard};
+use crate::checkpoint::motion_key;
+use crate::error::UpliftError;
+use crate::events::Events;
+use crate::inputs::{RecordSet, read_hazard, read_records};
 use crate::text::thousands;
-use crate::uniform_risk::EarlierStripes;
-use crate::uniform_risk::{Stripes, analyse_stripes, oscillators, plan_stripes};
-use uplift_study::ResolvedStudy;
 
-/// All analyses that a study asks for.
-pub(crate) struct Work<'a> {
-    study: &'a ResolvedStudy,
-    records: &'a RecordSet,
-    oscillators: Vec<Oscillator>,
+/// What the stripes of a study are made of.
+pub(crate) struct Inputs {
+    pub(crate) records: RecordSet,
+    systems: Vec<System>,
+    /// Keys of the records' motions.
     motions: Vec<String>,
-    /// `[measure]`.
-    keys: Vec<StripeKeys>,
 }
 
-/// What is known before anything is computed.
-pub(crate) struct Known {
-    pub(crate) kept: KeptPieces,
-    /// Bytes of the file that were cut off or damaged.
-    damaged_bytes: u64,
-    earlier: Option<EarlierStripes>,
-}
-
-impl<'a> Work<'a> {
-    /// The work of `study` on `records`.
+impl Inputs {
+    /// Reads the records of `study`.
     ///
     /// # Errors
-    /// A parameter of an oscillator that the study file's check let through: none is known.
-    pub(crate) fn new(study: &'a ResolvedStudy, records: &'a RecordSet) -> Result<Self, UpliftError> {
-        let motions: Vec<String> = records.records.iter().map(|record| motion_key(&record.accelerogram)).collect();
-        let keys = study.measures.iter().map(|measure| StripeKeys::of(study, measure, records, &motions)).collect();
-        Ok(Self { study, records, oscillators: oscillators(study)?, motions, keys })
+    /// Records that cannot be used.
+    pub(crate) fn read(study: &UniformRiskStudy) -> Result<Self, UpliftError> {
+        let records = read_records(study)?;
+        Ok(Self { systems: systems(study)?, motions: motion_keys(&records), records })
     }
 
-    /// The head of the file of one part.
-    pub(crate) fn head(&self, part: Part) -> PieceFileHead {
-        let mut hash = Sha256::new();
-        let mut pieces = 0;
-        for keys in &self.keys {
-            for (record, strength, key) in keys.iter() {
-                hash.update(key.0);
-                pieces += u64::from(part.contains(record, strength, self.study.strengths.len()));
-            }
-        }
-        let work = hexadecimal(&hash.finalize());
-        PieceFileHead::new(work, &self.study.title, [part.index + 1, part.count], pieces)
-    }
-
-    /// How many of the pieces of one part `kept` has, and how many there are.
-    pub(crate) fn share_of(&self, part: Part, kept: &KeptPieces) -> [u64; 2] {
-        let of_part = |(record, strength, key): (usize, usize, PieceKey)| {
-            part.contains(record, strength, self.study.strengths.len()).then_some(key)
-        };
-        let keys = || self.keys.iter().flat_map(StripeKeys::iter).filter_map(of_part);
-        [keys().filter(|key| kept.contains(*key)).count() as u64, keys().count() as u64]
-    }
-
-    /// Carries out one part, keeps every finished piece in `file`, and returns the stripes by measure if the part is the whole.
+    /// The stripes of every measure, but for what is known of them from a result at `earlier`.
     ///
     /// # Errors
-    /// [`UpliftError::Paused`] where the user stopped it; a file that can no longer be written, which stops it too.
-    pub(crate) fn carry_out(
-        &self,
-        known: &Known,
-        file: &PieceFile,
-        part: Part,
-        events: &dyn Events,
-    ) -> Result<Vec<Stripes>, UpliftError> {
-        let study = self.study;
-        let plans = (study.measures.iter())
-            .map(|measure| plan_stripes(study, measure, self.records, &self.oscillators))
-            .collect::<Result<Vec<_>, _>>()?;
-        let share = |analyses: u64| analyses / part.count;
-        let total: u64 = plans.iter().map(|plan| share(plan.analyses())).sum();
-        let mut cells: Vec<Cells> = Vec::new();
-        for ((measure, plan), keys) in study.measures.iter().zip(&plans).zip(&self.keys) {
-            let mut of_measure = Cells::unknown(plan);
-            if let Some(earlier) = &known.earlier {
-                earlier.fill(study, measure, self.records, &self.motions, &mut of_measure);
-            }
-            known.kept.fill(keys, &mut of_measure);
-            cells.push(of_measure);
-        }
-        if known.damaged_bytes > 0 {
-            events.note(&format!(
-                "{}: pieces that were cut off or damaged ({} bytes) are computed again",
-                file.path().display(),
-                known.damaged_bytes
-            ));
-        }
-        let before: u64 = cells.iter().map(Cells::count).sum();
-        if before > 0 {
-            events.remark(
-                "known",
-                &format!("{} of {} analyses from before", thousands(before.min(total)), thousands(total)),
+    /// A record that cannot be scaled.
+    pub(crate) fn work<'a>(
+        &'a self,
+        study: &'a UniformRiskStudy,
+        earlier: Option<&Path>,
+    ) -> Result<Work<'a>, UpliftError> {
+        let earlier = earlier.and_then(EarlierStripes::open);
+        let mut plans = Vec::new();
+        for measure in &study.measures {
+            let plan = plan_stripes(study, measure, &self.records, &self.systems)?;
+            let known = earlier.as_ref().map(|earlier| {
+                let mut cells = Cells::unknown(&plan);
+                earlier.fill(study, measure, &self.records, &self.motions, &mut cells);
+                cells
+            });
+            let label = measure.measure.label().to_owned();
+            let text = format!(
+                "{} records x {} strengths x {} levels = {} analyses",
+                self.records.records.len(),
+                study.strengths.len(),
+                measure.levels.len(),
+                thousands(plan.analyses())
             );
+            let remark = Some((label.clone(), text));
+            plans.push(LabelledPlan { label, remark, plan, motions: &self.motions, known });
         }
-        let finished = AtomicU64::new(before);
-        let mut stripes = Vec::new();
-        for (((measure, plan), keys), cells) in study.measures.iter().zip(&plans).zip(&self.keys).zip(cells) {
-            let label = measure.measure.label();
-            events.remark(
-                label,
-                &format!(
-                    "{} records x {} strengths x {} levels = {} analyses",
-                    self.records.records.len(),
-                    study.strengths.len(),
-                    measure.levels.len(),
-                    thousands(plan.analyses())
-                ),
-            );
-            let progress = Progress::begin(events, label, "analyses", share(plan.analyses()));
-            let strengths = study.strengths.len();
-            let known_in_rows: Vec<usize> = (0..self.records.records.len() * strengths)
-                .map(|row| cells.known_in_row(row / strengths, row % strengths))
-                .collect();
-            let keep = |piece: &Piece<'_>| {
-                file.append(keys.at(piece.record, piece.strength), piece);
-                let new = piece.edp_m.len() - known_in_rows[piece.record * strengths + piece.strength];
-                finished.fetch_add(new as u64, Ordering::Relaxed);
-            };
-            let watch = UntilFull { progress: &progress, file };
-            let outcome = analyse_stripes(measure, plan, cells, part, &watch, &keep);
-            drop(progress);
-            if let Some(reason) = file.failure() {
-                return Err(UpliftError::input(format!(
-                    "{}: nothing more can be kept ({reason}); what is in it is kept: make room, and run the same command to go on",
-                    file.path().display()
-                )));
-            }
-            let done = match outcome {
-                Err(UpliftError::Interrupted) => {
-                    file.sync()?;
-                    let done = finished.load(Ordering::Relaxed);
-                    return Err(UpliftError::Paused { what: "analyses", done, total, path: file.path().to_owned() });
-                }
-                other => other?,
-            };
-            if let Some(done) = &done {
-                let rate =
-                    if done.computed > 0 { format!(", {} analyses/s", thousands(rate(done))) } else { String::new() };
-                events.remark("", &format!("{:.1} s{rate}", done.seconds));
-            }
-            stripes.extend(done);
-        }
-        file.sync()?;
-        Ok(stripes)
+        Ok(Work::new(&study.title, plans))
     }
 }
 
-/// Analyses a second.
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a rate for people")]
-pub(crate) fn rate(stripes: &Stripes) -> u64 {
-    (stripes.computed as f64 / stripes.seconds.max(1e-9)) as u64
+/// Keys of the records' motions.
+pub(crate) fn motion_keys(set: &RecordSet) -> Vec<String> {
+    set.records.iter().map(|record| motion_key(&record.accelerogram)).collect()
 }
 
-/// Opens the file of one part, with what is known from it and from an earlier `result`.
-///
-/// # Errors
-/// A file that cannot be written, or that holds something else.
-pub(crate) fn open(
-    path: &Path,
-    head: &PieceFileHead,
-    result: Option<&Path>,
-) -> Result<(PieceFile, Known), UpliftError> {
-    let (file, found) = PieceFile::open(path, head)?;
-    let damaged_bytes = found.damaged_bytes;
-    Ok((file, Known { kept: found.kept, damaged_bytes, earlier: result.and_then(EarlierStripes::open) }))
-}
-
-/// Stops when the user says so, and when nothing more can be kept.
-struct UntilFull<'a> {
-    progress: &'a Progress<'a>,
-    file: &'a PieceFile,
-}
-
-impl Watch for UntilFull<'_> {
-    fn finished(&self, analyses: u64) {
-        self.progress.finished(analyses);
-    }
-
-    fn cancelled(&self) -> bool {
-        self.progress.cancelled() || self.file.failure().is_some()
-    }
+/// Carries out one shard of the stripes of a study into a file, but for what is known from an `earlier` result.
+pub(crate) fn run_shard(
+    study: &UniformRiskStudy,
+    place: (&Path, Shard),
+    earlier: Option<&Path>,
+    events: &dyn Events,
+) -> Result<ShardReport, UpliftError> {
+    // a mistake in the hazard is found before, not when the shards are joined
+    read_hazard(study)?;
+    let inputs = Inputs::read(study)?;
+    events.remark("records", &inputs.records.description);
+    carry_out_shard(inputs.work(study, earlier)?, place, events, &|_| Ok(()))
 }

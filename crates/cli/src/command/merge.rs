@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use crate::error::CommandError;
 use clap::Args;
-use uplift::uniform_risk::merge as merge_shards;
 
 use super::StudyArguments;
 use super::run::run_options;
@@ -27,8 +26,8 @@ pub(super) struct MergeArguments {
 }
 
 pub(super) fn merge(arguments: &MergeArguments, terminal: &Terminal) -> Result<(), CommandError> {
-    let study = arguments.study.load()?;
+    let study = arguments.study.load_any()?;
     let options = run_options(&arguments.study, arguments.output.clone());
-    let report = merge_shards(&study, &arguments.shards, &options, terminal)?;
+    let report = uplift::merge(&study, &arguments.shards, &options, terminal)?;
     if arguments.json { print_json(&report) } else { print_run(&report, terminal) }
 }

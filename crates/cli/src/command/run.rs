@@ -8,10 +8,9 @@ use std::path::PathBuf;
 
 use crate::error::CommandError;
 use clap::Args;
-use uplift::RunOptions;
-use uplift::uniform_risk::{MOST_SHARDS, run_shard, shard_path};
-use uplift_ida::Part;
-use uplift_study::AnyStudy;
+use uplift::analysis::{MOST_SHARDS, ShardReport, shard_path};
+use uplift::{RunOptions, run_shard};
+use uplift_ida::Shard;
 
 use super::StudyArguments;
 use crate::show::{print_json, print_run, shown_path};
@@ -24,29 +23,29 @@ pub(super) struct RunArguments {
     /// Result file, instead of the study's output.file
     #[arg(short, long, value_name = "FILE.h5")]
     output: Option<PathBuf>,
-    /// Compute only part I of N of the stripes, into a file of its own; `uplift merge` joins the parts
+    /// Compute only shard I of N of the analyses, into a file of its own; `uplift merge` joins the shards
     #[arg(
         long,
         value_name = "I/N",
         value_parser = shard,
-        help = "Compute only part I of N of the stripes, into a file of its own (-o names it); uplift merge joins the \
-                parts"
+        help = "Compute only shard I of N of the analyses, into a file of its own (-o names it); uplift merge joins \
+                the shards"
     )]
-    shard: Option<Part>,
+    shard: Option<Shard>,
     /// Print the summary as JSON
     #[arg(long)]
     json: bool,
 }
 
-fn shard(text: &str) -> Result<Part, String> {
+pub(super) fn shard(text: &str) -> Result<Shard, String> {
     let numbers = text
         .split_once('/')
         .and_then(|(index, count)| Some((index.trim().parse::<u64>().ok()?, count.trim().parse::<u64>().ok()?)));
     match numbers {
         Some((index, count)) if index >= 1 && index <= count && count <= MOST_SHARDS => {
-            Ok(Part { index: index - 1, count })
+            Ok(Shard { index: index - 1, count })
         }
-        _ => Err(format!("write 1/8 for the first of eight parts; at most {MOST_SHARDS}")),
+        _ => Err(format!("write 1/8 for the first of eight shards; at most {MOST_SHARDS}")),
     }
 }
 
@@ -56,23 +55,20 @@ pub(super) fn run(arguments: &RunArguments, terminal: &Terminal) -> Result<(), C
         return outcome;
     }
     let study = arguments.study.load_any()?;
-    if let Some(part) = arguments.shard {
-        let AnyStudy::UniformRisk(study) = study else {
-            return Err(CommandError::Usage(
-                "--shard cuts the stripes of a study of uniform risk; this one is of displacement spectra, a matter of \
-                 minutes: run it as a whole"
-                    .to_owned(),
-            ));
-        };
-        let path = arguments.output.clone().unwrap_or_else(|| shard_path(&study.output.file, part));
-        let report = run_shard(&study, &path, part, None, terminal)?;
-        let file = shown_path(&report.file).display();
-        writeln!(std::io::stdout(), "shard {} of {}, {} pieces: {file}", report.shard, report.shards, report.rows)?;
-        return Ok(());
+    if let Some(shard) = arguments.shard {
+        let path = arguments.output.clone().unwrap_or_else(|| shard_path(&study.output().file, shard));
+        return print_shard(&run_shard(&study, &path, shard, None, terminal)?);
     }
     let options = run_options(&arguments.study, arguments.output.clone());
     let report = uplift::run(&study, &options, terminal)?;
     if arguments.json { print_json(&report) } else { print_run(&report, terminal) }
+}
+
+/// Which shard was computed, and where it is.
+pub(super) fn print_shard(report: &ShardReport) -> Result<(), CommandError> {
+    let ShardReport { shard, shards, rows, file } = report;
+    let file = shown_path(file).display();
+    Ok(writeln!(std::io::stdout(), "shard {shard} of {shards}, {rows} analysis rows: {file}")?)
 }
 
 /// The options of a run that was typed.

@@ -14,7 +14,7 @@ const NAME: &str = "the file";
 /// Reads a two-column table with and without a declaration of the second column.
 ///
 /// # Panics
-/// Where the answer is none that a reader may give; so do the functions below.
+/// Where the answer is not one that a reader may give; so do the functions below.
 pub fn table(bytes: &[u8]) -> Corpus {
     let Ok(text) = std::str::from_utf8(bytes) else {
         return Corpus::Reject;

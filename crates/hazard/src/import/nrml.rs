@@ -51,9 +51,9 @@ pub(super) fn entries(text: &str, name: &str) -> Result<Vec<Entry>, HazardError>
 
 /// Whether the parser can be given the text.
 ///
-/// It makes room for as many nodes and attributes as there are `<` and `=`, compares each attribute with all others of its
-/// tag and lets each element repeat the namespaces around it. A `<` cannot stand in the value of an attribute, so each
-/// piece between two holds at most one tag.
+/// It allocates as many nodes and attributes as there are `<` and `=`, compares each attribute with all others of
+/// its tag and lets each element repeat the namespaces around it. A `<` cannot stand in the value of an attribute, so
+/// each piece between two holds at most one tag.
 fn is_modest(text: &str) -> bool {
     let quotes = |tag: &str| tag.bytes().filter(|byte| matches!(byte, b'"' | b'\'')).count();
     let most = MAX_NODES as usize;

@@ -153,8 +153,8 @@ impl Columns {
             // It lies among the curves, and `*.csv` takes it along.
             if fields(line, separator).any(|name| matches!(name, "rlz_id" | "branch_path")) {
                 return fail(
-                    "the realizations of a logic tree with their weights, no hazard curves: leave the file out here, and \
-                     give it as the weights (--weights)"
+                    "the realizations of a logic tree with their weights, no hazard curves: leave the file out here, \
+                     and give it as the weights (--weights)"
                         .to_owned(),
                 );
             }
@@ -228,7 +228,7 @@ fn statistic(kind: &str, place: impl FnOnce() -> Place) -> Result<Statistic, Haz
     } else {
         let kind = excerpt(kind);
         let reason =
-            format!("kind {kind} in the comment is no hazard curve to use; export mean, quantile-... or rlz-...");
+            format!("kind {kind} in the comment is not a hazard curve to use; export mean, quantile-... or rlz-...");
         Err(HazardError::Row { place: place(), reason })
     }
 }
@@ -248,7 +248,7 @@ impl Lines {
         Place::Line { file: self.file.clone(), line: self.line }
     }
 
-    /// The next line with its number, trimmed; after an error there is none.
+    /// The next line with its number, trimmed; after an error there are no more.
     fn next(&mut self) -> Result<Option<(usize, &str)>, HazardError> {
         if self.ended {
             return Ok(None);

@@ -17,7 +17,7 @@ const LARGEST_BYTES: usize = 64 << 20;
 /// Reads `bytes` as a layout.
 ///
 /// # Panics
-/// Where the answer is none that a reader may give; so do the functions below.
+/// Where the answer is not one that a reader may give; so do the functions below.
 pub fn read_as(format: RecordFormat, bytes: &[u8]) {
     check(&read(Some(format), bytes), bytes);
 }

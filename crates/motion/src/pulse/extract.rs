@@ -6,7 +6,7 @@ use super::wavelet;
 
 /// Number of wavelets that make a pulse.
 const WAVELETS: usize = 10;
-/// Most scales tried between the neighbours of the scale found by the search; all that are whole
+/// Most scales tried between those next to the scale found by the search; all that are whole
 /// numbers of samples, at any usual time step.
 const MOST_SCALES: f64 = 400.0;
 

@@ -117,7 +117,7 @@ mod tests {
     use super::*;
 
     /// Σ f(x) over the points of the support times their distance: the integral, where f has no
-    /// ends to speak of.
+    /// ends to count.
     fn integrated(f: impl Fn(f64) -> f64) -> f64 {
         (0..=7 * PER_UNIT).map(|i| f(i as f64 / PER_UNIT as f64)).sum::<f64>() / PER_UNIT as f64
     }

@@ -273,14 +273,16 @@ mod tests {
         }
         assert_eq!(
             message(&file("VELOCITY TIME SERIES IN UNITS OF CM/S", POINTS, VALUES)),
-            "RSN1.AT2, line 3: \"VELOCITY TIME SERIES IN UNITS OF CM/S\": not an acceleration; give the acceleration file"
+            "RSN1.AT2, line 3: \"VELOCITY TIME SERIES IN UNITS OF CM/S\": not an acceleration; give the acceleration \
+             file"
         );
         assert!(
             message(&file("DISPLACEMENT TIME SERIES IN UNITS OF CM", POINTS, VALUES)).contains("not an acceleration")
         );
         assert_eq!(
             message(&file("ACCELERATION TIME SERIES IN UNITS OF FT/S2", POINTS, VALUES)),
-            "RSN1.AT2, line 3: unknown acceleration unit in \"ACCELERATION TIME SERIES IN UNITS OF FT/S2\"; known units: g, m/s2, cm/s2, gal"
+            "RSN1.AT2, line 3: unknown acceleration unit in \"ACCELERATION TIME SERIES IN UNITS OF FT/S2\"; known \
+             units: g, m/s2, cm/s2, gal"
         );
         assert!(message(&file("ACCELERATION IN UNITS OF", POINTS, VALUES)).contains("unknown acceleration unit"));
 

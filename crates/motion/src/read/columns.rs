@@ -23,13 +23,13 @@ const DECIMAL_COMMA: &str = " (is a comma a decimal mark? Write a point)";
 /// (`dt = 0.01 s`) takes precedence over `options`; where they say nothing, or several things,
 /// `options` must give the unit, and the time step for one column. For two columns it is the
 /// mean step of the times, which may differ from a uniform spacing by a quarter of a step: times
-/// printed with enough digits to tell the step stay below that, and a missing or repeated line
+/// printed with enough digits to give the step stay below that, and a missing or repeated line
 /// moves the times beside it by about half a step or more. The first time may be any.
 ///
 /// # Errors
 ///
 /// Head: [`MotionError::NotAcceleration`], [`MotionError::HeaderUnit`],
-/// [`MotionError::HeaderValue`] where a time step is no number.
+/// [`MotionError::HeaderValue`] where a time step is not a number.
 /// [`MotionError::MissingUnit`], [`MotionError::MissingTimeStep`], [`MotionError::Number`],
 /// [`MotionError::ColumnCount`], [`MotionError::UnevenTime`], [`MotionError::Gravity`], and
 /// [`MotionError::InFile`] where the values make no [`Accelerogram`].
@@ -241,7 +241,8 @@ mod tests {
         assert_eq!(motion.acceleration_m_s2(), [1.0, -2.0, 3.0]);
         assert_eq!(
             message("1\n2\n", None),
-            "a.txt: one column of accelerations and no time step; give the time step in seconds, or a file with two columns (time, acceleration)"
+            "a.txt: one column of accelerations and no time step; give the time step in seconds, or a file with two \
+             columns (time, acceleration)"
         );
     }
 

@@ -1,7 +1,7 @@
 //! Blocks of numbers that a file describes by a FORTRAN format, e.g. `(8F10.5)`.
 //!
 //! Fixed-width fields may touch each other. Where every field of a line is as the format says, the
-//! widths tell the numbers apart; else the blanks and signs do.
+//! widths separate the numbers; else the blanks and signs do.
 
 use std::iter::{Enumerate, Peekable};
 use std::str::Lines;
@@ -177,7 +177,7 @@ fn read_line(
     source.numbers(number, line, values)
 }
 
-/// Reads up to `count` header values to the next line of text; what is no number becomes NaN, for a
+/// Reads up to `count` header values to the next line of text; what is not a number becomes NaN, for a
 /// header value that nobody needs may be anything.
 pub(super) fn read_header(lines: &mut NumberedLines, format: Option<Format>, count: u64) -> Vec<f64> {
     let mut values = Vec::new();

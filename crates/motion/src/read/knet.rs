@@ -66,14 +66,14 @@ pub(super) fn read(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<Re
     Ok(Recording { accelerogram, description: head.describe() })
 }
 
-/// Refuses fewer values than the head tells of, or more by a second.
+/// Refuses fewer values than the head states, or more by a second.
 fn check_count(source: Source, frequency_hz: f64, duration_s: f64, found: usize) -> Result<(), MotionError> {
     let declared = (frequency_hz * duration_s).round();
     let surplus = found as f64 - declared;
     if (0.0..frequency_hz).contains(&surplus) {
         return Ok(());
     }
-    // A number too large for its type is told as the largest.
+    // A number too large for its type is read as the largest.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
     source.check_count(declared as u64, found)
 }

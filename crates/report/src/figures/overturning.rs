@@ -1,55 +1,50 @@
 //! Collapse fragilities of a structure: counted, and the lognormal curves beside them.
 
-use uplift_motion::IntensityMeasure;
-
-use uplift::structure::Collapse;
+use uplift::structure::{CollapseReport, OverturningReport};
 use uplift_plot::{Axis, Figure, Marks, Panel, Series, Tone};
 
 /// Points on a fitted curve.
 const POINTS: u32 = 120;
 
 /// A panel for each measure: shares of the records that overturn at each level as dots, the fitted curve as a line.
-///
-/// * `title` — of the figure
-/// * `remark` — inside it; empty for none
-/// * `measures` — each with its models by name
-pub fn overturning_figure(
-    title: &str,
-    remark: &str,
-    measures: &[(IntensityMeasure, Vec<(&str, &Collapse)>)],
-) -> Figure {
-    let panels = measures
-        .iter()
-        .map(|(measure, models)| {
-            let lines = models.iter().enumerate().flat_map(|(index, (name, found))| series(index, name, found));
+pub fn overturning_figure(report: &OverturningReport) -> Figure {
+    // the rows of a measure follow each other, one a model
+    let panels: Vec<Panel> = report
+        .overturning
+        .chunk_by(|a, b| a.im == b.im)
+        .map(|models| {
             Panel::lines(
                 "",
-                Axis::log(format!("{}, {}", measure.label(), measure.unit())),
+                Axis::log(format!("{}, {}", models[0].im, models[0].unit)),
                 Axis::linear("share of the records that overturn").between(0.0, 1.0),
-                lines.collect(),
+                models.iter().enumerate().flat_map(|(index, found)| series(index, found)).collect(),
             )
         })
-        .collect::<Vec<_>>();
+        .collect();
     Figure {
         id: "overturning".to_owned(),
-        title: title.to_owned(),
-        caption: "Collapse fragility: the share of the records that overturn the structure at each level (dots) and the lognormal curve of maximum likelihood (lines).".to_owned(),
-        remark: remark.to_owned(),
+        title: format!("Overturning of {}", report.structure.name),
+        caption:
+            "Collapse fragility: the share of the records that overturn the structure at each level (dots) and the \
+                  lognormal curve of maximum likelihood (lines)."
+                .to_owned(),
+        remark: if report.synthetic { "synthetic records: not for design" } else { "" }.to_owned(),
         columns: panels.len().min(2),
         panels,
     }
 }
 
 /// Dots and line of one model.
-fn series(index: usize, name: &str, found: &Collapse) -> Vec<Series> {
-    let share = |exceedances: u32, trials: u32| f64::from(exceedances) / f64::from(trials);
-    let points = found.counts.iter().map(|count| (count.level, share(count.exceedances, count.trials))).collect();
+fn series(index: usize, found: &CollapseReport) -> Vec<Series> {
+    let (name, records) = (found.model, f64::from(found.records));
+    let counted = found.levels.iter().zip(&found.overturned);
+    let points = counted.map(|(&level, &overturned)| (level, f64::from(overturned) / records)).collect();
     let tone = Tone::Distinct(index);
     let mut series = vec![Series { name: format!("{name}, counted"), points, tone, marks: Marks::Only }];
-    if let (Ok(fit), [first, .., last]) = (&found.fit, &found.counts[..]) {
-        let ratio = last.level / first.level;
+    if let (Some(fit), [first, .., last]) = (&found.fit, &found.levels[..]) {
+        let ratio = last / first;
         let curve = (0..=POINTS).map(|step| {
-            let level = first.level * ratio.powf(f64::from(step) / f64::from(POINTS));
+            let level = first * ratio.powf(f64::from(step) / f64::from(POINTS));
             (level, fit.fragility.probability(level))
         });
         series.push(Series::line(format!("{name}, lognormal"), curve.collect(), tone));

@@ -1,13 +1,13 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::super::{AnyStudy, RecordSource, ResolvedStudy, Study};
+use super::super::{RecordSource, Study, UniformRiskStudy};
 
 fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../configs")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../configs")
 }
 
-fn config(name: &str) -> ResolvedStudy {
+fn config(name: &str) -> UniformRiskStudy {
     Study::load(&folder().join(name), &[]).unwrap()
 }
 
@@ -21,13 +21,10 @@ fn all_load() {
             continue; // structures
         }
         let name = entry.file_name().into_string().unwrap();
-        let (title, warnings, file) = match Study::load_any(&folder().join(&name), &[]).unwrap() {
-            AnyStudy::UniformRisk(study) => (study.title, study.warnings, study.output.file),
-            AnyStudy::Displacement(study) => (study.title, study.warnings, study.output.file),
-        };
-        assert_eq!(warnings, [""; 0], "{name}");
-        assert!(!title.is_empty());
-        let stem = file.file_stem().unwrap().to_str().unwrap().to_owned();
+        let study = Study::load_any(&folder().join(&name), &[]).unwrap();
+        assert_eq!(study.warnings(), [""; 0], "{name}");
+        assert!(!study.title().is_empty());
+        let stem = study.output().file.file_stem().unwrap().to_str().unwrap().to_owned();
         assert_eq!(format!("{stem}.toml"), name);
         names.push(name);
     }

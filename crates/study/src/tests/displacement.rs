@@ -16,7 +16,7 @@ fn load(study: &str) -> DisplacementStudy {
 }
 
 fn config(name: &str) -> DisplacementStudy {
-    let path: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("../configs").join(name);
+    let path: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../configs").join(name);
     match Study::load_any(&path, &[]).unwrap() {
         AnyStudy::Displacement(study) => *study,
         AnyStudy::UniformRisk(_) => panic!("{name} is a study of uniform risk"),
@@ -47,7 +47,7 @@ fn defaults_are_those_of_the_chapters() {
     assert_eq!(bare.design.unwrap().designed, designed);
 }
 
-const COMPLETE: &str = r#"kind = "displacement spectra"
+pub(super) const COMPLETE: &str = r#"kind = "displacement spectra"
 title = "sets"
 gravity_m_s2 = 9.81
 [records]
@@ -155,10 +155,11 @@ noise_points = 20
     insta::assert_snapshot!(folder.rendered(&folder.load_displacement(&[]).unwrap_err()));
 }
 
-/// The keys that `chapter-3.toml` shows as comments are keys: with their marks taken away, no more is wrong than that a file is missing.
+/// The keys that `chapter-3.toml` shows as comments are keys: with their marks taken away, no more is wrong than that a
+/// file is missing.
 #[test]
 fn commented_keys_are_keys() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../configs/chapter-3.toml");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../configs/chapter-3.toml");
     let mut text = fs::read_to_string(&path).unwrap();
     for key in ["manifest =", "first =", "file ="] {
         let marked = format!("\n# {key}");
@@ -195,7 +196,8 @@ fn one_by_one() {
             "oscillator.capacity_m: the list has 0 items",
         ),
         (
-            "kind = \"displacement spectra\"\n[oscillator]\nuplift_displacement_m = \"0.001:0.001:90\"\n[strengths]\nvalues = \"0:1/300:1\"",
+            "kind = \"displacement spectra\"\n[oscillator]\nuplift_displacement_m = \"0.001:0.001:90\"\n[strengths]\n\
+             values = \"0:1/300:1\"",
             "the lists and grids make 27090000 structures",
         ),
         (
@@ -208,7 +210,8 @@ fn one_by_one() {
         ),
         ("kind = \"displacement spectra\"\n[oscillator]\n[scaling]\nby = []", "scaling.by: the list has 0 items"),
         (
-            "kind = \"displacement spectra\"\n[oscillator]\n[records]\nmanifest = \"manifest.csv\"\n[output]\nfile = \"manifest.csv\"",
+            "kind = \"displacement spectra\"\n[oscillator]\n[records]\nmanifest = \"manifest.csv\"\n[output]\n\
+             file = \"manifest.csv\"",
             "output.file: the results would overwrite an input",
         ),
     ] {

@@ -2,7 +2,7 @@ use proptest::prelude::*;
 
 use uplift_motion::IntensityMeasure;
 
-use super::super::notation::{self, MOST_GRID_VALUES};
+use super::super::grid::notation::{self, MOST_GRID_VALUES};
 use super::load;
 
 fn values(text: &str) -> Vec<f64> {
@@ -103,8 +103,8 @@ proptest! {
         let scale = 10_i64.pow(places);
         let decimal = |scaled: i64| {
             let (sign, size) = (if scaled < 0 { "-" } else { "" }, scaled.abs());
-            let places = places as usize;
-            if places == 0 { format!("{sign}{size}") } else { format!("{sign}{}.{:0places$}", size / scale, size % scale) }
+            let (places, whole, part) = (places as usize, size / scale, size % scale);
+            if places == 0 { format!("{sign}{size}") } else { format!("{sign}{whole}.{part:0places$}") }
         };
         let text = format!("{}:{}:{}", decimal(start), decimal(step), decimal(start + count * step));
         let grid = values(&text);

@@ -169,7 +169,8 @@ fn files_that_cannot_be() {
     for overwritten in ["study.toml", "pgv.csv", "../{}/manifest.csv"] {
         let name = folder.path("").file_name().unwrap().to_str().unwrap().to_owned();
         let text = format!(
-            "[pgv]\n[records]\nmanifest = \"manifest.csv\"\n[[sites]]\nname = \"x\"\npgv = \"pgv.csv\"\n[output]\nfile = \"{}\"",
+            "[pgv]\n[records]\nmanifest = \"manifest.csv\"\n[[sites]]\nname = \"x\"\npgv = \"pgv.csv\"\n[output]\n\
+             file = \"{}\"",
             overwritten.replace("{}", &name)
         );
         fs::write(folder.path("study.toml"), text).unwrap();

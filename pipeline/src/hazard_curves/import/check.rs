@@ -26,7 +26,8 @@ pub(super) fn check_weights(
     }
     match sums.iter().find(|(_, (sum, _))| (sum - 1.0).abs() > 1e-4) {
         Some((measure, (sum, count))) => Err(UpliftError::input(format!(
-            "{measure}: {count} of {} realizations are given, and their weights add up to {sum:.4}: give the exports of \
+            "{measure}: {count} of {} realizations are given, and their weights add up to {sum:.4}: give the exports \
+             of \
              all realizations",
             weights.len()
         ))),
@@ -46,7 +47,8 @@ pub(super) fn remarks(written: &[Chosen]) -> Vec<String> {
         if let (false, Some((key, levels))) = (of.is_empty(), levels_within(measure, least, most)) {
             let unit = measure.unit();
             remarks.push(format!(
-                "the {measure} curves span {least:.4} to {most:.4} {unit}, and the default stripes do not: in the study, \
+                "the {measure} curves span {least:.4} to {most:.4} {unit}, and the default stripes do not: in the \
+                 study, \
                  {key} = {levels} (or risk.extrapolate = \"loglog\")"
             ));
         }

@@ -10,7 +10,7 @@ use uplift_risk::StripeWeights;
 use super::super::hazard::{implausible, of_the_records_definition, stripe_weights};
 use super::ListedSite;
 use crate::error::UpliftError;
-use uplift_study::{MeasurePlan, ResolvedStudy, definition_of};
+use uplift_study::{MeasurePlan, UniformRiskStudy, definition_of};
 
 /// Mistakes that are told one by one.
 const MISTAKES_TOLD: usize = 8;
@@ -61,7 +61,7 @@ impl Index {
     /// # Errors
     /// What is wrong with the file as a whole, a line each; a site without a usable curve is none of it.
     pub(super) fn read(
-        study: &ResolvedStudy,
+        study: &UniformRiskStudy,
         plan: &MeasurePlan,
         path: &Path,
         with_names: bool,
@@ -156,7 +156,8 @@ impl Index {
         self.reasons.get(&row.item).map(String::as_str)
     }
 
-    /// The site nearest to a place and its distance, km, among those at most `within_km` away; the first one of several equally near.
+    /// The site nearest to a place and its distance, km, among those at most `within_km` away; the first one of several
+    /// equally near.
     pub(super) fn nearest(&self, longitude_deg: f64, latitude_deg: f64, within_km: f64) -> Option<(&Row, f64)> {
         let place = SitePlace { name: None, longitude_deg, latitude_deg };
         let row = |position: &u32| &self.rows[*position as usize];
@@ -195,7 +196,7 @@ impl Tally {
     /// Whether the curve can be used; what holds for all curves of the export is a mistake of the whole.
     fn weigh(
         &mut self,
-        study: &ResolvedStudy,
+        study: &UniformRiskStudy,
         plan: &MeasurePlan,
         path: &Path,
         exported: &ExportedCurve,
@@ -223,12 +224,13 @@ impl Tally {
         stripe_weights(study, plan, &curve).map(|_| ())
     }
 
-    fn notes(&self, study: &ResolvedStudy, label: &str, path: &Path) -> Vec<String> {
+    fn notes(&self, study: &UniformRiskStudy, label: &str, path: &Path) -> Vec<String> {
         let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
         let mut notes = Vec::new();
         if self.undefined > 0 {
             notes.push(format!(
-                "site table, {label}: {name} does not say how horizontal components are combined: taken as {}; say it with [hazard] component",
+                "site table, {label}: {name} does not say how horizontal components are combined: taken as {}; say it \
+                 with [hazard] component",
                 definition_of(study.records.intensity)
             ));
         }
@@ -238,7 +240,8 @@ impl Tally {
         }
         if self.shortened > 0 {
             notes.push(format!(
-                "site table, {label}: {} curves of {name} end in zeros or begin with probabilities of 1: such levels carry no rate and were dropped",
+                "site table, {label}: {} curves of {name} end in zeros or begin with probabilities of 1: such levels \
+                 carry no rate and were dropped",
                 self.shortened
             ));
         }
@@ -260,7 +263,11 @@ fn reason_of(error: &HazardError) -> String {
 }
 
 /// What each stripe of the study weighs at a site of an export.
-pub(super) fn weights(study: &ResolvedStudy, plan: &MeasurePlan, curve: &HazardCurve) -> Result<StripeWeights, String> {
+pub(super) fn weights(
+    study: &UniformRiskStudy,
+    plan: &MeasurePlan,
+    curve: &HazardCurve,
+) -> Result<StripeWeights, String> {
     let curve = curve.in_field_units(study.gravity_m_s2).map_err(|error| reason_of(&error))?;
     let curve = of_the_records_definition(study, plan.measure, &curve)?.unwrap_or(curve);
     stripe_weights(study, plan, &curve)
@@ -271,8 +278,8 @@ pub(super) type SharedCurve = Arc<Result<HazardCurve, String>>;
 
 /// The curves of an export in the order in which they are asked for.
 ///
-/// Those that stand before the one asked for and will be asked for later are held. So where the sites are in the order of the
-/// export hardly any is.
+/// Those that stand before the one asked for and will be asked for later are held. So where the sites are in the order
+/// of the export hardly any is.
 pub(super) struct Stream {
     curves: ExportedCurves,
     path: String,

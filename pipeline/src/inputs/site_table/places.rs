@@ -80,7 +80,8 @@ impl<'a> Columns<'a> {
         let (Some(longitude), Some(latitude)) = (position(&LONGITUDE), position(&LATITUDE)) else {
             let found: Vec<&str> = texts.iter().take(20).map(|column| column.name().as_str()).collect();
             return Err(format!(
-                "does not name columns longitude and latitude [degrees] in its first line (lon, lat, x, y will do); found {}",
+                "does not name columns longitude and latitude [degrees] in its first line (lon, lat, x, y will do); \
+                 found {}",
                 found.join(", ").escape_debug()
             ));
         };

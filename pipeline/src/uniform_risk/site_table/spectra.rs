@@ -8,11 +8,11 @@ use crate::error::UpliftError;
 use crate::uniform_risk::Stripes;
 use crate::uniform_risk::coefficients::fit_spectrum;
 use crate::uniform_risk::spectra::{Reading, pooled_demand};
-use uplift_study::ResolvedStudy;
+use uplift_study::UniformRiskStudy;
 
 /// What turns the hazard of any site into spectra: the demands of one measure, sorted once for each strength.
 pub struct SiteRisk<'a> {
-    study: &'a ResolvedStudy,
+    study: &'a UniformRiskStudy,
     reading: Reading,
     /// One a strength.
     demands: Vec<PooledDemand>,
@@ -32,8 +32,8 @@ impl<'a> SiteRisk<'a> {
     ///
     /// # Errors
     /// Numbers that do not fit together, which the check of the study rules out.
-    pub fn new(study: &'a ResolvedStudy, stripes: &Stripes) -> Result<Self, UpliftError> {
-        let demands = (0..stripes.edp.shape()[1])
+    pub fn new(study: &'a UniformRiskStudy, stripes: &Stripes) -> Result<Self, UpliftError> {
+        let demands = (0..stripes.peaks.axes().systems)
             .into_par_iter()
             .map(|strength| pooled_demand(stripes, strength))
             .collect::<Result<_, _>>()

@@ -13,7 +13,8 @@ use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
 pub(super) struct ImportArguments {
-    /// Exports: OpenQuake CSV or NRML, USGS JSON; several files for several measures, or for the realizations of a logic tree
+    /// Exports: OpenQuake CSV or NRML, USGS JSON; several files for several measures, or for the realizations of a
+    /// logic tree
     #[arg(required = true, value_name = "EXPORT")]
     exports: Vec<PathBuf>,
     /// Folder for the curve files; made if it is not there
@@ -21,7 +22,8 @@ pub(super) struct ImportArguments {
     output: PathBuf,
     #[command(flatten)]
     site: SiteArguments,
-    /// How the ground-motion models combine horizontal components: geometric mean, GMRotI50, RotD50, RotD100, larger, arbitrary. Exports do not say it
+    /// How the ground-motion models combine horizontal components: geometric mean, GMRotI50, RotD50, RotD100, larger,
+    /// arbitrary. Exports do not say it
     #[arg(long, value_name = "WORD")]
     component: Option<ComponentDefinition>,
     /// Weights of the realizations (OpenQuake's realizations_*.csv)

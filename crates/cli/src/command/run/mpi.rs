@@ -1,20 +1,21 @@
-//! `uplift run` under `mpirun`: every rank computes one shard of the stripes, and the first joins them.
+//! `uplift run` under `mpirun`: every rank computes one shard of the analyses, and the first joins them.
 //!
 //! The ranks share nothing but the file system. MPI says who they are, lets the first wait for the others, and ends all
 //! when one fails: the shards are then as those of any run that stopped, and the same command goes on from there.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::PathBuf;
 use std::time::Duration;
 
 use ::mpi::Threading;
 use ::mpi::topology::SimpleCommunicator;
 use ::mpi::traits::{Communicator, CommunicatorCollectives};
 
+use uplift::analysis::shard_path;
+use uplift::checkpoint::{FinishedRows, RowFile};
 use uplift::events::Events;
-use uplift::uniform_risk::{check_shards, merge, run_shard, shard_path};
-use uplift::{UpliftError, study::ResolvedStudy};
-use uplift_ida::Part;
+use uplift::run::run_with;
+use uplift::{UpliftError, run_shard};
+use uplift_ida::Shard;
 
 use super::{RunArguments, run_options};
 use crate::error::CommandError;
@@ -36,12 +37,12 @@ pub(super) fn run(arguments: &RunArguments, terminal: &Terminal) -> Option<Resul
     if count < 2 {
         return None;
     }
-    let part = Part { index, count };
-    let outcome = catch_unwind(AssertUnwindSafe(|| run_rank(arguments, &world, part, terminal)));
+    let shard = Shard { index, count };
+    let outcome = catch_unwind(AssertUnwindSafe(|| run_rank(arguments, &world, shard, terminal)));
     match outcome {
         Ok(done @ (Ok(()) | Err(CommandError::OutputClosed))) => Some(done),
         // a stop is sent to all ranks, and one says so
-        Ok(Err(error @ CommandError::Uplift(UpliftError::Paused { .. } | UpliftError::Interrupted))) => {
+        Ok(Err(error @ (CommandError::Uplift(UpliftError::Paused { .. } | UpliftError::Interrupted)))) => {
             if index == 0 {
                 tell_error(&error);
             }
@@ -59,14 +60,14 @@ pub(super) fn run(arguments: &RunArguments, terminal: &Terminal) -> Option<Resul
     }
 }
 
-/// The part of one rank, and for the first all that comes after the stripes.
+/// The part of one rank, and for the first all that comes after the analyses.
 fn run_rank(
     arguments: &RunArguments,
     world: &SimpleCommunicator,
-    part: Part,
+    shard: Shard,
     terminal: &Terminal,
 ) -> Result<(), CommandError> {
-    let first = part.index == 0;
+    let first = shard.index == 0;
     // the first looks before the others do, so that a mistake is said once
     if !first {
         wait(world, terminal)?;
@@ -74,51 +75,55 @@ fn run_rank(
     if arguments.shard.is_some() {
         return Err(CommandError::Usage("each rank takes its own shard: leave --shard out under mpirun".to_owned()));
     }
-    let study = arguments.study.load()?;
+    let study = arguments.study.load_any()?;
     let options = run_options(&arguments.study, arguments.output.clone());
-    let path = options.result_file(&study.output.file);
+    let path = options.result_file(&study.output().file).to_owned();
     let own = terminal.hushed(!first);
     if first {
-        check_shards(&study, path, &own)?;
+        uplift::check_inputs(&study, &path, &own)?;
         wait(world, terminal)?;
     }
     let threads = rayon::current_num_threads();
     // said now, since a launcher that ends the ranks may no longer listen to them
     own.say(&format!(
-        "ranks    {}, this one with {threads} threads; whatever ends them, what they finished is kept and the same \
-         command goes on",
-        part.count
+        "ranks    {}, this one with {threads} threads; whatever ends them, what they finished is in their files and \
+         the same command goes on",
+        shard.count
     ));
-    let shard = shard_path(path, part);
-    let report = run_shard(&study, &shard, part, Some(path), &own)?;
+    let file = shard_path(&path, shard);
+    let rows = run_shard(&study, &file, shard, Some(&path), &own)?.rows;
     wait(world, terminal).map_err(|_| UpliftError::Paused {
-        what: "pieces",
-        done: report.rows,
-        total: report.rows,
-        path: shard,
+        what: "analysis rows",
+        done: rows,
+        total: rows,
+        path: file,
     })?;
-    if first { join(arguments, &study, part.count, terminal) } else { Ok(()) }
-}
+    if !first {
+        return Ok(());
+    }
 
-/// Makes the result of the shards of all ranks, which are then of no use.
-fn join(arguments: &RunArguments, study: &ResolvedStudy, count: u64, terminal: &Terminal) -> Result<(), CommandError> {
-    let options = run_options(&arguments.study, arguments.output.clone());
-    let path = options.result_file(&study.output.file);
-    let shards: Vec<PathBuf> = (0..count).map(|index| shard_path(path, Part { index, count })).collect();
-    if let Some(missing) = shards.iter().find(|shard| !shard.exists()) {
-        return Err(CommandError::input(format!(
-            "{}: is not there: the result must lie in a folder that all ranks share",
-            missing.display()
-        )));
+    let mut known = FinishedRows::default();
+    let mut work = None;
+    let files: Vec<_> = (0..shard.count).map(|index| shard_path(&path, Shard { index, ..shard })).collect();
+    for file in &files {
+        let found = RowFile::read(file).map_err(UpliftError::from)?.ok_or_else(|| {
+            CommandError::input(format!(
+                "{}: is not there: the result must lie in a folder that all ranks share",
+                file.display()
+            ))
+        })?;
+        if *work.get_or_insert_with(|| found.head.work.clone()) != found.head.work {
+            return Err(CommandError::input(format!(
+                "{}: is a shard of other work: every node must have the same study, records and program",
+                file.display()
+            )));
+        }
+        known.extend(found.rows);
     }
-    let report = merge(study, &shards, &options, terminal)?;
-    if arguments.json {
-        print_json(&report)?
-    } else {
-        print_run(&report, terminal)?
-    }
-    for shard in &shards {
-        let _ = std::fs::remove_file(shard);
+    let report = run_with(&study, &options, known, terminal)?;
+    if arguments.json { print_json(&report) } else { print_run(&report, terminal) }?;
+    for file in &files {
+        let _ = std::fs::remove_file(file);
     }
     Ok(())
 }

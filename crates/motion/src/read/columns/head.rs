@@ -20,7 +20,7 @@ const LAST_LINE: usize = 200;
 pub(super) struct Head {
     units: Vec<AccelerationUnit>,
     steps_s: Vec<f64>,
-    /// A unit that is none of acceleration, or none that is known.
+    /// A unit that is not one of acceleration, or not known.
     refusal: Option<MotionError>,
 }
 
@@ -46,7 +46,7 @@ impl Head {
     ///
     /// # Errors
     ///
-    /// [`MotionError::HeaderValue`] where a time step is no number.
+    /// [`MotionError::HeaderValue`] where a time step is not a number.
     pub(super) fn note(&mut self, name: &str, line: usize, text: &str) -> Result<(), MotionError> {
         if text.len() > LONGEST_LINE || line > LAST_LINE {
             return Ok(());
@@ -195,7 +195,7 @@ fn step_at<'a>(words: &[&'a str], at: usize) -> Option<(&'a str, f64)> {
     let end = number.find(|c: char| !(c.is_ascii_digit() || "+-.,e".contains(c))).unwrap_or(number.len());
     let (digits, glued) = number.split_at(end);
     if !glued.is_empty() {
-        // With another unit than of time, all of it is no number.
+        // With another unit than of time, none of it is a number.
         return Some(time_unit_s(glued).map_or((number, 1.0), |unit_s| (digits, unit_s)));
     }
     let behind = rest.find(|word| !["(", "["].contains(word)).and_then(time_unit_s);
@@ -321,7 +321,9 @@ mod tests {
 
     proptest! {
         #[test]
-        fn any_words_give_an_answer(text in "((acc|vel|units|dt|time|step|=|:|[(]|[)]|,| |0|1|[.]|é|²|g|cm/s|m/s2|\n){0,30})") {
+        fn any_words_give_an_answer(
+            text in "((acc|vel|units|dt|time|step|=|:|[(]|[)]|,| |0|1|[.]|é|²|g|cm/s|m/s2|\n){0,30})",
+        ) {
             let _ = noted(&text);
         }
     }

@@ -377,7 +377,8 @@ proptest! {
 
     #[test]
     fn any_bytes_give_an_answer(
-        bytes in prop::collection::vec(any::<u8>(), 0..300), text in "[-+0-9.eE()=,|< a-zA-Zé\\n]{0,200}", at in any::<prop::sample::Index>(),
+        bytes in prop::collection::vec(any::<u8>(), 0..300), text in "[-+0-9.eE()=,|< a-zA-Zé\\n]{0,200}",
+        at in any::<prop::sample::Index>(),
     ) {
         let sample = Sample::three("cm/sec2 (04)").write();
         let (begin, end) = sample.as_bytes().split_at(at.index(sample.len()));

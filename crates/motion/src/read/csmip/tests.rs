@@ -251,7 +251,8 @@ proptest! {
 
     #[test]
     fn any_bytes_give_an_answer(
-        bytes in prop::collection::vec(any::<u8>(), 0..300), text in "[-+0-9.eE()=, a-zA-Zé\\n]{0,200}", at in any::<prop::sample::Index>(),
+        bytes in prop::collection::vec(any::<u8>(), 0..300), text in "[-+0-9.eE()=, a-zA-Zé\\n]{0,200}",
+        at in any::<prop::sample::Index>(),
     ) {
         let sample = volume_2("1: 360 Deg", DATA_LINE, VALUES);
         let (begin, end) = sample.as_bytes().split_at(at.index(sample.len()));

@@ -1,0 +1,200 @@
+//! How sure the spectra are: Table 4.1, what it means in words, and rocking initiation.
+
+use std::io::Write;
+
+use uplift::bootstrap::{BootstrapReport, Initiation};
+use uplift::text::{per_cent, table};
+
+use super::shown_path;
+use crate::error::CommandError;
+use crate::terminal::Terminal;
+
+/// The report for people; a quiet terminal gets the tables alone.
+pub(crate) fn print_bootstrap(report: &BootstrapReport, terminal: &Terminal) -> Result<(), CommandError> {
+    let out = &mut std::io::stdout().lock();
+    for (poe, &probability) in report.poes.iter().enumerate() {
+        // Table 4.1 is about the rarest
+        let rarest = report.poes.iter().all(|&other| other >= probability);
+        print_figures(out, report, poe, rarest)?;
+    }
+    if !terminal.is_quiet() {
+        print_reading(out, report)?;
+    }
+    print_joint(out, report)?;
+    print_initiation(out, report)?;
+    if !terminal.is_quiet() {
+        writeln!(out, "\nBands: /bootstrap in {}", shown_path(&report.result).display())?;
+        for file in &report.tables {
+            writeln!(out, "       {}", shown_path(file).display())?;
+        }
+    }
+    Ok(())
+}
+
+fn print_figures(
+    out: &mut impl Write,
+    report: &BootstrapReport,
+    poe: usize,
+    compared: bool,
+) -> Result<(), CommandError> {
+    let sizes = &report.sizes;
+    let reference = Some(&report.reference).filter(|rows| compared && !rows.is_empty());
+    writeln!(
+        out,
+        "\nHow sure the spectra of {} in {} years are: error of the median e and width r of the {} interval, per \
+         cent{}",
+        per_cent(report.poes[poe]),
+        report.years,
+        per_cent(report.confidence),
+        if reference.is_some() { "; right of the bars the reference" } else { "" }
+    )?;
+    let mut header = vec!["site".to_owned(), "records".to_owned()];
+    for bands in &report.bands {
+        let label = bands.measure.label();
+        header.extend([format!("{label} e"), "r".to_owned()]);
+        if reference.is_some() {
+            header.extend(["| e".to_owned(), "r".to_owned()]);
+        }
+    }
+    let mut rows = Vec::new();
+    for (site, name) in report.sites.iter().enumerate() {
+        for (size_index, &size) in sizes.iter().enumerate() {
+            let at = [site, poe, size_index];
+            let shown = if size_index == 0 { name.clone() } else { String::new() };
+            let mut row = vec![shown, size.to_string()];
+            for bands in &report.bands {
+                row.push(figure(bands.error_of_median[at], 1));
+                row.push(figure(bands.range_of_interval[at], 0));
+                if let Some(reference) = reference {
+                    let found = reference
+                        .iter()
+                        .find(|row| row.sample_size == size && row.site.to_lowercase() == name.to_lowercase())
+                        .and_then(|row| row.figures.iter().find(|(key, ..)| key == bands.measure.key()));
+                    row.push(found.map_or_else(|| "| -".to_owned(), |(_, error, _)| format!("| {error:.1}")));
+                    row.push(found.map_or_else(|| "-".to_owned(), |(.., range)| format!("{range:.0}")));
+                }
+            }
+            rows.push(row);
+        }
+    }
+    let header: Vec<&str> = header.iter().map(String::as_str).collect();
+    writeln!(out, "{}", table(&header, &rows))?;
+    Ok(())
+}
+
+/// What the figures mean, in sentences.
+fn print_reading(out: &mut impl Write, report: &BootstrapReport) -> Result<(), CommandError> {
+    let sizes = &report.sizes;
+    writeln!(
+        out,
+        "\nIn words, at the strength where the interval is widest in metres, in {} of the resamples (where \
+         displacements are small, at higher strengths, the interval may be many times as wide in per cent: see the \
+         bands):",
+        per_cent(report.confidence)
+    )?;
+    for bands in &report.bands {
+        for (poe, &probability) in report.poes.iter().enumerate() {
+            let widths = |size: usize| -> Vec<f64> {
+                (0..report.sites.len()).filter_map(|site| bands.range_of_interval[[site, poe, size]]).collect()
+            };
+            let parts: Vec<String> = sizes
+                .iter()
+                .enumerate()
+                .map(|(index, size)| {
+                    let mut widths = widths(index);
+                    widths.sort_by(f64::total_cmp);
+                    match (widths.first(), widths.last()) {
+                        (Some(least), Some(most)) => {
+                            let (least, most) = (format!("{:.0}", 50.0 * least), format!("{:.0}", 50.0 * most));
+                            let range = if least == most { most } else { format!("{least} to {most}") };
+                            format!("{size} records, within ±{range} %")
+                        }
+                        _ => format!("{size} records, not at all (overturning, or no displacement)"),
+                    }
+                })
+                .collect();
+            writeln!(
+                out,
+                "  {}, {} in {} years: the spectrum is known from {}",
+                bands.measure.label(),
+                per_cent(probability),
+                report.years,
+                parts.join("; ")
+            )?;
+        }
+    }
+    Ok(())
+}
+
+/// Records and hazard together, for the sites with branches.
+fn print_joint(out: &mut impl Write, report: &BootstrapReport) -> Result<(), CommandError> {
+    let mut rows = Vec::new();
+    for bands in &report.bands {
+        for joint in &bands.joint {
+            for ([poe, size], range) in joint.range_of_interval.blocks() {
+                let of_records = bands.range_of_interval[[joint.site, poe, size]];
+                rows.push(vec![
+                    report.sites[joint.site].clone(),
+                    bands.measure.label().to_owned(),
+                    per_cent(report.poes[poe]),
+                    report.sizes[size].to_string(),
+                    figure(of_records, 0),
+                    figure(range[0], 0),
+                ]);
+            }
+        }
+    }
+    if rows.is_empty() {
+        return Ok(());
+    }
+    writeln!(
+        out,
+        "\nRecords and hazard together: width r of the {} interval over the records, and over the records and the \
+         weighted hazard curves, per cent",
+        per_cent(report.confidence)
+    )?;
+    writeln!(out, "{}", table(&["site", "im", "probability", "records", "r", "joint r"], &rows))?;
+    Ok(())
+}
+
+/// The bands where rocking begins (Section 4.5.2, Fig. 4.10).
+fn print_initiation(out: &mut impl Write, report: &BootstrapReport) -> Result<(), CommandError> {
+    let Some(size_index) = (0..report.sizes.len()).max_by_key(|&index| report.sizes[index]) else { return Ok(()) };
+    // the most frequent shaking is the one that may not lift the structure
+    let Some(poe) = (0..report.poes.len()).max_by(|&a, &b| report.poes[a].total_cmp(&report.poes[b])) else {
+        return Ok(());
+    };
+    let mut rows = Vec::new();
+    for (site, name) in report.sites.iter().enumerate() {
+        for (index, bands) in report.bands.iter().enumerate() {
+            let mut row = vec![if index == 0 { name.clone() } else { String::new() }];
+            row.push(bands.measure.label().to_owned());
+            row.extend(initiation(report.initiation(bands, [site, poe, size_index])));
+            rows.push(row);
+        }
+    }
+    writeln!(
+        out,
+        "\nRocking initiation, {} in {} years, samples of {}: strength at which the limits and the median fall to the\n\
+         uplift displacement of {} m, and the width of the interval there over the median",
+        per_cent(report.poes[poe]),
+        report.years,
+        report.sizes[size_index],
+        report.uplift_displacement_m
+    )?;
+    let header = ["site", "im", "lower", "median", "upper", "width of u, %"];
+    writeln!(out, "{}", table(&header, &rows))?;
+    Ok(())
+}
+
+fn figure(ratio: Option<f64>, digits: usize) -> String {
+    ratio.map_or_else(|| "-".to_owned(), |ratio| format!("{:.digits$}", 100.0 * ratio))
+}
+
+/// Strengths at which the lower limit, the median and the upper limit fall to the uplift displacement, and the width of
+/// the band at that of the median.
+fn initiation(found: Initiation) -> [String; 4] {
+    let strength = |strength: Option<f64>| strength.map_or_else(|| "above all".to_owned(), |eta| format!("{eta:.3}"));
+    let [lower, median, upper] = [found.lower, found.median, found.upper].map(strength);
+    [lower, median, upper, figure(found.width, 0)]
+}

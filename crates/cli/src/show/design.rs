@@ -1,0 +1,220 @@
+//! A design as an engineer reads it.
+
+use std::io::Write;
+
+use uplift::structure::{DemandNoise, DesignReport, ExactDemand, RuleCheck, RuleOutcome};
+use uplift::text::{per_cent, table};
+use uplift_spectra::Noisy;
+use uplift_structure::Rule;
+
+use super::shown_path;
+use super::structure::{lines, risk_cells, short};
+use crate::error::CommandError;
+
+/// A displacement; infinite where the structure overturns.
+fn metres(value_m: f64) -> String {
+    if value_m.is_infinite() { "overturns".to_owned() } else { format!("{value_m:.4}") }
+}
+
+/// An error in words; NaN where there is none.
+fn relative(error: f64) -> String {
+    match error {
+        _ if error.is_nan() => "-".to_owned(),
+        _ if error.is_infinite() => "too safe".to_owned(),
+        _ => format!("{:+.1} %", 100.0 * error),
+    }
+}
+
+fn name(rule: Rule) -> &'static str {
+    match rule {
+        Rule::EqualDisplacement => "equal displacement",
+        Rule::EqualEnergy => "equal energy",
+    }
+}
+
+/// The design: structure, demands, rules, risk, and what of it is noise.
+pub(crate) fn print_design(report: &DesignReport) -> Result<(), CommandError> {
+    let out = &mut std::io::stdout().lock();
+    for line in lines(&report.structure) {
+        writeln!(out, "{line}")?;
+    }
+    writeln!(
+        out,
+        "demand     {} by {}, {} in {} years: {:.4e} per year",
+        report.site,
+        report.im,
+        per_cent(report.poe),
+        report.years,
+        report.target_per_year
+    )?;
+    writeln!(out, "           {}, {}", shown_path(&report.result).display(), report.record_set)?;
+    for note in &report.notes {
+        writeln!(out, "note       {note}")?;
+    }
+    print_demands(out, report)?;
+    print_rules(out, report)?;
+    if let Some(exact) = &report.exact {
+        print_risk(out, report, exact)?;
+        print_noise(out, &report.rules, &exact.noise)?;
+    }
+    Ok(())
+}
+
+/// Displacements of the structure, from the spectrum and exact.
+fn print_demands(out: &mut impl Write, report: &DesignReport) -> Result<(), CommandError> {
+    let factor = report.structure.participation;
+    let mut rows = Vec::new();
+    let mut row = |what: String, demand_m: f64| {
+        rows.push(vec![what, metres(demand_m / factor), metres(demand_m)]);
+    };
+    if let Some(spectrum) = &report.spectrum {
+        let (a, b) = spectrum.between_strengths;
+        let between = if a < b { format!(", between {a:.4} and {b:.4}") } else { String::new() };
+        let what = format!("zero stiffness, spectrum at strength {:.4}{between}", spectrum.strength);
+        row(what, spectrum.zero_stiffness_demand_m);
+    }
+    if let Some(exact) = &report.exact {
+        let (of_spectrum_m, own_m) = (exact.zero_stiffness_demand_of_spectrum_m, exact.zero_stiffness_demand_m);
+        row("zero stiffness, exact".to_owned(), of_spectrum_m);
+        if own_m.to_bits() != of_spectrum_m.to_bits() {
+            row("zero stiffness, exact, uplift and impacts of the structure".to_owned(), own_m);
+        }
+        row("the structure itself, exact".to_owned(), exact.demand_m);
+    }
+    if rows.is_empty() {
+        writeln!(out, "\nThere is no demand to show.")?;
+        return Ok(());
+    }
+    let times = format!("times {factor:.4}, m");
+    writeln!(out, "\n{}", table(&["demand", "oscillator, m", &times], &rows))?;
+    Ok(())
+}
+
+fn print_rules(out: &mut impl Write, report: &DesignReport) -> Result<(), CommandError> {
+    if report.rules.is_empty() {
+        writeln!(
+            out,
+            "\nThe rules of equal displacement and equal energy do not apply: the force rises after uplift, and there \
+             is no capacity\nto exceed. The demand on the structure itself is the one above."
+        )?;
+        return Ok(());
+    }
+    if report.exact.is_some() {
+        let cells = |check: Option<&RuleCheck>| match check {
+            Some(check) => [metres(check.demand_m), relative(check.error.unwrap_or(f64::NAN))],
+            None => ["-".to_owned(), "-".to_owned()],
+        };
+        let rows: Vec<Vec<String>> = report
+            .rules
+            .iter()
+            .map(|outcome| {
+                let mut row = vec![name(outcome.rule).to_owned()];
+                row.extend(cells(outcome.from_spectrum.as_ref()));
+                row.extend(cells(outcome.from_exact.as_ref()));
+                row
+            })
+            .collect();
+        let header = ["rule", "from the spectrum, m", "error", "from the exact demand, m", "error of the rule"];
+        writeln!(out, "\n{}", table(&header, &rows))?;
+    }
+    print_checks(out, report)
+}
+
+/// Required capacity and verdict.
+fn print_checks(out: &mut impl Write, report: &DesignReport) -> Result<(), CommandError> {
+    let mut rows = Vec::new();
+    for (rule, check) in report.rules.iter().filter_map(|outcome| Some((outcome.rule, outcome.check()?))) {
+        if let Some(largest_m) = check.largest_zero_stiffness_demand_m {
+            writeln!(
+                out,
+                "\nThe rule of {} says that the structure overturns: the demand at zero stiffness, {:.4} m, is beyond \
+                 the {largest_m:.4} m{} that its capacity allows.",
+                name(rule),
+                check.zero_stiffness_demand_m,
+                if rule == Rule::EqualEnergy { " (Eq. 3.14)" } else { "" }
+            )?;
+        }
+        let infinite = check.capacity_m.is_infinite();
+        rows.push(vec![
+            name(rule).to_owned(),
+            metres(check.demand_m),
+            format!("{:.4}", check.required_capacity_m),
+            if infinite { "infinite".to_owned() } else { format!("{:.4}", check.capacity_m) },
+            if infinite { "-".to_owned() } else { format!("{:+.4}", check.margin_m) },
+            if infinite { "-".to_owned() } else { format!("{:.2}", check.safety_factor) },
+            if check.satisfied { "satisfied" } else { "NOT satisfied" }.to_owned(),
+        ]);
+    }
+    if rows.is_empty() {
+        return Ok(());
+    }
+    let header = ["rule", "demand, m", "required capacity, m", "capacity, m", "margin, m", "safety factor", "verdict"];
+    writeln!(
+        out,
+        "\nRequired capacity with a safety factor of {} (Eq. 3.15)\n{}",
+        report.required_safety_factor,
+        table(&header, &rows)
+    )?;
+    let tendons = report.rules.iter().filter_map(|outcome| {
+        let stiffness_n_m = outcome.check()?.required_tendon_stiffness_n_m?;
+        let told = if stiffness_n_m > 0.0 { format!("{} N/m", short(stiffness_n_m)) } else { "none".to_owned() };
+        Some(format!("{told} ({})", name(outcome.rule)))
+    });
+    let tendons: Vec<String> = tendons.collect();
+    if !tendons.is_empty() {
+        writeln!(out, "Tendons that give the required capacity, each: {}", tendons.join(", "))?;
+    }
+    Ok(())
+}
+
+fn print_risk(out: &mut impl Write, report: &DesignReport, exact: &ExactDemand) -> Result<(), CommandError> {
+    let Some(capacity_m) = report.structure.capacity_m else { return Ok(()) };
+    let mut rows = Vec::new();
+    let mut row = |what: String, risk| {
+        let mut cells = vec![what];
+        cells.extend(risk_cells(risk));
+        rows.push(cells);
+    };
+    if let Some(risk) = &exact.beyond_capacity {
+        row(format!("u > {capacity_m:.4} m, the capacity"), risk);
+    }
+    row("overturning".to_owned(), &exact.overturning);
+    let in_years = format!("in {} years", report.years);
+    let header = ["the structure itself", "per year", &in_years, "return period, years"];
+    writeln!(out, "\n{}", table(&header, &rows))?;
+    if exact.overturns {
+        writeln!(
+            out,
+            "\nThe structure overturns more often than the target of {:.4e} per year: there is no displacement that \
+             meets it.",
+            report.target_per_year
+        )?;
+    }
+    Ok(())
+}
+
+/// What of these numbers is noise.
+fn print_noise(out: &mut impl Write, rules: &[RuleOutcome], noise: &DemandNoise) -> Result<(), CommandError> {
+    let per_year = |value: f64| if value == 0.0 { "never".to_owned() } else { format!("{value:.3e}") };
+    let mut rows = Vec::new();
+    let mut row = |what: String, noisy: Noisy, shown: &dyn Fn(f64) -> String| {
+        rows.push(vec![what, shown(noisy.value), shown(noisy.lowest), shown(noisy.highest)]);
+    };
+    row("demand on the structure, m".to_owned(), noise.demand_m, &metres);
+    if let Some(errors) = noise.rule_errors {
+        for outcome in rules {
+            let error = match outcome.rule {
+                Rule::EqualDisplacement => errors.equal_displacement,
+                Rule::EqualEnergy => errors.equal_energy,
+            };
+            row(format!("error of {}", name(outcome.rule)), error, &relative);
+        }
+    }
+    if let Some(beyond) = noise.beyond_capacity_per_year {
+        row("u > capacity, per year".to_owned(), beyond, &per_year);
+        row("overturning, per year".to_owned(), noise.overturning_per_year, &per_year);
+    }
+    let header = ["within 1 % of the strength", "here", "lowest", "highest"];
+    writeln!(out, "\n{}", table(&header, &rows))?;
+    Ok(())
+}

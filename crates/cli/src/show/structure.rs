@@ -1,0 +1,55 @@
+//! What a design and an overturning tell alike: the structure, and how often something happens to it.
+
+use uplift::structure::{EventRisk, StructureReport};
+
+use super::shown_path;
+
+/// A number with a few digits, in powers of ten where it is very large or small.
+pub(super) fn short(value: f64) -> String {
+    if value == 0.0 || (1e-3..1e6).contains(&value.abs()) {
+        let digits = 5_usize.saturating_sub(format!("{:.0}", value.abs().trunc()).len()).max(1);
+        format!("{value:.digits$}")
+    } else {
+        format!("{value:.3e}")
+    }
+}
+
+/// The structure in words: what is it, and which oscillator is it equivalent to; with its restitution where there is
+/// one to tell.
+pub(super) fn lines(structure: &StructureReport) -> Vec<String> {
+    let StructureReport { name, kind, table_3_1_row, .. } = structure;
+    let file = shown_path(&structure.file).display();
+    let mut lines = vec![
+        format!("structure  {name}: {kind}, Table 3.1 row {table_3_1_row} ({file})"),
+        format!("           equivalent mass          {} kg", short(structure.mass_kg)),
+        format!("           force at uplift          {} N", short(structure.uplift_force_n)),
+        format!("           strength f_up/(m g)      {:.4}", structure.strength),
+        format!("           factor on the motion     {:.4}", structure.participation),
+        format!("           strength of the spectrum {:.4}", structure.spectral_strength),
+        format!("           uplift displacement      {} m", structure.uplift_displacement_m),
+    ];
+    lines.extend(structure.restitution.map(|restitution| format!("           restitution              {restitution}")));
+    let stiffness_n_m = structure.post_uplift_stiffness_n_m;
+    lines.push(match structure.capacity_m {
+        Some(capacity_m) => format!("           displacement capacity    {capacity_m:.4} m"),
+        None if stiffness_n_m > 0.0 => {
+            format!("           displacement capacity    none: the force rises, by {} N/m", short(stiffness_n_m))
+        }
+        None => "           displacement capacity    none: the force stays".to_owned(),
+    });
+    lines.extend(structure.warnings.iter().map(|warning| format!("warning    {warning}")));
+    lines
+}
+
+/// Frequency, probability and return period in words.
+pub(super) fn risk_cells(risk: &EventRisk) -> [String; 3] {
+    if risk.per_year == 0.0 {
+        return ["never".to_owned(), "-".to_owned(), "-".to_owned()];
+    }
+    let years = 1.0 / risk.per_year;
+    [
+        format!("{:.3e}", risk.per_year),
+        format!("{:.3} %", 100.0 * risk.probability),
+        if years < 1e7 { format!("{years:.0}") } else { format!("{years:.1e}") },
+    ]
+}

@@ -1,0 +1,38 @@
+//! Which intensity measure to trust: dispersion and trends.
+
+use super::{FigureSource, STRENGTH};
+use uplift::UpliftError;
+use uplift::efficiency::{covariates, efficiency_by};
+use uplift_plot::{Axis, Figure, Panel, Series, Tone};
+
+pub(super) fn efficiency(source: &FigureSource) -> Result<Figure, UpliftError> {
+    let stored = &source.stored;
+    let covariates = covariates(&source.records);
+    let panel = |title: &str, y: Axis| Panel::lines(title, Axis::linear(STRENGTH), y, Vec::new());
+    let mut panels = vec![
+        panel("rocking structures", Axis::linear("dispersion of ln u")),
+        panel("onset of rocking", Axis::linear("deviation of ln level")),
+    ];
+    for covariate in &covariates {
+        panels.push(panel(&format!("trend with {}", covariate.key), Axis::log("p-value").between(1e-6, 1.0)));
+    }
+    for (index, measure) in stored.measures.iter().enumerate() {
+        let found = efficiency_by(stored, measure, &covariates)?;
+        let label = measure.measure.label();
+        let tone = Tone::Distinct(index);
+        panels[0].series.push(source.over_strengths(label, &found.rocking, tone));
+        panels[1].series.push(source.over_strengths(label, &found.initiation, tone));
+        for (panel, lines) in panels[2..].iter_mut().zip(&found.lines) {
+            let values: Vec<f64> =
+                lines.iter().map(|line| line.as_ref().map_or(f64::NAN, |line| line.p_value.max(1e-6))).collect();
+            panel.series.push(source.over_strengths(label, &values, tone));
+        }
+    }
+    for panel in &mut panels[2..] {
+        panel.series.push(Series::line("p = 0.05", vec![(0.0, 0.05), (1.0, 0.05)], Tone::Distinct(2)));
+    }
+    let caption = "Efficiency: scatter of the displacement of rocking structures at a given level, and of the level at \
+                   which rocking begins: less is better. Sufficiency: p-values of the trend of a record's mean \
+                   residual with what the record is; below 0.05 the measure leaves something out.";
+    Ok(source.figure("measures", "Which measure to trust", caption, panels))
+}

@@ -1,0 +1,84 @@
+//! The sections `[block]` and `[slenderness]`: families of rigid blocks.
+
+use serde::{Serialize, Serializer};
+
+use crate::grid::{Grid, GridRule};
+use crate::keys::{Key, SectionKeys};
+use crate::reading::{Rule, Section, Value, ZERO_TO_ONE};
+
+pub(super) const KEYS: SectionKeys = SectionKeys {
+    section: "block",
+    keys: &[
+        Key {
+            names: &["height_m"],
+            meaning: "heights 2H, a grid, m",
+            default: "`[2, 4, 10, 20, 80, 1000]`",
+            range: "0.001 to 1e6",
+        },
+        Key {
+            names: &["restitution"],
+            meaning: "`\"Housner\"` (Eq. 2.3), or angular velocity after an impact divided by the one before",
+            default: "`\"Housner\"`",
+            range: "0 to 1",
+        },
+    ],
+};
+pub(super) const SLENDERNESS_KEYS: SectionKeys = SectionKeys {
+    section: "slenderness",
+    keys: &[Key {
+        names: &["values"],
+        meaning: "slendernesses tan α, a grid",
+        default: "`[\"0.005:0.005:0.1\", \"0.11:0.01:0.6\"]`, 70 values",
+        range: "1e-5 to 1.4",
+    }],
+};
+
+/// Heights 2H \[m\] of Figures 2.9 to 2.12.
+const HEIGHTS_M: [&str; 6] = ["2", "4", "10", "20", "80", "1000"];
+/// 70 slendernesses tan α, closer where the blocks are slender.
+const SLENDERNESSES: [&str; 2] = ["0.005:0.005:0.1", "0.11:0.01:0.6"];
+/// The word for Eq. 2.3.
+const HOUSNER: &str = "Housner";
+
+/// What the height of a block \[m\] must be.
+pub(super) const HEIGHT: Rule = Rule { holds: |value| (1e-3..=1e6).contains(&value), words: "from 0.001 to 1e6 m" };
+const SLENDERNESS: Rule = Rule {
+    holds: |value| (1e-5..=1.4).contains(&value),
+    words: "from 1e-5 to 1.4; a stockier block does not rock (Eq. 2.3 is negative)",
+};
+
+/// Blocks of every height and slenderness of these.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BlockFamily {
+    /// Heights 2H \[m\].
+    pub height_m: Grid,
+    /// Coefficient of restitution of the angular velocity at each impact \[-\]; Housner's (Eq. 2.3) if none.
+    #[serde(serialize_with = "write_restitution")]
+    pub restitution: Option<f64>,
+    /// Slendernesses tan α \[-\]; the section `[slenderness]`.
+    #[serde(skip)]
+    pub slendernesses: Grid,
+}
+
+#[allow(clippy::ref_option)] // as serde calls it
+fn write_restitution<S: Serializer>(restitution: &Option<f64>, serializer: S) -> Result<S::Ok, S::Error> {
+    match restitution {
+        Some(number) => serializer.serialize_f64(*number),
+        None => serializer.serialize_str(HOUSNER),
+    }
+}
+
+/// Reads the section with `[slenderness]`.
+pub(super) fn read(mut section: Section<'_>, mut slenderness: Section<'_>) -> Option<BlockFamily> {
+    let rule = GridRule { unit: "m", each: HEIGHT, least_count: 1 };
+    let height = Grid::of_key(&mut section, "height_m", rule, &HEIGHTS_M);
+    let restitution = section.field("restitution").map_or(Some(None), |field| match field.node.value {
+        Value::Text(_) => field.choice(&[(HOUSNER, None)]),
+        _ => field.number("", ZERO_TO_ONE).map(Some),
+    });
+    section.finish();
+    let rule = GridRule { unit: "", each: SLENDERNESS, least_count: 1 };
+    let values = Grid::of_key(&mut slenderness, "values", rule, &SLENDERNESSES);
+    slenderness.finish();
+    Some(BlockFamily { height_m: height?, restitution: restitution?, slendernesses: values? })
+}

@@ -1,0 +1,174 @@
+//! The section `[design]`: the design example, if asked for.
+
+use serde::Serialize;
+use uplift_spectra::{NoiseSweep, SpectraError};
+
+use super::blocks::HEIGHT;
+use super::spectrum::PERCENT;
+use super::structures::Structures;
+use crate::keys::{Key, SectionKeys};
+use crate::reading::{ABOVE_ZERO, Rule, Section, quantity};
+
+pub(super) const KEYS: SectionKeys = SectionKeys {
+    section: "design",
+    keys: &[
+        Key {
+            names: &["width_m", "height_m"],
+            meaning: "oscillators: width 2b and height 2h of the columns, m",
+            default: "1.6, 9.6",
+            range: "above 0; the width above the smallest uplift displacement and below the height",
+        },
+        Key {
+            names: &["height_m"],
+            meaning: "blocks: height 2H of the block, m",
+            default: "10",
+            range: "0.001 to 1e6",
+        },
+        Key {
+            names: &["endless_height_m"],
+            meaning: "blocks: height that stands for an endless one, m",
+            default: "1000",
+            range: "0.001 to 1e6",
+        },
+        Key { names: &["safety_factor"], meaning: "FS", default: "2.5", range: "1 or above" },
+        Key {
+            names: &["percentile"],
+            meaning: "percentile of the displacements that counts, %",
+            default: "50",
+            range: "0 to 100",
+        },
+        Key {
+            names: &["noise_relative"],
+            meaning: "width of the sweep around each value, relative",
+            default: "0.01",
+            range: "0 to 0.5",
+        },
+        Key {
+            names: &["noise_points"],
+            meaning: "points in the sweep; 1: no sweep",
+            default: "21",
+            range: "odd, at most 1001",
+        },
+    ],
+};
+
+const SAFETY: Rule = Rule { holds: |value| value >= 1.0, words: "1 or above" };
+const NARROW: Rule = Rule { holds: |value| (0.0..=0.5).contains(&value), words: "from 0 to 0.5 (1 % is 0.01)" };
+/// Most points of the sweep around a value.
+const MOST_POINTS: u64 = 1001;
+
+/// A design example (Section 2.4.3 or 3.4.5).
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DesignPlan {
+    /// What is designed.
+    #[serde(flatten)]
+    pub designed: Designed,
+    /// Safety factor FS \[-\].
+    pub safety_factor: f64,
+    /// Percentile of the displacements that counts \[%\].
+    pub percentile: f64,
+    /// Width of the sweep around each value that shows its noise, relative to the abscissa \[-\].
+    pub noise_relative: f64,
+    /// Points of that sweep, an odd number.
+    pub noise_points: usize,
+}
+
+impl DesignPlan {
+    /// The sweep around each value.
+    ///
+    /// # Errors
+    /// None for a study that was loaded: its width and points were checked.
+    pub fn noise(&self) -> Result<NoiseSweep, SpectraError> {
+        NoiseSweep::new(self.noise_relative, self.noise_points)
+    }
+}
+
+/// What is designed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Designed {
+    /// The capacity of a restrained bridge; its strength is that of its columns, tan(2b/2h) as Section 3.5 writes it.
+    Bridge {
+        /// Width of a column 2b, the capacity without restraint \[m\].
+        width_m: f64,
+        /// Height of a column 2h \[m\].
+        height_m: f64,
+    },
+    /// The slenderness of a block.
+    Block {
+        /// Its height 2H \[m\].
+        height_m: f64,
+        /// Height that stands for an endless one \[m\].
+        endless_height_m: f64,
+    },
+}
+
+/// The design example; without the section there is none.
+#[allow(clippy::option_option)] // wrong and absent are different things, and what is wrong is among the findings
+pub(super) fn read(
+    mut section: Section<'_>,
+    of_blocks: bool,
+    structures: Option<&Structures>,
+) -> Option<Option<DesignPlan>> {
+    if !section.is_present() {
+        return Some(None);
+    }
+    let designed = designed(&mut section, of_blocks, structures);
+    let safety_factor = section.number_or("safety_factor", "", SAFETY, 2.5);
+    let percentile = section.number_or("percentile", "%", PERCENT, 50.0);
+    let noise_relative = section.number_or("noise_relative", "", NARROW, 0.01);
+    let noise_points = section.field("noise_points").map_or(Some(21), |field| {
+        let points = field.integer(1, MOST_POINTS)?;
+        if points.is_multiple_of(2) {
+            field.mistake(
+                format!("{points} points have none in the middle"),
+                format!("take an odd number, {}", points + 1),
+            );
+            return None;
+        }
+        usize::try_from(points).ok()
+    });
+    section.finish();
+    Some(Some(DesignPlan {
+        designed: designed?,
+        safety_factor: safety_factor?,
+        percentile: percentile?,
+        noise_relative: noise_relative?,
+        noise_points: noise_points?,
+    }))
+}
+
+/// What the section designs: the columns of Section 3.4.5 and the block of Section 2.4.3 unless it says otherwise.
+fn designed(section: &mut Section<'_>, of_blocks: bool, structures: Option<&Structures>) -> Option<Designed> {
+    if of_blocks {
+        let height = section.number_or("height_m", "m", HEIGHT, 10.0);
+        let endless = section.number_or("endless_height_m", "m", HEIGHT, 1000.0);
+        return Some(Designed::Block { height_m: height?, endless_height_m: endless? });
+    }
+    let width = section.number_or("width_m", "m", ABOVE_ZERO, 1.6);
+    let height = section.number_or("height_m", "m", ABOVE_ZERO, 9.6);
+    let (width_m, height_m) = (width?, height?);
+    if width_m >= height_m {
+        section.mistake(
+            "width_m",
+            format!("a column {} wide and {} high does not rock", quantity(width_m, "m"), quantity(height_m, "m")),
+            "give a column that is higher than wide: its strength is tan(width/height)",
+        );
+        return None;
+    }
+    if let Some(Structures::Oscillators(family)) = structures
+        && width_m <= family.uplift_displacement_m[0]
+    {
+        section.mistake(
+            "width_m",
+            format!(
+                "a column of width {}, its capacity, is not above the uplift displacement {}",
+                quantity(width_m, "m"),
+                quantity(family.uplift_displacement_m[0], "m")
+            ),
+            "the width of a column is of the order of a metre",
+        );
+        return None;
+    }
+    Some(Designed::Bridge { width_m, height_m })
+}

@@ -1,0 +1,102 @@
+//! The section `[records]`: the ground motions that there are to choose from.
+
+use std::path::Path;
+
+use serde::{Serialize, Serializer};
+
+use crate::keys::{Key, SectionKeys};
+use crate::reading::{LARGEST_INTEGER, Paths, Section, optional};
+use crate::sections::record_source::{self, NO_TAG, RecordSource, Synthetic};
+use crate::sections::selection::{self, RecordSelection};
+
+pub(super) const KEYS: SectionKeys = SectionKeys {
+    section: "records",
+    keys: &[
+        Key {
+            names: &["manifest"],
+            meaning: "table of record files (CSV)",
+            default: "none: synthetic records",
+            range: "existing file",
+        },
+        Key {
+            names: &["first"],
+            meaning: "use only so many of the records of each set, the first",
+            default: "all",
+            range: "1 or more",
+        },
+        Key {
+            names: &["select"],
+            meaning: "only such records, in every set; keys as in every study",
+            default: "all",
+            range: "",
+        },
+    ],
+};
+
+/// Which ground motions there are to choose from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SetRecords {
+    /// Where they come from; the tag is that of a set, not of them all.
+    pub source: RecordSource,
+    /// Which of them are used, in every set.
+    pub select: RecordSelection,
+    /// Use only so many of the records of each set, the first; all if none.
+    pub first: Option<u64>,
+}
+
+impl SetRecords {
+    /// The manifest, if the records are of one.
+    pub fn manifest(&self) -> Option<&Path> {
+        self.source.manifest()
+    }
+}
+
+/// As the section of a study file.
+impl Serialize for SetRecords {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Written<'a> {
+            #[serde(skip_serializing_if = "Option::is_none")]
+            manifest: Option<&'a Path>,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            first: Option<u64>,
+            #[serde(skip_serializing_if = "RecordSelection::is_empty")]
+            select: &'a RecordSelection,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            synthetic: Option<Synthetic>,
+        }
+        let written = Written {
+            manifest: self.source.manifest(),
+            first: self.first,
+            select: &self.select,
+            synthetic: self.source.synthetic(),
+        };
+        written.serialize(serializer)
+    }
+}
+
+/// Reads the section.
+pub(super) fn read(mut section: Section<'_>, paths: &Paths) -> Option<SetRecords> {
+    let manifest_field = section.field("manifest");
+    let tag_field = section.field("tag");
+    let first_field = section.field("first");
+    let select = selection::read(section.section("select"));
+    let synthetic = record_source::synthetic(section.section("synthetic"));
+    section.finish();
+    if let Some(field) = tag_field {
+        let help = if manifest_field.is_some() {
+            "write a section [[record_sets]] with a name and this tag; or one for each of several sets"
+        } else {
+            NO_TAG
+        };
+        field.mistake("tags are given set by set", help);
+    }
+    let first = optional(first_field.as_ref(), |field| field.integer(1, LARGEST_INTEGER));
+    let source = if let Some(field) = manifest_field {
+        paths.input(&field).map(|manifest| RecordSource::Manifest { manifest, tag: None })
+    } else {
+        record_source::enough(first_field.as_ref(), first, synthetic);
+        synthetic.map(RecordSource::from)
+    };
+    Some(SetRecords { source: source?, select: select?, first: first? })
+}

@@ -1,0 +1,105 @@
+//! The kinds of study, and a study of any of them.
+
+use crate::displacement::{self, DisplacementStudy};
+use crate::keys::SectionKeys;
+use crate::reading::{Paths, Section};
+use crate::sections::output::Output;
+use crate::uniform_risk::{self, UniformRiskStudy};
+
+/// What a study is of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Kind {
+    /// Uniform risk spectra (Chapter 4).
+    UniformRisk,
+    /// Displacement spectra of record sets (Chapters 2 and 3).
+    Displacement,
+}
+
+impl Kind {
+    /// Every kind.
+    pub const ALL: [Self; 2] = [Self::UniformRisk, Self::Displacement];
+
+    /// Its word: the value of the key `kind` of a study file, and of the attribute `kind` of a result.
+    pub const fn key(self) -> &'static str {
+        match self {
+            Self::UniformRisk => "uniform risk spectra",
+            Self::Displacement => "displacement spectra",
+        }
+    }
+
+    /// The reference of its keys, section by section.
+    pub const fn keys(self) -> &'static [SectionKeys] {
+        match self {
+            Self::UniformRisk => &uniform_risk::KEYS,
+            Self::Displacement => &displacement::KEYS,
+        }
+    }
+
+    /// Reads the key `kind`; uniform risk where it is not given.
+    pub(crate) fn read(root: &mut Section<'_>) -> Option<Self> {
+        root.choice_or("kind", &Self::ALL.map(|kind| (kind.key(), kind)), Self::UniformRisk)
+    }
+}
+
+/// A resolved study of any kind.
+#[derive(Debug, Clone, PartialEq)]
+pub enum AnyStudy {
+    /// Of uniform risk spectra.
+    UniformRisk(Box<UniformRiskStudy>),
+    /// Of displacement spectra.
+    Displacement(Box<DisplacementStudy>),
+}
+
+impl AnyStudy {
+    /// Reads a whole study by its kind; none where something is wrong.
+    pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<Self> {
+        match Kind::read(&mut root)? {
+            Kind::UniformRisk => uniform_risk::read(root, paths).map(|study| Self::UniformRisk(Box::new(study))),
+            Kind::Displacement => displacement::read(root, paths).map(|study| Self::Displacement(Box::new(study))),
+        }
+    }
+
+    /// What it is of.
+    pub fn kind(&self) -> Kind {
+        match self {
+            Self::UniformRisk(_) => Kind::UniformRisk,
+            Self::Displacement(_) => Kind::Displacement,
+        }
+    }
+
+    /// Free text.
+    pub fn title(&self) -> &str {
+        match self {
+            Self::UniformRisk(study) => &study.title,
+            Self::Displacement(study) => &study.title,
+        }
+    }
+
+    /// What is written where.
+    pub fn output(&self) -> &Output {
+        match self {
+            Self::UniformRisk(study) => &study.output,
+            Self::Displacement(study) => &study.output,
+        }
+    }
+
+    /// What is allowed but probably not meant.
+    pub fn warnings(&self) -> &[String] {
+        match self {
+            Self::UniformRisk(study) => &study.warnings,
+            Self::Displacement(study) => &study.warnings,
+        }
+    }
+
+    /// The study as TOML, complete and loadable.
+    ///
+    /// # Errors
+    ///
+    /// Where TOML cannot hold a value; a study that was loaded has none such.
+    pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
+        match self {
+            Self::UniformRisk(study) => study.to_toml(),
+            Self::Displacement(study) => study.to_toml(),
+        }
+    }
+}

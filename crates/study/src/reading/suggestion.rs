@@ -1,0 +1,58 @@
+//! What an unknown word was probably meant to be.
+
+/// Unit suffixes of keys with the unit that they stand for, longest first.
+const UNIT_SUFFIXES: [(&str, &str); 12] = [
+    ("_per_s2", "1/s2"),
+    ("_cm_s2", "cm/s2"),
+    ("_m_s2", "m/s2"),
+    ("_mm_s", "mm/s"),
+    ("_cm_s", "cm/s"),
+    ("_m_s", "m/s"),
+    ("_mm", "mm"),
+    ("_cm", "cm"),
+    ("_in", "in"),
+    ("_m", "m"),
+    ("_g", "g"),
+    ("_s", "s"),
+];
+
+/// "did you mean `…`?" with the one of `known` most like `word`, if any is like it.
+pub(crate) fn did_you_mean(word: &str, known: &[&str]) -> Option<String> {
+    // A long word is far from every key, and the distance costs its length squared.
+    if word.len() > 100 {
+        return None;
+    }
+    let lower = word.to_lowercase();
+    known
+        .iter()
+        .map(|&candidate| {
+            let other = candidate.to_lowercase();
+            let begins = lower.len() > 2 && (lower.starts_with(&other) || other.starts_with(&lower));
+            let alike = strsim::normalized_damerau_levenshtein(&lower, &other);
+            let alike = if begins { alike.max(0.7) } else { alike };
+            (alike, candidate)
+        })
+        .filter(|&(alike, _)| alike > 0.55)
+        .max_by(|(a, _), (b, _)| a.total_cmp(b))
+        .map(|(_, candidate)| format!("did you mean `{candidate}`?"))
+}
+
+/// What to do where `key` is one of `known` but for its unit.
+pub(crate) fn other_unit(key: &str, known: &[&str]) -> Option<String> {
+    let stem = stem_and_unit(key).0;
+    known.iter().find(|&&candidate| stem_and_unit(candidate).0 == stem).map(|&candidate| {
+        match stem_and_unit(candidate).1 {
+            Some(unit) => {
+                format!("unit: it is given in {unit}, as `{candidate}`; convert the value")
+            }
+            None => format!("unit: it has none, write `{candidate}`"),
+        }
+    })
+}
+
+fn stem_and_unit(key: &str) -> (&str, Option<&'static str>) {
+    UNIT_SUFFIXES
+        .iter()
+        .find_map(|&(suffix, unit)| Some((key.strip_suffix(suffix)?, Some(unit))))
+        .unwrap_or((key, None))
+}

@@ -1,0 +1,57 @@
+//! A file as text, and the text as TOML.
+
+use std::fs;
+use std::io::Read;
+use std::path::Path;
+
+use super::Table;
+use super::findings::place;
+use crate::error::{MOST_LISTED, StudyError, StudyMistake, Unreadable};
+
+/// Largest study file \[bytes\]; one with 100 000 numbers written out has 2 MB.
+const LARGEST_FILE: u64 = 4 << 20;
+
+/// The text of the file `file`, if it is one that people write.
+pub(crate) fn read_text(file: &Path) -> Result<String, StudyError> {
+    read(file).map_err(|reason| StudyError::unreadable(file, reason))
+}
+
+fn read(file: &Path) -> Result<String, Unreadable> {
+    if !fs::metadata(file)?.is_file() {
+        return Err(Unreadable::NotAFile);
+    }
+    let mut bytes = Vec::new();
+    fs::File::open(file)?.take(LARGEST_FILE + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > LARGEST_FILE {
+        return Err(Unreadable::TooLarge { most_bytes: LARGEST_FILE });
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        Unreadable::NotUtf8 { line: valid.split(|&byte| byte == b'\n').count() }
+    })
+}
+
+/// The text as TOML; the errors are those of its syntax.
+pub(crate) fn parse_table(file: &Path, text: &str) -> Result<Table, StudyError> {
+    Table::parse(text).map_err(|mut errors| {
+        errors.sort_by_key(|error| error.span().map(|span| span.start));
+        let listed = errors.iter().take(MOST_LISTED).map(|error| StudyMistake {
+            key: String::new(),
+            place: place(text, error.span().unwrap_or_default()),
+            message: format!("not TOML: {}", error.message()),
+            help: Some(syntax_help(error.message()).to_owned()),
+        });
+        let listed: Vec<_> = listed.collect();
+        let left_out = errors.len() - listed.len();
+        StudyError::of_mistakes(file, text.to_owned(), listed, left_out)
+    })
+}
+
+/// What to do about a mistake of TOML syntax.
+fn syntax_help(message: &str) -> &'static str {
+    if message.contains("duplicate") {
+        "each key and each [section] may stand once; write [[sites]] for one site more"
+    } else {
+        "put texts, paths and grids in double quotes, lists in [ ]"
+    }
+}

@@ -1,0 +1,36 @@
+//! The name of a site or record set.
+
+use crate::reading::Section;
+
+/// Longest name, in bytes.
+const LONGEST: usize = 100;
+
+/// The name of a section of a list of `what`, of no other among `names` and fit for a group of the result file.
+pub(crate) fn read(section: &mut Section<'_>, what: &str, example: &str, names: &mut Vec<String>) -> Option<String> {
+    let Some(field) = section.field("name") else {
+        section.mistake("name", format!("the {what} has no name"), format!("add name = \"{example}\""));
+        return None;
+    };
+    let name = field.filled_text()?.trim();
+    // The name is one of a group in the result file, and part of file names.
+    let unfit = name.len() > LONGEST
+        || matches!(name, "." | "..")
+        || name.contains(|letter: char| letter.is_control() || "/\\:*?\"<>|".contains(letter));
+    if unfit {
+        field.mistake(
+            "the name cannot name a group of the result file",
+            format!("use at most {LONGEST} bytes, and none of / \\ : * ? \" < > |"),
+        );
+        return None;
+    }
+    let folded = name.to_lowercase();
+    if names.contains(&folded) {
+        field.mistake(
+            format!("there is another {what} {name}"),
+            format!("give each {what} a name of its own; capitals make no difference"),
+        );
+        return None;
+    }
+    names.push(folded);
+    Some(name.to_owned())
+}

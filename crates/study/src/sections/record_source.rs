@@ -1,0 +1,122 @@
+//! Where ground motions come from: the key `manifest` of `[records]`, or the section `[records.synthetic]`.
+
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+
+use crate::keys::{Key, SectionKeys};
+use crate::reading::{Field, Section};
+
+pub(crate) const MANIFEST: Key = Key {
+    names: &["manifest"],
+    meaning: "table of record files (CSV)",
+    default: "none: the synthetic set",
+    range: "existing file",
+};
+pub(crate) const SYNTHETIC_KEYS: SectionKeys = SectionKeys {
+    section: "records.synthetic",
+    keys: &[
+        Key {
+            names: &["pairs"],
+            meaning: "number of pairs of horizontal components",
+            default: "105",
+            range: "1 to 10 000",
+        },
+        Key { names: &["seed"], meaning: "seed of the generator", default: "1", range: "0 to 2⁶³ − 1" },
+    ],
+};
+
+/// Pairs of horizontal components in the synthetic record set, unless a study says otherwise.
+pub const DEFAULT_SYNTHETIC_PAIRS: u64 = 105;
+/// Seed of the synthetic record set that comes with the program.
+pub const DEFAULT_SYNTHETIC_SEED: u64 = 1;
+/// Most synthetic pairs: beyond it memory is out of proportion.
+const MOST_PAIRS: u64 = 10_000;
+
+/// What to do about a tag where there is no manifest.
+pub(crate) const NO_TAG: &str = "give `manifest`, or leave `tag` out";
+
+/// Where ground motions come from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum RecordSource {
+    /// Record files listed in a manifest.
+    Manifest {
+        /// The manifest, absolute.
+        manifest: PathBuf,
+        /// Only rows whose `set_tags` contain it; all rows if none.
+        tag: Option<String>,
+    },
+    /// Synthetic motions, made by the program.
+    Synthetic {
+        /// Number of pairs of horizontal components.
+        pairs: u64,
+        /// Seed of the generator.
+        seed: u64,
+    },
+}
+
+impl RecordSource {
+    /// The manifest, if the records are of one.
+    pub fn manifest(&self) -> Option<&Path> {
+        match self {
+            Self::Manifest { manifest, .. } => Some(manifest),
+            Self::Synthetic { .. } => None,
+        }
+    }
+
+    /// The tag, if only records with it are used.
+    pub fn tag(&self) -> Option<&str> {
+        match self {
+            Self::Manifest { tag, .. } => tag.as_deref(),
+            Self::Synthetic { .. } => None,
+        }
+    }
+
+    /// The same records, to be found by another `manifest`; what was synthetic becomes all of its records.
+    #[must_use]
+    pub fn by_manifest(&self, manifest: PathBuf) -> Self {
+        Self::Manifest { manifest, tag: self.tag().map(str::to_owned) }
+    }
+
+    /// The section `[records.synthetic]`, if the records are that.
+    pub(crate) fn synthetic(&self) -> Option<Synthetic> {
+        match self {
+            Self::Manifest { .. } => None,
+            &Self::Synthetic { pairs, seed } => Some(Synthetic { pairs, seed }),
+        }
+    }
+}
+
+/// The section `[records.synthetic]`.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub(crate) struct Synthetic {
+    pairs: u64,
+    seed: u64,
+}
+
+impl From<Synthetic> for RecordSource {
+    fn from(Synthetic { pairs, seed }: Synthetic) -> Self {
+        Self::Synthetic { pairs, seed }
+    }
+}
+
+/// Reads the section `[records.synthetic]`.
+pub(crate) fn synthetic(mut section: Section<'_>) -> Option<Synthetic> {
+    let pairs = section.integer_or("pairs", 1..=MOST_PAIRS, DEFAULT_SYNTHETIC_PAIRS);
+    let seed = section.seed_or(DEFAULT_SYNTHETIC_SEED);
+    section.finish();
+    Some(Synthetic { pairs: pairs?, seed: seed? })
+}
+
+/// Whether there are as many synthetic pairs as the key `first` asks for; a mistake if not.
+#[allow(clippy::option_option)] // wrong and absent are different things
+pub(crate) fn enough(field: Option<&Field<'_>>, first: Option<Option<u64>>, synthetic: Option<Synthetic>) {
+    if let (Some(field), Some(Some(first)), Some(Synthetic { pairs, .. })) = (field, first, synthetic)
+        && first > pairs
+    {
+        field.mistake(
+            format!("the first {first} records are asked for, and there are {pairs}"),
+            format!("use at most {pairs}, or raise records.synthetic.pairs"),
+        );
+    }
+}

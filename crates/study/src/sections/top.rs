@@ -1,0 +1,37 @@
+//! What stands at the top of a study file, before its sections.
+
+use uplift_motion::STANDARD_GRAVITY_M_S2;
+
+use crate::keys::Key;
+use crate::reading::{ABOVE_ZERO, Section};
+
+pub(crate) const KIND: Key = Key {
+    names: &["kind"],
+    meaning: "what the study is of",
+    default: "`\"uniform risk spectra\"`",
+    range: "that, or `\"displacement spectra\"`",
+};
+pub(crate) const TITLE: Key =
+    Key { names: &["title"], meaning: "free text, carried into the results", default: "empty", range: "" };
+pub(crate) const GRAVITY: Key = Key {
+    names: &["gravity_m_s2"],
+    meaning: "acceleration of gravity, m/s²",
+    default: "9.80665",
+    range: "above 0; a warning unless 9.7 to 9.9",
+};
+
+/// Reads `title`; empty where it is not given.
+pub(crate) fn title(root: &mut Section<'_>) -> Option<String> {
+    root.field("title").map_or(Some(String::new()), |field| field.text().map(str::to_owned))
+}
+
+/// Reads `gravity_m_s2` \[m/s²\].
+pub(crate) fn gravity(root: &mut Section<'_>) -> Option<f64> {
+    root.number_or("gravity_m_s2", "m/s2", ABOVE_ZERO, STANDARD_GRAVITY_M_S2)
+}
+
+/// What an acceleration of gravity \[m/s²\] is suspected of.
+pub(crate) fn warning_of_gravity(gravity_m_s2: f64) -> Option<String> {
+    (!(9.7..=9.9).contains(&gravity_m_s2))
+        .then(|| format!("gravity_m_s2 = {gravity_m_s2} m/s2 is not found on Earth, where it is 9.76 to 9.83"))
+}

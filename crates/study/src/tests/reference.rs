@@ -1,0 +1,139 @@
+//! The reference of the keys: all that are read, and no others; the tables of the documentation are made from it.
+
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+use std::path::Path;
+use std::{env, fs};
+
+use super::super::reading::{Findings, Paths, Section, Table};
+use super::super::{AnyStudy, Key, Kind, SectionKeys};
+use super::{displacement, resolving};
+
+/// The page of each kind. Keys of any kind may stand in the first one.
+const PAGES: [(&str, Kind); 2] =
+    [("study-file.md", Kind::UniformRisk), ("displacement-spectra.md", Kind::Displacement)];
+
+/// What stands before a table: the sections whose keys it has.
+const MARK: (&str, &str) = ("<!-- keys: ", " -->");
+
+/// The page with its tables made anew, and the keys in them.
+fn made_anew(page: &str, kind: Kind) -> (String, Vec<Key>) {
+    let (mut made, mut shown) = (String::new(), Vec::new());
+    let mut lines = page.lines().peekable();
+    while let Some(line) = lines.next() {
+        writeln!(made, "{line}").unwrap();
+        let Some(names) = line.strip_prefix(MARK.0).and_then(|rest| rest.strip_suffix(MARK.1)) else { continue };
+        while lines.next_if(|line| line.is_empty() || line.starts_with('|')).is_some() {}
+        let sections: Vec<&SectionKeys> = names.split(", ").map(|name| section(kind, name)).collect();
+        shown.extend(sections.iter().flat_map(|section| section.keys));
+        write!(made, "\n{}", table(&sections)).unwrap();
+        if lines.peek().is_some() {
+            made.push('\n');
+        }
+    }
+    (made, shown)
+}
+
+/// The keys of the section `name` of a page; `top` for those before all sections.
+fn section(kind: Kind, name: &str) -> &'static SectionKeys {
+    let path = if name == "top" { "" } else { name };
+    let found = kind.keys().iter().find(|section| section.section == path);
+    found.unwrap_or_else(|| panic!("a study of {} has no section {name}", kind.key()))
+}
+
+/// A cell of the row of a key.
+type Cell = fn(&Key) -> &'static str;
+
+/// Keys with the name of their section where there are several; no column that is empty.
+fn table(sections: &[&SectionKeys]) -> String {
+    let columns: [(&str, Cell); 3] =
+        [("meaning", |key| key.meaning), ("default", |key| key.default), ("range", |key| key.range)];
+    let keys = || sections.iter().flat_map(|section| section.keys.iter().map(move |key| (section.section, key)));
+    let columns: Vec<_> =
+        columns.into_iter().filter(|(_, cell)| keys().any(|(_, key)| !cell(key).is_empty())).collect();
+    let titles: Vec<&str> = columns.iter().map(|(title, _)| *title).collect();
+    let mut table = format!("| key | {} |\n|---|{}\n", titles.join(" | "), "---|".repeat(columns.len()));
+    for (path, key) in keys() {
+        let name = |name: &&str| if sections.len() > 1 { format!("`{path}.{name}`") } else { format!("`{name}`") };
+        let names: Vec<String> = key.names.iter().map(name).collect();
+        write!(table, "| {} |", names.join(", ")).unwrap();
+        for (_, cell) in &columns {
+            table.push(' ');
+            table.push_str(cell(key));
+            table.push_str(if cell(key).is_empty() { "|" } else { " |" });
+        }
+        table.push('\n');
+    }
+    table
+}
+
+#[test]
+fn the_documentation_has_every_key() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs");
+    let mut shown = Vec::new();
+    for (name, kind) in PAGES {
+        let path = folder.join(name);
+        let page = fs::read_to_string(&path).unwrap();
+        let (made, keys) = made_anew(&page, kind);
+        if env::var_os("UPDATE_DOCS").is_some() {
+            fs::write(&path, &made).unwrap();
+        } else {
+            let first = page.lines().zip(made.lines()).find(|(stands, made)| stands != made);
+            assert!(
+                page == made,
+                "docs/{name} is not what the keys say, first in {first:?}: UPDATE_DOCS=1 cargo test -p uplift-study"
+            );
+        }
+        shown.extend(keys);
+        for section in kind.keys() {
+            let missing = section.keys.iter().find(|key| !shown.contains(key));
+            assert_eq!(missing, None, "a key of [{}] is in no table of docs/{name}", section.section);
+        }
+    }
+}
+
+/// The keys that reading these studies asks for, as dotted paths without positions in lists.
+fn asked(studies: &[&str]) -> BTreeSet<String> {
+    let mut asked = BTreeSet::new();
+    for study in studies {
+        let (document, findings) = (Table::parse(study).unwrap(), Findings::default());
+        AnyStudy::read(Section::root(&document, &findings), &Paths::AsWritten).unwrap();
+        asked.extend(findings.asked.into_inner());
+    }
+    let without_positions = |key: String| -> String {
+        key.split('[').map(|part| part.split_once(']').map_or(part, |(_, after)| after)).collect()
+    };
+    asked.into_iter().map(without_positions).collect()
+}
+
+#[test]
+fn every_key_is_in_the_reference_and_no_other() {
+    const CURVES: &str = "[pgv]\n[pga]\n[[sites]]\nname = \"x\"\n[sites.pgv]\n\
+        branches = [{ file = \"a\", weight = 0.5 }, { file = \"b\", weight = 0.5 }]\n[sites.pga]\n\
+        branches = [{ file = \"a\", weight = 0.5 }, { file = \"b\", weight = 0.5 }]\n";
+    const BLOCKS: &str = "kind = \"displacement spectra\"\n[block]\n[design]";
+    for (kind, studies) in
+        [(Kind::UniformRisk, [resolving::COMPLETE, CURVES]), (Kind::Displacement, [displacement::COMPLETE, BLOCKS])]
+    {
+        let mut known = BTreeSet::new();
+        for section in kind.keys() {
+            for name in section.keys.iter().flat_map(|key| key.names) {
+                known.insert(format!("{}.{name}", section.section).trim_start_matches('.').to_owned());
+            }
+        }
+        let asked = asked(&studies);
+        let never: Vec<_> = known.difference(&asked).collect();
+        assert!(never.is_empty(), "in the reference of {}, but never read: {never:?}", kind.key());
+        // a section is known by its keys; the table of a grid is told with the grids
+        let is_section = |key: &str| kind.keys().iter().any(|section| section.section == key);
+        let of_a_grid = |key: &str| {
+            key.rsplit_once('.')
+                .is_some_and(|(grid, part)| known.contains(grid) && ["start", "stop", "count"].contains(&part))
+        };
+        // asked for only to say where it belongs
+        let elsewhere = |key: &str| kind == Kind::Displacement && key == "records.tag";
+        let told = |key: &str| is_section(key) || of_a_grid(key) || elsewhere(key);
+        let unknown: Vec<_> = asked.difference(&known).filter(|key| !told(key)).collect();
+        assert!(unknown.is_empty(), "read, but not in the reference of {}: {unknown:?}", kind.key());
+    }
+}

@@ -1,0 +1,180 @@
+//! A study of uniform risk spectra (Chapter 4 of Reggiani Manzo's dissertation).
+//!
+//! | module | section |
+//! |---|---|
+//! | `records` | `[records]` |
+//! | `oscillator` | `[oscillator]` |
+//! | `measures` | `[pgv]`, `[pga]` |
+//! | `risk` | `[risk]` |
+//! | `hazard` | `[hazard]` |
+//! | `sites`, `curve`, `branches` | `[[sites]]`, the hazard curves of one, their weighted alternatives |
+//! | `site_table` | `[site_table]` |
+//! | `regression` | `[regression]` |
+//! | `bootstrap` | `[bootstrap]` |
+
+mod bootstrap;
+mod branches;
+mod curve;
+mod hazard;
+mod measures;
+mod oscillator;
+mod records;
+mod regression;
+mod risk;
+mod site_table;
+mod sites;
+mod warnings;
+
+use serde::Serialize;
+
+use crate::grid::Grid;
+use crate::keys::{Key, SectionKeys};
+use crate::reading::{Paths, Section};
+use crate::sections::output::{self, Output};
+use crate::sections::{record_source, selection, strengths, top};
+
+pub use bootstrap::Bootstrap;
+pub use branches::Branch;
+pub use curve::{CurveFile, CurveKind};
+pub use hazard::{Conversion, Hazard, definition_of};
+pub use measures::{MeasurePlan, levels_within};
+pub use oscillator::Oscillator;
+pub use records::Records;
+pub use regression::Regression;
+pub use risk::{Contour, Risk};
+pub use site_table::SiteTable;
+pub use sites::Site;
+
+/// The reference of every key.
+pub(crate) const KEYS: [SectionKeys; 20] = [
+    TOP,
+    records::KEYS,
+    selection::KEYS,
+    record_source::SYNTHETIC_KEYS,
+    oscillator::KEYS,
+    strengths::KEYS,
+    measures::PGV_KEYS,
+    measures::PGA_KEYS,
+    risk::KEYS,
+    hazard::KEYS,
+    hazard::CONVERSION_KEYS,
+    sites::KEYS,
+    SectionKeys { section: "sites.pgv", keys: curve::KEYS },
+    SectionKeys { section: "sites.pga", keys: curve::KEYS },
+    SectionKeys { section: "sites.pgv.branches", keys: branches::KEYS },
+    SectionKeys { section: "sites.pga.branches", keys: branches::KEYS },
+    site_table::KEYS,
+    regression::KEYS,
+    bootstrap::KEYS,
+    output::KEYS,
+];
+
+const TOP: SectionKeys = SectionKeys {
+    section: "",
+    keys: &[
+        top::KIND,
+        top::TITLE,
+        Key {
+            names: &["seed"],
+            meaning: "seed of what is drawn at random: the component where it is `\"random\"`",
+            default: "1",
+            range: "0 to 2⁶³ − 1",
+        },
+        top::GRAVITY,
+    ],
+};
+
+/// A study of uniform risk spectra with every default filled in, every path found and every unit checked.
+///
+/// It is serialised as a study file that loads to an equal value, wherever it is stored.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct UniformRiskStudy {
+    /// Free text.
+    pub title: String,
+    /// Seed of whatever is drawn at random; below 2⁶³.
+    pub seed: u64,
+    /// Acceleration of gravity \[m/s²\].
+    pub gravity_m_s2: f64,
+    /// Which ground motions.
+    pub records: Records,
+    /// The oscillator but for its strength.
+    pub oscillator: Oscillator,
+    /// Uplift strengths η = `f_up`/(m g) \[-\].
+    #[serde(serialize_with = "strengths::write")]
+    pub strengths: Grid,
+    /// Intensity measures with the levels that records are scaled to; at least one.
+    #[serde(flatten, serialize_with = "measures::write")]
+    pub measures: Vec<MeasurePlan>,
+    /// Probabilities, and how the spectrum is read from the risk integral.
+    pub risk: Risk,
+    /// What the hazard curves have in common.
+    #[serde(skip_serializing_if = "Hazard::is_empty")]
+    pub hazard: Hazard,
+    /// Sites; each has a curve of each measure in `measures`.
+    pub sites: Vec<Site>,
+    /// Many sites, their hazard in exports.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub site_table: Option<SiteTable>,
+    /// The fit of Eq. 4.11.
+    pub regression: Regression,
+    /// The bootstrap over records.
+    pub bootstrap: Bootstrap,
+    /// What is written where.
+    pub output: Output,
+    /// What is allowed but probably not meant.
+    #[serde(skip)]
+    pub warnings: Vec<String>,
+}
+
+impl UniformRiskStudy {
+    /// The study as TOML, complete and loadable; the warnings are left out, since loading finds them again.
+    ///
+    /// # Errors
+    ///
+    /// Where TOML cannot hold a value; a study that was loaded has none such.
+    pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
+        toml::to_string(self)
+    }
+}
+
+/// Reads the whole study but for its `kind`; none where something is wrong.
+pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<UniformRiskStudy> {
+    let title = top::title(&mut root);
+    let seed = root.seed_or(1);
+    let gravity = top::gravity(&mut root);
+    let records = records::read(root.section("records"), paths);
+    let oscillator = oscillator::read(root.section("oscillator"));
+    let strengths = strengths::read(root.section("strengths"));
+    let switched_on = measures::switched_on(&mut root);
+    let measures = measures::read(&mut root);
+    let risk = risk::read(root.section("risk"));
+    let hazard = hazard::read(root.section("hazard"));
+    let sites = sites::read(root.field("sites"), &switched_on, paths);
+    let site_table = site_table::read(root.field("site_table").as_ref(), &switched_on, strengths.as_ref(), paths);
+    let regression = regression::read(root.section("regression"));
+    let bootstrap = bootstrap::read(root.section("bootstrap"));
+    let inputs = (records.iter().filter_map(|records| records.source.manifest()))
+        .chain(sites.iter().flatten().flat_map(|site| site.curves.iter().flat_map(CurveFile::files)))
+        .chain(site_table.iter().flatten().flat_map(SiteTable::files));
+    let output = output::read(root.section("output"), paths, inputs);
+    root.finish();
+    let mut study = UniformRiskStudy {
+        title: title?,
+        seed: seed?,
+        gravity_m_s2: gravity?,
+        records: records?,
+        oscillator: oscillator?,
+        strengths: strengths?,
+        measures: measures?,
+        risk: risk?,
+        hazard: hazard?,
+        sites: sites?,
+        site_table: site_table?,
+        regression: regression?,
+        bootstrap: bootstrap?,
+        output: output?,
+        warnings: Vec::new(),
+    };
+    study.warnings = warnings::of(&study);
+    Some(study)
+}

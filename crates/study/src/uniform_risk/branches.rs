@@ -1,0 +1,93 @@
+//! Several weighted hazard curves of one site and measure: epistemic uncertainty.
+
+use std::path::PathBuf;
+
+use serde::Serialize;
+
+use crate::keys::Key;
+use crate::reading::{Field, Paths, Rule};
+
+pub(super) const KEYS: &[Key] = &[
+    Key { names: &["file"], meaning: "the curve", default: "needed", range: "existing file" },
+    Key { names: &["weight"], meaning: "its weight", default: "needed", range: "above 0, below 1; they add up to 1" },
+    Key { names: &["name"], meaning: "name", default: "`branch 1` and so on", range: "each once" },
+];
+
+/// Most branches of one curve; each is carried through the risk of every resample.
+const MOST_BRANCHES: usize = 1000;
+/// How far from 1 the sum of the weights may be, for weights given with a few digits.
+const SUM_TOLERANCE: f64 = 1e-6;
+
+const WEIGHT: Rule = Rule { holds: |value| value > 0.0 && value < 1.0, words: "above 0 and below 1" };
+
+/// One of several weighted hazard curves of a site, a realization of a logic tree for instance.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Branch {
+    /// Its name, of no other branch of the curve.
+    pub name: String,
+    /// Its weight \[-\].
+    pub weight: f64,
+    /// The file, absolute.
+    pub file: PathBuf,
+}
+
+/// Reads the list of branches.
+pub(super) fn read(field: &Field<'_>, paths: &Paths) -> Option<Vec<Branch>> {
+    let items = field.items();
+    if items.len() < 2 || items.len() > MOST_BRANCHES {
+        field.mistake(
+            format!("the list has {} branches", items.len()),
+            format!(
+                "give 2 to {MOST_BRANCHES}, each as {{ file = \"path\", weight = 0.5 }}; a single curve needs no \
+                 branches"
+            ),
+        );
+        return None;
+    }
+    let mut branches: Vec<Branch> = Vec::new();
+    for (index, item) in items.iter().enumerate() {
+        branches.extend(branch(item, index, &branches, paths));
+    }
+    if branches.len() < items.len() {
+        return None;
+    }
+    let sum: f64 = branches.iter().map(|branch| branch.weight).sum();
+    if (sum - 1.0).abs() > SUM_TOLERANCE {
+        field.mistake(format!("the weights add up to {sum}"), "they must add up to 1");
+        return None;
+    }
+    Some(branches)
+}
+
+fn branch(item: &Field<'_>, index: usize, others: &[Branch], paths: &Paths) -> Option<Branch> {
+    let mut section = item.section();
+    if !section.is_present() {
+        return None;
+    }
+    let file = if let Some(field) = section.field("file") {
+        paths.input(&field)
+    } else {
+        section.mistake("file", "the branch has no file", "add file = \"path\"");
+        None
+    };
+    let weight = if let Some(field) = section.field("weight") {
+        field.number("", WEIGHT)
+    } else {
+        section.mistake("weight", "the branch has no weight", "add weight = 0.5");
+        None
+    };
+    let name = match section.field("name") {
+        None => Some(format!("branch {}", index + 1)),
+        Some(field) => {
+            let name = field.filled_text().map(|name| name.trim().to_owned());
+            if name.as_ref().is_some_and(|name| others.iter().any(|other| other.name == *name)) {
+                field.mistake("another branch has this name", "give each branch a name of its own");
+                None
+            } else {
+                name
+            }
+        }
+    };
+    section.finish();
+    Some(Branch { name: name?, weight: weight?, file: file? })
+}

@@ -1,0 +1,153 @@
+//! A hazard curve of a site: its file, and what its numbers mean.
+
+use std::path::{Path, PathBuf};
+
+use serde::{Serialize, Serializer};
+use uplift_hazard::CurveUnit;
+use uplift_motion::IntensityMeasure;
+
+use super::branches::{self, Branch};
+use super::measures::MeasureKeys;
+use crate::keys::Key;
+use crate::reading::{ABOVE_ZERO, Field, Paths, Section, Value};
+
+pub(super) const KEYS: &[Key] = &[
+    Key { names: &["file"], meaning: "the curve", default: "needed without `branches`", range: "existing file" },
+    Key {
+        names: &["unit"],
+        meaning: "unit of its levels",
+        default: "`\"cm/s\"` for PGV, `\"g\"` for PGA",
+        range: "`\"cm/s\"`, `\"m/s\"`; `\"g\"`, `\"m/s2\"`, `\"cm/s2\"`",
+    },
+    Key {
+        names: &["kind"],
+        meaning: "what it gives: `\"maf\"`, mean annual frequencies, 1/yr; `\"poe\"`, probabilities of exceedance",
+        default: "`\"maf\"`",
+        range: "`\"maf\"`, `\"poe\"`",
+    },
+    Key {
+        names: &["years"],
+        meaning: "time that the probabilities refer to, yr",
+        default: "needed for `\"poe\"`",
+        range: "above 0; only for `\"poe\"`",
+    },
+    Key {
+        names: &["branches"],
+        meaning: "epistemic uncertainty: a list of weighted curves, realizations of a logic tree for instance, in the \
+                  same unit and kind",
+        default: "none",
+        range: "2 to 1000",
+    },
+];
+
+/// A file with a hazard curve, and what its numbers mean.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CurveFile {
+    /// The measure.
+    #[serde(skip)]
+    pub measure: IntensityMeasure,
+    /// The file, absolute; none where the mean of the branches is taken.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file: Option<PathBuf>,
+    /// Unit of its levels, and of those of the branches.
+    #[serde(serialize_with = "write_unit")]
+    pub unit: CurveUnit,
+    /// What it gives for each level.
+    #[serde(flatten)]
+    pub kind: CurveKind,
+    /// Epistemic uncertainty: weighted alternatives to the curve; none, or two and more whose weights add up to 1.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub branches: Vec<Branch>,
+}
+
+impl CurveFile {
+    /// Every file with numbers of this curve.
+    pub fn files(&self) -> impl Iterator<Item = &Path> {
+        self.file.iter().chain(self.branches.iter().map(|branch| &branch.file)).map(PathBuf::as_path)
+    }
+}
+
+/// What a file gives for each level.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "lowercase")]
+pub enum CurveKind {
+    /// The mean annual frequency of exceedance \[1/yr\].
+    Maf,
+    /// The probability of exceedance \[-\].
+    Poe {
+        /// Time that it refers to \[yr\].
+        years: f64,
+    },
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref)] // as serde calls it
+fn write_unit<S: Serializer>(unit: &CurveUnit, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(unit.symbol())
+}
+
+/// Reads a curve: a path, or a table.
+pub(super) fn read(field: &Field<'_>, measure: IntensityMeasure, paths: &Paths) -> Option<CurveFile> {
+    let units = MeasureKeys::of(measure).units;
+    match field.node.value {
+        Value::Text(_) => {
+            return Some(CurveFile {
+                measure,
+                file: Some(paths.input(field)?),
+                unit: units[0],
+                kind: CurveKind::Maf,
+                branches: Vec::new(),
+            });
+        }
+        Value::Table(_) => {}
+        _ => {
+            return field.wrong_type(
+                "the path of a hazard curve",
+                "write \"path\", or { file = \"path\", unit = …, kind = … }",
+            );
+        }
+    }
+    let mut section = field.section();
+    let branches = section.field("branches").map_or(Some(Vec::new()), |field| branches::read(&field, paths));
+    let file = match (section.field("file"), &branches) {
+        (Some(field), _) => paths.input(&field).map(Some),
+        // branches with mistakes are still branches
+        (None, None) => Some(None),
+        (None, Some(branches)) if !branches.is_empty() => Some(None),
+        (None, Some(_)) => {
+            section.mistake("file", "the curve has no file", "add file = \"path\", or branches = [ … ]");
+            None
+        }
+    };
+    let words: Vec<_> = units.iter().map(|&unit| (unit.symbol(), unit)).collect();
+    let unit = section.choice_or("unit", &words, units[0]);
+    let kind = kind(&mut section);
+    section.finish();
+    Some(CurveFile { measure, file: file?, unit: unit?, kind: kind?, branches: branches? })
+}
+
+fn kind(section: &mut Section<'_>) -> Option<CurveKind> {
+    let is_poe = section.choice_or("kind", &[("maf", false), ("poe", true)], false);
+    let years_field = section.field("years");
+    let years = (years_field.as_ref()).map(|field| field.number("yr", ABOVE_ZERO));
+    match (is_poe?, years) {
+        (true, Some(years)) => Some(CurveKind::Poe { years: years? }),
+        (true, None) => {
+            section.mistake(
+                "years",
+                "the curve gives probabilities, of exceedance in how many years?",
+                "add years = 1 or years = 50, as the file says",
+            );
+            None
+        }
+        (false, None) => Some(CurveKind::Maf),
+        (false, Some(_)) => {
+            if let Some(field) = years_field {
+                field.mistake(
+                    "annual frequencies have no time",
+                    "write kind = \"poe\" for probabilities, or leave `years` out",
+                );
+            }
+            None
+        }
+    }
+}

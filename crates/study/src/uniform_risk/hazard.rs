@@ -1,0 +1,173 @@
+//! The section `[hazard]`: how the curves combine horizontal components, and what that makes of them.
+
+use std::collections::BTreeMap;
+
+use serde::{Serialize, Serializer};
+use uplift_hazard::ComponentDefinition;
+use uplift_motion::{Combination, IntensityMeasure};
+
+use crate::keys::{Key, SectionKeys};
+use crate::reading::{ABOVE_ZERO, Field, Section, optional};
+
+const DEFINITIONS_IN_WORDS: &str =
+    "`\"geometric mean\"`, `\"GMRotI50\"`, `\"RotD50\"`, `\"RotD100\"`, `\"larger\"`, `\"arbitrary\"`";
+
+pub(super) const KEYS: SectionKeys = SectionKeys {
+    section: "hazard",
+    keys: &[
+        Key {
+            names: &["component"],
+            meaning: "definition of the curves whose files do not say it",
+            default: "taken as that of the records, with a note",
+            range: DEFINITIONS_IN_WORDS,
+        },
+        Key {
+            names: &["conversions"],
+            meaning: "list of `{ from = \"GMRotI50\", to = \"geometric mean\", pgv = 1.0, pga = 1.0 }`, of the keys \
+                      below",
+            default: "none",
+            range: "each pair of `from` and `to` once",
+        },
+    ],
+};
+pub(super) const CONVERSION_KEYS: SectionKeys = SectionKeys {
+    section: "hazard.conversions",
+    keys: &[
+        Key { names: &["from"], meaning: "definition of a curve", default: "needed", range: "as `component`" },
+        Key {
+            names: &["to"],
+            meaning: "definition that the records are measured by",
+            default: "needed",
+            range: "as `component`",
+        },
+        Key {
+            names: &["pgv", "pga"],
+            meaning: "what the levels of such a curve are multiplied by, that is the records' definition of the \
+                      measure over the curve's",
+            default: "one is needed",
+            range: "above 0",
+        },
+    ],
+};
+
+/// What all hazard curves of a study have in common.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct Hazard {
+    /// Definition of the curves whose files do not say it.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "write_component")]
+    pub component: Option<ComponentDefinition>,
+    /// How curves of other definitions than that of the records are used.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub conversions: Vec<Conversion>,
+}
+
+/// The ratio of the records' definition of a measure over that of a curve.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Conversion {
+    /// Definition of the curve.
+    #[serde(serialize_with = "write_definition")]
+    pub from: ComponentDefinition,
+    /// Definition that the records are measured by.
+    #[serde(serialize_with = "write_definition")]
+    pub to: ComponentDefinition,
+    /// By what its levels are multiplied.
+    #[serde(flatten, serialize_with = "write_factors")]
+    pub factors: Vec<(IntensityMeasure, f64)>,
+}
+
+#[allow(clippy::ref_option, clippy::trivially_copy_pass_by_ref)] // as serde calls it
+fn write_component<S: Serializer>(component: &Option<ComponentDefinition>, serializer: S) -> Result<S::Ok, S::Error> {
+    component.map(ComponentDefinition::key).serialize(serializer)
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref)] // as serde calls it
+fn write_definition<S: Serializer>(definition: &ComponentDefinition, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(definition.key())
+}
+
+/// The factors by the alphabet of their measures.
+fn write_factors<S: Serializer>(factors: &[(IntensityMeasure, f64)], serializer: S) -> Result<S::Ok, S::Error> {
+    let factors: BTreeMap<_, _> = factors.iter().map(|&(measure, factor)| (measure.key(), factor)).collect();
+    factors.serialize(serializer)
+}
+
+impl Hazard {
+    /// Whether nothing is said.
+    pub fn is_empty(&self) -> bool {
+        self.component.is_none() && self.conversions.is_empty()
+    }
+
+    /// By what the levels of a curve of `measure` are multiplied from one definition to another, if the study says so.
+    pub fn factor(&self, from: ComponentDefinition, to: ComponentDefinition, measure: IntensityMeasure) -> Option<f64> {
+        let mut conversions = self.conversions.iter();
+        let conversion = conversions.find(|conversion| conversion.from == from && conversion.to == to)?;
+        conversion.factors.iter().find_map(|&(known, factor)| (known == measure).then_some(factor))
+    }
+}
+
+/// The definition of a hazard curve that goes with a combination of records.
+pub fn definition_of(combination: Combination) -> ComponentDefinition {
+    match combination {
+        Combination::GeometricMean => ComponentDefinition::GeometricMean,
+        Combination::RotD50 => ComponentDefinition::RotD50,
+        Combination::RotD100 => ComponentDefinition::RotD100,
+    }
+}
+
+fn definition(field: &Field<'_>) -> Option<ComponentDefinition> {
+    field.choice(&ComponentDefinition::ALL.map(|definition| (definition.key(), definition)))
+}
+
+/// Reads the section.
+pub(super) fn read(mut section: Section<'_>) -> Option<Hazard> {
+    let component_field = section.field("component");
+    let conversions = section.field("conversions").map_or(Some(Vec::new()), |field| conversions(&field));
+    section.finish();
+    let component = optional(component_field.as_ref(), definition);
+    Some(Hazard { component: component?, conversions: conversions? })
+}
+
+fn conversions(field: &Field<'_>) -> Option<Vec<Conversion>> {
+    let mut read = Some(Vec::new());
+    for item in field.items() {
+        let mut section = item.section();
+        if !section.is_present() {
+            return None;
+        }
+        let [from, to] = ["from", "to"].map(|key| {
+            if let Some(field) = section.field(key) {
+                return definition(&field);
+            }
+            section.mistake(
+                key,
+                format!("the conversion does not say {key} which definition"),
+                "write { from = \"GMRotI50\", to = \"geometric mean\", pgv = 1.0, pga = 1.0 }",
+            );
+            None
+        });
+        let mut factors = Some(Vec::new());
+        for measure in IntensityMeasure::ALL {
+            let Some(field) = section.field(measure.key()) else { continue };
+            match (&mut factors, field.number("", ABOVE_ZERO)) {
+                (Some(factors), Some(factor)) => factors.push((measure, factor)),
+                _ => factors = None,
+            }
+        }
+        if factors.as_ref().is_some_and(Vec::is_empty) {
+            section.mistake("", "the conversion has no factor", "add pgv = 1.0, pga = 1.0 or both");
+            factors = None;
+        }
+        section.finish();
+        let (Some(known), Some(from), Some(to), Some(factors)) = (&mut read, from, to, factors) else {
+            read = None;
+            continue;
+        };
+        if known.iter().any(|conversion: &Conversion| conversion.from == from && conversion.to == to) {
+            item.mistake(format!("{from} is converted to {to} twice"), "give each conversion once");
+            read = None;
+            continue;
+        }
+        known.push(Conversion { from, to, factors });
+    }
+    read
+}

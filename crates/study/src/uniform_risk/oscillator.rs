@@ -1,0 +1,107 @@
+//! The section `[oscillator]`: the oscillator but for its strength.
+
+use serde::{Serialize, Serializer};
+use uplift_oscillator::PostUplift;
+
+use crate::keys::{Key, SectionKeys};
+use crate::reading::{ABOVE_ZERO, Section, UPLIFT_DISPLACEMENT, ZERO_TO_ONE, optional, quantity};
+
+pub(super) const KEYS: SectionKeys = SectionKeys {
+    section: "oscillator",
+    keys: &[
+        Key {
+            names: &["uplift_displacement_m"],
+            meaning: "displacement at uplift u_up, m",
+            default: "0.0005",
+            range: "1e-6 or above",
+        },
+        Key {
+            names: &["restitution"],
+            meaning: "velocity after an impact divided by the one before",
+            default: "0.95",
+            range: "0 to 1",
+        },
+        Key {
+            names: &["free_vibration"],
+            meaning: "whether the motion after the end of a record counts",
+            default: "`true`",
+            range: "",
+        },
+        Key {
+            names: &["capacity_m"],
+            meaning: "displacement u_cap at which the force has fallen to zero, m (NSBE: negative stiffness, can \
+                      overturn)",
+            default: "none: the force stays constant (ZSBE)",
+            range: "above `uplift_displacement_m`",
+        },
+        Key {
+            names: &["post_uplift_stiffness_per_s2"],
+            meaning: "stiffness after uplift divided by mass, 1/s² (the force rises)",
+            default: "none",
+            range: "above 0; excludes `capacity_m`",
+        },
+    ],
+};
+
+/// The oscillator but for its strength (Eq. 4.1 to 4.3).
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Oscillator {
+    /// Displacement at uplift `u_up` \[m\].
+    pub uplift_displacement_m: f64,
+    /// Coefficient of restitution of the velocity at each impact \[-\].
+    pub restitution: f64,
+    /// Whether the free motion after the end of a record counts.
+    pub free_vibration: bool,
+    /// The force after uplift; a capacity is above the displacement at uplift.
+    #[serde(flatten, serialize_with = "write_post_uplift")]
+    pub post_uplift: PostUplift,
+}
+
+fn write_post_uplift<S: Serializer>(post_uplift: &PostUplift, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(match *post_uplift {
+        PostUplift::Zero => None,
+        PostUplift::Negative { capacity_m } => Some(("capacity_m", capacity_m)),
+        PostUplift::Positive { stiffness_per_s2 } => Some(("post_uplift_stiffness_per_s2", stiffness_per_s2)),
+    })
+}
+
+/// Reads the section.
+pub(super) fn read(mut section: Section<'_>) -> Option<Oscillator> {
+    let uplift = section.number_or("uplift_displacement_m", "m", UPLIFT_DISPLACEMENT, 0.0005);
+    let restitution = section.number_or("restitution", "", ZERO_TO_ONE, 0.95);
+    let free_vibration = section.boolean_or("free_vibration", true);
+    let capacity_field = section.field("capacity_m");
+    let stiffness_field = section.field("post_uplift_stiffness_per_s2");
+    section.finish();
+    let capacity = optional(capacity_field.as_ref(), |field| field.number("m", ABOVE_ZERO));
+    let stiffness = optional(stiffness_field.as_ref(), |field| field.number("1/s2", ABOVE_ZERO));
+    if let (Some(field), Some(Some(capacity)), Some(uplift)) = (&capacity_field, capacity, uplift)
+        && capacity <= uplift
+    {
+        field.mistake(
+            format!(
+                "the capacity {} is not above the uplift displacement {}",
+                quantity(capacity, "m"),
+                quantity(uplift, "m")
+            ),
+            "raise it, or leave it out for an oscillator that never overturns",
+        );
+    }
+    if let (Some(_), Some(field)) = (&capacity_field, &stiffness_field) {
+        field.mistake(
+            "a positive stiffness after uplift excludes a capacity",
+            "keep `capacity_m` (force falls) or this key (force rises), not both",
+        );
+    }
+    let post_uplift = match (capacity?, stiffness?) {
+        (Some(capacity_m), _) => PostUplift::Negative { capacity_m },
+        (None, Some(stiffness_per_s2)) => PostUplift::Positive { stiffness_per_s2 },
+        (None, None) => PostUplift::Zero,
+    };
+    Some(Oscillator {
+        uplift_displacement_m: uplift?,
+        restitution: restitution?,
+        free_vibration: free_vibration?,
+        post_uplift,
+    })
+}

@@ -1,0 +1,122 @@
+//! The section `[records]`: the ground motions.
+
+use std::path::Path;
+
+use serde::{Serialize, Serializer};
+use uplift_motion::{Combination, Component};
+
+use crate::keys::{Key, SectionKeys};
+use crate::reading::{LARGEST_INTEGER, Paths, Section, optional};
+use crate::sections::record_source::{self, MANIFEST, NO_TAG, RecordSource, Synthetic};
+use crate::sections::selection::{self, RecordSelection};
+
+pub(super) const KEYS: SectionKeys = SectionKeys {
+    section: "records",
+    keys: &[
+        MANIFEST,
+        Key {
+            names: &["tag"],
+            meaning: "use only rows of the manifest whose `set_tags` contain this",
+            default: "all rows",
+            range: "only with `manifest`",
+        },
+        Key {
+            names: &["component"],
+            meaning: "component that shakes the planar oscillator; `\"both\"` counts each as a record, `\"random\"` \
+                      draws one for each record",
+            default: "`\"h1\"`",
+            range: "`\"h1\"`, `\"h2\"`, `\"both\"`, `\"random\"`",
+        },
+        Key {
+            names: &["intensity"],
+            meaning: "how the peaks of the two components make the PGV or PGA of a record: `\"geometric-mean\"` \
+                      (Eq. 4.5, 4.6), `\"rotd50\"` the median and `\"rotd100\"` the largest over all horizontal \
+                      directions (Boore 2010; the components must be synchronised)",
+            default: "`\"geometric-mean\"`",
+            range: "",
+        },
+        Key {
+            names: &["first"],
+            meaning: "use only so many of the records that are selected, the first",
+            default: "all",
+            range: "1 or more; at most `pairs` of a synthetic set",
+        },
+    ],
+};
+
+const COMPONENTS: [(&str, Component); 4] =
+    [("h1", Component::H1), ("h2", Component::H2), ("both", Component::Both), ("random", Component::Random)];
+
+/// Which ground motions are used.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Records {
+    /// Where they come from.
+    pub source: RecordSource,
+    /// The component that shakes the planar oscillator.
+    pub component: Component,
+    /// How the peaks of the two components make the intensity of a pair.
+    pub intensity: Combination,
+    /// Which of them are used.
+    pub select: RecordSelection,
+    /// Use only so many of these records, the first; all if none.
+    pub first: Option<u64>,
+}
+
+/// As the section of a study file.
+impl Serialize for Records {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Written<'a> {
+            #[serde(skip_serializing_if = "Option::is_none")]
+            manifest: Option<&'a Path>,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            tag: Option<&'a str>,
+            component: String,
+            intensity: &'static str,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            first: Option<u64>,
+            #[serde(skip_serializing_if = "RecordSelection::is_empty")]
+            select: &'a RecordSelection,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            synthetic: Option<Synthetic>,
+        }
+        let written = Written {
+            manifest: self.source.manifest(),
+            tag: self.source.tag(),
+            component: self.component.to_string(),
+            intensity: self.intensity.key(),
+            first: self.first,
+            select: &self.select,
+            synthetic: self.source.synthetic(),
+        };
+        written.serialize(serializer)
+    }
+}
+
+/// Reads the section.
+pub(super) fn read(mut section: Section<'_>, paths: &Paths) -> Option<Records> {
+    let manifest_field = section.field("manifest");
+    let tag_field = section.field("tag");
+    let component = section.choice_or("component", &COMPONENTS, Component::H1);
+    let combinations = Combination::ALL.map(|combination| (combination.key(), combination));
+    let intensity = section.choice_or("intensity", &combinations, Combination::default());
+    let select = selection::read(section.section("select"));
+    let first_field = section.field("first");
+    let first = optional(first_field.as_ref(), |field| field.integer(1, LARGEST_INTEGER));
+    let synthetic = record_source::synthetic(section.section("synthetic"));
+    // a manifest goes before: so one `--set records.manifest=…` turns a study of synthetic records into one of real
+    // ones
+    let source = if let Some(field) = manifest_field {
+        let manifest = paths.input(&field);
+        let tag = optional(tag_field.as_ref(), |field| field.filled_text().map(str::to_owned));
+        (|| Some(RecordSource::Manifest { manifest: manifest?, tag: tag? }))()
+    } else {
+        if let Some(field) = tag_field {
+            field.mistake("a tag chooses rows of a manifest, and there is none", NO_TAG);
+        }
+        record_source::enough(first_field.as_ref(), first, synthetic);
+        synthetic.map(RecordSource::from)
+    };
+    section.finish();
+    Some(Records { source: source?, component: component?, intensity: intensity?, select: select?, first: first? })
+}

@@ -1,0 +1,148 @@
+//! The section `[risk]`: probabilities, and how the spectrum is read from the risk integral.
+
+use serde::{Serialize, Serializer};
+use uplift_hazard::Extrapolation;
+
+use crate::grid::{Grid, GridRule};
+use crate::keys::{Key, SectionKeys};
+use crate::reading::{ABOVE_ZERO, Field, PROBABILITY, Section, ZERO_OR_MORE};
+
+pub(super) const KEYS: SectionKeys = SectionKeys {
+    section: "risk",
+    keys: &[
+        Key {
+            names: &["poe"],
+            meaning: "probabilities of exceedance in `years`, one or a list",
+            default: "`[0.02, 0.10, 0.50]`",
+            range: "above 0, below 1; each once; at most 1000",
+        },
+        Key { names: &["years"], meaning: "time that they refer to, yr", default: "50", range: "above 0" },
+        Key {
+            names: &["contour"],
+            meaning: "how ordinates are read: `\"exact\"`, the smallest displacement whose annual frequency meets the \
+                      target; `\"grid\"`, log-linear between thresholds",
+            default: "`\"exact\"`",
+            range: "`\"exact\"`, `\"grid\"`",
+        },
+        Key {
+            names: &["thresholds_m"],
+            meaning: "displacement thresholds of the surface of annual frequencies, m, a grid",
+            default: "`[0, 0.0005, \"0.001:0.001:3\"]`, 3002 values",
+            range: "0 or above; at least 2 for `\"grid\"`",
+        },
+        Key { names: &["maf_surface"], meaning: "whether that surface is kept", default: "`true`", range: "" },
+        Key {
+            names: &["extrapolate"],
+            meaning: "what happens to a level outside a hazard curve: `\"refuse\"`, an error; `\"loglog\"`, the curve \
+                      goes on straight in logarithms",
+            default: "`\"refuse\"`",
+            range: "`\"refuse\"`, `\"loglog\"`",
+        },
+    ],
+};
+
+/// 3002 values \[m\].
+const THRESHOLDS_M: [&str; 3] = ["0", "0.0005", "0.001:0.001:3"];
+/// Most probabilities, each a spectrum for every site.
+const MOST_PROBABILITIES: usize = 1000;
+
+/// Probabilities, and how the spectrum is read from the risk integral (Eq. 4.4).
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Risk {
+    /// Probabilities of exceedance in `years` \[-\].
+    pub poe: Vec<f64>,
+    /// Time that the probabilities refer to \[yr\].
+    pub years: f64,
+    /// How ordinates are read.
+    pub contour: Contour,
+    /// Displacement thresholds of the surface of exceedance frequencies \[m\].
+    pub thresholds_m: Grid,
+    /// Whether the surface is kept.
+    pub maf_surface: bool,
+    /// What happens to a level outside a hazard curve.
+    #[serde(serialize_with = "write_extrapolation")]
+    pub extrapolate: Extrapolation,
+}
+
+/// How an ordinate of the spectrum is read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Contour {
+    /// As the exact quantile: the smallest displacement whose frequency meets the target.
+    Exact,
+    /// From the surface, log-linear between thresholds.
+    Grid,
+}
+
+impl Contour {
+    /// Every way.
+    pub const ALL: [Self; 2] = [Self::Exact, Self::Grid];
+
+    /// Its word in files and keys: exact, grid.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Exact => "exact",
+            Self::Grid => "grid",
+        }
+    }
+}
+
+impl Serialize for Contour {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.key())
+    }
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref)] // as serde calls it
+fn write_extrapolation<S: Serializer>(extrapolation: &Extrapolation, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(extrapolation.key())
+}
+
+/// Reads the section.
+pub(super) fn read(mut section: Section<'_>) -> Option<Risk> {
+    let poe = section.field("poe").map_or_else(|| Some(vec![0.02, 0.10, 0.50]), |field| probabilities(&field));
+    let years = section.number_or("years", "yr", ABOVE_ZERO, 50.0);
+    let contour = section.choice_or("contour", &Contour::ALL.map(|way| (way.key(), way)), Contour::Exact);
+    let least_count = if contour == Some(Contour::Grid) { 2 } else { 1 };
+    let rule = GridRule { unit: "m", each: ZERO_OR_MORE, least_count };
+    let thresholds_m = Grid::of_key(&mut section, "thresholds_m", rule, &THRESHOLDS_M);
+    let maf_surface = section.boolean_or("maf_surface", true);
+    let choices = Extrapolation::ALL.map(|choice| (choice.key(), choice));
+    let extrapolate = section.choice_or("extrapolate", &choices, Extrapolation::Refuse);
+    section.finish();
+    Some(Risk {
+        poe: poe?,
+        years: years?,
+        contour: contour?,
+        thresholds_m: thresholds_m?,
+        maf_surface: maf_surface?,
+        extrapolate: extrapolate?,
+    })
+}
+
+fn probabilities(field: &Field<'_>) -> Option<Vec<f64>> {
+    let items = field.items();
+    if items.is_empty() {
+        field.mistake("the list is empty", "give at least one probability, e.g. [0.1]");
+        return None;
+    }
+    if items.len() > MOST_PROBABILITIES {
+        field.mistake(
+            format!("the list has {} probabilities", items.len()),
+            format!("give at most {MOST_PROBABILITIES}"),
+        );
+        return None;
+    }
+    let mut complete = true;
+    let mut probabilities: Vec<f64> = Vec::new();
+    for item in &items {
+        match item.number("", PROBABILITY) {
+            Some(poe) if probabilities.contains(&poe) => {
+                item.mistake(format!("{poe} is given twice"), "give each probability once");
+                complete = false;
+            }
+            Some(poe) => probabilities.push(poe),
+            None => complete = false,
+        }
+    }
+    complete.then_some(probabilities)
+}

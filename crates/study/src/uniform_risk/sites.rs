@@ -1,0 +1,109 @@
+//! The sections `[[sites]]`: names, and where the hazard curves are.
+
+use serde::{Serialize, Serializer};
+use uplift_motion::IntensityMeasure;
+
+use super::curve::{self, CurveFile};
+use crate::keys::{Key, SectionKeys};
+use crate::reading::{Field, Paths, Value};
+use crate::sections::name;
+
+pub(super) const KEYS: SectionKeys = SectionKeys {
+    section: "sites",
+    keys: &[
+        Key {
+            names: &["name"],
+            meaning: "name",
+            default: "needed",
+            range: r#"each once, capitals aside; at most 100 bytes, none of `/ \ : * ? " < > \|`"#,
+        },
+        Key {
+            names: &["pgv", "pga"],
+            meaning: "hazard curve: a path, or a table of the keys below",
+            default: "needed if the measure is switched on",
+            range: "",
+        },
+    ],
+};
+
+/// Most sites in one study.
+const MOST_SITES: usize = 1000;
+
+/// A site.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Site {
+    /// Its name, of no other site.
+    pub name: String,
+    /// Its hazard curves, at most one of each measure; at least those of the measures studied.
+    #[serde(flatten, serialize_with = "write_curves")]
+    pub curves: Vec<CurveFile>,
+}
+
+impl Site {
+    /// The hazard curve of `measure`.
+    pub fn curve(&self, measure: IntensityMeasure) -> Option<&CurveFile> {
+        self.curves.iter().find(|curve| curve.measure == measure)
+    }
+}
+
+fn write_curves<S: Serializer>(curves: &[CurveFile], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(curves.iter().map(|curve| (curve.measure.key(), curve)))
+}
+
+/// Reads the sites; each must have a curve of each measure in `measures`.
+pub(super) fn read(field: Option<Field<'_>>, measures: &[IntensityMeasure], paths: &Paths) -> Option<Vec<Site>> {
+    let Some(field) = field else {
+        return Some(Vec::new());
+    };
+    let Value::List(_) = field.node.value else {
+        return field.wrong_type("a list of sections", "head each site with [[sites]], in double brackets");
+    };
+    let items = field.items();
+    if items.len() > MOST_SITES {
+        field.mistake(format!("there are {} sites", items.len()), format!("give at most {MOST_SITES}"));
+        return None;
+    }
+    let mut sites = Some(Vec::new());
+    let mut names: Vec<String> = Vec::new();
+    for item in items {
+        let site = site(&item, measures, paths, &mut names);
+        match (&mut sites, site) {
+            (Some(sites), Some(site)) => sites.push(site),
+            _ => sites = None,
+        }
+    }
+    sites
+}
+
+fn site(item: &Field<'_>, measures: &[IntensityMeasure], paths: &Paths, names: &mut Vec<String>) -> Option<Site> {
+    let mut section = item.section();
+    if !section.is_present() {
+        return None;
+    }
+    let name = name::read(&mut section, "site", "Athens", names);
+    let mut curves = Some(Vec::new());
+    for measure in IntensityMeasure::ALL {
+        let key = measure.key();
+        let Some(field) = section.field(key) else {
+            if measures.contains(&measure) {
+                section.mistake(
+                    key,
+                    format!(
+                        "{} has no {} curve, and the study has a section [{key}]",
+                        name.as_deref().unwrap_or("the site"),
+                        measure.label()
+                    ),
+                    format!("add {key} = \"path of the curve\" to the site, or remove [{key}]"),
+                );
+                curves = None;
+            }
+            continue;
+        };
+        match (&mut curves, curve::read(&field, measure, paths)) {
+            (Some(curves), Some(curve)) => curves.push(curve),
+            _ => curves = None,
+        }
+    }
+    section.finish();
+    Some(Site { name: name?, curves: curves? })
+}

@@ -1,0 +1,74 @@
+//! Which records each replicate draws, and who decided it.
+
+use std::path::Path;
+
+use uplift_bootstrap::ResamplingPlan;
+use uplift_study::Bootstrap;
+
+use super::BootstrapOptions;
+use crate::error::UpliftError;
+use crate::events::Events;
+use crate::result::{ResultFile, StoredStripes};
+
+/// Sample sizes of Section 4.5 below the whole set.
+const SIZES: [u32; 4] = [20, 40, 60, 80];
+
+/// The draws, and where they come from in words; what `options` leave open is as `study` says.
+pub(super) fn draws(
+    options: &BootstrapOptions,
+    study: &Bootstrap,
+    stored: &StoredStripes,
+) -> Result<(ResamplingPlan, String), UpliftError> {
+    if let Some(path) = &options.plan {
+        return Ok((kept_draws(path, stored)?, format!("draws of {}", path.display())));
+    }
+    let records = stored.records.len();
+    let sizes = options.sizes.clone().or_else(|| study.sizes.clone()).unwrap_or_else(|| {
+        let all = u32::try_from(records).unwrap_or(u32::MAX);
+        SIZES.into_iter().filter(|&size| size < all).chain([all]).collect()
+    });
+    let replicates = options.replicates.unwrap_or(study.replicates);
+    let seed = options.seed.unwrap_or(stored.seed);
+    let count = usize::try_from(replicates).unwrap_or(usize::MAX);
+    let plan = ResamplingPlan::draw(records, &sizes, count, seed)
+        .map_err(|error| UpliftError::Usage(format!("--sizes: {error}")))?;
+    Ok((plan, format!("seed {seed}")))
+}
+
+/// The draws that the result at `path` keeps, from the same records.
+fn kept_draws(path: &Path, stored: &StoredStripes) -> Result<ResamplingPlan, UpliftError> {
+    let file = ResultFile::open(path)?;
+    let fail = |reason: String| UpliftError::input(format!("{}: {reason}", path.display()));
+    let Some(plan) = file.resampling_plan()? else {
+        return Err(fail("keeps no resampling plan: run `uplift bootstrap` on it first".to_owned()));
+    };
+    if file.axes()?.records != stored.records {
+        return Err(fail(format!(
+            "its plan draws from other records than those of {}, or in another order",
+            stored.path.display()
+        )));
+    }
+    Ok(plan)
+}
+
+/// Tells what is drawn from what.
+pub(super) fn announce(stored: &StoredStripes, plan: &ResamplingPlan, events: &dyn Events) {
+    events.remark("records", &stored.record_set);
+    let sizes: Vec<String> = plan.sizes().iter().map(u32::to_string).collect();
+    events.remark(
+        "plan",
+        &format!(
+            "samples of {} records, {} of each size, drawn with replacement from {}",
+            sizes.join(", "),
+            plan.replicates(),
+            plan.record_count()
+        ),
+    );
+    if let Some(size) = plan.sizes().iter().find(|&&size| size as usize > plan.record_count()) {
+        events.note(&format!(
+            "samples of {size} records from a set of {} show how narrow the band would be with more records of the \
+             same kind",
+            plan.record_count()
+        ));
+    }
+}

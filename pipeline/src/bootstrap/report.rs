@@ -1,0 +1,139 @@
+//! What a bootstrap tells: Table 4.1, and rocking initiation.
+
+use std::path::PathBuf;
+
+use serde::Serialize;
+
+use super::bands::{BandSettings, Bands};
+use super::reference::ReferenceRow;
+use crate::result::StoredStripes;
+
+/// What a bootstrap tells.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(transparent)]
+pub struct BootstrapReport {
+    /// The figures of Table 4.1, one a measure, site, probability and sample size, in this order.
+    pub rows: Vec<BootstrapRow>,
+    /// The result file, which holds the bands now.
+    #[serde(skip)]
+    pub result: PathBuf,
+    /// The tables beside it: bands, and figures of Table 4.1.
+    #[serde(skip)]
+    pub tables: [PathBuf; 2],
+    /// Share of the replicates between the limits.
+    #[serde(skip)]
+    pub confidence: f64,
+    /// Names of the sites.
+    #[serde(skip)]
+    pub sites: Vec<String>,
+    /// Probabilities of exceedance.
+    #[serde(skip)]
+    pub poes: Vec<f64>,
+    /// Years that they refer to.
+    #[serde(skip)]
+    pub years: f64,
+    /// Records in a sample.
+    #[serde(skip)]
+    pub sizes: Vec<u32>,
+    /// Uplift strengths.
+    #[serde(skip)]
+    pub strengths: Vec<f64>,
+    /// Displacement at uplift, m.
+    #[serde(skip)]
+    pub uplift_displacement_m: f64,
+    /// The bands, a measure each.
+    #[serde(skip)]
+    pub bands: Vec<Bands>,
+    /// What was given to compare with.
+    #[serde(skip)]
+    pub reference: Vec<ReferenceRow>,
+}
+
+/// The figures of Table 4.1 of one spectrum and sample size; none where overturning or a displacement of zero leaves
+/// none.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BootstrapRow {
+    /// The site.
+    pub site: String,
+    /// `PGV` or `PGA`.
+    pub im: &'static str,
+    /// Probability of exceedance.
+    pub poe: f64,
+    /// Records in a sample.
+    pub sample_size: u32,
+    /// Error of the median (Eq. 4.9), per cent.
+    pub e_median: Option<f64>,
+    /// Range of the interval (Eq. 4.10), per cent.
+    pub r_90ci: Option<f64>,
+}
+
+/// Where rocking begins (Section 4.5.2, Fig. 4.10): the strengths at which the band falls to the uplift displacement;
+/// none where it is above it at every strength.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Initiation {
+    /// Of the lower limit.
+    pub lower: Option<f64>,
+    /// Of the median.
+    pub median: Option<f64>,
+    /// Of the upper limit.
+    pub upper: Option<f64>,
+    /// Width of the band over the median, at the strength of the median; none where it is not finite.
+    pub width: Option<f64>,
+}
+
+impl BootstrapReport {
+    pub(super) fn new(
+        stored: StoredStripes,
+        tables: [PathBuf; 2],
+        sizes: Vec<u32>,
+        settings: BandSettings,
+        bands: Vec<Bands>,
+        reference: Vec<ReferenceRow>,
+    ) -> Self {
+        let mut rows = Vec::new();
+        for bands in &bands {
+            for (at @ [site, poe, size], error) in bands.error_of_median.blocks() {
+                rows.push(BootstrapRow {
+                    site: stored.sites[site].clone(),
+                    im: bands.measure.label(),
+                    poe: stored.poes[poe],
+                    sample_size: sizes[size],
+                    e_median: error[0].map(|error| 100.0 * error),
+                    r_90ci: bands.range_of_interval[at].map(|range| 100.0 * range),
+                });
+            }
+        }
+        Self {
+            rows,
+            result: stored.path,
+            tables,
+            confidence: settings.confidence,
+            sites: stored.sites,
+            poes: stored.poes,
+            years: stored.years,
+            sizes,
+            strengths: stored.strengths,
+            uplift_displacement_m: stored.uplift_displacement_m,
+            bands,
+            reference,
+        }
+    }
+
+    /// Where rocking begins, by `bands` at the positions `[site, poe, size]`.
+    ///
+    /// # Panics
+    /// If a position is out of range, which is a bug of the caller.
+    pub fn initiation(&self, bands: &Bands, at: [usize; 3]) -> Initiation {
+        let at_uplift = |values: &[f64]| values.iter().position(|&u_m| u_m <= self.uplift_displacement_m);
+        let strength = |values: &[f64]| at_uplift(values).map(|index| self.strengths[index]);
+        let (lower, median, upper) = (bands.lower_m.block(at), bands.median_m.block(at), bands.upper_m.block(at));
+        Initiation {
+            lower: strength(lower),
+            median: strength(median),
+            upper: strength(upper),
+            width: at_uplift(median)
+                .map(|index| (upper[index] - lower[index]) / median[index])
+                .filter(|width| width.is_finite()),
+        }
+    }
+}

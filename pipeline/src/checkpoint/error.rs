@@ -1,0 +1,62 @@
+//! Why a file of finished analysis rows cannot be used.
+
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+use super::row_file::FORMAT;
+
+/// Why a file of finished analysis rows cannot be used.
+#[derive(Debug, Error)]
+pub enum CheckpointError {
+    /// It cannot be read.
+    #[error("{}: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system says.
+        source: std::io::Error,
+    },
+    /// It cannot be written.
+    #[error("{} cannot be written: {source}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system says.
+        source: std::io::Error,
+    },
+    /// It is something else.
+    #[error("{}: is not a file of finished analysis rows of this version ({FORMAT})", path.display())]
+    NotRows {
+        /// The file.
+        path: PathBuf,
+    },
+    /// It is a shard of other work, which must not be lost.
+    #[error(
+        "{}: is there already, as shard {shard} of {shards} of other work ({title:?}): remove it, or give another name \
+         (-o)",
+        path.display()
+    )]
+    OtherWork {
+        /// The file.
+        path: PathBuf,
+        /// Which shard it is, from 1.
+        shard: u64,
+        /// Of how many.
+        shards: u64,
+        /// Title of its study.
+        title: String,
+    },
+    /// Nothing more can be added to it.
+    #[error(
+        "{}: no more analysis rows can be written ({source}); those in it stay: make room, and run the same command to \
+         go on",
+        path.display()
+    )]
+    Full {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system says.
+        source: std::io::Error,
+    },
+}

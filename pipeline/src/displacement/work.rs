@@ -1,0 +1,90 @@
+//! The spectra of a study as work: motions x structures x scalings of each set.
+
+use std::path::Path;
+
+use uplift_ida::{Shard, System};
+use uplift_spectra::MotionSet;
+use uplift_study::DisplacementStudy;
+
+use super::spectra::with_free_vibration;
+use super::{carry_out_designs, structures};
+use crate::analysis::{LabelledPlan, ShardReport, Work, carry_out_shard};
+use crate::checkpoint::motion_key;
+use crate::error::UpliftError;
+use crate::events::Events;
+use crate::inputs::{RecordSets, read_record_sets};
+use crate::text::thousands;
+
+/// What the spectra of a study are made of.
+pub(crate) struct Inputs {
+    pub(crate) records: RecordSets,
+    pub(crate) structures: Vec<System>,
+}
+
+/// The motions of every set, with their keys.
+pub(crate) struct Sets<'a> {
+    pub(crate) sets: Vec<MotionSet<'a>>,
+    /// Keys of the motions of each set.
+    pub(crate) keys: Vec<Vec<String>>,
+    structures: &'a [System],
+}
+
+impl Inputs {
+    /// Reads the record sets of `study`.
+    ///
+    /// # Errors
+    /// Records that cannot be used.
+    pub(crate) fn read(study: &DisplacementStudy) -> Result<Self, UpliftError> {
+        Ok(Self { records: read_record_sets(study)?, structures: structures(study)? })
+    }
+
+    /// The motions of every set.
+    ///
+    /// # Errors
+    /// Every component that does not move, so that it cannot be scaled.
+    pub(crate) fn sets(&self, study: &DisplacementStudy) -> Result<Sets<'_>, UpliftError> {
+        let sets = self.records.motions(study.gravity_m_s2)?;
+        let keys = |set: &MotionSet<'_>| set.motions().iter().map(|motion| motion_key(motion.accelerogram)).collect();
+        Ok(Sets { keys: sets.iter().map(keys).collect(), sets, structures: &self.structures })
+    }
+}
+
+impl Sets<'_> {
+    /// The spectra of every set.
+    ///
+    /// # Errors
+    /// A scaling that no motion can have.
+    pub(crate) fn work(&self, study: &DisplacementStudy) -> Result<Work<'_>, UpliftError> {
+        let ways = study.scaling.ways().0;
+        let mut plans = Vec::new();
+        for (set, motions) in self.sets.iter().zip(&self.keys) {
+            let plan = set.plan(&ways, self.structures, with_free_vibration(study))?;
+            let text = format!(
+                "{} motions x {} scalings x {} structures = {} analyses",
+                motions.len(),
+                ways.len(),
+                self.structures.len(),
+                thousands(plan.analyses())
+            );
+            let remark = Some((format!("{}:", set.name()), text));
+            plans.push(LabelledPlan { label: set.name().to_owned(), remark, plan, motions, known: None });
+        }
+        Ok(Work::new(&study.title, plans))
+    }
+}
+
+/// Carries out one shard of the spectra of a study into a file, and its share of the design examples.
+pub(crate) fn run_shard(
+    study: &DisplacementStudy,
+    (path, shard): (&Path, Shard),
+    events: &dyn Events,
+) -> Result<ShardReport, UpliftError> {
+    let inputs = Inputs::read(study)?;
+    events.remark("records", &inputs.records.description);
+    let sets = inputs.sets(study)?;
+    let work = sets.work(study)?;
+    let total = work.analyses() / shard.count;
+    carry_out_shard(work, (path, shard), events, &|checkpoint| {
+        carry_out_designs(study, &sets, shard, (checkpoint, total), events).map(|_| ())
+    })
+}

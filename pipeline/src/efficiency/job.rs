@@ -1,0 +1,33 @@
+//! Efficiency and sufficiency of the measures of a result.
+
+use std::path::Path;
+
+use super::covariates::covariates;
+use super::of_measure::efficiency_by;
+use super::report::EfficiencyReport;
+use super::write::write_efficiency;
+use crate::error::UpliftError;
+use crate::events::Events;
+use crate::result::{ResultFile, check_target};
+
+/// How well each intensity measure of the result at `result` predicts the demand (efficiency), and what it leaves out
+/// (sufficiency): written into the file and into a table beside it.
+///
+/// # Errors
+/// A file that is missing, damaged, no result, or without sites; a file that cannot be written;
+/// [`UpliftError::Interrupted`] where `events` say so.
+pub fn efficiency(result: &Path, events: &dyn Events) -> Result<EfficiencyReport, UpliftError> {
+    let file = ResultFile::open(result)?;
+    let stored = file.stripes()?;
+    check_target(&stored.path)?;
+    let covariates = covariates(&file.records()?);
+    let mut measures = Vec::new();
+    for measure in &stored.measures {
+        if events.cancelled() {
+            return Err(UpliftError::Interrupted);
+        }
+        measures.push(efficiency_by(&stored, measure, &covariates)?);
+    }
+    write_efficiency(&stored, &covariates, &measures)?;
+    Ok(EfficiencyReport::new(&stored, &covariates, &measures))
+}

@@ -1,0 +1,104 @@
+//! Which intensity measure to trust: efficiency and sufficiency (Section 4.5; Luco and Cornell, 2007).
+
+use rayon::prelude::*;
+use uplift_fragility::{Dispersion, mean_residuals, standard_deviation, uplift_levels};
+use uplift_motion::IntensityMeasure;
+use uplift_regression::{Line, fit_line};
+
+use crate::error::UpliftError;
+use crate::result::{StoredMeasure, StoredStripes};
+
+/// What is known of each record that a demand may depend on beside the measure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Covariate {
+    /// Name in files, e.g. `magnitude`.
+    pub key: &'static str,
+    /// What it is.
+    pub long_name: &'static str,
+    /// Its value of each record, in the form it enters the line; NaN where it is not known.
+    pub values: Vec<f64>,
+}
+
+/// Efficiency and sufficiency of one measure; arrays run over `[strength]` unless said otherwise.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeasureEfficiency {
+    /// The measure.
+    pub measure: IntensityMeasure,
+    /// Scatter of the demand over `[strength, level]`.
+    pub dispersions: Vec<Dispersion>,
+    /// Median over the stripes that rock of the dispersion by percentiles; NaN where no stripe has one.
+    pub rocking: Vec<f64>,
+    /// Share of the stripes that rock whose dispersion does not exist, for too much overturning.
+    pub undefined: Vec<f64>,
+    /// Standard deviation of the logarithm of the level at which a record first lifts the structure.
+    pub initiation: Vec<f64>,
+    /// Records that have such a level.
+    pub initiation_records: Vec<u32>,
+    /// The line of the mean residuals over each covariate, `[covariate][strength]`; none where there are too few
+    /// records or stripes.
+    pub lines: Vec<Vec<Option<Line>>>,
+}
+
+/// One strength: scatter of each level, levels at first uplift, a line for each covariate.
+type OfStrength = (Vec<Dispersion>, Vec<f64>, Vec<Option<Line>>);
+
+/// Efficiency and sufficiency of `measure`.
+///
+/// # Errors
+/// Numbers that do not fit together, in a file that was changed.
+pub fn efficiency_by(
+    stored: &StoredStripes,
+    measure: &StoredMeasure,
+    covariates: &[Covariate],
+) -> Result<MeasureEfficiency, UpliftError> {
+    let u_up = stored.uplift_displacement_m;
+    let of_strength = |strength: usize| -> Result<OfStrength, UpliftError> {
+        let stripes = measure.stripes(strength)?;
+        let dispersions = (0..measure.levels.len()).map(|level| Dispersion::of(&stripes, level)).collect();
+        let uplift: Vec<f64> = uplift_levels(&stripes, u_up).into_iter().filter(|level| level.is_finite()).collect();
+        let residuals = mean_residuals(&stripes, u_up);
+        let lines = covariates.iter().map(|covariate| line(&covariate.values, &residuals)).collect();
+        Ok((dispersions, uplift, lines))
+    };
+    let by_strength = (0..stored.strengths.len())
+        .into_par_iter()
+        .map(of_strength)
+        .collect::<Result<Vec<OfStrength>, _>>()
+        .map_err(|error| error.in_file(&stored.path))?;
+    let (mut rocking, mut undefined, mut initiation, mut initiation_records) = (vec![], vec![], vec![], vec![]);
+    for (dispersions, uplift, _) in &by_strength {
+        let all: Vec<f64> = dispersions
+            .iter()
+            .filter(|scatter| scatter.median_m > u_up)
+            .map(|scatter| scatter.by_percentiles)
+            .collect();
+        let mut defined: Vec<f64> = all.iter().copied().filter(|dispersion| dispersion.is_finite()).collect();
+        defined.sort_by(f64::total_cmp);
+        rocking.push(uplift_fragility::quantile(&defined, 0.5));
+        undefined.push(if all.is_empty() { f64::NAN } else { 1.0 - defined.len() as f64 / all.len() as f64 });
+        initiation.push(standard_deviation(&uplift.iter().map(|level| level.ln()).collect::<Vec<_>>()));
+        initiation_records.push(u32::try_from(uplift.len()).unwrap_or(u32::MAX));
+    }
+    Ok(MeasureEfficiency {
+        measure: measure.measure,
+        rocking,
+        undefined,
+        initiation,
+        initiation_records,
+        lines: (0..covariates.len())
+            .map(|covariate| by_strength.iter().map(|(.., lines)| lines[covariate]).collect())
+            .collect(),
+        dispersions: by_strength.into_iter().flat_map(|(dispersions, ..)| dispersions).collect(),
+    })
+}
+
+/// The line of the residuals over the records whose covariate is known.
+fn line(values: &[f64], residuals: &[f64]) -> Option<Line> {
+    let (x, y): (Vec<f64>, Vec<f64>) = values
+        .iter()
+        .zip(residuals)
+        .filter(|(value, _)| value.is_finite())
+        .map(|(&value, &residual)| (value, residual))
+        .unzip();
+    fit_line(&x, &y).ok()
+}

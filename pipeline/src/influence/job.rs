@@ -1,0 +1,57 @@
+//! The influence of records and intensities on the spectra of a result.
+
+use std::path::Path;
+
+use super::change::{Influence, RecordInfluence, influence_by, rank_records};
+use super::report::InfluenceReport;
+use super::write::write_influence;
+use crate::array::Array;
+use crate::error::UpliftError;
+use crate::events::Events;
+use crate::result::{ResultFile, check_target};
+
+/// What is told of the influence; the files hold all of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct InfluenceOptions {
+    /// The probability of exceedance whose risk is taken apart; the smallest where none is given.
+    pub poe: Option<f64>,
+    /// Records of each spectrum.
+    pub top: usize,
+}
+
+impl Default for InfluenceOptions {
+    fn default() -> Self {
+        Self { poe: None, top: 3 }
+    }
+}
+
+/// Which records carry the spectra of the result at `result` (jackknife), and which intensities make their risk
+/// (disaggregation): written into the file and into a table beside it.
+///
+/// # Errors
+/// A file that is missing, damaged, no result, or without sites; a probability that it does not have; a file that
+/// cannot be written; [`UpliftError::Interrupted`] where `events` say so.
+pub fn influence(
+    result: &Path,
+    options: &InfluenceOptions,
+    events: &dyn Events,
+) -> Result<InfluenceReport, UpliftError> {
+    let stored = ResultFile::open(result)?.stripes()?;
+    check_target(&stored.path)?;
+    let poe = stored.poe_index(options.poe)?;
+    let mut influences: Vec<Influence> = Vec::new();
+    for measure in &stored.measures {
+        if events.cancelled() {
+            return Err(UpliftError::Interrupted);
+        }
+        influences.push(influence_by(&stored, measure)?);
+    }
+    let shape = [stored.sites.len(), stored.poes.len()];
+    let rankings: Vec<Array<2, Vec<RecordInfluence>>> = influences
+        .iter()
+        .zip(&stored.measures)
+        .map(|(influence, measure)| Array::from_fn(shape, |at| rank_records(&stored, measure, influence, at)))
+        .collect();
+    write_influence(&stored, &influences, &rankings)?;
+    Ok(InfluenceReport::new(&stored, &influences, &rankings, poe, options.top))
+}

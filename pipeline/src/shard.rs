@@ -1,0 +1,75 @@
+//! A study of either kind shared among machines: one shard of it computed, and all of them joined into its result.
+
+use std::path::{Path, PathBuf};
+
+use uplift_ida::Shard;
+use uplift_study::AnyStudy;
+
+use crate::analysis::{ShardReport, hold, join};
+use crate::error::UpliftError;
+use crate::events::Events;
+use crate::inputs::read_hazard;
+use crate::result::check_target;
+use crate::run::{RunOptions, RunReport, run_with};
+use crate::uniform_risk::site_table;
+use crate::{displacement, uniform_risk};
+
+/// Carries out one shard of the analyses of a study into the file `path`, but for what is known from an `earlier`
+/// result.
+///
+/// # Errors
+/// As [`run`](crate::run()).
+pub fn run_shard(
+    study: &AnyStudy,
+    path: &Path,
+    shard: Shard,
+    earlier: Option<&Path>,
+    events: &dyn Events,
+) -> Result<ShardReport, UpliftError> {
+    let _lock = hold(path)?;
+    match study {
+        AnyStudy::UniformRisk(study) => uniform_risk::run_shard(study, (path, shard), earlier, events),
+        AnyStudy::Displacement(study) => displacement::run_shard(study, (path, shard), events),
+    }
+}
+
+/// Looks at whatever of a study does not go into its shards, so that a mistake in it is found before they are computed.
+///
+/// # Errors
+/// A result that cannot be written; hazard and sites that cannot be used.
+pub fn check_inputs(study: &AnyStudy, result: &Path, events: &dyn Events) -> Result<(), UpliftError> {
+    check_target(result)?;
+    match study {
+        AnyStudy::UniformRisk(study) => {
+            read_hazard(study)?;
+            site_table::read(study, result, events)?;
+        }
+        AnyStudy::Displacement(_) => {}
+    }
+    Ok(())
+}
+
+/// Joins the `shards` of a run into its result.
+///
+/// # Errors
+/// Every shard that is missing, there twice, unfinished or of other work, at once; else as [`run`](crate::run()).
+pub fn merge(
+    study: &AnyStudy,
+    shards: &[PathBuf],
+    options: &RunOptions,
+    events: &dyn Events,
+) -> Result<RunReport, UpliftError> {
+    let known = match study {
+        AnyStudy::UniformRisk(study) => {
+            let inputs = uniform_risk::Inputs::read(study)?;
+            join(shards, &inputs.work(study, None)?)?
+        }
+        AnyStudy::Displacement(study) => {
+            let inputs = displacement::Inputs::read(study)?;
+            let sets = inputs.sets(study)?;
+            join(shards, &sets.work(study)?)?
+        }
+    };
+    events.remark("merged", &format!("{} analysis rows of {} shards", known.len(), shards.len()));
+    run_with(study, options, known, events)
+}

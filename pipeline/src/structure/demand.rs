@@ -1,0 +1,129 @@
+//! The demand on a structure itself: its own oscillator put through the records and the hazard that a spectrum was made
+//! from.
+
+use serde::Serialize;
+use uplift_oscillator::PostUplift;
+use uplift_risk::{Ordinate, RiskCurve, StripeWeights};
+use uplift_spectra::Noisy;
+use uplift_structure::{EquivalentSystem, relative_error};
+
+use super::risk::{EventRisk, OVERTURNING_M, demand_of, risk_of_exceeding};
+use super::sweep::{OF_STUDY, OWN, Sweep, ZERO_STIFFNESS};
+use crate::displacement::RULES;
+use crate::error::UpliftError;
+use crate::uniform_risk::Stripes;
+
+/// What the structure's own stripes say, in its own displacement; infinite where it overturns more often than the
+/// target.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ExactDemand {
+    /// Nonlinear time histories.
+    pub analyses: u64,
+    /// Demand on the study's ZSBE oscillator at the structure's strength, m: what the spectrum has there, without
+    /// interpolation.
+    pub zero_stiffness_demand_of_spectrum_m: f64,
+    /// Demand on the structure's own ZSBE oscillator, with its uplift displacement and restitution, m: what the rules
+    /// start from.
+    pub zero_stiffness_demand_m: f64,
+    /// Demand on the structure, m.
+    pub demand_m: f64,
+    /// Whether it overturns more often than the target rate.
+    pub overturns: bool,
+    /// Share of the risk at the demand that comes from below the first stripe, 0 to 1.
+    pub lower_tail_share: f64,
+    /// Share of the risk at the demand that comes from above the last stripe, 0 to 1.
+    pub upper_tail_share: f64,
+    /// The displacement capacity is exceeded; none for a structure without one.
+    pub beyond_capacity: Option<EventRisk>,
+    /// It overturns.
+    pub overturning: EventRisk,
+    /// What a small change of the strength makes of it.
+    #[serde(rename = "within_one_percent_of_strength")]
+    pub noise: DemandNoise,
+}
+
+/// The same for structures whose strength is up to one percent lower or higher: what is left of a number in the noise
+/// of a chaotic system.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct DemandNoise {
+    /// Demand on the structure, m.
+    pub demand_m: Noisy,
+    /// Error of the rules against it, from the exact demand on the ZSBE oscillator of the same strength; none for a
+    /// structure without capacity.
+    pub rule_errors: Option<RuleErrors>,
+    /// Frequency of exceeding the capacity, 1/yr; none for a structure without one.
+    pub beyond_capacity_per_year: Option<Noisy>,
+    /// Frequency of overturning, 1/yr.
+    pub overturning_per_year: Noisy,
+}
+
+/// Relative errors of the two rules.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct RuleErrors {
+    /// Of equal displacement.
+    pub equal_displacement: Noisy,
+    /// Of equal energy.
+    pub equal_energy: Noisy,
+}
+
+/// The demand on `system`, whose oscillators are `sweep` with the `stripes` over `[record, oscillator, level]`, of the
+/// rate `target_per_year` at the site of `weights`, exactly as spectra are made.
+///
+/// # Errors
+/// Stripes and weights that do not fit together.
+pub(super) fn exact_demand(
+    (stripes, weights): (&Stripes, &StripeWeights),
+    (system, sweep): (&EquivalentSystem, &Sweep),
+    (target_per_year, years): (f64, f64),
+) -> Result<ExactDemand, UpliftError> {
+    let factor = system.participation();
+    let ordinate = |oscillator: usize| -> Result<Ordinate, UpliftError> {
+        let demand = demand_of(stripes, oscillator)?;
+        let ordinate = RiskCurve::new(&demand, weights)?.exact_ordinate(target_per_year)?;
+        Ok(Ordinate { displacement_m: factor * ordinate.displacement_m, ..ordinate })
+    };
+    let own = demand_of(stripes, OWN)?;
+    // all of it is scaled by the same factor: the oscillator exceeds capacity/factor where the structure exceeds its
+    // capacity
+    let capacity_m = match sweep.oscillators[OWN].post_uplift() {
+        PostUplift::Negative { capacity_m } => Some(capacity_m),
+        PostUplift::Zero | PostUplift::Positive { .. } => None,
+    };
+    let beyond_capacity =
+        capacity_m.map(|capacity_m| risk_of_exceeding(&own, weights, capacity_m, years)).transpose()?;
+    let (mut demands_m, mut beyond, mut overturned, mut errors) = (vec![], vec![], vec![], [vec![], vec![]]);
+    for &[zero, own] in &sweep.pairs {
+        let (zero_m, own_m) = (ordinate(zero)?.displacement_m, ordinate(own)?.displacement_m);
+        let pool = demand_of(stripes, own)?;
+        demands_m.push(own_m);
+        overturned.push(risk_of_exceeding(&pool, weights, OVERTURNING_M, years)?.per_year);
+        if let Some(capacity_m) = capacity_m {
+            beyond.push(risk_of_exceeding(&pool, weights, capacity_m, years)?.per_year);
+            for (rule, errors) in RULES.into_iter().zip(&mut errors) {
+                let demand = system.capacity().and_then(|capacity| rule.demand(&capacity, zero_m));
+                let demand_m = demand?.displacement_m();
+                errors.push(relative_error(demand_m, own_m).unwrap_or(f64::NAN));
+            }
+        }
+    }
+    let [equal_displacement, equal_energy] = errors.map(|errors| Noisy::of(&errors));
+    let demand = ordinate(OWN)?;
+    Ok(ExactDemand {
+        analyses: stripes.analyses,
+        zero_stiffness_demand_of_spectrum_m: ordinate(OF_STUDY)?.displacement_m,
+        zero_stiffness_demand_m: ordinate(ZERO_STIFFNESS)?.displacement_m,
+        demand_m: demand.displacement_m,
+        overturns: demand.displacement_m.is_infinite(),
+        lower_tail_share: demand.lower_tail_share,
+        upper_tail_share: demand.upper_tail_share,
+        beyond_capacity,
+        overturning: risk_of_exceeding(&own, weights, OVERTURNING_M, years)?,
+        noise: DemandNoise {
+            demand_m: Noisy::of(&demands_m),
+            rule_errors: capacity_m.map(|_| RuleErrors { equal_displacement, equal_energy }),
+            beyond_capacity_per_year: capacity_m.map(|_| Noisy::of(&beyond)),
+            overturning_per_year: Noisy::of(&overturned),
+        },
+    })
+}

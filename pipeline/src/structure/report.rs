@@ -1,0 +1,71 @@
+//! A structure as a report tells it.
+
+use std::path::PathBuf;
+
+use serde::Serialize;
+use uplift_structure::{EquivalentSystem, PostUplift};
+use uplift_study::Structure;
+
+/// A structure and the oscillator that it is equivalent to (Table 3.1).
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct StructureReport {
+    /// Name for people.
+    #[serde(skip)]
+    pub name: String,
+    /// The structure file.
+    pub file: PathBuf,
+    /// Kind of structure.
+    pub kind: &'static str,
+    /// Its row of Table 3.1.
+    pub table_3_1_row: u8,
+    /// Equivalent mass, kg.
+    pub mass_kg: f64,
+    /// Force at uplift, N.
+    pub uplift_force_n: f64,
+    /// Uplift strength `f_up/(m g)`.
+    pub strength: f64,
+    /// Factor Γ on the motion.
+    pub participation: f64,
+    /// Strength at which a spectrum is read.
+    pub spectral_strength: f64,
+    /// Displacement at uplift, m.
+    pub uplift_displacement_m: f64,
+    /// Coefficient of restitution; none where there are several to tell.
+    pub restitution: Option<f64>,
+    /// Displacement capacity, m; none for a structure that has none.
+    pub capacity_m: Option<f64>,
+    /// Stiffness after uplift, N/m.
+    pub post_uplift_stiffness_n_m: f64,
+    /// What is to know before linearised equations are used for it.
+    pub warnings: Vec<String>,
+}
+
+impl StructureReport {
+    pub(super) fn of(structure: &Structure, restitution: Option<f64>) -> Self {
+        let system = &structure.system;
+        Self {
+            name: structure.name(),
+            file: structure.file.clone(),
+            kind: structure.description.kind.name(),
+            table_3_1_row: system.table_row(),
+            mass_kg: system.mass_kg(),
+            uplift_force_n: system.uplift_force_n(),
+            strength: system.strength(),
+            participation: system.participation(),
+            spectral_strength: system.spectral_strength(),
+            uplift_displacement_m: system.conditions().uplift_displacement_m(),
+            restitution,
+            capacity_m: capacity_m(system),
+            post_uplift_stiffness_n_m: system.post_uplift_stiffness_n_m(),
+            warnings: system.warnings().iter().map(ToString::to_string).collect(),
+        }
+    }
+}
+
+/// The displacement capacity, m; none for a structure that has none.
+fn capacity_m(system: &EquivalentSystem) -> Option<f64> {
+    match system.post_uplift() {
+        PostUplift::Negative { capacity_m } => Some(capacity_m),
+        PostUplift::Zero | PostUplift::Positive { .. } => None,
+    }
+}

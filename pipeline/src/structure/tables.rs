@@ -1,0 +1,93 @@
+//! Collapse fragility and risk as CSV.
+
+use std::path::{Path, PathBuf};
+
+use polars::prelude::Column;
+
+use super::overturning::{CollapseReport, OverturningReport};
+use super::risk::EventRisk;
+use crate::error::UpliftError;
+use crate::result::write_table;
+
+/// The table of risks beside that of the fragility.
+pub(super) fn risk_path(fragility: &Path) -> PathBuf {
+    fragility.with_extension("risk.csv")
+}
+
+/// Writes the fragility to `path`, and the risk beside it.
+pub(super) fn write_tables(path: &Path, report: &OverturningReport) -> Result<(), UpliftError> {
+    let line = format!(
+        "uplift {} ({}); overturning of {} ({}); result {}; records: {}",
+        crate::VERSION,
+        crate::COMMIT,
+        report.structure.name,
+        report.structure.kind,
+        report.result.display(),
+        report.record_set
+    )
+    .replace(['\n', '\r'], " ");
+    write_table(path, &line, fragility(report))?;
+    write_table(&risk_path(path), &line, risk(report))
+}
+
+/// A row a measure, model and level.
+fn fragility(report: &OverturningReport) -> Vec<Column> {
+    let (mut im, mut unit, mut level, mut model, mut restitution) = (vec![], vec![], vec![], vec![], vec![]);
+    let (mut overturned, mut records, mut share, mut fitted) = (vec![], vec![], vec![], vec![]);
+    // the rows of a measure follow each other, one a model
+    for (found, of) in report.overturning.iter().zip(report.models.iter().cycle()) {
+        for (&at, &count) in found.levels.iter().zip(&found.overturned) {
+            im.push(found.im);
+            unit.push(found.unit);
+            level.push(at);
+            model.push(found.model);
+            restitution.push(of.restitution);
+            overturned.push(count);
+            records.push(found.records);
+            share.push(f64::from(count) / f64::from(found.records));
+            fitted.push(found.fit.map(|fit| fit.fragility.probability(at)));
+        }
+    }
+    vec![
+        Column::new("im".into(), im),
+        Column::new("unit".into(), unit),
+        Column::new("level".into(), level),
+        Column::new("model".into(), model),
+        Column::new("restitution".into(), restitution),
+        Column::new("overturned".into(), overturned),
+        Column::new("records".into(), records),
+        Column::new("share".into(), share),
+        Column::new("lognormal".into(), fitted),
+    ]
+}
+
+/// A row a site, measure and model.
+fn risk(report: &OverturningReport) -> Vec<Column> {
+    let sites = report.overturning.first().map_or(0, |found| found.sites.len());
+    let rows: Vec<(usize, &CollapseReport)> =
+        (0..sites).flat_map(|site| report.overturning.iter().map(move |found| (site, found))).collect();
+    let name: Vec<&str> = rows.iter().map(|(site, found)| found.sites[*site].site.as_str()).collect();
+    let text = |value: fn(&CollapseReport) -> &'static str| -> Vec<&'static str> {
+        rows.iter().map(|(_, found)| value(found)).collect()
+    };
+    let of_fit = |value: fn(&CollapseReport) -> Option<f64>| -> Vec<Option<f64>> {
+        rows.iter().map(|(_, found)| value(found)).collect()
+    };
+    let of = |value: fn(&EventRisk) -> f64| -> Vec<f64> {
+        rows.iter().map(|(site, found)| value(&found.sites[*site].risk)).collect()
+    };
+    let by_fit: Vec<Option<f64>> = rows.iter().map(|(site, found)| found.sites[*site].lognormal_per_year).collect();
+    vec![
+        Column::new("site".into(), name),
+        Column::new("im".into(), text(|found| found.im)),
+        Column::new("model".into(), text(|found| found.model)),
+        Column::new("maf_per_year".into(), of(|risk| risk.per_year)),
+        Column::new("years".into(), vec![report.years; rows.len()]),
+        Column::new("probability".into(), of(|risk| risk.probability)),
+        Column::new("lower_tail_share".into(), of(|risk| risk.lower_tail_share)),
+        Column::new("upper_tail_share".into(), of(|risk| risk.upper_tail_share)),
+        Column::new("theta".into(), of_fit(|found| found.theta)),
+        Column::new("beta".into(), of_fit(|found| found.beta)),
+        Column::new("maf_lognormal_per_year".into(), by_fit),
+    ]
+}

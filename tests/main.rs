@@ -1,0 +1,27 @@
+//! The built program from end to end: whole studies from the command line, what they leave, what is said to mistakes.
+//!
+//! One program, so that everything is linked once. Its tests run side by side: each has a folder of its own
+//! ([`common::SmallStudy`]), and one that stops a run at a moment waits for a sign of that moment, not for a time.
+#![allow(clippy::unwrap_used, clippy::print_stdout, unreachable_pub)]
+
+mod common;
+
+mod bootstrap;
+mod design;
+mod displacement_figures;
+mod displacement_resume;
+mod displacement_spectra;
+mod epistemic;
+mod hazard;
+mod mistakes;
+mod overturning;
+mod pulse;
+mod python;
+mod records;
+mod report;
+mod response;
+mod result_file;
+mod resume;
+mod run;
+mod site_table;
+mod table_4_2;
