@@ -18,7 +18,6 @@ use uplift_structure::StructureError;
 use uplift_study::StudyError;
 
 use crate::checkpoint::CheckpointError;
-use crate::import::ImportReport;
 
 /// Why a job did not do what it was asked.
 #[derive(Debug, Error)]
@@ -90,17 +89,6 @@ pub enum UpliftError {
     /// A file of finished analysis rows cannot be used.
     #[error(transparent)]
     Checkpoint(#[from] CheckpointError),
-    /// A folder holds no pair of records to import.
-    #[error(
-        "no pair of horizontal components in {}: {} files read, {} components found",
-        folder.display(), found.files, found.components
-    )]
-    NoPairs {
-        /// The folder.
-        folder: PathBuf,
-        /// What was found in it; there is no manifest.
-        found: Box<ImportReport>,
-    },
     /// The user stopped the run.
     #[error(
         "interrupted: nothing was written, and an earlier result file is as it was. Run the same command to start again"
