@@ -20,6 +20,7 @@ mod python;
 mod records;
 mod report;
 mod response;
+mod result_file;
 mod resume;
 mod run;
 mod site_table;

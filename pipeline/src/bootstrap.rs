@@ -13,4 +13,3 @@ pub use bands::{Bands, JointBands};
 pub use job::{BootstrapOptions, bootstrap};
 pub use reference::{ReferenceRow, read_reference};
 pub use report::{BootstrapReport, BootstrapRow, Initiation};
-pub(crate) use write::percentile_name;

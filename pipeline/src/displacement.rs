@@ -10,14 +10,14 @@ mod spectra;
 mod work;
 mod write;
 
+pub use crate::result::{DesignRow, RULES};
 pub use csv::{displacement_csv_paths, write_displacement_csv};
 pub(crate) use design_example::carry_out_designs;
-pub use design_example::{Designs, RULES, design_analyses, strength};
-pub use design_rows::{DesignRow, read_design};
+pub use design_example::{Designs, design_analyses, strength};
 pub use plan::Plan;
 pub(crate) use plan::plan;
 pub use report::{RunReport, SetReport, SpectraReport};
 pub(crate) use run::run;
 pub use spectra::{SetSpectra, set_spectra, structures};
-pub(crate) use work::{Inputs, Sets, run_shard};
+pub(crate) use work::{Inputs, KeyedMotions, run_shard};
 pub use write::{DisplacementOutcome, write_displacements};

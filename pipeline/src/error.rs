@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
+use uplift_atomic_file::FileError;
 use uplift_block::BlockError;
 use uplift_bootstrap::BootstrapError;
 use uplift_fragility::FragilityError;
@@ -38,11 +39,14 @@ pub enum UpliftError {
         known: Vec<String>,
     },
     /// Records or hazard curves cannot be used; all that was found.
-    #[error("{}", list(.0))]
+    #[error("{}", list(" in the input data", .0))]
     Inputs(Vec<String>),
-    /// A file cannot be read or written.
+    /// A file cannot be opened or written.
     #[error(transparent)]
-    File(#[from] LabelledError),
+    File(#[from] FileError),
+    /// A file of labelled arrays, a result above all, cannot be read or written.
+    #[error(transparent)]
+    Labelled(#[from] LabelledError),
     /// One of the files that a job reads is at fault.
     #[error("{}: {source}", path.display())]
     InFile {
@@ -66,7 +70,8 @@ pub enum UpliftError {
     /// Resamples that cannot be drawn.
     #[error(transparent)]
     Bootstrap(#[from] BootstrapError),
-    /// A displacement spectrum that cannot be computed; one that was told to stop is [`Interrupted`](Self::Interrupted).
+    /// A displacement spectrum that cannot be computed; one that was told to stop is
+    /// [`Interrupted`](Self::Interrupted).
     #[error(transparent)]
     Spectra(SpectraError),
     /// A record cannot be read or used, or no synthetic one can be made as asked.
@@ -79,7 +84,7 @@ pub enum UpliftError {
     #[error(transparent)]
     Oscillator(#[from] OscillatorError),
     /// Blocks or pulses that cannot be; all that was found.
-    #[error("{}", list(.0))]
+    #[error("{}", list("", .0))]
     Blocks(Vec<BlockError>),
     /// A file of finished analysis rows cannot be used.
     #[error(transparent)]
@@ -111,12 +116,12 @@ fn choice(option: &str, wanted: Option<&str>) -> String {
     wanted.map_or_else(|| option.to_owned(), |wanted| format!("{option} {wanted}"))
 }
 
-fn list(mistakes: &[impl ToString]) -> String {
+fn list(place: &str, mistakes: &[impl ToString]) -> String {
     match mistakes {
         [one] => one.to_string(),
         many => {
             let lines: Vec<String> = many.iter().map(|mistake| format!("  - {}", mistake.to_string())).collect();
-            format!("{} things to mend in the input data:\n{}", many.len(), lines.join("\n"))
+            format!("{} things to mend{place}:\n{}", many.len(), lines.join("\n"))
         }
     }
 }

@@ -1,257 +1,144 @@
-//! From a folder of downloads to a manifest: files are found, read, paired and measured.
-//!
-//! Every file is read twice: first for what its head says, by which components are paired, then with its partner
-//! to be measured. So memory holds a pair a thread, however large the folder.
+//! From a folder of downloads to a manifest: files are found, read, paired, measured and listed.
 
+mod collect;
 mod group;
 mod measured;
 mod name;
+mod remarks;
+mod scan;
 mod search_results;
 mod table;
 mod warnings;
 
-use std::io::Read;
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
-use rayon::prelude::*;
-use uplift_ida::Watch;
-use uplift_motion::{
-    AccelerationUnit, MotionError, ReadOptions, RecordFormat, RecordingDescription, read_record, record_bytes,
-};
+use polars::prelude::Column;
+use serde::Serialize;
 
 pub use measured::PairMeasures;
-pub use table::manifest_columns;
+pub use remarks::Remarks;
 pub use warnings::Warning;
 pub use warnings::of_pair as warnings_of_pair;
 
-use crate::checksum::checksum;
 use crate::error::UpliftError;
-use crate::events::{Events, Progress};
-use search_results::SearchResults;
+use crate::events::Events;
+use crate::inputs::FileOptions;
+use crate::result::{write_atomically, write_table};
+use collect::find_pairs;
 
-/// What the user says about files that do not say it themselves.
-#[derive(Debug, Clone, Copy)]
+/// Columns of a manifest by which records are chosen, and which not every file says.
+const WANTED: [&str; 3] = ["magnitude", "rrup_km", "vs30"];
+
+/// Which folder is imported, and where its manifest goes.
+#[derive(Debug, Clone, PartialEq)]
 pub struct ImportOptions {
-    /// Layout of every file; none to tell each by its content.
-    pub format: Option<RecordFormat>,
-    /// Time step of files of one column, s.
-    pub dt_s: Option<f64>,
-    /// Unit of files that name none.
-    pub unit: Option<AccelerationUnit>,
-    /// Acceleration of gravity, m/s².
-    pub gravity_m_s2: f64,
-    /// Whether velocity pulses are sought.
+    /// Folder with record files, in folders of their own or not.
+    pub folder: PathBuf,
+    /// The manifest, CSV; a folder that is there gets a `manifest.csv`.
+    pub output: PathBuf,
+    /// What the files do not say.
+    pub files: FileOptions,
+    /// Whether velocity pulses are sought, which takes most of the time.
     pub pulses: bool,
 }
 
+/// What an import found.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ImportReport {
+    /// The manifest; none where no two components make a pair, and the remarks say why.
+    pub manifest: Option<PathBuf>,
+    /// Pairs in it.
+    pub pairs: usize,
+    /// Files read.
+    pub files: usize,
+    /// Components in them.
+    pub components: usize,
+    /// What deserves a look, kind by kind.
+    pub remarks: Vec<Remarks>,
+    /// The file that holds all remarks; none where there is none.
+    pub remarks_file: Option<PathBuf>,
+    /// Columns of the manifest that no file says anything for, although records are chosen by them.
+    pub blank_columns: Vec<&'static str>,
+    /// Wall time, s.
+    pub seconds: f64,
+}
+
 impl ImportOptions {
-    fn read_options(&self, channel: Option<usize>) -> ReadOptions {
-        ReadOptions { format: self.format, channel, dt_s: self.dt_s, unit: self.unit, gravity_m_s2: self.gravity_m_s2 }
+    /// The manifest.
+    fn manifest(&self) -> PathBuf {
+        if self.output.is_dir() { self.output.join("manifest.csv") } else { self.output.clone() }
+    }
+
+    /// Refuses what cannot be imported or written, before the work.
+    fn check(&self, manifest: &Path) -> Result<(), UpliftError> {
+        if manifest.extension().is_none_or(|extension| extension != "csv") {
+            return Err(UpliftError::Usage(format!(
+                "{}: give a name that ends in .csv, or a folder",
+                manifest.display()
+            )));
+        }
+        if manifest.exists() {
+            return Err(UpliftError::Usage(format!(
+                "{} is there already, perhaps with columns of yours: give another name, or remove it",
+                manifest.display()
+            )));
+        }
+        if !self.folder.is_dir() {
+            return Err(UpliftError::input(format!("{} is not a folder", self.folder.display())));
+        }
+        let folder = folder_of(manifest);
+        if !folder.as_os_str().is_empty() && !folder.is_dir() {
+            return Err(UpliftError::input(format!("{} is not a folder: make it first", folder.display())));
+        }
+        Ok(())
     }
 }
 
-/// One component of a file, without its samples.
-#[derive(Debug, Clone)]
-pub struct Component {
-    /// The file.
-    pub path: PathBuf,
-    /// Its number in a file with several.
-    pub channel: Option<usize>,
-    /// Its layout.
-    pub format: RecordFormat,
-    /// What its head says.
-    pub description: RecordingDescription,
-    /// Time step, s.
-    pub dt_s: f64,
-    /// Samples.
-    pub points: usize,
-    /// SHA-256 of the file.
-    pub file_sha256: String,
-    /// SHA-256 of the samples: the same motion in two files has one.
-    samples_sha256: String,
-}
-
-/// A pair ready for a row of a manifest.
-#[derive(Debug, Clone)]
-pub struct ImportedPair {
-    id: String,
-    components: [Component; 2],
-    measures: PairMeasures,
-    search: Option<search_results::Entry>,
-    warnings: Vec<Warning>,
-}
-
-/// What an import found.
-#[derive(Debug, Clone)]
-pub struct Imported {
-    /// The pairs, by name.
-    pub pairs: Vec<ImportedPair>,
-    /// What deserves a look, each with the record's or the file's name.
-    pub warnings: Vec<Warning>,
-    /// Files that are no records, a line each with the reason.
-    pub passed_over: Vec<String>,
-    /// Number of files read.
-    pub files: usize,
-    /// Number of components in them.
-    pub components: usize,
-}
-
-/// Finds, reads, pairs and measures the records in `folder` and the folders in it.
+/// Imports the records of a folder: a manifest of the pairs in it, and a file with everything that deserves a look.
 ///
 /// # Errors
-/// A folder that cannot be read, and an interruption; what is wrong with single files is among the warnings.
-pub fn import(folder: &Path, options: &ImportOptions, events: &dyn Events) -> Result<Imported, UpliftError> {
-    let found = scan(folder)?;
-    let mut warnings = Vec::new();
-    let search = SearchResults::read(&found.search_results, &mut warnings);
-
-    let progress = Progress::begin(events, "reading", "files", found.files.len() as u64);
-    let read: Vec<Result<Vec<Component>, MotionError>> = found
-        .files
-        .par_iter()
-        .map(|path| {
-            if progress.cancelled() {
-                return Ok(Vec::new());
-            }
-            let components = components_of(path, options);
-            progress.finished(1);
-            components
-        })
-        .collect();
-    drop(progress);
-    if events.cancelled() {
-        return Err(UpliftError::Interrupted);
+/// A folder that cannot be read, a manifest that is there already or cannot be written; an interruption. What is wrong with
+/// single files is among the remarks.
+pub fn import(options: &ImportOptions, events: &dyn Events) -> Result<ImportReport, UpliftError> {
+    let manifest = options.manifest();
+    options.check(&manifest)?;
+    let start = Instant::now();
+    let imported = find_pairs(options, events)?;
+    let remarks = Remarks::of(&imported);
+    let remarks_file = (!remarks.is_empty()).then(|| manifest.with_extension("remarks.txt"));
+    if let Some(file) = &remarks_file {
+        let text: String = remarks.iter().map(ToString::to_string).collect();
+        write_atomically(file, text.as_bytes())?;
     }
-    let mut components = Vec::new();
-    let mut passed_over = Vec::new();
-    for outcome in read {
-        match outcome {
-            Ok(found) => components.extend(found),
-            Err(error) => passed_over.push(error.to_string()),
-        }
-    }
-    let count = components.len();
-    let components = without_duplicates(components, &mut warnings);
-    let candidates = group::pairs(components, &search, &mut warnings);
-    warnings.extend(search.missing(&candidates));
-
-    let progress = Progress::begin(events, "measuring", "pairs", candidates.len() as u64);
-    let measured: Vec<Option<Result<ImportedPair, String>>> = candidates
-        .into_par_iter()
-        .map(|candidate| {
-            if progress.cancelled() {
-                return None;
-            }
-            let pair = measured::pair(candidate, options);
-            progress.finished(1);
-            Some(pair)
-        })
-        .collect();
-    drop(progress);
-    if events.cancelled() {
-        return Err(UpliftError::Interrupted);
-    }
-    let mut pairs = Vec::new();
-    for outcome in measured.into_iter().flatten() {
-        match outcome {
-            Ok(pair) => {
-                warnings.extend(pair.warnings.iter().cloned());
-                pairs.push(pair);
-            }
-            Err(reason) => passed_over.push(reason),
-        }
-    }
-    Ok(Imported { pairs, warnings, passed_over, files: found.files.len(), components: count })
-}
-
-struct Scan {
-    files: Vec<PathBuf>,
-    search_results: Vec<PathBuf>,
-}
-
-/// Endings of files that come with downloads and hold no acceleration.
-const NO_RECORDS: [&str; 20] = [
-    "vt2", "dt2", "pdf", "zip", "tar", "md", "html", "htm", "json", "xml", "h5", "png", "jpg", "svg", "xlsx", "xls",
-    "doc", "docx", "toml", "py",
-];
-
-/// The files of a folder and the folders in it, in order of their paths; links to folders are not followed, and what is
-/// hidden is left out.
-fn scan(folder: &Path) -> Result<Scan, UpliftError> {
-    let mut scan = Scan { files: Vec::new(), search_results: Vec::new() };
-    let hidden = |entry: &walkdir::DirEntry| {
-        entry.depth() > 0 && entry.file_name().to_str().is_some_and(|name| name.starts_with('.'))
+    let mut report = ImportReport {
+        manifest: None,
+        pairs: imported.pairs.len(),
+        files: imported.files,
+        components: imported.components,
+        remarks,
+        remarks_file,
+        blank_columns: Vec::new(),
+        seconds: 0.0,
     };
-    let walk = walkdir::WalkDir::new(folder).sort_by_file_name().into_iter().filter_entry(|entry| !hidden(entry));
-    for entry in walk {
-        let entry = entry.map_err(|error| UpliftError::input(format!("{}: {error}", folder.display())))?;
-        let name = entry.file_name().to_string_lossy().to_lowercase();
-        let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending);
-        // a link to a file counts as the file
-        if entry.file_type().is_dir() || !entry.path().is_file() {
-            continue;
-        }
-        if ending == "csv" && name.contains("searchresults") {
-            scan.search_results.push(entry.into_path());
-            continue;
-        }
-        let manifest = ending == "csv" && is_manifest(entry.path());
-        if !manifest && !NO_RECORDS.contains(&ending) {
-            scan.files.push(entry.into_path());
-        }
+    if !imported.pairs.is_empty() {
+        let line = format!("uplift {} ({}), records import, {} pairs", crate::VERSION, crate::COMMIT, report.pairs);
+        let columns = table::manifest_columns(&imported.pairs, folder_of(&manifest), options.files);
+        report.blank_columns = WANTED
+            .into_iter()
+            .filter(|key| columns.iter().any(|column| column.name() == key && all_blank(column)))
+            .collect();
+        write_table(&manifest, &line, columns)?;
+        report.manifest = Some(manifest);
     }
-    if scan.files.is_empty() {
-        return Err(UpliftError::input(format!("{} holds no files that could be records", folder.display())));
-    }
-    Ok(scan)
+    report.seconds = start.elapsed().as_secs_f64();
+    Ok(report)
 }
 
-/// Whether a table lists records, as an import writes it.
-fn is_manifest(path: &Path) -> bool {
-    let mut head = Vec::new();
-    let read = std::fs::File::open(path).and_then(|file| file.take(1 << 14).read_to_end(&mut head));
-    read.is_ok() && head.windows(10).any(|word| word == b"record_id,".as_slice() || word == b"record_id;".as_slice())
+fn folder_of(manifest: &Path) -> &Path {
+    manifest.parent().unwrap_or(Path::new(""))
 }
 
-/// The components of a file.
-fn components_of(path: &Path, options: &ImportOptions) -> Result<Vec<Component>, MotionError> {
-    let bytes = record_bytes(path)?;
-    let file = read_record(&bytes, &path.display().to_string(), &options.read_options(None))?;
-    let file_sha256 = checksum(&bytes);
-    let several = file.recordings.len() > 1;
-    let named = name::of(path).orientation;
-    let components = file.recordings.into_iter().enumerate().map(|(index, mut recording)| {
-        // what the head does not say, the name may
-        recording.description.orientation = recording.description.orientation.or(named);
-        let samples = recording.accelerogram.acceleration_m_s2();
-        let bytes: Vec<u8> = samples.iter().flat_map(|a| a.to_le_bytes()).collect();
-        Component {
-            path: path.to_owned(),
-            channel: several.then_some(index + 1),
-            format: file.format,
-            dt_s: recording.accelerogram.dt_s(),
-            points: samples.len(),
-            file_sha256: file_sha256.clone(),
-            samples_sha256: checksum(&bytes),
-            description: recording.description,
-        }
-    });
-    Ok(components.collect())
-}
-
-/// Leaves out what is there already, and says so.
-fn without_duplicates(components: Vec<Component>, warnings: &mut Vec<Warning>) -> Vec<Component> {
-    let mut seen = std::collections::HashMap::new();
-    let mut kept: Vec<Component> = Vec::new();
-    for component in components {
-        let first = *seen.entry(component.samples_sha256.clone()).or_insert(kept.len());
-        match kept.get(first) {
-            Some(same) => warnings.push(Warning {
-                kind: "duplicate",
-                text: format!("{}: the same motion as {}; left out", component.path.display(), same.path.display()),
-            }),
-            None => kept.push(component),
-        }
-    }
-    kept
+fn all_blank(column: &Column) -> bool {
+    column.str().is_ok_and(|cells| cells.iter().all(|cell| cell.is_none_or(str::is_empty)))
 }

@@ -1,6 +1,7 @@
 //! Records and hazard curves, read and checked before anything is computed.
 
 mod cache;
+mod file_options;
 mod hazard;
 pub mod manifest;
 pub mod pairs;
@@ -9,6 +10,7 @@ mod record_sets;
 pub mod selection;
 mod site_table;
 
+pub use file_options::FileOptions;
 pub use hazard::{BranchHazard, HazardInput, SiteHazard, read_hazard};
 pub use record_set::{Record, RecordSet, read_records};
 pub use record_sets::{NamedSet, RecordSets, SetRecord, read_record_sets};

@@ -22,6 +22,7 @@
 //! reads arguments or handles signals.
 
 pub mod analysis;
+mod array;
 pub mod bootstrap;
 pub mod checkpoint;
 mod checksum;
@@ -30,21 +31,26 @@ pub mod efficiency;
 mod error;
 pub mod events;
 pub mod export;
+pub mod hazard_curves;
 pub mod import;
 pub mod influence;
 pub mod inputs;
 pub mod outputs;
 pub mod plan;
 pub mod pulses;
-pub mod reference;
+pub mod records;
 pub mod response;
 pub mod result;
 pub mod run;
 pub mod shard;
+pub mod status;
 pub mod structure;
+pub mod table;
 pub mod text;
 pub mod uniform_risk;
+pub mod verify;
 
+pub use array::{Array, ShapeError};
 pub use error::UpliftError;
 pub use events::{Events, Phase, Silent};
 pub use plan::{Plan, plan};

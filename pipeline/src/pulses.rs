@@ -1,5 +1,5 @@
-//! Rocking spectra of a rigid block under Ricker wavelets (Sections 2.2 and 2.3): what is asked for, computed, written as
-//! tables and summed up.
+//! Rocking spectra of a rigid block under Ricker wavelets (Sections 2.2 and 2.3): what is asked for, computed, written
+//! as tables and summed up.
 
 mod compute;
 mod plan;

@@ -30,7 +30,8 @@ pub struct ResponseOptions {
     pub strength: f64,
     /// Displacement at uplift, m.
     pub uplift_displacement_m: f64,
-    /// Displacement where the restoring force vanishes, m: a system of negative stiffness after uplift, which can overturn.
+    /// Displacement where the restoring force vanishes, m: a system of negative stiffness after uplift, which can
+    /// overturn.
     pub capacity_m: Option<f64>,
     /// Stiffness after uplift over the mass, 1/s², of a system where it is positive; not beside `capacity_m`.
     pub post_uplift_stiffness_per_s2: Option<f64>,
@@ -47,8 +48,8 @@ pub struct ResponseOptions {
 }
 
 impl ResponseOptions {
-    /// `record`, unscaled, through the system of zero stiffness after uplift that has this `strength` and else the values of
-    /// the studies; no history.
+    /// `record`, unscaled, through the system of zero stiffness after uplift that has this `strength` and else the
+    /// values of the studies; no history.
     pub fn new(record: impl Into<PathBuf>, strength: f64) -> Self {
         Self {
             record: record.into(),
@@ -72,7 +73,8 @@ impl ResponseOptions {
         let post_uplift = match (self.capacity_m, self.post_uplift_stiffness_per_s2) {
             (Some(_), Some(_)) => {
                 return Err(UpliftError::Usage(
-                    "a capacity is of negative stiffness after uplift, and a positive one is given too: give one of them"
+                    "a capacity is of negative stiffness after uplift, and a positive one is given too: give one of \
+                     them"
                         .to_owned(),
                 ));
             }

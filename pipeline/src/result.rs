@@ -1,27 +1,39 @@
 //! The result of a study: one HDF5 file, and tidy tables beside it; how both are opened, extended and read.
+//!
+//! [`ResultFile`] opens a result and reads it part by part; [`layout`] knows where everything is.
 
+mod bands;
+mod design;
 mod displacements;
 mod extend;
+mod file;
 mod hazard;
-mod layout;
+mod head;
+pub mod layout;
 mod lock;
 mod provenance;
-mod read;
-mod stored;
-mod study_of;
+mod records;
+mod spectra;
+mod stripes;
+mod study;
 mod table;
 mod target;
 
+pub use bands::{MeasureBands, StoredBands};
+pub(crate) use design::{BOUNDS, rule_names};
+pub use design::{DesignRow, RULES, StoredDesign, StoredDesigned};
 pub use displacements::{SpectrumPlace, StoredDisplacements, StoredMotions, StoredSet, StoredStructures};
 pub(crate) use extend::{extend_result, line, sign};
-pub(crate) use hazard::branch_group;
-pub use hazard::{axis_part, unique_axis};
-pub use layout::{LAYOUT, level_axis};
+pub use file::{ResultFile, RiskAxes};
+pub use hazard::{StoredCurves, StoredHazard};
+pub use head::{Head, Overview};
 pub use lock::ResultLock;
 pub(crate) use provenance::Origin;
 pub use provenance::Provenance;
-pub use read::{Fit, Spectrum, StoredResult, holds_displacement_spectra, open_any_result, open_result};
-pub use stored::{StoredMeasure, StoredStripes};
-pub use study_of::{SpectraOfResult, StudyOfResult};
-pub use table::{write_aside, write_table};
+pub use records::StoredRecords;
+pub use spectra::{Fit, MeasureSpectra, Spectrum, StoredSpectra};
+pub use stripes::{StoredMeasure, StoredStripes};
+pub use study::{SpectraOfResult, StudyOfResult};
+pub use table::{write_atomically, write_table};
 pub use target::{check_target, is_hdf5};
+pub use uplift_study::Kind;

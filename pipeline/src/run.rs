@@ -1,13 +1,14 @@
 //! A study carried out, of whichever kind: the frame that all kinds share.
 //!
-//! A kind has a folder of its own, [`uniform_risk`](crate::uniform_risk) or [`displacement`](crate::displacement), with the
-//! same files in it: `plan` (what it costs), `run` (from the inputs to the result file), `report` (what a run tells).
+//! A kind has a folder of its own, [`uniform_risk`](crate::uniform_risk) or [`displacement`](crate::displacement), with
+//! the same files in it: `plan` (what it costs), `run` (from the inputs to the result file), `report` (what a run
+//! tells).
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use serde::Serialize;
-use uplift_labelled::remove_leftovers;
+use uplift_atomic_file::remove_leftovers;
 use uplift_study::AnyStudy;
 
 use crate::checkpoint::FinishedRows;
@@ -84,15 +85,15 @@ impl RunReport {
     }
 }
 
-/// Carries out a study: records and hazard are read and checked, everything that is not known from before is computed, and
-/// the result file and its tables are written.
+/// Carries out a study: records and hazard are read and checked, everything that is not known from before is computed,
+/// and the result file and its tables are written.
 ///
-/// Finished rows of the analysis outlive whatever stops the run, in a checkpoint beside the result; an earlier result stays
-/// until the new one is complete.
+/// Finished rows of the analysis outlive whatever stops the run, in a checkpoint beside the result; an earlier result
+/// stays until the new one is complete.
 ///
 /// # Errors
-/// Inputs that cannot be used; a result that cannot be written; [`UpliftError::Paused`] or [`UpliftError::Interrupted`] where
-/// `events` say so.
+/// Inputs that cannot be used; a result that cannot be written; [`UpliftError::Paused`] or [`UpliftError::Interrupted`]
+/// where `events` say so.
 pub fn run(study: &AnyStudy, options: &RunOptions, events: &dyn Events) -> Result<RunReport, UpliftError> {
     run_with(study, options, FinishedRows::default(), events)
 }

@@ -1,5 +1,10 @@
 //! Tables for the terminal.
 
+/// A number for a table or JSON, which have no infinity and no NaN: none for these.
+pub fn finite(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value)
+}
+
 /// Lines of a table: the first column to the left, the others to the right, a rule below the header.
 pub fn table(header: &[&str], rows: &[Vec<String>]) -> String {
     let width = |column: usize| {

@@ -113,7 +113,8 @@ in_mpi() {
     else
         # the bindings are made by libclang from the headers of the MPI library that is here
         provide clang clang libclang-dev || { skip "mpi: no libclang"; return; }
-        (cd "$repository" && cargo build --release --locked --package uplift-cli --features mpi) || fail "mpi: the build"
+        (cd "$repository" && cargo build --release --locked --package uplift-cli --features mpi) ||
+            fail "mpi: the build"
         cp "$repository/target/release/uplift" "$built"
         # the program that is left there is that of `make build`
         (cd "$repository" && cargo build --release --locked --package uplift-cli)

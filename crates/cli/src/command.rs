@@ -1,43 +1,31 @@
 //! What the user can type.
 
-mod bootstrap;
-mod check;
-mod design;
-mod export;
-mod figure_files;
+mod arguments;
 mod hazard;
-mod influence;
-mod measures;
-mod merge;
-mod overturning;
-mod plot;
 mod pulse;
 mod records;
-mod report;
 mod response;
-mod result_of;
-mod run;
-mod status;
-mod structure;
-mod table;
-mod verify;
+mod result;
+mod structures;
+mod study;
 
-use std::path::PathBuf;
-
-use clap::{Args, Parser, Subcommand};
+use clap::{Parser, Subcommand};
 
 use crate::error::CommandError;
 use crate::terminal::Terminal;
-use uplift_study::{AnyStudy, Study};
+use result::{bootstrap, export, influence, measures, plot, report, status, table, verify};
+use structures::{design, overturning};
+use study::{check, merge, run};
 
 /// Uniform risk spectra for rocking structures.
 ///
-/// From ground motions and site hazard to the displacement that a structure of a given uplift strength must survive so that its
-/// annual risk is what the engineer chose.
+/// From ground motions and site hazard to the displacement that a structure of a given uplift strength must survive so
+/// that its annual risk is what the engineer chose.
 #[derive(Debug, Parser)]
 #[command(name = "uplift", version = uplift::VERSION_AND_COMMIT, max_term_width = 100)]
 #[command(
-    after_help = "Exit codes: 0 done, 2 usage, 3 study or structure file, 4 input data or disk, 5 interrupted, 1 a bug.\n\
+    after_help = "Exit codes: 0 done, 2 usage, 3 study or structure file, 4 input data or disk, 5 interrupted, 1 a \
+                  bug.\n\
     Start with: uplift run configs/quick.toml"
 )]
 pub(crate) struct Arguments {
@@ -53,7 +41,8 @@ pub(crate) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Run a study: uniform risk spectra with their coefficients, or displacement spectra of record sets; one result file
+    /// Run a study: uniform risk spectra with their coefficients, or displacement spectra of record sets; one result
+    /// file
     Run(run::RunArguments),
     /// Join the shards of a run into its result
     Merge(merge::MergeArguments),
@@ -87,29 +76,9 @@ enum Command {
     Report(report::ReportArguments),
     /// Write the spectra and coefficients of a result as CSV, JSON or a MATLAB file
     Export(export::ExportArguments),
-    /// Print the coefficients of a result (Table 4.2), or its design example (Tables 2.1-2.3, 3.2-3.7), beside a reference if one is given
+    /// Print the coefficients of a result (Table 4.2), or its design example (Tables 2.1-2.3, 3.2-3.7), beside a
+    /// reference if one is given
     Table(table::TableArguments),
-}
-
-/// A study file and what is changed of it.
-#[derive(Debug, Args)]
-struct StudyArguments {
-    /// Study file (TOML), for instance configs/europe.toml
-    study: PathBuf,
-    /// Change a key of the study for this run, for instance --set records.first=20; paths are relative to the current directory
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    overrides: Vec<String>,
-}
-
-impl StudyArguments {
-    fn load_any(&self) -> Result<AnyStudy, CommandError> {
-        Ok(Study::load_any(&self.study, &self.overrides)?)
-    }
-}
-
-/// What was typed, for the result.
-fn command_line() -> String {
-    std::env::args().collect::<Vec<_>>().join(" ")
 }
 
 /// Carry out what was typed.
@@ -142,6 +111,6 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         Command::Plot(arguments) => plot::plot(arguments, &terminal),
         Command::Report(arguments) => report::report(arguments, &terminal),
         Command::Export(arguments) => export::export(arguments, &terminal),
-        Command::Table(arguments) => table::table(arguments),
+        Command::Table(arguments) => table::table(arguments, &terminal),
     }
 }

@@ -20,7 +20,8 @@ fn main() -> ExitCode {
         // where nobody listens any more, a panic within this one would end the program without its exit code
         let _ = writeln!(
             std::io::stderr(),
-            "uplift: a bug in the program: {info}\nPlease report it with the study file and this line. No result file was touched."
+            "uplift: a bug in the program: {info}\nPlease report it with the study file and this line. No result file \
+             was touched."
         );
     }));
     let outcome = std::panic::catch_unwind(|| command::execute(&Arguments::parse()));

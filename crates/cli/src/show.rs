@@ -4,31 +4,43 @@ mod bootstrap;
 mod design;
 mod displacement;
 mod efficiency;
+mod hazard;
+mod import;
 mod influence;
 mod overturning;
 mod plan;
 mod pulse;
+mod records;
 mod response;
 mod run;
+mod status;
 mod structure;
+mod table;
 mod uniform_risk;
+mod verify;
 
 pub(crate) use bootstrap::print_bootstrap;
 pub(crate) use design::print_design;
 pub(crate) use efficiency::print_efficiency;
+pub(crate) use hazard::{print_curves, print_hazard_import};
+pub(crate) use import::{print_import, tell_remarks};
 pub(crate) use influence::print_influence;
 pub(crate) use overturning::print_overturning;
 pub(crate) use plan::print_plan;
 pub(crate) use pulse::print_pulses;
+pub(crate) use records::{print_record, print_records, print_selection};
 pub(crate) use response::print_response;
-pub(crate) use run::print_run;
+pub(crate) use run::{print_run, print_shard};
+pub(crate) use status::print_status;
+pub(crate) use table::print_table;
+pub(crate) use verify::print_verified;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use crate::error::CommandError;
 use serde::Serialize;
 
+use crate::error::CommandError;
 use crate::terminal::Terminal;
 
 /// A report for programs.

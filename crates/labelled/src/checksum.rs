@@ -1,7 +1,7 @@
 //! Checksums: of every array in its attributes, and of the whole file behind its end.
 //!
-//! HDF5 reads a file by the addresses in it and does not look behind its last one, so a line there disturbs no reader, and covers
-//! every byte before it.
+//! HDF5 reads a file by the addresses in it and does not look behind its last one, so a line there disturbs no reader,
+//! and covers every byte before it.
 
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};

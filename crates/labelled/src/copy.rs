@@ -1,7 +1,7 @@
 //! Carrying a file over into a new one: how an existing file is extended.
 //!
-//! A file is never changed in place: a failure, or a full disk, would leave neither the old nor the new one. It is written
-//! anew, with what is added, and then takes the place of the old one at once.
+//! A file is never changed in place: a failure, or a full disk, would leave neither the old nor the new one. It is
+//! written anew, with what is added, and then takes the place of the old one at once.
 
 use hdf5::types::{FloatSize, IntSize, TypeDescriptor};
 use hdf5::{Container, Location, LocationType};
@@ -18,10 +18,11 @@ use super::writer::LabelledWriter;
 const DESCRIPTIONS: [&str; 3] = ["units", "long_name", CHECKSUM];
 
 impl LabelledWriter {
-    /// Carries over every axis, array and attribute of `reader` but the axes and groups named in `left_out`, e.g. `/bootstrap`
-    /// or `/axes/replicate`.
+    /// Carries over every axis, array and attribute of `reader` but the axes and groups named in `left_out`, e.g.
+    /// `/bootstrap` or `/axes/replicate`.
     ///
-    /// One array is in memory at a time. An array that is not as it was written is refused, so that damage never gets a new checksum.
+    /// One array is in memory at a time. An array that is not as it was written is refused, so that damage never gets a
+    /// new checksum.
     ///
     /// # Errors
     /// Whatever keeps the one file from being read or the other from being written; an array over an axis left out.

@@ -1,8 +1,9 @@
 //! HDF5 dimension scales: the attributes that tie an array's dimensions to the axes.
 //!
 //! # Source
-//! The HDF Group, "HDF5 Dimension Scale Specification and Design Notes": `CLASS` and `NAME` mark a scale, `DIMENSION_LIST`
-//! on an array refers to the scale of each dimension, `REFERENCE_LIST` on a scale refers back, `DIMENSION_LABELS` names.
+//! The HDF Group, "HDF5 Dimension Scale Specification and Design Notes": `CLASS` and `NAME` mark a scale,
+//! `DIMENSION_LIST` on an array refers to the scale of each dimension, `REFERENCE_LIST` on a scale refers back,
+//! `DIMENSION_LABELS` names.
 
 use hdf5::types::{FixedAscii, VarLenArray};
 use hdf5::{Dataset, File, Location, ObjectReference, ObjectReference1, ReferencedObject};

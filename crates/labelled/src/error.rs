@@ -1,29 +1,15 @@
 //! What can go wrong with a file of labelled arrays.
 
-use std::io;
 use std::path::PathBuf;
+
+use uplift_atomic_file::FileError;
 
 /// Why a file of labelled arrays could not be written or read.
 #[derive(Debug, thiserror::Error)]
 pub enum LabelledError {
-    /// The operating system refused.
-    #[error("{}: cannot {action}: {source}", path.display())]
-    Io {
-        /// File or folder.
-        path: PathBuf,
-        /// What was tried, e.g. "create the folder".
-        action: &'static str,
-        /// The operating system's reason.
-        source: io::Error,
-    },
-    /// The path leads to a folder, a device or a pipe.
-    #[error("{}: is {found}, not a file: give the name of a file", path.display())]
-    NotAFile {
-        /// The path.
-        path: PathBuf,
-        /// "a folder" or "a special file".
-        found: &'static str,
-    },
+    /// The operating system refused, or the path leads to a folder or a device.
+    #[error(transparent)]
+    File(#[from] FileError),
     /// The file is something else.
     #[error("{}: is not an HDF5 file ({bytes} bytes): give a result file written by this program", path.display())]
     NotHdf5 {
@@ -33,7 +19,8 @@ pub enum LabelledError {
         bytes: u64,
     },
     /// The end of the file is missing.
-    #[error("{}: the HDF5 file is cut short ({bytes} bytes are there): copy it again or repeat the run", path.display())]
+    #[error("{}: the HDF5 file is cut short ({bytes} bytes are there): copy it again or repeat the \
+             run", path.display())]
     Truncated {
         /// The file.
         path: PathBuf,

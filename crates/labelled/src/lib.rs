@@ -15,8 +15,8 @@
 //! bytes, copies nothing, and gives every group its coordinates too, so that `xr.open_dataset(file, group="/urs/pgv")`
 //! is complete. [`LabelledReader::children`] leaves the links out.
 //!
-//! Every array carries the SHA-256 of its values, and behind the end of the file, where no reader of HDF5 looks, stands the SHA-256 of
-//! all bytes: [`verify`] finds any that has changed.
+//! Every array carries the SHA-256 of its values, and behind the end of the file, where no reader of HDF5 looks, stands
+//! the SHA-256 of all bytes: [`verify`] finds any that has changed.
 //!
 //! The layer knows nothing of the science, and it writes nothing that depends on the time or the machine: two files
 //! with the same content are equal byte for byte.
@@ -39,7 +39,6 @@
 //! # }
 //! ```
 
-mod aside;
 mod attribute;
 mod checksum;
 mod copy;
@@ -51,8 +50,6 @@ mod text;
 mod verify;
 mod writer;
 
-pub use aside::final_place;
-pub use aside::{remove_leftovers, write_whole};
 pub use attribute::AttributeValue;
 pub use checksum::{Seal, hexadecimal, seal_of};
 pub use error::LabelledError;

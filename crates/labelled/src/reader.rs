@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use hdf5::types::{FloatSize, IntSize, TypeDescriptor};
 use hdf5::{Container, Dataset, File, H5Type, LocationType, MinorErrorCode};
+use uplift_atomic_file::{io_error, require_file};
 
-use super::aside::{io_error, require_file};
 use super::error::{LabelledError, reason};
 use super::{AXES, dimension_scale, text};
 
@@ -35,9 +35,9 @@ impl LabelledReader {
     /// Opens `path` for reading.
     ///
     /// # Errors
-    /// [`LabelledError::Io`] where the file is missing or may not be read, [`LabelledError::NotAFile`],
-    /// [`LabelledError::NotHdf5`] and [`LabelledError::Truncated`] where it is something else, [`LabelledError::Locked`]
-    /// where another program is writing to it.
+    /// [`LabelledError::File`] where the file is missing, may not be read or is not a file,
+    /// [`LabelledError::NotHdf5`] and [`LabelledError::Truncated`] where it is something else,
+    /// [`LabelledError::Locked`] where another program is writing to it.
     pub fn open(path: &Path) -> Result<Self, LabelledError> {
         let metadata = fs::metadata(path).map_err(io_error(path, "open the file"))?;
         require_file(path, &metadata)?;
@@ -264,12 +264,12 @@ impl LabelledReader {
         if !T::TYPES.contains(&found) {
             return Err(self.wrong(object, format!("of type {found}"), T::WANTED));
         }
-        self.require_room(container, object)?;
+        self.require_space(container, object)?;
         self.check(container.read_raw(), object)
     }
 
     pub(super) fn texts(&self, container: &Container, object: &str) -> Result<Vec<String>, LabelledError> {
-        self.require_room(container, object)?;
+        self.require_space(container, object)?;
         match self.check(text::read(container), object)? {
             Some(texts) => Ok(texts),
             None => Err(self.wrong(object, "no text".into(), "text")),
@@ -277,7 +277,7 @@ impl LabelledReader {
     }
 
     /// Refuses an array that claims more than its file can hold, before memory is taken for it.
-    fn require_room(&self, container: &Container, object: &str) -> Result<(), LabelledError> {
+    fn require_space(&self, container: &Container, object: &str) -> Result<(), LabelledError> {
         let element = self.check(container.dtype(), object)?.size();
         let claimed =
             container.shape().iter().try_fold(element, |bytes, &length| bytes.checked_mul(length)).map(|b| b as u64);

@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
+use uplift_atomic_file::io_error;
+
 use super::AXES;
-use super::aside::io_error;
 use super::checksum::{CHECKSUM, Seal, of_values, seal_of};
 use super::copy::Kind;
 use super::error::LabelledError;

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use hdf5::types::VarLenUnicode;
 use hdf5::{Dataset, File, H5Type, Location, LocationType, ObjectReference1};
+use uplift_atomic_file::{AtomicFile, io_error};
 
-use super::aside::{Aside, io_error};
 use super::attribute::{self, AttributeValue};
 use super::checksum::{self, CHECKSUM, Hashed, of_values};
 use super::dimension_scale::{self, LONGEST_NAME, RESERVED};
@@ -21,13 +21,13 @@ const CHUNK_BYTES: usize = 256 * 1024;
 /// Past level 4 the time grows and the size hardly shrinks.
 const DEFLATE_LEVEL: u8 = 4;
 
-/// Writes a file of labelled arrays aside and puts it in place by [`LabelledWriter::finish`].
+/// Writes a file of labelled arrays, which is in place only after [`LabelledWriter::finish`].
 ///
 /// Dropped before, it leaves no trace, and a file that was there already stays as it was.
 pub struct LabelledWriter {
-    // Before `aside`: the file is closed before it is removed.
+    // Before `place`: the file is closed before it is removed.
     file: File,
-    aside: Aside,
+    place: AtomicFile,
     axes: BTreeMap<String, Axis>,
     links: BTreeSet<String>,
 }
@@ -42,18 +42,17 @@ impl LabelledWriter {
     /// Starts a file that will lie at `path`; folders above it are made.
     ///
     /// # Errors
-    /// [`LabelledError::NotAFile`] where `path` is a folder or a device, [`LabelledError::Io`] where the folder cannot be
-    /// made or written to.
+    /// [`LabelledError::File`] where `path` is a folder or a device, or the folder cannot be made or written to.
     pub fn create(path: &Path) -> Result<Self, LabelledError> {
-        let aside = Aside::reserve(path)?;
+        let place = AtomicFile::reserve(path)?;
         let file = File::with_options()
             // Format of HDF5 1.8 (2008): every reader knows it, and its checksums show damage.
             // No lock: nobody else knows the hidden name, and a child process would inherit and hold the lock.
             .with_fapl(|access| access.libver_v18().file_locking(false))
             .with_fcpl(|creation| creation.obj_track_times(false))
-            .create(aside.partial())
-            .map_err(|error| hdf5_error(aside.target(), "create", "/", &error))?;
-        let mut writer = Self { file, aside, axes: BTreeMap::new(), links: BTreeSet::new() };
+            .create(place.partial())
+            .map_err(|error| hdf5_error(place.target(), "create", "/", &error))?;
+        let mut writer = Self { file, place, axes: BTreeMap::new(), links: BTreeSet::new() };
         writer.group(AXES)?;
         Ok(writer)
     }
@@ -213,7 +212,8 @@ impl LabelledWriter {
     /// Completes the file, brings it to the disk and puts it in place of any older one.
     ///
     /// # Errors
-    /// [`LabelledError::Hdf5`] or [`LabelledError::Io`] where the disk is full or fails; an older file is then untouched.
+    /// [`LabelledError::Hdf5`] or [`LabelledError::File`] where the disk is full or fails; an older file is then
+    /// untouched.
     pub fn finish(self) -> Result<(), LabelledError> {
         for (name, axis) in self.axes.iter().filter(|(_, axis)| !axis.uses.is_empty()) {
             let path = format!("{AXES}/{name}");
@@ -222,13 +222,13 @@ impl LabelledWriter {
         }
         // Most of what the library has to say about a full disk it says here, not when an array is written.
         self.check(self.file.flush(), "write", "the end of the file")?;
-        let Self { file, aside, .. } = self;
-        file.close().map_err(|error| hdf5_error(aside.target(), "close", "the file", &error))?;
-        let sealed = std::fs::File::options().read(true).write(true).open(aside.partial());
+        let Self { file, place, .. } = self;
+        file.close().map_err(|error| hdf5_error(place.target(), "close", "the file", &error))?;
+        let sealed = std::fs::File::options().read(true).write(true).open(place.partial());
         sealed
             .and_then(|mut file| checksum::seal(&mut file))
-            .map_err(io_error(aside.target(), "write the end of the file"))?;
-        aside.replace()
+            .map_err(io_error(place.target(), "write the end of the file"))?;
+        Ok(place.replace()?)
     }
 
     fn axis<T: H5Type + Hashed>(
@@ -360,11 +360,11 @@ impl LabelledWriter {
     }
 
     fn check<T>(&self, result: hdf5::Result<T>, action: &'static str, object: &str) -> Result<T, LabelledError> {
-        result.map_err(|error| hdf5_error(self.aside.target(), action, object, &error))
+        result.map_err(|error| hdf5_error(self.place.target(), action, object, &error))
     }
 
     fn misuse(&self, object: &str, reason: String) -> LabelledError {
-        LabelledError::Misuse { path: self.aside.target().to_owned(), object: object.to_owned(), reason }
+        LabelledError::Misuse { path: self.place.target().to_owned(), object: object.to_owned(), reason }
     }
 }
 
@@ -390,13 +390,13 @@ fn is_axis_name(name: &str) -> bool {
 
 /// Whole trailing dimensions in a chunk, as many as fit into [`CHUNK_BYTES`].
 fn chunk_shape(shape: &[usize], element_bytes: usize) -> Vec<usize> {
-    let mut room = (CHUNK_BYTES / element_bytes).max(1);
+    let mut left = (CHUNK_BYTES / element_bytes).max(1);
     let mut chunk: Vec<usize> = shape
         .iter()
         .rev()
         .map(|&length| {
-            let taken = length.min(room);
-            room /= taken;
+            let taken = length.min(left);
+            left /= taken;
             taken
         })
         .collect();

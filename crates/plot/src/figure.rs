@@ -178,7 +178,8 @@ impl Series {
 }
 
 impl Scale {
-    /// Position of a value along the axis before it is stretched: itself, or its decimal logarithm; none where it has none.
+    /// Position of a value along the axis before it is stretched: itself, or its decimal logarithm; none where it has
+    /// none.
     pub(super) fn position(self, value: f64) -> Option<f64> {
         match self {
             Self::Linear => value.is_finite().then_some(value),

@@ -84,7 +84,8 @@ struct Grid {
     ys: Vec<f64>,
 }
 
-/// Polygons that make up an area, and the lines along which they touch, where a drawing would let shine through what is below.
+/// Polygons that make up an area, and the lines along which they touch, where a drawing would let shine through what is
+/// below.
 #[derive(Default)]
 struct Cover {
     polygons: Vec<Vec<(f64, f64)>>,
@@ -121,7 +122,8 @@ fn meet(a: Interval, b: Interval) -> bool {
     a.0 <= b.1 && b.0 <= a.1
 }
 
-/// What of the intervals of a row goes on into what of the next row's. One that meets several is cut in the middle between them.
+/// What of the intervals of a row goes on into what of the next row's. One that meets several is cut in the middle
+/// between them.
 fn joints(below: &[Interval], above: &[Interval]) -> Vec<(Interval, Interval)> {
     let part = |of: Interval, meeting: Interval, all: &[Interval]| {
         let others = || all.iter().filter(|&&other| meet(of, other));
@@ -140,7 +142,8 @@ fn joints(below: &[Interval], above: &[Interval]) -> Vec<(Interval, Interval)> {
 impl Grid {
     /// The area where `height` of a column and row is zero or more.
     ///
-    /// Along a row the edges lie where the height passes zero on a straight line, or halfway to a point where it is infinite.
+    /// Along a row the edges lie where the height passes zero on a straight line, or halfway to a point where it is
+    /// infinite.
     fn cover(&self, height: impl Fn(usize, usize) -> f64) -> Cover {
         let mut cover = Cover::default();
         let mut open: Vec<Strip> = Vec::new();

@@ -1,4 +1,5 @@
-//! The figures of Chapters 2 to 4, made of a result file alone; and those of a record, a structure or a pulse, which need none.
+//! The figures of Chapters 2 to 4, made of a result file alone; and those of a record, a structure or a pulse, which
+//! need none.
 //!
 //! What is to be seen is decided here, how it is drawn in [`plot`](uplift_plot).
 
@@ -19,9 +20,10 @@ pub use spectra::hazard_figure;
 
 use std::path::Path;
 
+use uplift::Array;
 use uplift::UpliftError;
-use uplift::result::{StoredDisplacements, StoredStripes, holds_displacement_spectra, open_any_result, open_result};
-use uplift_labelled::LabelledReader;
+use uplift::result::{Kind, ResultFile, StoredBands, StoredHazard, StoredRecords, StoredSpectra, StoredStripes};
+use uplift_motion::IntensityMeasure;
 use uplift_plot::{Axis, Figure, Panel, Series, Tone};
 
 /// The figures of the result at `path`, of either kind.
@@ -29,31 +31,42 @@ use uplift_plot::{Axis, Figure, Panel, Series, Tone};
 /// # Errors
 /// A file that is missing, damaged or no result.
 pub fn result_figures(path: &Path) -> Result<Vec<Figure>, UpliftError> {
-    let is_of_displacements = holds_displacement_spectra(&open_any_result(path)?);
-    if is_of_displacements {
-        displacement_figures(path, &StoredDisplacements::read(path)?, Extent::All)
-    } else {
-        FigureSource::new(StoredStripes::read(path)?)?.figures()
+    let file = ResultFile::open(path)?;
+    match file.kind() {
+        Kind::UniformRisk => FigureSource::read(&file)?.figures(),
+        Kind::Displacement => displacement_figures(&file, &file.displacements()?, Extent::All),
     }
 }
 
-/// A result file of uniform risk spectra, opened for its figures.
+/// A result of uniform risk spectra, read for its figures.
 pub struct FigureSource {
-    stored: StoredStripes,
-    reader: LabelledReader,
-    remark: String,
+    pub(crate) stored: StoredStripes,
+    pub(crate) spectra: StoredSpectra,
+    pub(crate) bands: Option<StoredBands>,
+    hazard: Vec<StoredHazard>,
+    records: StoredRecords,
+    remark: &'static str,
 }
 
 impl FigureSource {
-    /// Open the result that `stored` was read from.
+    /// Read what the figures of `file` show.
     ///
     /// # Errors
-    /// A file that is missing or damaged.
-    pub fn new(stored: StoredStripes) -> Result<Self, UpliftError> {
-        let reader = open_result(&stored.path)?;
-        let synthetic = reader.attribute_i64("/", "synthetic")? == 1;
-        let remark = if synthetic { SYNTHETIC } else { "" };
-        Ok(Self { stored, reader, remark: remark.to_owned() })
+    /// A file that is damaged, or of another kind; a study without sites.
+    pub fn read(file: &ResultFile) -> Result<Self, UpliftError> {
+        Ok(Self {
+            stored: file.stripes()?,
+            spectra: file.spectra()?,
+            bands: file.bands()?,
+            hazard: file.hazard()?,
+            records: file.records()?,
+            remark: if file.head()?.synthetic { SYNTHETIC } else { "" },
+        })
+    }
+
+    /// The spectra `[site, poe, strength]` of `measure` as the result has them, m.
+    pub(crate) fn u_m(&self, measure: IntensityMeasure) -> Option<&Array<3>> {
+        self.spectra.measures.iter().find(|spectra| spectra.measure == measure).map(|spectra| &spectra.u_m)
     }
 
     /// Every figure that the result has the numbers for, in the order of the chapter.
@@ -62,17 +75,17 @@ impl FigureSource {
     /// A file that is damaged.
     pub fn figures(&self) -> Result<Vec<Figure>, UpliftError> {
         let mut figures = Vec::new();
-        figures.extend(spectra::hazard(self)?);
+        figures.push(spectra::hazard(self));
         figures.extend(demand::ida_curves(self)?);
         figures.extend(demand::fragilities(self)?);
         figures.extend(demand::risk_curves(self)?);
         figures.extend(demand::risk_surfaces(self)?);
         figures.extend(spectra::spectra(self));
-        figures.extend(spectra::fits(self)?);
-        figures.extend(confidence::bands(self)?);
-        figures.extend(confidence::measures_together(self)?);
-        figures.extend(confidence::initiation(self)?);
-        figures.extend(efficiency::efficiency(self)?);
+        figures.extend(spectra::fits(self));
+        figures.extend(confidence::bands(self));
+        figures.extend(confidence::measures_together(self));
+        figures.extend(confidence::initiation(self));
+        figures.push(efficiency::efficiency(self)?);
         Ok(figures)
     }
 
@@ -88,7 +101,7 @@ impl FigureSource {
             id: id.into(),
             title: title.into(),
             caption: caption.into(),
-            remark: self.remark.clone(),
+            remark: self.remark.to_owned(),
             panels,
             columns,
         }

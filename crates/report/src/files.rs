@@ -4,7 +4,7 @@ use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 use uplift::UpliftError;
-use uplift::result::write_aside;
+use uplift::result::write_atomically;
 use uplift_plot::{Figure, Width, png, svg};
 
 /// Of a PNG for print.
@@ -47,7 +47,7 @@ impl FigureOptions {
         let mut written = Vec::new();
         let mut write = |extension: &str, bytes: &[u8]| {
             let file = folder.join(format!("{}.{extension}", figure.id));
-            write_aside(&file, bytes)?;
+            write_atomically(&file, bytes)?;
             written.push(file);
             Ok::<(), UpliftError>(())
         };
@@ -82,9 +82,9 @@ pub fn write_figure_file(figure: &Figure, file: &Path) -> Result<(), UpliftError
     check_figure_file(file)?;
     let drawing = svg(figure, Width::Double).map_err(|reason| refused(figure, reason))?;
     if file.extension().is_some_and(|extension| extension == "png") {
-        write_aside(file, &png(&drawing.svg, DOTS_PER_INCH).map_err(|error| refused(figure, error))?)
+        write_atomically(file, &png(&drawing.svg, DOTS_PER_INCH).map_err(|error| refused(figure, error))?)
     } else {
-        write_aside(file, drawing.svg.as_bytes())
+        write_atomically(file, drawing.svg.as_bytes())
     }
 }
 

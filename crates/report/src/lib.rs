@@ -17,5 +17,7 @@ pub mod plot;
 pub mod report;
 
 pub use files::{FigureFormat, FigureOptions, check_figure_file, write_figure_file};
-pub use plot::{PlotOptions, PlotReport, plot, plot_overturning, plot_pulses, plot_response};
+pub use plot::{
+    HazardPlotOptions, PlotOptions, PlotReport, plot, plot_hazard, plot_overturning, plot_pulses, plot_response,
+};
 pub use report::{PageReport, ReportOptions, report};

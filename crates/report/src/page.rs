@@ -15,7 +15,7 @@ use serde::Serialize;
 use crate::files::refused;
 use uplift::UpliftError;
 use uplift::events::Events;
-use uplift::result::{holds_displacement_spectra, open_any_result};
+use uplift::result::{Kind, ResultFile};
 use uplift_plot::{Figure, Marks, PanelPlace, Width, svg};
 
 /// What the page shows of one result.
@@ -118,20 +118,19 @@ struct Content {
 }
 
 fn section(key: &str, path: &Path) -> Result<Section, UpliftError> {
-    let reader = open_any_result(path)?;
-    let text = |name: &str| reader.attribute_text("/", name);
-    let title = text("title")?;
+    let result = ResultFile::open(path)?;
+    let head = result.head()?;
     let file = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let warnings = text("warnings")?.lines().map(str::to_owned).collect();
-    let checksums = serde_json::from_str(&text("input_checksums")?).unwrap_or_default();
-    let synthetic = reader.attribute_i64("/", "synthetic")? == 1;
-    let content = if holds_displacement_spectra(&reader) { displacement::content(path)? } else { risk::content(path)? };
+    let content = match result.kind() {
+        Kind::UniformRisk => risk::content(&result)?,
+        Kind::Displacement => displacement::content(&result)?,
+    };
     let mut facts = vec![
         ("Result", file.clone()),
-        ("Records", text("record_set")?),
-        ("Program", format!("uplift {} ({})", text("version")?, text("commit")?)),
-        ("Made", text("created")?),
-        ("Command", text("command")?),
+        ("Records", head.record_set.clone()),
+        ("Program", format!("uplift {} ({})", head.version, head.commit)),
+        ("Made", head.created),
+        ("Command", head.command),
     ];
     facts.extend(content.facts);
     let mut tables = content.tables;
@@ -141,18 +140,18 @@ fn section(key: &str, path: &Path) -> Result<Section, UpliftError> {
     let figures = content.figures.iter().map(|figure| drawn(key, figure)).collect::<Result<Vec<_>, _>>()?;
     Ok(Section {
         key: key.to_owned(),
-        title: if title.is_empty() { file.clone() } else { title },
+        title: if head.title.is_empty() { file.clone() } else { head.title },
         subject: content.subject,
         extent: content.extent,
         file,
-        record_set: text("record_set")?,
-        synthetic,
+        record_set: head.record_set,
+        synthetic: head.synthetic,
         facts,
-        warnings,
+        warnings: head.warnings,
         tables,
         figures,
-        study_toml: text("study_toml")?,
-        checksums,
+        study_toml: head.study_toml,
+        checksums: head.input_checksums,
     })
 }
 

@@ -5,13 +5,17 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use uplift::UpliftError;
 use uplift::events::Events;
-use uplift::outputs::provide_folder;
+use uplift::hazard_curves::{CurveOptions, read as read_curves};
+use uplift::outputs::{provide_folder, refuse_overwriting};
 use uplift::pulses::PulseReport;
 use uplift::response::ResponseReport;
 use uplift::structure::OverturningReport;
 
-use crate::figures::{history_figure, overturning_figure, pulse_figures, result_figures};
-use crate::files::{FigureOptions, write_figure_file};
+use crate::figures::{hazard_figure, history_figure, overturning_figure, pulse_figures, result_figures};
+use crate::files::{FigureOptions, check_figure_file, write_figure_file};
+
+/// Curves that a figure can tell apart, and then some.
+const MOST_CURVES: usize = 50;
 
 /// Which figures of a result are drawn, and where.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -92,4 +96,34 @@ pub fn plot_response(report: &ResponseReport, file: &Path) -> Result<(), UpliftE
 /// As [`write_figure_file`].
 pub fn plot_overturning(report: &OverturningReport, file: &Path) -> Result<(), UpliftError> {
     write_figure_file(&overturning_figure(report), file)
+}
+
+/// Which hazard curves are drawn, and where.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HazardPlotOptions {
+    /// Tables with two columns, or exports of an engine.
+    pub files: Vec<PathBuf>,
+    /// Which of their curves, and what a table does not say.
+    pub curves: CurveOptions,
+    /// The figure, .svg or .png.
+    pub output: PathBuf,
+}
+
+/// Draws hazard curves in one figure.
+///
+/// # Errors
+/// Curves that cannot be read, or are too many for one figure; a figure that would overwrite one of the files, or
+/// cannot be written.
+pub fn plot_hazard(options: &HazardPlotOptions, events: &dyn Events) -> Result<PlotReport, UpliftError> {
+    check_figure_file(&options.output)?;
+    refuse_overwriting(&options.output, &options.files)?;
+    let curves = read_curves(&options.files, &options.curves, events)?;
+    if curves.len() > MOST_CURVES {
+        return Err(UpliftError::Usage(format!(
+            "{} curves cannot be told apart in one figure: pick a site by --name or --near LON,LAT",
+            curves.len()
+        )));
+    }
+    write_figure_file(&hazard_figure(&curves), &options.output)?;
+    Ok(PlotReport { files: vec![options.output.clone()] })
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 use uplift::UpliftError;
 use uplift::events::Events;
-use uplift::result::write_aside;
+use uplift::result::write_atomically;
 
 use crate::page::page;
 
@@ -40,6 +40,6 @@ pub fn report(options: &ReportOptions, events: &dyn Events) -> Result<PageReport
             file.display()
         )));
     }
-    write_aside(&file, page(&options.results, events)?.as_bytes())?;
+    write_atomically(&file, page(&options.results, events)?.as_bytes())?;
     Ok(PageReport { file })
 }

@@ -2,12 +2,13 @@
 
 use rayon::prelude::*;
 use uplift_bootstrap::{
-    Band, BootstrapError, Interval, Replicates, ResamplingPlan, acceleration, error_of_median, leave_one_out,
-    range_of_interval, simultaneous_bands, weighted_quantile,
+    Band, BootstrapError, Interval, Replicates, ResamplingPlan, acceleration, leave_one_out, simultaneous_bands,
+    weighted_quantile,
 };
 use uplift_motion::IntensityMeasure;
 use uplift_risk::{PooledDemand, StripeWeights};
 
+use crate::array::Array;
 use crate::error::UpliftError;
 use crate::result::{StoredMeasure, StoredStripes};
 
@@ -33,40 +34,40 @@ pub(super) struct StrengthBands {
     pub(super) replicates_m: Vec<f64>,
 }
 
-/// The bands of one measure; arrays run over `[site, poe, size, strength]`, m.
+/// The bands of one measure.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bands {
     /// The measure.
     pub measure: IntensityMeasure,
-    /// Lower limits.
-    pub lower_m: Vec<f64>,
-    /// Medians.
-    pub median_m: Vec<f64>,
-    /// Upper limits.
-    pub upper_m: Vec<f64>,
-    /// Lower and upper limits of the band of whole spectra, if made.
-    pub simultaneous_m: Option<[Vec<f64>; 2]>,
+    /// Lower limits `[site, poe, size, strength]`, m.
+    pub lower_m: Array<4>,
+    /// Medians `[site, poe, size, strength]`, m.
+    pub median_m: Array<4>,
+    /// Upper limits `[site, poe, size, strength]`, m.
+    pub upper_m: Array<4>,
+    /// Lower and upper limits of the band of whole spectra `[site, poe, size, strength]`, m, if made.
+    pub simultaneous_m: Option<[Array<4>; 2]>,
     /// Bands over records and hazard together, for the sites with branches.
     pub joint: Vec<JointBands>,
-    /// Eq. 4.9 over `[site, poe, size]`.
-    pub error_of_median: Vec<Option<f64>>,
-    /// Eq. 4.10 over `[site, poe, size]`.
-    pub range_of_interval: Vec<Option<f64>>,
+    /// Error of the median `[site, poe, size]` (Eq. 4.9); none where an ordinate is censored or 0.
+    pub error_of_median: Array<3, Option<f64>>,
+    /// Width of the interval `[site, poe, size]` (Eq. 4.10); none where an ordinate is censored or 0.
+    pub range_of_interval: Array<3, Option<f64>>,
 }
 
-/// The bands of one site over records and weighted hazard curves together; arrays run over `[poe, size, strength]`, m.
+/// The bands of one site over records and weighted hazard curves together.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointBands {
     /// Position of the site.
     pub site: usize,
-    /// Lower limits.
-    pub lower_m: Vec<f64>,
-    /// Medians.
-    pub median_m: Vec<f64>,
-    /// Upper limits.
-    pub upper_m: Vec<f64>,
-    /// Eq. 4.10 over `[poe, size]`.
-    pub range_of_interval: Vec<Option<f64>>,
+    /// Lower limits `[poe, size, strength]`, m.
+    pub lower_m: Array<3>,
+    /// Medians `[poe, size, strength]`, m.
+    pub median_m: Array<3>,
+    /// Upper limits `[poe, size, strength]`, m.
+    pub upper_m: Array<3>,
+    /// Width of the interval `[poe, size]` (Eq. 4.10).
+    pub range_of_interval: Array<2, Option<f64>>,
 }
 
 /// The bands of the strength at `index`.
@@ -80,7 +81,7 @@ pub(super) fn bands_of_strength(
     plan: &ResamplingPlan,
     settings: &BandSettings,
 ) -> Result<StrengthBands, UpliftError> {
-    let demand = measure.demand(index, stored.strengths.len())?;
+    let demand = measure.demand(index)?;
     let targets = &stored.targets_per_year;
     let mut done = StrengthBands { bands: Vec::new(), replicates_m: Vec::new() };
     let mut sorted = Vec::new();
@@ -92,7 +93,7 @@ pub(super) fn bands_of_strength(
             Interval::Bca => leave_one_out(&demand, weights, targets)?,
         };
         for poe in 0..targets.len() {
-            let estimate_m = measure.spectra_m[stored.ordinate(site, poe, index)];
+            let estimate_m = measure.exact_m[[site, poe, index]];
             let without_each_m: Vec<f64> = without_each.iter().skip(poe).step_by(targets.len()).copied().collect();
             for (size_index, &size) in plan.sizes().iter().enumerate() {
                 let ordinates_m = replicates.ordinates_m(0, poe, size_index);
@@ -118,8 +119,8 @@ pub(super) fn bands_of_strength(
     Ok(done)
 }
 
-/// The bands of one strength and site over `[poe, size]`, of all pairs of a replicate and a branch: a replicate counts as much in every branch, and a branch
-/// as much as it weighs.
+/// The bands of one strength and site over `[poe, size]`, of all pairs of a replicate and a branch: a replicate counts
+/// as much in every branch, and a branch as much as it weighs.
 fn joint_bands(
     demand: &PooledDemand,
     branches: &[(f64, StripeWeights)],
@@ -155,26 +156,27 @@ pub(super) fn gather_bands(
     settings: &BandSettings,
     strengths: &[&StrengthBands],
 ) -> Bands {
-    let sizes = plan.sizes().len();
-    let cells = stored.sites.len() * stored.poes.len() * sizes;
-    let of = |value: fn(&Band) -> f64| -> Vec<f64> {
-        (0..cells).flat_map(|cell| strengths.iter().map(move |strength| value(&strength.bands[cell]))).collect()
+    let (sites, poes, sizes) = (stored.sites.len(), stored.poes.len(), plan.sizes().len());
+    let shape = [sites, poes, sizes, strengths.len()];
+    let cell = |site: usize, poe: usize, size: usize| (site * poes + poe) * sizes + size;
+    let of = |value: fn(&Band) -> f64| {
+        Array::from_fn(shape, |[site, poe, size, strength]| value(&strengths[strength].bands[cell(site, poe, size)]))
     };
     let (lower_m, median_m, upper_m) = (of(|band| band.lower_m), of(|band| band.median_m), of(|band| band.upper_m));
     let first = stored.strengths.partition_point(|&strength| strength <= settings.strength_above);
-    let (mut errors, mut ranges) = (Vec::with_capacity(cells), Vec::with_capacity(cells));
-    for cell in 0..cells {
-        let row = cell * strengths.len() + first..(cell + 1) * strengths.len();
-        let poes = stored.poes.len();
-        let spectrum = stored.spectrum(&measure.spectra_m, cell / sizes / poes, cell / sizes % poes);
-        errors.push(error_of_median(&median_m[row.clone()], &spectrum[first..]));
-        ranges.push(range_of_interval(&lower_m[row.clone()], &median_m[row.clone()], &upper_m[row]));
-    }
+    let error_of_median = Array::from_fn([sites, poes, sizes], |at @ [site, poe, _]| {
+        uplift_bootstrap::error_of_median(&median_m.block(at)[first..], &measure.exact_m.block([site, poe])[first..])
+    });
+    let range_of_interval = Array::from_fn([sites, poes, sizes], |at| {
+        let [lower, median, upper] = [&lower_m, &median_m, &upper_m].map(|limits| &limits.block(at)[first..]);
+        uplift_bootstrap::range_of_interval(lower, median, upper)
+    });
     let simultaneous_m = settings.simultaneous.then(|| {
         let count = plan.replicates();
-        let limits: Vec<(f64, f64)> = (0..cells)
+        // [site, poe, size][strength]
+        let limits: Vec<Vec<(f64, f64)>> = (0..sites * poes * sizes)
             .into_par_iter()
-            .flat_map_iter(|cell| {
+            .map(|cell| {
                 let replicates: Vec<Vec<f64>> = strengths
                     .iter()
                     .map(|strength| strength.replicates_m[cell * count..(cell + 1) * count].to_vec())
@@ -182,27 +184,25 @@ pub(super) fn gather_bands(
                 simultaneous_bands(&replicates, settings.confidence)
             })
             .collect();
-        [limits.iter().map(|limits| limits.0).collect(), limits.iter().map(|limits| limits.1).collect()]
+        let limits = Array::from_fn(shape, |[site, poe, size, strength]| limits[cell(site, poe, size)][strength]);
+        [limits.map(|limits| limits.0), limits.map(|limits| limits.1)]
     });
-    let with_branches = (0..stored.sites.len()).filter(|&site| !measure.branches[site].is_empty());
+    let with_branches = (0..sites).filter(|&site| !measure.branches[site].is_empty());
     let joint = with_branches
         .enumerate()
         .map(|(place, site)| {
-            let per_site = stored.poes.len() * sizes;
-            let start = cells + place * per_site;
-            let of = |value: fn(&Band) -> f64| -> Vec<f64> {
-                (start..start + per_site)
-                    .flat_map(|cell| strengths.iter().map(move |strength| value(&strength.bands[cell])))
-                    .collect()
+            // behind those of the sites
+            let of = |value: fn(&Band) -> f64| {
+                Array::from_fn([poes, sizes, strengths.len()], |[poe, size, strength]| {
+                    value(&strengths[strength].bands[cell(sites + place, poe, size)])
+                })
             };
             let (lower_m, median_m, upper_m) =
                 (of(|band| band.lower_m), of(|band| band.median_m), of(|band| band.upper_m));
-            let range_of_interval = (0..per_site)
-                .map(|cell| {
-                    let row = cell * strengths.len() + first..(cell + 1) * strengths.len();
-                    range_of_interval(&lower_m[row.clone()], &median_m[row.clone()], &upper_m[row])
-                })
-                .collect();
+            let range_of_interval = Array::from_fn([poes, sizes], |at| {
+                let [lower, median, upper] = [&lower_m, &median_m, &upper_m].map(|limits| &limits.block(at)[first..]);
+                uplift_bootstrap::range_of_interval(lower, median, upper)
+            });
             JointBands { site, lower_m, median_m, upper_m, range_of_interval }
         })
         .collect();
@@ -213,7 +213,7 @@ pub(super) fn gather_bands(
         upper_m,
         simultaneous_m,
         joint,
-        error_of_median: errors,
-        range_of_interval: ranges,
+        error_of_median,
+        range_of_interval,
     }
 }

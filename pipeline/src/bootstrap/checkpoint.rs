@@ -35,7 +35,7 @@ impl Checkpoint {
         add(&stored.strengths);
         for measure in &stored.measures {
             add(&measure.levels);
-            add(&measure.edp_m);
+            add(measure.edp_m.values());
             for weights in measure.weights.iter().chain(measure.branches.iter().flatten().map(|(_, weights)| weights)) {
                 add(&weights.per_year());
             }

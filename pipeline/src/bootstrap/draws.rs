@@ -8,7 +8,7 @@ use uplift_study::Bootstrap;
 use super::BootstrapOptions;
 use crate::error::UpliftError;
 use crate::events::Events;
-use crate::result::{StoredStripes, open_result};
+use crate::result::{ResultFile, StoredStripes};
 
 /// Sample sizes of Section 4.5 below the whole set.
 const SIZES: [u32; 4] = [20, 40, 60, 80];
@@ -37,23 +37,18 @@ pub(super) fn draws(
 
 /// The draws that the result at `path` keeps, from the same records.
 fn kept_draws(path: &Path, stored: &StoredStripes) -> Result<ResamplingPlan, UpliftError> {
-    let reader = open_result(path)?;
+    let file = ResultFile::open(path)?;
     let fail = |reason: String| UpliftError::input(format!("{}: {reason}", path.display()));
-    if !reader.exists("/bootstrap/multiplicity") {
+    let Some(plan) = file.resampling_plan()? else {
         return Err(fail("keeps no resampling plan: run `uplift bootstrap` on it first".to_owned()));
-    }
-    if reader.axis_text("record")? != stored.records {
+    };
+    if file.axes()?.records != stored.records {
         return Err(fail(format!(
             "its plan draws from other records than those of {}, or in another order",
             stored.path.display()
         )));
     }
-    let counts = reader.array_u32("/bootstrap/multiplicity")?;
-    let [_, replicates, records] = counts.shape[..] else {
-        return Err(fail("its resampling plan is damaged".to_owned()));
-    };
-    ResamplingPlan::from_multiplicities(records, &reader.axis_u32("sample_size")?, replicates, &counts.values)
-        .map_err(|error| UpliftError::from(error).in_file(path))
+    Ok(plan)
 }
 
 /// Tells what is drawn from what.

@@ -15,7 +15,7 @@ use super::report::BootstrapReport;
 use super::write::{BandsFile, band_paths, write_bands};
 use crate::error::UpliftError;
 use crate::events::Events;
-use crate::result::{StoredStripes, check_target};
+use crate::result::{ResultFile, check_target};
 
 /// What is asked of a bootstrap. What is left open is as a study says: as `study`, else as the one in the result.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -39,20 +39,20 @@ pub struct BootstrapOptions {
     pub reference: Vec<ReferenceRow>,
 }
 
-/// How sure the spectra of the result at `result` are: bands from resampled records, written into the file and into tables
-/// beside it (Section 4.5).
+/// How sure the spectra of the result at `result` are: bands from resampled records, written into the file and into
+/// tables beside it (Section 4.5).
 ///
 /// Finished strengths outlive whatever stops the job, in a checkpoint beside the result.
 ///
 /// # Errors
-/// A file that is missing, damaged, no result, or without sites; draws that cannot be made or do not belong to its records; a
-/// file that cannot be written; [`UpliftError::Paused`] where `events` say so.
+/// A file that is missing, damaged, no result, or without sites; draws that cannot be made or do not belong to its
+/// records; a file that cannot be written; [`UpliftError::Paused`] where `events` say so.
 pub fn bootstrap(
     result: &Path,
     options: &BootstrapOptions,
     events: &dyn Events,
 ) -> Result<BootstrapReport, UpliftError> {
-    let stored = StoredStripes::read(result)?;
+    let stored = ResultFile::open(result)?.stripes()?;
     check_target(&stored.path)?;
     let study = options.study.as_ref().unwrap_or(&stored.bootstrap);
     let settings = BandSettings {

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::error::UpliftError;
-use crate::reference::ReferenceTable;
+use crate::table::ReferenceTable;
 
 /// A row: one site and sample size.
 #[derive(Debug, Clone, PartialEq)]

@@ -49,7 +49,8 @@ pub struct BootstrapReport {
     pub reference: Vec<ReferenceRow>,
 }
 
-/// The figures of Table 4.1 of one spectrum and sample size; none where overturning or a displacement of zero leaves none.
+/// The figures of Table 4.1 of one spectrum and sample size; none where overturning or a displacement of zero leaves
+/// none.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BootstrapRow {
     /// The site.
@@ -66,8 +67,8 @@ pub struct BootstrapRow {
     pub r_90ci: Option<f64>,
 }
 
-/// Where rocking begins (Section 4.5.2, Fig. 4.10): the strengths at which the band falls to the uplift displacement; none
-/// where it is above it at every strength.
+/// Where rocking begins (Section 4.5.2, Fig. 4.10): the strengths at which the band falls to the uplift displacement;
+/// none where it is above it at every strength.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Initiation {
     /// Of the lower limit.
@@ -91,15 +92,14 @@ impl BootstrapReport {
     ) -> Self {
         let mut rows = Vec::new();
         for bands in &bands {
-            for (cell, (error, range)) in bands.error_of_median.iter().zip(&bands.range_of_interval).enumerate() {
-                let spectrum = cell / sizes.len();
+            for (at @ [site, poe, size], error) in bands.error_of_median.blocks() {
                 rows.push(BootstrapRow {
-                    site: stored.sites[spectrum / stored.poes.len()].clone(),
+                    site: stored.sites[site].clone(),
                     im: bands.measure.label(),
-                    poe: stored.poes[spectrum % stored.poes.len()],
-                    sample_size: sizes[cell % sizes.len()],
-                    e_median: error.map(|error| 100.0 * error),
-                    r_90ci: range.map(|range| 100.0 * range),
+                    poe: stored.poes[poe],
+                    sample_size: sizes[size],
+                    e_median: error[0].map(|error| 100.0 * error),
+                    r_90ci: bands.range_of_interval[at].map(|range| 100.0 * range),
                 });
             }
         }
@@ -119,21 +119,14 @@ impl BootstrapReport {
         }
     }
 
-    /// Position of a spectrum and sample size, by positions, in arrays over `[site, poe, size]`.
-    pub fn cell(&self, site: usize, poe: usize, size: usize) -> usize {
-        (site * self.poes.len() + poe) * self.sizes.len() + size
-    }
-
-    /// Where rocking begins, by `bands` at the position `cell`.
+    /// Where rocking begins, by `bands` at the positions `[site, poe, size]`.
     ///
     /// # Panics
-    /// If `cell` is out of range, which is a bug of the caller.
-    pub fn initiation(&self, bands: &Bands, cell: usize) -> Initiation {
-        let count = self.strengths.len();
-        let row = cell * count..(cell + 1) * count;
+    /// If a position is out of range, which is a bug of the caller.
+    pub fn initiation(&self, bands: &Bands, at: [usize; 3]) -> Initiation {
         let at_uplift = |values: &[f64]| values.iter().position(|&u_m| u_m <= self.uplift_displacement_m);
         let strength = |values: &[f64]| at_uplift(values).map(|index| self.strengths[index]);
-        let (lower, median, upper) = (&bands.lower_m[row.clone()], &bands.median_m[row.clone()], &bands.upper_m[row]);
+        let (lower, median, upper) = (bands.lower_m.block(at), bands.median_m.block(at), bands.upper_m.block(at));
         Initiation {
             lower: strength(lower),
             median: strength(median),

@@ -6,12 +6,16 @@ use polars::prelude::Column;
 use uplift_bootstrap::ResamplingPlan;
 
 use super::bands::{BandSettings, Bands};
+use crate::array::Array;
 use crate::error::UpliftError;
+use crate::result::layout::{MULTIPLICITY, axis, band, bootstrap, joint_band, limit_names};
 use crate::result::{StoredStripes, extend_result, line, sign, write_table};
 use uplift_labelled::{LabelledError, LabelledWriter};
 
 /// Groups and axes of the file that bands replace.
-const REPLACED: [&str; 3] = ["/bootstrap", "/axes/sample_size", "/axes/replicate"];
+fn replaced() -> [String; 3] {
+    [bootstrap::ROOT.to_owned(), axis::path(axis::SAMPLE_SIZE), axis::path(axis::REPLICATE)]
+}
 
 /// All that is written of a bootstrap.
 pub(super) struct BandsFile<'a> {
@@ -38,7 +42,7 @@ pub(super) fn band_paths(result: &Path) -> [PathBuf; 2] {
 /// Whatever keeps the files from being written; the result file is then as it was.
 pub(super) fn write_bands(file: &BandsFile<'_>) -> Result<(), UpliftError> {
     let BandsFile { stored, plan, settings, .. } = file;
-    extend_result(stored, &REPLACED, |writer| add_bands(writer, file))?;
+    extend_result(stored, &replaced(), |writer| add_bands(writer, file))?;
     let what = format!(
         "bootstrap: {}, {} replicates, {} interval, confidence {}",
         file.plan_source,
@@ -54,76 +58,59 @@ pub(super) fn write_bands(file: &BandsFile<'_>) -> Result<(), UpliftError> {
 
 fn add_bands(writer: &mut LabelledWriter, file: &BandsFile<'_>) -> Result<(), LabelledError> {
     let BandsFile { stored, plan, settings, .. } = file;
-    writer.axis_u32("sample_size", plan.sizes(), "1", "records drawn in a replicate")?;
+    writer.axis_u32(axis::SAMPLE_SIZE, plan.sizes(), "1", "records drawn in a replicate")?;
     let numbers: Vec<u32> = (0..).take(plan.replicates()).collect();
-    writer.axis_u32("replicate", &numbers, "1", "number of the replicate")?;
-    sign(writer, "/bootstrap")?;
-    writer.attribute("/bootstrap", "plan", file.plan_source)?;
-    writer.attribute("/bootstrap", "confidence", settings.confidence)?;
-    writer.attribute("/bootstrap", "interval", settings.interval.key())?;
-    writer.attribute("/bootstrap", "strength_above", settings.strength_above)?;
+    writer.axis_u32(axis::REPLICATE, &numbers, "1", "number of the replicate")?;
+    let root = bootstrap::ROOT;
+    sign(writer, root)?;
+    writer.attribute(root, "plan", file.plan_source)?;
+    writer.attribute(root, "confidence", settings.confidence)?;
+    writer.attribute(root, "interval", settings.interval.key())?;
+    writer.attribute(root, "strength_above", settings.strength_above)?;
     let long_name = "how often each record was drawn";
-    let dims = ["sample_size", "replicate", "record"];
-    writer.array_u32("/bootstrap/multiplicity", &dims, &plan.multiplicities(), "1", long_name)?;
+    let dims = [axis::SAMPLE_SIZE, axis::REPLICATE, axis::RECORD];
+    writer.array_u32(MULTIPLICITY, &dims, &plan.multiplicities(), "1", long_name)?;
+    let [lower, median, upper] = limit_names(settings.confidence);
     for bands in file.bands {
-        let group = format!("/bootstrap/{}", bands.measure.key());
-        let dims = ["site", "poe", "sample_size", "strength"];
-        let [lower, median, upper] = limit_names(settings.confidence);
+        let measure = bands.measure;
+        let dims = [axis::SITE, axis::POE, axis::SAMPLE_SIZE, axis::STRENGTH];
         for (name, values, what) in [
-            (lower, &bands.lower_m, "lower limit"),
-            (median, &bands.median_m, "median of the replicates"),
-            (upper, &bands.upper_m, "upper limit"),
+            (&lower, &bands.lower_m, "lower limit"),
+            (&median, &bands.median_m, "median of the replicates"),
+            (&upper, &bands.upper_m, "upper limit"),
         ] {
-            writer.array_f64(&format!("{group}/{name}"), &dims, values, "m", what)?;
+            writer.array_f64(&band(measure, name), &dims, values.values(), "m", what)?;
         }
         if let Some([lower, upper]) = &bands.simultaneous_m {
-            for (name, values) in [("simultaneous_lower_m", lower), ("simultaneous_upper_m", upper)] {
+            let paths = [bootstrap::simultaneous_lower_m(measure), bootstrap::simultaneous_upper_m(measure)];
+            for (path, values) in paths.iter().zip([lower, upper]) {
                 let long_name = "limit of the band that holds whole spectra";
-                writer.array_f64(&format!("{group}/{name}"), &dims, values, "m", long_name)?;
+                writer.array_f64(path, &dims, values.values(), "m", long_name)?;
             }
         }
         for joint in &bands.joint {
-            let group = format!("{group}/joint/{}", stored.sites[joint.site]);
-            let [lower, median, upper] = limit_names(settings.confidence);
-            for (name, values) in [(lower, &joint.lower_m), (median, &joint.median_m), (upper, &joint.upper_m)] {
+            let path = |name: &str| joint_band(measure, &stored.sites[joint.site], name);
+            for (name, values) in [(&lower, &joint.lower_m), (&median, &joint.median_m), (&upper, &joint.upper_m)] {
+                let dims = [axis::POE, axis::SAMPLE_SIZE, axis::STRENGTH];
                 let long_name = "limit over resampled records and weighted hazard curves together";
-                writer.array_f64(
-                    &format!("{group}/{name}"),
-                    &["poe", "sample_size", "strength"],
-                    values,
-                    "m",
-                    long_name,
-                )?;
+                writer.array_f64(&path(name), &dims, values.values(), "m", long_name)?;
             }
-            let ranges: Vec<f64> =
-                joint.range_of_interval.iter().map(|value| value.map_or(f64::NAN, |value| 100.0 * value)).collect();
-            let long_name = "range of the joint interval (Eq. 4.10)";
-            writer.array_f64(&format!("{group}/r_90ci"), &["poe", "sample_size"], &ranges, "%", long_name)?;
+            let dims = [axis::POE, axis::SAMPLE_SIZE];
+            let ranges = percent(&joint.range_of_interval);
+            writer.array_f64(&path("r_90ci"), &dims, &ranges, "%", "range of the joint interval (Eq. 4.10)")?;
         }
-        let dims = ["site", "poe", "sample_size"];
-        let percent = |values: &[Option<f64>]| -> Vec<f64> {
-            values.iter().map(|value| value.map_or(f64::NAN, |value| 100.0 * value)).collect()
-        };
+        let dims = [axis::SITE, axis::POE, axis::SAMPLE_SIZE];
         let errors = percent(&bands.error_of_median);
-        writer.array_f64(&format!("{group}/e_median"), &dims, &errors, "%", "error of the median (Eq. 4.9)")?;
+        writer.array_f64(&bootstrap::e_median(measure), &dims, &errors, "%", "error of the median (Eq. 4.9)")?;
         let ranges = percent(&bands.range_of_interval);
-        writer.array_f64(&format!("{group}/r_90ci"), &dims, &ranges, "%", "range of the interval (Eq. 4.10)")?;
+        writer.array_f64(&bootstrap::r_90ci(measure), &dims, &ranges, "%", "range of the interval (Eq. 4.10)")?;
     }
     Ok(())
 }
 
-/// Names of both limits and the median: `u05_m`, `u50_m`, `u95_m` for a confidence of 0.9, `u02_5_m` and `u97_5_m` for 0.95.
-fn limit_names(confidence: f64) -> [String; 3] {
-    let tail = 0.5 * (1.0 - confidence);
-    [tail, 0.5, 1.0 - tail].map(|level| percentile_name(100.0 * level))
-}
-
-/// Name of a percentile of displacements: `u05_m`, or `u02_5_m` for 2.5 %.
-pub(crate) fn percentile_name(percent: f64) -> String {
-    let percent = ((percent * 1e6).round() / 1e6).to_string();
-    let (whole, part) = percent.split_once('.').map_or((percent.as_str(), ""), |(whole, part)| (whole, part));
-    let part = if part.is_empty() { String::new() } else { format!("_{part}") };
-    format!("u{whole:0>2}{part}_m")
+/// Shares in per cent; NaN for none.
+fn percent<const N: usize>(values: &Array<N, Option<f64>>) -> Vec<f64> {
+    values.map(|value| value.map_or(f64::NAN, |value| 100.0 * value)).into_values()
 }
 
 fn bands_table(file: &BandsFile<'_>) -> Vec<Column> {
@@ -137,20 +124,14 @@ fn bands_table(file: &BandsFile<'_>) -> Vec<Column> {
             columns.extend([lower, upper]);
         }
         for (all, of_measure) in limits.iter_mut().zip(columns) {
-            all.extend_from_slice(of_measure);
+            all.extend_from_slice(of_measure.values());
         }
-        for site_name in &stored.sites {
-            for &poe_value in &stored.poes {
-                for &sample_size in sizes {
-                    for &eta in &stored.strengths {
-                        site.push(site_name.as_str());
-                        im.push(bands.measure.label());
-                        poe.push(poe_value);
-                        size.push(sample_size);
-                        strength.push(eta);
-                    }
-                }
-            }
+        for ([site_index, poe_index, size_index, strength_index], _) in bands.lower_m.blocks() {
+            site.push(stored.sites[site_index].as_str());
+            im.push(bands.measure.label());
+            poe.push(stored.poes[poe_index]);
+            size.push(sizes[size_index]);
+            strength.push(stored.strengths[strength_index]);
         }
     }
     let years = vec![stored.years; site.len()];
@@ -175,14 +156,13 @@ fn figures_table(file: &BandsFile<'_>) -> Vec<Column> {
     let (mut site, mut im, mut poe, mut size) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let (mut errors, mut ranges) = (Vec::new(), Vec::new());
     for bands in file.bands {
-        for (cell, (error, range)) in bands.error_of_median.iter().zip(&bands.range_of_interval).enumerate() {
-            let spectrum = cell / sizes.len();
-            site.push(stored.sites[spectrum / stored.poes.len()].as_str());
+        for (at @ [site_index, poe_index, size_index], error) in bands.error_of_median.blocks() {
+            site.push(stored.sites[site_index].as_str());
             im.push(bands.measure.label());
-            poe.push(stored.poes[spectrum % stored.poes.len()]);
-            size.push(sizes[cell % sizes.len()]);
-            errors.push(error.map(|error| 100.0 * error));
-            ranges.push(range.map(|range| 100.0 * range));
+            poe.push(stored.poes[poe_index]);
+            size.push(sizes[size_index]);
+            errors.push(error[0].map(|error| 100.0 * error));
+            ranges.push(bands.range_of_interval[at].map(|range| 100.0 * range));
         }
     }
     let years = vec![stored.years; site.len()];
@@ -195,16 +175,4 @@ fn figures_table(file: &BandsFile<'_>) -> Vec<Column> {
         Column::new("e_median_pct".into(), errors),
         Column::new("r_90ci_pct".into(), ranges),
     ]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn limits_are_named_by_their_level() {
-        assert_eq!(limit_names(0.9), ["u05_m", "u50_m", "u95_m"]);
-        assert_eq!(limit_names(0.95), ["u02_5_m", "u50_m", "u97_5_m"]);
-        assert_eq!(limit_names(0.68), ["u16_m", "u50_m", "u84_m"]);
-    }
 }

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use uplift_atomic_file::final_place;
 use uplift_ida::{AnalysisRow, Cells, IdaError, Peaks, Plan, Shard, Watch, complete};
-use uplift_labelled::final_place;
 
 use super::error::CheckpointError;
 use super::key::RowKeys;

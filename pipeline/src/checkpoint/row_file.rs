@@ -18,7 +18,7 @@ use super::block::{Row, read_block, write_block};
 use super::error::CheckpointError;
 use super::key::{RowKey, RowKeys};
 use crate::error::UpliftError;
-use uplift_labelled::{final_place, write_whole};
+use uplift_atomic_file::{final_place, write_whole};
 
 /// What the first line says it is.
 pub(super) const FORMAT: &str = "uplift analysis rows 2";

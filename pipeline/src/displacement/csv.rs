@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use polars::prelude::Column;
 
 use super::{DesignRow, DisplacementOutcome};
-use crate::bootstrap::percentile_name;
 use crate::error::UpliftError;
+use crate::result::layout::percentile_name;
 use crate::result::write_table;
 use uplift_study::{ScaledTo, Structures};
 

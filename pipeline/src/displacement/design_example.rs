@@ -5,17 +5,15 @@ use uplift_ida::{Plan, Shard, Watch};
 use uplift_spectra::{
     Case, MotionSet, RestrainedDesign, RestrainedExample, Scaling, SolitaryDesign, SolitaryExample, SpectraError,
 };
-use uplift_structure::Rule;
 
-use super::Sets;
+use super::KeyedMotions;
 use super::spectra::with_free_vibration;
 use crate::checkpoint::Checkpoint;
 use crate::error::UpliftError;
 use crate::events::{Events, Progress};
+use crate::result::RULES;
 use uplift_study::{DesignPlan, Designed, DisplacementStudy, Structures};
 
-/// The rules that a restrained bridge is designed by, in the order of the results.
-pub const RULES: [Rule; 2] = [Rule::EqualDisplacement, Rule::EqualEnergy];
 /// Ratio of neighbouring slendernesses in the search for the intersection: a range in which the block does not stand
 /// may be missed if it is narrower.
 const SEARCH_RATIO: f64 = 1.02;
@@ -57,7 +55,7 @@ pub fn design_analyses(study: &DisplacementStudy, plan: &DesignPlan, set: &Motio
 /// [`UpliftError::Paused`] or [`UpliftError::Interrupted`] where `events` say so; what the solvers and rules refuse.
 pub(crate) fn carry_out_designs(
     study: &DisplacementStudy,
-    sets: &Sets<'_>,
+    sets: &KeyedMotions<'_>,
     shard: Shard,
     (checkpoint, analyses): (&Checkpoint, u64),
     events: &dyn Events,
@@ -80,7 +78,7 @@ pub(crate) fn carry_out_designs(
 
 /// What carries out the plans of the examples.
 struct Carrier<'a> {
-    sets: &'a Sets<'a>,
+    sets: &'a KeyedMotions<'a>,
     shard: Shard,
     checkpoint: &'a Checkpoint,
     /// Told of finished examples.

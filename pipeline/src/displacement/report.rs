@@ -9,6 +9,7 @@ use uplift_study::{Kind, Structures};
 use super::{DesignRow, DisplacementOutcome};
 use crate::inputs::NamedSet;
 use crate::run::RunHead;
+use crate::text::finite;
 
 /// What a run tells.
 #[derive(Debug, Clone, Serialize)]
@@ -125,7 +126,6 @@ impl Serialize for DesignRow {
     /// The value beside its range; null where it does not exist or is infinite.
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         use serde::ser::SerializeStruct;
-        let finite = |value: f64| value.is_finite().then_some(value);
         let mut row = serializer.serialize_struct("DesignRow", 8)?;
         row.serialize_field("record_set", &self.record_set)?;
         row.serialize_field("scaling", &self.scaling)?;

@@ -4,20 +4,16 @@ use std::collections::BTreeMap;
 use std::time::Instant;
 
 use uplift_ida::Shard;
-use uplift_labelled::LabelledReader;
 use uplift_spectra::MotionSet;
 use uplift_study::DisplacementStudy;
 
 use super::report::RunReport;
-use super::{
-    DisplacementOutcome, Inputs, carry_out_designs, read_design, set_spectra, write_displacement_csv,
-    write_displacements,
-};
+use super::{DisplacementOutcome, Inputs, carry_out_designs, set_spectra, write_displacement_csv, write_displacements};
 use crate::checkpoint::{Checkpoint, FinishedRows, checkpoint_path};
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::inputs::RecordSets;
-use crate::result::Provenance;
+use crate::result::{Provenance, ResultFile};
 use crate::run::{Place, SYNTHETIC};
 
 /// With fewer motions beyond a percentile than this, one of them decides it.
@@ -74,7 +70,7 @@ pub(crate) fn run(
     checkpoint.remove();
     let mut files = vec![path.to_owned()];
     // the tables say what the file says
-    let rows = read_design(&LabelledReader::open(path)?)?;
+    let rows = ResultFile::open(path)?.design()?.map_or_else(Vec::new, |design| design.rows);
     if study.output.csv {
         files.extend(write_displacement_csv(path, &outcome, &rows)?);
     }

@@ -22,7 +22,7 @@ pub(crate) struct Inputs {
 }
 
 /// The motions of every set, with their keys.
-pub(crate) struct Sets<'a> {
+pub(crate) struct KeyedMotions<'a> {
     pub(crate) motions: Vec<MotionSet<'a>>,
     /// Keys of the motions of each set.
     pub(crate) keys: Vec<Vec<String>>,
@@ -42,14 +42,14 @@ impl Inputs {
     ///
     /// # Errors
     /// Every component that does not move, so that it cannot be scaled.
-    pub(crate) fn sets(&self, study: &DisplacementStudy) -> Result<Sets<'_>, UpliftError> {
+    pub(crate) fn sets(&self, study: &DisplacementStudy) -> Result<KeyedMotions<'_>, UpliftError> {
         let sets = self.records.motions(study.gravity_m_s2)?;
         let keys = |set: &MotionSet<'_>| set.motions().iter().map(|motion| motion_key(motion.accelerogram)).collect();
-        Ok(Sets { keys: sets.iter().map(keys).collect(), motions: sets, structures: &self.structures })
+        Ok(KeyedMotions { keys: sets.iter().map(keys).collect(), motions: sets, structures: &self.structures })
     }
 }
 
-impl Sets<'_> {
+impl KeyedMotions<'_> {
     /// The spectra of every set.
     ///
     /// # Errors

@@ -9,7 +9,8 @@ use super::design_rows as design;
 use crate::displacement::{Designs, SetSpectra};
 use crate::error::UpliftError;
 use crate::inputs::{NamedSet, RecordSets};
-use crate::result::{Origin, Provenance, axis_part, unique_axis};
+use crate::result::layout::{axis as axes, set as layout, spectra};
+use crate::result::{Origin, Provenance};
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_study::{DisplacementStudy, Kind, Structures};
 
@@ -40,26 +41,26 @@ impl DisplacementOutcome<'_> {
     /// Names of the axes that tell lines of a spectrum apart.
     pub(super) fn line_axes(&self) -> &'static [&'static str] {
         match self.study.structures {
-            Structures::Oscillators(_) => &["uplift_displacement", "capacity"],
-            Structures::Blocks(_) => &["height"],
+            Structures::Oscillators(_) => &[axes::UPLIFT_DISPLACEMENT, axes::CAPACITY],
+            Structures::Blocks(_) => &[axes::HEIGHT],
         }
     }
 
     /// Name of the axis of a spectrum's abscissa.
     pub(super) fn abscissa_axis(&self) -> &'static str {
         match self.study.structures {
-            Structures::Oscillators(_) => "strength",
-            Structures::Blocks(_) => "slenderness",
+            Structures::Oscillators(_) => axes::STRENGTH,
+            Structures::Blocks(_) => axes::SLENDERNESS,
         }
     }
 
     /// The axes of an array of all sets, lines being told apart.
     pub(super) fn dims(&self, last: &[&'static str]) -> Vec<&'static str> {
-        [&["record_set", "scaling", "scaled_by"], self.line_axes(), last].concat()
+        [&[axes::RECORD_SET, axes::SCALING, axes::SCALED_BY], self.line_axes(), last].concat()
     }
 }
 
-/// Write `outcome` to `path`, aside and renamed, so that an earlier file survives a failure.
+/// Write `outcome` to `path`, atomically: an earlier file survives a failure.
 ///
 /// # Errors
 /// Whatever keeps the file from being written, a full disk for instance.
@@ -68,9 +69,9 @@ pub fn write_displacements(path: &Path, outcome: &DisplacementOutcome<'_>) -> Re
     write_root(&mut writer, outcome)?;
     write_axes(&mut writer, outcome)?;
     write_spectra(&mut writer, outcome)?;
-    let mut axes = BTreeSet::new();
+    let mut taken = BTreeSet::new();
     for ((set, motions), spectra) in outcome.records.sets.iter().zip(outcome.sets).zip(outcome.spectra) {
-        let axis = unique_axis(format!("motion_{}", axis_part(&set.name)), &mut axes);
+        let axis = axes::motion(&set.name, &mut taken);
         write_set(&mut writer, outcome, set, motions, spectra, &axis)?;
     }
     if let (Some(designs), Some(plan)) = (outcome.designs, &outcome.study.design) {
@@ -105,25 +106,25 @@ fn write_root(writer: &mut LabelledWriter, outcome: &DisplacementOutcome<'_>) ->
 fn write_axes(writer: &mut LabelledWriter, outcome: &DisplacementOutcome<'_>) -> Result<(), LabelledError> {
     let study = outcome.study;
     let names: Vec<String> = outcome.records.sets.iter().map(|set| set.name.clone()).collect();
-    writer.axis_text("record_set", &names, "record set")?;
+    writer.axis_text(axes::RECORD_SET, &names, "record set")?;
     let to: Vec<String> = study.scaling.to.iter().map(ToString::to_string).collect();
-    writer.axis_text("scaling", &to, "what motions are scaled to, a multiple of the set's median peak")?;
+    writer.axis_text(axes::SCALING, &to, "what motions are scaled to, a multiple of the set's median peak")?;
     let by: Vec<String> = study.scaling.by.iter().map(|by| by.key().to_owned()).collect();
-    writer.axis_text("scaled_by", &by, "whose peak is scaled")?;
+    writer.axis_text(axes::SCALED_BY, &by, "whose peak is scaled")?;
     match &study.structures {
         Structures::Oscillators(family) => {
             let uplift = &family.uplift_displacement_m;
-            writer.axis_f64("uplift_displacement", uplift, "m", "displacement at uplift u_up")?;
+            writer.axis_f64(axes::UPLIFT_DISPLACEMENT, uplift, "m", "displacement at uplift u_up")?;
             let long_name = "displacement capacity u_cap, infinite for zero post-uplift stiffness";
-            writer.axis_f64("capacity", &family.capacity_m, "m", long_name)?;
-            writer.axis_f64("strength", &family.strengths, "1", "uplift strength f_up/(m g)")?;
+            writer.axis_f64(axes::CAPACITY, &family.capacity_m, "m", long_name)?;
+            writer.axis_f64(axes::STRENGTH, &family.strengths, "1", "uplift strength f_up/(m g)")?;
         }
         Structures::Blocks(family) => {
-            writer.axis_f64("height", &family.height_m, "m", "height 2H of the block")?;
-            writer.axis_f64("slenderness", &family.slendernesses, "1", "slenderness tan(alpha)")?;
+            writer.axis_f64(axes::HEIGHT, &family.height_m, "m", "height 2H of the block")?;
+            writer.axis_f64(axes::SLENDERNESS, &family.slendernesses, "1", "slenderness tan(alpha)")?;
         }
     }
-    writer.axis_f64("percentile", &study.percentiles, "%", "percentile over the motions of a set")
+    writer.axis_f64(axes::PERCENTILE, &study.percentiles, "%", "percentile over the motions of a set")
 }
 
 fn write_spectra(writer: &mut LabelledWriter, outcome: &DisplacementOutcome<'_>) -> Result<(), LabelledError> {
@@ -132,11 +133,11 @@ fn write_spectra(writer: &mut LabelledWriter, outcome: &DisplacementOutcome<'_>)
     };
     let abscissa = outcome.abscissa_axis();
     let long_name = "percentile of the peak displacements, infinite where it falls on an overturned structure";
-    let dims = outcome.dims(&["percentile", abscissa]);
-    writer.array_f64("/spectra/u_m", &dims, &of(|spectra| &spectra.percentile_m), "m", long_name)?;
+    let dims = outcome.dims(&[axes::PERCENTILE, abscissa]);
+    writer.array_f64(spectra::U_M, &dims, &of(|spectra| &spectra.percentile_m), "m", long_name)?;
     let long_name = "share of the motions under which the structure overturns";
     writer.array_f64(
-        "/spectra/overturned",
+        spectra::OVERTURNED,
         &outcome.dims(&[abscissa]),
         &of(|spectra| &spectra.overturned),
         "1",
@@ -144,9 +145,9 @@ fn write_spectra(writer: &mut LabelledWriter, outcome: &DisplacementOutcome<'_>)
     )?;
     let long_name = format!("largest {abscissa} at which the percentile is infinite");
     let critical = of(|spectra| &spectra.critical);
-    writer.array_f64("/spectra/critical", &outcome.dims(&["percentile"]), &critical, "1", &long_name)?;
-    writer.attribute("/spectra", "analyses", outcome.analyses)?;
-    writer.attribute("/spectra", "seconds", outcome.seconds)
+    writer.array_f64(spectra::CRITICAL, &outcome.dims(&[axes::PERCENTILE]), &critical, "1", &long_name)?;
+    writer.attribute(spectra::GROUP, "analyses", outcome.analyses)?;
+    writer.attribute(spectra::GROUP, "seconds", outcome.seconds)
 }
 
 fn write_set(
@@ -157,12 +158,12 @@ fn write_set(
     spectra: &SetSpectra,
     axis: &str,
 ) -> Result<(), LabelledError> {
-    let group = format!("/sets/{}", set.name);
-    let path = |name: &str| format!("{group}/{name}");
+    let group = layout::group(&set.name);
+    let path = |name: &str| layout::array(&set.name, name);
     let ids: Vec<String> = motions.motions().iter().map(|motion| motion.id.clone()).collect();
     writer.axis_text(axis, &ids, "component of a record")?;
 
-    let mut dims = vec!["scaling", "scaled_by"];
+    let mut dims = vec![axes::SCALING, axes::SCALED_BY];
     writer.array_f64(&path("factor"), &[dims[0], dims[1], axis], &spectra.factors, "1", "factor on the motion")?;
     dims.extend(outcome.line_axes());
     dims.extend([outcome.abscissa_axis(), axis]);

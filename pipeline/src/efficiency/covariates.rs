@@ -1,34 +1,21 @@
-//! What a result knows of its records.
+//! What a result knows of its records, as trends are looked for.
 
 use super::Covariate;
-use crate::error::UpliftError;
-use crate::result::{StoredStripes, open_result};
+use crate::result::StoredRecords;
 
-/// Key, array, what it is, and the form in which it enters a line.
-type Form = (&'static str, &'static str, &'static str, fn(f64) -> f64);
-
-/// What a result knows of its records, in the form in which a demand may depend on it: magnitude, the logarithm of the distance, the logarithm
-/// of the significant duration. What is known of fewer than three records is left out.
-///
-/// # Errors
-/// A file that is damaged.
-pub fn covariates(stored: &StoredStripes) -> Result<Vec<Covariate>, UpliftError> {
-    let reader = open_result(&stored.path)?;
-    let mut found = Vec::new();
-    let forms: [Form; 3] = [
-        ("magnitude", "magnitude", "moment magnitude", |value| value),
-        ("ln_rrup", "rrup_km", "logarithm of the distance in km", f64::ln),
-        ("ln_duration", "duration_5_95_s", "logarithm of the significant duration D5-95 in s", f64::ln),
+/// What a result knows of its records, in the form in which a demand may depend on it: magnitude, the logarithm of the
+/// distance, the logarithm of the significant duration. What is known of fewer than three records is left out.
+pub fn covariates(records: &StoredRecords) -> Vec<Covariate> {
+    let ln = |values: &[f64]| values.iter().map(|value| value.ln()).collect();
+    let all = [
+        Covariate { key: "magnitude", long_name: "moment magnitude", values: records.magnitude.clone() },
+        Covariate { key: "ln_rrup", long_name: "logarithm of the distance in km", values: ln(&records.rrup_km) },
+        Covariate {
+            key: "ln_duration",
+            long_name: "logarithm of the significant duration D5-95 in s",
+            values: ln(&records.duration_5_95_s),
+        },
     ];
-    for (key, array, long_name, form) in forms {
-        let path = format!("/records/{array}");
-        if !reader.exists(&path) {
-            continue;
-        }
-        let values: Vec<f64> = reader.array_f64(&path)?.values.into_iter().map(form).collect();
-        if values.iter().filter(|value| value.is_finite()).count() >= 3 {
-            found.push(Covariate { key, long_name, values });
-        }
-    }
-    Ok(found)
+    let is_known = |covariate: &Covariate| covariate.values.iter().filter(|value| value.is_finite()).count() >= 3;
+    all.into_iter().filter(is_known).collect()
 }

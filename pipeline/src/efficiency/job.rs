@@ -8,7 +8,7 @@ use super::report::EfficiencyReport;
 use super::write::write_efficiency;
 use crate::error::UpliftError;
 use crate::events::Events;
-use crate::result::{StoredStripes, check_target};
+use crate::result::{ResultFile, check_target};
 
 /// How well each intensity measure of the result at `result` predicts the demand (efficiency), and what it leaves out
 /// (sufficiency): written into the file and into a table beside it.
@@ -17,9 +17,10 @@ use crate::result::{StoredStripes, check_target};
 /// A file that is missing, damaged, no result, or without sites; a file that cannot be written;
 /// [`UpliftError::Interrupted`] where `events` say so.
 pub fn efficiency(result: &Path, events: &dyn Events) -> Result<EfficiencyReport, UpliftError> {
-    let stored = StoredStripes::read(result)?;
+    let file = ResultFile::open(result)?;
+    let stored = file.stripes()?;
     check_target(&stored.path)?;
-    let covariates = covariates(&stored)?;
+    let covariates = covariates(&file.records()?);
     let mut measures = Vec::new();
     for measure in &stored.measures {
         if events.cancelled() {

@@ -34,7 +34,8 @@ pub struct MeasureEfficiency {
     pub initiation: Vec<f64>,
     /// Records that have such a level.
     pub initiation_records: Vec<u32>,
-    /// The line of the mean residuals over each covariate, `[covariate][strength]`; none where there are too few records or stripes.
+    /// The line of the mean residuals over each covariate, `[covariate][strength]`; none where there are too few
+    /// records or stripes.
     pub lines: Vec<Vec<Option<Line>>>,
 }
 
@@ -52,7 +53,7 @@ pub fn efficiency_by(
 ) -> Result<MeasureEfficiency, UpliftError> {
     let u_up = stored.uplift_displacement_m;
     let of_strength = |strength: usize| -> Result<OfStrength, UpliftError> {
-        let stripes = measure.stripes(strength, stored.strengths.len())?;
+        let stripes = measure.stripes(strength)?;
         let dispersions = (0..measure.levels.len()).map(|level| Dispersion::of(&stripes, level)).collect();
         let uplift: Vec<f64> = uplift_levels(&stripes, u_up).into_iter().filter(|level| level.is_finite()).collect();
         let residuals = mean_residuals(&stripes, u_up);

@@ -8,12 +8,13 @@ use uplift_regression::Line;
 
 use super::of_measure::{Covariate, MeasureEfficiency};
 use crate::error::UpliftError;
-use crate::result::level_axis;
+use crate::result::layout::{axis, efficiency, sufficiency};
 use crate::result::{StoredStripes, extend_result, line, sign, write_table};
+use crate::text::finite;
 use uplift_labelled::{LabelledError, LabelledWriter};
 
 /// The groups that a new look replaces.
-const REPLACED: [&str; 2] = ["/efficiency", "/sufficiency"];
+const REPLACED: [&str; 2] = [efficiency::ROOT, sufficiency::ROOT];
 
 /// The table beside the result file.
 pub(super) fn efficiency_path(result: &Path) -> PathBuf {
@@ -42,55 +43,56 @@ fn add(
     covariates: &[Covariate],
     measures: &[MeasureEfficiency],
 ) -> Result<(), LabelledError> {
-    sign(writer, "/efficiency")?;
-    sign(writer, "/sufficiency")?;
-    for efficiency in measures {
-        let key = efficiency.measure.key();
-        let group = format!("/efficiency/{key}");
-        let of = |value: fn(&Dispersion) -> f64| -> Vec<f64> { efficiency.dispersions.iter().map(value).collect() };
-        let stripes: [(&str, Vec<f64>, &str, &str); 5] = [
-            ("median_m", of(|scatter| scatter.median_m), "m", "median demand"),
+    sign(writer, efficiency::ROOT)?;
+    sign(writer, sufficiency::ROOT)?;
+    for found in measures {
+        let measure = found.measure;
+        let of = |value: fn(&Dispersion) -> f64| -> Vec<f64> { found.dispersions.iter().map(value).collect() };
+        let stripes: [(String, Vec<f64>, &str, &str); 5] = [
+            (efficiency::median_m(measure), of(|scatter| scatter.median_m), "m", "median demand"),
             (
-                "dispersion",
+                efficiency::dispersion(measure),
                 of(|scatter| scatter.by_percentiles),
                 "1",
                 "half the logarithm of the 84th over the 16th percentile",
             ),
             (
-                "ln_deviation",
+                efficiency::ln_deviation(measure),
                 of(|scatter| scatter.of_logarithm),
                 "1",
                 "standard deviation of the logarithm of the demand",
             ),
-            ("zeros", of(|scatter| scatter.zeros as f64), "1", "demands of zero"),
-            ("overturned", of(|scatter| scatter.overturned as f64), "1", "overturned runs"),
+            (efficiency::zeros(measure), of(|scatter| scatter.zeros as f64), "1", "demands of zero"),
+            (efficiency::overturned(measure), of(|scatter| scatter.overturned as f64), "1", "overturned runs"),
         ];
-        for (name, values, unit, long_name) in stripes {
-            writer.array_f64(
-                &format!("{group}/{name}"),
-                &["strength", &level_axis(efficiency.measure)],
-                &values,
-                unit,
-                long_name,
-            )?;
+        for (path, values, unit, long_name) in stripes {
+            writer.array_f64(&path, &[axis::STRENGTH, &axis::level(measure)], &values, unit, long_name)?;
         }
-        for (name, values, long_name) in [
-            ("rocking", &efficiency.rocking, "median dispersion of the stripes whose median rocks"),
-            ("undefined", &efficiency.undefined, "share of these stripes that have none, for zeros or overturning"),
-            ("initiation", &efficiency.initiation, "deviation of the logarithm of the level at first uplift"),
-        ] {
-            writer.array_f64(&format!("{group}/{name}"), &["strength"], values, "1", long_name)?;
+        let of_strength = [
+            (efficiency::rocking(measure), &found.rocking, "median dispersion of the stripes whose median rocks"),
+            (
+                efficiency::undefined(measure),
+                &found.undefined,
+                "share of these stripes that have none, for zeros or overturning",
+            ),
+            (
+                efficiency::initiation(measure),
+                &found.initiation,
+                "deviation of the logarithm of the level at first uplift",
+            ),
+        ];
+        for (path, values, long_name) in of_strength {
+            writer.array_f64(&path, &[axis::STRENGTH], values, "1", long_name)?;
         }
         let long_name = "records whose level at first uplift is known";
         writer.array_u32(
-            &format!("{group}/initiation_records"),
-            &["strength"],
-            &efficiency.initiation_records,
+            &efficiency::initiation_records(measure),
+            &[axis::STRENGTH],
+            &found.initiation_records,
             "1",
             long_name,
         )?;
-        for (covariate, lines) in covariates.iter().zip(&efficiency.lines) {
-            let group = format!("/sufficiency/{key}/{}", covariate.key);
+        for (covariate, lines) in covariates.iter().zip(&found.lines) {
             let of = |value: fn(&Line) -> f64| -> Vec<f64> {
                 lines.iter().map(|line| line.as_ref().map_or(f64::NAN, value)).collect()
             };
@@ -101,7 +103,8 @@ fn add(
                 ("r_squared", of(|line| line.r_squared), "share of the variance explained"),
             ] {
                 let long_name = format!("{}: {long_name}", covariate.long_name);
-                writer.array_f64(&format!("{group}/{name}"), &["strength"], &values, "1", &long_name)?;
+                let path = sufficiency::array(measure, covariate.key, name);
+                writer.array_f64(&path, &[axis::STRENGTH], &values, "1", &long_name)?;
             }
         }
     }
@@ -114,10 +117,7 @@ fn efficiency_table(stored: &StoredStripes, covariates: &[Covariate], measures: 
         measures.iter().flat_map(|efficiency| std::iter::repeat_n(efficiency.measure.label(), strengths)).collect();
     let strength: Vec<f64> = measures.iter().flat_map(|_| stored.strengths.iter().copied()).collect();
     let join = |value: fn(&MeasureEfficiency) -> &Vec<f64>| -> Vec<Option<f64>> {
-        measures
-            .iter()
-            .flat_map(|efficiency| value(efficiency).iter().map(|&value| value.is_finite().then_some(value)))
-            .collect()
+        measures.iter().flat_map(|efficiency| value(efficiency).iter().copied().map(finite)).collect()
     };
     let mut columns = vec![
         Column::new("im".into(), im),

@@ -5,9 +5,10 @@ use std::path::Path;
 
 use uplift_motion::Orientation;
 
+use super::collect::Component;
+use super::name;
 use super::search_results::{Entry, SearchResults};
 use super::warnings::Warning;
-use super::{Component, name};
 
 /// Two horizontal components of one record, not measured yet.
 #[derive(Debug, Clone)]
@@ -55,7 +56,8 @@ pub(super) fn pairs(components: Vec<Component>, search: &SearchResults, warnings
             2 if !may_be_a_pair(&horizontal) => warnings.push(Warning {
                 kind: "same direction",
                 text: format!(
-                    "{}: these point in nearly the same direction, so they are no two components of one motion; left out: if they are, add a row of the manifest by hand",
+                    "{}: these point in nearly the same direction, so they are no two components of one motion; left \
+                     out: if they are, add a row of the manifest by hand",
                     names()
                 ),
             }),
@@ -73,7 +75,8 @@ pub(super) fn pairs(components: Vec<Component>, search: &SearchResults, warnings
             count => warnings.push(Warning {
                 kind: "more than two",
                 text: format!(
-                    "{id}: {count} horizontal components ({}), and nothing tells which two belong together; left out: add a row of the manifest for each pair by hand",
+                    "{id}: {count} horizontal components ({}), and nothing tells which two belong together; left out: \
+                     add a row of the manifest for each pair by hand",
                     shortened(&names())
                 ),
             }),

@@ -5,8 +5,9 @@ use uplift_motion::{
     may_be_pulse_like, read_auto, record_bytes,
 };
 
+use super::collect::{Component, ImportedPair};
 use super::group::Candidate;
-use super::{ImportOptions, ImportedPair, warnings};
+use super::{ImportOptions, warnings};
 use crate::checksum::checksum;
 
 /// Measures of a pair; of those of single components the geometric mean.
@@ -59,23 +60,24 @@ impl PairMeasures {
 /// # Errors
 /// A file that could be read before and no longer can, or has changed.
 pub(super) fn pair(candidate: Candidate, options: &ImportOptions) -> Result<ImportedPair, String> {
-    let read = |component: &super::Component| {
+    let read = |component: &Component| {
         let bytes = record_bytes(&component.path).map_err(|error| error.to_string())?;
         if checksum(&bytes) != component.file_sha256 {
             return Err(format!("{}: changed while it was imported; import again", component.path.display()));
         }
         let name = component.path.display().to_string();
-        read_auto(&bytes, &name, &options.read_options(component.channel)).map_err(|error| error.to_string())
+        read_auto(&bytes, &name, &options.files.read_options(component.channel)).map_err(|error| error.to_string())
     };
     let Candidate { id, rsn: _, components, search } = candidate;
     let [first, second] = &components;
     let pair = RecordPair { id, h1: read(first)?, h2: read(second)?, metadata: std::collections::BTreeMap::new() };
-    let mut measures = PairMeasures::of(&pair, options.gravity_m_s2, options.pulses);
+    let mut measures = PairMeasures::of(&pair, options.files.gravity_m_s2, options.pulses);
     if !warnings::are_together([&first.description, &second.description], pair.h1.dt_s()) {
         // all but the geometric mean would be wrong
         measures.peaks[1..].fill(None);
         (measures.pulse, measures.pulse_like) = (None, None);
     }
-    let warnings = warnings::of_pair(&pair, [&first.description, &second.description], &measures, options.gravity_m_s2);
+    let warnings =
+        warnings::of_pair(&pair, [&first.description, &second.description], &measures, options.files.gravity_m_s2);
     Ok(ImportedPair { id: pair.id, components, measures, search, warnings })
 }

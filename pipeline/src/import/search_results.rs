@@ -138,11 +138,14 @@ mod tests {
 
     #[test]
     fn the_table_among_others() {
-        let text = "A title\r\n\r\n -- Summary --\r\nResult ID, Spectral Ordinate, Record Sequence Number, Earthquake Name, Year, \
+        let text = "A title\r\n\r\n -- Summary --\r\nResult ID, Spectral Ordinate, Record Sequence Number, Earthquake \
+                    Name, Year, \
              Station Name, Magnitude, Mechanism, Rjb (km), Rrup (km), Vs30 (m/sec), Lowest Useable Frequency (Hz), \
              Horizontal-1 Acc. Filename, Horizontal-2 Acc. Filename, Vertical Acc. Filename\r\n\
-             1,SRSS,12,\"Some, Where\",1990,Station A,6.5,strike slip,10.1,11.2,450.0,0.25, RSN12_A_000.AT2, RSN12_A_090.AT2,---\r\n\
-             2,SRSS,13,Else,1991,Station B,7.0,reverse,-999.0,21.2,,0.1,x,y,z\r\n\r\n -- Spectra --\r\nPeriod, RSN-12\r\n0.01,0.2\r\n";
+             1,SRSS,12,\"Some, Where\",1990,Station A,6.5,strike slip,10.1,11.2,450.0,0.25, RSN12_A_000.AT2, \
+                         RSN12_A_090.AT2,---\r\n\
+             2,SRSS,13,Else,1991,Station B,7.0,reverse,-999.0,21.2,,0.1,x,y,z\r\n\r\n\
+             \x20-- Spectra --\r\nPeriod, RSN-12\r\n0.01,0.2\r\n";
         let entries = parse(text).unwrap();
         assert_eq!(entries.len(), 2);
         let first = &entries[&12];

@@ -5,14 +5,15 @@ use std::path::Path;
 use polars::prelude::Column;
 use uplift_motion::{AccelerationUnit, Orientation, RecordingDescription};
 
-use super::{ImportOptions, ImportedPair};
+use super::collect::ImportedPair;
+use crate::inputs::FileOptions;
 use crate::inputs::manifest::relative;
 
 /// A cell with the name of its column.
 type Cell = (&'static str, String);
 
 /// The columns of a manifest in `folder` that lists `pairs`, as records/README.md describes them.
-pub fn manifest_columns(pairs: &[ImportedPair], folder: &Path, options: &ImportOptions) -> Vec<Column> {
+pub(super) fn manifest_columns(pairs: &[ImportedPair], folder: &Path, options: FileOptions) -> Vec<Column> {
     let rows: Vec<Vec<Cell>> = pairs
         .iter()
         .map(|pair| {
@@ -31,7 +32,7 @@ pub fn manifest_columns(pairs: &[ImportedPair], folder: &Path, options: &ImportO
 }
 
 /// What a run needs to read the pair.
-fn files(pair: &ImportedPair, folder: &Path, options: &ImportOptions) -> Vec<Cell> {
+fn files(pair: &ImportedPair, folder: &Path, options: FileOptions) -> Vec<Cell> {
     let [one, other] = &pair.components;
     vec![
         ("record_id", pair.id.clone()),

@@ -69,7 +69,8 @@ pub fn of_pair(
             add(
                 "rounded time step",
                 format!(
-                    "a time step of {} s makes no whole number of samples a second and is probably rounded, by up to {:.1} %: look up the sampling rate",
+                    "a time step of {} s makes no whole number of samples a second and is probably rounded, by up to \
+                     {:.1} %: look up the sampling rate",
                     motion.dt_s(),
                     100.0 * last_digit(motion.dt_s()) / motion.dt_s()
                 ),
@@ -113,7 +114,8 @@ fn synchronisation(
         add(
             KIND,
             format!(
-                "its components have {} and {} points, and no start times: they may not be synchronised, which measures over all directions need",
+                "its components have {} and {} points, and no start times: they may not be synchronised, which \
+                 measures over all directions need",
                 h1.len(),
                 h2.len()
             ),

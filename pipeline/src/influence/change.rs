@@ -5,6 +5,7 @@ use uplift_bootstrap::leave_one_out;
 use uplift_motion::IntensityMeasure;
 use uplift_risk::RiskCurve;
 
+use crate::array::Array;
 use crate::error::UpliftError;
 use crate::result::{StoredMeasure, StoredStripes};
 
@@ -13,11 +14,11 @@ use crate::result::{StoredMeasure, StoredStripes};
 pub(super) struct Influence {
     /// The measure.
     pub(super) measure: IntensityMeasure,
-    /// Ordinates without each record over `[site, poe, record, strength]`, m; empty for a single record.
-    pub(super) without_m: Vec<f64>,
-    /// Shares of the risk at each ordinate over `[site, poe, strength, bin]`. Bin 0 lies below the first level, bin i between the levels i
-    /// and i + 1 counted from 1, the last above all levels. NaN where there is no ordinate.
-    pub(super) shares: Vec<f64>,
+    /// Exact ordinates without each record `[site, poe, record, strength]`, m; none for a single record.
+    pub(super) without_m: Option<Array<4>>,
+    /// Shares of the risk at each exact ordinate `[site, poe, strength, bin]`. Bin 0 lies below the first level, bin i
+    /// between the levels i and i + 1 counted from 1, the last above all levels. NaN where there is no ordinate.
+    pub(super) shares: Array<4>,
 }
 
 /// How a record changes a spectrum.
@@ -44,13 +45,13 @@ pub(super) fn influence_by(stored: &StoredStripes, measure: &StoredMeasure) -> R
     let (sites, poes, strengths) = (stored.sites.len(), stored.poes.len(), stored.strengths.len());
     let (records, bins) = (stored.records.len(), measure.levels.len() + 1);
     let of_strength = |strength: usize| -> Result<OfStrength, UpliftError> {
-        let demand = measure.demand(strength, strengths)?;
+        let demand = measure.demand(strength)?;
         let (mut without, mut shares) = (Vec::new(), Vec::new());
         for (site, weights) in measure.weights.iter().enumerate() {
             without.push(leave_one_out(&demand, weights, &stored.targets_per_year)?);
             let curve = RiskCurve::new(&demand, weights)?;
             for poe in 0..poes {
-                let ordinate_m = measure.spectra_m[stored.ordinate(site, poe, strength)];
+                let ordinate_m = measure.exact_m[[site, poe, strength]];
                 if !(ordinate_m > 0.0 && ordinate_m.is_finite()) {
                     shares.extend(std::iter::repeat_n(f64::NAN, bins));
                     continue;
@@ -70,41 +71,38 @@ pub(super) fn influence_by(stored: &StoredStripes, measure: &StoredMeasure) -> R
         .map(of_strength)
         .collect::<Result<Vec<OfStrength>, _>>()
         .map_err(|error| error.in_file(&stored.path))?;
-    let mut without_m = Vec::new();
-    let mut shares = Vec::with_capacity(sites * poes * strengths * bins);
-    for site in 0..sites {
-        for poe in 0..poes {
-            if records > 1 {
-                for record in 0..records {
-                    without_m.extend(by_strength.iter().map(|(without, _)| without[site][record * poes + poe]));
-                }
-            }
-            for (_, of_strength) in &by_strength {
-                let start = (site * poes + poe) * bins;
-                shares.extend_from_slice(&of_strength[start..start + bins]);
-            }
-        }
-    }
+    let without_m = (records > 1).then(|| {
+        Array::from_fn([sites, poes, records, strengths], |[site, poe, record, strength]| {
+            by_strength[strength].0[site][record * poes + poe]
+        })
+    });
+    let shares = Array::from_fn([sites, poes, strengths, bins], |[site, poe, strength, bin]| {
+        by_strength[strength].1[(site * poes + poe) * bins + bin]
+    });
     Ok(Influence { measure: measure.measure, without_m, shares })
 }
 
-/// The influence of every record on one spectrum, the most influential first; empty where no ordinate lies above uplift.
+/// The influence of every record on one spectrum, the most influential first; empty where no ordinate lies above
+/// uplift.
+///
+/// * `at` — site and probability of the spectrum, by position
+///
+/// Ordinates without a record are compared with those of `measure` with all of them, both exact: the change is never
+/// that between an exact ordinate and one of the study's grid.
 pub(super) fn rank_records(
     stored: &StoredStripes,
+    measure: &StoredMeasure,
     influence: &Influence,
-    spectrum_m: &[f64],
-    row: usize,
+    at: [usize; 2],
 ) -> Vec<RecordInfluence> {
-    let (records, strengths) = (stored.records.len(), stored.strengths.len());
-    if influence.without_m.is_empty() {
-        return Vec::new();
-    }
-    let mut all: Vec<RecordInfluence> = (0..records)
+    let [site, poe] = at;
+    let Some(without_m) = &influence.without_m else { return Vec::new() };
+    let mut all: Vec<RecordInfluence> = (0..stored.records.len())
         .filter_map(|record| {
-            let start = (row * records + record) * strengths;
-            let changes: Vec<(f64, f64)> = influence.without_m[start..start + strengths]
+            let changes: Vec<(f64, f64)> = without_m
+                .block([site, poe, record])
                 .iter()
-                .zip(spectrum_m)
+                .zip(measure.exact_m.block(at))
                 .zip(&stored.strengths)
                 .filter(|((_, full), _)| full.is_finite() && **full > stored.uplift_displacement_m)
                 .map(|((without, full), &strength)| ((without - full) / full, strength))
@@ -118,8 +116,8 @@ pub(super) fn rank_records(
     all
 }
 
-/// The level below which a share of the risk lies, in the unit of the levels: linear within a bin, 0 at its lower end for the first, the last
-/// level for the last. NaN where there is no ordinate.
+/// The level below which a share of the risk lies, in the unit of the levels: linear within a bin, 0 at its lower end
+/// for the first, the last level for the last. NaN where there is no ordinate.
 ///
 /// * `shares` — of one ordinate, as in [`Influence::shares`]
 pub(super) fn level_of_share(levels: &[f64], shares: &[f64], share: f64) -> f64 {

@@ -5,9 +5,10 @@ use std::path::Path;
 use super::change::{Influence, RecordInfluence, influence_by, rank_records};
 use super::report::InfluenceReport;
 use super::write::write_influence;
+use crate::array::Array;
 use crate::error::UpliftError;
 use crate::events::Events;
-use crate::result::{StoredStripes, check_target};
+use crate::result::{ResultFile, check_target};
 
 /// What is told of the influence; the files hold all of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,14 +29,14 @@ impl Default for InfluenceOptions {
 /// (disaggregation): written into the file and into a table beside it.
 ///
 /// # Errors
-/// A file that is missing, damaged, no result, or without sites; a probability that it does not have; a file that cannot be
-/// written; [`UpliftError::Interrupted`] where `events` say so.
+/// A file that is missing, damaged, no result, or without sites; a probability that it does not have; a file that
+/// cannot be written; [`UpliftError::Interrupted`] where `events` say so.
 pub fn influence(
     result: &Path,
     options: &InfluenceOptions,
     events: &dyn Events,
 ) -> Result<InfluenceReport, UpliftError> {
-    let stored = StoredStripes::read(result)?;
+    let stored = ResultFile::open(result)?.stripes()?;
     check_target(&stored.path)?;
     let poe = stored.poe_index(options.poe)?;
     let mut influences: Vec<Influence> = Vec::new();
@@ -45,18 +46,11 @@ pub fn influence(
         }
         influences.push(influence_by(&stored, measure)?);
     }
-    let rankings: Vec<Vec<Vec<RecordInfluence>>> = influences
+    let shape = [stored.sites.len(), stored.poes.len()];
+    let rankings: Vec<Array<2, Vec<RecordInfluence>>> = influences
         .iter()
         .zip(&stored.measures)
-        .map(|(influence, measure)| {
-            (0..stored.sites.len() * stored.poes.len())
-                .map(|row| {
-                    let spectrum =
-                        stored.spectrum(&measure.spectra_m, row / stored.poes.len(), row % stored.poes.len());
-                    rank_records(&stored, influence, spectrum, row)
-                })
-                .collect()
-        })
+        .map(|(influence, measure)| Array::from_fn(shape, |at| rank_records(&stored, measure, influence, at)))
         .collect();
     write_influence(&stored, &influences, &rankings)?;
     Ok(InfluenceReport::new(&stored, &influences, &rankings, poe, options.top))

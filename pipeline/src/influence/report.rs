@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::change::{Influence, RecordInfluence, level_of_share};
 use super::write::influence_path;
+use crate::array::Array;
 use crate::result::StoredStripes;
 use crate::text::nearest;
 
@@ -83,18 +84,18 @@ impl InfluenceReport {
     pub(super) fn new(
         stored: &StoredStripes,
         influences: &[Influence],
-        rankings: &[Vec<Vec<RecordInfluence>>],
+        rankings: &[Array<2, Vec<RecordInfluence>>],
         poe: usize,
         top: usize,
     ) -> Self {
         let mut records = Vec::new();
         for (influence, rankings) in influences.iter().zip(rankings) {
-            for (row, ranking) in rankings.iter().enumerate() {
-                for entry in ranking.iter().take(top) {
+            for ([site, poe], ranking) in rankings.blocks() {
+                for entry in ranking[0].iter().take(top) {
                     records.push(RecordChange {
-                        site: stored.sites[row / stored.poes.len()].clone(),
+                        site: stored.sites[site].clone(),
                         im: influence.measure.label(),
-                        poe: stored.poes[row % stored.poes.len()],
+                        poe: stored.poes[poe],
                         record: stored.records[entry.record].clone(),
                         mean_change_pct: 100.0 * entry.mean_change,
                         largest_change_pct: 100.0 * entry.largest_change,
@@ -118,11 +119,10 @@ fn intensities(stored: &StoredStripes, influences: &[Influence], poe: usize) -> 
     let shown = nearest(&stored.strengths, &SHOWN_STRENGTHS);
     let mut rows = Vec::new();
     for (influence, measure) in influences.iter().zip(&stored.measures) {
-        let bins = measure.levels.len() + 1;
         for (site, name) in stored.sites.iter().enumerate() {
             for &strength in &shown {
-                let ordinate = stored.ordinate(site, poe, strength);
-                let shares = &influence.shares[ordinate * bins..(ordinate + 1) * bins];
+                let at = [site, poe, strength];
+                let shares = influence.shares.block(at);
                 let level = |share: f64| level_of_share(&measure.levels, shares, share);
                 rows.push(IntensityShares {
                     site: name.clone(),
@@ -130,12 +130,12 @@ fn intensities(stored: &StoredStripes, influences: &[Influence], poe: usize) -> 
                     unit: measure.measure.unit(),
                     poe: stored.poes[poe],
                     strength: stored.strengths[strength],
-                    u_m: measure.spectra_m[ordinate],
+                    u_m: measure.exact_m[at],
                     level_05: level(0.05),
                     level_50: level(0.5),
                     level_95: level(0.95),
                     share_below_stripes: shares[0],
-                    share_above_stripes: shares[bins - 1],
+                    share_above_stripes: shares[shares.len() - 1],
                 });
             }
         }

@@ -3,14 +3,20 @@
 use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
+use uplift_motion::IntensityMeasure;
 
 use super::change::{Influence, RecordInfluence};
+use crate::array::Array;
 use crate::error::UpliftError;
+use crate::result::layout::{axis, disaggregation, influence};
 use crate::result::{StoredStripes, extend_result, line, sign, write_table};
 use uplift_labelled::{LabelledError, LabelledWriter};
 
 /// The groups that a new look replaces.
-const REPLACED: [&str; 4] = ["/influence", "/disaggregation", "/axes/pgv_bin", "/axes/pga_bin"];
+fn replaced() -> Vec<String> {
+    let bins = IntensityMeasure::ALL.map(|measure| axis::path(&axis::bin(measure)));
+    [influence::ROOT, disaggregation::ROOT].map(str::to_owned).into_iter().chain(bins).collect()
+}
 
 /// The table beside the result file.
 pub(super) fn influence_path(result: &Path) -> PathBuf {
@@ -19,14 +25,16 @@ pub(super) fn influence_path(result: &Path) -> PathBuf {
 
 /// Write the influence into the result file, in place of an earlier one, and into a table beside it.
 ///
+/// * `rankings` — what `rank_records` says of each measure's spectra `[site, poe]`
+///
 /// # Errors
 /// Whatever keeps the files from being written; the result file is then as it was.
 pub(super) fn write_influence(
     stored: &StoredStripes,
     influences: &[Influence],
-    rankings: &[Vec<Vec<RecordInfluence>>],
+    rankings: &[Array<2, Vec<RecordInfluence>>],
 ) -> Result<(), UpliftError> {
-    extend_result(stored, &REPLACED, |writer| add(writer, stored, influences))?;
+    extend_result(stored, &replaced(), |writer| add(writer, stored, influences))?;
     write_table(
         &influence_path(&stored.path),
         &line(stored, "spectra without each record"),
@@ -35,23 +43,22 @@ pub(super) fn write_influence(
 }
 
 fn add(writer: &mut LabelledWriter, stored: &StoredStripes, influences: &[Influence]) -> Result<(), LabelledError> {
-    sign(writer, "/influence")?;
-    sign(writer, "/disaggregation")?;
-    for (influence, measure) in influences.iter().zip(&stored.measures) {
-        let key = influence.measure.key();
-        if !influence.without_m.is_empty() {
-            let dims = ["site", "poe", "record", "strength"];
+    sign(writer, influence::ROOT)?;
+    sign(writer, disaggregation::ROOT)?;
+    for (found, measure) in influences.iter().zip(&stored.measures) {
+        if let Some(without_m) = &found.without_m {
+            let dims = [axis::SITE, axis::POE, axis::RECORD, axis::STRENGTH];
             let long_name = "uniform risk displacement without the record";
-            writer.array_f64(&format!("/influence/{key}/u_without_m"), &dims, &influence.without_m, "m", long_name)?;
+            writer.array_f64(&influence::u_without_m(found.measure), &dims, without_m.values(), "m", long_name)?;
         }
         let from: Vec<f64> = std::iter::once(0.0).chain(measure.levels.iter().copied()).collect();
-        let bin = format!("{key}_bin");
+        let bin = axis::bin(found.measure);
         let long_name =
-            format!("{} from which a bin reaches up to the next, the last without end", influence.measure.label());
-        writer.axis_f64(&bin, &from, influence.measure.unit(), &long_name)?;
-        let dims = ["site", "poe", "strength", &bin];
+            format!("{} from which a bin reaches up to the next, the last without end", found.measure.label());
+        writer.axis_f64(&bin, &from, found.measure.unit(), &long_name)?;
+        let dims = [axis::SITE, axis::POE, axis::STRENGTH, &bin];
         let long_name = "share of the risk at the ordinate";
-        writer.array_f64(&format!("/disaggregation/{key}/share"), &dims, &influence.shares, "1", long_name)?;
+        writer.array_f64(&disaggregation::share(found.measure), &dims, found.shares.values(), "1", long_name)?;
     }
     Ok(())
 }
@@ -59,16 +66,16 @@ fn add(writer: &mut LabelledWriter, stored: &StoredStripes, influences: &[Influe
 fn ranking_table(
     stored: &StoredStripes,
     influences: &[Influence],
-    rankings: &[Vec<Vec<RecordInfluence>>],
+    rankings: &[Array<2, Vec<RecordInfluence>>],
 ) -> Vec<Column> {
     let (mut site, mut im, mut poe, mut record) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let (mut mean, mut largest, mut strength) = (Vec::new(), Vec::new(), Vec::new());
     for (influence, rankings) in influences.iter().zip(rankings) {
-        for (row, ranking) in rankings.iter().enumerate() {
-            for entry in ranking {
-                site.push(stored.sites[row / stored.poes.len()].as_str());
+        for ([site_index, poe_index], ranking) in rankings.blocks() {
+            for entry in &ranking[0] {
+                site.push(stored.sites[site_index].as_str());
                 im.push(influence.measure.label());
-                poe.push(stored.poes[row % stored.poes.len()]);
+                poe.push(stored.poes[poe_index]);
                 record.push(stored.records[entry.record].as_str());
                 mean.push(100.0 * entry.mean_change);
                 largest.push(100.0 * entry.largest_change);

@@ -72,8 +72,8 @@ impl BlockPlan {
 }
 
 impl PulsePlan {
-    /// Whether there are such blocks and pulses, and no more of them than a figure shows, so that a mistake is told before
-    /// the work.
+    /// Whether there are such blocks and pulses, and no more of them than a figure shows, so that a mistake is told
+    /// before the work.
     ///
     /// # Errors
     /// A slenderness, size, restitution, amplitude or period that no block or pulse has; a map of too many points.
@@ -82,7 +82,8 @@ impl PulsePlan {
             let points = sizes.len() * self.accelerations.len();
             if points > MOST_POINTS {
                 return Err(UpliftError::Usage(format!(
-                    "the axes of {name} and accelerations make a map of {} points: take larger steps, {} points are the most",
+                    "the axes of {name} and accelerations make a map of {} points: take larger steps, {} points are \
+                     the most",
                     thousands(points as u64),
                     thousands(MOST_POINTS as u64)
                 )));

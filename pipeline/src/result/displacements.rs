@@ -1,10 +1,12 @@
-//! The displacement spectra of a result file, as figures and tables read them.
+//! The displacement spectra of a result, as figures and tables read them.
 
-use std::path::Path;
+use serde::Serialize;
+use uplift_study::Kind;
 
+use super::file::ResultFile;
+use super::layout::{axis, set, spectra};
+use crate::array::Array;
 use crate::error::UpliftError;
-use crate::result::open_any_result;
-use uplift_labelled::LabelledReader;
 
 /// The displacement spectra of a result file.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,12 +27,14 @@ pub struct StoredDisplacements {
     pub structures: StoredStructures,
     /// Abscissa of the spectra: uplift strengths `f_up/(m g)`, or slendernesses tan α.
     pub abscissas: Vec<f64>,
-    /// `[set, scaling, scaled_by, line, percentile, abscissa]`, m.
-    percentile_m: Vec<f64>,
+    /// Percentiles of the peak displacements `[set, scaling, scaled_by, line, percentile, abscissa]`, m.
+    pub percentile_m: Array<6>,
+    /// Nonlinear time histories.
+    pub analyses: u64,
 }
 
 /// A record set.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct StoredSet {
     /// Its name.
     pub name: String,
@@ -43,7 +47,7 @@ pub struct StoredSet {
 }
 
 /// What was shaken.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub enum StoredStructures {
     /// Oscillators; lines `[uplift displacement, capacity]`.
     Oscillators {
@@ -62,9 +66,24 @@ pub enum StoredStructures {
 impl StoredStructures {
     /// Lines of a spectrum.
     pub fn lines(&self) -> usize {
+        self.line_axes().iter().map(|(_, length)| length).product()
+    }
+
+    /// The axes that tell lines of a spectrum apart, with their lengths.
+    fn line_axes(&self) -> Vec<(&'static str, usize)> {
         match self {
-            Self::Oscillators { uplift_displacement_m, capacity_m } => uplift_displacement_m.len() * capacity_m.len(),
-            Self::Blocks { height_m } => height_m.len(),
+            Self::Oscillators { uplift_displacement_m, capacity_m } => {
+                vec![(axis::UPLIFT_DISPLACEMENT, uplift_displacement_m.len()), (axis::CAPACITY, capacity_m.len())]
+            }
+            Self::Blocks { height_m } => vec![(axis::HEIGHT, height_m.len())],
+        }
+    }
+
+    /// The axis of a spectrum's abscissa.
+    fn abscissa_axis(&self) -> &'static str {
+        match self {
+            Self::Oscillators { .. } => axis::STRENGTH,
+            Self::Blocks { .. } => axis::SLENDERNESS,
         }
     }
 }
@@ -88,113 +107,122 @@ pub struct StoredMotions {
     /// PGV of the component, unscaled \[cm/s\].
     pub pgv_cm_s: Vec<f64>,
     /// Peak displacements `[scaling, scaled_by, line, abscissa, motion]`, m.
-    u_m: Vec<f64>,
+    pub u_m: Array<5>,
+}
+
+impl StoredMotions {
+    /// Peak displacements under the motion at `motion` over the abscissas, m; the set of `place` does not matter.
+    pub fn of_motion_m(&self, place: SpectrumPlace, line: usize, motion: usize) -> impl Iterator<Item = f64> {
+        let abscissas = self.u_m.block([place.scaling, place.scaled_by, line]);
+        abscissas.chunks_exact(self.names.len()).map(move |motions| motions[motion])
+    }
 }
 
 impl StoredDisplacements {
-    /// Read the displacement spectra of the result at `path`.
-    ///
-    /// # Errors
-    /// A file that is missing, damaged, no result of displacement spectra, or of another layout.
-    pub fn read(path: &Path) -> Result<Self, UpliftError> {
-        let reader = open_any_result(path)?;
-        let damaged = |what: &str| {
-            UpliftError::input(format!("{}: {what} has not the shape of its axes: the file is damaged", path.display()))
-        };
-        let structures = if reader.attribute_text("/", "structure")? == "block" {
-            StoredStructures::Blocks { height_m: reader.axis_f64("height")? }
-        } else {
-            StoredStructures::Oscillators {
-                uplift_displacement_m: reader.axis_f64("uplift_displacement")?,
-                capacity_m: reader.axis_f64("capacity")?,
-            }
-        };
-        let abscissa = match structures {
-            StoredStructures::Oscillators { .. } => "strength",
-            StoredStructures::Blocks { .. } => "slenderness",
-        };
-        let stored = Self {
-            records: reader.attribute_text("/", "record_set")?,
-            synthetic: reader.attribute_i64("/", "synthetic")? == 1,
-            sets: reader
-                .axis_text("record_set")?
-                .into_iter()
-                .map(|name| StoredSet::read(&reader, name))
-                .collect::<Result<_, _>>()?,
-            scalings: reader.axis_text("scaling")?,
-            scaled_by: reader.axis_text("scaled_by")?,
-            percentiles: reader.axis_f64("percentile")?,
-            structures,
-            abscissas: reader.axis_f64(abscissa)?,
-            percentile_m: reader.array_f64("/spectra/u_m")?.values,
-        };
-        let spectra = stored.sets.len() * stored.scalings.len() * stored.scaled_by.len();
-        let of_a_spectrum = stored.structures.lines() * stored.percentiles.len() * stored.abscissas.len();
-        if stored.percentile_m.is_empty() || stored.percentile_m.len() != spectra * of_a_spectrum {
-            return Err(damaged("/spectra/u_m"));
-        }
-        Ok(stored)
-    }
-
-    /// The motions of the set at the position `set`, of the file at `path` that this was read from.
-    ///
-    /// # Errors
-    /// A file that is missing or damaged.
-    pub fn motions(&self, path: &Path, set: usize) -> Result<StoredMotions, UpliftError> {
-        let reader = open_any_result(path)?;
-        let name = &self.sets[set].name;
-        let group = format!("/sets/{name}");
-        let texts = |array: &str| reader.array_text(&format!("{group}/{array}")).map(|array| array.values);
-        let names = texts("record")?.into_iter().zip(texts("component")?);
-        let motions = StoredMotions {
-            names: names.map(|(record, component)| format!("{record} {component}")).collect(),
-            pgv_cm_s: reader.array_f64(&format!("{group}/pgv_cm_s"))?.values,
-            u_m: reader.array_f64(&format!("{group}/u_m"))?.values,
-        };
-        let spectra = self.scalings.len() * self.scaled_by.len() * self.structures.lines() * self.abscissas.len();
-        let count = motions.names.len();
-        if count == 0 || motions.pgv_cm_s.len() != count || motions.u_m.len() != spectra * count {
-            return Err(UpliftError::input(format!(
-                "{}: {group} has not the shape of its axes: the file is damaged",
-                path.display()
-            )));
-        }
-        Ok(motions)
-    }
-
-    /// Percentile of the peak displacements over the abscissas \[m\]: of the spectrum at `place`, its line and percentile by position.
+    /// Percentile of the peak displacements over the abscissas \[m\]: of the spectrum at `place`, its line and
+    /// percentile by position.
     pub fn percentile_m(&self, place: SpectrumPlace, line: usize, percentile: usize) -> &[f64] {
-        let row = (self.line(place, line) * self.percentiles.len() + percentile) * self.abscissas.len();
-        &self.percentile_m[row..row + self.abscissas.len()]
-    }
-
-    /// Peak displacements under one of `motions` over the abscissas, m.
-    pub fn motion_m<'a>(
-        &self,
-        motions: &'a StoredMotions,
-        place: SpectrumPlace,
-        line: usize,
-        motion: usize,
-    ) -> impl Iterator<Item = f64> + 'a {
-        let count = motions.names.len();
-        let start = self.line(SpectrumPlace { set: 0, ..place }, line) * self.abscissas.len() * count;
-        motions.u_m[start..start + self.abscissas.len() * count].iter().skip(motion).step_by(count).copied()
-    }
-
-    /// Position of a line among those of all spectra.
-    fn line(&self, place: SpectrumPlace, line: usize) -> usize {
-        let spectrum = (place.set * self.scalings.len() + place.scaling) * self.scaled_by.len() + place.scaled_by;
-        spectrum * self.structures.lines() + line
+        self.percentile_m.block([place.set, place.scaling, place.scaled_by, line, percentile])
     }
 }
 
-impl StoredSet {
-    fn read(reader: &LabelledReader, name: String) -> Result<Self, UpliftError> {
-        let group = format!("/sets/{name}");
-        Ok(Self {
-            records: reader.attribute_u64(&group, "records")?,
-            median_pga_g: reader.attribute_f64(&group, "median_pga_g")?,
-            median_pgv_cm_s: reader.attribute_f64(&group, "median_pgv_cm_s")?,
+impl ResultFile {
+    /// The displacement spectra of a result of these.
+    ///
+    /// # Errors
+    /// A file that is damaged, or of another kind.
+    pub fn displacements(&self) -> Result<StoredDisplacements, UpliftError> {
+        self.require(Kind::Displacement)?;
+        let reader = &self.reader;
+        let structures = self.structures()?;
+        let (scalings, scaled_by) = (reader.axis_text(axis::SCALING)?, reader.axis_text(axis::SCALED_BY)?);
+        let percentiles = reader.axis_f64(axis::PERCENTILE)?;
+        let abscissas = reader.axis_f64(structures.abscissa_axis())?;
+        let sets = reader.axis_text(axis::RECORD_SET)?;
+        let shape =
+            [sets.len(), scalings.len(), scaled_by.len(), structures.lines(), percentiles.len(), abscissas.len()];
+        if shape.contains(&0) {
+            return Err(self.damaged("an axis of its spectra is empty"));
+        }
+        let mut axes =
+            vec![(axis::RECORD_SET, sets.len()), (axis::SCALING, scalings.len()), (axis::SCALED_BY, scaled_by.len())];
+        axes.extend(structures.line_axes());
+        axes.extend([(axis::PERCENTILE, percentiles.len()), (structures.abscissa_axis(), abscissas.len())]);
+        let percentile_m = self.checked(spectra::U_M, reader.array_f64(spectra::U_M)?, &axes)?;
+        Ok(StoredDisplacements {
+            records: self.record_set()?,
+            synthetic: self.is_synthetic()?,
+            sets: sets.into_iter().map(|name| self.set(name)).collect::<Result<_, _>>()?,
+            scalings,
+            scaled_by,
+            percentiles,
+            structures,
+            abscissas,
+            percentile_m: Array::new(shape, percentile_m)
+                .map_err(|error| self.damaged(format!("{}: {error}", spectra::U_M)))?,
+            analyses: reader.attribute_u64(spectra::GROUP, "analyses")?,
+        })
+    }
+
+    /// The motions of the set at the position `position`.
+    ///
+    /// # Errors
+    /// A file that is damaged, or of another kind.
+    pub fn motions(&self, position: usize) -> Result<StoredMotions, UpliftError> {
+        self.require(Kind::Displacement)?;
+        let reader = &self.reader;
+        let structures = self.structures()?;
+        let sets = reader.axis_text(axis::RECORD_SET)?;
+        let Some(set) = sets.get(position) else {
+            return Err(self.fail(format!("has {} record sets, and number {} is wanted", sets.len(), position + 1)));
+        };
+        let pgv_cm_s = reader.array_f64(&set::array(set, "pgv_cm_s"))?;
+        let [motion] = &pgv_cm_s.dims[..] else {
+            return Err(self.damaged(format!("{} does not run over motions", set::array(set, "pgv_cm_s"))));
+        };
+        let motion = motion.clone();
+        let motions = (motion.as_str(), pgv_cm_s.values.len());
+        let texts = |name: &str| {
+            let path = set::array(set, name);
+            self.checked(&path, reader.array_text(&path)?, &[motions])
+        };
+        let names = texts("record")?.into_iter().zip(texts("component")?);
+        let ways = [reader.axis_text(axis::SCALING)?.len(), reader.axis_text(axis::SCALED_BY)?.len()];
+        let abscissas = (structures.abscissa_axis(), reader.axis_f64(structures.abscissa_axis())?.len());
+        let mut axes = vec![(axis::SCALING, ways[0]), (axis::SCALED_BY, ways[1])];
+        axes.extend(structures.line_axes());
+        axes.extend([abscissas, motions]);
+        let path = set::array(set, "u_m");
+        let u_m = self.checked(&path, reader.array_f64(&path)?, &axes)?;
+        let shape = [ways[0], ways[1], structures.lines(), abscissas.1, motions.1];
+        if shape.contains(&0) {
+            return Err(self.damaged(format!("an axis of {path} is empty")));
+        }
+        Ok(StoredMotions {
+            names: names.map(|(record, component)| format!("{record} {component}")).collect(),
+            u_m: Array::new(shape, u_m).map_err(|error| self.damaged(format!("{path}: {error}")))?,
+            pgv_cm_s: pgv_cm_s.values,
+        })
+    }
+
+    fn structures(&self) -> Result<StoredStructures, UpliftError> {
+        let reader = &self.reader;
+        Ok(if reader.attribute_text("/", "structure")? == "block" {
+            StoredStructures::Blocks { height_m: reader.axis_f64(axis::HEIGHT)? }
+        } else {
+            StoredStructures::Oscillators {
+                uplift_displacement_m: reader.axis_f64(axis::UPLIFT_DISPLACEMENT)?,
+                capacity_m: reader.axis_f64(axis::CAPACITY)?,
+            }
+        })
+    }
+
+    fn set(&self, name: String) -> Result<StoredSet, UpliftError> {
+        let group = set::group(&name);
+        Ok(StoredSet {
+            records: self.reader.attribute_u64(&group, "records")?,
+            median_pga_g: self.reader.attribute_f64(&group, "median_pga_g")?,
+            median_pgv_cm_s: self.reader.attribute_f64(&group, "median_pgv_cm_s")?,
             name,
         })
     }

@@ -11,11 +11,11 @@ use uplift_labelled::{LabelledError, LabelledReader, LabelledWriter, Seal, seal_
 /// Write the file of `stored` anew without the groups and axes `replaced`, and with what `add` writes.
 ///
 /// # Errors
-/// Whatever keeps the file from being read or written; it is then as it was. A file that is not as it was written, or no longer the one
-/// that `stored` was read from.
+/// Whatever keeps the file from being read or written; it is then as it was. A file that is not as it was written, or
+/// no longer the one that `stored` was read from.
 pub(crate) fn extend_result(
     stored: &StoredStripes,
-    replaced: &[&str],
+    replaced: &[impl AsRef<str>],
     add: impl FnOnce(&mut LabelledWriter) -> Result<(), LabelledError>,
 ) -> Result<(), UpliftError> {
     let path: &Path = &stored.path;
@@ -29,7 +29,8 @@ pub(crate) fn extend_result(
     }
     let reader = LabelledReader::open(path)?;
     let mut writer = LabelledWriter::create(path)?;
-    writer.carry_over(&reader, replaced)?;
+    let replaced: Vec<&str> = replaced.iter().map(AsRef::as_ref).collect();
+    writer.carry_over(&reader, &replaced)?;
     drop(reader);
     add(&mut writer)?;
     writer.finish()?;

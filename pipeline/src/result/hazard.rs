@@ -1,46 +1,69 @@
-//! Hazard curves in a result file.
-
-use std::collections::BTreeSet;
+//! The hazard curves of a result, as used.
 
 use uplift_hazard::HazardCurve;
 use uplift_motion::IntensityMeasure;
 
+use super::file::ResultFile;
+use super::layout::{hazard, ida};
 use crate::error::UpliftError;
-use uplift_labelled::LabelledReader;
 
-/// Where the branch at `index` of a site and measure is.
-pub(crate) fn branch_group(site: &str, measure: &str, index: usize) -> String {
-    format!("/hazard/{site}/{measure}/branches/{}", index + 1)
+/// The hazard of one measure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StoredHazard {
+    /// The measure.
+    pub measure: IntensityMeasure,
+    /// Its curves `[site]`.
+    pub sites: Vec<StoredCurves>,
 }
 
-/// The curve in the group `group`, by the measure `measure`.
-///
-/// # Errors
-/// A file that is damaged.
-pub(super) fn read_curve(
-    reader: &LabelledReader,
-    group: &str,
-    measure: IntensityMeasure,
-) -> Result<HazardCurve, UpliftError> {
-    let fail = |reason: String| UpliftError::input(format!("{}: {group}{reason}", reader.path().display()));
-    let maf = reader.array_f64(&format!("{group}/maf_per_year"))?;
-    let im = match &maf.dims[..] {
-        [axis] => reader.axis_f64(axis)?,
-        _ => return Err(fail("/maf_per_year is no curve".to_owned())),
-    };
-    HazardCurve::new(measure.label(), measure.unit(), "", im, maf.values).map_err(|error| fail(format!(": {error}")))
+/// The curves of one site.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StoredCurves {
+    /// The curve; the mean where there are branches.
+    pub curve: HazardCurve,
+    /// Weighted alternatives, each its weight and curve; none where there is but one curve.
+    pub branches: Vec<(f64, HazardCurve)>,
 }
 
-/// As much of a name as an axis name can hold: lower-case ASCII.
-pub fn axis_part(name: &str) -> String {
-    let fit = |character: char| if character.is_ascii_alphanumeric() { character } else { '_' };
-    name.to_lowercase().chars().take(40).map(fit).collect()
-}
-
-/// The name of an axis, longer where it is taken: by a name that differs only in what an axis name cannot hold.
-pub fn unique_axis(mut axis: String, taken: &mut BTreeSet<String>) -> String {
-    while !taken.insert(axis.clone()) {
-        axis.push('x');
+impl ResultFile {
+    /// The hazard curves of every measure, in units of the measures.
+    ///
+    /// # Errors
+    /// A file that is damaged, or of another kind; a study without sites.
+    pub fn hazard(&self) -> Result<Vec<StoredHazard>, UpliftError> {
+        let axes = self.axes_with_sites()?;
+        let of_measure = |measure| {
+            let sites = axes.sites.iter().map(|site| self.curves(site, measure)).collect::<Result<_, _>>()?;
+            Ok(StoredHazard { measure, sites })
+        };
+        self.measures().into_iter().map(of_measure).collect()
     }
-    axis
+
+    /// The measures with stripes, PGV first.
+    pub(super) fn measures(&self) -> Vec<IntensityMeasure> {
+        let is_there = |measure: &IntensityMeasure| self.reader.exists(&ida::edp_m(*measure));
+        IntensityMeasure::ALL.into_iter().filter(is_there).collect()
+    }
+
+    /// The curves of one site and measure.
+    pub(super) fn curves(&self, site: &str, measure: IntensityMeasure) -> Result<StoredCurves, UpliftError> {
+        let branches = (0..)
+            .map(|index| hazard::branch(site, measure, index))
+            .take_while(|group| self.reader.exists(group))
+            .map(|group| Ok((self.reader.attribute_f64(&group, "weight")?, self.curve(&group, measure)?)));
+        Ok(StoredCurves {
+            curve: self.curve(&hazard::group(site, measure), measure)?,
+            branches: branches.collect::<Result<_, UpliftError>>()?,
+        })
+    }
+
+    /// The curve in the group `group`.
+    fn curve(&self, group: &str, measure: IntensityMeasure) -> Result<HazardCurve, UpliftError> {
+        let path = hazard::maf_per_year(group);
+        let maf = self.reader.array_f64(&path)?;
+        let [axis] = &maf.dims[..] else { return Err(self.damaged(format!("{path} is not a curve"))) };
+        let im = self.reader.axis_f64(axis)?;
+        HazardCurve::new(measure.label(), measure.unit(), "", im, maf.values)
+            .map_err(|error| self.fail(format!("{group}: {error}")))
+    }
 }

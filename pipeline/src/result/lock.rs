@@ -6,9 +6,10 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use crate::error::UpliftError;
-use uplift_labelled::final_place;
+use uplift_atomic_file::final_place;
 
-/// Held as long as something is being written to a result. The operating system lets go of it when the program ends, however it ends.
+/// Held as long as something is being written to a result. The operating system lets go of it when the program ends,
+/// however it ends.
 #[derive(Debug)]
 pub struct ResultLock {
     path: PathBuf,

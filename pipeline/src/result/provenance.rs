@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use super::LAYOUT;
 use super::extend::now;
+use super::layout::LAYOUT;
 use crate::error::UpliftError;
 use crate::inputs::{RecordSet, SiteHazard};
 use crate::run::{RunHead, RunOptions};

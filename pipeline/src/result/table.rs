@@ -3,11 +3,14 @@
 use std::path::Path;
 
 use polars::prelude::{Column, CsvWriter, DataFrame, SerWriter};
-use uplift_labelled::write_whole;
+use uplift_atomic_file::write_whole;
 
 use crate::error::UpliftError;
 
-/// A comment line and a table, written aside and renamed.
+/// Write a comment line and a table, whole or not at all.
+///
+/// # Errors
+/// A file that cannot be written; an earlier one is then as it was.
 pub fn write_table(path: &Path, line: &str, columns: Vec<Column>) -> Result<(), UpliftError> {
     let fail = |reason: String| UpliftError::input(format!("{} cannot be written: {reason}", path.display()));
     let mut content = Vec::new();
@@ -17,13 +20,13 @@ pub fn write_table(path: &Path, line: &str, columns: Vec<Column>) -> Result<(), 
     DataFrame::new_infer_height(columns)
         .and_then(|mut table| CsvWriter::new(&mut content).finish(&mut table))
         .map_err(|error| fail(error.to_string()))?;
-    write_aside(path, &content)
+    write_atomically(path, &content)
 }
 
-/// A file, written aside and renamed.
+/// Write a file, whole or not at all.
 ///
 /// # Errors
 /// A file that cannot be written; an earlier one is then as it was.
-pub fn write_aside(path: &Path, content: &[u8]) -> Result<(), UpliftError> {
+pub fn write_atomically(path: &Path, content: &[u8]) -> Result<(), UpliftError> {
     Ok(write_whole(path, content)?)
 }

@@ -9,8 +9,8 @@ use uplift_labelled::{LabelledReader, LabelledWriter};
 /// First bytes of every HDF5 file.
 const HDF5_SIGNATURE: [u8; 8] = *b"\x89HDF\r\n\x1a\n";
 
-/// Check that a result can be written to `path` and replaces nothing but an earlier HDF5 file: a slip of the keyboard must not cost
-/// a study, a record or a hazard curve.
+/// Check that a result can be written to `path` and replaces nothing but an earlier HDF5 file: a slip of the keyboard
+/// must not cost a study, a record or a hazard curve.
 ///
 /// # Errors
 /// A folder that cannot be written, or a file there that is no HDF5 file.
@@ -18,7 +18,8 @@ pub fn check_target(path: &Path) -> Result<(), UpliftError> {
     drop(LabelledWriter::create(path)?);
     if path.exists() && !is_hdf5(path) {
         return Err(UpliftError::input(format!(
-            "{}: is there already and is not an HDF5 file; it is left as it is: give the result file another name (-o), or remove that one",
+            "{}: is there already and is not an HDF5 file; it is left as it is: give the result file another name \
+             (-o), or remove that one",
             path.display()
         )));
     }
@@ -27,7 +28,8 @@ pub fn check_target(path: &Path) -> Result<(), UpliftError> {
         && !reader.attribute_text("/", "program").is_ok_and(|program| program == "uplift")
     {
         return Err(UpliftError::input(format!(
-            "{}: is there already and is an HDF5 file of another program; it is left as it is: give the result file another name (-o), or remove that one",
+            "{}: is there already and is an HDF5 file of another program; it is left as it is: give the result file \
+             another name (-o), or remove that one",
             path.display()
         )));
     }

@@ -25,7 +25,7 @@ use crate::analysis::{Beside, LabelledPlan, ShardReport, Work};
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::inputs::RecordSet;
-use crate::result::{SpectraOfResult, StudyOfResult};
+use crate::result::{ResultFile, SpectraOfResult, StudyOfResult};
 use crate::text::per_cent;
 use crate::uniform_risk::{Stripes, motion_keys, plan_stripes};
 
@@ -113,7 +113,7 @@ pub fn design(
     if !(safety_factor.is_finite() && safety_factor >= 1.0) {
         return Err(UpliftError::Usage(format!("--safety-factor is {safety_factor}: give a number of at least 1")));
     }
-    let source = StudyOfResult::read(result, options.manifest.as_deref())?;
+    let source = ResultFile::open(result)?.study(options.manifest.as_deref())?;
     require_zero_stiffness(&source)?;
     let site = site_index(&source, options.site.as_deref())?;
     let measure = &source.measures[measure_index(&source, options.measure)?];
@@ -195,7 +195,7 @@ pub fn design_shard(
     shard: Shard,
     events: &dyn Events,
 ) -> Result<ShardReport, UpliftError> {
-    let source = StudyOfResult::read(result, options.manifest.as_deref())?;
+    let source = ResultFile::open(result)?.study(options.manifest.as_deref())?;
     require_zero_stiffness(&source)?;
     let measure = &source.measures[measure_index(&source, options.measure)?];
     let restitution = structure.description.restitution.unwrap_or(source.study.oscillator.restitution);
@@ -294,7 +294,8 @@ fn differences(structure: &Structure, source: &StudyOfResult, restitution: f64) 
     let uplift_m = system.spectral_uplift_displacement_m();
     if apart(uplift_m, oscillator.uplift_displacement_m) {
         notes.push(format!(
-            "the spectrum is of an uplift displacement of {} mm, the structure's is {} mm, over Γ {:.3} mm (Section 3.5)",
+            "the spectrum is of an uplift displacement of {} mm, the structure's is {} mm, over Γ {:.3} mm (Section \
+             3.5)",
             1e3 * oscillator.uplift_displacement_m,
             1e3 * system.conditions().uplift_displacement_m(),
             1e3 * uplift_m

@@ -21,7 +21,7 @@ use crate::error::UpliftError;
 use crate::events::Events;
 use crate::inputs::RecordSet;
 use crate::outputs::{refuse_foreign, refuse_overwriting};
-use crate::result::{SpectraOfResult, StudyOfResult};
+use crate::result::{ResultFile, SpectraOfResult, StudyOfResult};
 use crate::text::per_cent;
 use crate::uniform_risk::{motion_keys, plan_stripes};
 
@@ -136,7 +136,7 @@ pub fn overturning(
     events: &dyn Events,
 ) -> Result<OverturningReport, UpliftError> {
     check_table(structure, result, options)?;
-    let source = StudyOfResult::read(result, options.manifest.as_deref())?;
+    let source = ResultFile::open(result)?.study(options.manifest.as_deref())?;
     let sites = match &options.site {
         Some(site) => vec![site_index(&source, Some(site))?],
         None => (0..source.sites.len()).collect(),
@@ -205,7 +205,7 @@ pub fn overturning_shard(
     shard: Shard,
     events: &dyn Events,
 ) -> Result<ShardReport, UpliftError> {
-    let source = StudyOfResult::read(result, options.manifest.as_deref())?;
+    let source = ResultFile::open(result)?.study(options.manifest.as_deref())?;
     let measures = measures(&source, options.measure)?;
     let models = models(structure, &source, options.restitution, &mut Vec::new())?;
     let shaken = Shaken::of(&source, options.manifest.as_deref())?;
@@ -294,8 +294,8 @@ fn notes_on(
         && a.restitution().to_bits() != b.restitution().to_bits()
     {
         notes.push(format!(
-            "the oscillator keeps {} of its velocity at an impact, the block {:.4}: part of what they differ by is that \
-             (--restitution gives both the same)",
+            "the oscillator keeps {} of its velocity at an impact, the block {:.4}: part of what they differ by is \
+             that (--restitution gives both the same)",
             a.restitution(),
             b.restitution()
         ));
@@ -309,8 +309,8 @@ fn notes_on(
             let largest = found.risks.iter().map(EventRisk::tail_share).fold(0.0, f64::max);
             if largest > TAIL_SHARE_LIMIT {
                 notes.push(format!(
-                    "up to {} of the risk of the {} by {label} comes from outside the analysed levels: they should reach \
-                     further",
+                    "up to {} of the risk of the {} by {label} comes from outside the analysed levels: they should \
+                     reach further",
                     per_cent((1000.0 * largest).round() / 1000.0),
                     model.kind()
                 ));

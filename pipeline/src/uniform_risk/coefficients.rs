@@ -5,6 +5,7 @@ use uplift_regression::{ExponentialFit, fit};
 use uplift_risk::Ordinate;
 
 use super::Spectra;
+use crate::array::Array;
 use uplift_study::UniformRiskStudy;
 
 /// The fits of one measure.
@@ -12,14 +13,14 @@ use uplift_study::UniformRiskStudy;
 pub struct Coefficients {
     /// The measure.
     pub measure: IntensityMeasure,
-    /// A fit, or why there is none, over `[site, poe]`, row-major.
-    pub fits: Vec<Result<ExponentialFit, String>>,
+    /// A fit, or why there is none, `[site, poe]`.
+    pub fits: Array<2, Result<ExponentialFit, String>>,
 }
 
 /// Fit every spectrum over the strengths above `regression.strength_above`.
 pub fn fit_spectra(study: &UniformRiskStudy, spectra: &Spectra) -> Coefficients {
-    let [sites, poes, _] = spectra.shape;
-    let fits = (0..sites * poes).map(|row| fit_spectrum(study, spectra.spectrum(row / poes, row % poes))).collect();
+    let [sites, poes, _] = spectra.ordinates.shape();
+    let fits = Array::from_fn([sites, poes], |[site, poe]| fit_spectrum(study, spectra.spectrum(site, poe)));
     Coefficients { measure: spectra.measure, fits }
 }
 

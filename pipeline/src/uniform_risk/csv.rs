@@ -31,9 +31,8 @@ fn spectra_table(outcome: &Outcome<'_>) -> Vec<Column> {
     let (mut poe, mut strength, mut u_m, mut lower, mut upper) =
         (Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for spectra in outcome.spectra {
-        let [sites, poes, _] = spectra.shape;
-        for (site_index, poe_index) in (0..sites).flat_map(|site| (0..poes).map(move |poe| (site, poe))) {
-            for (ordinate, eta) in spectra.spectrum(site_index, poe_index).iter().zip(study.strengths.iter()) {
+        for ([site_index, poe_index], spectrum) in spectra.ordinates.blocks() {
+            for (ordinate, eta) in spectrum.iter().zip(study.strengths.iter()) {
                 site.push(study.sites[site_index].name.as_str());
                 im.push(spectra.measure.label());
                 poe.push(study.risk.poe[poe_index]);
@@ -69,14 +68,13 @@ pub(super) fn flag_word(flag: OrdinateFlag) -> &'static str {
 
 fn regression_table(outcome: &Outcome<'_>) -> Vec<Column> {
     let study = outcome.study;
-    let poes = study.risk.poe.len();
     let (mut site, mut im, mut poe, mut fits) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for coefficients in outcome.coefficients {
-        for (row, fit) in coefficients.fits.iter().enumerate() {
-            site.push(study.sites[row / poes].name.as_str());
+        for ([site_index, poe_index], fit) in coefficients.fits.blocks() {
+            site.push(study.sites[site_index].name.as_str());
             im.push(coefficients.measure.label());
-            poe.push(study.risk.poe[row % poes]);
-            fits.push(fit.as_ref().ok());
+            poe.push(study.risk.poe[poe_index]);
+            fits.push(fit[0].as_ref().ok());
         }
     }
     let number = |value: fn(&uplift_regression::ExponentialFit) -> f64| -> Vec<Option<f64>> {

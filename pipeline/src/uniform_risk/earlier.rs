@@ -8,7 +8,7 @@ use uplift_motion::IntensityMeasure;
 
 use crate::checkpoint::oscillator_key;
 use crate::inputs::RecordSet;
-use crate::result::level_axis;
+use crate::result::layout::{axis, ida, records};
 use uplift_labelled::{LabelledError, LabelledReader, Seal, seal_of};
 use uplift_study::{MeasurePlan, UniformRiskStudy};
 
@@ -47,25 +47,24 @@ impl EarlierStripes {
         cells: &mut Cells,
     ) -> Result<(), LabelledError> {
         let reader = &self.reader;
-        let key = measure.measure.key();
-        let group = format!("/ida/{key}");
+        let group = ida::group(measure.measure);
         if !reader.exists(&group) || reader.attribute_text(&group, "oscillator_key")? != oscillator_key(study) {
             return Ok(());
         }
-        let stored_motions = reader.array_text("/records/motion_sha256")?.values;
+        let stored_motions = reader.array_text(records::MOTION_SHA256)?.values;
         let intensities = reader
             .array_f64(match measure.measure {
-                IntensityMeasure::Pga => "/records/pga_g",
-                IntensityMeasure::Pgv => "/records/pgv_cm_s",
+                IntensityMeasure::Pga => records::PGA_G,
+                IntensityMeasure::Pgv => records::PGV_CM_S,
             })?
             .values;
         let positions = |values: &[f64]| -> HashMap<u64, usize> {
             values.iter().enumerate().map(|(index, value)| (value.to_bits(), index)).collect()
         };
-        let strengths = reader.axis_f64("strength")?;
-        let levels = reader.axis_f64(&level_axis(measure.measure))?;
-        let edp_m = reader.array_f64(&format!("{group}/edp_m"))?;
-        let impacts = reader.array_u32(&format!("{group}/impacts"))?;
+        let strengths = reader.axis_f64(axis::STRENGTH)?;
+        let levels = reader.axis_f64(&axis::level(measure.measure))?;
+        let edp_m = reader.array_f64(&ida::edp_m(measure.measure))?;
+        let impacts = reader.array_u32(&ida::impacts(measure.measure))?;
         let stored = Axes { motions: stored_motions.len(), systems: strengths.len(), scales: levels.len() };
         let shape = [stored.motions, stored.systems, stored.scales];
         if edp_m.shape != shape || impacts.shape != shape || intensities.len() != stored.motions {

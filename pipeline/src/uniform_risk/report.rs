@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 use super::{Outcome, Stripes};
+use crate::array::Array;
 use crate::run::RunHead;
 
 /// What a run tells.
@@ -97,15 +98,14 @@ impl RunReport {
     /// The report on what was computed and written.
     pub(super) fn of(outcome: &Outcome<'_>, files: Vec<PathBuf>, seconds: f64) -> Self {
         let study = outcome.study;
-        let poes = study.risk.poe.len();
         let fits = |coefficients: &super::Coefficients| -> Vec<CoefficientsReport> {
             let im = coefficients.measure.label();
-            let report = |(row, fit): (usize, &Result<uplift_regression::ExponentialFit, _>)| {
-                let fit = fit.as_ref().ok();
+            let report = |([site, poe], fit): ([usize; 2], &[Result<uplift_regression::ExponentialFit, _>])| {
+                let fit = fit[0].as_ref().ok();
                 CoefficientsReport {
-                    site: study.sites[row / poes].name.clone(),
+                    site: study.sites[site].name.clone(),
                     im,
-                    poe: study.risk.poe[row % poes],
+                    poe: study.risk.poe[poe],
                     c0: fit.map(|fit| fit.c0),
                     c1: fit.map(|fit| fit.c1),
                     c2: fit.map(|fit| fit.c2),
@@ -113,7 +113,7 @@ impl RunReport {
                     bound_active: fit.map(|fit| fit.bound_active),
                 }
             };
-            coefficients.fits.iter().enumerate().map(report).collect()
+            coefficients.fits.blocks().map(report).collect()
         };
         let records = (outcome.records.description.as_str(), outcome.records.synthetic);
         Self {
@@ -132,12 +132,12 @@ impl RunReport {
 fn spectra(outcome: &Outcome<'_>) -> Vec<SpectrumReport> {
     let mut reports = Vec::new();
     for spectra in outcome.spectra {
-        for (site, poe) in (0..spectra.shape[0]).flat_map(|site| (0..spectra.shape[1]).map(move |poe| (site, poe))) {
+        for ([site, poe], spectrum) in spectra.ordinates.blocks() {
             reports.push(SpectrumReport {
                 site: outcome.study.sites[site].name.clone(),
                 im: spectra.measure.label(),
                 poe,
-                u_m: spectra.spectrum(site, poe).iter().map(|ordinate| ordinate.displacement_m).collect(),
+                u_m: spectrum.iter().map(|ordinate| ordinate.displacement_m).collect(),
             });
         }
     }
@@ -145,12 +145,11 @@ fn spectra(outcome: &Outcome<'_>) -> Vec<SpectrumReport> {
 }
 
 fn branches(outcome: &Outcome<'_>) -> Vec<BranchReport> {
-    let strengths = outcome.study.strengths.len();
     let mut reports = Vec::new();
     for spectra in outcome.spectra {
         for branches in &spectra.branches {
             for poe in 0..outcome.study.risk.poe.len() {
-                let of_poe = |values: &[f64]| values[poe * strengths..(poe + 1) * strengths].to_vec();
+                let of_poe = |values: &Array<2>| values.block([poe]).to_vec();
                 let [low, .., high] = &branches.fractiles_m;
                 reports.push(BranchReport {
                     site: outcome.study.sites[branches.site].name.clone(),

@@ -1,16 +1,14 @@
 //! The result of a study: the one that is there if it is the study's, else the study is run.
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use uplift_labelled::LabelledError;
 use uplift_study::{AnyStudy, UniformRiskStudy};
 
 use crate::checkpoint::{motion_key, oscillator_key};
 use crate::error::UpliftError;
 use crate::events::Events;
-use crate::inputs::{read_hazard, read_records};
-use crate::result::{Provenance, open_result};
+use crate::inputs::{Record, read_hazard, read_records};
+use crate::result::{Kind, Provenance, ResultFile};
 use crate::run::{RunOptions, run};
 
 /// Sections of a study on which its stripes and spectra do not depend.
@@ -33,41 +31,43 @@ pub fn result_of(study: &UniformRiskStudy, options: &RunOptions, events: &dyn Ev
 
 /// Whether the file at `path` holds the stripes and spectra of `study`, made of the same records and hazard curves.
 fn is_result_of(study: &UniformRiskStudy, path: &Path) -> Result<bool, UpliftError> {
-    let Ok(reader) = open_result(path) else { return Ok(false) };
+    let Ok(file) = ResultFile::open(path) else { return Ok(false) };
+    if file.kind() != Kind::UniformRisk {
+        return Ok(false);
+    }
+    let head = file.head()?;
     let own = study.to_toml().map_err(|error| UpliftError::input(error.to_string()))?;
-    let kept = reader.attribute_text("/", "study_toml")?;
-    let (Some(own), Some(kept)) = (what_counts(&own), what_counts(&kept)) else { return Ok(false) };
+    let (Some(own), Some(kept)) = (what_counts(&own), what_counts(&head.study_toml)) else { return Ok(false) };
     if own != kept {
         return Ok(false);
     }
     let (hazard, _) = read_hazard(study)?;
     let records = read_records(study)?;
     let provenance = Provenance::new(&RunOptions::default(), &records, &hazard);
-    let kept: Option<BTreeMap<String, String>> =
-        serde_json::from_str(&reader.attribute_text("/", "input_checksums")?).ok();
-    if kept != Some(provenance.input_checksums) {
+    if head.input_checksums != provenance.input_checksums {
         return Ok(false);
     }
-    // what a manifest says of its files counts too: the motions themselves, what they are scaled by, what is known of them
-    let same = || -> Result<bool, LabelledError> {
-        let motions: Vec<String> = records.records.iter().map(|record| motion_key(&record.accelerogram)).collect();
-        let bits = |values: Vec<f64>| values.into_iter().map(f64::to_bits).collect::<Vec<_>>();
-        let number = |key: &str| records.records.iter().map(|record| record.number(key)).collect::<Vec<f64>>();
-        let mut same = reader.array_text("/records/motion_sha256")?.values == motions
-            && bits(reader.array_f64("/records/pga_g")?.values)
-                == bits(records.records.iter().map(|r| r.pga_g).collect())
-            && bits(reader.array_f64("/records/pgv_cm_s")?.values)
-                == bits(records.records.iter().map(|r| r.pgv_cm_s).collect());
-        for key in ["magnitude", "rrup_km", "vs30"] {
-            same &= bits(reader.array_f64(&format!("/records/{key}"))?.values) == bits(number(key));
-        }
-        for measure in &study.measures {
-            let group = format!("/ida/{}", measure.measure.key());
-            same &= reader.attribute_text(&group, "oscillator_key")? == oscillator_key(study);
-        }
-        Ok(same)
+    Ok(is_of_records(&file, study, &records.records).unwrap_or(false))
+}
+
+/// What a manifest says of its files counts too: the motions themselves, what they are scaled by, what is known of
+/// them.
+fn is_of_records(file: &ResultFile, study: &UniformRiskStudy, records: &[Record]) -> Result<bool, UpliftError> {
+    let kept = file.records()?;
+    let motions: Vec<String> = records.iter().map(|record| motion_key(&record.accelerogram)).collect();
+    let same = |kept: &[f64], own: &dyn Fn(&Record) -> f64| {
+        kept.iter().map(|value| value.to_bits()).eq(records.iter().map(|record| own(record).to_bits()))
     };
-    Ok(same().unwrap_or(false))
+    let mut is_same = kept.motion_sha256 == motions
+        && same(&kept.pga_g, &|record| record.pga_g)
+        && same(&kept.pgv_cm_s, &|record| record.pgv_cm_s)
+        && same(&kept.magnitude, &|record| record.number("magnitude"))
+        && same(&kept.rrup_km, &|record| record.number("rrup_km"))
+        && same(&kept.vs30, &|record| record.number("vs30"));
+    for plan in &study.measures {
+        is_same &= file.oscillator_key(plan.measure)? == oscillator_key(study);
+    }
+    Ok(is_same)
 }
 
 fn what_counts(study_toml: &str) -> Option<toml::Table> {

@@ -97,10 +97,8 @@ fn warnings_of(
         ));
     }
     for spectra in spectra {
-        let [sites, poes, _] = spectra.shape;
         let label = spectra.measure.label();
-        for (site, poe) in (0..sites).flat_map(|site| (0..poes).map(move |poe| (site, poe))) {
-            let spectrum = spectra.spectrum(site, poe);
+        for ([site, poe], spectrum) in spectra.ordinates.blocks() {
             let name = format!("{label}, {}, {}", study.sites[site].name, per_cent(study.risk.poe[poe]));
             let censored = spectrum.iter().filter(|ordinate| ordinate.flag == OrdinateFlag::Censored).count();
             if censored > 0 {
@@ -126,15 +124,14 @@ fn warnings_of(
         }
     }
     for coefficients in coefficients {
-        for (row, fit) in coefficients.fits.iter().enumerate() {
-            let poes = study.risk.poe.len();
+        for ([site, poe], fit) in coefficients.fits.blocks() {
             let name = format!(
                 "{}, {}, {}",
                 coefficients.measure.label(),
-                study.sites[row / poes].name,
-                per_cent(study.risk.poe[row % poes])
+                study.sites[site].name,
+                per_cent(study.risk.poe[poe])
             );
-            match fit {
+            match &fit[0] {
                 Err(reason) => warnings.push(format!("{name}: no fit: {reason}")),
                 Ok(fit) if fit.at_search_limit => warnings.push(format!(
                     "{name}: the spectrum is no decaying exponential: its coefficients mean nothing one by one"

@@ -8,8 +8,9 @@ use uplift_motion::IntensityMeasure;
 use uplift_risk::{Ordinate, PooledDemand, RiskCurve, RiskError, ThresholdGrid};
 
 use super::{BranchSpectra, Stripes};
+use crate::array::Array;
 use crate::error::UpliftError;
-use crate::inputs::SiteHazard;
+use crate::inputs::{BranchHazard, SiteHazard};
 use uplift_study::{Contour, UniformRiskStudy};
 
 /// The spectra of one measure.
@@ -17,14 +18,12 @@ use uplift_study::{Contour, UniformRiskStudy};
 pub struct Spectra {
     /// The measure.
     pub measure: IntensityMeasure,
-    /// Lengths of `[site, poe, strength]`.
-    pub shape: [usize; 3],
-    /// Ordinates over `[site, poe, strength]`, row-major.
-    pub ordinates: Vec<Ordinate>,
+    /// Ordinates `[site, poe, strength]`.
+    pub ordinates: Array<3, Ordinate>,
     /// Spectra of each branch, for the sites that have branches.
     pub branches: Vec<BranchSpectra>,
-    /// Mean annual frequencies over `[site, strength, threshold]`, 1/yr, if the study keeps them.
-    pub maf_per_year: Option<Vec<f64>>,
+    /// Mean annual frequencies `[site, strength, threshold]`, 1/yr, if the study keeps them.
+    pub maf_per_year: Option<Array<3>>,
 }
 
 impl Spectra {
@@ -33,9 +32,7 @@ impl Spectra {
     /// # Panics
     /// If an index is out of range, which is a bug of the caller.
     pub fn spectrum(&self, site: usize, poe: usize) -> &[Ordinate] {
-        let [_, poes, strengths] = self.shape;
-        let start = (site * poes + poe) * strengths;
-        &self.ordinates[start..start + strengths]
+        self.ordinates.block([site, poe])
     }
 }
 
@@ -78,8 +75,8 @@ pub(crate) fn pooled_demand(stripes: &Stripes, strength: usize) -> Result<Pooled
 struct OfStrength {
     /// `[site][poe]`.
     ordinates: Vec<Vec<Ordinate>>,
-    /// `[site][branch, poe]`, m.
-    branches_m: Vec<Vec<f64>>,
+    /// `[site][branch][poe]`.
+    branches: Vec<Vec<Vec<Ordinate>>>,
     /// Surface rows `[site]`.
     rows: Vec<Vec<f64>>,
 }
@@ -109,12 +106,8 @@ pub fn uniform_risk_spectra(
             if study.risk.maf_surface {
                 done.rows.push(curve.mean_annual_frequencies(grid));
             }
-            let mut branches_m = Vec::with_capacity(site.branches.len() * targets.len());
-            for branch in &site.branches {
-                let ordinates = read(&RiskCurve::new(&demand, &branch.input.weights)?)?;
-                branches_m.extend(ordinates.iter().map(|ordinate| ordinate.displacement_m));
-            }
-            done.branches_m.push(branches_m);
+            let of_branch = |branch: &BranchHazard| read(&RiskCurve::new(&demand, &branch.input.weights)?);
+            done.branches.push(site.branches.iter().map(of_branch).collect::<Result<_, _>>()?);
         }
         Ok(done)
     };
@@ -124,32 +117,27 @@ pub fn uniform_risk_spectra(
         .collect::<Result<Vec<OfStrength>, _>>()
         .map_err(|error| UpliftError::input(error.to_string()))?;
 
-    let mut ordinates = Vec::with_capacity(hazard.len() * targets.len() * strengths);
-    let mut surface = Vec::new();
-    for site in 0..hazard.len() {
-        for poe in 0..targets.len() {
-            ordinates.extend(by_strength.iter().map(|done| done.ordinates[site][poe]));
-        }
-        if study.risk.maf_surface {
-            surface.extend(by_strength.iter().flat_map(|done| done.rows[site].iter().copied()));
-        }
-    }
     let branches = hazard
         .iter()
         .enumerate()
         .filter(|(_, site)| !site.branches.is_empty())
         .map(|(index, site)| {
-            let cells = site.branches.len() * targets.len();
-            let spectra_m =
-                (0..cells).flat_map(|cell| by_strength.iter().map(move |done| done.branches_m[index][cell])).collect();
+            let shape = [site.branches.len(), targets.len(), strengths];
+            let spectra_m = Array::from_fn(shape, |[branch, poe, strength]| {
+                by_strength[strength].branches[index][branch][poe].displacement_m
+            });
             BranchSpectra::new(index, &site.branches, spectra_m)
         })
         .collect();
     Ok(Spectra {
         branches,
         measure: stripes.measure,
-        shape: [hazard.len(), targets.len(), strengths],
-        ordinates,
-        maf_per_year: study.risk.maf_surface.then_some(surface),
+        ordinates: Array::from_fn([hazard.len(), targets.len(), strengths], |[site, poe, strength]| {
+            by_strength[strength].ordinates[site][poe]
+        }),
+        maf_per_year: study.risk.maf_surface.then(|| {
+            let shape = [hazard.len(), strengths, grid.thresholds_m().len()];
+            Array::from_fn(shape, |[site, strength, threshold]| by_strength[strength].rows[site][threshold])
+        }),
     })
 }

@@ -10,10 +10,11 @@ use super::write_hazard::{write_branches, write_hazard};
 use crate::checkpoint::{motion_key, oscillator_key};
 use crate::error::UpliftError;
 use crate::inputs::Record;
-use crate::result::{Origin, level_axis};
+use crate::result::Origin;
+use crate::result::layout::{axis, ida, records as layout, regression, risk, urs};
 use uplift_labelled::{LabelledError, LabelledWriter};
 
-/// Write `outcome` to `path`, aside and renamed, so that an earlier file survives a failure.
+/// Write `outcome` to `path`, atomically: an earlier file survives a failure.
 ///
 /// # Errors
 /// Whatever keeps the file from being written, a full disk for instance.
@@ -52,44 +53,44 @@ fn write_root(writer: &mut LabelledWriter, outcome: &Outcome<'_>) -> Result<(), 
 fn write_axes(writer: &mut LabelledWriter, outcome: &Outcome<'_>) -> Result<(), LabelledError> {
     let study = outcome.study;
     let ids: Vec<String> = outcome.records.records.iter().map(|record| record.id.clone()).collect();
-    writer.axis_text("record", &ids, "ground motion record")?;
-    writer.axis_f64("strength", &study.strengths, "1", "uplift strength f_up/(m g)")?;
+    writer.axis_text(axis::RECORD, &ids, "ground motion record")?;
+    writer.axis_f64(axis::STRENGTH, &study.strengths, "1", "uplift strength f_up/(m g)")?;
     for plan in &study.measures {
         let intensity = study.records.intensity.long_name();
         let long_name = format!("stripe level of {}, {intensity}", plan.measure.long_name());
-        writer.axis_f64(&level_axis(plan.measure), &plan.levels, plan.measure.unit(), &long_name)?;
+        writer.axis_f64(&axis::level(plan.measure), &plan.levels, plan.measure.unit(), &long_name)?;
     }
     if study.risk.maf_surface {
-        writer.axis_f64("threshold", &study.risk.thresholds_m, "m", "displacement threshold")?;
+        writer.axis_f64(axis::THRESHOLD, &study.risk.thresholds_m, "m", "displacement threshold")?;
     }
     let sites: Vec<String> = study.sites.iter().map(|site| site.name.clone()).collect();
     if !sites.is_empty() {
-        writer.axis_text("site", &sites, "site")?;
+        writer.axis_text(axis::SITE, &sites, "site")?;
     }
     let years = study.risk.years;
-    writer.axis_f64("poe", &study.risk.poe, "1", &format!("probability of exceedance in {years} years"))
+    writer.axis_f64(axis::POE, &study.risk.poe, "1", &format!("probability of exceedance in {years} years"))
 }
 
 fn write_records(writer: &mut LabelledWriter, records: &[Record], intensity: Combination) -> Result<(), LabelledError> {
-    let dims = &["record"];
+    let dims = &[axis::RECORD];
     let number = |key: &str| -> Vec<f64> { records.iter().map(|record| record.number(key)).collect() };
     let text = |key: &str| -> Vec<String> {
         records.iter().map(|record| record.metadata.get(key).cloned().unwrap_or_default()).collect()
     };
-    writer.array_text("/records/event", dims, &text("event"), "earthquake")?;
-    writer.array_text("/records/station", dims, &text("station"), "recording station")?;
-    writer.array_f64("/records/magnitude", dims, &number("magnitude"), "1", "moment magnitude")?;
-    writer.array_f64("/records/rrup_km", dims, &number("rrup_km"), "km", "closest distance to the rupture")?;
-    writer.array_f64("/records/vs30", dims, &number("vs30"), "m/s", "mean shear-wave velocity of the upper 30 m")?;
+    writer.array_text(layout::EVENT, dims, &text("event"), "earthquake")?;
+    writer.array_text(layout::STATION, dims, &text("station"), "recording station")?;
+    writer.array_f64(layout::MAGNITUDE, dims, &number("magnitude"), "1", "moment magnitude")?;
+    writer.array_f64(layout::RRUP_KM, dims, &number("rrup_km"), "km", "closest distance to the rupture")?;
+    writer.array_f64(layout::VS30, dims, &number("vs30"), "m/s", "mean shear-wave velocity of the upper 30 m")?;
     let component: Vec<String> = records.iter().map(|record| record.component.to_string()).collect();
-    writer.array_text("/records/component", dims, &component, "horizontal component analysed")?;
+    writer.array_text(layout::COMPONENT, dims, &component, "horizontal component analysed")?;
     let motions: Vec<String> = records.iter().map(|record| motion_key(&record.accelerogram)).collect();
-    writer.array_text("/records/motion_sha256", dims, &motions, "SHA-256 of time step and samples in m/s2")?;
+    writer.array_text(layout::MOTION_SHA256, dims, &motions, "SHA-256 of time step and samples in m/s2")?;
     let checksum: Vec<String> = records.iter().map(|record| record.checksum.clone()).collect();
-    writer.array_text("/records/checksum", dims, &checksum, "SHA-256 of the component")?;
+    writer.array_text(layout::CHECKSUM, dims, &checksum, "SHA-256 of the component")?;
     let pga: Vec<f64> = records.iter().map(|record| record.pga_g).collect();
     writer.array_f64(
-        "/records/pga_g",
+        layout::PGA_G,
         dims,
         &pga,
         "g",
@@ -97,13 +98,13 @@ fn write_records(writer: &mut LabelledWriter, records: &[Record], intensity: Com
     )?;
     let pgv: Vec<f64> = records.iter().map(|record| record.pgv_cm_s).collect();
     writer.array_f64(
-        "/records/pgv_cm_s",
+        layout::PGV_CM_S,
         dims,
         &pgv,
         "cm/s",
         &format!("PGV of the unscaled pair, {}", intensity.long_name()),
     )?;
-    for (name, from, to) in [("duration_5_75_s", 0.05, 0.75), ("duration_5_95_s", 0.05, 0.95)] {
+    for (path, from, to) in [(layout::DURATION_5_75_S, 0.05, 0.75), (layout::DURATION_5_95_S, 0.05, 0.95)] {
         let durations: Vec<f64> =
             records.iter().map(|record| record.accelerogram.significant_duration_s(from, to)).collect();
         let long_name = format!(
@@ -111,13 +112,13 @@ fn write_records(writer: &mut LabelledWriter, records: &[Record], intensity: Com
             100.0 * from,
             100.0 * to
         );
-        writer.array_f64(&format!("/records/{name}"), dims, &durations, "s", &long_name)?;
+        writer.array_f64(path, dims, &durations, "s", &long_name)?;
     }
     let dt: Vec<f64> = records.iter().map(|record| record.accelerogram.dt_s()).collect();
-    writer.array_f64("/records/dt_s", dims, &dt, "s", "sampling interval")?;
+    writer.array_f64(layout::DT_S, dims, &dt, "s", "sampling interval")?;
     let samples: Vec<u32> =
         records.iter().map(|record| u32::try_from(record.accelerogram.len()).unwrap_or(u32::MAX)).collect();
-    writer.array_u32("/records/samples", dims, &samples, "1", "number of samples")
+    writer.array_u32(layout::SAMPLES, dims, &samples, "1", "number of samples")
 }
 
 fn write_measure(
@@ -126,66 +127,59 @@ fn write_measure(
     index: usize,
     measure: IntensityMeasure,
 ) -> Result<(), LabelledError> {
-    let key = measure.key();
     let stripes = &outcome.stripes[index];
-    let (group, dims) = (format!("/ida/{key}"), ["record", "strength", &level_axis(measure)]);
-    let edp = format!("{group}/edp_m");
-    writer.array_f64(
-        &edp,
-        &dims,
-        stripes.peaks.displacement_m(),
-        "m",
-        "peak displacement, infinite where overturned",
-    )?;
-    writer.array_u32(&format!("{group}/impacts"), &dims, stripes.peaks.impacts(), "1", "number of impacts")?;
+    let (group, dims) = (ida::group(measure), [axis::RECORD, axis::STRENGTH, &axis::level(measure)]);
+    let long_name = "peak displacement, infinite where overturned";
+    writer.array_f64(&ida::edp_m(measure), &dims, stripes.peaks.displacement_m(), "m", long_name)?;
+    writer.array_u32(&ida::impacts(measure), &dims, stripes.peaks.impacts(), "1", "number of impacts")?;
     writer.attribute(&group, "oscillator_key", oscillator_key(outcome.study).as_str())?;
     writer.attribute(&group, "analyses", stripes.analyses)?;
     writer.attribute(&group, "seconds", stripes.seconds)?;
 
     let spectra = &outcome.spectra[index];
-    if spectra.shape[0] == 0 {
+    if spectra.ordinates.values().is_empty() {
         return Ok(()); // a study without sites ends with the stripes
     }
     if let Some(surface) = &spectra.maf_per_year {
-        let path = format!("/risk/{key}/maf_per_year");
+        let dims = [axis::SITE, axis::STRENGTH, axis::THRESHOLD];
         let long_name = "mean annual frequency of exceeding the threshold";
-        writer.array_f64(&path, &["site", "strength", "threshold"], surface, "1/yr", long_name)?;
+        writer.array_f64(&risk::maf_per_year(measure), &dims, surface.values(), "1/yr", long_name)?;
     }
-    let dims = ["site", "poe", "strength"];
-    let of = |value: fn(&Ordinate) -> f64| -> Vec<f64> { spectra.ordinates.iter().map(value).collect() };
-    let path = |name: &str| format!("/urs/{key}/{name}");
-    writer.array_f64(&path("u_m"), &dims, &of(|o| o.displacement_m), "m", "uniform risk displacement")?;
-    let flags: Vec<u8> = spectra.ordinates.iter().map(|ordinate| flag_number(ordinate.flag)).collect();
+    let dims = [axis::SITE, axis::POE, axis::STRENGTH];
+    let of = |value: fn(&Ordinate) -> f64| spectra.ordinates.map(value).into_values();
+    let u_m = of(|ordinate| ordinate.displacement_m);
+    writer.array_f64(&urs::u_m(measure), &dims, &u_m, "m", "uniform risk displacement")?;
+    let flags = spectra.ordinates.map(|ordinate| flag_number(ordinate.flag));
     let long_name = "0 regular, 1 no exceedance so that the ordinate is 0, 2 censored";
-    writer.array_u8(&path("flag"), &dims, &flags, "1", long_name)?;
+    writer.array_u8(&urs::flag(measure), &dims, flags.values(), "1", long_name)?;
+    let (lower, upper) = (of(|ordinate| ordinate.lower_tail_share), of(|ordinate| ordinate.upper_tail_share));
     let long_name = "share of the risk from below the first stripe";
-    writer.array_f64(&path("lower_tail_share"), &dims, &of(|o| o.lower_tail_share), "1", long_name)?;
+    writer.array_f64(&urs::lower_tail_share(measure), &dims, &lower, "1", long_name)?;
     let long_name = "share of the risk from above the last stripe";
-    writer.array_f64(&path("upper_tail_share"), &dims, &of(|o| o.upper_tail_share), "1", long_name)?;
+    writer.array_f64(&urs::upper_tail_share(measure), &dims, &upper, "1", long_name)?;
 
     write_branches(writer, outcome, spectra)?;
 
-    let fits = &outcome.coefficients[index].fits;
-    let dims = ["site", "poe"];
-    let path = |name: &str| format!("/regression/{key}/{name}");
-
-    let columns: [(&str, Value, &str, &str); 6] = [
-        ("c0_m", |fit| fit.c0, "m", "c0 of u = c0 exp(c1 strength) + c2"),
-        ("c1", |fit| fit.c1, "1", "c1"),
-        ("c2_m", |fit| fit.c2, "m", "c2, not negative"),
-        ("rmse_m", |fit| fit.rmse, "m", "root mean square error with n - 3 degrees of freedom"),
-        ("rmse_plain_m", |fit| fit.rmse_plain, "m", "root mean square error over n points"),
-        ("max_abs_residual_m", |fit| fit.max_abs_residual, "m", "largest residual"),
+    let fits = outcome.coefficients[index].fits.values();
+    let dims = [axis::SITE, axis::POE];
+    let columns: [(String, Value, &str, &str); 6] = [
+        (regression::c0_m(measure), |fit| fit.c0, "m", "c0 of u = c0 exp(c1 strength) + c2"),
+        (regression::c1(measure), |fit| fit.c1, "1", "c1"),
+        (regression::c2_m(measure), |fit| fit.c2, "m", "c2, not negative"),
+        (regression::rmse_m(measure), |fit| fit.rmse, "m", "root mean square error with n - 3 degrees of freedom"),
+        (regression::rmse_plain_m(measure), |fit| fit.rmse_plain, "m", "root mean square error over n points"),
+        (regression::max_abs_residual_m(measure), |fit| fit.max_abs_residual, "m", "largest residual"),
     ];
-    for (name, value, unit, long_name) in columns {
+    for (path, value, unit, long_name) in columns {
         let values: Vec<f64> = fits.iter().map(|fit| fit.as_ref().map_or(f64::NAN, value)).collect();
-        writer.array_f64(&path(name), &dims, &values, unit, long_name)?;
+        writer.array_f64(&path, &dims, &values, unit, long_name)?;
     }
     let bound: Vec<u8> = fits.iter().map(|fit| u8::from(fit.as_ref().is_ok_and(|fit| fit.bound_active))).collect();
-    writer.array_u8(&path("bound_active"), &dims, &bound, "1", "1 where c2 is held at 0")?;
+    writer.array_u8(&regression::bound_active(measure), &dims, &bound, "1", "1 where c2 is held at 0")?;
     let points: Vec<u32> =
         fits.iter().map(|fit| fit.as_ref().map_or(0, |fit| u32::try_from(fit.points).unwrap_or(u32::MAX))).collect();
-    writer.array_u32(&path("points"), &dims, &points, "1", "strengths fitted, 0 where there is no fit")
+    let long_name = "strengths fitted, 0 where there is no fit";
+    writer.array_u32(&regression::points(measure), &dims, &points, "1", long_name)
 }
 
 /// A column of the coefficients.

@@ -6,18 +6,17 @@ use uplift_labelled::{LabelledError, LabelledWriter};
 
 use super::{FRACTILES, Outcome, Spectra};
 use crate::inputs::{HazardInput, SiteHazard};
-use crate::result::{axis_part, branch_group, unique_axis};
+use crate::result::layout::{axis, epistemic, hazard as layout, percentile_name};
 
 /// Write the curves `[measure][site]` with their branches.
 pub(super) fn write_hazard(writer: &mut LabelledWriter, hazard: &[Vec<SiteHazard>]) -> Result<(), LabelledError> {
     let mut axes = BTreeSet::new();
     for site in hazard.iter().flatten() {
-        let (key, label) = (site.measure.key(), site.measure.label());
-        let group = format!("/hazard/{}/{key}", site.site);
-        let axis = axis_name("hazard", &site.site, key, &mut axes);
-        write_curve(writer, &site.curve, &group, &axis, label)?;
+        let label = site.measure.label();
+        let axis = axis::hazard(&site.site, site.measure, &mut axes);
+        write_curve(writer, &site.curve, &layout::group(&site.site, site.measure), &axis, label)?;
         for (index, branch) in site.branches.iter().enumerate() {
-            let group = branch_group(&site.site, key, index);
+            let group = layout::branch(&site.site, site.measure, index);
             write_curve(writer, &branch.input, &group, &format!("{axis}_{}", index + 1), label)?;
             writer.attribute(&group, "name", branch.name.as_str())?;
             writer.attribute(&group, "weight", branch.weight)?;
@@ -35,17 +34,12 @@ fn write_curve(
 ) -> Result<(), LabelledError> {
     let curve = &input.curve;
     writer.axis_f64(axis, curve.im(), curve.unit(), &format!("{label} of the hazard curve"))?;
-    let path = format!("{group}/maf_per_year");
+    let path = layout::maf_per_year(group);
     writer.array_f64(&path, &[axis], curve.maf(), "1/yr", "mean annual frequency of exceedance")?;
     let file = input.file.as_ref().map(|file| file.display().to_string()).unwrap_or_default();
     writer.attribute(group, "source", curve.source())?;
     writer.attribute(group, "file", file.as_str())?;
     writer.attribute(group, "unit", curve.unit())
-}
-
-/// Name of an axis of a site and measure: lower-case ASCII, whatever the site is called.
-fn axis_name(what: &str, site: &str, measure: &str, taken: &mut BTreeSet<String>) -> String {
-    unique_axis(format!("{what}_{}_{measure}", axis_part(site)), taken)
 }
 
 /// Write the spectra of the branches of `spectra`, their mean and their fractiles.
@@ -54,28 +48,23 @@ pub(super) fn write_branches(
     outcome: &Outcome<'_>,
     spectra: &Spectra,
 ) -> Result<(), LabelledError> {
-    let key = spectra.measure.key();
     let mut axes = BTreeSet::new();
     for branches in &spectra.branches {
         let site = &outcome.study.sites[branches.site].name;
-        let axis = axis_name("branch", site, key, &mut axes);
+        let axis = axis::branch(site, spectra.measure, &mut axes);
         writer.axis_text(&axis, &branches.names, "branch of the hazard")?;
-        let group = format!("/epistemic/{key}/{site}");
-        writer.array_f64(&format!("{group}/weight"), &[&axis], &branches.weights, "1", "weight of the branch")?;
+        let path = |name: &str| epistemic::array(spectra.measure, site, name);
+        writer.array_f64(&path("weight"), &[&axis], &branches.weights, "1", "weight of the branch")?;
+        let dims = [axis.as_str(), axis::POE, axis::STRENGTH];
         let long_name = "uniform risk displacement by the branch";
-        writer.array_f64(&format!("{group}/u_m"), &[&axis, "poe", "strength"], &branches.spectra_m, "m", long_name)?;
-        let dims = ["poe", "strength"];
-        writer.array_f64(
-            &format!("{group}/mean_m"),
-            &dims,
-            &branches.mean_m,
-            "m",
-            "weighted mean over the branches",
-        )?;
+        writer.array_f64(&path("u_m"), &dims, branches.spectra_m.values(), "m", long_name)?;
+        let dims = [axis::POE, axis::STRENGTH];
+        let long_name = "weighted mean over the branches";
+        writer.array_f64(&path("mean_m"), &dims, branches.mean_m.values(), "m", long_name)?;
         for (fractile, values) in FRACTILES.iter().zip(&branches.fractiles_m) {
             let percent = (100.0 * fractile).round();
             let long_name = format!("{percent} % fractile over the branches");
-            writer.array_f64(&format!("{group}/u{percent:02}_m"), &dims, values, "m", &long_name)?;
+            writer.array_f64(&path(&percentile_name(percent)), &dims, values.values(), "m", &long_name)?;
         }
     }
     Ok(())

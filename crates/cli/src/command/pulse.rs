@@ -10,7 +10,7 @@ use uplift_block::RickerShape;
 use uplift_report::plot_pulses;
 use uplift_study::Grid;
 
-use super::figure_files::FigureArguments;
+use super::arguments::FigureArguments;
 use crate::error::CommandError;
 use crate::show::{print_json, print_pulses};
 use crate::terminal::Terminal;
@@ -33,19 +33,34 @@ pub(super) struct PulseArguments {
     #[arg(long, value_name = "R", allow_negative_numbers = true)]
     restitution: Option<f64>,
     /// Axis omega_p/p of the spectra
-    #[arg(long, value_name = "GRID", default_value = "0.04:0.04:8", help_heading = AXES, value_parser = axis, allow_negative_numbers = true)]
+    #[arg(
+        long, value_name = "GRID", default_value = "0.04:0.04:8", help_heading = AXES,
+        value_parser = axis, allow_negative_numbers = true
+    )]
     frequencies: Grid,
     /// Axis a_p/(g tan alpha) of the spectra
-    #[arg(long, value_name = "GRID", default_value = "0.5:0.05:10", help_heading = AXES, value_parser = axis, allow_negative_numbers = true)]
+    #[arg(
+        long, value_name = "GRID", default_value = "0.5:0.05:10", help_heading = AXES,
+        value_parser = axis, allow_negative_numbers = true
+    )]
     accelerations: Grid,
     /// Axis b omega_p^2/a_p of the spectrum by the width of the base
-    #[arg(long, value_name = "GRID", default_value = "0.025:0.025:6", help_heading = AXES, value_parser = axis, allow_negative_numbers = true)]
+    #[arg(
+        long, value_name = "GRID", default_value = "0.025:0.025:6", help_heading = AXES,
+        value_parser = axis, allow_negative_numbers = true
+    )]
     half_widths: Grid,
     /// Values of omega_p/p that have a line over the acceleration
-    #[arg(long, value_name = "GRID", default_value = "1,2,3,4,6,8", help_heading = AXES, value_parser = lines, allow_negative_numbers = true)]
+    #[arg(
+        long, value_name = "GRID", default_value = "1,2,3,4,6,8", help_heading = AXES,
+        value_parser = lines, allow_negative_numbers = true
+    )]
     frequency_lines: Grid,
     /// Values of a_p/(g tan alpha) that have a line over the size-frequency parameter
-    #[arg(long, value_name = "GRID", default_value = "1.25,1.5,2,3,5,8", help_heading = AXES, value_parser = lines, allow_negative_numbers = true)]
+    #[arg(
+        long, value_name = "GRID", default_value = "1.25,1.5,2,3,5,8", help_heading = AXES,
+        value_parser = lines, allow_negative_numbers = true
+    )]
     acceleration_lines: Grid,
     /// Largest ground acceleration a_p, g
     #[arg(long, value_name = "G", default_value_t = 1.0, help_heading = BLOCKS, allow_negative_numbers = true)]
@@ -54,10 +69,16 @@ pub(super) struct PulseArguments {
     #[arg(long, value_name = "S", help_heading = BLOCKS, allow_negative_numbers = true)]
     period_s: Option<f64>,
     /// Axis of sizes: parameter R, half the diagonal of the block, m
-    #[arg(long, value_name = "GRID", default_value = "0.5:0.05:30", help_heading = BLOCKS, value_parser = axis, allow_negative_numbers = true)]
+    #[arg(
+        long, value_name = "GRID", default_value = "0.5:0.05:30", help_heading = BLOCKS,
+        value_parser = axis, allow_negative_numbers = true
+    )]
     sizes_m: Grid,
     /// Slendernesses that have a line each, rad
-    #[arg(long, value_name = "GRID", default_value = "0.1:0.1:0.6", help_heading = BLOCKS, value_parser = lines, allow_negative_numbers = true)]
+    #[arg(
+        long, value_name = "GRID", default_value = "0.1:0.1:0.6", help_heading = BLOCKS,
+        value_parser = lines, allow_negative_numbers = true
+    )]
     slendernesses: Grid,
     #[command(flatten)]
     figures: FigureArguments,

@@ -6,18 +6,16 @@ mod select;
 mod show;
 mod synthesize;
 
-use std::io::Read;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
+use uplift::inputs::FileOptions;
+use uplift::records::SetOptions;
 use uplift_motion::{AccelerationUnit, Combination, RecordFormat, STANDARD_GRAVITY_M_S2};
-
-use super::Terminal;
-use crate::error::CommandError;
-use uplift::events::Events;
-use uplift::inputs::pairs::CheckedPair;
-use uplift::inputs::{manifest, pairs, selection};
 use uplift_study::{CRITERIA, Criterion, Range, RecordSelection};
+
+use crate::error::CommandError;
+use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
 pub(super) struct RecordsArguments {
@@ -143,41 +141,20 @@ impl CriteriaArguments {
     }
 }
 
+impl FileArguments {
+    fn options(self) -> FileOptions {
+        let Self { format, unit, dt_s, gravity_m_s2 } = self;
+        FileOptions { format, unit, dt_s, gravity_m_s2 }
+    }
+}
+
 impl SetArguments {
-    /// The records of the set that are asked for, and how many it has in all.
-    fn read(&self, terminal: &Terminal) -> Result<(Vec<CheckedPair>, usize), CommandError> {
-        let rows = manifest::read(&self.set, self.tag.as_deref()).map_err(uplift::UpliftError::Inputs)?;
-        let count = rows.len();
-        let pairs = pairs::read(rows, STANDARD_GRAVITY_M_S2).map_err(uplift::UpliftError::Inputs)?;
-        let (chosen, notes) =
-            selection::select(pairs, &self.criteria.selection(), self.intensity, STANDARD_GRAVITY_M_S2)?;
-        for note in notes {
-            terminal.note(&format!("{note}"));
+    fn options(&self) -> SetOptions {
+        SetOptions {
+            manifest: self.set.clone(),
+            tag: self.tag.clone(),
+            intensity: self.intensity,
+            selection: self.criteria.selection(),
         }
-        Ok((chosen, count))
-    }
-}
-
-/// A file that is there already gives way only if this program wrote it.
-pub(super) fn refuse_foreign(output: &Path) -> Result<(), CommandError> {
-    let mut head = Vec::new();
-    let read = std::fs::File::open(output).and_then(|file| file.take(4096).read_to_end(&mut head));
-    if read.is_ok() && !head.windows(7).any(|word| word == b"uplift ") {
-        return Err(CommandError::Usage(format!(
-            "{} is there already, and was not written by this program: give another name",
-            output.display()
-        )));
-    }
-    Ok(())
-}
-
-/// A path that must not be one of the inputs.
-pub(super) fn refuse_overwriting(output: &Path, inputs: &[&Path]) -> Result<(), CommandError> {
-    let same = |input: &&&Path| matches!((output.canonicalize(), input.canonicalize()), (Ok(a), Ok(b)) if a == b);
-    match inputs.iter().find(same) {
-        Some(_) => {
-            Err(CommandError::Usage(format!("-o {} would overwrite an input: give another name", output.display())))
-        }
-        None => Ok(()),
     }
 }

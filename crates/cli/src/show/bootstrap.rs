@@ -41,7 +41,8 @@ fn print_figures(
     let reference = Some(&report.reference).filter(|rows| compared && !rows.is_empty());
     writeln!(
         out,
-        "\nHow sure the spectra of {} in {} years are: error of the median e and width r of the {} interval, per cent{}",
+        "\nHow sure the spectra of {} in {} years are: error of the median e and width r of the {} interval, per \
+         cent{}",
         per_cent(report.poes[poe]),
         report.years,
         per_cent(report.confidence),
@@ -58,12 +59,12 @@ fn print_figures(
     let mut rows = Vec::new();
     for (site, name) in report.sites.iter().enumerate() {
         for (size_index, &size) in sizes.iter().enumerate() {
-            let cell = report.cell(site, poe, size_index);
+            let at = [site, poe, size_index];
             let shown = if size_index == 0 { name.clone() } else { String::new() };
             let mut row = vec![shown, size.to_string()];
             for bands in &report.bands {
-                row.push(figure(bands.error_of_median[cell], 1));
-                row.push(figure(bands.range_of_interval[cell], 0));
+                row.push(figure(bands.error_of_median[at], 1));
+                row.push(figure(bands.range_of_interval[at], 0));
                 if let Some(reference) = reference {
                     let found = reference
                         .iter()
@@ -87,15 +88,14 @@ fn print_reading(out: &mut impl Write, report: &BootstrapReport) -> Result<(), C
     writeln!(
         out,
         "\nIn words, at the strength where the interval is widest in metres, in {} of the resamples (where \
-         displacements are small, at higher strengths, the interval may be many times as wide in per cent: see the bands):",
+         displacements are small, at higher strengths, the interval may be many times as wide in per cent: see the \
+         bands):",
         per_cent(report.confidence)
     )?;
     for bands in &report.bands {
         for (poe, &probability) in report.poes.iter().enumerate() {
             let widths = |size: usize| -> Vec<f64> {
-                (0..report.sites.len())
-                    .filter_map(|site| bands.range_of_interval[report.cell(site, poe, size)])
-                    .collect()
+                (0..report.sites.len()).filter_map(|site| bands.range_of_interval[[site, poe, size]]).collect()
             };
             let parts: Vec<String> = sizes
                 .iter()
@@ -128,19 +128,18 @@ fn print_reading(out: &mut impl Write, report: &BootstrapReport) -> Result<(), C
 
 /// Records and hazard together, for the sites with branches.
 fn print_joint(out: &mut impl Write, report: &BootstrapReport) -> Result<(), CommandError> {
-    let sizes = report.sizes.len();
     let mut rows = Vec::new();
     for bands in &report.bands {
         for joint in &bands.joint {
-            for (cell, range) in joint.range_of_interval.iter().enumerate() {
-                let of_records = bands.range_of_interval[report.cell(joint.site, 0, 0) + cell];
+            for ([poe, size], range) in joint.range_of_interval.blocks() {
+                let of_records = bands.range_of_interval[[joint.site, poe, size]];
                 rows.push(vec![
                     report.sites[joint.site].clone(),
                     bands.measure.label().to_owned(),
-                    per_cent(report.poes[cell / sizes]),
-                    report.sizes[cell % sizes].to_string(),
+                    per_cent(report.poes[poe]),
+                    report.sizes[size].to_string(),
                     figure(of_records, 0),
-                    figure(*range, 0),
+                    figure(range[0], 0),
                 ]);
             }
         }
@@ -168,10 +167,9 @@ fn print_initiation(out: &mut impl Write, report: &BootstrapReport) -> Result<()
     let mut rows = Vec::new();
     for (site, name) in report.sites.iter().enumerate() {
         for (index, bands) in report.bands.iter().enumerate() {
-            let cell = report.cell(site, poe, size_index);
             let mut row = vec![if index == 0 { name.clone() } else { String::new() }];
             row.push(bands.measure.label().to_owned());
-            row.extend(initiation(report.initiation(bands, cell)));
+            row.extend(initiation(report.initiation(bands, [site, poe, size_index])));
             rows.push(row);
         }
     }
@@ -193,8 +191,8 @@ fn figure(ratio: Option<f64>, digits: usize) -> String {
     ratio.map_or_else(|| "-".to_owned(), |ratio| format!("{:.digits$}", 100.0 * ratio))
 }
 
-/// Strengths at which the lower limit, the median and the upper limit fall to the uplift displacement, and the width of the
-/// band at that of the median.
+/// Strengths at which the lower limit, the median and the upper limit fall to the uplift displacement, and the width of
+/// the band at that of the median.
 fn initiation(found: Initiation) -> [String; 4] {
     let strength = |strength: Option<f64>| strength.map_or_else(|| "above all".to_owned(), |eta| format!("{eta:.3}"));
     let [lower, median, upper] = [found.lower, found.median, found.upper].map(strength);

@@ -94,8 +94,8 @@ fn print_rules(out: &mut impl Write, report: &DesignReport) -> Result<(), Comman
     if report.rules.is_empty() {
         writeln!(
             out,
-            "\nThe rules of equal displacement and equal energy do not apply: the force rises after uplift, and there is no \
-             capacity\nto exceed. The demand on the structure itself is the one above."
+            "\nThe rules of equal displacement and equal energy do not apply: the force rises after uplift, and there \
+             is no capacity\nto exceed. The demand on the structure itself is the one above."
         )?;
         return Ok(());
     }
@@ -127,8 +127,8 @@ fn print_checks(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
         if let Some(largest_m) = check.largest_zero_stiffness_demand_m {
             writeln!(
                 out,
-                "\nThe rule of {} says that the structure overturns: the demand at zero stiffness, {:.4} m, is beyond the \
-                 {largest_m:.4} m{} that its capacity allows.",
+                "\nThe rule of {} says that the structure overturns: the demand at zero stiffness, {:.4} m, is beyond \
+                 the {largest_m:.4} m{} that its capacity allows.",
                 name(rule),
                 check.zero_stiffness_demand_m,
                 if rule == Rule::EqualEnergy { " (Eq. 3.14)" } else { "" }
@@ -185,7 +185,8 @@ fn print_risk(out: &mut impl Write, report: &DesignReport, exact: &ExactDemand) 
     if exact.overturns {
         writeln!(
             out,
-            "\nThe structure overturns more often than the target of {:.4e} per year: there is no displacement that meets it.",
+            "\nThe structure overturns more often than the target of {:.4e} per year: there is no displacement that \
+             meets it.",
             report.target_per_year
         )?;
     }

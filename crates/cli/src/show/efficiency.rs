@@ -41,8 +41,8 @@ fn print_scatter(
 ) -> Result<(), CommandError> {
     writeln!(
         out,
-        "\nEfficiency: scatter (logarithmic) of the displacement at a given level once the structure rocks, of the level at \
-         which it\nbegins to rock, and the stripes whose scatter does not exist because too many runs overturn"
+        "\nEfficiency: scatter (logarithmic) of the displacement at a given level once the structure rocks, of the \
+         level at which it\nbegins to rock, and the stripes whose scatter does not exist because too many runs overturn"
     )?;
     let mut header = vec!["strength".to_owned()];
     for rows in measures {
@@ -73,8 +73,8 @@ fn print_trends(
 ) -> Result<(), CommandError> {
     writeln!(
         out,
-        "\nSufficiency: p-value of the trend of a record's mean residual with what the record is (below {SIGNIFICANT}, marked \
-         *: the measure\nleaves something out), one observation a record"
+        "\nSufficiency: p-value of the trend of a record's mean residual with what the record is (below \
+         {SIGNIFICANT}, marked *: the measure\nleaves something out), one observation a record"
     )?;
     if report.covariates.is_empty() {
         writeln!(out, "nothing is known of the records: give magnitude and rrup_km in the manifest")?;
@@ -145,8 +145,8 @@ fn print_reading(
     }
     writeln!(
         out,
-        "  a measure serves a risk analysis only if hazard curves of it can be had: for PGV and PGA ground motion models and \
-         maps exist"
+        "  a measure serves a risk analysis only if hazard curves of it can be had: for PGV and PGA ground motion \
+         models and maps exist"
     )?;
     if report.records < 30 {
         writeln!(out, "  with {} records a p-value finds only strong trends", report.records)?;

@@ -59,8 +59,8 @@ fn print_records(out: &mut impl Write, report: &InfluenceReport, name: &str) -> 
 fn print_intensities(out: &mut impl Write, report: &InfluenceReport, name: &str) -> Result<(), CommandError> {
     writeln!(
         out,
-        "\nIntensities that make the risk of {name}: levels below which 5, 50 and 95 % of it lie, and its shares outside \
-         the stripes"
+        "\nIntensities that make the risk of {name}: levels below which 5, 50 and 95 % of it lie, and its shares \
+         outside the stripes"
     )?;
     let level = |level: f64| if level.is_nan() { "-".to_owned() } else { format!("{level:.3}") };
     let percent = |share: f64| if share.is_nan() { "-".to_owned() } else { format!("{:.1} %", 100.0 * share) };

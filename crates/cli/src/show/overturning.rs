@@ -20,8 +20,8 @@ pub(crate) fn print_overturning(report: &OverturningReport) -> Result<(), Comman
         match (model.size_m, model.slenderness_rad) {
             (Some(size_m), Some(slenderness_rad)) => writeln!(
                 out,
-                "block      rotates as a block of R = {size_m:.4} m and slenderness {slenderness_rad:.4} rad; restitution \
-                 {restitution:.4} ({origin})"
+                "block      rotates as a block of R = {size_m:.4} m and slenderness {slenderness_rad:.4} rad; \
+                 restitution {restitution:.4} ({origin})"
             )?,
             _ => writeln!(out, "oscillator restitution {restitution} ({origin})")?,
         }
@@ -56,8 +56,8 @@ fn print_fragility(out: &mut impl Write, report: &OverturningReport) -> Result<(
     let header = ["measure", "model", "first overturns", "half overturn", "at the last level", "theta", "beta"];
     writeln!(
         out,
-        "\nCollapse fragility: levels at which the first and half of the records overturn the structure, and the lognormal \
-         curve of maximum\nlikelihood beside them\n{}",
+        "\nCollapse fragility: levels at which the first and half of the records overturn the structure, and the \
+         lognormal curve of maximum\nlikelihood beside them\n{}",
         table(&header, &rows)
     )?;
     Ok(())
@@ -85,8 +85,8 @@ fn print_risk(out: &mut impl Write, report: &OverturningReport) -> Result<(), Co
     let header = ["site", "im", "model", "per year", &in_years, "return period", "lognormal", "below", "above"];
     writeln!(
         out,
-        "\nRisk of overturning: from the counted shares; with the lognormal curve in their place; and what of the first comes \
-         from below and\nabove the analysed levels\n{}",
+        "\nRisk of overturning: from the counted shares; with the lognormal curve in their place; and what of the \
+         first comes from below and\nabove the analysed levels\n{}",
         table(&header, &rows)
     )?;
     Ok(())

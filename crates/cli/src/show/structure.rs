@@ -14,7 +14,8 @@ pub(super) fn short(value: f64) -> String {
     }
 }
 
-/// The structure in words: what is it, and which oscillator is it equivalent to; with its restitution where there is one to tell.
+/// The structure in words: what is it, and which oscillator is it equivalent to; with its restitution where there is
+/// one to tell.
 pub(super) fn lines(structure: &StructureReport) -> Vec<String> {
     let StructureReport { name, kind, table_3_1_row, .. } = structure;
     let file = shown_path(&structure.file).display();

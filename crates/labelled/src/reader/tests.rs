@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::LabelledWriter;
+use uplift_atomic_file::FileError;
 
 fn small_file(folder: &Path) -> PathBuf {
     let path = folder.join("result.h5");
@@ -20,7 +21,7 @@ fn what_is_no_result_file_is_refused() {
     let open = |path: &Path| LabelledReader::open(path).err().unwrap();
     let message = open(&folder.path().join("none.h5")).to_string();
     assert!(message.ends_with("none.h5: cannot open the file: No such file or directory (os error 2)"), "{message}");
-    assert!(matches!(open(folder.path()), LabelledError::NotAFile { found: "a folder", .. }));
+    assert!(matches!(open(folder.path()), LabelledError::File(FileError::NotAFile { found: "a folder", .. })));
     for text in ["", "station,pga_g\nA,0.1\n", "\u{89}HDF\r\n\u{1a}\n"] {
         let path = folder.path().join("text.h5");
         fs::write(&path, text).unwrap();

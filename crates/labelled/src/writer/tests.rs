@@ -6,6 +6,7 @@ use std::process::Command;
 
 use super::*;
 use crate::LabelledReader;
+use uplift_atomic_file::FileError;
 
 fn texts(values: &[&str]) -> Vec<String> {
     values.iter().map(ToString::to_string).collect()
@@ -134,10 +135,14 @@ fn a_link_is_followed_and_special_places_are_refused() {
     assert!(link.is_symlink() && LabelledReader::open(&file).is_ok());
 
     for path in [folder.path(), Path::new("/dev/null"), Path::new("/")] {
-        assert!(matches!(LabelledWriter::create(path), Err(LabelledError::NotAFile { .. })), "{}", path.display());
+        assert!(
+            matches!(LabelledWriter::create(path), Err(LabelledError::File(FileError::NotAFile { .. }))),
+            "{}",
+            path.display()
+        );
     }
     let below_a_file = LabelledWriter::create(&file.join("result.h5")).err().unwrap();
-    assert!(matches!(below_a_file, LabelledError::Io { .. }), "{below_a_file}");
+    assert!(matches!(below_a_file, LabelledError::File(FileError::Io { .. })), "{below_a_file}");
     let no_folder = LabelledWriter::create(Path::new("/proc/none/result.h5")).err().unwrap().to_string();
     assert!(no_folder.starts_with("/proc/none: cannot create the folder: "), "{no_folder}");
 }

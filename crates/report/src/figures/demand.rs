@@ -33,7 +33,7 @@ pub(super) fn ida_curves(source: &FigureSource) -> Result<Option<Figure>, Uplift
     let strength = source.shown_strength();
     let mut panels = Vec::new();
     for measure in &stored.measures {
-        let stripes = measure.stripes(strength, stored.strengths.len()).map_err(|error| source.fail(&error))?;
+        let stripes = measure.stripes(strength).map_err(|error| source.fail(&error))?;
         let curve = |record: usize| -> Vec<(f64, f64)> {
             stripes.record(record).iter().copied().zip(measure.levels.iter().copied()).collect()
         };
@@ -61,7 +61,8 @@ pub(super) fn ida_curves(source: &FigureSource) -> Result<Option<Figure>, Uplift
         ));
     }
     let title = format!("Incremental dynamic analysis at strength {:.3}", stored.strengths[strength]);
-    let caption = "Peak displacement of every record scaled to every level (grey), of the first record, and percentiles over the records at each level (Fig. A2.13, A2.14).";
+    let caption = "Peak displacement of every record scaled to every level (grey), of the first record, and \
+                   percentiles over the records at each level (Fig. A2.13, A2.14).";
     Ok(Some(source.figure("ida", title, caption, panels)))
 }
 
@@ -70,7 +71,7 @@ pub(super) fn fragilities(source: &FigureSource) -> Result<Option<Figure>, Uplif
     let strength = source.shown_strength();
     let mut panels = Vec::new();
     for measure in &stored.measures {
-        let stripes = measure.stripes(strength, stored.strengths.len()).map_err(|error| source.fail(&error))?;
+        let stripes = measure.stripes(strength).map_err(|error| source.fail(&error))?;
         let mut series = Vec::new();
         for (index, threshold_m) in THRESHOLDS_M.into_iter().enumerate() {
             let probabilities = exceedance_probabilities(&stripes, threshold_m).map_err(|error| source.fail(&error))?;
@@ -109,7 +110,7 @@ pub(super) fn risk_curves(source: &FigureSource) -> Result<Vec<Figure>, UpliftEr
             })
             .collect();
         for (index, &strength) in shown.iter().enumerate() {
-            let demand = measure.demand(strength, stored.strengths.len()).map_err(|error| source.fail(&error))?;
+            let demand = measure.demand(strength).map_err(|error| source.fail(&error))?;
             for (site, panel) in panels.iter_mut().enumerate() {
                 let curve = RiskCurve::new(&demand, &measure.weights[site]).map_err(|error| source.fail(&error))?;
                 let rates = curve.mean_annual_frequencies(&grid);
@@ -130,7 +131,8 @@ pub(super) fn risk_curves(source: &FigureSource) -> Result<Vec<Figure>, UpliftEr
             }
         }
         let label = measure.measure.label();
-        let caption = "Mean annual frequency of exceeding a displacement: rows of the risk surface (Fig. 4.4a). Where a curve meets a target rate lies the ordinate of the uniform risk spectrum.";
+        let caption = "Mean annual frequency of exceeding a displacement: rows of the risk surface (Fig. 4.4a). Where \
+                       a curve meets a target rate lies the ordinate of the uniform risk spectrum.";
         figures.push(source.figure(
             format!("risk-{}", measure.measure.key()),
             format!("Risk of exceeding a displacement, by {label}"),
@@ -150,7 +152,7 @@ pub(super) fn risk_surfaces(source: &FigureSource) -> Result<Vec<Figure>, Uplift
         // [site][rate][strength]
         let mut contours_m = vec![vec![Vec::with_capacity(strengths); RATES_PER_YEAR.len()]; source.sites().len()];
         for strength in 0..strengths {
-            let demand = measure.demand(strength, strengths).map_err(|error| source.fail(&error))?;
+            let demand = measure.demand(strength).map_err(|error| source.fail(&error))?;
             for (site, of_site) in contours_m.iter_mut().enumerate() {
                 let ordinates = RiskCurve::new(&demand, &measure.weights[site])
                     .and_then(|curve| curve.exact_ordinates(&RATES_PER_YEAR))
@@ -174,16 +176,14 @@ pub(super) fn risk_surfaces(source: &FigureSource) -> Result<Vec<Figure>, Uplift
                     })
                     .collect();
                 let name = format!("{} in {} years", per_cent(stored.poes[rarest]), stored.years);
-                series.push(source.over_strengths(
-                    name,
-                    stored.spectrum(&measure.spectra_m, site, rarest),
-                    Tone::Distinct(4),
-                ));
+                let spectrum = source.u_m(measure.measure).map(|u_m| u_m.block([site, rarest]));
+                series.extend(spectrum.map(|u_m| source.over_strengths(name, u_m, Tone::Distinct(4))));
                 Panel::lines(stored.sites[site].clone(), Axis::linear(STRENGTH), Axis::log("displacement, m"), series)
             })
             .collect();
         let label = measure.measure.label();
-        let caption = "The risk surface seen from above: lines of equal mean annual frequency of exceedance. The contour of a target rate is the uniform risk spectrum (Fig. 4.4).";
+        let caption = "The risk surface seen from above: lines of equal mean annual frequency of exceedance. The \
+                       contour of a target rate is the uniform risk spectrum (Fig. 4.4).";
         let id = format!("surface-{}", measure.measure.key());
         figures.push(source.figure(id, format!("Risk surface by {label}"), caption, panels));
     }

@@ -5,10 +5,10 @@ mod motions;
 mod spectra;
 
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
 
 use uplift::UpliftError;
-use uplift::result::{SpectrumPlace, StoredDisplacements, StoredStructures, axis_part, unique_axis};
+use uplift::result::layout::{axis_part, unique_axis};
+use uplift::result::{ResultFile, SpectrumPlace, StoredDisplacements, StoredStructures};
 use uplift::text::nearest;
 use uplift_plot::{Axis, Figure, Panel, Series, Tone};
 
@@ -23,32 +23,34 @@ pub enum Extent {
 
 /// A result of displacement spectra, read for its figures.
 struct DisplacementSource<'a> {
-    path: PathBuf,
+    file: &'a ResultFile,
     stored: &'a StoredDisplacements,
     /// The sets as they are called in names of figures.
     words: Vec<String>,
     extent: Extent,
 }
 
-/// The figures of the displacement spectra `stored`, read from `path`, in the order of the dissertation.
+/// The figures of the displacement spectra `stored`, read from `file`, in the order of the dissertation.
 ///
 /// # Errors
-/// A file that is missing or damaged.
+/// A file that is damaged.
 pub fn displacement_figures(
-    path: &Path,
+    file: &ResultFile,
     stored: &StoredDisplacements,
     extent: Extent,
 ) -> Result<Vec<Figure>, UpliftError> {
     let mut taken = BTreeSet::new();
     let words = stored.sets.iter().map(|set| unique_axis(axis_part(&set.name).replace('_', "-"), &mut taken)).collect();
-    let source = DisplacementSource { path: path.to_owned(), stored, words, extent };
+    let source = DisplacementSource { file, stored, words, extent };
     let mut figures = Vec::new();
     figures.extend(spectra::spectra(&source));
     figures.extend(motions::motions(&source)?);
     figures.extend(spectra::by_equal_energy(&source)?);
     figures.extend(spectra::uplift_displacements(&source));
-    figures.extend(design::procedure(&source)?);
-    figures.extend(design::comparison(&source)?);
+    if let Some(design) = file.design()? {
+        figures.extend(design::procedure(&source, &design));
+        figures.push(design::comparison(&source, &design));
+    }
     Ok(figures)
 }
 

@@ -5,9 +5,9 @@ use uplift::UpliftError;
 use uplift::efficiency::{covariates, efficiency_by};
 use uplift_plot::{Axis, Figure, Panel, Series, Tone};
 
-pub(super) fn efficiency(source: &FigureSource) -> Result<Option<Figure>, UpliftError> {
+pub(super) fn efficiency(source: &FigureSource) -> Result<Figure, UpliftError> {
     let stored = &source.stored;
-    let covariates = covariates(stored)?;
+    let covariates = covariates(&source.records);
     let panel = |title: &str, y: Axis| Panel::lines(title, Axis::linear(STRENGTH), y, Vec::new());
     let mut panels = vec![
         panel("rocking structures", Axis::linear("dispersion of ln u")),
@@ -31,6 +31,8 @@ pub(super) fn efficiency(source: &FigureSource) -> Result<Option<Figure>, Uplift
     for panel in &mut panels[2..] {
         panel.series.push(Series::line("p = 0.05", vec![(0.0, 0.05), (1.0, 0.05)], Tone::Distinct(2)));
     }
-    let caption = "Efficiency: scatter of the displacement of rocking structures at a given level, and of the level at which rocking begins: less is better. Sufficiency: p-values of the trend of a record's mean residual with what the record is; below 0.05 the measure leaves something out.";
-    Ok(Some(source.figure("measures", "Which measure to trust", caption, panels)))
+    let caption = "Efficiency: scatter of the displacement of rocking structures at a given level, and of the level at \
+                   which rocking begins: less is better. Sufficiency: p-values of the trend of a record's mean \
+                   residual with what the record is; below 0.05 the measure leaves something out.";
+    Ok(source.figure("measures", "Which measure to trust", caption, panels))
 }

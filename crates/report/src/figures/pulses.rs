@@ -42,7 +42,8 @@ pub fn pulse_figures(plan: &PulsePlan, spectra: &[PulseSpectra]) -> Vec<Figure> 
             "displacement",
             "Largest displacement u_max ω_p²/a_p",
             format!(
-                "Largest displacement of the top of {block} under Ricker wavelets; hatched where it overturns (Fig. 2.3). It depends on the acceleration far more than on the size."
+                "Largest displacement of the top of {block} under Ricker wavelets; hatched where it overturns (Fig. \
+                 2.3). It depends on the acceleration far more than on the size."
             ),
             &|of| map(of.shape, &of.by_frequency, FREQUENCY, &DISPLACEMENTS, |point| point.displacement),
         ),
@@ -50,7 +51,8 @@ pub fn pulse_figures(plan: &PulsePlan, spectra: &[PulseSpectra]) -> Vec<Figure> 
             "over-acceleration",
             "Displacement over acceleration",
             format!(
-                "Largest displacement of the top of {block} under Ricker wavelets, for several sizes; no line where it overturns (Fig. 2.4)."
+                "Largest displacement of the top of {block} under Ricker wavelets, for several sizes; no line where it \
+                 overturns (Fig. 2.4)."
             ),
             &|of| over_acceleration(of.shape, &of.over_acceleration),
         ),
@@ -58,7 +60,8 @@ pub fn pulse_figures(plan: &PulsePlan, spectra: &[PulseSpectra]) -> Vec<Figure> 
             "over-frequency",
             "Displacement over the size-frequency parameter",
             format!(
-                "Largest displacement of the top of {block} under Ricker wavelets, for several accelerations; no line where it overturns (Fig. 2.5)."
+                "Largest displacement of the top of {block} under Ricker wavelets, for several accelerations; no line \
+                 where it overturns (Fig. 2.5)."
             ),
             &|of| over_frequency(of.shape, &of.over_frequency),
         ),
@@ -66,7 +69,8 @@ pub fn pulse_figures(plan: &PulsePlan, spectra: &[PulseSpectra]) -> Vec<Figure> 
             "over-size",
             "Displacement over the size of blocks",
             format!(
-                "Largest displacement of the top of blocks under Ricker wavelets of a_p = {} g; no line where they overturn (Fig. 2.6).",
+                "Largest displacement of the top of blocks under Ricker wavelets of a_p = {} g; no line where they \
+                 overturn (Fig. 2.6).",
                 pulse.amplitude_g
             ),
             &|of| over_size(of, pulse.period_s(of.shape)),
@@ -75,7 +79,8 @@ pub fn pulse_figures(plan: &PulsePlan, spectra: &[PulseSpectra]) -> Vec<Figure> 
             "by-half-width",
             "Displacement u_max ω_p²/a_p by half-width",
             format!(
-                "Largest displacement of the top of {block} under Ricker wavelets; hatched where it overturns (Fig. 2.7). The line is a base 2b of nine times a_p/ω_p²."
+                "Largest displacement of the top of {block} under Ricker wavelets; hatched where it overturns (Fig. \
+                 2.7). The line is a base 2b of nine times a_p/ω_p²."
             ),
             &|of| by_half_width(of.shape, &of.by_half_width),
         ),

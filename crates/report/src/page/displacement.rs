@@ -1,30 +1,16 @@
 //! What the report shows of displacement spectra.
 
-use std::path::Path;
-
 use super::{Content, Table};
 use crate::figures::{Extent, displacement_figures};
 use uplift::UpliftError;
-use uplift::displacement::{DesignRow, read_design};
-use uplift::result::{StoredDisplacements, StoredStructures, open_any_result};
+use uplift::result::{DesignRow, ResultFile, StoredDesign, StoredDisplacements, StoredStructures};
 use uplift::text::thousands;
 
-pub(super) fn content(path: &Path) -> Result<Content, UpliftError> {
-    let stored = StoredDisplacements::read(path)?;
-    let reader = open_any_result(path)?;
-    let rows = read_design(&reader)?;
+pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
+    let stored = file.displacements()?;
     let mut tables = vec![sets(&stored)];
-    if !rows.is_empty() {
-        let number = |name: &str| reader.attribute_f64("/design", name);
-        let note = format!(
-            "FS = {}; percentile {}. In brackets: lowest and highest over {} points around the abscissa, from {} to {} times it, which says how far a value can be trusted.",
-            number("safety_factor")?,
-            number("percentile")?,
-            reader.attribute_u64("/design", "noise_points")?,
-            1.0 - number("noise_relative")?,
-            1.0 + number("noise_relative")?
-        );
-        tables.extend(designs(&stored, &rows, &note));
+    if let Some(design) = file.design()? {
+        tables.extend(designs(&stored, &design));
     }
     let (structures, abscissas) = match stored.structures {
         StoredStructures::Oscillators { .. } => ("oscillators", "uplift strengths"),
@@ -40,9 +26,9 @@ pub(super) fn content(path: &Path) -> Result<Content, UpliftError> {
             stored.structures.lines(),
             stored.abscissas.len()
         ),
-        facts: vec![("Analyses", thousands(reader.attribute_u64("/spectra", "analyses")?))],
+        facts: vec![("Analyses", thousands(stored.analyses))],
         tables,
-        figures: displacement_figures(path, &stored, Extent::Main)?,
+        figures: displacement_figures(file, &stored, Extent::Main)?,
     })
 }
 
@@ -60,7 +46,9 @@ fn sets(stored: &StoredDisplacements) -> Table {
         id: "sets".to_owned(),
         title: "Record sets".to_owned(),
         note: format!(
-            "Both horizontal components of a record are motions of their own. The medians of the geometric means (Eq. 2.16, 2.17) are what multiples refer to. Scalings: {}. The figures here are of motions scaled by {} and of the smallest uplift displacement; uplift plot draws all.",
+            "Both horizontal components of a record are motions of their own. The medians of the geometric means \
+             (Eq. 2.16, 2.17) are what multiples refer to. Scalings: {}. The figures here are of motions scaled by {} \
+             and of the smallest uplift displacement; uplift plot draws all.",
             stored.scalings.join(", "),
             stored.scaled_by.first().map_or("", String::as_str)
         ),
@@ -71,9 +59,18 @@ fn sets(stored: &StoredDisplacements) -> Table {
 }
 
 /// A table a set and rule: a row a quantity and way of scaling, a column a scaling.
-fn designs(stored: &StoredDisplacements, rows: &[DesignRow], note: &str) -> Vec<Table> {
+fn designs(stored: &StoredDisplacements, design: &StoredDesign) -> Vec<Table> {
+    let StoredDesign { safety_factor, percentile, noise_points, noise_relative, .. } = design;
+    let note = format!(
+        "FS = {safety_factor}; percentile {percentile}. In brackets: lowest and highest over {noise_points} points \
+         around the abscissa, from {} to {} times it, which says how far a value can be trusted.",
+        1.0 - noise_relative,
+        1.0 + noise_relative
+    );
     let same = |a: &DesignRow, b: &DesignRow| a.record_set == b.record_set && a.rule == b.rule;
-    rows.chunk_by(same)
+    design
+        .rows
+        .chunk_by(same)
         .enumerate()
         .map(|(index, of_table)| {
             let first = &of_table[0];
@@ -96,7 +93,7 @@ fn designs(stored: &StoredDisplacements, rows: &[DesignRow], note: &str) -> Vec<
             Table {
                 id: format!("design-{}", index + 1),
                 title: format!("Design example, {}{rule}", first.record_set),
-                note: note.to_owned(),
+                note: note.clone(),
                 header: header.collect(),
                 text_columns: 2,
                 rows: cells,

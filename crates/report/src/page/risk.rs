@@ -1,21 +1,19 @@
 //! What the report shows of uniform risk spectra.
 
-use std::path::Path;
-
 use super::{Content, Table};
 use crate::figures::FigureSource;
 use uplift::UpliftError;
-use uplift::result::{StoredResult, StoredStripes, open_result};
+use uplift::result::{MeasureBands, ResultFile, StoredBands, StoredSpectra};
 use uplift::text::{metres, nearest, per_cent};
 
 /// Strengths in the summary.
 const SHOWN_STRENGTHS: [f64; 3] = [0.1, 0.2, 0.4];
 
-pub(super) fn content(path: &Path) -> Result<Content, UpliftError> {
-    let stored = StoredStripes::read(path)?;
-    let result = StoredResult::read(path)?;
-    let mut tables = vec![summary(&stored), coefficients(&result)];
-    tables.extend(confidence(&stored)?);
+pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
+    let source = FigureSource::read(file)?;
+    let mut tables = vec![summary(&source.spectra), coefficients(&source.spectra)];
+    tables.extend(source.bands.as_ref().map(|bands| confidence(&source.spectra, bands)));
+    let stored = &source.stored;
     Ok(Content {
         subject: "Uniform risk spectra",
         extent: format!(
@@ -26,11 +24,11 @@ pub(super) fn content(path: &Path) -> Result<Content, UpliftError> {
         ),
         facts: vec![("Seed", stored.seed.to_string())],
         tables,
-        figures: FigureSource::new(stored)?.figures()?,
+        figures: source.figures()?,
     })
 }
 
-fn summary(stored: &StoredStripes) -> Table {
+fn summary(stored: &StoredSpectra) -> Table {
     let shown = nearest(&stored.strengths, &SHOWN_STRENGTHS);
     let mut header: Vec<String> = ["site", "measure"].map(str::to_owned).to_vec();
     for &probability in &stored.poes {
@@ -43,9 +41,8 @@ fn summary(stored: &StoredStripes) -> Table {
         for measure in &stored.measures {
             let mut row = vec![name.clone(), measure.measure.label().to_owned()];
             for poe in 0..stored.poes.len() {
-                row.extend(
-                    shown.iter().map(|&strength| metres(measure.spectra_m[stored.ordinate(site, poe, strength)])),
-                );
+                let u_m = measure.u_m.block([site, poe]);
+                row.extend(shown.iter().map(|&strength| metres(u_m[strength])));
             }
             rows.push(row);
         }
@@ -54,7 +51,8 @@ fn summary(stored: &StoredStripes) -> Table {
         id: "summary".to_owned(),
         title: "Displacements to survive".to_owned(),
         note: format!(
-            "Displacement in metres that is exceeded with the stated probability in {} years, for the uplift strength f_up/(m g) after the dot.",
+            "Displacement in metres that is exceeded with the stated probability in {} years, for the uplift strength \
+             f_up/(m g) after the dot.",
             stored.years
         ),
         header,
@@ -63,17 +61,16 @@ fn summary(stored: &StoredStripes) -> Table {
     }
 }
 
-fn coefficients(result: &StoredResult) -> Table {
+fn coefficients(spectra: &StoredSpectra) -> Table {
     let number =
         |value: f64, digits: usize| if value.is_nan() { "no fit".to_owned() } else { format!("{value:.digits$}") };
-    let rows = result
-        .spectra
-        .iter()
+    let rows = spectra
+        .rows()
         .map(|spectrum| {
             let fit = &spectrum.fit;
             vec![
-                spectrum.site.clone(),
-                spectrum.im.clone(),
+                spectrum.site.to_owned(),
+                spectrum.measure.label().to_owned(),
                 per_cent(spectrum.poe),
                 number(fit.c0_m, 4),
                 number(fit.c1, 4),
@@ -86,8 +83,9 @@ fn coefficients(result: &StoredResult) -> Table {
         id: "table-4-2".to_owned(),
         title: "Coefficients (Table 4.2)".to_owned(),
         note: format!(
-            "u = c0 exp(c1 strength) + c2 with c2 not negative, for strengths above 0.05 or as the study says; probabilities in {} years.",
-            result.years
+            "u = c0 exp(c1 strength) + c2 with c2 not negative, for strengths above 0.05 or as the study says; \
+             probabilities in {} years.",
+            spectra.years
         ),
         header: ["site", "measure", "probability", "c0, m", "c1", "c2, m", "RMSE, m"].map(str::to_owned).to_vec(),
         text_columns: 3,
@@ -95,50 +93,32 @@ fn coefficients(result: &StoredResult) -> Table {
     }
 }
 
-fn confidence(stored: &StoredStripes) -> Result<Option<Table>, UpliftError> {
-    let reader = open_result(&stored.path)?;
-    if !reader.exists("/bootstrap") {
-        return Ok(None);
-    }
-    let sizes = reader.axis_u32("sample_size")?;
-    let confidence = reader.attribute_f64("/bootstrap", "confidence")?;
-    let mut rows = Vec::new();
-    for measure in &stored.measures {
-        let group = format!("/bootstrap/{}", measure.measure.key());
-        if !reader.exists(&group) {
-            continue;
-        }
-        let errors = reader.array_f64(&format!("{group}/e_median"))?.values;
-        let ranges = reader.array_f64(&format!("{group}/r_90ci"))?.values;
-        if errors.len() != stored.sites.len() * stored.poes.len() * sizes.len() {
-            return Err(UpliftError::input(format!(
-                "{}: {group} is damaged: run the bootstrap again",
-                stored.path.display()
-            )));
-        }
-        for (cell, (error, range)) in errors.iter().zip(&ranges).enumerate() {
-            let spectrum = cell / sizes.len();
-            let number =
-                |value: f64, digits: usize| if value.is_nan() { "-".to_owned() } else { format!("{value:.digits$}") };
-            rows.push(vec![
-                stored.sites[spectrum / stored.poes.len()].clone(),
-                measure.measure.label().to_owned(),
-                per_cent(stored.poes[spectrum % stored.poes.len()]),
-                sizes[cell % sizes.len()].to_string(),
-                number(*error, 1),
-                number(*range, 0),
-            ]);
-        }
-    }
-    Ok(Some(Table {
+fn confidence(stored: &StoredSpectra, bands: &StoredBands) -> Table {
+    let number = |value: f64, digits: usize| if value.is_nan() { "-".to_owned() } else { format!("{value:.digits$}") };
+    let rows = |of_measure: &MeasureBands| -> Vec<Vec<String>> {
+        let row = |(at, error): ([usize; 3], &[f64])| {
+            let [site, poe, size] = at;
+            vec![
+                stored.sites[site].clone(),
+                of_measure.measure.label().to_owned(),
+                per_cent(stored.poes[poe]),
+                bands.sizes[size].to_string(),
+                number(error[0], 1),
+                number(of_measure.range_of_interval[at], 0),
+            ]
+        };
+        of_measure.error_of_median.blocks().map(row).collect()
+    };
+    Table {
         id: "table-4-1".to_owned(),
         title: "How sure the spectra are (Table 4.1)".to_owned(),
         note: format!(
-            "Error of the median and width of the {} interval over resampled records, at the strength where each is largest (Eq. 4.9, 4.10).",
-            per_cent(confidence)
+            "Error of the median and width of the {} interval over resampled records, at the strength where each is \
+             largest (Eq. 4.9, 4.10).",
+            per_cent(bands.confidence)
         ),
         header: ["site", "measure", "probability", "records", "e_median, %", "r, %"].map(str::to_owned).to_vec(),
         text_columns: 3,
-        rows,
-    }))
+        rows: bands.measures.iter().flat_map(rows).collect(),
+    }
 }

@@ -6,6 +6,7 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
+use uplift_atomic_file::{AtomicFile, io_error};
 use uplift_regression::ExponentialFit;
 use uplift_risk::Ordinate;
 
@@ -30,7 +31,8 @@ pub fn site_table_paths(result: &Path) -> [PathBuf; 3] {
 /// The files of many sites while they are being written; those not finished are removed.
 #[derive(Debug)]
 pub struct SiteTableFiles {
-    files: [Aside; 3],
+    paths: [PathBuf; 3],
+    files: [GrowingFile; 3],
     layout: SiteTableLayout,
     features: u64,
 }
@@ -76,14 +78,16 @@ pub struct SiteText {
 }
 
 impl SiteTableFiles {
-    /// Begin the files beside the result file `result`, aside; `line` says where the numbers come from.
+    /// Begin the files beside the result file `result`; `line` says where the numbers come from. They are in their
+    /// places only after [`finish`](Self::finish).
     ///
     /// # Errors
     /// A file that cannot be written.
     pub fn create(result: &Path, study: &UniformRiskStudy, list: &SiteList, line: &str) -> Result<Self, UpliftError> {
         let layout = SiteTableLayout::of(study, list);
-        let [spectra, coefficients, map] = site_table_paths(result);
-        let mut files = [Aside::create(spectra)?, Aside::create(coefficients)?, Aside::create(map)?];
+        let paths = site_table_paths(result);
+        let [spectra, coefficients, map] = &paths;
+        let mut files = [GrowingFile::create(spectra)?, GrowingFile::create(coefficients)?, GrowingFile::create(map)?];
         let columns: Vec<String> =
             COEFFICIENTS.iter().map(|&name| name.to_owned()).chain(carried_columns(&list.carried)).collect();
         let columns: Vec<String> = columns.iter().map(|name| cell(name)).collect();
@@ -93,7 +97,7 @@ impl SiteTableFiles {
             "{{\"type\":\"FeatureCollection\",\n\"provenance\":{},\n\"features\":[",
             json_text(line)
         ))?;
-        Ok(Self { files, layout, features: 0 })
+        Ok(Self { paths, files, layout, features: 0 })
     }
 
     /// What the rows and properties are called.
@@ -123,7 +127,8 @@ impl SiteTableFiles {
         for file in &mut self.files {
             file.flush()?;
         }
-        self.files.iter_mut().map(Aside::put_in_place).collect()
+        self.files.into_iter().try_for_each(GrowingFile::put_in_place)?;
+        Ok(self.paths.into())
     }
 }
 
@@ -313,46 +318,31 @@ fn distinct(names: &[String], taken: &mut BTreeSet<String>) -> Vec<String> {
     distinct.collect()
 }
 
-/// A file written aside, and put in its place when it is complete.
+/// A file that is written bit by bit, and put in its place when it is complete.
 #[derive(Debug)]
-struct Aside {
-    path: PathBuf,
-    partial: PathBuf,
+struct GrowingFile {
+    place: AtomicFile,
     writer: BufWriter<File>,
 }
 
-impl Aside {
-    fn create(path: PathBuf) -> Result<Self, UpliftError> {
-        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-        let partial = path.with_file_name(format!(".{name}.partial-{}", std::process::id()));
-        let file = File::create(&partial).map_err(|error| failed(&path, &error))?;
-        Ok(Self { path, partial, writer: BufWriter::with_capacity(1 << 18, file) })
+impl GrowingFile {
+    fn create(path: &Path) -> Result<Self, UpliftError> {
+        let place = AtomicFile::reserve(path)?;
+        let file = File::options().write(true).open(place.partial()).map_err(io_error(path, "write the file"))?;
+        Ok(Self { place, writer: BufWriter::with_capacity(1 << 18, file) })
     }
 
     fn write(&mut self, text: &str) -> Result<(), UpliftError> {
-        self.writer.write_all(text.as_bytes()).map_err(|error| failed(&self.path, &error))
+        Ok(self.writer.write_all(text.as_bytes()).map_err(io_error(self.place.target(), "write the file"))?)
     }
 
     fn flush(&mut self) -> Result<(), UpliftError> {
-        self.writer.flush().map_err(|error| failed(&self.path, &error))
+        Ok(self.writer.flush().map_err(io_error(self.place.target(), "write the file"))?)
     }
 
-    fn put_in_place(&mut self) -> Result<PathBuf, UpliftError> {
-        self.writer.get_ref().sync_all().map_err(|error| failed(&self.path, &error))?;
-        std::fs::rename(&self.partial, &self.path).map_err(|error| failed(&self.path, &error))?;
-        Ok(self.path.clone())
+    fn put_in_place(self) -> Result<(), UpliftError> {
+        Ok(self.place.replace()?)
     }
-}
-
-impl Drop for Aside {
-    fn drop(&mut self) {
-        // not there any more once it is in its place
-        let _ = std::fs::remove_file(&self.partial);
-    }
-}
-
-fn failed(path: &Path, error: &std::io::Error) -> UpliftError {
-    UpliftError::input(format!("{} cannot be written: {error}", path.display()))
 }
 
 #[cfg(test)]

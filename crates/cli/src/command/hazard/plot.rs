@@ -3,17 +3,11 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use uplift_report::{HazardPlotOptions, plot_hazard};
 
-use super::{CommandError, NamedCurve, SiteArguments, TableArguments, Terminal, distinct, read};
-use crate::command::records::refuse_overwriting;
-use uplift::result::write_aside;
-use uplift_plot::{Width, png, svg};
-use uplift_report::figures::hazard_figure;
-
-/// Of a PNG for print.
-const DOTS_PER_INCH: f32 = 300.0;
-/// Curves that a figure can tell apart, and then some.
-const MOST_CURVES: usize = 50;
+use super::{SiteArguments, TableArguments};
+use crate::error::CommandError;
+use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
 pub(super) struct PlotArguments {
@@ -30,31 +24,13 @@ pub(super) struct PlotArguments {
 }
 
 pub(super) fn plot(arguments: &PlotArguments, terminal: &Terminal) -> Result<(), CommandError> {
-    let output = &arguments.output;
-    let extension = output.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
-    if !["svg", "png"].contains(&extension) {
-        return Err(CommandError::Usage(format!("-o {}: give a name that ends in .svg or .png", output.display())));
-    }
-    let inputs: Vec<&std::path::Path> = arguments.files.iter().map(PathBuf::as_path).collect();
-    refuse_overwriting(output, &inputs)?;
-    let mut curves = Vec::new();
-    for file in distinct(&arguments.files) {
-        curves.extend(read(file, &arguments.site, &arguments.table)?);
-    }
-    if curves.len() > MOST_CURVES {
-        return Err(CommandError::Usage(format!(
-            "{} curves cannot be told apart in one figure: pick a site by --name or --near LON,LAT",
-            curves.len()
-        )));
-    }
-    let named: Vec<(String, _)> = curves.into_iter().map(|NamedCurve { name, curve }| (name, curve)).collect();
-    let figure = hazard_figure(&named);
-    let drawing = svg(&figure, Width::Double).map_err(CommandError::input)?;
-    let bytes = match extension {
-        "png" => png(&drawing.svg, DOTS_PER_INCH).map_err(|error| CommandError::input(error.to_string()))?,
-        _ => drawing.svg.into_bytes(),
+    let options = HazardPlotOptions {
+        files: arguments.files.clone(),
+        curves: arguments.table.options(&arguments.site),
+        output: arguments.output.clone(),
     };
-    write_aside(output, &bytes)?;
-    terminal.say(&output.display().to_string());
+    for file in plot_hazard(&options, terminal)?.files {
+        terminal.say(&file.display().to_string());
+    }
     Ok(())
 }

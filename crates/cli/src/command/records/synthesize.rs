@@ -4,12 +4,13 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use polars::prelude::Column;
-use uplift_motion::synthetic::{Faulting, ScenarioRange, SyntheticSetOptions, generate};
-use uplift_motion::{RecordPair, STANDARD_GRAVITY_M_S2, at2_text};
+use uplift::records::{SynthesizeOptions, synthesize as synthesize_records};
+use uplift_motion::synthetic::{Faulting, ScenarioRange, SyntheticSetOptions};
+use uplift_study::Range;
 
-use super::{CommandError, Range, Terminal, range};
-use uplift::result::{write_aside, write_table};
+use super::range;
+use crate::error::CommandError;
+use crate::terminal::Terminal;
 
 /// Synthetic records after Rezaeian and Der Kiureghian (2010, 2012), as AT2 files with a manifest.
 ///
@@ -64,64 +65,31 @@ fn number_or_range(text: &str) -> Result<Range, String> {
     }
 }
 
-pub(super) fn synthesize(arguments: &SynthesizeArguments, terminal: &Terminal) -> Result<(), CommandError> {
-    let folder = &arguments.output;
-    let manifest = folder.join("manifest.csv");
-    if manifest.exists() {
-        return Err(CommandError::Usage(format!("{} is there already: name another folder", manifest.display())));
-    }
-    let ends = |range: Range| [range.from, range.to];
-    let options = SyntheticSetOptions {
-        seed: arguments.seed,
-        pairs: arguments.count,
-        dt_s: arguments.dt_s,
-        minimum_pga_g: arguments.minimum_pga_g,
-        scenario: ScenarioRange {
-            magnitude: ends(arguments.magnitude),
-            rrup_km: ends(arguments.rrup_km),
-            vs30_m_s: ends(arguments.vs30),
-            faulting: match arguments.mechanism {
-                Mechanism::Either => None,
-                Mechanism::StrikeSlip => Some(Faulting::StrikeSlip),
-                Mechanism::Reverse => Some(Faulting::Reverse),
+impl SynthesizeArguments {
+    fn options(&self) -> SynthesizeOptions {
+        let ends = |range: Range| [range.from, range.to];
+        let set = SyntheticSetOptions {
+            seed: self.seed,
+            pairs: self.count,
+            dt_s: self.dt_s,
+            minimum_pga_g: self.minimum_pga_g,
+            scenario: ScenarioRange {
+                magnitude: ends(self.magnitude),
+                rrup_km: ends(self.rrup_km),
+                vs30_m_s: ends(self.vs30),
+                faulting: match self.mechanism {
+                    Mechanism::Either => None,
+                    Mechanism::StrikeSlip => Some(Faulting::StrikeSlip),
+                    Mechanism::Reverse => Some(Faulting::Reverse),
+                },
             },
-        },
-        ..SyntheticSetOptions::default()
-    };
-    terminal.say("synthetic records: not for design");
-    let pairs = generate(&options).map_err(|error| CommandError::Usage(error.to_string()))?;
-    std::fs::create_dir_all(folder)
-        .map_err(|error| CommandError::input(format!("{} cannot be made: {error}", folder.display())))?;
-    for pair in &pairs {
-        for (component, motion) in [("H1", &pair.h1), ("H2", &pair.h2)] {
-            let said = |key: &str| pair.metadata.get(key).map_or("", String::as_str);
-            let title = format!("SYNTHETIC MOTION, NOT RECORDED: uplift {}", uplift::VERSION);
-            let head = [said("event"), "none", said("station"), component];
-            let text = at2_text(motion, &title, head, STANDARD_GRAVITY_M_S2);
-            write_aside(&folder.join(file_name(pair, component)), text.as_bytes())?;
-        }
+            ..SyntheticSetOptions::default()
+        };
+        SynthesizeOptions { folder: self.output.clone(), set }
     }
-    let line = format!("uplift {} ({}), synthetic records: {options:?}", uplift::VERSION, uplift::COMMIT);
-    write_table(&manifest, &line, columns(&pairs))?;
-    writeln!(std::io::stdout(), "{} synthetic pairs: {}", pairs.len(), manifest.display())?;
-    Ok(())
 }
 
-fn file_name(pair: &RecordPair, component: &str) -> String {
-    format!("{}_{component}.AT2", pair.id)
-}
-
-fn columns(pairs: &[RecordPair]) -> Vec<Column> {
-    let column = |name: &str, cell: &dyn Fn(&RecordPair) -> String| {
-        Column::new(name.into(), pairs.iter().map(cell).collect::<Vec<String>>())
-    };
-    let mut columns = vec![
-        column("record_id", &|pair| pair.id.clone()),
-        column("file_h1", &|pair| file_name(pair, "H1")),
-        column("file_h2", &|pair| file_name(pair, "H2")),
-    ];
-    for key in ["event", "magnitude", "mechanism", "rrup_km", "vs30", "station", "set_tags"] {
-        columns.push(column(key, &|pair| pair.metadata.get(key).cloned().unwrap_or_default()));
-    }
-    columns
+pub(super) fn synthesize(arguments: &SynthesizeArguments, terminal: &Terminal) -> Result<(), CommandError> {
+    let report = synthesize_records(&arguments.options(), terminal)?;
+    Ok(writeln!(std::io::stdout(), "{} synthetic pairs: {}", report.pairs, report.manifest.display())?)
 }

@@ -1,9 +1,7 @@
 //! The design examples (Figures 2.13 and 2.14).
 
 use super::DisplacementSource;
-use uplift::UpliftError;
-use uplift::displacement::{DesignRow, read_design};
-use uplift::result::{SpectrumPlace, StoredStructures, open_any_result};
+use uplift::result::{DesignRow, SpectrumPlace, StoredDesign, StoredDesigned, StoredStructures};
 use uplift_plot::{Axis, Figure, Marks, Panel, Series, Tone};
 
 /// What is predicted, and what time histories say, as the rows call them.
@@ -13,24 +11,21 @@ struct Quantities {
 }
 
 /// Where the capacity line meets the spectrum of the endless block, and the design point (Figure 2.13).
-pub(super) fn procedure(source: &DisplacementSource<'_>) -> Result<Vec<Figure>, UpliftError> {
+pub(super) fn procedure(source: &DisplacementSource<'_>, design: &StoredDesign) -> Vec<Figure> {
     let stored = source.stored;
-    let reader = open_any_result(&source.path)?;
-    let StoredStructures::Blocks { height_m } = &stored.structures else { return Ok(Vec::new()) };
-    if !reader.exists("/design") {
-        return Ok(Vec::new());
-    }
-    let number = |name: &str| reader.attribute_f64("/design", name);
-    let (own_m, endless_m) = (number("height_m")?, number("endless_height_m")?);
+    let StoredStructures::Blocks { height_m } = &stored.structures else { return Vec::new() };
+    let StoredDesigned::Block { height_m: own_m, endless_height_m: endless_m } = design.designed else {
+        return Vec::new();
+    };
+    let rows = &design.rows;
     let line_of = |wanted_m: f64| height_m.iter().position(|&known_m| known_m == wanted_m);
-    let rows = read_design(&reader)?;
     let percentile = source.median();
     let mut figures = Vec::new();
     for place in source.places() {
         let set = &stored.sets[place.set].name;
         let panel = |scaling: usize| {
             let place = SpectrumPlace { scaling, ..place };
-            let tangent = value(&rows, source, place, "tan_alpha_design");
+            let tangent = value(rows, source, place, "tan_alpha_design");
             let spectrum = |wanted_m: f64, tone: usize| {
                 let ordinates_m = stored.percentile_m(place, line_of(wanted_m)?, percentile);
                 let points = stored.abscissas.iter().copied().zip(ordinates_m.iter().copied()).collect();
@@ -39,8 +34,9 @@ pub(super) fn procedure(source: &DisplacementSource<'_>) -> Result<Vec<Figure>, 
             let line = stored.abscissas.iter().map(|&tangent| (tangent, own_m * tangent)).collect();
             let capacity = Series::line(format!("capacity 2H tan α, 2H = {own_m} m"), line, Tone::Distinct(1));
             let point = tangent.map(|tangent| {
-                let displacement_m =
-                    |height_m| value(&rows, source, place, &block_quantity(height_m)).map(|u_m| (tangent, u_m));
+                let displacement_m = |height_m| {
+                    value(rows, source, place, &StoredDesigned::block_quantity(height_m)).map(|u_m| (tangent, u_m))
+                };
                 let points = [displacement_m(endless_m), displacement_m(own_m)].into_iter().flatten().collect();
                 Series { name: "design".to_owned(), points, tone: Tone::Distinct(3), marks: Marks::Only }
             });
@@ -57,8 +53,10 @@ pub(super) fn procedure(source: &DisplacementSource<'_>) -> Result<Vec<Figure>, 
             )
         };
         let caption = format!(
-            "Design of a block of 2H = {own_m} m under the set {set} by the spectrum of an endless one (Section 2.4.3, Fig. 2.13): {} times the slenderness where the capacity line meets it. Dots: what both spectra say there. {}.",
-            number("safety_factor")?,
+            "Design of a block of 2H = {own_m} m under the set {set} by the spectrum of an endless one (Section 2.4.3, \
+             Fig. 2.13): {} times the slenderness where the capacity line meets it. Dots: what both spectra say there. \
+             {}.",
+            design.safety_factor,
             source.scaling_words(place.scaled_by)
         );
         figures.push(source.figure(
@@ -69,12 +67,7 @@ pub(super) fn procedure(source: &DisplacementSource<'_>) -> Result<Vec<Figure>, 
             (0..stored.scalings.len()).map(panel).collect(),
         ));
     }
-    Ok(figures)
-}
-
-/// What the displacement of a block at the design slenderness is called.
-fn block_quantity(height_m: f64) -> String {
-    format!("u_2H{height_m}_m")
+    figures
 }
 
 /// A design value of the spectrum at `place`.
@@ -92,30 +85,30 @@ fn value(rows: &[DesignRow], source: &DisplacementSource<'_>, place: SpectrumPla
 }
 
 /// What the design rules predict beside the time histories (Figure 2.14).
-pub(super) fn comparison(source: &DisplacementSource<'_>) -> Result<Option<Figure>, UpliftError> {
-    let reader = open_any_result(&source.path)?;
-    let rows = read_design(&reader)?;
-    if rows.is_empty() {
-        return Ok(None);
-    }
-    let is_block = matches!(source.stored.structures, StoredStructures::Blocks { .. });
-    let quantities = if is_block {
-        let of_height = |name: &str| reader.attribute_f64("/design", name).map(block_quantity);
-        Quantities { predicted: of_height("endless_height_m")?, computed: of_height("height_m")? }
-    } else {
-        Quantities { predicted: "u_dem_rule_m".to_owned(), computed: "u_dem_TH_m".to_owned() }
+pub(super) fn comparison(source: &DisplacementSource<'_>, design: &StoredDesign) -> Figure {
+    let rows = &design.rows;
+    let quantities = match design.designed {
+        StoredDesigned::Bridge => {
+            Quantities { predicted: "u_dem_rule_m".to_owned(), computed: "u_dem_TH_m".to_owned() }
+        }
+        StoredDesigned::Block { height_m, endless_height_m } => Quantities {
+            predicted: StoredDesigned::block_quantity(endless_height_m),
+            computed: StoredDesigned::block_quantity(height_m),
+        },
     };
     let panels =
-        rules(&rows).into_iter().map(|rule| comparison_panel(source, &rows, &quantities, rule)).collect::<Vec<_>>();
-    let caption = "Displacement of the designed structures, predicted and by time histories, a dot for each scaling and way of scaling (Fig. 2.14, Tables 2.1 to 2.3 and 3.2 to 3.7). Above the line the prediction is conservative.";
+        rules(rows).into_iter().map(|rule| comparison_panel(source, rows, &quantities, rule)).collect::<Vec<_>>();
+    let caption = "Displacement of the designed structures, predicted and by time histories, a dot for each scaling \
+                   and way of scaling (Fig. 2.14, Tables 2.1 to 2.3 and 3.2 to 3.7). Above the line the prediction is \
+                   conservative.";
     let columns = panels.len();
-    Ok(Some(source.figure(
+    source.figure(
         "design".to_owned(),
         "How well the design rules predict".to_owned(),
         caption.to_owned(),
         columns,
         panels,
-    )))
+    )
 }
 
 /// The rules of the rows, each once, in their order.

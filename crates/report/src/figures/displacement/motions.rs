@@ -18,7 +18,7 @@ pub(super) fn motions(source: &DisplacementSource<'_>) -> Result<Vec<Figure>, Up
     let lines = source.lines(uplift);
     let mut figures = Vec::new();
     for (set, of_set) in stored.sets.iter().enumerate() {
-        let motions = stored.motions(&source.path, set)?;
+        let motions = source.file.motions(set)?;
         let place = SpectrumPlace { set, scaling, scaled_by: 0 };
         let panels = spread(&motions.pgv_cm_s)
             .into_iter()
@@ -26,7 +26,7 @@ pub(super) fn motions(source: &DisplacementSource<'_>) -> Result<Vec<Figure>, Up
                 let series = lines
                     .iter()
                     .map(|line| {
-                        let ordinates_m = stored.motion_m(&motions, place, line.position, motion);
+                        let ordinates_m = motions.of_motion_m(place, line.position, motion);
                         source.line_beyond_overturning(line, ordinates_m)
                     })
                     .collect();
@@ -40,7 +40,8 @@ pub(super) fn motions(source: &DisplacementSource<'_>) -> Result<Vec<Figure>, Up
         };
         let uplift = uplift_m.map_or_else(String::new, |uplift_m| format!(", u_up = {uplift_m} m"));
         let caption = format!(
-            "Peak displacement under single motions of the set {}, {scaled}{uplift} (Fig. 2.9, 3.13): spread over the set by their PGV as recorded, from the weakest to the strongest.",
+            "Peak displacement under single motions of the set {}, {scaled}{uplift} (Fig. 2.9, 3.13): spread over the \
+             set by their PGV as recorded, from the weakest to the strongest.",
             of_set.name
         );
         figures.push(source.figure(

@@ -26,7 +26,8 @@ impl DisplacementSource<'_> {
         })
     }
 
-    /// A figure with a panel for each scaling and a line for each capacity or height, whose ordinates are `ordinates_m`.
+    /// A figure with a panel for each scaling and a line for each capacity or height, whose ordinates are
+    /// `ordinates_m`.
     fn over_scalings(
         &self,
         shown: &Shown,
@@ -53,7 +54,8 @@ impl DisplacementSource<'_> {
             format!("{id}-{}-{percentile_id}{uplift_id}{}", self.words[place.set], self.suffix(place.scaled_by)),
             format!("{title}, {set}, {percentile}{uplift}, by {}", self.stored.scaled_by[place.scaled_by]),
             format!(
-                "{caption} Set {set}, {percentile}{uplift}. {}. A line begins beyond the last abscissa at which the structure overturns.",
+                "{caption} Set {set}, {percentile}{uplift}. {}. A line begins beyond the last abscissa at which the \
+                 structure overturns.",
                 self.scaling_words(place.scaled_by)
             ),
             3,
@@ -66,7 +68,8 @@ pub(super) fn spectra(source: &DisplacementSource<'_>) -> Vec<Figure> {
     let stored = source.stored;
     let caption = match stored.structures {
         StoredStructures::Oscillators { .. } => {
-            "Peak displacement of an oscillator for several displacement capacities (Fig. 3.10 to 3.12, A2.1 to A2.3, A2.7 to A2.9)."
+            "Peak displacement of an oscillator for several displacement capacities (Fig. 3.10 to 3.12, A2.1 to A2.3, \
+             A2.7 to A2.9)."
         }
         StoredStructures::Blocks { .. } => {
             "Peak displacement of a rocking block for several heights (Fig. 2.10 to 2.12)."
@@ -83,7 +86,8 @@ pub(super) fn spectra(source: &DisplacementSource<'_>) -> Vec<Figure> {
         .collect()
 }
 
-/// The spectra divided by γ of the equal-energy rule: where it holds, the lines fall on that of the zero-stiffness system.
+/// The spectra divided by γ of the equal-energy rule: where it holds, the lines fall on that of the zero-stiffness
+/// system.
 pub(super) fn by_equal_energy(source: &DisplacementSource<'_>) -> Result<Vec<Figure>, UpliftError> {
     let stored = source.stored;
     let StoredStructures::Oscillators { capacity_m, .. } = &stored.structures else { return Ok(Vec::new()) };
@@ -93,14 +97,16 @@ pub(super) fn by_equal_energy(source: &DisplacementSource<'_>) -> Result<Vec<Fig
     if capacity_m.len() < 2 {
         return Ok(Vec::new());
     }
-    let caption = "Displacement spectra divided by γ_EE of the equal-energy rule (Eq. 3.11; Fig. 3.14 to 3.16, A2.4 to A2.6, A2.10 to A2.12): where the rule holds the lines are one. They have gaps where it says that the system overturns (Eq. 3.14).";
+    let caption = "Displacement spectra divided by γ_EE of the equal-energy rule (Eq. 3.11; Fig. 3.14 to 3.16, A2.4 to \
+                   A2.6, A2.10 to A2.12): where the rule holds the lines are one. They have gaps where it says that \
+                   the system overturns (Eq. 3.14).";
     let kind = ["equal-energy", "Displacement spectra over γ_EE", "displacement/γ_EE, m"];
     let figure = |shown: Shown| {
         let capacities = capacity_m
             .iter()
             .map(|&capacity_m| Capacity::new(shown.uplift_m.unwrap_or_default(), capacity_m))
             .collect::<Result<Vec<_>, _>>()
-            .map_err(|error| UpliftError::input(format!("{}: {error}", source.path.display())))?;
+            .map_err(|error| UpliftError::input(format!("{}: {error}", source.file.path().display())))?;
         let first = shown.uplift * capacity_m.len();
         Ok(source.over_scalings(&shown, kind, caption, |place, line| {
             let own_m = stored.percentile_m(place, line.position, shown.percentile);
@@ -112,8 +118,8 @@ pub(super) fn by_equal_energy(source: &DisplacementSource<'_>) -> Result<Vec<Fig
     source.shown().map(figure).collect()
 }
 
-/// A displacement over `γ_EE`, which follows from that of the zero-stiffness system; NaN where the rule says that the system
-/// overturns, infinite where it does.
+/// A displacement over `γ_EE`, which follows from that of the zero-stiffness system; NaN where the rule says that the
+/// system overturns, infinite where it does.
 fn over_ratio(capacity: &Capacity, own_m: f64, zero_stiffness_m: f64) -> f64 {
     match Rule::EqualEnergy.demand(capacity, zero_stiffness_m) {
         _ if own_m.is_infinite() => own_m,
@@ -176,7 +182,8 @@ mod tests {
     #[test]
     fn what_the_rule_says_of_overturning_is_a_gap() {
         let capacity = Capacity::new(0.0005, 1.6).unwrap();
-        // Table 3.5 prints 0.576 m by the rule for u_dem,ZS = 0.472 m; half a millimetre of the latter is 0.8 mm of the former
+        // Table 3.5 prints 0.576 m by the rule for u_dem,ZS = 0.472 m; half a millimetre of the latter is 0.8 mm of the
+        // former
         let demand_m = 0.472 / over_ratio(&capacity, 1.0, 0.472);
         assert!((demand_m - 0.576).abs() < 0.0013, "{demand_m}");
         assert!(over_ratio(&capacity, 1.0, 0.81).is_nan(), "beyond (u_cap + u_up)/2");

@@ -1,0 +1,32 @@
+//! What can go wrong with a file.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Why a file could not be opened or written.
+#[derive(Debug, thiserror::Error)]
+pub enum FileError {
+    /// The operating system refused.
+    #[error("{}: cannot {action}: {source}", path.display())]
+    Io {
+        /// File or folder.
+        path: PathBuf,
+        /// What was tried, e.g. "create the folder".
+        action: &'static str,
+        /// The operating system's reason.
+        source: io::Error,
+    },
+    /// The path leads to a folder, a device or a pipe.
+    #[error("{}: is {found}, not a file: give the name of a file", path.display())]
+    NotAFile {
+        /// The path.
+        path: PathBuf,
+        /// "a folder" or "a special file".
+        found: &'static str,
+    },
+}
+
+/// Attaches the path and the action to an error of the operating system.
+pub fn io_error(path: &Path, action: &'static str) -> impl FnOnce(io::Error) -> FileError {
+    move |source| FileError::Io { path: path.to_owned(), action, source }
+}

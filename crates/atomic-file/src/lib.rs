@@ -1,0 +1,20 @@
+//! Files that appear under their names complete, or not at all.
+//!
+//! A file is written under a hidden name beside its place, brought to the disk, and renamed: whoever looks finds the
+//! old one or the new one, whatever happens in between.
+//!
+//! ```
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let folder = tempfile::tempdir()?;
+//! let path = folder.path().join("spectra.csv");
+//! uplift_atomic_file::write_whole(&path, b"strength,u_m\n")?;
+//! assert_eq!(std::fs::read(&path)?, b"strength,u_m\n");
+//! # Ok(())
+//! # }
+//! ```
+
+mod atomic_file;
+mod error;
+
+pub use atomic_file::{AtomicFile, final_place, remove_leftovers, require_file, write_whole};
+pub use error::{FileError, io_error};

@@ -1,0 +1,49 @@
+//! From `STUDY|RESULT` to a result: the one that is there if it is the study's, else the study is run.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use uplift::RunOptions;
+use uplift::result::is_hdf5;
+use uplift::uniform_risk::result_of;
+use uplift_study::{Bootstrap, Study};
+
+use super::study::command_line;
+use crate::error::CommandError;
+use crate::terminal::Terminal;
+
+/// A result, or a study that has or makes one.
+#[derive(Debug, Args)]
+pub(crate) struct ResultArguments {
+    /// Result file of `uplift run`, or a study file, which is run first unless its result is there
+    #[arg(value_name = "STUDY|RESULT")]
+    input: PathBuf,
+    /// Change a key of the study for this run, for instance --set records.first=20
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    overrides: Vec<String>,
+}
+
+/// A result file that is there.
+pub(crate) struct FoundResult {
+    pub(crate) path: PathBuf,
+    /// What the study file, if one was given, says about the bootstrap.
+    pub(crate) bootstrap: Option<Bootstrap>,
+}
+
+impl ResultArguments {
+    /// The result; a study without one is run.
+    pub(crate) fn find(&self, terminal: &Terminal) -> Result<FoundResult, CommandError> {
+        if is_hdf5(&self.input) || self.input.extension().is_some_and(|extension| extension == "h5") {
+            if !self.overrides.is_empty() {
+                return Err(CommandError::Usage(
+                    "--set changes a study, and a result was given: give the study file instead".to_owned(),
+                ));
+            }
+            return Ok(FoundResult { path: self.input.clone(), bootstrap: None });
+        }
+        let study = Study::load(&self.input, &self.overrides)?;
+        let options = RunOptions { study_file: self.input.clone(), output: None, command: command_line() };
+        let path = result_of(&study, &options, terminal)?;
+        Ok(FoundResult { path, bootstrap: Some(study.bootstrap.clone()) })
+    }
+}

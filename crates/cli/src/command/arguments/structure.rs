@@ -1,0 +1,40 @@
+//! What `uplift design` and `uplift overturning` share: a structure, and the result whose records and hazard it meets.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use uplift_ida::Shard;
+use uplift_study::Structure;
+
+use super::study::shard;
+use crate::error::CommandError;
+
+#[derive(Debug, Args)]
+pub(crate) struct StructureArguments {
+    /// Structure file (TOML), for instance configs/structures/pier.toml
+    pub(crate) structure: PathBuf,
+    /// Result file of `uplift run`: its spectra, and the records and hazard that they were made from
+    #[arg(long, value_name = "RESULT")]
+    pub(crate) urs: PathBuf,
+    /// Manifest of the records, where it is no longer where the study says
+    #[arg(long, value_name = "CSV")]
+    pub(crate) manifest: Option<PathBuf>,
+    /// Compute only shard I of N of the structure's own analyses, into a file beside the result; nothing else is told
+    #[arg(long, value_name = "I/N", value_parser = shard, conflicts_with_all = ["shards", "json"])]
+    pub(crate) shard: Option<Shard>,
+    /// Every shard of these analyses, as --shard wrote them, instead of computing them here
+    #[arg(long, value_name = "FILE", num_args = 1..)]
+    pub(crate) shards: Vec<PathBuf>,
+}
+
+impl StructureArguments {
+    /// Files that are read.
+    pub(crate) fn inputs(&self) -> Vec<&Path> {
+        [&self.structure, &self.urs].into_iter().chain(&self.manifest).map(PathBuf::as_path).collect()
+    }
+
+    /// The structure.
+    pub(crate) fn load(&self) -> Result<Structure, CommandError> {
+        Ok(Structure::load(&self.structure)?)
+    }
+}

@@ -1,0 +1,65 @@
+//! `uplift bootstrap`: how sure the spectra are (Section 4.5, Table 4.1).
+
+use std::path::PathBuf;
+
+use clap::Args;
+use uplift::bootstrap::{BootstrapOptions, bootstrap as run, read_reference};
+use uplift_bootstrap::Interval;
+
+use crate::command::arguments::ResultArguments;
+use crate::error::CommandError;
+use crate::show::{print_bootstrap, print_json};
+use crate::terminal::Terminal;
+
+#[derive(Debug, Args)]
+pub(crate) struct BootstrapArguments {
+    #[command(flatten)]
+    result: ResultArguments,
+    /// Records in a sample, for instance 20,40,60 [default: the study's, else 20,40,60,80 and the whole set]
+    #[arg(long, value_name = "N,N", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    sizes: Option<Vec<u32>>,
+    /// Samples of each size [default: the study's, else 1000]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    replicates: Option<u64>,
+    /// Seed of the draws [default: the study's]
+    #[arg(long, value_parser = clap::value_parser!(u64).range(..=i64::MAX as u64))]
+    seed: Option<u64>,
+    /// How limits are read: percentile or bca (bias-corrected and accelerated)
+    #[arg(long, value_parser = ["percentile", "bca"])]
+    interval: Option<String>,
+    /// Also bands that hold whole spectra
+    #[arg(long)]
+    simultaneous: bool,
+    /// Draw the records as another result did, from its stored plan
+    #[arg(long, value_name = "RESULT.h5", conflicts_with_all = ["sizes", "replicates", "seed"])]
+    plan: Option<PathBuf>,
+    /// Table to compare with
+    #[arg(
+        long,
+        value_name = "FILE.csv",
+        help = "Table to compare with: CSV with the columns of Table 4.1 (site, sample_size, pgv_e_median_pct, \
+                pgv_r_90ci_pct, …)"
+    )]
+    reference: Option<PathBuf>,
+    /// Print the rows as JSON
+    #[arg(long, help = "Print the rows as JSON: site, im, poe, sample_size, e_median and r_90ci in per cent")]
+    json: bool,
+}
+
+pub(crate) fn bootstrap(arguments: &BootstrapArguments, terminal: &Terminal) -> Result<(), CommandError> {
+    let reference = arguments.reference.as_deref().map(read_reference).transpose()?;
+    let found = arguments.result.find(terminal)?;
+    let interval = arguments.interval.as_deref();
+    let options = BootstrapOptions {
+        study: found.bootstrap,
+        sizes: arguments.sizes.clone(),
+        replicates: arguments.replicates,
+        seed: arguments.seed,
+        interval: interval.map(|word| if word == "bca" { Interval::Bca } else { Interval::Percentile }),
+        simultaneous: arguments.simultaneous,
+        plan: arguments.plan.clone(),
+        reference: reference.unwrap_or_default(),
+    };
+    let report = run(&found.path, &options, terminal)?;
+    if arguments.json { print_json(&report) } else { print_bootstrap(&report, terminal) }
+}

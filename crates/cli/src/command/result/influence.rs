@@ -1,0 +1,31 @@
+//! `uplift influence`: which records carry the spectra, and which intensities.
+
+use clap::Args;
+use uplift::influence::{InfluenceOptions, influence as run};
+
+use crate::command::arguments::ResultArguments;
+use crate::error::CommandError;
+use crate::show::{print_influence, print_json};
+use crate::terminal::Terminal;
+
+#[derive(Debug, Args)]
+pub(crate) struct InfluenceArguments {
+    #[command(flatten)]
+    result: ResultArguments,
+    /// Records shown for each site
+    #[arg(long, value_name = "N", default_value_t = InfluenceOptions::default().top)]
+    top: usize,
+    /// Probability of exceedance shown [default: the smallest]
+    #[arg(long)]
+    poe: Option<f64>,
+    /// Print the rows as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+pub(crate) fn influence(arguments: &InfluenceArguments, terminal: &Terminal) -> Result<(), CommandError> {
+    let found = arguments.result.find(terminal)?;
+    let options = InfluenceOptions { poe: arguments.poe, top: arguments.top };
+    let report = run(&found.path, &options, terminal)?;
+    if arguments.json { print_json(&report) } else { print_influence(&report, terminal) }
+}

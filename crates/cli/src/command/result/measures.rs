@@ -1,0 +1,24 @@
+//! `uplift measures`: which intensity measure to trust.
+
+use clap::Args;
+use uplift::efficiency::efficiency;
+
+use crate::command::arguments::ResultArguments;
+use crate::error::CommandError;
+use crate::show::{print_efficiency, print_json};
+use crate::terminal::Terminal;
+
+#[derive(Debug, Args)]
+pub(crate) struct MeasuresArguments {
+    #[command(flatten)]
+    result: ResultArguments,
+    /// Print the rows as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+pub(crate) fn measures(arguments: &MeasuresArguments, terminal: &Terminal) -> Result<(), CommandError> {
+    let found = arguments.result.find(terminal)?;
+    let report = efficiency(&found.path, terminal)?;
+    if arguments.json { print_json(&report) } else { print_efficiency(&report, terminal) }
+}

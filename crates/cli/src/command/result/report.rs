@@ -1,0 +1,25 @@
+//! `uplift report`: one page to hand over.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use uplift_report::{ReportOptions, report as write_report};
+
+use crate::error::CommandError;
+use crate::show::print_files;
+use crate::terminal::Terminal;
+
+#[derive(Debug, Args)]
+pub(crate) struct ReportArguments {
+    /// Result files of `uplift run`; several stand side by side
+    #[arg(required = true, value_name = "RESULT")]
+    results: Vec<PathBuf>,
+    /// The page [default: the first result with .html]
+    #[arg(short, long, value_name = "FILE.html")]
+    output: Option<PathBuf>,
+}
+
+pub(crate) fn report(arguments: &ReportArguments, terminal: &Terminal) -> Result<(), CommandError> {
+    let options = ReportOptions { results: arguments.results.clone(), output: arguments.output.clone() };
+    print_files(&[write_report(&options, terminal)?.file], terminal)
+}

@@ -1,0 +1,62 @@
+//! `uplift design`: a structure against a uniform risk spectrum, and against its own risk.
+
+use clap::Args;
+use uplift::structure::{DesignOptions, design as run, design_shard};
+use uplift_motion::IntensityMeasure;
+
+use crate::command::arguments::StructureArguments;
+use crate::error::CommandError;
+use crate::show::print_shard;
+use crate::show::{print_design, print_json};
+use crate::terminal::Terminal;
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Structures to start from: configs/structures/*.toml. Method and a worked example: docs/design.md"
+)]
+pub(crate) struct DesignArguments {
+    #[command(flatten)]
+    structure: StructureArguments,
+    /// Site of the result [default: its only one]
+    #[arg(long)]
+    site: Option<String>,
+    /// Probability of exceedance, one of the result [default: the smallest]
+    #[arg(long)]
+    poe: Option<f64>,
+    /// Intensity measure of the spectrum: pgv or pga [default: pgv if the result has it]
+    #[arg(long)]
+    measure: Option<IntensityMeasure>,
+    /// Safety factor on the demand (Eq. 3.15)
+    #[arg(
+        long,
+        value_name = "FS",
+        default_value_t = DesignOptions::default().safety_factor,
+        allow_negative_numbers = true
+    )]
+    safety_factor: f64,
+    /// Read the spectrum and apply the rules, without analysing the structure itself
+    #[arg(long)]
+    spectrum_only: bool,
+    /// Print everything as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+pub(crate) fn design(arguments: &DesignArguments, terminal: &Terminal) -> Result<(), CommandError> {
+    let StructureArguments { urs, manifest, shard, shards, .. } = &arguments.structure;
+    let options = DesignOptions {
+        manifest: manifest.clone(),
+        site: arguments.site.clone(),
+        poe: arguments.poe,
+        measure: arguments.measure,
+        safety_factor: arguments.safety_factor,
+        spectrum_only: arguments.spectrum_only,
+        shards: shards.clone(),
+    };
+    let structure = arguments.structure.load()?;
+    if let Some(shard) = shard {
+        return print_shard(&design_shard(&structure, urs, &options, *shard, terminal)?);
+    }
+    let report = run(&structure, urs, &options, terminal)?;
+    if arguments.json { print_json(&report) } else { print_design(&report) }
+}

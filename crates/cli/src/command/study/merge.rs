@@ -1,0 +1,32 @@
+//! `uplift merge`: the shards of a run joined into its result.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::command::arguments::{StudyArguments, run_options};
+use crate::error::CommandError;
+use crate::show::{print_json, print_run};
+use crate::terminal::Terminal;
+
+#[derive(Debug, Args)]
+pub(crate) struct MergeArguments {
+    #[command(flatten)]
+    study: StudyArguments,
+    /// Every shard of the run, as `uplift run STUDY --shard I/N` wrote them
+    #[arg(required = true, value_name = "SHARD")]
+    shards: Vec<PathBuf>,
+    /// Result file, instead of the study's output.file
+    #[arg(short, long, value_name = "FILE.h5")]
+    output: Option<PathBuf>,
+    /// Print the summary as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+pub(crate) fn merge(arguments: &MergeArguments, terminal: &Terminal) -> Result<(), CommandError> {
+    let study = arguments.study.load_any()?;
+    let options = run_options(&arguments.study, arguments.output.clone());
+    let report = uplift::merge(&study, &arguments.shards, &options, terminal)?;
+    if arguments.json { print_json(&report) } else { print_run(&report, terminal) }
+}

@@ -1,0 +1,52 @@
+//! `uplift run`: the main job, end to end.
+
+#[cfg(feature = "mpi")]
+mod mpi;
+
+use std::path::PathBuf;
+
+use clap::Args;
+use uplift::analysis::shard_path;
+use uplift::run_shard;
+use uplift_ida::Shard;
+
+use crate::command::arguments::{StudyArguments, run_options, shard};
+use crate::error::CommandError;
+use crate::show::{print_json, print_run, print_shard};
+use crate::terminal::Terminal;
+
+#[derive(Debug, Args)]
+pub(crate) struct RunArguments {
+    #[command(flatten)]
+    study: StudyArguments,
+    /// Result file, instead of the study's output.file
+    #[arg(short, long, value_name = "FILE.h5")]
+    output: Option<PathBuf>,
+    /// Compute only shard I of N of the analyses, into a file of its own; `uplift merge` joins the shards
+    #[arg(
+        long,
+        value_name = "I/N",
+        value_parser = shard,
+        help = "Compute only shard I of N of the analyses, into a file of its own (-o names it); uplift merge joins \
+                the shards"
+    )]
+    shard: Option<Shard>,
+    /// Print the summary as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+pub(crate) fn run(arguments: &RunArguments, terminal: &Terminal) -> Result<(), CommandError> {
+    #[cfg(feature = "mpi")]
+    if let Some(outcome) = mpi::run(arguments, terminal) {
+        return outcome;
+    }
+    let study = arguments.study.load_any()?;
+    if let Some(shard) = arguments.shard {
+        let path = arguments.output.clone().unwrap_or_else(|| shard_path(&study.output().file, shard));
+        return print_shard(&run_shard(&study, &path, shard, None, terminal)?);
+    }
+    let options = run_options(&arguments.study, arguments.output.clone());
+    let report = uplift::run(&study, &options, terminal)?;
+    if arguments.json { print_json(&report) } else { print_run(&report, terminal) }
+}

@@ -1,0 +1,41 @@
+//! What an import of records found.
+
+use std::io::Write;
+
+use uplift::import::ImportReport;
+
+use crate::error::CommandError;
+use crate::terminal::{Terminal, tell};
+
+/// Remarks of one kind that are shown.
+const SHOWN: usize = 5;
+
+/// Remarks on standard error, those of a kind together, the first of each.
+pub(crate) fn tell_remarks(report: &ImportReport, terminal: &Terminal) {
+    let Some(file) = report.remarks_file.as_ref().filter(|_| !terminal.is_quiet()) else { return };
+    for remarks in &report.remarks {
+        let texts = &remarks.texts;
+        let more = texts.len().saturating_sub(SHOWN);
+        let shown: String = texts[..texts.len() - more].iter().map(|text| format!("\n  - {text}")).collect();
+        tell(&format!("{} ({}):{shown}", remarks.kind, texts.len()));
+        if more > 0 {
+            tell(&format!("  - and {more} more: {}", file.display()));
+        }
+    }
+}
+
+/// What was imported.
+pub(crate) fn print_import(report: &ImportReport, terminal: &Terminal) -> Result<(), CommandError> {
+    if !report.blank_columns.is_empty() {
+        terminal.say(&format!(
+            "no file says {}: fill in the columns of the manifest, or put PEER's _SearchResults.csv into the folder \
+             and import again",
+            report.blank_columns.join(", ")
+        ));
+    }
+    if let Some(manifest) = &report.manifest {
+        let ImportReport { pairs, files, seconds, .. } = report;
+        writeln!(std::io::stdout(), "{pairs} pairs from {files} files in {seconds:.1} s: {}", manifest.display())?;
+    }
+    Ok(())
+}

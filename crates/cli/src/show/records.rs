@@ -1,0 +1,103 @@
+//! Records of a set: listed, looked at, chosen.
+
+use std::io::Write;
+
+use uplift::records::{ComponentReport, ListReport, ListedRecord, RecordReport, SelectReport, ShowReport};
+use uplift::text::table;
+
+use crate::error::CommandError;
+use crate::terminal::Terminal;
+
+/// The records of a set.
+pub(crate) fn print_records(report: &ListReport) -> Result<(), CommandError> {
+    let said = |text: &Option<String>| text.clone().unwrap_or_else(|| "-".to_owned());
+    let row = |record: &ListedRecord| {
+        vec![
+            record.record.clone(),
+            said(&record.event),
+            said(&record.magnitude),
+            said(&record.distance_km),
+            said(&record.vs30),
+            format!("{:.3}", record.pga_g),
+            format!("{:.2}", record.pgv_cm_s),
+            format!("{:.1}", record.d5_75_s),
+            said(&record.pulse_like),
+        ]
+    };
+    let rows: Vec<Vec<String>> = report.records.iter().map(row).collect();
+    let header = ["record", "event", "M", "R [km]", "Vs30 [m/s]", "PGA [g]", "PGV [cm/s]", "D5-75 [s]", "pulse"];
+    let mut out = std::io::stdout().lock();
+    writeln!(out, "{}", table(&header, &rows))?;
+    writeln!(out, "\n{} of {} records; PGA and PGV: {}", rows.len(), report.count, report.intensity.long_name())?;
+    Ok(())
+}
+
+/// The lines of a study that choose the records, and where they are listed.
+pub(crate) fn print_selection(report: &SelectReport, terminal: &Terminal) -> Result<(), CommandError> {
+    let mut out = std::io::stdout().lock();
+    let chosen = report.records.len();
+    write!(out, "# {chosen} of {} records; for a study:\n{}", report.count, report.study_lines)?;
+    if let Some(manifest) = &report.manifest {
+        terminal.say(&format!("{chosen} records: {}", manifest.display()));
+    }
+    Ok(())
+}
+
+/// One record, or what a file holds.
+pub(crate) fn print_record(report: &ShowReport) -> Result<(), CommandError> {
+    let mut out = std::io::stdout().lock();
+    match report {
+        ShowReport::File(file) => {
+            let count = file.components.len();
+            writeln!(out, "{}: {} format, {count} component(s)", file.file.display(), file.format)?;
+            for (index, component) in file.components.iter().enumerate() {
+                writeln!(out, "\ncomponent {}", index + 1)?;
+                print_component(&mut out, component)?;
+            }
+            Ok(())
+        }
+        ShowReport::Record(record) => print_pair(&mut out, record),
+    }
+}
+
+fn print_pair(out: &mut impl Write, record: &RecordReport) -> Result<(), CommandError> {
+    writeln!(out, "record {}", record.record)?;
+    for (key, value) in &record.metadata {
+        writeln!(out, "  {key:<24}{value}")?;
+    }
+    for (name, (component, file)) in ["h1", "h2"].into_iter().zip(record.components.iter().zip(&record.files)) {
+        writeln!(out, "\n{name}: {}", file.display())?;
+        print_component(out, component)?;
+    }
+    writeln!(out, "\nboth")?;
+    for peaks in &record.peaks {
+        writeln!(out, "  {:<24}PGA {:.4} g, PGV {:.3} cm/s", peaks.combination, peaks.pga_g, peaks.pgv_cm_s)?;
+    }
+    if let Some(pulse) = &record.pulse {
+        let word = if pulse.is_pulse_like { format!("yes, {:.2} s", pulse.period_s) } else { "no".to_owned() };
+        writeln!(out, "  {:<24}{word} (indicator {:.2})", "velocity pulse", pulse.indicator)?;
+    } else if record.pulse_like == Some(false) {
+        writeln!(out, "  {:<24}no (too weak for one)", "velocity pulse")?;
+    }
+    for warning in &record.warnings {
+        writeln!(out, "warning: {warning}")?;
+    }
+    Ok(())
+}
+
+fn print_component(out: &mut impl Write, component: &ComponentReport) -> Result<(), CommandError> {
+    let lines = [
+        ("samples", format!("{} at {} s, {:.3} s", component.samples, component.dt_s, component.duration_s)),
+        ("PGA", format!("{:.5} g", component.pga_g)),
+        ("PGV", format!("{:.4} cm/s", component.pgv_cm_s)),
+        ("PGD", format!("{:.4} cm", component.pgd_cm)),
+        ("Arias intensity", format!("{:.4} m/s", component.arias_m_s)),
+        ("CAV", format!("{:.4} m/s", component.cav_m_s)),
+        ("D5-75, D5-95", format!("{:.2} s, {:.2} s", component.d5_75_s, component.d5_95_s)),
+        ("velocity at the end", format!("{:.4} cm/s", component.residual_velocity_cm_s)),
+    ];
+    for (key, value) in component.said.iter().chain(&lines) {
+        writeln!(out, "  {key:<24}{value}")?;
+    }
+    Ok(())
+}

@@ -1,0 +1,63 @@
+//! What is there of a run.
+
+use std::io::Write;
+
+use uplift::status::{ResultContent, ResultStatus, StatusReport, UnfinishedStatus};
+
+use crate::error::CommandError;
+
+/// The result, what is kept of an unfinished run, and who writes it now.
+pub(crate) fn print_status(report: &StatusReport) -> Result<(), CommandError> {
+    let mut out = std::io::stdout().lock();
+    if let Some(result) = &report.result {
+        print_result(&mut out, result)?;
+    }
+    for unfinished in &report.unfinished {
+        print_unfinished(&mut out, unfinished)?;
+    }
+    if let Some(holder) = &report.written_by {
+        writeln!(out, "being written now, by {holder}")?;
+    }
+    Ok(())
+}
+
+fn print_result(out: &mut impl Write, result: &ResultStatus) -> Result<(), CommandError> {
+    let ResultStatus { created, version, commit, study, title, record_set, .. } = result;
+    let file = result.file.display();
+    writeln!(out, "{file}: finished {created}, uplift {version} ({commit})")?;
+    writeln!(out, "  study    {study} {title}")?;
+    writeln!(out, "  records  {record_set}")?;
+    match &result.content {
+        ResultContent::Displacement { structure, analyses, sets, has_design } => {
+            writeln!(out, "  spectra  displacement spectra of {structure}s, {analyses} analyses")?;
+            for (set, records) in sets {
+                writeln!(out, "  set      {set}: {records} records, {} motions", 2 * records)?;
+            }
+            if *has_design {
+                writeln!(out, "  design   uplift table {file}")?;
+            }
+        }
+        ResultContent::UniformRisk { analyses, sites, added } => {
+            for (measure, analyses) in analyses {
+                writeln!(out, "  {measure:<8} {analyses} analyses")?;
+            }
+            for (what, names) in [("sites", sites), ("added", added)] {
+                if !names.is_empty() {
+                    writeln!(out, "  {what:<8} {}", names.join(", "))?;
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+fn print_unfinished(out: &mut impl Write, unfinished: &UnfinishedStatus) -> Result<(), CommandError> {
+    let UnfinishedStatus { file, title, shard, shards, done, rows, damaged_bytes } = unfinished;
+    let what = if *shards > 1 { format!("shard {shard} of {shards}") } else { "kept of an unfinished run".to_owned() };
+    let share = 100.0 * *done as f64 / (*rows).max(1) as f64;
+    writeln!(out, "{}: {what}, {done} of {rows} pieces ({share:.0} %) {title}", file.display())?;
+    if *damaged_bytes > 0 {
+        writeln!(out, "  pieces that were cut off or damaged ({damaged_bytes} bytes) will be computed again")?;
+    }
+    Ok(())
+}

@@ -1,0 +1,73 @@
+//! The tables of a result, ours beside a reference.
+
+mod design;
+
+use std::io::Write;
+
+use uplift::table::{COMPARED_ABOVE, COMPARED_FROM_M, CoefficientRow, CoefficientTable, TableReport};
+use uplift::text::{per_cent, table};
+
+use crate::error::CommandError;
+
+/// The table of a result, of either kind.
+pub(crate) fn print_table(report: &TableReport) -> Result<(), CommandError> {
+    let mut out = std::io::stdout().lock();
+    match report {
+        TableReport::Coefficients(coefficients) => print_coefficients(&mut out, coefficients),
+        TableReport::Design(designs) => design::print_design(&mut out, designs),
+    }
+}
+
+fn print_coefficients(out: &mut impl Write, report: &CoefficientTable) -> Result<(), CommandError> {
+    writeln!(out, "u = c0 exp(c1 strength) + c2, metres; records: {}", report.record_set)?;
+    let mut header = vec!["site", "im", "poe", "c0", "c1", "c2  ", "rmse"];
+    if report.compared {
+        header.extend(["| c0", "c1", "c2", "rmse", "| ratio"]);
+    }
+    let cells = |row: &CoefficientRow| {
+        let mut cells = vec![row.site.clone(), row.im.clone(), per_cent(row.poe)];
+        cells.extend(ours(row));
+        if report.compared {
+            cells.extend(theirs(row));
+        }
+        cells
+    };
+    let rows: Vec<Vec<String>> = report.rows.iter().map(cells).collect();
+    writeln!(out, "{}", table(&header, &rows))?;
+    writeln!(out, "* c2 held at 0; probabilities in {} years; rmse with n - 3 degrees of freedom", report.years)?;
+    if report.compared {
+        writeln!(
+            out,
+            "right of the bars: the reference, and the median ratio of our spectrum to its curve over strengths in \
+             ({COMPARED_ABOVE}, 1] where that exceeds {} mm",
+            1000.0 * COMPARED_FROM_M
+        )?;
+    }
+    Ok(())
+}
+
+fn ours(row: &CoefficientRow) -> Vec<String> {
+    if row.c0_m.is_nan() {
+        return vec!["no fit".to_owned(), String::new(), String::new(), String::new()];
+    }
+    let bound = if row.bound_active { " *" } else { "  " };
+    vec![
+        format!("{:.4}", row.c0_m),
+        format!("{:.4}", row.c1),
+        format!("{:.4}{bound}", row.c2_m),
+        format!("{:.4}", row.rmse_m),
+    ]
+}
+
+fn theirs(row: &CoefficientRow) -> Vec<String> {
+    let Some(reference) = &row.reference else {
+        return ["| -", "-", "-", "-", "| -"].map(str::to_owned).to_vec();
+    };
+    vec![
+        format!("| {:.4}", reference.c0_m),
+        format!("{:.4}", reference.c1),
+        format!("{:.4}", reference.c2_m),
+        reference.rmse_m.map_or_else(|| "-".to_owned(), |rmse| format!("{rmse:.4}")),
+        row.median_ratio.map_or_else(|| "| -".to_owned(), |ratio| format!("| {ratio:.2}")),
+    ]
+}

@@ -1,0 +1,4 @@
+//! The fit against tables, brute force and invariants.
+
+mod fit;
+mod properties;

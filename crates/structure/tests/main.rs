@@ -1,0 +1,8 @@
+//! Structures, their equivalent oscillators and the rules of design.
+
+mod description;
+mod equivalent;
+mod rigid_body;
+mod rotating_block;
+mod rules;
+mod table_3_1;

@@ -1,0 +1,101 @@
+//! Whether the exports are of one site, whole, and of use to a study.
+
+use std::collections::BTreeMap;
+
+use uplift_hazard::{ExportedCurve, HazardCurve, RealizationWeight, SiteSelection, Statistic};
+use uplift_motion::IntensityMeasure;
+use uplift_study::levels_within;
+
+use super::{Chosen, HazardImportOptions, weight_of};
+use crate::error::UpliftError;
+
+/// How far apart two exports may have the same site, km.
+const ONE_PLACE_KM: f64 = 1.0;
+
+/// Refuses weights of only some realizations of a measure.
+pub(super) fn check_weights(
+    curves: &[ExportedCurve],
+    weights: &BTreeMap<u32, RealizationWeight>,
+) -> Result<(), UpliftError> {
+    let mut sums: BTreeMap<&str, (f64, usize)> = BTreeMap::new();
+    for curve in curves {
+        if let Some(weight) = weight_of(&curve.kind, weights) {
+            let sum = sums.entry(curve.curve.measure()).or_default();
+            *sum = (sum.0 + weight, sum.1 + 1);
+        }
+    }
+    match sums.iter().find(|(_, (sum, _))| (sum - 1.0).abs() > 1e-4) {
+        Some((measure, (sum, count))) => Err(UpliftError::input(format!(
+            "{measure}: {count} of {} realizations are given, and their weights add up to {sum:.4}: give the exports \
+             of \
+             all realizations",
+            weights.len()
+        ))),
+        None => Ok(()),
+    }
+}
+
+/// What the user should know before a study takes the curves.
+pub(super) fn remarks(written: &[Chosen]) -> Vec<String> {
+    let mut remarks = Vec::new();
+    for measure in IntensityMeasure::ALL {
+        let of: Vec<&HazardCurve> = (written.iter().map(|written| &written.exported.curve))
+            .filter(|curve| curve.measure().eq_ignore_ascii_case(measure.key()))
+            .collect();
+        let least = of.iter().map(|curve| curve.first().im).fold(0.0, f64::max);
+        let most = of.iter().map(|curve| curve.last().im).fold(f64::INFINITY, f64::min);
+        if let (false, Some((key, levels))) = (of.is_empty(), levels_within(measure, least, most)) {
+            let unit = measure.unit();
+            remarks.push(format!(
+                "the {measure} curves span {least:.4} to {most:.4} {unit}, and the default stripes do not: in the \
+                 study, \
+                 {key} = {levels} (or risk.extrapolate = \"loglog\")"
+            ));
+        }
+    }
+    let weighted = |written: &Chosen| written.weight.is_some();
+    let single = |written: &Chosen| matches!(written.exported.kind, Statistic::Mean | Statistic::Unspecified);
+    if !written.iter().any(|written| weighted(written) || single(written)) {
+        remarks.push(
+            "no mean among the exports: for a study give the mean too, or all realizations with --weights".to_owned(),
+        );
+    }
+    remarks
+}
+
+/// The name of the site that all curves belong to.
+pub(super) fn one_site(curves: &[ExportedCurve], options: &HazardImportOptions) -> Result<String, UpliftError> {
+    let Some(first) = curves.first() else {
+        return Err(UpliftError::input("the export holds no hazard curve"));
+    };
+    let key = |curve: &ExportedCurve| {
+        (curve.site.name.clone(), curve.site.longitude_deg.to_bits(), curve.site.latitude_deg.to_bits())
+    };
+    let mut sites: Vec<_> = curves.iter().map(key).collect();
+    sites.sort();
+    sites.dedup();
+    // several engines write the same place with other digits
+    let chosen = options.site != SiteSelection::All;
+    if let (true, Some(other)) = (
+        chosen,
+        curves
+            .iter()
+            .find(|other| other.site.distance_km(first.site.longitude_deg, first.site.latitude_deg) > ONE_PLACE_KM),
+    ) {
+        return Err(UpliftError::input(format!(
+            "the exports give two places for one site, {} and {}, {:.1} km apart: import them one by one, or give \
+             exports of the same sites",
+            first.site,
+            other.site,
+            other.site.distance_km(first.site.longitude_deg, first.site.latitude_deg)
+        )));
+    }
+    if sites.len() > 1 && !chosen {
+        return Err(UpliftError::Usage(format!(
+            "the exports hold {} sites: pick one by --near LON,LAT{}",
+            sites.len(),
+            if sites.iter().any(|(name, ..)| name.is_some()) { " or --name NAME" } else { "" }
+        )));
+    }
+    Ok(first.site.name.clone().unwrap_or_else(|| format!("{} {}", first.site.longitude_deg, first.site.latitude_deg)))
+}

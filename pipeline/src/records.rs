@@ -1,0 +1,22 @@
+//! Record sets looked at, chosen from and made.
+//!
+//! | job | what it does |
+//! |---|---|
+//! | [`list`](list()) | the records of a manifest |
+//! | [`show`](show()) | one record of a manifest, or what a record file holds |
+//! | [`select`](select()) | which records a study takes, and a manifest of them |
+//! | [`synthesize`](synthesize()) | synthetic records of a scenario |
+//!
+//! What brings the files of a download into a manifest is [`import`](mod@crate::import).
+
+mod list;
+mod select;
+mod set;
+mod show;
+mod synthesize;
+
+pub use list::{ListReport, ListedRecord, list};
+pub use select::{SelectOptions, SelectReport, select};
+pub use set::SetOptions;
+pub use show::{ComponentReport, FileReport, PairPeaks, RecordReport, ShowOptions, ShowReport, VelocityPulse, show};
+pub use synthesize::{SynthesizeOptions, SynthesizeReport, synthesize};

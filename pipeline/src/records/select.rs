@@ -1,0 +1,82 @@
+//! Which records a study takes, and a manifest of them.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+use uplift_motion::Combination;
+use uplift_study::RecordSelection;
+
+use super::SetOptions;
+use crate::error::UpliftError;
+use crate::events::Events;
+use crate::inputs::manifest;
+use crate::outputs::{refuse_foreign, refuse_overwriting};
+use crate::result::write_table;
+
+/// Which records are chosen, and where they are listed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SelectOptions {
+    /// The set, and the ranges that the chosen records lie in: at least one.
+    pub set: SetOptions,
+    /// A manifest of the chosen records; none for no file.
+    pub output: Option<PathBuf>,
+}
+
+/// The records that were chosen.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SelectReport {
+    /// Their names, in the order of the manifest.
+    pub records: Vec<String>,
+    /// How many the set has in all.
+    pub count: usize,
+    /// The section of a study that chooses the same records, TOML.
+    pub study_lines: String,
+    /// The manifest that was written.
+    pub manifest: Option<PathBuf>,
+}
+
+/// Chooses records of a set.
+///
+/// # Errors
+/// No range; a set that cannot be read; no record within the ranges; a manifest that would overwrite what is not this
+/// program's, or cannot be written.
+pub fn select(options: &SelectOptions, events: &dyn Events) -> Result<SelectReport, UpliftError> {
+    let set = &options.set;
+    let selection = &set.selection;
+    if selection.is_empty() {
+        return Err(UpliftError::Usage("say which records, e.g. --magnitude 6.5:7.5 --pulse-like false".to_owned()));
+    }
+    if let Some(output) = &options.output {
+        refuse_overwriting(output, &[&set.manifest])?;
+        refuse_foreign(output)?;
+    }
+    let (pairs, count) = set.read(events)?;
+    let records: Vec<String> = pairs.into_iter().map(|(pair, _)| pair.id).collect();
+    if let Some(output) = &options.output {
+        let ids: BTreeSet<&str> = records.iter().map(String::as_str).collect();
+        let folder = output.parent().unwrap_or(Path::new(""));
+        let columns = manifest::rows_of(&set.manifest, &ids, folder).map_err(UpliftError::Inputs)?;
+        let (version, commit) = (crate::VERSION, crate::COMMIT);
+        let line = format!("uplift {version} ({commit}), {} of {count} records: {selection}", records.len());
+        write_table(output, &line, columns)?;
+    }
+    Ok(SelectReport { study_lines: study_lines(set), records, count, manifest: options.output.clone() })
+}
+
+/// The section of a study.
+fn study_lines(set: &SetOptions) -> String {
+    let SetOptions { manifest, tag, intensity, selection }: &SetOptions = set;
+    let mut lines =
+        vec!["[records]".to_owned(), format!("manifest = {}", toml::Value::from(manifest.display().to_string()))];
+    lines.extend(tag.as_ref().map(|tag| format!("tag = {}", toml::Value::from(tag.as_str()))));
+    lines.extend(chosen(*intensity, selection));
+    lines.join("\n") + "\n"
+}
+
+fn chosen(intensity: Combination, selection: &RecordSelection) -> Vec<String> {
+    let mut lines = vec![format!("intensity = \"{intensity}\""), String::new(), "[records.select]".to_owned()];
+    lines.extend(selection.ranges.iter().map(|(criterion, range)| format!("{} = \"{range}\"", criterion.key)));
+    lines.extend(selection.pulse_like.map(|pulse_like| format!("pulse_like = {pulse_like}")));
+    lines
+}

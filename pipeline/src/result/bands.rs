@@ -1,0 +1,101 @@
+//! The confidence bands of a result, and the draws that they were made of.
+
+use uplift_bootstrap::ResamplingPlan;
+use uplift_motion::IntensityMeasure;
+
+use super::file::ResultFile;
+use super::layout::{MULTIPLICITY, axis, band, bootstrap, limit_names};
+use crate::array::Array;
+use crate::error::UpliftError;
+
+/// The confidence bands of a result.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StoredBands {
+    /// Records in a sample.
+    pub sizes: Vec<u32>,
+    /// Share of the replicates between the limits.
+    pub confidence: f64,
+    /// The bands of each measure, PGV first.
+    pub measures: Vec<MeasureBands>,
+}
+
+/// The bands of one measure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeasureBands {
+    /// The measure.
+    pub measure: IntensityMeasure,
+    /// Lower limits, medians and upper limits, each `[site, poe, size, strength]`, m.
+    pub limits_m: [Array<4>; 3],
+    /// Errors of the median `[site, poe, size]`, % (Eq. 4.9); NaN where an ordinate is censored or 0.
+    pub error_of_median: Array<3>,
+    /// Widths of the interval `[site, poe, size]`, % (Eq. 4.10); NaN where an ordinate is censored or 0.
+    pub range_of_interval: Array<3>,
+}
+
+impl StoredBands {
+    /// The bands of `measure`.
+    pub fn of(&self, measure: IntensityMeasure) -> Option<&MeasureBands> {
+        self.measures.iter().find(|bands| bands.measure == measure)
+    }
+
+    /// The levels of both limits in words: `5 %`, `95 %`.
+    pub fn level_names(&self) -> [String; 2] {
+        let [lower, _, upper] = limit_names(self.confidence);
+        [lower, upper].map(|name| {
+            let digits = name.trim_start_matches('u').trim_end_matches("_m").replace('_', ".");
+            format!("{} %", digits.trim_start_matches('0'))
+        })
+    }
+}
+
+impl ResultFile {
+    /// The confidence bands of a result of uniform risk; none before `uplift bootstrap`.
+    ///
+    /// # Errors
+    /// A file that is damaged, or of another kind.
+    pub fn bands(&self) -> Result<Option<StoredBands>, UpliftError> {
+        let axes = self.axes()?;
+        if !self.reader.exists(bootstrap::ROOT) {
+            return Ok(None);
+        }
+        let sizes = self.reader.axis_u32(axis::SAMPLE_SIZE)?;
+        let confidence = self.reader.attribute_f64(bootstrap::ROOT, "confidence")?;
+        let names = limit_names(confidence);
+        let spectra = [(axis::SITE, axes.sites.len()), (axis::POE, axes.poes.len()), (axis::SAMPLE_SIZE, sizes.len())];
+        let [site, poe, size] = spectra;
+        let strength = (axis::STRENGTH, axes.strengths.len());
+        let mut measures = Vec::new();
+        for measure in self.measures() {
+            if !self.reader.exists(&bootstrap::group(measure)) {
+                continue;
+            }
+            let limit = |name: &String| self.array(&band(measure, name), [site, poe, size, strength]);
+            let [lower, median, upper] = &names;
+            measures.push(MeasureBands {
+                measure,
+                limits_m: [limit(lower)?, limit(median)?, limit(upper)?],
+                error_of_median: self.array(&bootstrap::e_median(measure), spectra)?,
+                range_of_interval: self.array(&bootstrap::r_90ci(measure), spectra)?,
+            });
+        }
+        Ok(Some(StoredBands { sizes, confidence, measures }))
+    }
+
+    /// The draws of the bands; none before `uplift bootstrap`.
+    ///
+    /// # Errors
+    /// A file that is damaged, or of another kind.
+    pub fn resampling_plan(&self) -> Result<Option<ResamplingPlan>, UpliftError> {
+        let records = self.axes()?.records.len();
+        if !self.reader.exists(MULTIPLICITY) {
+            return Ok(None);
+        }
+        let sizes = self.reader.axis_u32(axis::SAMPLE_SIZE)?;
+        let replicates = self.reader.axis_u32(axis::REPLICATE)?.len();
+        let lengths = [(axis::SAMPLE_SIZE, sizes.len()), (axis::REPLICATE, replicates), (axis::RECORD, records)];
+        let counts = self.checked(MULTIPLICITY, self.reader.array_u32(MULTIPLICITY)?, &lengths)?;
+        ResamplingPlan::from_multiplicities(records, &sizes, replicates, &counts)
+            .map(Some)
+            .map_err(|error| self.fail(error))
+    }
+}

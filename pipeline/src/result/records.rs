@@ -1,0 +1,68 @@
+//! What a result knows of its records.
+
+use uplift_motion::IntensityMeasure;
+use uplift_study::Kind;
+
+use super::file::ResultFile;
+use super::layout::{axis, ida, records};
+use crate::error::UpliftError;
+
+/// What a result knows of its records; arrays run over `[record]`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StoredRecords {
+    /// Their names.
+    pub ids: Vec<String>,
+    /// SHA-256 of time step and samples in m/s².
+    pub motion_sha256: Vec<String>,
+    /// PGA of the unscaled pair, g.
+    pub pga_g: Vec<f64>,
+    /// PGV of the unscaled pair, cm/s.
+    pub pgv_cm_s: Vec<f64>,
+    /// Moment magnitude; NaN where it is not known.
+    pub magnitude: Vec<f64>,
+    /// Closest distance to the rupture, km; NaN where it is not known.
+    pub rrup_km: Vec<f64>,
+    /// Mean shear-wave velocity of the upper 30 m, m/s; NaN where it is not known.
+    pub vs30: Vec<f64>,
+    /// Significant duration D5-95 of the component, s.
+    pub duration_5_95_s: Vec<f64>,
+}
+
+impl StoredRecords {
+    /// Intensities of the unscaled pairs by `measure`, in its unit.
+    pub fn intensities(&self, measure: IntensityMeasure) -> &[f64] {
+        if measure == IntensityMeasure::Pga { &self.pga_g } else { &self.pgv_cm_s }
+    }
+}
+
+impl ResultFile {
+    /// What the stripes of `measure` were made with ([`oscillator_key`](crate::checkpoint::oscillator_key)).
+    pub(crate) fn oscillator_key(&self, measure: IntensityMeasure) -> Result<String, UpliftError> {
+        Ok(self.reader.attribute_text(&ida::group(measure), "oscillator_key")?)
+    }
+
+    /// What a result of uniform risk knows of its records.
+    ///
+    /// # Errors
+    /// A file that is damaged, or of another kind.
+    pub fn records(&self) -> Result<StoredRecords, UpliftError> {
+        self.require(Kind::UniformRisk)?;
+        let ids = self.reader.axis_text(axis::RECORD)?;
+        let axes = [(axis::RECORD, ids.len())];
+        let number = |path: &str| self.array(path, axes).map(crate::array::Array::into_values);
+        Ok(StoredRecords {
+            motion_sha256: self.checked(
+                records::MOTION_SHA256,
+                self.reader.array_text(records::MOTION_SHA256)?,
+                &axes,
+            )?,
+            pga_g: number(records::PGA_G)?,
+            pgv_cm_s: number(records::PGV_CM_S)?,
+            magnitude: number(records::MAGNITUDE)?,
+            rrup_km: number(records::RRUP_KM)?,
+            vs30: number(records::VS30)?,
+            duration_5_95_s: number(records::DURATION_5_95_S)?,
+            ids,
+        })
+    }
+}

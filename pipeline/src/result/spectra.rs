@@ -1,0 +1,119 @@
+//! The uniform risk spectra of a result, and what was fitted to them.
+
+use uplift_motion::IntensityMeasure;
+use uplift_regression::Exponential;
+
+use super::file::ResultFile;
+use super::layout::{axis, regression, urs};
+use crate::array::Array;
+use crate::error::UpliftError;
+
+/// The spectra of a result, read as its study says (`risk.contour`), with their coefficients.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StoredSpectra {
+    /// Uplift strengths.
+    pub strengths: Vec<f64>,
+    /// Probabilities of exceedance.
+    pub poes: Vec<f64>,
+    /// Years that they refer to.
+    pub years: f64,
+    /// Names of the sites; none in a study that ends with the stripes.
+    pub sites: Vec<String>,
+    /// The measures, PGV first; none in a study that ends with the stripes.
+    pub measures: Vec<MeasureSpectra>,
+}
+
+/// The spectra of one measure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeasureSpectra {
+    /// The measure.
+    pub measure: IntensityMeasure,
+    /// Displacements `[site, poe, strength]`, m; infinite where censored.
+    pub u_m: Array<3>,
+    /// Their coefficients `[site, poe]`.
+    pub fits: Array<2, Fit>,
+}
+
+/// Coefficients of Eq. 4.11; NaN where there is no fit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fit {
+    /// c0, m.
+    pub c0_m: f64,
+    /// c1.
+    pub c1: f64,
+    /// c2, m.
+    pub c2_m: f64,
+    /// Root mean square error with n − 3 degrees of freedom, m.
+    pub rmse_m: f64,
+    /// True where c2 is held at 0.
+    pub bound_active: bool,
+}
+
+impl Fit {
+    /// The curve; none where there is no fit.
+    pub fn curve(&self) -> Option<Exponential> {
+        self.c0_m.is_finite().then_some(Exponential { c0: self.c0_m, c1: self.c1, c2: self.c2_m })
+    }
+}
+
+/// One spectrum, named by what it is of.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Spectrum<'a> {
+    /// Site.
+    pub site: &'a str,
+    /// Measure.
+    pub measure: IntensityMeasure,
+    /// Probability of exceedance in the years of the study.
+    pub poe: f64,
+    /// Displacements over the strengths of the result, m; infinite where censored.
+    pub u_m: &'a [f64],
+    /// Its coefficients.
+    pub fit: Fit,
+}
+
+impl StoredSpectra {
+    /// Every spectrum, by measure, then site, then probability.
+    pub fn rows(&self) -> impl Iterator<Item = Spectrum<'_>> {
+        self.measures.iter().flat_map(|measure| {
+            measure.u_m.blocks().map(|([site, poe], u_m)| Spectrum {
+                site: &self.sites[site],
+                measure: measure.measure,
+                poe: self.poes[poe],
+                u_m,
+                fit: measure.fits[[site, poe]],
+            })
+        })
+    }
+}
+
+impl ResultFile {
+    /// The spectra and coefficients of a result of uniform risk.
+    ///
+    /// # Errors
+    /// A file that is damaged, or of another kind.
+    pub fn spectra(&self) -> Result<StoredSpectra, UpliftError> {
+        let axes = self.axes()?;
+        let (sites, poes) = ((axis::SITE, axes.sites.len()), (axis::POE, axes.poes.len()));
+        let mut measures = Vec::new();
+        for measure in IntensityMeasure::ALL.into_iter().filter(|&measure| self.reader.exists(&urs::u_m(measure))) {
+            let column = |path: &str| self.array(path, [sites, poes]);
+            let (c0_m, c1) = (column(&regression::c0_m(measure))?, column(&regression::c1(measure))?);
+            let (c2_m, rmse_m) = (column(&regression::c2_m(measure))?, column(&regression::rmse_m(measure))?);
+            let path = regression::bound_active(measure);
+            let bound = self.over(&path, self.reader.array_u8(&path)?, [sites, poes])?;
+            measures.push(MeasureSpectra {
+                measure,
+                u_m: self.array(&urs::u_m(measure), [sites, poes, (axis::STRENGTH, axes.strengths.len())])?,
+                fits: Array::from_fn([sites.1, poes.1], |at| Fit {
+                    c0_m: c0_m[at],
+                    c1: c1[at],
+                    c2_m: c2_m[at],
+                    rmse_m: rmse_m[at],
+                    bound_active: bound[at] == 1,
+                }),
+            });
+        }
+        let super::RiskAxes { strengths, poes, years, sites, .. } = axes;
+        Ok(StoredSpectra { strengths, poes, years, sites, measures })
+    }
+}

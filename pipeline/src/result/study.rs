@@ -1,0 +1,170 @@
+//! The study of a result, to be asked something new: its spectra and hazard as the file holds them, its records read
+//! again.
+
+use std::path::{Path, PathBuf};
+
+use uplift_hazard::rate_from_probability;
+use uplift_motion::IntensityMeasure;
+use uplift_risk::StripeWeights;
+
+use super::file::ResultFile;
+use super::layout::{axis, urs};
+use super::records::StoredRecords;
+use super::stripes::poe_index;
+use crate::array::Array;
+use crate::checkpoint::motion_key;
+use crate::error::UpliftError;
+use crate::inputs::{RecordSet, read_records};
+use uplift_study::{AnyStudy, MeasurePlan, Study, UniformRiskStudy};
+
+/// A result with its study.
+#[derive(Debug, Clone)]
+pub struct StudyOfResult {
+    /// The file.
+    pub path: PathBuf,
+    /// Where the records come from, in a line.
+    pub record_set: String,
+    /// True for motions made by the program.
+    pub synthetic: bool,
+    /// The study.
+    pub study: UniformRiskStudy,
+    /// Names of the sites.
+    pub sites: Vec<String>,
+    /// The measures, in the order of the study.
+    pub measures: Vec<SpectraOfResult>,
+    /// What identifies the records.
+    made_from: StoredRecords,
+}
+
+/// Spectra and hazard of one measure.
+#[derive(Debug, Clone)]
+pub struct SpectraOfResult {
+    /// The measure with its levels.
+    pub plan: MeasurePlan,
+    /// The spectra `[site, poe, strength]`, m; infinite where censored.
+    pub u_m: Array<3>,
+    /// What each stripe weighs, `[site]`.
+    pub weights: Vec<StripeWeights>,
+}
+
+impl SpectraOfResult {
+    /// The measure.
+    pub fn measure(&self) -> IntensityMeasure {
+        self.plan.measure
+    }
+}
+
+impl ResultFile {
+    /// The study of a result of uniform risk, with its spectra; its records are looked for in `manifest` if one is
+    /// given.
+    ///
+    /// # Errors
+    /// A file that is damaged, or of another kind; a study without sites.
+    pub fn study(&self, manifest: Option<&Path>) -> Result<StudyOfResult, UpliftError> {
+        let axes = self.axes_with_sites()?;
+        let mut study = self.stored_study()?;
+        if let Some(manifest) = manifest {
+            let absolute = std::path::absolute(manifest)
+                .map_err(|error| UpliftError::input(format!("{}: {error}", manifest.display())))?;
+            study.records.source = study.records.source.by_manifest(absolute);
+        }
+        let lengths = [
+            (axis::SITE, axes.sites.len()),
+            (axis::POE, study.risk.poe.len()),
+            (axis::STRENGTH, study.strengths.len()),
+        ];
+        let measures = study
+            .measures
+            .iter()
+            .map(|plan| {
+                let weigh = |site: &String| {
+                    let curve = self.curves(site, plan.measure)?.curve;
+                    self.weigh(site, &curve, &plan.levels, study.risk.extrapolate)
+                };
+                Ok(SpectraOfResult {
+                    plan: plan.clone(),
+                    u_m: self.array(&urs::u_m(plan.measure), lengths)?,
+                    weights: axes.sites.iter().map(weigh).collect::<Result<_, _>>()?,
+                })
+            })
+            .collect::<Result<Vec<_>, UpliftError>>()?;
+        Ok(StudyOfResult {
+            path: self.path.clone(),
+            record_set: self.record_set()?,
+            synthetic: self.is_synthetic()?,
+            made_from: self.records()?,
+            study,
+            sites: axes.sites,
+            measures,
+        })
+    }
+
+    /// The study; its records and curves need not be there any more.
+    pub(super) fn stored_study(&self) -> Result<UniformRiskStudy, UpliftError> {
+        match Study::stored(&self.reader.attribute_text("/", "study_toml")?) {
+            Ok(AnyStudy::UniformRisk(study)) => Ok(*study),
+            Ok(AnyStudy::Displacement(study)) => {
+                Err(self.fail(format!("the study {} has no uniform risk spectra", study.title)))
+            }
+            Err(error) => {
+                let mistakes: Vec<String> = error.mistakes().iter().map(ToString::to_string).collect();
+                Err(self.fail(format!("the study in the file cannot be read: {}", mistakes.join("; "))))
+            }
+        }
+    }
+}
+
+impl StudyOfResult {
+    /// The records of the study, the very motions that the result was made from, with the same intensities.
+    ///
+    /// # Errors
+    /// Records that are not there, or are others: what is wrong, and what to do.
+    pub fn records(&self) -> Result<RecordSet, String> {
+        let set = read_records(&self.study).map_err(|error| error.to_string())?;
+        let made_from = &self.made_from;
+        if set.records.len() != made_from.ids.len() {
+            let (found, made) = (set.records.len(), made_from.ids.len());
+            return Err(format!(
+                "there are {found} records now, and the result was made from {made}: run the study again"
+            ));
+        }
+        let other = set.records.iter().enumerate().find(|(index, record)| {
+            let same = |a: f64, b: f64| a.to_bits() == b.to_bits();
+            motion_key(&record.accelerogram) != made_from.motion_sha256[*index]
+                || !same(record.pga_g, made_from.pga_g[*index])
+                || !same(record.pgv_cm_s, made_from.pgv_cm_s[*index])
+        });
+        match other {
+            Some((_, record)) => Err(format!(
+                "record {} is not the motion that the result was made from: put that file back, or run the study again",
+                record.id
+            )),
+            None => Ok(set),
+        }
+    }
+
+    /// Position of the probability `wanted`, or of the smallest.
+    ///
+    /// # Errors
+    /// A probability that the result does not have.
+    pub fn poe_index(&self, wanted: Option<f64>) -> Result<usize, UpliftError> {
+        poe_index(&self.study.risk.poe, wanted)
+    }
+
+    /// Target rate of the probability at `poe`, 1/yr (Eq. 4.8).
+    ///
+    /// # Errors
+    /// None for a study that was checked.
+    pub fn target_per_year(&self, poe: usize) -> Result<f64, UpliftError> {
+        rate_from_probability(self.study.risk.poe[poe], self.study.risk.years)
+            .map_err(|error| UpliftError::input(error.to_string()))
+    }
+
+    /// The spectrum of a site and probability, `[strength]`, m.
+    ///
+    /// # Panics
+    /// If an index is out of range, which is a bug of the caller.
+    pub fn spectrum<'a>(&self, measure: &'a SpectraOfResult, site: usize, poe: usize) -> &'a [f64] {
+        measure.u_m.block([site, poe])
+    }
+}

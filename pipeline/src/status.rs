@@ -1,0 +1,193 @@
+//! How far a run is, and what a result holds.
+
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+use uplift_study::Study;
+
+use crate::checkpoint::{Finding, RowFile, checkpoint_path};
+use crate::error::UpliftError;
+use crate::result::{Overview, ResultFile, ResultLock, is_hdf5};
+
+/// What is there of a run: at least one of its parts.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct StatusReport {
+    /// The result, where it is finished.
+    pub result: Option<ResultStatus>,
+    /// Files of finished rows: the checkpoint of an unfinished run, and shards.
+    pub unfinished: Vec<UnfinishedStatus>,
+    /// Who is writing the result now.
+    pub written_by: Option<String>,
+}
+
+/// A finished result.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ResultStatus {
+    /// The file.
+    pub file: PathBuf,
+    /// When it was finished.
+    pub created: String,
+    /// Version of the program.
+    pub version: String,
+    /// Commit that the program was built from.
+    pub commit: String,
+    /// The study file as it was given.
+    pub study: String,
+    /// Title of the study.
+    pub title: String,
+    /// Where the records come from, in a line.
+    pub record_set: String,
+    /// What it holds.
+    pub content: ResultContent,
+}
+
+/// What a finished result holds.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum ResultContent {
+    /// Uniform risk spectra.
+    UniformRisk {
+        /// Analyses of each intensity measure, by its name.
+        analyses: Vec<(String, u64)>,
+        /// The sites; none where the study has none.
+        sites: Vec<String>,
+        /// What was added by later jobs: `bootstrap`, `influence`, `measures`.
+        added: Vec<String>,
+    },
+    /// Displacement spectra.
+    Displacement {
+        /// What was shaken: `oscillator` or `block`.
+        structure: String,
+        /// Analyses of the spectra.
+        analyses: u64,
+        /// Records of each set, by its name.
+        sets: Vec<(String, u64)>,
+        /// Whether there is a design example.
+        has_design: bool,
+    },
+}
+
+/// A file of finished rows of the analysis.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct UnfinishedStatus {
+    /// The file.
+    pub file: PathBuf,
+    /// Title of the study.
+    pub title: String,
+    /// Which shard it is, from 1.
+    pub shard: u64,
+    /// Of how many; 1 for a run that is not cut.
+    pub shards: u64,
+    /// Rows that are finished.
+    pub done: u64,
+    /// Rows in all.
+    pub rows: u64,
+    /// Bytes that were cut off or damaged; their rows are computed again.
+    pub damaged_bytes: u64,
+}
+
+/// Looks what there is of a run.
+///
+/// * `input` — a result file, a study file, or a shard
+///
+/// # Errors
+/// A study with mistakes, a file that is none of these or damaged, and where there is nothing at all.
+pub fn status(input: &Path) -> Result<StatusReport, UpliftError> {
+    if input.is_file() && !is_hdf5(input) {
+        if let Ok(Some(finding)) = RowFile::read(input) {
+            let unfinished = vec![UnfinishedStatus::of(input, &finding)];
+            return Ok(StatusReport { result: None, unfinished, written_by: None });
+        }
+        if input.extension().is_some_and(|extension| extension == "h5") {
+            return Err(UpliftError::input(format!("{} is not an HDF5 file", input.display())));
+        }
+    }
+    let path = if input.extension().is_some_and(|extension| extension == "toml") {
+        Study::load_any(input, &[])?.output().file.clone()
+    } else {
+        input.to_owned()
+    };
+    let result = path.is_file().then(|| ResultStatus::read(&path)).transpose()?;
+    let checkpoint = checkpoint_path(&path);
+    let mut unfinished = Vec::new();
+    if let Some(finding) = RowFile::read(&checkpoint)? {
+        unfinished.push(UnfinishedStatus::of(&checkpoint, &finding));
+    }
+    for shard in shards_of(&path) {
+        if let Ok(Some(finding)) = RowFile::read(&shard) {
+            unfinished.push(UnfinishedStatus::of(&shard, &finding));
+        }
+    }
+    let written_by = ResultLock::holder(&path);
+    if result.is_none() && unfinished.is_empty() && written_by.is_none() {
+        return Err(UpliftError::input(format!(
+            "{}: no result, and no checkpoint of an unfinished run",
+            path.display()
+        )));
+    }
+    Ok(StatusReport { result, unfinished, written_by })
+}
+
+/// Files named as the shards of the result at `result`.
+fn shards_of(result: &Path) -> Vec<PathBuf> {
+    let stem = result.file_stem().unwrap_or(result.as_os_str()).to_string_lossy();
+    let beginning = format!("{stem}.shard-");
+    let folder = result.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut shards: Vec<PathBuf> = std::fs::read_dir(folder)
+        .into_iter()
+        .flatten()
+        .flatten()
+        .filter(|entry| entry.file_name().to_string_lossy().starts_with(&beginning))
+        .map(|entry| entry.path())
+        .collect();
+    shards.sort();
+    shards
+}
+
+impl ResultStatus {
+    fn read(path: &Path) -> Result<Self, UpliftError> {
+        let file = ResultFile::open(path)?;
+        let head = file.head()?;
+        Ok(Self {
+            file: path.to_owned(),
+            created: head.created,
+            version: head.version,
+            commit: head.commit,
+            study: head.study_file,
+            title: head.title,
+            record_set: head.record_set,
+            content: ResultContent::of(file.overview()?),
+        })
+    }
+}
+
+impl ResultContent {
+    fn of(overview: Overview) -> Self {
+        match overview {
+            Overview::Displacement { structure, analyses, sets, designed } => {
+                Self::Displacement { structure, analyses, sets, has_design: designed }
+            }
+            Overview::UniformRisk { analyses, sites, added } => {
+                let analyses = analyses.into_iter().map(|(measure, count)| (measure.to_uppercase(), count)).collect();
+                Self::UniformRisk { analyses, sites, added: added.into_iter().map(str::to_owned).collect() }
+            }
+        }
+    }
+}
+
+impl UnfinishedStatus {
+    fn of(file: &Path, finding: &Finding) -> Self {
+        let head = &finding.head;
+        Self {
+            file: file.to_owned(),
+            title: head.title.clone(),
+            shard: head.shard,
+            shards: head.shards,
+            // rows of another study may be among them, and those of design examples, which nobody counts before
+            // they are found
+            done: (finding.rows.len() as u64).min(head.rows),
+            rows: head.rows,
+            damaged_bytes: finding.damaged_bytes,
+        }
+    }
+}

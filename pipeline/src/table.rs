@@ -1,0 +1,54 @@
+//! The tables of a result, ours beside a reference: coefficients of the spectra (Table 4.2), or the design example
+//! (Tables 2.1 to 2.3 and 3.2 to 3.7).
+
+mod coefficients;
+mod design;
+mod reference;
+
+use std::path::PathBuf;
+
+use serde::Serialize;
+use uplift_motion::IntensityMeasure;
+
+pub use coefficients::{COMPARED_ABOVE, COMPARED_FROM_M, CoefficientRow, CoefficientTable, ReferenceFit};
+pub use design::{DesignTable, DesignTableRow};
+pub use reference::ReferenceTable;
+
+use crate::error::UpliftError;
+use crate::events::Events;
+use crate::result::{Kind, ResultFile};
+
+/// Which table, and what stands beside it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TableOptions {
+    /// The result file.
+    pub result: PathBuf,
+    /// CSV table to compare with: for uniform risk spectra with the columns `site`, `poe_50y` (or `poe`), `c0_m`, `c1`,
+    /// `c2_m`, `rmse_m`; for displacement spectra `record_set`, `scaling`, `quantity`, `value` and, for oscillators,
+    /// `rule`.
+    pub reference: Option<PathBuf>,
+    /// Which intensity measure, none for all; not of displacement spectra.
+    pub measure: Option<IntensityMeasure>,
+}
+
+/// A table of a result.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum TableReport {
+    /// Of uniform risk spectra.
+    Coefficients(CoefficientTable),
+    /// Of displacement spectra.
+    Design(DesignTable),
+}
+
+/// Reads the table of a result, and what a reference says beside each row.
+///
+/// # Errors
+/// A file that is missing, damaged or no result; a result without such a table; a reference that cannot be read.
+pub fn table(options: &TableOptions, events: &dyn Events) -> Result<TableReport, UpliftError> {
+    let file = ResultFile::open(&options.result)?;
+    match file.kind() {
+        Kind::UniformRisk => coefficients::read(options, &file, events).map(TableReport::Coefficients),
+        Kind::Displacement => design::read(options, &file, events).map(TableReport::Design),
+    }
+}

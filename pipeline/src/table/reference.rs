@@ -1,0 +1,65 @@
+//! A table of a paper to compare with: a CSV file with a header row.
+
+use std::io::Cursor;
+use std::path::Path;
+
+use polars::prelude::{CsvParseOptions, CsvReadOptions, DataFrame, SerReader};
+
+use crate::error::UpliftError;
+
+/// A reference table, its cells as text.
+#[derive(Debug)]
+pub struct ReferenceTable {
+    name: String,
+    frame: DataFrame,
+}
+
+impl ReferenceTable {
+    /// Reads the table at `path`; lines that begin with `#` are comments.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or is not CSV with a header row.
+    pub fn read(path: &Path) -> Result<Self, UpliftError> {
+        let name = path.display().to_string();
+        let fail = |reason: String| UpliftError::input(format!("reference {name}: {reason}"));
+        let bytes = std::fs::read(path).map_err(|error| fail(error.to_string()))?;
+        let frame = CsvReadOptions::default()
+            .with_has_header(true)
+            .with_infer_schema_length(Some(0))
+            .with_parse_options(CsvParseOptions::default().with_comment_prefix(Some("#")))
+            .into_reader_with_file_handle(Cursor::new(bytes))
+            .finish()
+            .map_err(|error| fail(error.to_string()))?;
+        Ok(Self { name, frame })
+    }
+
+    /// Number of rows.
+    pub fn rows(&self) -> usize {
+        self.frame.height()
+    }
+
+    /// Whether there is such a column.
+    pub fn has(&self, column: &str) -> bool {
+        self.frame.get_column_index(column).is_some()
+    }
+
+    /// A cell, empty where there is none.
+    pub fn text(&self, column: &str, row: usize) -> String {
+        let cell = self.frame.column(column).ok().and_then(|column| column.str().ok()?.get(row).map(str::to_owned));
+        cell.unwrap_or_default().trim().to_owned()
+    }
+
+    /// A cell as a number.
+    ///
+    /// # Errors
+    /// A cell that is not one, or is not there.
+    pub fn number<T: std::str::FromStr>(&self, column: &str, row: usize) -> Result<T, UpliftError> {
+        let cell = self.text(column, row);
+        cell.parse().map_err(|_| self.fail(format!("row {}, {column}: {cell:?} is not a number", row + 1)))
+    }
+
+    /// What is wrong with the table.
+    pub fn fail(&self, reason: impl std::fmt::Display) -> UpliftError {
+        UpliftError::input(format!("reference {}: {reason}", self.name))
+    }
+}

@@ -1,0 +1,78 @@
+//! Whether results are as they were written.
+
+use std::path::PathBuf;
+
+use serde::Serialize;
+use uplift_labelled::{Seal, Verdict, verify as verify_file};
+
+use crate::error::UpliftError;
+use crate::events::Events;
+use crate::result::ResultFile;
+
+/// What was found of some results.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct VerifyReport {
+    /// The files, in the order in which they were given.
+    pub files: Vec<VerifiedFile>,
+}
+
+/// What was found of a file.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct VerifiedFile {
+    /// The file.
+    pub file: PathBuf,
+    /// Arrays that are as they were written.
+    pub sound: usize,
+    /// Arrays without a checksum.
+    pub unknown: Vec<String>,
+    /// What is not as it was written, each with the name of the file; empty of a file that is sound.
+    pub mistakes: Vec<String>,
+}
+
+impl VerifyReport {
+    /// What is wrong with the files; empty where all are as they were written.
+    pub fn mistakes(&self) -> Vec<String> {
+        self.files.iter().flat_map(|file| file.mistakes.iter().cloned()).collect()
+    }
+}
+
+/// Checks every byte of the result `files`. A file that is damaged or no result is a finding, not an error.
+///
+/// # Errors
+/// An interruption.
+pub fn verify(files: &[PathBuf], events: &dyn Events) -> Result<VerifyReport, UpliftError> {
+    let mut found = Vec::new();
+    for file in files {
+        if events.cancelled() {
+            return Err(UpliftError::Interrupted);
+        }
+        found.push(match ResultFile::open(file).and_then(|_| Ok(verify_file(file)?)) {
+            Ok(verdict) => VerifiedFile::of(file.clone(), verdict),
+            Err(error) => {
+                let mistakes = vec![error.to_string()];
+                VerifiedFile { file: file.clone(), sound: 0, unknown: Vec::new(), mistakes }
+            }
+        });
+    }
+    Ok(VerifyReport { files: found })
+}
+
+impl VerifiedFile {
+    fn of(file: PathBuf, verdict: Verdict) -> Self {
+        let name = file.display();
+        let mut mistakes: Vec<String> = verdict.damaged.iter().map(|damage| format!("{name}: {damage}")).collect();
+        match verdict.seal {
+            Seal::Broken if mistakes.is_empty() => mistakes.push(format!(
+                "{name}: some byte is not as it was written, in what lies between the arrays: take the numbers from a \
+                 copy, or run the study again"
+            )),
+            Seal::Broken => mistakes.push(format!("{name}: is damaged: run the study again")),
+            Seal::Missing => mistakes.push(format!(
+                "{name}: the checksum of the whole file is not at its end: another program has written to it, or its \
+                 end is missing"
+            )),
+            Seal::Whole(_) => {}
+        }
+        Self { sound: verdict.sound, unknown: verdict.unknown, mistakes, file }
+    }
+}
