@@ -46,7 +46,8 @@ fn motion(record: f64) -> String {
         let burst = (-(time_s - 5.0).powi(2) / 3.0).exp() * (0.3 * record + 2.0 / record * time_s).sin();
         burst * (9.0 / record * time_s).sin()
     };
-    (0..1200).map(|step| format!("{:.6}\n", sample(step))).collect()
+    let samples: Vec<String> = (0..1200).map(|step| format!("{:.6}", sample(step))).collect();
+    samples.join("\n")
 }
 
 /// A folder with a result and a structure in it.
@@ -55,11 +56,12 @@ struct Folder(TempDir);
 impl Folder {
     fn new() -> Self {
         let folder = Self(tempfile::tempdir().unwrap());
-        let curve = |range: [f64; 3], k0: f64, k: f64| -> String {
-            range.iter().map(|im: &f64| format!("{im},{:e}\n", k0 * im.powf(-k))).collect()
+        let curve = |range: [f64; 3], k0: f64, k: f64| {
+            let rows = range.map(|im: f64| format!("{im},{:e}", k0 * im.powf(-k)));
+            format!("iml,maf\n{}\n", rows.join("\n"))
         };
-        folder.write("pgv.csv", &format!("iml,maf\n{}", curve([0.5, 10.0, 300.0], 0.2, 2.0)));
-        folder.write("pga.csv", &format!("iml,maf\n{}", curve([0.01, 0.1, 3.0], 1e-4, 2.2)));
+        folder.write("pgv.csv", &curve([0.5, 10.0, 300.0], 0.2, 2.0));
+        folder.write("pga.csv", &curve([0.01, 0.1, 3.0], 1e-4, 2.2));
         folder.write("block.toml", "kind = \"block\"\nwidth_m = 0.8\nheight_m = 4\nmass_kg = 1000\n");
         let mut manifest = "record_id,file_h1,file_h2,dt_s,unit,magnitude\n".to_owned();
         for record in 1..=4 {
