@@ -18,7 +18,6 @@ use uplift_structure::StructureError;
 use uplift_study::StudyError;
 
 use crate::checkpoint::CheckpointError;
-use crate::import::ImportReport;
 
 /// Why a job did not do what it was asked.
 #[derive(Debug, Error)]
@@ -61,7 +60,7 @@ pub enum UpliftError {
     Structure(#[from] StructureError),
     /// An analysis that cannot be planned or finished; one that was told to stop is [`Interrupted`](Self::Interrupted).
     #[error(transparent)]
-    Analysis(IdaError),
+    Analysis(Box<IdaError>),
     /// Demands of which no fragility can be made.
     #[error(transparent)]
     Fragility(#[from] FragilityError),
@@ -90,17 +89,6 @@ pub enum UpliftError {
     /// A file of finished analysis rows cannot be used.
     #[error(transparent)]
     Checkpoint(#[from] CheckpointError),
-    /// A folder holds no pair of records to import.
-    #[error(
-        "no pair of horizontal components in {}: {} files read, {} components found",
-        folder.display(), found.files, found.components
-    )]
-    NoPairs {
-        /// The folder.
-        folder: PathBuf,
-        /// What was found in it; there is no manifest.
-        found: Box<ImportReport>,
-    },
     /// The user stopped the run.
     #[error(
         "interrupted: nothing was written, and an earlier result file is as it was. Run the same command to start again"
@@ -158,7 +146,7 @@ impl From<IdaError> for UpliftError {
     fn from(error: IdaError) -> Self {
         match error {
             IdaError::Cancelled => Self::Interrupted,
-            other => Self::Analysis(other),
+            other => Self::Analysis(Box::new(other)),
         }
     }
 }

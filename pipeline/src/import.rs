@@ -46,8 +46,8 @@ pub struct ImportOptions {
 /// What an import found.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ImportReport {
-    /// The manifest.
-    pub manifest: PathBuf,
+    /// The manifest; none where no two components make a pair, and the remarks say why.
+    pub manifest: Option<PathBuf>,
     /// Pairs in it.
     pub pairs: usize,
     /// Files read.
@@ -98,8 +98,8 @@ impl ImportOptions {
 /// Imports the records of a folder: a manifest of the pairs in it, and a file with everything that deserves a look.
 ///
 /// # Errors
-/// [`UpliftError::NoPairs`] where there is none, with what was found; a folder that cannot be read, a manifest that is
-/// there already or cannot be written; an interruption. What is wrong with single files is among the remarks.
+/// A folder that cannot be read, a manifest that is there already or cannot be written; an interruption. What is wrong with
+/// single files is among the remarks.
 pub fn import(options: &ImportOptions, events: &dyn Events) -> Result<ImportReport, UpliftError> {
     let manifest = options.manifest();
     options.check(&manifest)?;
@@ -112,7 +112,7 @@ pub fn import(options: &ImportOptions, events: &dyn Events) -> Result<ImportRepo
         write_atomically(file, text.as_bytes())?;
     }
     let mut report = ImportReport {
-        manifest,
+        manifest: None,
         pairs: imported.pairs.len(),
         files: imported.files,
         components: imported.components,
@@ -121,17 +121,16 @@ pub fn import(options: &ImportOptions, events: &dyn Events) -> Result<ImportRepo
         blank_columns: Vec::new(),
         seconds: 0.0,
     };
-    if imported.pairs.is_empty() {
-        report.seconds = start.elapsed().as_secs_f64();
-        return Err(UpliftError::NoPairs { folder: options.folder.clone(), found: Box::new(report) });
+    if !imported.pairs.is_empty() {
+        let line = format!("uplift {} ({}), records import, {} pairs", crate::VERSION, crate::COMMIT, report.pairs);
+        let columns = table::manifest_columns(&imported.pairs, folder_of(&manifest), options.files);
+        report.blank_columns = WANTED
+            .into_iter()
+            .filter(|key| columns.iter().any(|column| column.name() == key && all_blank(column)))
+            .collect();
+        write_table(&manifest, &line, columns)?;
+        report.manifest = Some(manifest);
     }
-    let line = format!("uplift {} ({}), records import, {} pairs", crate::VERSION, crate::COMMIT, report.pairs);
-    let columns = table::manifest_columns(&imported.pairs, folder_of(&report.manifest), options.files);
-    report.blank_columns = WANTED
-        .into_iter()
-        .filter(|key| columns.iter().any(|column| column.name() == key && all_blank(column)))
-        .collect();
-    write_table(&report.manifest, &line, columns)?;
     report.seconds = start.elapsed().as_secs_f64();
     Ok(report)
 }

@@ -1,34 +1,21 @@
 //! What the user can type.
 
-mod bootstrap;
-mod check;
-mod design;
-mod export;
-mod figure_files;
+mod arguments;
 mod hazard;
-mod influence;
-mod measures;
-mod merge;
-mod overturning;
-mod plot;
 mod pulse;
 mod records;
-mod report;
 mod response;
-mod result_of;
-mod run;
-mod status;
-mod structure;
-mod table;
-mod verify;
+mod result;
+mod structures;
+mod study;
 
-use std::path::PathBuf;
-
-use clap::{Args, Parser, Subcommand};
+use clap::{Parser, Subcommand};
 
 use crate::error::CommandError;
 use crate::terminal::Terminal;
-use uplift_study::{AnyStudy, Study};
+use result::{bootstrap, export, influence, measures, plot, report, status, table, verify};
+use structures::{design, overturning};
+use study::{check, merge, run};
 
 /// Uniform risk spectra for rocking structures.
 ///
@@ -92,28 +79,6 @@ enum Command {
     /// Print the coefficients of a result (Table 4.2), or its design example (Tables 2.1-2.3, 3.2-3.7), beside a
     /// reference if one is given
     Table(table::TableArguments),
-}
-
-/// A study file and what is changed of it.
-#[derive(Debug, Args)]
-struct StudyArguments {
-    /// Study file (TOML), for instance configs/europe.toml
-    study: PathBuf,
-    /// Change a key of the study for this run, for instance --set records.first=20; paths are relative to the current
-    /// directory
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    overrides: Vec<String>,
-}
-
-impl StudyArguments {
-    fn load_any(&self) -> Result<AnyStudy, CommandError> {
-        Ok(Study::load_any(&self.study, &self.overrides)?)
-    }
-}
-
-/// What was typed, for the result.
-fn command_line() -> String {
-    std::env::args().collect::<Vec<_>>().join(" ")
 }
 
 /// Carry out what was typed.

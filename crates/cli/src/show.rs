@@ -30,7 +30,7 @@ pub(crate) use plan::print_plan;
 pub(crate) use pulse::print_pulses;
 pub(crate) use records::{print_record, print_records, print_selection};
 pub(crate) use response::print_response;
-pub(crate) use run::print_run;
+pub(crate) use run::{print_run, print_shard};
 pub(crate) use status::print_status;
 pub(crate) use table::print_table;
 pub(crate) use verify::print_verified;
@@ -38,9 +38,9 @@ pub(crate) use verify::print_verified;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use crate::error::CommandError;
 use serde::Serialize;
 
+use crate::error::CommandError;
 use crate::terminal::Terminal;
 
 /// A report for programs.

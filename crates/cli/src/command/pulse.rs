@@ -10,7 +10,7 @@ use uplift_block::RickerShape;
 use uplift_report::plot_pulses;
 use uplift_study::Grid;
 
-use super::figure_files::FigureArguments;
+use super::arguments::FigureArguments;
 use crate::error::CommandError;
 use crate::show::{print_json, print_pulses};
 use crate::terminal::Terminal;

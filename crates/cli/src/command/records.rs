@@ -9,10 +9,9 @@ mod synthesize;
 use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
-use uplift_motion::{AccelerationUnit, Combination, RecordFormat, STANDARD_GRAVITY_M_S2};
-
 use uplift::inputs::FileOptions;
 use uplift::records::SetOptions;
+use uplift_motion::{AccelerationUnit, Combination, RecordFormat, STANDARD_GRAVITY_M_S2};
 use uplift_study::{CRITERIA, Criterion, Range, RecordSelection};
 
 use crate::error::CommandError;

@@ -2,10 +2,11 @@
 
 use std::io::Write;
 
-use crate::error::CommandError;
 use uplift::displacement::RunReport;
 use uplift::text::{metres, nearest, table};
 use uplift_study::Structures;
+
+use crate::error::CommandError;
 
 /// Strengths or slendernesses shown.
 const SHOWN: [f64; 3] = [0.1, 0.2, 0.4];

@@ -33,13 +33,9 @@ pub(crate) fn print_import(report: &ImportReport, terminal: &Terminal) -> Result
             report.blank_columns.join(", ")
         ));
     }
-    writeln!(
-        std::io::stdout(),
-        "{} pairs from {} files in {:.1} s: {}",
-        report.pairs,
-        report.files,
-        report.seconds,
-        report.manifest.display()
-    )?;
+    if let Some(manifest) = &report.manifest {
+        let ImportReport { pairs, files, seconds, .. } = report;
+        writeln!(std::io::stdout(), "{pairs} pairs from {files} files in {seconds:.1} s: {}", manifest.display())?;
+    }
     Ok(())
 }

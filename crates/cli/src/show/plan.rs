@@ -2,11 +2,11 @@
 
 use std::io::Write;
 
-use crate::error::CommandError;
 use uplift::Plan;
 use uplift::text::thousands;
 use uplift_study::AnyStudy;
 
+use crate::error::CommandError;
 use crate::terminal::Terminal;
 
 /// The plan of `study`, which a terminal that is not quiet shows with every default filled in.

@@ -2,10 +2,11 @@
 
 use std::io::Write;
 
-use crate::error::CommandError;
+use uplift::analysis::ShardReport;
 use uplift::run::{RunHead, RunReport};
 
 use super::{displacement, shown_path, uniform_risk};
+use crate::error::CommandError;
 use crate::terminal::Terminal;
 
 /// Warnings printed; all of them are in the result file.
@@ -52,4 +53,11 @@ fn print_end(out: &mut impl Write, head: &RunHead) -> Result<(), CommandError> {
         writeln!(out, "  {}", shown_path(file).display())?;
     }
     Ok(())
+}
+
+/// Which shard was computed, and where it is.
+pub(crate) fn print_shard(report: &ShardReport) -> Result<(), CommandError> {
+    let ShardReport { shard, shards, rows, file } = report;
+    let file = shown_path(file).display();
+    Ok(writeln!(std::io::stdout(), "shard {shard} of {shards}, {rows} analysis rows: {file}")?)
 }

@@ -2,9 +2,10 @@
 
 use std::io::Write;
 
-use crate::error::CommandError;
 use uplift::text::{metres, nearest, per_cent, table};
 use uplift::uniform_risk::RunReport;
+
+use crate::error::CommandError;
 
 /// Strengths shown.
 const SHOWN_STRENGTHS: [f64; 3] = [0.1, 0.2, 0.4];

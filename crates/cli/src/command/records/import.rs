@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use uplift::UpliftError;
 use uplift::import::{ImportOptions, import as import_folder};
 
 use super::FileArguments;
@@ -32,12 +31,15 @@ pub(super) fn import(arguments: &ImportArguments, terminal: &Terminal) -> Result
         files: arguments.files.options(),
         pulses: !arguments.no_pulses,
     };
-    let outcome = import_folder(&options, terminal);
-    match &outcome {
-        Ok(report) => tell_remarks(report, terminal),
-        // what was found says why none of it is a pair
-        Err(UpliftError::NoPairs { found, .. }) => tell_remarks(found, terminal),
-        Err(_) => {}
+    let report = import_folder(&options, terminal)?;
+    tell_remarks(&report, terminal);
+    if report.manifest.is_none() {
+        return Err(CommandError::input(format!(
+            "no pair of horizontal components in {}: {} files read, {} components found",
+            options.folder.display(),
+            report.files,
+            report.components
+        )));
     }
-    print_import(&outcome?, terminal)
+    print_import(&report, terminal)
 }

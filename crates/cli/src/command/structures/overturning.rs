@@ -9,9 +9,9 @@ use uplift::structure::{OverturningOptions, overturning as run, overturning_shar
 use uplift_motion::IntensityMeasure;
 use uplift_report::{check_figure_file, plot_overturning};
 
-use super::run::print_shard;
-use super::structure::StructureArguments;
+use crate::command::arguments::StructureArguments;
 use crate::error::CommandError;
+use crate::show::print_shard;
 use crate::show::{print_json, print_overturning};
 use crate::terminal::Terminal;
 
@@ -19,7 +19,7 @@ use crate::terminal::Terminal;
 #[command(
     after_help = "Structures to start from: configs/structures/*.toml. Method and a worked example: docs/design.md"
 )]
-pub(super) struct OverturningArguments {
+pub(crate) struct OverturningArguments {
     #[command(flatten)]
     structure: StructureArguments,
     /// Site of the result [default: all]
@@ -43,7 +43,7 @@ pub(super) struct OverturningArguments {
     output: Option<PathBuf>,
 }
 
-pub(super) fn overturning(arguments: &OverturningArguments, terminal: &Terminal) -> Result<(), CommandError> {
+pub(crate) fn overturning(arguments: &OverturningArguments, terminal: &Terminal) -> Result<(), CommandError> {
     if let Some(figure) = &arguments.plot {
         check_figure_file(figure)?;
         refuse_overwriting(figure, &arguments.structure.inputs())?;

@@ -6,35 +6,35 @@ use clap::Args;
 use uplift_ida::Shard;
 use uplift_study::Structure;
 
-use super::run::shard;
+use super::study::shard;
 use crate::error::CommandError;
 
 #[derive(Debug, Args)]
-pub(super) struct StructureArguments {
+pub(crate) struct StructureArguments {
     /// Structure file (TOML), for instance configs/structures/pier.toml
-    pub(super) structure: PathBuf,
+    pub(crate) structure: PathBuf,
     /// Result file of `uplift run`: its spectra, and the records and hazard that they were made from
     #[arg(long, value_name = "RESULT")]
-    pub(super) urs: PathBuf,
+    pub(crate) urs: PathBuf,
     /// Manifest of the records, where it is no longer where the study says
     #[arg(long, value_name = "CSV")]
-    pub(super) manifest: Option<PathBuf>,
+    pub(crate) manifest: Option<PathBuf>,
     /// Compute only shard I of N of the structure's own analyses, into a file beside the result; nothing else is told
     #[arg(long, value_name = "I/N", value_parser = shard, conflicts_with_all = ["shards", "json"])]
-    pub(super) shard: Option<Shard>,
+    pub(crate) shard: Option<Shard>,
     /// Every shard of these analyses, as --shard wrote them, instead of computing them here
     #[arg(long, value_name = "FILE", num_args = 1..)]
-    pub(super) shards: Vec<PathBuf>,
+    pub(crate) shards: Vec<PathBuf>,
 }
 
 impl StructureArguments {
     /// Files that are read.
-    pub(super) fn inputs(&self) -> Vec<&Path> {
+    pub(crate) fn inputs(&self) -> Vec<&Path> {
         [&self.structure, &self.urs].into_iter().chain(&self.manifest).map(PathBuf::as_path).collect()
     }
 
     /// The structure.
-    pub(super) fn load(&self) -> Result<Structure, CommandError> {
+    pub(crate) fn load(&self) -> Result<Structure, CommandError> {
         Ok(Structure::load(&self.structure)?)
     }
 }

@@ -10,7 +10,7 @@ use crate::show::print_files;
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
-pub(super) struct ReportArguments {
+pub(crate) struct ReportArguments {
     /// Result files of `uplift run`; several stand side by side
     #[arg(required = true, value_name = "RESULT")]
     results: Vec<PathBuf>,
@@ -19,7 +19,7 @@ pub(super) struct ReportArguments {
     output: Option<PathBuf>,
 }
 
-pub(super) fn report(arguments: &ReportArguments, terminal: &Terminal) -> Result<(), CommandError> {
+pub(crate) fn report(arguments: &ReportArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let options = ReportOptions { results: arguments.results.clone(), output: arguments.output.clone() };
     print_files(&[write_report(&options, terminal)?.file], terminal)
 }

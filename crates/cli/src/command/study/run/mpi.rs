@@ -9,7 +9,6 @@ use std::time::Duration;
 use ::mpi::Threading;
 use ::mpi::topology::SimpleCommunicator;
 use ::mpi::traits::{Communicator, CommunicatorCollectives};
-
 use uplift::analysis::shard_path;
 use uplift::checkpoint::{FinishedRows, RowFile};
 use uplift::events::Events;
@@ -17,7 +16,8 @@ use uplift::run::run_with;
 use uplift::{UpliftError, run_shard};
 use uplift_ida::Shard;
 
-use super::{RunArguments, run_options};
+use super::RunArguments;
+use crate::command::arguments::run_options;
 use crate::error::CommandError;
 use crate::show::{print_json, print_run};
 use crate::terminal::{Terminal, tell, tell_error};

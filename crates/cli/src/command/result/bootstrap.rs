@@ -6,13 +6,13 @@ use clap::Args;
 use uplift::bootstrap::{BootstrapOptions, bootstrap as run, read_reference};
 use uplift_bootstrap::Interval;
 
-use super::result_of::ResultArguments;
+use crate::command::arguments::ResultArguments;
 use crate::error::CommandError;
 use crate::show::{print_bootstrap, print_json};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
-pub(super) struct BootstrapArguments {
+pub(crate) struct BootstrapArguments {
     #[command(flatten)]
     result: ResultArguments,
     /// Records in a sample, for instance 20,40,60 [default: the study's, else 20,40,60,80 and the whole set]
@@ -46,7 +46,7 @@ pub(super) struct BootstrapArguments {
     json: bool,
 }
 
-pub(super) fn bootstrap(arguments: &BootstrapArguments, terminal: &Terminal) -> Result<(), CommandError> {
+pub(crate) fn bootstrap(arguments: &BootstrapArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let reference = arguments.reference.as_deref().map(read_reference).transpose()?;
     let found = arguments.result.find(terminal)?;
     let interval = arguments.interval.as_deref();

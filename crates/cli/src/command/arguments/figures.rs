@@ -6,7 +6,7 @@ use uplift_report::{FigureFormat, FigureOptions};
 
 /// How figures are written.
 #[derive(Debug, Args)]
-pub(super) struct FigureArguments {
+pub(crate) struct FigureArguments {
     /// Format of the files
     #[arg(long, value_enum, default_value_t = Format::Svg)]
     format: Format,
@@ -29,7 +29,7 @@ enum Columns {
 }
 
 impl FigureArguments {
-    pub(super) fn options(&self) -> FigureOptions {
+    pub(crate) fn options(&self) -> FigureOptions {
         FigureOptions {
             format: match self.format {
                 Format::Svg => FigureFormat::Svg,

@@ -11,7 +11,7 @@ use crate::show::{print_json, print_table};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
-pub(super) struct TableArguments {
+pub(crate) struct TableArguments {
     /// Result file of `uplift run`
     result: PathBuf,
     /// Table to compare with
@@ -30,7 +30,7 @@ pub(super) struct TableArguments {
     json: bool,
 }
 
-pub(super) fn table(arguments: &TableArguments, terminal: &Terminal) -> Result<(), CommandError> {
+pub(crate) fn table(arguments: &TableArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let options = TableOptions {
         result: arguments.result.clone(),
         reference: arguments.reference.clone(),

@@ -4,9 +4,9 @@ use clap::Args;
 use uplift::structure::{DesignOptions, design as run, design_shard};
 use uplift_motion::IntensityMeasure;
 
-use super::run::print_shard;
-use super::structure::StructureArguments;
+use crate::command::arguments::StructureArguments;
 use crate::error::CommandError;
+use crate::show::print_shard;
 use crate::show::{print_design, print_json};
 use crate::terminal::Terminal;
 
@@ -14,7 +14,7 @@ use crate::terminal::Terminal;
 #[command(
     after_help = "Structures to start from: configs/structures/*.toml. Method and a worked example: docs/design.md"
 )]
-pub(super) struct DesignArguments {
+pub(crate) struct DesignArguments {
     #[command(flatten)]
     structure: StructureArguments,
     /// Site of the result [default: its only one]
@@ -42,7 +42,7 @@ pub(super) struct DesignArguments {
     json: bool,
 }
 
-pub(super) fn design(arguments: &DesignArguments, terminal: &Terminal) -> Result<(), CommandError> {
+pub(crate) fn design(arguments: &DesignArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let StructureArguments { urs, manifest, shard, shards, .. } = &arguments.structure;
     let options = DesignOptions {
         manifest: manifest.clone(),

@@ -10,7 +10,7 @@ use crate::show::print_files;
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
-pub(super) struct ExportArguments {
+pub(crate) struct ExportArguments {
     /// Result file of `uplift run`
     result: PathBuf,
     /// A tidy table: site, im, poe, years, strength, `u_m`, `fit_m`; one comment line first
@@ -36,7 +36,7 @@ impl ExportArguments {
     }
 }
 
-pub(super) fn export(arguments: &ExportArguments, terminal: &Terminal) -> Result<(), CommandError> {
+pub(crate) fn export(arguments: &ExportArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let options = ExportOptions {
         result: arguments.result.clone(),
         formats: arguments.formats(),

@@ -2,16 +2,15 @@
 
 use std::path::PathBuf;
 
-use crate::error::CommandError;
 use clap::Args;
 
-use super::StudyArguments;
-use super::run::run_options;
+use crate::command::arguments::{StudyArguments, run_options};
+use crate::error::CommandError;
 use crate::show::{print_json, print_run};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
-pub(super) struct MergeArguments {
+pub(crate) struct MergeArguments {
     #[command(flatten)]
     study: StudyArguments,
     /// Every shard of the run, as `uplift run STUDY --shard I/N` wrote them
@@ -25,7 +24,7 @@ pub(super) struct MergeArguments {
     json: bool,
 }
 
-pub(super) fn merge(arguments: &MergeArguments, terminal: &Terminal) -> Result<(), CommandError> {
+pub(crate) fn merge(arguments: &MergeArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let study = arguments.study.load_any()?;
     let options = run_options(&arguments.study, arguments.output.clone());
     let report = uplift::merge(&study, &arguments.shards, &options, terminal)?;

@@ -3,13 +3,13 @@
 use clap::Args;
 use uplift::influence::{InfluenceOptions, influence as run};
 
-use super::result_of::ResultArguments;
+use crate::command::arguments::ResultArguments;
 use crate::error::CommandError;
 use crate::show::{print_influence, print_json};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
-pub(super) struct InfluenceArguments {
+pub(crate) struct InfluenceArguments {
     #[command(flatten)]
     result: ResultArguments,
     /// Records shown for each site
@@ -23,7 +23,7 @@ pub(super) struct InfluenceArguments {
     json: bool,
 }
 
-pub(super) fn influence(arguments: &InfluenceArguments, terminal: &Terminal) -> Result<(), CommandError> {
+pub(crate) fn influence(arguments: &InfluenceArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let found = arguments.result.find(terminal)?;
     let options = InfluenceOptions { poe: arguments.poe, top: arguments.top };
     let report = run(&found.path, &options, terminal)?;

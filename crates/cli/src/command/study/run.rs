@@ -3,21 +3,20 @@
 #[cfg(feature = "mpi")]
 mod mpi;
 
-use std::io::Write;
 use std::path::PathBuf;
 
-use crate::error::CommandError;
 use clap::Args;
-use uplift::analysis::{MOST_SHARDS, ShardReport, shard_path};
-use uplift::{RunOptions, run_shard};
+use uplift::analysis::shard_path;
+use uplift::run_shard;
 use uplift_ida::Shard;
 
-use super::StudyArguments;
-use crate::show::{print_json, print_run, shown_path};
+use crate::command::arguments::{StudyArguments, run_options, shard};
+use crate::error::CommandError;
+use crate::show::{print_json, print_run, print_shard};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
-pub(super) struct RunArguments {
+pub(crate) struct RunArguments {
     #[command(flatten)]
     study: StudyArguments,
     /// Result file, instead of the study's output.file
@@ -37,19 +36,7 @@ pub(super) struct RunArguments {
     json: bool,
 }
 
-pub(super) fn shard(text: &str) -> Result<Shard, String> {
-    let numbers = text
-        .split_once('/')
-        .and_then(|(index, count)| Some((index.trim().parse::<u64>().ok()?, count.trim().parse::<u64>().ok()?)));
-    match numbers {
-        Some((index, count)) if index >= 1 && index <= count && count <= MOST_SHARDS => {
-            Ok(Shard { index: index - 1, count })
-        }
-        _ => Err(format!("write 1/8 for the first of eight shards; at most {MOST_SHARDS}")),
-    }
-}
-
-pub(super) fn run(arguments: &RunArguments, terminal: &Terminal) -> Result<(), CommandError> {
+pub(crate) fn run(arguments: &RunArguments, terminal: &Terminal) -> Result<(), CommandError> {
     #[cfg(feature = "mpi")]
     if let Some(outcome) = mpi::run(arguments, terminal) {
         return outcome;
@@ -62,16 +49,4 @@ pub(super) fn run(arguments: &RunArguments, terminal: &Terminal) -> Result<(), C
     let options = run_options(&arguments.study, arguments.output.clone());
     let report = uplift::run(&study, &options, terminal)?;
     if arguments.json { print_json(&report) } else { print_run(&report, terminal) }
-}
-
-/// Which shard was computed, and where it is.
-pub(super) fn print_shard(report: &ShardReport) -> Result<(), CommandError> {
-    let ShardReport { shard, shards, rows, file } = report;
-    let file = shown_path(file).display();
-    Ok(writeln!(std::io::stdout(), "shard {shard} of {shards}, {rows} analysis rows: {file}")?)
-}
-
-/// The options of a run that was typed.
-pub(super) fn run_options(study: &StudyArguments, output: Option<PathBuf>) -> RunOptions {
-    RunOptions { study_file: study.study.clone(), output, command: super::command_line() }
 }

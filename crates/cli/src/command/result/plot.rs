@@ -5,14 +5,14 @@ use std::path::PathBuf;
 use clap::Args;
 use uplift_report::{PlotOptions, plot as plot_result};
 
-use super::figure_files::FigureArguments;
-use super::result_of::ResultArguments;
+use crate::command::arguments::FigureArguments;
+use crate::command::arguments::ResultArguments;
 use crate::error::CommandError;
 use crate::show::print_files;
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
-pub(super) struct PlotArguments {
+pub(crate) struct PlotArguments {
     #[command(flatten)]
     result: ResultArguments,
     /// Folder for the figures [default: beside the result, named after it]
@@ -25,7 +25,7 @@ pub(super) struct PlotArguments {
     figures: FigureArguments,
 }
 
-pub(super) fn plot(arguments: &PlotArguments, terminal: &Terminal) -> Result<(), CommandError> {
+pub(crate) fn plot(arguments: &PlotArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let options = PlotOptions {
         result: arguments.result.find(terminal)?.path,
         folder: arguments.output.clone(),

@@ -11,13 +11,13 @@ use crate::show::print_verified;
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
-pub(super) struct VerifyArguments {
+pub(crate) struct VerifyArguments {
     /// Result files of `uplift run`
     #[arg(required = true, value_name = "RESULT")]
     results: Vec<PathBuf>,
 }
 
-pub(super) fn verify(arguments: &VerifyArguments, terminal: &Terminal) -> Result<(), CommandError> {
+pub(crate) fn verify(arguments: &VerifyArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let report = verify_results(&arguments.results, terminal)?;
     print_verified(&report, terminal)?;
     let mistakes = report.mistakes();

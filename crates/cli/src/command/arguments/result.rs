@@ -2,18 +2,19 @@
 
 use std::path::PathBuf;
 
-use crate::error::CommandError;
 use clap::Args;
 use uplift::RunOptions;
 use uplift::result::is_hdf5;
 use uplift::uniform_risk::result_of;
 use uplift_study::{Bootstrap, Study};
 
+use super::study::command_line;
+use crate::error::CommandError;
 use crate::terminal::Terminal;
 
 /// A result, or a study that has or makes one.
 #[derive(Debug, Args)]
-pub(super) struct ResultArguments {
+pub(crate) struct ResultArguments {
     /// Result file of `uplift run`, or a study file, which is run first unless its result is there
     #[arg(value_name = "STUDY|RESULT")]
     input: PathBuf,
@@ -23,15 +24,15 @@ pub(super) struct ResultArguments {
 }
 
 /// A result file that is there.
-pub(super) struct FoundResult {
-    pub(super) path: PathBuf,
+pub(crate) struct FoundResult {
+    pub(crate) path: PathBuf,
     /// What the study file, if one was given, says about the bootstrap.
-    pub(super) bootstrap: Option<Bootstrap>,
+    pub(crate) bootstrap: Option<Bootstrap>,
 }
 
 impl ResultArguments {
     /// The result; a study without one is run.
-    pub(super) fn find(&self, terminal: &Terminal) -> Result<FoundResult, CommandError> {
+    pub(crate) fn find(&self, terminal: &Terminal) -> Result<FoundResult, CommandError> {
         if is_hdf5(&self.input) || self.input.extension().is_some_and(|extension| extension == "h5") {
             if !self.overrides.is_empty() {
                 return Err(CommandError::Usage(
@@ -41,7 +42,7 @@ impl ResultArguments {
             return Ok(FoundResult { path: self.input.clone(), bootstrap: None });
         }
         let study = Study::load(&self.input, &self.overrides)?;
-        let options = RunOptions { study_file: self.input.clone(), output: None, command: super::command_line() };
+        let options = RunOptions { study_file: self.input.clone(), output: None, command: command_line() };
         let path = result_of(&study, &options, terminal)?;
         Ok(FoundResult { path, bootstrap: Some(study.bootstrap.clone()) })
     }

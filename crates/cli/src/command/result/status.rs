@@ -9,12 +9,12 @@ use crate::error::CommandError;
 use crate::show::print_status;
 
 #[derive(Debug, Args)]
-pub(super) struct StatusArguments {
+pub(crate) struct StatusArguments {
     /// Result file, study file, or shard
     #[arg(value_name = "RESULT|STUDY|SHARD")]
     input: PathBuf,
 }
 
-pub(super) fn status(arguments: &StatusArguments) -> Result<(), CommandError> {
+pub(crate) fn status(arguments: &StatusArguments) -> Result<(), CommandError> {
     print_status(&status_of(&arguments.input)?)
 }

@@ -3,13 +3,13 @@
 use clap::Args;
 use uplift::efficiency::efficiency;
 
-use super::result_of::ResultArguments;
+use crate::command::arguments::ResultArguments;
 use crate::error::CommandError;
 use crate::show::{print_efficiency, print_json};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
-pub(super) struct MeasuresArguments {
+pub(crate) struct MeasuresArguments {
     #[command(flatten)]
     result: ResultArguments,
     /// Print the rows as JSON
@@ -17,7 +17,7 @@ pub(super) struct MeasuresArguments {
     json: bool,
 }
 
-pub(super) fn measures(arguments: &MeasuresArguments, terminal: &Terminal) -> Result<(), CommandError> {
+pub(crate) fn measures(arguments: &MeasuresArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let found = arguments.result.find(terminal)?;
     let report = efficiency(&found.path, terminal)?;
     if arguments.json { print_json(&report) } else { print_efficiency(&report, terminal) }

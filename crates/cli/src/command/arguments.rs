@@ -1,0 +1,11 @@
+//! Arguments that several commands take.
+
+mod figures;
+mod result;
+mod structure;
+mod study;
+
+pub(crate) use figures::FigureArguments;
+pub(crate) use result::ResultArguments;
+pub(crate) use structure::StructureArguments;
+pub(crate) use study::{StudyArguments, run_options, shard};

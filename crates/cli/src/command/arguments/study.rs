@@ -1,0 +1,52 @@
+//! A study file, and how it is run.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use uplift::RunOptions;
+use uplift::analysis::MOST_SHARDS;
+use uplift_ida::Shard;
+use uplift_study::{AnyStudy, Study};
+
+use crate::error::CommandError;
+
+/// A study file and what is changed of it.
+#[derive(Debug, Args)]
+pub(crate) struct StudyArguments {
+    /// Study file (TOML), for instance configs/europe.toml
+    pub(crate) study: PathBuf,
+    /// Change a key of the study for this run, for instance --set records.first=20; paths are relative to the current
+    /// directory
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    overrides: Vec<String>,
+}
+
+impl StudyArguments {
+    /// The study, of whichever kind, every default filled in.
+    pub(crate) fn load_any(&self) -> Result<AnyStudy, CommandError> {
+        Ok(Study::load_any(&self.study, &self.overrides)?)
+    }
+}
+
+/// What was typed, for the result.
+pub(super) fn command_line() -> String {
+    std::env::args().collect::<Vec<_>>().join(" ")
+}
+
+/// The options of a run that was typed.
+pub(crate) fn run_options(study: &StudyArguments, output: Option<PathBuf>) -> RunOptions {
+    RunOptions { study_file: study.study.clone(), output, command: command_line() }
+}
+
+/// Reads `1/8`.
+pub(crate) fn shard(text: &str) -> Result<Shard, String> {
+    let numbers = text
+        .split_once('/')
+        .and_then(|(index, count)| Some((index.trim().parse::<u64>().ok()?, count.trim().parse::<u64>().ok()?)));
+    match numbers {
+        Some((index, count)) if index >= 1 && index <= count && count <= MOST_SHARDS => {
+            Ok(Shard { index: index - 1, count })
+        }
+        _ => Err(format!("write 1/8 for the first of eight shards; at most {MOST_SHARDS}")),
+    }
+}

@@ -1,0 +1,11 @@
+//! Commands that take a result: look at it, hand it on, or ask it something.
+
+pub(super) mod bootstrap;
+pub(super) mod export;
+pub(super) mod influence;
+pub(super) mod measures;
+pub(super) mod plot;
+pub(super) mod report;
+pub(super) mod status;
+pub(super) mod table;
+pub(super) mod verify;

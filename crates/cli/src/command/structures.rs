@@ -1,0 +1,4 @@
+//! Commands that put a structure under the records and hazard of a result.
+
+pub(super) mod design;
+pub(super) mod overturning;

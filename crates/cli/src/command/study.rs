@@ -1,0 +1,5 @@
+//! Commands that carry out a study.
+
+pub(super) mod check;
+pub(super) mod merge;
+pub(super) mod run;
