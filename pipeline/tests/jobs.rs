@@ -46,7 +46,8 @@ fn motion(record: f64) -> String {
         let burst = (-(time_s - 5.0).powi(2) / 3.0).exp() * (0.3 * record + 2.0 / record * time_s).sin();
         burst * (9.0 / record * time_s).sin()
     };
-    (0..1200).map(|step| format!("{:.6}\n", sample(step))).collect()
+    let samples: Vec<String> = (0..1200).map(|step| format!("{:.6}", sample(step))).collect();
+    samples.join("\n")
 }
 
 /// A folder with a result and a structure in it.
@@ -55,11 +56,12 @@ struct Folder(TempDir);
 impl Folder {
     fn new() -> Self {
         let folder = Self(tempfile::tempdir().unwrap());
-        let curve = |range: [f64; 3], k0: f64, k: f64| -> String {
-            range.iter().map(|im: &f64| format!("{im},{:e}\n", k0 * im.powf(-k))).collect()
+        let curve = |range: [f64; 3], k0: f64, k: f64| {
+            let rows = range.map(|im: f64| format!("{im},{:e}", k0 * im.powf(-k)));
+            format!("iml,maf\n{}\n", rows.join("\n"))
         };
-        folder.write("pgv.csv", &format!("iml,maf\n{}", curve([0.5, 10.0, 300.0], 0.2, 2.0)));
-        folder.write("pga.csv", &format!("iml,maf\n{}", curve([0.01, 0.1, 3.0], 1e-4, 2.2)));
+        folder.write("pgv.csv", &curve([0.5, 10.0, 300.0], 0.2, 2.0));
+        folder.write("pga.csv", &curve([0.01, 0.1, 3.0], 1e-4, 2.2));
         folder.write("block.toml", "kind = \"block\"\nwidth_m = 0.8\nheight_m = 4\nmass_kg = 1000\n");
         let mut manifest = "record_id,file_h1,file_h2,dt_s,unit,magnitude\n".to_owned();
         for record in 1..=4 {
@@ -162,12 +164,15 @@ fn a_bootstrap_reports_what_it_writes() {
 
     let mut row = report.rows.iter();
     for (bands, im) in report.bands.iter().zip(["pgv", "pga"]) {
-        assert_eq!(bands.upper_m, array(&folder.result(), &format!("/bootstrap/{im}/u95_m")));
+        assert_eq!(bands.upper_m.values(), array(&folder.result(), &format!("/bootstrap/{im}/u95_m")));
         let ranges = array(&folder.result(), &format!("/bootstrap/{im}/r_90ci"));
         for (site, poe, size) in (0..2).flat_map(|site| (0..6).map(move |cell| (site, cell / 2, cell % 2))) {
             let row = row.next().unwrap();
             assert_eq!((row.site.as_str(), row.poe, row.sample_size), (SITES[site], POES[poe], [2, 4][size]));
-            assert_eq!(row.r_90ci.unwrap_or(f64::NAN).to_bits(), ranges[report.cell(site, poe, size)].to_bits());
+            assert_eq!(
+                row.r_90ci.unwrap_or(f64::NAN).to_bits(),
+                ranges[(site * POES.len() + poe) * 2 + size].to_bits()
+            );
         }
     }
     assert!(row.next().is_none());
@@ -273,6 +278,31 @@ fn a_design_starts_from_the_spectrum_in_the_file() {
     assert!(matches!(safety, Err(UpliftError::Usage(_))));
     let alone = ask(DesignOptions { spectrum_only: true, ..options }).unwrap();
     assert_eq!((alone.exact, alone.spectrum), (None, Some(spectrum)));
+}
+
+// What is finished of the structure's own analysis is in a checkpoint beside the result until all of it is told.
+#[test]
+fn a_stopped_design_and_overturning_go_on() {
+    let folder = Folder::new();
+    let options = DesignOptions { site: Some("Here".to_owned()), ..DesignOptions::default() };
+    let ask = |events: &dyn Events| design(&folder.block(), &folder.result(), &options, events);
+    let whole = ask(&Silent).unwrap();
+    let stopped = ask(&Recorder::stopping_after(1));
+    let Err(UpliftError::Paused { done, total, path, .. }) = stopped else { panic!("{stopped:?}") };
+    assert!((1..total).contains(&done) && path.is_file(), "{done} of {total}");
+    let events = Recorder::default();
+    assert_eq!(ask(&events).unwrap(), whole);
+    assert!(events.remarks().contains("known"), "{}", events.remarks());
+    assert!(!path.exists());
+
+    let options = OverturningOptions::default();
+    let ask = |events: &dyn Events| overturning(&folder.block(), &folder.result(), &options, events);
+    let whole = ask(&Silent).unwrap();
+    let stopped = ask(&Recorder::stopping_after(1));
+    let Err(UpliftError::Paused { path, .. }) = stopped else { panic!("{stopped:?}") };
+    assert!(path.is_file());
+    assert_eq!(ask(&Silent).unwrap(), whole);
+    assert!(!path.exists());
 }
 
 #[test]

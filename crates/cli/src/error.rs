@@ -30,9 +30,14 @@ impl CommandError {
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
             Self::OutputClosed => 0,
-            Self::Usage(_) | Self::Uplift(UpliftError::Usage(_) | UpliftError::Choice { .. }) => 2,
-            // oscillators, blocks and pulses are typed; those of a file are said to be of it
-            Self::Uplift(UpliftError::Oscillator(_) | UpliftError::Blocks(_)) => 2,
+            // oscillators, blocks and pulses are typed, too; those of a file are said to be of it
+            Self::Usage(_)
+            | Self::Uplift(
+                UpliftError::Usage(_)
+                | UpliftError::Choice { .. }
+                | UpliftError::Oscillator(_)
+                | UpliftError::Blocks(_),
+            ) => 2,
             // what a synthetic record is asked to be is typed, too
             Self::Uplift(UpliftError::Motion(
                 MotionError::SyntheticOption { .. } | MotionError::SyntheticCandidates { .. },

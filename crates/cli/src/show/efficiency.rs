@@ -118,11 +118,8 @@ fn print_reading(
 ) -> Result<(), CommandError> {
     writeln!(out, "\nIn words:")?;
     if let [first, second] = measures {
-        let questions: [(&str, fn(&EfficiencyRow) -> f64); 2] = [
-            ("the displacement of a rocking structure", |row| row.dispersion_rocking),
-            ("the onset of rocking", |row| row.dispersion_initiation),
-        ];
-        for (what, of) in questions {
+        for (what, rocking) in [("the displacement of a rocking structure", true), ("the onset of rocking", false)] {
+            let of = |row: &EfficiencyRow| if rocking { row.dispersion_rocking } else { row.dispersion_initiation };
             let wins: Vec<bool> = shown
                 .iter()
                 .map(|&index| (of(&first[index]), of(&second[index])))
