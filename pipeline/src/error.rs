@@ -60,7 +60,7 @@ pub enum UpliftError {
     Structure(#[from] StructureError),
     /// An analysis that cannot be planned or finished; one that was told to stop is [`Interrupted`](Self::Interrupted).
     #[error(transparent)]
-    Analysis(IdaError),
+    Analysis(Box<IdaError>),
     /// Demands of which no fragility can be made.
     #[error(transparent)]
     Fragility(#[from] FragilityError),
@@ -73,7 +73,7 @@ pub enum UpliftError {
     /// A displacement spectrum that cannot be computed; one that was told to stop is
     /// [`Interrupted`](Self::Interrupted).
     #[error(transparent)]
-    Spectra(SpectraError),
+    Spectra(Box<SpectraError>),
     /// A record cannot be read or used, or no synthetic one can be made as asked.
     #[error(transparent)]
     Motion(#[from] MotionError),
@@ -146,7 +146,7 @@ impl From<IdaError> for UpliftError {
     fn from(error: IdaError) -> Self {
         match error {
             IdaError::Cancelled => Self::Interrupted,
-            other => Self::Analysis(other),
+            other => Self::Analysis(Box::new(other)),
         }
     }
 }
@@ -161,7 +161,7 @@ impl From<SpectraError> for UpliftError {
     fn from(error: SpectraError) -> Self {
         match error {
             SpectraError::Analysis(error) => error.into(),
-            other => Self::Spectra(other),
+            other => Self::Spectra(Box::new(other)),
         }
     }
 }

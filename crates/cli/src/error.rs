@@ -30,13 +30,15 @@ impl CommandError {
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
             Self::OutputClosed => 0,
-            Self::Usage(_) | Self::Uplift(UpliftError::Usage(_) | UpliftError::Choice { .. }) => 2,
-            // oscillators, blocks and pulses are typed; those of a file are said to be of it
-            Self::Uplift(UpliftError::Oscillator(_) | UpliftError::Blocks(_)) => 2,
-            // what a synthetic record is asked to be is typed, too
-            Self::Uplift(UpliftError::Motion(
-                MotionError::SyntheticOption { .. } | MotionError::SyntheticCandidates { .. },
-            )) => 2,
+            // what an oscillator, a block, a pulse or a synthetic record is to be is typed; that of a file is said to be of it
+            Self::Usage(_)
+            | Self::Uplift(
+                UpliftError::Usage(_)
+                | UpliftError::Choice { .. }
+                | UpliftError::Oscillator(_)
+                | UpliftError::Blocks(_)
+                | UpliftError::Motion(MotionError::SyntheticOption { .. } | MotionError::SyntheticCandidates { .. }),
+            ) => 2,
             Self::Uplift(UpliftError::Study(_)) => 3,
             Self::Uplift(UpliftError::Interrupted | UpliftError::Paused { .. }) => 5,
             // whatever else a job meets is in the input data or on the disk

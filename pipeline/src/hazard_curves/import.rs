@@ -26,7 +26,7 @@ const NEAR_KM: f64 = 10.0;
 /// Which curves are taken, and where they go.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HazardImportOptions {
-    /// Exports: OpenQuake CSV or NRML, USGS JSON; several for several measures, or for the realizations of a logic
+    /// Exports: `OpenQuake` CSV or NRML, USGS JSON; several for several measures, or for the realizations of a logic
     /// tree.
     pub exports: Vec<PathBuf>,
     /// Folder for the curve files; made if it is not there.
@@ -35,7 +35,7 @@ pub struct HazardImportOptions {
     pub site: SiteSelection,
     /// How the ground-motion models combine horizontal components, which exports do not say.
     pub component: Option<ComponentDefinition>,
-    /// Weights of the realizations (OpenQuake's `realizations_*.csv`).
+    /// Weights of the realizations (`OpenQuake`'s `realizations_*.csv`).
     pub weights: Option<PathBuf>,
     /// Farthest that a site may be from the place asked for, km.
     pub within_km: f64,
