@@ -24,4 +24,5 @@ mod result_file;
 mod resume;
 mod run;
 mod site_table;
+mod structure_resume;
 mod table_4_2;

@@ -3,7 +3,7 @@
 //! | module | what is in it |
 //! |---|---|
 //! | `key` | from a plan to the keys of its rows |
-//! | `row_file` | finished rows in a file, appended as they come: a checkpoint, or the shard of one machine |
+//! | `row_file` | finished rows in a file, appended as they come: a checkpoint, or a shard |
 //! | `block` | how a row is written in such a file |
 //! | `open` | a checkpoint in use: what is known from it, and what is added |
 //! | `error` | why one cannot be used |

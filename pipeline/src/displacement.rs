@@ -19,5 +19,5 @@ pub(crate) use plan::plan;
 pub use report::{RunReport, SetReport, SpectraReport};
 pub(crate) use run::run;
 pub use spectra::{SetSpectra, set_spectra, structures};
-pub(crate) use work::{Inputs, Sets, run_shard};
+pub(crate) use work::{Inputs, KeyedMotions, run_shard};
 pub use write::{DisplacementOutcome, write_displacements};

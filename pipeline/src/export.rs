@@ -99,10 +99,10 @@ pub struct Export {
 }
 
 impl Export {
-    /// Reads the result at `path`.
+    /// Read the result at `path`.
     ///
     /// # Errors
-    /// A file that is missing, damaged, no result, or without spectra.
+    /// A file that is missing, damaged or no result of uniform risk spectra.
     pub fn read(path: &Path) -> Result<Self, UpliftError> {
         let file = ResultFile::open(path)?;
         let spectra = file.spectra()?;
@@ -187,7 +187,7 @@ impl Export {
     /// A MATLAB file: `u_pgv_m` is strength × probability × site, the coefficients are probability × site.
     ///
     /// # Errors
-    /// An array that is too large for the format.
+    /// A result that is too large for the format.
     pub fn matlab(&self) -> Result<Vec<u8>, UpliftError> {
         let StoredSpectra { strengths, poes, years, sites, measures } = &self.spectra;
         let mut file = MatFile::new(&self.provenance);

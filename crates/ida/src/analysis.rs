@@ -135,7 +135,11 @@ pub(crate) fn single(
 fn rocked(block: &RockingBlock, motion: &ScaledMotion<'_>, scale: f64, with_free_peak: bool) -> Result<Peak, IdaError> {
     let free = if with_free_peak { FreeRocking::FirstPeak } else { FreeRocking::Lasting { duration_s: 0.0 } };
     let named = || motion.id.to_owned();
-    let ground = motion.accelerogram.scaled(scale).map_err(|source| IdaError::Motion { motion: named(), source })?;
-    let response = respond(block, &ground, free).map_err(|source| IdaError::Block { motion: named(), source })?;
+    let ground = motion
+        .accelerogram
+        .scaled(scale)
+        .map_err(|source| IdaError::Motion { motion: named(), source: source.into() })?;
+    let response =
+        respond(block, &ground, free).map_err(|source| IdaError::Block { motion: named(), source: source.into() })?;
     Ok(Peak { displacement_m: response.displacement_m, impacts: u32::try_from(response.impacts).unwrap_or(u32::MAX) })
 }

@@ -66,7 +66,7 @@ pub enum IdaError {
         /// The motion.
         motion: String,
         /// What is wrong.
-        source: BlockError,
+        source: Box<BlockError>,
     },
     /// A motion that cannot be multiplied so.
     #[error("record {motion}: {source}")]
@@ -74,7 +74,7 @@ pub enum IdaError {
         /// The motion.
         motion: String,
         /// What is wrong.
-        source: MotionError,
+        source: Box<MotionError>,
     },
     /// The analysis was told to stop.
     #[error("the analysis was interrupted")]

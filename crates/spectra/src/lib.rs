@@ -12,7 +12,7 @@
 //! | [`statistics`] | percentiles, and where a line of a figure begins |
 //! | [`noise`] | how much a value moves in a small sweep around its point |
 //! | [`restrained`] | the design example of Section 3.4.5: both rules beside the time histories (Tables 3.2–3.7) |
-//! | [`solitary`] | the design example of Section 2.4.3: endless block beside block (Tables 2.1–2.3) |
+//! | [`solitary`] | the design example of Section 2.4.3: the size-independent spectrum (Tables 2.1–2.3) |
 //!
 //! The systems are shaken by [`uplift_ida`]: [`MotionSet::plan`] says by what.
 //!

@@ -127,8 +127,7 @@ pub fn join(paths: &[PathBuf], work: &Work<'_>) -> Result<FinishedRows, UpliftEr
         if has < of_shard {
             mistakes.push(format!(
                 "{name}: has {has} of its {of_shard} analysis rows: run --shard {shard}/{shards} again, it goes on \
-                 where \
-                 it stopped"
+                 where it stopped"
             ));
         }
         rows.extend(finding.rows);

@@ -89,8 +89,8 @@ impl<'a> Work<'a> {
     /// plan's place and result to `each`.
     ///
     /// # Errors
-    /// [`UpliftError::Paused`] where the user stopped it, [`UpliftError::Interrupted`] if there is no file; a file that
-    /// can no longer be written, which stops it too; what `each` ends with.
+    /// [`UpliftError::Paused`] where the user stopped it, [`UpliftError::Interrupted`] if there is no file;
+    /// a file that can no longer be written, which stops it too; what `each` ends with.
     pub fn carry_out(
         self,
         checkpoint: &Checkpoint,

@@ -33,8 +33,8 @@ pub enum CheckpointError {
     },
     /// It is a shard of other work, which must not be lost.
     #[error(
-        "{}: is there already, as shard {shard} of {shards} of other work ({title:?}): remove it, or give another name \
-         (-o)",
+        "{}: is there already, as shard {shard} of {shards} of other work ({title:?}): remove it, or give another \
+         name (-o)",
         path.display()
     )]
     OtherWork {
@@ -49,8 +49,8 @@ pub enum CheckpointError {
     },
     /// Nothing more can be added to it.
     #[error(
-        "{}: no more analysis rows can be written ({source}); those in it stay: make room, and run the same command to \
-         go on",
+        "{}: no more analysis rows can be written ({source}); those in it stay: make room, and run the \
+         same command to go on",
         path.display()
     )]
     Full {

@@ -85,8 +85,7 @@ impl Checkpoint {
     /// Carries out what is missing of one shard of `plan`; every finished row goes to the file, and then to `keep`.
     ///
     /// # Errors
-    /// [`IdaError::Cancelled`] where `watch` says so, and where the file takes up no more: see
-    /// [`stopped`](Self::stopped).
+    /// [`IdaError::Cancelled`] where `watch` says so, and where the file takes up no more ([`stopped`](Self::stopped)).
     pub(crate) fn complete(
         &self,
         (plan, keys): (&Plan<'_>, &RowKeys),

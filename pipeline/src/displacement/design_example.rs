@@ -6,8 +6,8 @@ use uplift_spectra::{
     Case, MotionSet, RestrainedDesign, RestrainedExample, Scaling, SolitaryDesign, SolitaryExample, SpectraError,
 };
 
-use super::Sets;
-use super::spectra::{of_spectra, with_free_vibration};
+use super::KeyedMotions;
+use super::spectra::with_free_vibration;
 use crate::checkpoint::Checkpoint;
 use crate::error::UpliftError;
 use crate::events::{Events, Progress};
@@ -55,13 +55,13 @@ pub fn design_analyses(study: &DisplacementStudy, plan: &DesignPlan, set: &Motio
 /// [`UpliftError::Paused`] or [`UpliftError::Interrupted`] where `events` say so; what the solvers and rules refuse.
 pub(crate) fn carry_out_designs(
     study: &DisplacementStudy,
-    sets: &Sets<'_>,
+    sets: &KeyedMotions<'_>,
     shard: Shard,
     (checkpoint, analyses): (&Checkpoint, u64),
     events: &dyn Events,
 ) -> Result<Option<(Designs, Vec<String>)>, UpliftError> {
     let Some(plan) = &study.design else { return Ok(None) };
-    let examples = (sets.sets.len() * study.scaling.ways().0.len()) as u64;
+    let examples = (sets.motions.len() * study.scaling.ways().0.len()) as u64;
     events.remark("design", &format!("{examples} examples, {} points around each value", plan.noise_points));
     let progress = Progress::begin(events, "design", "examples", examples / shard.count);
     let carrier = Carrier { sets, shard, checkpoint, watch: &progress };
@@ -78,7 +78,7 @@ pub(crate) fn carry_out_designs(
 
 /// What carries out the plans of the examples.
 struct Carrier<'a> {
-    sets: &'a Sets<'a>,
+    sets: &'a KeyedMotions<'a>,
     shard: Shard,
     checkpoint: &'a Checkpoint,
     /// Told of finished examples.
@@ -93,15 +93,15 @@ impl Carrier<'_> {
         of: impl Fn(Case<'_>) -> Result<T, SpectraError> + Sync,
     ) -> Result<Vec<T>, UpliftError> {
         let places: Vec<(usize, Scaling)> =
-            (0..self.sets.sets.len()).flat_map(|set| ways.iter().map(move |way| (set, *way))).collect();
+            (0..self.sets.motions.len()).flat_map(|set| ways.iter().map(move |way| (set, *way))).collect();
         let example = |&(set, scaling): &(usize, Scaling)| {
             let carry_out = |plan: &Plan<'_>| self.checkpoint.peaks(plan, &self.sets.keys[set], &Within(self.watch));
-            let example = of(Case { set: &self.sets.sets[set], scaling, carry_out: &carry_out })?;
+            let example = of(Case { set: &self.sets.motions[set], scaling, carry_out: &carry_out })?;
             self.watch.finished(1);
             Ok(example)
         };
         let places = places.par_iter().enumerate().filter(|(place, _)| self.shard.contains(*place));
-        places.map(|(_, place)| example(place)).collect::<Result<Vec<T>, SpectraError>>().map_err(of_spectra)
+        Ok(places.map(|(_, place)| example(place)).collect::<Result<Vec<T>, SpectraError>>()?)
     }
 }
 
@@ -111,10 +111,10 @@ fn design_examples(
     carrier: &Carrier<'_>,
 ) -> Result<Option<(Designs, Vec<String>)>, UpliftError> {
     let (ways, places) = study.scaling.ways();
-    let noise = plan.noise().map_err(of_spectra)?;
+    let noise = plan.noise()?;
     // what is not scaled stands under every `by`
     let everywhere = |case: usize| case / places.len() * ways.len() + places[case % places.len()];
-    let all = 0..carrier.sets.sets.len() * places.len();
+    let all = 0..carrier.sets.motions.len() * places.len();
     match (plan.designed, &study.structures) {
         (Designed::Bridge { width_m, height_m }, Structures::Oscillators(family)) => {
             let design = RestrainedDesign {

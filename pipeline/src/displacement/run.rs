@@ -40,14 +40,14 @@ pub(crate) fn run(
     let begin = Instant::now();
     let mut spectra = Vec::new();
     work.carry_out(&checkpoint, Shard::WHOLE, events, &mut |set, analysed| {
-        spectra.push(set_spectra(study, &sets.sets[set], &analysed.peaks));
+        spectra.push(set_spectra(study, &sets.motions[set], &analysed.peaks));
         Ok(())
     })?;
     let seconds = begin.elapsed().as_secs_f64();
     let designs = carry_out_designs(study, &sets, Shard::WHOLE, (&checkpoint, total), events)?;
     let (designs, without_design) = designs.unzip();
     let mut warnings = records.notes.clone();
-    warnings.extend(warnings_of(study, records, &sets.sets));
+    warnings.extend(warnings_of(study, records, &sets.motions));
     warnings.extend(without_design.into_iter().flatten());
     if events.cancelled() {
         return Err(checkpoint.stopped(total, total));
@@ -58,7 +58,7 @@ pub(crate) fn run(
     let outcome = DisplacementOutcome {
         study,
         records,
-        sets: &sets.sets,
+        sets: &sets.motions,
         spectra: &spectra,
         designs: designs.as_ref(),
         analyses: total,

@@ -29,11 +29,10 @@ pub struct SetSpectra {
 /// # Errors
 /// A parameter that the study file's check let through: none is known.
 pub fn structures(study: &DisplacementStudy) -> Result<Vec<System>, UpliftError> {
-    match &study.structures {
-        Structures::Oscillators(family) => oscillators(family, study.gravity_m_s2),
-        Structures::Blocks(family) => blocks(family, study.gravity_m_s2),
-    }
-    .map_err(of_spectra)
+    Ok(match &study.structures {
+        Structures::Oscillators(family) => oscillators(family, study.gravity_m_s2)?,
+        Structures::Blocks(family) => blocks(family, study.gravity_m_s2)?,
+    })
 }
 
 fn oscillators(family: &OscillatorFamily, gravity_m_s2: f64) -> Result<Vec<System>, SpectraError> {
@@ -103,12 +102,4 @@ pub fn set_spectra(study: &DisplacementStudy, set: &MotionSet<'_>, peaks: &Peaks
         }
     }
     spectra
-}
-
-/// A refusal of the science, as the program tells it.
-pub(super) fn of_spectra(error: SpectraError) -> UpliftError {
-    match error {
-        SpectraError::Analysis(error) => error.into(),
-        other => UpliftError::input(other.to_string()),
-    }
 }

@@ -22,8 +22,8 @@ pub(crate) struct Inputs {
 }
 
 /// The motions of every set, with their keys.
-pub(crate) struct Sets<'a> {
-    pub(crate) sets: Vec<MotionSet<'a>>,
+pub(crate) struct KeyedMotions<'a> {
+    pub(crate) motions: Vec<MotionSet<'a>>,
     /// Keys of the motions of each set.
     pub(crate) keys: Vec<Vec<String>>,
     structures: &'a [System],
@@ -42,14 +42,14 @@ impl Inputs {
     ///
     /// # Errors
     /// Every component that does not move, so that it cannot be scaled.
-    pub(crate) fn sets(&self, study: &DisplacementStudy) -> Result<Sets<'_>, UpliftError> {
+    pub(crate) fn sets(&self, study: &DisplacementStudy) -> Result<KeyedMotions<'_>, UpliftError> {
         let sets = self.records.motions(study.gravity_m_s2)?;
         let keys = |set: &MotionSet<'_>| set.motions().iter().map(|motion| motion_key(motion.accelerogram)).collect();
-        Ok(Sets { keys: sets.iter().map(keys).collect(), sets, structures: &self.structures })
+        Ok(KeyedMotions { keys: sets.iter().map(keys).collect(), motions: sets, structures: &self.structures })
     }
 }
 
-impl Sets<'_> {
+impl KeyedMotions<'_> {
     /// The spectra of every set.
     ///
     /// # Errors
@@ -57,7 +57,7 @@ impl Sets<'_> {
     pub(crate) fn work(&self, study: &DisplacementStudy) -> Result<Work<'_>, UpliftError> {
         let ways = study.scaling.ways().0;
         let mut plans = Vec::new();
-        for (set, motions) in self.sets.iter().zip(&self.keys) {
+        for (set, motions) in self.motions.iter().zip(&self.keys) {
             let plan = set.plan(&ways, self.structures, with_free_vibration(study))?;
             let text = format!(
                 "{} motions x {} scalings x {} structures = {} analyses",

@@ -35,7 +35,7 @@ pub struct HazardImportOptions {
     pub site: SiteSelection,
     /// How the ground-motion models combine horizontal components, which exports do not say.
     pub component: Option<ComponentDefinition>,
-    /// Weights of the realizations (`OpenQuake`'s `realizations_*.csv`).
+    /// Weights of the realizations (`realizations_*.csv` of `OpenQuake`).
     pub weights: Option<PathBuf>,
     /// Farthest that a site may be from the place asked for, km.
     pub within_km: f64,

@@ -56,6 +56,7 @@ impl RuleOutcome {
 
 /// Demands that the rules start from and are measured by, in the structure's displacement, m.
 #[derive(Debug, Clone, Copy)]
+#[expect(clippy::struct_field_names, reason = "the unit of each")]
 pub(super) struct RuleDemands {
     /// On the ZSBE system, by the spectrum.
     pub(super) of_spectrum_m: Option<f64>,

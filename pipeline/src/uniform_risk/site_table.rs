@@ -34,6 +34,9 @@ pub struct SiteOutput {
 
 impl SiteOutput {
     /// Put the files in their places.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
     pub fn finish(self) -> Result<Vec<PathBuf>, UpliftError> {
         self.files.map_or(Ok(Vec::new()), SiteTableFiles::finish)
     }
@@ -41,6 +44,9 @@ impl SiteOutput {
 
 /// The study's table of sites, found in its exports; no file that is read is to be overwritten by the results at
 /// `path`.
+///
+/// # Errors
+/// A table or an export that cannot be used, or that the results would overwrite.
 pub fn read(study: &UniformRiskStudy, path: &Path, events: &dyn Events) -> Result<Option<SiteList>, UpliftError> {
     for input in study.site_table.iter().flat_map(SiteTable::files) {
         let same = |output: &PathBuf| output.canonicalize().is_ok_and(|output| output == input);
@@ -53,12 +59,15 @@ pub fn read(study: &UniformRiskStudy, path: &Path, events: &dyn Events) -> Resul
     }
     let list = read_site_list(study)?;
     if let Some(list) = &list {
-        events.remark("sites", &format!("{}", list.description()));
+        events.remark("sites", &list.description());
     }
     Ok(list)
 }
 
 /// Spectra and coefficients of every site of the list, written site by site; `line` says where the numbers come from.
+///
+/// # Errors
+/// Files that cannot be read or written; [`UpliftError::Interrupted`] where `events` say so.
 pub fn compute(
     study: &UniformRiskStudy,
     list: Option<&SiteList>,

@@ -45,7 +45,9 @@ pub fn systems(study: &UniformRiskStudy) -> Result<Vec<System>, UpliftError> {
         .iter()
         .map(|&strength| {
             let (u_up, restitution) = (parameters.uplift_displacement_m, parameters.restitution);
-            Oscillator::new(strength, study.gravity_m_s2, u_up, restitution, parameters.post_uplift)
+            let post_uplift = parameters.post_uplift;
+            // it comes from a study, so it is not said to be typed as an oscillator's own error would be
+            Oscillator::new(strength, study.gravity_m_s2, u_up, restitution, post_uplift)
                 .map(System::Oscillator)
                 .map_err(|error| UpliftError::input(error.to_string()))
         })

@@ -102,10 +102,8 @@ fn a_file_of_the_version_before_is_no_mistake() {
     let path = folder.path().join("a.part");
     let block = write_block(RowKey([1; 16]), &[0.5], &[3]);
     let write = |shards: u64| {
-        let head = format!(
-            "{{\"format\":\"uplift pieces \
-             1\",\"work\":\"ab\",\"title\":\"old\",\"shard\":1,\"shards\":{shards},\"pieces\":9}}\n"
-        );
+        let numbers = format!("\"shard\":1,\"shards\":{shards},\"pieces\":9");
+        let head = format!("{{\"format\":\"uplift pieces 1\",\"work\":\"ab\",\"title\":\"old\",{numbers}}}\n");
         std::fs::write(&path, [head.as_bytes(), &block].concat()).unwrap();
     };
     write(1);
