@@ -13,7 +13,8 @@
 //! | [`analysis`] | plans carried out with a checkpoint, whole or in shards |
 //! | [`checkpoint`] | finished rows of the analysis by their keys: what outlives a stopped run |
 //! | [`result`](mod@result) | the HDF5 file and the tables beside it, written and read |
-//! | [`status`](mod@status), [`verify`](mod@verify), [`table`](mod@table), [`export`](mod@export) | a result looked at, checked, compared and handed on |
+//! | [`status`](mod@status), [`verify`](mod@verify) | how far a run is, and whether a result is as it was written |
+//! | [`table`](mod@table), [`export`](mod@export) | a result beside a reference, and for other programs |
 //! | [`records`], [`hazard_curves`] | record sets and hazard curves looked at, chosen from, made and imported |
 //! | [`response`](mod@response) | one record through one oscillator |
 //! | [`pulses`] | rocking spectra under wavelets, which need no study |

@@ -1,5 +1,5 @@
-//! The smaller jobs called as a library, without a terminal: records made, imported, listed and chosen, one response, pulses,
-//! hazard curves.
+//! The smaller jobs called as a library, without a terminal: records made, imported, listed and chosen, one response,
+//! pulses, hazard curves.
 #![allow(clippy::unwrap_used)]
 
 use std::path::Path;

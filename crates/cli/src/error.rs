@@ -30,7 +30,7 @@ impl CommandError {
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
             Self::OutputClosed => 0,
-            // what an oscillator, a block, a pulse or a synthetic record is to be is typed; that of a file is said to be of it
+            // what oscillators, blocks, pulses and synthetic records are to be is typed
             Self::Usage(_)
             | Self::Uplift(
                 UpliftError::Usage(_)
