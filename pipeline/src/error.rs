@@ -73,7 +73,7 @@ pub enum UpliftError {
     /// A displacement spectrum that cannot be computed; one that was told to stop is
     /// [`Interrupted`](Self::Interrupted).
     #[error(transparent)]
-    Spectra(SpectraError),
+    Spectra(Box<SpectraError>),
     /// A record cannot be read or used, or no synthetic one can be made as asked.
     #[error(transparent)]
     Motion(#[from] MotionError),
@@ -161,7 +161,7 @@ impl From<SpectraError> for UpliftError {
     fn from(error: SpectraError) -> Self {
         match error {
             SpectraError::Analysis(error) => error.into(),
-            other => Self::Spectra(other),
+            other => Self::Spectra(Box::new(other)),
         }
     }
 }

@@ -98,8 +98,8 @@ impl ImportOptions {
 /// Imports the records of a folder: a manifest of the pairs in it, and a file with everything that deserves a look.
 ///
 /// # Errors
-/// A folder that cannot be read, a manifest that is there already or cannot be written; an interruption. What is wrong with
-/// single files is among the remarks.
+/// A folder that cannot be read, a manifest that is there already or cannot be written; an interruption. What is wrong
+/// with single files is among the remarks.
 pub fn import(options: &ImportOptions, events: &dyn Events) -> Result<ImportReport, UpliftError> {
     let manifest = options.manifest();
     options.check(&manifest)?;

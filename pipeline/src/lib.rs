@@ -13,9 +13,13 @@
 //! | [`analysis`] | plans carried out with a checkpoint, whole or in shards |
 //! | [`checkpoint`] | finished rows of the analysis by their keys: what outlives a stopped run |
 //! | [`result`](mod@result) | the HDF5 file and the tables beside it, written and read |
-//! | [`export`] | tables for other programs |
+//! | [`status`](mod@status), [`verify`](mod@verify) | how far a run is, and whether a result is as it was written |
+//! | [`table`](mod@table), [`export`](mod@export) | a result beside a reference, and for other programs |
+//! | [`records`], [`hazard_curves`] | record sets and hazard curves looked at, chosen from, made and imported |
+//! | [`response`](mod@response) | one record through one oscillator |
 //! | [`pulses`] | rocking spectra under wavelets, which need no study |
 //! | [`reference`](mod@reference) | tables of papers to compare with |
+//! | [`outputs`] | files that a job is asked to write: what may give way to them |
 //! | [`text`] | numbers in words |
 //!
 //! The science is in the crates below this one, the command line and the report in those above it. Nothing here prints,

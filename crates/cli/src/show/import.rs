@@ -16,8 +16,10 @@ pub(crate) fn tell_remarks(report: &ImportReport, terminal: &Terminal) {
     for remarks in &report.remarks {
         let texts = &remarks.texts;
         let more = texts.len().saturating_sub(SHOWN);
-        let shown: String = texts[..texts.len() - more].iter().map(|text| format!("\n  - {text}")).collect();
-        tell(&format!("{} ({}):{shown}", remarks.kind, texts.len()));
+        tell(&format!("{} ({}):", remarks.kind, texts.len()));
+        for text in &texts[..texts.len() - more] {
+            tell(&format!("  - {text}"));
+        }
         if more > 0 {
             tell(&format!("  - and {more} more: {}", file.display()));
         }

@@ -9,7 +9,7 @@ use uplift_plot::{Axis, Figure, Marks, Panel, Series, Tone};
 /// * `uplift_displacement_m` — displacement at uplift, m
 pub fn history_figure(title: &str, history: &ResponseHistory, uplift_displacement_m: f64) -> Figure {
     let samples = || history.rows.iter().filter(|row| row.event.is_none());
-    let end_s = samples().last().map_or(1.0, |sample| sample.time_s);
+    let end_s = samples().next_back().map_or(1.0, |sample| sample.time_s);
     let time = || Axis::linear("time, s").between(0.0, end_s);
     let ground = history
         .ground_acceleration_m_s2
