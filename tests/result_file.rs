@@ -72,8 +72,13 @@ fn results_of_version_0_1_are_read() {
     assert_eq!(spectra.sites, ["Here"]);
     assert_eq!(spectra.measures.len(), 1);
     // read off a grid of 0.02 m, as its tables beside it said
-    let expected =
-        [0.9958507769587508, 0.43970087762754706, 0.11970087762754704, 0.05981547694648494, 0.07970087762754705];
+    let expected = [
+        0.995_850_776_958_750_8,
+        0.439_700_877_627_547_06,
+        0.119_700_877_627_547_04,
+        0.059_815_476_946_484_94,
+        0.079_700_877_627_547_05,
+    ];
     assert_eq!(spectra.measures[0].u_m.values(), expected);
     let fit = spectra.measures[0].fits[[0, 0]];
     assert!((fit.c0_m - 7.8093).abs() < 1e-4 && (fit.c1 + 50.7230).abs() < 1e-4 && !fit.bound_active);

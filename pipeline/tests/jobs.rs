@@ -1,6 +1,7 @@
 //! Jobs called as a library, without a terminal: what they report is what they write, and a stop is obeyed.
 #![allow(clippy::unwrap_used)]
 
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -66,7 +67,8 @@ impl Folder {
         let mut manifest = "record_id,file_h1,file_h2,dt_s,unit,magnitude\n".to_owned();
         for record in 1..=4 {
             folder.write(&format!("{record}.txt"), &motion(f64::from(record)));
-            manifest += &format!("R{record},{record}.txt,{record}.txt,0.01,m/s2,{}\n", 5.5 + 0.3 * f64::from(record));
+            let magnitude = 5.5 + 0.3 * f64::from(record);
+            writeln!(manifest, "R{record},{record}.txt,{record}.txt,0.01,m/s2,{magnitude}").unwrap();
         }
         folder.write("manifest.csv", &manifest);
         let study = Study::load(&folder.write("study.toml", STUDY), &[]).unwrap();
@@ -144,8 +146,8 @@ impl Events for Recorder {
     }
 }
 
-fn is_choice<T>(outcome: Result<T, UpliftError>, asked: &str) -> bool {
-    matches!(outcome, Err(UpliftError::Choice { option, .. }) if option == asked)
+fn is_choice<T>(outcome: &Result<T, UpliftError>, asked: &str) -> bool {
+    matches!(outcome, Err(UpliftError::Choice { option, .. }) if *option == asked)
 }
 
 #[test]
@@ -218,7 +220,7 @@ fn influence_reports_what_it_writes() {
     assert_eq!((row.poe, row.u_m), (0.1, spectra[ordinate]));
     assert_eq!([row.share_below_stripes, row.share_above_stripes], [shares[6 * ordinate], shares[6 * ordinate + 5]]);
     let other = InfluenceOptions { poe: Some(0.3), ..InfluenceOptions::default() };
-    assert!(is_choice(influence(&folder.result(), &other, &Silent), "--poe"));
+    assert!(is_choice(&influence(&folder.result(), &other, &Silent), "--poe"));
     let stopped = influence(&folder.result(), &InfluenceOptions::default(), &Recorder::stopping_after(0));
     assert!(matches!(stopped, Err(UpliftError::Interrupted)));
 }
@@ -271,9 +273,9 @@ fn a_design_starts_from_the_spectrum_in_the_file() {
     assert_eq!(json["rules"][1]["rule"], "equal-energy");
 
     let ask = |options: DesignOptions| design(&folder.block(), &folder.result(), &options, &Silent);
-    assert!(is_choice(ask(DesignOptions::default()), "--site"));
-    assert!(is_choice(ask(DesignOptions { site: Some("Nowhere".to_owned()), ..options.clone() }), "--site"));
-    assert!(is_choice(ask(DesignOptions { poe: Some(0.3), ..options.clone() }), "--poe"));
+    assert!(is_choice(&ask(DesignOptions::default()), "--site"));
+    assert!(is_choice(&ask(DesignOptions { site: Some("Nowhere".to_owned()), ..options.clone() }), "--site"));
+    assert!(is_choice(&ask(DesignOptions { poe: Some(0.3), ..options.clone() }), "--poe"));
     let safety = ask(DesignOptions { safety_factor: 0.5, ..options.clone() });
     assert!(matches!(safety, Err(UpliftError::Usage(_))));
     let alone = ask(DesignOptions { spectrum_only: true, ..options }).unwrap();
@@ -333,7 +335,7 @@ fn overturning_reports_what_it_writes() {
     assert!((per_year - block.risk.per_year).abs() <= 1e-12 * per_year);
 
     let ask = |options: OverturningOptions| overturning(&folder.block(), &folder.result(), &options, &Silent);
-    assert!(is_choice(ask(OverturningOptions { site: Some("Nowhere".to_owned()), ..options.clone() }), "--site"));
+    assert!(is_choice(&ask(OverturningOptions { site: Some("Nowhere".to_owned()), ..options.clone() }), "--site"));
     let restitution = ask(OverturningOptions { restitution: Some(1.5), ..options.clone() });
     assert!(matches!(restitution, Err(UpliftError::Usage(_))));
     let table = ask(OverturningOptions { table: Some(folder.path("pga.csv")), ..options });

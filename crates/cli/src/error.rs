@@ -30,18 +30,16 @@ impl CommandError {
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
             Self::OutputClosed => 0,
-            // oscillators, blocks and pulses are typed, too; those of a file are said to be of it
+            // oscillators, blocks, pulses and what a synthetic record is asked to be are typed, too; those of a file
+            // are said to be of it
             Self::Usage(_)
             | Self::Uplift(
                 UpliftError::Usage(_)
                 | UpliftError::Choice { .. }
                 | UpliftError::Oscillator(_)
-                | UpliftError::Blocks(_),
+                | UpliftError::Blocks(_)
+                | UpliftError::Motion(MotionError::SyntheticOption { .. } | MotionError::SyntheticCandidates { .. }),
             ) => 2,
-            // what a synthetic record is asked to be is typed, too
-            Self::Uplift(UpliftError::Motion(
-                MotionError::SyntheticOption { .. } | MotionError::SyntheticCandidates { .. },
-            )) => 2,
             Self::Uplift(UpliftError::Study(_)) => 3,
             Self::Uplift(UpliftError::Interrupted | UpliftError::Paused { .. }) => 5,
             // whatever else a job meets is in the input data or on the disk
