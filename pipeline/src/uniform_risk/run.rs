@@ -114,8 +114,8 @@ fn warnings_of(
                 let lower = spectrum.iter().fold(0.0_f64, |most, ordinate| most.max(ordinate.lower_tail_share));
                 let upper = spectrum.iter().fold(0.0_f64, |most, ordinate| most.max(ordinate.upper_tail_share));
                 warnings.push(format!(
-                    "{name}: {heavy} of {} ordinates take more than 1 % of their risk from outside the stripes (at most \
-                     {} below the first, {} above the last)",
+                    "{name}: {heavy} of {} ordinates take more than 1 % of their risk from outside the stripes (at \
+                     most {} below the first, {} above the last)",
                     spectrum.len(),
                     share(lower),
                     share(upper)
