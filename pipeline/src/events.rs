@@ -32,7 +32,7 @@ pub trait Events: Sync {
     /// The phase is over, done or not.
     fn end(&self) {}
 
-    /// From now on a stop loses nothing that is finished: it is kept in the file `checkpoint`.
+    /// From now on a stop loses nothing that is finished: it is in the file `checkpoint`.
     fn kept_in(&self, checkpoint: &Path) {
         let _ = checkpoint;
     }

@@ -1,5 +1,6 @@
 //! How far a run is, and what a result holds.
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
@@ -128,16 +129,19 @@ pub fn status(input: &Path) -> Result<StatusReport, UpliftError> {
     Ok(StatusReport { result, unfinished, written_by })
 }
 
-/// Files named as the shards of the result at `result`.
+/// Files named as the shards of the result at `result`, and as the checkpoints and shards of what is asked of it.
 fn shards_of(result: &Path) -> Vec<PathBuf> {
-    let stem = result.file_stem().unwrap_or(result.as_os_str()).to_string_lossy();
-    let beginning = format!("{stem}.shard-");
+    let text = |name: Option<&OsStr>| name.unwrap_or(result.as_os_str()).to_string_lossy().into_owned();
+    let (own, asked) = (format!("{}.shard-", text(result.file_stem())), format!("{}.", text(result.file_name())));
+    let of_question =
+        |rest: &str| rest.rsplit_once('.').is_some_and(|(_, end)| end == "part" || end.starts_with("shard-"));
+    let is_one = |name: &str| name.starts_with(&own) || name.strip_prefix(&asked).is_some_and(of_question);
     let folder = result.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut shards: Vec<PathBuf> = std::fs::read_dir(folder)
         .into_iter()
         .flatten()
         .flatten()
-        .filter(|entry| entry.file_name().to_string_lossy().starts_with(&beginning))
+        .filter(|entry| is_one(&entry.file_name().to_string_lossy()))
         .map(|entry| entry.path())
         .collect();
     shards.sort();

@@ -6,7 +6,7 @@ use uplift::status::{ResultContent, ResultStatus, StatusReport, UnfinishedStatus
 
 use crate::error::CommandError;
 
-/// The result, what is kept of an unfinished run, and who writes it now.
+/// The result, the checkpoint of an unfinished run, and who writes it now.
 pub(crate) fn print_status(report: &StatusReport) -> Result<(), CommandError> {
     let mut out = std::io::stdout().lock();
     if let Some(result) = &report.result {
@@ -53,11 +53,12 @@ fn print_result(out: &mut impl Write, result: &ResultStatus) -> Result<(), Comma
 
 fn print_unfinished(out: &mut impl Write, unfinished: &UnfinishedStatus) -> Result<(), CommandError> {
     let UnfinishedStatus { file, title, shard, shards, done, rows, damaged_bytes } = unfinished;
-    let what = if *shards > 1 { format!("shard {shard} of {shards}") } else { "kept of an unfinished run".to_owned() };
+    let what =
+        if *shards > 1 { format!("shard {shard} of {shards}") } else { "checkpoint of an unfinished run".to_owned() };
     let share = 100.0 * *done as f64 / (*rows).max(1) as f64;
-    writeln!(out, "{}: {what}, {done} of {rows} pieces ({share:.0} %) {title}", file.display())?;
+    writeln!(out, "{}: {what}, {done} of {rows} analysis rows ({share:.0} %) {title}", file.display())?;
     if *damaged_bytes > 0 {
-        writeln!(out, "  pieces that were cut off or damaged ({damaged_bytes} bytes) will be computed again")?;
+        writeln!(out, "  analysis rows that were cut off or damaged ({damaged_bytes} bytes) will be computed again")?;
     }
     Ok(())
 }
