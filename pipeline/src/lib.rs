@@ -1,29 +1,61 @@
 //! Uniform risk spectra for rocking structures: studies run from the first record to the result file.
 //!
+//! Every job is one call: what it works on, its options, and somebody to tell ([`Events`]; [`Silent`] for nobody) go
+//! in, a plain report comes out, which serialises. Nothing here prints, reads arguments or handles signals; a job that
+//! [`Events::cancelled`] stops keeps what is finished, and the same call goes on from there.
+//!
+//! # In this order
+//!
+//! 1. [`study::Study`] reads and checks a study file, all mistakes at once.
+//! 2. [`plan()`] says what the study would cost, [`run()`] carries it out and leaves a result file.
+//!    Several machines share it by [`run_shard`] and [`merge`].
+//! 3. [`result::ResultFile`] opens that file, and returns what is in it as plain values with named axes.
+//! 4. How sure it is: [`bootstrap::bootstrap`], [`influence::influence`], [`efficiency::efficiency`] ask the result,
+//!    and add their arrays to it.
+//! 5. From a spectrum to a structure: [`structure::design`] and [`structure::overturning`].
+//! 6. For others: [`export::export`] here; figures and the page are made by the crate `uplift_report`.
+//!
+//! ```no_run
+//! use std::path::Path;
+//!
+//! use uplift::bootstrap::{BootstrapOptions, bootstrap};
+//! use uplift::result::ResultFile;
+//! use uplift::study::Study;
+//! use uplift::{RunOptions, Silent, run};
+//!
+//! let file = Path::new("configs/quick.toml");
+//! let study = Study::load_any(file, &["risk.years=100".to_owned()])?;
+//! let options = RunOptions { study_file: file.to_owned(), ..RunOptions::default() };
+//! let report = run(&study, &options, &Silent)?;
+//!
+//! let result = &report.head().files[0];
+//! bootstrap(result, &BootstrapOptions::default(), &Silent)?;
+//! for spectrum in ResultFile::open(result)?.spectra()?.rows() {
+//!     println!("{}, {} by {}: {:?} m", spectrum.site, spectrum.poe, spectrum.measure, spectrum.u_m);
+//! }
+//! # Ok::<(), uplift::UpliftError>(())
+//! ```
+//!
+//! Whoever wants no files at all, with records, curves or a system of their own, starts from the science crates below:
+//! `examples/urs.rs`, `examples/own_system.rs`.
+//!
 //! | module | what is in it |
 //! |---|---|
+//! | [`run`](mod@run), [`plan`](mod@plan), [`shard`] | a study of either kind carried out, planned, shared |
 //! | [`events`] | what a job tells while it works, and how it is stopped |
-//! | [`inputs`] | records and hazard curves, read and checked before anything is computed |
-//! | [`import`] | record files found in a folder, paired, measured and listed in a manifest |
-//! | [`shard`] | a study shared among machines |
 //! | [`uniform_risk`] | studies of uniform risk: stripes, spectra, coefficients |
 //! | [`displacement`] | studies of displacement spectra of record sets |
 //! | [`bootstrap`], [`influence`], [`efficiency`] | how sure a spectrum is, and what carries it |
 //! | [`structure`] | a structure under the records and hazard of a result |
-//! | [`analysis`] | plans carried out with a checkpoint, whole or in shards |
-//! | [`checkpoint`] | finished rows of the analysis by their keys: what outlives a stopped run |
 //! | [`result`](mod@result) | the HDF5 file and the tables beside it, written and read |
-//! | [`status`](mod@status), [`verify`](mod@verify) | how far a run is, and whether a result is as it was written |
-//! | [`table`](mod@table), [`export`](mod@export) | a result beside a reference, and for other programs |
-//! | [`records`], [`hazard_curves`] | record sets and hazard curves looked at, chosen from, made and imported |
-//! | [`response`](mod@response) | one record through one oscillator |
-//! | [`pulses`] | rocking spectra under wavelets, which need no study |
-//! | [`reference`](mod@reference) | tables of papers to compare with |
+//! | [`analysis`], [`checkpoint`] | plans carried out whole or in shards; their finished rows outlive a stop |
+//! | [`inputs`] | records and hazard curves, read and checked before anything is computed |
+//! | [`import`], [`records`], [`hazard_curves`] | record sets and hazard curves imported, shown, chosen from, made |
+//! | [`status`], [`verify`] | how far a run is, and whether a result is as it was written |
+//! | [`table`](mod@table), [`export`] | a result beside a reference, and for other programs |
+//! | [`response`], [`pulses`] | one record through one oscillator; rocking spectra under wavelets |
 //! | [`outputs`] | files that a job is asked to write: what may give way to them |
 //! | [`text`] | numbers in words |
-//!
-//! The science is in the crates below this one, the command line and the report in those above it. Nothing here prints,
-//! reads arguments or handles signals.
 
 pub mod analysis;
 mod array;

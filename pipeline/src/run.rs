@@ -1,6 +1,6 @@
 //! A study carried out, of whichever kind: the frame that all kinds share.
 //!
-//! A kind has a folder of its own, [`uniform_risk`](crate::uniform_risk) or [`displacement`](crate::displacement), with
+//! A kind has a folder of its own, [`uniform_risk`] or [`displacement`], with
 //! the same files in it: `plan` (what it costs), `run` (from the inputs to the result file), `report` (what a run
 //! tells).
 

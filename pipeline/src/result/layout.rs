@@ -81,7 +81,7 @@ by_measure! {
 }
 
 by_measure! {
-    /// Confidence bands; their limits are named after their levels ([`limit_names`](super::limit_names)).
+    /// Confidence bands; their limits are named after their levels (`limit_names`).
     bootstrap:
     simultaneous_lower_m = "simultaneous_lower_m", simultaneous_upper_m = "simultaneous_upper_m",
     e_median = "e_median", r_90ci = "r_90ci",

@@ -42,7 +42,8 @@ impl<'a> SiteRisk<'a> {
     }
 
     /// The spectra of the site whose hazard gives the stripes these weights: to the bit those of
-    /// [`uniform_risk_spectra`](super::uniform_risk_spectra) and [`fit_spectra`](super::fit_spectra).
+    /// [`uniform_risk_spectra`](crate::uniform_risk::uniform_risk_spectra) and
+    /// [`fit_spectra`](crate::uniform_risk::fit_spectra).
     ///
     /// # Errors
     /// Weights of another number of levels.
