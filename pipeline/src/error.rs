@@ -25,6 +25,9 @@ pub enum UpliftError {
     /// The study file has mistakes.
     #[error(transparent)]
     Study(#[from] StudyError),
+    /// A study that TOML cannot hold; one that was loaded is none.
+    #[error(transparent)]
+    StudyToml(#[from] toml::ser::Error),
     /// What a job is asked for does not fit together.
     #[error("{0}")]
     Usage(String),

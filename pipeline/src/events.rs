@@ -33,7 +33,7 @@ pub trait Events: Sync {
     fn end(&self) {}
 
     /// From now on a stop loses nothing that is finished: it is in the file `checkpoint`.
-    fn kept_in(&self, checkpoint: &Path) {
+    fn resumes_from(&self, checkpoint: &Path) {
         let _ = checkpoint;
     }
 

@@ -42,6 +42,7 @@
 //! | module | what is in it |
 //! |---|---|
 //! | [`run`](mod@run), [`plan`](mod@plan), [`shard`] | a study of either kind carried out, planned, shared |
+//! | [`frame`], [`lock`](mod@lock) | what the kinds of study share; one run at a time for one result |
 //! | [`events`] | what a job tells while it works, and how it is stopped |
 //! | [`uniform_risk`] | studies of uniform risk: stripes, spectra, coefficients |
 //! | [`displacement`] | studies of displacement spectra of record sets |
@@ -67,16 +68,19 @@ pub mod efficiency;
 mod error;
 pub mod events;
 pub mod export;
+pub mod frame;
 pub mod hazard_curves;
 pub mod import;
 pub mod influence;
 pub mod inputs;
+pub mod lock;
 pub mod outputs;
 pub mod plan;
 pub mod pulses;
 pub mod records;
 pub mod response;
 pub mod result;
+mod result_of;
 pub mod run;
 pub mod shard;
 pub mod status;
@@ -90,6 +94,7 @@ pub use array::{Array, ShapeError};
 pub use error::UpliftError;
 pub use events::{Events, Phase, Silent};
 pub use plan::{Plan, plan};
+pub use result_of::result_of;
 pub use run::{RunOptions, RunReport, run};
 pub use shard::{check_inputs, merge, run_shard};
 pub use uplift_study as study;

@@ -1,38 +1,14 @@
 //! What a study costs, of whichever kind, once everything that can be wrong with it has been looked at.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde::Serialize;
 use uplift_study::AnyStudy;
 
 use crate::error::UpliftError;
 use crate::events::Events;
+pub use crate::frame::PlanHead;
 use crate::{displacement, uniform_risk};
-
-/// What a study of any kind costs.
-#[derive(Debug, Clone, Serialize)]
-pub struct PlanHead {
-    /// The study file as it was given.
-    pub study: PathBuf,
-    /// Where the records come from, in a line.
-    pub record_set: String,
-    /// Whether they are synthetic.
-    pub synthetic: bool,
-    /// Nonlinear time histories of the spectra.
-    pub analyses: u64,
-    /// Threads that would compute them.
-    pub threads: usize,
-    /// Wall time on these, s, extrapolated from a sample that was run.
-    pub seconds: f64,
-    /// Memory, bytes.
-    pub memory_bytes: u64,
-    /// Disk, bytes, at most.
-    pub disk_bytes: u64,
-    /// The result file.
-    pub output: PathBuf,
-    /// What to know before running it.
-    pub notes: Vec<String>,
-}
 
 /// What a study costs, by its kind.
 #[derive(Debug, Clone, Serialize)]

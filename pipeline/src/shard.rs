@@ -8,9 +8,10 @@ use uplift_study::AnyStudy;
 use crate::analysis::{ShardReport, hold, join};
 use crate::error::UpliftError;
 use crate::events::Events;
+use crate::frame::RunOptions;
 use crate::inputs::read_hazard;
 use crate::result::check_target;
-use crate::run::{RunOptions, RunReport, run_with};
+use crate::run::{RunReport, run_with};
 use crate::uniform_risk::site_table;
 use crate::{displacement, uniform_risk};
 

@@ -8,7 +8,8 @@ use uplift_study::Study;
 
 use crate::checkpoint::{Finding, RowFile, checkpoint_path};
 use crate::error::UpliftError;
-use crate::result::{Overview, ResultFile, ResultLock, is_hdf5};
+use crate::lock::ResultLock;
+use crate::result::{Overview, ResultFile, is_hdf5};
 
 /// What is there of a run: at least one of its parts.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -26,7 +26,7 @@ pub(crate) struct Terminal {
     quiet: bool,
     stop: Arc<AtomicBool>,
     /// What is said where an interruption cannot wait for the work in hand.
-    farewell: Arc<Mutex<String>>,
+    interruption_message: Arc<Mutex<String>>,
     progress: RwLock<Option<Progress>>,
 }
 
@@ -34,18 +34,23 @@ impl Terminal {
     /// A terminal that hears Ctrl-C from now on; a quiet one tells results and errors only.
     pub(crate) fn new(quiet: bool) -> Self {
         let stop = Arc::new(AtomicBool::new(false));
-        let farewell = Arc::new(Mutex::new(UpliftError::Interrupted.to_string()));
-        let terminal = Self { quiet, stop: stop.clone(), farewell: farewell.clone(), progress: RwLock::new(None) };
+        let interruption_message = Arc::new(Mutex::new(UpliftError::Interrupted.to_string()));
+        let terminal = Self {
+            quiet,
+            stop: stop.clone(),
+            interruption_message: interruption_message.clone(),
+            progress: RwLock::new(None),
+        };
         // where no handler can be set, Ctrl-C ends the program at once, which does no harm either
         let _ = ctrlc::set_handler(move || {
             if stop.swap(true, Ordering::Relaxed) {
                 std::process::exit(EXIT_INTERRUPTED); // asked twice
             }
-            let farewell = farewell.clone();
+            let interruption_message = interruption_message.clone();
             std::thread::spawn(move || {
                 std::thread::sleep(GRACE);
                 // what is being written now is written to a file of its own, and an earlier file is as it was
-                tell(&format!("uplift: {}", farewell.lock().unwrap_or_else(PoisonError::into_inner)));
+                tell(&format!("uplift: {}", interruption_message.lock().unwrap_or_else(PoisonError::into_inner)));
                 std::process::exit(EXIT_INTERRUPTED);
             });
         });
@@ -59,18 +64,18 @@ impl Terminal {
 
     /// The same terminal for a process that must not speak.
     #[cfg(feature = "mpi")]
-    pub(crate) fn hushed(&self, quiet: bool) -> Self {
+    pub(crate) fn with_quiet(&self, quiet: bool) -> Self {
         Self {
             quiet: self.quiet || quiet,
             stop: self.stop.clone(),
-            farewell: self.farewell.clone(),
+            interruption_message: self.interruption_message.clone(),
             progress: RwLock::new(None),
         }
     }
 
     /// From now on, this is what an interruption leaves.
-    pub(crate) fn set_farewell(&self, words: String) {
-        *self.farewell.lock().unwrap_or_else(PoisonError::into_inner) = words;
+    pub(crate) fn set_interruption_message(&self, words: String) {
+        *self.interruption_message.lock().unwrap_or_else(PoisonError::into_inner) = words;
     }
 
     /// A line on standard error, unless it was asked for quiet.
@@ -107,15 +112,15 @@ impl Events for Terminal {
         }
     }
 
-    fn kept_in(&self, checkpoint: &Path) {
-        self.set_farewell(format!(
+    fn resumes_from(&self, checkpoint: &Path) {
+        self.set_interruption_message(format!(
             "interrupted: all that is finished is in the checkpoint {}. Run the same command to go on from there",
             checkpoint.display()
         ));
     }
 
     fn writing_into(&self, folder: &Path) {
-        self.set_farewell(format!(
+        self.set_interruption_message(format!(
             "interrupted: files in {} are of this run or an earlier one. Run the same command again",
             folder.display()
         ));

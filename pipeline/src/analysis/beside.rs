@@ -39,7 +39,7 @@ impl Beside<'_> {
         let known = if shards.is_empty() { FinishedRows::default() } else { join(shards, &work)? };
         let mut checkpoint = Checkpoint::beside(self.result, self.name, &work.head(Shard::WHOLE), events);
         checkpoint.extend(known);
-        checkpoint.path().into_iter().for_each(|path| events.kept_in(path));
+        checkpoint.path().into_iter().for_each(|path| events.resumes_from(path));
         let results = work.results(&checkpoint, events)?;
         checkpoint.release_rows();
         Ok((results, checkpoint))

@@ -10,7 +10,7 @@ use super::Work;
 use crate::checkpoint::{Checkpoint, FinishedRows, RowFile, RowFileHead};
 use crate::error::UpliftError;
 use crate::events::Events;
-use crate::result::ResultLock;
+use crate::lock::ResultLock;
 
 /// Most shards that a work is cut into.
 pub const MOST_SHARDS: u64 = 100_000;
@@ -60,7 +60,7 @@ pub(crate) fn carry_out_shard(
 ) -> Result<ShardReport, UpliftError> {
     let head = work.head(shard);
     let checkpoint = Checkpoint::open(path, &head)?;
-    events.kept_in(path);
+    events.resumes_from(path);
     work.carry_out(&checkpoint, shard, events, &mut |_, _| Ok(()))?;
     also(&checkpoint)?;
     checkpoint.sync()?;

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use uplift_motion::IntensityMeasure;
+
 use crate::error::UpliftError;
 use crate::table::ReferenceTable;
 
@@ -23,8 +25,9 @@ pub struct ReferenceRow {
 pub fn read_reference(path: &Path) -> Result<Vec<ReferenceRow>, UpliftError> {
     let table = ReferenceTable::read(path)?;
     let columns = |key: &str| (format!("{key}_e_median_pct"), format!("{key}_r_90ci_pct"));
-    let measures: Vec<&str> = ["pgv", "pga"]
+    let measures: Vec<&str> = IntensityMeasure::ALL
         .into_iter()
+        .map(IntensityMeasure::key)
         .filter(|key| {
             let (error, range) = columns(key);
             table.has(&error) && table.has(&range)

@@ -10,7 +10,7 @@ use super::key::RowKeys;
 use super::row_file::{FinishedRows, RowFile, RowFileHead};
 use crate::error::UpliftError;
 use crate::events::Events;
-use crate::result::ResultLock;
+use crate::lock::ResultLock;
 
 /// Finished analysis rows of a job: those known from before, and a file that takes up each further one when it is
 /// finished.

@@ -12,8 +12,8 @@ use super::spectra::with_free_vibration;
 use super::{Inputs, design_analyses};
 use crate::analysis::seconds;
 use crate::error::UpliftError;
+use crate::frame::PlanHead;
 use crate::inputs::RecordSets;
-use crate::plan::PlanHead;
 use crate::result::check_target;
 
 /// Time spent to see how fast this machine is.

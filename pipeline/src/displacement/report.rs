@@ -7,8 +7,8 @@ use uplift_spectra::MotionSet;
 use uplift_study::{Kind, Structures};
 
 use super::{DesignRow, DisplacementOutcome};
+use crate::frame::RunHead;
 use crate::inputs::NamedSet;
-use crate::run::RunHead;
 use crate::text::finite;
 
 /// What a run tells.

@@ -12,9 +12,9 @@ use super::{DisplacementOutcome, Inputs, carry_out_designs, set_spectra, write_d
 use crate::checkpoint::{Checkpoint, FinishedRows, checkpoint_path};
 use crate::error::UpliftError;
 use crate::events::Events;
+use crate::frame::{Place, SYNTHETIC};
 use crate::inputs::RecordSets;
 use crate::result::{Provenance, ResultFile};
-use crate::run::{Place, SYNTHETIC};
 
 /// With fewer motions beyond a percentile than this, one of them decides it.
 const FEW_BEYOND: f64 = 5.0;
@@ -36,7 +36,7 @@ pub(crate) fn run(
     let total = work.analyses();
     let mut checkpoint = Checkpoint::open(&checkpoint_path(path), &work.head(Shard::WHOLE))?;
     checkpoint.extend(known);
-    checkpoint.path().into_iter().for_each(|path| events.kept_in(path));
+    checkpoint.path().into_iter().for_each(|path| events.resumes_from(path));
     let begin = Instant::now();
     let mut spectra = Vec::new();
     work.carry_out(&checkpoint, Shard::WHOLE, events, &mut |set, analysed| {

@@ -83,7 +83,7 @@ pub fn write_displacements(path: &Path, outcome: &DisplacementOutcome<'_>) -> Re
 
 fn write_root(writer: &mut LabelledWriter, outcome: &DisplacementOutcome<'_>) -> Result<(), UpliftError> {
     let DisplacementOutcome { study, records, .. } = outcome;
-    let study_toml = study.to_toml().map_err(|error| UpliftError::input(error.to_string()))?;
+    let study_toml = study.to_toml()?;
     let origin = Origin {
         title: &study.title,
         study_toml: &study_toml,

@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
+use uplift_atomic_file::write_whole;
 use uplift_motion::synthetic::{SyntheticSetOptions, generate};
 use uplift_motion::{Accelerogram, MotionError, RecordPair};
 
@@ -91,15 +92,8 @@ fn store(path: &Path, set: &[RecordPair]) {
     }
     let stored = checksum(&content);
     content.extend(stored.as_bytes());
-    // aside and renamed: two programs may store the same set at the same time
-    let aside = path.with_extension(format!("{}.tmp", std::process::id()));
-    let written = path
-        .parent()
-        .is_some_and(|folder| std::fs::create_dir_all(folder).is_ok())
-        .then(|| std::fs::write(&aside, &content).and_then(|()| std::fs::rename(&aside, path)));
-    if !matches!(written, Some(Ok(()))) {
-        let _ = std::fs::remove_file(&aside);
-    }
+    // two programs may store the same set at the same time; a folder that cannot be written is no error
+    let _ = write_whole(path, &content);
 }
 
 #[cfg(test)]

@@ -192,10 +192,11 @@ impl SiteReader<'_> {
             self.undefined.push(format!("{}, {}", self.site, self.plan.measure.label()));
         }
         let curve = converted.unwrap_or(curve);
-        self.notes
-            .extend(implausible(&curve, self.plan.measure).map(|doubt| {
-                format!("site {}, {}: {}: {doubt}", self.site, self.plan.measure.label(), path.display())
-            }));
+        self.notes.extend(
+            implausible(&curve, self.plan.measure).map(|reason| {
+                format!("site {}, {}: {}: {reason}", self.site, self.plan.measure.label(), path.display())
+            }),
+        );
         let weights = self.weights(&curve, &path.display().to_string())?;
         let bytes = std::fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
         Ok(HazardInput { file: Some(path.to_owned()), checksum: checksum(&bytes), curve, weights })

@@ -5,7 +5,7 @@ use std::time::{Duration, SystemTime};
 
 use super::StoredStripes;
 use crate::error::UpliftError;
-use crate::result::ResultLock;
+use crate::lock::ResultLock;
 use uplift_labelled::{LabelledError, LabelledReader, LabelledWriter, Seal, seal_of};
 
 /// Write the file of `stored` anew without the groups and axes `replaced`, and with what `add` writes.

@@ -126,7 +126,9 @@ impl ResultFile {
         }
         let mut analyses = Vec::new();
         // by their keys, as a listing of the file has them
-        for measure in [IntensityMeasure::Pga, IntensityMeasure::Pgv] {
+        let mut measures = IntensityMeasure::ALL;
+        measures.sort_by_key(|measure| measure.key());
+        for measure in measures {
             if reader.exists(&ida::group(measure)) {
                 analyses.push((measure.key(), reader.attribute_u64(&ida::group(measure), "analyses")?));
             }

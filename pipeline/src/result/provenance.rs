@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use super::extend::now;
 use super::layout::LAYOUT;
 use crate::error::UpliftError;
+use crate::frame::{RunHead, RunOptions};
 use crate::inputs::{RecordSet, SiteHazard};
-use crate::run::{RunHead, RunOptions};
 use uplift_labelled::LabelledWriter;
 
 /// What someone needs to repeat a run.

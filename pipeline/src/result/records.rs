@@ -31,7 +31,10 @@ pub struct StoredRecords {
 impl StoredRecords {
     /// Intensities of the unscaled pairs by `measure`, in its unit.
     pub fn intensities(&self, measure: IntensityMeasure) -> &[f64] {
-        if measure == IntensityMeasure::Pga { &self.pga_g } else { &self.pgv_cm_s }
+        match measure {
+            IntensityMeasure::Pga => &self.pga_g,
+            IntensityMeasure::Pgv => &self.pgv_cm_s,
+        }
     }
 }
 

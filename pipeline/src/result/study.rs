@@ -156,8 +156,7 @@ impl StudyOfResult {
     /// # Errors
     /// None for a study that was checked.
     pub fn target_per_year(&self, poe: usize) -> Result<f64, UpliftError> {
-        rate_from_probability(self.study.risk.poe[poe], self.study.risk.years)
-            .map_err(|error| UpliftError::input(error.to_string()))
+        Ok(rate_from_probability(self.study.risk.poe[poe], self.study.risk.years)?)
     }
 
     /// The spectrum of a site and probability, `[strength]`, m.

@@ -10,8 +10,8 @@ use super::{plan_stripes, site_table, systems};
 use crate::analysis::seconds;
 use crate::error::UpliftError;
 use crate::events::Events;
+use crate::frame::PlanHead;
 use crate::inputs::{RecordSet, SiteList, read_hazard, read_records};
-use crate::plan::PlanHead;
 use crate::result::check_target;
 
 /// Time spent on a measure to see how fast this machine is.

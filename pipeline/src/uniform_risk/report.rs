@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::{Outcome, Stripes};
 use crate::array::Array;
-use crate::run::RunHead;
+use crate::frame::RunHead;
 
 /// What a run tells.
 #[derive(Debug, Clone, Serialize)]

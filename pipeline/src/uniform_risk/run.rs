@@ -12,9 +12,9 @@ use super::{
 use crate::checkpoint::{Checkpoint, FinishedRows, checkpoint_path};
 use crate::error::UpliftError;
 use crate::events::Events;
+use crate::frame::{FEW_RECORDS, Place, SYNTHETIC};
 use crate::inputs::{RecordSet, read_hazard};
 use crate::result::Provenance;
-use crate::run::{FEW_RECORDS, Place, SYNTHETIC};
 use crate::text::per_cent;
 
 /// Carries out `study`, but for the rows of its analysis that are `known`.
@@ -35,7 +35,7 @@ pub(crate) fn run(
     let total = work.analyses();
     let mut checkpoint = Checkpoint::open(&checkpoint_path(path), &work.head(Shard::WHOLE))?;
     checkpoint.extend(known);
-    checkpoint.path().into_iter().for_each(|path| events.kept_in(path));
+    checkpoint.path().into_iter().for_each(|path| events.resumes_from(path));
     let analysed = work.results(&checkpoint, events)?;
     checkpoint.release_rows();
     let stripes: Vec<Stripes> =

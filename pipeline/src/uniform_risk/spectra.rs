@@ -47,10 +47,8 @@ pub(super) struct Reading {
 impl Reading {
     pub(super) fn of(study: &UniformRiskStudy) -> Result<Self, UpliftError> {
         let rate = |&poe: &f64| rate_from_probability(poe, study.risk.years);
-        let targets = study.risk.poe.iter().map(rate).collect::<Result<Vec<_>, _>>();
-        let targets = targets.map_err(|error| UpliftError::input(error.to_string()))?;
-        let grid = ThresholdGrid::new(study.risk.thresholds_m.to_vec())
-            .map_err(|error| UpliftError::input(error.to_string()))?;
+        let targets = study.risk.poe.iter().map(rate).collect::<Result<Vec<_>, _>>()?;
+        let grid = ThresholdGrid::new(study.risk.thresholds_m.to_vec())?;
         Ok(Self { targets, grid, contour: study.risk.contour })
     }
 
@@ -96,7 +94,7 @@ pub fn uniform_risk_spectra(
     let (targets, grid) = (&reading.targets, &reading.grid);
     let strengths = stripes.peaks.axes().systems;
 
-    let of_strength = |strength: usize| -> Result<OfStrength, Box<dyn std::error::Error + Send + Sync>> {
+    let of_strength = |strength: usize| -> Result<OfStrength, UpliftError> {
         let demand = pooled_demand(stripes, strength)?;
         let read = |curve: &RiskCurve<'_>| reading.ordinates(curve);
         let mut done = OfStrength::default();
@@ -111,11 +109,7 @@ pub fn uniform_risk_spectra(
         }
         Ok(done)
     };
-    let by_strength = (0..strengths)
-        .into_par_iter()
-        .map(of_strength)
-        .collect::<Result<Vec<OfStrength>, _>>()
-        .map_err(|error| UpliftError::input(error.to_string()))?;
+    let by_strength = (0..strengths).into_par_iter().map(of_strength).collect::<Result<Vec<OfStrength>, _>>()?;
 
     let branches = hazard
         .iter()

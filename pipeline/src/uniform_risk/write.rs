@@ -33,7 +33,7 @@ pub fn write_result(path: &Path, outcome: &Outcome<'_>) -> Result<(), UpliftErro
 
 fn write_root(writer: &mut LabelledWriter, outcome: &Outcome<'_>) -> Result<(), UpliftError> {
     let Outcome { study, records, .. } = outcome;
-    let study_toml = study.to_toml().map_err(|error| UpliftError::input(error.to_string()))?;
+    let study_toml = study.to_toml()?;
     let origin = Origin {
         title: &study.title,
         study_toml: &study_toml,

@@ -1,6 +1,7 @@
 //! What is written: names and text of the curve files, and the lines for a study.
 
 use std::path::Path;
+use uplift_motion::IntensityMeasure;
 
 use uplift_hazard::{ExportedCurve, HazardCurve, Statistic};
 
@@ -45,7 +46,7 @@ pub(super) fn study_lines(written: &[Chosen], folder: &Path, site: &str) -> Stri
     let quoted = |text: &str| toml::Value::from(text).to_string();
     let path = |file: &str| quoted(&folder.join(file).display().to_string());
     let mut lines = vec!["[[sites]]".to_owned(), format!("name = {}", quoted(site))];
-    for key in ["pgv", "pga"] {
+    for key in IntensityMeasure::ALL.map(IntensityMeasure::key) {
         let of = |written: &&Chosen| written.exported.curve.measure().eq_ignore_ascii_case(key);
         let single = |written: &&Chosen| matches!(written.exported.kind, Statistic::Mean | Statistic::Unspecified);
         let mean = written.iter().filter(of).find(single).map(|written| path(&written.file));

@@ -51,8 +51,8 @@ struct Tally {
     another_definition: bool,
     undefined: usize,
     shortened: usize,
-    doubts: usize,
-    doubt: Option<String>,
+    implausible_curves: usize,
+    first_implausible: Option<String>,
 }
 
 impl Index {
@@ -217,9 +217,9 @@ impl Tally {
                 return Err(reason);
             }
         };
-        if let Some(doubt) = implausible(&curve, plan.measure) {
-            self.doubts += 1;
-            self.doubt.get_or_insert_with(|| format!("{}: {doubt}", exported.site));
+        if let Some(reason) = implausible(&curve, plan.measure) {
+            self.implausible_curves += 1;
+            self.first_implausible.get_or_insert_with(|| format!("{}: {reason}", exported.site));
         }
         stripe_weights(study, plan, &curve).map(|_| ())
     }
@@ -245,8 +245,11 @@ impl Tally {
                 self.shortened
             ));
         }
-        if let Some(doubt) = &self.doubt {
-            notes.push(format!("site table, {label}: {} curves of {name} are doubtful: {doubt}", self.doubts));
+        if let Some(first) = &self.first_implausible {
+            notes.push(format!(
+                "site table, {label}: {} curves of {name} are doubtful: {first}",
+                self.implausible_curves
+            ));
         }
         notes
     }

@@ -36,8 +36,7 @@ impl<'a> SiteRisk<'a> {
         let demands = (0..stripes.peaks.axes().systems)
             .into_par_iter()
             .map(|strength| pooled_demand(stripes, strength))
-            .collect::<Result<_, _>>()
-            .map_err(|error| UpliftError::input(error.to_string()))?;
+            .collect::<Result<_, _>>()?;
         Ok(Self { study, reading: Reading::of(study)?, demands })
     }
 

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use uplift::RunOptions;
 use uplift::result::is_hdf5;
-use uplift::uniform_risk::result_of;
+use uplift::result_of;
 use uplift_study::{Bootstrap, Study};
 
 use super::study::command_line;

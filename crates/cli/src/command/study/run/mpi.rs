@@ -10,9 +10,7 @@ use ::mpi::Threading;
 use ::mpi::topology::SimpleCommunicator;
 use ::mpi::traits::{Communicator, CommunicatorCollectives};
 use uplift::analysis::shard_path;
-use uplift::checkpoint::{FinishedRows, RowFile};
 use uplift::events::Events;
-use uplift::run::run_with;
 use uplift::{UpliftError, run_shard};
 use uplift_ida::Shard;
 
@@ -50,7 +48,7 @@ pub(super) fn run(arguments: &RunArguments, terminal: &Terminal) -> Option<Resul
         }
         // the others would wait for this rank for ever: it ends them
         Ok(Err(error)) => {
-            terminal.set_farewell(format!("rank {index} of {count} has ended the run"));
+            terminal.set_interruption_message(format!("rank {index} of {count} has ended the run"));
             let host = ::mpi::environment::processor_name().unwrap_or_default();
             tell(&format!("uplift: rank {index} of {count} on {host} ends the run:"));
             tell_error(&error);
@@ -78,7 +76,7 @@ fn run_rank(
     let study = arguments.study.load_any()?;
     let options = run_options(&arguments.study, arguments.output.clone());
     let path = options.result_file(&study.output().file).to_owned();
-    let own = terminal.hushed(!first);
+    let own = terminal.with_quiet(!first);
     if first {
         uplift::check_inputs(&study, &path, &own)?;
         wait(world, terminal)?;
@@ -102,25 +100,8 @@ fn run_rank(
         return Ok(());
     }
 
-    let mut known = FinishedRows::default();
-    let mut work = None;
     let files: Vec<_> = (0..shard.count).map(|index| shard_path(&path, Shard { index, ..shard })).collect();
-    for file in &files {
-        let found = RowFile::read(file).map_err(UpliftError::from)?.ok_or_else(|| {
-            CommandError::input(format!(
-                "{}: is not there: the result must lie in a folder that all ranks share",
-                file.display()
-            ))
-        })?;
-        if *work.get_or_insert_with(|| found.head.work.clone()) != found.head.work {
-            return Err(CommandError::input(format!(
-                "{}: is a shard of other work: every node must have the same study, records and program",
-                file.display()
-            )));
-        }
-        known.extend(found.rows);
-    }
-    let report = run_with(&study, &options, known, terminal)?;
+    let report = uplift::merge(&study, &files, &options, terminal)?;
     if arguments.json { print_json(&report) } else { print_run(&report, terminal) }?;
     for file in &files {
         let _ = std::fs::remove_file(file);

@@ -7,9 +7,10 @@ use uplift_study::{AnyStudy, UniformRiskStudy};
 use crate::checkpoint::{motion_key, oscillator_key};
 use crate::error::UpliftError;
 use crate::events::Events;
+use crate::frame::RunOptions;
 use crate::inputs::{Record, read_hazard, read_records};
 use crate::result::{Kind, Provenance, ResultFile};
-use crate::run::{RunOptions, run};
+use crate::run::run;
 
 /// Sections of a study on which its stripes and spectra do not depend.
 const WITHOUT_INFLUENCE: [&str; 3] = ["title", "bootstrap", "output"];
@@ -36,7 +37,7 @@ fn is_result_of(study: &UniformRiskStudy, path: &Path) -> Result<bool, UpliftErr
         return Ok(false);
     }
     let head = file.head()?;
-    let own = study.to_toml().map_err(|error| UpliftError::input(error.to_string()))?;
+    let own = study.to_toml()?;
     let (Some(own), Some(kept)) = (what_counts(&own), what_counts(&head.study_toml)) else { return Ok(false) };
     if own != kept {
         return Ok(false);
