@@ -47,7 +47,7 @@ impl Conditions {
 
 /// Slope of the restoring force after uplift.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum PostUplift {
+pub enum PostUpliftForce {
     /// The force falls and vanishes at the displacement capacity `u_cap`, m: NSBE (Eq. 3.2).
     Negative {
         /// Displacement capacity `u_cap`, m; above the uplift displacement.
@@ -74,7 +74,7 @@ pub struct EquivalentSystem {
     pub(crate) uplift_force_n: f64,
     pub(crate) participation: f64,
     pub(crate) conditions: Conditions,
-    pub(crate) post_uplift: PostUplift,
+    pub(crate) post_uplift: PostUpliftForce,
     pub(crate) warnings: Vec<Warning>,
 }
 
@@ -117,7 +117,7 @@ impl EquivalentSystem {
         // the zero of the line through the force at rest: beyond it where the force falls, behind it where it rises
         let zero_m = row.free_capacity_m / row.softening;
         let post_uplift = if zero_m.is_infinite() {
-            PostUplift::Zero
+            PostUpliftForce::Zero
         } else {
             following(row.uplift_force_n, conditions.uplift_displacement_m, zero_m)?
         };
@@ -152,8 +152,11 @@ impl EquivalentSystem {
         let uplift_force_n = positive("uplift_force_n", uplift_force_n, "N")?;
         let conditions = Conditions::new(self.conditions.gravity_m_s2, uplift_displacement_m)?;
         let capacity = Capacity::new(uplift_displacement_m, capacity_m)?;
-        let post_uplift =
-            if capacity.capacity_m().is_infinite() { PostUplift::Zero } else { PostUplift::Negative { capacity_m } };
+        let post_uplift = if capacity.capacity_m().is_infinite() {
+            PostUpliftForce::Zero
+        } else {
+            PostUpliftForce::Negative { capacity_m }
+        };
         // the shape of the rigid loop is replaced: only what was said of the body itself still holds
         let warnings =
             self.warnings.iter().copied().filter(|warning| matches!(warning, Warning::Stocky { .. })).collect();
@@ -164,9 +167,11 @@ impl EquivalentSystem {
 
     fn warn_of_stiffness(&mut self) {
         match self.post_uplift {
-            PostUplift::Negative { .. } => {}
-            PostUplift::Zero => self.warnings.push(Warning::ZeroStiffness),
-            PostUplift::Positive { stiffness_n_m } => self.warnings.push(Warning::PositiveStiffness { stiffness_n_m }),
+            PostUpliftForce::Negative { .. } => {}
+            PostUpliftForce::Zero => self.warnings.push(Warning::ZeroStiffness),
+            PostUpliftForce::Positive { stiffness_n_m } => {
+                self.warnings.push(Warning::PositiveStiffness { stiffness_n_m })
+            }
         }
     }
 
@@ -201,7 +206,7 @@ impl EquivalentSystem {
     }
 
     /// Slope of the force after uplift.
-    pub fn post_uplift(&self) -> PostUplift {
+    pub fn post_uplift(&self) -> PostUpliftForce {
         self.post_uplift
     }
 
@@ -217,20 +222,20 @@ impl EquivalentSystem {
     pub fn capacity(&self) -> Result<Capacity, StructureError> {
         let uplift_displacement_m = self.conditions.uplift_displacement_m;
         match self.post_uplift {
-            PostUplift::Negative { capacity_m } => Capacity::new(uplift_displacement_m, capacity_m),
-            PostUplift::Zero => Capacity::new(uplift_displacement_m, f64::INFINITY),
-            PostUplift::Positive { stiffness_n_m } => Err(StructureError::PositiveStiffness { stiffness_n_m }),
+            PostUpliftForce::Negative { capacity_m } => Capacity::new(uplift_displacement_m, capacity_m),
+            PostUpliftForce::Zero => Capacity::new(uplift_displacement_m, f64::INFINITY),
+            PostUpliftForce::Positive { stiffness_n_m } => Err(StructureError::PositiveStiffness { stiffness_n_m }),
         }
     }
 
     /// Stiffness after uplift, N/m (Eq. 3.2): `−f_up/(u_cap − u_up)`, zero or positive.
     pub fn post_uplift_stiffness_n_m(&self) -> f64 {
         match self.post_uplift {
-            PostUplift::Negative { capacity_m } => {
+            PostUpliftForce::Negative { capacity_m } => {
                 -self.uplift_force_n / (capacity_m - self.conditions.uplift_displacement_m)
             }
-            PostUplift::Zero => 0.0,
-            PostUplift::Positive { stiffness_n_m } => stiffness_n_m,
+            PostUpliftForce::Zero => 0.0,
+            PostUpliftForce::Positive { stiffness_n_m } => stiffness_n_m,
         }
     }
 
@@ -296,11 +301,11 @@ impl EquivalentSystem {
 
     fn scaled_oscillator(&self, scale: f64, restitution: f64) -> Result<Oscillator, OscillatorError> {
         let post_uplift = match self.post_uplift {
-            PostUplift::Negative { capacity_m } => {
+            PostUpliftForce::Negative { capacity_m } => {
                 uplift_oscillator::PostUplift::Negative { capacity_m: capacity_m / scale }
             }
-            PostUplift::Zero => uplift_oscillator::PostUplift::Zero,
-            PostUplift::Positive { stiffness_n_m } => {
+            PostUpliftForce::Zero => uplift_oscillator::PostUplift::Zero,
+            PostUpliftForce::Positive { stiffness_n_m } => {
                 uplift_oscillator::PostUplift::Positive { stiffness_per_s2: stiffness_n_m / self.mass_kg }
             }
         };
@@ -316,14 +321,14 @@ impl EquivalentSystem {
 
 /// The branch of Eq. 3.2 through `zero_m`, where its force vanishes: falling where that lies ahead, rising
 /// where it lies behind.
-fn following(uplift_force_n: f64, uplift_displacement_m: f64, zero_m: f64) -> Result<PostUplift, StructureError> {
+fn following(uplift_force_n: f64, uplift_displacement_m: f64, zero_m: f64) -> Result<PostUpliftForce, StructureError> {
     if zero_m > 0.0 {
         Capacity::new(uplift_displacement_m, zero_m)?;
-        Ok(PostUplift::Negative { capacity_m: zero_m })
+        Ok(PostUpliftForce::Negative { capacity_m: zero_m })
     } else {
         let stiffness_n_m = uplift_force_n / (uplift_displacement_m - zero_m);
         if stiffness_n_m.is_finite() && stiffness_n_m > 0.0 {
-            Ok(PostUplift::Positive { stiffness_n_m })
+            Ok(PostUpliftForce::Positive { stiffness_n_m })
         } else {
             Err(StructureError::NotRepresentable { what: "the post-uplift stiffness, N/m", value: stiffness_n_m })
         }

@@ -80,7 +80,7 @@ pub use block::{Block, Body, PointMass, Reference};
 pub use curved::CurvedFrame;
 pub use description::{Kind, StructureDescription};
 pub use design::{Check, design};
-pub use equivalent::{Conditions, EquivalentSystem, PostUplift};
+pub use equivalent::{Conditions, EquivalentSystem, PostUpliftForce};
 pub use error::StructureError;
 pub use frame::{Anchorage, Frame, RestrainedFrame};
 pub use geometry::Geometry;

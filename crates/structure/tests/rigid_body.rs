@@ -4,7 +4,7 @@
 
 use uplift_oscillator::{Excitation, FreeVibration, problems, respond};
 use uplift_structure::{
-    Anchorage, Block, Conditions, CurvedFrame, EquivalentSystem, Frame, Geometry, PostUplift, Reference,
+    Anchorage, Block, Conditions, CurvedFrame, EquivalentSystem, Frame, Geometry, PostUpliftForce, Reference,
     RestrainedFrame,
 };
 
@@ -184,7 +184,7 @@ fn a_spectrum_read_at_the_slenderness_gives_the_structures_displacement() {
         let demand = system.zero_stiffness_demand_m(ordinate).unwrap();
         assert!((demand / own.peak_displacement_m - 1.0).abs() < 1e-9, "{demand} {own:?}");
         // a ZSBE ordinate comes from strength and uplift displacement alone
-        if system.post_uplift() == PostUplift::Zero {
+        if system.post_uplift() == PostUpliftForce::Zero {
             let strength = system.spectral_oscillator(0.95).unwrap().strength();
             assert!((strength / geometry.slenderness_rad() - 1.0).abs() < 1e-12);
         }

@@ -3,7 +3,7 @@
 
 use proptest::prelude::*;
 use uplift_structure::{
-    Anchorage, Block, Body, Conditions, CurvedFrame, EquivalentSystem, Frame, Geometry, PointMass, PostUplift,
+    Anchorage, Block, Body, Conditions, CurvedFrame, EquivalentSystem, Frame, Geometry, PointMass, PostUpliftForce,
     Reference, RestrainedFrame, StructureError, Warning,
 };
 
@@ -90,7 +90,7 @@ fn row_5_restrained_frame() {
     assert_close(restrained(120_000.0, Anchorage::Column).capacity().unwrap().capacity_m(), 2.0);
     // κ = 2: the force rises as much as it would have fallen, 1200 N/1 m
     let stiff = restrained(120_000.0, Anchorage::Foundation);
-    let PostUplift::Positive { stiffness_n_m } = stiff.post_uplift() else { panic!("{:?}", stiff.post_uplift()) };
+    let PostUpliftForce::Positive { stiffness_n_m } = stiff.post_uplift() else { panic!("{:?}", stiff.post_uplift()) };
     assert_close(stiffness_n_m, 1200.0);
     assert_eq!(stiff.warnings(), [Warning::PositiveStiffness { stiffness_n_m }]);
     assert_eq!(stiff.capacity(), Err(StructureError::PositiveStiffness { stiffness_n_m }));
@@ -110,7 +110,7 @@ fn critical_stiffness_is_the_zero_stiffness_system() {
     assert_close(frame().critical_tendon_stiffness_n_m(column, rigid()), 240_000.0);
     let k = frame().critical_tendon_stiffness_n_m(column, rigid());
     let system = RestrainedFrame::new(frame(), k, column).unwrap().equivalent(rigid()).unwrap();
-    assert_eq!((system.post_uplift(), system.warnings()), (PostUplift::Zero, &[Warning::ZeroStiffness][..]));
+    assert_eq!((system.post_uplift(), system.warnings()), (PostUpliftForce::Zero, &[Warning::ZeroStiffness][..]));
     assert_eq!(system.capacity().unwrap().capacity_m(), f64::INFINITY);
     assert_eq!((system.post_uplift_stiffness_n_m(), system.restoring_force_n(7.0)), (0.0, 1200.0));
 }
@@ -242,7 +242,7 @@ fn a_static_analysis_replaces_the_loop() {
     assert_close(soft.post_uplift_stiffness_n_m(), -511.363_636_363_636_4);
     assert_close(soft.restoring_force_n(-0.01), -225.0);
     assert!(system.with_static_analysis(450.0, 0.02, 0.02).is_err());
-    assert_eq!(system.with_static_analysis(450.0, 0.02, f64::INFINITY).unwrap().post_uplift(), PostUplift::Zero);
+    assert_eq!(system.with_static_analysis(450.0, 0.02, f64::INFINITY).unwrap().post_uplift(), PostUpliftForce::Zero);
 }
 
 /// All six rows for one geometry.

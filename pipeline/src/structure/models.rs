@@ -3,7 +3,7 @@
 
 use uplift_block::RockingBlock;
 use uplift_ida::System;
-use uplift_structure::PostUplift;
+use uplift_structure::PostUpliftForce;
 use uplift_study::Structure;
 
 use crate::error::UpliftError;
@@ -26,8 +26,8 @@ pub(super) fn models(
     let oscillator = structure.system.spectral_oscillator(restitution).map_err(|error| fail(error.into()))?;
     let mut models = vec![(System::Oscillator(oscillator), origin)];
     match structure.system.post_uplift() {
-        PostUplift::Negative { .. } => {}
-        PostUplift::Zero | PostUplift::Positive { .. } => notes.push(
+        PostUpliftForce::Negative { .. } => {}
+        PostUpliftForce::Zero | PostUpliftForce::Positive { .. } => notes.push(
             "the force does not fall after uplift: the equivalent oscillator never overturns, however far it goes"
                 .to_owned(),
         ),

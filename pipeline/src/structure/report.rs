@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use serde::Serialize;
-use uplift_structure::{EquivalentSystem, PostUplift};
+use uplift_structure::{EquivalentSystem, PostUpliftForce};
 use uplift_study::Structure;
 
 /// A structure and the oscillator that it is equivalent to (Table 3.1).
@@ -65,7 +65,7 @@ impl StructureReport {
 /// The displacement capacity, m; none for a structure that has none.
 fn capacity_m(system: &EquivalentSystem) -> Option<f64> {
     match system.post_uplift() {
-        PostUplift::Negative { capacity_m } => Some(capacity_m),
-        PostUplift::Zero | PostUplift::Positive { .. } => None,
+        PostUpliftForce::Negative { capacity_m } => Some(capacity_m),
+        PostUpliftForce::Zero | PostUpliftForce::Positive { .. } => None,
     }
 }

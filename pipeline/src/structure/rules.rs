@@ -1,7 +1,7 @@
 //! The rules of Section 3.3.2 applied to a structure, and the capacity that they ask for (Eq. 3.15).
 
 use serde::Serialize;
-use uplift_structure::{Check, Demand, PostUplift, Rule, StructureError, relative_error};
+use uplift_structure::{Check, Demand, PostUpliftForce, Rule, StructureError, relative_error};
 use uplift_study::Structure;
 
 use crate::displacement::RULES;
@@ -76,8 +76,8 @@ pub(super) fn apply_rules(
     demands: RuleDemands,
 ) -> Result<Vec<RuleOutcome>, StructureError> {
     match structure.system.post_uplift() {
-        PostUplift::Positive { .. } => return Ok(Vec::new()),
-        PostUplift::Negative { .. } | PostUplift::Zero => {}
+        PostUpliftForce::Positive { .. } => return Ok(Vec::new()),
+        PostUpliftForce::Negative { .. } | PostUpliftForce::Zero => {}
     }
     let check = |rule: Rule, demand_m: Option<f64>| -> Result<Option<RuleCheck>, StructureError> {
         let Some(demand_m) = demand_m else { return Ok(None) };
