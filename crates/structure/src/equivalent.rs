@@ -170,7 +170,7 @@ impl EquivalentSystem {
             PostUpliftForce::Negative { .. } => {}
             PostUpliftForce::Zero => self.warnings.push(Warning::ZeroStiffness),
             PostUpliftForce::Positive { stiffness_n_m } => {
-                self.warnings.push(Warning::PositiveStiffness { stiffness_n_m })
+                self.warnings.push(Warning::PositiveStiffness { stiffness_n_m });
             }
         }
     }
