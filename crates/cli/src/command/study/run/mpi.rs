@@ -40,7 +40,7 @@ pub(super) fn run(arguments: &RunArguments, terminal: &Terminal) -> Option<Resul
     match outcome {
         Ok(done @ (Ok(()) | Err(CommandError::OutputClosed))) => Some(done),
         // a stop is sent to all ranks, and one says so
-        Ok(Err(error @ (CommandError::Uplift(UpliftError::Paused { .. } | UpliftError::Interrupted)))) => {
+        Ok(Err(error @ CommandError::Uplift(UpliftError::Paused { .. } | UpliftError::Interrupted))) => {
             if index == 0 {
                 tell_error(&error);
             }
