@@ -27,8 +27,7 @@ pub(super) fn check_weights(
     match sums.iter().find(|(_, (sum, _))| (sum - 1.0).abs() > 1e-4) {
         Some((measure, (sum, count))) => Err(UpliftError::input(format!(
             "{measure}: {count} of {} realizations are given, and their weights add up to {sum:.4}: give the exports \
-             of \
-             all realizations",
+             of all realizations",
             weights.len()
         ))),
         None => Ok(()),
@@ -48,8 +47,7 @@ pub(super) fn remarks(written: &[Chosen]) -> Vec<String> {
             let unit = measure.unit();
             remarks.push(format!(
                 "the {measure} curves span {least:.4} to {most:.4} {unit}, and the default stripes do not: in the \
-                 study, \
-                 {key} = {levels} (or risk.extrapolate = \"loglog\")"
+                 study, {key} = {levels} (or risk.extrapolate = \"loglog\")"
             ));
         }
     }

@@ -11,8 +11,7 @@ use uplift_report::{check_figure_file, plot_overturning};
 
 use crate::command::arguments::StructureArguments;
 use crate::error::CommandError;
-use crate::show::print_shard;
-use crate::show::{print_json, print_overturning};
+use crate::show::{print_json, print_overturning, print_shard};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
