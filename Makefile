@@ -14,7 +14,7 @@ export PATH := $(TOOLS):$(PATH)
 
 UPLIFT := target/release/uplift
 
-.PHONY: run build test test-cluster lint docs python bench fuzz clean
+.PHONY: run build test test-cluster torture lint docs python sbom notices bench fuzz clean
 
 run: build
 	$(UPLIFT) run $(STUDY) $(SET) -o $(OUTPUT)
@@ -34,9 +34,14 @@ test: lint docs python
 test-cluster: build
 	tests/cluster/run.sh
 
+# Damaged files, full disks, kills and races by the hundred, see docs/testing.md.
+torture:
+	cargo test --locked --workspace --test end_to_end torture -- --ignored --nocapture
+
 lint:
 	.ci/check-line-width
 	.ci/check-paths
+	.ci/check-dependencies
 	cargo fmt --all --check
 	cargo clippy --locked --workspace --all-targets -- -D warnings
 
@@ -46,6 +51,17 @@ docs:
 # Python reads the result files in the tests; without it those tests say that they were skipped.
 python:
 	.ci/provide-python
+
+# What the program is built from, for those who hand it on: a bill of materials, and every notice.
+sbom:
+	@mkdir -p target
+	.ci/check-dependencies sbom > target/uplift.cdx.json
+	@echo target/uplift.cdx.json
+
+notices:
+	@mkdir -p target
+	.ci/check-dependencies notices > target/THIRD-PARTY-NOTICES.txt
+	@echo target/THIRD-PARTY-NOTICES.txt
 
 bench:
 	cargo bench --locked -p uplift-oscillator --bench solvers
@@ -60,7 +76,7 @@ FUZZ ?= $(subst /fuzz/fuzz_targets,,$(patsubst crates/%.rs,%,$(wildcard crates/*
 
 fuzz: $(addprefix fuzz/,$(FUZZ))
 
-# No crate here has unsafe code, so no sanitizer is needed, and stable Rust will do.
+# No reader here has unsafe code, so no sanitizer is needed, and stable Rust will do.
 fuzz/%:
 	@cargo fuzz --version > /dev/null 2>&1 || \
 		{ echo "cargo-fuzz is needed: cargo install --locked cargo-fuzz" >&2; exit 1; }

@@ -45,9 +45,10 @@ impl Finished {
     }
 }
 
-/// The built program in the folder `at`, its cache kept apart from the user's.
+/// The built program, or the one that `UPLIFT_PROGRAM` names, in the folder `at`, its cache kept apart from the user's.
 pub fn command(at: &Path) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_uplift"));
+    let program = std::env::var_os("UPLIFT_PROGRAM").unwrap_or_else(|| env!("CARGO_BIN_EXE_uplift").into());
+    let mut command = Command::new(program);
     command.current_dir(at).env("UPLIFT_CACHE", concat!(env!("CARGO_TARGET_TMPDIR"), "/cache")).env("NO_COLOR", "1");
     command
 }

@@ -7,6 +7,7 @@
 mod common;
 
 mod bootstrap;
+mod damage;
 mod design;
 mod displacement_figures;
 mod displacement_resume;

@@ -264,15 +264,36 @@ fn a_damaged_axis_is_no_source_of_numbers() {
 fn bands_are_not_written_into_another_result() {
     let study = SmallStudy::new();
     study.uplift(&["run", "study.toml"]).ok();
+    study.uplift(&["run", "study.toml", "-o", "other.h5", "--set", "oscillator.restitution=0.5"]).ok();
     let mut bootstrap = study.start(&["bootstrap", "results/study.h5", "--replicates", "100000", "--threads", "1"]);
     // the result has been read by then
     bootstrap.wait_until_said("plan");
     bootstrap.hold();
-    study.uplift(&["run", "study.toml", "--set", "oscillator.restitution=0.5"]).ok();
-    let written = content(&study.path().join("results/study.h5"));
+    // a run does not take the place of what is being added to
+    study.uplift(&["run", "study.toml"]).fails(4, &["study.h5 is being written by another run"]);
+    // another program may
+    let written = content(&study.path().join("other.h5"));
+    std::fs::rename(study.path().join("other.h5"), study.path().join("results/study.h5")).unwrap();
     bootstrap.release();
     bootstrap.end().fails(4, &["written anew meanwhile"]);
     assert_eq!(content(&study.path().join("results/study.h5")), written);
+}
+
+#[cfg(unix)]
+#[test]
+fn one_that_adds_to_a_result_waits_for_another() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-o", "r.h5"]).ok();
+    let mut bootstrap = study.start(&["bootstrap", "r.h5", "--replicates", "20000", "--threads", "1"]);
+    bootstrap.wait_until_said("plan");
+    bootstrap.hold();
+    let mut influence = study.start(&["influence", "r.h5"]);
+    influence.wait_until_said("is being written by another run (process");
+    bootstrap.release();
+    assert_eq!((bootstrap.end().code, influence.end().code), (0, 0));
+    // neither has lost what it made
+    let reader = LabelledReader::open(&study.path().join("r.h5")).unwrap();
+    assert!(reader.exists("/bootstrap") && reader.exists("/influence"));
 }
 
 #[test]

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use crate::error::UpliftError;
-use uplift_atomic_file::final_place;
+use uplift_atomic_file::{final_place, is_still_at};
 
 /// Held as long as something is being written to a result. The operating system lets go of it when the program ends,
 /// however it ends.
@@ -50,7 +50,7 @@ impl ResultLock {
                 Err(TryLockError::Error(error)) => return Err(fail(error)),
             }
             // whoever had it before may have taken the file away between our opening and our locking
-            if !is_still_there(&file, &path) {
+            if !is_still_at(&file, &path) {
                 continue;
             }
             let _ = file.set_len(0).and_then(|()| file.rewind());
@@ -104,21 +104,6 @@ impl Drop for ResultLock {
         let _ = std::fs::remove_file(&self.path);
         let _ = self.file.unlock();
     }
-}
-
-#[cfg(unix)]
-fn is_still_there(file: &File, path: &Path) -> bool {
-    use std::os::unix::fs::MetadataExt;
-    let identity = |metadata: std::fs::Metadata| (metadata.dev(), metadata.ino());
-    match (file.metadata(), std::fs::metadata(path)) {
-        (Ok(ours), Ok(there)) => identity(ours) == identity(there),
-        _ => false,
-    }
-}
-
-#[cfg(not(unix))]
-fn is_still_there(_: &File, path: &Path) -> bool {
-    path.exists()
 }
 
 #[cfg(test)]

@@ -22,7 +22,7 @@ pub use bands::{MeasureBands, StoredBands};
 pub(crate) use design::{BOUNDS, rule_names};
 pub use design::{DesignRow, RULES, StoredDesign, StoredDesigned};
 pub use displacements::{SpectrumPlace, StoredDisplacements, StoredMotions, StoredSet, StoredStructures};
-pub(crate) use extend::{extend_result, line, sign};
+pub(crate) use extend::{Addition, line, sign};
 pub use file::{ResultFile, RiskAxes};
 pub use hazard::{StoredCurves, StoredHazard};
 pub use head::{Head, Overview};

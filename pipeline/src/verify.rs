@@ -46,7 +46,14 @@ pub fn verify(files: &[PathBuf], events: &dyn Events) -> Result<VerifyReport, Up
         if events.cancelled() {
             return Err(UpliftError::Interrupted);
         }
-        found.push(match ResultFile::open(file).and_then(|_| Ok(verify_file(file)?)) {
+        // what is damaged is not opened; what is whole may still be of another program
+        let verdict = verify_file(file).map_err(UpliftError::from).and_then(|verdict| {
+            if verdict.is_sound() {
+                ResultFile::open(file)?;
+            }
+            Ok(verdict)
+        });
+        found.push(match verdict {
             Ok(verdict) => VerifiedFile::of(file.clone(), verdict),
             Err(error) => {
                 let mistakes = vec![error.to_string()];
@@ -63,15 +70,15 @@ impl VerifiedFile {
         let mut mistakes: Vec<String> = verdict.damaged.iter().map(|damage| format!("{name}: {damage}")).collect();
         match verdict.seal {
             Seal::Broken if mistakes.is_empty() => mistakes.push(format!(
-                "{name}: some byte is not as it was written, in what lies between the arrays: take the numbers from a \
-                 copy, or run the study again"
+                "{name}: some byte is not as it was written, the file does not tell which: take another copy, or run \
+                 the study again"
             )),
-            Seal::Broken => mistakes.push(format!("{name}: is damaged: run the study again")),
+            Seal::Broken => mistakes.push(format!("{name}: is damaged: take another copy, or run the study again")),
             Seal::Missing => mistakes.push(format!(
                 "{name}: the checksum of the whole file is not at its end: another program has written to it, or its \
                  end is missing"
             )),
-            Seal::Whole(_) => {}
+            Seal::Whole => {}
         }
         Self { sound: verdict.sound, unknown: verdict.unknown, mistakes, file }
     }

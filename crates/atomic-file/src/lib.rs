@@ -15,6 +15,8 @@
 
 mod atomic_file;
 mod error;
+mod identity;
 
 pub use atomic_file::{AtomicFile, final_place, remove_leftovers, require_file, write_whole};
 pub use error::{FileError, io_error};
+pub use identity::is_still_at;

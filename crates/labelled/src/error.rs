@@ -27,6 +27,28 @@ pub enum LabelledError {
         /// The size that is left.
         bytes: u64,
     },
+    /// The file does not end with its checksum.
+    #[error("{}: the checksum at its end is missing: another program has written to it, or its end is lost: take \
+             another copy or repeat the run", path.display())]
+    Unsealed {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The file is not as it was written.
+    #[error("{}: {}is not as it was written, the file is damaged: take another copy or repeat the run", path.display(),
+            object.as_ref().map(|object| format!("{object} ")).unwrap_or_default())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// The array; none where it is the structure of the file.
+        object: Option<String>,
+    },
+    /// Another file took its place while it was opened.
+    #[error("{}: was replaced while it was opened: try again", path.display())]
+    Replaced {
+        /// The file.
+        path: PathBuf,
+    },
     /// Another program has the file open for writing.
     #[error("{}: another program has the file open for writing: close it there first", path.display())]
     Locked {

@@ -16,7 +16,8 @@
 //! is complete. [`LabelledReader::children`] leaves the links out.
 //!
 //! Every array carries the SHA-256 of its values, and behind the end of the file, where no reader of HDF5 looks, stands
-//! the SHA-256 of all bytes: [`verify`] finds any that has changed.
+//! its seal: the SHA-256 of each part and of all bytes. [`LabelledReader`] reads nothing that has changed since it was
+//! written, [`verify`] says what has.
 //!
 //! The layer knows nothing of the science, and it writes nothing that depends on the time or the machine: two files
 //! with the same content are equal byte for byte.
@@ -46,14 +47,16 @@ mod dimension_scale;
 mod error;
 mod native;
 mod reader;
+mod seal;
 mod text;
 mod verify;
 mod writer;
 
 pub use attribute::AttributeValue;
-pub use checksum::{Seal, hexadecimal, seal_of};
+pub use checksum::hexadecimal;
 pub use error::LabelledError;
 pub use reader::{LabelledArray, LabelledReader};
+pub use seal::Seal;
 pub use verify::{Verdict, verify};
 pub use writer::LabelledWriter;
 

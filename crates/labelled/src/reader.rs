@@ -1,6 +1,7 @@
 //! Reading a file of labelled arrays.
 
 use std::fs;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use hdf5::types::{FloatSize, IntSize, TypeDescriptor};
@@ -8,6 +9,7 @@ use hdf5::{Container, Dataset, File, H5Type, LocationType, MinorErrorCode};
 use uplift_atomic_file::{io_error, require_file};
 
 use super::error::{LabelledError, reason};
+use super::seal::{Opened, Sealed};
 use super::{AXES, dimension_scale, text};
 
 /// Deflate cannot pack more than 1032 bytes into one: a file that claims more lies, and is not given the memory.
@@ -25,8 +27,12 @@ pub struct LabelledArray<T> {
 }
 
 /// Reads a file written by [`LabelledWriter`](super::LabelledWriter).
+///
+/// HDF5 sees no byte that is not as it was written: the structure of the file is checked when it is opened, and an
+/// array when it is asked for.
 pub struct LabelledReader {
     pub(super) file: File,
+    sealed: Sealed,
     path: PathBuf,
     bytes: u64,
 }
@@ -36,26 +42,36 @@ impl LabelledReader {
     ///
     /// # Errors
     /// [`LabelledError::File`] where the file is missing, may not be read or is not a file,
-    /// [`LabelledError::NotHdf5`] and [`LabelledError::Truncated`] where it is something else,
+    /// [`LabelledError::NotHdf5`], [`LabelledError::Truncated`] and [`LabelledError::Unsealed`] where it is something
+    /// else or not whole, [`LabelledError::Damaged`] where its structure is not as it was written,
     /// [`LabelledError::Locked`] where another program is writing to it.
     pub fn open(path: &Path) -> Result<Self, LabelledError> {
         let metadata = fs::metadata(path).map_err(io_error(path, "open the file"))?;
         require_file(path, &metadata)?;
-        // The operating system gives the reason in its own words; HDF5 would bury it.
-        fs::File::open(path).map_err(io_error(path, "open the file"))?;
-        let (owned, bytes) = (path.to_owned(), metadata.len());
+        let file = fs::File::open(path).map_err(io_error(path, "open the file"))?;
+        let sealed = match Sealed::open(file).map_err(io_error(path, "read the file"))? {
+            Opened::Sealed(sealed) => sealed,
+            Opened::Broken => return Err(LabelledError::Damaged { path: path.to_owned(), object: None }),
+            Opened::Missing => return Err(unsealed(path)),
+        };
+        let owned = path.to_owned();
         let file = File::open(path).map_err(|error| {
-            if error.contains_minor(MinorErrorCode::NotHdf5) {
-                LabelledError::NotHdf5 { path: owned.clone(), bytes }
-            } else if error.contains_minor(MinorErrorCode::Truncated) {
-                LabelledError::Truncated { path: owned.clone(), bytes }
-            } else if error.contains_minor(MinorErrorCode::CantLockFile) {
+            if error.contains_minor(MinorErrorCode::CantLockFile) {
                 LabelledError::Locked { path: owned.clone() }
             } else {
                 LabelledError::Hdf5 { path: owned.clone(), action: "open", object: "/".into(), reason: reason(&error) }
             }
         })?;
-        Ok(Self { file, path: owned, bytes })
+        // what took its place since was not looked at
+        if !sealed.is_still_at(path) {
+            return Err(LabelledError::Replaced { path: owned });
+        }
+        Ok(Self { file, sealed, path: owned, bytes: metadata.len() })
+    }
+
+    /// By what the content of the file is known: two files with the same are equal, byte for byte.
+    pub fn identity(&self) -> &str {
+        self.sealed.identity()
     }
 
     /// The file.
@@ -245,9 +261,14 @@ impl LabelledReader {
         }
     }
 
+    /// The array at `path`, whose bytes are as they were written.
     pub(super) fn dataset(&self, path: &str) -> Result<Dataset, LabelledError> {
         self.require(path, LocationType::Dataset, "an array")?;
-        self.check(self.file.dataset(path), path)
+        let dataset = self.check(self.file.dataset(path), path)?;
+        if self.sealed.is_sound(path, dataset.is_chunked()).map_err(io_error(&self.path, "read the file"))? {
+            return Ok(dataset);
+        }
+        Err(LabelledError::Damaged { path: self.path.clone(), object: Some(path.to_owned()) })
     }
 
     fn attribute(&self, object: &str, name: &str) -> Result<Container, LabelledError> {
@@ -325,6 +346,38 @@ impl LabelledReader {
     pub(super) fn wrong(&self, object: &str, found: String, wanted: &'static str) -> LabelledError {
         LabelledError::WrongType { path: self.path.clone(), object: object.to_owned(), found, wanted }
     }
+}
+
+/// First bytes of every HDF5 file.
+const SIGNATURE: &[u8] = b"\x89HDF\r\n\x1a\n";
+/// Bytes of the first block of a file that are looked at.
+const FIRST_BLOCK: u64 = 64;
+
+/// What is wrong with the file at `path`, which has no seal.
+pub(super) fn unsealed(path: &Path) -> LabelledError {
+    let (mut first, mut bytes) = (Vec::new(), 0);
+    let read = fs::File::open(path).and_then(|file| {
+        bytes = file.metadata()?.len();
+        file.take(FIRST_BLOCK).read_to_end(&mut first)
+    });
+    let path = path.to_owned();
+    match read {
+        Err(source) => io_error(&path, "read the file")(source).into(),
+        Ok(_) if !first.starts_with(SIGNATURE) => LabelledError::NotHdf5 { path, bytes },
+        // shorter than its first block is cut short too
+        Ok(_) if stated_length(&first).is_none_or(|stated| bytes < stated) => LabelledError::Truncated { path, bytes },
+        Ok(_) => LabelledError::Unsealed { path },
+    }
+}
+
+/// How long an HDF5 file is by its first block (with addresses of 8 bytes, as all have that are not very old).
+fn stated_length(first: &[u8]) -> Option<u64> {
+    let at = match first.get(8)? {
+        0 => 40,
+        1 => 44,
+        _ => 28,
+    };
+    Some(u64::from_le_bytes(first.get(at..at + 8)?.try_into().ok()?))
 }
 
 fn attribute_label(object: &str, name: &str) -> String {

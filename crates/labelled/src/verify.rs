@@ -1,14 +1,18 @@
 //! Whether a file is what was written.
 
 use std::path::Path;
+use std::sync::mpsc;
+use std::time::Duration;
+use std::{fs, thread};
 
-use uplift_atomic_file::io_error;
+use uplift_atomic_file::{io_error, require_file};
 
 use super::AXES;
-use super::checksum::{CHECKSUM, Seal, of_values, seal_of};
+use super::checksum::{CHECKSUM, of_values};
 use super::copy::Kind;
 use super::error::LabelledError;
-use super::reader::LabelledReader;
+use super::reader::{LabelledReader, unsealed};
+use super::seal::{Seal, examine};
 
 /// What was found of a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -26,21 +30,52 @@ pub struct Verdict {
 impl Verdict {
     /// Whether nothing is damaged.
     pub fn is_sound(&self) -> bool {
-        self.damaged.is_empty() && matches!(self.seal, Seal::Whole(_))
+        self.damaged.is_empty() && self.seal == Seal::Whole
     }
 }
 
-/// Looks at every byte of the file at `path`, and at every array in it.
+/// Looks at every byte of the file at `path`, and, where these are as they were written, at every array in it.
+///
+/// Of a file that is damaged HDF5 sees nothing: it may never return from one.
 ///
 /// # Errors
-/// A file that cannot be opened at all; [`LabelledReader::open`] says why.
+/// A file that cannot be opened, is no HDF5 file or is cut short.
 pub fn verify(path: &Path) -> Result<Verdict, LabelledError> {
-    let reader = LabelledReader::open(path)?;
-    let seal = seal_of(path).map_err(io_error(path, "read the file"))?;
-    let mut verdict = Verdict { seal, sound: 0, damaged: Vec::new(), unknown: Vec::new() };
-    reader.verify_group("", &mut verdict);
-    Ok(verdict)
+    let metadata = fs::metadata(path).map_err(io_error(path, "open the file"))?;
+    require_file(path, &metadata)?;
+    let mut file = fs::File::open(path).map_err(io_error(path, "open the file"))?;
+    let (seal, damaged) = examine(&mut file).map_err(io_error(path, "read the file"))?;
+    let verdict = Verdict { seal, sound: 0, damaged, unknown: Vec::new() };
+    match seal {
+        Seal::Whole => {
+            let seconds = LONGEST + metadata.len() / BYTES_PER_SECOND;
+            Ok(read_within(LabelledReader::open(path)?, verdict, seconds))
+        }
+        Seal::Broken => Ok(verdict),
+        Seal::Missing => match unsealed(path) {
+            LabelledError::Unsealed { .. } => Ok(verdict),
+            other => Err(other),
+        },
+    }
 }
+
+/// Reads every array, and gives up after `seconds`: a file may bear a seal and yet be one that HDF5 cannot read.
+fn read_within(reader: LabelledReader, verdict: Verdict, seconds: u64) -> Verdict {
+    let (done, awaited) = mpsc::channel();
+    let mut found = verdict.clone();
+    thread::spawn(move || {
+        reader.verify_group("", &mut found);
+        let _ = done.send(found);
+    });
+    awaited.recv_timeout(Duration::from_secs(seconds)).unwrap_or_else(|_| Verdict {
+        damaged: vec![format!("HDF5 has not read its arrays within {seconds} s")],
+        ..verdict
+    })
+}
+
+/// Seconds that HDF5 may take with any file, and bytes for each that it may take besides.
+const LONGEST: u64 = 60;
+const BYTES_PER_SECOND: u64 = 4_000_000;
 
 impl LabelledReader {
     /// Whether the array at `path` is as it was written; none where it has no checksum.

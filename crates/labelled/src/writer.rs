@@ -8,10 +8,11 @@ use hdf5::{Dataset, File, H5Type, Location, LocationType, ObjectReference1};
 use uplift_atomic_file::{AtomicFile, io_error};
 
 use super::attribute::{self, AttributeValue};
-use super::checksum::{self, CHECKSUM, Hashed, of_values};
+use super::checksum::{CHECKSUM, Hashed, of_values};
 use super::dimension_scale::{self, LONGEST_NAME, RESERVED};
 use super::error::{LabelledError, reason};
 use super::native::ScaleUse;
+use super::seal::{Extent, seal};
 use super::{AXES, text};
 
 /// Arrays above this size are stored in compressed chunks, smaller ones in one piece.
@@ -30,6 +31,8 @@ pub struct LabelledWriter {
     place: AtomicFile,
     axes: BTreeMap<String, Axis>,
     links: BTreeSet<String>,
+    /// Arrays that lie in chunks.
+    chunks: Vec<String>,
 }
 
 struct Axis {
@@ -52,7 +55,7 @@ impl LabelledWriter {
             .with_fcpl(|creation| creation.obj_track_times(false))
             .create(place.partial())
             .map_err(|error| hdf5_error(place.target(), "create", "/", &error))?;
-        let mut writer = Self { file, place, axes: BTreeMap::new(), links: BTreeSet::new() };
+        let mut writer = Self { file, place, axes: BTreeMap::new(), links: BTreeSet::new(), chunks: Vec::new() };
         writer.group(AXES)?;
         Ok(writer)
     }
@@ -220,13 +223,15 @@ impl LabelledWriter {
             let noted = self.file.dataset(&path).and_then(|scale| dimension_scale::note_uses(&scale, &axis.uses));
             self.check(noted, "write", &path)?;
         }
+        let chunks = self.chunks.iter().map(|path| Ok((path.clone(), self.extents(path)?)));
+        let chunks = chunks.collect::<Result<_, LabelledError>>()?;
         // Most of what the library has to say about a full disk it says here, not when an array is written.
         self.check(self.file.flush(), "write", "the end of the file")?;
         let Self { file, place, .. } = self;
         file.close().map_err(|error| hdf5_error(place.target(), "close", "the file", &error))?;
         let sealed = std::fs::File::options().read(true).write(true).open(place.partial());
         sealed
-            .and_then(|mut file| checksum::seal(&mut file))
+            .and_then(|mut file| seal(&mut file, chunks))
             .map_err(io_error(place.target(), "write the end of the file"))?;
         Ok(place.replace()?)
     }
@@ -316,7 +321,7 @@ impl LabelledWriter {
 
     /// Writes the values, `units` and `long_name` of an array or axis.
     fn dataset<T: H5Type + Hashed>(
-        &self,
+        &mut self,
         path: &str,
         shape: &[usize],
         values: &[T],
@@ -344,7 +349,23 @@ impl LabelledWriter {
             dataset.flush()?;
             Ok(dataset)
         };
-        self.check(write(), "write", path)
+        let dataset = self.check(write(), "write", path)?;
+        if dataset.is_chunked() {
+            self.chunks.push(path.to_owned());
+        }
+        Ok(dataset)
+    }
+
+    /// Where the chunks of the array at `path` lie.
+    fn extents(&self, path: &str) -> Result<Vec<Extent>, LabelledError> {
+        let dataset = self.check(self.file.dataset(path), "look at", path)?;
+        let mut extents = Vec::new();
+        let visited = dataset.chunks_visit(|chunk| {
+            extents.push((chunk.addr, chunk.size));
+            0
+        });
+        self.check(visited, "look at", path)?;
+        Ok(extents)
     }
 
     fn encode(&self, object: &str, values: &[String]) -> Result<Vec<VarLenUnicode>, LabelledError> {

@@ -15,7 +15,7 @@ use super::report::BootstrapReport;
 use super::write::{BandsFile, band_paths, write_bands};
 use crate::error::UpliftError;
 use crate::events::Events;
-use crate::result::{ResultFile, check_target};
+use crate::result::{Addition, ResultFile};
 
 /// What is asked of a bootstrap. What is left open is as a study says: as `study`, else as the one in the result.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -52,8 +52,8 @@ pub fn bootstrap(
     options: &BootstrapOptions,
     events: &dyn Events,
 ) -> Result<BootstrapReport, UpliftError> {
+    let addition = Addition::begin(result, events)?;
     let stored = ResultFile::open(result)?.stripes()?;
-    check_target(&stored.path)?;
     let study = options.study.as_ref().unwrap_or(&stored.bootstrap);
     let settings = BandSettings {
         confidence: study.confidence,
@@ -68,13 +68,10 @@ pub fn bootstrap(
     let checkpoint = Checkpoint::of(&stored, &plan, &settings);
     let bands = compute(&stored, &plan, &settings, &checkpoint, events)?;
     events.remark("", &format!("{:.1} s", start.elapsed().as_secs_f64()));
-    write_bands(&BandsFile {
-        stored: &stored,
-        plan: &plan,
-        plan_source: &plan_source,
-        settings: &settings,
-        bands: &bands,
-    })?;
+    write_bands(
+        &addition,
+        &BandsFile { stored: &stored, plan: &plan, plan_source: &plan_source, settings: &settings, bands: &bands },
+    )?;
     checkpoint.remove();
     Ok(BootstrapReport::new(
         stored,

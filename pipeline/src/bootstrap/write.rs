@@ -9,7 +9,7 @@ use super::bands::{BandSettings, Bands};
 use crate::array::Array;
 use crate::error::UpliftError;
 use crate::result::layout::{MULTIPLICITY, axis, band, bootstrap, joint_band, limit_names};
-use crate::result::{StoredStripes, extend_result, line, sign, write_table};
+use crate::result::{Addition, StoredStripes, line, sign, write_table};
 use uplift_labelled::{LabelledError, LabelledWriter};
 
 /// Groups and axes of the file that bands replace.
@@ -40,9 +40,9 @@ pub(super) fn band_paths(result: &Path) -> [PathBuf; 2] {
 ///
 /// # Errors
 /// Whatever keeps the files from being written; the result file is then as it was.
-pub(super) fn write_bands(file: &BandsFile<'_>) -> Result<(), UpliftError> {
+pub(super) fn write_bands(addition: &Addition, file: &BandsFile<'_>) -> Result<(), UpliftError> {
     let BandsFile { stored, plan, settings, .. } = file;
-    extend_result(stored, &replaced(), |writer| add_bands(writer, file))?;
+    addition.write(stored, &replaced(), |writer| add_bands(writer, file))?;
     let what = format!(
         "bootstrap: {}, {} replicates, {} interval, confidence {}",
         file.plan_source,

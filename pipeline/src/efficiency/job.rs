@@ -8,7 +8,7 @@ use super::report::EfficiencyReport;
 use super::write::write_efficiency;
 use crate::error::UpliftError;
 use crate::events::Events;
-use crate::result::{ResultFile, check_target};
+use crate::result::{Addition, ResultFile};
 
 /// How well each intensity measure of the result at `result` predicts the demand (efficiency), and what it leaves out
 /// (sufficiency): written into the file and into a table beside it.
@@ -17,9 +17,9 @@ use crate::result::{ResultFile, check_target};
 /// A file that is missing, damaged, no result, or without sites; a file that cannot be written;
 /// [`UpliftError::Interrupted`] where `events` say so.
 pub fn efficiency(result: &Path, events: &dyn Events) -> Result<EfficiencyReport, UpliftError> {
+    let addition = Addition::begin(result, events)?;
     let file = ResultFile::open(result)?;
     let stored = file.stripes()?;
-    check_target(&stored.path)?;
     let covariates = covariates(&file.records()?);
     let mut measures = Vec::new();
     for measure in &stored.measures {
@@ -28,6 +28,6 @@ pub fn efficiency(result: &Path, events: &dyn Events) -> Result<EfficiencyReport
         }
         measures.push(efficiency_by(&stored, measure, &covariates)?);
     }
-    write_efficiency(&stored, &covariates, &measures)?;
+    write_efficiency(&addition, &stored, &covariates, &measures)?;
     Ok(EfficiencyReport::new(&stored, &covariates, &measures))
 }

@@ -9,7 +9,7 @@ use uplift_regression::Line;
 use super::of_measure::{Covariate, MeasureEfficiency};
 use crate::error::UpliftError;
 use crate::result::layout::{axis, efficiency, sufficiency};
-use crate::result::{StoredStripes, extend_result, line, sign, write_table};
+use crate::result::{Addition, StoredStripes, line, sign, write_table};
 use crate::text::finite;
 use uplift_labelled::{LabelledError, LabelledWriter};
 
@@ -26,11 +26,12 @@ pub(super) fn efficiency_path(result: &Path) -> PathBuf {
 /// # Errors
 /// Whatever keeps the files from being written; the result file is then as it was.
 pub(super) fn write_efficiency(
+    addition: &Addition,
     stored: &StoredStripes,
     covariates: &[Covariate],
     measures: &[MeasureEfficiency],
 ) -> Result<(), UpliftError> {
-    extend_result(stored, &REPLACED, |writer| add(writer, covariates, measures))?;
+    addition.write(stored, &REPLACED, |writer| add(writer, covariates, measures))?;
     write_table(
         &efficiency_path(&stored.path),
         &line(stored, "efficiency and sufficiency"),

@@ -8,7 +8,7 @@ use super::write::write_influence;
 use crate::array::Array;
 use crate::error::UpliftError;
 use crate::events::Events;
-use crate::result::{ResultFile, check_target};
+use crate::result::{Addition, ResultFile};
 
 /// What is told of the influence; the files hold all of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,8 +36,8 @@ pub fn influence(
     options: &InfluenceOptions,
     events: &dyn Events,
 ) -> Result<InfluenceReport, UpliftError> {
+    let addition = Addition::begin(result, events)?;
     let stored = ResultFile::open(result)?.stripes()?;
-    check_target(&stored.path)?;
     let poe = stored.poe_index(options.poe)?;
     let mut influences: Vec<Influence> = Vec::new();
     for measure in &stored.measures {
@@ -52,6 +52,6 @@ pub fn influence(
         .zip(&stored.measures)
         .map(|(influence, measure)| Array::from_fn(shape, |at| rank_records(&stored, measure, influence, at)))
         .collect();
-    write_influence(&stored, &influences, &rankings)?;
+    write_influence(&addition, &stored, &influences, &rankings)?;
     Ok(InfluenceReport::new(&stored, &influences, &rankings, poe, options.top))
 }

@@ -9,7 +9,7 @@ use super::change::{Influence, RecordInfluence};
 use crate::array::Array;
 use crate::error::UpliftError;
 use crate::result::layout::{axis, disaggregation, influence};
-use crate::result::{StoredStripes, extend_result, line, sign, write_table};
+use crate::result::{Addition, StoredStripes, line, sign, write_table};
 use uplift_labelled::{LabelledError, LabelledWriter};
 
 /// The groups that a new look replaces.
@@ -30,11 +30,12 @@ pub(super) fn influence_path(result: &Path) -> PathBuf {
 /// # Errors
 /// Whatever keeps the files from being written; the result file is then as it was.
 pub(super) fn write_influence(
+    addition: &Addition,
     stored: &StoredStripes,
     influences: &[Influence],
     rankings: &[Array<2, Vec<RecordInfluence>>],
 ) -> Result<(), UpliftError> {
-    extend_result(stored, &replaced(), |writer| add(writer, stored, influences))?;
+    addition.write(stored, &replaced(), |writer| add(writer, stored, influences))?;
     write_table(
         &influence_path(&stored.path),
         &line(stored, "spectra without each record"),

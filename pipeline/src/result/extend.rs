@@ -1,58 +1,71 @@
 //! Adding to a result file: it is written anew and replaced at once.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
-use super::StoredStripes;
+use super::{ResultFile, StoredStripes, check_target};
 use crate::error::UpliftError;
+use crate::events::Events;
 use crate::lock::ResultLock;
-use uplift_labelled::{LabelledError, LabelledReader, LabelledWriter, Seal, seal_of};
+use uplift_labelled::{LabelledError, LabelledReader, LabelledWriter};
 
-/// Write the file of `stored` anew without the groups and axes `replaced`, and with what `add` writes.
-///
-/// # Errors
-/// Whatever keeps the file from being read or written; it is then as it was. A file that is not as it was written, or
-/// no longer the one that `stored` was read from.
-pub(crate) fn extend_result(
-    stored: &StoredStripes,
-    replaced: &[impl AsRef<str>],
-    add: impl FnOnce(&mut LabelledWriter) -> Result<(), LabelledError>,
-) -> Result<(), UpliftError> {
-    let path: &Path = &stored.path;
-    // what another adds between our reading and our writing would be lost
-    let _lock = ResultLock::wait(path, LONGEST_WAIT)?;
-    if Some(whole_seal(path)?) != stored.seal {
-        return Err(UpliftError::input(format!(
-            "{}: was written anew meanwhile, so these numbers are not of it any more: run the command again",
-            path.display()
-        )));
+/// A result that is being added to: nobody else writes to it meanwhile, from before its numbers are read until what is
+/// made of them is in the file.
+#[derive(Debug)]
+pub(crate) struct Addition {
+    path: PathBuf,
+    _lock: ResultLock,
+}
+
+impl Addition {
+    /// Takes the lock of the result at `path`; another that adds to it is waited for.
+    ///
+    /// # Errors
+    /// A file that is missing, damaged or no result; one that another run is writing for longer than a minute; a folder
+    /// that cannot be written, and what [`check_target`] refuses.
+    pub(crate) fn begin(path: &Path, events: &dyn Events) -> Result<Self, UpliftError> {
+        ResultFile::open(path)?;
+        if let Some(holder) = ResultLock::holder(path) {
+            events.remark("waits", &format!("{} is being written by another run ({holder})", path.display()));
+        }
+        let lock = ResultLock::wait(path, LONGEST_WAIT)?;
+        check_target(path)?;
+        Ok(Self { path: path.to_owned(), _lock: lock })
     }
-    let reader = LabelledReader::open(path)?;
-    let mut writer = LabelledWriter::create(path)?;
-    let replaced: Vec<&str> = replaced.iter().map(AsRef::as_ref).collect();
-    writer.carry_over(&reader, &replaced)?;
-    drop(reader);
-    add(&mut writer)?;
-    writer.finish()?;
-    Ok(())
+
+    /// Writes the file, which `stored` was read from, anew: without the groups and axes `replaced`, and with what `add`
+    /// writes.
+    ///
+    /// # Errors
+    /// Whatever keeps the file from being read or written; it is then as it was. A file that is not as it was written,
+    /// or no longer the one that `stored` was read from.
+    pub(crate) fn write(
+        &self,
+        stored: &StoredStripes,
+        replaced: &[impl AsRef<str>],
+        add: impl FnOnce(&mut LabelledWriter) -> Result<(), LabelledError>,
+    ) -> Result<(), UpliftError> {
+        let path = &self.path;
+        let reader = LabelledReader::open(path)?;
+        // a program that knows nothing of the lock may have been there
+        if reader.identity() != stored.identity {
+            return Err(UpliftError::input(format!(
+                "{}: was written anew meanwhile, so these numbers are not of it any more: run the command again",
+                path.display()
+            )));
+        }
+        let mut writer = LabelledWriter::create(path)?;
+        let replaced: Vec<&str> = replaced.iter().map(AsRef::as_ref).collect();
+        writer.carry_over(&reader, &replaced)?;
+        drop(reader);
+        add(&mut writer)?;
+        writer.finish()?;
+        Ok(())
+    }
 }
 
 /// How long another that adds to the same result is waited for.
 const LONGEST_WAIT: Duration = Duration::from_secs(60);
-
-/// The checksum of the result at `path`, every byte of which is as it was written.
-///
-/// # Errors
-/// A file that is damaged or was changed by another program.
-pub(crate) fn whole_seal(path: &Path) -> Result<String, UpliftError> {
-    let fail = |reason: String| UpliftError::input(format!("{}: {reason}", path.display()));
-    match seal_of(path).map_err(|error| fail(error.to_string()))? {
-        Seal::Whole(seal) => Ok(seal),
-        Seal::Broken | Seal::Missing => {
-            Err(fail("is not as it was written (`uplift verify` says where): run the study again".to_owned()))
-        }
-    }
-}
 
 /// Note on the group `group` what made it, and when.
 pub(crate) fn sign(writer: &mut LabelledWriter, group: &str) -> Result<(), LabelledError> {

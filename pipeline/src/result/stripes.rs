@@ -9,7 +9,6 @@ use uplift_risk::{PooledDemand, RiskCurve, StripeWeights};
 use uplift_study::Bootstrap;
 
 use super::RiskAxes;
-use super::extend::whole_seal;
 use super::file::ResultFile;
 use super::layout::{axis, ida};
 use crate::array::Array;
@@ -20,8 +19,8 @@ use crate::error::UpliftError;
 pub struct StoredStripes {
     /// The file.
     pub path: PathBuf,
-    /// Checksum of the file; none where it is not as it was written.
-    pub seal: Option<String>,
+    /// Checksum of the file.
+    pub identity: String,
     /// Where the records come from, in a line.
     pub record_set: String,
     /// Names of the records.
@@ -135,7 +134,7 @@ impl ResultFile {
         let RiskAxes { records, strengths, poes, years, sites } = axes;
         Ok(StoredStripes {
             path: self.path.clone(),
-            seal: whole_seal(&self.path).ok(),
+            identity: self.reader.identity().to_owned(),
             record_set: self.record_set()?,
             records,
             strengths,

@@ -9,7 +9,7 @@ use uplift_motion::IntensityMeasure;
 use crate::checkpoint::oscillator_key;
 use crate::inputs::RecordSet;
 use crate::result::layout::{axis, ida, records};
-use uplift_labelled::{LabelledError, LabelledReader, Seal, seal_of};
+use uplift_labelled::{LabelledError, LabelledReader};
 use uplift_study::{MeasurePlan, UniformRiskStudy};
 
 /// An earlier result at the place of the one to come.
@@ -18,10 +18,9 @@ pub struct EarlierStripes {
 }
 
 impl EarlierStripes {
-    /// The result at `path`; none if there is none, or one of which any byte is not as it was written.
+    /// The result at `path`; none if there is none, or one that is not as it was written.
     pub fn open(path: &Path) -> Option<Self> {
-        let whole = path.is_file() && matches!(seal_of(path), Ok(Seal::Whole(_)));
-        whole.then(|| LabelledReader::open(path).ok()).flatten().map(|reader| Self { reader })
+        LabelledReader::open(path).ok().map(|reader| Self { reader })
     }
 
     /// Puts into `cells` what the file knows of the stripes that `study` asks for with `measure`: cells of the same

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::LabelledWriter;
+use crate::seal::seal;
 use uplift_atomic_file::FileError;
 
 fn small_file(folder: &Path) -> PathBuf {
@@ -35,18 +36,17 @@ fn a_file_cut_anywhere_is_refused() {
     let whole = fs::read(small_file(folder.path())).unwrap();
     let path = folder.path().join("cut.h5");
     // behind the end of the arrays stands the checksum of them all, which HDF5 does not look at
-    let end = whole.windows(8).rposition(|word| word == b"\nuplift:").unwrap();
+    let end = whole.windows(8).position(|word| word == b"\nuplift:").unwrap();
     for length in [end, whole.len() - 1] {
         fs::write(&path, &whole[..length]).unwrap();
         assert_eq!(crate::verify(&path).unwrap().seal, crate::Seal::Missing);
+        assert!(matches!(LabelledReader::open(&path), Err(LabelledError::Unsealed { .. })));
     }
     for length in (0..end).step_by(37).chain([end - 1]) {
         fs::write(&path, &whole[..length]).unwrap();
         let error = LabelledReader::open(&path).err().unwrap();
         let refused = match length {
-            // The signature and the superblock after it.
             0..8 => matches!(error, LabelledError::NotHdf5 { .. }),
-            8..48 => true,
             _ => matches!(error, LabelledError::Truncated { bytes, .. } if bytes == length as u64),
         };
         assert!(refused, "{length} bytes: {error}");
@@ -82,7 +82,7 @@ fn what_is_not_there_or_not_so_is_named() {
 }
 
 #[test]
-fn foreign_files_are_read_as_far_as_they_go() {
+fn what_other_programs_write_is_read_as_far_as_it_goes() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("foreign.h5");
     let file = File::create(&path).unwrap();
@@ -92,7 +92,12 @@ fn foreign_files_are_read_as_far_as_they_go() {
     let ascii = hdf5::types::FixedAscii::<8>::from_ascii("fixed").unwrap();
     file.new_attr::<hdf5::types::FixedAscii<8>>().create("text").unwrap().write_scalar(&ascii).unwrap();
     file.close().unwrap();
+    assert!(matches!(LabelledReader::open(&path), Err(LabelledError::Unsealed { .. })));
 
+    // with a seal, as if it were ours
+    let bytes = fs::metadata(&path).unwrap().len();
+    let mut file = fs::File::options().read(true).write(true).open(&path).unwrap();
+    seal(&mut file, [("/huge".to_owned(), vec![(bytes, 0)])].into()).unwrap();
     let reader = LabelledReader::open(&path).unwrap();
     assert_eq!(reader.attribute_text("/", "text").unwrap(), "fixed");
     assert!(matches!(reader.array_f64("/unnamed"), Err(LabelledError::WrongType { .. })));
