@@ -185,6 +185,43 @@ fn torture_zeroed_blocks() {
     zero_blocks(1000);
 }
 
+/// A run and a bootstrap on disks that are full after ever more blocks: a limit on the size of files stands in for it.
+#[cfg(unix)]
+#[test]
+#[ignore = "minutes: make torture"]
+fn torture_full_disks() {
+    let (study, sound) = study_with_result();
+    let path = study.path().join("r.h5");
+    let program = command(study.path()).get_program().to_owned();
+    let (mut failed, mut written) = (0, 0);
+    for blocks in 1..=330 {
+        std::fs::write(&path, &sound).unwrap();
+        let arguments = if blocks % 2 == 0 {
+            "bootstrap r.h5 --replicates 20"
+        } else {
+            "run study.toml -o r.h5 --set oscillator.restitution=0.9"
+        };
+        // 2 kB or 4 kB a block, as the shell counts
+        let limit = format!("trap '' XFSZ; ulimit -f {}; exec \"$0\" $1", 4 * blocks);
+        let mut shell = std::process::Command::new("sh");
+        shell.args(["-c", &limit]).arg(&program).arg(arguments).current_dir(study.path()).env("UPLIFT_CACHE", "");
+        let done = shell.output().unwrap();
+        let said = String::from_utf8_lossy(&done.stderr);
+        let verified = study.uplift(&["verify", "r.h5"]);
+        assert_eq!(verified.code, 0, "{blocks} blocks: {said}\n{}", verified.stderr);
+        match done.status.code() {
+            Some(0) => written += 1,
+            Some(4) => {
+                failed += 1;
+                assert_eq!(std::fs::read(&path).unwrap(), sound, "{blocks} blocks: {said}");
+            }
+            code => panic!("{blocks} blocks: {code:?} {said}"),
+        }
+    }
+    println!("330 full disks: {failed} failed and kept the earlier result, {written} had room");
+    assert!(failed > 50 && written > 50, "{failed} failed, {written} had room");
+}
+
 /// A file may bear a seal and yet be one from which HDF5 does not return (docs/testing.md): `verify` gives up in time.
 #[test]
 #[ignore = "a minute: make torture"]

@@ -52,8 +52,8 @@ fn computed(study: &SmallStudy, arguments: &[&str]) -> (u64, u64) {
     (sum("analyses_computed"), sum("analyses"))
 }
 
-#[test]
-fn killed_at_any_moment_it_goes_on_and_ends_with_the_same_bits() {
+/// Kills a run `times` times, at moments all over its course, and looks at what is there after each.
+fn killed(times: u32) {
     let undisturbed = study();
     let begin = Instant::now();
     undisturbed.uplift(&["run", "study.toml"]).ok();
@@ -64,7 +64,7 @@ fn killed_at_any_moment_it_goes_on_and_ends_with_the_same_bits() {
     let result = study.path().join("results/study.h5");
     let mut state = 12345_u64;
     let (mut kills, mut finished) = (0, 0);
-    while kills < 60 {
+    while kills < times {
         let mut run = study.start(&["run", "study.toml", "--quiet", "--threads", "2"]);
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
         // from the first moment to a little after the usual end, so that some hit the writing
@@ -95,6 +95,17 @@ fn killed_at_any_moment_it_goes_on_and_ends_with_the_same_bits() {
     left.sort();
     assert_eq!(left, ["study.h5", "study.regression.csv", "study.urs.csv"]);
     println!("{kills} kills, {finished} ends; an undisturbed run takes {whole:?}");
+}
+
+#[test]
+fn killed_at_any_moment_it_goes_on_and_ends_with_the_same_bits() {
+    killed(60);
+}
+
+#[test]
+#[ignore = "minutes: make torture"]
+fn torture_kills() {
+    killed(200);
 }
 
 #[cfg(unix)]
