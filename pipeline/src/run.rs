@@ -7,7 +7,6 @@
 use std::time::Instant;
 
 use serde::Serialize;
-use uplift_atomic_file::remove_leftovers;
 use uplift_study::AnyStudy;
 
 use crate::checkpoint::FinishedRows;
@@ -67,7 +66,6 @@ pub fn run_with(
     // a place that cannot be written is found now, not after the analyses
     check_target(path)?;
     let _lock = ResultLock::acquire(path)?;
-    remove_leftovers(path);
     for warning in study.warnings() {
         events.note(warning);
     }
