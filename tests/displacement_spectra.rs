@@ -293,13 +293,14 @@ fn each_kind_is_refused_where_the_other_is_wanted() {
     }
     study.uplift(&["bootstrap", "study.toml"]).fails(3, &["kind", "of displacement spectra"]);
     study.uplift(&["plot", "study.toml"]).fails(3, &["kind", "`plot` and `report` its result"]);
-    // a result of the other kind gives way like any earlier result
+    // a result of the other kind gives way like that of any other study
     let risk = SmallStudy::new();
     risk.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
     risk.write("other.toml", BLOCKS);
-    risk.uplift(&["run", "other.toml", "-o", "r.h5", "-q"]).ok();
+    risk.uplift(&["run", "other.toml", "-o", "r.h5", "-q"]).fails(2, &["another study (study.toml)", "--force"]);
+    risk.uplift(&["run", "other.toml", "-o", "r.h5", "-q", "--force"]).ok();
     risk.uplift(&["table", "r.h5"]).ok();
-    risk.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    risk.uplift(&["run", "study.toml", "-o", "r.h5", "-q", "--force"]).ok();
     assert!(risk.uplift(&["table", "r.h5"]).ok().stdout.contains("c0"));
 }
 

@@ -367,7 +367,7 @@ fn mistakes_in_the_files() {
 fn nothing_that_is_read_is_overwritten() {
     let study = many(&format!("{}{}", without_sites(), SECTION.replace("table.csv", "mine.sites.csv")));
     study.write("mine.sites.csv", TABLE);
-    study.uplift(&["run", "study.toml", "-o", "mine.h5"]).fails(4, &["mine.sites.csv", "input of the study", "-o"]);
+    study.uplift(&["run", "study.toml", "-o", "mine.h5"]).fails(2, &["mine.sites.csv", "would overwrite an input"]);
     assert_eq!(read(study.path(), "mine.sites.csv"), TABLE);
     study.uplift(&["run", "study.toml", "-o", "other.h5"]).ok();
 }

@@ -1,21 +1,22 @@
 //! Checksums of inputs and of what is computed from them: SHA-256, in hexadecimal digits.
 
-use std::io::{self, Read};
+use std::io::Read;
 use std::path::Path;
 
 use sha2::{Digest, Sha256};
+use uplift_atomic_file::{FileError, io_error, open_file};
 use uplift_labelled::hexadecimal;
 
 /// SHA-256 of a file of any size, as hexadecimal digits.
 ///
 /// # Errors
 /// A file that cannot be read.
-pub(crate) fn checksum_of_file(path: &Path) -> io::Result<String> {
-    let mut file = std::fs::File::open(path)?;
+pub(crate) fn checksum_of_file(path: &Path) -> Result<String, FileError> {
+    let mut file = open_file(path)?;
     let mut hasher = Sha256::new();
     let mut buffer = vec![0; 1 << 16];
     loop {
-        match file.read(&mut buffer)? {
+        match file.read(&mut buffer).map_err(io_error(path, "read the file"))? {
             0 => return Ok(hexadecimal(&hasher.finalize())),
             count => hasher.update(&buffer[..count]),
         }

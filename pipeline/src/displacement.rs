@@ -11,6 +11,7 @@ mod work;
 mod write;
 
 pub use crate::result::{DesignRow, RULES};
+pub(crate) use csv::tables;
 pub use csv::{displacement_csv_paths, write_displacement_csv};
 pub(crate) use design_example::carry_out_designs;
 pub use design_example::{Designs, design_analyses, strength};

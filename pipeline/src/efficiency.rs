@@ -7,6 +7,6 @@ mod report;
 mod write;
 
 pub use covariates::covariates;
-pub use job::efficiency;
+pub use job::{EfficiencyOptions, efficiency};
 pub use of_measure::{Covariate, MeasureEfficiency, efficiency_by};
 pub use report::{EfficiencyReport, EfficiencyRow, Trend};

@@ -17,6 +17,8 @@ use uplift_spectra::SpectraError;
 use uplift_structure::StructureError;
 use uplift_study::StudyError;
 
+use crate::text::one_line;
+
 use crate::checkpoint::CheckpointError;
 
 /// Why a job did not do what it was asked.
@@ -121,9 +123,10 @@ fn choice(option: &str, wanted: Option<&str>) -> String {
 
 fn list(place: &str, mistakes: &[impl ToString]) -> String {
     match mistakes {
-        [one] => one.to_string(),
+        [one] => one_line(&one.to_string()).into_owned(),
         many => {
-            let lines: Vec<String> = many.iter().map(|mistake| format!("  - {}", mistake.to_string())).collect();
+            let lines: Vec<String> =
+                many.iter().map(|mistake| format!("  - {}", one_line(&mistake.to_string()))).collect();
             format!("{} things to mend{place}:\n{}", many.len(), lines.join("\n"))
         }
     }

@@ -10,7 +10,7 @@ use serde_json::json;
 
 use crate::error::UpliftError;
 use crate::events::Events;
-use crate::outputs::refuse_foreign;
+use crate::outputs::{self, Output, OutputKind, beside};
 use crate::result::{Fit, Head, ResultFile, Spectrum, StoredSpectra, write_atomically, write_table};
 use crate::text::finite;
 use matlab::{MatFile, Shape};
@@ -38,6 +38,14 @@ impl ExportFormat {
             Self::Matlab => "mat",
         }
     }
+
+    fn kind(self) -> OutputKind {
+        match self {
+            Self::Csv => OutputKind::Table("site"),
+            Self::Json => OutputKind::Json,
+            Self::Matlab => OutputKind::Matlab,
+        }
+    }
 }
 
 /// What is exported, and where it goes.
@@ -49,6 +57,8 @@ pub struct ExportOptions {
     pub formats: Vec<ExportFormat>,
     /// The file, beside one format; the result with the ending of each format if none is given.
     pub output: Option<PathBuf>,
+    /// Whether whatever is at the places of the files gives way.
+    pub force: bool,
 }
 
 /// What was exported.
@@ -67,19 +77,18 @@ pub fn export(options: &ExportOptions, events: &dyn Events) -> Result<ExportRepo
     if options.formats.is_empty() || (options.output.is_some() && options.formats.len() > 1) {
         return Err(UpliftError::Usage("say --csv, --json or --mat; -o goes with one of them".to_owned()));
     }
+    let file =
+        |format: &ExportFormat| options.output.clone().unwrap_or_else(|| beside(&options.result, format.extension()));
+    let output = |format| Output::new(file(format), format.kind()).of(&options.result);
+    let outputs: Vec<Output> = options.formats.iter().map(output).collect();
     let export = Export::read(&options.result)?;
+    outputs::check(&outputs, &[&options.result], options.force)?;
     let mut files = Vec::new();
     for format in &options.formats {
         if events.cancelled() {
             return Err(UpliftError::Interrupted);
         }
-        let file = options.output.clone().unwrap_or_else(|| options.result.with_extension(format.extension()));
-        if file == options.result {
-            return Err(UpliftError::Usage(format!("{}: this is the result itself", file.display())));
-        }
-        if options.output.is_some() && *format != ExportFormat::Matlab {
-            refuse_foreign(&file)?;
-        }
+        let file = file(format);
         match format {
             ExportFormat::Csv => write_table(&file, export.provenance(), export.columns())?,
             ExportFormat::Json => write_atomically(&file, format!("{:#}\n", export.json()).as_bytes())?,

@@ -19,6 +19,8 @@ pub struct RunOptions {
     pub output: Option<PathBuf>,
     /// What the caller typed or called; kept in the result.
     pub command: String,
+    /// Whether whatever is at the places of the result and its tables gives way.
+    pub force: bool,
 }
 
 impl RunOptions {

@@ -24,7 +24,8 @@ pub use warnings::of_pair as warnings_of_pair;
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::inputs::FileOptions;
-use crate::result::{write_atomically, write_table};
+use crate::outputs::{self, Output, OutputKind};
+use crate::result::{table_text, write_atomically};
 use collect::find_pairs;
 
 /// Columns of a manifest by which records are chosen, and which not every file says.
@@ -41,6 +42,8 @@ pub struct ImportOptions {
     pub files: FileOptions,
     /// Whether velocity pulses are sought, which takes most of the time.
     pub pulses: bool,
+    /// Whether whatever is at the places of the files gives way.
+    pub force: bool,
 }
 
 /// What an import found.
@@ -72,18 +75,6 @@ impl ImportOptions {
 
     /// Refuses what cannot be imported or written, before the work.
     fn check(&self, manifest: &Path) -> Result<(), UpliftError> {
-        if manifest.extension().is_none_or(|extension| extension != "csv") {
-            return Err(UpliftError::Usage(format!(
-                "{}: give a name that ends in .csv, or a folder",
-                manifest.display()
-            )));
-        }
-        if manifest.exists() {
-            return Err(UpliftError::Usage(format!(
-                "{} is there already, perhaps with columns of yours: give another name, or remove it",
-                manifest.display()
-            )));
-        }
         if !self.folder.is_dir() {
             return Err(UpliftError::input(format!("{} is not a folder", self.folder.display())));
         }
@@ -91,7 +82,12 @@ impl ImportOptions {
         if !folder.as_os_str().is_empty() && !folder.is_dir() {
             return Err(UpliftError::input(format!("{} is not a folder: make it first", folder.display())));
         }
-        Ok(())
+        let outputs = [
+            Output::new(manifest, OutputKind::Manifest),
+            Output::new(manifest.with_extension("remarks.txt"), OutputKind::Remarks),
+        ];
+        let nothing: [&Path; 0] = [];
+        outputs::check(&outputs, &nothing, self.force)
     }
 }
 
@@ -108,7 +104,8 @@ pub fn import(options: &ImportOptions, events: &dyn Events) -> Result<ImportRepo
     let remarks = Remarks::of(&imported);
     let remarks_file = (!remarks.is_empty()).then(|| manifest.with_extension("remarks.txt"));
     if let Some(file) = &remarks_file {
-        let text: String = remarks.iter().map(ToString::to_string).collect();
+        let mut text = format!("# {}: records import, what deserves a look\n", outputs::mark(None));
+        text.extend(remarks.iter().map(ToString::to_string));
         write_atomically(file, text.as_bytes())?;
     }
     let mut report = ImportReport {
@@ -128,7 +125,10 @@ pub fn import(options: &ImportOptions, events: &dyn Events) -> Result<ImportRepo
             .into_iter()
             .filter(|key| columns.iter().any(|column| column.name() == key && all_blank(column)))
             .collect();
-        write_table(&manifest, &line, columns)?;
+        let content = table_text(&manifest, &line, columns)?;
+        // what a study would refuse is not written
+        crate::inputs::manifest::read_bytes(&content, &manifest, None).map_err(UpliftError::Inputs)?;
+        write_atomically(&manifest, &content)?;
         report.manifest = Some(manifest);
     }
     report.seconds = start.elapsed().as_secs_f64();

@@ -1,39 +1,199 @@
-//! Files that a job is asked to write: what may give way to them, and where they may go.
+//! Where a job may write: one rule for every output of every job.
+//!
+//! A file is written where nothing is, where a file of this program of the same kind is, and of the same result where
+//! both say of which, or where whoever asks for it forces it. A file that a job reads is never written over. All this
+//! is known before anything is computed.
 
+use std::fs::File;
 use std::io::Read;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+use uplift_atomic_file::AtomicFile;
 
 use crate::error::UpliftError;
 
 /// Bytes of a file in which this program names itself, where it wrote it.
 const HEAD: u64 = 4096;
 
-/// Refuses to write over a file that another program wrote.
+/// What a file is: how its name ends, and by what one of this program's is known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum OutputKind {
+    /// A table with a column of this name.
+    Table(&'static str),
+    /// Spectra and coefficients as JSON.
+    Json,
+    /// The same as a MATLAB file.
+    Matlab,
+    /// A map of many sites.
+    GeoJson,
+    /// A figure, as its name ends.
+    Figure,
+    /// The page of a report.
+    Page,
+    /// A table that its reader completes by hand, so that none gives way.
+    Manifest,
+    /// What an import remarks.
+    Remarks,
+    /// A synthetic record.
+    Record,
+    /// A hazard curve, which others may use by now.
+    Curve,
+}
+
+/// A file that a job is about to write.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Output {
+    path: PathBuf,
+    kind: OutputKind,
+    result: Option<String>,
+}
+
+impl Output {
+    /// A file of some kind at `path`.
+    pub fn new(path: impl Into<PathBuf>, kind: OutputKind) -> Self {
+        Self { path: path.into(), kind, result: None }
+    }
+
+    /// The same, of which the file says that it is of the result at `result`.
+    #[must_use]
+    pub fn of(mut self, result: &Path) -> Self {
+        // a name with other characters may stand there in other words
+        let plain = |name: &&str| name.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"._- ".contains(&byte));
+        self.result = result.file_name().and_then(|name| name.to_str()).filter(plain).map(str::to_owned);
+        self
+    }
+
+    /// Why it may not be written; none where it may.
+    fn refusal(&self, inputs: &[&Path], force: bool) -> Option<String> {
+        let name = self.path.display();
+        if let Some(reason) = wrong_ending(&self.path, self.kind.endings()) {
+            return Some(reason);
+        }
+        if inputs.iter().any(|input| is_same_file(&self.path, input)) {
+            return Some(format!("{name} would overwrite an input: give another name"));
+        }
+        let head = head_of(&self.path)?;
+        if force {
+            return None;
+        }
+        if !self.kind.is_ours(&self.path, &head) {
+            let why = match self.kind {
+                OutputKind::Manifest => ", perhaps with columns of yours",
+                OutputKind::Curve => ", with another curve",
+                _ => ", and is not the same kind of file from this program",
+            };
+            return Some(format!("{name} is there already{why}: give another name, or --force to replace it"));
+        }
+        let other = self.result.as_ref().filter(|result| !contains(&head, result.as_bytes()));
+        other.map(|result| format!("{name} is not of {result}: give another name, or --force to replace it"))
+    }
+}
+
+impl OutputKind {
+    fn endings(self) -> &'static [&'static str] {
+        match self {
+            Self::Table(_) | Self::Manifest | Self::Curve => &["csv"],
+            Self::Json => &["json"],
+            Self::Matlab => &["mat"],
+            Self::GeoJson => &["geojson"],
+            Self::Figure => &["svg", "png"],
+            Self::Page => &["html"],
+            Self::Remarks => &["txt"],
+            Self::Record => &["AT2"],
+        }
+    }
+
+    fn is_ours(self, path: &Path, head: &[u8]) -> bool {
+        match self {
+            Self::Table(column) => {
+                let mut lines = head.split(|&byte| byte == b'\n');
+                lines.next().is_some_and(|line| line.starts_with(b"# uplift "))
+                    && lines
+                        .next()
+                        .is_some_and(|line| line.split(|&byte| byte == b',').any(|name| name == column.as_bytes()))
+            }
+            Self::Json | Self::GeoJson => {
+                head.starts_with(b"{") && contains(&without_spaces(head), b"\"provenance\":\"uplift")
+            }
+            Self::Matlab => head.starts_with(b"MATLAB 5.0 MAT-file, uplift "),
+            Self::Figure if path.extension().is_some_and(|extension| extension == "png") => {
+                head.starts_with(b"\x89PNG") && contains(head, b"tEXtSoftwareuplift ")
+            }
+            Self::Figure => contains(head, b"<svg") && contains(head, b"<desc>uplift "),
+            Self::Page => contains(head, b"<meta name=\"generator\" content=\"uplift "),
+            Self::Remarks => head.starts_with(b"# uplift "),
+            Self::Record => contains(head, b"SYNTHETIC MOTION, NOT RECORDED: uplift "),
+            Self::Manifest | Self::Curve => false,
+        }
+    }
+}
+
+/// Refuses `outputs` that would replace one of the `inputs`, or without `force` something else than an earlier output
+/// of the same kind; all of them at once. Places that cannot be written are found; nothing is made.
 ///
 /// # Errors
-/// [`UpliftError::Usage`] where there is one at `output`.
-pub fn refuse_foreign(output: &Path) -> Result<(), UpliftError> {
-    let mut head = Vec::new();
-    let read = std::fs::File::open(output).and_then(|file| file.take(HEAD).read_to_end(&mut head));
-    if read.is_ok() && !head.windows(7).any(|word| word == b"uplift ") {
-        return Err(UpliftError::Usage(format!(
-            "{} is there already, and was not written by this program: give another name",
-            output.display()
-        )));
+/// [`UpliftError::Usage`] for these; [`UpliftError::File`] where nothing can be written.
+pub fn check(outputs: &[Output], inputs: &[impl AsRef<Path>], force: bool) -> Result<(), UpliftError> {
+    let inputs: Vec<&Path> = inputs.iter().map(AsRef::as_ref).collect();
+    let refused: Vec<String> = outputs.iter().filter_map(|output| output.refusal(&inputs, force)).collect();
+    if !refused.is_empty() {
+        return Err(UpliftError::Usage(refused.join("\n")));
     }
+    outputs.iter().try_for_each(|output| check_place_of(&output.path))
+}
+
+/// Whether a file can be written at `path`, or above it where its folder is still to be made.
+fn check_place_of(path: &Path) -> Result<(), UpliftError> {
+    let above = |folder: &&Path| folder.as_os_str().is_empty() || folder.exists();
+    let folder = path.ancestors().skip(1).find(above).unwrap_or(Path::new(""));
+    AtomicFile::reserve(&folder.join(path.file_name().unwrap_or_default()))?;
     Ok(())
 }
 
-/// Refuses to write over one of the `inputs`, by whatever path.
-///
-/// # Errors
-/// [`UpliftError::Usage`] where `output` is one of them.
-pub fn refuse_overwriting(output: &Path, inputs: &[impl AsRef<Path>]) -> Result<(), UpliftError> {
-    let same = |input: &Path| matches!((output.canonicalize(), input.canonicalize()), (Ok(a), Ok(b)) if a == b);
-    if inputs.iter().any(|input| same(input.as_ref())) {
-        return Err(UpliftError::Usage(format!("{} would overwrite an input: give another name", output.display())));
+/// What to say of a name that does not tell what is written.
+pub(crate) fn wrong_ending(path: &Path, endings: &[&str]) -> Option<String> {
+    let fits = |ending: &&str| path.extension().is_some_and(|extension| extension == *ending);
+    // of a folder it is said later that it is one
+    if path.is_dir() || endings.iter().any(fits) {
+        return None;
     }
-    Ok(())
+    let all: Vec<String> = endings.iter().map(|ending| format!(".{ending}")).collect();
+    let example = path.with_extension(endings.first().copied().unwrap_or_default());
+    let example = example.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    Some(format!("{}: give a name that ends in {}, e.g. {example}", path.display(), all.join(" or ")))
+}
+
+/// Whether both paths lead to one file, by whatever names and links.
+pub(crate) fn is_same_file(one: &Path, other: &Path) -> bool {
+    let same = matches!((one.canonicalize(), other.canonicalize()), (Ok(one), Ok(other)) if one == other);
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        let identity = |path: &Path| std::fs::metadata(path).map(|metadata| (metadata.dev(), metadata.ino())).ok();
+        same || identity(one).is_some_and(|one| identity(other) == Some(one))
+    }
+    #[cfg(not(unix))]
+    same
+}
+
+/// A file beside the result at `result` and named after it: `site.h5` and `urs.csv` make `site.urs.csv`. Of a result
+/// that was given another ending the whole name stays: `site.v2` does not write where `site.h5` does.
+pub fn beside(result: &Path, ending: &str) -> PathBuf {
+    if result.extension().is_some_and(|extension| extension == "h5") {
+        return result.with_extension(ending);
+    }
+    let mut name = result.file_name().unwrap_or_default().to_owned();
+    name.push(format!(".{ending}"));
+    result.with_file_name(name)
+}
+
+/// What this program says of itself in a file, and of the result that the file is of.
+pub fn mark(result: Option<&Path>) -> String {
+    let program = format!("uplift {}", crate::VERSION_AND_COMMIT);
+    match result.and_then(Path::file_name) {
+        Some(name) => format!("{program}; {}", name.to_string_lossy()),
+        None => program,
+    }
 }
 
 /// Makes a folder for what is to be written, and those above it.
@@ -44,3 +204,26 @@ pub fn provide_folder(folder: &Path) -> Result<(), UpliftError> {
     std::fs::create_dir_all(folder)
         .map_err(|error| UpliftError::input(format!("{} cannot be made: {error}", folder.display())))
 }
+
+/// The first bytes of the file at `path`, those of texts of two bytes a letter without the second; none where there is
+/// no file.
+fn head_of(path: &Path) -> Option<Vec<u8>> {
+    // of a folder or a device it is said later that nothing can be written there
+    std::fs::metadata(path).ok().filter(std::fs::Metadata::is_file)?;
+    let mut head = Vec::new();
+    // what cannot be read is nobody's that is known
+    let _ = File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
+    head.retain(|byte| *byte != 0);
+    Some(head)
+}
+
+fn contains(head: &[u8], words: &[u8]) -> bool {
+    head.windows(words.len()).any(|window| window == words)
+}
+
+fn without_spaces(head: &[u8]) -> Vec<u8> {
+    head.iter().copied().filter(|byte| !byte.is_ascii_whitespace()).collect()
+}
+
+#[cfg(test)]
+mod tests;

@@ -8,6 +8,8 @@ use uplift_study::AnyStudy;
 use crate::error::UpliftError;
 use crate::events::Events;
 pub use crate::frame::PlanHead;
+use crate::frame::RunOptions;
+use crate::run::check_outputs;
 use crate::{displacement, uniform_risk};
 
 /// What a study costs, by its kind.
@@ -37,6 +39,7 @@ impl Plan {
 /// # Errors
 /// Everything that would keep the study from being run, as far as it can be known before.
 pub fn plan(study: &AnyStudy, study_file: &Path, events: &dyn Events) -> Result<Plan, UpliftError> {
+    check_outputs(study, &RunOptions { study_file: study_file.to_owned(), ..RunOptions::default() })?;
     match study {
         AnyStudy::UniformRisk(study) => uniform_risk::plan(study, study_file, events).map(Plan::UniformRisk),
         AnyStudy::Displacement(study) => displacement::plan(study, study_file).map(Plan::Displacement),

@@ -11,4 +11,4 @@ pub use compute::{BlockResponses, PulseSpectra, Spectrum, compute};
 pub use plan::{BlockPlan, PulsePlan, wavelet};
 pub use run::{PulseOptions, PulseReport, pulses};
 pub use summary::{Summary, summary};
-pub use tables::{PulseTable, tables};
+pub use tables::{PULSE_FIGURES, PulseTable, tables};

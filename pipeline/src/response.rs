@@ -11,7 +11,7 @@ use uplift_oscillator::{Excitation, FreeVibration, Oscillator, PostUplift, respo
 pub use history::{HistoryRow, ResponseHistory};
 
 use crate::error::UpliftError;
-use crate::outputs::{refuse_foreign, refuse_overwriting};
+use crate::outputs::{self, Output, OutputKind};
 
 /// Which oscillator is shaken, and by what.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,6 +45,8 @@ pub struct ResponseOptions {
     pub history: bool,
     /// A CSV file for the time history.
     pub history_file: Option<PathBuf>,
+    /// Whether whatever is at the place of that file gives way.
+    pub force: bool,
 }
 
 impl ResponseOptions {
@@ -66,6 +68,7 @@ impl ResponseOptions {
             free_vibration_s: 0.0,
             history: false,
             history_file: None,
+            force: false,
         }
     }
 
@@ -177,8 +180,7 @@ pub fn response(options: &ResponseOptions) -> Result<ResponseReport, UpliftError
     let oscillator = options.oscillator()?;
     let after = options.free_vibration()?;
     if let Some(file) = &options.history_file {
-        refuse_overwriting(file, &[&options.record])?;
-        refuse_foreign(file)?;
+        outputs::check(&[Output::new(file, OutputKind::Table("time_s"))], &[&options.record], options.force)?;
     }
     let motion = options.read()?;
     let excitation = Excitation::new(motion.dt_s(), motion.acceleration_m_s2())?.scaled(options.scale)?;

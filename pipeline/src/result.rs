@@ -32,6 +32,8 @@ pub use records::StoredRecords;
 pub use spectra::{Fit, MeasureSpectra, Spectrum, StoredSpectra};
 pub use stripes::{StoredMeasure, StoredStripes};
 pub use study::{SpectraOfResult, StudyOfResult};
+pub(crate) use table::{neutral, plain, table_text};
 pub use table::{write_atomically, write_table};
+pub(crate) use target::check_place;
 pub use target::{check_target, is_hdf5};
 pub use uplift_study::Kind;

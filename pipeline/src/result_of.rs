@@ -71,7 +71,8 @@ fn is_of_records(file: &ResultFile, study: &UniformRiskStudy, records: &[Record]
     Ok(is_same)
 }
 
-fn what_counts(study_toml: &str) -> Option<toml::Table> {
+/// The sections of a study, as text, on which its numbers depend.
+pub(crate) fn what_counts(study_toml: &str) -> Option<toml::Table> {
     let mut table: toml::Table = toml::from_str(study_toml).ok()?;
     for section in WITHOUT_INFLUENCE {
         table.remove(section);

@@ -4,10 +4,10 @@
 //! the same files in it: `plan` (what it costs), `run` (from the inputs to the result file), `report` (what a run
 //! tells).
 
+use std::path::Path;
 use std::time::Instant;
 
 use serde::Serialize;
-use uplift_atomic_file::remove_leftovers;
 use uplift_study::AnyStudy;
 
 use crate::checkpoint::FinishedRows;
@@ -15,8 +15,10 @@ use crate::error::UpliftError;
 use crate::events::Events;
 use crate::frame::Place;
 pub use crate::frame::{RunHead, RunOptions};
+use crate::inputs::manifest;
 use crate::lock::ResultLock;
-use crate::result::check_target;
+use crate::outputs;
+use crate::result::check_place;
 use crate::{displacement, uniform_risk};
 
 /// What a run tells, by the kind of its study.
@@ -52,6 +54,24 @@ pub fn run(study: &AnyStudy, options: &RunOptions, events: &dyn Events) -> Resul
     run_with(study, options, FinishedRows::default(), events)
 }
 
+/// Refuses a run whose result or tables would replace something else, see [`outputs`].
+pub(crate) fn check_outputs(study: &AnyStudy, options: &RunOptions) -> Result<(), UpliftError> {
+    check_place(study, options)?;
+    let path = options.result_file(&study.output().file);
+    let tables = match study {
+        AnyStudy::UniformRisk(study) => uniform_risk::tables(study, path),
+        AnyStudy::Displacement(study) => displacement::tables(study, path),
+    };
+    let mut inputs = vec![options.study_file.clone()];
+    inputs.extend(study.inputs().into_iter().map(Path::to_owned));
+    if options.force {
+        // nothing but their names keeps the records from being written over; what is wrong with them is said later
+        let rows = study.inputs().into_iter().filter_map(|input| manifest::read(input, None).ok()).flatten();
+        inputs.extend(rows.flat_map(|row| row.components.map(|component| component.path)));
+    }
+    outputs::check(&tables, &inputs, options.force)
+}
+
 /// As [`run`], with rows of the analysis that are `known` from elsewhere.
 ///
 /// # Errors
@@ -65,9 +85,8 @@ pub fn run_with(
     let start = Instant::now();
     let path = options.result_file(&study.output().file);
     // a place that cannot be written is found now, not after the analyses
-    check_target(path)?;
+    check_outputs(study, options)?;
     let _lock = ResultLock::acquire(path)?;
-    remove_leftovers(path);
     for warning in study.warnings() {
         events.note(warning);
     }

@@ -10,8 +10,7 @@ use crate::error::UpliftError;
 use crate::events::Events;
 use crate::frame::RunOptions;
 use crate::inputs::read_hazard;
-use crate::result::check_target;
-use crate::run::{RunReport, run_with};
+use crate::run::{RunReport, check_outputs, run_with};
 use crate::uniform_risk::site_table;
 use crate::{displacement, uniform_risk};
 
@@ -38,12 +37,12 @@ pub fn run_shard(
 ///
 /// # Errors
 /// A result that cannot be written; hazard and sites that cannot be used.
-pub fn check_inputs(study: &AnyStudy, result: &Path, events: &dyn Events) -> Result<(), UpliftError> {
-    check_target(result)?;
+pub fn check_inputs(study: &AnyStudy, options: &RunOptions, events: &dyn Events) -> Result<(), UpliftError> {
+    check_outputs(study, options)?;
     match study {
         AnyStudy::UniformRisk(study) => {
             read_hazard(study)?;
-            site_table::read(study, result, events)?;
+            site_table::read(study, events)?;
         }
         AnyStudy::Displacement(_) => {}
     }

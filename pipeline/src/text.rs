@@ -1,4 +1,8 @@
-//! Tables for the terminal.
+//! Tables and texts for the terminal.
+
+mod visible;
+
+pub use visible::{is_obeyed, one_line, visible};
 
 /// A number for a table or JSON, which have no infinity and no NaN: none for these.
 pub fn finite(value: f64) -> Option<f64> {

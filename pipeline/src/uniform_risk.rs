@@ -16,6 +16,7 @@ mod write;
 mod write_hazard;
 
 pub use coefficients::{Coefficients, fit_spectra};
+pub(crate) use csv::tables;
 pub use csv::{csv_paths, write_csv};
 pub use earlier::EarlierStripes;
 pub use epistemic::{BranchSpectra, FRACTILES};

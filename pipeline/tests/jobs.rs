@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use tempfile::TempDir;
 use uplift::bootstrap::{BootstrapOptions, bootstrap};
-use uplift::efficiency::efficiency;
+use uplift::efficiency::{EfficiencyOptions, efficiency};
 use uplift::events::{Events, Phase};
 use uplift::influence::{InfluenceOptions, influence};
 use uplift::structure::{DesignOptions, OverturningOptions, design, overturning};
@@ -202,7 +202,8 @@ fn a_stopped_bootstrap_goes_on() {
 #[test]
 fn influence_reports_what_it_writes() {
     let folder = Folder::new();
-    let report = influence(&folder.result(), &InfluenceOptions { poe: Some(0.1), top: 2 }, &Silent).unwrap();
+    let report =
+        influence(&folder.result(), &InfluenceOptions { poe: Some(0.1), top: 2, force: false }, &Silent).unwrap();
     assert!(report.records.len() <= 2 * 2 * 3 * 2 && !report.records.is_empty());
     let without = array(&folder.result(), "/influence/pgv/u_without_m");
     let spectra = array(&folder.result(), "/urs/pgv/u_m");
@@ -228,7 +229,7 @@ fn influence_reports_what_it_writes() {
 #[test]
 fn efficiency_reports_what_it_writes() {
     let folder = Folder::new();
-    let report = efficiency(&folder.result(), &Silent).unwrap();
+    let report = efficiency(&folder.result(), EfficiencyOptions::default(), &Silent).unwrap();
     assert_eq!((report.rows.len(), report.records), (2 * STRENGTHS, 4));
     for (rows, im) in report.rows.chunks(STRENGTHS).zip(["pgv", "pga"]) {
         let of = |name: &str| array(&folder.result(), &format!("/{name}"));
@@ -241,7 +242,8 @@ fn efficiency_reports_what_it_writes() {
             same(found, of(&format!("sufficiency/{im}/{covariate}/p_value")));
         }
     }
-    assert!(matches!(efficiency(&folder.result(), &Recorder::stopping_after(0)), Err(UpliftError::Interrupted)));
+    let stopped = efficiency(&folder.result(), EfficiencyOptions::default(), &Recorder::stopping_after(0));
+    assert!(matches!(stopped, Err(UpliftError::Interrupted)));
 }
 
 #[test]

@@ -42,7 +42,7 @@ impl Events for Listener {
 fn made(at: &Path, pairs: usize) -> std::path::PathBuf {
     let set = SyntheticSetOptions { pairs, ..SyntheticSetOptions::default() };
     let listener = Listener::default();
-    let report = synthesize(&SynthesizeOptions { folder: at.join("set"), set }, &listener).unwrap();
+    let report = synthesize(&SynthesizeOptions { folder: at.join("set"), set, force: false }, &listener).unwrap();
     assert_eq!(report.pairs, pairs);
     assert_eq!(*listener.notes.lock().unwrap(), ["synthetic records: not for design"]);
     report.manifest
@@ -67,6 +67,7 @@ fn records_made_are_imported_listed_shown_and_chosen() {
         output: output.clone(),
         files: FileOptions::default(),
         pulses: false,
+        force: false,
     };
     let imported = import::import(&options, &Silent).unwrap();
     assert_eq!((imported.pairs, imported.files, imported.components), (3, 6, 6));
@@ -90,7 +91,7 @@ fn records_made_are_imported_listed_shown_and_chosen() {
     let mut set = all(&manifest);
     set.selection.ranges.push((magnitude, range));
     let output = folder.path().join("chosen.csv");
-    let chosen = select(&SelectOptions { set, output: Some(output.clone()) }, &Silent).unwrap();
+    let chosen = select(&SelectOptions { set, output: Some(output.clone()), force: false }, &Silent).unwrap();
     assert_eq!((chosen.records.len(), chosen.count), (3, 3));
     assert!(chosen.study_lines.ends_with("[records.select]\nmagnitude = \"6:8\"\n"), "{}", chosen.study_lines);
     assert_eq!(list(&all(&output), &Silent).unwrap().records, first.records);
@@ -106,6 +107,7 @@ fn an_import_without_pairs_says_what_it_found() {
         output: output.clone(),
         files: FileOptions::default(),
         pulses: true,
+        force: false,
     };
     let report = import::import(&options, &Silent).unwrap();
     assert_eq!((report.pairs, report.manifest, report.files), (0, None, 1));
@@ -154,10 +156,12 @@ fn pulses_without_files_and_refused() {
         acceleration_slices: axis(&[2.0]),
         blocks: BlockPlan { amplitude_g: 1.0, period_s: None, sizes_m: axis(&[1.0]), slendernesses_rad: axis(&[0.2]) },
     };
-    let report = pulses(&PulseOptions { plan: plan.clone(), folder: None }, &Silent).unwrap();
+    let report = pulses(&PulseOptions { plan: plan.clone(), folder: None, force: false }, &Silent).unwrap();
     assert_eq!((report.wavelets[0].points, report.files.len()), (6, 0));
     let impossible = PulsePlan { slenderness_rad: -1.0, restitution: Some(2.0), ..plan };
-    let Err(UpliftError::Blocks(mistakes)) = pulses(&PulseOptions { plan: impossible, folder: None }, &Silent) else {
+    let Err(UpliftError::Blocks(mistakes)) =
+        pulses(&PulseOptions { plan: impossible, folder: None, force: false }, &Silent)
+    else {
         panic!("blocks that cannot be")
     };
     assert_eq!(mistakes.len(), 2, "{mistakes:?}");

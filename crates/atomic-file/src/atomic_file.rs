@@ -1,42 +1,52 @@
 //! A file that is written under another name, and renamed when it is complete.
 
-use std::ffi::OsString;
-use std::fs::{self, File, OpenOptions};
+use std::fs::{self, File, Permissions};
 use std::io;
 use std::path::{Path, PathBuf};
-use std::process;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::error::{FileError, io_error};
+use crate::partial::take_partial;
+use crate::read::require_file;
 
 /// A hidden, empty file in the folder of the target; it takes the target's place by [`AtomicFile::replace`] and
 /// vanishes when dropped before.
+///
+/// It is locked as long as its writer lives. What a killed writer left is known by that, and makes room for the next
+/// writer of the same target.
 #[derive(Debug)]
 pub struct AtomicFile {
     target: PathBuf,
     partial: PathBuf,
+    /// Whether it has taken the target's place: its name is then free for the next writer.
+    replaced: bool,
+    /// Of the file that is replaced.
+    permissions: Option<Permissions>,
+    /// Holds the lock; whoever writes opens the file once more.
+    lock: File,
 }
 
 impl AtomicFile {
-    /// Makes `.<name>.partial-<process>-<count>` beside `path`, and the folders above it.
+    /// Makes `.<name>.partial-<machine>-<count>` beside `path`, and the folders above it, and takes away what killed
+    /// writers of `path` left on this machine.
     ///
     /// # Errors
     /// [`FileError::NotAFile`] where `path` is a folder or a device, [`FileError::Io`] where the folder cannot be made
     /// or written to.
     pub fn reserve(path: &Path) -> Result<Self, FileError> {
         let target = final_place(path)?;
-        let Some(name) = target.file_name() else {
+        if target.file_name().is_none() {
             return Err(FileError::NotAFile { path: path.to_owned(), found: "a folder" });
-        };
+        }
         let folder = folder_of(&target);
         fs::create_dir_all(folder).map_err(io_error(folder, "create the folder"))?;
-        let partial = folder.join(hidden_name(name));
-        OpenOptions::new()
-            .write(true)
-            .create_new(true)
-            .open(&partial)
-            .map_err(io_error(folder, "create a file in the folder"))?;
-        Ok(Self { target, partial })
+        let (partial, lock) = take_partial(&target).map_err(io_error(folder, "create a file in the folder"))?;
+        let mut file = Self { replaced: false, permissions: None, target, partial, lock };
+        file.permissions = fs::metadata(&file.target).ok().map(|metadata| metadata.permissions());
+        if let Some(permissions) = &file.permissions {
+            // nobody else may read what the replaced file hides, not even while it is written
+            set_permissions(&file.partial, &writable(permissions))?;
+        }
+        Ok(file)
     }
 
     /// The place of the result.
@@ -49,26 +59,34 @@ impl AtomicFile {
         &self.partial
     }
 
-    /// Puts the written file in the target's place, durably: the content reaches the disk before the name does.
+    /// Puts the written file in the target's place, durably: the content reaches the disk before the name does. Who may
+    /// read and write an older file may do so with the new one.
     ///
     /// # Errors
     /// [`FileError::Io`] where the disk is full or fails; an older file is then untouched.
-    pub fn replace(self) -> Result<(), FileError> {
+    pub fn replace(mut self) -> Result<(), FileError> {
         File::options()
             .read(true)
             .write(true)
             .open(&self.partial)
             .and_then(|file| file.sync_all())
             .map_err(io_error(&self.target, "bring the file to the disk"))?;
+        if let Some(permissions) = &self.permissions {
+            set_permissions(&self.partial, permissions)?;
+        }
         fs::rename(&self.partial, &self.target).map_err(io_error(&self.target, "put the finished file in place"))?;
+        self.replaced = true;
+        let _ = self.lock.unlock();
         sync_folder(folder_of(&self.target)).map_err(io_error(&self.target, "bring the folder to the disk"))
     }
 }
 
 impl Drop for AtomicFile {
     fn drop(&mut self) {
-        // After `replace` there is nothing left under this name, and nobody to tell of a failure.
-        let _ = fs::remove_file(&self.partial);
+        if !self.replaced {
+            // nobody is left to tell of a failure
+            let _ = fs::remove_file(&self.partial);
+        }
     }
 }
 
@@ -80,20 +98,6 @@ pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), FileError> {
     let file = AtomicFile::reserve(path)?;
     fs::write(file.partial(), content).map_err(io_error(path, "write the file"))?;
     file.replace()
-}
-
-/// Takes away what earlier writers of the result at `path` and of the tables beside it left behind when they were
-/// killed. Nobody else may be writing them meanwhile.
-pub fn remove_leftovers(path: &Path) {
-    let Ok(target) = final_place(path) else { return };
-    let Some(stem) = target.file_stem().and_then(|stem| stem.to_str()) else { return };
-    let beginning = format!(".{stem}.");
-    for entry in fs::read_dir(folder_of(&target)).into_iter().flatten().flatten() {
-        let leftover = |name: &str| name.starts_with(&beginning) && name.contains(".partial-");
-        if entry.file_name().to_str().is_some_and(leftover) {
-            let _ = fs::remove_file(entry.path());
-        }
-    }
 }
 
 /// Follows a symbolic link, so that the result replaces the file and not the link.
@@ -110,18 +114,6 @@ pub fn final_place(path: &Path) -> Result<PathBuf, FileError> {
     fs::canonicalize(path).map_err(io_error(path, "find the file"))
 }
 
-/// Refuses folders, devices and pipes.
-///
-/// # Errors
-/// [`FileError::NotAFile`] for these.
-pub fn require_file(path: &Path, metadata: &fs::Metadata) -> Result<(), FileError> {
-    if metadata.is_file() {
-        return Ok(());
-    }
-    let found = if metadata.is_dir() { "a folder" } else { "a special file" };
-    Err(FileError::NotAFile { path: path.to_owned(), found })
-}
-
 fn folder_of(target: &Path) -> &Path {
     match target.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
@@ -129,13 +121,22 @@ fn folder_of(target: &Path) -> &Path {
     }
 }
 
-fn hidden_name(name: &std::ffi::OsStr) -> OsString {
-    // The count keeps two writers of one process apart.
-    static COUNT: AtomicU64 = AtomicU64::new(0);
-    let mut hidden = OsString::from(".");
-    hidden.push(name);
-    hidden.push(format!(".partial-{}-{}", process::id(), COUNT.fetch_add(1, Ordering::Relaxed)));
-    hidden
+fn set_permissions(path: &Path, permissions: &Permissions) -> Result<(), FileError> {
+    fs::set_permissions(path, permissions.clone()).map_err(io_error(path, "keep the permissions of the file"))
+}
+
+#[cfg(unix)]
+fn writable(permissions: &Permissions) -> Permissions {
+    use std::os::unix::fs::PermissionsExt;
+    Permissions::from_mode(permissions.mode() & 0o777 | 0o600)
+}
+
+#[cfg(not(unix))]
+fn writable(permissions: &Permissions) -> Permissions {
+    let mut permissions = permissions.clone();
+    #[allow(clippy::permissions_set_readonly_false)] // not Unix
+    permissions.set_readonly(false);
+    permissions
 }
 
 #[cfg(unix)]
@@ -179,14 +180,46 @@ mod tests {
     }
 
     #[test]
-    fn leftovers_of_the_killed_go_and_nothing_else() {
+    fn writers_of_one_file_keep_apart() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("result.h5");
-        for name in [".result.h5.partial-1-0", ".result.urs.csv.partial-1-1", ".other.h5.partial-1-2", "result.h5"] {
-            fs::write(folder.path().join(name), "").unwrap();
+        let [one, other] = [0; 2].map(|_| AtomicFile::reserve(&path).unwrap());
+        fs::write(one.partial(), "one").unwrap();
+        fs::write(other.partial(), "other").unwrap();
+        other.replace().unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"other");
+        one.replace().unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"one");
+        assert_eq!(files_in(folder.path()), ["result.h5"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_reader_is_never_kept_off() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("result.h5");
+        let file = AtomicFile::reserve(&path).unwrap();
+        // in its place, as in the moment before its writer lets go of it
+        fs::rename(file.partial(), &path).unwrap();
+        File::open(&path).unwrap().try_lock_shared().unwrap();
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn who_may_read_a_file_stays_the_same() {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("result.h5");
+        let mode = |path: &Path| fs::metadata(path).unwrap().permissions().mode() & 0o777;
+        for kept in [0o600, 0o640, 0o444] {
+            write_whole(&path, b"first").unwrap();
+            fs::set_permissions(&path, Permissions::from_mode(kept)).unwrap();
+            let file = AtomicFile::reserve(&path).unwrap();
+            assert_eq!(mode(file.partial()) & 0o077, kept & 0o077);
+            fs::write(file.partial(), "second").unwrap();
+            file.replace().unwrap();
+            assert_eq!((mode(&path), fs::read(&path).unwrap()), (kept, b"second".to_vec()));
         }
-        remove_leftovers(&path);
-        assert_eq!(files_in(folder.path()), [".other.h5.partial-1-2", "result.h5"]);
     }
 
     #[test]

@@ -21,8 +21,16 @@ pub enum FileError {
     NotAFile {
         /// The path.
         path: PathBuf,
-        /// "a folder" or "a special file".
+        /// "a folder" or "a device or pipe".
         found: &'static str,
+    },
+    /// A file that is read as a whole is larger than any of its kind.
+    #[error("{}: is larger than {limit_bytes} bytes: name the right file", path.display())]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// The most that is read, bytes.
+        limit_bytes: u64,
     },
 }
 

@@ -1,7 +1,8 @@
 //! Files that appear under their names complete, or not at all.
 //!
 //! A file is written under a hidden name beside its place, brought to the disk, and renamed: whoever looks finds the
-//! old one or the new one, whatever happens in between.
+//! old one or the new one, whatever happens in between. What a killed writer leaves makes room for the next writer of
+//! the same file, and for nobody else. Files are read only where they are files, so that no pipe is waited for.
 //!
 //! ```
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -16,7 +17,10 @@
 mod atomic_file;
 mod error;
 mod identity;
+mod partial;
+mod read;
 
-pub use atomic_file::{AtomicFile, final_place, remove_leftovers, require_file, write_whole};
+pub use atomic_file::{AtomicFile, final_place, write_whole};
 pub use error::{FileError, io_error};
 pub use identity::is_still_at;
+pub use read::{open_file, read_file, require_file};

@@ -19,7 +19,7 @@ fn main() -> ExitCode {
     std::panic::set_hook(Box::new(|info| {
         // where nobody listens any more, a panic within this one would end the program without its exit code
         let _ = writeln!(
-            std::io::stderr(),
+            terminal::error_output(),
             "uplift: a bug in the program: {info}\nPlease report it with the study file and this line. No result file \
              was touched."
         );

@@ -39,20 +39,30 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
+use uplift::text::is_obeyed;
 
 use crate::error::CommandError;
-use crate::terminal::Terminal;
+use crate::terminal::{Terminal, output};
 
 /// A report for programs.
 pub(crate) fn print_json(report: &impl Serialize) -> Result<(), CommandError> {
     let value = serde_json::to_value(report).map_err(|error| CommandError::input(error.to_string()))?;
-    Ok(writeln!(std::io::stdout(), "{value:#}")?)
+    // what is spelt out in a text of JSON is spelt as JSON does
+    let mut text = String::new();
+    for letter in format!("{value:#}").chars() {
+        if is_obeyed(letter) && letter != '\n' {
+            text.extend(format!("\\u{:04x}", u32::from(letter)).chars());
+        } else {
+            text.push(letter);
+        }
+    }
+    Ok(writeln!(output(), "{text}")?)
 }
 
 /// Files that were written; a quiet terminal shows none.
 pub(crate) fn print_files(files: &[PathBuf], terminal: &Terminal) -> Result<(), CommandError> {
     if !terminal.is_quiet() {
-        let mut out = std::io::stdout().lock();
+        let mut out = output();
         for file in files {
             writeln!(out, "{}", shown_path(file).display())?;
         }

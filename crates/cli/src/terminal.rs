@@ -1,7 +1,9 @@
 //! The terminal as jobs see it: remarks on standard error, a progress bar or plain lines, Ctrl-C.
 
 mod progress;
+mod visible;
 
+use std::borrow::Cow;
 use std::io::{IsTerminal, Write};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -11,9 +13,11 @@ use std::time::Duration;
 use miette::{GraphicalReportHandler, GraphicalTheme};
 use uplift::UpliftError;
 use uplift::events::{Events, Phase};
+use uplift::text::{one_line, visible};
 
 use crate::error::CommandError;
 use progress::Progress;
+pub(crate) use visible::{error_output, output};
 
 /// What the shell sees of an interruption.
 const EXIT_INTERRUPTED: i32 = 5;
@@ -88,11 +92,11 @@ impl Terminal {
 
 impl Events for Terminal {
     fn remark(&self, topic: &str, text: &str) {
-        self.say(&format!("{topic:<8} {text}"));
+        self.say(&format!("{topic:<8} {}", one_line(text)));
     }
 
     fn note(&self, text: &str) {
-        self.say(&format!("note: {text}"));
+        self.say(&format!("note: {}", one_line(text)));
     }
 
     fn begin(&self, phase: Phase<'_>) {
@@ -133,7 +137,7 @@ impl Events for Terminal {
 
 /// A line on standard error.
 pub(crate) fn tell(text: &str) {
-    let _ = writeln!(std::io::stderr(), "{text}");
+    let _ = writeln!(error_output(), "{text}");
 }
 
 /// Tells an error; a study's mistakes with their lines and carets.
@@ -141,16 +145,20 @@ pub(crate) fn tell_error(error: &CommandError) {
     match error {
         CommandError::OutputClosed => {}
         CommandError::Uplift(UpliftError::Study(error)) => {
-            let theme = if std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none() {
-                GraphicalTheme::unicode()
-            } else {
-                GraphicalTheme::unicode_nocolor()
+            let rendered = |theme| {
+                let mut text = String::new();
+                GraphicalReportHandler::new_themed(theme).render_report(&mut text, error).ok().map(|()| text)
             };
-            let mut text = String::new();
-            if GraphicalReportHandler::new_themed(theme).render_report(&mut text, error).is_ok() {
-                let _ = write!(std::io::stderr(), "{text}");
-            } else {
-                tell(&format!("uplift: {error}"));
+            let Some(plain) = rendered(GraphicalTheme::unicode_nocolor()) else {
+                return tell(&format!("uplift: {error}"));
+            };
+            // among colours of our own, commands to the terminal in the file could not be told apart
+            let coloured = std::io::stderr().is_terminal()
+                && std::env::var_os("NO_COLOR").is_none()
+                && matches!(visible(&plain), Cow::Borrowed(_));
+            match rendered(GraphicalTheme::unicode()).filter(|_| coloured) {
+                Some(text) => drop(write!(std::io::stderr(), "{text}")),
+                None => drop(write!(error_output(), "{plain}")),
             }
         }
         other => tell(&format!("uplift: {other}")),

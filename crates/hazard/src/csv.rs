@@ -118,6 +118,10 @@ pub fn table_text(path: &Path) -> Result<String, HazardError> {
 /// # Errors
 /// [`HazardError`] naming file and line for everything else.
 pub fn read_csv(text: &str, name: &str, options: &CsvOptions) -> Result<CsvCurve, HazardError> {
+    if text.contains('\0') {
+        let reason = "holds a null character, and no text does: save it as \"CSV UTF-8\"".to_owned();
+        return Err(HazardError::File { file: name.to_owned(), reason });
+    }
     let Table { rows, content, source, component } = Table::parse(text, name, options)?;
     let place = |line: usize| Place::Line { file: name.to_owned(), line };
     let AnnualRates { rows, dropped_zeros, dropped_certain } = annual_rates(rows, content, options.years, name, place)?;

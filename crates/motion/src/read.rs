@@ -14,7 +14,7 @@ mod volume;
 
 use std::borrow::Cow;
 use std::fs::File;
-use std::io::Read as _;
+use std::io::{self, Read as _};
 use std::path::Path;
 
 use crate::accelerogram::Accelerogram;
@@ -171,6 +171,10 @@ fn unpacked<'a>(bytes: &'a [u8], name: &str) -> Result<Cow<'a, [u8]>, MotionErro
 /// [`MotionError::Unreadable`], and [`MotionError::TooLarge`] above 64 MiB.
 pub fn record_bytes(path: &Path) -> Result<Vec<u8>, MotionError> {
     let unreadable = |reason| MotionError::Unreadable { path: path.to_owned(), reason };
+    // a pipe would be waited for, and a device read for ever
+    if !std::fs::metadata(path).map_err(unreadable)?.is_file() {
+        return Err(unreadable(io::Error::other("it is no file, but a folder, a device or a pipe")));
+    }
     let mut bytes = Vec::new();
     File::open(path).and_then(|file| file.take(LARGEST_FILE_BYTES + 1).read_to_end(&mut bytes)).map_err(unreadable)?;
     if bytes.len() as u64 > LARGEST_FILE_BYTES {

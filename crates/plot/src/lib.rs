@@ -8,6 +8,7 @@ mod draw;
 mod figure;
 mod frame;
 mod map;
+mod mark;
 mod panel;
 mod raster;
 mod stroke;
@@ -15,5 +16,6 @@ mod ticks;
 
 pub use draw::{Drawing, Width, svg};
 pub use figure::{Axis, Band, Figure, Hatch, Map, Marks, Panel, Region, Scale, Series, Tone};
+pub use mark::{with_description, with_software};
 pub use panel::PanelPlace;
 pub use raster::{RasterError, png};

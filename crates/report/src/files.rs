@@ -4,8 +4,10 @@ use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 use uplift::UpliftError;
+use uplift::outputs::{self, Output, OutputKind};
 use uplift::result::write_atomically;
-use uplift_plot::{Figure, Width, png, svg};
+use uplift::text::visible;
+use uplift_plot::{Drawing, Figure, Width, png, svg, with_description, with_software};
 
 /// Of a PNG for print.
 const DOTS_PER_INCH: f32 = 300.0;
@@ -38,57 +40,73 @@ impl Default for FigureOptions {
 }
 
 impl FigureOptions {
-    /// Writes `figure` into `folder`, which is there; the files written.
+    /// Endings of the files of a figure.
+    fn endings(self) -> &'static [&'static str] {
+        match self.format {
+            FigureFormat::Svg => &["svg"],
+            FigureFormat::Png => &["png"],
+            FigureFormat::Both => &["png", "svg"],
+        }
+    }
+
+    /// The files in `folder` that the figures of these names are written to.
+    pub fn outputs<'a>(self, ids: impl Iterator<Item = &'a str>, folder: &Path) -> Vec<Output> {
+        let files = ids.flat_map(|id| self.endings().iter().map(move |ending| folder.join(format!("{id}.{ending}"))));
+        files.map(|file| Output::new(file, OutputKind::Figure)).collect()
+    }
+
+    /// Writes `figure` into `folder`, which is there; the files written say that they are `of` a result.
     ///
     /// # Errors
     /// A file that cannot be written, and no font for a PNG.
-    pub fn write(&self, figure: &Figure, folder: &Path) -> Result<Vec<PathBuf>, UpliftError> {
-        let drawing = svg(figure, self.width).map_err(|reason| refused(figure, reason))?;
+    pub fn write(self, figure: &Figure, folder: &Path, of: Option<&Path>) -> Result<Vec<PathBuf>, UpliftError> {
+        let drawing = drawing_of(figure, self.width)?;
         let mut written = Vec::new();
-        let mut write = |extension: &str, bytes: &[u8]| {
-            let file = folder.join(format!("{}.{extension}", figure.id));
-            write_atomically(&file, bytes)?;
+        for ending in self.endings() {
+            let file = folder.join(format!("{}.{ending}", figure.id));
+            write_drawing(figure, &drawing, &file, of)?;
             written.push(file);
-            Ok::<(), UpliftError>(())
-        };
-        if self.format != FigureFormat::Svg {
-            let image = png(&drawing.svg, DOTS_PER_INCH).map_err(|error| refused(figure, error))?;
-            write("png", &image)?;
-        }
-        if self.format != FigureFormat::Png {
-            write("svg", drawing.svg.as_bytes())?;
         }
         Ok(written)
     }
 }
 
-/// Refuses a name that does not tell the format of a figure, before anything is computed.
+/// Refuses a name that does not tell the format of a figure, and one that would replace something else, before anything
+/// is computed.
 ///
 /// # Errors
-/// [`UpliftError::Usage`] where `file` ends neither in .svg nor in .png.
-pub fn check_figure_file(file: &Path) -> Result<(), UpliftError> {
-    let told = file.extension().is_some_and(|extension| extension == "svg" || extension == "png");
-    if told {
-        return Ok(());
-    }
-    Err(UpliftError::Usage(format!("{}: give a name that ends in .svg or .png", file.display())))
+/// As [`outputs::check`].
+pub fn check_figure_file(file: &Path, inputs: &[impl AsRef<Path>], force: bool) -> Result<(), UpliftError> {
+    outputs::check(&[Output::new(file, OutputKind::Figure)], inputs, force)
 }
 
 /// Writes `figure`, as wide as a page, to `file`, whose ending tells the format.
 ///
 /// # Errors
-/// As [`check_figure_file`]; a file that cannot be written, and no font for a PNG.
+/// A file that cannot be written, and no font for a PNG.
 pub fn write_figure_file(figure: &Figure, file: &Path) -> Result<(), UpliftError> {
-    check_figure_file(file)?;
-    let drawing = svg(figure, Width::Double).map_err(|reason| refused(figure, reason))?;
+    let drawing = drawing_of(figure, Width::Double)?;
+    write_drawing(figure, &drawing, file, None)
+}
+
+/// Writes a figure that was drawn, in the format of the ending; the file says that it is from this program.
+fn write_drawing(figure: &Figure, drawing: &Drawing, file: &Path, of: Option<&Path>) -> Result<(), UpliftError> {
+    let mark = visible(&outputs::mark(of)).into_owned();
     if file.extension().is_some_and(|extension| extension == "png") {
-        write_atomically(file, &png(&drawing.svg, DOTS_PER_INCH).map_err(|error| refused(figure, error))?)
+        let image = png(&drawing.svg, DOTS_PER_INCH).map_err(|error| refused(figure, error))?;
+        write_atomically(file, &with_software(&image, &mark))
     } else {
-        write_atomically(file, drawing.svg.as_bytes())
+        write_atomically(file, with_description(&drawing.svg, &mark).as_bytes())
     }
 }
 
+/// A figure as SVG, in whose texts what is no letter is spelt out: no reader of XML takes it.
+pub(crate) fn drawing_of(figure: &Figure, width: Width) -> Result<Drawing, UpliftError> {
+    let drawing = svg(figure, width).map_err(|reason| refused(figure, reason))?;
+    Ok(Drawing { svg: visible(&drawing.svg).into_owned(), ..drawing })
+}
+
 /// A figure that the drawing library does not draw.
-pub(crate) fn refused(figure: &Figure, reason: impl Display) -> UpliftError {
+fn refused(figure: &Figure, reason: impl Display) -> UpliftError {
     UpliftError::input(format!("{}: {reason}", figure.id))
 }

@@ -12,11 +12,13 @@ use std::path::{Path, PathBuf};
 use minijinja::{Environment, context};
 use serde::Serialize;
 
-use crate::files::refused;
+use crate::files::drawing_of;
 use uplift::UpliftError;
 use uplift::events::Events;
+use uplift::outputs::mark;
 use uplift::result::{Kind, ResultFile};
-use uplift_plot::{Figure, Marks, PanelPlace, Width, svg};
+use uplift::text::visible;
+use uplift_plot::{Figure, Marks, PanelPlace, Width};
 
 /// What the page shows of one result.
 #[derive(Debug, Serialize)]
@@ -99,10 +101,13 @@ pub fn page(paths: &[PathBuf], events: &dyn Events) -> Result<String, UpliftErro
                 subjects,
                 style => include_str!("page/report.css"),
                 script => include_str!("page/report.js"),
+                mark => mark(paths.first().map(PathBuf::as_path)),
                 version => uplift::VERSION,
                 commit => uplift::COMMIT,
             })
         })
+        // what is no letter may be hidden in a text of the results, and is of no page
+        .map(|page| visible(&page).into_owned())
         .map_err(|error| UpliftError::input(format!("the report cannot be made: {error}")))
 }
 
@@ -156,7 +161,7 @@ fn section(key: &str, path: &Path) -> Result<Section, UpliftError> {
 }
 
 fn drawn(key: &str, figure: &Figure) -> Result<DrawnFigure, UpliftError> {
-    let drawing = svg(figure, Width::Double).map_err(|reason| refused(figure, reason))?;
+    let drawing = drawing_of(figure, Width::Double)?;
     let panels = figure
         .panels
         .iter()

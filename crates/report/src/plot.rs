@@ -6,8 +6,8 @@ use serde::Serialize;
 use uplift::UpliftError;
 use uplift::events::Events;
 use uplift::hazard_curves::{CurveOptions, read as read_curves};
-use uplift::outputs::{provide_folder, refuse_overwriting};
-use uplift::pulses::PulseReport;
+use uplift::outputs::{self, Output, beside, provide_folder};
+use uplift::pulses::{PULSE_FIGURES, PulseReport};
 use uplift::response::ResponseReport;
 use uplift::structure::OverturningReport;
 
@@ -28,6 +28,8 @@ pub struct PlotOptions {
     pub only: Option<String>,
     /// How they are written.
     pub figures: FigureOptions,
+    /// Whether whatever is at the places of the figures gives way.
+    pub force: bool,
 }
 
 /// What was drawn.
@@ -52,27 +54,39 @@ pub fn plot(options: &PlotOptions, events: &dyn Events) -> Result<PlotReport, Up
             names.join(", ")
         )));
     }
-    let folder = options.folder.clone().unwrap_or_else(|| options.result.with_extension("figures"));
-    provide_folder(&folder)?;
+    let folder = options.folder.clone().unwrap_or_else(|| beside(&options.result, "figures"));
+    let ids = chosen.iter().map(|figure| figure.id.as_str());
+    let outputs: Vec<Output> =
+        options.figures.outputs(ids, &folder).into_iter().map(|output| output.of(&options.result)).collect();
+    outputs::check(&outputs, &[&options.result], options.force)?;
     let mut files = Vec::new();
     for figure in chosen {
         if events.cancelled() {
             return Err(UpliftError::Interrupted);
         }
-        files.extend(options.figures.write(figure, &folder)?);
+        files.extend(options.figures.write(figure, &folder, Some(&options.result))?);
     }
     Ok(PlotReport { files })
+}
+
+/// Refuses a `folder` where the figures of [`plot_pulses`] would replace something else, before anything is computed.
+///
+/// # Errors
+/// As [`outputs::check`].
+pub fn check_pulse_figures(folder: &Path, figures: FigureOptions, force: bool) -> Result<(), UpliftError> {
+    let nothing: [&Path; 0] = [];
+    outputs::check(&figures.outputs(PULSE_FIGURES.into_iter(), folder), &nothing, force)
 }
 
 /// Draws the rocking spectra of Figures 2.2 to 2.7 into `folder`; the files written.
 ///
 /// # Errors
 /// A folder that cannot be written.
-pub fn plot_pulses(report: &PulseReport, folder: &Path, figures: &FigureOptions) -> Result<Vec<PathBuf>, UpliftError> {
+pub fn plot_pulses(report: &PulseReport, folder: &Path, figures: FigureOptions) -> Result<Vec<PathBuf>, UpliftError> {
     provide_folder(folder)?;
     let mut files = Vec::new();
     for figure in pulse_figures(&report.plan, &report.spectra) {
-        files.extend(figures.write(&figure, folder)?);
+        files.extend(figures.write(&figure, folder, None)?);
     }
     Ok(files)
 }
@@ -107,6 +121,8 @@ pub struct HazardPlotOptions {
     pub curves: CurveOptions,
     /// The figure, .svg or .png.
     pub output: PathBuf,
+    /// Whether whatever is at the place of the figure gives way.
+    pub force: bool,
 }
 
 /// Draws hazard curves in one figure.
@@ -115,8 +131,7 @@ pub struct HazardPlotOptions {
 /// Curves that cannot be read, or are too many for one figure; a figure that would overwrite one of the files, or
 /// cannot be written.
 pub fn plot_hazard(options: &HazardPlotOptions, events: &dyn Events) -> Result<PlotReport, UpliftError> {
-    check_figure_file(&options.output)?;
-    refuse_overwriting(&options.output, &options.files)?;
+    check_figure_file(&options.output, &options.files, options.force)?;
     let curves = read_curves(&options.files, &options.curves, events)?;
     if curves.len() > MOST_CURVES {
         return Err(UpliftError::Usage(format!(

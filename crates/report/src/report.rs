@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 use uplift::UpliftError;
 use uplift::events::Events;
+use uplift::outputs::{self, Output, OutputKind, beside};
 use uplift::result::write_atomically;
 
 use crate::page::page;
@@ -16,6 +17,8 @@ pub struct ReportOptions {
     pub results: Vec<PathBuf>,
     /// The page; the first result with `.html` if none is given.
     pub output: Option<PathBuf>,
+    /// Whether whatever is at the place of the page gives way.
+    pub force: bool,
 }
 
 /// The page that was written.
@@ -33,13 +36,9 @@ pub fn report(options: &ReportOptions, events: &dyn Events) -> Result<PageReport
     let Some(first) = options.results.first() else {
         return Err(UpliftError::Usage("a report is of one result or more: give one".to_owned()));
     };
-    let file = options.output.clone().unwrap_or_else(|| first.with_extension("html"));
-    if options.results.contains(&file) || file.extension().is_none_or(|extension| extension != "html") {
-        return Err(UpliftError::Usage(format!(
-            "{}: the report is an HTML file, give it a name that ends in .html",
-            file.display()
-        )));
-    }
+    let file = options.output.clone().unwrap_or_else(|| beside(first, "html"));
+    let output = Output::new(&file, OutputKind::Page).of(first);
+    outputs::check(&[output], &options.results, options.force)?;
     write_atomically(&file, page(&options.results, events)?.as_bytes())?;
     Ok(PageReport { file })
 }

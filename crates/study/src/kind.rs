@@ -1,10 +1,12 @@
 //! The kinds of study, and a study of any of them.
 
+use std::path::Path;
+
 use crate::displacement::{self, DisplacementStudy};
 use crate::keys::SectionKeys;
 use crate::reading::{Paths, Section};
 use crate::sections::output::Output;
-use crate::uniform_risk::{self, UniformRiskStudy};
+use crate::uniform_risk::{self, CurveFile, SiteTable, UniformRiskStudy};
 
 /// What a study is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -80,6 +82,18 @@ impl AnyStudy {
         match self {
             Self::UniformRisk(study) => &study.output,
             Self::Displacement(study) => &study.output,
+        }
+    }
+
+    /// The files that it names to be read: manifest, hazard curves, tables and exports of sites.
+    pub fn inputs(&self) -> Vec<&Path> {
+        match self {
+            Self::UniformRisk(study) => {
+                let curves = study.sites.iter().flat_map(|site| site.curves.iter().flat_map(CurveFile::files));
+                let of_sites = study.site_table.iter().flat_map(SiteTable::files);
+                study.records.source.manifest().into_iter().chain(curves).chain(of_sites).collect()
+            }
+            Self::Displacement(study) => study.records.manifest().into_iter().collect(),
         }
     }
 

@@ -8,12 +8,14 @@
 //! | `section`, `field` | a table and a value while they are read, with what is checked of any of them |
 //! | `rule` | what a number must satisfy, as a test and in words |
 //! | `paths` | paths: found and made absolute, or taken as they stand |
+//! | `letters` | what no text may hold |
 //! | `findings` | the mistakes so far, and their places |
 //! | `suggestion` | what an unknown word was probably meant to be |
 
 pub(crate) mod document;
 pub(crate) mod field;
 pub(crate) mod findings;
+pub(crate) mod letters;
 pub(crate) mod overrides;
 pub(crate) mod paths;
 pub(crate) mod rule;

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::error::{StudyError, Unreadable};
 use crate::kind::{AnyStudy, Kind};
 use crate::reading::findings::refused;
+use crate::reading::letters::refuse_null_characters;
 use crate::reading::paths::tidy;
 use crate::reading::text::{parse_table, read_text};
 use crate::reading::{Findings, Paths, Section, Table, overrides};
@@ -122,6 +123,9 @@ impl Study {
             if let Err(finding) = overrides::apply(&mut self.document, index, text) {
                 findings.add(finding);
             }
+        }
+        if matches!(paths, Paths::Checked { .. }) {
+            refuse_null_characters(&self.document, "", &findings);
         }
         let resolved = read(Section::root(&self.document, &findings), paths);
         let findings = findings.into_vec();

@@ -11,6 +11,7 @@ use crate::checkpoint::{Checkpoint, FinishedRows, RowFile, RowFileHead};
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::lock::ResultLock;
+use crate::outputs::beside;
 
 /// Most shards that a work is cut into.
 pub const MOST_SHARDS: u64 = 100_000;
@@ -33,7 +34,7 @@ pub struct ShardReport {
 /// Where the rows of one shard of the analyses of the result at `result` are kept.
 pub fn shard_path(result: &Path, Shard { index, count }: Shard) -> PathBuf {
     let width = count.to_string().len();
-    result.with_extension(format!("shard-{:0width$}-of-{count}", index + 1))
+    beside(result, &format!("shard-{:0width$}-of-{count}", index + 1))
 }
 
 /// Makes the folder of the file of a shard, and keeps others off the file.

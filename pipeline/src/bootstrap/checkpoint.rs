@@ -8,6 +8,7 @@ use uplift_bootstrap::{Band, ResamplingPlan};
 
 use super::bands::{BandSettings, StrengthBands};
 use crate::error::UpliftError;
+use crate::outputs::beside;
 use crate::result::StoredStripes;
 use uplift_labelled::{LabelledReader, LabelledWriter};
 
@@ -46,7 +47,7 @@ impl Checkpoint {
         for count in plan.multiplicities() {
             hash.update(count.to_le_bytes());
         }
-        Self { path: stored.path.with_extension("bootstrap.part.h5"), fingerprint: format!("{:x?}", hash.finalize()) }
+        Self { path: beside(&stored.path, "bootstrap.part.h5"), fingerprint: format!("{:x?}", hash.finalize()) }
     }
 
     /// Where it is.

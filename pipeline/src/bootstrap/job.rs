@@ -12,9 +12,10 @@ use super::compute::compute;
 use super::draws::{announce, draws};
 use super::reference::ReferenceRow;
 use super::report::BootstrapReport;
-use super::write::{BandsFile, band_paths, write_bands};
+use super::write::{BandsFile, band_paths, tables, write_bands};
 use crate::error::UpliftError;
 use crate::events::Events;
+use crate::outputs;
 use crate::result::{Addition, ResultFile};
 
 /// What is asked of a bootstrap. What is left open is as a study says: as `study`, else as the one in the result.
@@ -37,6 +38,8 @@ pub struct BootstrapOptions {
     pub plan: Option<PathBuf>,
     /// Figures to compare with, which the report hands on: see [`read_reference`](super::read_reference).
     pub reference: Vec<ReferenceRow>,
+    /// Whether whatever is at the places of the tables gives way.
+    pub force: bool,
 }
 
 /// How sure the spectra of the result at `result` are: bands from resampled records, written into the file and into
@@ -54,6 +57,7 @@ pub fn bootstrap(
 ) -> Result<BootstrapReport, UpliftError> {
     let addition = Addition::begin(result, events)?;
     let stored = ResultFile::open(result)?.stripes()?;
+    outputs::check(&tables(&stored.path), &[result], options.force)?;
     let study = options.study.as_ref().unwrap_or(&stored.bootstrap);
     let settings = BandSettings {
         confidence: study.confidence,

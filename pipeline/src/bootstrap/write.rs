@@ -8,6 +8,7 @@ use uplift_bootstrap::ResamplingPlan;
 use super::bands::{BandSettings, Bands};
 use crate::array::Array;
 use crate::error::UpliftError;
+use crate::outputs::{Output, OutputKind, beside};
 use crate::result::layout::{MULTIPLICITY, axis, band, bootstrap, joint_band, limit_names};
 use crate::result::{Addition, StoredStripes, line, sign, write_table};
 use uplift_labelled::{LabelledError, LabelledWriter};
@@ -33,7 +34,12 @@ pub(super) struct BandsFile<'a> {
 
 /// The tables beside the result file: bands, and the figures of Table 4.1.
 pub(super) fn band_paths(result: &Path) -> [PathBuf; 2] {
-    ["bands.csv", "table-4-1.csv"].map(|extension| result.with_extension(extension))
+    ["bands.csv", "table-4-1.csv"].map(|ending| beside(result, ending))
+}
+
+/// The same, as they are to be written.
+pub(super) fn tables(result: &Path) -> [Output; 2] {
+    band_paths(result).map(|path| Output::new(path, OutputKind::Table("site")))
 }
 
 /// Write the bands into the result file, in place of earlier ones, and into tables beside it.

@@ -18,12 +18,14 @@ use super::block::{Row, read_block, write_block};
 use super::error::CheckpointError;
 use super::key::{RowKey, RowKeys};
 use crate::error::UpliftError;
-use uplift_atomic_file::{final_place, write_whole};
+use uplift_atomic_file::{FileError, final_place, open_file, write_whole};
 
 /// What the first line says it is.
 pub(super) const FORMAT: &str = "uplift analysis rows 2";
 /// The same of version 0.1: its rows had other keys and are of no use, but nothing is wrong with such a file.
 const FORMAT_BEFORE: &str = "uplift pieces 1";
+/// How every first line begins.
+const FIRST_WORDS: &[u8] = b"{\"format\":\"uplift ";
 /// Longest first line, bytes.
 const LONGEST_HEAD: u64 = 1 << 16;
 /// How often what was appended is brought to the disk.
@@ -131,10 +133,11 @@ impl RowFile {
     /// A file that cannot be read, or holds something else.
     pub fn read(path: &Path) -> Result<Option<Finding>, CheckpointError> {
         let fail = |source| CheckpointError::Read { path: path.to_owned(), source };
-        let file = match File::open(path) {
+        let file = match open_file(path) {
             Ok(file) => file,
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
-            Err(error) => return Err(fail(error)),
+            Err(FileError::Io { source, .. }) if source.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+            Err(FileError::Io { source, .. }) => return Err(fail(source)),
+            Err(_) => return Err(CheckpointError::NotRows { path: path.to_owned() }),
         };
         let length = file.metadata().map_err(fail)?.len();
         let mut reader = BufReader::with_capacity(1 << 20, file);
@@ -166,7 +169,7 @@ impl RowFile {
         let fail = |source| CheckpointError::Write { path: path.to_owned(), source };
         // what cannot be read to its first line was cut off in it
         let found = match Self::read(path) {
-            Err(_) if std::fs::metadata(path).is_ok_and(|file| file.len() < LONGEST_HEAD && !has_line(path)) => None,
+            Err(_) if was_cut_off(path) => None,
             found => found?,
         };
         let found = match found {
@@ -252,10 +255,12 @@ impl RowFile {
     }
 }
 
-fn has_line(path: &Path) -> bool {
+/// Whether the file at `path` ends within its first line, as one that was being begun.
+fn was_cut_off(path: &Path) -> bool {
     let mut head = Vec::new();
-    let read = File::open(path).and_then(|file| file.take(LONGEST_HEAD).read_to_end(&mut head));
-    read.is_err() || head.contains(&b'\n')
+    let read = open_file(path).is_ok_and(|file| file.take(LONGEST_HEAD).read_to_end(&mut head).is_ok());
+    let begun = &head[..head.len().min(FIRST_WORDS.len())];
+    read && head.len() as u64 != LONGEST_HEAD && !head.contains(&b'\n') && FIRST_WORDS.starts_with(begun)
 }
 
 #[cfg(test)]

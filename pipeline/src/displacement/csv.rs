@@ -6,13 +6,22 @@ use polars::prelude::Column;
 
 use super::{DesignRow, DisplacementOutcome};
 use crate::error::UpliftError;
+use crate::outputs::{Output, OutputKind, beside};
 use crate::result::layout::percentile_name;
 use crate::result::write_table;
-use uplift_study::{ScaledTo, Structures};
+use uplift_study::{DisplacementStudy, ScaledTo, Structures};
 
 /// The tables beside the result file `result`: spectra, and the design example.
 pub fn displacement_csv_paths(result: &Path) -> [PathBuf; 2] {
-    ["displacements.csv", "design.csv"].map(|extension| result.with_extension(extension))
+    ["displacements.csv", "design.csv"].map(|ending| beside(result, ending))
+}
+
+/// All files but the result that a run of `study` with the result at `result` writes.
+pub(crate) fn tables(study: &DisplacementStudy, result: &Path) -> Vec<Output> {
+    let [spectra, design] = displacement_csv_paths(result);
+    let tables =
+        [Output::new(spectra, OutputKind::Table("record_set")), Output::new(design, OutputKind::Table("record_set"))];
+    if study.output.csv { tables.into() } else { Vec::new() }
 }
 
 /// Write the tables of `outcome` and its `design` beside the result file `result`, one comment line of provenance

@@ -14,7 +14,6 @@ use crate::analysis::seconds;
 use crate::error::UpliftError;
 use crate::frame::PlanHead;
 use crate::inputs::RecordSets;
-use crate::result::check_target;
 
 /// Time spent to see how fast this machine is.
 const CALIBRATION: Duration = Duration::from_secs(2);
@@ -38,7 +37,6 @@ pub struct Plan {
 
 /// Reads and checks all inputs of `study`, and times some of its analyses.
 pub(crate) fn plan(study: &DisplacementStudy, study_file: &Path) -> Result<Plan, UpliftError> {
-    check_target(&study.output.file)?;
     let inputs = Inputs::read(study)?;
     let records = &inputs.records;
     let sets = records.motions(study.gravity_m_s2)?;

@@ -8,6 +8,7 @@ use uplift_regression::Line;
 
 use super::of_measure::{Covariate, MeasureEfficiency};
 use crate::error::UpliftError;
+use crate::outputs::beside;
 use crate::result::layout::{axis, efficiency, sufficiency};
 use crate::result::{Addition, StoredStripes, line, sign, write_table};
 use crate::text::finite;
@@ -18,7 +19,7 @@ const REPLACED: [&str; 2] = [efficiency::ROOT, sufficiency::ROOT];
 
 /// The table beside the result file.
 pub(super) fn efficiency_path(result: &Path) -> PathBuf {
-    result.with_extension("measures.csv")
+    beside(result, "measures.csv")
 }
 
 /// Write efficiency and sufficiency into the result file, in place of earlier ones, and into a table beside it.

@@ -4,18 +4,19 @@ mod check;
 mod text;
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use serde::Serialize;
+use uplift_atomic_file::read_file;
 use uplift_hazard::{
-    ComponentDefinition, ExportedCurve, RealizationWeight, SiteSelection, Statistic, read_export,
-    read_realization_weights,
+    ComponentDefinition, CsvOptions, Declared, ExportedCurve, RealizationWeight, SiteSelection, Statistic, read_csv,
+    read_export, read_realization_weights,
 };
 
 use super::read::distinct;
 use crate::error::UpliftError;
 use crate::events::Events;
-use crate::outputs::provide_folder;
+use crate::outputs::{self, Output, OutputKind};
 use crate::result::write_atomically;
 use check::{check_weights, one_site, remarks};
 use text::{curve_text, file_stem, study_lines};
@@ -39,6 +40,8 @@ pub struct HazardImportOptions {
     pub weights: Option<PathBuf>,
     /// Farthest that a site may be from the place asked for, km.
     pub within_km: f64,
+    /// Whether other curves at the places of the files give way.
+    pub force: bool,
 }
 
 /// The curves that were taken.
@@ -91,9 +94,22 @@ pub fn import(options: &HazardImportOptions, events: &dyn Events) -> Result<Haza
     }
     check_distance(&curves, &site, options, events)?;
     let chosen = choose(curves, &site, weights.as_ref())?;
-    provide_folder(&options.folder)?;
+    let texts: Vec<(PathBuf, String)> = chosen.iter().map(|curve| text_of(curve, options)).collect();
+    let is_new = |(path, text): &&(PathBuf, String)| {
+        !read_file(path, text.len() as u64).is_ok_and(|there| there == text.as_bytes())
+    };
+    let curves: Vec<Output> =
+        texts.iter().filter(is_new).map(|(path, _)| Output::new(path, OutputKind::Curve)).collect();
+    let inputs: Vec<&PathBuf> = options.exports.iter().chain(&options.weights).collect();
+    outputs::check(&curves, &inputs, options.force)?;
+    for ((path, text), curve) in texts.iter().zip(&chosen) {
+        check_text(path, text, curve)?;
+    }
+    for (path, text) in &texts {
+        write_atomically(path, text.as_bytes())?;
+    }
     for curve in &chosen {
-        write(curve, options, events)?;
+        note_dropped(curve, events);
     }
     if options.component.is_none() && chosen.iter().any(|curve| curve.exported.curve.component().is_none()) {
         events.note(
@@ -160,11 +176,7 @@ fn choose(
     Ok(chosen)
 }
 
-fn write(
-    Chosen { exported, file, .. }: &Chosen,
-    options: &HazardImportOptions,
-    events: &dyn Events,
-) -> Result<(), UpliftError> {
+fn note_dropped(Chosen { exported, file, .. }: &Chosen, events: &dyn Events) {
     for (count, what) in [
         (exported.dropped_zeros, "level(s) of zero at the end"),
         (exported.dropped_certain, "level(s) of probability 1 at the start"),
@@ -173,16 +185,25 @@ fn write(
             events.note(&format!("{file}: {count} {what} left out: no rate belongs to them"));
         }
     }
+}
+
+/// Reads back what is to be written: a file that a study would refuse is not written.
+fn check_text(path: &Path, text: &str, Chosen { exported, .. }: &Chosen) -> Result<(), UpliftError> {
+    let name = path.display().to_string();
+    if let Some(declared) = Declared::in_table(text) {
+        let read = read_csv(text, &name, &CsvOptions { declared, second_column: None, years: None })?.curve;
+        if (read.im(), read.maf()) == (exported.curve.im(), exported.curve.maf()) {
+            return Ok(());
+        }
+    }
+    Err(UpliftError::input(format!("{name}: would not be read as the curve of the export, and is not written")))
+}
+
+/// The file of a curve, and what it says.
+fn text_of(Chosen { exported, file, .. }: &Chosen, options: &HazardImportOptions) -> (PathBuf, String) {
     let curve = exported.curve.clone();
     let component = curve.component().or(options.component);
-    let (path, text) = (options.folder.join(file), curve_text(&curve.with_component(component), exported));
-    if std::fs::read(&path).is_ok_and(|there| there != text.as_bytes()) {
-        return Err(UpliftError::Usage(format!(
-            "{} is there already, with another curve: give another folder with -o, or remove it",
-            path.display()
-        )));
-    }
-    write_atomically(&path, text.as_bytes())
+    (options.folder.join(file), curve_text(&curve.with_component(component), exported))
 }
 
 fn weight_of(kind: &Statistic, weights: &BTreeMap<u32, RealizationWeight>) -> Option<f64> {

@@ -5,6 +5,7 @@ use std::fmt;
 use serde::Serialize;
 
 use super::collect::Imported;
+use crate::text::one_line;
 
 /// Remarks of one kind.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -35,6 +36,6 @@ impl Remarks {
 impl fmt::Display for Remarks {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "{} ({}):", self.kind, self.texts.len())?;
-        self.texts.iter().try_for_each(|text| writeln!(f, "  - {text}"))
+        self.texts.iter().try_for_each(|text| writeln!(f, "  - {}", one_line(text)))
     }
 }

@@ -6,6 +6,8 @@ use std::path::PathBuf;
 
 use polars::prelude::{CsvReadOptions, SerReader};
 
+use uplift_atomic_file::read_file;
+
 use super::group::Candidate;
 use super::warnings::Warning;
 
@@ -25,6 +27,9 @@ pub(super) struct Entry {
     pub(super) files: [Option<String>; 2],
 }
 
+/// The most that a table of search results has, and then some.
+const LARGEST_BYTES: u64 = 64 << 20;
+
 /// Search results by record sequence number.
 #[derive(Debug, Clone, Default)]
 pub(super) struct SearchResults {
@@ -36,7 +41,7 @@ impl SearchResults {
     pub(super) fn read(files: &[PathBuf], warnings: &mut Vec<Warning>) -> Self {
         let mut results = Self::default();
         for path in files {
-            let parsed = std::fs::read(path)
+            let parsed = read_file(path, LARGEST_BYTES)
                 .map_err(|error| error.to_string())
                 .and_then(|bytes| parse(&String::from_utf8_lossy(&bytes)));
             match parsed {

@@ -4,10 +4,11 @@ use std::path::Path;
 
 use super::change::{Influence, RecordInfluence, influence_by, rank_records};
 use super::report::InfluenceReport;
-use super::write::write_influence;
+use super::write::{influence_path, write_influence};
 use crate::array::Array;
 use crate::error::UpliftError;
 use crate::events::Events;
+use crate::outputs::{self, Output, OutputKind};
 use crate::result::{Addition, ResultFile};
 
 /// What is told of the influence; the files hold all of it.
@@ -17,11 +18,13 @@ pub struct InfluenceOptions {
     pub poe: Option<f64>,
     /// Records of each spectrum.
     pub top: usize,
+    /// Whether whatever is at the place of the table gives way.
+    pub force: bool,
 }
 
 impl Default for InfluenceOptions {
     fn default() -> Self {
-        Self { poe: None, top: 3 }
+        Self { poe: None, top: 3, force: false }
     }
 }
 
@@ -38,6 +41,8 @@ pub fn influence(
 ) -> Result<InfluenceReport, UpliftError> {
     let addition = Addition::begin(result, events)?;
     let stored = ResultFile::open(result)?.stripes()?;
+    let table = Output::new(influence_path(&stored.path), OutputKind::Table("site"));
+    outputs::check(&[table], &[result], options.force)?;
     let poe = stored.poe_index(options.poe)?;
     let mut influences: Vec<Influence> = Vec::new();
     for measure in &stored.measures {

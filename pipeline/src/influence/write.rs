@@ -8,6 +8,7 @@ use uplift_motion::IntensityMeasure;
 use super::change::{Influence, RecordInfluence};
 use crate::array::Array;
 use crate::error::UpliftError;
+use crate::outputs::beside;
 use crate::result::layout::{axis, disaggregation, influence};
 use crate::result::{Addition, StoredStripes, line, sign, write_table};
 use uplift_labelled::{LabelledError, LabelledWriter};
@@ -20,7 +21,7 @@ fn replaced() -> Vec<String> {
 
 /// The table beside the result file.
 pub(super) fn influence_path(result: &Path) -> PathBuf {
-    result.with_extension("influence.csv")
+    beside(result, "influence.csv")
 }
 
 /// Write the influence into the result file, in place of an earlier one, and into a table beside it.

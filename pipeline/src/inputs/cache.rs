@@ -1,19 +1,23 @@
 //! The synthetic record set, kept in the user's cache folder so that it is generated once.
 //!
 //! The folder is `$UPLIFT_CACHE`, or `uplift` in `$XDG_CACHE_HOME` or `~/.cache`. A file holds a JSON header, the
-//! samples as they are in memory, and a checksum; whatever is not as it should be is generated again, and a folder that
-//! cannot be written is no error.
+//! samples as they are in memory, and a checksum; whatever is not as it should be is generated again. A folder that
+//! cannot be written or is full is no error. Beyond [`LARGEST_CACHE`] the sets that were used longest ago go.
 
 use std::collections::BTreeMap;
+use std::fs::{File, Metadata};
 use std::path::{Path, PathBuf};
+use std::time::SystemTime;
 
 use serde::{Deserialize, Serialize};
-use uplift_atomic_file::write_whole;
+use uplift_atomic_file::{read_file, write_whole};
 use uplift_motion::synthetic::{SyntheticSetOptions, generate};
 use uplift_motion::{Accelerogram, MotionError, RecordPair};
 
 use crate::checksum::checksum;
 
+/// The most that the sets take together, bytes: some 150 sets of 105 pairs.
+const LARGEST_CACHE: u64 = 2 << 30;
 /// Hexadecimal digits of the checksum at the end of a file.
 const CHECKSUM_LENGTH: usize = 64;
 
@@ -28,14 +32,42 @@ struct Header {
 /// The set that `options` make, from the cache if it is there.
 pub(super) fn synthetic_set(options: &SyntheticSetOptions) -> Result<Vec<RecordPair>, MotionError> {
     let path = folder().map(|folder| folder.join(file_name(options)));
-    if let Some(set) = path.as_deref().and_then(load).filter(|set| set.len() == options.pairs) {
+    if let Some(path) = &path
+        && let Some(set) = load(path).filter(|set| set.len() == options.pairs)
+    {
+        // it was used now; a file that is not ours to touch stays as old as it is
+        let _ = File::options().append(true).open(path).and_then(|file| file.set_modified(SystemTime::now()));
         return Ok(set);
     }
     let set = generate(options)?;
     if let Some(path) = path {
         store(&path, &set);
+        shrink(&path, LARGEST_CACHE);
     }
     Ok(set)
+}
+
+/// Removes what was used longest ago from the folder of the set at `newest`, until all take at most `limit_bytes`; that
+/// one stays unless it is too large alone.
+fn shrink(newest: &Path, limit_bytes: u64) {
+    let entries = newest.parent().and_then(|folder| folder.read_dir().ok()).into_iter().flatten().flatten();
+    let is_set = |name: &str| name.starts_with(PREFIX) && name.ends_with(ENDING);
+    let mut sets: Vec<(bool, SystemTime, u64, PathBuf)> = entries
+        .filter(|entry| entry.file_name().to_str().is_some_and(is_set))
+        .filter_map(|entry| {
+            let metadata = entry.metadata().ok().filter(Metadata::is_file)?;
+            let path = entry.path();
+            Some((path == newest, metadata.modified().ok()?, metadata.len(), path))
+        })
+        .collect();
+    sets.sort_unstable_by(|one, other| other.cmp(one));
+    let mut bytes = 0;
+    for (_, _, length, path) in sets {
+        bytes += length;
+        if bytes > limit_bytes {
+            let _ = std::fs::remove_file(path);
+        }
+    }
 }
 
 fn folder() -> Option<PathBuf> {
@@ -46,14 +78,17 @@ fn folder() -> Option<PathBuf> {
     })
 }
 
+const PREFIX: &str = "synthetic-";
+const ENDING: &str = ".bin";
+
 /// Another version of the program may make another set.
 fn file_name(options: &SyntheticSetOptions) -> String {
     let key = format!("{} {} {options:?}", crate::VERSION, crate::COMMIT);
-    format!("synthetic-{}.bin", &checksum(key.as_bytes())[..16])
+    format!("{PREFIX}{}{ENDING}", &checksum(key.as_bytes())[..16])
 }
 
 fn load(path: &Path) -> Option<Vec<RecordPair>> {
-    let bytes = std::fs::read(path).ok()?;
+    let bytes = read_file(path, LARGEST_CACHE).ok()?;
     let (content, stored) = bytes.split_at_checked(bytes.len().checked_sub(CHECKSUM_LENGTH)?)?;
     if checksum(content).as_bytes() != stored {
         return None;
@@ -117,5 +152,28 @@ mod tests {
         assert!(load(&path).is_none());
         std::fs::write(&path, &bytes[..10]).unwrap();
         assert!(load(&path).is_none());
+    }
+
+    #[test]
+    fn what_was_used_longest_ago_goes() {
+        let folder = tempfile::tempdir().unwrap();
+        let place = |name: &str| folder.path().join(name);
+        for (age_s, name) in [(40, "a"), (30, "b"), (20, "c"), (10, "d")] {
+            let path = place(&format!("synthetic-{name}.bin"));
+            std::fs::write(&path, [0; 100]).unwrap();
+            let used = SystemTime::now() - std::time::Duration::from_secs(age_s);
+            File::options().append(true).open(&path).unwrap().set_modified(used).unwrap();
+        }
+        std::fs::write(place("of another program.bin"), [0; 1000]).unwrap();
+        let left = || ["a", "b", "c", "d"].map(|name| place(&format!("synthetic-{name}.bin")).exists());
+        shrink(&place("synthetic-a.bin"), 400);
+        assert_eq!(left(), [true; 4]);
+        // the set that was just made stays, whatever its clock says
+        shrink(&place("synthetic-a.bin"), 250);
+        assert_eq!(left(), [true, false, false, true]);
+        shrink(&place("synthetic-a.bin"), 99);
+        assert_eq!(left(), [false; 4]);
+        assert!(place("of another program.bin").exists());
+        shrink(&place("absent/synthetic-a.bin"), 0);
     }
 }

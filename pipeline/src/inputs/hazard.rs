@@ -6,7 +6,7 @@ use uplift_hazard::{CsvOptions, HazardCurve, SecondColumn, read_path};
 use uplift_motion::{Combination, IntensityMeasure};
 use uplift_risk::StripeWeights;
 
-use crate::checksum::checksum;
+use crate::checksum::checksum_of_file;
 use crate::error::UpliftError;
 use uplift_study::{CurveFile, CurveKind, MeasurePlan, UniformRiskStudy, definition_of};
 
@@ -198,8 +198,8 @@ impl SiteReader<'_> {
             }),
         );
         let weights = self.weights(&curve, &path.display().to_string())?;
-        let bytes = std::fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
-        Ok(HazardInput { file: Some(path.to_owned()), checksum: checksum(&bytes), curve, weights })
+        let checksum = checksum_of_file(path).map_err(|error| format!("{}: {error}", path.display()))?;
+        Ok(HazardInput { file: Some(path.to_owned()), checksum, curve, weights })
     }
 
     fn weights(&self, curve: &HazardCurve, name: &str) -> Result<StripeWeights, String> {

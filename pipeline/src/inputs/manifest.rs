@@ -5,7 +5,10 @@ use std::io::Cursor;
 use std::path::{Component as PathPart, Path, PathBuf};
 
 use polars::prelude::{Column, CsvParseOptions, CsvReadOptions, DataFrame, SerReader};
+use uplift_atomic_file::read_file;
 use uplift_motion::{AccelerationUnit, RecordFormat};
+
+use crate::result::plain;
 
 /// A row of a manifest.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,6 +47,9 @@ const NUMBERS: [(&str, f64); 5] = [
     ("lowest_usable_hz", 1000.0),
 ];
 
+/// The most that a manifest has; one of 100 000 records has some 50 MB.
+const LARGEST_BYTES: u64 = 256 << 20;
+
 const REQUIRED: [&str; 3] = ["record_id", "file_h1", "file_h2"];
 
 /// Rows of the manifest at `path` whose `set_tags` hold `tag`, or all.
@@ -51,9 +57,17 @@ const REQUIRED: [&str; 3] = ["record_id", "file_h1", "file_h2"];
 /// # Errors
 /// Everything that is wrong with it, a line each.
 pub fn read(path: &Path, tag: Option<&str>) -> Result<Vec<Row>, Vec<String>> {
+    let bytes = read_file(path, LARGEST_BYTES).map_err(|error| vec![format!("manifest {error}")])?;
+    read_bytes(&bytes, path, tag)
+}
+
+/// The same of a manifest with these `bytes` that is to lie at `path`.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_bytes(bytes: &[u8], path: &Path, tag: Option<&str>) -> Result<Vec<Row>, Vec<String>> {
     let name = path.display();
-    let bytes = std::fs::read(path).map_err(|error| vec![format!("manifest {name} cannot be read: {error}")])?;
-    let table = parse(&bytes)
+    let table = parse(bytes)
         .map_err(|reason| vec![format!("manifest {name} is not a CSV table with a header row: {reason}")])?;
     let missing: Vec<&str> = REQUIRED.into_iter().filter(|column| table.get_column_index(column).is_none()).collect();
     if !missing.is_empty() {
@@ -109,11 +123,11 @@ pub fn read(path: &Path, tag: Option<&str>) -> Result<Vec<Row>, Vec<String>> {
 /// Everything that is wrong with it, a line each.
 pub fn rows_of(path: &Path, ids: &BTreeSet<&str>, folder: &Path) -> Result<Vec<Column>, Vec<String>> {
     let fail = |reason: String| vec![format!("manifest {} cannot be read: {reason}", path.display())];
-    let bytes = std::fs::read(path).map_err(|error| fail(error.to_string()))?;
+    let bytes = read_file(path, LARGEST_BYTES).map_err(|error| vec![format!("manifest {error}")])?;
     let table = parse(&bytes).map_err(|error| fail(error.to_string()))?;
     let origin = path.parent().unwrap_or(Path::new(""));
     let text = |column: &Column, row: usize| -> String {
-        let cell = column.str().ok().and_then(|cells| cells.get(row)).unwrap_or_default().trim().to_owned();
+        let cell = plain(column.str().ok().and_then(|cells| cells.get(row)).unwrap_or_default().trim()).to_owned();
         if column.name().starts_with("file_h") && !cell.is_empty() {
             relative(&origin.join(cell), folder)
         } else {
@@ -165,7 +179,7 @@ fn cells(table: &DataFrame, index: usize) -> BTreeMap<String, String> {
         .columns()
         .iter()
         .filter_map(|column| {
-            let text = column.str().ok()?.get(index)?.trim();
+            let text = plain(column.str().ok()?.get(index)?.trim());
             (!text.is_empty()).then(|| (column.name().trim().to_owned(), text.to_owned()))
         })
         .collect()
@@ -176,6 +190,11 @@ fn row(cells: &mut BTreeMap<String, String>, folder: &Path) -> Result<Row, Vec<S
         return Err(vec!["record_id is blank: every record needs a name".to_owned()]);
     };
     let mut mistakes = Vec::new();
+    for (column, text) in cells.iter().map(|(column, text)| (column.as_str(), text)).chain([("record_id", &id)]) {
+        if text.contains('\0') {
+            mistakes.push(format!("record {id}: {column} holds a null character: leave it out"));
+        }
+    }
     let components = [1, 2].map(|number| {
         let column = &format!("file_h{number}");
         let path = match cells.remove(column).map(|text| folder.join(text)) {

@@ -7,10 +7,10 @@ use serde::Serialize;
 use super::compute::{PulseSpectra, compute};
 use super::plan::{PulsePlan, wavelet};
 use super::summary::{Summary, summary};
-use super::tables::tables;
+use super::tables::{PULSE_FIGURES, WAVELET_COLUMN, tables};
 use crate::error::UpliftError;
 use crate::events::{Events, Progress};
-use crate::outputs::provide_folder;
+use crate::outputs::{self, Output, OutputKind};
 use crate::result::write_table;
 
 /// Which spectra are computed, and where their tables go.
@@ -20,6 +20,8 @@ pub struct PulseOptions {
     pub plan: PulsePlan,
     /// Folder for the tables; none for no tables.
     pub folder: Option<PathBuf>,
+    /// Whether whatever is at the places of the files gives way.
+    pub force: bool,
 }
 
 /// What the spectra say.
@@ -52,7 +54,9 @@ pub fn pulses(options: &PulseOptions, events: &dyn Events) -> Result<PulseReport
     let plan = &options.plan;
     plan.check()?;
     if let Some(folder) = &options.folder {
-        provide_folder(folder)?;
+        let table = |id| Output::new(folder.join(format!("{id}.csv")), OutputKind::Table(WAVELET_COLUMN));
+        let nothing: [&Path; 0] = [];
+        outputs::check(&PULSE_FIGURES.map(table), &nothing, options.force)?;
     }
     let progress = Progress::begin(events, "pulses", "motions", plan.points());
     let computed = compute(plan, &progress);

@@ -6,6 +6,12 @@ use uplift_block::{Overturning, SpectrumPoint};
 use super::compute::{PulseSpectra, Spectrum};
 use super::plan::wavelet;
 
+/// Names of Figures 2.2 to 2.7, and of their tables.
+pub const PULSE_FIGURES: [&str; 6] =
+    ["rotation", "displacement", "over-acceleration", "over-frequency", "over-size", "by-half-width"];
+/// A column of every table.
+pub(super) const WAVELET_COLUMN: &str = "wavelet";
+
 /// The numbers of a figure.
 #[derive(Debug)]
 pub struct PulseTable {
@@ -25,13 +31,14 @@ pub fn tables(spectra: &[PulseSpectra]) -> Vec<PulseTable> {
     let table = |id, size, name, spectrum: fn(&PulseSpectra) -> &Spectrum, value: fn(&SpectrumPoint) -> f64| {
         PulseTable { id, columns: columns(spectra, size, name, spectrum, value) }
     };
+    let [rotations, displacements, over_acceleration, over_frequency, over_size, by_half_width] = PULSE_FIGURES;
     vec![
-        table("rotation", FREQUENCY, ROTATION, |of| &of.by_frequency, |point| point.rotation),
-        table("displacement", FREQUENCY, DISPLACEMENT, |of| &of.by_frequency, displacement),
-        table("over-acceleration", FREQUENCY, DISPLACEMENT, |of| &of.over_acceleration, displacement),
-        table("over-frequency", FREQUENCY, DISPLACEMENT, |of| &of.over_frequency, displacement),
-        PulseTable { id: "over-size", columns: blocks(spectra) },
-        table("by-half-width", HALF_WIDTH, DISPLACEMENT, |of| &of.by_half_width, displacement),
+        table(rotations, FREQUENCY, ROTATION, |of| &of.by_frequency, |point| point.rotation),
+        table(displacements, FREQUENCY, DISPLACEMENT, |of| &of.by_frequency, displacement),
+        table(over_acceleration, FREQUENCY, DISPLACEMENT, |of| &of.over_acceleration, displacement),
+        table(over_frequency, FREQUENCY, DISPLACEMENT, |of| &of.over_frequency, displacement),
+        PulseTable { id: over_size, columns: blocks(spectra) },
+        table(by_half_width, HALF_WIDTH, DISPLACEMENT, |of| &of.by_half_width, displacement),
     ]
 }
 
@@ -63,7 +70,7 @@ fn columns(
         }
     }
     vec![
-        Column::new("wavelet".into(), wavelets),
+        Column::new(WAVELET_COLUMN.into(), wavelets),
         Column::new(size_name.into(), sizes),
         Column::new("a_p_over_g_tan_alpha".into(), accelerations),
         Column::new(value_name.into(), values),
@@ -88,7 +95,7 @@ fn blocks(spectra: &[PulseSpectra]) -> Vec<Column> {
         }
     }
     vec![
-        Column::new("wavelet".into(), wavelets),
+        Column::new(WAVELET_COLUMN.into(), wavelets),
         Column::new("alpha_rad".into(), slendernesses),
         Column::new("size_r_m".into(), sizes),
         Column::new("u_max_m".into(), values),

@@ -11,8 +11,8 @@ use super::SetOptions;
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::inputs::manifest;
-use crate::outputs::{refuse_foreign, refuse_overwriting};
-use crate::result::write_table;
+use crate::outputs::{self, Output, OutputKind};
+use crate::result::{table_text, write_atomically};
 
 /// Which records are chosen, and where they are listed.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,6 +21,8 @@ pub struct SelectOptions {
     pub set: SetOptions,
     /// A manifest of the chosen records; none for no file.
     pub output: Option<PathBuf>,
+    /// Whether whatever is at the place of the manifest gives way.
+    pub force: bool,
 }
 
 /// The records that were chosen.
@@ -48,8 +50,7 @@ pub fn select(options: &SelectOptions, events: &dyn Events) -> Result<SelectRepo
         return Err(UpliftError::Usage("say which records, e.g. --magnitude 6.5:7.5 --pulse-like false".to_owned()));
     }
     if let Some(output) = &options.output {
-        refuse_overwriting(output, &[&set.manifest])?;
-        refuse_foreign(output)?;
+        outputs::check(&[Output::new(output, OutputKind::Manifest)], &[&set.manifest], options.force)?;
     }
     let (pairs, count) = set.read(events)?;
     let records: Vec<String> = pairs.into_iter().map(|(pair, _)| pair.id).collect();
@@ -59,7 +60,10 @@ pub fn select(options: &SelectOptions, events: &dyn Events) -> Result<SelectRepo
         let columns = manifest::rows_of(&set.manifest, &ids, folder).map_err(UpliftError::Inputs)?;
         let (version, commit) = (crate::VERSION, crate::COMMIT);
         let line = format!("uplift {version} ({commit}), {} of {count} records: {selection}", records.len());
-        write_table(output, &line, columns)?;
+        let content = table_text(output, &line, columns)?;
+        // what a study would refuse is not written
+        manifest::read_bytes(&content, output, None).map_err(UpliftError::Inputs)?;
+        write_atomically(output, &content)?;
     }
     Ok(SelectReport { study_lines: study_lines(set), records, count, manifest: options.output.clone() })
 }

@@ -1,6 +1,6 @@
 //! Synthetic records of a scenario, as files with a manifest.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
 use serde::Serialize;
@@ -9,7 +9,7 @@ use uplift_motion::{RecordPair, STANDARD_GRAVITY_M_S2, at2_text};
 
 use crate::error::UpliftError;
 use crate::events::Events;
-use crate::outputs::provide_folder;
+use crate::outputs::{self, Output, OutputKind};
 use crate::result::{write_atomically, write_table};
 
 /// Which records are made, and where they go.
@@ -19,6 +19,8 @@ pub struct SynthesizeOptions {
     pub folder: PathBuf,
     /// The scenario, the number of pairs and the seed.
     pub set: SyntheticSetOptions,
+    /// Whether whatever is at the places of the files gives way.
+    pub force: bool,
 }
 
 /// What was made.
@@ -35,14 +37,15 @@ pub struct SynthesizeReport {
 /// # Errors
 /// A manifest that is there already; a scenario outside the range of the method; files that cannot be written.
 pub fn synthesize(options: &SynthesizeOptions, events: &dyn Events) -> Result<SynthesizeReport, UpliftError> {
-    let SynthesizeOptions { folder, set } = options;
+    let SynthesizeOptions { folder, set, force } = options;
+    let nothing: [&Path; 0] = [];
     let manifest = folder.join("manifest.csv");
-    if manifest.exists() {
-        return Err(UpliftError::Usage(format!("{} is there already: name another folder", manifest.display())));
-    }
+    outputs::check(&[Output::new(&manifest, OutputKind::Manifest)], &nothing, *force)?;
     events.note("synthetic records: not for design");
     let pairs = generate(set)?;
-    provide_folder(folder)?;
+    let records = pairs.iter().flat_map(|pair| ["H1", "H2"].map(|component| folder.join(file_name(pair, component))));
+    let records: Vec<Output> = records.map(|path| Output::new(path, OutputKind::Record)).collect();
+    outputs::check(&records, &nothing, *force)?;
     for pair in &pairs {
         if events.cancelled() {
             return Err(UpliftError::Interrupted);

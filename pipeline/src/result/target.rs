@@ -3,8 +3,14 @@
 use std::io::Read;
 use std::path::Path;
 
+use uplift_atomic_file::open_file;
+use uplift_labelled::{LabelledError, LabelledReader, LabelledWriter};
+use uplift_study::AnyStudy;
+
 use crate::error::UpliftError;
-use uplift_labelled::{LabelledReader, LabelledWriter};
+use crate::frame::RunOptions;
+use crate::outputs::{is_same_file, wrong_ending};
+use crate::result_of::what_counts;
 
 /// First bytes of every HDF5 file.
 const HDF5_SIGNATURE: [u8; 8] = *b"\x89HDF\r\n\x1a\n";
@@ -15,30 +21,79 @@ const HDF5_SIGNATURE: [u8; 8] = *b"\x89HDF\r\n\x1a\n";
 /// # Errors
 /// A folder that cannot be written, or a file there that is no HDF5 file.
 pub fn check_target(path: &Path) -> Result<(), UpliftError> {
+    check_replaceable(path, false).map(drop)
+}
+
+/// Check that the result of `study` can be written where `options` say, and replaces nothing but an earlier result of
+/// this study, or of whichever study where the place is this study's own or it is forced.
+///
+/// # Errors
+/// [`UpliftError::Usage`] for a name that is not one of a result, and a place that is the study file or has a result of
+/// another study; else as [`check_target`].
+pub(crate) fn check_place(study: &AnyStudy, options: &RunOptions) -> Result<(), UpliftError> {
+    let path = options.result_file(&study.output().file);
+    let name = path.display();
+    if let Some(reason) = wrong_ending(path, &["h5"]) {
+        return Err(UpliftError::Usage(format!("a result is an HDF5 file: {reason}")));
+    }
+    if is_same_file(path, &options.study_file) {
+        return Err(UpliftError::Usage(format!("{name} is the study file: give the result another name (-o)")));
+    }
+    let Some(earlier) = check_replaceable(path, options.force)? else { return Ok(()) };
+    let stem = |path: &Path| path.file_stem().map(ToOwned::to_owned);
+    let is_own_place = options.output.is_none() && stem(path) == stem(&options.study_file);
+    if options.force || is_own_place || is_of_study(&earlier, study, &options.study_file)? {
+        return Ok(());
+    }
+    let other = earlier.attribute_text("/", "study_file").unwrap_or_default();
+    Err(UpliftError::Usage(format!(
+        "{name} is the result of another study ({other}): give the result another name (-o), or --force to replace it"
+    )))
+}
+
+/// Whether an earlier result is of the study at hand, which may have changed since: of the same file, or of the same
+/// name and title, or of what says the same.
+fn is_of_study(earlier: &LabelledReader, study: &AnyStudy, file: &Path) -> Result<bool, UpliftError> {
+    let text = |name: &str| earlier.attribute_text("/", name).unwrap_or_default();
+    let (kept, title) = (text("study_file"), text("title"));
+    let kept = Path::new(&kept);
+    let same_path = kept != Path::new("") && (kept == file || is_same_file(kept, file));
+    let same_name = kept.file_name() == file.file_name() && title == study.title();
+    Ok(same_path || same_name || what_counts(&text("study_toml")) == what_counts(&study.to_toml()?))
+}
+
+/// What there is to be replaced at `path`, if it can be opened; one that cannot is a result that was damaged, which
+/// gives way.
+fn check_replaceable(path: &Path, force: bool) -> Result<Option<LabelledReader>, UpliftError> {
     drop(LabelledWriter::create(path)?);
-    if path.exists() && !is_hdf5(path) {
-        return Err(UpliftError::input(format!(
-            "{}: is there already and is not an HDF5 file; it is left as it is: give the result file another name \
-             (-o), or remove that one",
+    let refused = |what: &str| {
+        UpliftError::input(format!(
+            "{}: is there already and {what}; it is left as it is: give the result file another name (-o), or --force to \
+             replace that one",
             path.display()
-        )));
+        ))
+    };
+    if force || !path.exists() {
+        return Ok(None);
     }
-    // one that cannot be opened is a result that was damaged: it gives way
-    if let Ok(reader) = LabelledReader::open(path)
-        && !reader.attribute_text("/", "program").is_ok_and(|program| program == "uplift")
-    {
-        return Err(UpliftError::input(format!(
-            "{}: is there already and is an HDF5 file of another program; it is left as it is: give the result file \
-             another name (-o), or remove that one",
-            path.display()
-        )));
+    if !is_hdf5(path) {
+        return Err(refused("is not an HDF5 file"));
     }
-    Ok(())
+    match LabelledReader::open(path) {
+        Ok(reader) if reader.attribute_text("/", "program").is_ok_and(|program| program == "uplift") => {
+            Ok(Some(reader))
+        }
+        Ok(_) => Err(refused("is an HDF5 file of another program")),
+        // another program's, or one of ours that another program has written to
+        Err(LabelledError::Unsealed { .. }) => Err(refused("is an HDF5 file without the checksum of this program")),
+        Err(error @ (LabelledError::File(_) | LabelledError::Locked { .. })) => Err(error.into()),
+        Err(_) => Ok(None),
+    }
 }
 
 /// Whether the file at `path` begins as an HDF5 file does.
 pub fn is_hdf5(path: &Path) -> bool {
     let mut first = [0; 8];
-    let read = std::fs::File::open(path).and_then(|mut file| file.read_exact(&mut first));
-    read.is_ok() && first == HDF5_SIGNATURE
+    let read = open_file(path).is_ok_and(|mut file| file.read_exact(&mut first).is_ok());
+    read && first == HDF5_SIGNATURE
 }

@@ -20,7 +20,7 @@ use crate::analysis::{Beside, LabelledPlan, ShardReport, Work};
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::inputs::RecordSet;
-use crate::outputs::{refuse_foreign, refuse_overwriting};
+use crate::outputs::{self, Output, OutputKind};
 use crate::result::{ResultFile, SpectraOfResult, StudyOfResult};
 use crate::text::per_cent;
 use crate::uniform_risk::{motion_keys, plan_stripes};
@@ -41,6 +41,8 @@ pub struct OverturningOptions {
     pub table: Option<PathBuf>,
     /// Every shard of the analyses, as [`overturning_shard`] wrote them; none to compute them here.
     pub shards: Vec<PathBuf>,
+    /// Whether whatever is at the places of the tables gives way.
+    pub force: bool,
 }
 
 /// What the overturning of a structure tells.
@@ -270,14 +272,12 @@ impl Shaken {
 /// Names that would lose something, before anything is computed.
 fn check_table(structure: &Structure, result: &Path, options: &OverturningOptions) -> Result<(), UpliftError> {
     let Some(path) = &options.table else { return Ok(()) };
-    if path.extension().is_none_or(|extension| extension != "csv") {
-        return Err(UpliftError::Usage(format!("-o {}: give a name that ends in .csv", path.display())));
-    }
-    refuse_foreign(path)?;
-    refuse_foreign(&risk_path(path))?;
     let inputs: Vec<&Path> =
         [structure.file.as_path(), result].into_iter().chain(options.manifest.as_deref()).collect();
-    refuse_overwriting(path, &inputs)
+    let risk = risk_path(path);
+    let tables = [(path, "im"), (&risk, "site")];
+    let tables = tables.map(|(path, column)| Output::new(path, OutputKind::Table(column)).of(result));
+    outputs::check(&tables, &inputs, options.force)
 }
 
 /// What the numbers rest on.

@@ -5,7 +5,13 @@ use std::path::Path;
 
 use polars::prelude::{CsvParseOptions, CsvReadOptions, DataFrame, SerReader};
 
+use uplift_atomic_file::read_file;
+
 use crate::error::UpliftError;
+use crate::result::plain;
+
+/// The most that a table of a paper has, and then some.
+const LARGEST_BYTES: u64 = 64 << 20;
 
 /// A reference table, its cells as text.
 #[derive(Debug)]
@@ -22,7 +28,7 @@ impl ReferenceTable {
     pub fn read(path: &Path) -> Result<Self, UpliftError> {
         let name = path.display().to_string();
         let fail = |reason: String| UpliftError::input(format!("reference {name}: {reason}"));
-        let bytes = std::fs::read(path).map_err(|error| fail(error.to_string()))?;
+        let bytes = read_file(path, LARGEST_BYTES).map_err(|error| UpliftError::input(format!("reference {error}")))?;
         let frame = CsvReadOptions::default()
             .with_has_header(true)
             .with_infer_schema_length(Some(0))
@@ -46,7 +52,7 @@ impl ReferenceTable {
     /// A cell, empty where there is none.
     pub fn text(&self, column: &str, row: usize) -> String {
         let cell = self.frame.column(column).ok().and_then(|column| column.str().ok()?.get(row).map(str::to_owned));
-        cell.unwrap_or_default().trim().to_owned()
+        plain(cell.unwrap_or_default().trim()).to_owned()
     }
 
     /// A cell as a number.

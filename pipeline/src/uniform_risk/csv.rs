@@ -4,14 +4,31 @@ use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
 use uplift_risk::OrdinateFlag;
+use uplift_study::UniformRiskStudy;
 
 use super::Outcome;
+use super::site_table::site_table_paths;
 use crate::error::UpliftError;
+use crate::outputs::{Output, OutputKind, beside};
 use crate::result::write_table;
 
 /// The tables beside the result file `result`: spectra and coefficients.
 pub fn csv_paths(result: &Path) -> [PathBuf; 2] {
-    ["urs.csv", "regression.csv"].map(|extension| result.with_extension(extension))
+    ["urs.csv", "regression.csv"].map(|ending| beside(result, ending))
+}
+
+/// All files but the result that a run of `study` with the result at `result` writes.
+pub(crate) fn tables(study: &UniformRiskStudy, result: &Path) -> Vec<Output> {
+    let mut tables = Vec::new();
+    if study.output.csv && !study.sites.is_empty() {
+        tables.extend(csv_paths(result).map(|path| Output::new(path, OutputKind::Table("site"))));
+    }
+    if study.site_table.is_some() {
+        let [spectra, coefficients, map] = site_table_paths(result);
+        tables.extend([spectra, coefficients].map(|path| Output::new(path, OutputKind::Table("site"))));
+        tables.push(Output::new(map, OutputKind::GeoJson));
+    }
+    tables
 }
 
 /// Write the tables of `outcome` beside the result file `result`, one comment line of provenance first.

@@ -12,7 +12,6 @@ use crate::error::UpliftError;
 use crate::events::Events;
 use crate::frame::PlanHead;
 use crate::inputs::{RecordSet, SiteList, read_hazard, read_records};
-use crate::result::check_target;
 
 /// Time spent on a measure to see how fast this machine is.
 const CALIBRATION: Duration = Duration::from_secs(1);
@@ -27,9 +26,8 @@ pub struct Plan {
 
 /// Reads and checks all inputs of `study`, and times some of its analyses.
 pub(crate) fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Events) -> Result<Plan, UpliftError> {
-    check_target(&study.output.file)?;
     let (_, mut notes) = read_hazard(study)?;
-    let site_list = site_table::read(study, &study.output.file, events)?;
+    let site_list = site_table::read(study, events)?;
     notes.extend(site_list.iter().flat_map(|list| list.notes.iter().cloned()));
     let records = read_records(study)?;
     let systems = systems(study)?;

@@ -26,7 +26,7 @@ pub(crate) fn run(
 ) -> Result<RunReport, UpliftError> {
     let path = place.path;
     let (hazard, notes) = read_hazard(study)?;
-    let site_list = site_table::read(study, path, events)?;
+    let site_list = site_table::read(study, events)?;
     let inputs = Inputs::read(study)?;
     let records = &inputs.records;
     events.remark("records", &records.description);

@@ -17,7 +17,7 @@ use crate::UpliftError;
 use crate::events::{Events, Progress};
 use crate::inputs::{BatchSite, SiteCurves, SiteList, read_site_list};
 use crate::text::{per_cent, thousands};
-use uplift_study::{SiteTable, UniformRiskStudy};
+use uplift_study::UniformRiskStudy;
 
 /// Bytes of text, about, that are in memory at a time.
 const BATCH_BYTES: usize = 16 << 20;
@@ -42,21 +42,11 @@ impl SiteOutput {
     }
 }
 
-/// The study's table of sites, found in its exports; no file that is read is to be overwritten by the results at
-/// `path`.
+/// The study's table of sites, found in its exports.
 ///
 /// # Errors
-/// A table or an export that cannot be used, or that the results would overwrite.
-pub fn read(study: &UniformRiskStudy, path: &Path, events: &dyn Events) -> Result<Option<SiteList>, UpliftError> {
-    for input in study.site_table.iter().flat_map(SiteTable::files) {
-        let same = |output: &PathBuf| output.canonicalize().is_ok_and(|output| output == input);
-        if let Some(output) = site_table_paths(path).iter().find(|output| same(output)) {
-            let output = output.display();
-            return Err(UpliftError::input(format!(
-                "the results would overwrite {output}, an input of the study: give the result file another name (-o)"
-            )));
-        }
-    }
+/// A table or an export that cannot be used.
+pub fn read(study: &UniformRiskStudy, events: &dyn Events) -> Result<Option<SiteList>, UpliftError> {
     let list = read_site_list(study)?;
     if let Some(list) = &list {
         events.remark("sites", &list.description());

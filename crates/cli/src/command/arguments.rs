@@ -1,11 +1,13 @@
 //! Arguments that several commands take.
 
 mod figures;
+mod force;
 mod result;
 mod structure;
 mod study;
 
 pub(crate) use figures::FigureArguments;
+pub(crate) use force::ForceArgument;
 pub(crate) use result::ResultArguments;
 pub(crate) use structure::StructureArguments;
 pub(crate) use study::{StudyArguments, run_options, shard};

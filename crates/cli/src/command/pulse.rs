@@ -7,10 +7,10 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use uplift::pulses::{BlockPlan, PulseOptions, PulsePlan, pulses};
 use uplift_block::RickerShape;
-use uplift_report::plot_pulses;
+use uplift_report::{check_pulse_figures, plot_pulses};
 use uplift_study::Grid;
 
-use super::arguments::FigureArguments;
+use super::arguments::{FigureArguments, ForceArgument};
 use crate::error::CommandError;
 use crate::show::{print_json, print_pulses};
 use crate::terminal::Terminal;
@@ -82,6 +82,8 @@ pub(super) struct PulseArguments {
     slendernesses: Grid,
     #[command(flatten)]
     figures: FigureArguments,
+    #[command(flatten)]
+    overwriting: ForceArgument,
     /// Print the summary as JSON
     #[arg(long)]
     json: bool,
@@ -146,8 +148,10 @@ impl PulseArguments {
 
 pub(super) fn pulse(arguments: &PulseArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let folder = &arguments.output;
-    let mut report = pulses(&PulseOptions { plan: arguments.plan(), folder: Some(folder.clone()) }, terminal)?;
-    let figures = plot_pulses(&report, folder, &arguments.figures.options())?;
+    let (figures, force) = (arguments.figures.options(), arguments.overwriting.force);
+    check_pulse_figures(folder, figures, force)?;
+    let mut report = pulses(&PulseOptions { plan: arguments.plan(), folder: Some(folder.clone()), force }, terminal)?;
+    let figures = plot_pulses(&report, folder, figures)?;
     report.files.splice(..0, figures);
     if arguments.json { print_json(&report) } else { print_pulses(&report, terminal) }
 }

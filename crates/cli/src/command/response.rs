@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use uplift::outputs::refuse_overwriting;
 use uplift::response::{ResponseOptions, response as respond};
 use uplift_motion::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
 use uplift_report::{check_figure_file, plot_response};
 
+use super::arguments::ForceArgument;
 use crate::error::CommandError;
 use crate::show::{print_json, print_response};
 
@@ -57,6 +57,8 @@ pub(super) struct ResponseArguments {
     /// Draw the time history, its impacts marked, as SVG or PNG
     #[arg(long, value_name = "FILE.svg|png")]
     plot: Option<PathBuf>,
+    #[command(flatten)]
+    overwriting: ForceArgument,
 }
 
 impl ResponseArguments {
@@ -76,14 +78,14 @@ impl ResponseArguments {
             free_vibration_s: self.free_vibration_s,
             history: self.plot.is_some(),
             history_file: self.history.clone(),
+            force: self.overwriting.force,
         }
     }
 }
 
 pub(super) fn response(arguments: &ResponseArguments) -> Result<(), CommandError> {
     if let Some(figure) = &arguments.plot {
-        refuse_overwriting(figure, &[&arguments.record])?;
-        check_figure_file(figure)?;
+        check_figure_file(figure, &[&arguments.record], arguments.overwriting.force)?;
     }
     let report = respond(&arguments.options())?;
     if let Some(figure) = &arguments.plot {

@@ -7,11 +7,11 @@ use uplift::text::{per_cent, table};
 
 use super::shown_path;
 use crate::error::CommandError;
-use crate::terminal::Terminal;
+use crate::terminal::{Terminal, output};
 
 /// The report for people; a quiet terminal gets the tables alone.
 pub(crate) fn print_bootstrap(report: &BootstrapReport, terminal: &Terminal) -> Result<(), CommandError> {
-    let out = &mut std::io::stdout().lock();
+    let out = &mut output();
     for (poe, &probability) in report.poes.iter().enumerate() {
         // Table 4.1 is about the rarest
         let rarest = report.poes.iter().all(|&other| other >= probability);

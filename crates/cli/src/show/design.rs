@@ -10,6 +10,7 @@ use uplift_structure::Rule;
 use super::shown_path;
 use super::structure::{lines, risk_cells, short};
 use crate::error::CommandError;
+use crate::terminal::output;
 
 /// A displacement; infinite where the structure overturns.
 fn metres(value_m: f64) -> String {
@@ -34,7 +35,7 @@ fn name(rule: Rule) -> &'static str {
 
 /// The design: structure, demands, rules, risk, and what of it is noise.
 pub(crate) fn print_design(report: &DesignReport) -> Result<(), CommandError> {
-    let out = &mut std::io::stdout().lock();
+    let out = &mut output();
     for line in lines(&report.structure) {
         writeln!(out, "{line}")?;
     }

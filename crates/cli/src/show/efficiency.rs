@@ -7,7 +7,7 @@ use uplift::text::{nearest, table};
 
 use super::shown_path;
 use crate::error::CommandError;
-use crate::terminal::Terminal;
+use crate::terminal::{Terminal, output};
 
 /// Strengths shown.
 const SHOWN_STRENGTHS: [f64; 5] = [0.05, 0.1, 0.2, 0.4, 0.8];
@@ -16,7 +16,7 @@ const SIGNIFICANT: f64 = 0.05;
 
 /// The report for people; a quiet terminal gets the tables alone.
 pub(crate) fn print_efficiency(report: &EfficiencyReport, terminal: &Terminal) -> Result<(), CommandError> {
-    let out = &mut std::io::stdout().lock();
+    let out = &mut output();
     let shown = nearest(&report.strengths, &SHOWN_STRENGTHS);
     let measures: Vec<&[EfficiencyRow]> = report.rows.chunks(report.strengths.len()).collect();
     print_scatter(out, report, &measures, &shown)?;

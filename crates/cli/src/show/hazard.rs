@@ -6,6 +6,7 @@ use uplift::hazard_curves::{HazardImportReport, HazardReport, ShownCurve};
 use uplift::text::{per_cent, table};
 
 use crate::error::CommandError;
+use crate::terminal::output;
 
 /// Curves shown of a file with many.
 const SHOWN: usize = 20;
@@ -14,7 +15,7 @@ const SHOWN: usize = 20;
 pub(crate) fn print_hazard_import(report: &HazardImportReport) -> Result<(), CommandError> {
     let files: Vec<&str> = report.curves.iter().map(|curve| curve.file.as_str()).collect();
     write!(
-        std::io::stdout(),
+        output(),
         "# {} curve(s) in {}: {}\n{}",
         files.len(),
         report.folder.display(),
@@ -27,7 +28,7 @@ pub(crate) fn print_hazard_import(report: &HazardImportReport) -> Result<(), Com
 /// The curves of a file.
 pub(crate) fn print_curves(report: &HazardReport) -> Result<(), CommandError> {
     let HazardReport { probabilities, years, curves } = report;
-    let mut out = std::io::stdout().lock();
+    let mut out = output();
     let row = |curve: &ShownCurve| {
         let mut row = vec![curve.name.clone(), format!("{} [{}]", curve.measure, curve.unit)];
         let level = |level: &Option<f64>| level.map_or_else(|| "-".to_owned(), |level| format!("{level:.4}"));

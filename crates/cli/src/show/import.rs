@@ -3,9 +3,10 @@
 use std::io::Write;
 
 use uplift::import::ImportReport;
+use uplift::text::one_line;
 
 use crate::error::CommandError;
-use crate::terminal::{Terminal, tell};
+use crate::terminal::{Terminal, output, tell};
 
 /// Remarks of one kind that are shown.
 const SHOWN: usize = 5;
@@ -18,7 +19,7 @@ pub(crate) fn tell_remarks(report: &ImportReport, terminal: &Terminal) {
         let more = texts.len().saturating_sub(SHOWN);
         tell(&format!("{} ({}):", remarks.kind, texts.len()));
         for text in &texts[..texts.len() - more] {
-            tell(&format!("  - {text}"));
+            tell(&format!("  - {}", one_line(text)));
         }
         if more > 0 {
             tell(&format!("  - and {more} more: {}", file.display()));
@@ -37,7 +38,7 @@ pub(crate) fn print_import(report: &ImportReport, terminal: &Terminal) -> Result
     }
     if let Some(manifest) = &report.manifest {
         let ImportReport { pairs, files, seconds, .. } = report;
-        writeln!(std::io::stdout(), "{pairs} pairs from {files} files in {seconds:.1} s: {}", manifest.display())?;
+        writeln!(output(), "{pairs} pairs from {files} files in {seconds:.1} s: {}", manifest.display())?;
     }
     Ok(())
 }

@@ -7,11 +7,11 @@ use uplift::text::{metres, per_cent, table};
 
 use super::shown_path;
 use crate::error::CommandError;
-use crate::terminal::Terminal;
+use crate::terminal::{Terminal, output};
 
 /// The report for people; a quiet terminal gets the tables alone.
 pub(crate) fn print_influence(report: &InfluenceReport, terminal: &Terminal) -> Result<(), CommandError> {
-    let out = &mut std::io::stdout().lock();
+    let out = &mut output();
     let name = format!("{} in {} years", per_cent(report.poe), report.years);
     print_records(out, report, &name)?;
     print_intensities(out, report, &name)?;

@@ -8,10 +8,11 @@ use uplift::text::table;
 use super::shown_path;
 use super::structure::{lines, risk_cells};
 use crate::error::CommandError;
+use crate::terminal::output;
 
 /// The overturning of a structure: models, fragility, risk.
 pub(crate) fn print_overturning(report: &OverturningReport) -> Result<(), CommandError> {
-    let out = &mut std::io::stdout().lock();
+    let out = &mut output();
     for line in lines(&report.structure) {
         writeln!(out, "{line}")?;
     }

@@ -7,11 +7,11 @@ use uplift::text::thousands;
 use uplift_study::AnyStudy;
 
 use crate::error::CommandError;
-use crate::terminal::Terminal;
+use crate::terminal::{Terminal, output};
 
 /// The plan of `study`, which a terminal that is not quiet shows with every default filled in.
 pub(crate) fn print_plan(plan: &Plan, study: &AnyStudy, terminal: &Terminal) -> Result<(), CommandError> {
-    let mut out = std::io::stdout().lock();
+    let mut out = output();
     if !terminal.is_quiet() {
         let toml = study.to_toml().map_err(|error| CommandError::input(error.to_string()))?;
         writeln!(out, "# The study with every default filled in\n{}", toml.trim_end())?;

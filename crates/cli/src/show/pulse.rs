@@ -7,11 +7,11 @@ use uplift::text::{table, thousands};
 
 use super::shown_path;
 use crate::error::CommandError;
-use crate::terminal::Terminal;
+use crate::terminal::{Terminal, output};
 
 /// A column for each wavelet; then the files, unless the terminal is quiet.
 pub(crate) fn print_pulses(report: &PulseReport, terminal: &Terminal) -> Result<(), CommandError> {
-    let mut out = std::io::stdout().lock();
+    let mut out = output();
     let summaries = &report.wavelets;
     let number = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value}"));
     let row = |name: &str, cell: &dyn Fn(&Summary) -> String| {

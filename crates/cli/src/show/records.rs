@@ -6,7 +6,7 @@ use uplift::records::{ComponentReport, ListReport, ListedRecord, RecordReport, S
 use uplift::text::table;
 
 use crate::error::CommandError;
-use crate::terminal::Terminal;
+use crate::terminal::{Terminal, output};
 
 /// The records of a set.
 pub(crate) fn print_records(report: &ListReport) -> Result<(), CommandError> {
@@ -26,7 +26,7 @@ pub(crate) fn print_records(report: &ListReport) -> Result<(), CommandError> {
     };
     let rows: Vec<Vec<String>> = report.records.iter().map(row).collect();
     let header = ["record", "event", "M", "R [km]", "Vs30 [m/s]", "PGA [g]", "PGV [cm/s]", "D5-75 [s]", "pulse"];
-    let mut out = std::io::stdout().lock();
+    let mut out = output();
     writeln!(out, "{}", table(&header, &rows))?;
     writeln!(out, "\n{} of {} records; PGA and PGV: {}", rows.len(), report.count, report.intensity.long_name())?;
     Ok(())
@@ -34,7 +34,7 @@ pub(crate) fn print_records(report: &ListReport) -> Result<(), CommandError> {
 
 /// The lines of a study that choose the records, and where they are listed.
 pub(crate) fn print_selection(report: &SelectReport, terminal: &Terminal) -> Result<(), CommandError> {
-    let mut out = std::io::stdout().lock();
+    let mut out = output();
     let chosen = report.records.len();
     write!(out, "# {chosen} of {} records; for a study:\n{}", report.count, report.study_lines)?;
     if let Some(manifest) = &report.manifest {
@@ -45,7 +45,7 @@ pub(crate) fn print_selection(report: &SelectReport, terminal: &Terminal) -> Res
 
 /// One record, or what a file holds.
 pub(crate) fn print_record(report: &ShowReport) -> Result<(), CommandError> {
-    let mut out = std::io::stdout().lock();
+    let mut out = output();
     match report {
         ShowReport::File(file) => {
             let count = file.components.len();

@@ -6,10 +6,11 @@ use std::path::Path;
 use uplift::response::ResponseReport;
 
 use crate::error::CommandError;
+use crate::terminal::output;
 
 /// The response, and the files of its history.
 pub(crate) fn print_response(report: &ResponseReport, figure: Option<&Path>) -> Result<(), CommandError> {
-    let mut out = std::io::stdout().lock();
+    let mut out = output();
     let ResponseReport { pga_g, pgv_cm_s, pgd_m, strength, uplift_displacement_m, .. } = report;
     writeln!(
         out,

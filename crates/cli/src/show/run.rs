@@ -7,7 +7,7 @@ use uplift::run::{RunHead, RunReport};
 
 use super::{displacement, shown_path, uniform_risk};
 use crate::error::CommandError;
-use crate::terminal::Terminal;
+use crate::terminal::{Terminal, output};
 
 /// Warnings printed; all of them are in the result file.
 const WARNINGS_SHOWN: usize = 12;
@@ -17,7 +17,7 @@ pub(crate) fn print_run(report: &RunReport, terminal: &Terminal) -> Result<(), C
     if terminal.is_quiet() {
         return Ok(());
     }
-    let mut out = std::io::stdout().lock();
+    let mut out = output();
     match report {
         RunReport::UniformRisk(report) => uniform_risk::print_spectra(&mut out, report)?,
         RunReport::Displacement(report) => displacement::print_spectra(&mut out, report)?,
@@ -59,5 +59,5 @@ fn print_end(out: &mut impl Write, head: &RunHead) -> Result<(), CommandError> {
 pub(crate) fn print_shard(report: &ShardReport) -> Result<(), CommandError> {
     let ShardReport { shard, shards, rows, file } = report;
     let file = shown_path(file).display();
-    Ok(writeln!(std::io::stdout(), "shard {shard} of {shards}, {rows} analysis rows: {file}")?)
+    Ok(writeln!(output(), "shard {shard} of {shards}, {rows} analysis rows: {file}")?)
 }

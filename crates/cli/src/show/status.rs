@@ -4,11 +4,14 @@ use std::io::Write;
 
 use uplift::status::{ResultContent, ResultStatus, StatusReport, UnfinishedStatus};
 
+use uplift::text::one_line;
+
 use crate::error::CommandError;
+use crate::terminal::output;
 
 /// The result, the checkpoint of an unfinished run, and who writes it now.
 pub(crate) fn print_status(report: &StatusReport) -> Result<(), CommandError> {
-    let mut out = std::io::stdout().lock();
+    let mut out = output();
     if let Some(result) = &report.result {
         print_result(&mut out, result)?;
     }
@@ -25,7 +28,7 @@ fn print_result(out: &mut impl Write, result: &ResultStatus) -> Result<(), Comma
     let ResultStatus { created, version, commit, study, title, record_set, .. } = result;
     let file = result.file.display();
     writeln!(out, "{file}: finished {created}, uplift {version} ({commit})")?;
-    writeln!(out, "  study    {study} {title}")?;
+    writeln!(out, "  study    {study} {}", one_line(title))?;
     writeln!(out, "  records  {record_set}")?;
     match &result.content {
         ResultContent::Displacement { structure, analyses, sets, has_design } => {
@@ -56,7 +59,7 @@ fn print_unfinished(out: &mut impl Write, unfinished: &UnfinishedStatus) -> Resu
     let what =
         if *shards > 1 { format!("shard {shard} of {shards}") } else { "checkpoint of an unfinished run".to_owned() };
     let share = 100.0 * *done as f64 / (*rows).max(1) as f64;
-    writeln!(out, "{}: {what}, {done} of {rows} analysis rows ({share:.0} %) {title}", file.display())?;
+    writeln!(out, "{}: {what}, {done} of {rows} analysis rows ({share:.0} %) {}", file.display(), one_line(title))?;
     if *damaged_bytes > 0 {
         writeln!(out, "  analysis rows that were cut off or damaged ({damaged_bytes} bytes) will be computed again")?;
     }

@@ -8,10 +8,11 @@ use uplift::table::{COMPARED_ABOVE, COMPARED_FROM_M, CoefficientRow, Coefficient
 use uplift::text::{per_cent, table};
 
 use crate::error::CommandError;
+use crate::terminal::output;
 
 /// The table of a result, of either kind.
 pub(crate) fn print_table(report: &TableReport) -> Result<(), CommandError> {
-    let mut out = std::io::stdout().lock();
+    let mut out = output();
     match report {
         TableReport::Coefficients(coefficients) => print_coefficients(&mut out, coefficients),
         TableReport::Design(designs) => design::print_design(&mut out, designs),

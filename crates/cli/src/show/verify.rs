@@ -5,11 +5,11 @@ use std::io::Write;
 use uplift::verify::VerifyReport;
 
 use crate::error::CommandError;
-use crate::terminal::Terminal;
+use crate::terminal::{Terminal, output};
 
 /// The files that are sound, and on standard error the arrays that nothing is known of.
 pub(crate) fn print_verified(report: &VerifyReport, terminal: &Terminal) -> Result<(), CommandError> {
-    let mut out = std::io::stdout().lock();
+    let mut out = output();
     for file in &report.files {
         let name = file.file.display();
         let unknown = &file.unknown;

@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use uplift::events::Phase;
+use uplift::text::one_line;
 
 use super::tell;
 
@@ -26,6 +27,7 @@ pub(super) struct Progress {
 
 impl Progress {
     pub(super) fn new(Phase { label, unit, total }: Phase<'_>) -> Self {
+        let label = one_line(label).into_owned();
         let bar = std::io::stderr().is_terminal().then(|| {
             let bar = ProgressBar::new(total);
             let template = format!(
@@ -34,12 +36,12 @@ impl Progress {
             if let Ok(style) = ProgressStyle::with_template(&template) {
                 bar.set_style(style);
             }
-            bar.set_message(label.to_owned());
+            bar.set_message(label.clone());
             bar.enable_steady_tick(Duration::from_millis(200));
             bar
         });
         Self {
-            label: label.to_owned(),
+            label,
             unit,
             total,
             done: AtomicU64::new(0),

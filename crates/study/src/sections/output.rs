@@ -14,7 +14,7 @@ pub(crate) const KEYS: SectionKeys = SectionKeys {
             names: &["file"],
             meaning: "the result file (HDF5)",
             default: "`results/<name of the study file>.h5` in the current directory",
-            range: "no folder, no input of the study",
+            range: "ends in `.h5`; no folder, no input of the study",
         },
         Key {
             names: &["csv"],

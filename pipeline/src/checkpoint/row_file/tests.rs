@@ -73,9 +73,11 @@ fn a_flipped_byte_costs_its_row() {
 fn nothing_else_is_overwritten() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.part");
-    std::fs::write(&path, "my notes\nof the day\n").unwrap();
-    assert!(RowFile::open(&path, &head()).is_err());
-    assert_eq!(std::fs::read_to_string(&path).unwrap(), "my notes\nof the day\n");
+    for notes in ["my notes\nof the day\n", "one line, not ended", "{\"format\":1}"] {
+        std::fs::write(&path, notes).unwrap();
+        assert!(RowFile::open(&path, &head()).is_err());
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), notes);
+    }
     assert!(RowFile::read(&folder.path().join("absent")).unwrap().is_none());
 }
 

@@ -4,6 +4,8 @@ use std::path::Path;
 
 use polars::prelude::{DataFrame, StringChunked};
 
+use uplift_atomic_file::{FileError, read_file};
+
 use super::super::manifest::parse;
 use super::ListedSite;
 
@@ -32,13 +34,13 @@ pub(super) struct Places {
 pub(super) fn read(path: &Path) -> Result<Places, Vec<String>> {
     let name = path.display();
     let fail = |reason: String| vec![format!("site table {name} {reason}")];
-    let length = std::fs::metadata(path).map_err(|error| fail(format!("cannot be read: {error}")))?.len();
-    if length > MAX_BYTES {
-        return Err(fail(format!(
-            "has {length} bytes: give at most {MAX_BYTES}, for instance without further columns"
-        )));
-    }
-    let bytes = std::fs::read(path).map_err(|error| fail(format!("cannot be read: {error}")))?;
+    let bytes = match read_file(path, MAX_BYTES) {
+        Ok(bytes) => bytes,
+        Err(FileError::TooLarge { limit_bytes, .. }) => {
+            return Err(fail(format!("has more than {limit_bytes} bytes: leave out further columns, for instance")));
+        }
+        Err(error) => return Err(vec![format!("site table {error}")]),
+    };
     let table = parse(&bytes).map_err(|error| fail(format!("is not a CSV table with a header row: {error}")))?;
     drop(bytes);
     let columns = Columns::of(&table).map_err(fail)?;

@@ -13,6 +13,8 @@ use uplift_risk::Ordinate;
 use super::spectra::SiteSpectra;
 use crate::error::UpliftError;
 use crate::inputs::{ListedSite, SiteList};
+use crate::outputs::beside;
+use crate::result::neutral;
 use crate::text::nearest;
 use crate::uniform_risk::csv::flag_word;
 use uplift_study::UniformRiskStudy;
@@ -25,7 +27,7 @@ const COEFFICIENTS: [&str; 12] =
 
 /// The files beside the result file `result`: spectra, coefficients, and both as a map.
 pub fn site_table_paths(result: &Path) -> [PathBuf; 3] {
-    ["sites.csv", "sites.coefficients.csv", "sites.geojson"].map(|extension| result.with_extension(extension))
+    ["sites.csv", "sites.coefficients.csv", "sites.geojson"].map(|ending| beside(result, ending))
 }
 
 /// The files of many sites while they are being written; those not finished are removed.
@@ -271,8 +273,9 @@ fn number(value: f64) -> String {
 
 /// A cell of a table, in quotes where its content could be taken for the table's structure.
 fn cell(text: &str) -> String {
+    let text = neutral(text);
     let quoted = text.contains([',', '"', '\n', '\r']) || text.starts_with('#');
-    if quoted { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+    if quoted { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.into_owned() }
 }
 
 fn json_text(text: &str) -> String {
@@ -359,6 +362,7 @@ mod tests {
             ("nan", "nan", "\"nan\""),
             ("", "", "null"),
             ("#1", "\"#1\"", "\"#1\""),
+            ("=1+1", "'=1+1", "\"=1+1\""),
         ] {
             assert_eq!((cell(text).as_str(), json_cell(text).as_str()), (csv, json));
         }

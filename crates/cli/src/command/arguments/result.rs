@@ -8,6 +8,7 @@ use uplift::result::is_hdf5;
 use uplift::result_of;
 use uplift_study::{Bootstrap, Study};
 
+use super::force::ForceArgument;
 use super::study::command_line;
 use crate::error::CommandError;
 use crate::terminal::Terminal;
@@ -21,6 +22,8 @@ pub(crate) struct ResultArguments {
     /// Change a key of the study for this run, for instance --set records.first=20
     #[arg(long = "set", value_name = "KEY=VALUE")]
     overrides: Vec<String>,
+    #[command(flatten)]
+    overwriting: ForceArgument,
 }
 
 /// A result file that is there.
@@ -31,6 +34,11 @@ pub(crate) struct FoundResult {
 }
 
 impl ResultArguments {
+    /// Whether files that are there give way.
+    pub(crate) fn force(&self) -> bool {
+        self.overwriting.force
+    }
+
     /// The result; a study without one is run.
     pub(crate) fn find(&self, terminal: &Terminal) -> Result<FoundResult, CommandError> {
         if is_hdf5(&self.input) || self.input.extension().is_some_and(|extension| extension == "h5") {
@@ -42,7 +50,8 @@ impl ResultArguments {
             return Ok(FoundResult { path: self.input.clone(), bootstrap: None });
         }
         let study = Study::load(&self.input, &self.overrides)?;
-        let options = RunOptions { study_file: self.input.clone(), output: None, command: command_line() };
+        let options =
+            RunOptions { study_file: self.input.clone(), output: None, command: command_line(), force: self.force() };
         let path = result_of(&study, &options, terminal)?;
         Ok(FoundResult { path, bootstrap: Some(study.bootstrap.clone()) })
     }

@@ -34,8 +34,8 @@ pub(super) fn command_line() -> String {
 }
 
 /// The options of a run that was typed.
-pub(crate) fn run_options(study: &StudyArguments, output: Option<PathBuf>) -> RunOptions {
-    RunOptions { study_file: study.study.clone(), output, command: command_line() }
+pub(crate) fn run_options(study: &StudyArguments, output: Option<PathBuf>, force: bool) -> RunOptions {
+    RunOptions { study_file: study.study.clone(), output, command: command_line(), force }
 }
 
 /// Reads `1/8`.

@@ -7,6 +7,7 @@ use uplift::hazard_curves::{HazardImportOptions, import as import_curves};
 use uplift_hazard::ComponentDefinition;
 
 use super::SiteArguments;
+use crate::command::arguments::ForceArgument;
 use crate::error::CommandError;
 use crate::show::print_hazard_import;
 use crate::terminal::Terminal;
@@ -32,6 +33,8 @@ pub(super) struct ImportArguments {
     /// Refuse a site farther from --near than this, km
     #[arg(long, value_name = "KM", default_value_t = 100.0)]
     within_km: f64,
+    #[command(flatten)]
+    overwriting: ForceArgument,
 }
 
 pub(super) fn import(arguments: &ImportArguments, terminal: &Terminal) -> Result<(), CommandError> {
@@ -42,6 +45,7 @@ pub(super) fn import(arguments: &ImportArguments, terminal: &Terminal) -> Result
         component: arguments.component,
         weights: arguments.weights.clone(),
         within_km: arguments.within_km,
+        force: arguments.overwriting.force,
     };
     print_hazard_import(&import_curves(&options, terminal)?)
 }

@@ -6,6 +6,7 @@ use clap::Args;
 use uplift_report::{HazardPlotOptions, plot_hazard};
 
 use super::{SiteArguments, TableArguments};
+use crate::command::arguments::ForceArgument;
 use crate::error::CommandError;
 use crate::terminal::Terminal;
 
@@ -21,6 +22,8 @@ pub(super) struct PlotArguments {
     site: SiteArguments,
     #[command(flatten)]
     table: TableArguments,
+    #[command(flatten)]
+    overwriting: ForceArgument,
 }
 
 pub(super) fn plot(arguments: &PlotArguments, terminal: &Terminal) -> Result<(), CommandError> {
@@ -28,6 +31,7 @@ pub(super) fn plot(arguments: &PlotArguments, terminal: &Terminal) -> Result<(),
         files: arguments.files.clone(),
         curves: arguments.table.options(&arguments.site),
         output: arguments.output.clone(),
+        force: arguments.overwriting.force,
     };
     for file in plot_hazard(&options, terminal)?.files {
         terminal.say(&file.display().to_string());

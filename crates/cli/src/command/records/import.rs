@@ -6,6 +6,7 @@ use clap::Args;
 use uplift::import::{ImportOptions, import as import_folder};
 
 use super::FileArguments;
+use crate::command::arguments::ForceArgument;
 use crate::error::CommandError;
 use crate::show::{print_import, tell_remarks};
 use crate::terminal::Terminal;
@@ -22,6 +23,8 @@ pub(super) struct ImportArguments {
     /// Leave out the search for velocity pulses, which takes most of the time
     #[arg(long)]
     no_pulses: bool,
+    #[command(flatten)]
+    overwriting: ForceArgument,
 }
 
 pub(super) fn import(arguments: &ImportArguments, terminal: &Terminal) -> Result<(), CommandError> {
@@ -30,6 +33,7 @@ pub(super) fn import(arguments: &ImportArguments, terminal: &Terminal) -> Result
         output: arguments.output.clone(),
         files: arguments.files.options(),
         pulses: !arguments.no_pulses,
+        force: arguments.overwriting.force,
     };
     let report = import_folder(&options, terminal)?;
     tell_remarks(&report, terminal);

@@ -9,8 +9,9 @@ use uplift_motion::synthetic::{Faulting, ScenarioRange, SyntheticSetOptions};
 use uplift_study::Range;
 
 use super::range;
+use crate::command::arguments::ForceArgument;
 use crate::error::CommandError;
-use crate::terminal::Terminal;
+use crate::terminal::{Terminal, output};
 
 /// Synthetic records after Rezaeian and Der Kiureghian (2010, 2012), as AT2 files with a manifest.
 ///
@@ -45,6 +46,8 @@ pub(super) struct SynthesizeArguments {
     /// Time step, 0.001 to 0.01 s
     #[arg(long, value_name = "SECONDS", default_value_t = 0.01)]
     dt_s: f64,
+    #[command(flatten)]
+    overwriting: ForceArgument,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -85,11 +88,11 @@ impl SynthesizeArguments {
             },
             ..SyntheticSetOptions::default()
         };
-        SynthesizeOptions { folder: self.output.clone(), set }
+        SynthesizeOptions { folder: self.output.clone(), set, force: self.overwriting.force }
     }
 }
 
 pub(super) fn synthesize(arguments: &SynthesizeArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let report = synthesize_records(&arguments.options(), terminal)?;
-    Ok(writeln!(std::io::stdout(), "{} synthetic pairs: {}", report.pairs, report.manifest.display())?)
+    Ok(writeln!(output(), "{} synthetic pairs: {}", report.pairs, report.manifest.display())?)
 }

@@ -59,6 +59,7 @@ pub(crate) fn bootstrap(arguments: &BootstrapArguments, terminal: &Terminal) -> 
         simultaneous: arguments.simultaneous,
         plan: arguments.plan.clone(),
         reference: reference.unwrap_or_default(),
+        force: arguments.result.force(),
     };
     let report = run(&found.path, &options, terminal)?;
     if arguments.json { print_json(&report) } else { print_bootstrap(&report, terminal) }

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use uplift::export::{ExportFormat, ExportOptions, export as export_result};
 
+use crate::command::arguments::ForceArgument;
 use crate::error::CommandError;
 use crate::show::print_files;
 use crate::terminal::Terminal;
@@ -25,6 +26,8 @@ pub(crate) struct ExportArguments {
     /// The file, if one format is asked for [default: the result with .spectra.csv, .json or .mat]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    #[command(flatten)]
+    overwriting: ForceArgument,
 }
 
 impl ExportArguments {
@@ -41,6 +44,7 @@ pub(crate) fn export(arguments: &ExportArguments, terminal: &Terminal) -> Result
         result: arguments.result.clone(),
         formats: arguments.formats(),
         output: arguments.output.clone(),
+        force: arguments.overwriting.force,
     };
     print_files(&export_result(&options, terminal)?.files, terminal)
 }

@@ -25,7 +25,7 @@ pub(crate) struct InfluenceArguments {
 
 pub(crate) fn influence(arguments: &InfluenceArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let found = arguments.result.find(terminal)?;
-    let options = InfluenceOptions { poe: arguments.poe, top: arguments.top };
+    let options = InfluenceOptions { poe: arguments.poe, top: arguments.top, force: arguments.result.force() };
     let report = run(&found.path, &options, terminal)?;
     if arguments.json { print_json(&report) } else { print_influence(&report, terminal) }
 }

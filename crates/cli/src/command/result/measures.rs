@@ -1,7 +1,7 @@
 //! `uplift measures`: which intensity measure to trust.
 
 use clap::Args;
-use uplift::efficiency::efficiency;
+use uplift::efficiency::{EfficiencyOptions, efficiency};
 
 use crate::command::arguments::ResultArguments;
 use crate::error::CommandError;
@@ -19,6 +19,7 @@ pub(crate) struct MeasuresArguments {
 
 pub(crate) fn measures(arguments: &MeasuresArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let found = arguments.result.find(terminal)?;
-    let report = efficiency(&found.path, terminal)?;
+    let options = EfficiencyOptions { force: arguments.result.force() };
+    let report = efficiency(&found.path, options, terminal)?;
     if arguments.json { print_json(&report) } else { print_efficiency(&report, terminal) }
 }

@@ -31,6 +31,7 @@ pub(crate) fn plot(arguments: &PlotArguments, terminal: &Terminal) -> Result<(),
         folder: arguments.output.clone(),
         only: arguments.only.clone(),
         figures: arguments.figures.options(),
+        force: arguments.result.force(),
     };
     print_files(&plot_result(&options, terminal)?.files, terminal)
 }

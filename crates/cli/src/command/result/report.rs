@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use uplift_report::{ReportOptions, report as write_report};
 
+use crate::command::arguments::ForceArgument;
 use crate::error::CommandError;
 use crate::show::print_files;
 use crate::terminal::Terminal;
@@ -17,9 +18,15 @@ pub(crate) struct ReportArguments {
     /// The page [default: the first result with .html]
     #[arg(short, long, value_name = "FILE.html")]
     output: Option<PathBuf>,
+    #[command(flatten)]
+    overwriting: ForceArgument,
 }
 
 pub(crate) fn report(arguments: &ReportArguments, terminal: &Terminal) -> Result<(), CommandError> {
-    let options = ReportOptions { results: arguments.results.clone(), output: arguments.output.clone() };
+    let options = ReportOptions {
+        results: arguments.results.clone(),
+        output: arguments.output.clone(),
+        force: arguments.overwriting.force,
+    };
     print_files(&[write_report(&options, terminal)?.file], terminal)
 }

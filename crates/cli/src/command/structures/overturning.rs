@@ -4,12 +4,11 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use uplift::outputs::refuse_overwriting;
 use uplift::structure::{OverturningOptions, overturning as run, overturning_shard};
 use uplift_motion::IntensityMeasure;
 use uplift_report::{check_figure_file, plot_overturning};
 
-use crate::command::arguments::StructureArguments;
+use crate::command::arguments::{ForceArgument, StructureArguments};
 use crate::error::CommandError;
 use crate::show::{print_json, print_overturning, print_shard};
 use crate::terminal::Terminal;
@@ -40,12 +39,13 @@ pub(crate) struct OverturningArguments {
     /// Write the collapse fragility to this CSV file, and the risk to one that ends in .risk.csv beside it
     #[arg(long, short, value_name = "FILE.csv")]
     output: Option<PathBuf>,
+    #[command(flatten)]
+    overwriting: ForceArgument,
 }
 
 pub(crate) fn overturning(arguments: &OverturningArguments, terminal: &Terminal) -> Result<(), CommandError> {
     if let Some(figure) = &arguments.plot {
-        check_figure_file(figure)?;
-        refuse_overwriting(figure, &arguments.structure.inputs())?;
+        check_figure_file(figure, &arguments.structure.inputs(), arguments.overwriting.force)?;
     }
     let StructureArguments { urs, manifest, shard, shards, .. } = &arguments.structure;
     let options = OverturningOptions {
@@ -55,6 +55,7 @@ pub(crate) fn overturning(arguments: &OverturningArguments, terminal: &Terminal)
         restitution: arguments.restitution,
         table: arguments.output.clone(),
         shards: shards.clone(),
+        force: arguments.overwriting.force,
     };
     let structure = arguments.structure.load()?;
     if let Some(shard) = shard {

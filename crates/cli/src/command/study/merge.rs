@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::command::arguments::{StudyArguments, run_options};
+use crate::command::arguments::{ForceArgument, StudyArguments, run_options};
 use crate::error::CommandError;
 use crate::show::{print_json, print_run};
 use crate::terminal::Terminal;
@@ -19,6 +19,8 @@ pub(crate) struct MergeArguments {
     /// Result file, instead of the study's output.file
     #[arg(short, long, value_name = "FILE.h5")]
     output: Option<PathBuf>,
+    #[command(flatten)]
+    overwriting: ForceArgument,
     /// Print the summary as JSON
     #[arg(long)]
     json: bool,
@@ -26,7 +28,7 @@ pub(crate) struct MergeArguments {
 
 pub(crate) fn merge(arguments: &MergeArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let study = arguments.study.load_any()?;
-    let options = run_options(&arguments.study, arguments.output.clone());
+    let options = run_options(&arguments.study, arguments.output.clone(), arguments.overwriting.force);
     let report = uplift::merge(&study, &arguments.shards, &options, terminal)?;
     if arguments.json { print_json(&report) } else { print_run(&report, terminal) }
 }

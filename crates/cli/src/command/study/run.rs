@@ -10,7 +10,7 @@ use uplift::analysis::shard_path;
 use uplift::run_shard;
 use uplift_ida::Shard;
 
-use crate::command::arguments::{StudyArguments, run_options, shard};
+use crate::command::arguments::{ForceArgument, StudyArguments, run_options, shard};
 use crate::error::CommandError;
 use crate::show::{print_json, print_run, print_shard};
 use crate::terminal::Terminal;
@@ -22,6 +22,8 @@ pub(crate) struct RunArguments {
     /// Result file, instead of the study's output.file
     #[arg(short, long, value_name = "FILE.h5")]
     output: Option<PathBuf>,
+    #[command(flatten)]
+    overwriting: ForceArgument,
     /// Compute only shard I of N of the analyses, into a file of its own; `uplift merge` joins the shards
     #[arg(
         long,
@@ -46,7 +48,7 @@ pub(crate) fn run(arguments: &RunArguments, terminal: &Terminal) -> Result<(), C
         let path = arguments.output.clone().unwrap_or_else(|| shard_path(&study.output().file, shard));
         return print_shard(&run_shard(&study, &path, shard, None, terminal)?);
     }
-    let options = run_options(&arguments.study, arguments.output.clone());
+    let options = run_options(&arguments.study, arguments.output.clone(), arguments.overwriting.force);
     let report = uplift::run(&study, &options, terminal)?;
     if arguments.json { print_json(&report) } else { print_run(&report, terminal) }
 }

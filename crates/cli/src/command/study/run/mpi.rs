@@ -74,11 +74,11 @@ fn run_rank(
         return Err(CommandError::Usage("each rank takes its own shard: leave --shard out under mpirun".to_owned()));
     }
     let study = arguments.study.load_any()?;
-    let options = run_options(&arguments.study, arguments.output.clone());
+    let options = run_options(&arguments.study, arguments.output.clone(), arguments.overwriting.force);
     let path = options.result_file(&study.output().file).to_owned();
     let own = terminal.with_quiet(!first);
     if first {
-        uplift::check_inputs(&study, &path, &own)?;
+        uplift::check_inputs(&study, &options, &own)?;
         wait(world, terminal)?;
     }
     let threads = rayon::current_num_threads();

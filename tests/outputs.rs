@@ -1,0 +1,148 @@
+//! Nothing is overwritten unasked: whatever a command writes, what is there stays unless it is an earlier output of the
+//! same kind, or `--force` is given; an input stays always.
+
+use std::path::Path;
+
+use crate::common::{SMALL_STUDY, SmallStudy};
+
+/// A study with a result, `r.h5`, and two records.
+fn study() -> SmallStudy {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-o", "r.h5"]).ok();
+    study.uplift(&["records", "synthesize", "-o", "set", "--count", "2"]).ok();
+    study
+}
+
+/// The command fails, names `place` and `word`, and leaves what is there.
+fn refused(study: &SmallStudy, command: &[&str], place: &str, word: &str) {
+    let path = study.path().join(place);
+    let before = std::fs::read(&path).unwrap();
+    study.uplift(command).fails(2, &[place, word]);
+    assert_eq!(std::fs::read(&path).unwrap(), before, "{command:?}");
+}
+
+#[test]
+fn a_name_says_what_is_written() {
+    let study = study();
+    for (command, place, word) in [
+        (&["run", "study.toml", "-o", "study.toml"][..], "study.toml", "ends in .h5"),
+        (&["export", "r.h5", "--mat", "-o", "study.toml", "--force"], "study.toml", "ends in .mat, e.g. study.mat"),
+        (&["export", "r.h5", "--csv", "-o", "r.h5", "--force"], "r.h5", "ends in .csv"),
+        (&["report", "r.h5", "-o", "study.toml"], "study.toml", "ends in .html"),
+        (&["response", "set/SYN001_H1.AT2", "--strength", "0.2", "--history", "study.toml"], "study.toml", ".csv"),
+        (&["hazard", "plot", "pga.csv", "-o", "pga.csv"], "pga.csv", ".svg or .png"),
+    ] {
+        refused(&study, command, place, word);
+    }
+    study.uplift(&["run", "study.toml", "--set", "output.file=x.txt"]).fails(3, &["x.txt", ".h5"]);
+}
+
+// One of each command, onto a file of somebody else, and again onto its own.
+#[test]
+fn what_others_wrote_is_left_alone() {
+    let study = study();
+    let response = ["response", "set/SYN001_H1.AT2", "--strength", "0.2"];
+    let with = |more: &[&'static str]| [&response[..], more].concat();
+    let commands: [(Vec<&str>, &str); 11] = [
+        (vec!["export", "r.h5", "--csv"], "r.spectra.csv"),
+        (vec!["export", "r.h5", "--json"], "r.json"),
+        (vec!["export", "r.h5", "--mat"], "r.mat"),
+        (vec!["report", "r.h5"], "r.html"),
+        (vec!["plot", "r.h5", "--only", "urs-pgv"], "r.figures/urs-pgv.svg"),
+        (vec!["measures", "r.h5"], "r.measures.csv"),
+        (vec!["influence", "r.h5"], "r.influence.csv"),
+        (vec!["bootstrap", "r.h5", "--replicates", "20", "--sizes", "2"], "r.bands.csv"),
+        (vec!["hazard", "plot", "pga.csv", "--measure", "PGA", "--unit", "g", "-o", "curves.svg"], "curves.svg"),
+        (with(&["--history", "history.csv"]), "history.csv"),
+        (with(&["--plot", "history.svg"]), "history.svg"),
+    ];
+    for (command, place) in &commands {
+        let path = study.path().join(place);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(&path, "notes on uplift of mine\n").unwrap();
+        refused(&study, command, place, "--force");
+        study.uplift(&[&command[..], &["--force"]].concat()).ok();
+        assert_ne!(std::fs::read(&path).unwrap(), b"notes on uplift of mine\n", "{command:?}");
+        study.uplift(command).ok();
+    }
+    // the tables of a run too, before anything is computed
+    study.write("r.urs.csv", "mine\n");
+    refused(&study, &["run", "study.toml", "-o", "r.h5"], "r.urs.csv", "--force");
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "--force"]).ok();
+    // and what is of another result
+    study.uplift(&["run", "study.toml", "-o", "other.h5"]).ok();
+    refused(&study, &["export", "other.h5", "--csv", "-o", "r.spectra.csv"], "r.spectra.csv", "not of other.h5");
+}
+
+#[test]
+fn an_input_is_never_overwritten() {
+    let study = study();
+    // a hazard curve where a table of the result would be
+    let curve = std::fs::read_to_string(study.path().join("pga.csv")).unwrap();
+    study.write("q.urs.csv", &curve);
+    study.write("study.toml", &SMALL_STUDY.replace("\"pga.csv\"", "\"q.urs.csv\""));
+    let run = ["run", "study.toml", "-o", "q.h5", "--force"];
+    refused(&study, &run, "q.urs.csv", "would overwrite an input");
+    let select = ["records", "select", "set/manifest.csv", "--magnitude", "1:9", "--force", "-o", "set/manifest.csv"];
+    refused(&study, &select, "set/manifest.csv", "would overwrite an input");
+    let (record, copy) = (study.path().join("set/SYN001_H1.AT2"), study.path().join("set/r.csv"));
+    std::fs::hard_link(&record, &copy).unwrap();
+    let response = ["response", "set/SYN001_H1.AT2", "--strength", "0.2", "--force", "--history", "set/r.csv"];
+    refused(&study, &response, "set/r.csv", "would overwrite an input");
+}
+
+#[test]
+fn a_result_gives_way_to_its_own_study() {
+    let study = study();
+    let changed = SMALL_STUDY.replace("first = 4", "first = 3");
+    // edited, with other values for a run, or renamed: it is that study
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "--set", "records.first=3"]).ok();
+    study.write("study.toml", &changed);
+    study.uplift(&["run", "study.toml", "-o", "r.h5"]).ok();
+    study.write("same.toml", &changed);
+    study.uplift(&["run", "same.toml", "-o", "r.h5"]).ok();
+    // another one
+    study
+        .write("b.toml", &changed.replace("title = \"small\"", "title = \"b\"").replace("values = [0, ", "values = ["));
+    refused(&study, &["run", "b.toml", "-o", "r.h5"], "r.h5", "the result of another study (same.toml)");
+    study.uplift(&["run", "b.toml", "-o", "r.h5", "--force"]).ok();
+    // at the place that its own name gives, a study replaces whatever result is there
+    study.uplift(&["run", "study.toml", "-o", "results/b.h5"]).ok();
+    study.uplift(&["run", "b.toml"]).ok();
+}
+
+#[cfg(unix)]
+#[test]
+fn who_may_read_a_result_stays_the_same() {
+    use std::os::unix::fs::PermissionsExt;
+    let study = study();
+    let mode = |name: &str| study.path().join(name).metadata().unwrap().permissions().mode() & 0o777;
+    for name in ["r.h5", "r.urs.csv"] {
+        std::fs::set_permissions(study.path().join(name), PermissionsExt::from_mode(0o600)).unwrap();
+    }
+    study.uplift(&["run", "study.toml", "-o", "r.h5"]).ok();
+    study.uplift(&["measures", "r.h5"]).ok();
+    assert_eq!([mode("r.h5"), mode("r.urs.csv")], [0o600, 0o600]);
+}
+
+#[test]
+fn leftovers_of_the_killed_go_with_the_next_writing() {
+    let study = study();
+    let hidden = |study: &SmallStudy| {
+        let names = study.path().read_dir().unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        names.filter(|name| name.contains(".partial-")).collect::<Vec<_>>()
+    };
+    // as a writer leaves it that is killed
+    let report = ["report", "r.h5"];
+    study.uplift(&report).ok();
+    let partial = uplift_partial_name(study.path(), "r.html");
+    std::fs::write(&partial, "half a page").unwrap();
+    assert_eq!(hidden(&study).len(), 1);
+    study.uplift(&report).ok();
+    assert!(hidden(&study).is_empty(), "{:?}", hidden(&study));
+}
+
+/// The hidden file that a writer of `name` in `folder` has on this machine.
+fn uplift_partial_name(folder: &Path, name: &str) -> std::path::PathBuf {
+    uplift_atomic_file::AtomicFile::reserve(&folder.join(name)).unwrap().partial().to_owned()
+}
