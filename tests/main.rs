@@ -12,6 +12,7 @@ mod displacement_figures;
 mod displacement_resume;
 mod displacement_spectra;
 mod epistemic;
+mod figures;
 mod hazard;
 mod levels;
 mod mistakes;
