@@ -11,6 +11,7 @@ mod conditioning;
 mod designs;
 mod level_grids;
 mod marks;
+mod record_sets;
 mod table_4_1;
 mod table_4_2;
 

@@ -9,8 +9,18 @@ const BEGIN: &str = "<!-- figure: ";
 const END: &str = "<!-- end -->";
 
 /// The sources, by which names begin; those that `make test` leaves out are slow.
-const SOURCES: [&str; 7] =
-    ["conditioning", "rounding", "levels", "levels-at-athens", "table-4-1", "table-4-2", "designs"];
+const SOURCES: [&str; 10] = [
+    "conditioning",
+    "rounding",
+    "levels",
+    "levels-at-athens",
+    "table-4-1",
+    "table-4-2",
+    "designs",
+    "embedded-set",
+    "tables-2",
+    "tables-3",
+];
 
 /// One process writes, one source at a time.
 static WRITING: Mutex<()> = Mutex::new(());
