@@ -14,7 +14,7 @@ export PATH := $(TOOLS):$(PATH)
 
 UPLIFT := target/release/uplift
 
-.PHONY: run build test test-cluster torture lint docs python sbom notices bench fuzz clean
+.PHONY: run build test test-cluster torture doc-figures lint docs python sbom notices bench fuzz clean
 
 run: build
 	$(UPLIFT) run $(STUDY) $(SET) -o $(OUTPUT)
@@ -24,6 +24,10 @@ run: build
 
 build:
 	cargo build --release --locked --package uplift-cli
+
+# The figures of the documents that take minutes, written anew where they differ; needs real records (CONTRIBUTING.md).
+doc-figures:
+	UPDATE_DOCS=1 cargo test --locked --workspace --test end_to_end figures:: -- --include-ignored
 
 # Formatting, lints, documentation, then every test: crates, the built program, its result file from Python.
 test: lint docs python

@@ -14,7 +14,7 @@ pub use crate::result::{DesignRow, RULES};
 pub(crate) use csv::tables;
 pub use csv::{displacement_csv_paths, write_displacement_csv};
 pub(crate) use design_example::carry_out_designs;
-pub use design_example::{Designs, design_analyses, strength};
+pub use design_example::{Designs, Doubted, design_analyses, strength};
 pub use plan::Plan;
 pub(crate) use plan::plan;
 pub use report::{RunReport, SetReport, SpectraReport};

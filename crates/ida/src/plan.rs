@@ -112,6 +112,17 @@ impl<'a> Plan<'a> {
         Ok(Self { motions, systems, with_free_peak })
     }
 
+    /// This plan with every scale factor multiplied by `factor`; by 1 it stays what it is, to the bit.
+    ///
+    /// # Errors
+    /// A factor that is not finite.
+    pub fn multiplied(mut self, factor: f64) -> Result<Self, IdaError> {
+        for motion in &mut self.motions {
+            motion.scales.iter_mut().for_each(|scale| *scale *= factor);
+        }
+        Self::checked("motions", self.motions, self.systems, self.with_free_peak)
+    }
+
     /// Lengths of the axes of its result.
     pub fn axes(&self) -> Axes {
         let scales = self.motions.first().map_or(0, |motion| motion.scales.len());

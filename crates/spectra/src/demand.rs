@@ -4,6 +4,7 @@ use uplift_ida::{IdaError, Peaks, Plan, System};
 
 use crate::error::SpectraError;
 use crate::motion_set::MotionSet;
+use crate::noise::ROUNDING;
 use crate::scaling::Scaling;
 use crate::statistics::percentile;
 
@@ -18,11 +19,18 @@ pub struct Case<'a> {
     pub set: &'a MotionSet<'a>,
     /// What they are multiplied by.
     pub scaling: Scaling,
+    /// What their factors are multiplied by besides: 1, or a little more or less to see what rounding does.
+    pub nudge: f64,
     /// How plans are carried out.
     pub carry_out: &'a CarryOut<'a>,
 }
 
 impl Case<'_> {
+    /// The case with all factors a rounding smaller, and a rounding larger: [`ROUNDING`].
+    pub(crate) fn nudged(&self) -> [Self; 2] {
+        [-ROUNDING, ROUNDING].map(|relative| Self { nudge: self.nudge * (1.0 + relative), ..*self })
+    }
+
     /// The percentile at `percent` of the peak displacements of each of `systems`, m; infinite where it falls on one
     /// that overturned.
     ///
@@ -34,7 +42,8 @@ impl Case<'_> {
         with_free_peak: bool,
         percent: f64,
     ) -> Result<Vec<f64>, SpectraError> {
-        let peaks = (self.carry_out)(&self.set.plan(&[self.scaling], systems, with_free_peak)?)?;
+        let plan = self.set.plan(&[self.scaling], systems, with_free_peak)?.multiplied(self.nudge)?;
+        let peaks = (self.carry_out)(&plan)?;
         Ok((0..systems.len()).map(|system| percentile(&peaks.over_motions_m(system, 0), percent)).collect())
     }
 }

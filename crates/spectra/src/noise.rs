@@ -7,6 +7,11 @@ use uplift_structure::relative_error;
 
 use crate::error::SpectraError;
 
+/// A relative change of the scale factors that is nothing but rounding: some last places of a double.
+///
+/// A response of hundreds of impacts may turn it into a displacement of another size (docs/method.md, section 1.5).
+pub const ROUNDING: f64 = 1e-15;
+
 /// A sweep around a point, relative to it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NoiseSweep {
@@ -15,6 +20,9 @@ pub struct NoiseSweep {
 }
 
 impl NoiseSweep {
+    /// No sweep: the point itself.
+    pub(crate) const POINT: Self = Self { relative: 0.0, points: 1 };
+
     /// `points` points, an odd number so that the middle one is the point itself, from `1 − relative` to `1 + relative`
     /// times it.
     ///

@@ -84,6 +84,31 @@ impl RestrainedDesign {
         })
     }
 
+    /// How far rounding alone moves the values of `example`, which [`example`](Self::example) gave for this case: the
+    /// procedure at its strength with all scale factors [`ROUNDING`](crate::ROUNDING) smaller and larger.
+    ///
+    /// # Errors
+    /// As [`example`](Self::example).
+    pub fn rounding(
+        &self,
+        case: Case<'_>,
+        rule: Rule,
+        example: &RestrainedExample,
+    ) -> Result<RestrainedExample, SpectraError> {
+        let [less, more] = case.nudged();
+        let nudged = [self.example(less, rule, NoiseSweep::POINT)?, self.example(more, rule, NoiseSweep::POINT)?];
+        let around = |value: fn(&RestrainedExample) -> Noisy| {
+            Noisy::around(value(example).value, nudged.iter().map(|nudged| value(nudged).value))
+        };
+        Ok(RestrainedExample {
+            zero_stiffness_m: around(|example| example.zero_stiffness_m),
+            capacity_m: around(|example| example.capacity_m),
+            time_history_m: around(|example| example.time_history_m),
+            rule_m: around(|example| example.rule_m),
+            error: around(|example| example.error),
+        })
+    }
+
     fn oscillator(&self, strength: f64, post_uplift: PostUplift) -> Result<Oscillator, SpectraError> {
         let Self { gravity_m_s2, uplift_displacement_m, restitution, .. } = *self;
         Ok(Oscillator::new(strength, gravity_m_s2, uplift_displacement_m, restitution, post_uplift)?)

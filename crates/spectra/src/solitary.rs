@@ -78,6 +78,34 @@ impl SolitaryDesign {
         })
     }
 
+    /// How far rounding alone moves the values of `example`, which [`example`](Self::example) gave for this case: its
+    /// displacements, and the demand at the intersection put on the capacity line, with all scale factors
+    /// [`ROUNDING`](crate::ROUNDING) smaller and larger. The intersection is not looked for again.
+    ///
+    /// # Errors
+    /// What the block refuses; what carrying out ends with.
+    pub fn rounding(&self, case: Case<'_>, example: &SolitaryExample) -> Result<SolitaryExample, SpectraError> {
+        let design = example.design_tangent.value;
+        let at =
+            |case: Case<'_>, height_m, tangent| Ok::<_, SpectraError>(self.demand_m(case, height_m, &[tangent])?[0]);
+        let critical = design / self.safety_factor;
+        let met_m = at(case, self.endless_height_m, critical)?;
+        let (mut tangents, mut endless_m, mut block_m) = (Vec::new(), Vec::new(), Vec::new());
+        for nudged in case.nudged() {
+            tangents.push(design * at(nudged, self.endless_height_m, critical)? / met_m);
+            endless_m.push(at(nudged, self.endless_height_m, design)?);
+            block_m.push(at(nudged, self.height_m, design)?);
+        }
+        let error = errors(&endless_m, &block_m);
+        Ok(SolitaryExample {
+            design_tangent: Noisy::around(design, tangents),
+            endless_m: Noisy::around(example.endless_m.value, endless_m),
+            block_m: Noisy::around(example.block_m.value, block_m),
+            capacity_m: example.capacity_m,
+            error: Noisy::around(example.error.value, error),
+        })
+    }
+
     /// Percentile of the displacements of blocks of one height, m, one a slenderness.
     fn demand_m(&self, case: Case<'_>, height_m: f64, tangents: &[f64]) -> Result<Vec<f64>, SpectraError> {
         let blocks = tangents

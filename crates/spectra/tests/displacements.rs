@@ -45,7 +45,7 @@ fn displacements(
 }
 
 fn case<'a>(set: &'a MotionSet<'a>, scaling: Scaling) -> Case<'a> {
-    Case { set, scaling, carry_out: &|plan| analyse(plan, &Unwatched) }
+    Case { set, scaling, nudge: 1.0, carry_out: &|plan| analyse(plan, &Unwatched) }
 }
 
 fn to(measure: uplift_motion::IntensityMeasure, multiple: f64, by: ScaledBy) -> Scaling {
@@ -257,5 +257,49 @@ proptest! {
             // every impact ends the motion, so nothing here is chaotic
             prop_assert!((zero - negative).abs() <= 1e-4 * zero.max(1e-3), "{zero} {negative}");
         }
+    }
+}
+
+/// A design is repeated with scale factors a rounding away, and its well-conditioned values hardly move.
+#[test]
+fn rounding_repeats_a_design_a_rounding_away() {
+    let records = records();
+    let set = set(&records);
+    let scaling = to(Pga, 1.0, ScaledBy::Record);
+    let own = set.factors(scaling);
+    let seen = std::sync::Mutex::new(Vec::new());
+    let carry_out = |plan: &uplift_ida::Plan<'_>| {
+        let relative: Vec<f64> =
+            plan.motions().iter().zip(&own).map(|(motion, own)| motion.scales[0] / own - 1.0).collect();
+        seen.lock().unwrap().push(relative);
+        analyse(plan, &Unwatched)
+    };
+    let case = Case { set: &set, scaling, nudge: 1.0, carry_out: &carry_out };
+    let design = RestrainedDesign {
+        strength: 0.1,
+        uplift_displacement_m: 0.0005,
+        restitution: 0.95,
+        gravity_m_s2: G,
+        least_capacity_m: 1.0,
+        safety_factor: 2.5,
+        percent: 50.0,
+        with_free_vibration: true,
+    };
+    let example = design.example(case, Rule::EqualEnergy, NoiseSweep::new(0.01, 3).unwrap()).unwrap();
+    assert!(seen.lock().unwrap().drain(..).flatten().all(|relative| relative == 0.0));
+    let rounding = design.rounding(case, Rule::EqualEnergy, &example).unwrap();
+    let seen = seen.into_inner().unwrap();
+    // zero and negative stiffness, smaller and larger
+    let signs: Vec<f64> = seen.iter().map(|relative| relative[0].signum()).collect();
+    assert_eq!(signs, [-1.0, -1.0, 1.0, 1.0]);
+    assert!(seen.iter().flatten().all(|relative| (5e-16..2e-15).contains(&relative.abs())), "{seen:?}");
+    for (rounding, value) in [
+        (rounding.zero_stiffness_m, example.zero_stiffness_m.value),
+        (rounding.capacity_m, example.capacity_m.value),
+        (rounding.time_history_m, example.time_history_m.value),
+        (rounding.rule_m, example.rule_m.value),
+    ] {
+        assert_eq!(rounding.value.to_bits(), value.to_bits());
+        assert!(rounding.holds(value) && rounding.highest - rounding.lowest < 1e-6 * value, "{rounding:?}");
     }
 }

@@ -145,6 +145,41 @@ impl Grid {
     }
 }
 
+impl Grid {
+    /// This grid after the values of `notations`, numbers or `start:step:stop`.
+    ///
+    /// # Errors
+    /// A notation that is none, or values that do not increase up to those of this grid.
+    pub(crate) fn preceded_by(&self, notations: &[String]) -> Result<Self, GridError> {
+        let mut grid = Self { pieces: Vec::new(), values: Vec::new() };
+        for notation in notations {
+            let values = notation::values(notation)?;
+            let piece = match values[..] {
+                [value] => Piece::Number(value),
+                _ => Piece::Range(notation.clone()),
+            };
+            grid.extend(piece, &values, "")?;
+        }
+        // the last piece brings all values, so that they are compared once
+        grid.extend(Piece::Number(self.values[0]), &self.values, "")?;
+        grid.pieces.pop();
+        grid.pieces.extend_from_slice(&self.pieces);
+        Ok(grid)
+    }
+}
+
+impl fmt::Display for Grid {
+    /// As a study file has it: `[1, "2:0.5:20"]`.
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let piece = |piece: &Piece| match piece {
+            Piece::Number(number) => number.to_string(),
+            Piece::Range(notation) if notation.contains([':', '/']) => format!("\"{notation}\""),
+            Piece::Range(number) => number.clone(),
+        };
+        write!(formatter, "[{}]", self.pieces.iter().map(piece).collect::<Vec<_>>().join(", "))
+    }
+}
+
 impl FromStr for Grid {
     type Err = GridError;
 

@@ -66,5 +66,5 @@ pub use structure::Structure;
 pub use study::Study;
 pub use uniform_risk::{
     Bootstrap, Branch, Contour, Conversion, CurveFile, CurveKind, Hazard, MeasurePlan, Oscillator, Records, Regression,
-    Risk, Site, SiteTable, UniformRiskStudy, definition_of, levels_within,
+    Risk, Site, SiteTable, UniformRiskStudy, definition_of, levels_within, lower_starts,
 };

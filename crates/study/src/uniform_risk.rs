@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `records` | `[records]` |
 //! | `oscillator` | `[oscillator]` |
-//! | `measures` | `[pgv]`, `[pga]` |
+//! | `measures`, `lower_levels` | `[pgv]`, `[pga]`, and where their levels could begin |
 //! | `risk` | `[risk]` |
 //! | `hazard` | `[hazard]` |
 //! | `sites`, `curve`, `branches` | `[[sites]]`, the hazard curves of one, their weighted alternatives |
@@ -16,6 +16,7 @@ mod bootstrap;
 mod branches;
 mod curve;
 mod hazard;
+mod lower_levels;
 mod measures;
 mod oscillator;
 mod records;
@@ -37,6 +38,7 @@ pub use bootstrap::Bootstrap;
 pub use branches::Branch;
 pub use curve::{CurveFile, CurveKind};
 pub use hazard::{Conversion, Hazard, definition_of};
+pub use lower_levels::lower_starts;
 pub use measures::{MeasurePlan, levels_within};
 pub use oscillator::Oscillator;
 pub use records::Records;

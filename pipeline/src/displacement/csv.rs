@@ -123,6 +123,8 @@ fn design_table(rows: &[DesignRow]) -> Vec<Column> {
         Column::new("value".into(), number(|row| row.noisy.value)),
         Column::new("lowest".into(), number(|row| row.noisy.lowest)),
         Column::new("highest".into(), number(|row| row.noisy.highest)),
+        Column::new("rounding_lowest".into(), number(|row| row.rounding.map_or(f64::NAN, |other| other.lowest))),
+        Column::new("rounding_highest".into(), number(|row| row.rounding.map_or(f64::NAN, |other| other.highest))),
     ]);
     columns
 }

@@ -17,6 +17,8 @@ use uplift_study::{DesignPlan, Designed, DisplacementStudy, Structures};
 /// Ratio of neighbouring slendernesses in the search for the intersection: a range in which the block does not stand
 /// may be missed if it is narrower.
 const SEARCH_RATIO: f64 = 1.02;
+/// Runs with other roundings, for each value.
+const NUDGES: u64 = 2;
 /// Halvings, at most, after that search.
 const HALVINGS: u64 = 16;
 
@@ -24,22 +26,31 @@ const HALVINGS: u64 = 16;
 #[derive(Debug, Clone)]
 pub enum Designs {
     /// Restrained bridges over `[set, way, rule]`.
-    Restrained(Vec<RestrainedExample>),
+    Restrained(Vec<Doubted<RestrainedExample>>),
     /// Solitary blocks over `[set, way]`; none where the capacity line meets no demand.
-    Solitary(Vec<Option<SolitaryExample>>),
+    Solitary(Vec<Option<Doubted<SolitaryExample>>>),
+}
+
+/// A design example with its noise, and how far rounding alone moves its values.
+#[derive(Debug, Clone, Copy)]
+pub struct Doubted<Example> {
+    /// Values with their range over the sweep.
+    pub example: Example,
+    /// The same values with their range over scale factors that differ by rounding.
+    pub rounding: Example,
 }
 
 /// Nonlinear time histories of the design examples; for blocks, whose design is looked for, at most.
 pub fn design_analyses(study: &DisplacementStudy, plan: &DesignPlan, set: &MotionSet<'_>) -> u64 {
     let points = plan.noise_points as u64;
     let each = match plan.designed {
-        Designed::Bridge { .. } => 2 * 2 * points,
+        Designed::Bridge { .. } => 2 * 2 * (points + NUDGES),
         Designed::Block { .. } => {
             let abscissa = study.structures.abscissa();
             let steps = (abscissa[abscissa.len() - 1] / abscissa[0]).ln() / SEARCH_RATIO.ln();
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count of steps")]
             let steps = steps.ceil() as u64;
-            steps + HALVINGS + 3 * points
+            steps + HALVINGS + 3 * (points + NUDGES)
         }
     };
     each * (set.motions().len() * study.scaling.ways().0.len()) as u64
@@ -96,7 +107,7 @@ impl Carrier<'_> {
             (0..self.sets.motions.len()).flat_map(|set| ways.iter().map(move |way| (set, *way))).collect();
         let example = |&(set, scaling): &(usize, Scaling)| {
             let carry_out = |plan: &Plan<'_>| self.checkpoint.peaks(plan, &self.sets.keys[set], &Within(self.watch));
-            let example = of(Case { set: &self.sets.motions[set], scaling, carry_out: &carry_out })?;
+            let example = of(Case { set: &self.sets.motions[set], scaling, nudge: 1.0, carry_out: &carry_out })?;
             self.watch.finished(1);
             Ok(example)
         };
@@ -128,7 +139,11 @@ fn design_examples(
                 with_free_vibration: with_free_vibration(study),
             };
             let found = carrier.each(&ways, |case| {
-                RULES.iter().map(|&rule| design.example(case, rule, noise)).collect::<Result<Vec<_>, _>>()
+                let doubted = |&rule| {
+                    let example = design.example(case, rule, noise)?;
+                    Ok(Doubted { example, rounding: design.rounding(case, rule, &example)? })
+                };
+                RULES.iter().map(doubted).collect::<Result<Vec<_>, SpectraError>>()
             })?;
             let designs = || all.flat_map(|case| found[everywhere(case)].clone()).collect();
             Ok(carrier.shard.is_whole().then(|| (Designs::Restrained(designs()), Vec::new())))
@@ -146,7 +161,7 @@ fn design_examples(
                 search_ratio: SEARCH_RATIO,
             };
             let found = carrier.each(&ways, |case| match design.example(case, noise) {
-                Ok(example) => Ok(Ok(example)),
+                Ok(example) => Ok(Ok(Doubted { example, rounding: design.rounding(case, &example)? })),
                 Err(error @ SpectraError::NoIntersection { .. }) => Ok(Err(error.to_string())),
                 Err(error) => Err(error),
             })?;

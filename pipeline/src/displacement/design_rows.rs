@@ -2,7 +2,7 @@
 
 use uplift_spectra::{Noisy, RestrainedExample, SolitaryExample};
 
-use super::{Designs, strength};
+use super::{Designs, Doubted, strength};
 use crate::result::layout::{axis, design};
 use crate::result::{BOUNDS, RULES, rule_names};
 use uplift_labelled::{LabelledError, LabelledWriter};
@@ -48,7 +48,10 @@ fn bounds(noisy: Noisy) -> [f64; 3] {
     [noisy.value, noisy.lowest, noisy.highest]
 }
 
-fn write_restrained(writer: &mut LabelledWriter, examples: &[RestrainedExample]) -> Result<(), LabelledError> {
+/// What the second array of a quantity is: the value, and its range over scale factors that differ by rounding.
+const ROUNDED: &str = "with scale factors 1e-15 smaller and larger";
+
+fn write_restrained(writer: &mut LabelledWriter, examples: &[Doubted<RestrainedExample>]) -> Result<(), LabelledError> {
     let columns: [(&str, Value<RestrainedExample>, &str, &str); 5] = [
         ("u_dem_zs_m", |example| example.zero_stiffness_m, "m", "demand on the zero-stiffness system"),
         ("u_cap_m", |example| example.capacity_m, "m", "designed capacity (Eq. 3.15)"),
@@ -57,14 +60,19 @@ fn write_restrained(writer: &mut LabelledWriter, examples: &[RestrainedExample])
         ("error", |example| example.error, "1", "(rule - time histories)/time histories"),
     ];
     for (name, value, unit, long_name) in columns {
-        let values: Vec<f64> = examples.iter().flat_map(|example| bounds(value(example))).collect();
+        let values: Vec<f64> = examples.iter().flat_map(|doubted| bounds(value(&doubted.example))).collect();
         let dims = [axis::RECORD_SET, axis::SCALING, axis::SCALED_BY, axis::RULE, axis::BOUND];
         writer.array_f64(&design::array(name), &dims, &values, unit, long_name)?;
+        let values: Vec<f64> = examples.iter().flat_map(|doubted| bounds(value(&doubted.rounding))).collect();
+        writer.array_f64(&design::rounding(name), &dims, &values, unit, &format!("{long_name}, {ROUNDED}"))?;
     }
     Ok(())
 }
 
-fn write_solitary(writer: &mut LabelledWriter, examples: &[Option<SolitaryExample>]) -> Result<(), LabelledError> {
+fn write_solitary(
+    writer: &mut LabelledWriter,
+    examples: &[Option<Doubted<SolitaryExample>>],
+) -> Result<(), LabelledError> {
     const NONE: Noisy = Noisy { value: f64::NAN, lowest: f64::NAN, highest: f64::NAN };
     let columns: [(&str, Value<SolitaryExample>, &str, &str); 4] = [
         ("tan_alpha", |example| example.design_tangent, "1", "design slenderness tan(alpha_D)"),
@@ -74,12 +82,15 @@ fn write_solitary(writer: &mut LabelledWriter, examples: &[Option<SolitaryExampl
     ];
     let dims = [axis::RECORD_SET, axis::SCALING, axis::SCALED_BY, axis::BOUND];
     for (name, value, unit, long_name) in columns {
-        let noisy = |example: &Option<SolitaryExample>| bounds(example.as_ref().map_or(NONE, value));
-        let values: Vec<f64> = examples.iter().flat_map(noisy).collect();
-        writer.array_f64(&design::array(name), &dims, &values, unit, long_name)?;
+        let bounds_of = |of: fn(&Doubted<SolitaryExample>) -> &SolitaryExample| -> Vec<f64> {
+            examples.iter().flat_map(|doubted| bounds(doubted.as_ref().map_or(NONE, |it| value(of(it))))).collect()
+        };
+        writer.array_f64(&design::array(name), &dims, &bounds_of(|doubted| &doubted.example), unit, long_name)?;
+        let long_name = format!("{long_name}, {ROUNDED}");
+        writer.array_f64(&design::rounding(name), &dims, &bounds_of(|doubted| &doubted.rounding), unit, &long_name)?;
     }
     let width_m: Vec<f64> =
-        examples.iter().map(|example| example.as_ref().map_or(f64::NAN, |example| example.capacity_m)).collect();
+        examples.iter().map(|doubted| doubted.as_ref().map_or(f64::NAN, |it| it.example.capacity_m)).collect();
     writer.array_f64(
         &design::array("capacity_m"),
         &dims[..3],

@@ -126,7 +126,7 @@ impl Serialize for DesignRow {
     /// The value beside its range; null where it does not exist or is infinite.
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         use serde::ser::SerializeStruct;
-        let mut row = serializer.serialize_struct("DesignRow", 8)?;
+        let mut row = serializer.serialize_struct("DesignRow", 11)?;
         row.serialize_field("record_set", &self.record_set)?;
         row.serialize_field("scaling", &self.scaling)?;
         row.serialize_field("scaled_by", &self.scaled_by)?;
@@ -135,6 +135,9 @@ impl Serialize for DesignRow {
         row.serialize_field("value", &finite(self.noisy.value))?;
         row.serialize_field("lowest", &finite(self.noisy.lowest))?;
         row.serialize_field("highest", &finite(self.noisy.highest))?;
+        row.serialize_field("rounding_lowest", &self.rounding.and_then(|rounding| finite(rounding.lowest)))?;
+        row.serialize_field("rounding_highest", &self.rounding.and_then(|rounding| finite(rounding.highest)))?;
+        row.serialize_field("hangs_on_rounding", &self.hangs_on_rounding())?;
         row.end()
     }
 }

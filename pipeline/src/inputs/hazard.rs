@@ -8,7 +8,7 @@ use uplift_risk::StripeWeights;
 
 use crate::checksum::checksum_of_file;
 use crate::error::UpliftError;
-use uplift_study::{CurveFile, CurveKind, MeasurePlan, UniformRiskStudy, definition_of};
+use uplift_study::{CurveFile, CurveKind, MeasurePlan, UniformRiskStudy, definition_of, levels_within};
 
 /// The hazard of one site in one measure.
 #[derive(Debug, Clone)]
@@ -203,7 +203,12 @@ impl SiteReader<'_> {
     }
 
     fn weights(&self, curve: &HazardCurve, name: &str) -> Result<StripeWeights, String> {
-        stripe_weights(self.study, self.plan, curve).map_err(|reason| format!("{name}: {reason}"))
+        stripe_weights(self.study, self.plan, curve).map_err(|reason| {
+            let within = levels_within(self.plan.measure, curve.first().im, curve.last().im);
+            let within = within
+                .map_or_else(String::new, |(key, levels)| format!(": the default ones within it are {key} = {levels}"));
+            format!("{name}: {reason}{within}")
+        })
     }
 }
 

@@ -61,16 +61,25 @@ pub struct DesignRow {
     pub quantity: String,
     /// The value, and its range over the sweep.
     pub noisy: Noisy,
+    /// The value, and its range over scale factors that differ by rounding; none in results of before.
+    pub rounding: Option<Noisy>,
 }
 
 impl DesignRow {
-    /// The value with its range, in words.
+    /// Whether rounding alone changes the value in the digits that are shown.
+    pub fn hangs_on_rounding(&self) -> bool {
+        let digits = self.shown(self.noisy.value);
+        self.rounding.is_some_and(|other| [other.lowest, other.highest].iter().any(|end| self.shown(*end) != digits))
+    }
+
+    /// The value with its range, in words; marked where [rounding decides it](Self::hangs_on_rounding).
     pub fn ranged(&self) -> String {
         let Noisy { value, lowest, highest } = self.noisy;
         if value.is_nan() {
             return "none".to_owned();
         }
-        format!("{} [{}, {}]", self.shown(value), self.shown(lowest), self.shown(highest))
+        let mark = if self.hangs_on_rounding() { "*" } else { "" };
+        format!("{}{mark} [{}, {}]", self.shown(value), self.shown(lowest), self.shown(highest))
     }
 
     /// A value of this quantity with as many digits as say something.
@@ -155,32 +164,36 @@ impl ResultFile {
         axes.extend((rules.len() > 1).then_some((axis::RULE, rules.len())));
         axes.push((axis::BOUND, BOUNDS.len()));
         let mut columns = Vec::new();
-        for (quantity, name, factor) in quantities {
-            let path = design::array(name);
-            let values = self.checked(&path, self.reader.array_f64(&path)?, &axes)?;
+        let read = |path: &str| -> Result<Array<5>, UpliftError> {
+            let values = self.checked(path, self.reader.array_f64(path)?, &axes)?;
             // [set, scaling, scaled_by, rule, bound]
-            let values = Array::new([sets.len(), to.len(), by.len(), rules.len(), BOUNDS.len()], values)
-                .map_err(|error| self.damaged(format!("{path}: {error}")))?;
-            columns.push((quantity, factor, values));
+            Array::new([sets.len(), to.len(), by.len(), rules.len(), BOUNDS.len()], values)
+                .map_err(|error| self.damaged(format!("{path}: {error}")))
+        };
+        for (quantity, name, factor) in quantities {
+            let rounding = design::rounding(name);
+            let rounding = if self.reader.exists(&rounding) { Some(read(&rounding)?) } else { None };
+            columns.push((quantity, factor, read(&design::array(name))?, rounding));
         }
         let mut rows = Vec::new();
         for (set, record_set) in sets.iter().enumerate() {
             for (position, &rule) in rules.iter().enumerate() {
-                for (quantity, factor, values) in &columns {
+                for (quantity, factor, values, rounding) in &columns {
+                    let noisy = |values: &Array<5>, place: [usize; 4]| {
+                        let [value, lowest, highest] = [0, 1, 2].map(|bound| factor * values.block(place)[bound]);
+                        Noisy { value, lowest, highest }
+                    };
                     for (scaling, scaling_name) in to.iter().enumerate() {
                         for (scaled_by, scaled_by_name) in by.iter().enumerate() {
-                            let bounds = values.block([set, scaling, scaled_by, position]);
+                            let place = [set, scaling, scaled_by, position];
                             rows.push(DesignRow {
                                 record_set: record_set.clone(),
                                 scaling: scaling_name.clone(),
                                 scaled_by: scaled_by_name.clone(),
                                 rule,
                                 quantity: quantity.clone(),
-                                noisy: Noisy {
-                                    value: factor * bounds[0],
-                                    lowest: factor * bounds[1],
-                                    highest: factor * bounds[2],
-                                },
+                                noisy: noisy(values, place),
+                                rounding: rounding.as_ref().map(|values| noisy(values, place)),
                             });
                         }
                     }
@@ -188,5 +201,32 @@ impl ResultFile {
             }
         }
         Ok(rows)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(value: f64, lowest: f64, highest: f64) -> DesignRow {
+        DesignRow {
+            record_set: String::new(),
+            scaling: String::new(),
+            scaled_by: String::new(),
+            rule: None,
+            quantity: "u_dem_TH_m".to_owned(),
+            noisy: Noisy { value, lowest: 0.04, highest: 0.05 },
+            rounding: Some(Noisy { value, lowest, highest }),
+        }
+    }
+
+    #[test]
+    fn a_value_is_marked_where_rounding_changes_its_digits() {
+        assert_eq!(row(0.0444, 0.0436, 0.0444).ranged(), "0.044 [0.040, 0.050]");
+        assert_eq!(row(0.0444, 0.0181, 0.0444).ranged(), "0.044* [0.040, 0.050]");
+        assert_eq!(row(0.0444, 0.0444, f64::INFINITY).ranged(), "0.044* [0.040, 0.050]");
+        assert_eq!(row(f64::NAN, f64::NAN, f64::NAN).ranged(), "none");
+        let earlier = DesignRow { rounding: None, ..row(0.0444, 0.0, 1.0) };
+        assert_eq!(earlier.ranged(), "0.044 [0.040, 0.050]");
     }
 }

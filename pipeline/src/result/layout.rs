@@ -222,7 +222,20 @@ pub mod design {
         "u_endless_m",
         "u_block_m",
         "capacity_m",
+        "u_dem_zs_m_rounding",
+        "u_cap_m_rounding",
+        "u_dem_th_m_rounding",
+        "u_dem_rule_m_rounding",
+        "error_rounding",
+        "tan_alpha_rounding",
+        "u_endless_m_rounding",
+        "u_block_m_rounding",
     ];
+
+    /// What rounding does to the values of an array, by its name.
+    pub fn rounding(name: &str) -> String {
+        format!("{GROUP}/{name}_rounding")
+    }
 
     /// An array, by its name.
     pub fn array(name: &str) -> String {

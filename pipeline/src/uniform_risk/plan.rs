@@ -6,6 +6,7 @@ use std::time::Duration;
 use serde::Serialize;
 use uplift_study::UniformRiskStudy;
 
+use super::levels::{LevelCheck, check_levels};
 use super::{plan_stripes, site_table, systems};
 use crate::analysis::seconds;
 use crate::error::UpliftError;
@@ -22,11 +23,13 @@ pub struct Plan {
     /// What every kind tells.
     #[serde(flatten)]
     pub head: PlanHead,
+    /// How far down the levels of each measure reach, where sites say what the study is for.
+    pub levels: Vec<LevelCheck>,
 }
 
 /// Reads and checks all inputs of `study`, and times some of its analyses.
 pub(crate) fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Events) -> Result<Plan, UpliftError> {
-    let (_, mut notes) = read_hazard(study)?;
+    let (hazard, mut notes) = read_hazard(study)?;
     let site_list = site_table::read(study, events)?;
     notes.extend(site_list.iter().flat_map(|list| list.notes.iter().cloned()));
     let records = read_records(study)?;
@@ -37,6 +40,10 @@ pub(crate) fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Eve
     let plans = (study.measures.iter())
         .map(|measure| plan_stripes(study, measure, &records, &systems))
         .collect::<Result<Vec<_>, _>>()?;
+    let mut levels = Vec::new();
+    for (measure, hazard) in study.measures.iter().zip(&hazard) {
+        levels.extend(check_levels(study, measure, (&records, &systems), hazard)?);
+    }
     let seconds = seconds(&plans, CALIBRATION * u32::try_from(plans.len()).unwrap_or(u32::MAX));
     let Size { memory_bytes, disk_bytes } = Size::of(study, &records, site_list.as_ref());
     let head = PlanHead {
@@ -51,7 +58,7 @@ pub(crate) fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Eve
         output: study.output.file.clone(),
         notes,
     };
-    Ok(Plan { head })
+    Ok(Plan { head, levels })
 }
 
 /// What a run takes, in bytes.

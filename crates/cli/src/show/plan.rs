@@ -4,6 +4,7 @@ use std::io::Write;
 
 use uplift::Plan;
 use uplift::text::thousands;
+use uplift::uniform_risk::LevelCheck;
 use uplift_study::AnyStudy;
 
 use crate::error::CommandError;
@@ -33,7 +34,12 @@ pub(crate) fn print_plan(plan: &Plan, study: &AnyStudy, terminal: &Terminal) -> 
         Plan::Displacement(plan) if plan.has_design => {
             writeln!(out, "design    about {} more", thousands(plan.design_analyses))?;
         }
-        Plan::Displacement(_) | Plan::UniformRisk(_) => {}
+        Plan::UniformRisk(plan) => {
+            for check in &plan.levels {
+                writeln!(out, "levels    {}", levels(check))?;
+            }
+        }
+        Plan::Displacement(_) => {}
     }
     writeln!(out, "time      about {} on {} threads", duration(head.seconds), head.threads)?;
     writeln!(out, "memory    about {} MB", head.memory_bytes / 1_000_000)?;
@@ -43,6 +49,30 @@ pub(crate) fn print_plan(plan: &Plan, study: &AnyStudy, terminal: &Terminal) -> 
     }
     writeln!(out, "The study and its input data are in order.")?;
     Ok(())
+}
+
+/// How far down the levels of a measure reach, and a line for the study where that is not far enough.
+fn levels(check: &LevelCheck) -> String {
+    let share = |share: f64| format!("{:.1} %", 100.0 * share);
+    let LevelCheck { im, unit, first_level, lower_tail_share, too_high_for, .. } = check;
+    let strengths: Vec<String> = check.strengths.iter().map(|strength| format!("{strength:.3}")).collect();
+    let found = format!(
+        "{im}: at most {} of the risk of an ordinate lies below the first, {first_level} {unit} (strengths {} tried)",
+        share(*lower_tail_share),
+        strengths.join(", ")
+    );
+    let Some(worst) = too_high_for.first() else { return found };
+    let others = match too_high_for.len() {
+        1 => String::new(),
+        count => format!(", worst of {count}"),
+    };
+    let remedy = match &check.proposal {
+        Some(proposal) => {
+            format!("begin lower, and at most {} does: {}", share(proposal.lower_tail_share), proposal.line)
+        }
+        None => "the hazard curves begin too high to begin lower: take curves from further down".to_owned(),
+    };
+    format!("{found}; too high for {worst}{others}, whose ordinates come out too large; {remedy}")
 }
 
 /// A time for people.

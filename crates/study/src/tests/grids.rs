@@ -138,7 +138,8 @@ fn default_levels_cut_to_a_curve() {
     use super::super::levels_within;
     let pgv = |least, most| levels_within(IntensityMeasure::Pgv, least, most).map(|(_, levels)| levels);
     assert_eq!(pgv(0.1, 300.0), None);
-    assert_eq!(pgv(0.1, 174.3).as_deref(), Some("[\"1:0.5:20\", \"25:5:170\"]"));
+    assert_eq!(pgv(0.1, 174.3).as_deref(), Some("[\"0.1:0.1:0.9\", \"1:0.5:20\", \"25:5:170\"]"));
+    assert_eq!(pgv(0.25, 200.0).as_deref(), Some("[\"0.3:0.1:0.9\", \"1:0.5:20\", \"25:5:200\"]"));
     assert_eq!(pgv(1.7, 200.0).as_deref(), Some("[\"2:0.5:20\", \"25:5:200\"]"));
     assert_eq!(pgv(500.0, 600.0), None);
     let (key, levels) = levels_within(IntensityMeasure::Pga, 0.00233, 1.997).unwrap();

@@ -52,6 +52,13 @@ pub(super) fn print_design(out: &mut impl Write, report: &DesignTable) -> Result
         1.0 - report.noise_relative,
         1.0 + report.noise_relative
     )?;
+    if report.rows.iter().any(|row| row.row.hangs_on_rounding()) {
+        writeln!(
+            out,
+            "*: rounding decides it: with scale factors 1e-15 smaller or larger it has other digits (docs/method.md, \
+             section 1.5)"
+        )?;
+    }
     if report.compared {
         let held: Vec<String> =
             by.iter().zip(held).map(|(by, held)| format!("{held} of {compared_with} by {by}")).collect();

@@ -1,0 +1,178 @@
+//! Whether the levels of a study begin low enough for its targets, tried on a few of its strengths.
+//!
+//! Below the first level the fragility falls in a straight line (docs/method.md, section 6), so that an ordinate which
+//! rests on motions weaker than that comes out too large. How much of its risk lies there the responses alone can say,
+//! and a few strengths are quickly analysed: the shares are those that a run would report.
+
+use serde::Serialize;
+use uplift_fragility::Stripes as Stripe;
+use uplift_ida::{Axes, System, Unwatched, analyse};
+use uplift_risk::{PooledDemand, RiskCurve, StripeWeights, TAIL_SHARE_LIMIT};
+use uplift_study::{Grid, MeasurePlan, UniformRiskStudy, lower_starts};
+
+use super::plan_stripes;
+use super::spectra::Reading;
+use crate::error::UpliftError;
+use crate::inputs::{RecordSet, SiteHazard};
+use crate::text::per_cent;
+
+/// Strengths tried, spread over those of the study up to the largest.
+const TRIED: usize = 4;
+/// Analyses that a trial may take: more records than this allows are not tried.
+const MOST_ANALYSES: usize = 300_000;
+
+/// How far down the levels of one measure reach.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LevelCheck {
+    /// `PGV` or `PGA`.
+    pub im: &'static str,
+    /// Unit of the levels.
+    pub unit: &'static str,
+    /// The first level.
+    pub first_level: f64,
+    /// The strengths that were tried.
+    pub strengths: Vec<f64>,
+    /// The largest share of the risk of an ordinate that comes from below the first level, 0 to 1.
+    pub lower_tail_share: f64,
+    /// Ordinates of which more than 1 % does: `50 % at Athens`, worst first.
+    pub too_high_for: Vec<String>,
+    /// Levels that would do; none where these do, or where the hazard curves begin too high themselves.
+    pub proposal: Option<LevelProposal>,
+}
+
+/// Levels that begin lower.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LevelProposal {
+    /// The line for the study, `pgv.levels_cm_s = […]`.
+    pub line: String,
+    /// The largest share of the risk that then comes from below the first level, at the strengths tried.
+    pub lower_tail_share: f64,
+}
+
+/// The peaks of a few strengths at the study's levels and at all lower ones that may be proposed.
+struct Trial<'a> {
+    study: &'a UniformRiskStudy,
+    hazard: &'a [SiteHazard],
+    levels: Grid,
+    axes: Axes,
+    edp_m: Vec<f64>,
+    reading: Reading,
+}
+
+/// Tries the levels of `measure`; none where there is no hazard curve to try them by, or the records are too many.
+///
+/// # Errors
+/// A record that cannot be scaled.
+pub(super) fn check_levels(
+    study: &UniformRiskStudy,
+    measure: &MeasurePlan,
+    (records, systems): (&RecordSet, &[System]),
+    hazard: &[SiteHazard],
+) -> Result<Option<LevelCheck>, UpliftError> {
+    let first = measure.levels[0];
+    // below the foot of any curve a level would be refused
+    let curves = hazard.iter().flat_map(|site| {
+        let branches = site.branches.iter().map(|branch| &branch.input);
+        std::iter::once(&site.curve).chain(branches).map(|input| input.curve.first().im)
+    });
+    let Some(least) = curves.reduce(f64::max) else { return Ok(None) };
+    let starts = lower_starts(first, least);
+    let widest = match starts.last() {
+        Some(&start) => measure.starting_at(start).map_err(|error| UpliftError::input(error.to_string()))?,
+        None => measure.clone(),
+    };
+    let tried: Vec<usize> = tried(&study.strengths);
+    if tried.is_empty() || records.records.len() * tried.len() * widest.levels.len() > MOST_ANALYSES {
+        return Ok(None);
+    }
+    let oscillators: Vec<System> = tried.iter().map(|&strength| systems[strength].clone()).collect();
+    let plan = plan_stripes(study, &widest, records, &oscillators)?;
+    let peaks = analyse(&plan, &Unwatched)?;
+    let trial = Trial {
+        study,
+        hazard,
+        levels: widest.levels.clone(),
+        axes: peaks.axes(),
+        edp_m: peaks.displacement_m().to_vec(),
+        reading: Reading::of(study)?,
+    };
+
+    let own = trial.lower_shares(first)?;
+    let worst = |shares: &[(f64, String)]| shares.first().map_or(0.0, |(share, _)| *share);
+    let mut check = LevelCheck {
+        im: measure.measure.label(),
+        unit: measure.measure.unit(),
+        first_level: first,
+        strengths: tried.iter().map(|&strength| study.strengths[strength]).collect(),
+        lower_tail_share: worst(&own),
+        too_high_for: own.into_iter().filter(|(share, _)| *share > TAIL_SHARE_LIMIT).map(|(_, name)| name).collect(),
+        proposal: None,
+    };
+    if !check.too_high_for.is_empty() {
+        for start in starts {
+            let lower_tail_share = worst(&trial.lower_shares(start)?);
+            if lower_tail_share <= TAIL_SHARE_LIMIT {
+                let lowered = measure.starting_at(start).map_err(|error| UpliftError::input(error.to_string()))?;
+                check.proposal = Some(LevelProposal { line: lowered.line(), lower_tail_share });
+                break;
+            }
+        }
+    }
+    Ok(Some(check))
+}
+
+/// Positions of the strengths to try: spread evenly, with the largest, without that of a free mass.
+fn tried(strengths: &[f64]) -> Vec<usize> {
+    let begin = usize::from(strengths.first() == Some(&0.0));
+    let count = strengths.len() - begin;
+    let mut positions: Vec<usize> =
+        (1..=TRIED).map(|part| begin + (count * part).div_ceil(TRIED)).map(|end| end.saturating_sub(1)).collect();
+    positions.retain(|position| (begin..strengths.len()).contains(position));
+    positions.dedup();
+    positions
+}
+
+impl Trial<'_> {
+    /// What comes from below the first level if that is `start`: the largest share over the strengths, of each
+    /// probability and site, largest first.
+    fn lower_shares(&self, start: f64) -> Result<Vec<(f64, String)>, UpliftError> {
+        let dropped = self.levels.partition_point(|level| *level < start * (1.0 - 1e-9));
+        let levels = &self.levels[dropped..];
+        let Axes { motions, systems, scales } = self.axes;
+        let weights =
+            |site: &SiteHazard| StripeWeights::from_hazard(&site.curve.curve, levels, self.study.risk.extrapolate);
+        let weights = self.hazard.iter().map(weights).collect::<Result<Vec<_>, _>>()?;
+        let mut shares = vec![vec![0.0_f64; self.study.risk.poe.len()]; self.hazard.len()];
+        for system in 0..systems {
+            let edp_m = &self.edp_m[system * scales + dropped..];
+            let demand = PooledDemand::new(&Stripe::strided(levels, edp_m, motions, systems * scales)?)?;
+            for (weights, shares) in weights.iter().zip(&mut shares) {
+                let ordinates = self.reading.ordinates(&RiskCurve::new(&demand, weights)?)?;
+                for (share, ordinate) in shares.iter_mut().zip(ordinates) {
+                    *share = share.max(ordinate.lower_tail_share);
+                }
+            }
+        }
+        let named = |(site, shares): (&SiteHazard, Vec<f64>)| {
+            let name = |(share, poe): (f64, &f64)| (share, format!("{} at {}", per_cent(*poe), site.site));
+            shares.into_iter().zip(&self.study.risk.poe).map(name).collect::<Vec<_>>()
+        };
+        let mut shares: Vec<(f64, String)> = self.hazard.iter().zip(shares).flat_map(named).collect();
+        shares.sort_by(|a, b| b.0.total_cmp(&a.0));
+        Ok(shares)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::tried;
+
+    #[test]
+    fn the_strengths_tried_end_at_the_largest() {
+        let strengths: Vec<f64> = (0..=300).map(|i| f64::from(i) / 300.0).collect();
+        assert_eq!(tried(&strengths), [75, 150, 225, 300]);
+        assert_eq!(tried(&[0.0, 0.3]), [1]);
+        assert_eq!(tried(&[0.1, 0.2, 0.3]), [0, 1, 2]);
+        assert_eq!(tried(&[0.0]), [0; 0]);
+    }
+}

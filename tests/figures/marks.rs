@@ -1,0 +1,109 @@
+//! Marked figures in the documents: found, compared, written.
+
+use std::path::PathBuf;
+use std::sync::Mutex;
+
+use crate::common::repository;
+
+const BEGIN: &str = "<!-- figure: ";
+const END: &str = "<!-- end -->";
+
+/// The sources, by which names begin; those that `make test` leaves out are slow.
+const SOURCES: [&str; 10] = [
+    "conditioning",
+    "rounding",
+    "levels",
+    "levels-at-athens",
+    "table-4-1",
+    "table-4-2",
+    "designs",
+    "embedded-set",
+    "tables-2",
+    "tables-3",
+];
+
+/// One process writes, one source at a time.
+static WRITING: Mutex<()> = Mutex::new(());
+
+struct Mark {
+    name: String,
+    text: String,
+}
+
+fn documents() -> Vec<PathBuf> {
+    let mut found = ["README.md", "hazard/README.md", "records/README.md"].map(PathBuf::from).to_vec();
+    for entry in std::fs::read_dir(repository().join("docs")).unwrap() {
+        let name = PathBuf::from("docs").join(entry.unwrap().file_name());
+        if name.extension().is_some_and(|extension| extension == "md") {
+            found.push(name);
+        }
+    }
+    found
+}
+
+fn marks(text: &str) -> Vec<Mark> {
+    let mark = |after: &str| {
+        let (name, rest) = after.split_once(" -->").expect("a mark that is closed");
+        let (text, _) = rest.split_once(END).unwrap_or_else(|| panic!("figure {name} has no end"));
+        Mark { name: name.to_owned(), text: words(text) }
+    };
+    text.split(BEGIN).skip(1).map(mark).collect()
+}
+
+/// Without line breaks and the like.
+fn words(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// Compares what `source` computed with every document, both ways: no figure of it is missing, or another.
+pub fn hold(source: &str, computed: &[(String, String)]) {
+    assert!(SOURCES.contains(&source), "{source} is not among the sources");
+    let _one_at_a_time = WRITING.lock();
+    let update = std::env::var_os("UPDATE_DOCS").is_some();
+    let (mut wrong, mut found) = (Vec::new(), Vec::new());
+    for document in documents() {
+        let path = repository().join(&document);
+        let mut text = std::fs::read_to_string(&path).unwrap();
+        let mut changed = false;
+        for Mark { name, text: printed } in marks(&text) {
+            if name.split('.').next() != Some(source) {
+                continue;
+            }
+            let Some((_, value)) = computed.iter().find(|(computed, _)| *computed == name) else {
+                wrong.push(format!("{}: nothing computes {name}", document.display()));
+                continue;
+            };
+            found.push(name.clone());
+            if printed == words(value) {
+                continue;
+            }
+            if update {
+                let begin = text.find(&format!("{BEGIN}{name} -->")).unwrap() + BEGIN.len() + name.len() + 4;
+                let end = begin + text[begin..].find(END).unwrap();
+                text.replace_range(begin..end, value);
+                changed = true;
+            } else {
+                wrong.push(format!("{}: {name} is {value}, not {printed}", document.display()));
+            }
+        }
+        if changed {
+            std::fs::write(path, text).unwrap();
+        }
+    }
+    let missing = computed.iter().filter(|(name, _)| !found.contains(name));
+    wrong.extend(missing.map(|(name, value)| format!("{name} = {value} stands in no document")));
+    assert!(wrong.is_empty(), "(UPDATE_DOCS=1 writes them)\n{}", wrong.join("\n"));
+}
+
+#[test]
+fn every_mark_has_a_source() {
+    let mut count = 0;
+    for document in documents() {
+        let text = std::fs::read_to_string(repository().join(&document)).unwrap();
+        for Mark { name, .. } in marks(&text) {
+            assert!(SOURCES.contains(&name.split('.').next().unwrap()), "{}: {name}", document.display());
+            count += 1;
+        }
+    }
+    assert!(count > 0);
+}

@@ -1,0 +1,73 @@
+//! Levels that begin too high for the targets of a study: what a check says of them, and what a run then finds.
+
+use serde_json::Value;
+
+use crate::common::SmallStudy;
+
+/// Two sites whose curves begin at 0.5 cm/s, and levels that begin at 5.
+const HIGH: &str = r#"[records.synthetic]
+pairs = 6
+[strengths]
+values = "0:0.1:0.8"
+[pgv]
+levels_cm_s = [5, 10, "20:20:100"]
+[risk]
+maf_surface = false
+[[sites]]
+name = "Here"
+pgv = "here-pgv.csv"
+[[sites]]
+name = "There"
+pgv = { file = "there-pgv.csv", unit = "m/s", kind = "poe", years = 50 }
+"#;
+
+/// The largest share from below the first level at these strengths, as a run has it.
+fn of_a_run(study: &SmallStudy, set: &[&str], strengths: &[f64]) -> f64 {
+    study.uplift(&[&["run", "study.toml", "-o", "r.h5", "-q"], set].concat()).ok();
+    let csv = std::fs::read_to_string(study.path().join("r.urs.csv")).unwrap();
+    let rows = csv.lines().skip(2).map(|line| line.split(',').collect::<Vec<_>>());
+    rows.filter(|cells| strengths.iter().any(|strength| (cells[4].parse::<f64>().unwrap() - strength).abs() < 1e-9))
+        .map(|cells| cells[7].parse().unwrap())
+        .fold(0.0, f64::max)
+}
+
+#[test]
+fn a_check_proposes_levels_that_a_run_is_content_with() {
+    let study = SmallStudy::with(HIGH);
+    let plan: Value = serde_json::from_str(&study.uplift(&["check", "study.toml", "--json"]).ok().stdout).unwrap();
+    let check = &plan["levels"][0];
+    let number = |value: &Value| value.as_f64().unwrap();
+    let strengths: Vec<f64> = check["strengths"].as_array().unwrap().iter().map(number).collect();
+    assert_eq!((check["im"].as_str(), number(&check["first_level"]), strengths.len()), (Some("PGV"), 5.0, 4));
+    assert_eq!(strengths.last(), Some(&0.8));
+
+    // the shares are a run's, to the bit: of the levels as they are, and of those proposed
+    let share = number(&check["lower_tail_share"]);
+    assert!(share > 0.01, "{check}");
+    assert_eq!(of_a_run(&study, &[], &strengths), share);
+    let proposal = &check["proposal"];
+    let line = proposal["line"].as_str().unwrap();
+    let (key, levels) = line.split_once(" = ").unwrap();
+    assert_eq!(key, "pgv.levels_cm_s");
+    assert!(levels.starts_with('[') && levels.ends_with("5, 10, \"20:20:100\"]"), "{line}");
+    let lowered = number(&proposal["lower_tail_share"]);
+    assert!(lowered <= 0.01, "{proposal}");
+    assert_eq!(of_a_run(&study, &["--set", line], &strengths), lowered);
+
+    let said = study.uplift(&["check", "study.toml"]).ok().stdout;
+    for words in ["levels    PGV: at most", "too high for", "worst of", line] {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+    // levels that reach far enough are left alone
+    let content = study.uplift(&["check", "study.toml", "--set", line]).ok().stdout;
+    assert!(content.contains("levels    PGV: at most") && !content.contains("too high"), "{content}");
+}
+
+#[test]
+fn a_curve_that_begins_above_the_default_levels_has_those_that_it_covers_named() {
+    let study = SmallStudy::with(HIGH);
+    let levels = "pgv.levels_cm_s = [\"0.5:0.1:0.9\", \"1:0.5:20\", \"25:5:200\"]";
+    let text = HIGH.replace("levels_cm_s = [5, 10, \"20:20:100\"]\n", "");
+    study.write("study.toml", &text);
+    study.uplift(&["check", "study.toml"]).fails(4, &["Here", "leave the level out of [pgv]", levels]);
+}
