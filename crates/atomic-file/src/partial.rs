@@ -5,6 +5,8 @@ use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 
+use crate::identity::is_still_at;
+
 /// Makes a hidden file for `target`, empty and locked, and removes others that killed writers of `target` left on this
 /// machine.
 ///
@@ -59,7 +61,7 @@ fn clear(path: &Path) -> Place {
     }
     let Ok(file) = File::options().read(true).write(true).open(path) else { return Place::Taken };
     // removed while it is locked, so that it is the file that was looked at
-    if is_abandoned(&file) && is_at(&file, path) && fs::remove_file(path).is_ok() {
+    if is_abandoned(&file) && is_still_at(&file, path) && fs::remove_file(path).is_ok() {
         Place::Cleared
     } else {
         Place::Taken
@@ -74,28 +76,13 @@ fn hold(file: &File, path: &Path) -> bool {
         return false;
     }
     // on a file system without locks nothing is ever taken for a leftover
-    is_at(file, path)
+    is_still_at(file, path)
 }
 
 /// Whether nobody holds `file`, which is then locked to all others. Where locks keep even their owner from opening the
 /// file once more, as not on Unix, nobody locks and nothing is proved.
 fn is_abandoned(file: &File) -> bool {
     cfg!(unix) && file.try_lock().is_ok()
-}
-
-#[cfg(unix)]
-fn is_at(file: &File, path: &Path) -> bool {
-    use std::os::unix::fs::MetadataExt;
-    let identity = |metadata: fs::Metadata| (metadata.dev(), metadata.ino());
-    match (file.metadata(), fs::symlink_metadata(path)) {
-        (Ok(ours), Ok(there)) => identity(ours) == identity(there),
-        _ => false,
-    }
-}
-
-#[cfg(not(unix))]
-fn is_at(_: &File, _: &Path) -> bool {
-    true
 }
 
 #[cfg(all(test, unix))]
