@@ -81,16 +81,15 @@ impl Paths {
             );
             return None;
         }
-        if path.extension().is_none_or(|extension| extension != "h5") {
-            field.mistake(
-                format!("the result is an HDF5 file, and this is none by its name: {}", path.display()),
-                "give it a name that ends in .h5, e.g. results/study.h5",
-            );
-        }
         if path == *study_file || inputs.any(|input| input == path) {
             field.mistake(
                 format!("the results would overwrite an input: {}", path.display()),
                 "give the result file a name of its own, e.g. results/study.h5",
+            );
+        } else if path.extension().is_none_or(|extension| extension != "h5") {
+            field.mistake(
+                format!("the result is an HDF5 file, and this is none by its name: {}", path.display()),
+                "give it a name that ends in .h5, e.g. results/study.h5",
             );
         }
         Some(path)

@@ -214,6 +214,10 @@ fn one_by_one() {
              file = \"manifest.csv\"",
             "output.file: the results would overwrite an input",
         ),
+        (
+            "kind = \"displacement spectra\"\n[oscillator]\n[output]\nfile = \"notes.txt\"",
+            "output.file: the result is an HDF5 file, and this is none by its name",
+        ),
     ] {
         let folder = Folder::new(study);
         let error = Study::load_any(&folder.path("study.toml"), &[]).unwrap_err();
