@@ -23,9 +23,9 @@ fn defaults() {
     let [pgv, pga] = study.measures.as_slice() else {
         panic!("two measures");
     };
-    assert_eq!((pgv.measure, pgv.levels.len()), (IntensityMeasure::Pgv, 75));
+    assert_eq!((pgv.measure, pgv.levels.len()), (IntensityMeasure::Pgv, 84));
     assert_eq!((pga.measure, pga.levels.len()), (IntensityMeasure::Pga, 82));
-    assert_eq!((pgv.levels[0], pgv.levels[38], pgv.levels[39], pgv.levels[74]), (1.0, 20.0, 25.0, 200.0));
+    assert_eq!([0, 8, 9, 47, 48, 83].map(|level| pgv.levels[level]), [0.1, 0.9, 1.0, 20.0, 25.0, 200.0]);
     assert_eq!((pga.levels[0], pga.levels[9], pga.levels[10], pga.levels[81]), (0.001, 0.0225, 0.025, 2.0));
     assert_eq!(study.risk.poe, [0.02, 0.1, 0.5]);
     assert_eq!(study.risk.years, 50.0);
