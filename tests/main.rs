@@ -13,6 +13,7 @@ mod displacement_resume;
 mod displacement_spectra;
 mod epistemic;
 mod hazard;
+mod instructions;
 mod mistakes;
 mod overturning;
 mod pulse;
