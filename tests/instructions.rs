@@ -33,9 +33,10 @@ fn bits(path: &Path) -> Vec<(String, Vec<u64>)> {
     let of_measure = |measure: &str| names.map(|name| format!("/{}", name.replace('@', measure)));
     let paths = ["pgv", "pga"].iter().flat_map(|measure| of_measure(measure));
     let array = |path: String| {
-        let values = match path.ends_with("impacts") {
-            true => reader.array_u32(&path).unwrap().values.into_iter().map(u64::from).collect(),
-            false => reader.array_f64(&path).unwrap().values.into_iter().map(f64::to_bits).collect(),
+        let values = if path.ends_with("impacts") {
+            reader.array_u32(&path).unwrap().values.into_iter().map(u64::from).collect()
+        } else {
+            reader.array_f64(&path).unwrap().values.into_iter().map(f64::to_bits).collect()
         };
         (path, values)
     };
