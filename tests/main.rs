@@ -14,6 +14,7 @@ mod displacement_spectra;
 mod epistemic;
 mod hazard;
 mod instructions;
+mod limits;
 mod mistakes;
 mod overturning;
 mod pulse;

@@ -21,7 +21,7 @@ pub use earlier::EarlierStripes;
 pub use epistemic::{BranchSpectra, FRACTILES};
 pub use outcome::Outcome;
 pub use plan::Plan;
-pub(crate) use plan::plan;
+pub(crate) use plan::{needs, plan};
 pub use report::{BranchReport, CoefficientsReport, MeasureReport, RunReport, SpectrumReport};
 pub(crate) use run::run;
 pub(crate) use spectra::pooled_demand;
