@@ -80,7 +80,7 @@ FUZZ ?= $(subst /fuzz/fuzz_targets,,$(patsubst crates/%.rs,%,$(wildcard crates/*
 
 fuzz: $(addprefix fuzz/,$(FUZZ))
 
-# No reader here has unsafe code, so no sanitizer is needed, and stable Rust will do.
+# The crates that are fuzzed have no unsafe code, so no sanitizer is needed, and stable Rust will do.
 fuzz/%:
 	@cargo fuzz --version > /dev/null 2>&1 || \
 		{ echo "cargo-fuzz is needed: cargo install --locked cargo-fuzz" >&2; exit 1; }

@@ -57,6 +57,12 @@ pub fn uplift<S: AsRef<str>>(at: &Path, arguments: &[S]) -> Finished {
     Finished::of(command(at).args(arguments.iter().map(AsRef::as_ref)).output().unwrap())
 }
 
+/// The same with a variable of the environment.
+pub fn uplift_where<S: AsRef<str>>(at: &Path, (variable, value): (&str, &str), arguments: &[S]) -> Finished {
+    let mut command = command(at);
+    Finished::of(command.env(variable, value).args(arguments.iter().map(AsRef::as_ref)).output().unwrap())
+}
+
 /// A folder with a study that takes well under a second: two sites with curves λ = k₀ im^(−k), four synthetic pairs.
 pub struct SmallStudy {
     pub folder: TempDir,

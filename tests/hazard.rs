@@ -198,7 +198,7 @@ fn a_curve_of_another_definition_is_refused_unless_converted() {
         ("hazard.component=\"rotd51\"", &["RotD50"][..]),
         ("hazard.conversions=[{ pgv = 1 }]", &["from"]),
         ("hazard.conversions=[{ from = \"larger\", to = \"RotD50\" }]", &["factor"]),
-        ("hazard.conversions=[{ from = \"larger\", to = \"RotD50\", pgv = 0 }]", &["above zero"]),
+        ("hazard.conversions=[{ from = \"larger\", to = \"RotD50\", pgv = 0 }]", &["from 0.1 to 10"]),
         (
             "hazard.conversions=[{ from = \"larger\", to = \"RotD50\", pgv = 1 }, { from = \"larger\", to = \
              \"RotD50\", pga = 1 }]",

@@ -202,8 +202,8 @@ fn mistakes_are_told_before_the_work() {
         (&["--frequencies", "0.001:0.001:10", "--accelerations", "0.001:0.001:10"], &["100,000,000 points"]),
         (&["--slenderness", "1.2"], &["slenderness alpha is 1.2 rad"]),
         (&["--restitution", "-1"], &["restitution r is -1"]),
-        (&["--amplitude-g", "nan", "--period-s", "0"], &["pulse amplitude is NaN"]),
-        (&["--period-s", "0"], &["pulse period is 0 s", "between"]),
+        (&["--amplitude-g", "nan", "--period-s", "0"], &["2 things to mend", "amplitude is NaN g", "period is 0 s"]),
+        (&["--period-s", "0"], &["period is 0 s", "from 1e-4 to 10000 s"]),
     ] {
         uplift(folder.path(), &[&["pulse"], arguments].concat()).fails(2, words);
     }

@@ -313,7 +313,7 @@ fn mistakes_in_the_study() {
     let study = many(&format!("{}{SECTION}", without_sites()));
     for (set, words) in [
         ("site_table.sites=\"absent.csv\"", &["file not found", "absent.csv"][..]),
-        ("site_table.within_km=0", &["within_km", "above zero"]),
+        ("site_table.within_km=0", &["within_km", "from 0.001 to 20040 km"]),
         ("site_table.strengths=[0.2, 0.25]", &["0.25 is not among the strengths", "nearest", "0.2"]),
         ("site_table.strengths=\"0.2:0.1\"", &["strengths"]),
         ("site_table.within=3", &["unknown key `within`", "within_km"]),

@@ -5,6 +5,7 @@ mod checkpoint;
 mod compute;
 mod draws;
 mod job;
+mod needs;
 mod reference;
 mod report;
 mod write;

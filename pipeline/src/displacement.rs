@@ -16,7 +16,7 @@ pub use csv::{displacement_csv_paths, write_displacement_csv};
 pub(crate) use design_example::carry_out_designs;
 pub use design_example::{Designs, Doubted, design_analyses, strength};
 pub use plan::Plan;
-pub(crate) use plan::plan;
+pub(crate) use plan::{needs, plan};
 pub use report::{RunReport, SetReport, SpectraReport};
 pub(crate) use run::run;
 pub use spectra::{SetSpectra, set_spectra, structures};

@@ -12,6 +12,7 @@ use uplift_ida::IdaError;
 use uplift_labelled::LabelledError;
 use uplift_motion::MotionError;
 use uplift_oscillator::OscillatorError;
+use uplift_plausible::Implausible;
 use uplift_risk::RiskError;
 use uplift_spectra::SpectraError;
 use uplift_structure::StructureError;
@@ -46,6 +47,15 @@ pub enum UpliftError {
     /// Records or hazard curves cannot be used; all that was found.
     #[error("{}", list(" in the input data", .0))]
     Inputs(Vec<String>),
+    /// Numbers that no system, record or person means; all that was found.
+    #[error("{}", list("", .0))]
+    Implausible(Vec<Implausible>),
+    /// A job cannot fit on this machine; why.
+    #[error(
+        "{}\n(what is needed is estimated: UPLIFT_LIMITS=warn in the environment goes on nonetheless)",
+        list(" before it fits on this machine", .0)
+    )]
+    Room(Vec<String>),
     /// A file cannot be opened or written.
     #[error(transparent)]
     File(#[from] FileError),

@@ -5,6 +5,8 @@ use std::time::Instant;
 
 use serde::Serialize;
 
+use crate::machine::Room;
+
 /// With fewer records than this a spectrum changes with each of them (Section 4.5.1: 40 are a robust lower limit).
 pub const FEW_RECORDS: usize = 40;
 /// What is said of every result of synthetic records.
@@ -49,6 +51,8 @@ pub struct PlanHead {
     pub memory_bytes: u64,
     /// Disk, bytes, at most.
     pub disk_bytes: u64,
+    /// What there is of both, and whether the study fits.
+    pub room: Room,
     /// The result file.
     pub output: PathBuf,
     /// What to know before running it.

@@ -52,6 +52,7 @@
 //! | [`analysis`], [`checkpoint`] | plans carried out whole or in shards; their finished rows outlive a stop |
 //! | [`inputs`] | records and hazard curves, read and checked before anything is computed |
 //! | [`import`], [`records`], [`hazard_curves`] | record sets and hazard curves imported, shown, chosen from, made |
+//! | [`machine`] | what a job needs of memory and disk, and what there is |
 //! | [`status`], [`verify`] | how far a run is, and whether a result is as it was written |
 //! | [`table`](mod@table), [`export`] | a result beside a reference, and for other programs |
 //! | [`response`], [`pulses`] | one record through one oscillator; rocking spectra under wavelets |
@@ -74,6 +75,7 @@ pub mod import;
 pub mod influence;
 pub mod inputs;
 pub mod lock;
+pub mod machine;
 pub mod outputs;
 pub mod plan;
 pub mod pulses;

@@ -5,8 +5,13 @@ mod history;
 use std::path::PathBuf;
 
 use serde::Serialize;
+use uplift_ida::{IdaError, System};
 use uplift_motion::{AccelerationUnit, Accelerogram, ReadOptions, STANDARD_GRAVITY_M_S2, read_path};
 use uplift_oscillator::{Excitation, FreeVibration, Oscillator, PostUplift, respond, respond_with_history};
+use uplift_plausible::{
+    CAPACITY, FREE_VIBRATION, GRAVITY, POST_UPLIFT_STIFFNESS, RESTITUTION, SCALE, STRENGTH, TIME_STEP,
+    UPLIFT_DISPLACEMENT,
+};
 
 pub use history::{HistoryRow, ResponseHistory};
 
@@ -72,6 +77,24 @@ impl ResponseOptions {
         }
     }
 
+    /// Refuses numbers that no system, record or person means; all of them at once.
+    fn check(&self) -> Result<(), UpliftError> {
+        let given = [
+            (STRENGTH, "strength", Some(self.strength)),
+            (SCALE, "scale", Some(self.scale.abs())),
+            (UPLIFT_DISPLACEMENT, "uplift_displacement_m", Some(self.uplift_displacement_m)),
+            (CAPACITY, "capacity_m", self.capacity_m),
+            (POST_UPLIFT_STIFFNESS, "post_uplift_stiffness_per_s2", self.post_uplift_stiffness_per_s2),
+            (RESTITUTION, "restitution", Some(self.restitution)),
+            (GRAVITY, "gravity_m_s2", Some(self.gravity_m_s2)),
+            (TIME_STEP, "dt_s", self.dt_s),
+            (FREE_VIBRATION, "free_vibration_s", Some(self.free_vibration_s)),
+        ];
+        let mistakes: Vec<_> =
+            given.into_iter().filter_map(|(range, name, value)| range.check(name, value?).err()).collect();
+        if mistakes.is_empty() { Ok(()) } else { Err(UpliftError::Implausible(mistakes)) }
+    }
+
     fn oscillator(&self) -> Result<Oscillator, UpliftError> {
         let post_uplift = match (self.capacity_m, self.post_uplift_stiffness_per_s2) {
             (Some(_), Some(_)) => {
@@ -94,14 +117,8 @@ impl ResponseOptions {
         )?)
     }
 
-    fn free_vibration(&self) -> Result<FreeVibration, UpliftError> {
-        match self.free_vibration_s {
-            seconds if !(seconds.is_finite() && seconds >= 0.0) => {
-                Err(UpliftError::Usage(format!("the free vibration is {seconds} s: give seconds, not negative")))
-            }
-            seconds if seconds > 0.0 => Ok(FreeVibration::Seconds(seconds)),
-            _ => Ok(FreeVibration::None),
-        }
+    fn free_vibration(&self) -> FreeVibration {
+        if self.free_vibration_s > 0.0 { FreeVibration::Seconds(self.free_vibration_s) } else { FreeVibration::None }
     }
 
     fn read(&self) -> Result<Accelerogram, UpliftError> {
@@ -177,19 +194,29 @@ pub struct ResponseReport {
 /// # Errors
 /// An oscillator that cannot be, a record that cannot be read, a history that cannot be written.
 pub fn response(options: &ResponseOptions) -> Result<ResponseReport, UpliftError> {
+    options.check()?;
     let oscillator = options.oscillator()?;
-    let after = options.free_vibration()?;
+    let after = options.free_vibration();
     if let Some(file) = &options.history_file {
         outputs::check(&[Output::new(file, OutputKind::Table("time_s"))], &[&options.record], options.force)?;
     }
     let motion = options.read()?;
     let excitation = Excitation::new(motion.dt_s(), motion.acceleration_m_s2())?.scaled(options.scale)?;
+    refuse_endless(&oscillator, &motion, options.free_vibration_s)?;
     let (result, history) = if options.history || options.history_file.is_some() {
         let (result, history) = respond_with_history(&oscillator, &excitation, after);
         (result, Some(ResponseHistory::of(&history, &excitation)))
     } else {
         (respond(&oscillator, &excitation, after), None)
     };
+    if !(result.overturned || result.peak_displacement_m.is_finite()) {
+        return Err(UpliftError::from(IdaError::NotFinite {
+            motion: options.record.display().to_string(),
+            scale: options.scale,
+            system: System::Oscillator(oscillator).to_string(),
+            displacement_m: result.peak_displacement_m,
+        }));
+    }
     let scale = options.scale.abs();
     let report = ResponseReport {
         record: options.record.clone(),
@@ -221,4 +248,22 @@ pub fn response(options: &ResponseOptions) -> Result<ResponseReport, UpliftError
         history.write(file, &report)?;
     }
     Ok(report)
+}
+
+/// Steps of a run, at most: some seconds, and a time history of a gigabyte.
+const MOST_STEPS: f64 = 1e7;
+
+/// Refuses a motion of more steps than that: its samples, and the half cycles of the stiffest branch.
+fn refuse_endless(oscillator: &Oscillator, motion: &Accelerogram, free_s: f64) -> Result<(), UpliftError> {
+    let duration_s = motion.duration_s() + free_s;
+    let half_cycles = oscillator.highest_frequency_rad_s() * duration_s / std::f64::consts::PI;
+    let steps = duration_s / motion.dt_s() + half_cycles;
+    if steps <= MOST_STEPS {
+        return Ok(());
+    }
+    Err(UpliftError::Usage(format!(
+        "{duration_s} s of motion are {steps:.1e} steps of {} s and half cycles of the oscillator: {MOST_STEPS:e} are \
+         computed at most; follow the free vibration for a shorter time, or give a softer system",
+        motion.dt_s()
+    )))
 }

@@ -58,6 +58,15 @@ pub fn per_cent(probability: f64) -> String {
     format!("{} %", (probability * 1e8).round() / 1e6)
 }
 
+/// A size in bytes, in kB, MB or GB.
+pub fn bytes(number: u64) -> String {
+    match number {
+        ..1_000_000 => format!("{} kB", number.div_ceil(1000)),
+        1_000_000..1_000_000_000 => format!("{} MB", number.div_ceil(1_000_000)),
+        _ => format!("{:.1} GB", number as f64 / 1e9),
+    }
+}
+
 /// A whole number with its thousands set apart.
 pub fn thousands(number: u64) -> String {
     let digits = number.to_string();

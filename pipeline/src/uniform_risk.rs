@@ -24,7 +24,7 @@ pub use epistemic::{BranchSpectra, FRACTILES};
 pub use levels::{LevelCheck, LevelProposal};
 pub use outcome::Outcome;
 pub use plan::Plan;
-pub(crate) use plan::plan;
+pub(crate) use plan::{needs, plan};
 pub use report::{BranchReport, CoefficientsReport, MeasureReport, RunReport, SpectrumReport};
 pub(crate) use run::run;
 pub(crate) use spectra::pooled_demand;

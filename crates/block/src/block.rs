@@ -73,9 +73,9 @@ impl RockingBlock {
     /// The same block under another acceleration of gravity \[m/s²\].
     ///
     /// # Errors
-    /// [`BlockError::OutOfRange`] unless it is between 1e-3 and 1e3 m/s².
+    /// [`BlockError::OutOfRange`] unless it is between 1e-3 and 1e4 m/s².
     pub fn with_gravity(self, gravity_m_s2: f64) -> Result<Self, BlockError> {
-        let gravity_m_s2 = within("gravity", gravity_m_s2, "m/s2", 1e-3..=1e3, "between 1e-3 and 1e3 m/s2")?;
+        let gravity_m_s2 = within("gravity", gravity_m_s2, "m/s2", 1e-3..=1e4, "between 1e-3 and 1e4 m/s2")?;
         Ok(Self { gravity_m_s2, ..self })
     }
 

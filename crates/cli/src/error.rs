@@ -38,6 +38,7 @@ impl CommandError {
                 | UpliftError::Choice { .. }
                 | UpliftError::Oscillator(_)
                 | UpliftError::Blocks(_)
+                | UpliftError::Implausible(_)
                 | UpliftError::Motion(MotionError::SyntheticOption { .. } | MotionError::SyntheticCandidates { .. }),
             ) => 2,
             Self::Uplift(UpliftError::Study(_)) => 3,

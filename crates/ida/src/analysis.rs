@@ -17,7 +17,8 @@ use crate::watch::Watch;
 /// Memory: 13 bytes an analysis, and a row's worth of scratch a thread.
 ///
 /// # Errors
-/// [`IdaError::Cancelled`] if `watch` says so; [`IdaError::Block`] and [`IdaError::Motion`] for what is not computed.
+/// [`IdaError::Cancelled`] if `watch` says so; [`IdaError::Block`] and [`IdaError::Motion`] for what is not computed,
+/// [`IdaError::NotFinite`] for what comes out as no number.
 pub fn analyse(plan: &Plan<'_>, watch: &dyn Watch) -> Result<Peaks, IdaError> {
     let cells = complete(plan, Cells::unknown(plan), Shard::WHOLE, watch, &|_| {})?;
     Ok(cells.peaks)
@@ -79,6 +80,7 @@ pub fn complete(
                 }
             };
             for (scale, peak) in missing.iter().zip(&peaks) {
+                check_number(&plan.systems()[system], of_motion, of_motion.scales[*scale], peak)?;
                 displacement_m[*scale] = peak.displacement_m;
                 impacts[*scale] = peak.impacts;
             }
@@ -91,6 +93,15 @@ pub fn complete(
         },
     )?;
     Ok(cells)
+}
+
+/// Whether a peak is one: NaN never is, and `+∞` only of a system that can overturn.
+fn check_number(system: &System, motion: &ScaledMotion<'_>, scale: f64, peak: &Peak) -> Result<(), IdaError> {
+    let displacement_m = peak.displacement_m;
+    if displacement_m.is_finite() || (displacement_m == f64::INFINITY && system.can_overturn()) {
+        return Ok(());
+    }
+    Err(IdaError::NotFinite { motion: motion.id.to_owned(), scale, system: system.to_string(), displacement_m })
 }
 
 /// What oscillators share under each motion, made ready only where a row of one is missing.
@@ -142,4 +153,31 @@ fn rocked(block: &RockingBlock, motion: &ScaledMotion<'_>, scale: f64, with_free
     let response =
         respond(block, &ground, free).map_err(|source| IdaError::Block { motion: named(), source: source.into() })?;
     Ok(Peak { displacement_m: response.displacement_m, impacts: u32::try_from(response.impacts).unwrap_or(u32::MAX) })
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use uplift_motion::Accelerogram;
+    use uplift_oscillator::PostUplift;
+
+    use super::*;
+
+    #[test]
+    fn a_peak_that_is_no_number_is_an_error_and_an_overturning_is_an_answer() {
+        let accelerogram = Accelerogram::new(0.01, vec![0.0, 1.0]).unwrap();
+        let motion = ScaledMotion { id: "RSN1 h1", accelerogram: &accelerogram, scales: vec![2.5] };
+        let system = |post_uplift| System::Oscillator(Oscillator::new(0.3, 9.81, 0.0005, 0.95, post_uplift).unwrap());
+        let [constant, falls] = [PostUplift::Zero, PostUplift::Negative { capacity_m: 0.4 }].map(system);
+        let check = |system: &System, displacement_m: f64| {
+            check_number(system, &motion, 2.5, &Peak { displacement_m, impacts: 0 })
+        };
+        assert!(check(&constant, 0.1).is_ok() && check(&falls, f64::INFINITY).is_ok());
+        for (system, displacement_m) in
+            [(&constant, f64::INFINITY), (&constant, f64::NAN), (&falls, f64::NAN), (&falls, f64::NEG_INFINITY)]
+        {
+            let error = check(system, displacement_m).unwrap_err().to_string();
+            assert!(error.contains("RSN1 h1") && error.contains("2.5") && error.contains("strength 0.3"), "{error}");
+        }
+    }
 }

@@ -5,6 +5,8 @@ use uplift_block::BlockError;
 use uplift_motion::MotionError;
 use uplift_oscillator::OscillatorError;
 
+use crate::plan::{MOST_PEAK_M_S2, MOST_SCALE};
+
 /// Why an incremental dynamic analysis cannot be planned or finished.
 #[derive(Debug, Error)]
 pub enum IdaError {
@@ -52,6 +54,37 @@ pub enum IdaError {
         /// Its value.
         value: f64,
     },
+    /// A scale factor that makes noise of a record, or a motion that no ground has.
+    #[error(
+        "record {motion}: its scale factor {index} is {value:e}, which makes its largest acceleration {peak_m_s2:e} \
+         m/s2: at most {MOST_SCALE:e} and {MOST_PEAK_M_S2:e} m/s2 are computed; is the unit of the record right, and \
+         does it move at all?"
+    )]
+    Implausible {
+        /// The motion.
+        motion: String,
+        /// Index of the factor, from 0.
+        index: usize,
+        /// Its value.
+        value: f64,
+        /// Largest acceleration of the scaled motion, m/s².
+        peak_m_s2: f64,
+    },
+    /// The arithmetic of a run left the numbers: its peak is NaN, or infinite for a system that cannot overturn.
+    #[error(
+        "record {motion}, scale factor {scale}, {system}: the displacement comes out as {displacement_m} m, which is \
+         no number: the record or the system is beyond what can be computed; leave it out, and please report it"
+    )]
+    NotFinite {
+        /// The motion.
+        motion: String,
+        /// Its scale factor.
+        scale: f64,
+        /// The system.
+        system: String,
+        /// What came out, m.
+        displacement_m: f64,
+    },
     /// The motion does not suit the oscillator.
     #[error("record {motion}: {source}")]
     Oscillator {
@@ -76,6 +109,9 @@ pub enum IdaError {
         /// What is wrong.
         source: Box<MotionError>,
     },
+    /// The processor's instructions that were asked for are not to be had.
+    #[error(transparent)]
+    Instructions(OscillatorError),
     /// The analysis was told to stop.
     #[error("the analysis was interrupted")]
     Cancelled,

@@ -1,11 +1,16 @@
 //! Motions with their scale factors, and systems, checked before the first analysis.
 
 use uplift_motion::Accelerogram;
-use uplift_oscillator::Excitation;
+use uplift_oscillator::{Excitation, InstructionSet};
 
 use crate::error::IdaError;
 use crate::peaks::Axes;
 use crate::system::System;
+
+/// Largest factor on a record: one that needs more is noise.
+pub(crate) const MOST_SCALE: f64 = 1e8;
+/// Largest acceleration of a scaled record, m/s²: far above what moves any structure, far below what overflows.
+pub(crate) const MOST_PEAK_M_S2: f64 = 1e8;
 
 /// A record as stripes need it: one component, and the intensity that the scale factors refer to.
 #[derive(Debug, Clone, Copy)]
@@ -46,7 +51,8 @@ impl<'a> Plan<'a> {
     /// * `with_free_peak` — whether the first peak of the free motion after a record counts
     ///
     /// # Errors
-    /// An empty axis, levels that do not ascend, a record of zero intensity.
+    /// An empty axis, levels that do not ascend, a record of zero intensity, or so weak that its factors are
+    /// implausible.
     pub fn stripes(
         records: Vec<StripeRecord<'a>>,
         systems: &'a [System],
@@ -78,7 +84,7 @@ impl<'a> Plan<'a> {
     /// * `systems`, `with_free_peak` — as for [`stripes`](Self::stripes)
     ///
     /// # Errors
-    /// An empty axis, another number of factors than the first motion has, a factor that is not finite.
+    /// An empty axis, another number of factors than the first motion has, a factor that is not finite or implausible.
     pub fn scaled(
         motions: Vec<ScaledMotion<'a>>,
         systems: &'a [System],
@@ -93,6 +99,8 @@ impl<'a> Plan<'a> {
         systems: &'a [System],
         with_free_peak: bool,
     ) -> Result<Self, IdaError> {
+        // whoever asks for other instructions than there are is told, before anything is computed
+        InstructionSet::chosen().map_err(IdaError::Instructions)?;
         let expected = motions.first().ok_or(IdaError::Empty { what: called })?.scales.len();
         for (what, length) in [("systems", systems.len()), ("scale factors", expected)] {
             if length == 0 {
@@ -108,6 +116,12 @@ impl<'a> Plan<'a> {
                 return Err(IdaError::Scale { motion: named(), index, value });
             }
             motion.excitation()?;
+            let peak_m_s2 = motion.accelerogram.pga_m_s2();
+            let implausible = |scale: f64| !(scale.abs() <= MOST_SCALE && (scale * peak_m_s2).abs() <= MOST_PEAK_M_S2);
+            if let Some((index, &value)) = motion.scales.iter().enumerate().find(|(_, scale)| implausible(**scale)) {
+                let peak_m_s2 = (value * peak_m_s2).abs();
+                return Err(IdaError::Implausible { motion: named(), index, value, peak_m_s2 });
+            }
         }
         Ok(Self { motions, systems, with_free_peak })
     }
@@ -154,5 +168,28 @@ impl<'a> ScaledMotion<'a> {
     pub(crate) fn excitation(&self) -> Result<Excitation<'a>, IdaError> {
         Excitation::new(self.accelerogram.dt_s(), self.accelerogram.acceleration_m_s2())
             .map_err(|source| IdaError::Oscillator { motion: self.id.to_owned(), source })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use uplift_oscillator::Oscillator;
+
+    use super::*;
+
+    #[test]
+    fn factors_that_make_noise_or_overflow_of_a_record_are_refused() {
+        let [quiet, strong] = [1e-30, 9.0].map(|peak| Accelerogram::new(0.01, vec![0.0, peak]).unwrap());
+        let systems = [System::Oscillator(Oscillator::zsbe(0.3).unwrap())];
+        let plan = |accelerogram: &Accelerogram, scale: f64| {
+            let motion = ScaledMotion { id: "RSN1 h1", accelerogram, scales: vec![1.0, scale] };
+            Plan::scaled(vec![motion], &systems, true).map(|plan| plan.analyses())
+        };
+        assert!(plan(&strong, 100.0).is_ok() && plan(&strong, -1e7).is_ok() && plan(&quiet, 1e7).is_ok());
+        for (record, scale) in [(&quiet, 1e29), (&strong, 1e308), (&strong, -5e7)] {
+            let error = plan(record, scale).unwrap_err();
+            assert!(matches!(error, IdaError::Implausible { index: 1, .. }), "{error}");
+        }
     }
 }

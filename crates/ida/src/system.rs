@@ -1,5 +1,7 @@
 //! What is shaken.
 
+use std::fmt;
+
 use uplift_block::RockingBlock;
 use uplift_oscillator::{Oscillator, PostUplift};
 
@@ -23,6 +25,14 @@ impl System {
         match self {
             Self::Oscillator(_) => "oscillator",
             Self::Block(_) => "block",
+        }
+    }
+
+    /// Whether it can overturn, so that an infinite displacement is an answer.
+    pub fn can_overturn(&self) -> bool {
+        match self {
+            Self::Oscillator(oscillator) => matches!(oscillator.post_uplift(), PostUplift::Negative { .. }),
+            Self::Block(_) => true,
         }
     }
 
@@ -65,6 +75,23 @@ impl System {
             }
             Self::Block(block) => {
                 vec![1.0, block.size_m(), block.slenderness_rad(), block.restitution(), block.gravity_m_s2()]
+            }
+        }
+    }
+}
+
+impl fmt::Display for System {
+    /// Its kind and what sets it apart, for messages.
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Oscillator(oscillator) => write!(
+                formatter,
+                "oscillator of strength {}, uplift at {} m",
+                oscillator.strength(),
+                oscillator.uplift_displacement_m()
+            ),
+            Self::Block(block) => {
+                write!(formatter, "block of size {} m, slenderness {} rad", block.size_m(), block.slenderness_rad())
             }
         }
     }

@@ -39,6 +39,9 @@ pub enum MotionError {
         /// The step of the second component \[s\].
         h2_s: f64,
     },
+    /// A number of a record is beyond what any record has.
+    #[error(transparent)]
+    Implausible(#[from] uplift_plausible::Implausible),
     /// The acceleration of gravity is not a finite number above zero.
     #[error("gravity is {gravity_m_s2} m/s2; it must be finite and above zero")]
     Gravity {

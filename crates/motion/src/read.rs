@@ -17,6 +17,8 @@ use std::fs::File;
 use std::io::{self, Read as _};
 use std::path::Path;
 
+use uplift_plausible::{PEAK_ACCELERATION, TIME_STEP};
+
 use crate::accelerogram::Accelerogram;
 use crate::error::MotionError;
 use crate::recording::{RecordFile, RecordFormat, Recording};
@@ -68,8 +70,16 @@ impl ReadOptions {
             *value = unit.to_m_s2(*value, gravity_m_s2);
         }
         Accelerogram::new(dt_s, acceleration_m_s2)
+            .and_then(plausible)
             .map_err(|reason| MotionError::InFile { name: name.to_owned(), reason: Box::new(reason) })
     }
+}
+
+/// The record, if its time step and its largest acceleration are those of a record.
+fn plausible(record: Accelerogram) -> Result<Accelerogram, MotionError> {
+    TIME_STEP.check("time step", record.dt_s())?;
+    PEAK_ACCELERATION.check("the largest acceleration", record.pga_m_s2())?;
+    Ok(record)
 }
 
 /// Reads every acceleration component of the record file at `path`; see [`read_record`].

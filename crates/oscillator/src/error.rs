@@ -29,6 +29,26 @@ pub enum OscillatorError {
         /// Displacement at uplift, m.
         uplift_displacement_m: f64,
     },
+    /// The oscillator is so stiff, or falls so steeply, that no motion resolves it and no run of it ends in time.
+    #[error(
+        "the stiffness {branch} is {stiffness_per_s2:e} 1/s²: it must be {most_per_s2:e} 1/s² at most (16 kHz); \
+         strength {strength}, gravity_m_s2 = {gravity_m_s2} and uplift_displacement_m = {uplift_displacement_m} make \
+         it, with the capacity or the stiffness after uplift: is one of them in another unit?"
+    )]
+    TooStiff {
+        /// While attached or after uplift.
+        branch: &'static str,
+        /// Stiffness over the mass, 1/s²; negative where the force falls.
+        stiffness_per_s2: f64,
+        /// The largest that is followed, 1/s².
+        most_per_s2: f64,
+        /// Strength η.
+        strength: f64,
+        /// Acceleration of gravity, m/s².
+        gravity_m_s2: f64,
+        /// Displacement at uplift, m.
+        uplift_displacement_m: f64,
+    },
     /// An acceleration history needs at least two samples.
     #[error("the acceleration history has {samples} samples: at least 2 are needed")]
     TooFewSamples {
@@ -42,5 +62,17 @@ pub enum OscillatorError {
         index: usize,
         /// The value found.
         value: f64,
+    },
+    /// A set of instructions that is asked for by the environment, and is unknown or not of this processor.
+    #[error(
+        "{variable} is \"{wanted}\": this processor has {available}; take one of these, or leave the variable unset"
+    )]
+    Instructions {
+        /// The variable of the environment.
+        variable: &'static str,
+        /// Its value.
+        wanted: String,
+        /// The sets of this processor.
+        available: String,
     },
 }

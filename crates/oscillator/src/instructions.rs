@@ -5,39 +5,111 @@
 
 #![allow(unsafe_code)]
 
+use std::fmt;
+use std::sync::OnceLock;
+
+use crate::error::OscillatorError;
 use crate::side_by_side::{self, PendingRun};
 use crate::sweep::{Peak, Sweep};
 
-/// What this processor is known to have: only [`best`](Self::best) says so.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Instructions(Set);
+/// The variable of the environment that names the set to be used, in place of the best one.
+pub const INSTRUCTIONS_VARIABLE: &str = "UPLIFT_INSTRUCTIONS";
 
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Set {
-    Any,
-    #[cfg(target_arch = "x86_64")]
+/// A set of instructions that the runs are compiled for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum InstructionSet {
+    /// What every processor of the architecture has.
+    Portable,
+    /// AVX2 of x86-64.
     Avx2,
-    #[cfg(target_arch = "x86_64")]
+    /// AVX-512 F, VL and DQ of x86-64.
     Avx512,
 }
 
-impl Instructions {
-    /// The best that this processor has.
-    #[inline]
-    pub(crate) fn best() -> Self {
-        #[cfg(target_arch = "x86_64")]
-        {
-            let avx512 = is_x86_feature_detected!("avx512f")
-                && is_x86_feature_detected!("avx512vl")
-                && is_x86_feature_detected!("avx512dq");
-            if avx512 {
-                return Self(Set::Avx512);
-            }
-            if is_x86_feature_detected!("avx2") {
-                return Self(Set::Avx2);
-            }
+impl InstructionSet {
+    /// Every set, the shorter vectors first.
+    pub const ALL: [Self; 3] = [Self::Portable, Self::Avx2, Self::Avx512];
+
+    /// Its word in [`INSTRUCTIONS_VARIABLE`].
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Portable => "portable",
+            Self::Avx2 => "avx2",
+            Self::Avx512 => "avx512",
         }
-        Self(Set::Any)
+    }
+
+    /// The sets of this processor, the best last.
+    pub fn available() -> Vec<Self> {
+        Self::ALL.into_iter().filter(|set| Instructions::of(*set).is_some()).collect()
+    }
+
+    /// The set that runs are followed with: that of [`INSTRUCTIONS_VARIABLE`] if it is set, else the best of this
+    /// processor. The variable is looked at once in the life of the program.
+    ///
+    /// # Errors
+    /// [`OscillatorError::Instructions`] where the variable holds another word, or a set that this processor lacks;
+    /// runs are followed with the best one then.
+    pub fn chosen() -> Result<Self, OscillatorError> {
+        chosen().clone()
+    }
+}
+
+impl fmt::Display for InstructionSet {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(self.key())
+    }
+}
+
+fn chosen() -> &'static Result<InstructionSet, OscillatorError> {
+    static CHOSEN: OnceLock<Result<InstructionSet, OscillatorError>> = OnceLock::new();
+    CHOSEN.get_or_init(|| match std::env::var_os(INSTRUCTIONS_VARIABLE) {
+        None => Ok(Instructions::best().0),
+        Some(word) => named(&word.to_string_lossy()),
+    })
+}
+
+/// The set of this processor that `word` names.
+fn named(word: &str) -> Result<InstructionSet, OscillatorError> {
+    let available = InstructionSet::available();
+    available.iter().find(|set| set.key() == word).copied().ok_or_else(|| OscillatorError::Instructions {
+        variable: INSTRUCTIONS_VARIABLE,
+        wanted: word.to_owned(),
+        available: available.iter().map(ToString::to_string).collect::<Vec<_>>().join(", "),
+    })
+}
+
+/// A set that this processor is known to have: only [`of`](Self::of) says so.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Instructions(InstructionSet);
+
+impl Instructions {
+    /// `set`, if this processor has it.
+    pub(crate) fn of(set: InstructionSet) -> Option<Self> {
+        #[cfg(target_arch = "x86_64")]
+        let has = match set {
+            InstructionSet::Portable => true,
+            InstructionSet::Avx2 => is_x86_feature_detected!("avx2"),
+            InstructionSet::Avx512 => {
+                is_x86_feature_detected!("avx512f")
+                    && is_x86_feature_detected!("avx512vl")
+                    && is_x86_feature_detected!("avx512dq")
+            }
+        };
+        #[cfg(not(target_arch = "x86_64"))]
+        let has = set == InstructionSet::Portable;
+        has.then_some(Self(set))
+    }
+
+    /// The best that this processor has.
+    fn best() -> Self {
+        let best = InstructionSet::ALL.into_iter().rev().find_map(Self::of);
+        best.unwrap_or(Self(InstructionSet::Portable))
+    }
+
+    /// What runs are followed with; see [`InstructionSet::chosen`].
+    pub(crate) fn chosen() -> Self {
+        chosen().as_ref().ok().and_then(|set| Self::of(*set)).unwrap_or_else(Self::best)
     }
 }
 
@@ -50,12 +122,12 @@ pub(crate) fn follow<const RUNS: usize, const STIFFNESS: bool>(
     peaks: &mut [Peak],
 ) {
     match instructions.0 {
-        Set::Any => side_by_side::follow::<RUNS, STIFFNESS>(sweep, pending, peaks),
         // SAFETY: the processor has what the functions are compiled for, since no other value is made.
         #[cfg(target_arch = "x86_64")]
-        Set::Avx2 => unsafe { follow_with_avx2::<RUNS, STIFFNESS>(sweep, pending, peaks) },
+        InstructionSet::Avx2 => unsafe { follow_with_avx2::<RUNS, STIFFNESS>(sweep, pending, peaks) },
         #[cfg(target_arch = "x86_64")]
-        Set::Avx512 => unsafe { follow_with_avx512::<RUNS, STIFFNESS>(sweep, pending, peaks) },
+        InstructionSet::Avx512 => unsafe { follow_with_avx512::<RUNS, STIFFNESS>(sweep, pending, peaks) },
+        _ => side_by_side::follow::<RUNS, STIFFNESS>(sweep, pending, peaks),
     }
 }
 
@@ -82,17 +154,63 @@ fn follow_with_avx512<const RUNS: usize, const STIFFNESS: bool>(
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::*;
     use crate::problems::shaped_noise;
     use crate::{Excitation, GroundMotion, Oscillator, PostUplift};
 
     fn available() -> Vec<Instructions> {
-        match Instructions::best().0 {
-            Set::Any => vec![Instructions(Set::Any)],
-            #[cfg(target_arch = "x86_64")]
-            Set::Avx2 => [Set::Any, Set::Avx2].map(Instructions).to_vec(),
-            #[cfg(target_arch = "x86_64")]
-            Set::Avx512 => [Set::Any, Set::Avx2, Set::Avx512].map(Instructions).to_vec(),
+        InstructionSet::available().into_iter().map(|set| Instructions::of(set).unwrap()).collect()
+    }
+
+    #[test]
+    fn a_word_is_a_set_of_this_processor_or_an_error() {
+        for set in InstructionSet::ALL {
+            let available = InstructionSet::available().contains(&set);
+            assert_eq!(named(set.key()).ok(), available.then_some(set));
+        }
+        for word in ["", "AVX2", "avx-512", "sse", "best"] {
+            let error = named(word).unwrap_err().to_string();
+            assert!(error.contains("UPLIFT_INSTRUCTIONS") && error.contains(&format!("\"{word}\"")), "{error}");
+            assert!(error.contains("portable"), "{error}");
+        }
+        assert_eq!(InstructionSet::available()[0], InstructionSet::Portable);
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(200))]
+
+        // Long enough for all widths of runs side by side, with every slope after uplift.
+        #[test]
+        fn every_set_gives_the_bits_of_the_portable_one(
+            seed in 0_u64..1_000_000,
+            samples in 20_usize..600,
+            strength in 0.0_f64..1.2,
+            dt_s in 0.001_f64..0.05,
+            restitution in 0.0_f64..=1.0,
+            slope in 0_u8..3,
+            size in 0.001_f64..2.0,
+            scales in prop::collection::vec(0.1_f64..20.0, 1..20),
+            with_free_peak: bool,
+        ) {
+            let record = shaped_noise(4.0, samples, seed);
+            let ground = GroundMotion::new(Excitation::new(dt_s, &record).unwrap());
+            let post_uplift = match slope {
+                0 => PostUplift::Zero,
+                1 => PostUplift::Negative { capacity_m: size },
+                _ => PostUplift::Positive { stiffness_per_s2: 10.0 / size },
+            };
+            let oscillator = Oscillator::new(strength, 9.81, 0.0005, restitution, post_uplift).unwrap();
+            let sweep = Sweep::new(&oscillator, &ground, with_free_peak);
+            let bits = |instructions: Instructions| -> Vec<(u64, u32)> {
+                let peaks = sweep.peaks_with(instructions, &scales);
+                peaks.iter().map(|peak| (peak.displacement_m.to_bits(), peak.impacts)).collect()
+            };
+            let portable = bits(Instructions(InstructionSet::Portable));
+            for instructions in available() {
+                prop_assert_eq!(&bits(instructions), &portable, "{:?}", instructions);
+            }
         }
     }
 

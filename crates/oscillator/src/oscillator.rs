@@ -44,6 +44,10 @@ pub struct Oscillator {
     post_uplift: PostUplift,
 }
 
+/// Stiffest branch that is followed, 1/s²: 16 kHz, far above what a record shakes; the time that a run takes grows with
+/// its root.
+const STIFFEST_PER_S2: f64 = 1e10;
+
 fn require(
     holds: bool,
     name: &'static str,
@@ -72,7 +76,8 @@ impl Oscillator {
     /// * `restitution` — `r_c`, in \[0, 1\]
     ///
     /// # Errors
-    /// A parameter outside its range is named with its value.
+    /// A parameter outside its range is named with its value; [`OscillatorError::TooStiff`] where they make an
+    /// oscillator that no motion resolves.
     pub fn new(
         strength: f64,
         gravity_m_s2: f64,
@@ -107,7 +112,20 @@ impl Oscillator {
                 "finite and positive",
             )?,
         }
-        Ok(Self { strength, gravity_m_s2, uplift_displacement_m, restitution, post_uplift })
+        let oscillator = Self { strength, gravity_m_s2, uplift_displacement_m, restitution, post_uplift };
+        for (branch, of) in [("while attached", oscillator.attached()), ("after uplift", oscillator.uplifted())] {
+            if !(of.stiffness_per_s2.abs() <= STIFFEST_PER_S2) {
+                return Err(OscillatorError::TooStiff {
+                    branch,
+                    stiffness_per_s2: of.stiffness_per_s2,
+                    most_per_s2: STIFFEST_PER_S2,
+                    strength,
+                    gravity_m_s2,
+                    uplift_displacement_m,
+                });
+            }
+        }
+        Ok(oscillator)
     }
 
     /// Strength `η = f_up/(m g)`.
@@ -141,6 +159,12 @@ impl Oscillator {
             PostUplift::Negative { capacity_m } => capacity_m,
             PostUplift::Zero | PostUplift::Positive { .. } => f64::INFINITY,
         }
+    }
+
+    /// Angular frequency of the stiffer branch, rad/s; that of the growth where the force falls.
+    pub fn highest_frequency_rad_s(&self) -> f64 {
+        let [attached, uplifted] = [self.attached(), self.uplifted()].map(|branch| branch.stiffness_per_s2.abs());
+        attached.max(uplifted).sqrt()
     }
 
     /// True where no force ever acts on the mass: strength zero and no stiffness after uplift.

@@ -119,6 +119,11 @@ impl<'a> Sweep<'a> {
     /// The peaks under the record times each of `scales`, which multiply the excitation's own: the same bits
     /// as one by one, in less time.
     pub fn peaks(&self, scales: &[f64]) -> Vec<Peak> {
+        self.peaks_with(Instructions::chosen(), scales)
+    }
+
+    /// As [`peaks`](Self::peaks), with some of the processor's instructions.
+    pub(crate) fn peaks_with(&self, instructions: Instructions, scales: &[f64]) -> Vec<Peak> {
         let mut peaks = Vec::with_capacity(scales.len());
         let mut pending = Vec::with_capacity(scales.len());
         for (index, scale) in scales.iter().enumerate() {
@@ -133,7 +138,6 @@ impl<'a> Sweep<'a> {
                 pending.push(PendingRun { index, scale, interval });
             }
         }
-        let instructions = Instructions::best();
         // empty lanes cost as much as full ones
         match (self.uplifted.stiffness_per_s2 != 0.0, pending.len()) {
             (_, 0) => {}

@@ -1,6 +1,7 @@
 //! What can be wrong with a structure, a demand or a design.
 
 use thiserror::Error;
+use uplift_plausible::Implausible;
 
 /// Why a structure has no equivalent oscillator, or a rule or design gives no answer.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -17,6 +18,9 @@ pub enum StructureError {
         /// What would be accepted.
         requirement: &'static str,
     },
+    /// A number of a description is beyond what any structure has.
+    #[error("`{}`{}", .0.name, .0.to_string().trim_start_matches(.0.name))]
+    Implausible(Implausible),
     /// A description lacks a quantity that its kind needs.
     #[error("`{key}` is missing: kind \"{kind}\" needs it; give it{}", in_unit(.unit))]
     Missing {
@@ -185,6 +189,7 @@ impl StructureError {
             Self::OutOfRange { key, .. } | Self::Missing { key, .. } | Self::Foreign { key, .. } => {
                 std::slice::from_ref(key)
             }
+            Self::Implausible(Implausible { name, .. }) => std::slice::from_ref(name),
             Self::MissingAnchorage => &["tendon_anchorage"],
             Self::Geometry { .. } => {
                 &["width_m", "height_m", "centre_height_m", "slenderness_rad", "slenderness_deg", "size_m"]

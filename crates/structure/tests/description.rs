@@ -78,12 +78,13 @@ fn all_mistakes_at_once() {
     assert_eq!(
         found,
         [
-            "`width_m` is -1.6 m: it must be finite and positive",
+            "`width_m` is -1.6 m: it must be from 0.001 to 1e6 m (in m, not in mm)",
             "`mass_kg` = 3 kg means nothing for kind \"frame\": remove it or choose another kind",
-            "`columns` is 0: it must be at least 1",
-            "`column_mass_kg` is NaN kg: it must be finite and not negative",
+            "`columns` is 0: it must be from 1 to 1e6 (columns of one frame)",
+            "`column_mass_kg` is NaN kg: it must be from 0 to 1e12 kg (in kg, not in t or N)",
             "`deck_mass_kg` is missing: kind \"frame\" needs it; give it in kg",
-            "`gravity_m_s2` is inf m/s²: it must be finite and positive",
+            "`gravity_m_s2` is inf m/s2: it must be from 0.1 to 2000 m/s2 (9.81 on Earth, 1.62 on the Moon; in m/s2, \
+             not in cm/s2 or mm/s2)",
             "`displacement_of` = \"top\" means nothing for kind \"frame\": remove it or choose another kind",
             "`tendon_anchorage` = \"column\" means nothing for kind \"frame\": remove it or choose another kind",
         ]

@@ -22,12 +22,13 @@ mod spectrum;
 mod structures;
 
 use serde::Serialize;
+use uplift_oscillator::PostUplift;
 
 use crate::grid::Grid;
 use crate::keys::SectionKeys;
 use crate::reading::{Paths, Section};
 use crate::sections::output::{self, Output};
-use crate::sections::{record_source, selection, strengths, top};
+use crate::sections::{record_source, selection, stiffness, strengths, top};
 
 pub use blocks::BlockFamily;
 pub use design::{DesignPlan, Designed};
@@ -111,6 +112,16 @@ pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<DisplacementS
     let design = design::read(root.section("design"), of_blocks, structures.as_ref());
     let manifest = records.as_ref().and_then(|records| records.source.manifest());
     let output = output::read(root.section("output"), paths, manifest.into_iter());
+    if let (Some(Structures::Oscillators(family)), Some(gravity)) = (&structures, gravity)
+        && let (Some(strength), Some(stiffest), Some(next)) =
+            (family.strengths.last(), family.uplift_displacement_m.first(), family.uplift_displacement_m.last())
+    {
+        stiffness::check(&root, (*strength, gravity, *stiffest, family.restitution), PostUplift::Zero);
+        if let Some(&capacity_m) = family.capacity_m.first().filter(|capacity_m| capacity_m.is_finite()) {
+            let steepest = PostUplift::Negative { capacity_m };
+            stiffness::check(&root, (*strength, gravity, *next, family.restitution), steepest);
+        }
+    }
     root.finish();
     let gravity_m_s2 = gravity?;
     Some(DisplacementStudy {

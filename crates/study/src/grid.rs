@@ -232,7 +232,7 @@ fn bracketed(unit: &str) -> String {
 
 /// The notation of a table of start, stop and count.
 fn equal_steps(item: &Field<'_>, unit: &str) -> Option<String> {
-    const ANY: Rule = Rule { holds: |_| true, words: "a finite number" };
+    const ANY: Rule = Rule::Is { holds: |_| true, words: "a finite number" };
     let mut section = item.section();
     let fields = [section.field("start"), section.field("stop")];
     let count = section.field("count");

@@ -27,5 +27,5 @@ pub(crate) use document::{Node, Origin, Table, Value};
 pub(crate) use field::{Field, LARGEST_INTEGER, optional};
 pub(crate) use findings::{Finding, Findings};
 pub(crate) use paths::Paths;
-pub(crate) use rule::{ABOVE_ZERO, PROBABILITY, Rule, UPLIFT_DISPLACEMENT, ZERO_OR_MORE, ZERO_TO_ONE, quantity};
+pub(crate) use rule::{PROBABILITY, Rule, ZERO_TO_ONE, quantity};
 pub(crate) use section::Section;

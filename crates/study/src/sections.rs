@@ -6,6 +6,7 @@
 //! | `record_source` | where records come from: `manifest` or `[records.synthetic]` |
 //! | `selection` | `[records.select]`: which of them are used |
 //! | `strengths` | `[strengths]` |
+//! | `stiffness` | what the keys of `[oscillator]` make together |
 //! | `name` | the name of a site or record set |
 //! | `output` | `[output]` |
 
@@ -13,5 +14,6 @@ pub(crate) mod name;
 pub(crate) mod output;
 pub(crate) mod record_source;
 pub(crate) mod selection;
+pub(crate) mod stiffness;
 pub(crate) mod strengths;
 pub(crate) mod top;

@@ -4,6 +4,7 @@
 
 use std::path::{Path, PathBuf};
 
+use uplift_plausible::UPLIFT_DISPLACEMENT;
 use uplift_structure::{
     Anchorage, EquivalentSystem, Kind, Reference, RotatingBlock, StructureDescription, StructureError,
 };
@@ -11,10 +12,10 @@ use uplift_structure::{
 use crate::error::StudyError;
 use crate::reading::findings::refused;
 use crate::reading::text::{parse_table, read_text};
-use crate::reading::{Field, Finding, Findings, Origin, Rule, Section, Table, UPLIFT_DISPLACEMENT};
+use crate::reading::{Field, Finding, Findings, Origin, Rule, Section, Table};
 
 /// What a number must be is judged by the description.
-const ANY: Rule = Rule { holds: |_| true, words: "finite" };
+const ANY: Rule = Rule::Is { holds: |_| true, words: "finite" };
 const REFERENCES: [(&str, Reference); 2] = [("top", Reference::Top), ("centre", Reference::Centre)];
 const ANCHORAGES: [(&str, Anchorage); 2] = [("foundation", Anchorage::Foundation), ("column", Anchorage::Column)];
 
@@ -109,7 +110,7 @@ fn read(mut root: Section<'_>) -> Option<StructureDescription> {
         restitution: number("restitution", ""),
         uplift_displacement_m: root
             .field("uplift_displacement_m")
-            .and_then(|field| field.number("m", UPLIFT_DISPLACEMENT)),
+            .and_then(|field| field.number("m", Rule::Within(UPLIFT_DISPLACEMENT))),
         columns: root
             .field("columns")
             .and_then(|field| field.integer(0, u64::from(u32::MAX)))

@@ -32,6 +32,7 @@ use crate::grid::Grid;
 use crate::keys::{Key, SectionKeys};
 use crate::reading::{Paths, Section};
 use crate::sections::output::{self, Output};
+use crate::sections::stiffness;
 use crate::sections::{record_source, selection, strengths, top};
 
 pub use bootstrap::Bootstrap;
@@ -159,6 +160,12 @@ pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<UniformRiskSt
         .chain(sites.iter().flatten().flat_map(|site| site.curves.iter().flat_map(CurveFile::files)))
         .chain(site_table.iter().flatten().flat_map(SiteTable::files));
     let output = output::read(root.section("output"), paths, inputs);
+    if let (Some(oscillator), Some(strengths), Some(gravity)) = (&oscillator, &strengths, gravity)
+        && let Some(strongest) = strengths.last()
+    {
+        let system = (*strongest, gravity, oscillator.uplift_displacement_m, oscillator.restitution);
+        stiffness::check(&root, system, oscillator.post_uplift);
+    }
     root.finish();
     let mut study = UniformRiskStudy {
         title: title?,

@@ -36,6 +36,7 @@ impl Beside<'_> {
         shards: &[PathBuf],
         events: &dyn Events,
     ) -> Result<(Vec<Analysed>, Checkpoint), UpliftError> {
+        work.needs().with_rows_of(shards).require(self.result, events)?;
         let known = if shards.is_empty() { FinishedRows::default() } else { join(shards, &work)? };
         let mut checkpoint = Checkpoint::beside(self.result, self.name, &work.head(Shard::WHOLE), events);
         checkpoint.extend(known);
@@ -50,6 +51,7 @@ impl Beside<'_> {
     /// # Errors
     /// As [`Work::carry_out`]; a file that is a shard of other work, or that another job has.
     pub fn shard(&self, work: Work<'_>, shard: Shard, events: &dyn Events) -> Result<ShardReport, UpliftError> {
+        work.needs().of_shard(shard).require(self.result, events)?;
         run_shard(work, &self.shard_path(shard), shard, events)
     }
 }

@@ -9,6 +9,7 @@ use uplift_ida::{AnalysisRow, Cells, IdaError, Peaks, Plan, Shard, estimate};
 use crate::checkpoint::{Checkpoint, FinishedRows, RowFileHead, RowKey, RowKeys};
 use crate::error::UpliftError;
 use crate::events::{Events, Progress};
+use crate::machine::{Needs, PROGRAM_BYTES};
 use crate::text::thousands;
 use uplift_labelled::hexadecimal;
 
@@ -75,6 +76,17 @@ impl<'a> Work<'a> {
     /// Nonlinear time histories of all plans.
     pub fn analyses(&self) -> u64 {
         self.plans.iter().map(|labelled| labelled.plan.analyses()).sum()
+    }
+
+    /// What carrying it out takes: its peaks and impacts, held and written.
+    pub(crate) fn needs(&self) -> Needs {
+        let held = self.analyses().saturating_mul(13);
+        let samples = |labelled: &LabelledPlan<'_>| -> u64 {
+            labelled.plan.motions().iter().map(|motion| motion.accelerogram.len() as u64).sum()
+        };
+        let samples = self.plans.iter().map(samples).max().unwrap_or_default();
+        let memory_bytes = held.saturating_add(PROGRAM_BYTES).saturating_add(64 * samples);
+        Needs { memory_bytes, disk_bytes: held.saturating_add(1_000_000), disk_least_bytes: held / 13 * 12 }
     }
 
     fn keys_of(&self, shard: Shard) -> impl Iterator<Item = RowKey> + '_ {

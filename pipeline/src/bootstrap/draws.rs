@@ -6,6 +6,8 @@ use uplift_bootstrap::ResamplingPlan;
 use uplift_study::Bootstrap;
 
 use super::BootstrapOptions;
+use super::bands::BandSettings;
+use super::needs::needs;
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::result::{ResultFile, StoredStripes};
@@ -18,6 +20,7 @@ pub(super) fn draws(
     options: &BootstrapOptions,
     study: &Bootstrap,
     stored: &StoredStripes,
+    (settings, events): (&BandSettings, &dyn Events),
 ) -> Result<(ResamplingPlan, String), UpliftError> {
     if let Some(path) = &options.plan {
         return Ok((kept_draws(path, stored)?, format!("draws of {}", path.display())));
@@ -29,6 +32,7 @@ pub(super) fn draws(
     });
     let replicates = options.replicates.unwrap_or(study.replicates);
     let seed = options.seed.unwrap_or(stored.seed);
+    needs(stored, sizes.len(), replicates, settings).require(&stored.path, events)?;
     let count = usize::try_from(replicates).unwrap_or(usize::MAX);
     let plan = ResamplingPlan::draw(records, &sizes, count, seed)
         .map_err(|error| UpliftError::Usage(format!("--sizes: {error}")))?;

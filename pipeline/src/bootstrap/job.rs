@@ -65,7 +65,7 @@ pub fn bootstrap(
         simultaneous: options.simultaneous || study.simultaneous,
         strength_above: study.strength_above,
     };
-    let (plan, plan_source) = draws(options, study, &stored)?;
+    let (plan, plan_source) = draws(options, study, &stored, (&settings, events))?;
     announce(&stored, &plan, events);
 
     let start = Instant::now();

@@ -14,6 +14,7 @@ use crate::analysis::seconds;
 use crate::error::UpliftError;
 use crate::frame::PlanHead;
 use crate::inputs::RecordSets;
+use crate::machine::{Needs, PROGRAM_BYTES};
 
 /// Time spent to see how fast this machine is.
 const CALIBRATION: Duration = Duration::from_secs(2);
@@ -49,9 +50,15 @@ pub(crate) fn plan(study: &DisplacementStudy, study_file: &Path) -> Result<Plan,
     let of_spectra: u64 = plans.iter().map(uplift_ida::Plan::analyses).sum();
     let of_design: u64 =
         study.design.iter().flat_map(|plan| sets.iter().map(|set| design_analyses(study, plan, set))).sum();
-    // an analysis of a design example costs about as much as one of the spectra
-    let seconds = seconds(&plans, CALIBRATION) * (of_spectra + of_design) as f64 / of_spectra as f64;
-    let Size { memory_bytes, disk_bytes } = Size::of(study, records, &sets);
+    // design examples are carried out one way of scaling at a time, and so lack what the ways share
+    let alone = (sets.iter())
+        .map(|set| set.plan(&ways[..1], &inputs.structures, with_free_vibration(study)))
+        .collect::<Result<Vec<_>, _>>()?;
+    let of_one_way: u64 = alone.iter().map(uplift_ida::Plan::analyses).sum();
+    let designs =
+        if of_design == 0 { 0.0 } else { seconds(&alone, CALIBRATION / 2) * of_design as f64 / of_one_way as f64 };
+    let seconds = seconds(&plans, CALIBRATION) + designs;
+    let needs = needs(study, records, &sets);
     let reports = records.sets.iter().zip(&sets).map(|(set, motions)| SetReport::of(set, motions)).collect();
     let head = PlanHead {
         study: study_file.to_owned(),
@@ -60,8 +67,9 @@ pub(crate) fn plan(study: &DisplacementStudy, study_file: &Path) -> Result<Plan,
         analyses: of_spectra,
         threads: rayon::current_num_threads(),
         seconds,
-        memory_bytes,
-        disk_bytes,
+        memory_bytes: needs.memory_bytes,
+        disk_bytes: needs.disk_bytes,
+        room: needs.room(&study.output.file),
         output: study.output.file.clone(),
         notes,
     };
@@ -74,28 +82,24 @@ pub(crate) fn plan(study: &DisplacementStudy, study_file: &Path) -> Result<Plan,
     })
 }
 
-/// What a run takes, in bytes.
-struct Size {
-    memory_bytes: u64,
-    disk_bytes: u64,
-}
-
-impl Size {
-    /// A displacement is held twice while its set is being computed, and once later, again when its file is written;
-    /// records take 48 bytes a sample with their integrals and extremes; a row of the table 100 bytes.
-    fn of(study: &DisplacementStudy, records: &RecordSets, sets: &[MotionSet<'_>]) -> Self {
-        let structures = (study.structures.lines() * study.structures.abscissa().len()) as u64;
-        let ways = (study.scaling.to.len() * study.scaling.by.len()) as u64;
-        let held = |set: &MotionSet<'_>| 8 * structures * ways * set.motions().len() as u64;
-        let displacements: u64 = sets.iter().map(held).sum();
-        let largest = sets.iter().map(held).max().unwrap_or_default();
-        let spectra = 8 * structures * ways * (study.percentiles.len() as u64 + 1) * sets.len() as u64;
-        let samples: u64 =
-            records.records.iter().map(|record| (record.pair.h1.len() + record.pair.h2.len()) as u64).sum();
-        let table = if study.output.csv { 100 * structures * ways * sets.len() as u64 } else { 0 };
-        Self {
-            memory_bytes: 30_000_000 + displacements + 2 * largest + 3 * spectra + 64 * samples,
-            disk_bytes: displacements + spectra + table + 1_000_000,
-        }
+/// What a run of `study` takes.
+///
+/// A displacement is held twice while its set is being computed, and once later, again when its file is written, and
+/// lies in a checkpoint with its impacts; records take 48 bytes a sample with their integrals and extremes; a row of
+/// the table 100 bytes.
+pub(crate) fn needs(study: &DisplacementStudy, records: &RecordSets, sets: &[MotionSet<'_>]) -> Needs {
+    let structures = (study.structures.lines() * study.structures.abscissa().len()) as u64;
+    let ways = (study.scaling.to.len() * study.scaling.by.len()) as u64;
+    let held = |set: &MotionSet<'_>| 8 * structures * ways * set.motions().len() as u64;
+    let displacements: u64 = sets.iter().map(held).sum();
+    let largest = sets.iter().map(held).max().unwrap_or_default();
+    let spectra = 8 * structures * ways * (study.percentiles.len() as u64 + 1) * sets.len() as u64;
+    let samples: u64 = records.records.iter().map(|record| (record.pair.h1.len() + record.pair.h2.len()) as u64).sum();
+    let table = if study.output.csv { 100 * structures * ways * sets.len() as u64 } else { 0 };
+    let checkpoint = 12 * displacements / 8;
+    Needs {
+        memory_bytes: PROGRAM_BYTES + displacements + 2 * largest + 3 * spectra + 64 * samples,
+        disk_bytes: checkpoint + displacements + spectra + table + 1_000_000,
+        disk_least_bytes: checkpoint,
     }
 }

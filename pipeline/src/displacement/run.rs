@@ -8,7 +8,9 @@ use uplift_spectra::MotionSet;
 use uplift_study::DisplacementStudy;
 
 use super::report::RunReport;
-use super::{DisplacementOutcome, Inputs, carry_out_designs, set_spectra, write_displacement_csv, write_displacements};
+use super::{
+    DisplacementOutcome, Inputs, carry_out_designs, needs, set_spectra, write_displacement_csv, write_displacements,
+};
 use crate::checkpoint::{Checkpoint, FinishedRows, checkpoint_path};
 use crate::error::UpliftError;
 use crate::events::Events;
@@ -32,6 +34,8 @@ pub(crate) fn run(
     events.remark("records", &records.description);
     let sets = inputs.sets(study)?;
 
+    let needs = needs(study, records, &sets.motions).with_rows_of(&[checkpoint_path(path)]);
+    needs.require(path, events)?;
     let work = sets.work(study)?;
     let total = work.analyses();
     let mut checkpoint = Checkpoint::open(&checkpoint_path(path), &work.head(Shard::WHOLE))?;

@@ -7,7 +7,7 @@ use uplift_spectra::MotionSet;
 use uplift_study::DisplacementStudy;
 
 use super::spectra::with_free_vibration;
-use super::{carry_out_designs, structures};
+use super::{carry_out_designs, needs, structures};
 use crate::analysis::{LabelledPlan, ShardReport, Work, carry_out_shard};
 use crate::checkpoint::motion_key;
 use crate::error::UpliftError;
@@ -82,6 +82,7 @@ pub(crate) fn run_shard(
     let inputs = Inputs::read(study)?;
     events.remark("records", &inputs.records.description);
     let sets = inputs.sets(study)?;
+    needs(study, &inputs.records, &sets.motions).of_shard(shard).with_rows_of(&[path]).require(path, events)?;
     let work = sets.work(study)?;
     let total = work.analyses() / shard.count;
     carry_out_shard(work, (path, shard), events, &|checkpoint| {

@@ -2,6 +2,7 @@
 
 use uplift_block::{BlockError, PulseSpectrumPlan, RickerPulse, RickerShape, RockingBlock, SizeMeasure};
 use uplift_motion::STANDARD_GRAVITY_M_S2;
+use uplift_plausible::{Implausible, PULSE_AMPLITUDE, PULSE_PERIOD, PULSE_RATIO};
 
 use crate::error::UpliftError;
 use crate::text::thousands;
@@ -88,6 +89,23 @@ impl PulsePlan {
                     thousands(MOST_POINTS as u64)
                 )));
             }
+        }
+        let ratios = [
+            ("frequencies", &self.frequencies),
+            ("accelerations", &self.accelerations),
+            ("half-widths", &self.half_widths),
+            ("frequency lines", &self.frequency_slices),
+            ("acceleration lines", &self.acceleration_slices),
+        ];
+        let ends = ratios
+            .into_iter()
+            .flat_map(|(name, axis)| axis.first().into_iter().chain(axis.last()).map(move |end| (name, *end)));
+        let mut implausible: Vec<Implausible> =
+            ends.filter_map(|(name, end)| PULSE_RATIO.check(name, end).err()).collect();
+        implausible.extend(PULSE_AMPLITUDE.check("amplitude", self.blocks.amplitude_g.abs()).err());
+        implausible.extend(self.blocks.period_s.and_then(|period_s| PULSE_PERIOD.check("period", period_s).err()));
+        if !implausible.is_empty() {
+            return Err(UpliftError::Implausible(implausible));
         }
         let sizes_m = [self.blocks.sizes_m.first(), self.blocks.sizes_m.last()];
         let slendernesses = std::iter::once(&self.slenderness_rad).chain(&self.blocks.slendernesses_rad);

@@ -12,6 +12,7 @@ use serde::Serialize;
 use uplift_ida::{Shard, System};
 use uplift_motion::IntensityMeasure;
 use uplift_oscillator::PostUplift;
+use uplift_plausible::SAFETY_FACTOR;
 use uplift_risk::TAIL_SHARE_LIMIT;
 use uplift_study::Structure;
 
@@ -99,10 +100,10 @@ pub struct DesignReport {
 /// Designs `structure` by a spectrum of the result at `result`, and tests the design by the structure's own risk.
 ///
 /// # Errors
-/// A safety factor below 1; a file that is missing, damaged, no result, or without sites; spectra of another system
-/// than ZSBE; a site, measure or probability that the result does not have; records of a manifest that was given and
-/// cannot be read; shards that do not belong together; [`UpliftError::Paused`] where `events` say so,
-/// [`UpliftError::Interrupted`] where no checkpoint can be written beside the result.
+/// A safety factor below 1 or implausibly large; a file that is missing, damaged, no result, or without sites; spectra
+/// of another system than ZSBE; a site, measure or probability that the result does not have; records of a manifest
+/// that was given and cannot be read; shards that do not belong together; [`UpliftError::Paused`] where `events` say
+/// so, [`UpliftError::Interrupted`] where no checkpoint can be written beside the result.
 pub fn design(
     structure: &Structure,
     result: &Path,
@@ -110,9 +111,7 @@ pub fn design(
     events: &dyn Events,
 ) -> Result<DesignReport, UpliftError> {
     let safety_factor = options.safety_factor;
-    if !(safety_factor.is_finite() && safety_factor >= 1.0) {
-        return Err(UpliftError::Usage(format!("--safety-factor is {safety_factor}: give a number of at least 1")));
-    }
+    SAFETY_FACTOR.check("--safety-factor", safety_factor).map_err(|mistake| UpliftError::Implausible(vec![mistake]))?;
     let source = ResultFile::open(result)?.study(options.manifest.as_deref())?;
     require_zero_stiffness(&source)?;
     let site = site_index(&source, options.site.as_deref())?;

@@ -13,6 +13,7 @@ use crate::error::UpliftError;
 use crate::events::Events;
 use crate::frame::PlanHead;
 use crate::inputs::{RecordSet, SiteList, read_hazard, read_records};
+use crate::machine::{Needs, PROGRAM_BYTES};
 
 /// Time spent on a measure to see how fast this machine is.
 const CALIBRATION: Duration = Duration::from_secs(1);
@@ -45,7 +46,7 @@ pub(crate) fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Eve
         levels.extend(check_levels(study, measure, (&records, &systems), hazard)?);
     }
     let seconds = seconds(&plans, CALIBRATION * u32::try_from(plans.len()).unwrap_or(u32::MAX));
-    let Size { memory_bytes, disk_bytes } = Size::of(study, &records, site_list.as_ref());
+    let needs = needs(study, &records, site_list.as_ref());
     let head = PlanHead {
         study: study_file.to_owned(),
         record_set: records.description.clone(),
@@ -53,48 +54,50 @@ pub(crate) fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Eve
         analyses: plans.iter().map(uplift_ida::Plan::analyses).sum(),
         threads: rayon::current_num_threads(),
         seconds,
-        memory_bytes,
-        disk_bytes,
+        memory_bytes: needs.memory_bytes,
+        disk_bytes: needs.disk_bytes,
+        room: needs.room(&study.output.file),
         output: study.output.file.clone(),
         notes,
     };
     Ok(Plan { head, levels })
 }
 
-/// What a run takes, in bytes.
-struct Size {
-    memory_bytes: u64,
-    disk_bytes: u64,
-}
-
-impl Size {
-    /// The stripes hold 12 bytes an analysis; the surface 8 bytes a threshold, in memory twice while it is put in
-    /// order; records 48 bytes a sample with their integrals and extremes; a site of a table half a kilobyte, and as
-    /// text 80 bytes an ordinate and 800 a fit.
-    fn of(study: &UniformRiskStudy, set: &RecordSet, list: Option<&SiteList>) -> Self {
-        let count = |n: usize| n as u64;
-        let (records, strengths) = (count(set.records.len()), count(study.strengths.len()));
-        let levels: u64 = study.measures.iter().map(|measure| count(measure.levels.len())).sum();
-        let measures = count(study.measures.len());
-        let sites = count(study.sites.len());
-        let stripes = 12 * records * strengths * levels;
-        let thresholds = if study.risk.maf_surface { count(study.risk.thresholds_m.len()) } else { 0 };
-        let surface = 8 * measures * sites * strengths * thresholds;
-        let spectra = 40 * measures * sites * strengths * count(study.risk.poe.len());
-        let samples: u64 = set.records.iter().map(|record| count(record.accelerogram.len())).sum();
-        let listed = list.map_or(0, |list| count(list.sites.len()));
-        let exports = list.map_or(0, |list| count(list.exports.len()));
-        let text = listed * exports * count(study.risk.poe.len()) * (80 * strengths + 800);
-        let program = 30_000_000;
-        Self {
-            memory_bytes: program
-                + stripes
-                + surface
-                + surface / measures.max(1)
-                + spectra
-                + 64 * samples
-                + 500 * listed,
-            disk_bytes: stripes + surface + spectra + text + 1_000_000,
-        }
+/// What a run of `study` takes.
+///
+/// The stripes hold 12 bytes an analysis, once more in a checkpoint and once more for a list of sites; the surface 8
+/// bytes a threshold, in memory twice while it is put in order; records 48 bytes a sample with their integrals and
+/// extremes; a site of a table half a kilobyte, and as text 80 bytes an ordinate and 800 a fit.
+pub(crate) fn needs(study: &UniformRiskStudy, set: &RecordSet, list: Option<&SiteList>) -> Needs {
+    let count = |n: usize| n as u64;
+    let product = |factors: &[u64]| factors.iter().fold(1_u64, |product, factor| product.saturating_mul(*factor));
+    let sum = |terms: &[u64]| terms.iter().fold(0_u64, |sum, term| sum.saturating_add(*term));
+    let (records, strengths) = (count(set.records.len()), count(study.strengths.len()));
+    let levels = |measure: usize| count(study.measures[measure].levels.len());
+    let all_levels = (0..study.measures.len()).map(levels).sum();
+    let (measures, sites) = (count(study.measures.len()), count(study.sites.len()));
+    let stripes = product(&[12, records, strengths, all_levels]);
+    let thresholds = if study.risk.maf_surface { count(study.risk.thresholds_m.len()) } else { 0 };
+    let surface = product(&[8, measures, sites, strengths, thresholds]);
+    let spectra = product(&[40, measures, sites, strengths, count(study.risk.poe.len())]);
+    let samples: u64 = set.records.iter().map(|record| count(record.accelerogram.len())).sum();
+    let listed = list.map_or(0, |list| count(list.sites.len()));
+    let exports = list.map_or(&[][..], |list| &list.exports[..]);
+    let listed_levels = exports.iter().map(|export| levels(export.plan)).sum();
+    let demands = product(&[12, records, strengths, listed_levels]);
+    let text = product(&[listed, count(exports.len()), count(study.risk.poe.len()), 80 * strengths + 800]);
+    Needs {
+        memory_bytes: sum(&[
+            PROGRAM_BYTES,
+            stripes,
+            surface,
+            surface / measures.max(1),
+            spectra,
+            demands,
+            product(&[64, samples]),
+            500 * listed,
+        ]),
+        disk_bytes: sum(&[2 * stripes.min(u64::MAX / 2), surface, spectra, text, 1_000_000]),
+        disk_least_bytes: stripes,
     }
 }

@@ -6,7 +6,7 @@ use uplift_study::UniformRiskStudy;
 
 use super::report::RunReport;
 use super::{
-    Coefficients, Inputs, Outcome, Spectra, Stripes, csv_paths, fit_spectra, site_table, uniform_risk_spectra,
+    Coefficients, Inputs, Outcome, Spectra, Stripes, csv_paths, fit_spectra, needs, site_table, uniform_risk_spectra,
     write_csv, write_result,
 };
 use crate::checkpoint::{Checkpoint, FinishedRows, checkpoint_path};
@@ -31,6 +31,7 @@ pub(crate) fn run(
     let records = &inputs.records;
     events.remark("records", &records.description);
 
+    needs(study, records, site_list.as_ref()).with_rows_of(&[checkpoint_path(path)]).require(path, events)?;
     let work = inputs.work(study, Some(path))?;
     let total = work.analyses();
     let mut checkpoint = Checkpoint::open(&checkpoint_path(path), &work.head(Shard::WHOLE))?;

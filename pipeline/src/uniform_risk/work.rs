@@ -5,7 +5,7 @@ use std::path::Path;
 use uplift_ida::{Cells, Shard, System};
 use uplift_study::UniformRiskStudy;
 
-use super::{EarlierStripes, plan_stripes, systems};
+use super::{EarlierStripes, needs, plan_stripes, systems};
 use crate::analysis::{LabelledPlan, ShardReport, Work, carry_out_shard};
 use crate::checkpoint::motion_key;
 use crate::error::UpliftError;
@@ -72,7 +72,7 @@ pub(crate) fn motion_keys(set: &RecordSet) -> Vec<String> {
 /// Carries out one shard of the stripes of a study into a file, but for what is known from an `earlier` result.
 pub(crate) fn run_shard(
     study: &UniformRiskStudy,
-    place: (&Path, Shard),
+    (path, shard): (&Path, Shard),
     earlier: Option<&Path>,
     events: &dyn Events,
 ) -> Result<ShardReport, UpliftError> {
@@ -80,5 +80,6 @@ pub(crate) fn run_shard(
     read_hazard(study)?;
     let inputs = Inputs::read(study)?;
     events.remark("records", &inputs.records.description);
-    carry_out_shard(inputs.work(study, earlier)?, place, events, &|_| Ok(()))
+    needs(study, &inputs.records, None).of_shard(shard).with_rows_of(&[path]).require(path, events)?;
+    carry_out_shard(inputs.work(study, earlier)?, (path, shard), events, &|_| Ok(()))
 }

@@ -3,7 +3,8 @@
 use std::io::Write;
 
 use uplift::Plan;
-use uplift::text::thousands;
+use uplift::machine::Limit;
+use uplift::text::{bytes, thousands};
 use uplift::uniform_risk::LevelCheck;
 use uplift_study::AnyStudy;
 
@@ -42,12 +43,27 @@ pub(crate) fn print_plan(plan: &Plan, study: &AnyStudy, terminal: &Terminal) -> 
         Plan::Displacement(_) => {}
     }
     writeln!(out, "time      about {} on {} threads", duration(head.seconds), head.threads)?;
-    writeln!(out, "memory    about {} MB", head.memory_bytes / 1_000_000)?;
-    writeln!(out, "disk      at most about {} MB: {}", head.disk_bytes / 1_000_000, head.output.display())?;
+    let room = &head.room;
+    let there = |limit: &Option<Limit>, words: &str| {
+        limit.as_ref().map_or(String::new(), |limit| format!(", of {} {words}", bytes(limit.bytes)))
+    };
+    writeln!(out, "memory    about {}{}", bytes(head.memory_bytes), there(&room.memory_available, "that are free"))?;
+    writeln!(
+        out,
+        "disk      at most about {}{}: {}",
+        bytes(head.disk_bytes),
+        there(&room.disk_free, "that are free"),
+        head.output.display()
+    )?;
+    for note in &room.tight {
+        writeln!(out, "note      {note}")?;
+    }
     for note in &head.notes {
         writeln!(out, "note      {note}")?;
     }
-    writeln!(out, "The study and its input data are in order.")?;
+    if room.cannot.is_empty() {
+        writeln!(out, "The study and its input data are in order.")?;
+    }
     Ok(())
 }
 

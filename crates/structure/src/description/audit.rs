@@ -2,9 +2,14 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use uplift_plausible::{
+    COLUMNS, CURVATURE_RADIUS, GRAVITY, LENGTH, MASS, MOMENT_OF_INERTIA, RESTITUTION, Range, SIZE, TENDON_STIFFNESS,
+    UPLIFT_DISPLACEMENT,
+};
+
 use super::{Kind, StructureDescription};
 use crate::block::Reference;
-use crate::error::StructureError;
+use crate::error::{StructureError, require};
 use crate::frame::Anchorage;
 
 /// What a kind makes of a quantity.
@@ -17,33 +22,19 @@ enum Role {
 
 /// Values a quantity can take by itself.
 #[derive(Clone, Copy)]
-enum Range {
-    Positive,
-    NotNegative,
-    AtLeastOne,
-    ZeroToOne,
+enum Allowed {
+    Plausible(Range),
     /// Above 0 and below a quarter turn, given in the quantity's unit.
     BelowQuarterTurn(f64, &'static str),
 }
 
-impl Range {
-    fn contains(self, value: f64) -> bool {
+impl Allowed {
+    fn check(self, key: &'static str, value: f64, unit: &'static str) -> Result<f64, StructureError> {
         match self {
-            Self::Positive => value > 0.0 && value.is_finite(),
-            Self::NotNegative => value >= 0.0 && value.is_finite(),
-            Self::AtLeastOne => value >= 1.0,
-            Self::ZeroToOne => (0.0..=1.0).contains(&value),
-            Self::BelowQuarterTurn(quarter_turn, _) => value > 0.0 && value < quarter_turn,
-        }
-    }
-
-    fn requirement(self) -> &'static str {
-        match self {
-            Self::Positive => "finite and positive",
-            Self::NotNegative => "finite and not negative",
-            Self::AtLeastOne => "at least 1",
-            Self::ZeroToOne => "between 0 and 1",
-            Self::BelowQuarterTurn(_, requirement) => requirement,
+            Self::Plausible(range) => range.check(key, value).map_err(StructureError::Implausible),
+            Self::BelowQuarterTurn(quarter_turn, requirement) => {
+                require(value > 0.0 && value < quarter_turn, key, value, unit, requirement)
+            }
         }
     }
 }
@@ -52,7 +43,7 @@ struct Quantity {
     key: &'static str,
     value: Option<f64>,
     unit: &'static str,
-    range: Range,
+    allowed: Allowed,
     role: Role,
 }
 
@@ -66,38 +57,52 @@ fn accepted_if(condition: bool) -> Role {
 
 /// Every quantity that is a number, in the order of the documentation.
 fn quantities(of: &StructureDescription) -> Vec<Quantity> {
-    use Range::{AtLeastOne, BelowQuarterTurn, NotNegative, Positive, ZeroToOne};
+    use Allowed::{BelowQuarterTurn, Plausible};
+    // what may be absent
+    let from_zero = |range: Range| Plausible(Range { least: 0.0, ..range });
     let kind = of.kind;
     let (frame, by_centre) = (kind.is_frame(), kind.is_by_centre());
     let restrained = kind == Kind::RestrainedFrame;
     let curved = kind == Kind::CurvedFrame;
-    let quantity = |key, value, unit, range, role| Quantity { key, value, unit, range, role };
+    let quantity = |key, value, unit, allowed, role| Quantity { key, value, unit, allowed, role };
     let radians = BelowQuarterTurn(FRAC_PI_2, "above 0 and below π/2");
     let degrees = BelowQuarterTurn(90.0, "above 0 and below 90");
     vec![
-        quantity("width_m", of.width_m, "m", Positive, Role::Accepted),
-        quantity("height_m", of.height_m, "m", Positive, accepted_if(!by_centre)),
-        quantity("centre_height_m", of.centre_height_m, "m", Positive, accepted_if(by_centre)),
+        quantity("width_m", of.width_m, "m", Plausible(LENGTH), Role::Accepted),
+        quantity("height_m", of.height_m, "m", Plausible(LENGTH), accepted_if(!by_centre)),
+        quantity("centre_height_m", of.centre_height_m, "m", Plausible(LENGTH), accepted_if(by_centre)),
         quantity("slenderness_rad", of.slenderness_rad, "rad", radians, Role::Accepted),
         quantity("slenderness_deg", of.slenderness_deg, "degrees", degrees, Role::Accepted),
-        quantity("size_m", of.size_m, "m", Positive, Role::Accepted),
-        quantity("mass_kg", of.mass_kg, "kg", Positive, needed_if(!frame)),
+        quantity("size_m", of.size_m, "m", Plausible(SIZE), Role::Accepted),
+        quantity("mass_kg", of.mass_kg, "kg", Plausible(MASS), needed_if(!frame)),
         quantity(
             "moment_of_inertia_kg_m2",
             of.moment_of_inertia_kg_m2,
             "kg m²",
-            Positive,
+            Plausible(MOMENT_OF_INERTIA),
             needed_if(kind == Kind::Body),
         ),
-        quantity("columns", of.columns.map(f64::from), "", AtLeastOne, needed_if(frame)),
-        quantity("column_mass_kg", of.column_mass_kg, "kg", NotNegative, needed_if(frame)),
-        quantity("deck_mass_kg", of.deck_mass_kg, "kg", NotNegative, needed_if(frame)),
-        quantity("tendon_stiffness_n_m", of.tendon_stiffness_n_m, "N/m", NotNegative, needed_if(restrained)),
-        quantity("curvature_radius_m", of.curvature_radius_m, "m", NotNegative, needed_if(curved)),
-        quantity("extended_width_m", of.extended_width_m, "m", Positive, needed_if(curved)),
-        quantity("uplift_displacement_m", of.uplift_displacement_m, "m", NotNegative, Role::Accepted),
-        quantity("gravity_m_s2", of.gravity_m_s2, "m/s²", Positive, Role::Accepted),
-        quantity("restitution", of.restitution, "", ZeroToOne, Role::Accepted),
+        quantity("columns", of.columns.map(f64::from), "", Plausible(COLUMNS), needed_if(frame)),
+        quantity("column_mass_kg", of.column_mass_kg, "kg", from_zero(MASS), needed_if(frame)),
+        quantity("deck_mass_kg", of.deck_mass_kg, "kg", from_zero(MASS), needed_if(frame)),
+        quantity(
+            "tendon_stiffness_n_m",
+            of.tendon_stiffness_n_m,
+            "N/m",
+            Plausible(TENDON_STIFFNESS),
+            needed_if(restrained),
+        ),
+        quantity("curvature_radius_m", of.curvature_radius_m, "m", Plausible(CURVATURE_RADIUS), needed_if(curved)),
+        quantity("extended_width_m", of.extended_width_m, "m", Plausible(LENGTH), needed_if(curved)),
+        quantity(
+            "uplift_displacement_m",
+            of.uplift_displacement_m,
+            "m",
+            from_zero(UPLIFT_DISPLACEMENT),
+            Role::Accepted,
+        ),
+        quantity("gravity_m_s2", of.gravity_m_s2, "m/s²", Plausible(GRAVITY), Role::Accepted),
+        quantity("restitution", of.restitution, "", Plausible(RESTITUTION), Role::Accepted),
     ]
 }
 
@@ -105,15 +110,13 @@ fn quantities(of: &StructureDescription) -> Vec<Quantity> {
 pub(super) fn mistakes(of: &StructureDescription) -> Vec<StructureError> {
     let kind = of.kind.name();
     let mut mistakes = Vec::new();
-    for Quantity { key, value, unit, range, role } in quantities(of) {
+    for Quantity { key, value, unit, allowed, role } in quantities(of) {
         match (role, value) {
             (Role::Needed, None) => mistakes.push(StructureError::Missing { key, unit, kind }),
             (Role::Foreign, Some(value)) => {
                 mistakes.push(StructureError::Foreign { key, value: value.to_string(), unit, kind });
             }
-            (_, Some(value)) if !range.contains(value) => {
-                mistakes.push(StructureError::OutOfRange { key, value, unit, requirement: range.requirement() });
-            }
+            (_, Some(value)) => mistakes.extend(allowed.check(key, value, unit).err()),
             _ => {}
         }
     }

@@ -1,6 +1,7 @@
 //! The sections `[block]` and `[slenderness]`: families of rigid blocks.
 
 use serde::{Serialize, Serializer};
+use uplift_plausible::LENGTH;
 
 use crate::grid::{Grid, GridRule};
 use crate::keys::{Key, SectionKeys};
@@ -41,8 +42,8 @@ const SLENDERNESSES: [&str; 2] = ["0.005:0.005:0.1", "0.11:0.01:0.6"];
 const HOUSNER: &str = "Housner";
 
 /// What the height of a block \[m\] must be.
-pub(super) const HEIGHT: Rule = Rule { holds: |value| (1e-3..=1e6).contains(&value), words: "from 0.001 to 1e6 m" };
-const SLENDERNESS: Rule = Rule {
+pub(super) const HEIGHT: Rule = Rule::Within(LENGTH);
+const SLENDERNESS: Rule = Rule::Is {
     holds: |value| (1e-5..=1.4).contains(&value),
     words: "from 1e-5 to 1.4; a stockier block does not rock (Eq. 2.3 is negative)",
 };

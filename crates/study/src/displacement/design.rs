@@ -1,13 +1,14 @@
 //! The section `[design]`: the design example, if asked for.
 
 use serde::Serialize;
+use uplift_plausible::{LENGTH, SAFETY_FACTOR};
 use uplift_spectra::{NoiseSweep, SpectraError};
 
 use super::blocks::HEIGHT;
 use super::spectrum::PERCENT;
 use super::structures::Structures;
 use crate::keys::{Key, SectionKeys};
-use crate::reading::{ABOVE_ZERO, Rule, Section, quantity};
+use crate::reading::{Rule, Section, quantity};
 
 pub(super) const KEYS: SectionKeys = SectionKeys {
     section: "design",
@@ -16,7 +17,7 @@ pub(super) const KEYS: SectionKeys = SectionKeys {
             names: &["width_m", "height_m"],
             meaning: "oscillators: width 2b and height 2h of the columns, m",
             default: "1.6, 9.6",
-            range: "above 0; the width above the smallest uplift displacement and below the height",
+            range: "0.001 to 1e6; the width above the smallest uplift displacement and below the height",
         },
         Key {
             names: &["height_m"],
@@ -30,7 +31,7 @@ pub(super) const KEYS: SectionKeys = SectionKeys {
             default: "1000",
             range: "0.001 to 1e6",
         },
-        Key { names: &["safety_factor"], meaning: "FS", default: "2.5", range: "1 or above" },
+        Key { names: &["safety_factor"], meaning: "FS", default: "2.5", range: "1 to 1000" },
         Key {
             names: &["percentile"],
             meaning: "percentile of the displacements that counts, %",
@@ -52,8 +53,8 @@ pub(super) const KEYS: SectionKeys = SectionKeys {
     ],
 };
 
-const SAFETY: Rule = Rule { holds: |value| value >= 1.0, words: "1 or above" };
-const NARROW: Rule = Rule { holds: |value| (0.0..=0.5).contains(&value), words: "from 0 to 0.5 (1 % is 0.01)" };
+const SAFETY: Rule = Rule::Within(SAFETY_FACTOR);
+const NARROW: Rule = Rule::Is { holds: |value| (0.0..=0.5).contains(&value), words: "from 0 to 0.5 (1 % is 0.01)" };
 /// Most points of the sweep around a value.
 const MOST_POINTS: u64 = 1001;
 
@@ -145,8 +146,8 @@ fn designed(section: &mut Section<'_>, of_blocks: bool, structures: Option<&Stru
         let endless = section.number_or("endless_height_m", "m", HEIGHT, 1000.0);
         return Some(Designed::Block { height_m: height?, endless_height_m: endless? });
     }
-    let width = section.number_or("width_m", "m", ABOVE_ZERO, 1.6);
-    let height = section.number_or("height_m", "m", ABOVE_ZERO, 9.6);
+    let width = section.number_or("width_m", "m", Rule::Within(LENGTH), 1.6);
+    let height = section.number_or("height_m", "m", Rule::Within(LENGTH), 9.6);
     let (width_m, height_m) = (width?, height?);
     if width_m >= height_m {
         section.mistake(

@@ -1,10 +1,11 @@
 //! The section `[oscillator]`: families of oscillators.
 
 use serde::Serialize;
+use uplift_plausible::{CAPACITY, UPLIFT_DISPLACEMENT};
 
 use crate::grid::{Grid, GridRule};
 use crate::keys::{Key, SectionKeys};
-use crate::reading::{ABOVE_ZERO, Field, Node, Section, UPLIFT_DISPLACEMENT, Value, ZERO_TO_ONE, quantity};
+use crate::reading::{Field, Node, Rule, Section, Value, ZERO_TO_ONE, quantity};
 use crate::sections::strengths;
 
 pub(super) const KEYS: SectionKeys = SectionKeys {
@@ -14,14 +15,14 @@ pub(super) const KEYS: SectionKeys = SectionKeys {
             names: &["uplift_displacement_m"],
             meaning: "displacements at uplift u_up, a grid, m",
             default: "0.0005",
-            range: "1e-6 or above",
+            range: "1e-6 to 10",
         },
         Key {
             names: &["capacity_m"],
             meaning: "displacements u_cap at which the force is zero, an increasing list, m; `inf` for a force that \
                       stays constant",
             default: "`inf`",
-            range: "above every uplift displacement",
+            range: "1e-6 to 1e6 or `inf`; above every uplift displacement",
         },
         Key {
             names: &["restitution"],
@@ -56,7 +57,7 @@ pub struct OscillatorFamily {
 
 /// Reads the section with `[strengths]`.
 pub(super) fn read(mut section: Section<'_>, strengths: Section<'_>) -> Option<OscillatorFamily> {
-    let rule = GridRule { unit: "m", each: UPLIFT_DISPLACEMENT, least_count: 1 };
+    let rule = GridRule { unit: "m", each: Rule::Within(UPLIFT_DISPLACEMENT), least_count: 1 };
     let uplift = Grid::of_key(&mut section, "uplift_displacement_m", rule, &["0.0005"]);
     let largest = uplift.as_ref().and_then(|grid| grid.last().copied());
     let capacity = section.field("capacity_m").map_or(Some(vec![f64::INFINITY]), |field| capacities(&field, largest));
@@ -79,7 +80,8 @@ fn capacities(field: &Field<'_>, above_m: Option<f64>) -> Option<Vec<f64>> {
     let mut complete = true;
     for item in field.few_items()? {
         let endless = matches!(item.node, Node { value: Value::Float(value), .. } if *value == f64::INFINITY);
-        let Some(capacity) = (if endless { Some(f64::INFINITY) } else { item.number("m", ABOVE_ZERO) }) else {
+        let Some(capacity) = (if endless { Some(f64::INFINITY) } else { item.number("m", Rule::Within(CAPACITY)) })
+        else {
             complete = false;
             continue;
         };

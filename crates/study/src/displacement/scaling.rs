@@ -2,6 +2,7 @@
 
 use serde::{Serialize, Serializer};
 use uplift_motion::IntensityMeasure::{self, Pga, Pgv};
+use uplift_plausible::MULTIPLE;
 use uplift_spectra::{ScaledBy, Scaling};
 
 use crate::keys::{Key, SectionKeys};
@@ -14,7 +15,7 @@ pub(super) const KEYS: SectionKeys = SectionKeys {
             names: &["to"],
             meaning: "list of `\"unscaled\"`, `\"0.5 PGA\"`, `\"1 PGV\"`: multiples of the set's median",
             default: "`\"unscaled\"` and 0.5, 1, 2 of each",
-            range: "each once; multiples above 0",
+            range: "each once; multiples 1e-4 to 10000",
         },
         Key {
             names: &["by"],
@@ -88,7 +89,7 @@ impl ScaledTo {
         }
         IntensityMeasure::ALL.into_iter().find_map(|measure| {
             let multiple: f64 = text.strip_suffix(measure.key())?.trim().parse().ok()?;
-            (multiple.is_finite() && multiple > 0.0).then_some(Self::Median { multiple, measure })
+            MULTIPLE.contains(multiple).then_some(Self::Median { multiple, measure })
         })
     }
 }
@@ -121,7 +122,8 @@ pub(super) fn read(mut section: Section<'_>) -> Option<ScalingPlan> {
 }
 
 fn target(item: &Field<'_>) -> Option<ScaledTo> {
-    const HELP: &str = "write \"unscaled\", or a multiple of the set's median peak: \"0.5 PGA\", \"1 PGV\"";
+    const HELP: &str =
+        "write \"unscaled\", or a multiple, 1e-4 to 10000, of the set's median peak: \"0.5 PGA\", \"1 PGV\"";
     let Value::Text(text) = &item.node.value else {
         return item.wrong_type("a scaling", HELP);
     };

@@ -22,7 +22,7 @@ const PERCENTILES: [&str; 4] = ["16", "50", "84", "90"];
 
 /// What a percentile must be.
 pub(super) const PERCENT: Rule =
-    Rule { holds: |value| (0.0..=100.0).contains(&value), words: "from 0 to 100 (the median is 50)" };
+    Rule::Is { holds: |value| (0.0..=100.0).contains(&value), words: "from 0 to 100 (the median is 50)" };
 
 /// The section as a study file has it.
 pub(super) fn write<S: Serializer>(percentiles: &Grid, serializer: S) -> Result<S::Ok, S::Error> {

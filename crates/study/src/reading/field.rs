@@ -87,10 +87,10 @@ impl<'a> Field<'a> {
 
     /// Whether `value` \[`unit`\] is finite and satisfies `rule`; a mistake if not.
     pub(crate) fn check(&self, value: f64, unit: &str, rule: Rule) -> bool {
-        if value.is_finite() && (rule.holds)(value) {
+        if value.is_finite() && rule.holds(value) {
             return true;
         }
-        self.mistake(format!("the value is {}", quantity(value, unit)), format!("it must be {}", rule.words));
+        self.mistake(format!("the value is {}", quantity(value, unit)), format!("it must be {}", rule.words()));
         false
     }
 

@@ -1,19 +1,37 @@
 //! What a number must satisfy.
 
-/// What a number must satisfy, as a test and in words.
+use uplift_plausible::{RESTITUTION, Range};
+
+/// What a number must satisfy.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Rule {
-    pub(crate) holds: fn(f64) -> bool,
-    pub(crate) words: &'static str,
+pub(crate) enum Rule {
+    /// To be plausible.
+    Within(Range),
+    /// Something else, as a test and in words.
+    Is { holds: fn(f64) -> bool, words: &'static str },
 }
 
-pub(crate) const ABOVE_ZERO: Rule = Rule { holds: |value| value > 0.0, words: "above zero" };
-pub(crate) const ZERO_OR_MORE: Rule = Rule { holds: |value| value >= 0.0, words: "zero or above" };
-pub(crate) const ZERO_TO_ONE: Rule = Rule { holds: |value| (0.0..=1.0).contains(&value), words: "between 0 and 1" };
+impl Rule {
+    /// Whether a finite `value` satisfies it.
+    pub(crate) fn holds(&self, value: f64) -> bool {
+        match self {
+            Self::Within(range) => range.contains(value),
+            Self::Is { holds, .. } => holds(value),
+        }
+    }
+
+    /// What a number must be, in words.
+    pub(crate) fn words(&self) -> String {
+        match self {
+            Self::Within(range) => range.to_string(),
+            Self::Is { words, .. } => (*words).to_owned(),
+        }
+    }
+}
+
+pub(crate) const ZERO_TO_ONE: Rule = Rule::Within(RESTITUTION);
 pub(crate) const PROBABILITY: Rule =
-    Rule { holds: |value| value > 0.0 && value < 1.0, words: "above 0 and below 1 (10 % is 0.1)" };
-/// A micrometre: less is no structure, and an oscillator so stiff that no motion resolves it.
-pub(crate) const UPLIFT_DISPLACEMENT: Rule = Rule { holds: |value| value >= 1e-6, words: "1e-6 m or above" };
+    Rule::Is { holds: |value| value > 0.0 && value < 1.0, words: "above 0 and below 1 (10 % is 0.1)" };
 
 /// A number with its unit, for messages.
 pub(crate) fn quantity(value: f64, unit: &str) -> String {

@@ -1,10 +1,11 @@
 //! The section `[strengths]`: how strong the oscillators are.
 
 use serde::Serializer;
+use uplift_plausible::STRENGTH;
 
 use crate::grid::{Grid, GridRule};
 use crate::keys::{Key, SectionKeys};
-use crate::reading::{Section, ZERO_OR_MORE};
+use crate::reading::{Rule, Section};
 
 pub(crate) const KEYS: SectionKeys = SectionKeys {
     section: "strengths",
@@ -12,12 +13,12 @@ pub(crate) const KEYS: SectionKeys = SectionKeys {
         names: &["values"],
         meaning: "uplift strengths η = f_up/(m g), a grid",
         default: "`\"0:1/300:1\"`, 301 values",
-        range: "0 or above",
+        range: "0 to 100",
     }],
 };
 
 /// What a grid of strengths must be.
-pub(crate) const RULE: GridRule = GridRule { unit: "", each: ZERO_OR_MORE, least_count: 1 };
+pub(crate) const RULE: GridRule = GridRule { unit: "", each: Rule::Within(STRENGTH), least_count: 1 };
 
 /// Reads the section.
 pub(crate) fn read(mut section: Section<'_>) -> Option<Grid> {

@@ -3,7 +3,7 @@
 use uplift_motion::STANDARD_GRAVITY_M_S2;
 
 use crate::keys::Key;
-use crate::reading::{ABOVE_ZERO, Section};
+use crate::reading::{Rule, Section};
 
 pub(crate) const KIND: Key = Key {
     names: &["kind"],
@@ -17,7 +17,7 @@ pub(crate) const GRAVITY: Key = Key {
     names: &["gravity_m_s2"],
     meaning: "acceleration of gravity, m/s²",
     default: "9.80665",
-    range: "above 0; a warning unless 9.7 to 9.9",
+    range: "0.1 to 2000; a warning unless 9.7 to 9.9",
 };
 
 /// Reads `title`; empty where it is not given.
@@ -27,7 +27,7 @@ pub(crate) fn title(root: &mut Section<'_>) -> Option<String> {
 
 /// Reads `gravity_m_s2` \[m/s²\].
 pub(crate) fn gravity(root: &mut Section<'_>) -> Option<f64> {
-    root.number_or("gravity_m_s2", "m/s2", ABOVE_ZERO, STANDARD_GRAVITY_M_S2)
+    root.number_or("gravity_m_s2", "m/s2", Rule::Within(uplift_plausible::GRAVITY), STANDARD_GRAVITY_M_S2)
 }
 
 /// What an acceleration of gravity \[m/s²\] is suspected of.

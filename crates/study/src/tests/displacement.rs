@@ -196,7 +196,7 @@ fn one_by_one() {
             "oscillator.capacity_m: the list has 0 items",
         ),
         (
-            "kind = \"displacement spectra\"\n[oscillator]\nuplift_displacement_m = \"0.001:0.001:90\"\n[strengths]\n\
+            "kind = \"displacement spectra\"\n[oscillator]\nuplift_displacement_m = \"0.0001:0.0001:9\"\n[strengths]\n\
              values = \"0:1/300:1\"",
             "the lists and grids make 27090000 structures",
         ),

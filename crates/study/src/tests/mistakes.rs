@@ -96,7 +96,7 @@ fn one_by_one() {
         ),
         ("[pgv]\nlevels_cm_s = 10:20:50", "pgv.levels_cm_s: expected a grid [cm/s], found the date 10:20:50"),
         (
-            "[pgv]\nlevels_cm_s = [\"1:1:60000\", \"60001:1:120000\"]",
+            "[pgv]\nlevels_cm_s = [\"0.05:0.05:3000\", \"3000.05:0.05:6000\"]",
             "pgv.levels_cm_s: the grid has more than 100000 values",
         ),
         ("[pgv]\n[strengths]\nvalues = -0.1", "strengths.values: the value is -0.1"),

@@ -137,3 +137,34 @@ fn every_key_is_in_the_reference_and_no_other() {
         assert!(unknown.is_empty(), "read, but not in the reference of {}: {unknown:?}", kind.key());
     }
 }
+
+#[test]
+fn the_reference_says_the_ranges_that_are_asked_for() {
+    use uplift_plausible as plausible;
+    let known = [
+        ("gravity_m_s2", plausible::GRAVITY),
+        ("uplift_displacement_m", plausible::UPLIFT_DISPLACEMENT),
+        ("capacity_m", plausible::CAPACITY),
+        ("post_uplift_stiffness_per_s2", plausible::POST_UPLIFT_STIFFNESS),
+        ("restitution", plausible::RESTITUTION),
+        ("levels_cm_s", plausible::PGV_LEVEL),
+        ("levels_g", plausible::PGA_LEVEL),
+        ("thresholds_m", plausible::THRESHOLD),
+        ("years", plausible::YEARS),
+        ("strength_above", plausible::STRENGTH),
+        ("within_km", plausible::DISTANCE),
+        ("safety_factor", plausible::SAFETY_FACTOR),
+        ("width_m", plausible::LENGTH),
+        ("endless_height_m", plausible::LENGTH),
+    ];
+    let sections = [Kind::UniformRisk, Kind::Displacement].into_iter().flat_map(Kind::keys);
+    let keys: Vec<&Key> = sections.flat_map(|section| section.keys).collect();
+    for (name, range) in known {
+        let said = range.to_string();
+        let ends = said.strip_prefix("from ").and_then(|rest| rest.split([' ']).nth(2)).unwrap();
+        let words = format!("{} to {ends}", said.split(' ').nth(1).unwrap());
+        let found: Vec<&&Key> = keys.iter().filter(|key| key.names.contains(&name)).collect();
+        assert!(!found.is_empty(), "{name}");
+        assert!(found.iter().all(|key| key.range.contains(&words)), "{name}: {words}, not in {found:?}");
+    }
+}

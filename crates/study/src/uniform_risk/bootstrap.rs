@@ -2,9 +2,10 @@
 
 use serde::{Serialize, Serializer};
 use uplift_bootstrap::Interval;
+use uplift_plausible::STRENGTH;
 
 use crate::keys::{Key, SectionKeys};
-use crate::reading::{Field, Rule, Section, ZERO_OR_MORE};
+use crate::reading::{Field, Rule, Section};
 
 pub(super) const KEYS: SectionKeys = SectionKeys {
     section: "bootstrap",
@@ -38,7 +39,7 @@ pub(super) const KEYS: SectionKeys = SectionKeys {
             names: &["strength_above"],
             meaning: "only strengths above this count in e_median and r_90CI",
             default: "0",
-            range: "0 or above",
+            range: "0 to 100",
         },
     ],
 };
@@ -50,7 +51,8 @@ const LARGEST_SIZE: u64 = 100_000;
 /// Most sizes.
 const MOST_SIZES: usize = 100;
 
-const CONFIDENCE: Rule = Rule { holds: |value| value > 0.0 && value < 1.0, words: "above 0 and below 1 (90 % is 0.9)" };
+const CONFIDENCE: Rule =
+    Rule::Is { holds: |value| value > 0.0 && value < 1.0, words: "above 0 and below 1 (90 % is 0.9)" };
 
 /// The bootstrap over records (Section 4.5).
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -99,7 +101,7 @@ pub(super) fn read(mut section: Section<'_>) -> Option<Bootstrap> {
     let intervals = Interval::ALL.map(|interval| (interval.key(), interval));
     let interval = section.choice_or("interval", &intervals, default.interval);
     let simultaneous = section.boolean_or("simultaneous", default.simultaneous);
-    let strength_above = section.number_or("strength_above", "", ZERO_OR_MORE, default.strength_above);
+    let strength_above = section.number_or("strength_above", "", Rule::Within(STRENGTH), default.strength_above);
     section.finish();
     Some(Bootstrap {
         sizes: sizes?,

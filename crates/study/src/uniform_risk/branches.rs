@@ -18,7 +18,7 @@ const MOST_BRANCHES: usize = 1000;
 /// How far from 1 the sum of the weights may be, for weights given with a few digits.
 const SUM_TOLERANCE: f64 = 1e-6;
 
-const WEIGHT: Rule = Rule { holds: |value| value > 0.0 && value < 1.0, words: "above 0 and below 1" };
+const WEIGHT: Rule = Rule::Is { holds: |value| value > 0.0 && value < 1.0, words: "above 0 and below 1" };
 
 /// One of several weighted hazard curves of a site, a realization of a logic tree for instance.
 #[derive(Debug, Clone, PartialEq, Serialize)]

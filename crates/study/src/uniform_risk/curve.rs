@@ -5,11 +5,12 @@ use std::path::{Path, PathBuf};
 use serde::{Serialize, Serializer};
 use uplift_hazard::CurveUnit;
 use uplift_motion::IntensityMeasure;
+use uplift_plausible::YEARS;
 
 use super::branches::{self, Branch};
 use super::measures::MeasureKeys;
 use crate::keys::Key;
-use crate::reading::{ABOVE_ZERO, Field, Paths, Section, Value};
+use crate::reading::{Field, Paths, Rule, Section, Value};
 
 pub(super) const KEYS: &[Key] = &[
     Key { names: &["file"], meaning: "the curve", default: "needed without `branches`", range: "existing file" },
@@ -29,7 +30,7 @@ pub(super) const KEYS: &[Key] = &[
         names: &["years"],
         meaning: "time that the probabilities refer to, yr",
         default: "needed for `\"poe\"`",
-        range: "above 0; only for `\"poe\"`",
+        range: "0.001 to 1e7; only for `\"poe\"`",
     },
     Key {
         names: &["branches"],
@@ -128,7 +129,7 @@ pub(super) fn read(field: &Field<'_>, measure: IntensityMeasure, paths: &Paths) 
 fn kind(section: &mut Section<'_>) -> Option<CurveKind> {
     let is_poe = section.choice_or("kind", &[("maf", false), ("poe", true)], false);
     let years_field = section.field("years");
-    let years = (years_field.as_ref()).map(|field| field.number("yr", ABOVE_ZERO));
+    let years = (years_field.as_ref()).map(|field| field.number("yr", Rule::Within(YEARS)));
     match (is_poe?, years) {
         (true, Some(years)) => Some(CurveKind::Poe { years: years? }),
         (true, None) => {

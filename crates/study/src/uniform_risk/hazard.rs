@@ -5,9 +5,10 @@ use std::collections::BTreeMap;
 use serde::{Serialize, Serializer};
 use uplift_hazard::ComponentDefinition;
 use uplift_motion::{Combination, IntensityMeasure};
+use uplift_plausible::CONVERSION;
 
 use crate::keys::{Key, SectionKeys};
-use crate::reading::{ABOVE_ZERO, Field, Section, optional};
+use crate::reading::{Field, Rule, Section, optional};
 
 const DEFINITIONS_IN_WORDS: &str =
     "`\"geometric mean\"`, `\"GMRotI50\"`, `\"RotD50\"`, `\"RotD100\"`, `\"larger\"`, `\"arbitrary\"`";
@@ -45,7 +46,7 @@ pub(super) const CONVERSION_KEYS: SectionKeys = SectionKeys {
             meaning: "what the levels of such a curve are multiplied by, that is the records' definition of the \
                       measure over the curve's",
             default: "one is needed",
-            range: "above 0",
+            range: "0.1 to 10",
         },
     ],
 };
@@ -148,7 +149,7 @@ fn conversions(field: &Field<'_>) -> Option<Vec<Conversion>> {
         let mut factors = Some(Vec::new());
         for measure in IntensityMeasure::ALL {
             let Some(field) = section.field(measure.key()) else { continue };
-            match (&mut factors, field.number("", ABOVE_ZERO)) {
+            match (&mut factors, field.number("", Rule::Within(CONVERSION))) {
                 (Some(factors), Some(factor)) => factors.push((measure, factor)),
                 _ => factors = None,
             }

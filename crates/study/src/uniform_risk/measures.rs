@@ -3,11 +3,12 @@
 use serde::{Serialize, Serializer};
 use uplift_hazard::CurveUnit;
 use uplift_motion::IntensityMeasure;
+use uplift_plausible::{PGA_LEVEL, PGV_LEVEL, Range};
 
 use super::lower_levels::levels_key;
 use crate::grid::{Grid, GridRule};
 use crate::keys::{Key, SectionKeys};
-use crate::reading::{ABOVE_ZERO, Section};
+use crate::reading::{Rule, Section};
 
 pub(super) const PGV_KEYS: SectionKeys = SectionKeys {
     section: "pgv",
@@ -15,7 +16,7 @@ pub(super) const PGV_KEYS: SectionKeys = SectionKeys {
         names: &["levels_cm_s"],
         meaning: "levels of peak ground velocity that records are scaled to, cm/s, a grid",
         default: "`[\"0.1:0.1:0.9\", \"1:0.5:20\", \"25:5:200\"]`, 84 levels",
-        range: "above 0; at least 2",
+        range: "1e-5 to 10000; at least 2",
     }],
 };
 pub(super) const PGA_KEYS: SectionKeys = SectionKeys {
@@ -24,7 +25,7 @@ pub(super) const PGA_KEYS: SectionKeys = SectionKeys {
         names: &["levels_g"],
         meaning: "levels of peak ground acceleration, g, a grid",
         default: "`[0.001, \"0.0025:0.0025:0.0225\", \"0.025:0.005:0.195\", \"0.2:0.05:2\"]`, 82 levels",
-        range: "above 0; at least 2",
+        range: "1e-7 to 1000; at least 2",
     }],
 };
 
@@ -42,6 +43,7 @@ pub struct MeasurePlan {
 pub(super) struct MeasureKeys {
     pub(super) levels: &'static str,
     default_levels: &'static [&'static str],
+    plausible: Range,
     /// Units that a hazard curve may have; the first one unless it names another.
     pub(super) units: &'static [CurveUnit],
 }
@@ -54,12 +56,14 @@ impl MeasureKeys {
                 // 84 levels: Chapter 4's 75, and nine below, without which half of the risk at 50 % in 50 years lies
                 // below the first one in weak seismicity (docs/method.md, section 3)
                 default_levels: &["0.1:0.1:0.9", "1:0.5:20", "25:5:200"],
+                plausible: PGV_LEVEL,
                 units: &[CurveUnit::CmPerS, CurveUnit::MPerS],
             },
             IntensityMeasure::Pga => Self {
                 levels: "levels_g",
                 // 82 levels
                 default_levels: &["0.001", "0.0025:0.0025:0.0225", "0.025:0.005:0.195", "0.2:0.05:2"],
+                plausible: PGA_LEVEL,
                 units: &[CurveUnit::G, CurveUnit::MPerS2, CurveUnit::CmPerS2],
             },
         }
@@ -124,7 +128,7 @@ pub(super) fn read(root: &mut Section<'_>) -> Option<Vec<MeasurePlan>> {
     let mut plans = Some(Vec::new());
     for measure in switched_on {
         let keys = MeasureKeys::of(measure);
-        let rule = GridRule { unit: measure.unit(), each: ABOVE_ZERO, least_count: 2 };
+        let rule = GridRule { unit: measure.unit(), each: Rule::Within(keys.plausible), least_count: 2 };
         let mut section = root.section(measure.key());
         let levels = Grid::of_key(&mut section, keys.levels, rule, keys.default_levels);
         section.finish();

@@ -2,9 +2,10 @@
 
 use serde::{Serialize, Serializer};
 use uplift_oscillator::PostUplift;
+use uplift_plausible::{CAPACITY, POST_UPLIFT_STIFFNESS, UPLIFT_DISPLACEMENT};
 
 use crate::keys::{Key, SectionKeys};
-use crate::reading::{ABOVE_ZERO, Section, UPLIFT_DISPLACEMENT, ZERO_TO_ONE, optional, quantity};
+use crate::reading::{Rule, Section, ZERO_TO_ONE, optional, quantity};
 
 pub(super) const KEYS: SectionKeys = SectionKeys {
     section: "oscillator",
@@ -13,7 +14,7 @@ pub(super) const KEYS: SectionKeys = SectionKeys {
             names: &["uplift_displacement_m"],
             meaning: "displacement at uplift u_up, m",
             default: "0.0005",
-            range: "1e-6 or above",
+            range: "1e-6 to 10",
         },
         Key {
             names: &["restitution"],
@@ -32,13 +33,13 @@ pub(super) const KEYS: SectionKeys = SectionKeys {
             meaning: "displacement u_cap at which the force has fallen to zero, m (NSBE: negative stiffness, can \
                       overturn)",
             default: "none: the force stays constant (ZSBE)",
-            range: "above `uplift_displacement_m`",
+            range: "1e-6 to 1e6; above `uplift_displacement_m`",
         },
         Key {
             names: &["post_uplift_stiffness_per_s2"],
             meaning: "stiffness after uplift divided by mass, 1/s² (the force rises)",
             default: "none",
-            range: "above 0; excludes `capacity_m`",
+            range: "1e-7 to 1e10; excludes `capacity_m`",
         },
     ],
 };
@@ -67,14 +68,15 @@ fn write_post_uplift<S: Serializer>(post_uplift: &PostUplift, serializer: S) -> 
 
 /// Reads the section.
 pub(super) fn read(mut section: Section<'_>) -> Option<Oscillator> {
-    let uplift = section.number_or("uplift_displacement_m", "m", UPLIFT_DISPLACEMENT, 0.0005);
+    let uplift = section.number_or("uplift_displacement_m", "m", Rule::Within(UPLIFT_DISPLACEMENT), 0.0005);
     let restitution = section.number_or("restitution", "", ZERO_TO_ONE, 0.95);
     let free_vibration = section.boolean_or("free_vibration", true);
     let capacity_field = section.field("capacity_m");
     let stiffness_field = section.field("post_uplift_stiffness_per_s2");
     section.finish();
-    let capacity = optional(capacity_field.as_ref(), |field| field.number("m", ABOVE_ZERO));
-    let stiffness = optional(stiffness_field.as_ref(), |field| field.number("1/s2", ABOVE_ZERO));
+    let capacity = optional(capacity_field.as_ref(), |field| field.number("m", Rule::Within(CAPACITY)));
+    let stiffness =
+        optional(stiffness_field.as_ref(), |field| field.number("1/s2", Rule::Within(POST_UPLIFT_STIFFNESS)));
     if let (Some(field), Some(Some(capacity)), Some(uplift)) = (&capacity_field, capacity, uplift)
         && capacity <= uplift
     {

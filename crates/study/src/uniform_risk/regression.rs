@@ -1,9 +1,10 @@
 //! The section `[regression]`: the fit of Eq. 4.11.
 
 use serde::Serialize;
+use uplift_plausible::STRENGTH;
 
 use crate::keys::{Key, SectionKeys};
-use crate::reading::{Section, ZERO_OR_MORE};
+use crate::reading::{Rule, Section};
 
 pub(super) const KEYS: SectionKeys = SectionKeys {
     section: "regression",
@@ -11,7 +12,7 @@ pub(super) const KEYS: SectionKeys = SectionKeys {
         names: &["strength_above"],
         meaning: "only strengths above this take part in the fit of Eq. 4.11",
         default: "0.05",
-        range: "0 or above; a warning if fewer than 4 strengths are left",
+        range: "0 to 100; a warning if fewer than 4 strengths are left",
     }],
 };
 
@@ -24,7 +25,7 @@ pub struct Regression {
 
 /// Reads the section.
 pub(super) fn read(mut section: Section<'_>) -> Option<Regression> {
-    let strength_above = section.number_or("strength_above", "", ZERO_OR_MORE, 0.05);
+    let strength_above = section.number_or("strength_above", "", Rule::Within(STRENGTH), 0.05);
     section.finish();
     Some(Regression { strength_above: strength_above? })
 }

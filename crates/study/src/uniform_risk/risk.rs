@@ -2,10 +2,11 @@
 
 use serde::{Serialize, Serializer};
 use uplift_hazard::Extrapolation;
+use uplift_plausible::{THRESHOLD, YEARS};
 
 use crate::grid::{Grid, GridRule};
 use crate::keys::{Key, SectionKeys};
-use crate::reading::{ABOVE_ZERO, Field, PROBABILITY, Section, ZERO_OR_MORE};
+use crate::reading::{Field, PROBABILITY, Rule, Section, quantity};
 
 pub(super) const KEYS: SectionKeys = SectionKeys {
     section: "risk",
@@ -16,7 +17,7 @@ pub(super) const KEYS: SectionKeys = SectionKeys {
             default: "`[0.02, 0.10, 0.50]`",
             range: "above 0, below 1; each once; at most 1000",
         },
-        Key { names: &["years"], meaning: "time that they refer to, yr", default: "50", range: "above 0" },
+        Key { names: &["years"], meaning: "time that they refer to, yr", default: "50", range: "0.001 to 1e7" },
         Key {
             names: &["contour"],
             meaning: "how ordinates are read: `\"exact\"`, the smallest displacement whose annual frequency meets the \
@@ -28,7 +29,7 @@ pub(super) const KEYS: SectionKeys = SectionKeys {
             names: &["thresholds_m"],
             meaning: "displacement thresholds of the surface of annual frequencies, m, a grid",
             default: "`[0, 0.0005, \"0.001:0.001:3\"]`, 3002 values",
-            range: "0 or above; at least 2 for `\"grid\"`",
+            range: "0 to 10000, from 0 on; at least 2",
         },
         Key { names: &["maf_surface"], meaning: "whether that surface is kept", default: "`true`", range: "" },
         Key {
@@ -100,11 +101,14 @@ fn write_extrapolation<S: Serializer>(extrapolation: &Extrapolation, serializer:
 /// Reads the section.
 pub(super) fn read(mut section: Section<'_>) -> Option<Risk> {
     let poe = section.field("poe").map_or_else(|| Some(vec![0.02, 0.10, 0.50]), |field| probabilities(&field));
-    let years = section.number_or("years", "yr", ABOVE_ZERO, 50.0);
+    let years = section.number_or("years", "yr", Rule::Within(YEARS), 50.0);
     let contour = section.choice_or("contour", &Contour::ALL.map(|way| (way.key(), way)), Contour::Exact);
-    let least_count = if contour == Some(Contour::Grid) { 2 } else { 1 };
-    let rule = GridRule { unit: "m", each: ZERO_OR_MORE, least_count };
+    let rule = GridRule { unit: "m", each: Rule::Within(THRESHOLD), least_count: 2 };
     let thresholds_m = Grid::of_key(&mut section, "thresholds_m", rule, &THRESHOLDS_M);
+    if let Some(&first_m) = thresholds_m.as_ref().and_then(|grid| grid.first()).filter(|first_m| **first_m != 0.0) {
+        let message = format!("the grid starts at {}", quantity(first_m, "m"));
+        section.mistake("thresholds_m", message, "let it start at 0, where every run that moves is counted");
+    }
     let maf_surface = section.boolean_or("maf_surface", true);
     let choices = Extrapolation::ALL.map(|choice| (choice.key(), choice));
     let extrapolate = section.choice_or("extrapolate", &choices, Extrapolation::Refuse);

@@ -4,10 +4,11 @@ use std::path::{Path, PathBuf};
 
 use serde::{Serialize, Serializer};
 use uplift_motion::IntensityMeasure;
+use uplift_plausible::DISTANCE;
 
 use crate::grid::Grid;
 use crate::keys::{Key, SectionKeys};
-use crate::reading::{ABOVE_ZERO, Field, Paths, Section, optional, quantity};
+use crate::reading::{Field, Paths, Rule, Section, optional, quantity};
 use crate::sections::strengths;
 
 pub(super) const KEYS: SectionKeys = SectionKeys {
@@ -32,7 +33,7 @@ pub(super) const KEYS: SectionKeys = SectionKeys {
             meaning: "farthest distance between a site and the site of the export that is taken for it, the nearest; \
                       km",
             default: "1",
-            range: "above 0",
+            range: "0.001 to 20040",
         },
         Key {
             names: &["strengths"],
@@ -120,7 +121,7 @@ fn section(
         );
         exports = None;
     }
-    let within_km = section.number_or("within_km", "km", ABOVE_ZERO, WITHIN_KM);
+    let within_km = section.number_or("within_km", "km", Rule::Within(DISTANCE), WITHIN_KM);
     let strengths_field = section.field("strengths");
     let strengths = optional(strengths_field.as_ref(), |field| strengths_of(field, known));
     section.finish();

@@ -20,5 +20,6 @@ pub(crate) struct CheckArguments {
 pub(crate) fn check(arguments: &CheckArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let study = arguments.study.load_any()?;
     let plan = plan(&study, &arguments.study.study, terminal)?;
-    if arguments.json { print_json(&plan) } else { print_plan(&plan, &study, terminal) }
+    if arguments.json { print_json(&plan) } else { print_plan(&plan, &study, terminal) }?;
+    Ok(plan.head().room.refuse(terminal)?)
 }

@@ -1,0 +1,90 @@
+//! A range, and a number outside of it.
+
+use std::fmt;
+
+/// From which value to which a quantity is plausible, both included.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Range {
+    /// The smallest plausible value.
+    pub least: f64,
+    /// The largest.
+    pub most: f64,
+    /// Unit of both; empty for a pure number.
+    pub unit: &'static str,
+    /// What a value outside was probably meant to be, or why it cannot be.
+    pub hint: &'static str,
+}
+
+/// A number outside of its range.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Implausible {
+    /// What it is called where it was given.
+    pub name: &'static str,
+    /// The value.
+    pub value: f64,
+    /// What it may be.
+    pub range: Range,
+}
+
+impl Range {
+    /// Whether `value` lies within; NaN never does.
+    pub fn contains(&self, value: f64) -> bool {
+        (self.least..=self.most).contains(&value)
+    }
+
+    /// `value` if it lies within; `name` is what it is called where it was given.
+    ///
+    /// # Errors
+    /// [`Implausible`] if it does not.
+    pub fn check(&self, name: &'static str, value: f64) -> Result<f64, Implausible> {
+        if self.contains(value) { Ok(value) } else { Err(Implausible { name, value, range: *self }) }
+    }
+}
+
+impl fmt::Display for Range {
+    /// `from 0.1 to 2000 m/s2 (9.81 on Earth)`.
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (least, most) = (number(self.least), number(self.most));
+        write!(formatter, "from {least} to {most}{} ({})", spaced(self.unit), self.hint)
+    }
+}
+
+impl fmt::Display for Implausible {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { name, value, range } = self;
+        write!(formatter, "{name} is {}{}: it must be {range}", number(*value), spaced(range.unit))
+    }
+}
+
+impl std::error::Error for Implausible {}
+
+fn spaced(unit: &str) -> String {
+    if unit.is_empty() { String::new() } else { format!(" {unit}") }
+}
+
+/// The shorter of the two ways to write a number.
+fn number(value: f64) -> String {
+    let plain = value == 0.0 || !value.is_finite() || (1e-3..1e6).contains(&value.abs());
+    if plain { value.to_string() } else { format!("{value:e}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RANGE: Range = Range { least: 0.5, most: 2e7, unit: "m", hint: "millimetres?" };
+
+    #[test]
+    fn the_ends_belong_to_it_and_nan_does_not() {
+        assert!([0.5, 1.0, 2e7].into_iter().all(|value| RANGE.contains(value)));
+        for value in [0.499, 2.001e7, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            assert!(!RANGE.contains(value) && RANGE.check("width_m", value).is_err(), "{value}");
+        }
+    }
+
+    #[test]
+    fn what_is_refused_is_said_with_range_value_unit_and_hint() {
+        let refused = Implausible { name: "width_m", value: 1e-9, range: RANGE };
+        assert_eq!(refused.to_string(), "width_m is 1e-9 m: it must be from 0.5 to 2e7 m (millimetres?)");
+    }
+}
