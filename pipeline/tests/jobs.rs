@@ -279,7 +279,7 @@ fn a_design_starts_from_the_spectrum_in_the_file() {
     assert!(is_choice(&ask(DesignOptions { site: Some("Nowhere".to_owned()), ..options.clone() }), "--site"));
     assert!(is_choice(&ask(DesignOptions { poe: Some(0.3), ..options.clone() }), "--poe"));
     let safety = ask(DesignOptions { safety_factor: 0.5, ..options.clone() });
-    assert!(matches!(safety, Err(UpliftError::Usage(_))));
+    assert!(matches!(safety, Err(UpliftError::Implausible(_))));
     let alone = ask(DesignOptions { spectrum_only: true, ..options }).unwrap();
     assert_eq!((alone.exact, alone.spectrum), (None, Some(spectrum)));
 }

@@ -139,7 +139,7 @@ fn a_response_with_its_history() {
     // the same response without a history
     let alone = response(&ResponseOptions { history: false, ..options.clone() }).unwrap();
     assert_eq!(serde_json::to_value(&alone).unwrap(), serde_json::to_value(&report).unwrap());
-    assert!(matches!(response(&ResponseOptions { strength: -1.0, ..options }), Err(UpliftError::Oscillator(_))));
+    assert!(matches!(response(&ResponseOptions { strength: -1.0, ..options }), Err(UpliftError::Implausible(_))));
 }
 
 #[test]

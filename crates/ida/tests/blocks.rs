@@ -120,8 +120,11 @@ fn refuses_what_is_not_computed() {
     let (records, systems) = (records(), systems());
     let stripe = |intensity| vec![StripeRecord { id: "noise", accelerogram: &records[0], intensity }];
     assert!(matches!(Plan::stripes(stripe(1.0), &[], &LEVELS, true).unwrap_err(), IdaError::Empty { what: "systems" }));
-    // a motion that no ground has is refused with the record's name
-    let plan = Plan::stripes(stripe(1e-9), &systems, &LEVELS, true).unwrap();
-    let message = analyse(&plan, &Unwatched).unwrap_err().to_string();
-    assert!(message.contains("record noise") && message.contains("m/s2"), "{message}");
+    // a motion that no ground has is refused with the record's name, by the plan or by what a block can follow
+    let by_plan = Plan::stripes(stripe(1e-9), &systems, &LEVELS, true).unwrap_err();
+    assert!(matches!(by_plan, IdaError::Implausible { index: 0, .. }), "{by_plan}");
+    let plan = Plan::stripes(stripe(1e-5), &systems, &LEVELS, true).unwrap();
+    for message in [by_plan.to_string(), analyse(&plan, &Unwatched).unwrap_err().to_string()] {
+        assert!(message.contains("record noise") && message.contains("m/s2"), "{message}");
+    }
 }

@@ -183,7 +183,8 @@ proptest! {
 
     #[test]
     fn written_knet_comes_back(
-        counts in prop::collection::vec(-8_388_608..8_388_608_i32, 10..80), offset in -8_388_608..8_388_608_i32,
+        // within a shock table's acceleration; with the offset, over all counts of 24 bits
+        counts in prop::collection::vec(-100_000..100_000_i32, 10..80), offset in -8_388_608..8_388_608_i32,
         end in line_end(),
     ) {
         let file = read_record(knet(&counts, end).as_bytes(), "x", &ReadOptions::default()).unwrap();
