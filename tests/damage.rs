@@ -233,11 +233,11 @@ fn torture_full_disks() {
 #[ignore = "a minute: make torture"]
 fn torture_a_seal_over_what_hdf5_cannot_read() {
     let (study, mut bytes) = study_with_result();
-    // the seal of an earlier version, over a heap of texts whose first object is said to be empty
+    // the seal of an earlier version, over a heap of texts whose first object is none, and of no length
     let content = bytes.windows(8).position(|word| word == b"\nuplift:").unwrap();
     bytes.truncate(content);
     let heap = bytes.windows(4).position(|word| word == b"GCOL").unwrap();
-    bytes[heap + 24..heap + 32].fill(0);
+    bytes[heap + 16..heap + 32].fill(0);
     let seal = uplift_labelled::hexadecimal(&Sha256::digest(&bytes));
     bytes.extend(format!("\nuplift: SHA-256 of everything before this line: {seal}\n").into_bytes());
     std::fs::write(study.path().join("r.h5"), &bytes).unwrap();
