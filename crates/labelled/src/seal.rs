@@ -4,7 +4,7 @@
 //! There are three:
 //!
 //! ```text
-//! uplift: checksums of the parts: {"structure":"…","arrays":{"/ida/pgv/edp_m":{"sha256":"…","extents":[[4096,262144]]}}}
+//! uplift: checksums of the parts: {"structure":"…","arrays":{"/urs/u_m":{"sha256":"…","extents":[[4096,262144]]}}}
 //! uplift: SHA-256 of the 00000000000000000123 bytes before this line: …
 //! uplift: SHA-256 of everything before this line: …
 //! ```

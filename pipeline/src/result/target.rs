@@ -68,8 +68,8 @@ fn check_replaceable(path: &Path, force: bool) -> Result<Option<LabelledReader>,
     drop(LabelledWriter::create(path)?);
     let refused = |what: &str| {
         UpliftError::input(format!(
-            "{}: is there already and {what}; it is left as it is: give the result file another name (-o), or --force to \
-             replace that one",
+            "{}: is there already and {what}; it is left as it is: give the result file another name (-o), or \
+             --force to replace that one",
             path.display()
         ))
     };

@@ -20,8 +20,8 @@ pub(super) const KEYS: SectionKeys = SectionKeys {
         Key { names: &["years"], meaning: "time that they refer to, yr", default: "50", range: "0.001 to 1e7" },
         Key {
             names: &["contour"],
-            meaning: "how ordinates are read: `\"exact\"` for the analysed levels, the smallest displacement whose annual \
-                      frequency meets the target; `\"grid\"`, log-linear between thresholds",
+            meaning: "how ordinates are read: `\"exact\"` for the analysed levels, the smallest displacement whose \
+                      annual frequency meets the target; `\"grid\"`, log-linear between thresholds",
             default: "`\"exact\"`",
             range: "`\"exact\"`, `\"grid\"`",
         },
