@@ -15,7 +15,7 @@ use crate::common::{SMALL_STUDY, SmallStudy, command, repository};
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// Each command that reads the result `r.h5`, with the file that it leaves, if what it prints is not all.
-const READERS: [(&str, &str); 11] = [
+const READERS: [(&str, &str); 13] = [
     ("table r.h5 --json", ""),
     ("table r.h5", ""),
     ("status r.h5", ""),
@@ -25,7 +25,9 @@ const READERS: [(&str, &str); 11] = [
     ("report r.h5 -o out.html", "out.html"),
     ("design pier.toml --urs r.h5 --site Here --json", ""),
     ("overturning block.toml --urs r.h5 --site Here --json", ""),
+    ("plot r.h5 -o figures", "figures/urs-pgv.svg"),
     ("influence r.h5 --json", ""),
+    ("measures r.h5 --json", ""),
     ("bootstrap r.h5 --replicates 20 --json", ""),
 ];
 

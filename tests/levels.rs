@@ -55,12 +55,13 @@ fn a_check_proposes_levels_that_a_run_is_content_with() {
     assert_eq!(of_a_run(&study, &["--set", line], &strengths), lowered);
 
     let said = study.uplift(&["check", "study.toml"]).ok().stdout;
-    for words in ["levels    PGV: at most", "too high for", "worst of", line] {
+    let pasted = line.replace("pgv.levels", "in [pgv] levels");
+    for words in ["levels    PGV: at the strengths", "were not tried", "too high for", "worst of", &pasted] {
         assert!(said.contains(words), "{words}: {said}");
     }
     // levels that reach far enough are left alone
     let content = study.uplift(&["check", "study.toml", "--set", line]).ok().stdout;
-    assert!(content.contains("levels    PGV: at most") && !content.contains("too high"), "{content}");
+    assert!(content.contains("levels    PGV: at the strengths") && !content.contains("too high"), "{content}");
 }
 
 #[test]

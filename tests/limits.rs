@@ -188,6 +188,14 @@ fn what_does_not_fit_is_refused_before_anything_is_computed() {
         }
         assert!(!study.path().join("r.h5").exists() && !study.path().join("r.h5.part").exists());
     }
+    // records are not made before it is known that there is room for them
+    let (code, said) = with_address_space(
+        &study,
+        gigabytes(3),
+        "check study.toml --threads 1 --set records.synthetic.pairs=10000",
+        "refuse",
+    );
+    assert!(code == 4 && said.contains("about 5.0 GB of memory are needed"), "{said}");
     // without the surface, and where whoever asks knows better
     let small = "run large.toml -o r.h5 --threads 1 --set risk.maf_surface=false --set strengths.values=0.3";
     let (code, said) = with_address_space(&study, gigabytes(3), small, "refuse");
@@ -215,4 +223,26 @@ fn a_plan_says_what_there_is() {
     let plan: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert!(plan["room"]["memory_most"]["bytes"].as_u64().unwrap() > plan["memory_bytes"].as_u64().unwrap());
     assert_eq!(plan["room"]["cannot"].as_array().unwrap().len(), 0);
+}
+
+// The system ends a program whose file grows beyond the limit, unless the program wants to hear of it.
+#[cfg(unix)]
+#[test]
+fn the_limit_of_file_sizes_is_an_error_and_no_end() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-o", "r.h5"]).ok();
+    let before = std::fs::read(study.path().join("r.h5")).unwrap();
+    let program = command(study.path()).get_program().to_string_lossy().into_owned();
+    for arguments in ["report r.h5", "influence r.h5", "bootstrap r.h5 --replicates 20", "export r.h5 --json"] {
+        let mut shell = Command::new("sh");
+        shell.args(["-c", &format!("ulimit -f 4; exec {program} {arguments}")]).current_dir(study.path());
+        let done = shell.env("UPLIFT_LIMITS", "warn").output().unwrap();
+        let said = String::from_utf8_lossy(&done.stderr);
+        assert_eq!(done.status.code(), Some(4), "{arguments}: {said}");
+        assert!(said.contains("File too large"), "{arguments}: {said}");
+        assert_eq!(std::fs::read(study.path().join("r.h5")).unwrap(), before, "{arguments}");
+    }
+    let names = study.path().read_dir().unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let left: Vec<String> = names.filter(|name| name.starts_with('.')).collect();
+    assert!(left.is_empty(), "{left:?}");
 }

@@ -146,3 +146,60 @@ fn leftovers_of_the_killed_go_with_the_next_writing() {
 fn uplift_partial_name(folder: &Path, name: &str) -> std::path::PathBuf {
     uplift_atomic_file::AtomicFile::reserve(&folder.join(name)).unwrap().partial().to_owned()
 }
+
+// Two studies of one file name, typed alike in two folders: the result of the one is not the other's.
+#[test]
+fn a_result_of_another_study_stays() {
+    let (one, other) = (SmallStudy::new(), SmallStudy::with(&SMALL_STUDY.replace("\"small\"", "\"another\"")));
+    let place = one.path().join("r.h5");
+    let run = ["run", "study.toml", "-o", place.to_str().unwrap()];
+    one.uplift(&run).ok();
+    other.uplift(&run).fails(2, &["is the result of another study", "--force"]);
+    let untitled = SmallStudy::with(&SMALL_STUDY.replace("title = \"small\"", "").replace("first = 4", "first = 3"));
+    untitled.uplift(&run).fails(2, &["is the result of another study"]);
+    // the study itself, edited
+    one.uplift(&[&run[..], &["--set", "oscillator.restitution=0.9"]].concat()).ok();
+}
+
+#[test]
+fn a_table_gives_way_to_the_same_table_alone() {
+    let study = study();
+    study.uplift(&["influence", "r.h5"]).ok();
+    study.uplift(&["bootstrap", "r.h5", "--replicates", "20", "--sizes", "2"]).ok();
+    for table in ["r.urs.csv", "r.regression.csv", "r.influence.csv", "r.bands.csv", "r.table-4-1.csv"] {
+        refused(&study, &["export", "r.h5", "--csv", "-o", table], table, "is there already");
+    }
+}
+
+#[test]
+fn no_input_is_replaced_even_if_it_is_forced() {
+    let study = study();
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("pga.csv", study.path().join("link.h5")).unwrap();
+        refused(&study, &["run", "study.toml", "-o", "link.h5", "--force"], "link.h5", "an input");
+    }
+    let record = "set/SYN001_H1.AT2";
+    std::fs::rename(study.path().join(record), study.path().join("set/a.csv")).unwrap();
+    let manifest = std::fs::read_to_string(study.path().join("set/manifest.csv")).unwrap();
+    study.write("set/manifest.csv", &manifest.replace("SYN001_H1.AT2", "a.csv"));
+    let select = ["records", "select", "set/manifest.csv", "--pga-g", "0:9", "-o", "set/a.csv", "--force"];
+    refused(&study, &select, "set/a.csv", "an input");
+    // and records that a manifest elsewhere may name
+    std::fs::rename(study.path().join("set/manifest.csv"), study.path().join("set/mine.csv")).unwrap();
+    let again = ["records", "synthesize", "-o", "set", "--count", "2", "--seed", "9"];
+    refused(&study, &again, "set/SYN001_H2.AT2", "studies may use it");
+}
+
+// HDF5 locks what it opens where the environment has it do so, and so do writers here.
+#[test]
+fn the_lock_of_hdf5_and_that_of_a_writer_do_not_meet() {
+    for word in ["TRUE", "BEST_EFFORT", "FALSE"] {
+        let study = SmallStudy::new();
+        for arguments in [&["run", "study.toml", "-o", "r.h5"][..], &["influence", "r.h5"], &["verify", "r.h5"]] {
+            let mut program = crate::common::command(study.path());
+            let done = program.args(arguments).env("HDF5_USE_FILE_LOCKING", word).output().unwrap();
+            assert!(done.status.success(), "{word}: {}", String::from_utf8_lossy(&done.stderr));
+        }
+    }
+}

@@ -26,9 +26,7 @@ fn race(rounds: usize) {
     let mut lost = Vec::new();
     for round in 0..rounds {
         let mut killed = study.start(&["run", "study.toml", "--quiet", "-o", "site.h5"]);
-        killed.wait_until("a lock", || {
-            study.path().join(".site.h5.lock").exists() || study.path().join("site.h5").exists()
-        });
+        killed.wait_until("its lock", || study.path().join(".site.h5.lock").exists());
         killed.kill();
         let runs = ["site.h5", "site.v2.h5"].map(|name| study.start(&["run", "study.toml", "--quiet", "-o", name]));
         let codes = runs.map(|run| {

@@ -41,7 +41,7 @@ impl ExportFormat {
 
     fn kind(self) -> OutputKind {
         match self {
-            Self::Csv => OutputKind::Table("site"),
+            Self::Csv => OutputKind::Table("fit_m"),
             Self::Json => OutputKind::Json,
             Self::Matlab => OutputKind::Matlab,
         }

@@ -87,12 +87,16 @@ impl Needs {
         Self { disk_bytes: rows.saturating_add(1_000_000), disk_least_bytes: rows, ..self }
     }
 
-    /// The same with the rows of the analysis in `files` read into memory.
+    /// The same with the rows of the analysis in `files` read into memory, which the disk has already.
     #[must_use]
     pub(crate) fn with_rows_of(self, files: &[impl AsRef<Path>]) -> Self {
         let size = |file: &Path| std::fs::metadata(file).map_or(0, |data| data.len());
         let rows: u64 = files.iter().map(|file| size(file.as_ref())).sum();
-        Self { memory_bytes: self.memory_bytes.saturating_add(rows), ..self }
+        Self {
+            memory_bytes: self.memory_bytes.saturating_add(rows),
+            disk_bytes: self.disk_bytes.saturating_sub(rows),
+            disk_least_bytes: self.disk_least_bytes.saturating_sub(rows),
+        }
     }
 
     /// These beside what the machine has; files are written beside `file`.
@@ -187,6 +191,7 @@ fn only_warns() -> Result<bool, UpliftError> {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
 
     const GB: u64 = 1_000_000_000;
@@ -208,6 +213,15 @@ mod tests {
         let cannot = room(9 * GB, 9 * GB);
         assert!(cannot.cannot.len() == 2 && cannot.tight.is_empty(), "{cannot:?}");
         assert!(cannot.cannot[0].contains("8.0 GB (the machine)"), "{cannot:?}");
+    }
+
+    #[test]
+    fn rows_that_are_there_are_needed_no_more() {
+        let folder = tempfile::tempdir().unwrap();
+        let rows = folder.path().join("r.h5.part");
+        std::fs::write(&rows, [0; 700]).unwrap();
+        let needs = Needs { memory_bytes: 0, disk_bytes: 2000, disk_least_bytes: 1000 }.with_rows_of(&[rows]);
+        assert_eq!(needs, Needs { memory_bytes: 700, disk_bytes: 1300, disk_least_bytes: 300 });
     }
 
     #[test]

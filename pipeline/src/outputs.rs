@@ -34,7 +34,7 @@ pub enum OutputKind {
     Manifest,
     /// What an import remarks.
     Remarks,
-    /// A synthetic record.
+    /// A synthetic record, which studies may use by now.
     Record,
     /// A hazard curve, which others may use by now.
     Curve,
@@ -80,11 +80,12 @@ impl Output {
             let why = match self.kind {
                 OutputKind::Manifest => ", perhaps with columns of yours",
                 OutputKind::Curve => ", with another curve",
+                OutputKind::Record => ", and studies may use it",
                 _ => ", and is not the same kind of file from this program",
             };
             return Some(format!("{name} is there already{why}: give another name, or --force to replace it"));
         }
-        let other = self.result.as_ref().filter(|result| !contains(&head, result.as_bytes()));
+        let other = self.result.as_ref().filter(|result| !names_result(&head, result));
         other.map(|result| format!("{name} is not of {result}: give another name, or --force to replace it"))
     }
 }
@@ -122,8 +123,7 @@ impl OutputKind {
             Self::Figure => contains(head, b"<svg") && contains(head, b"<desc>uplift "),
             Self::Page => contains(head, b"<meta name=\"generator\" content=\"uplift "),
             Self::Remarks => head.starts_with(b"# uplift "),
-            Self::Record => contains(head, b"SYNTHETIC MOTION, NOT RECORDED: uplift "),
-            Self::Manifest | Self::Curve => false,
+            Self::Manifest | Self::Curve | Self::Record => false,
         }
     }
 }
@@ -215,6 +215,20 @@ fn head_of(path: &Path) -> Option<Vec<u8>> {
     let _ = File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
     head.retain(|byte| *byte != 0);
     Some(head)
+}
+
+/// Whether a head says that its file is of this result, and not of one whose name merely ends or begins alike.
+fn names_result(head: &[u8], result: &str) -> bool {
+    ["; ", "result ", "/", "\\"].iter().any(|before| {
+        let words = [before.as_bytes(), result.as_bytes()].concat();
+        let ends = |at: usize| match head.get(at + words.len()) {
+            // in a PNG a checksum follows, which may look like anything
+            _ if head.starts_with(b"\x89PNG") => true,
+            None => true,
+            Some(byte) => !(byte.is_ascii_alphanumeric() || b"._-".contains(byte)),
+        };
+        head.windows(words.len()).enumerate().any(|(at, window)| window == words && ends(at))
+    })
 }
 
 fn contains(head: &[u8], words: &[u8]) -> bool {

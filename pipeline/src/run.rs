@@ -56,7 +56,6 @@ pub fn run(study: &AnyStudy, options: &RunOptions, events: &dyn Events) -> Resul
 
 /// Refuses a run whose result or tables would replace something else, see [`outputs`].
 pub(crate) fn check_outputs(study: &AnyStudy, options: &RunOptions) -> Result<(), UpliftError> {
-    check_place(study, options)?;
     let path = options.result_file(&study.output().file);
     let tables = match study {
         AnyStudy::UniformRisk(study) => uniform_risk::tables(study, path),
@@ -69,6 +68,7 @@ pub(crate) fn check_outputs(study: &AnyStudy, options: &RunOptions) -> Result<()
         let rows = study.inputs().into_iter().filter_map(|input| manifest::read(input, None).ok()).flatten();
         inputs.extend(rows.flat_map(|row| row.components.map(|component| component.path)));
     }
+    check_place(study, options, &inputs)?;
     outputs::check(&tables, &inputs, options.force)
 }
 

@@ -12,7 +12,7 @@ import sys
 import h5py
 import numpy as np
 
-OF_THE_RUN = {"created", "wall_time_s", "seconds", "command", "commit", "version", "threads", "platform"}
+OF_THE_RUN = {"created", "wall_time_s", "seconds", "command", "commit", "version", "threads", "platform", "study_place"}
 # the references of dimension scales are addresses in the file; what they say is compared as `dims`
 OF_THE_FILE = {"DIMENSION_LIST", "REFERENCE_LIST"}
 

@@ -59,6 +59,11 @@ impl AtomicFile {
         &self.partial
     }
 
+    /// Lets go of the lock, for a writer that locks the hidden file itself.
+    pub fn hand_over_lock(&self) {
+        let _ = self.lock.unlock();
+    }
+
     /// Puts the written file in the target's place, durably: the content reaches the disk before the name does. Who may
     /// read and write an older file may do so with the new one.
     ///

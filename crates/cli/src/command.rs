@@ -11,6 +11,8 @@ mod study;
 
 use clap::{Parser, Subcommand};
 
+use uplift_oscillator::InstructionSet;
+
 use crate::error::CommandError;
 use crate::terminal::Terminal;
 use result::{bootstrap, export, influence, measures, plot, report, status, table, verify};
@@ -92,6 +94,8 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
             .build_global()
             .map_err(|error| CommandError::Usage(format!("--threads {threads}: {error}")))?;
     }
+    // a word that is none is told by every command, whether it computes or not
+    InstructionSet::chosen().map_err(|error| CommandError::Usage(error.to_string()))?;
     let terminal = Terminal::new(arguments.quiet);
     match &arguments.command {
         Command::Run(arguments) => run::run(arguments, &terminal),

@@ -15,7 +15,16 @@ use command::Arguments;
 /// A panic is a bug of the program; everything a user can cause is an error with a message.
 const EXIT_BUG: u8 = 1;
 
+/// A file that grows beyond the limit of the process (`ulimit -f`) is then an error, as on a full disk, and does not
+/// end the program without a word.
+#[cfg(unix)]
+fn outlive_the_file_size_limit() {
+    let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, std::sync::Arc::default());
+}
+
 fn main() -> ExitCode {
+    #[cfg(unix)]
+    outlive_the_file_size_limit();
     std::panic::set_hook(Box::new(|info| {
         // where nobody listens any more, a panic within this one would end the program without its exit code
         let _ = writeln!(

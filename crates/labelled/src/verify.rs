@@ -49,7 +49,7 @@ pub fn verify(path: &Path) -> Result<Verdict, LabelledError> {
     match seal {
         Seal::Whole => {
             let seconds = LONGEST + metadata.len() / BYTES_PER_SECOND;
-            Ok(read_within(LabelledReader::open(path)?, verdict, seconds))
+            read_within(path, verdict, seconds)
         }
         Seal::Broken => Ok(verdict),
         Seal::Missing => match unsealed(path) {
@@ -60,16 +60,18 @@ pub fn verify(path: &Path) -> Result<Verdict, LabelledError> {
 }
 
 /// Reads every array, and gives up after `seconds`: a file may bear a seal and yet be one that HDF5 cannot read.
-fn read_within(reader: LabelledReader, verdict: Verdict, seconds: u64) -> Verdict {
+fn read_within(path: &Path, verdict: Verdict, seconds: u64) -> Result<Verdict, LabelledError> {
     let (done, awaited) = mpsc::channel();
-    let mut found = verdict.clone();
+    let (path, mut found) = (path.to_owned(), verdict.clone());
     thread::spawn(move || {
-        reader.verify_group("", &mut found);
-        let _ = done.send(found);
+        let read = LabelledReader::open(&path).map(|reader| {
+            reader.verify_group("", &mut found);
+            found
+        });
+        let _ = done.send(read);
     });
-    awaited.recv_timeout(Duration::from_secs(seconds)).unwrap_or_else(|_| Verdict {
-        damaged: vec![format!("HDF5 has not read its arrays within {seconds} s")],
-        ..verdict
+    awaited.recv_timeout(Duration::from_secs(seconds)).unwrap_or_else(|_| {
+        Ok(Verdict { damaged: vec![format!("HDF5 has not read its arrays within {seconds} s")], ..verdict })
     })
 }
 

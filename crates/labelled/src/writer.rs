@@ -48,6 +48,9 @@ impl LabelledWriter {
     /// [`LabelledError::File`] where `path` is a folder or a device, or the folder cannot be made or written to.
     pub fn create(path: &Path) -> Result<Self, LabelledError> {
         let place = AtomicFile::reserve(path)?;
+        if hdf5_locks() {
+            place.hand_over_lock();
+        }
         let file = File::with_options()
             // Format of HDF5 1.8 (2008): every reader knows it, and its checksums show damage.
             // No lock: nobody else knows the hidden name, and a child process would inherit and hold the lock.
@@ -387,6 +390,11 @@ impl LabelledWriter {
     fn misuse(&self, object: &str, reason: String) -> LabelledError {
         LabelledError::Misuse { path: self.place.target().to_owned(), object: object.to_owned(), reason }
     }
+}
+
+/// Whether the environment has HDF5 lock every file that it opens, whatever is asked of it.
+fn hdf5_locks() -> bool {
+    std::env::var("HDF5_USE_FILE_LOCKING").is_ok_and(|word| ["TRUE", "1", "BEST_EFFORT"].contains(&word.as_str()))
 }
 
 fn hdf5_error(path: &Path, action: &'static str, object: &str, error: &hdf5::Error) -> LabelledError {

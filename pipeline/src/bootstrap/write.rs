@@ -39,7 +39,8 @@ pub(super) fn band_paths(result: &Path) -> [PathBuf; 2] {
 
 /// The same, as they are to be written.
 pub(super) fn tables(result: &Path) -> [Output; 2] {
-    band_paths(result).map(|path| Output::new(path, OutputKind::Table("site")))
+    let [bands, figures] = band_paths(result);
+    [Output::new(bands, OutputKind::Table("sample_size")), Output::new(figures, OutputKind::Table("e_median_pct"))]
 }
 
 /// Write the bands into the result file, in place of earlier ones, and into tables beside it.

@@ -20,7 +20,7 @@ pub fn displacement_csv_paths(result: &Path) -> [PathBuf; 2] {
 pub(crate) fn tables(study: &DisplacementStudy, result: &Path) -> Vec<Output> {
     let [spectra, design] = displacement_csv_paths(result);
     let tables =
-        [Output::new(spectra, OutputKind::Table("record_set")), Output::new(design, OutputKind::Table("record_set"))];
+        [Output::new(spectra, OutputKind::Table("overturned")), Output::new(design, OutputKind::Table("quantity"))];
     if study.output.csv { tables.into() } else { Vec::new() }
 }
 

@@ -32,7 +32,7 @@ pub fn efficiency(
     let addition = Addition::begin(result, events)?;
     let file = ResultFile::open(result)?;
     let stored = file.stripes()?;
-    let table = Output::new(efficiency_path(&stored.path), OutputKind::Table("im"));
+    let table = Output::new(efficiency_path(&stored.path), OutputKind::Table("dispersion_rocking"));
     outputs::check(&[table], &[result], options.force)?;
     let covariates = covariates(&file.records()?);
     let mut measures = Vec::new();

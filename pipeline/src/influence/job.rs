@@ -41,7 +41,7 @@ pub fn influence(
 ) -> Result<InfluenceReport, UpliftError> {
     let addition = Addition::begin(result, events)?;
     let stored = ResultFile::open(result)?.stripes()?;
-    let table = Output::new(influence_path(&stored.path), OutputKind::Table("site"));
+    let table = Output::new(influence_path(&stored.path), OutputKind::Table("mean_change_pct"));
     outputs::check(&[table], &[result], options.force)?;
     let poe = stored.poe_index(options.poe)?;
     let mut influences: Vec<Influence> = Vec::new();

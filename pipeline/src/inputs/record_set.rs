@@ -11,6 +11,8 @@ use super::pairs::{self, CheckedPair};
 use super::{cache, manifest, selection};
 use crate::checksum::checksum;
 use crate::error::UpliftError;
+use crate::events::Silent;
+use crate::machine::{Needs, PROGRAM_BYTES};
 use uplift_study::{RecordSource, UniformRiskStudy};
 
 /// One analysis record: a component of a pair with the intensity of the pair.
@@ -128,7 +130,15 @@ pub(super) fn alike(pairs: &[CheckedPair]) -> Vec<String> {
     }
 }
 
+/// Memory of a synthetic pair with its integrals and extremes, bytes: 8600 samples on the average.
+const SYNTHETIC_PAIR_BYTES: u64 = 500_000;
+
+/// The synthetic pairs, where the machine has the memory for them.
 pub(super) fn synthetic_pairs(pairs: u64, seed: u64) -> Result<Vec<CheckedPair>, UpliftError> {
+    let memory_bytes = PROGRAM_BYTES + pairs.saturating_mul(SYNTHETIC_PAIR_BYTES);
+    let needs = Needs { memory_bytes, disk_bytes: 0, disk_least_bytes: 0 };
+    // the whole plan is looked at once they are there
+    needs.room(Path::new(".")).refuse(&Silent)?;
     let pairs = usize::try_from(pairs).unwrap_or(usize::MAX);
     let options = SyntheticSetOptions { seed, pairs, ..SyntheticSetOptions::default() };
     let set = cache::synthetic_set(&options).map_err(|error| UpliftError::input(error.to_string()))?;

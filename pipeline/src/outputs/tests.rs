@@ -10,14 +10,13 @@ fn only_an_earlier_output_of_the_same_kind_gives_way() {
     let folder = tempfile::tempdir().unwrap();
     let place = |name: &str| folder.path().join(name);
     let history = "# uplift 0.1.0 (abc); record a\ntime_s,displacement_m\n0,0\n";
-    let cases: [(&str, OutputKind, &[u8], &[u8]); 7] = [
+    let cases: [(&str, OutputKind, &[u8], &[u8]); 6] = [
         ("a.csv", OutputKind::Table("time_s"), history.as_bytes(), b"# uplift 0.1.0 (abc)\nrecord_id,file_h1\n"),
         ("a.json", OutputKind::Json, b"{\n  \"provenance\": \"uplift 0.1.0\"", b"{\"records\": 1}"),
         ("a.mat", OutputKind::Matlab, b"MATLAB 5.0 MAT-file, uplift 0.1.0", b"MATLAB 5.0 MAT-file, Platform: GLNXA64"),
         ("a.svg", OutputKind::Figure, b"<svg width=\"1\">\n<desc>uplift 0.1.0</desc>", b"<svg width=\"1\">"),
         ("a.png", OutputKind::Figure, b"\x89PNG\r\ntEXtSoftware\0uplift 0.1.0", b"\x89PNG\r\n"),
         ("a.html", OutputKind::Page, b"<meta name=\"generator\" content=\"uplift 0.1.0\">", b"<p>uplift 0.1.0 is"),
-        ("a.AT2", OutputKind::Record, b"SYNTHETIC MOTION, NOT RECORDED: uplift 0.1.0", b"PEER STRONG MOTION"),
     ];
     for (name, kind, ours, foreign) in cases {
         let path = place(name);
@@ -41,6 +40,10 @@ fn of_another_result() {
     check(&[output("results/one.h5")], &[Path::new("results/one.h5")], false).unwrap();
     let error = check(&[output("two.h5")], &[Path::new("two.h5")], false).unwrap_err();
     assert!(error.to_string().contains("not of two.h5"), "{error}");
+    // nor of one whose name is a part of it
+    for part in ["e.h5", "one.h", "ne.h5"] {
+        assert!(check(&[output(part)], &[Path::new(part)], false).is_err(), "{part}");
+    }
 }
 
 #[test]

@@ -50,7 +50,11 @@ pub fn select(options: &SelectOptions, events: &dyn Events) -> Result<SelectRepo
         return Err(UpliftError::Usage("say which records, e.g. --magnitude 6.5:7.5 --pulse-like false".to_owned()));
     }
     if let Some(output) = &options.output {
-        outputs::check(&[Output::new(output, OutputKind::Manifest)], &[&set.manifest], options.force)?;
+        let mut inputs = vec![set.manifest.clone()];
+        // what is wrong with the manifest is said later
+        let rows = manifest::read(&set.manifest, None).unwrap_or_default();
+        inputs.extend(rows.into_iter().flat_map(|row| row.components.map(|component| component.path)));
+        outputs::check(&[Output::new(output, OutputKind::Manifest)], &inputs, options.force)?;
     }
     let (pairs, count) = set.read(events)?;
     let records: Vec<String> = pairs.into_iter().map(|(pair, _)| pair.id).collect();

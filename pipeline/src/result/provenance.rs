@@ -1,10 +1,11 @@
 //! Where the numbers of a result come from.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::extend::now;
 use super::layout::LAYOUT;
+use crate::checksum::checksum;
 use crate::error::UpliftError;
 use crate::frame::{RunHead, RunOptions};
 use crate::inputs::{RecordSet, SiteHazard};
@@ -15,6 +16,8 @@ use uplift_labelled::LabelledWriter;
 pub struct Provenance {
     /// Study file as given.
     pub study_file: String,
+    /// By which a later run knows its own study: a checksum of where the file lies, which tells nobody where.
+    pub study_place: String,
     /// The command line.
     pub command: String,
     /// Coordinated universal time of the run, `2026-01-31T12:00:00Z`.
@@ -48,6 +51,7 @@ impl Provenance {
     pub fn of_inputs(options: &RunOptions, input_checksums: BTreeMap<String, String>) -> Self {
         Self {
             study_file: options.study_file.display().to_string(),
+            study_place: place_of(&options.study_file),
             command: options.command.clone(),
             created: now(),
             threads: rayon::current_num_threads(),
@@ -118,6 +122,7 @@ impl Origin<'_> {
         writer.attribute("/", "command", provenance.command.as_str())?;
         writer.attribute("/", "title", self.title)?;
         writer.attribute("/", "study_file", provenance.study_file.as_str())?;
+        writer.attribute("/", "study_place", provenance.study_place.as_str())?;
         writer.attribute("/", "study_toml", self.study_toml)?;
         writer.attribute("/", "gravity_m_s2", self.gravity_m_s2)?;
         writer.attribute("/", "record_set", self.record_set)?;
@@ -129,4 +134,9 @@ impl Origin<'_> {
         writer.attribute("/", "platform", format!("{} {}", std::env::consts::OS, std::env::consts::ARCH).as_str())?;
         Ok(())
     }
+}
+
+/// A checksum of where a study file lies; empty where there is none.
+pub(super) fn place_of(study_file: &Path) -> String {
+    study_file.canonicalize().map_or_else(|_| String::new(), |place| checksum(place.as_os_str().as_encoded_bytes()))
 }

@@ -1,12 +1,13 @@
 //! The place of a result file, checked before anything is computed.
 
 use std::io::Read;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use uplift_atomic_file::open_file;
 use uplift_labelled::{LabelledError, LabelledReader, LabelledWriter};
 use uplift_study::AnyStudy;
 
+use super::provenance::place_of;
 use crate::error::UpliftError;
 use crate::frame::RunOptions;
 use crate::outputs::{is_same_file, wrong_ending};
@@ -25,12 +26,13 @@ pub fn check_target(path: &Path) -> Result<(), UpliftError> {
 }
 
 /// Check that the result of `study` can be written where `options` say, and replaces nothing but an earlier result of
-/// this study, or of whichever study where the place is this study's own or it is forced.
+/// this study, or of whichever study where the place is this study's own or it is forced; none of the `inputs` in any
+/// case.
 ///
 /// # Errors
-/// [`UpliftError::Usage`] for a name that is not one of a result, and a place that is the study file or has a result of
+/// [`UpliftError::Usage`] for a name that is not one of a result, and a place that is an input or has a result of
 /// another study; else as [`check_target`].
-pub(crate) fn check_place(study: &AnyStudy, options: &RunOptions) -> Result<(), UpliftError> {
+pub(crate) fn check_place(study: &AnyStudy, options: &RunOptions, inputs: &[PathBuf]) -> Result<(), UpliftError> {
     let path = options.result_file(&study.output().file);
     let name = path.display();
     if let Some(reason) = wrong_ending(path, &["h5"]) {
@@ -38,6 +40,9 @@ pub(crate) fn check_place(study: &AnyStudy, options: &RunOptions) -> Result<(), 
     }
     if is_same_file(path, &options.study_file) {
         return Err(UpliftError::Usage(format!("{name} is the study file: give the result another name (-o)")));
+    }
+    if inputs.iter().any(|input| is_same_file(path, input)) {
+        return Err(UpliftError::Usage(format!("{name} would overwrite an input: give the result another name (-o)")));
     }
     let Some(earlier) = check_replaceable(path, options.force)? else { return Ok(()) };
     let stem = |path: &Path| path.file_stem().map(ToOwned::to_owned);
@@ -51,15 +56,16 @@ pub(crate) fn check_place(study: &AnyStudy, options: &RunOptions) -> Result<(), 
     )))
 }
 
-/// Whether an earlier result is of the study at hand, which may have changed since: of the same file, or of the same
-/// name and title, or of what says the same.
+/// Whether an earlier result is of the study at hand, which may have changed since: of the same file, of one of the
+/// same name with the same title, or of one that says the same.
 fn is_of_study(earlier: &LabelledReader, study: &AnyStudy, file: &Path) -> Result<bool, UpliftError> {
     let text = |name: &str| earlier.attribute_text("/", name).unwrap_or_default();
     let (kept, title) = (text("study_file"), text("title"));
-    let kept = Path::new(&kept);
-    let same_path = kept != Path::new("") && (kept == file || is_same_file(kept, file));
-    let same_name = kept.file_name() == file.file_name() && title == study.title();
-    Ok(same_path || same_name || what_counts(&text("study_toml")) == what_counts(&study.to_toml()?))
+    let place = place_of(file);
+    let same_place = !place.is_empty() && text("study_place") == place;
+    let same_name = Path::new(&kept).file_name() == file.file_name();
+    let same_title = !title.is_empty() && title == study.title();
+    Ok(same_place || (same_name && same_title) || what_counts(&text("study_toml")) == what_counts(&study.to_toml()?))
 }
 
 /// What there is to be replaced at `path`, if it can be opened; one that cannot is a result that was damaged, which

@@ -21,11 +21,14 @@ pub fn csv_paths(result: &Path) -> [PathBuf; 2] {
 pub(crate) fn tables(study: &UniformRiskStudy, result: &Path) -> Vec<Output> {
     let mut tables = Vec::new();
     if study.output.csv && !study.sites.is_empty() {
-        tables.extend(csv_paths(result).map(|path| Output::new(path, OutputKind::Table("site"))));
+        let [spectra, coefficients] = csv_paths(result);
+        tables.push(Output::new(spectra, OutputKind::Table("flag")));
+        tables.push(Output::new(coefficients, OutputKind::Table("rmse_plain_m")));
     }
     if study.site_table.is_some() {
         let [spectra, coefficients, map] = site_table_paths(result);
-        tables.extend([spectra, coefficients].map(|path| Output::new(path, OutputKind::Table("site"))));
+        tables.push(Output::new(spectra, OutputKind::Table("flag")));
+        tables.push(Output::new(coefficients, OutputKind::Table("problem")));
         tables.push(Output::new(map, OutputKind::GeoJson));
     }
     tables

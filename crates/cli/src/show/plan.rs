@@ -73,9 +73,10 @@ fn levels(check: &LevelCheck) -> String {
     let LevelCheck { im, unit, first_level, lower_tail_share, too_high_for, .. } = check;
     let strengths: Vec<String> = check.strengths.iter().map(|strength| format!("{strength:.3}")).collect();
     let found = format!(
-        "{im}: at most {} of the risk of an ordinate lies below the first, {first_level} {unit} (strengths {} tried)",
-        share(*lower_tail_share),
-        strengths.join(", ")
+        "{im}: at the strengths {} up to {} of the risk of an ordinate lies below the first, {first_level} {unit}; \
+         others were not tried",
+        strengths.join(", "),
+        share(*lower_tail_share)
     );
     let Some(worst) = too_high_for.first() else { return found };
     let others = match too_high_for.len() {
@@ -84,7 +85,8 @@ fn levels(check: &LevelCheck) -> String {
     };
     let remedy = match &check.proposal {
         Some(proposal) => {
-            format!("begin lower, and at most {} does: {}", share(proposal.lower_tail_share), proposal.line)
+            let (section, key) = proposal.line.split_once('.').unwrap_or(("", &proposal.line));
+            format!("begin lower, and up to {} does: in [{section}] {key}", share(proposal.lower_tail_share))
         }
         None => "the hazard curves begin too high to begin lower: take curves from further down".to_owned(),
     };
