@@ -65,8 +65,7 @@ pub(crate) fn check_outputs(study: &AnyStudy, options: &RunOptions) -> Result<()
     inputs.extend(study.inputs().into_iter().map(Path::to_owned));
     if options.force {
         // nothing but their names keeps the records from being written over; what is wrong with them is said later
-        let rows = study.inputs().into_iter().filter_map(|input| manifest::read(input, None).ok()).flatten();
-        inputs.extend(rows.flat_map(|row| row.components.map(|component| component.path)));
+        inputs.extend(study.inputs().into_iter().flat_map(manifest::record_files));
     }
     check_place(study, options, &inputs)?;
     outputs::check(&tables, &inputs, options.force)

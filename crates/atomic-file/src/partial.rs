@@ -89,14 +89,8 @@ fn is_abandoned(file: &File) -> bool {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+    use crate::atomic_file::tests::files_in;
     use crate::{AtomicFile, write_whole};
-
-    fn files_in(folder: &Path) -> Vec<String> {
-        let name = |entry: io::Result<fs::DirEntry>| entry.unwrap().file_name().into_string().unwrap();
-        let mut names: Vec<String> = fs::read_dir(folder).unwrap().map(name).collect();
-        names.sort();
-        names
-    }
 
     fn name(path: &Path) -> String {
         path.file_name().unwrap().to_str().unwrap().to_owned()

@@ -18,7 +18,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::Path;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -88,9 +88,14 @@ pub(super) struct Sealed {
     identity: String,
     /// None where everything was checked when it was opened.
     index: Option<Index>,
-    file: Mutex<File>,
-    /// Arrays that were checked already.
-    sound: Mutex<BTreeSet<String>>,
+    looked_at: Mutex<LookedAt>,
+}
+
+/// A file, and what of it was checked already.
+#[derive(Debug)]
+struct LookedAt {
+    file: File,
+    sound: BTreeSet<String>,
 }
 
 /// What was found of a file.
@@ -115,14 +120,13 @@ impl Sealed {
         Ok(Opened::Sealed(Self {
             identity: lines.identity,
             index: lines.index,
-            file: Mutex::new(file),
-            sound: Mutex::default(),
+            looked_at: Mutex::new(LookedAt { file, sound: BTreeSet::new() }),
         }))
     }
 
     /// Whether the file that was looked at is the one under its name.
     pub(super) fn is_still_at(&self, path: &Path) -> bool {
-        is_still_at(&self.file.lock().unwrap_or_else(PoisonError::into_inner), path)
+        is_still_at(&self.looked_at().file, path)
     }
 
     /// By what the content of the file is known: two files with the same are equal.
@@ -135,15 +139,18 @@ impl Sealed {
     pub(super) fn is_sound(&self, path: &str, chunks: bool) -> io::Result<bool> {
         let Some(index) = &self.index else { return Ok(true) };
         let Some(part) = index.arrays.get(path) else { return Ok(!chunks) };
-        let mut sound = self.sound.lock().unwrap_or_else(PoisonError::into_inner);
-        if !sound.contains(path) {
-            let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
-            if of_bytes(&mut file, &part.extents)? != part.sha256 {
+        let mut looked_at = self.looked_at();
+        if !looked_at.sound.contains(path) {
+            if of_bytes(&mut looked_at.file, &part.extents)? != part.sha256 {
                 return Ok(false);
             }
-            sound.insert(path.to_owned());
+            looked_at.sound.insert(path.to_owned());
         }
         Ok(true)
+    }
+
+    fn looked_at(&self) -> MutexGuard<'_, LookedAt> {
+        self.looked_at.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 

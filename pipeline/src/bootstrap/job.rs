@@ -16,7 +16,7 @@ use super::write::{BandsFile, band_paths, tables, write_bands};
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::outputs;
-use crate::result::{Addition, ResultFile};
+use crate::result::Addition;
 
 /// What is asked of a bootstrap. What is left open is as a study says: as `study`, else as the one in the result.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -55,8 +55,8 @@ pub fn bootstrap(
     options: &BootstrapOptions,
     events: &dyn Events,
 ) -> Result<BootstrapReport, UpliftError> {
-    let addition = Addition::begin(result, events)?;
-    let stored = ResultFile::open(result)?.stripes()?;
+    let (addition, file) = Addition::begin(result, events)?;
+    let stored = file.stripes()?;
     outputs::check(&tables(&stored.path), &[result], options.force)?;
     let study = options.study.as_ref().unwrap_or(&stored.bootstrap);
     let settings = BandSettings {

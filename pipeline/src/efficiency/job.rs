@@ -9,7 +9,7 @@ use super::write::{efficiency_path, write_efficiency};
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::outputs::{self, Output, OutputKind};
-use crate::result::{Addition, ResultFile};
+use crate::result::Addition;
 
 /// How the efficiency of measures is written.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -29,8 +29,7 @@ pub fn efficiency(
     options: EfficiencyOptions,
     events: &dyn Events,
 ) -> Result<EfficiencyReport, UpliftError> {
-    let addition = Addition::begin(result, events)?;
-    let file = ResultFile::open(result)?;
+    let (addition, file) = Addition::begin(result, events)?;
     let stored = file.stripes()?;
     let table = Output::new(efficiency_path(&stored.path), OutputKind::Table("dispersion_rocking"));
     outputs::check(&[table], &[result], options.force)?;

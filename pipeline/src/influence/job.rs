@@ -9,7 +9,7 @@ use crate::array::Array;
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::outputs::{self, Output, OutputKind};
-use crate::result::{Addition, ResultFile};
+use crate::result::Addition;
 
 /// What is told of the influence; the files hold all of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,8 +39,8 @@ pub fn influence(
     options: &InfluenceOptions,
     events: &dyn Events,
 ) -> Result<InfluenceReport, UpliftError> {
-    let addition = Addition::begin(result, events)?;
-    let stored = ResultFile::open(result)?.stripes()?;
+    let (addition, file) = Addition::begin(result, events)?;
+    let stored = file.stripes()?;
     let table = Output::new(influence_path(&stored.path), OutputKind::Table("mean_change_pct"));
     outputs::check(&[table], &[result], options.force)?;
     let poe = stored.poe_index(options.poe)?;

@@ -61,6 +61,12 @@ pub fn read(path: &Path, tag: Option<&str>) -> Result<Vec<Row>, Vec<String>> {
     read_bytes(&bytes, path, tag)
 }
 
+/// The files of the records that the manifest at `path` lists; none where it cannot be read, or is no manifest.
+pub fn record_files(path: &Path) -> Vec<PathBuf> {
+    let rows = read(path, None).unwrap_or_default();
+    rows.into_iter().flat_map(|row| row.components.map(|component| component.path)).collect()
+}
+
 /// The same of a manifest with these `bytes` that is to lie at `path`.
 ///
 /// # Errors

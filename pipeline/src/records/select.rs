@@ -51,9 +51,7 @@ pub fn select(options: &SelectOptions, events: &dyn Events) -> Result<SelectRepo
     }
     if let Some(output) = &options.output {
         let mut inputs = vec![set.manifest.clone()];
-        // what is wrong with the manifest is said later
-        let rows = manifest::read(&set.manifest, None).unwrap_or_default();
-        inputs.extend(rows.into_iter().flat_map(|row| row.components.map(|component| component.path)));
+        inputs.extend(manifest::record_files(&set.manifest));
         outputs::check(&[Output::new(output, OutputKind::Manifest)], &inputs, options.force)?;
     }
     let (pairs, count) = set.read(events)?;

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
-use super::{ResultFile, StoredStripes, check_target};
+use super::{ResultFile, StoredStripes};
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::lock::ResultLock;
@@ -18,19 +18,19 @@ pub(crate) struct Addition {
 }
 
 impl Addition {
-    /// Takes the lock of the result at `path`; another that adds to it is waited for.
+    /// Takes the lock of the result at `path`, and opens it; another that adds to it is waited for.
     ///
     /// # Errors
     /// A file that is missing, damaged or no result; one that another run is writing for longer than a minute; a folder
-    /// that cannot be written, and what [`check_target`] refuses.
-    pub(crate) fn begin(path: &Path, events: &dyn Events) -> Result<Self, UpliftError> {
+    /// that cannot be written.
+    pub(crate) fn begin(path: &Path, events: &dyn Events) -> Result<(Self, ResultFile), UpliftError> {
         ResultFile::open(path)?;
         if let Some(holder) = ResultLock::holder(path) {
             events.remark("waits", &format!("{} is being written by another run ({holder})", path.display()));
         }
         let lock = ResultLock::wait(path, LONGEST_WAIT)?;
-        check_target(path)?;
-        Ok(Self { path: path.to_owned(), _lock: lock })
+        drop(LabelledWriter::create(path)?);
+        Ok((Self { path: path.to_owned(), _lock: lock }, ResultFile::open(path)?))
     }
 
     /// Writes the file, which `stored` was read from, anew: without the groups and axes `replaced`, and with what `add`

@@ -38,9 +38,6 @@ pub(crate) fn check_place(study: &AnyStudy, options: &RunOptions, inputs: &[Path
     if let Some(reason) = wrong_ending(path, &["h5"]) {
         return Err(UpliftError::Usage(format!("a result is an HDF5 file: {reason}")));
     }
-    if is_same_file(path, &options.study_file) {
-        return Err(UpliftError::Usage(format!("{name} is the study file: give the result another name (-o)")));
-    }
     if inputs.iter().any(|input| is_same_file(path, input)) {
         return Err(UpliftError::Usage(format!("{name} would overwrite an input: give the result another name (-o)")));
     }
