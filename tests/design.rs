@@ -412,7 +412,7 @@ fn any_number_of_threads_gives_the_same_words() {
 #[test]
 fn shipped_structures_are_what_they_say() {
     let study = study();
-    for name in ["pier", "block", "frame"] {
+    for name in ["pier", "single-pier", "block", "frame"] {
         let file = repository().join(format!("configs/structures/{name}.toml"));
         let shown = uplift(study.path(), &["design", file.to_str().unwrap(), "--urs", "r.h5", "--spectrum-only"]).ok();
         assert!(shown.stdout.starts_with(&format!("structure  {name}: ")), "{}", shown.stdout);
@@ -438,7 +438,7 @@ fn shown_in_the_documentation() -> Vec<(Vec<String>, String)> {
 fn the_documentation_shows_what_is_printed() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::create_dir_all(folder.path().join("configs/structures")).unwrap();
-    for name in ["pier", "frame"] {
+    for name in ["single-pier", "frame"] {
         let file = format!("configs/structures/{name}.toml");
         std::fs::copy(repository().join(&file), folder.path().join(&file)).unwrap();
     }
