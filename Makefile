@@ -4,17 +4,18 @@
 STUDY  ?= configs/europe.toml
 # A third of the strengths, so that the first look takes about a minute; `make run SET=` runs the study as it stands.
 SET    ?= --set strengths.values=0:1/100:1
-OUTPUT ?= results/$(basename $(notdir $(STUDY))).h5
+OUTPUT ?= results/$(if $(SET),first-look,$(basename $(notdir $(STUDY)))).h5
 
 TOOLS := $(shell .ci/provide-cmake)
 ifeq ($(TOOLS),)
 $(error cmake 3.26 or newer is needed: see the lines above)
 endif
+ORIGINAL_PATH := $(PATH)
 export PATH := $(TOOLS):$(PATH)
 
 UPLIFT := target/release/uplift
 
-.PHONY: run build test test-cluster torture doc-figures lint docs python sbom notices bench fuzz clean
+.PHONY: run build install test test-cluster torture doc-figures lint docs python sbom notices bench fuzz clean
 
 run: build
 	$(UPLIFT) run $(STUDY) $(SET) -o $(OUTPUT)
@@ -24,6 +25,16 @@ run: build
 
 build:
 	cargo build --release --locked --package uplift-cli
+
+# The program, its manual (`man uplift-run`) and completions of bash, zsh and fish.
+PREFIX ?= $(HOME)/.local
+
+install: build
+	install -d "$(PREFIX)/bin"
+	install -m 755 $(UPLIFT) "$(PREFIX)/bin/uplift"
+	$(UPLIFT) manual "$(PREFIX)/share"
+	@case ":$(ORIGINAL_PATH):" in *":$(PREFIX)/bin:"*) echo "installed: uplift --help" ;; \
+		*) echo "installed in $(PREFIX)/bin, which is not on your PATH: add it there, or make install PREFIX=..." ;; esac
 
 # The figures of the documents that take minutes, written anew where they differ; needs real records (CONTRIBUTING.md).
 doc-figures:

@@ -201,7 +201,7 @@ fn torture_full_disks() {
         let arguments = if blocks % 2 == 0 {
             "bootstrap r.h5 --replicates 20"
         } else {
-            "run study.toml -o r.h5 --set oscillator.restitution=0.9"
+            "run study.toml -o r.h5 --force --set oscillator.restitution=0.9"
         };
         // 4 or 8 kB a step, as the shell counts
         let limit = format!("trap '' XFSZ; ulimit -f {}; exec \"$0\" $1", 8 * blocks);

@@ -175,7 +175,7 @@ fn a_curve_of_another_definition_is_refused_unless_converted() {
     let rotated = ["check", "study.toml", "--set", "records.intensity=\"rotd50\""];
     study.uplift(&rotated).fails(4, &["site There, PGV", "does not say how", "[hazard] component"]);
     let all = ["--set", "hazard.component=\"geometric mean\"", "--set", converted];
-    let done = study.uplift(&[&["run", "study.toml"][..], &all].concat()).ok();
+    let done = study.uplift(&[&["run", "study.toml", "--force"][..], &all].concat()).ok();
     assert!(!done.stdout.contains("do not say"), "{}", done.stdout);
     // Half the levels at the same rates: where λ = k0 im⁻², a quarter of the rate.
     let urs = std::fs::read_to_string(study.path().join("results/study.urs.csv")).unwrap();

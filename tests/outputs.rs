@@ -95,8 +95,7 @@ fn an_input_is_never_overwritten() {
 fn a_result_gives_way_to_its_own_study() {
     let study = study();
     let changed = SMALL_STUDY.replace("first = 4", "first = 3");
-    // edited, with other values for a run, or renamed: it is that study
-    study.uplift(&["run", "study.toml", "-o", "r.h5", "--set", "records.first=3"]).ok();
+    // edited, or renamed: it is that study
     study.write("study.toml", &changed);
     study.uplift(&["run", "study.toml", "-o", "r.h5"]).ok();
     study.write("same.toml", &changed);
@@ -106,9 +105,111 @@ fn a_result_gives_way_to_its_own_study() {
         .write("b.toml", &changed.replace("title = \"small\"", "title = \"b\"").replace("values = [0, ", "values = ["));
     refused(&study, &["run", "b.toml", "-o", "r.h5"], "r.h5", "the result of another study (same.toml)");
     study.uplift(&["run", "b.toml", "-o", "r.h5", "--force"]).ok();
-    // at the place that its own name gives, a study replaces whatever result is there
+    // at the place that its own name gives too
     study.uplift(&["run", "study.toml", "-o", "results/b.h5"]).ok();
-    study.uplift(&["run", "b.toml"]).ok();
+    refused(&study, &["run", "b.toml"], "results/b.h5", "the result of another study (study.toml)");
+    study.uplift(&["run", "b.toml", "--force"]).ok();
+}
+
+#[test]
+fn other_values_than_the_file_s_replace_nothing_unasked() {
+    let study = study();
+    let run = ["run", "study.toml", "-o", "r.h5"];
+    let fewer = [&run[..], &["--set", "records.first=3"]].concat();
+    refused(&study, &fewer, "r.h5", "of this study as the file stands, and this run is with --set records.first=3");
+    let check = study.uplift(&["check", "study.toml"]).ok();
+    assert!(!check.stdout.contains("--force"), "{}", check.stdout);
+    study.uplift(&[&fewer[..], &["--force"]].concat()).ok();
+    study.uplift(&fewer).ok();
+    let status = study.uplift(&["status", "r.h5"]).ok().stdout;
+    assert!(status.contains("--set records.first=3"), "{status}");
+    refused(&study, &run, "r.h5", "with --set records.first=3, and this run is as the file stands");
+    // what changes no number is no other result
+    study.uplift(&[&fewer[..], &["--set", "title=\"another\""]].concat()).ok();
+    // a study that is only looked at is told what its run would meet
+    study.uplift(&["run", "study.toml", "--set", "records.first=3"]).ok();
+    let check = study.uplift(&["check", "study.toml"]).ok();
+    assert!(check.stdout.contains("results/study.h5 is the result of this study with --set"), "{}", check.stdout);
+}
+
+/// Names of the files in a folder, in order.
+fn names(folder: &Path) -> Vec<String> {
+    let mut names: Vec<String> =
+        folder.read_dir().unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+// A result that is replaced takes with it what was made of it; nothing stale is left, and nothing computed is lost.
+#[test]
+fn what_was_made_of_a_replaced_result_goes_with_it() {
+    let study = study();
+    let run = ["run", "study.toml", "-o", "r.h5"];
+    for made in [
+        &["bootstrap", "r.h5", "--replicates", "20", "--sizes", "2"][..],
+        &["influence", "r.h5"],
+        &["measures", "r.h5"],
+        &["export", "r.h5", "--csv", "--json", "--mat"],
+        &["plot", "r.h5", "--only", "urs-pgv"],
+        &["report", "r.h5"],
+    ] {
+        study.uplift(made).ok();
+    }
+    study.write("r.notes.csv", "what I think of uplift; r.h5\n");
+    let digest = |name: &str| {
+        let status = study.uplift(&["status", name, "--json"]).ok().stdout;
+        let status: serde_json::Value = serde_json::from_str(&status).unwrap();
+        status["result"]["study_digest"].as_str().unwrap().to_owned()
+    };
+    let (first, before) = (digest("r.h5"), std::fs::read(study.path().join("r.h5")).unwrap());
+    for table in ["r.urs.csv", "r.bands.csv", "r.influence.csv", "r.measures.csv", "r.json", "r.mat", "r.html"] {
+        let text = String::from_utf8_lossy(&std::fs::read(study.path().join(table)).unwrap()).into_owned();
+        assert!(text.contains(&format!("study digest {first}")), "{table}");
+    }
+    // another run of the same numbers: the tables are of it still, and the bands that were in the file are kept
+    study.uplift(&run).ok();
+    assert_eq!(digest("r.h5"), first);
+    let earlier = study.path().join("r.earlier").join(&first);
+    assert_eq!(names(&earlier), ["r.h5"]);
+    assert_eq!(std::fs::read(earlier.join("r.h5")).unwrap(), before);
+    assert!(study.path().join("r.bands.csv").exists());
+    // and one of others
+    study.write("study.toml", &SMALL_STUDY.replace("first = 4", "first = 3"));
+    let said = study.uplift(&run).ok().stderr;
+    assert!(said.contains("r.earlier"), "{said}");
+    let kept = ["bands.csv", "figures", "h5", "html", "influence.csv", "json", "mat", "measures.csv", "spectra.csv"];
+    let kept: Vec<String> =
+        kept.iter().map(|end| format!("r.{end}")).chain(["r.table-4-1.csv".to_owned()]).collect();
+    assert_eq!(names(&earlier), kept);
+    assert_eq!(names(&earlier.join("r.figures")), ["urs-pgv.svg"]);
+    let left = names(study.path());
+    for gone in kept.iter().filter(|name| *name != "r.h5" && *name != "r.figures") {
+        assert!(!left.contains(gone), "{gone}");
+    }
+    assert!(left.iter().any(|name| name == "r.notes.csv") && left.iter().any(|name| name == "r.urs.csv"));
+    assert_ne!(digest("r.h5"), first);
+    // what is put back beside another result is seen
+    std::fs::copy(earlier.join("r.bands.csv"), study.path().join("r.bands.csv")).unwrap();
+    let status = study.uplift(&["status", "r.h5"]).ok().stdout;
+    assert!(status.contains("not of it: r.bands.csv"), "{status}");
+}
+
+// A damaged byte that no table of a page needs.
+#[test]
+fn no_page_is_made_of_a_damaged_result() {
+    let study = study();
+    let path = study.path().join("r.h5");
+    let sound = std::fs::read(&path).unwrap();
+    for place in [0.3, 0.5, 0.7] {
+        let mut damaged = sound.clone();
+        damaged[(sound.len() as f64 * place) as usize] ^= 4;
+        std::fs::write(&path, &damaged).unwrap();
+        study.uplift(&["verify", "r.h5"]).fails(4, &["r.h5"]);
+        study.uplift(&["report", "r.h5"]).fails(4, &["r.h5", "as it was written"]);
+    }
+    // it is replaced, and kept for whoever wants to save something of it
+    study.uplift(&["run", "study.toml", "-o", "r.h5"]).ok();
+    assert_eq!(names(&study.path().join("r.earlier/damaged")), ["r.h5"]);
 }
 
 #[cfg(unix)]
@@ -158,7 +259,8 @@ fn a_result_of_another_study_stays() {
     let untitled = SmallStudy::with(&SMALL_STUDY.replace("title = \"small\"", "").replace("first = 4", "first = 3"));
     untitled.uplift(&run).fails(2, &["is the result of another study"]);
     // the study itself, edited
-    one.uplift(&[&run[..], &["--set", "oscillator.restitution=0.9"]].concat()).ok();
+    one.write("study.toml", &SMALL_STUDY.replace("first = 4", "first = 3"));
+    one.uplift(&run).ok();
 }
 
 #[test]

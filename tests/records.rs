@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use polars::prelude::{CsvParseOptions, CsvReadOptions, SerReader};
+use polars_io::prelude::{CsvParseOptions, CsvReadOptions, SerReader};
 
 use crate::common::{SMALL_STUDY, SmallStudy, real_records, repository, uplift};
 
@@ -187,7 +187,7 @@ fn synthetic_records_are_made_listed_shown_and_chosen() {
     let study = SmallStudy::new();
     for manifest in ["set/manifest.csv", "imported.csv"] {
         let set = format!("records.manifest={}", at.join(manifest).display());
-        let done = study.uplift(&["run", "study.toml", "--set", &set]).ok();
+        let done = study.uplift(&["run", "study.toml", "--force", "--set", &set]).ok();
         assert!(
             done.stderr.contains("synthetic pairs") && done.stdout.contains("the records are synthetic"),
             "{}",

@@ -141,17 +141,17 @@ fn only_what_is_new_is_computed() {
     let first = computed(&study, &["run", "study.toml"]);
     assert_eq!(first, (4 * 10 * 9, 4 * 10 * 9));
     // another site, another probability: no analysis
-    assert_eq!(computed(&study, &["run", "study.toml", "--set", "risk.poe=[0.01]"]).0, 0);
+    assert_eq!(computed(&study, &["run", "study.toml", "--force", "--set", "risk.poe=[0.01]"]).0, 0);
     // two strengths more, one level more, two records fewer
-    let more = ["run", "study.toml", "--set", "strengths.values=[0, 0.05, \"0.1:0.1:0.8\", 0.9, 1]"];
+    let more = ["run", "study.toml", "--force", "--set", "strengths.values=[0, 0.05, \"0.1:0.1:0.8\", 0.9, 1]"];
     assert_eq!(computed(&study, &more), (4 * 2 * 9, 4 * 12 * 9));
-    let levels = ["run", "study.toml", "--set", "pgv.levels_cm_s=[1, 3, 10, 30, 60, 100]"];
+    let levels = ["run", "study.toml", "--force", "--set", "pgv.levels_cm_s=[1, 3, 10, 30, 60, 100]"];
     assert_eq!(computed(&study, &levels), (4 * 10, 4 * 10 * 10));
-    let fewer = ["run", "study.toml", "--set", "records.first=2"];
+    let fewer = ["run", "study.toml", "--force", "--set", "records.first=2"];
     assert_eq!(computed(&study, &fewer), (0, 2 * 10 * 9));
     // what a result was made of bit by bit is what a fresh run makes
     let patched = study.path().join("results/study.h5");
-    let again = ["run", "study.toml"];
+    let again = ["run", "study.toml", "--force"];
     let (computed_again, _) = computed(&study, &again);
     assert!(computed_again > 0);
     study.uplift(&["run", "study.toml", "-o", "fresh.h5"]).ok();
@@ -160,9 +160,9 @@ fn only_what_is_new_is_computed() {
     for set in
         ["oscillator.restitution=0.9", "gravity_m_s2=9.81", "records.component=\"h2\"", "records.synthetic.seed=2"]
     {
-        let (computed, all) = computed(&study, &["run", "study.toml", "--set", set, "-o", "other.h5"]);
+        let (computed, all) = computed(&study, &["run", "study.toml", "--force", "--set", set, "-o", "other.h5"]);
         assert_eq!(computed, all, "{set}");
-        study.uplift(&["run", "study.toml", "-o", "other.h5"]).ok();
+        study.uplift(&["run", "study.toml", "--force", "-o", "other.h5"]).ok();
     }
 }
 

@@ -21,6 +21,8 @@ pub struct RunOptions {
     pub output: Option<PathBuf>,
     /// What the caller typed or called; kept in the result.
     pub command: String,
+    /// What was changed of the study file for this run, `records.first=20`; kept in the result.
+    pub overrides: Vec<String>,
     /// Whether whatever is at the places of the result and its tables gives way.
     pub force: bool,
 }

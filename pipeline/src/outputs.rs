@@ -205,6 +205,17 @@ pub fn provide_folder(folder: &Path) -> Result<(), UpliftError> {
         .map_err(|error| UpliftError::input(format!("{} cannot be made: {error}", folder.display())))
 }
 
+/// Whether the file at `path` says that this program made it of the result at `result`, or of one that lay there.
+pub(crate) fn is_of_result(path: &Path, result: &Path) -> bool {
+    let Some(name) = result.file_name().and_then(|name| name.to_str()) else { return false };
+    head_of(path).is_some_and(|head| contains(&head, b"uplift ") && names_result(&head, name))
+}
+
+/// Whether the file at `path` says that it has the numbers of a study of this digest.
+pub(crate) fn is_of_digest(path: &Path, digest: &str) -> bool {
+    head_of(path).is_some_and(|head| contains(&head, format!("study digest {digest}").as_bytes()))
+}
+
 /// The first bytes of the file at `path`, those of texts of two bytes a letter without the second; none where there is
 /// no file.
 fn head_of(path: &Path) -> Option<Vec<u8>> {

@@ -1,7 +1,5 @@
 //! What a study costs, of whichever kind, once everything that can be wrong with it has been looked at.
 
-use std::path::Path;
-
 use serde::Serialize;
 use uplift_study::AnyStudy;
 
@@ -9,6 +7,7 @@ use crate::error::UpliftError;
 use crate::events::Events;
 pub use crate::frame::PlanHead;
 use crate::frame::RunOptions;
+use crate::result::replaces_another;
 use crate::run::check_outputs;
 use crate::{displacement, uniform_risk};
 
@@ -34,14 +33,23 @@ impl Plan {
 
 /// Reads and checks all inputs of a study and measures what it would cost; nothing is written.
 ///
-/// * `study_file` — as it was given, for the report
+/// * `options` — those of the run that is meant
 ///
 /// # Errors
 /// Everything that would keep the study from being run, as far as it can be known before.
-pub fn plan(study: &AnyStudy, study_file: &Path, events: &dyn Events) -> Result<Plan, UpliftError> {
-    check_outputs(study, &RunOptions { study_file: study_file.to_owned(), ..RunOptions::default() })?;
-    match study {
-        AnyStudy::UniformRisk(study) => uniform_risk::plan(study, study_file, events).map(Plan::UniformRisk),
-        AnyStudy::Displacement(study) => displacement::plan(study, study_file).map(Plan::Displacement),
+pub fn plan(study: &AnyStudy, options: &RunOptions, events: &dyn Events) -> Result<Plan, UpliftError> {
+    check_outputs(study, options)?;
+    let study_file = &options.study_file;
+    let mut plan = match study {
+        AnyStudy::UniformRisk(study) => Plan::UniformRisk(uniform_risk::plan(study, study_file, events)?),
+        AnyStudy::Displacement(study) => Plan::Displacement(displacement::plan(study, study_file)?),
+    };
+    // a study is looked at more often than it is run
+    if let Some(reason) = replaces_another(study, options)? {
+        match &mut plan {
+            Plan::UniformRisk(plan) => plan.head.notes.push(reason),
+            Plan::Displacement(plan) => plan.head.notes.push(reason),
+        }
     }
+    Ok(plan)
 }

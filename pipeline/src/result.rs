@@ -4,7 +4,9 @@
 
 mod bands;
 mod design;
+pub(crate) mod digest;
 mod displacements;
+pub(crate) mod earlier;
 mod extend;
 mod file;
 mod hazard;
@@ -34,6 +36,6 @@ pub use stripes::{StoredMeasure, StoredStripes};
 pub use study::{SpectraOfResult, StudyOfResult};
 pub(crate) use table::{neutral, plain, table_text};
 pub use table::{write_atomically, write_table};
-pub(crate) use target::check_place;
+pub(crate) use target::{check_place, replaces_another};
 pub use target::{check_target, is_hdf5};
 pub use uplift_study::Kind;

@@ -18,7 +18,7 @@ pub use crate::frame::{RunHead, RunOptions};
 use crate::inputs::manifest;
 use crate::lock::ResultLock;
 use crate::outputs;
-use crate::result::check_place;
+use crate::result::{check_place, replaces_another};
 use crate::{displacement, uniform_risk};
 
 /// What a run tells, by the kind of its study.
@@ -71,6 +71,11 @@ pub(crate) fn check_outputs(study: &AnyStudy, options: &RunOptions) -> Result<()
     outputs::check(&tables, &inputs, options.force)
 }
 
+/// Refuses a run that would replace the result of another, see [`replaces_another`].
+pub(crate) fn check_replaced(study: &AnyStudy, options: &RunOptions) -> Result<(), UpliftError> {
+    replaces_another(study, options)?.map_or(Ok(()), |reason| Err(UpliftError::Usage(reason)))
+}
+
 /// As [`run`], with rows of the analysis that are `known` from elsewhere.
 ///
 /// # Errors
@@ -85,6 +90,7 @@ pub fn run_with(
     let path = options.result_file(&study.output().file);
     // a place that cannot be written is found now, not after the analyses
     check_outputs(study, options)?;
+    check_replaced(study, options)?;
     let _lock = ResultLock::acquire(path)?;
     for warning in study.warnings() {
         events.note(warning);

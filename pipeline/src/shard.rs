@@ -10,7 +10,7 @@ use crate::error::UpliftError;
 use crate::events::Events;
 use crate::frame::RunOptions;
 use crate::inputs::read_hazard;
-use crate::run::{RunReport, check_outputs, run_with};
+use crate::run::{RunReport, check_outputs, check_replaced, run_with};
 use crate::uniform_risk::site_table;
 use crate::{displacement, uniform_risk};
 
@@ -39,6 +39,7 @@ pub fn run_shard(
 /// A result that cannot be written; hazard and sites that cannot be used.
 pub fn check_inputs(study: &AnyStudy, options: &RunOptions, events: &dyn Events) -> Result<(), UpliftError> {
     check_outputs(study, options)?;
+    check_replaced(study, options)?;
     match study {
         AnyStudy::UniformRisk(study) => {
             read_hazard(study)?;

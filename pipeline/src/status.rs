@@ -9,6 +9,7 @@ use uplift_study::Study;
 use crate::checkpoint::{Finding, RowFile, checkpoint_path};
 use crate::error::UpliftError;
 use crate::lock::ResultLock;
+use crate::result::earlier::made_of;
 use crate::result::{Overview, ResultFile, is_hdf5};
 
 /// What is there of a run: at least one of its parts.
@@ -37,6 +38,12 @@ pub struct ResultStatus {
     pub study: String,
     /// Title of the study.
     pub title: String,
+    /// What was changed of the study file for the run (`--set`).
+    pub overrides: Vec<String>,
+    /// By what its numbers are known in tables and figures.
+    pub study_digest: String,
+    /// Files beside it that were made of another result of this name.
+    pub made_of_another: Vec<PathBuf>,
     /// Where the records come from, in a line.
     pub record_set: String,
     /// What it holds.
@@ -153,8 +160,12 @@ impl ResultStatus {
     fn read(path: &Path) -> Result<Self, UpliftError> {
         let file = ResultFile::open(path)?;
         let head = file.head()?;
+        let study_digest = head.study_digest();
         Ok(Self {
             file: path.to_owned(),
+            made_of_another: made_of(path, &study_digest),
+            study_digest,
+            overrides: head.overrides.unwrap_or_default(),
             created: head.created,
             version: head.version,
             commit: head.commit,

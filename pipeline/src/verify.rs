@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use serde::Serialize;
-use uplift_labelled::{Seal, Verdict, verify as verify_file};
+use uplift_labelled::{Seal, Verdict, verify as verify_file, verify_bytes};
 
 use crate::error::UpliftError;
 use crate::events::Events;
@@ -62,6 +62,18 @@ pub fn verify(files: &[PathBuf], events: &dyn Events) -> Result<VerifyReport, Up
         });
     }
     Ok(VerifyReport { files: found })
+}
+
+/// Refuses result `files` of which some byte is not as it was written, whether what is asked of them needs it or not.
+///
+/// # Errors
+/// [`UpliftError::Inputs`] with everything that is wrong with them.
+pub fn require_whole(files: &[PathBuf]) -> Result<(), UpliftError> {
+    let mut mistakes = Vec::new();
+    for file in files {
+        mistakes.extend(VerifiedFile::of(file.clone(), verify_bytes(file)?).mistakes);
+    }
+    if mistakes.is_empty() { Ok(()) } else { Err(UpliftError::input(mistakes.join("\n"))) }
 }
 
 impl VerifiedFile {

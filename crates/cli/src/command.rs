@@ -2,6 +2,7 @@
 
 mod arguments;
 mod hazard;
+mod manual;
 mod pulse;
 mod records;
 mod response;
@@ -81,6 +82,9 @@ enum Command {
     /// Print the coefficients of a result (Table 4.2), or its design example (Tables 2.1-2.3, 3.2-3.7), beside a
     /// reference if one is given
     Table(table::TableArguments),
+    /// Write the pages of the manual and the completions of the shells
+    #[command(hide = true)]
+    Manual(manual::ManualArguments),
 }
 
 /// Carry out what was typed.
@@ -116,5 +120,6 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         Command::Report(arguments) => report::report(arguments, &terminal),
         Command::Export(arguments) => export::export(arguments, &terminal),
         Command::Table(arguments) => table::table(arguments, &terminal),
+        Command::Manual(arguments) => manual::manual(arguments),
     }
 }

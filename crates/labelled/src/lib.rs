@@ -57,7 +57,7 @@ pub use checksum::hexadecimal;
 pub use error::LabelledError;
 pub use reader::{LabelledArray, LabelledReader};
 pub use seal::Seal;
-pub use verify::{Verdict, verify};
+pub use verify::{Verdict, verify, verify_bytes};
 pub use writer::LabelledWriter;
 
 /// The group that holds every axis.

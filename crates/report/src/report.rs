@@ -7,6 +7,7 @@ use uplift::UpliftError;
 use uplift::events::Events;
 use uplift::outputs::{self, Output, OutputKind, beside};
 use uplift::result::write_atomically;
+use uplift::verify::require_whole;
 
 use crate::page::page;
 
@@ -39,6 +40,8 @@ pub fn report(options: &ReportOptions, events: &dyn Events) -> Result<PageReport
     let file = options.output.clone().unwrap_or_else(|| beside(first, "html"));
     let output = Output::new(&file, OutputKind::Page).of(first);
     outputs::check(&[output], &options.results, options.force)?;
+    // what is handed over says nothing of a file that is not as it was written, even where it would not show
+    require_whole(&options.results)?;
     write_atomically(&file, page(&options.results, events)?.as_bytes())?;
     Ok(PageReport { file })
 }

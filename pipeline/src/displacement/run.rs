@@ -16,6 +16,7 @@ use crate::error::UpliftError;
 use crate::events::Events;
 use crate::frame::{Place, SYNTHETIC};
 use crate::inputs::RecordSets;
+use crate::result::earlier::Earlier;
 use crate::result::{Provenance, ResultFile};
 
 /// With fewer motions beyond a percentile than this, one of them decides it.
@@ -57,7 +58,8 @@ pub(crate) fn run(
         return Err(checkpoint.stopped(total, total));
     }
 
-    let mut provenance = Provenance::of_inputs(place.options, checksums(records));
+    let provenance = Provenance::of_inputs(place.options, checksums(records));
+    let mut provenance = provenance.of_result(path, &study.to_toml()?);
     provenance.wall_time_s = place.start.elapsed().as_secs_f64();
     let outcome = DisplacementOutcome {
         study,
@@ -70,6 +72,7 @@ pub(crate) fn run(
         warnings: &warnings,
         provenance: &provenance,
     };
+    let earlier = Earlier::keep(path, &provenance.study_digest)?;
     write_displacements(path, &outcome)?;
     checkpoint.remove();
     let mut files = vec![path.to_owned()];
@@ -78,6 +81,7 @@ pub(crate) fn run(
     if study.output.csv {
         files.extend(write_displacement_csv(path, &outcome, &rows)?);
     }
+    earlier.set_aside(events)?;
     Ok(RunReport::of(&outcome, rows, files, place.start.elapsed().as_secs_f64()))
 }
 

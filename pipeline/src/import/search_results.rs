@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::io::Cursor;
 use std::path::PathBuf;
 
-use polars::prelude::{CsvReadOptions, SerReader};
+use polars_io::prelude::{CsvReadOptions, SerReader};
 
 use uplift_atomic_file::read_file;
 

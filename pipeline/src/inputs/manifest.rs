@@ -4,7 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::io::Cursor;
 use std::path::{Component as PathPart, Path, PathBuf};
 
-use polars::prelude::{Column, CsvParseOptions, CsvReadOptions, DataFrame, SerReader};
+use polars::prelude::{Column, DataFrame};
+use polars_io::prelude::{CsvParseOptions, CsvReadOptions, SerReader};
 use uplift_atomic_file::read_file;
 use uplift_motion::{AccelerationUnit, RecordFormat};
 

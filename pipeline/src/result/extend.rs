@@ -78,11 +78,12 @@ pub(crate) fn sign(writer: &mut LabelledWriter, group: &str) -> Result<(), Label
 /// One line for the head of a table made from `stored`: program, time, `what` it holds, file and records.
 pub(crate) fn line(stored: &StoredStripes, what: &str) -> String {
     format!(
-        "uplift {} ({}), {}; {what}; result {}; records: {}",
+        "uplift {} ({}), {}; {what}; result {}; study digest {}; records: {}",
         crate::VERSION,
         crate::COMMIT,
         now(),
         stored.path.file_name().unwrap_or_default().to_string_lossy(),
+        stored.study_digest,
         stored.record_set
     )
     .replace(['\n', '\r'], " ")

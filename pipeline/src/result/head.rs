@@ -24,6 +24,8 @@ pub struct Head {
     pub created: String,
     /// The command line.
     pub command: String,
+    /// What was changed of the study file for the run; none where an earlier version of the program did not say.
+    pub overrides: Option<Vec<String>>,
     /// Title of the study.
     pub title: String,
     /// Study file as given.
@@ -86,6 +88,7 @@ impl ResultFile {
             commit: text("commit")?,
             created: text("created")?,
             command: text("command")?,
+            overrides: text("overrides").ok().map(|all| all.lines().map(str::to_owned).collect()),
             title: text("title")?,
             study_file: text("study_file")?,
             study_toml: text("study_toml")?,

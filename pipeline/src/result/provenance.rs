@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use super::digest::study_digest;
 use super::extend::now;
 use super::layout::LAYOUT;
 use crate::checksum::checksum;
@@ -20,6 +21,8 @@ pub struct Provenance {
     pub study_place: String,
     /// The command line.
     pub command: String,
+    /// What was changed of the study file for the run.
+    pub overrides: Vec<String>,
     /// Coordinated universal time of the run, `2026-01-31T12:00:00Z`.
     pub created: String,
     /// Threads used; the numbers do not depend on it.
@@ -28,6 +31,10 @@ pub struct Provenance {
     pub wall_time_s: f64,
     /// Name to SHA-256 of each record and hazard curve.
     pub input_checksums: BTreeMap<String, String>,
+    /// Name of the result file.
+    pub result: String,
+    /// By what its numbers are known, see [`Head::study_digest`](super::Head::study_digest).
+    pub study_digest: String,
 }
 
 impl Provenance {
@@ -53,11 +60,22 @@ impl Provenance {
             study_file: options.study_file.display().to_string(),
             study_place: place_of(&options.study_file),
             command: options.command.clone(),
+            overrides: options.overrides.clone(),
             created: now(),
             threads: rayon::current_num_threads(),
             wall_time_s: 0.0,
             input_checksums,
+            result: String::new(),
+            study_digest: String::new(),
         }
+    }
+
+    /// The same of the result at `path`, of a study that says `study_toml`, once all inputs are known.
+    #[must_use]
+    pub(crate) fn of_result(mut self, path: &Path, study_toml: &str) -> Self {
+        self.result = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        self.study_digest = study_digest(study_toml, &self.input_checksums);
+        self
     }
 
     /// What a run tells, whatever the kind of its study; `records` are the description of the set and whether it is
@@ -88,11 +106,13 @@ impl Provenance {
     pub fn line(&self, title: &str, records: &str) -> String {
         let title = if title.is_empty() { String::new() } else { format!("{title}; ") };
         format!(
-            "uplift {} ({}), {}; study {}; {title}records: {records}",
+            "uplift {} ({}), {}; study {}; {title}result {}; study digest {}; records: {records}",
             crate::VERSION,
             crate::COMMIT,
             self.created,
-            self.study_file
+            self.study_file,
+            self.result,
+            self.study_digest,
         )
         .replace(['\n', '\r'], " ")
     }
@@ -120,6 +140,7 @@ impl Origin<'_> {
         writer.attribute("/", "layout", LAYOUT)?;
         writer.attribute("/", "created", provenance.created.as_str())?;
         writer.attribute("/", "command", provenance.command.as_str())?;
+        writer.attribute("/", "overrides", provenance.overrides.join("\n").as_str())?;
         writer.attribute("/", "title", self.title)?;
         writer.attribute("/", "study_file", provenance.study_file.as_str())?;
         writer.attribute("/", "study_place", provenance.study_place.as_str())?;

@@ -21,6 +21,8 @@ pub struct StoredStripes {
     pub path: PathBuf,
     /// Checksum of the file.
     pub identity: String,
+    /// By what its numbers are known, see [`Head::study_digest`](super::Head::study_digest).
+    pub study_digest: String,
     /// Where the records come from, in a line.
     pub record_set: String,
     /// Names of the records.
@@ -135,6 +137,7 @@ impl ResultFile {
         Ok(StoredStripes {
             path: self.path.clone(),
             identity: self.reader.identity().to_owned(),
+            study_digest: self.head()?.study_digest(),
             record_set: self.record_set()?,
             records,
             strengths,

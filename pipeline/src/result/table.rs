@@ -4,7 +4,8 @@ mod cells;
 
 use std::path::Path;
 
-use polars::prelude::{Column, CsvWriter, DataFrame, SerWriter};
+use polars::prelude::{Column, DataFrame};
+use polars_io::prelude::{CsvWriter, SerWriter};
 use uplift_atomic_file::write_whole;
 
 use crate::error::UpliftError;

@@ -25,13 +25,12 @@ pub fn check_target(path: &Path) -> Result<(), UpliftError> {
     check_replaceable(path, false).map(drop)
 }
 
-/// Check that the result of `study` can be written where `options` say, and replaces nothing but an earlier result of
-/// this study, or of whichever study where the place is this study's own or it is forced; none of the `inputs` in any
-/// case.
+/// Check that the result of `study` can be written where `options` say, and replaces nothing but an earlier result;
+/// none of the `inputs` in any case.
 ///
 /// # Errors
-/// [`UpliftError::Usage`] for a name that is not one of a result, and a place that is an input or has a result of
-/// another study; else as [`check_target`].
+/// [`UpliftError::Usage`] for a name that is not one of a result, and a place that is an input; else as
+/// [`check_target`].
 pub(crate) fn check_place(study: &AnyStudy, options: &RunOptions, inputs: &[PathBuf]) -> Result<(), UpliftError> {
     let path = options.result_file(&study.output().file);
     let name = path.display();
@@ -41,28 +40,52 @@ pub(crate) fn check_place(study: &AnyStudy, options: &RunOptions, inputs: &[Path
     if inputs.iter().any(|input| is_same_file(path, input)) {
         return Err(UpliftError::Usage(format!("{name} would overwrite an input: give the result another name (-o)")));
     }
-    let Some(earlier) = check_replaceable(path, options.force)? else { return Ok(()) };
-    let stem = |path: &Path| path.file_stem().map(ToOwned::to_owned);
-    let is_own_place = options.output.is_none() && stem(path) == stem(&options.study_file);
-    if options.force || is_own_place || is_of_study(&earlier, study, &options.study_file)? {
-        return Ok(());
-    }
-    let other = earlier.attribute_text("/", "study_file").unwrap_or_default();
-    Err(UpliftError::Usage(format!(
-        "{name} is the result of another study ({other}): give the result another name (-o), or --force to replace it"
-    )))
+    check_replaceable(path, options.force).map(drop)
 }
 
-/// Whether an earlier result is of the study at hand, which may have changed since: of the same file, of one of the
-/// same name with the same title, or of one that says the same.
-fn is_of_study(earlier: &LabelledReader, study: &AnyStudy, file: &Path) -> Result<bool, UpliftError> {
+/// Why an earlier result in the place of that of `study` is another's, so that it gives way to force alone: of another
+/// study file, or of this one with other values in the place of the file's. None where there is nothing to lose: the
+/// study file as it is now, edited or not, or the same numbers.
+///
+/// # Errors
+/// As [`check_target`]; a study that cannot be written.
+pub(crate) fn replaces_another(study: &AnyStudy, options: &RunOptions) -> Result<Option<String>, UpliftError> {
+    let path = options.result_file(&study.output().file);
+    let Some(earlier) = check_replaceable(path, options.force)? else { return Ok(None) };
     let text = |name: &str| earlier.attribute_text("/", name).unwrap_or_default();
-    let (kept, title) = (text("study_file"), text("title"));
+    if what_counts(&text("study_toml")) == what_counts(&study.to_toml()?) {
+        return Ok(None);
+    }
+    let name = path.display();
+    let way_out = "give the result another name (-o), or --force to replace it";
+    if !is_of_file(&text, study, &options.study_file) {
+        let other = text("study_file");
+        return Ok(Some(format!("{name} is the result of another study ({other}): {way_out}")));
+    }
+    let sorted = |mut all: Vec<String>| {
+        all.sort();
+        all
+    };
+    let own = sorted(options.overrides.clone());
+    // what an earlier version wrote does not say
+    let kept = earlier.attribute_text("/", "overrides").map(|all| sorted(all.lines().map(str::to_owned).collect()));
+    Ok(kept.ok().filter(|kept| *kept != own).map(|kept| {
+        let said = |all: &[String]| match all {
+            [] => "as the file stands".to_owned(),
+            all => format!("with --set {}", all.join(" --set ")),
+        };
+        format!("{name} is the result of this study {}, and this run is {}: {way_out}", said(&kept), said(&own))
+    }))
+}
+
+/// Whether an earlier result is of this study file, which may have changed since: of the same place, or of the same
+/// name with the same title.
+fn is_of_file(text: &impl Fn(&str) -> String, study: &AnyStudy, file: &Path) -> bool {
     let place = place_of(file);
     let same_place = !place.is_empty() && text("study_place") == place;
+    let (kept, title) = (text("study_file"), text("title"));
     let same_name = Path::new(&kept).file_name() == file.file_name();
-    let same_title = !title.is_empty() && title == study.title();
-    Ok(same_place || (same_name && same_title) || what_counts(&text("study_toml")) == what_counts(&study.to_toml()?))
+    same_place || (same_name && !title.is_empty() && title == study.title())
 }
 
 /// What there is to be replaced at `path`, if it can be opened; one that cannot is a result that was damaged, which

@@ -3,7 +3,8 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use polars::prelude::{CsvParseOptions, CsvReadOptions, DataFrame, SerReader};
+use polars::prelude::DataFrame;
+use polars_io::prelude::{CsvParseOptions, CsvReadOptions, SerReader};
 
 use uplift_atomic_file::read_file;
 

@@ -15,6 +15,7 @@ use crate::events::Events;
 use crate::frame::{FEW_RECORDS, Place, SYNTHETIC};
 use crate::inputs::{RecordSet, read_hazard};
 use crate::result::Provenance;
+use crate::result::earlier::Earlier;
 use crate::text::per_cent;
 
 /// Carries out `study`, but for the rows of its analysis that are `known`.
@@ -56,6 +57,7 @@ pub(crate) fn run(
     }
     let mut provenance = Provenance::new(place.options, records, &hazard);
     provenance.input_checksums.extend(site_list.iter().flat_map(|list| list.checksums.clone()));
+    let provenance = &mut provenance.of_result(path, &study.to_toml()?);
     let line = provenance.line(&study.title, &records.description);
     let mut sites = site_table::compute(study, site_list.as_ref(), &stripes, path, &line, events)?;
     warnings.append(&mut sites.warnings);
@@ -68,8 +70,9 @@ pub(crate) fn run(
         spectra: &spectra,
         coefficients: &coefficients,
         warnings: &warnings,
-        provenance: &provenance,
+        provenance,
     };
+    let earlier = Earlier::keep(path, &provenance.study_digest)?;
     write_result(path, &outcome)?;
     checkpoint.remove();
     let mut files = vec![path.to_owned()];
@@ -78,6 +81,7 @@ pub(crate) fn run(
         files.extend(csv_paths(path));
     }
     files.extend(sites.finish()?);
+    earlier.set_aside(events)?;
     Ok(RunReport::of(&outcome, files, place.start.elapsed().as_secs_f64()))
 }
 

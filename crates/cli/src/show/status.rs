@@ -29,7 +29,14 @@ fn print_result(out: &mut impl Write, result: &ResultStatus) -> Result<(), Comma
     let file = result.file.display();
     writeln!(out, "{file}: finished {created}, uplift {version} ({commit})")?;
     writeln!(out, "  study    {study} {}", one_line(title))?;
+    if !result.overrides.is_empty() {
+        writeln!(out, "  changed  {}", one_line(&format!("--set {}", result.overrides.join(" --set "))))?;
+    }
+    writeln!(out, "  digest   {}", result.study_digest)?;
     writeln!(out, "  records  {record_set}")?;
+    for other in &result.made_of_another {
+        writeln!(out, "  not of it: {} was made of another result of this name", other.display())?;
+    }
     match &result.content {
         ResultContent::Displacement { structure, analyses, sets, has_design } => {
             writeln!(out, "  spectra  displacement spectra of {structure}s, {analyses} analyses")?;

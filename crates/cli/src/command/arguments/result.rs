@@ -50,8 +50,13 @@ impl ResultArguments {
             return Ok(FoundResult { path: self.input.clone(), bootstrap: None });
         }
         let study = Study::load(&self.input, &self.overrides)?;
-        let options =
-            RunOptions { study_file: self.input.clone(), output: None, command: command_line(), force: self.force() };
+        let options = RunOptions {
+            study_file: self.input.clone(),
+            output: None,
+            command: command_line(),
+            overrides: self.overrides.clone(),
+            force: self.force(),
+        };
         let path = result_of(&study, &options, terminal)?;
         Ok(FoundResult { path, bootstrap: Some(study.bootstrap.clone()) })
     }

@@ -35,7 +35,8 @@ pub(super) fn command_line() -> String {
 
 /// The options of a run that was typed.
 pub(crate) fn run_options(study: &StudyArguments, output: Option<PathBuf>, force: bool) -> RunOptions {
-    RunOptions { study_file: study.study.clone(), output, command: command_line(), force }
+    let overrides = study.overrides.clone();
+    RunOptions { study_file: study.study.clone(), output, command: command_line(), overrides, force }
 }
 
 /// Reads `1/8`.

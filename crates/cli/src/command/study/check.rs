@@ -3,7 +3,7 @@
 use clap::Args;
 use uplift::plan;
 
-use crate::command::arguments::StudyArguments;
+use crate::command::arguments::{StudyArguments, run_options};
 use crate::error::CommandError;
 use crate::show::{print_json, print_plan};
 use crate::terminal::Terminal;
@@ -19,7 +19,7 @@ pub(crate) struct CheckArguments {
 
 pub(crate) fn check(arguments: &CheckArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let study = arguments.study.load_any()?;
-    let plan = plan(&study, &arguments.study.study, terminal)?;
+    let plan = plan(&study, &run_options(&arguments.study, None, false), terminal)?;
     if arguments.json { print_json(&plan) } else { print_plan(&plan, &study, terminal) }?;
     Ok(plan.head().room.refuse(terminal)?)
 }

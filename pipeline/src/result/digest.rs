@@ -1,0 +1,61 @@
+//! By what the numbers of a result are known: a digest of what its study says and of what it was given.
+
+use std::collections::BTreeMap;
+
+use toml::Value;
+
+use super::head::Head;
+use crate::checksum::checksum;
+use crate::result_of::what_counts;
+
+/// Letters of a digest that is written into tables and figures: two results of a folder do not share them.
+const LETTERS: usize = 12;
+
+/// The digest of a study, complete as in a result, and of its inputs, name to SHA-256. Where its files lie, its title and
+/// what is asked of a result later do not count.
+pub(crate) fn study_digest(study_toml: &str, input_checksums: &BTreeMap<String, String>) -> String {
+    let mut said = Value::Table(what_counts(study_toml).unwrap_or_default());
+    forget_places(&mut said);
+    let mut digest = checksum(format!("{said}\n{input_checksums:?}").as_bytes());
+    digest.truncate(LETTERS);
+    digest
+}
+
+/// Leaves of every path of a machine the name of its file.
+fn forget_places(value: &mut Value) {
+    match value {
+        Value::String(text) if std::path::Path::new(text).is_absolute() => {
+            *text = text.rsplit(['/', '\\']).next().unwrap_or_default().to_owned();
+        }
+        Value::Array(values) => values.iter_mut().for_each(forget_places),
+        Value::Table(table) => table.iter_mut().for_each(|(_, value)| forget_places(value)),
+        _ => {}
+    }
+}
+
+impl Head {
+    /// By what the numbers of this result are known: twelve letters, the same for the same study and inputs wherever they
+    /// lie and whoever runs them.
+    pub fn study_digest(&self) -> String {
+        study_digest(&self.study_toml, &self.input_checksums)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_counts_is_in_the_digest_and_nothing_else() {
+        let inputs = BTreeMap::from([("record A".to_owned(), "12".to_owned())]);
+        let study = |title: &str, seed: u64, file: &str| {
+            format!("title = \"{title}\"\nseed = {seed}\n[[sites]]\npgv = {{ file = \"{file}\" }}\n[output]\ncsv = true\n")
+        };
+        let digest = study_digest(&study("a", 1, "/one/pgv.csv"), &inputs);
+        assert_eq!(digest.len(), LETTERS);
+        assert_eq!(digest, study_digest(&study("b", 1, "/another/place/pgv.csv"), &inputs));
+        assert_ne!(digest, study_digest(&study("a", 2, "/one/pgv.csv"), &inputs));
+        assert_ne!(digest, study_digest(&study("a", 1, "/one/pga.csv"), &inputs));
+        assert_ne!(digest, study_digest(&study("a", 1, "/one/pgv.csv"), &BTreeMap::new()));
+    }
+}
