@@ -93,9 +93,9 @@ fn what_hangs_on_rounding_is_marked_wherever_it_is_shown() {
     let row = printed.lines().find(|line| line.starts_with("synthetic ")).unwrap();
     let cells: Vec<String> = shown
         .iter()
-        .map(|value| match hangs(value) {
-            true => format!("{:.4}* [{:.4}, {:.4}]", value[0], value[1], value[2]),
-            false => format!("{:.4}", value[0]),
+        .map(|value| {
+            let mark = if hangs(value) { format!("* [{:.4}, {:.4}]", value[1], value[2]) } else { String::new() };
+            format!("{:.4}{mark}", value[0])
         })
         .collect();
     assert!(cells.iter().any(|cell| cell.contains('*')), "{cells:?}");

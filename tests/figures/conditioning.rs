@@ -107,7 +107,7 @@ fn of_a_real_record() {
 #[test]
 #[ignore = "minutes: make doc-figures"]
 fn of_percentiles() {
-    const NEIGHBOURS: usize = 50;
+    const NEIGHBOURS: i32 = 50;
     let Some(records) = real_records() else { return };
     let config = repository().join("configs/chapter-3.toml").to_str().unwrap().to_owned();
     let folder = tempfile::tempdir().unwrap();
@@ -115,7 +115,7 @@ fn of_percentiles() {
     for (measure, multiple) in
         ["PGA", "PGV"].into_iter().flat_map(|measure| [0.5, 1.0, 2.0].map(|times| (measure, times)))
     {
-        let steps = [0].into_iter().chain((1..=NEIGHBOURS as i32 / 2).flat_map(|step| [-step, step]));
+        let steps = [0].into_iter().chain((1..=NEIGHBOURS / 2).flat_map(|step| [-step, step]));
         let to = |step: i32| format!("\"{} {measure}\"", multiple * (1.0 + f64::from(step) * 1e-15));
         let to: Vec<String> = steps.map(to).collect();
         let set = [
@@ -138,7 +138,7 @@ fn of_percentiles() {
             for (place, own) in own.iter().enumerate() {
                 let moved = others.chunks(of_scaling).filter(|other| other[place] != *own).count();
                 ordinates += 1;
-                shares.extend((moved > 0).then_some(moved as f64 / NEIGHBOURS as f64));
+                shares.extend((moved > 0).then_some(moved as f64 / f64::from(NEIGHBOURS)));
             }
         }
     }

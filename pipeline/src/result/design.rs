@@ -240,7 +240,7 @@ mod tests {
         assert_eq!(row(0.0444, 0.0444, f64::INFINITY).ranged(), "0.044* [0.040, 0.050]");
         assert_eq!(row(f64::NAN, f64::NAN, f64::NAN).ranged(), "none");
         assert_eq!(row(0.0444, 0.0436, 0.0444).rounding_words(), None);
-        assert_eq!(row(0.0444, 0.0181, 0.0444).rounding_words().unwrap(), "u_dem_TH_m,  by : 0.018 to 0.044");
+        assert_eq!(row(0.0444, 0.0181, 0.0444).rounding_words().as_deref(), Some("u_dem_TH_m,  by : 0.018 to 0.044"));
         let earlier = DesignRow { rounding: None, ..row(0.0444, 0.0, 1.0) };
         assert_eq!(earlier.ranged(), "0.044 [0.040, 0.050]");
     }
