@@ -43,6 +43,17 @@ fn design(study: &SmallStudy, structure: &str, more: &[&str]) -> Value {
     json(study.uplift(&arguments))
 }
 
+/// What rounding makes of these numbers is a range around each.
+fn is_around(exact: &Value, names: &[&str]) {
+    for name in names {
+        let range = &exact["rounding"][name];
+        assert_eq!(range["value"], exact[name], "{name}");
+        let [lowest, value, highest] =
+            ["lowest", "value", "highest"].map(|of| range[of].as_f64().unwrap_or(f64::INFINITY));
+        assert!(0.0 < lowest && lowest <= value && value <= highest, "{name}: {range}");
+    }
+}
+
 fn close(found: &Value, expected: f64, tolerance: f64) {
     let found = found.as_f64().unwrap_or(f64::INFINITY);
     assert!((found - expected).abs() <= tolerance * expected.abs(), "{found} {expected}");
@@ -127,7 +138,8 @@ fn every_number_by_hand() {
         let (z, u) = (ordinate_m(&zsbe, target), ordinate_m(&nsbe, target));
         close(&exact["zero_stiffness_demand_m"], z, 1e-6);
         close(&exact["demand_m"], u, 1e-6);
-        assert_eq!(exact["analyses"], (1 + 2 * 11) * 5 * 7);
+        assert_eq!(exact["analyses"], (1 + 2 * 11 + 3 * 8) * 5 * 7);
+        is_around(exact, &["zero_stiffness_demand_of_spectrum_m", "zero_stiffness_demand_m", "demand_m"]);
         assert_eq!(exact["overturns"], u.is_infinite());
         for (event, threshold_m) in [("beyond_capacity", 0.8), ("overturning", f64::MAX)] {
             let per_year = rate(&nsbe, threshold_m);

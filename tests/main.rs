@@ -28,6 +28,7 @@ mod report;
 mod response;
 mod result_file;
 mod resume;
+mod rounding;
 mod run;
 mod site_table;
 mod structure_resume;

@@ -21,9 +21,11 @@ mod table;
 mod target;
 
 pub use bands::{MeasureBands, StoredBands};
-pub(crate) use design::{BOUNDS, rule_names};
+pub(crate) use design::{BOUNDS, bounds, rule_names};
 pub use design::{DesignRow, RULES, StoredDesign, StoredDesigned};
-pub use displacements::{SpectrumPlace, StoredDisplacements, StoredMotions, StoredSet, StoredStructures};
+pub use displacements::{
+    SpectrumPlace, StoredDisplacements, StoredMotions, StoredRounding, StoredSet, StoredStructures,
+};
 pub(crate) use extend::{Addition, line, sign};
 pub use file::{ResultFile, RiskAxes};
 pub use hazard::{StoredCurves, StoredHazard};

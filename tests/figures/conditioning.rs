@@ -4,7 +4,7 @@ use uplift_labelled::LabelledReader;
 
 use super::marks::hold;
 use super::{quantile, range};
-use crate::common::{SmallStudy, real_records};
+use crate::common::{SmallStudy, real_records, repository};
 
 /// The study of section 1.5 with its levels multiplied by `factor`: displacements of all runs, m.
 fn displacements_m(factor: &str) -> Vec<f64> {
@@ -79,6 +79,13 @@ fn of_a_real_record() {
     let scale: f64 = 0.640_375_985_850_353_4;
     let neighbours: Vec<f64> = (0..25).map(|place| f64::from_bits(scale.to_bits() + place - 8)).map(peak_m).collect();
     let [lowest, highest] = range(neighbours);
+    let relative = (1..=50).flat_map(|step| [-1e-15, 1e-15].map(|unit| f64::from(step) * unit));
+    let shown: Vec<String> = relative.map(|relative| format!("{:.3}", peak_m(scale * (1.0 + relative)))).collect();
+    let chance = |text: &String| shown.iter().filter(|other| *other == text).count() as f64 / shown.len() as f64;
+    // of a run and `neighbours` of it to show the same digits
+    let alike =
+        |neighbours: i32| shown.iter().map(|text| chance(text).powi(neighbours)).sum::<f64>() / shown.len() as f64;
+    let per_cent = |share: f64, decimals: usize| format!("{:.decimals$} %", 100.0 * share);
     let name = |name: &str| format!("rounding.{name}");
     hold(
         "rounding",
@@ -88,6 +95,63 @@ fn of_a_real_record() {
                 format!("from {:.3} to {:.3} m", peak_m(scale), peak_m(f64::from_bits(scale.to_bits() + 1))),
             ),
             (name("range"), format!("{lowest:.3} to {highest:.3} m")),
+            (name("alike"), per_cent(alike(1), 0)),
+            (name("missed-by-2"), per_cent(alike(2), 0)),
+            (name("missed-by-8"), per_cent(alike(8), 1)),
         ],
     );
+}
+
+/// Of percentiles that rounding moves, how many so many neighbours miss: the same scalings some 1e-15 apart, of the
+/// sets of Chapter 3.
+#[test]
+#[ignore = "minutes: make doc-figures"]
+fn of_percentiles() {
+    const NEIGHBOURS: i32 = 50;
+    let Some(records) = real_records() else { return };
+    let config = repository().join("configs/chapter-3.toml").to_str().unwrap().to_owned();
+    let folder = tempfile::tempdir().unwrap();
+    let (mut ordinates, mut shares) = (0, Vec::new());
+    for (measure, multiple) in
+        ["PGA", "PGV"].into_iter().flat_map(|measure| [0.5, 1.0, 2.0].map(|times| (measure, times)))
+    {
+        let steps = [0].into_iter().chain((1..=NEIGHBOURS / 2).flat_map(|step| [-step, step]));
+        let to = |step: i32| format!("\"{} {measure}\"", multiple * (1.0 + f64::from(step) * 1e-15));
+        let to: Vec<String> = steps.map(to).collect();
+        let set = [
+            format!("records.manifest={}", records.join("manifest.csv").display()),
+            format!("scaling.to=[{}]", to.join(", ")),
+            "spectrum.percentiles=[16, 50, 84]".to_owned(),
+            "oscillator.uplift_displacement_m=0.0005".to_owned(),
+            format!("strengths.values=[0.1, {}, 0.2, 0.4]", (1.0_f64 / 6.0).tan()),
+            "design.noise_points=1".to_owned(),
+        ];
+        let mut run = vec!["run", &config, "-o", "r.h5", "-q", "--force"];
+        run.extend(set.iter().flat_map(|set| ["--set", set]));
+        crate::common::uplift(folder.path(), &run).ok();
+        // [record_set, scaling, scaled_by, uplift_displacement, capacity, percentile, strength]
+        let u = LabelledReader::open(&folder.path().join("r.h5")).unwrap().array_f64("/spectra/u_m").unwrap();
+        let of_scaling: usize = u.shape[2..].iter().product();
+        let shown: Vec<String> = u.values.iter().map(|value| format!("{value:.4}")).collect();
+        for of_set in shown.chunks(u.shape[1] * of_scaling) {
+            let (own, others) = of_set.split_at(of_scaling);
+            for (place, own) in own.iter().enumerate() {
+                let moved = others.chunks(of_scaling).filter(|other| other[place] != *own).count();
+                ordinates += 1;
+                shares.extend((moved > 0).then_some(moved as f64 / f64::from(NEIGHBOURS)));
+            }
+        }
+    }
+    let name = |name: &str| format!("rounding-missed.{name}");
+    let missed = |neighbours: i32| {
+        let missed = shares.iter().map(|share| (1.0 - share).powi(neighbours)).sum::<f64>() / shares.len() as f64;
+        (name(&format!("by-{neighbours}")), format!("{:.0} %", 100.0 * missed))
+    };
+    let mut computed = vec![
+        (name("ordinates"), ordinates.to_string()),
+        (name("moved"), format!("{:.1} %", 100.0 * shares.len() as f64 / f64::from(ordinates))),
+        (name("share"), format!("{:.0} %", 100.0 * quantile(&shares, 0.5))),
+    ];
+    computed.extend([1, 2, 4, 8, 16, 24].map(missed));
+    hold("rounding-missed", &computed);
 }

@@ -46,6 +46,14 @@ fn errors_of_the_rules() {
             let [lowest, highest] = ["lowest", "highest"].map(|end| -100.0 * noise[end].as_f64().unwrap());
             computed.push(("designs.focsani".to_owned(), format!("{highest:.0} to {lowest:.0} %")));
         }
+        if (im, name) == ("pgv", "pier") {
+            let end = |name: &str, end: &str| designs[1]["exact"]["rounding"][name][end].as_f64().unwrap();
+            let range = |name: &str| [end(name, "lowest"), end(name, "highest")];
+            let [low, high] = range("zero_stiffness_demand_of_spectrum_m");
+            computed.push(("designs.rounding-demand".to_owned(), format!("{low:.4} to {high:.4} m")));
+            let [low, high] = range("overturning_per_year").map(|rate| 1e5 * rate);
+            computed.push(("designs.rounding-risk".to_owned(), format!("{low:.3} to {high:.3}")));
+        }
         if (im, name) == ("pgv", "block") {
             let reading = [0, 2, 4].map(|site: usize| error(&designs[site], 0, "from_spectrum").unwrap());
             let [low, high] = range(reading);

@@ -9,9 +9,10 @@ const BEGIN: &str = "<!-- figure: ";
 const END: &str = "<!-- end -->";
 
 /// The sources, by which names begin; those that `make test` leaves out are slow.
-const SOURCES: [&str; 10] = [
+const SOURCES: [&str; 11] = [
     "conditioning",
     "rounding",
+    "rounding-missed",
     "levels",
     "levels-at-athens",
     "table-4-1",

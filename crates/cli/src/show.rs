@@ -70,6 +70,10 @@ pub(crate) fn print_files(files: &[PathBuf], terminal: &Terminal) -> Result<(), 
     Ok(())
 }
 
+/// What an asterisk says of a number of displacement spectra and their designs.
+const ROUNDING_DECIDES: &str = "*: rounding decides it: with scale factors some 1e-15 smaller or larger it has other \
+                                digits (docs/method.md, section 1.5)";
+
 /// A path as short as the user would type it.
 pub(crate) fn shown_path(path: &Path) -> &Path {
     std::env::current_dir().ok().and_then(|folder| path.strip_prefix(folder).ok()).unwrap_or(path)

@@ -126,13 +126,15 @@ impl<'a> Plan<'a> {
         Ok(Self { motions, systems, with_free_peak })
     }
 
-    /// This plan with every scale factor multiplied by `factor`; by 1 it stays what it is, to the bit.
+    /// This plan with every scale factor multiplied by each of `factors`: all of them by the first, then all by the
+    /// second, and so on. By 1 they stay what they are, to the bit.
     ///
     /// # Errors
-    /// A factor that is not finite.
-    pub fn multiplied(mut self, factor: f64) -> Result<Self, IdaError> {
+    /// No factor, one that is not finite.
+    pub fn multiplied(mut self, factors: &[f64]) -> Result<Self, IdaError> {
         for motion in &mut self.motions {
-            motion.scales.iter_mut().for_each(|scale| *scale *= factor);
+            let by = |factor: &f64| motion.scales.iter().map(|scale| scale * factor).collect::<Vec<_>>();
+            motion.scales = factors.iter().flat_map(by).collect();
         }
         Self::checked("motions", self.motions, self.systems, self.with_free_peak)
     }

@@ -11,7 +11,7 @@ use plotters::prelude::*;
 use super::figure::{Figure, Hatch, Marks, Tone};
 use super::map::{draw_hatch, hatching};
 use super::panel::{PanelPlace, draw_panel};
-use super::stroke::{Area, FAINT_LINE, FONT, Failure, LINE, UNITS, ZOOM, colour, dashed, draw_line};
+use super::stroke::{Area, FAINT_LINE, FONT, Failure, LINE, UNITS, ZOOM, colour, dashed, draw_line, draw_mark};
 
 /// How wide a figure is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -89,7 +89,7 @@ struct Entry {
 #[derive(Clone, Copy)]
 enum Kind {
     Line,
-    Dots,
+    Marks(Marks),
     Area,
     Level,
     Region(Hatch),
@@ -100,7 +100,7 @@ fn legend(figure: &Figure) -> Vec<Entry> {
     let mut entries: Vec<Entry> = Vec::new();
     for panel in &figure.panels {
         let lines = panel.series.iter().map(|series| {
-            let kind = if series.marks == Marks::Only { Kind::Dots } else { Kind::Line };
+            let kind = if series.marks == Marks::None { Kind::Line } else { Kind::Marks(series.marks) };
             (&series.name, series.tone, kind)
         });
         let bands = panel.bands.iter().map(|band| (&band.name, band.tone, Kind::Area));
@@ -160,9 +160,7 @@ fn draw_head(root: &Area<'_>, figure: &Figure, entries: &[Entry], head: u32) -> 
                 }
                 root.draw(&Rectangle::new([(x, top), (right, bottom)], colour(*tone).stroke_width(FAINT_LINE)))?;
             }
-            Kind::Dots => {
-                root.draw(&Circle::new((x + 11 * UNITS, middle), 2 * UNITS, colour(*tone).filled()))?;
-            }
+            Kind::Marks(marks) => draw_mark(root, (x + 11 * UNITS, middle), *tone, *marks)?,
             Kind::Line => draw_line(root, &[(x, middle), (right, middle)], *tone, LINE)?,
         }
         root.draw(&Text::new(name.clone(), (x + 27 * UNITS, top), (FONT, 11 * ZOOM).into_font()))?;

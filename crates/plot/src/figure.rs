@@ -80,6 +80,8 @@ pub enum Marks {
     None,
     /// Dots alone.
     Only,
+    /// Hollow dots alone, for points that are less sure.
+    Rings,
 }
 
 /// A line.

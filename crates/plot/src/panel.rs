@@ -15,7 +15,7 @@ use serde::Serialize;
 use super::figure::{Axis, Marks, Panel, Scale, Series, Tone};
 use super::frame::{Frame, runs};
 use super::map::draw_map;
-use super::stroke::{Area, FAINT_LINE, FONT, Failure, LINE, UNITS, ZOOM, colour, draw_line};
+use super::stroke::{Area, FAINT_LINE, FONT, Failure, LINE, ZOOM, colour, draw_line, draw_mark};
 use super::ticks::{label, ticks};
 
 /// Where the plotting area of a panel lies, in the units of the drawing's view box, and what its ends mean.
@@ -182,10 +182,10 @@ fn draw_series(
     shifted: &impl Fn(Vec<(i32, i32)>) -> Vec<(i32, i32)>,
 ) -> Result<(), Failure> {
     let positions = |&(x, y): &(f64, f64)| Some((x_scale.position(x)?, y_scale.position(y)?));
-    if series.marks == Marks::Only {
+    if series.marks != Marks::None {
         for (x, y) in series.points.iter().filter_map(positions).filter(|&(x, y)| frame.holds(x, y)) {
             for pixel in shifted(vec![frame.pixel(x, y)]) {
-                plot.draw(&Circle::new(pixel, 2 * UNITS, colour(series.tone).filled()))?;
+                draw_mark(plot, pixel, series.tone, series.marks)?;
             }
         }
         return Ok(());

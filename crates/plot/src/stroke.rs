@@ -9,7 +9,7 @@
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use super::figure::Tone;
+use super::figure::{Marks, Tone};
 
 /// Okabe and Ito's colours but for yellow, which is too light for a line on white.
 const COLOURS: [RGBColor; 7] = [
@@ -54,6 +54,17 @@ fn shade(share: f64) -> RGBColor {
     let (from, to, part) = (RAMP[below], RAMP[below + 1], place - below as f64);
     let mixed = |from: f64, to: f64| (from + part * (to - from)).round() as u8;
     RGBColor(mixed(from.0, to.0), mixed(from.1, to.1), mixed(from.2, to.2))
+}
+
+/// A dot, or a ring with the line below it covered.
+pub(super) fn draw_mark(area: &Area<'_>, at: (i32, i32), tone: Tone, marks: Marks) -> Result<(), Failure> {
+    if marks == Marks::Rings {
+        area.draw(&Circle::new(at, 3 * UNITS, WHITE.filled()))?;
+        area.draw(&Circle::new(at, 3 * UNITS, colour(tone).stroke_width(LINE)))?;
+    } else {
+        area.draw(&Circle::new(at, 2 * UNITS, colour(tone).filled()))?;
+    }
+    Ok(())
 }
 
 /// A polyline in units, `thick` units wide; [`dashed`] gives it its dashes.

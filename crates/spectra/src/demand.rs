@@ -4,7 +4,7 @@ use uplift_ida::{IdaError, Peaks, Plan, System};
 
 use crate::error::SpectraError;
 use crate::motion_set::MotionSet;
-use crate::noise::ROUNDING;
+use crate::noise::nudges;
 use crate::scaling::Scaling;
 use crate::statistics::percentile;
 
@@ -26,9 +26,9 @@ pub struct Case<'a> {
 }
 
 impl Case<'_> {
-    /// The case with all factors a rounding smaller, and a rounding larger: [`ROUNDING`].
-    pub(crate) fn nudged(&self) -> [Self; 2] {
-        [-ROUNDING, ROUNDING].map(|relative| Self { nudge: self.nudge * (1.0 + relative), ..*self })
+    /// The case with all factors some roundings smaller and larger: [`nudges`].
+    pub(crate) fn nudged(&self) -> impl Iterator<Item = Self> {
+        nudges().into_iter().map(|nudge| Self { nudge: self.nudge * nudge, ..*self })
     }
 
     /// The percentile at `percent` of the peak displacements of each of `systems`, m; infinite where it falls on one
@@ -42,7 +42,7 @@ impl Case<'_> {
         with_free_peak: bool,
         percent: f64,
     ) -> Result<Vec<f64>, SpectraError> {
-        let plan = self.set.plan(&[self.scaling], systems, with_free_peak)?.multiplied(self.nudge)?;
+        let plan = self.set.plan(&[self.scaling], systems, with_free_peak)?.multiplied(&[self.nudge])?;
         let peaks = (self.carry_out)(&plan)?;
         Ok((0..systems.len()).map(|system| percentile(&peaks.over_motions_m(system, 0), percent)).collect())
     }

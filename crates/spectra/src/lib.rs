@@ -30,7 +30,7 @@ pub mod statistics;
 pub use demand::{CarryOut, Case};
 pub use error::SpectraError;
 pub use motion_set::{Motion, MotionSet, RecordOfSet};
-pub use noise::{NoiseSweep, Noisy, ROUNDING};
+pub use noise::{NUDGES, NoiseSweep, Noisy, ROUNDING, nudges};
 pub use restrained::{RestrainedDesign, RestrainedExample};
 pub use scaling::{ScaledBy, Scaling};
 pub use solitary::{SolitaryDesign, SolitaryExample};

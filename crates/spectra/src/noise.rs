@@ -12,6 +12,20 @@ use crate::error::SpectraError;
 /// A response of hundreds of impacts may turn it into a displacement of another size (docs/method.md, section 1.5).
 pub const ROUNDING: f64 = 1e-15;
 
+/// How many neighbours of its scale factor a run is repeated at, to see whether rounding decides it.
+///
+/// Of the medians that rounding moves, each neighbour shows some: how many are still missed by so many of them is in
+/// docs/method.md, section 1.5.
+pub const NUDGES: usize = 8;
+
+/// What scale factors are multiplied by to see what rounding does: 1, 2, … times [`ROUNDING`] smaller and larger.
+pub fn nudges() -> [f64; NUDGES] {
+    std::array::from_fn(|place| {
+        let (step, sign) = (place / 2 + 1, if place % 2 == 0 { -1.0 } else { 1.0 });
+        1.0 + sign * step as f64 * ROUNDING
+    })
+}
+
 /// A sweep around a point, relative to it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NoiseSweep {
@@ -74,6 +88,12 @@ impl Noisy {
         })
     }
 
+    /// Whether an end of the range is `shown` otherwise than the value.
+    pub fn shows_otherwise(&self, shown: impl Fn(f64) -> String) -> bool {
+        let value = shown(self.value);
+        shown(self.lowest) != value || shown(self.highest) != value
+    }
+
     /// Whether `other` lies in the range.
     pub fn holds(&self, other: f64) -> bool {
         self.lowest <= other && other <= self.highest
@@ -98,6 +118,24 @@ mod tests {
         for (relative, points) in [(-0.1, 3), (0.6, 3), (f64::NAN, 3), (0.1, 4), (0.1, 0)] {
             assert!(NoiseSweep::new(relative, points).is_err(), "{relative} {points}");
         }
+    }
+
+    #[test]
+    fn nudges_are_neighbours_on_both_sides_and_each_another_double() {
+        let mut bits: Vec<u64> = nudges().iter().map(|nudge| nudge.to_bits()).collect();
+        bits.sort_unstable();
+        bits.dedup();
+        assert_eq!(bits.len(), NUDGES);
+        assert_eq!(nudges().iter().filter(|nudge| **nudge < 1.0).count(), NUDGES / 2);
+        assert!(nudges().iter().all(|nudge| (nudge - 1.0).abs() < 5.0 * ROUNDING && *nudge != 1.0));
+    }
+
+    #[test]
+    fn a_range_that_other_digits_are_shown_of() {
+        let shown = |value: f64| format!("{value:.2}");
+        let of = |lowest, highest| Noisy { value: 0.04, lowest, highest };
+        assert!(!of(0.0399, 0.0401).shows_otherwise(shown));
+        assert!(of(0.01, 0.0401).shows_otherwise(shown) && of(0.04, f64::INFINITY).shows_otherwise(shown));
     }
 
     #[test]

@@ -85,7 +85,7 @@ impl RestrainedDesign {
     }
 
     /// How far rounding alone moves the values of `example`, which [`example`](Self::example) gave for this case: the
-    /// procedure at its strength with all scale factors [`ROUNDING`](crate::ROUNDING) smaller and larger.
+    /// procedure at its strength with all scale factors some roundings smaller and larger ([`nudges`](crate::nudges)).
     ///
     /// # Errors
     /// As [`example`](Self::example).
@@ -95,8 +95,8 @@ impl RestrainedDesign {
         rule: Rule,
         example: &RestrainedExample,
     ) -> Result<RestrainedExample, SpectraError> {
-        let [less, more] = case.nudged();
-        let nudged = [self.example(less, rule, NoiseSweep::POINT)?, self.example(more, rule, NoiseSweep::POINT)?];
+        let repeated = |nudged| self.example(nudged, rule, NoiseSweep::POINT);
+        let nudged = case.nudged().map(repeated).collect::<Result<Vec<_>, _>>()?;
         let around = |value: fn(&RestrainedExample) -> Noisy| {
             Noisy::around(value(example).value, nudged.iter().map(|nudged| value(nudged).value))
         };

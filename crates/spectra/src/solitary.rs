@@ -79,8 +79,8 @@ impl SolitaryDesign {
     }
 
     /// How far rounding alone moves the values of `example`, which [`example`](Self::example) gave for this case: its
-    /// displacements, and the demand at the intersection put on the capacity line, with all scale factors
-    /// [`ROUNDING`](crate::ROUNDING) smaller and larger. The intersection is not looked for again.
+    /// displacements, and the demand at the intersection put on the capacity line, with all scale factors some
+    /// roundings smaller and larger ([`nudges`](crate::nudges)). The intersection is not looked for again.
     ///
     /// # Errors
     /// What the block refuses; what carrying out ends with.

@@ -10,8 +10,8 @@ use uplift_motion::IntensityMeasure::{Pga, Pgv};
 use uplift_motion::{Accelerogram, STANDARD_GRAVITY_M_S2 as G};
 use uplift_oscillator::{Excitation, FreeVibration, Oscillator, PostUplift};
 use uplift_spectra::{
-    Case, MotionSet, NoiseSweep, RecordOfSet, RestrainedDesign, ScaledBy, Scaling, SolitaryDesign, SpectraError,
-    critical, percentile,
+    Case, MotionSet, NUDGES, NoiseSweep, ROUNDING, RecordOfSet, RestrainedDesign, ScaledBy, Scaling, SolitaryDesign,
+    SpectraError, critical, percentile,
 };
 use uplift_structure::Rule;
 
@@ -291,8 +291,11 @@ fn rounding_repeats_a_design_a_rounding_away() {
     let seen = seen.into_inner().unwrap();
     // zero and negative stiffness, smaller and larger
     let signs: Vec<f64> = seen.iter().map(|relative| relative[0].signum()).collect();
-    assert_eq!(signs, [-1.0, -1.0, 1.0, 1.0]);
-    assert!(seen.iter().flatten().all(|relative| (5e-16..2e-15).contains(&relative.abs())), "{seen:?}");
+    assert_eq!(signs, [-1.0, -1.0, 1.0, 1.0].repeat(NUDGES / 2));
+    let steps: Vec<f64> = (1..=NUDGES / 2).flat_map(|step| [step as f64 * ROUNDING; 4]).collect();
+    for (relative, step) in seen.iter().zip(steps) {
+        assert!(relative.iter().all(|relative| (relative.abs() - step).abs() < 5e-16), "{step}: {relative:?}");
+    }
     for (rounding, value) in [
         (rounding.zero_stiffness_m, example.zero_stiffness_m.value),
         (rounding.capacity_m, example.capacity_m.value),

@@ -3,7 +3,8 @@
 use rayon::prelude::*;
 use uplift_ida::{Plan, Shard, Watch};
 use uplift_spectra::{
-    Case, MotionSet, RestrainedDesign, RestrainedExample, Scaling, SolitaryDesign, SolitaryExample, SpectraError,
+    Case, MotionSet, NUDGES, RestrainedDesign, RestrainedExample, Scaling, SolitaryDesign, SolitaryExample,
+    SpectraError,
 };
 
 use super::KeyedMotions;
@@ -17,8 +18,6 @@ use uplift_study::{DesignPlan, Designed, DisplacementStudy, Structures};
 /// Ratio of neighbouring slendernesses in the search for the intersection: a range in which the block does not stand
 /// may be missed if it is narrower.
 const SEARCH_RATIO: f64 = 1.02;
-/// Runs with other roundings, for each value.
-const NUDGES: u64 = 2;
 /// Halvings, at most, after that search.
 const HALVINGS: u64 = 16;
 
@@ -42,15 +41,15 @@ pub struct Doubted<Example> {
 
 /// Nonlinear time histories of the design examples; for blocks, whose design is looked for, at most.
 pub fn design_analyses(study: &DisplacementStudy, plan: &DesignPlan, set: &MotionSet<'_>) -> u64 {
-    let points = plan.noise_points as u64;
+    let points = (plan.noise_points + NUDGES) as u64;
     let each = match plan.designed {
-        Designed::Bridge { .. } => 2 * 2 * (points + NUDGES),
+        Designed::Bridge { .. } => 2 * 2 * points,
         Designed::Block { .. } => {
             let abscissa = study.structures.abscissa();
             let steps = (abscissa[abscissa.len() - 1] / abscissa[0]).ln() / SEARCH_RATIO.ln();
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count of steps")]
             let steps = steps.ceil() as u64;
-            steps + HALVINGS + 3 * (points + NUDGES)
+            steps + HALVINGS + 3 * points
         }
     };
     each * (set.motions().len() * study.scaling.ways().0.len()) as u64

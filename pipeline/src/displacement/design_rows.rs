@@ -4,7 +4,7 @@ use uplift_spectra::{Noisy, RestrainedExample, SolitaryExample};
 
 use super::{Designs, Doubted, strength};
 use crate::result::layout::{axis, design};
-use crate::result::{BOUNDS, RULES, rule_names};
+use crate::result::{RULES, bounds, rule_names};
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_study::{DesignPlan, Designed, DisplacementStudy, Structures};
 
@@ -14,7 +14,6 @@ pub(super) fn write(
     plan: &DesignPlan,
     designs: &Designs,
 ) -> Result<(), LabelledError> {
-    writer.axis_text(axis::BOUND, &BOUNDS.map(str::to_owned), "a value, and its range over a small sweep")?;
     match designs {
         Designs::Restrained(examples) => {
             writer.axis_text(axis::RULE, &RULES.map(|rule| rule_names(rule)[0].to_owned()), "design rule")?;
@@ -44,12 +43,8 @@ pub(super) fn write(
 /// A column of the design examples.
 type Value<Example> = fn(&Example) -> Noisy;
 
-fn bounds(noisy: Noisy) -> [f64; 3] {
-    [noisy.value, noisy.lowest, noisy.highest]
-}
-
 /// What the second array of a quantity is: the value, and its range over scale factors that differ by rounding.
-const ROUNDED: &str = "with scale factors 1e-15 smaller and larger";
+const ROUNDED: &str = "with scale factors some 1e-15 smaller and larger";
 
 fn write_restrained(writer: &mut LabelledWriter, examples: &[Doubted<RestrainedExample>]) -> Result<(), LabelledError> {
     let columns: [(&str, Value<RestrainedExample>, &str, &str); 5] = [

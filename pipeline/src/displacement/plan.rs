@@ -4,12 +4,12 @@ use std::path::Path;
 use std::time::Duration;
 
 use serde::Serialize;
-use uplift_spectra::MotionSet;
+use uplift_spectra::{MotionSet, NUDGES};
 use uplift_study::{DisplacementStudy, Kind};
 
 use super::report::SetReport;
 use super::spectra::with_free_vibration;
-use super::{Inputs, design_analyses};
+use super::{Inputs, design_analyses, printed};
 use crate::analysis::seconds;
 use crate::error::UpliftError;
 use crate::frame::PlanHead;
@@ -29,6 +29,8 @@ pub struct Plan {
     pub kind: &'static str,
     /// The record sets.
     pub sets: Vec<SetReport>,
+    /// Nonlinear time histories that show what rounding does to the printed ordinates.
+    pub rounding_analyses: u64,
     /// Nonlinear time histories of the design examples, at most.
     pub design_analyses: u64,
     /// Whether there are any.
@@ -48,6 +50,7 @@ pub(crate) fn plan(study: &DisplacementStudy, study_file: &Path) -> Result<Plan,
         .map(|set| set.plan(&ways, &inputs.structures, with_free_vibration(study)))
         .collect::<Result<Vec<_>, _>>()?;
     let of_spectra: u64 = plans.iter().map(uplift_ida::Plan::analyses).sum();
+    let of_rounding = of_spectra / inputs.structures.len() as u64 * (inputs.printed.len() * NUDGES) as u64;
     let of_design: u64 =
         study.design.iter().flat_map(|plan| sets.iter().map(|set| design_analyses(study, plan, set))).sum();
     // design examples are carried out one way of scaling at a time, and so lack what the ways share
@@ -57,7 +60,8 @@ pub(crate) fn plan(study: &DisplacementStudy, study_file: &Path) -> Result<Plan,
     let of_one_way: u64 = alone.iter().map(uplift_ida::Plan::analyses).sum();
     let designs =
         if of_design == 0 { 0.0 } else { seconds(&alone, CALIBRATION / 2) * of_design as f64 / of_one_way as f64 };
-    let seconds = seconds(&plans, CALIBRATION) + designs;
+    let of_all = (of_spectra + of_rounding) as f64 / of_spectra as f64;
+    let seconds = seconds(&plans, CALIBRATION) * of_all + designs;
     let needs = needs(study, records, &sets);
     let reports = records.sets.iter().zip(&sets).map(|(set, motions)| SetReport::of(set, motions)).collect();
     let head = PlanHead {
@@ -77,6 +81,7 @@ pub(crate) fn plan(study: &DisplacementStudy, study_file: &Path) -> Result<Plan,
         head,
         kind: Kind::Displacement.key(),
         sets: reports,
+        rounding_analyses: of_rounding,
         design_analyses: of_design,
         has_design: study.design.is_some(),
     })
@@ -95,10 +100,12 @@ pub(crate) fn needs(study: &DisplacementStudy, records: &RecordSets, sets: &[Mot
     let largest = sets.iter().map(held).max().unwrap_or_default();
     let spectra = 8 * structures * ways * (study.percentiles.len() as u64 + 1) * sets.len() as u64;
     let samples: u64 = records.records.iter().map(|record| (record.pair.h1.len() + record.pair.h2.len()) as u64).sum();
+    let printed = (study.structures.lines() * printed(study.structures.abscissa()).len()) as u64;
+    let repeated = displacements / structures * printed * NUDGES as u64;
     let table = if study.output.csv { 100 * structures * ways * sets.len() as u64 } else { 0 };
-    let checkpoint = 12 * displacements / 8;
+    let checkpoint = 12 * (displacements + repeated) / 8;
     Needs {
-        memory_bytes: PROGRAM_BYTES + displacements + 2 * largest + 3 * spectra + 64 * samples,
+        memory_bytes: PROGRAM_BYTES + displacements + 2 * largest.max(repeated) + 3 * spectra + 64 * samples,
         disk_bytes: checkpoint + displacements + spectra + table + 1_000_000,
         disk_least_bytes: checkpoint,
     }

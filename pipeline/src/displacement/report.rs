@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use serde::{Serialize, Serializer};
-use uplift_spectra::MotionSet;
+use uplift_spectra::{MotionSet, Noisy};
 use uplift_study::{Kind, Structures};
 
-use super::{DesignRow, DisplacementOutcome};
+use super::{DesignRow, DisplacementOutcome, printed};
 use crate::frame::RunHead;
 use crate::inputs::NamedSet;
 use crate::text::finite;
@@ -65,6 +65,9 @@ pub struct SpectraReport {
     pub scaled_by: &'static str,
     /// Percentiles of the peak displacements over `[line, percentile, abscissa]`, m; infinite where overturned.
     pub percentile_m: Vec<f64>,
+    /// Those that are printed with their range over scale factors that differ by rounding, over `[line, percentile,
+    /// printed abscissa]`, m.
+    pub rounding: Vec<Noisy>,
 }
 
 impl SetReport {
@@ -108,14 +111,17 @@ fn spectra(outcome: &DisplacementOutcome<'_>) -> Vec<SpectraReport> {
     let study = outcome.study;
     let length = study.structures.lines() * study.percentiles.len() * study.structures.abscissa().len();
     let mut reports = Vec::new();
-    for (set, spectra) in outcome.sets.iter().zip(outcome.spectra) {
+    let printed = length / study.structures.abscissa().len() * printed(study.structures.abscissa()).len();
+    for ((set, spectra), rounding) in outcome.sets.iter().zip(outcome.spectra).zip(outcome.rounding) {
         let ways = study.scaling.to.iter().flat_map(|to| study.scaling.by.iter().map(move |by| (to, by)));
-        for ((to, by), percentile_m) in ways.zip(spectra.percentile_m.chunks(length)) {
+        let ordinates = spectra.percentile_m.chunks(length).zip(rounding.chunks(printed));
+        for ((to, by), (percentile_m, rounding)) in ways.zip(ordinates) {
             reports.push(SpectraReport {
                 record_set: set.name().to_owned(),
                 scaling: to.to_string(),
                 scaled_by: by.key(),
                 percentile_m: percentile_m.to_vec(),
+                rounding: rounding.to_vec(),
             });
         }
     }

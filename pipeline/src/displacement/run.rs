@@ -8,6 +8,7 @@ use uplift_spectra::MotionSet;
 use uplift_study::DisplacementStudy;
 
 use super::report::RunReport;
+use super::rounding::rounding;
 use super::{
     DisplacementOutcome, Inputs, carry_out_designs, needs, set_spectra, write_displacement_csv, write_displacements,
 };
@@ -43,9 +44,15 @@ pub(crate) fn run(
     checkpoint.extend(known);
     checkpoint.path().into_iter().for_each(|path| events.resumes_from(path));
     let begin = Instant::now();
-    let mut spectra = Vec::new();
-    work.carry_out(&checkpoint, Shard::WHOLE, events, &mut |set, analysed| {
-        spectra.push(set_spectra(study, &sets.motions[set], &analysed.peaks));
+    let (mut spectra, mut moved, mut analyses) = (Vec::new(), Vec::new(), 0);
+    work.carry_out(&checkpoint, Shard::WHOLE, events, &mut |place, analysed| {
+        match sets.motions.get(place) {
+            Some(set) => {
+                spectra.push(set_spectra(study, set, &analysed.peaks));
+                analyses += analysed.analyses;
+            }
+            None => moved.push(rounding(study, &spectra[place - sets.motions.len()], &analysed.peaks)),
+        }
         Ok(())
     })?;
     let seconds = begin.elapsed().as_secs_f64();
@@ -66,8 +73,9 @@ pub(crate) fn run(
         records,
         sets: &sets.motions,
         spectra: &spectra,
+        rounding: &moved,
         designs: designs.as_ref(),
-        analyses: total,
+        analyses,
         seconds,
         warnings: &warnings,
         provenance: &provenance,

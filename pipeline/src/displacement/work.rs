@@ -3,9 +3,10 @@
 use std::path::Path;
 
 use uplift_ida::{Shard, System};
-use uplift_spectra::MotionSet;
+use uplift_spectra::{MotionSet, NUDGES};
 use uplift_study::DisplacementStudy;
 
+use super::rounding::{printed_structures, rounding_plan};
 use super::spectra::with_free_vibration;
 use super::{carry_out_designs, needs, structures};
 use crate::analysis::{LabelledPlan, ShardReport, Work, carry_out_shard};
@@ -19,6 +20,8 @@ use crate::text::thousands;
 pub(crate) struct Inputs {
     pub(crate) records: RecordSets,
     pub(crate) structures: Vec<System>,
+    /// Those whose ordinates are printed.
+    pub(crate) printed: Vec<System>,
 }
 
 /// The motions of every set, with their keys.
@@ -27,6 +30,7 @@ pub(crate) struct KeyedMotions<'a> {
     /// Keys of the motions of each set.
     pub(crate) keys: Vec<Vec<String>>,
     structures: &'a [System],
+    printed: &'a [System],
 }
 
 impl Inputs {
@@ -35,7 +39,9 @@ impl Inputs {
     /// # Errors
     /// Records that cannot be used.
     pub(crate) fn read(study: &DisplacementStudy) -> Result<Self, UpliftError> {
-        Ok(Self { records: read_record_sets(study)?, structures: structures(study)? })
+        let structures = structures(study)?;
+        let printed = printed_structures(study, &structures);
+        Ok(Self { records: read_record_sets(study)?, structures, printed })
     }
 
     /// The motions of every set.
@@ -45,12 +51,13 @@ impl Inputs {
     pub(crate) fn sets(&self, study: &DisplacementStudy) -> Result<KeyedMotions<'_>, UpliftError> {
         let sets = self.records.motions(study.gravity_m_s2)?;
         let keys = |set: &MotionSet<'_>| set.motions().iter().map(|motion| motion_key(motion.accelerogram)).collect();
-        Ok(KeyedMotions { keys: sets.iter().map(keys).collect(), motions: sets, structures: &self.structures })
+        let keys = sets.iter().map(keys).collect();
+        Ok(KeyedMotions { keys, motions: sets, structures: &self.structures, printed: &self.printed })
     }
 }
 
 impl KeyedMotions<'_> {
-    /// The spectra of every set.
+    /// The spectra of every set, then for every set what rounding does to those that are printed.
     ///
     /// # Errors
     /// A scaling that no motion can have.
@@ -68,6 +75,12 @@ impl KeyedMotions<'_> {
             );
             let remark = Some((format!("{}:", set.name()), text));
             plans.push(LabelledPlan { label: set.name().to_owned(), remark, plan, motions, known: None });
+        }
+        for (set, motions) in self.motions.iter().zip(&self.keys) {
+            let plan = rounding_plan(study, set, self.printed)?;
+            let text = format!("printed ordinates again, at {NUDGES} neighbouring scale factors");
+            let remark = Some((format!("{}:", set.name()), text));
+            plans.push(LabelledPlan { label: format!("{}, rounding", set.name()), remark, plan, motions, known: None });
         }
         Ok(Work::new(&study.title, plans))
     }

@@ -3,14 +3,15 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use uplift_spectra::MotionSet;
+use uplift_spectra::{MotionSet, Noisy};
 
 use super::design_rows as design;
+use super::printed;
 use crate::displacement::{Designs, SetSpectra};
 use crate::error::UpliftError;
 use crate::inputs::{NamedSet, RecordSets};
 use crate::result::layout::{axis as axes, set as layout, spectra};
-use crate::result::{Origin, Provenance};
+use crate::result::{BOUNDS, Origin, Provenance, bounds};
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_study::{DisplacementStudy, Kind, Structures};
 
@@ -25,6 +26,9 @@ pub struct DisplacementOutcome<'a> {
     pub sets: &'a [MotionSet<'a>],
     /// The spectra of each set.
     pub spectra: &'a [SetSpectra],
+    /// The printed ordinates of each set with their range over scale factors that differ by rounding, over `[way, line,
+    /// percentile, printed abscissa]`, m.
+    pub rounding: &'a [Vec<Noisy>],
     /// The design examples, if it has some.
     pub designs: Option<&'a Designs>,
     /// Nonlinear time histories of the spectra.
@@ -51,6 +55,14 @@ impl DisplacementOutcome<'_> {
         match self.study.structures {
             Structures::Oscillators(_) => axes::STRENGTH,
             Structures::Blocks(_) => axes::SLENDERNESS,
+        }
+    }
+
+    /// Name of the axis of those abscissae at which a run prints its spectra.
+    pub(super) fn printed_axis(&self) -> &'static str {
+        match self.study.structures {
+            Structures::Oscillators(_) => axes::PRINTED_STRENGTH,
+            Structures::Blocks(_) => axes::PRINTED_SLENDERNESS,
         }
     }
 
@@ -124,7 +136,12 @@ fn write_axes(writer: &mut LabelledWriter, outcome: &DisplacementOutcome<'_>) ->
             writer.axis_f64(axes::SLENDERNESS, &family.slendernesses, "1", "slenderness tan(alpha)")?;
         }
     }
-    writer.axis_f64(axes::PERCENTILE, &study.percentiles, "%", "percentile over the motions of a set")
+    let abscissae = study.structures.abscissa();
+    let shown: Vec<f64> = printed(abscissae).into_iter().map(|at| abscissae[at]).collect();
+    let long_name = format!("{} at which a run prints its spectra", outcome.abscissa_axis());
+    writer.axis_f64(outcome.printed_axis(), &shown, "1", &long_name)?;
+    writer.axis_f64(axes::PERCENTILE, &study.percentiles, "%", "percentile over the motions of a set")?;
+    writer.axis_text(axes::BOUND, &BOUNDS.map(str::to_owned), "a value, and its range over a small sweep")
 }
 
 fn write_spectra(writer: &mut LabelledWriter, outcome: &DisplacementOutcome<'_>) -> Result<(), LabelledError> {
@@ -146,6 +163,10 @@ fn write_spectra(writer: &mut LabelledWriter, outcome: &DisplacementOutcome<'_>)
     let long_name = format!("largest {abscissa} at which the percentile is infinite");
     let critical = of(|spectra| &spectra.critical);
     writer.array_f64(spectra::CRITICAL, &outcome.dims(&[axes::PERCENTILE]), &critical, "1", &long_name)?;
+    let long_name = "printed percentile of the peak displacements, with scale factors some 1e-15 smaller and larger";
+    let rounding: Vec<f64> = outcome.rounding.iter().flatten().flat_map(|&noisy| bounds(noisy)).collect();
+    let dims = outcome.dims(&[axes::PERCENTILE, outcome.printed_axis(), axes::BOUND]);
+    writer.array_f64(spectra::U_M_ROUNDING, &dims, &rounding, "m", long_name)?;
     writer.attribute(spectra::GROUP, "analyses", outcome.analyses)?;
     writer.attribute(spectra::GROUP, "seconds", outcome.seconds)
 }

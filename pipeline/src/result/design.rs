@@ -15,6 +15,11 @@ pub const RULES: [Rule; 2] = [Rule::EqualDisplacement, Rule::EqualEnergy];
 /// What a value and its range are called, in their order.
 pub(crate) const BOUNDS: [&str; 3] = ["value", "lowest", "highest"];
 
+/// A value and its range, in that order.
+pub(crate) fn bounds(noisy: Noisy) -> [f64; 3] {
+    [noisy.value, noisy.lowest, noisy.highest]
+}
+
 /// The design example of a result.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StoredDesign {
@@ -68,8 +73,7 @@ pub struct DesignRow {
 impl DesignRow {
     /// Whether rounding alone changes the value in the digits that are shown.
     pub fn hangs_on_rounding(&self) -> bool {
-        let digits = self.shown(self.noisy.value);
-        self.rounding.is_some_and(|other| [other.lowest, other.highest].iter().any(|end| self.shown(*end) != digits))
+        self.rounding.is_some_and(|other| other.shows_otherwise(|value| self.shown(value)))
     }
 
     /// The value with its range, in words; marked where [rounding decides it](Self::hangs_on_rounding).
@@ -80,6 +84,15 @@ impl DesignRow {
         }
         let mark = if self.hangs_on_rounding() { "*" } else { "" };
         format!("{}{mark} [{}, {}]", self.shown(value), self.shown(lowest), self.shown(highest))
+    }
+
+    /// Where [rounding decides](Self::hangs_on_rounding): which value it is, and from where to where rounding moves it.
+    pub fn rounding_words(&self) -> Option<String> {
+        let Noisy { lowest, highest, .. } = self.rounding.filter(|_| self.hangs_on_rounding())?;
+        let rule = self.rule.map_or_else(String::new, |rule| format!("{rule}, "));
+        let Self { quantity, scaling, scaled_by, .. } = self;
+        let [lowest, highest] = [lowest, highest].map(|end| self.shown(end));
+        Some(format!("{rule}{quantity}, {scaling} by {scaled_by}: {lowest} to {highest}"))
     }
 
     /// A value of this quantity with as many digits as say something.
@@ -226,6 +239,8 @@ mod tests {
         assert_eq!(row(0.0444, 0.0181, 0.0444).ranged(), "0.044* [0.040, 0.050]");
         assert_eq!(row(0.0444, 0.0444, f64::INFINITY).ranged(), "0.044* [0.040, 0.050]");
         assert_eq!(row(f64::NAN, f64::NAN, f64::NAN).ranged(), "none");
+        assert_eq!(row(0.0444, 0.0436, 0.0444).rounding_words(), None);
+        assert_eq!(row(0.0444, 0.0181, 0.0444).rounding_words().as_deref(), Some("u_dem_TH_m,  by : 0.018 to 0.044"));
         let earlier = DesignRow { rounding: None, ..row(0.0444, 0.0, 1.0) };
         assert_eq!(earlier.ranged(), "0.044 [0.040, 0.050]");
     }

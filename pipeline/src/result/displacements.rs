@@ -1,12 +1,15 @@
 //! The displacement spectra of a result, as figures and tables read them.
 
 use serde::Serialize;
+use uplift_spectra::Noisy;
 use uplift_study::Kind;
 
+use super::design::BOUNDS;
 use super::file::ResultFile;
 use super::layout::{axis, set, spectra};
 use crate::array::Array;
 use crate::error::UpliftError;
+use crate::text::metres;
 
 /// The displacement spectra of a result file.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,8 +32,19 @@ pub struct StoredDisplacements {
     pub abscissas: Vec<f64>,
     /// Percentiles of the peak displacements `[set, scaling, scaled_by, line, percentile, abscissa]`, m.
     pub percentile_m: Array<6>,
+    /// What rounding does to some of them; none in results of before.
+    pub rounding: Option<StoredRounding>,
     /// Nonlinear time histories.
     pub analyses: u64,
+}
+
+/// Percentiles with their range over scale factors that differ by rounding.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StoredRounding {
+    /// The abscissae at which they are.
+    pub abscissas: Vec<f64>,
+    /// Over `[set, scaling, scaled_by, line, percentile, abscissa]`, m.
+    pub percentile_m: Array<6, Noisy>,
 }
 
 /// A record set.
@@ -76,6 +90,14 @@ impl StoredStructures {
                 vec![(axis::UPLIFT_DISPLACEMENT, uplift_displacement_m.len()), (axis::CAPACITY, capacity_m.len())]
             }
             Self::Blocks { height_m } => vec![(axis::HEIGHT, height_m.len())],
+        }
+    }
+
+    /// The axis of those abscissae at which a run prints its spectra.
+    fn printed_axis(&self) -> &'static str {
+        match self {
+            Self::Oscillators { .. } => axis::PRINTED_STRENGTH,
+            Self::Blocks { .. } => axis::PRINTED_SLENDERNESS,
         }
     }
 
@@ -126,6 +148,24 @@ impl StoredDisplacements {
     }
 }
 
+impl StoredDisplacements {
+    /// Abscissae of the spectrum at `place` where rounding alone changes the digits that a run prints, with the
+    /// ordinate and its range, m.
+    pub fn hanging_on_rounding(
+        &self,
+        place: SpectrumPlace,
+        line: usize,
+        percentile: usize,
+    ) -> impl Iterator<Item = (f64, Noisy)> {
+        self.rounding.iter().flat_map(move |rounding| {
+            let at = [place.set, place.scaling, place.scaled_by, line, percentile];
+            let ordinates = rounding.percentile_m.block(at).iter().copied();
+            let of = rounding.abscissas.iter().copied().zip(ordinates);
+            of.filter(|(_, ordinate)| ordinate.shows_otherwise(metres))
+        })
+    }
+}
+
 impl ResultFile {
     /// The displacement spectra of a result of these.
     ///
@@ -149,6 +189,8 @@ impl ResultFile {
         axes.extend(structures.line_axes());
         axes.extend([(axis::PERCENTILE, percentiles.len()), (structures.abscissa_axis(), abscissas.len())]);
         let percentile_m = self.checked(spectra::U_M, reader.array_f64(spectra::U_M)?, &axes)?;
+        axes.truncate(axes.len() - 1);
+        let rounding = self.rounding(&structures, axes, shape)?;
         Ok(StoredDisplacements {
             records: self.record_set()?,
             synthetic: self.is_synthetic()?,
@@ -160,8 +202,29 @@ impl ResultFile {
             abscissas,
             percentile_m: Array::new(shape, percentile_m)
                 .map_err(|error| self.damaged(format!("{}: {error}", spectra::U_M)))?,
+            rounding,
             analyses: reader.attribute_u64(spectra::GROUP, "analyses")?,
         })
+    }
+
+    /// What rounding does to percentiles over the first `axes` of their `shape`.
+    fn rounding(
+        &self,
+        structures: &StoredStructures,
+        mut axes: Vec<(&'static str, usize)>,
+        mut shape: [usize; 6],
+    ) -> Result<Option<StoredRounding>, UpliftError> {
+        if !self.reader.exists(spectra::U_M_ROUNDING) {
+            return Ok(None);
+        }
+        let abscissas = self.reader.axis_f64(structures.printed_axis())?;
+        axes.extend([(structures.printed_axis(), abscissas.len()), (axis::BOUND, BOUNDS.len())]);
+        shape[5] = abscissas.len();
+        let values = self.checked(spectra::U_M_ROUNDING, self.reader.array_f64(spectra::U_M_ROUNDING)?, &axes)?;
+        let of = |bounds: &[f64]| Noisy { value: bounds[0], lowest: bounds[1], highest: bounds[2] };
+        let percentile_m = Array::new(shape, values.chunks_exact(BOUNDS.len()).map(of).collect())
+            .map_err(|error| self.damaged(format!("{}: {error}", spectra::U_M_ROUNDING)))?;
+        Ok(Some(StoredRounding { abscissas, percentile_m }))
     }
 
     /// The motions of the set at the position `position`.

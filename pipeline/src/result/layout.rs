@@ -169,7 +169,7 @@ pub fn joint_band(measure: IntensityMeasure, site: &str, name: &str) -> String {
 
 in_group! {
     /// Percentiles of displacement spectra.
-    spectra: U_M = "u_m", OVERTURNED = "overturned", CRITICAL = "critical",
+    spectra: U_M = "u_m", U_M_ROUNDING = "u_m_rounding", OVERTURNED = "overturned", CRITICAL = "critical",
 }
 
 /// The motions of a set of records.
@@ -264,6 +264,8 @@ pub mod axis {
         CAPACITY,
         HEIGHT,
         SLENDERNESS,
+        PRINTED_STRENGTH,
+        PRINTED_SLENDERNESS,
         RULE,
         BOUND,
     ];
@@ -297,6 +299,10 @@ pub mod axis {
     pub const HEIGHT: &str = "height";
     /// Slendernesses of blocks.
     pub const SLENDERNESS: &str = "slenderness";
+    /// Strengths at which a run prints its spectra.
+    pub const PRINTED_STRENGTH: &str = "printed_strength";
+    /// Slendernesses at which a run prints its spectra.
+    pub const PRINTED_SLENDERNESS: &str = "printed_slenderness";
     /// Design rules.
     pub const RULE: &str = "rule";
     /// A value and its range.

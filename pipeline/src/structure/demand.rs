@@ -40,6 +40,24 @@ pub struct ExactDemand {
     /// What a small change of the strength makes of it.
     #[serde(rename = "within_one_percent_of_strength")]
     pub noise: DemandNoise,
+    /// What rounding makes of it.
+    pub rounding: DemandRounding,
+}
+
+/// The same for strengths that differ by rounding, some 1e-15 of them: a value whose digits change by that hangs on
+/// runs beyond double precision (docs/method.md, section 1.5).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct DemandRounding {
+    /// Demand on the study's ZSBE oscillator, m.
+    pub zero_stiffness_demand_of_spectrum_m: Noisy,
+    /// Demand on the structure's own ZSBE oscillator, m.
+    pub zero_stiffness_demand_m: Noisy,
+    /// Demand on the structure, m.
+    pub demand_m: Noisy,
+    /// Frequency of exceeding the capacity, 1/yr; none for a structure without one.
+    pub beyond_capacity_per_year: Option<Noisy>,
+    /// Frequency of overturning, 1/yr.
+    pub overturning_per_year: Noisy,
 }
 
 /// The same for structures whose strength is up to one percent lower or higher: what is left of a number in the noise
@@ -107,6 +125,18 @@ pub(super) fn exact_demand(
             }
         }
     }
+    let displacement_m = |oscillator: usize| -> Result<f64, UpliftError> { Ok(ordinate(oscillator)?.displacement_m) };
+    let rounded_m = |own: usize| -> Result<Noisy, UpliftError> {
+        let nudged = sweep.rounded.iter().map(|nudged| displacement_m(nudged[own])).collect::<Result<Vec<_>, _>>()?;
+        Ok(Noisy::around(displacement_m(own)?, nudged))
+    };
+    let rounded_rate = |threshold_m: f64| -> Result<Noisy, UpliftError> {
+        let rate = |oscillator: usize| -> Result<f64, UpliftError> {
+            Ok(risk_of_exceeding(&demand_of(stripes, oscillator)?, weights, threshold_m, years)?.per_year)
+        };
+        let nudged = sweep.rounded.iter().map(|nudged| rate(nudged[OWN])).collect::<Result<Vec<_>, _>>()?;
+        Ok(Noisy::around(rate(OWN)?, nudged))
+    };
     let [equal_displacement, equal_energy] = errors.map(|errors| Noisy::of(&errors));
     let demand = ordinate(OWN)?;
     Ok(ExactDemand {
@@ -124,6 +154,13 @@ pub(super) fn exact_demand(
             rule_errors: capacity_m.map(|_| RuleErrors { equal_displacement, equal_energy }),
             beyond_capacity_per_year: capacity_m.map(|_| Noisy::of(&beyond)),
             overturning_per_year: Noisy::of(&overturned),
+        },
+        rounding: DemandRounding {
+            zero_stiffness_demand_of_spectrum_m: rounded_m(OF_STUDY)?,
+            zero_stiffness_demand_m: rounded_m(ZERO_STIFFNESS)?,
+            demand_m: rounded_m(OWN)?,
+            beyond_capacity_per_year: capacity_m.map(rounded_rate).transpose()?,
+            overturning_per_year: rounded_rate(OVERTURNING_M)?,
         },
     })
 }

@@ -2,7 +2,7 @@
 
 use uplift_ida::System;
 use uplift_oscillator::{Oscillator, OscillatorError, PostUplift};
-use uplift_spectra::NoiseSweep;
+use uplift_spectra::{NoiseSweep, nudges};
 use uplift_structure::EquivalentSystem;
 use uplift_study::UniformRiskStudy;
 
@@ -27,6 +27,8 @@ pub(super) struct Sweep {
     pub(super) oscillators: Vec<Oscillator>,
     /// Positions of the ZSBE oscillator and of the own one at each strength, ascending.
     pub(super) pairs: Vec<[usize; 2]>,
+    /// Positions of the first three of all once more, a few roundings weaker or stronger.
+    pub(super) rounded: Vec<[usize; 3]>,
 }
 
 impl Sweep {
@@ -66,7 +68,15 @@ impl Sweep {
                 oscillators.push(stronger);
             }
         }
-        Ok(Self { oscillators, pairs })
+        let mut rounded = Vec::new();
+        for nudge in nudges() {
+            rounded.push([OF_STUDY, ZERO_STIFFNESS, OWN].map(|own| oscillators.len() + own));
+            for own in [OF_STUDY, ZERO_STIFFNESS, OWN] {
+                let nudged = strengthened(&oscillators[own], nudge)?;
+                oscillators.push(nudged);
+            }
+        }
+        Ok(Self { oscillators, pairs, rounded })
     }
 
     /// All of them, to be shaken.

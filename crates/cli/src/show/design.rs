@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use uplift::structure::{DemandNoise, DesignReport, ExactDemand, RuleCheck, RuleOutcome};
+use uplift::structure::{DemandNoise, DemandRounding, DesignReport, ExactDemand, RuleCheck, RuleOutcome};
 use uplift::text::{per_cent, table};
 use uplift_spectra::Noisy;
 use uplift_structure::Rule;
@@ -24,6 +24,11 @@ fn relative(error: f64) -> String {
         _ if error.is_infinite() => "too safe".to_owned(),
         _ => format!("{:+.1} %", 100.0 * error),
     }
+}
+
+/// How often in a year.
+fn rate(per_year: f64) -> String {
+    if per_year == 0.0 { "never".to_owned() } else { format!("{per_year:.3e}") }
 }
 
 fn name(rule: Rule) -> &'static str {
@@ -57,6 +62,7 @@ pub(crate) fn print_design(report: &DesignReport) -> Result<(), CommandError> {
     if let Some(exact) = &report.exact {
         print_risk(out, report, exact)?;
         print_noise(out, &report.rules, &exact.noise)?;
+        print_rounding(out, &exact.rounding)?;
     }
     Ok(())
 }
@@ -65,22 +71,25 @@ pub(crate) fn print_design(report: &DesignReport) -> Result<(), CommandError> {
 fn print_demands(out: &mut impl Write, report: &DesignReport) -> Result<(), CommandError> {
     let factor = report.structure.participation;
     let mut rows = Vec::new();
-    let mut row = |what: String, demand_m: f64| {
-        rows.push(vec![what, metres(demand_m / factor), metres(demand_m)]);
+    let mut row = |what: String, demand_m: f64, rounding: Option<&Noisy>| {
+        let mark = if rounding.is_some_and(|rounding| rounding.shows_otherwise(metres)) { "*" } else { "" };
+        rows.push(vec![what, metres(demand_m / factor), format!("{}{mark}", metres(demand_m))]);
     };
     if let Some(spectrum) = &report.spectrum {
         let (a, b) = spectrum.between_strengths;
         let between = if a < b { format!(", between {a:.4} and {b:.4}") } else { String::new() };
         let what = format!("zero stiffness, spectrum at strength {:.4}{between}", spectrum.strength);
-        row(what, spectrum.zero_stiffness_demand_m);
+        row(what, spectrum.zero_stiffness_demand_m, None);
     }
     if let Some(exact) = &report.exact {
         let (of_spectrum_m, own_m) = (exact.zero_stiffness_demand_of_spectrum_m, exact.zero_stiffness_demand_m);
-        row("zero stiffness, exact".to_owned(), of_spectrum_m);
+        let rounding = &exact.rounding;
+        row("zero stiffness, exact".to_owned(), of_spectrum_m, Some(&rounding.zero_stiffness_demand_of_spectrum_m));
         if own_m.to_bits() != of_spectrum_m.to_bits() {
-            row("zero stiffness, exact, uplift and impacts of the structure".to_owned(), own_m);
+            let what = "zero stiffness, exact, uplift and impacts of the structure".to_owned();
+            row(what, own_m, Some(&rounding.zero_stiffness_demand_m));
         }
-        row("the structure itself, exact".to_owned(), exact.demand_m);
+        row("the structure itself, exact".to_owned(), exact.demand_m, Some(&rounding.demand_m));
     }
     if rows.is_empty() {
         writeln!(out, "\nThere is no demand to show.")?;
@@ -171,15 +180,18 @@ fn print_checks(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
 fn print_risk(out: &mut impl Write, report: &DesignReport, exact: &ExactDemand) -> Result<(), CommandError> {
     let Some(capacity_m) = report.structure.capacity_m else { return Ok(()) };
     let mut rows = Vec::new();
-    let mut row = |what: String, risk| {
+    let mut row = |what: String, risk, rounding: Option<&Noisy>| {
         let mut cells = vec![what];
         cells.extend(risk_cells(risk));
+        if rounding.is_some_and(|rounding| rounding.shows_otherwise(rate)) {
+            cells[1].push('*');
+        }
         rows.push(cells);
     };
     if let Some(risk) = &exact.beyond_capacity {
-        row(format!("u > {capacity_m:.4} m, the capacity"), risk);
+        row(format!("u > {capacity_m:.4} m, the capacity"), risk, exact.rounding.beyond_capacity_per_year.as_ref());
     }
-    row("overturning".to_owned(), &exact.overturning);
+    row("overturning".to_owned(), &exact.overturning, Some(&exact.rounding.overturning_per_year));
     let in_years = format!("in {} years", report.years);
     let header = ["the structure itself", "per year", &in_years, "return period, years"];
     writeln!(out, "\n{}", table(&header, &rows))?;
@@ -196,7 +208,6 @@ fn print_risk(out: &mut impl Write, report: &DesignReport, exact: &ExactDemand) 
 
 /// What of these numbers is noise.
 fn print_noise(out: &mut impl Write, rules: &[RuleOutcome], noise: &DemandNoise) -> Result<(), CommandError> {
-    let per_year = |value: f64| if value == 0.0 { "never".to_owned() } else { format!("{value:.3e}") };
     let mut rows = Vec::new();
     let mut row = |what: String, noisy: Noisy, shown: &dyn Fn(f64) -> String| {
         rows.push(vec![what, shown(noisy.value), shown(noisy.lowest), shown(noisy.highest)]);
@@ -212,10 +223,34 @@ fn print_noise(out: &mut impl Write, rules: &[RuleOutcome], noise: &DemandNoise)
         }
     }
     if let Some(beyond) = noise.beyond_capacity_per_year {
-        row("u > capacity, per year".to_owned(), beyond, &per_year);
-        row("overturning, per year".to_owned(), noise.overturning_per_year, &per_year);
+        row("u > capacity, per year".to_owned(), beyond, &rate);
+        row("overturning, per year".to_owned(), noise.overturning_per_year, &rate);
     }
     let header = ["within 1 % of the strength", "here", "lowest", "highest"];
     writeln!(out, "\n{}", table(&header, &rows))?;
+    Ok(())
+}
+
+/// What asterisks mean, and from where to where rounding moves these numbers; nothing where there are none.
+fn print_rounding(out: &mut impl Write, rounding: &DemandRounding) -> Result<(), CommandError> {
+    let mut moved = Vec::new();
+    let mut tell = |what: &str, noisy: Option<Noisy>, shown: fn(f64) -> String| {
+        if let Some(noisy) = noisy.filter(|noisy| noisy.shows_otherwise(shown)) {
+            moved.push(format!("   {what}: {} to {}", shown(noisy.lowest), shown(noisy.highest)));
+        }
+    };
+    tell("zero stiffness, exact, m", Some(rounding.zero_stiffness_demand_of_spectrum_m), metres);
+    tell("zero stiffness, uplift and impacts of the structure, m", Some(rounding.zero_stiffness_demand_m), metres);
+    tell("the structure itself, m", Some(rounding.demand_m), metres);
+    tell("u > capacity, per year", rounding.beyond_capacity_per_year, rate);
+    tell("overturning, per year", Some(rounding.overturning_per_year), rate);
+    if !moved.is_empty() {
+        writeln!(
+            out,
+            "*: rounding decides the last digits, and those of what follows from it: with strengths some 1e-15 lower \
+             and higher it is,\nlowest to highest (docs/method.md, section 1.5)\n{}",
+            moved.join("\n")
+        )?;
+    }
     Ok(())
 }

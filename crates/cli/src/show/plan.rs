@@ -31,6 +31,9 @@ pub(crate) fn print_plan(plan: &Plan, study: &AnyStudy, terminal: &Terminal) -> 
         }
     }
     writeln!(out, "analyses  {}", thousands(head.analyses))?;
+    if let Plan::Displacement(plan) = plan {
+        writeln!(out, "rounding  {} more, of the ordinates that are printed", thousands(plan.rounding_analyses))?;
+    }
     match plan {
         Plan::Displacement(plan) if plan.has_design => {
             writeln!(out, "design    about {} more", thousands(plan.design_analyses))?;

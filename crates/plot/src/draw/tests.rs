@@ -101,3 +101,19 @@ fn an_image_has_the_resolution_asked_for() {
         Err(error) => assert!(error.to_string().contains("font"), "{error}"),
     }
 }
+
+#[test]
+fn rings_are_hollow() {
+    let marked = |marks| {
+        let mut figure = figure();
+        let points = vec![(0.5, 0.3)];
+        figure.panels[0].series.push(Series { name: String::new(), points, tone: Tone::Distinct(4), marks });
+        svg(&figure, Width::Double).unwrap().svg
+    };
+    let circles = |svg: &str, filled: &str| {
+        svg.lines().filter(|line| line.starts_with("<circle") && line.contains(&format!("fill=\"{filled}\""))).count()
+    };
+    let (dots, rings) = (marked(Marks::Only), marked(Marks::Rings));
+    assert_eq!([circles(&dots, "#000000"), circles(&dots, "none"), circles(&dots, "#FFFFFF")], [1, 0, 0]);
+    assert_eq!([circles(&rings, "#000000"), circles(&rings, "none"), circles(&rings, "#FFFFFF")], [0, 1, 1]);
+}

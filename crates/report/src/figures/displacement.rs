@@ -9,8 +9,13 @@ use std::collections::BTreeSet;
 use uplift::UpliftError;
 use uplift::result::layout::{axis_part, unique_axis};
 use uplift::result::{ResultFile, SpectrumPlace, StoredDisplacements, StoredStructures};
-use uplift::text::nearest;
-use uplift_plot::{Axis, Figure, Panel, Series, Tone};
+use uplift::text::{metres, nearest};
+use uplift_plot::{Axis, Figure, Marks, Panel, Series, Tone};
+
+/// What rings on a line are called.
+const HANGING: &str = "decided by rounding";
+/// Ordinates whose range is told in a caption.
+const RANGES_TOLD: usize = 6;
 
 /// How many of its figures a result is asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -151,6 +156,61 @@ impl DisplacementSource<'_> {
         let from = points.iter().rposition(|point| point.1.is_infinite()).map_or(0, |last| last + 1);
         points.drain(..from);
         Series::line(line.name.clone(), points, line.tone)
+    }
+
+    /// Rings where the lines of a panel hang on rounding, or those `behind` all of them do: `series` is what is drawn
+    /// of `lines`. None where nothing does.
+    fn rings(
+        &self,
+        (place, percentile): (SpectrumPlace, usize),
+        (lines, behind): (&[Line], &[usize]),
+        series: &[Series],
+    ) -> Option<Series> {
+        let mut points = Vec::new();
+        for (line, drawn) in lines.iter().zip(series) {
+            for own in behind.iter().chain([&line.position]) {
+                for (at, _) in self.stored.hanging_on_rounding(place, *own, percentile) {
+                    let mut here = drawn.points.iter().filter(|point| point.0.to_bits() == at.to_bits());
+                    let new = here.find(|point| !point.1.is_nan() && !points.contains(*point));
+                    points.extend(new.copied());
+                }
+            }
+        }
+        let rings = Series { name: HANGING.to_owned(), points, tone: Tone::Distinct(4), marks: Marks::Rings };
+        (!rings.points.is_empty()).then_some(rings)
+    }
+
+    /// What rings mean, and from where to where rounding moves the displacements of `lines` in the panels at `places`;
+    /// empty where it moves none.
+    fn rounding_words(&self, places: impl Iterator<Item = SpectrumPlace>, lines: &[Line], percentile: usize) -> String {
+        let mut moved = Vec::new();
+        for place in places {
+            for line in lines {
+                for (at, ordinate) in self.stored.hanging_on_rounding(place, line.position, percentile) {
+                    let [lowest, highest] = [ordinate.lowest, ordinate.highest].map(|end| match end {
+                        f64::INFINITY => "overturning".to_owned(),
+                        end => format!("{} m", metres(end)),
+                    });
+                    let Line { name, .. } = line;
+                    let set = &self.stored.sets[place.set].name;
+                    let scaling = &self.stored.scalings[place.scaling];
+                    moved.push(format!("{set}, {scaling}, {name} at {at:.4}: {lowest} to {highest}"));
+                }
+            }
+        }
+        if moved.is_empty() {
+            return String::new();
+        }
+        let more = match moved.len() - moved.len().min(RANGES_TOLD) {
+            0 => String::new(),
+            more => format!("; {more} more in the result file"),
+        };
+        moved.truncate(RANGES_TOLD);
+        format!(
+            " Rings: rounding decides the ordinate, and with scale factors some 1e-15 smaller and larger it is, lowest \
+             to highest: {}{more}.",
+            moved.join("; ")
+        )
     }
 
     /// Every set and way of scaling that is shown, of the first scaling.

@@ -48,9 +48,16 @@ fn sets(stored: &StoredDisplacements) -> Table {
         note: format!(
             "Both horizontal components of a record are motions of their own. The medians of the geometric means \
              (Eq. 2.16, 2.17) are what multiples refer to. Scalings: {}. The figures here are of motions scaled by {} \
-             and of the smallest uplift displacement; uplift plot draws all.",
+             and of the smallest uplift displacement; uplift plot draws all.{}",
             stored.scalings.join(", "),
-            stored.scaled_by.first().map_or("", String::as_str)
+            stored.scaled_by.first().map_or("", String::as_str),
+            stored.rounding.as_ref().map_or_else(String::new, |rounding| {
+                let abscissas: Vec<String> = rounding.abscissas.iter().map(|at| format!("{at:.3}")).collect();
+                format!(
+                    " Whether rounding decides their ordinates was looked at where they are {}.",
+                    abscissas.join(", ")
+                )
+            })
         ),
         header: ["set", "records", "motions", "median PGA, g", "median PGV, cm/s"].map(str::to_owned).to_vec(),
         text_columns: 1,
@@ -93,11 +100,23 @@ fn designs(stored: &StoredDisplacements, design: &StoredDesign) -> Vec<Table> {
             Table {
                 id: format!("design-{}", index + 1),
                 title: format!("Design example, {}{rule}", first.record_set),
-                note: note.clone(),
+                note: format!("{note}{}", rounding(of_table)),
                 header: header.collect(),
                 text_columns: 2,
                 rows: cells,
             }
         })
         .collect()
+}
+
+/// What the asterisks of a table mean, with what rounding makes of each value; empty without any.
+fn rounding(rows: &[DesignRow]) -> String {
+    let moved: Vec<String> = rows.iter().filter_map(DesignRow::rounding_words).collect();
+    if moved.is_empty() {
+        return String::new();
+    }
+    format!(
+        " *: rounding decides it; with scale factors some 1e-15 smaller and larger it is, lowest to highest: {}.",
+        moved.join("; ")
+    )
 }

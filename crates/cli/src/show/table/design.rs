@@ -6,6 +6,7 @@ use uplift::table::{DesignTable, DesignTableRow};
 use uplift::text::table;
 
 use crate::error::CommandError;
+use crate::show::ROUNDING_DECIDES;
 
 /// One table a set and rule: a line a quantity and scaling, a column for each of those whose peak is scaled.
 pub(super) fn print_design(out: &mut impl Write, report: &DesignTable) -> Result<(), CommandError> {
@@ -53,11 +54,12 @@ pub(super) fn print_design(out: &mut impl Write, report: &DesignTable) -> Result
         1.0 + report.noise_relative
     )?;
     if report.rows.iter().any(|row| row.row.hangs_on_rounding()) {
-        writeln!(
-            out,
-            "*: rounding decides it: with scale factors 1e-15 smaller or larger it has other digits (docs/method.md, \
-             section 1.5)"
-        )?;
+        writeln!(out, "{ROUNDING_DECIDES}: lowest to highest of these")?;
+        for value in &report.rows {
+            if let Some(words) = value.row.rounding_words() {
+                writeln!(out, "   {}: {words}", value.row.record_set)?;
+            }
+        }
     }
     if report.compared {
         let held: Vec<String> =

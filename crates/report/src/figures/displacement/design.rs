@@ -1,6 +1,6 @@
 //! The design examples (Figures 2.13 and 2.14).
 
-use super::DisplacementSource;
+use super::{DisplacementSource, HANGING};
 use uplift::result::{DesignRow, SpectrumPlace, StoredDesign, StoredDesigned, StoredStructures};
 use uplift_plot::{Axis, Figure, Marks, Panel, Series, Tone};
 
@@ -25,7 +25,7 @@ pub(super) fn procedure(source: &DisplacementSource<'_>, design: &StoredDesign) 
         let set = &stored.sets[place.set].name;
         let panel = |scaling: usize| {
             let place = SpectrumPlace { scaling, ..place };
-            let tangent = value(rows, source, place, "tan_alpha_design");
+            let tangent = row(rows, source, place, "tan_alpha_design");
             let spectrum = |wanted_m: f64, tone: usize| {
                 let ordinates_m = stored.percentile_m(place, line_of(wanted_m)?, percentile);
                 let points = stored.abscissas.iter().copied().zip(ordinates_m.iter().copied()).collect();
@@ -33,12 +33,11 @@ pub(super) fn procedure(source: &DisplacementSource<'_>, design: &StoredDesign) 
             };
             let line = stored.abscissas.iter().map(|&tangent| (tangent, own_m * tangent)).collect();
             let capacity = Series::line(format!("capacity 2H tan α, 2H = {own_m} m"), line, Tone::Distinct(1));
-            let point = tangent.map(|tangent| {
-                let displacement_m = |height_m| {
-                    value(rows, source, place, &StoredDesigned::block_quantity(height_m)).map(|u_m| (tangent, u_m))
-                };
-                let points = [displacement_m(endless_m), displacement_m(own_m)].into_iter().flatten().collect();
-                Series { name: "design".to_owned(), points, tone: Tone::Distinct(3), marks: Marks::Only }
+            let point = tangent.into_iter().flat_map(|tangent| {
+                let displacement = |height_m| row(rows, source, place, &StoredDesigned::block_quantity(height_m));
+                let points = [displacement(endless_m), displacement(own_m)].into_iter().flatten();
+                let points = points.map(|u| ((tangent.noisy.value, u.noisy.value), hang([tangent, u])));
+                dots_and_rings("design", points.collect(), Tone::Distinct(3))
             });
             let lines: Vec<Series> = spectrum(endless_m, 4).into_iter().chain(spectrum(own_m, 0)).collect();
             // the capacity line leaves the panel where the spectra are low
@@ -55,9 +54,10 @@ pub(super) fn procedure(source: &DisplacementSource<'_>, design: &StoredDesign) 
         let caption = format!(
             "Design of a block of 2H = {own_m} m under the set {set} by the spectrum of an endless one (Section 2.4.3, \
              Fig. 2.13): {} times the slenderness where the capacity line meets it. Dots: what both spectra say there. \
-             {}.",
+             {}.{}",
             design.safety_factor,
-            source.scaling_words(place.scaled_by)
+            source.scaling_words(place.scaled_by),
+            rings_words(rows.iter().filter(|row| row.record_set == *set))
         );
         figures.push(source.figure(
             format!("design-{}{}", source.words[place.set], source.suffix(place.scaled_by)),
@@ -70,8 +70,13 @@ pub(super) fn procedure(source: &DisplacementSource<'_>, design: &StoredDesign) 
     figures
 }
 
-/// A design value of the spectrum at `place`.
-fn value(rows: &[DesignRow], source: &DisplacementSource<'_>, place: SpectrumPlace, quantity: &str) -> Option<f64> {
+/// A design value of the spectrum at `place`, where there is one.
+fn row<'a>(
+    rows: &'a [DesignRow],
+    source: &DisplacementSource<'_>,
+    place: SpectrumPlace,
+    quantity: &str,
+) -> Option<&'a DesignRow> {
     let stored = source.stored;
     rows.iter()
         .find(|row| {
@@ -80,8 +85,27 @@ fn value(rows: &[DesignRow], source: &DisplacementSource<'_>, place: SpectrumPla
                 && row.scaling == stored.scalings[place.scaling]
                 && row.scaled_by == stored.scaled_by[place.scaled_by]
         })
-        .map(|row| row.noisy.value)
-        .filter(|value| value.is_finite())
+        .filter(|row| row.noisy.value.is_finite())
+}
+
+/// Whether rounding decides one of two values.
+fn hang(rows: [&DesignRow; 2]) -> bool {
+    rows.iter().any(|row| row.hangs_on_rounding())
+}
+
+/// Points as dots, and as rings those that hang on rounding.
+fn dots_and_rings(name: &str, points: Vec<((f64, f64), bool)>, tone: Tone) -> impl Iterator<Item = Series> {
+    let (rings, dots): (Vec<_>, Vec<_>) = points.into_iter().partition(|(_, hangs)| *hangs);
+    let series = [(name, dots, Marks::Only), (HANGING, rings, Marks::Rings)].map(|(name, points, marks)| {
+        let points = points.into_iter().map(|(point, _)| point).collect::<Vec<_>>();
+        Series { name: name.to_owned(), points, tone, marks }
+    });
+    series.into_iter().filter(|series| series.marks == Marks::Only || !series.points.is_empty())
+}
+
+/// What rings mean, where rounding decides one of the values.
+fn rings_words<'a>(mut rows: impl Iterator<Item = &'a DesignRow>) -> &'static str {
+    if rows.any(DesignRow::hangs_on_rounding) { " Rings: rounding decides a value, see the design tables." } else { "" }
 }
 
 /// What the design rules predict beside the time histories (Figure 2.14).
@@ -101,14 +125,9 @@ pub(super) fn comparison(source: &DisplacementSource<'_>, design: &StoredDesign)
     let caption = "Displacement of the designed structures, predicted and by time histories, a dot for each scaling \
                    and way of scaling (Fig. 2.14, Tables 2.1 to 2.3 and 3.2 to 3.7). Above the line the prediction is \
                    conservative.";
+    let caption = format!("{caption}{}", rings_words(rows.iter()));
     let columns = panels.len();
-    source.figure(
-        "design".to_owned(),
-        "How well the design rules predict".to_owned(),
-        caption.to_owned(),
-        columns,
-        panels,
-    )
+    source.figure("design".to_owned(), "How well the design rules predict".to_owned(), caption, columns, panels)
 }
 
 /// The rules of the rows, each once, in their order.
@@ -131,15 +150,17 @@ fn comparison_panel(
     for (index, set) in source.stored.sets.iter().enumerate() {
         let own = |quantity: &str| {
             let rows = rows.iter().filter(|row| of(row, quantity) && row.record_set == set.name);
-            rows.map(|row| row.noisy.value).collect::<Vec<f64>>()
+            rows.collect::<Vec<_>>()
         };
-        let points: Vec<(f64, f64)> = own(&quantities.computed).into_iter().zip(own(&quantities.predicted)).collect();
+        let points: Vec<((f64, f64), bool)> = (own(&quantities.computed).into_iter().zip(own(&quantities.predicted)))
+            .map(|(computed, predicted)| ((computed.noisy.value, predicted.noisy.value), hang([computed, predicted])))
+            .collect();
         largest = points
             .iter()
-            .flat_map(|point| [point.0, point.1])
+            .flat_map(|(point, _)| [point.0, point.1])
             .filter(|value| value.is_finite())
             .fold(largest, f64::max);
-        series.push(Series { name: set.name.clone(), points, tone: Tone::Distinct(index), marks: Marks::Only });
+        series.extend(dots_and_rings(&set.name, points, Tone::Distinct(index)));
     }
     let end = if largest > 0.0 { 1.05 * largest } else { 1.0 };
     series.push(Series::line("equal", vec![(0.0, 0.0), (end, end)], Tone::Distinct(4)));

@@ -27,10 +27,10 @@ impl DisplacementSource<'_> {
     }
 
     /// A figure with a panel for each scaling and a line for each capacity or height, whose ordinates are
-    /// `ordinates_m`.
+    /// `ordinates_m`, in which those of the lines `behind` are too.
     fn over_scalings(
         &self,
-        shown: &Shown,
+        (shown, behind): (&Shown, &[usize]),
         kind: [&str; 3],
         caption: &str,
         ordinates_m: impl Fn(SpectrumPlace, &Line) -> Vec<f64>,
@@ -40,11 +40,14 @@ impl DisplacementSource<'_> {
         let lines = self.lines(uplift);
         let panel = |(scaling, name): (usize, &String)| {
             let place = SpectrumPlace { scaling, ..place };
-            let series =
-                lines.iter().map(|line| self.line_beyond_overturning(line, ordinates_m(place, line).into_iter()));
-            Panel::lines(name, self.abscissa(), Axis::linear(ordinate), series.collect())
+            let drawn = |line: &Line| self.line_beyond_overturning(line, ordinates_m(place, line).into_iter());
+            let mut series: Vec<Series> = lines.iter().map(drawn).collect();
+            series.extend(self.rings((place, percentile), (&lines, behind), &series));
+            Panel::lines(name, self.abscissa(), Axis::linear(ordinate), series)
         };
         let panels = self.stored.scalings.iter().enumerate().map(panel).collect();
+        let places = (0..self.stored.scalings.len()).map(|scaling| SpectrumPlace { scaling, ..place });
+        let rounding = self.rounding_words(places, &lines, percentile);
         let [percentile_id, percentile] = self.percentile_names(percentile);
         let [uplift_id, uplift] = uplift_m.map_or_else(Default::default, |uplift_m| {
             [format!("-uplift-{uplift_m}"), format!(", u_up = {uplift_m} m")]
@@ -55,7 +58,7 @@ impl DisplacementSource<'_> {
             format!("{title}, {set}, {percentile}{uplift}, by {}", self.stored.scaled_by[place.scaled_by]),
             format!(
                 "{caption} Set {set}, {percentile}{uplift}. {}. A line begins beyond the last abscissa at which the \
-                 structure overturns.",
+                 structure overturns.{rounding}",
                 self.scaling_words(place.scaled_by)
             ),
             3,
@@ -79,7 +82,7 @@ pub(super) fn spectra(source: &DisplacementSource<'_>) -> Vec<Figure> {
     source
         .shown()
         .map(|shown| {
-            source.over_scalings(&shown, kind, caption, |place, line| {
+            source.over_scalings((&shown, &[]), kind, caption, |place, line| {
                 stored.percentile_m(place, line.position, shown.percentile).to_vec()
             })
         })
@@ -108,7 +111,7 @@ pub(super) fn by_equal_energy(source: &DisplacementSource<'_>) -> Result<Vec<Fig
             .collect::<Result<Vec<_>, _>>()
             .map_err(|error| UpliftError::input(format!("{}: {error}", source.file.path().display())))?;
         let first = shown.uplift * capacity_m.len();
-        Ok(source.over_scalings(&shown, kind, caption, |place, line| {
+        Ok(source.over_scalings((&shown, &[first + endless]), kind, caption, |place, line| {
             let own_m = stored.percentile_m(place, line.position, shown.percentile);
             let zero_stiffness_m = stored.percentile_m(place, first + endless, shown.percentile);
             let capacity = &capacities[line.position - first];
@@ -150,7 +153,8 @@ pub(super) fn uplift_displacements(source: &DisplacementSource<'_>) -> Vec<Figur
             let ordinates_m = stored.percentile_m(place, line.position, percentile).iter().copied();
             source.line_beyond_overturning(line, ordinates_m)
         };
-        let series: Vec<Series> = lines.iter().map(series).collect();
+        let mut series: Vec<Series> = lines.iter().map(series).collect();
+        series.extend(source.rings((place, percentile), (&lines, &[]), &series));
         let title = format!("{}, {}", stored.sets[place.set].name, stored.scalings[place.scaling]);
         Panel::lines(title, source.abscissa(), Axis::linear("displacement, m"), series)
     };
@@ -159,9 +163,10 @@ pub(super) fn uplift_displacements(source: &DisplacementSource<'_>) -> Vec<Figur
         let places = (0..stored.scalings.len())
             .flat_map(|scaling| (0..sets).map(move |set| SpectrumPlace { set, scaling, scaled_by }));
         let caption = format!(
-            "Peak displacement of systems of endless capacity for several uplift displacements: {} (Fig. 3.17). {}.",
+            "Peak displacement of systems of endless capacity for several uplift displacements: {} (Fig. 3.17). {}.{}",
             source.percentile_names(percentile)[1],
-            source.scaling_words(scaled_by)
+            source.scaling_words(scaled_by),
+            source.rounding_words(places.clone(), &lines, percentile)
         );
         source.figure(
             format!("uplift-displacement{}", source.suffix(scaled_by)),
