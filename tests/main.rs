@@ -6,6 +6,7 @@
 
 mod common;
 
+mod block_response;
 mod bootstrap;
 mod damage;
 mod design;
