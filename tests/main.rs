@@ -6,6 +6,7 @@
 
 mod common;
 
+mod archives;
 mod block_response;
 mod bootstrap;
 mod damage;
@@ -31,6 +32,7 @@ mod result_file;
 mod resume;
 mod run;
 mod site_table;
+mod spreadsheets;
 mod structure_resume;
 mod table_4_2;
 mod texts;
