@@ -25,6 +25,7 @@ mod outputs;
 mod overturning;
 mod pulse;
 mod python;
+mod quiet;
 mod records;
 mod report;
 mod response;
