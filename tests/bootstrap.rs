@@ -101,7 +101,9 @@ fn same_bits_on_any_number_of_threads_and_from_a_kept_plan() {
     let [lower, inner] = ["simultaneous_lower_m", "u50_m"]
         .map(|name| array(&study.path().join("a.h5"), &format!("/bootstrap/pgv/{name}")));
     assert!(lower.iter().zip(&inner).all(|(lower, inner)| lower <= inner));
-    study.uplift(&["bootstrap", "a.h5", "--plan", "study.toml"]).fails(4, &["study.toml", "not an HDF5 file"]);
+    study
+        .uplift(&["bootstrap", "a.h5", "--plan", "study.toml"])
+        .fails(4, &["study.toml: is a study, and a result is wanted"]);
     study.uplift(&["run", "study.toml", "-o", "d.h5", "-q", "--set", "records.first=3"]).ok();
     study.uplift(&["bootstrap", "d.h5", "--plan", "a.h5"]).fails(4, &["other records"]);
     study.uplift(&["bootstrap", "a.h5", "--plan", "d.h5"]).fails(4, &["keeps no resampling plan"]);
@@ -143,6 +145,10 @@ fn an_interrupted_bootstrap_goes_on() {
         let done = done.fails(5, &["Run the same command to go on"]);
         assert!(!LabelledReader::open(&study.path().join("parts.h5")).unwrap().exists("/bootstrap"));
         kept = kept_strengths(&done.stderr);
+        for input in ["parts.h5", "parts.bootstrap.part.h5"] {
+            let status = study.uplift(&["status", input]).ok().stdout;
+            assert!(status.contains(&format!("an interrupted bootstrap, {kept} strengths finished")), "{status}");
+        }
     }
     for name in BANDS {
         let name = format!("/bootstrap/pgv/{name}");

@@ -200,6 +200,12 @@ impl Running {
         self.signal("-INT");
     }
 
+    /// What the system sends to whom it wants to end, and a queue when the time is up.
+    #[cfg(unix)]
+    pub fn terminate(&self) {
+        self.signal("-TERM");
+    }
+
     /// Holds it in its tracks, so that it is not over before something else is, however fast it is.
     #[cfg(unix)]
     pub fn hold(&self) {

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use crate::common::{SMALL_STUDY, SmallStudy, uplift};
 
 /// An export as an engine writes it: probabilities in `years` of curves λ = k0 im⁻² at some sites.
-fn openquake(kind: &str, years: f64, sites: &[(&str, f64, f64, f64)]) -> String {
+pub fn openquake(kind: &str, years: f64, sites: &[(&str, f64, f64, f64)]) -> String {
     let levels = [0.5, 2.0, 20.0, 300.0];
     let mut text = format!(
         "#,,,,,,\"generated_by='OpenQuake engine 3.26.2', start_date='2026-01-01T00:00:00', checksum=1, \
@@ -26,7 +26,7 @@ fn openquake(kind: &str, years: f64, sites: &[(&str, f64, f64, f64)]) -> String 
     text
 }
 
-const SITES: [(&str, f64, f64, f64); 2] = [("here", 10.0, 45.0, 0.2), ("there", 12.0, 45.0, 0.1)];
+pub const SITES: [(&str, f64, f64, f64); 2] = [("here", 10.0, 45.0, 0.2), ("there", 12.0, 45.0, 0.1)];
 
 #[test]
 fn a_site_of_an_export_becomes_a_study() {

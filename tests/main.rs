@@ -6,6 +6,8 @@
 
 mod common;
 
+mod archives;
+mod block_response;
 mod bootstrap;
 mod damage;
 mod design;
@@ -23,6 +25,7 @@ mod outputs;
 mod overturning;
 mod pulse;
 mod python;
+mod quiet;
 mod records;
 mod report;
 mod response;
@@ -31,6 +34,7 @@ mod resume;
 mod rounding;
 mod run;
 mod site_table;
+mod spreadsheets;
 mod structure_resume;
 mod table_4_2;
 mod texts;

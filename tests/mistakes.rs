@@ -1,6 +1,6 @@
 //! Bad input: each gets a message with file, line or key, value, and what to do, and the exit code of its kind.
 
-use crate::common::{self, EARLIER, SMALL_STUDY, SmallStudy};
+use crate::common::{self, EARLIER, SMALL_STUDY, SmallStudy, repository};
 
 const MANIFEST: &str = "record_id,file_h1,file_h2,set_tags,dt_s,unit\n";
 
@@ -204,7 +204,9 @@ fn numbers_of_a_manifest() {
         study.uplift(&["check", "study.toml", "--set", "records.select.magnitude=\":7\""])
     };
     check("6.7").ok();
-    check("6,69").fails(4, &["record A", "magnitude", "decimal comma"]);
+    check("6,69").ok();
+    study.write("manifest.csv", "record_id,file_h1,file_h2,magnitude\nA,a.AT2,a.AT2,\"6,69\"\n");
+    study.uplift(&["check", "study.toml"]).fails(4, &["record A", "magnitude", "decimal comma", "semicolons"]);
     check("17. Jan").fails(4, &["magnitude is \"17. Jan\"", "0 to 10"]);
     check("99").fails(4, &["magnitude is \"99\""]);
     check("-999").fails(4, &["1 of 1 records have no number for magnitude"]);
@@ -220,4 +222,81 @@ fn a_closed_error_output_ends_nothing() {
     assert!(run(&["run", "study.toml"]).status.success());
     assert!(run(&["bootstrap", "results/study.h5", "--replicates", "20"]).status.success());
     assert_eq!(run(&["run", "absent.toml"]).status.code(), Some(3));
+}
+
+/// One kind of file given where another is wanted: what it is, and what takes it.
+#[test]
+fn files_in_the_wrong_place() {
+    let study = SmallStudy::new();
+    std::fs::copy(repository().join("configs/structures/block.toml"), study.path().join("block.toml")).unwrap();
+    study.write("a.AT2", &at2(&[0.0, 0.1, 0.2], 3));
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    for (arguments, code, words) in [
+        (&["run", "r.h5"][..], 3, &["r.h5", "it is a result, and a study is wanted", "`uplift status`"][..]),
+        (&["check", "r.h5"], 3, &["it is a result, and a study is wanted"]),
+        (&["run", "block.toml"], 3, &["block.toml", "it is a structure, and a study is wanted", "`uplift design`"]),
+        (&["check", "a.AT2"], 3, &["a.AT2", "it is a record, and a study is wanted", "`uplift response`"]),
+        (&["design", "study.toml", "--urs", "r.h5"], 3, &["it is a study, and a structure is wanted", "`uplift run`"]),
+        (&["design", "r.h5", "--urs", "r.h5"], 3, &["it is a result, and a structure is wanted", "--urs"]),
+        (&["table", "study.toml"], 4, &["study.toml: is a study, and a result is wanted", "`uplift run`"]),
+        (&["export", "study.toml", "--csv"], 4, &["study.toml: is a study, and a result is wanted"]),
+        (&["table", "block.toml"], 4, &["block.toml: is a structure, and a result is wanted"]),
+        (&["table", "r.urs.csv"], 4, &["r.urs.csv: is a table, and a result is wanted"]),
+        (&["design", "block.toml", "--urs", "study.toml", "--site", "Here"], 4, &["study.toml: is a study"]),
+        (&["run", "absent.toml"], 3, &["absent.toml", "there is no such file"]),
+        (&["table", "absent.h5"], 4, &["absent.h5: there is no such file", "`uplift run STUDY.toml`"]),
+    ] {
+        let failed = study.uplift(arguments).fails(code, words);
+        assert!(!failed.stderr.contains("os error"), "{}", failed.stderr);
+    }
+}
+
+#[test]
+fn probabilities_as_they_are_typed() {
+    let study = SmallStudy::new();
+    let rare = ["--set", "risk.poe=[1e-9, 0.1]", "--set", "risk.extrapolate=loglog"];
+    study.uplift(&[&["run", "study.toml", "-o", "r.h5", "-q"], &rare[..]].concat()).ok();
+    let shown = study.uplift(&["influence", "r.h5", "--poe", "10%"]).ok().stdout;
+    assert!(shown.contains("10 % in 50 years"), "{shown}");
+    let shown = study.uplift(&["influence", "r.h5", "--poe", "1e-9"]).ok().stdout;
+    assert!(shown.contains("1e-9 in 50 years"), "{shown}");
+    study.uplift(&["influence", "r.h5", "--poe", "10"]).fails(2, &["10 per cent is 10%"]);
+    study.uplift(&["influence", "r.h5", "--poe", "20%"]).fails(2, &["--poe 0.2", "1e-9, 0.1"]);
+}
+
+/// Records in cm/s² whose files say g.
+#[test]
+fn units_that_cannot_be_right_are_told() {
+    let study = with_manifest("A,gal.AT2,gal.AT2,,,\n");
+    let wave: Vec<f64> = (0..200).map(|i| 200.0 * (f64::from(i) * 0.1).sin() * (-f64::from(i) * 0.01).exp()).collect();
+    study.write("gal.AT2", &at2(&wave, wave.len()));
+    for arguments in
+        [&["check", "study.toml"][..], &["records", "show", "gal.AT2"], &["records", "show", "manifest.csv", "A"]]
+    {
+        let run = study.uplift(arguments).ok();
+        let said = run.stdout + &run.stderr;
+        assert!(said.contains("unit right"), "{arguments:?}\n{said}");
+    }
+}
+
+/// Names given with `-o` that are those of something else.
+#[test]
+fn names_of_other_outputs() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    study
+        .uplift(&["run", "study.toml", "--shard", "1/2", "-o", "x.h5"])
+        .fails(2, &["x.h5: a shard is no result yet", "write -o x.shard-1-of-2", "`uplift merge`"]);
+    for (arguments, words) in [
+        (&["plot", "r.h5", "-o", "figures.h5"][..], "write -o figures"),
+        (&["plot", "r.h5", "-o", "r.h5"], "write -o r"),
+        (&["plot", "r.h5", "-o", "one.svg", "--only", "urs"], "write -o one"),
+        (&["hazard", "import", "pga.csv", "-o", "hz.csv"], "-o names a folder for the curves"),
+        (&["pulse", "-o", "p.png"], "-o names a folder for the figures and tables"),
+    ] {
+        study.uplift(arguments).fails(2, &["this is the name of a file", words]);
+    }
+    for name in ["x.h5", "figures.h5", "one.svg", "hz.csv", "p.png"] {
+        assert!(!study.path().join(name).exists(), "{name}");
+    }
 }

@@ -178,8 +178,7 @@ fn what_was_made_of_a_replaced_result_goes_with_it() {
     let said = study.uplift(&run).ok().stderr;
     assert!(said.contains("r.earlier"), "{said}");
     let kept = ["bands.csv", "figures", "h5", "html", "influence.csv", "json", "mat", "measures.csv", "spectra.csv"];
-    let kept: Vec<String> =
-        kept.iter().map(|end| format!("r.{end}")).chain(["r.table-4-1.csv".to_owned()]).collect();
+    let kept: Vec<String> = kept.iter().map(|end| format!("r.{end}")).chain(["r.table-4-1.csv".to_owned()]).collect();
     assert_eq!(names(&earlier), kept);
     assert_eq!(names(&earlier.join("r.figures")), ["urs-pgv.svg"]);
     let left = names(study.path());

@@ -32,7 +32,7 @@ fn at2(title: &str, unit: &str, dt_s: f64, values: &[f64]) -> String {
 const G: &str = "ACCELERATION TIME SERIES IN UNITS OF G";
 
 /// Rows of a CSV file by column.
-fn rows(path: &Path) -> Vec<BTreeMap<String, String>> {
+pub fn rows(path: &Path) -> Vec<BTreeMap<String, String>> {
     let table = CsvReadOptions::default()
         .with_infer_schema_length(Some(0))
         .with_parse_options(CsvParseOptions::default().with_comment_prefix(Some("#")))
@@ -52,7 +52,7 @@ fn rows(path: &Path) -> Vec<BTreeMap<String, String>> {
 }
 
 /// A download as PEER gives it, with what goes wrong in such folders.
-fn download() -> tempfile::TempDir {
+pub fn download() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| {
         let path = folder.path().join(name);
@@ -228,7 +228,7 @@ fn synthetic_records_are_made_listed_shown_and_chosen() {
 fn what_is_no_folder_of_records() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
-    uplift(at, &["records", "import", "absent", "-o", "a.csv"]).fails(4, &["absent is not a folder"]);
+    uplift(at, &["records", "import", "absent", "-o", "a.csv"]).fails(4, &["absent is not there"]);
     uplift(at, &["records", "import", ".", "-o", "a.csv"]).fails(4, &["holds no files"]);
     std::fs::write(at.join("a.txt"), "1\n2\n3\n").unwrap();
     std::fs::write(at.join("b.bin"), [0_u8, 159, 146, 150]).unwrap();

@@ -156,6 +156,21 @@ fn negative_stiffness_overturns_and_is_said_so() {
     assert!(u_m.iter().zip(&flag).all(|(u, flag)| u.is_infinite() == (*flag == 2)));
 }
 
+// So does SIGTERM, and says in a line how to go on.
+#[cfg(unix)]
+#[test]
+fn termination_says_how_to_go_on() {
+    let study = SmallStudy::new();
+    let long =
+        ["run", "study.toml", "-o", "r.h5", "--set", "strengths.values=0:1/20000:1", "--set", "risk.maf_surface=false"];
+    let mut run = study.start(&[&long[..], &["-q"]].concat());
+    let checkpoint = study.path().join("r.h5.part");
+    run.wait_until("a checkpoint", || checkpoint.exists());
+    run.terminate();
+    let ended = run.end().fails(5, &["interrupted", "checkpoint", "Run the same command to go on"]);
+    assert_eq!(ended.stderr.lines().count(), 1, "{}", ended.stderr);
+}
+
 // Ctrl-C ends a long run soon, with its own exit code, and leaves the earlier result alone.
 #[cfg(unix)]
 #[test]

@@ -11,6 +11,7 @@ mod report;
 mod write;
 
 pub use bands::{Bands, JointBands};
+pub(crate) use checkpoint::{finished_strengths, part_path};
 pub use job::{BootstrapOptions, bootstrap};
 pub use reference::{ReferenceRow, read_reference};
 pub use report::{BootstrapReport, BootstrapRow, Initiation};

@@ -1,4 +1,5 @@
-//! From a folder of downloads to a manifest: files are found, read, paired, measured and listed.
+//! From a folder of downloads, or the zip archive that PEER gives, to a manifest: files are found, read, paired,
+//! measured and listed.
 
 mod collect;
 mod group;
@@ -8,6 +9,7 @@ mod remarks;
 mod scan;
 mod search_results;
 mod table;
+mod unpack;
 mod warnings;
 
 use std::path::{Path, PathBuf};
@@ -20,6 +22,7 @@ pub use measured::PairMeasures;
 pub use remarks::Remarks;
 pub use warnings::Warning;
 pub use warnings::of_pair as warnings_of_pair;
+pub use warnings::unusual_peak;
 
 use crate::error::UpliftError;
 use crate::events::Events;
@@ -34,7 +37,8 @@ const WANTED: [&str; 3] = ["magnitude", "rrup_km", "vs30"];
 /// Which folder is imported, and where its manifest goes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImportOptions {
-    /// Folder with record files, in folders of their own or not.
+    /// Folder with record files, in folders of their own or not; or a zip archive of such, which is unpacked into a
+    /// folder of its name beside the manifest.
     pub folder: PathBuf,
     /// The manifest, CSV; a folder that is there gets a `manifest.csv`.
     pub output: PathBuf,
@@ -75,8 +79,17 @@ impl ImportOptions {
 
     /// Refuses what cannot be imported or written, before the work.
     fn check(&self, manifest: &Path) -> Result<(), UpliftError> {
-        if !self.folder.is_dir() {
-            return Err(UpliftError::input(format!("{} is not a folder", self.folder.display())));
+        if !self.folder.exists() {
+            return Err(UpliftError::input(format!(
+                "{} is not there: name the folder with your downloads, or the zip archive",
+                self.folder.display()
+            )));
+        }
+        if !self.folder.is_dir() && !unpack::is_archive(&self.folder) {
+            return Err(UpliftError::input(format!(
+                "{} is neither a folder nor a zip archive: name the folder that the records are in",
+                self.folder.display()
+            )));
         }
         let folder = folder_of(manifest);
         if !folder.as_os_str().is_empty() && !folder.is_dir() {
@@ -86,12 +99,12 @@ impl ImportOptions {
             Output::new(manifest, OutputKind::Manifest),
             Output::new(manifest.with_extension("remarks.txt"), OutputKind::Remarks),
         ];
-        let nothing: [&Path; 0] = [];
-        outputs::check(&outputs, &nothing, self.force)
+        outputs::check(&outputs, &[&self.folder], self.force)
     }
 }
 
-/// Imports the records of a folder: a manifest of the pairs in it, and a file with everything that deserves a look.
+/// Imports the records of a folder or an archive: a manifest of the pairs in it, and a file with everything that
+/// deserves a look.
 ///
 /// # Errors
 /// A folder that cannot be read, a manifest that is there already or cannot be written; an interruption. What is wrong
@@ -100,7 +113,13 @@ pub fn import(options: &ImportOptions, events: &dyn Events) -> Result<ImportRepo
     let manifest = options.manifest();
     options.check(&manifest)?;
     let start = Instant::now();
-    let imported = find_pairs(options, events)?;
+    let imported = if options.folder.is_dir() {
+        find_pairs(options, events)?
+    } else {
+        let folder = unpack::folder_of(&options.folder, &manifest);
+        unpack::unpack(&options.folder, &folder, events)?;
+        find_pairs(&ImportOptions { folder, ..options.clone() }, events)?
+    };
     let remarks = Remarks::of(&imported);
     let remarks_file = (!remarks.is_empty()).then(|| manifest.with_extension("remarks.txt"));
     if let Some(file) = &remarks_file {

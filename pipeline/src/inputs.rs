@@ -9,6 +9,7 @@ mod record_set;
 mod record_sets;
 pub mod selection;
 mod site_table;
+pub(crate) mod text_table;
 
 pub use file_options::FileOptions;
 pub use hazard::{BranchHazard, HazardInput, SiteHazard, read_hazard};

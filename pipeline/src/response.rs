@@ -1,36 +1,28 @@
-//! One record through one oscillator: its peak, its impacts and, where asked for, its time history.
+//! One record through one oscillator, or one rigid block: its peak, its impacts and, where asked for, its time history.
 
+mod block;
 mod history;
+mod shaking;
 
 use std::path::PathBuf;
 
 use serde::Serialize;
 use uplift_ida::{IdaError, System};
-use uplift_motion::{AccelerationUnit, Accelerogram, ReadOptions, STANDARD_GRAVITY_M_S2, read_path};
+use uplift_motion::Accelerogram;
 use uplift_oscillator::{Excitation, FreeVibration, Oscillator, PostUplift, respond, respond_with_history};
-use uplift_plausible::{
-    CAPACITY, FREE_VIBRATION, GRAVITY, POST_UPLIFT_STIFFNESS, RESTITUTION, SCALE, STRENGTH, TIME_STEP,
-    UPLIFT_DISPLACEMENT,
-};
+use uplift_plausible::{CAPACITY, POST_UPLIFT_STIFFNESS, RESTITUTION, STRENGTH, UPLIFT_DISPLACEMENT};
 
+pub use block::{BlockHistory, BlockResponseOptions, BlockResponseReport, block_response};
 pub use history::{HistoryRow, ResponseHistory};
+pub use shaking::{ShakenBy, Shaking};
 
 use crate::error::UpliftError;
-use crate::outputs::{self, Output, OutputKind};
 
 /// Which oscillator is shaken, and by what.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ResponseOptions {
-    /// The record: a file with one component, or with several of which `channel` is taken.
-    pub record: PathBuf,
-    /// Which component of a file with several, counted from 1.
-    pub channel: Option<usize>,
-    /// Sampling interval of a file that does not say it, s.
-    pub dt_s: Option<f64>,
-    /// Unit of a file that does not say it.
-    pub unit: Option<AccelerationUnit>,
-    /// Factor on the record.
-    pub scale: f64,
+    /// The record, and what is kept of the motion.
+    pub shaking: Shaking,
     /// Strength η: uplift force over weight.
     pub strength: f64,
     /// Displacement at uplift, m.
@@ -42,16 +34,6 @@ pub struct ResponseOptions {
     pub post_uplift_stiffness_per_s2: Option<f64>,
     /// Coefficient of restitution at impact.
     pub restitution: f64,
-    /// Acceleration of gravity, m/s².
-    pub gravity_m_s2: f64,
-    /// How long the free vibration after the record is followed, s.
-    pub free_vibration_s: f64,
-    /// Whether the report holds the time history.
-    pub history: bool,
-    /// A CSV file for the time history.
-    pub history_file: Option<PathBuf>,
-    /// Whether whatever is at the place of that file gives way.
-    pub force: bool,
 }
 
 impl ResponseOptions {
@@ -59,40 +41,24 @@ impl ResponseOptions {
     /// values of the studies; no history.
     pub fn new(record: impl Into<PathBuf>, strength: f64) -> Self {
         Self {
-            record: record.into(),
-            channel: None,
-            dt_s: None,
-            unit: None,
-            scale: 1.0,
+            shaking: Shaking::new(record),
             strength,
             uplift_displacement_m: 0.0005,
             capacity_m: None,
             post_uplift_stiffness_per_s2: None,
             restitution: 0.95,
-            gravity_m_s2: STANDARD_GRAVITY_M_S2,
-            free_vibration_s: 0.0,
-            history: false,
-            history_file: None,
-            force: false,
         }
     }
 
     /// Refuses numbers that no system, record or person means; all of them at once.
     fn check(&self) -> Result<(), UpliftError> {
-        let given = [
+        self.shaking.check(&[
             (STRENGTH, "strength", Some(self.strength)),
-            (SCALE, "scale", Some(self.scale.abs())),
             (UPLIFT_DISPLACEMENT, "uplift_displacement_m", Some(self.uplift_displacement_m)),
             (CAPACITY, "capacity_m", self.capacity_m),
             (POST_UPLIFT_STIFFNESS, "post_uplift_stiffness_per_s2", self.post_uplift_stiffness_per_s2),
             (RESTITUTION, "restitution", Some(self.restitution)),
-            (GRAVITY, "gravity_m_s2", Some(self.gravity_m_s2)),
-            (TIME_STEP, "dt_s", self.dt_s),
-            (FREE_VIBRATION, "free_vibration_s", Some(self.free_vibration_s)),
-        ];
-        let mistakes: Vec<_> =
-            given.into_iter().filter_map(|(range, name, value)| range.check(name, value?).err()).collect();
-        if mistakes.is_empty() { Ok(()) } else { Err(UpliftError::Implausible(mistakes)) }
+        ])
     }
 
     fn oscillator(&self) -> Result<Oscillator, UpliftError> {
@@ -110,7 +76,7 @@ impl ResponseOptions {
         };
         Ok(Oscillator::new(
             self.strength,
-            self.gravity_m_s2,
+            self.shaking.gravity_m_s2,
             self.uplift_displacement_m,
             self.restitution,
             post_uplift,
@@ -118,38 +84,17 @@ impl ResponseOptions {
     }
 
     fn free_vibration(&self) -> FreeVibration {
-        if self.free_vibration_s > 0.0 { FreeVibration::Seconds(self.free_vibration_s) } else { FreeVibration::None }
-    }
-
-    fn read(&self) -> Result<Accelerogram, UpliftError> {
-        let options = ReadOptions {
-            dt_s: self.dt_s,
-            unit: self.unit,
-            gravity_m_s2: self.gravity_m_s2,
-            channel: self.channel,
-            format: None,
-        };
-        Ok(read_path(&self.record, &options)?)
+        let seconds = self.shaking.free_vibration_s;
+        if seconds > 0.0 { FreeVibration::Seconds(seconds) } else { FreeVibration::None }
     }
 }
 
 /// What became of the oscillator.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ResponseReport {
-    /// The record's file.
-    pub record: PathBuf,
-    /// Its samples.
-    pub samples: usize,
-    /// Its sampling interval, s.
-    pub dt_s: f64,
-    /// Factor on it.
-    pub scale: f64,
-    /// Peak ground acceleration of the scaled record, g.
-    pub pga_g: f64,
-    /// Peak ground velocity of the scaled record, cm/s.
-    pub pgv_cm_s: f64,
-    /// Peak ground displacement of the scaled record, m.
-    pub pgd_m: f64,
+    /// The record.
+    #[serde(flatten)]
+    pub shaken_by: ShakenBy,
     /// Strength η.
     pub strength: f64,
     /// Displacement at uplift, m.
@@ -160,10 +105,6 @@ pub struct ResponseReport {
     pub post_uplift_stiffness_per_s2: Option<f64>,
     /// Coefficient of restitution.
     pub restitution: f64,
-    /// Acceleration of gravity, m/s².
-    pub gravity_m_s2: f64,
-    /// How long the free vibration was followed, s.
-    pub free_vibration_s: f64,
     /// Largest displacement, m; infinite, as JSON null, where the system overturned.
     pub peak_displacement_m: f64,
     /// When, s from the start of the record; none where it overturned.
@@ -197,13 +138,11 @@ pub fn response(options: &ResponseOptions) -> Result<ResponseReport, UpliftError
     options.check()?;
     let oscillator = options.oscillator()?;
     let after = options.free_vibration();
-    if let Some(file) = &options.history_file {
-        outputs::check(&[Output::new(file, OutputKind::Table("time_s"))], &[&options.record], options.force)?;
-    }
-    let motion = options.read()?;
-    let excitation = Excitation::new(motion.dt_s(), motion.acceleration_m_s2())?.scaled(options.scale)?;
-    refuse_endless(&oscillator, &motion, options.free_vibration_s)?;
-    let (result, history) = if options.history || options.history_file.is_some() {
+    let shaking = &options.shaking;
+    let motion = shaking.read()?;
+    let excitation = Excitation::new(motion.dt_s(), motion.acceleration_m_s2())?.scaled(shaking.scale)?;
+    refuse_endless(&oscillator, &motion, shaking.free_vibration_s)?;
+    let (result, history) = if shaking.wants_history() {
         let (result, history) = respond_with_history(&oscillator, &excitation, after);
         (result, Some(ResponseHistory::of(&history, &excitation)))
     } else {
@@ -211,28 +150,19 @@ pub fn response(options: &ResponseOptions) -> Result<ResponseReport, UpliftError
     };
     if !(result.overturned || result.peak_displacement_m.is_finite()) {
         return Err(UpliftError::from(IdaError::NotFinite {
-            motion: options.record.display().to_string(),
-            scale: options.scale,
+            motion: shaking.record.display().to_string(),
+            scale: shaking.scale,
             system: System::Oscillator(oscillator).to_string(),
             displacement_m: result.peak_displacement_m,
         }));
     }
-    let scale = options.scale.abs();
     let report = ResponseReport {
-        record: options.record.clone(),
-        samples: motion.len(),
-        dt_s: motion.dt_s(),
-        scale: options.scale,
-        pga_g: scale * motion.pga_m_s2() / options.gravity_m_s2,
-        pgv_cm_s: scale * motion.pgv_m_s() * 100.0,
-        pgd_m: scale * motion.pgd_m(),
+        shaken_by: shaking.told(&motion),
         strength: options.strength,
         uplift_displacement_m: options.uplift_displacement_m,
         capacity_m: options.capacity_m,
         post_uplift_stiffness_per_s2: options.post_uplift_stiffness_per_s2,
         restitution: options.restitution,
-        gravity_m_s2: options.gravity_m_s2,
-        free_vibration_s: options.free_vibration_s,
         peak_displacement_m: result.peak_displacement_m,
         time_of_peak_s: (!result.overturned).then_some(result.time_of_peak_s),
         impacts: result.impacts,
@@ -242,9 +172,9 @@ pub fn response(options: &ResponseOptions) -> Result<ResponseReport, UpliftError
         end_velocity_m_s: result.end_velocity_m_s,
         time_of_overturning_s: result.overturned.then_some(result.time_of_peak_s),
         history,
-        history_file: options.history_file.clone(),
+        history_file: shaking.history_file.clone(),
     };
-    if let (Some(file), Some(history)) = (&options.history_file, &report.history) {
+    if let (Some(file), Some(history)) = (&shaking.history_file, &report.history) {
         history.write(file, &report)?;
     }
     Ok(report)

@@ -12,6 +12,7 @@ mod file;
 mod hazard;
 mod head;
 pub mod layout;
+mod other_file;
 mod provenance;
 mod records;
 mod spectra;

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use uplift_study::Study;
 
+use crate::bootstrap::{finished_strengths, part_path};
 use crate::checkpoint::{Finding, RowFile, checkpoint_path};
 use crate::error::UpliftError;
 use crate::lock::ResultLock;
@@ -19,8 +20,19 @@ pub struct StatusReport {
     pub result: Option<ResultStatus>,
     /// Files of finished rows: the checkpoint of an unfinished run, and shards.
     pub unfinished: Vec<UnfinishedStatus>,
+    /// What an interrupted bootstrap of the result has finished.
+    pub bootstrap: Option<BootstrapStatus>,
     /// Who is writing the result now.
     pub written_by: Option<String>,
+}
+
+/// The file of an interrupted bootstrap.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct BootstrapStatus {
+    /// The file.
+    pub file: PathBuf,
+    /// Strengths that are finished, of all measures.
+    pub strengths: u64,
 }
 
 /// A finished result.
@@ -105,11 +117,14 @@ pub fn status(input: &Path) -> Result<StatusReport, UpliftError> {
     if input.is_file() && !is_hdf5(input) {
         if let Ok(Some(finding)) = RowFile::read(input) {
             let unfinished = vec![UnfinishedStatus::of(input, &finding)];
-            return Ok(StatusReport { result: None, unfinished, written_by: None });
+            return Ok(StatusReport { result: None, unfinished, bootstrap: None, written_by: None });
         }
         if input.extension().is_some_and(|extension| extension == "h5") {
             return Err(UpliftError::input(format!("{} is not an HDF5 file", input.display())));
         }
+    }
+    if let Some(bootstrap) = BootstrapStatus::of(input.to_owned()) {
+        return Ok(StatusReport { result: None, unfinished: Vec::new(), bootstrap: Some(bootstrap), written_by: None });
     }
     let path = if input.extension().is_some_and(|extension| extension == "toml") {
         Study::load_any(input, &[])?.output().file.clone()
@@ -134,7 +149,8 @@ pub fn status(input: &Path) -> Result<StatusReport, UpliftError> {
             path.display()
         )));
     }
-    Ok(StatusReport { result, unfinished, written_by })
+    let bootstrap = BootstrapStatus::of(part_path(&path));
+    Ok(StatusReport { result, unfinished, bootstrap, written_by })
 }
 
 /// Files named as the shards of the result at `result`, and as the checkpoints and shards of what is asked of it.
@@ -154,6 +170,13 @@ fn shards_of(result: &Path) -> Vec<PathBuf> {
         .collect();
     shards.sort();
     shards
+}
+
+impl BootstrapStatus {
+    fn of(file: PathBuf) -> Option<Self> {
+        let strengths = finished_strengths(&file)?;
+        Some(Self { file, strengths })
+    }
 }
 
 impl ResultStatus {

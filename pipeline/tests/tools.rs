@@ -14,7 +14,7 @@ use uplift::pulses::{BlockPlan, PulseOptions, PulsePlan, pulses};
 use uplift::records::{
     SelectOptions, SetOptions, ShowOptions, ShowReport, SynthesizeOptions, list, select, show, synthesize,
 };
-use uplift::response::{HistoryRow, ResponseOptions, response};
+use uplift::response::{HistoryRow, ResponseOptions, Shaking, response};
 use uplift::status::status;
 use uplift::table::{TableOptions, table};
 use uplift::verify::verify;
@@ -126,8 +126,8 @@ fn a_response_with_its_history() {
         .map(|entry| entry.unwrap().path())
         .find(|path| path.to_string_lossy().ends_with("H1.AT2"))
         .unwrap();
-    let options =
-        ResponseOptions { scale: 3.0, free_vibration_s: 2.0, history: true, ..ResponseOptions::new(record, 0.05) };
+    let shaking = Shaking { scale: 3.0, free_vibration_s: 2.0, history: true, ..Shaking::new(record) };
+    let options = ResponseOptions { shaking: shaking.clone(), ..ResponseOptions::new("", 0.05) };
     let report = response(&options).unwrap();
     let history = report.history.as_ref().unwrap();
     let count = |word: &str| history.rows.iter().filter(|row| row.event == Some(word)).count();
@@ -137,7 +137,8 @@ fn a_response_with_its_history() {
     let largest = history.rows.iter().fold(0.0_f64, |most, row| most.max(row.displacement_m.abs()));
     assert!(largest <= report.peak_displacement_m && largest > 0.99 * report.peak_displacement_m);
     // the same response without a history
-    let alone = response(&ResponseOptions { history: false, ..options.clone() }).unwrap();
+    let shaking = Shaking { history: false, ..shaking };
+    let alone = response(&ResponseOptions { shaking, ..options.clone() }).unwrap();
     assert_eq!(serde_json::to_value(&alone).unwrap(), serde_json::to_value(&report).unwrap());
     assert!(matches!(response(&ResponseOptions { strength: -1.0, ..options }), Err(UpliftError::Implausible(_))));
 }

@@ -35,7 +35,7 @@ pub(crate) struct Arguments {
     /// Threads to use; the numbers do not depend on it [default: all cores]
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
     threads: Option<u16>,
-    /// No progress and no remarks, only results and errors
+    /// Only what was asked for, and errors: no progress, no remarks, no summary of files that are written
     #[arg(long, short, global = true)]
     quiet: bool,
     #[command(subcommand)]
@@ -55,7 +55,7 @@ enum Command {
     Verify(verify::VerifyArguments),
     /// Check a study and its input data, and say what it would cost
     Check(check::CheckArguments),
-    /// Shake one oscillator with one record
+    /// Shake one oscillator, or one rigid block, with one record
     Response(response::ResponseArguments),
     /// Rocking spectra of a rigid block under Ricker wavelets: figures and tables (Figures 2.2 to 2.7)
     Pulse(pulse::PulseArguments),
@@ -107,7 +107,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         Command::Status(arguments) => status::status(arguments),
         Command::Verify(arguments) => verify::verify(arguments, &terminal),
         Command::Check(arguments) => check::check(arguments, &terminal),
-        Command::Response(arguments) => response::response(arguments),
+        Command::Response(arguments) => response::response(arguments, &terminal),
         Command::Pulse(arguments) => pulse::pulse(arguments, &terminal),
         Command::Bootstrap(arguments) => bootstrap::bootstrap(arguments, &terminal),
         Command::Influence(arguments) => influence::influence(arguments, &terminal),

@@ -17,6 +17,9 @@ pub(crate) enum CommandError {
     /// What was typed does not fit together.
     #[error("{0}")]
     Usage(String),
+    /// The user stopped what leaves nothing behind.
+    #[error("interrupted: {0}")]
+    Interrupted(&'static str),
     /// The reader of the output went away, as `uplift … | head` does.
     #[error("the output was closed")]
     OutputClosed,
@@ -42,7 +45,7 @@ impl CommandError {
                 | UpliftError::Motion(MotionError::SyntheticOption { .. } | MotionError::SyntheticCandidates { .. }),
             ) => 2,
             Self::Uplift(UpliftError::Study(_)) => 3,
-            Self::Uplift(UpliftError::Interrupted | UpliftError::Paused { .. }) => 5,
+            Self::Interrupted(_) | Self::Uplift(UpliftError::Interrupted | UpliftError::Paused { .. }) => 5,
             // whatever else a job meets is in the input data or on the disk
             Self::Output(_) | Self::Uplift(_) => 4,
         }

@@ -29,7 +29,7 @@ pub(crate) use overturning::print_overturning;
 pub(crate) use plan::print_plan;
 pub(crate) use pulse::print_pulses;
 pub(crate) use records::{print_record, print_records, print_selection};
-pub(crate) use response::print_response;
+pub(crate) use response::{print_block_response, print_response};
 pub(crate) use run::{print_run, print_shard};
 pub(crate) use status::print_status;
 pub(crate) use table::print_table;

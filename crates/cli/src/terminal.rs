@@ -35,7 +35,7 @@ pub(crate) struct Terminal {
 }
 
 impl Terminal {
-    /// A terminal that hears Ctrl-C from now on; a quiet one tells results and errors only.
+    /// A terminal that hears Ctrl-C and SIGTERM from now on; a quiet one tells results and errors only.
     pub(crate) fn new(quiet: bool) -> Self {
         let stop = Arc::new(AtomicBool::new(false));
         let interruption_message = Arc::new(Mutex::new(UpliftError::Interrupted.to_string()));
@@ -45,8 +45,7 @@ impl Terminal {
             interruption_message: interruption_message.clone(),
             progress: RwLock::new(None),
         };
-        // where no handler can be set, Ctrl-C ends the program at once, which does no harm either
-        let _ = ctrlc::set_handler(move || {
+        let interrupted = move || {
             if stop.swap(true, Ordering::Relaxed) {
                 std::process::exit(EXIT_INTERRUPTED); // asked twice
             }
@@ -57,7 +56,11 @@ impl Terminal {
                 tell(&format!("uplift: {}", interruption_message.lock().unwrap_or_else(PoisonError::into_inner)));
                 std::process::exit(EXIT_INTERRUPTED);
             });
-        });
+        };
+        #[cfg(unix)]
+        on_termination(interrupted.clone());
+        // where no handler can be set, Ctrl-C ends the program at once, which does no harm either
+        let _ = ctrlc::set_handler(interrupted);
         terminal
     }
 
@@ -87,6 +90,14 @@ impl Terminal {
         if !self.quiet {
             tell(text);
         }
+    }
+}
+
+/// Calls `interrupted` when the system or a queue asks the program to end (SIGTERM): that is Ctrl-C without a keyboard.
+#[cfg(unix)]
+fn on_termination(interrupted: impl Fn() + Send + 'static) {
+    if let Ok(mut signals) = signal_hook::iterator::Signals::new([signal_hook::consts::SIGTERM]) {
+        std::thread::spawn(move || signals.forever().for_each(|_| interrupted()));
     }
 }
 

@@ -1,6 +1,9 @@
 //! Two-column text into a hazard curve.
 
+use std::borrow::Cow;
 use std::path::Path;
+
+use uplift_plausible::{DecimalMarks, with_point};
 
 use crate::component::ComponentDefinition;
 use crate::curve::HazardCurve;
@@ -104,13 +107,13 @@ pub fn table_text(path: &Path) -> Result<String, HazardError> {
 
 /// Reads a hazard curve from `text`; `name` is the file's name for messages.
 ///
-/// Two columns, separated by comma, semicolon, tab or blanks: the level, in the declared unit, and the annual rate of
-/// exceedance (1/yr) or the probability of exceedance in [`CsvOptions::years`]. A first row of column names, in any
-/// order and case, says which is which (`iml`, `im_g`, `pgv_cm_s`, `PGV [cm/s]`; `maf`, `afe`, `rate`; `poe`); without
-/// it [`CsvOptions::second_column`] decides. Lines that begin with `#` are kept as the curve's source; where they say
-/// `IM: PGV [cm/s]` or `unit: cm/s` they must agree with the declaration; where they say how the horizontal components
-/// are combined (`IM: PGV [cm/s], geometric mean (GMRotI50)` or `component: RotD50`), the curve keeps it
-/// ([`HazardCurve::component`]).
+/// Two columns, separated by comma, semicolon, tab or blanks, with decimal commas too between semicolons or tabs: the
+/// level, in the declared unit, and the annual rate of exceedance (1/yr) or the probability of exceedance in
+/// [`CsvOptions::years`]. A first row of column names, in any order and case, says which is which (`iml`, `im_g`,
+/// `pgv_cm_s`, `PGV [cm/s]`; `maf`, `afe`, `rate`; `poe`); without it [`CsvOptions::second_column`] decides. Lines
+/// that begin with `#` are kept as the curve's source; where they say `IM: PGV [cm/s]` or `unit: cm/s` they must agree
+/// with the declaration; where they say how the horizontal components are combined (`IM: PGV [cm/s], geometric mean
+/// (GMRotI50)` or `component: RotD50`), the curve keeps it ([`HazardCurve::component`]).
 ///
 /// Two kinds of rows carry no information and are dropped and counted: zeros at the end, and probabilities of 1 at the
 /// beginning (the rate is only known to be large; no value is put in its place, and the curve starts at the next row).
@@ -119,7 +122,7 @@ pub fn table_text(path: &Path) -> Result<String, HazardError> {
 /// [`HazardError`] naming file and line for everything else.
 pub fn read_csv(text: &str, name: &str, options: &CsvOptions) -> Result<CsvCurve, HazardError> {
     if text.contains('\0') {
-        let reason = "holds a null character, and no text does: save it as \"CSV UTF-8\"".to_owned();
+        let reason = format!("holds a null character, and no text does: {}", input::SAVE_AS_UTF8);
         return Err(HazardError::File { file: name.to_owned(), reason });
     }
     let Table { rows, content, source, component } = Table::parse(text, name, options)?;
@@ -155,6 +158,7 @@ impl Table {
         let mut columns: Option<(usize, SecondColumn)> = None;
         // `split` and not `lines`: old spreadsheets end lines with a carriage return alone.
         let unified = text.replace("\r\n", "\n").replace('\r', "\n");
+        let commas = has_decimal_commas(&unified, name)?;
         for (index, line) in unified.split('\n').enumerate() {
             let place = Place::Line { file: name.to_owned(), line: index + 1 };
             let line = line.trim();
@@ -168,13 +172,17 @@ impl Table {
                 continue;
             }
             let fields = match two_fields(line, &place) {
-                Ok(Some(fields)) => fields,
+                Ok(Some(fields)) => fields.map(|field| match with_point(field) {
+                    Some(number) if commas => Cow::Owned(number),
+                    _ => Cow::Borrowed(field),
+                }),
                 Ok(None) => continue,
                 Err(mistake) => {
                     note(mistake);
                     continue;
                 }
             };
+            let fields = [&*fields[0], &*fields[1]];
             let header = columns.is_none() && fields.iter().all(|field| field.parse::<f64>().is_err());
             if header {
                 columns = Some(read_header(fields, options, &place)?);
@@ -202,6 +210,20 @@ impl Table {
     }
 }
 
+/// Whether the numbers of a table have decimal commas, which they can where semicolons or tabs separate the columns.
+fn has_decimal_commas(text: &str, name: &str) -> Result<bool, HazardError> {
+    let mut marks = DecimalMarks::default();
+    for (index, line) in text.split('\n').enumerate() {
+        let is_comment = line.trim_start().trim_start_matches('"').starts_with('#');
+        if let Some(separator) = [';', '\t'].into_iter().find(|&separator| !is_comment && line.contains(separator)) {
+            for field in line.split(separator) {
+                marks.see(|| format!("line {}", index + 1), field.trim().trim_matches('"').trim());
+            }
+        }
+    }
+    marks.are_commas().map_err(|error| HazardError::File { file: name.to_owned(), reason: error.to_string() })
+}
+
 /// The two fields of a row, without quotes; none for an empty line.
 fn two_fields<'a>(line: &'a str, place: &Place) -> Result<Option<[&'a str; 2]>, HazardError> {
     let separator = [';', '\t', ','].into_iter().find(|&separator| line.contains(separator));
@@ -217,7 +239,7 @@ fn two_fields<'a>(line: &'a str, place: &Place) -> Result<Option<[&'a str; 2]>, 
         _ => {
             let numeric = fields.iter().all(|field| field.parse::<f64>().is_ok());
             let hint = if separator == Some(',') && matches!(fields.len(), 3 | 4) && numeric {
-                "; if these are decimal commas, write decimal points"
+                "; if these are decimal commas, write decimal points, or semicolons between the columns"
             } else {
                 "; keep one column of intensity levels and one of annual rates or probabilities"
             };

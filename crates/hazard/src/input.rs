@@ -51,6 +51,9 @@ pub(crate) fn text(input: Input, name: &str, limit: u64, advice: &str) -> Result
     if bytes.len() as u64 > limit {
         return Err(fail(format!("larger than {limit} bytes: {advice}")));
     }
+    if [b"\xff\xfe", b"\xfe\xff"].iter().any(|mark| bytes.starts_with(*mark)) {
+        return Err(fail(format!("UTF-16 text, which Excel and Notepad call Unicode: {SAVE_AS_UTF8}")));
+    }
     let mut text = String::from_utf8(bytes).map_err(|_| fail(NOT_UTF8.to_owned()))?;
     if text.starts_with('\u{feff}') {
         text.drain(..'\u{feff}'.len_utf8());
@@ -58,5 +61,7 @@ pub(crate) fn text(input: Input, name: &str, limit: u64, advice: &str) -> Result
     Ok(text)
 }
 
+/// What to do about it.
+pub(crate) const SAVE_AS_UTF8: &str = "save it as \"CSV UTF-8\"";
 /// Said of text in another encoding.
 pub(crate) const NOT_UTF8: &str = "not UTF-8 text; save it as \"CSV UTF-8\"";

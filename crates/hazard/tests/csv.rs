@@ -29,6 +29,8 @@ fn the_same_table_in_many_dresses() {
         "pgv_cm_s\tafe\n1\t2e-1\n2\t1e-1",
         "PGV [cm/s], MAF [1/yr]\n1, 0.2\n2, 0.1",
         "maf,im\n0.2,1\n0.1,2",
+        "iml;maf\r\n1,0;0,2\r\n2;1,0E-1\r\n",
+        "\u{feff}\"iml\"\t\"maf\"\n\"1,000\"\t\"0,2\"\n2\t0,100",
         "\"iml\",\"maf\"\n\"1\",\"0.2\"\n2,0.1,,,",
         "im rate\n1 0.2\n2   0.1",
     ] {
@@ -128,7 +130,11 @@ fn every_broken_line_is_named() {
             "iml,maf\n0,1,0,2\n",
             "site.csv, line 2: 4 columns where 2 are expected; if these are decimal commas, write decimal points",
         ),
-        ("iml;maf\n0,1;0.2\n", "site.csv, line 2: \"0,1\" has a decimal comma: write a decimal point"),
+        (
+            "iml;maf\n0,1;0.2\n",
+            "site.csv: line 2: 0,1 has a decimal comma, and 0.2 (line 2) a decimal point: write one of them throughout",
+        ),
+        ("iml;maf\n1,500;3\n", "site.csv: line 2: 1,500 may be 1.500 or 1500, and no other number tells"),
         ("iml,maf\n1,0.2\n2,x\n", "site.csv, line 3: \"x\" is not a number"),
         ("iml,maf\n1,0.2\n2,nan\n", "site.csv, line 3: \"nan\" is not a finite number"),
         ("iml,maf\n1,0.2\n2\n", "site.csv, line 3: 1 columns where 2 are expected; keep one column"),

@@ -86,6 +86,14 @@ pub enum MotionError {
         /// The largest size accepted \[bytes\].
         limit_bytes: u64,
     },
+    /// A file is an archive of others.
+    #[error(
+        "{name}: is a zip archive: `uplift records import {name} -o manifest.csv` unpacks it and finds its records"
+    )]
+    Archive {
+        /// The file.
+        name: String,
+    },
     /// No line of the head gives number of points and time step.
     #[error(
         "{name}: no line with NPTS and DT among the first {searched}; \

@@ -160,6 +160,9 @@ fn detect(bytes: &[u8], name: &str) -> RecordFormat {
 
 /// The bytes themselves, or what they hold packed with gzip.
 fn unpacked<'a>(bytes: &'a [u8], name: &str) -> Result<Cow<'a, [u8]>, MotionError> {
+    if bytes.starts_with(b"PK\x03\x04") {
+        return Err(MotionError::Archive { name: name.to_owned() });
+    }
     if !bytes.starts_with(b"\x1f\x8b") {
         return Ok(Cow::Borrowed(bytes));
     }

@@ -15,8 +15,10 @@
 //!
 //! Bounds that only a combination of numbers shows, such as the frequency of an oscillator, stand where it is made.
 
+mod decimal;
 mod range;
 mod table;
 
+pub use decimal::{AmbiguousMarks, DecimalMarks, with_point};
 pub use range::{Implausible, Range};
 pub use table::*;

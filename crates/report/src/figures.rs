@@ -13,7 +13,7 @@ mod pulses;
 mod spectra;
 
 pub use displacement::{Extent, displacement_figures};
-pub use history::history_figure;
+pub use history::{block_history_figure, history_figure};
 pub use overturning::overturning_figure;
 pub use pulses::pulse_figures;
 pub use spectra::hazard_figure;

@@ -18,7 +18,7 @@ pub mod report;
 
 pub use files::{FigureFormat, FigureOptions, check_figure_file, write_figure_file};
 pub use plot::{
-    HazardPlotOptions, PlotOptions, PlotReport, check_pulse_figures, plot, plot_hazard, plot_overturning, plot_pulses,
-    plot_response,
+    HazardPlotOptions, PlotOptions, PlotReport, check_pulse_figures, plot, plot_block_response, plot_hazard,
+    plot_overturning, plot_pulses, plot_response,
 };
 pub use report::{PageReport, ReportOptions, report};

@@ -8,10 +8,12 @@ use uplift::events::Events;
 use uplift::hazard_curves::{CurveOptions, read as read_curves};
 use uplift::outputs::{self, Output, beside, provide_folder};
 use uplift::pulses::{PULSE_FIGURES, PulseReport};
-use uplift::response::ResponseReport;
+use uplift::response::{BlockResponseReport, ResponseReport, ShakenBy};
 use uplift::structure::OverturningReport;
 
-use crate::figures::{hazard_figure, history_figure, overturning_figure, pulse_figures, result_figures};
+use crate::figures::{
+    block_history_figure, hazard_figure, history_figure, overturning_figure, pulse_figures, result_figures,
+};
 use crate::files::{FigureOptions, check_figure_file, write_figure_file};
 
 /// Curves that a figure can tell apart, and then some.
@@ -96,12 +98,29 @@ pub fn plot_pulses(report: &PulseReport, folder: &Path, figures: FigureOptions) 
 /// # Errors
 /// A report without a history; a file that cannot be written.
 pub fn plot_response(report: &ResponseReport, file: &Path) -> Result<(), UpliftError> {
-    let Some(history) = &report.history else {
-        return Err(UpliftError::Usage("the response was computed without its time history: ask for it".to_owned()));
-    };
-    let record = report.record.file_name().unwrap_or_default().to_string_lossy();
-    let title = format!("{record} times {}, strength {}", report.scale, report.strength);
+    let Some(history) = &report.history else { return Err(no_history()) };
+    let title = format!("{}, strength {}", shaken(&report.shaken_by), report.strength);
     write_figure_file(&history_figure(&title, history, report.uplift_displacement_m), file)
+}
+
+/// Draws the time history of a block's response to `file`, .svg or .png.
+///
+/// # Errors
+/// As [`plot_response`].
+pub fn plot_block_response(report: &BlockResponseReport, file: &Path) -> Result<(), UpliftError> {
+    let Some(history) = &report.history else { return Err(no_history()) };
+    let BlockResponseReport { size_m, slenderness_rad, .. } = report;
+    let title = format!("{}, block of R = {size_m:.4} m, α = {slenderness_rad:.4}", shaken(&report.shaken_by));
+    write_figure_file(&block_history_figure(&title, history, *slenderness_rad), file)
+}
+
+fn no_history() -> UpliftError {
+    UpliftError::Usage("the response was computed without its time history: ask for it".to_owned())
+}
+
+/// The record and its scale, for a title.
+fn shaken(by: &ShakenBy) -> String {
+    format!("{} times {}", by.record.file_name().unwrap_or_default().to_string_lossy(), by.scale)
 }
 
 /// Draws the collapse fragility of a structure as `file`, whose ending tells the format.

@@ -74,6 +74,22 @@ pub enum Unreadable {
     /// The system does not give it.
     #[error(transparent)]
     System(#[from] std::io::Error),
+    /// There is none.
+    #[error("there is no such file: name one as it is seen from the current folder, e.g. configs/europe.toml")]
+    Missing,
+    /// It is a file of another kind.
+    #[error("it is {found}, and {wanted} is wanted: {advice}")]
+    Other {
+        /// What it is.
+        found: &'static str,
+        /// What was to be read.
+        wanted: &'static str,
+        /// What takes such a file.
+        advice: &'static str,
+    },
+    /// It is text of two bytes a letter.
+    #[error("it is UTF-16 text, which PowerShell and Notepad call Unicode: save it as UTF-8")]
+    Utf16,
     /// There is no current directory that a relative path could start from.
     #[error("no current directory: {0}")]
     NoCurrentDirectory(std::io::Error),

@@ -16,6 +16,7 @@ pub(crate) mod document;
 pub(crate) mod field;
 pub(crate) mod findings;
 pub(crate) mod letters;
+pub(crate) mod other_file;
 pub(crate) mod overrides;
 pub(crate) mod paths;
 pub(crate) mod rule;

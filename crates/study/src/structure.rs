@@ -11,6 +11,7 @@ use uplift_structure::{
 
 use crate::error::StudyError;
 use crate::reading::findings::refused;
+use crate::reading::other_file::Wanted;
 use crate::reading::text::{parse_table, read_text};
 use crate::reading::{Field, Finding, Findings, Origin, Rule, Section, Table};
 
@@ -39,8 +40,11 @@ impl Structure {
     /// [`StudyError`] with every mistake of the file; those of TOML syntax come alone, and one that takes several
     /// correct quantities to see, such as a capacity below the uplift displacement, is found once those are mended.
     pub fn load(file: &Path) -> Result<Self, StudyError> {
-        let text = read_text(file)?;
+        let text = read_text(file, Wanted::Structure)?;
         let document = parse_table(file, &text)?;
+        if let Some(reason) = Wanted::Structure.refusal_of_table(&document) {
+            return Err(StudyError::unreadable(file, reason));
+        }
         let findings = Findings::default();
         let description = read(Section::root(&document, &findings));
         let mut findings = findings.into_vec();

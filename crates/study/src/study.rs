@@ -6,6 +6,7 @@ use crate::error::{StudyError, Unreadable};
 use crate::kind::{AnyStudy, Kind};
 use crate::reading::findings::refused;
 use crate::reading::letters::refuse_null_characters;
+use crate::reading::other_file::Wanted;
 use crate::reading::paths::tidy;
 use crate::reading::text::{parse_table, read_text};
 use crate::reading::{Findings, Paths, Section, Table, overrides};
@@ -58,9 +59,13 @@ impl Study {
     ///
     /// # Errors
     ///
-    /// [`StudyError`] where it cannot be read, or is no TOML.
+    /// [`StudyError`] where it cannot be read, is no TOML, or is a structure.
     pub fn read(file: &Path) -> Result<Self, StudyError> {
-        Self::parse(file, read_text(file)?)
+        let study = Self::parse(file, read_text(file, Wanted::Study)?)?;
+        match Wanted::Study.refusal_of_table(&study.document) {
+            Some(reason) => Err(StudyError::unreadable(file, reason)),
+            None => Ok(study),
+        }
     }
 
     /// Parses the `text` of a study file whose name is, or would be, `file`.

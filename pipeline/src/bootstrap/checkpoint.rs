@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 use uplift_bootstrap::{Band, ResamplingPlan};
+use uplift_motion::IntensityMeasure;
 
 use super::bands::{BandSettings, StrengthBands};
 use crate::error::UpliftError;
@@ -20,6 +21,21 @@ pub(super) type Finished = BTreeMap<(&'static str, usize), StrengthBands>;
 pub(super) struct Checkpoint {
     path: PathBuf,
     fingerprint: String,
+}
+
+/// Where the bootstrap of the result at `result` keeps what is finished.
+pub(crate) fn part_path(result: &Path) -> PathBuf {
+    beside(result, "bootstrap.part.h5")
+}
+
+/// Finished strengths of all measures in the file of an interrupted bootstrap; none where there is none.
+pub(crate) fn finished_strengths(part: &Path) -> Option<u64> {
+    let reader = LabelledReader::open(part).ok()?;
+    reader.attribute_text("/", "fingerprint").ok()?;
+    let count = |measure: IntensityMeasure| {
+        reader.array_u32(&format!("/{}/strength", measure.key())).map_or(0, |strengths| strengths.values.len() as u64)
+    };
+    Some(IntensityMeasure::ALL.into_iter().map(count).sum())
 }
 
 impl Checkpoint {
@@ -47,7 +63,7 @@ impl Checkpoint {
         for count in plan.multiplicities() {
             hash.update(count.to_le_bytes());
         }
-        Self { path: beside(&stored.path, "bootstrap.part.h5"), fingerprint: format!("{:x?}", hash.finalize()) }
+        Self { path: part_path(&stored.path), fingerprint: format!("{:x?}", hash.finalize()) }
     }
 
     /// Where it is.

@@ -77,7 +77,9 @@ pub(super) fn pair(candidate: Candidate, options: &ImportOptions) -> Result<Impo
         measures.peaks[1..].fill(None);
         (measures.pulse, measures.pulse_like) = (None, None);
     }
-    let warnings =
+    let mut warnings =
         warnings::of_pair(&pair, [&first.description, &second.description], &measures, options.files.gravity_m_s2);
+    let stated_s = search.as_ref().and_then(|entry| entry.d5_95_s);
+    warnings.extend(stated_s.and_then(|stated_s| warnings::of_duration(&pair, measures.durations_s[1], stated_s)));
     Ok(ImportedPair { id: pair.id, components, measures, search, warnings })
 }

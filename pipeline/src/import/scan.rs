@@ -29,18 +29,17 @@ pub(super) fn scan(folder: &Path) -> Result<Scan, UpliftError> {
     let walk = walkdir::WalkDir::new(folder).sort_by_file_name().into_iter().filter_entry(|entry| !hidden(entry));
     for entry in walk {
         let entry = entry.map_err(|error| UpliftError::input(format!("{}: {error}", folder.display())))?;
-        let name = entry.file_name().to_string_lossy().to_lowercase();
-        let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending);
+        let (name, ending) = name_and_ending(entry.path());
         // a link to a file counts as the file
         if entry.file_type().is_dir() || !entry.path().is_file() {
             continue;
         }
-        if ending == "csv" && name.contains("searchresults") {
+        if is_search_results(&name, &ending) {
             scan.search_results.push(entry.into_path());
             continue;
         }
         let manifest = ending == "csv" && is_manifest(entry.path());
-        if !manifest && !NO_RECORDS.contains(&ending) {
+        if !manifest && !NO_RECORDS.contains(&ending.as_str()) {
             scan.files.push(entry.into_path());
         }
     }
@@ -48,6 +47,24 @@ pub(super) fn scan(folder: &Path) -> Result<Scan, UpliftError> {
         return Err(UpliftError::input(format!("{} holds no files that could be records", folder.display())));
     }
     Ok(scan)
+}
+
+/// The name of a file in small letters, and how it ends.
+fn name_and_ending(path: &Path) -> (String, String) {
+    let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
+    let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending).to_owned();
+    (name, ending)
+}
+
+fn is_search_results(name: &str, ending: &str) -> bool {
+    ending == "csv" && name.contains("searchresults")
+}
+
+/// Whether a file of this path in a download could be a record, or the table of a search.
+pub(super) fn may_be_used(path: &Path) -> bool {
+    let (name, ending) = name_and_ending(path);
+    let hidden = path.iter().any(|part| part.to_string_lossy().starts_with('.'));
+    !hidden && (is_search_results(&name, &ending) || !NO_RECORDS.contains(&ending.as_str()))
 }
 
 /// Whether a table lists records, as an import writes it.

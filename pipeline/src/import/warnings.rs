@@ -21,8 +21,17 @@ const WHOLE_RATE: f64 = 1e-4;
 const STATED_PEAK: f64 = 0.02;
 /// How far two components may be from a right angle, degrees.
 const RIGHT_ANGLE_DEG: f64 = 5.0;
+/// How many times as long or short a significant duration may be as the search results state it: they take one of the
+/// components, or both together.
+const ODD_DURATION_RATIO: f64 = 1.5;
 /// Peaks beyond which the unit is probably not what it is taken for, g.
 const USUAL_PGA_G: [f64; 2] = [1e-6, 3.0];
+
+/// What to say of a largest acceleration \[g\] that the ground hardly has.
+pub fn unusual_peak(pga_g: f64) -> Option<String> {
+    let usual = (USUAL_PGA_G[0]..USUAL_PGA_G[1]).contains(&pga_g);
+    (!usual).then(|| format!("a component has a PGA of {pga_g:.3e} g; is its unit right?"))
+}
 
 /// Remarks about `pair`, whose files say the `descriptions` of its components; `gravity_m_s2` as in its `measures`.
 pub fn of_pair(
@@ -51,9 +60,8 @@ pub fn of_pair(
         add("odd baseline", format!("a velocity of {share:.0} % of the PGV is left at the end: its baseline is odd"));
     }
     for (motion, description) in motions.iter().zip(descriptions) {
-        let pga_g = motion.pga_m_s2() / gravity_m_s2;
-        if !(USUAL_PGA_G[0]..USUAL_PGA_G[1]).contains(&pga_g) {
-            add("unusual peak", format!("a component has a PGA of {pga_g:.3e} g; is its unit right?"));
+        if let Some(text) = unusual_peak(motion.pga_m_s2() / gravity_m_s2) {
+            add("unusual peak", text);
         }
         if let Some(stated) = description.stated_pga_m_s2.filter(|stated| stated.abs() > 0.0) {
             let found = motion.pga_m_s2();
@@ -79,6 +87,21 @@ pub fn of_pair(
     }
     warnings.dedup();
     warnings
+}
+
+/// A remark where the significant duration D5-95 found, s, is not the one `stated_s` by the search results: the time
+/// step of the files is wrong, or they are another record's.
+pub(super) fn of_duration(pair: &RecordPair, found_s: f64, stated_s: f64) -> Option<Warning> {
+    let is_odd = stated_s > 0.0 && !(1.0 / ODD_DURATION_RATIO..=ODD_DURATION_RATIO).contains(&(found_s / stated_s));
+    is_odd.then(|| Warning {
+        kind: "duration differs",
+        text: format!(
+            "{}: D5-95 is {found_s:.2} s, and {stated_s} s by the search results: is the time step of {} s right, and \
+             is this that record?",
+            pair.id,
+            pair.h1.dt_s()
+        ),
+    })
 }
 
 /// Whether two components begin at the same time, as far as their files say so; `dt_s` is the time step.
@@ -120,5 +143,28 @@ fn synchronisation(
                 h2.len()
             ),
         );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use std::collections::BTreeMap;
+
+    use super::*;
+
+    #[test]
+    fn a_duration_that_is_not_the_one_of_the_search() {
+        let motion = Accelerogram::new(0.02, vec![0.0, 1.0, -1.0, 0.0]).unwrap();
+        let pair = RecordPair { id: "RSN1_A".into(), h1: motion.clone(), h2: motion, metadata: BTreeMap::new() };
+        assert!(of_duration(&pair, 12.0, 10.0).is_none() && of_duration(&pair, 8.0, 10.0).is_none());
+        // the step of 0.01 s was taken for 0.02 s
+        let warning = of_duration(&pair, 20.0, 10.0).unwrap();
+        assert!(
+            warning.text.starts_with("RSN1_A: D5-95 is 20.00 s, and 10 s by the search results"),
+            "{}",
+            warning.text
+        );
+        assert!(warning.text.contains("time step of 0.02 s right"), "{}", warning.text);
     }
 }

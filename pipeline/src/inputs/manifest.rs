@@ -1,14 +1,13 @@
 //! The manifest of a record set: a CSV table with one row a pair of components.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::io::Cursor;
 use std::path::{Component as PathPart, Path, PathBuf};
 
 use polars::prelude::{Column, DataFrame};
-use polars_io::prelude::{CsvParseOptions, CsvReadOptions, SerReader};
 use uplift_atomic_file::read_file;
 use uplift_motion::{AccelerationUnit, RecordFormat};
 
+use super::text_table;
 use crate::result::plain;
 
 /// A row of a manifest.
@@ -75,7 +74,7 @@ pub fn record_files(path: &Path) -> Vec<PathBuf> {
 pub fn read_bytes(bytes: &[u8], path: &Path, tag: Option<&str>) -> Result<Vec<Row>, Vec<String>> {
     let name = path.display();
     let table = parse(bytes)
-        .map_err(|reason| vec![format!("manifest {name} is not a CSV table with a header row: {reason}")])?;
+        .map_err(|reason| vec![format!("manifest {name} cannot be read as a CSV table with a header row: {reason}")])?;
     let missing: Vec<&str> = REQUIRED.into_iter().filter(|column| table.get_column_index(column).is_none()).collect();
     if !missing.is_empty() {
         let found: Vec<String> = table.get_column_names().iter().map(ToString::to_string).collect();
@@ -131,7 +130,7 @@ pub fn read_bytes(bytes: &[u8], path: &Path, tag: Option<&str>) -> Result<Vec<Ro
 pub fn rows_of(path: &Path, ids: &BTreeSet<&str>, folder: &Path) -> Result<Vec<Column>, Vec<String>> {
     let fail = |reason: String| vec![format!("manifest {} cannot be read: {reason}", path.display())];
     let bytes = read_file(path, LARGEST_BYTES).map_err(|error| vec![format!("manifest {error}")])?;
-    let table = parse(&bytes).map_err(|error| fail(error.to_string()))?;
+    let table = parse(&bytes).map_err(fail)?;
     let origin = path.parent().unwrap_or(Path::new(""));
     let text = |column: &Column, row: usize| -> String {
         let cell = plain(column.str().ok().and_then(|cells| cells.get(row)).unwrap_or_default().trim()).to_owned();
@@ -166,19 +165,11 @@ pub fn relative(path: &Path, folder: &Path) -> String {
     up.chain(to).collect::<PathBuf>().to_string_lossy().into_owned()
 }
 
-/// All columns as text: an identifier such as 0012 must stay what it is. Spreadsheets of many countries separate
-/// columns by semicolons, and what is copied from one has tabs.
-pub(super) fn parse(bytes: &[u8]) -> Result<DataFrame, polars::prelude::PolarsError> {
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let header = bytes.split(|&byte| byte == b'\n').find(|line| !line.starts_with(b"#")).unwrap_or_default();
-    let separator = [b',', b';', b'\t'].into_iter().find(|byte| header.contains(byte)).unwrap_or(b',');
-    let options = CsvParseOptions::default().with_comment_prefix(Some("#")).with_separator(separator);
-    CsvReadOptions::default()
-        .with_has_header(true)
-        .with_infer_schema_length(Some(0))
-        .with_parse_options(options)
-        .into_reader_with_file_handle(Cursor::new(bytes))
-        .finish()
+/// Columns whose cells stay as they stand.
+const TEXTS: [&str; 3] = ["record_id", "station_code", "set_tags"];
+
+fn parse(bytes: &[u8]) -> Result<DataFrame, String> {
+    text_table::parse(bytes, &TEXTS)
 }
 
 fn cells(table: &DataFrame, index: usize) -> BTreeMap<String, String> {
@@ -248,7 +239,9 @@ fn row(cells: &mut BTreeMap<String, String>, folder: &Path) -> Result<Row, Vec<S
             Ok(value) if value <= -99.0 => drop(cells.remove(key)),
             Ok(value) if (0.0..=most).contains(&value) => {}
             Err(_) if text.replace(',', ".").parse::<f64>().is_ok() => {
-                mistakes.push(format!("record {id}: {key} is {text:?}: a decimal comma; write a point"));
+                mistakes.push(format!(
+                    "record {id}: {key} is {text:?}: a decimal comma; write a point, or semicolons between the columns"
+                ));
             }
             _ => mistakes
                 .push(format!("record {id}: {key} is {text:?}: give a number from 0 to {most}, or leave it blank")),

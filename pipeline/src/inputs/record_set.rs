@@ -12,6 +12,7 @@ use super::{cache, manifest, selection};
 use crate::checksum::checksum;
 use crate::error::UpliftError;
 use crate::events::Silent;
+use crate::import::unusual_peak;
 use crate::machine::{Needs, PROGRAM_BYTES};
 use uplift_study::{RecordSource, UniformRiskStudy};
 
@@ -80,6 +81,7 @@ pub fn read_records(study: &UniformRiskStudy) -> Result<RecordSet, UpliftError> 
         selection::select(pairs, &study.records.select, study.records.intensity, study.gravity_m_s2)?;
     pairs.truncate(first_of(study));
     notes.extend(alike(&pairs));
+    notes.extend(of_unusual_peak(&pairs, study.gravity_m_s2));
     notes.extend(of_unequal_length(&pairs, study));
     let kind = if synthetic { "synthetic" } else { "recorded" };
     let noun = if pairs.len() == 1 { "pair" } else { "pairs" };
@@ -110,6 +112,25 @@ fn of_unequal_length(pairs: &[CheckedPair], study: &UniformRiskStudy) -> Option<
             unequal.iter().take(5).copied().collect::<Vec<_>>().join(", "),
             if unequal.len() > 5 { ", …" } else { "" },
             study.records.intensity
+        )
+    })
+}
+
+/// Records whose unit is probably not what it is taken for.
+pub(super) fn of_unusual_peak(pairs: &[CheckedPair], gravity_m_s2: f64) -> Option<String> {
+    let told = |(pair, _): &CheckedPair| {
+        let pga_g = pair.h1.pga_m_s2().max(pair.h2.pga_m_s2()) / gravity_m_s2;
+        unusual_peak(pga_g).map(|_| format!("{}: {pga_g:.3} g", pair.id))
+    };
+    let unusual: Vec<String> = pairs.iter().filter_map(told).collect();
+    (!unusual.is_empty()).then(|| {
+        format!(
+            "{} of {} records have a PGA that the ground hardly has ({}{}): is their unit right, cm/s2 taken for g \
+             perhaps?",
+            unusual.len(),
+            pairs.len(),
+            unusual.iter().take(5).cloned().collect::<Vec<_>>().join(", "),
+            if unusual.len() > 5 { ", …" } else { "" }
         )
     })
 }

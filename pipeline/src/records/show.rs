@@ -7,7 +7,7 @@ use serde::Serialize;
 use uplift_motion::{Accelerogram, Combination, Orientation, ReadOptions, RecordPair, Recording, read_record_file};
 
 use crate::error::UpliftError;
-use crate::import::{PairMeasures, warnings_of_pair};
+use crate::import::{PairMeasures, unusual_peak, warnings_of_pair};
 use crate::inputs::FileOptions;
 use crate::inputs::manifest::{self, ComponentFile};
 use crate::inputs::pairs::read_component;
@@ -42,6 +42,8 @@ pub struct FileReport {
     pub format: String,
     /// Its components.
     pub components: Vec<ComponentReport>,
+    /// What deserves a look before the record is trusted.
+    pub warnings: Vec<String>,
 }
 
 /// A record of a manifest.
@@ -135,15 +137,10 @@ fn file(path: &Path, files: FileOptions) -> Result<FileReport, UpliftError> {
         )));
     }
     let file = read_record_file(path, &files.read_options(None))?;
-    Ok(FileReport {
-        file: path.to_owned(),
-        format: file.format.to_string(),
-        components: file
-            .recordings
-            .iter()
-            .map(|recording| ComponentReport::of(recording, files.gravity_m_s2))
-            .collect(),
-    })
+    let components: Vec<ComponentReport> =
+        file.recordings.iter().map(|recording| ComponentReport::of(recording, files.gravity_m_s2)).collect();
+    let warnings = components.iter().filter_map(|component| unusual_peak(component.pga_g)).collect();
+    Ok(FileReport { file: path.to_owned(), format: file.format.to_string(), components, warnings })
 }
 
 fn record(set: &Path, id: &str, gravity_m_s2: f64) -> Result<RecordReport, UpliftError> {

@@ -56,7 +56,7 @@ impl ResponseHistory {
                 time_s: sample.time_s,
                 displacement_m: sample.displacement_m,
                 velocity_m_s: sample.velocity_m_s,
-                ground_acceleration_m_s2: acceleration_at(excitation, sample.time_s),
+                ground_acceleration_m_s2: excitation_at(excitation, sample.time_s),
                 event: None,
             });
         }
@@ -73,8 +73,8 @@ impl ResponseHistory {
             "uplift {} ({}); record {}, scale {}, strength {}, uplift displacement {} m",
             crate::VERSION,
             crate::COMMIT,
-            report.record.display(),
-            report.scale,
+            report.shaken_by.record.display(),
+            report.shaken_by.scale,
             report.strength,
             report.uplift_displacement_m
         );
@@ -98,7 +98,7 @@ fn rows_of(event: &Event, excitation: &Excitation<'_>) -> Vec<HistoryRow> {
         time_s: event.time_s,
         displacement_m: event.displacement_m,
         velocity_m_s,
-        ground_acceleration_m_s2: acceleration_at(excitation, event.time_s),
+        ground_acceleration_m_s2: excitation_at(excitation, event.time_s),
         event: Some(word),
     };
     match event.kind {
@@ -111,19 +111,24 @@ fn rows_of(event: &Event, excitation: &Excitation<'_>) -> Vec<HistoryRow> {
 }
 
 /// The scaled acceleration of the ground, linear between samples, zero after the record.
-fn acceleration_at(excitation: &Excitation<'_>, time_s: f64) -> f64 {
-    let a = excitation.acceleration_m_s2();
-    let position = time_s / excitation.dt_s();
+fn excitation_at(excitation: &Excitation<'_>, time_s: f64) -> f64 {
+    acceleration_at(excitation.acceleration_m_s2(), excitation.scale(), excitation.dt_s(), time_s)
+}
+
+/// `scale` times the value of `samples`, `dt_s` apart, at `time_s`: linear between them, zero after the last.
+pub(super) fn acceleration_at(samples: &[f64], scale: f64, dt_s: f64, time_s: f64) -> f64 {
+    let duration_s = (samples.len() - 1) as f64 * dt_s;
+    let position = time_s / dt_s;
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "inside the record")]
-    let index = (position.round() as usize).min(a.len() - 1);
-    if time_s > excitation.duration_s() * (1.0 + 1e-12) {
+    let index = (position.round() as usize).min(samples.len() - 1);
+    if time_s > duration_s * (1.0 + 1e-12) {
         0.0
     } else if (position - index as f64).abs() < 1e-6 {
-        excitation.scale() * a[index]
+        scale * samples[index]
     } else {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "inside the record")]
-        let before = (position as usize).min(a.len() - 2);
+        let before = (position as usize).min(samples.len() - 2);
         let part = position - before as f64;
-        excitation.scale() * (a[before] + part * (a[before + 1] - a[before]))
+        scale * (samples[before] + part * (samples[before + 1] - samples[before]))
     }
 }

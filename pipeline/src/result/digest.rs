@@ -49,7 +49,9 @@ mod tests {
     fn what_counts_is_in_the_digest_and_nothing_else() {
         let inputs = BTreeMap::from([("record A".to_owned(), "12".to_owned())]);
         let study = |title: &str, seed: u64, file: &str| {
-            format!("title = \"{title}\"\nseed = {seed}\n[[sites]]\npgv = {{ file = \"{file}\" }}\n[output]\ncsv = true\n")
+            format!(
+                "title = \"{title}\"\nseed = {seed}\n[[sites]]\npgv = {{ file = \"{file}\" }}\n[output]\ncsv = true\n"
+            )
         };
         let digest = study_digest(&study("a", 1, "/one/pgv.csv"), &inputs);
         assert_eq!(digest.len(), LETTERS);

@@ -40,7 +40,8 @@ impl Earlier {
         let folder = beside(result, "earlier").join(name.as_deref().unwrap_or(digest));
         let mut earlier = Self { result: result.to_owned(), digest: digest.to_owned(), folder, kept: 0 };
         if name.is_some() {
-            earlier.take(result, |from, to| std::fs::hard_link(from, to).or_else(|_| std::fs::copy(from, to).map(drop)))?;
+            earlier
+                .take(result, |from, to| std::fs::hard_link(from, to).or_else(|_| std::fs::copy(from, to).map(drop)))?;
         }
         Ok(earlier)
     }
@@ -54,16 +55,13 @@ impl Earlier {
             self.take(&file, |from, to| std::fs::rename(from, to))?;
         }
         if self.kept > 0 {
-            events.remark("earlier", &format!("{} file(s) of the earlier result: {}", self.kept, self.folder.display()));
+            events
+                .remark("earlier", &format!("{} file(s) of the earlier result: {}", self.kept, self.folder.display()));
         }
         Ok(())
     }
 
-    fn take(
-        &mut self,
-        file: &Path,
-        how: impl Fn(&Path, &Path) -> std::io::Result<()>,
-    ) -> Result<(), UpliftError> {
+    fn take(&mut self, file: &Path, how: impl Fn(&Path, &Path) -> std::io::Result<()>) -> Result<(), UpliftError> {
         let figures = beside(&self.result, "figures");
         let folder = match file.parent() {
             Some(parent) if parent == figures => self.folder.join(figures.file_name().unwrap_or_default()),

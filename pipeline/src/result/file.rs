@@ -7,6 +7,7 @@ use uplift_study::Kind;
 
 use super::head::kind_of;
 use super::layout::{LAYOUT, axis};
+use super::other_file::no_result;
 use crate::array::Array;
 use crate::error::UpliftError;
 
@@ -70,7 +71,7 @@ impl ResultFile {
     /// # Errors
     /// A file that is missing, damaged, not a result, or of another layout.
     pub fn open(path: &Path) -> Result<Self, UpliftError> {
-        let reader = LabelledReader::open(path)?;
+        let reader = LabelledReader::open(path).map_err(|error| no_result(path, error))?;
         let program = reader.attribute_text("/", "program").unwrap_or_default();
         if program != "uplift" {
             return Err(UpliftError::input(format!(

@@ -84,13 +84,13 @@ impl StoredStripes {
 /// A probability that is not among them.
 pub(super) fn poe_index(poes: &[f64], wanted: Option<f64>) -> Result<usize, UpliftError> {
     let found = match wanted {
-        Some(wanted) => poes.iter().position(|poe| (poe - wanted).abs() < 1e-9),
+        Some(wanted) => poes.iter().position(|poe| (poe - wanted).abs() <= 1e-6 * poe),
         None => (0..poes.len()).min_by(|&a, &b| poes[a].total_cmp(&poes[b])),
     };
     found.ok_or_else(|| UpliftError::Choice {
         option: "--poe",
-        wanted: wanted.map(|wanted| wanted.to_string()),
-        known: poes.iter().map(f64::to_string).collect(),
+        wanted: wanted.map(|wanted| format!("{wanted:?}")),
+        known: poes.iter().map(|poe| format!("{poe:?}")).collect(),
     })
 }
 

@@ -1,14 +1,13 @@
 //! A table of a paper to compare with: a CSV file with a header row.
 
-use std::io::Cursor;
 use std::path::Path;
 
 use polars::prelude::DataFrame;
-use polars_io::prelude::{CsvParseOptions, CsvReadOptions, SerReader};
 
 use uplift_atomic_file::read_file;
 
 use crate::error::UpliftError;
+use crate::inputs::text_table;
 use crate::result::plain;
 
 /// The most that a table of a paper has, and then some.
@@ -30,13 +29,7 @@ impl ReferenceTable {
         let name = path.display().to_string();
         let fail = |reason: String| UpliftError::input(format!("reference {name}: {reason}"));
         let bytes = read_file(path, LARGEST_BYTES).map_err(|error| UpliftError::input(format!("reference {error}")))?;
-        let frame = CsvReadOptions::default()
-            .with_has_header(true)
-            .with_infer_schema_length(Some(0))
-            .with_parse_options(CsvParseOptions::default().with_comment_prefix(Some("#")))
-            .into_reader_with_file_handle(Cursor::new(bytes))
-            .finish()
-            .map_err(|error| fail(error.to_string()))?;
+        let frame = text_table::parse(&bytes, &[]).map_err(fail)?;
         Ok(Self { name, frame })
     }
 

@@ -1,13 +1,17 @@
 //! Arguments that several commands take.
 
 mod figures;
+mod folder;
 mod force;
+mod probability;
 mod result;
 mod structure;
 mod study;
 
 pub(crate) use figures::FigureArguments;
+pub(crate) use folder::require_folder;
 pub(crate) use force::ForceArgument;
+pub(crate) use probability::probability;
 pub(crate) use result::ResultArguments;
 pub(crate) use structure::StructureArguments;
 pub(crate) use study::{StudyArguments, run_options, shard};

@@ -10,7 +10,7 @@ use uplift_block::RickerShape;
 use uplift_report::{check_pulse_figures, plot_pulses};
 use uplift_study::Grid;
 
-use super::arguments::{FigureArguments, ForceArgument};
+use super::arguments::{FigureArguments, ForceArgument, require_folder};
 use crate::error::CommandError;
 use crate::show::{print_json, print_pulses};
 use crate::terminal::Terminal;
@@ -148,6 +148,7 @@ impl PulseArguments {
 
 pub(super) fn pulse(arguments: &PulseArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let folder = &arguments.output;
+    require_folder(folder, "figures and tables")?;
     let (figures, force) = (arguments.figures.options(), arguments.overwriting.force);
     check_pulse_figures(folder, figures, force)?;
     let mut report = pulses(&PulseOptions { plan: arguments.plan(), folder: Some(folder.clone()), force }, terminal)?;

@@ -25,7 +25,7 @@ pub(super) struct RecordsArguments {
 
 #[derive(Debug, Subcommand)]
 enum RecordsCommand {
-    /// Find the records in a folder of downloads, pair and measure them, write a manifest
+    /// Find the records in a folder or zip archive of downloads, pair and measure them, write a manifest
     Import(import::ImportArguments),
     /// List the records of a manifest
     List(list::ListArguments),

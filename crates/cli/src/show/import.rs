@@ -36,7 +36,7 @@ pub(crate) fn print_import(report: &ImportReport, terminal: &Terminal) -> Result
             report.blank_columns.join(", ")
         ));
     }
-    if let Some(manifest) = &report.manifest {
+    if let Some(manifest) = report.manifest.as_ref().filter(|_| !terminal.is_quiet()) {
         let ImportReport { pairs, files, seconds, .. } = report;
         writeln!(output(), "{pairs} pairs from {files} files in {seconds:.1} s: {}", manifest.display())?;
     }

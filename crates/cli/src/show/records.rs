@@ -54,7 +54,7 @@ pub(crate) fn print_record(report: &ShowReport) -> Result<(), CommandError> {
                 writeln!(out, "\ncomponent {}", index + 1)?;
                 print_component(&mut out, component)?;
             }
-            Ok(())
+            print_warnings(&mut out, &file.warnings)
         }
         ShowReport::Record(record) => print_pair(&mut out, record),
     }
@@ -79,7 +79,11 @@ fn print_pair(out: &mut impl Write, record: &RecordReport) -> Result<(), Command
     } else if record.pulse_like == Some(false) {
         writeln!(out, "  {:<24}no (too weak for one)", "velocity pulse")?;
     }
-    for warning in &record.warnings {
+    print_warnings(out, &record.warnings)
+}
+
+fn print_warnings(out: &mut impl Write, warnings: &[String]) -> Result<(), CommandError> {
+    for warning in warnings {
         writeln!(out, "warning: {warning}")?;
     }
     Ok(())

@@ -56,7 +56,10 @@ fn print_end(out: &mut impl Write, head: &RunHead) -> Result<(), CommandError> {
 }
 
 /// Which shard was computed, and where it is.
-pub(crate) fn print_shard(report: &ShardReport) -> Result<(), CommandError> {
+pub(crate) fn print_shard(report: &ShardReport, terminal: &Terminal) -> Result<(), CommandError> {
+    if terminal.is_quiet() {
+        return Ok(());
+    }
     let ShardReport { shard, shards, rows, file } = report;
     let file = shown_path(file).display();
     Ok(writeln!(output(), "shard {shard} of {shards}, {rows} analysis rows: {file}")?)

@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use uplift::status::{ResultContent, ResultStatus, StatusReport, UnfinishedStatus};
+use uplift::status::{BootstrapStatus, ResultContent, ResultStatus, StatusReport, UnfinishedStatus};
 
 use uplift::text::one_line;
 
@@ -17,6 +17,14 @@ pub(crate) fn print_status(report: &StatusReport) -> Result<(), CommandError> {
     }
     for unfinished in &report.unfinished {
         print_unfinished(&mut out, unfinished)?;
+    }
+    if let Some(BootstrapStatus { file, strengths }) = &report.bootstrap {
+        writeln!(
+            out,
+            "{}: an interrupted bootstrap, {strengths} strengths finished; the same `uplift bootstrap` goes on from \
+             there",
+            file.display()
+        )?;
     }
     if let Some(holder) = &report.written_by {
         writeln!(out, "being written now, by {holder}")?;

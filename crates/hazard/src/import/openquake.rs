@@ -160,7 +160,7 @@ impl Columns {
             }
             return fail(
                 "no columns \"poe-...\": not an OpenQuake export of hazard curves, nor NRML nor JSON of the USGS; \
-                 two columns of one site are read as a CSV curve"
+                 two columns of one site are a curve as they are: name the file in a study"
                     .to_owned(),
             );
         }

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use super::text::BACKSLASH;
 use super::{Field, Origin};
 
 /// What becomes of the paths in a study.
@@ -63,10 +64,14 @@ impl Paths {
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => "file not found".to_owned(),
             Err(error) => format!("cannot find the file: {error}"),
         };
-        field.mistake(
-            format!("{reason}: {}", path.display()),
-            format!("give an existing file; a relative path starts from {from}"),
-        );
+        // "C:\temp\new.csv" in double quotes is TOML, with a tab and the end of a line in it
+        let backslash = path.to_string_lossy().contains(char::is_control);
+        let help = if backslash {
+            BACKSLASH.to_owned()
+        } else {
+            format!("give an existing file; a relative path starts from {from}")
+        };
+        field.mistake(format!("{reason}: {}", path.display()), help);
         None
     }
 

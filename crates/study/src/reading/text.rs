@@ -1,27 +1,35 @@
 //! A file as text, and the text as TOML.
 
 use std::fs;
-use std::io::Read;
+use std::io::{self, Read};
 use std::path::Path;
 
 use super::Table;
 use super::findings::place;
+use super::other_file::Wanted;
 use crate::error::{MOST_LISTED, StudyError, StudyMistake, Unreadable};
 
 /// Largest study file \[bytes\]; one with 100 000 numbers written out has 2 MB.
 const LARGEST_FILE: u64 = 4 << 20;
 
-/// The text of the file `file`, if it is one that people write.
-pub(crate) fn read_text(file: &Path) -> Result<String, StudyError> {
-    read(file).map_err(|reason| StudyError::unreadable(file, reason))
+/// The text of the file `file`, if it is one that people write and may be what is `wanted`.
+pub(crate) fn read_text(file: &Path, wanted: Wanted) -> Result<String, StudyError> {
+    read(file, wanted).map_err(|reason| StudyError::unreadable(file, reason))
 }
 
-fn read(file: &Path) -> Result<String, Unreadable> {
-    if !fs::metadata(file)?.is_file() {
+fn read(file: &Path, wanted: Wanted) -> Result<String, Unreadable> {
+    let metadata = fs::metadata(file).map_err(|error| match error.kind() {
+        io::ErrorKind::NotFound => Unreadable::Missing,
+        _ => Unreadable::System(error),
+    })?;
+    if !metadata.is_file() {
         return Err(Unreadable::NotAFile);
     }
     let mut bytes = Vec::new();
     fs::File::open(file)?.take(LARGEST_FILE + 1).read_to_end(&mut bytes)?;
+    if let Some(reason) = wanted.refusal_of_bytes(file, &bytes) {
+        return Err(reason);
+    }
     if bytes.len() as u64 > LARGEST_FILE {
         return Err(Unreadable::TooLarge { most_bytes: LARGEST_FILE });
     }
@@ -39,7 +47,7 @@ pub(crate) fn parse_table(file: &Path, text: &str) -> Result<Table, StudyError> 
             key: String::new(),
             place: place(text, error.span().unwrap_or_default()),
             message: format!("not TOML: {}", error.message()),
-            help: Some(syntax_help(error.message()).to_owned()),
+            help: Some(syntax_help(error.message(), line_at(text, error.span())).to_owned()),
         });
         let listed: Vec<_> = listed.collect();
         let left_out = errors.len() - listed.len();
@@ -47,11 +55,26 @@ pub(crate) fn parse_table(file: &Path, text: &str) -> Result<Table, StudyError> 
     })
 }
 
-/// What to do about a mistake of TOML syntax.
-fn syntax_help(message: &str) -> &'static str {
+/// The line of `text` that a mistake begins on.
+fn line_at(text: &str, span: Option<std::ops::Range<usize>>) -> &str {
+    let at = span.map_or(0, |span| span.start).min(text.len());
+    let (before, after) = text.split_at_checked(at).unwrap_or((text, ""));
+    let begin = before.rfind('\n').map_or(0, |newline| newline + 1);
+    let end = at + after.find('\n').unwrap_or(after.len());
+    text.get(begin..end).unwrap_or_default()
+}
+
+/// What to do about a mistake of TOML syntax in this `line`.
+fn syntax_help(message: &str, line: &str) -> &'static str {
     if message.contains("duplicate") {
         "each key and each [section] may stand once; write [[sites]] for one site more"
+    } else if line.split('#').next().is_some_and(|line| line.contains('"') && line.contains('\\')) {
+        BACKSLASH
     } else {
         "put texts, paths and grids in double quotes, lists in [ ]"
     }
 }
+
+/// What to do about a path of Windows.
+pub(crate) const BACKSLASH: &str = "in double quotes a backslash has a meaning of its own: put paths of Windows in \
+                                    'single quotes', or write / in place of \\";

@@ -185,7 +185,7 @@ fn study_files_that_cannot_be_read() {
     fs::write(folder.path("latin.toml"), b"[pgv]\ntitle = \"Foc\xbaani\"").unwrap();
     fs::write(folder.path("large.toml"), vec![b'#'; (4 << 20) + 1]).unwrap();
     for (name, expected) in [
-        ("missing.toml", "No such file"),
+        ("missing.toml", "missing.toml: there is no such file: name one as it is seen"),
         (".", "it is not a file"),
         ("latin.toml", "line 2 is not UTF-8 text; save it as UTF-8"),
         ("large.toml", "it has more than 4194304 bytes; is it a study file?"),
@@ -194,6 +194,67 @@ fn study_files_that_cannot_be_read() {
         assert!(error.to_string().contains(expected), "{error}");
         assert!(error.mistakes().is_empty());
         assert!(render(&error).contains(expected));
+    }
+}
+
+#[test]
+fn files_of_another_kind_are_named() {
+    let folder = Folder::new("");
+    let utf_16: Vec<u8> = "\u{feff}[pgv]".encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let files: [(&str, &[u8]); 7] = [
+        ("r.h5", b"\x89HDF\r\n\x1a\n\0\0\xff"),
+        ("named.toml", b"\x89HDF\r\n\x1a\n\0\0\xff"),
+        ("z.zip", b"PK\x03\x04\xff"),
+        ("a.AT2", b"A DATABASE\nsome event\nUNITS OF G\nNPTS= 4, DT= .01 SEC\n"),
+        ("t.csv", b"iml,maf\n1,2\n"),
+        ("pier.toml", b"kind = \"block\"\nwidth_m = 0.8\nheight_m = 4\nmass_kg = 8000\n"),
+        ("wide.toml", &utf_16),
+    ];
+    for (name, content) in files {
+        fs::write(folder.path(name), content).unwrap();
+    }
+    for (name, expected) in [
+        ("r.h5", "it is a result, and a study is wanted: `uplift status`"),
+        ("named.toml", "it is a result, and a study is wanted"),
+        ("z.zip", "it is a zip archive, and a study is wanted: `uplift records import`"),
+        ("a.AT2", "it is a record, and a study is wanted: `uplift response`"),
+        ("t.csv", "it is a table, and a study is wanted"),
+        ("pier.toml", "it is a structure, and a study is wanted: `uplift design`"),
+        ("wide.toml", "it is UTF-16 text"),
+    ] {
+        let error = Study::load_any(&folder.path(name), &[]).unwrap_err();
+        assert!(error.to_string().contains(expected), "{error}");
+    }
+    fs::write(folder.path("study.toml"), "[pgv]\n[[sites]]\nname = 'A'\n").unwrap();
+    fs::write(folder.path("chapter.toml"), "kind = \"displacement spectra\"\n").unwrap();
+    for (name, expected) in [
+        ("r.h5", "it is a result, and a structure is wanted: the structure comes first, and the result after --urs"),
+        ("study.toml", "it is a study, and a structure is wanted: `uplift run`"),
+        ("chapter.toml", "it is a study, and a structure is wanted"),
+    ] {
+        let error = crate::Structure::load(&folder.path(name)).unwrap_err();
+        assert!(error.to_string().contains(expected), "{error}");
+    }
+    assert!(crate::Structure::load(&folder.path("pier.toml")).is_ok());
+}
+
+/// A byte order mark and the line ends of Windows make no difference.
+#[test]
+fn marks_of_windows() {
+    let folder = Folder::new("");
+    fs::write(folder.path("marked.toml"), "\u{feff}gravity_m_s2 = 9.81\r\n[pgv]\r\n").unwrap();
+    Study::load(&folder.path("marked.toml"), &[]).unwrap();
+}
+
+#[test]
+fn backslashes_in_paths() {
+    for path in ["C:\\Users\\me\\set.csv", "C:\\records\\set.csv", "C:\\temp\\new.csv"] {
+        let error = load(&format!("[records]\nmanifest = \"{path}\"\n[pgv]\n")).unwrap_err();
+        assert!(!error.mistakes().is_empty());
+        for mistake in error.mistakes() {
+            let help = mistake.help.as_deref().unwrap();
+            assert!(help.contains("'single quotes'") && help.contains("write / in place of"), "{path}: {help}");
+        }
     }
 }
 

@@ -6,7 +6,7 @@ use polars::prelude::{DataFrame, StringChunked};
 
 use uplift_atomic_file::{FileError, read_file};
 
-use super::super::manifest::parse;
+use super::super::text_table;
 use super::ListedSite;
 
 /// Largest table, bytes: some millions of sites.
@@ -41,7 +41,8 @@ pub(super) fn read(path: &Path) -> Result<Places, Vec<String>> {
         }
         Err(error) => return Err(vec![format!("site table {error}")]),
     };
-    let table = parse(&bytes).map_err(|error| fail(format!("is not a CSV table with a header row: {error}")))?;
+    let table = text_table::parse(&bytes, &[])
+        .map_err(|error| fail(format!("cannot be read as a CSV table with a header row: {error}")))?;
     drop(bytes);
     let columns = Columns::of(&table).map_err(fail)?;
     let mut mistakes = Vec::new();
@@ -130,6 +131,10 @@ fn degrees(what: &str, text: &str) -> Result<f64, String> {
         return Ok(value);
     }
     let head: String = text.chars().take(40).collect();
-    let hint = if text.replace(',', ".").parse::<f64>().is_ok() { ", with a decimal point" } else { "" };
+    let hint = if text.replace(',', ".").parse::<f64>().is_ok() {
+        ", with a decimal point, or semicolons between the columns"
+    } else {
+        ""
+    };
     Err(format!("{what} is {head:?}: give degrees{hint}"))
 }

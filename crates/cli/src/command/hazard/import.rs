@@ -7,7 +7,7 @@ use uplift::hazard_curves::{HazardImportOptions, import as import_curves};
 use uplift_hazard::ComponentDefinition;
 
 use super::SiteArguments;
-use crate::command::arguments::ForceArgument;
+use crate::command::arguments::{ForceArgument, require_folder};
 use crate::error::CommandError;
 use crate::show::print_hazard_import;
 use crate::terminal::Terminal;
@@ -38,6 +38,7 @@ pub(super) struct ImportArguments {
 }
 
 pub(super) fn import(arguments: &ImportArguments, terminal: &Terminal) -> Result<(), CommandError> {
+    require_folder(&arguments.output, "curves")?;
     let options = HazardImportOptions {
         exports: arguments.exports.clone(),
         folder: arguments.output.clone(),

@@ -1,4 +1,4 @@
-//! `uplift records import`: from a folder of downloads to a manifest.
+//! `uplift records import`: from a folder of downloads, or a zip archive, to a manifest.
 
 use std::path::PathBuf;
 
@@ -13,7 +13,9 @@ use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
 pub(super) struct ImportArguments {
-    /// Folder with record files, in folders of their own if you like
+    /// Folder with record files, in folders of their own if you like; or the zip archive that PEER gives, which is
+    /// unpacked into a folder of its name beside the manifest
+    #[arg(value_name = "FOLDER|ZIP")]
     folder: PathBuf,
     /// The manifest to write (CSV); a folder gets a manifest.csv
     #[arg(short, long, value_name = "SET")]

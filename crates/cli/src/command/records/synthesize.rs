@@ -94,5 +94,8 @@ impl SynthesizeArguments {
 
 pub(super) fn synthesize(arguments: &SynthesizeArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let report = synthesize_records(&arguments.options(), terminal)?;
-    Ok(writeln!(output(), "{} synthetic pairs: {}", report.pairs, report.manifest.display())?)
+    if !terminal.is_quiet() {
+        writeln!(output(), "{} synthetic pairs: {}", report.pairs, report.manifest.display())?;
+    }
+    Ok(())
 }

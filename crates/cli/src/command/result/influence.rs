@@ -3,7 +3,7 @@
 use clap::Args;
 use uplift::influence::{InfluenceOptions, influence as run};
 
-use crate::command::arguments::ResultArguments;
+use crate::command::arguments::{ResultArguments, probability};
 use crate::error::CommandError;
 use crate::show::{print_influence, print_json};
 use crate::terminal::Terminal;
@@ -15,8 +15,8 @@ pub(crate) struct InfluenceArguments {
     /// Records shown for each site
     #[arg(long, value_name = "N", default_value_t = InfluenceOptions::default().top)]
     top: usize,
-    /// Probability of exceedance shown [default: the smallest]
-    #[arg(long)]
+    /// Probability of exceedance shown, 0.1 or 10% [default: the smallest]
+    #[arg(long, value_parser = probability)]
     poe: Option<f64>,
     /// Print the rows as JSON
     #[arg(long)]

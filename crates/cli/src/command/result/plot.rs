@@ -5,8 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use uplift_report::{PlotOptions, plot as plot_result};
 
-use crate::command::arguments::FigureArguments;
-use crate::command::arguments::ResultArguments;
+use crate::command::arguments::{FigureArguments, ResultArguments, require_folder};
 use crate::error::CommandError;
 use crate::show::print_files;
 use crate::terminal::Terminal;
@@ -26,6 +25,9 @@ pub(crate) struct PlotArguments {
 }
 
 pub(crate) fn plot(arguments: &PlotArguments, terminal: &Terminal) -> Result<(), CommandError> {
+    if let Some(folder) = &arguments.output {
+        require_folder(folder, "figures")?;
+    }
     let options = PlotOptions {
         result: arguments.result.find(terminal)?.path,
         folder: arguments.output.clone(),

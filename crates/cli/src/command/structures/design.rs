@@ -4,7 +4,7 @@ use clap::Args;
 use uplift::structure::{DesignOptions, design as run, design_shard};
 use uplift_motion::IntensityMeasure;
 
-use crate::command::arguments::StructureArguments;
+use crate::command::arguments::{StructureArguments, probability};
 use crate::error::CommandError;
 use crate::show::print_shard;
 use crate::show::{print_design, print_json};
@@ -20,8 +20,8 @@ pub(crate) struct DesignArguments {
     /// Site of the result [default: its only one]
     #[arg(long)]
     site: Option<String>,
-    /// Probability of exceedance, one of the result [default: the smallest]
-    #[arg(long)]
+    /// Probability of exceedance, one of the result, 0.1 or 10% [default: the smallest]
+    #[arg(long, value_parser = probability)]
     poe: Option<f64>,
     /// Intensity measure of the spectrum: pgv or pga [default: pgv if the result has it]
     #[arg(long)]
@@ -55,7 +55,7 @@ pub(crate) fn design(arguments: &DesignArguments, terminal: &Terminal) -> Result
     };
     let structure = arguments.structure.load()?;
     if let Some(shard) = shard {
-        return print_shard(&design_shard(&structure, urs, &options, *shard, terminal)?);
+        return print_shard(&design_shard(&structure, urs, &options, *shard, terminal)?, terminal);
     }
     let report = run(&structure, urs, &options, terminal)?;
     if arguments.json { print_json(&report) } else { print_design(&report) }

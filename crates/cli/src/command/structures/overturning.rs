@@ -59,7 +59,7 @@ pub(crate) fn overturning(arguments: &OverturningArguments, terminal: &Terminal)
     };
     let structure = arguments.structure.load()?;
     if let Some(shard) = shard {
-        return print_shard(&overturning_shard(&structure, urs, &options, *shard, terminal)?);
+        return print_shard(&overturning_shard(&structure, urs, &options, *shard, terminal)?, terminal);
     }
     let report = run(&structure, urs, &options, terminal)?;
     if let Some(figure) = &arguments.plot {

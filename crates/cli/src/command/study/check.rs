@@ -1,7 +1,7 @@
 //! `uplift check`: everything that can be wrong, and what the study would cost.
 
 use clap::Args;
-use uplift::plan;
+use uplift::{UpliftError, plan};
 
 use crate::command::arguments::{StudyArguments, run_options};
 use crate::error::CommandError;
@@ -17,9 +17,16 @@ pub(crate) struct CheckArguments {
     json: bool,
 }
 
+/// What an interruption leaves.
+const STOPPED: &str = "a check writes nothing. Run the same command to start again";
+
 pub(crate) fn check(arguments: &CheckArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let study = arguments.study.load_any()?;
-    let plan = plan(&study, &run_options(&arguments.study, None, false), terminal)?;
+    terminal.set_interruption_message(format!("interrupted: {STOPPED}"));
+    let plan = plan(&study, &run_options(&arguments.study, None, false), terminal).map_err(|error| match error {
+        UpliftError::Interrupted => CommandError::Interrupted(STOPPED),
+        other => other.into(),
+    })?;
     if arguments.json { print_json(&plan) } else { print_plan(&plan, &study, terminal) }?;
     Ok(plan.head().room.refuse(terminal)?)
 }

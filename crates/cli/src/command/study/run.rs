@@ -46,7 +46,15 @@ pub(crate) fn run(arguments: &RunArguments, terminal: &Terminal) -> Result<(), C
     let study = arguments.study.load_any()?;
     if let Some(shard) = arguments.shard {
         let path = arguments.output.clone().unwrap_or_else(|| shard_path(&study.output().file, shard));
-        return print_shard(&run_shard(&study, &path, shard, None, terminal)?);
+        if path.extension().is_some_and(|ending| ending == "h5") {
+            return Err(CommandError::Usage(format!(
+                "{}: a shard is no result yet, and is not called .h5: write -o {}, and join the shards by `uplift \
+                 merge`",
+                path.display(),
+                shard_path(&path, shard).display()
+            )));
+        }
+        return print_shard(&run_shard(&study, &path, shard, None, terminal)?, terminal);
     }
     let options = run_options(&arguments.study, arguments.output.clone(), arguments.overwriting.force);
     let report = uplift::run(&study, &options, terminal)?;

@@ -1,0 +1,81 @@
+//! Files of another kind than the one that is read, told by what they hold.
+
+use std::path::Path;
+
+use uplift_structure::Kind as StructureKind;
+
+use super::{Table, Value};
+use crate::error::Unreadable;
+use crate::kind::Kind;
+
+/// What is read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Wanted {
+    Study,
+    Structure,
+}
+
+impl Wanted {
+    fn words(self) -> &'static str {
+        match self {
+            Self::Study => "a study",
+            Self::Structure => "a structure",
+        }
+    }
+
+    fn refuse(self, found: &'static str, advice: &'static str) -> Unreadable {
+        Unreadable::Other { found, wanted: self.words(), advice }
+    }
+
+    /// Why the file at `path` with these first `bytes` cannot be what is wanted; none where it may be.
+    pub(crate) fn refusal_of_bytes(self, path: &Path, bytes: &[u8]) -> Option<Unreadable> {
+        let begins = |marks: &[&[u8]]| marks.iter().any(|mark| bytes.starts_with(mark));
+        let ends = |ending: &str| path.extension().is_some_and(|found| found.eq_ignore_ascii_case(ending));
+        if begins(&[b"\x89HDF\r\n\x1a\n"]) {
+            let advice = match self {
+                Self::Study => "`uplift status`, `table`, `plot`, `report` and `export` take results",
+                Self::Structure => "the structure comes first, and the result after --urs",
+            };
+            Some(self.refuse("a result", advice))
+        } else if begins(&[b"PK\x03\x04"]) {
+            Some(self.refuse("a zip archive", "`uplift records import` takes one of records"))
+        } else if begins(&[b"\xff\xfe", b"\xfe\xff"]) {
+            Some(Unreadable::Utf16)
+        } else if ends("at2") || has_head_of_at2(bytes) {
+            let advice = "`uplift response` shakes a system with it, `uplift records import` makes a manifest of a \
+                          folder of records, and a study names that: [records] manifest = \"…\"";
+            Some(self.refuse("a record", advice))
+        } else if ends("csv") {
+            Some(self.refuse("a table", "a study names the tables that it reads: manifest, hazard curves, sites"))
+        } else {
+            None
+        }
+    }
+
+    /// The same of a file that is TOML.
+    pub(crate) fn refusal_of_table(self, table: &Table) -> Option<Unreadable> {
+        let kind = table.get("kind").and_then(|entry| match &entry.node.value {
+            Value::Text(kind) => Some(kind.as_str()),
+            _ => None,
+        });
+        let is_structure = kind.is_some_and(|kind| StructureKind::ALL.iter().any(|known| known.name() == kind));
+        let is_study = kind.is_some_and(|kind| Kind::ALL.iter().any(|known| known.key() == kind))
+            || kind.is_none() && ["sites", "records", "pgv", "pga", "risk"].iter().any(|key| table.get(key).is_some());
+        match self {
+            Self::Study if is_structure => {
+                Some(self.refuse("a structure", "`uplift design` and `overturning` take it, with --urs RESULT"))
+            }
+            Self::Structure if is_study => Some(self.refuse(
+                "a study",
+                "`uplift run` takes it; a structure is a file such as configs/structures/pier.toml",
+            )),
+            _ => None,
+        }
+    }
+}
+
+/// Whether the first lines have the number of points of an AT2 file, and not in a comment of TOML.
+fn has_head_of_at2(bytes: &[u8]) -> bool {
+    let mut head = bytes.split(|&byte| byte == b'\n').take(6);
+    head.any(|line| !line.contains(&b'#') && line.windows(4).any(|word| word == b"NPTS"))
+}

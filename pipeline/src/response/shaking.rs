@@ -1,0 +1,128 @@
+//! What shakes a system, whichever it is: a record, its scale, and what is kept of the motion.
+
+use std::path::PathBuf;
+
+use serde::Serialize;
+use uplift_motion::{AccelerationUnit, Accelerogram, ReadOptions, STANDARD_GRAVITY_M_S2, read_path};
+use uplift_plausible::{FREE_VIBRATION, GRAVITY, Range, SCALE, TIME_STEP};
+
+use crate::error::UpliftError;
+use crate::outputs::{self, Output, OutputKind};
+
+/// A number from outside: what it may be, its name, and the number where it is given.
+pub(super) type Given = (Range, &'static str, Option<f64>);
+
+/// The record that shakes a system, and what is kept of the motion.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shaking {
+    /// The record: a file with one component, or with several of which `channel` is taken.
+    pub record: PathBuf,
+    /// Which component of a file with several, counted from 1.
+    pub channel: Option<usize>,
+    /// Sampling interval of a file that does not say it, s.
+    pub dt_s: Option<f64>,
+    /// Unit of a file that does not say it.
+    pub unit: Option<AccelerationUnit>,
+    /// Factor on the record.
+    pub scale: f64,
+    /// Acceleration of gravity, m/s².
+    pub gravity_m_s2: f64,
+    /// How long the free vibration after the record is followed, s.
+    pub free_vibration_s: f64,
+    /// Whether the report holds the time history.
+    pub history: bool,
+    /// A CSV file for the time history.
+    pub history_file: Option<PathBuf>,
+    /// Whether whatever is at the place of that file gives way.
+    pub force: bool,
+}
+
+impl Shaking {
+    /// `record`, unscaled, under standard gravity; no history.
+    pub fn new(record: impl Into<PathBuf>) -> Self {
+        Self {
+            record: record.into(),
+            channel: None,
+            dt_s: None,
+            unit: None,
+            scale: 1.0,
+            gravity_m_s2: STANDARD_GRAVITY_M_S2,
+            free_vibration_s: 0.0,
+            history: false,
+            history_file: None,
+            force: false,
+        }
+    }
+
+    /// Refuses numbers that no system, record or person means, the `system`'s among them; all of them at once.
+    pub(super) fn check(&self, system: &[Given]) -> Result<(), UpliftError> {
+        let shaking = [
+            (SCALE, "scale", Some(self.scale.abs())),
+            (GRAVITY, "gravity_m_s2", Some(self.gravity_m_s2)),
+            (TIME_STEP, "dt_s", self.dt_s),
+            (FREE_VIBRATION, "free_vibration_s", Some(self.free_vibration_s)),
+        ];
+        let given = system.iter().chain(&shaking);
+        let mistakes: Vec<_> = given.filter_map(|(range, name, value)| range.check(name, (*value)?).err()).collect();
+        if mistakes.is_empty() { Ok(()) } else { Err(UpliftError::Implausible(mistakes)) }
+    }
+
+    /// Whether the motion is to be kept.
+    pub(super) fn wants_history(&self) -> bool {
+        self.history || self.history_file.is_some()
+    }
+
+    /// Refuses a place for the history where something else is; else the record.
+    pub(super) fn read(&self) -> Result<Accelerogram, UpliftError> {
+        if let Some(file) = &self.history_file {
+            outputs::check(&[Output::new(file, OutputKind::Table("time_s"))], &[&self.record], self.force)?;
+        }
+        let options = ReadOptions {
+            dt_s: self.dt_s,
+            unit: self.unit,
+            gravity_m_s2: self.gravity_m_s2,
+            channel: self.channel,
+            format: None,
+        };
+        Ok(read_path(&self.record, &options)?)
+    }
+
+    /// What is told of `motion`, the record read.
+    pub(super) fn told(&self, motion: &Accelerogram) -> ShakenBy {
+        let scale = self.scale.abs();
+        ShakenBy {
+            record: self.record.clone(),
+            samples: motion.len(),
+            dt_s: motion.dt_s(),
+            scale: self.scale,
+            pga_g: scale * motion.pga_m_s2() / self.gravity_m_s2,
+            pgv_cm_s: scale * motion.pgv_m_s() * 100.0,
+            pgd_m: scale * motion.pgd_m(),
+            gravity_m_s2: self.gravity_m_s2,
+            free_vibration_s: self.free_vibration_s,
+        }
+    }
+}
+
+/// The record that shook a system.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ShakenBy {
+    /// The record's file.
+    pub record: PathBuf,
+    /// Its samples.
+    pub samples: usize,
+    /// Its sampling interval, s.
+    pub dt_s: f64,
+    /// Factor on it.
+    pub scale: f64,
+    /// Peak ground acceleration of the scaled record, g.
+    pub pga_g: f64,
+    /// Peak ground velocity of the scaled record, cm/s.
+    pub pgv_cm_s: f64,
+    /// Peak ground displacement of the scaled record, m.
+    pub pgd_m: f64,
+    /// Acceleration of gravity, m/s².
+    pub gravity_m_s2: f64,
+    /// How long the free vibration was followed, s.
+    pub free_vibration_s: f64,
+}

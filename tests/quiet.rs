@@ -1,0 +1,105 @@
+//! `-q`: what was asked for, and nothing else, whatever the command.
+
+use crate::common::{Finished, SmallStudy, repository};
+use crate::hazard::{SITES, openquake};
+
+/// Commands whose answer is printed, and those that are told to write files; by their first words.
+const ANSWER: [&str; 16] = [
+    "status",
+    "verify",
+    "check",
+    "response",
+    "pulse",
+    "bootstrap",
+    "influence",
+    "measures",
+    "design",
+    "overturning",
+    "table",
+    "records list",
+    "records show",
+    "records select",
+    "hazard import",
+    "hazard show",
+];
+const FILES: [&str; 8] =
+    ["run", "merge", "plot", "report", "export", "records import", "records synthesize", "hazard plot"];
+
+/// The subcommands that a `--help` lists.
+fn listed(help: &str) -> Vec<String> {
+    let commands = help.split("Commands:").nth(1).unwrap_or_default().split("Options:").next().unwrap();
+    let names = commands.lines().filter(|line| line.starts_with("  ") && !line.starts_with("   "));
+    names.map(|line| line.split_whitespace().next().unwrap().to_owned()).filter(|name| name != "help").collect()
+}
+
+#[test]
+fn nothing_but_what_was_asked_for() {
+    let study = SmallStudy::new();
+    std::fs::copy(repository().join("configs/structures/block.toml"), study.path().join("block.toml")).unwrap();
+    std::fs::write(study.path().join("one.txt"), "0\n0.1\n0.4\n-0.3\n0\n").unwrap();
+    study.write("export.csv", &openquake("mean", 1.0, &SITES));
+    let quiet = |arguments: &str| -> Finished {
+        let words: Vec<&str> = arguments.split(' ').chain(["-q"]).collect();
+        study.uplift(&words)
+    };
+    let structure = "block.toml --urs s.h5 --site Here";
+    let mut seen = Vec::new();
+    for arguments in [
+        "run study.toml -o s.h5",
+        "run study.toml --shard 1/2 -o 1.part",
+        "run study.toml --shard 2/2 -o 2.part",
+        "merge study.toml 1.part 2.part -o m.h5",
+        "status s.h5",
+        "verify s.h5",
+        "check study.toml",
+        "response one.txt --strength 0.2 --unit g --dt-s 0.01 --history h.csv --plot h.svg",
+        "response one.txt --block --size-m 2 --slenderness 0.2 --unit g --dt-s 0.01 --history b.csv",
+        "pulse -o pulses --frequencies 1:1:3 --accelerations 1:1:3 --half-widths 1:1:3 --sizes-m 1,2 --shape symmetric",
+        "bootstrap s.h5",
+        "influence s.h5",
+        "measures s.h5",
+        &format!("design {structure}"),
+        &format!("overturning {structure} --plot o.svg -o o.csv"),
+        "plot s.h5 --only urs",
+        "report s.h5",
+        "export s.h5 --csv --json --mat",
+        "table s.h5",
+        "records synthesize -o set --count 2",
+        "records import set -o again.csv",
+        "records list again.csv",
+        "records show again.csv SYN001",
+        "records select again.csv --pga-g 0: -o chosen.csv",
+        "hazard import export.csv -o mine --name here",
+        "hazard show here-pgv.csv --unit cm/s --measure PGV",
+        "hazard plot here-pgv.csv -o h.png --unit cm/s --measure PGV",
+    ] {
+        let run = quiet(arguments).ok();
+        assert_eq!(run.stderr, "", "{arguments}");
+        let is = |commands: &[&str]| commands.iter().any(|command| arguments.starts_with(&format!("{command} ")));
+        if is(&FILES) {
+            assert_eq!(run.stdout, "", "{arguments}");
+        } else {
+            assert!(is(&ANSWER), "{arguments}");
+            assert!(!run.stdout.is_empty(), "{arguments}");
+            // no list of the files that were written beside the answer
+            for file in ["h.csv", "h.svg", "b.csv", "o.svg", "o.csv", "pulses/", "s.bootstrap"] {
+                assert!(!run.stdout.contains(file), "{arguments}\n{}", run.stdout);
+            }
+        }
+        seen.push(arguments.to_owned());
+    }
+    // errors are told
+    quiet("run absent.toml").fails(3, &["absent.toml"]);
+    // a command that is new is here too
+    for (above, help) in
+        [("", &["--help"][..]), ("records ", &["records", "--help"]), ("hazard ", &["hazard", "--help"])]
+    {
+        for name in listed(&study.uplift(help).ok().stdout) {
+            let command = format!("{above}{name}");
+            let known = ANSWER.iter().chain(&FILES).any(|known| *known == command);
+            assert!(known || ["records", "hazard"].contains(&command.as_str()), "{command} is not tried with -q");
+            let tried = seen.iter().any(|arguments| arguments.starts_with(&format!("{command} ")));
+            assert!(tried || !known, "{command}");
+        }
+    }
+}
