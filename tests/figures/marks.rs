@@ -9,17 +9,26 @@ const BEGIN: &str = "<!-- figure: ";
 const END: &str = "<!-- end -->";
 
 /// The sources, by which names begin; those that `make test` leaves out are slow.
-const SOURCES: [&str; 10] = [
+const SOURCES: [&str; 19] = [
+    "base-widths",
     "conditioning",
-    "rounding",
+    "curves",
+    "designs",
+    "embedded",
+    "embedded-choices",
+    "embedded-set",
+    "fixed-step",
+    "influence",
     "levels",
     "levels-at-athens",
+    "newmark",
+    "real",
+    "rounding",
     "table-4-1",
     "table-4-2",
-    "designs",
-    "embedded-set",
     "tables-2",
     "tables-3",
+    "two-solvers",
 ];
 
 /// One process writes, one source at a time.
