@@ -1,5 +1,5 @@
-//! What a time-step method makes of single peaks (docs/method.md, section 1.5): Newmark's average acceleration, iterated
-//! to convergence, at a tenth of the sampling interval.
+//! What a time-step method makes of single peaks (docs/method.md, section 1.5): Newmark's average acceleration,
+//! iterated to convergence, at a tenth of the sampling interval.
 
 use uplift_motion::synthetic::{SyntheticSetOptions, generate};
 use uplift_motion::{Accelerogram, IntensityMeasure, STANDARD_GRAVITY_M_S2, scale_factor};
@@ -12,7 +12,8 @@ const UPLIFT_M: f64 = 0.0005;
 const RESTITUTION: f64 = 0.95;
 const STEPS: usize = 10;
 
-/// Peak displacement, m, to the end of the record; an impact at the end of the step in which `|u|` falls below that of uplift.
+/// Peak displacement, m, to the end of the record; an impact at the end of the step in which the displacement falls
+/// below that of uplift.
 fn stepped_m(strength: f64, motion: &Accelerogram, scale: f64) -> f64 {
     let force_m_s2 = |u: f64| strength * STANDARD_GRAVITY_M_S2 * (u / UPLIFT_M).clamp(-1.0, 1.0);
     let dt_s = motion.dt_s() / STEPS as f64;
