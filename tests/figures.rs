@@ -7,17 +7,30 @@
 //! Last digits belong to a machine's mathematical functions: other machines than the one below skip all of it.
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 
+mod base_widths;
 mod conditioning;
+mod design_tables;
 mod designs;
+mod embedded_set;
+mod fixed_step;
+mod hazard_curves;
+mod images;
+mod influence;
 mod level_grids;
 mod marks;
+mod newmark;
 mod record_sets;
 mod table_4_1;
 mod table_4_2;
+mod two_solvers;
 
 use std::path::Path;
 
-use crate::common::real_records;
+use uplift::inputs::{RecordSets, read_record_sets};
+use uplift_motion::RecordPair;
+use uplift_study::{AnyStudy, Study};
+
+use crate::common::{real_records, repository};
 
 /// The options that make a study run on the 105 real records.
 fn with_real_records() -> Option<[String; 4]> {
@@ -25,6 +38,26 @@ fn with_real_records() -> Option<[String; 4]> {
     let set = |key: &str| ["--set".to_owned(), key.to_owned()];
     let [[a, b], [c, d]] = [set(&format!("records.manifest={}", manifest.display())), set("records.tag=ord105")];
     Some([a, b, c, d])
+}
+
+/// The record sets of Chapter 3 (configs/chapter-3.toml) of the real records.
+fn real_record_sets() -> Option<RecordSets> {
+    record_sets(&[])
+}
+
+/// The pairs of the 105 real records.
+fn real_pairs() -> Option<Vec<RecordPair>> {
+    let sets = record_sets(&["record_sets=[{ name = \"real\", tag = \"ord105\" }]".to_owned()])?;
+    Some(sets.of(&sets.sets[0]).map(|record| record.pair.clone()).collect())
+}
+
+fn record_sets(settings: &[String]) -> Option<RecordSets> {
+    let manifest = format!("records.manifest={}", real_records()?.join("manifest.csv").display());
+    let file = repository().join("configs/chapter-3.toml");
+    match Study::load_any(&file, &[&[manifest], settings].concat()).unwrap() {
+        AnyStudy::Displacement(study) => Some(read_record_sets(&study).unwrap()),
+        AnyStudy::UniformRisk(_) => panic!("{} is of another kind", file.display()),
+    }
 }
 
 /// A spectrum's ordinates as a `.urs.csv` has them: site, measure, probability, strength, displacement in m.

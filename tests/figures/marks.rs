@@ -9,18 +9,27 @@ const BEGIN: &str = "<!-- figure: ";
 const END: &str = "<!-- end -->";
 
 /// The sources, by which names begin; those that `make test` leaves out are slow.
-const SOURCES: [&str; 11] = [
+const SOURCES: [&str; 20] = [
+    "base-widths",
     "conditioning",
-    "rounding",
-    "rounding-missed",
+    "curves",
+    "designs",
+    "embedded",
+    "embedded-choices",
+    "embedded-set",
+    "fixed-step",
+    "influence",
     "levels",
     "levels-at-athens",
+    "newmark",
+    "real",
+    "rounding",
+    "rounding-missed",
     "table-4-1",
     "table-4-2",
-    "designs",
-    "embedded-set",
     "tables-2",
     "tables-3",
+    "two-solvers",
 ];
 
 /// One process writes, one source at a time.

@@ -1,6 +1,6 @@
 //! How much a value moves in a small sweep around its point.
 //!
-//! Rocking is chaotic: a median of some thirty responses can move by a quarter when the strength changes by one
+//! Rocking is chaotic: a median of some thirty responses can move by nearly half when the strength changes by one
 //! percent. A comparison with someone else's value means little without that noise beside it.
 
 use uplift_structure::relative_error;

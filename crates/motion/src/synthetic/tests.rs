@@ -6,9 +6,6 @@ use super::*;
 use crate::geometric_mean;
 use std::sync::OnceLock;
 
-/// A scalar measure of a pair.
-type Measure<'a> = &'a dyn Fn(&RecordPair) -> f64;
-
 /// The embedded set, generated once.
 fn embedded() -> &'static [RecordPair] {
     static SET: OnceLock<Vec<RecordPair>> = OnceLock::new();
@@ -210,43 +207,4 @@ fn refuses_options_out_of_range() {
     // One g asks for more than a hundred candidates give.
     let rare = generate(&SyntheticSetOptions { pairs: 1, minimum_pga_g: 1.0, ..good });
     assert!(matches!(rare, Err(MotionError::SyntheticCandidates { kept: 0, tried: 100, .. })));
-}
-
-/// The figures of docs/synthetic-motions.md are those of the set.
-#[test]
-fn documented_statistics_are_those_of_the_set() {
-    let guide = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/synthetic-motions.md");
-    let guide = std::fs::read_to_string(guide).unwrap();
-    let mean = |measure: fn(&Accelerogram) -> f64| {
-        move |pair: &RecordPair| geometric_mean(measure(&pair.h1), measure(&pair.h2))
-    };
-    let (pga, pgv) = (mean(Accelerogram::pga_m_s2), mean(Accelerogram::pgv_m_s));
-    let (d5_75, d5_95) = (mean(Accelerogram::d5_75_s), mean(Accelerogram::d5_95_s));
-    let meta = |key: &'static str| move |pair: &RecordPair| pair.metadata[key].parse().unwrap();
-    let rows: [(&str, usize, Measure); 8] = [
-        ("PGV/PGA, cm/s per g", 0, &|r| 100.0 * STANDARD_GRAVITY_M_S2 * pgv(r) / pga(r)),
-        ("D5-75, s", 1, &d5_75),
-        ("D5-95, s", 1, &d5_95),
-        ("PGA, g", 2, &|r| pga(r) / STANDARD_GRAVITY_M_S2),
-        ("PGV, cm/s", 0, &|r| 100.0 * pgv(r)),
-        ("M", 1, &meta("magnitude")),
-        ("R, km", 0, &meta("rrup_km")),
-        ("Vs30, m/s", 0, &meta("vs30")),
-    ];
-    for (name, digits, measure) in rows {
-        let mut values: Vec<f64> = embedded().iter().map(measure).collect();
-        values.sort_by(f64::total_cmp);
-        let quantiles = [0.05, 0.25, 0.5, 0.75, 0.95].map(|p| format!("{:.digits$}", quantile(&values, p)));
-        let row = format!("| {name} | {} |", quantiles.join(" / "));
-        assert!(guide.contains(&row), "not in the guide: {row}");
-    }
-}
-
-/// Linear between order statistics of `sorted`.
-#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-fn quantile(sorted: &[f64], probability: f64) -> f64 {
-    let place = probability * (sorted.len() - 1) as f64;
-    let low = place.floor() as usize;
-    let high = (low + 1).min(sorted.len() - 1);
-    sorted[low] + (place - low as f64) * (sorted[high] - sorted[low])
 }
