@@ -6,6 +6,7 @@
 
 mod common;
 
+mod alarms;
 mod bootstrap;
 mod damage;
 mod design;

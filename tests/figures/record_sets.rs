@@ -42,7 +42,8 @@ fn held(config: &str, settings: &[&str], reference: &str) -> Option<Vec<(String,
     uplift(folder.path(), &run).ok();
     let reference = repository().join(reference).to_str().unwrap().to_owned();
     let table = uplift(folder.path(), &["table", "r.h5", "--reference", &reference, "--json"]).ok().stdout;
-    let rows: Vec<Value> = serde_json::from_str(&table).unwrap();
+    let table: Value = serde_json::from_str(&table).unwrap();
+    let rows = table["rows"].as_array().unwrap().clone();
     let mut counts: Vec<(String, usize)> = Vec::new();
     for row in rows.iter().filter(|row| !row["reference"].is_null()) {
         let word = |key: &str| row[key].as_str().unwrap_or("block").to_owned();

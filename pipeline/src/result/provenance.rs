@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::extend::now;
 use super::layout::LAYOUT;
+use crate::alarms::Alarm;
 use crate::checksum::checksum;
 use crate::error::UpliftError;
 use crate::frame::{RunHead, RunOptions};
@@ -66,7 +67,7 @@ impl Provenance {
         &self,
         title: &str,
         (record_set, synthetic): (&str, bool),
-        warnings: &[String],
+        alarms: Vec<Alarm>,
         files: Vec<PathBuf>,
         seconds: f64,
     ) -> RunHead {
@@ -79,7 +80,7 @@ impl Provenance {
             record_set: record_set.to_owned(),
             synthetic,
             files,
-            warnings: warnings.to_vec(),
+            alarms,
             seconds,
         }
     }

@@ -7,6 +7,7 @@ use uplift::text::{per_cent, table};
 use uplift_spectra::Noisy;
 use uplift_structure::Rule;
 
+use super::alarms::print_alarms;
 use super::shown_path;
 use super::structure::{lines, risk_cells, short};
 use crate::error::CommandError;
@@ -58,7 +59,7 @@ pub(crate) fn print_design(report: &DesignReport) -> Result<(), CommandError> {
         print_risk(out, report, exact)?;
         print_noise(out, &report.rules, &exact.noise)?;
     }
-    Ok(())
+    print_alarms(out, &report.alarms)
 }
 
 /// Displacements of the structure, from the spectrum and exact.
@@ -196,7 +197,7 @@ fn print_risk(out: &mut impl Write, report: &DesignReport, exact: &ExactDemand) 
 
 /// What of these numbers is noise.
 fn print_noise(out: &mut impl Write, rules: &[RuleOutcome], noise: &DemandNoise) -> Result<(), CommandError> {
-    let per_year = |value: f64| if value == 0.0 { "never".to_owned() } else { format!("{value:.3e}") };
+    let per_year = |value: f64| if value == 0.0 { "none seen".to_owned() } else { format!("{value:.3e}") };
     let mut rows = Vec::new();
     let mut row = |what: String, noisy: Noisy, shown: &dyn Fn(f64) -> String| {
         rows.push(vec![what, shown(noisy.value), shown(noisy.lowest), shown(noisy.highest)]);
