@@ -235,7 +235,8 @@ fn tables_stand_beside_a_reference() {
     study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
     let rows = |arguments: &[&str]| -> Vec<serde_json::Value> {
         let table = study.uplift(&[&["table", "r.h5", "--json"], arguments].concat()).ok();
-        serde_json::from_str(&table.stdout).unwrap()
+        let table: serde_json::Value = serde_json::from_str(&table.stdout).unwrap();
+        table["rows"].as_array().unwrap().clone()
     };
     let own = rows(&[]);
     // 2 rules x 4 quantities x 3 scalings x by
@@ -348,7 +349,8 @@ fn the_sets_of_the_dissertation() {
     assert_eq!(sets, [14, 14, 21]);
     let reference = repository().join("tests/reference/tables_3_2_to_3_7.csv");
     let table = study.uplift(&["table", "r.h5", "--json", "--reference", reference.to_str().unwrap()]).ok();
-    let rows: Vec<serde_json::Value> = serde_json::from_str(&table.stdout).unwrap();
+    let table: serde_json::Value = serde_json::from_str(&table.stdout).unwrap();
+    let rows = table["rows"].as_array().unwrap();
     assert_eq!(rows.len(), 3 * 2 * 4 * 2 * 2);
     assert!(rows.iter().all(|row| row["reference"].is_f64()));
     for by in ["component", "record"] {

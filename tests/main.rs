@@ -6,6 +6,7 @@
 
 mod common;
 
+mod alarms;
 mod archives;
 mod block_response;
 mod bootstrap;

@@ -24,9 +24,10 @@ fn spectra_of_real_records_resemble_the_table() {
         common::uplift(folder.path(), &arguments).ok().stdout
     };
     println!("{}", table(&[]));
-    let rows: Vec<Value> = serde_json::from_str(&table(&["--json"])).unwrap();
+    let table: Value = serde_json::from_str(&table(&["--json"])).unwrap();
+    let rows = table["rows"].as_array().unwrap();
     assert_eq!(rows.len(), 18);
-    for row in &rows {
+    for row in rows {
         assert_eq!(row["im"], "PGV");
         for key in ["site", "poe", "c0", "c1", "c2", "rmse"] {
             assert!(!row[key].is_null(), "{key}: {row}");
@@ -49,10 +50,11 @@ fn table_of_a_result_alone_and_mistakes() {
     study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
     let text = study.uplift(&["table", "r.h5"]).ok().stdout;
     assert!(text.contains("Here") && text.contains("There") && text.contains("synthetic"), "{text}");
-    let all: Vec<Value> =
+    let all: Value =
         serde_json::from_str(&study.uplift(&["table", "r.h5", "--im", "all", "--json"]).ok().stdout).unwrap();
-    assert_eq!(all.len(), 12);
-    assert!(all.iter().all(|row| row["median_ratio"].is_null()));
+    let rows = all["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 12);
+    assert!(rows.iter().all(|row| row["median_ratio"].is_null()));
 
     study.uplift(&["table", "absent.h5"]).fails(4, &["absent.h5"]);
     study.uplift(&["table", "study.toml"]).fails(4, &["study.toml: is a study, and a result is wanted"]);

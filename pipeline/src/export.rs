@@ -8,11 +8,13 @@ use polars::prelude::Column;
 use serde::Serialize;
 use serde_json::json;
 
+use crate::alarms::{Alarm, alarms};
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::outputs::{self, Output, OutputKind, beside};
-use crate::result::{Fit, Head, ResultFile, Spectrum, StoredSpectra, write_atomically, write_table};
+use crate::result::{Fit, Head, ResultFile, Spectrum, StoredSpectra, flag_number, write_atomically, write_table};
 use crate::text::finite;
+use crate::uniform_risk::flag_word;
 use matlab::{MatFile, Shape};
 
 /// A coefficient of a spectrum.
@@ -21,9 +23,10 @@ type Value = fn(&Fit) -> f64;
 /// Formats of other programs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ExportFormat {
-    /// A tidy table: `site`, `im`, `poe`, `years`, `strength`, `u_m`, `fit_m`; one comment line first.
+    /// A tidy table: `site`, `im`, `poe`, `years`, `strength`, `u_m`, `fit_m`, `flag`, `lower_tail_share`,
+    /// `upper_tail_share`; one comment line first.
     Csv,
-    /// One object with the spectra and their coefficients.
+    /// One object with the spectra, their coefficients and what to know before using them.
     Json,
     /// A file that MATLAB and `scipy.io` load; `u_pgv_m` is strength × probability × site.
     Matlab,
@@ -103,6 +106,8 @@ pub fn export(options: &ExportOptions, events: &dyn Events) -> Result<ExportRepo
 pub struct Export {
     head: Head,
     spectra: StoredSpectra,
+    /// What to know before using them, the worst first.
+    alarms: Vec<Alarm>,
     /// One line: program, time, file, records.
     provenance: String,
 }
@@ -128,7 +133,7 @@ impl Export {
             head.record_set
         )
         .replace(['\n', '\r'], " ");
-        Ok(Self { head, spectra, provenance })
+        Ok(Self { alarms: alarms(&file)?, head, spectra, provenance })
     }
 
     /// One line of provenance.
@@ -140,6 +145,7 @@ impl Export {
     pub fn columns(&self) -> Vec<Column> {
         let (mut site, mut im, mut poe, mut strength, mut u_m, mut fit_m) =
             (Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let (mut flag, mut lower, mut upper) = (Vec::new(), Vec::new(), Vec::new());
         for spectrum in self.spectra.rows() {
             let curve = spectrum.fit.curve();
             for (&eta, &ordinate_m) in self.spectra.strengths.iter().zip(spectrum.u_m) {
@@ -150,6 +156,9 @@ impl Export {
                 u_m.push(ordinate_m);
                 fit_m.push(curve.map(|curve| curve.at(eta)));
             }
+            flag.extend(spectrum.flags.iter().map(|&flag| flag_word(flag)));
+            lower.extend_from_slice(spectrum.lower_tail_share);
+            upper.extend_from_slice(spectrum.upper_tail_share);
         }
         let years = vec![self.spectra.years; site.len()];
         vec![
@@ -160,6 +169,9 @@ impl Export {
             Column::new("strength".into(), strength),
             Column::new("u_m".into(), u_m),
             Column::new("fit_m".into(), fit_m),
+            Column::new("flag".into(), flag),
+            Column::new("lower_tail_share".into(), lower),
+            Column::new("upper_tail_share".into(), upper),
         ]
     }
 
@@ -168,12 +180,15 @@ impl Export {
         let spectra: Vec<serde_json::Value> = self
             .spectra
             .rows()
-            .map(|Spectrum { site, measure, poe, u_m, fit }| {
+            .map(|Spectrum { site, measure, poe, u_m, fit, flags, lower_tail_share, upper_tail_share }| {
                 json!({
                     "site": site,
                     "im": measure.label(),
                     "poe": poe,
                     "u_m": u_m.iter().copied().map(finite).collect::<Vec<_>>(),
+                    "flag": flags.iter().map(|&flag| flag_word(flag)).collect::<Vec<_>>(),
+                    "lower_tail_share": lower_tail_share,
+                    "upper_tail_share": upper_tail_share,
                     "fit": {
                         "c0_m": finite(fit.c0_m),
                         "c1": finite(fit.c1),
@@ -190,6 +205,7 @@ impl Export {
             "years": self.spectra.years,
             "strength": self.spectra.strengths,
             "spectra": spectra,
+            "alarms": self.alarms,
         })
     }
 
@@ -210,6 +226,10 @@ impl Export {
             // spectra come site by site, in each probability by probability: the order of MATLAB's columns
             let shape = Shape(vec![strengths.len(), poes.len(), sites.len()]);
             file.numbers(&format!("u_{key}_m"), &shape, spectra.u_m.values());
+            let flags = spectra.flags.map(|&flag| f64::from(flag_number(flag)));
+            file.numbers(&format!("flag_{key}"), &shape, flags.values());
+            file.numbers(&format!("lower_tail_share_{key}"), &shape, spectra.lower_tail_share.values());
+            file.numbers(&format!("upper_tail_share_{key}"), &shape, spectra.upper_tail_share.values());
             let columns: [(&str, Value); 4] = [
                 ("c0_{}_m", |fit| fit.c0_m),
                 ("c1_{}", |fit| fit.c1),

@@ -5,12 +5,11 @@ use std::time::Instant;
 
 use serde::Serialize;
 
+use crate::alarms::Alarm;
 use crate::machine::Room;
 
 /// With fewer records than this a spectrum changes with each of them (Section 4.5.1: 40 are a robust lower limit).
 pub const FEW_RECORDS: usize = 40;
-/// What is said of every result of synthetic records.
-pub const SYNTHETIC: &str = "the records are synthetic: for results that matter bring real ones (records/README.md)";
 
 /// What belongs to one run of a study and not to the study.
 #[derive(Debug, Clone, Default)]
@@ -80,8 +79,8 @@ pub struct RunHead {
     pub synthetic: bool,
     /// What was written, the result file first.
     pub files: Vec<PathBuf>,
-    /// What to know before using the numbers.
-    pub warnings: Vec<String>,
+    /// What to know before using the numbers, the worst first.
+    pub alarms: Vec<Alarm>,
     /// Wall time, s.
     pub seconds: f64,
 }

@@ -54,11 +54,13 @@
 //! | [`import`], [`records`], [`hazard_curves`] | record sets and hazard curves imported, shown, chosen from, made |
 //! | [`machine`] | what a job needs of memory and disk, and what there is |
 //! | [`status`], [`verify`] | how far a run is, and whether a result is as it was written |
+//! | [`mod@alarms`] | what to know before the numbers of a result are used |
 //! | [`table`](mod@table), [`export`] | a result beside a reference, and for other programs |
 //! | [`response`], [`pulses`] | one record through one oscillator; rocking spectra under wavelets |
 //! | [`outputs`] | files that a job is asked to write: what may give way to them |
 //! | [`text`] | numbers in words |
 
+pub mod alarms;
 pub mod analysis;
 mod array;
 pub mod bootstrap;

@@ -34,6 +34,7 @@ pub use head::{Head, Overview};
 pub(crate) use provenance::Origin;
 pub use provenance::Provenance;
 pub use records::StoredRecords;
+pub(crate) use spectra::flag_number;
 pub use spectra::{Fit, MeasureSpectra, Spectrum, StoredSpectra};
 pub use stripes::{StoredMeasure, StoredStripes};
 pub use study::{SpectraOfResult, StudyOfResult};

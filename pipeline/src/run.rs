@@ -93,7 +93,7 @@ pub fn run_with(
     check_replaced(study, options)?;
     let _lock = ResultLock::acquire(path)?;
     for warning in study.warnings() {
-        events.note(warning);
+        events.note(&warning.to_string());
     }
     let place = Place { path, options, start };
     match study {

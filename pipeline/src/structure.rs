@@ -20,8 +20,6 @@ pub use overturning::{
 };
 pub use report::StructureReport;
 pub use risk::EventRisk;
+pub(crate) use risk::{BOUND_CONFIDENCE, share_at_most};
 pub use rules::{RuleCheck, RuleOutcome};
 pub use spectrum::SpectrumDemand;
-
-/// What is said of every number that synthetic records are behind.
-const SYNTHETIC: &str = "the records are synthetic, and scatter less than real ones: not for design";

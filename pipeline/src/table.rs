@@ -14,6 +14,7 @@ pub use coefficients::{COMPARED_ABOVE, COMPARED_FROM_M, CoefficientRow, Coeffici
 pub use design::{DesignTable, DesignTableRow};
 pub use reference::ReferenceTable;
 
+use crate::alarms::{Alarm, alarms};
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::result::{Kind, ResultFile};
@@ -31,10 +32,19 @@ pub struct TableOptions {
     pub measure: Option<IntensityMeasure>,
 }
 
-/// A table of a result.
+/// A table of a result, with what to know before it is used.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TableReport {
+    /// The table.
+    pub rows: TableRows,
+    /// What to know before using it, the worst first.
+    pub alarms: Vec<Alarm>,
+}
+
+/// The rows of a table.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(untagged)]
-pub enum TableReport {
+pub enum TableRows {
     /// Of uniform risk spectra.
     Coefficients(CoefficientTable),
     /// Of displacement spectra.
@@ -47,8 +57,9 @@ pub enum TableReport {
 /// A file that is missing, damaged or no result; a result without such a table; a reference that cannot be read.
 pub fn table(options: &TableOptions, events: &dyn Events) -> Result<TableReport, UpliftError> {
     let file = ResultFile::open(&options.result)?;
-    match file.kind() {
-        Kind::UniformRisk => coefficients::read(options, &file, events).map(TableReport::Coefficients),
-        Kind::Displacement => design::read(options, &file, events).map(TableReport::Design),
-    }
+    let rows = match file.kind() {
+        Kind::UniformRisk => coefficients::read(options, &file, events).map(TableRows::Coefficients),
+        Kind::Displacement => design::read(options, &file, events).map(TableRows::Design),
+    }?;
+    Ok(TableReport { rows, alarms: alarms(&file)? })
 }

@@ -46,7 +46,8 @@ fn rows(config: &str, settings: &[&str], reference: &str) -> Option<Vec<Row>> {
     uplift(folder.path(), &run).ok();
     let reference = repository().join(reference).to_str().unwrap().to_owned();
     let table = uplift(folder.path(), &["table", "r.h5", "--reference", &reference, "--json"]).ok().stdout;
-    let rows: Vec<Value> = serde_json::from_str(&table).unwrap();
+    let table: Value = serde_json::from_str(&table).unwrap();
+    let rows = table["rows"].as_array().unwrap().clone();
     let row = |row: &Value| {
         let word = |key: &str| row[key].as_str().unwrap_or("block").to_owned();
         let number = |key: &str| row[key].as_f64().unwrap_or(f64::NAN);

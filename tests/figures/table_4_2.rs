@@ -14,7 +14,7 @@ fn rows(set: &[String]) -> Vec<Value> {
     let run = ["run", &study, "-o", "t.h5", "-q"].map(str::to_owned);
     uplift(folder.path(), &[&run[..], set].concat()).ok();
     let table = uplift(folder.path(), &["table", "t.h5", "--reference", &reference, "--json"]).ok();
-    serde_json::from_str(&table.stdout).unwrap()
+    serde_json::from_str::<Value>(&table.stdout).unwrap()["rows"].as_array().unwrap().clone()
 }
 
 fn ratios(rows: &[Value]) -> String {

@@ -1,5 +1,6 @@
 //! What the jobs report, as a person reads it; a program gets the same values as JSON.
 
+mod alarms;
 mod bootstrap;
 mod design;
 mod displacement;

@@ -13,12 +13,16 @@
 //! assert!(refused.to_string().starts_with("gravity_m_s2 is 981000 m/s2: it must be from 0.1 to 2000 m/s2"));
 //! ```
 //!
+//! What is possible but unlikely has the narrower `USUAL_…` ranges: it is used, and said ([`Unlikely`]).
+//!
 //! Bounds that only a combination of numbers shows, such as the frequency of an oscillator, stand where it is made.
 
 mod decimal;
 mod range;
 mod table;
+mod usual;
 
 pub use decimal::{AmbiguousMarks, DecimalMarks, with_point};
-pub use range::{Implausible, Range};
+pub use range::{Implausible, Range, Unlikely};
 pub use table::*;
+pub use usual::*;

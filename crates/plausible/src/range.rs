@@ -26,6 +26,17 @@ pub struct Implausible {
     pub range: Range,
 }
 
+/// A number that can be, but is outside of what is usual.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Unlikely {
+    /// What it is called where it was given.
+    pub name: &'static str,
+    /// The value.
+    pub value: f64,
+    /// What is usual.
+    pub usual: Range,
+}
+
 impl Range {
     /// Whether `value` lies within; NaN never does.
     pub fn contains(&self, value: f64) -> bool {
@@ -38,6 +49,11 @@ impl Range {
     /// [`Implausible`] if it does not.
     pub fn check(&self, name: &'static str, value: f64) -> Result<f64, Implausible> {
         if self.contains(value) { Ok(value) } else { Err(Implausible { name, value, range: *self }) }
+    }
+
+    /// What is to be said of `value` where this is the usual range and it lies outside.
+    pub fn unlikely(&self, name: &'static str, value: f64) -> Option<Unlikely> {
+        (!self.contains(value)).then_some(Unlikely { name, value, usual: *self })
     }
 }
 
@@ -57,6 +73,13 @@ impl fmt::Display for Implausible {
 }
 
 impl std::error::Error for Implausible {}
+
+impl fmt::Display for Unlikely {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { name, value, usual } = self;
+        write!(formatter, "{name} is {}{}; usual is {usual}", number(*value), spaced(usual.unit))
+    }
+}
 
 fn spaced(unit: &str) -> String {
     if unit.is_empty() { String::new() } else { format!(" {unit}") }

@@ -14,6 +14,7 @@ use serde::Serialize;
 
 use crate::files::drawing_of;
 use uplift::UpliftError;
+use uplift::alarms::{Alarm, alarms};
 use uplift::events::Events;
 use uplift::outputs::mark;
 use uplift::result::{Kind, ResultFile};
@@ -31,7 +32,7 @@ struct Section {
     record_set: String,
     synthetic: bool,
     facts: Vec<(&'static str, String)>,
-    warnings: Vec<String>,
+    alarms: Vec<Alarm>,
     tables: Vec<Table>,
     figures: Vec<DrawnFigure>,
     study_toml: String,
@@ -152,7 +153,7 @@ fn section(key: &str, path: &Path) -> Result<Section, UpliftError> {
         record_set: head.record_set,
         synthetic: head.synthetic,
         facts,
-        warnings: head.warnings,
+        alarms: alarms(&result)?,
         tables,
         figures,
         study_toml: head.study_toml,

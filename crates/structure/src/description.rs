@@ -103,6 +103,7 @@
 //! ```
 
 use serde::Deserialize;
+use uplift_plausible::Unlikely;
 
 use crate::block::{Block, Body, PointMass, Reference};
 use crate::curved::CurvedFrame;
@@ -112,6 +113,7 @@ use crate::frame::{Anchorage, Frame, RestrainedFrame};
 use crate::geometry::Geometry;
 
 mod audit;
+mod unusual;
 
 /// Kind of rocking structure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -216,6 +218,12 @@ impl StructureDescription {
     pub fn resolve(&self) -> Result<EquivalentSystem, Vec<StructureError>> {
         let mistakes = audit::mistakes(self);
         if mistakes.is_empty() { self.equivalent().map_err(|mistake| vec![mistake]) } else { Err(mistakes) }
+    }
+
+    /// The numbers that can be but are unlikely, mistakes of unit mostly; of a description that
+    /// [`resolve`](Self::resolve) takes.
+    pub fn unlikely(&self) -> Vec<Unlikely> {
+        unusual::unlikely(self)
     }
 
     fn equivalent(&self) -> Result<EquivalentSystem, StructureError> {

@@ -158,3 +158,34 @@ fn strength_in_a_spectrum_of_another_gravity() {
     }
     assert_eq!(block.spectral_strength_at(1.62), block.spectral_strength());
 }
+
+/// The names of what is unlikely in a description.
+fn unlikely(text: &str) -> Vec<&'static str> {
+    let description: StructureDescription = toml::from_str(text).unwrap();
+    description.resolve().unwrap();
+    description.unlikely().iter().map(|found| found.name).collect()
+}
+
+#[test]
+fn numbers_in_other_units_are_taken_and_told() {
+    // centimetres and tonnes
+    let pier = "kind = \"block\"\nwidth_m = 40\nheight_m = 220\nmass_kg = 145\n";
+    assert_eq!(unlikely(pier), ["height_m", "mass_kg over the square of the width and the height"]);
+    let block = "kind = \"block\"\nwidth_m = 0.8\nheight_m = 4\nmass_kg = 8000\n";
+    assert_eq!(unlikely(block), [""; 0]);
+    for (key, value) in [("uplift_displacement_m", 0.5), ("gravity_m_s2", 981.0), ("restitution", 0.05)] {
+        assert_eq!(unlikely(&format!("{block}{key} = {value}\n")), [key]);
+    }
+    // the same frame, with tendons that leave 0.2 rad and that leave 0.42
+    let frame = |stiffness_n_m: f64| {
+        format!(
+            "kind = \"restrained-frame\"\ncolumns = 4\nwidth_m = 1.6\nheight_m = 9.6\ncolumn_mass_kg = 48000\n\
+             deck_mass_kg = 900000\ntendon_anchorage = \"foundation\"\ntendon_stiffness_n_m = {stiffness_n_m}\n"
+        )
+    };
+    assert_eq!(unlikely(&frame(1.5e6)), [""; 0]);
+    let description: StructureDescription = toml::from_str(&frame(5.6e6)).unwrap();
+    let found = description.unlikely();
+    let [rotation] = &found[..] else { panic!("{found:?}") };
+    assert!(rotation.name.contains("rotation") && rotation.value > 0.3, "{rotation}");
+}

@@ -20,6 +20,7 @@ mod records;
 mod scaling;
 mod spectrum;
 mod structures;
+mod warnings;
 
 use serde::Serialize;
 use uplift_oscillator::PostUplift;
@@ -29,6 +30,7 @@ use crate::keys::SectionKeys;
 use crate::reading::{Paths, Section};
 use crate::sections::output::{self, Output};
 use crate::sections::{record_source, selection, stiffness, strengths, top};
+use crate::warning::Warning;
 
 pub use blocks::BlockFamily;
 pub use design::{DesignPlan, Designed};
@@ -85,7 +87,7 @@ pub struct DisplacementStudy {
     pub output: Output,
     /// What is allowed but probably not meant.
     #[serde(skip)]
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Warning>,
 }
 
 impl DisplacementStudy {
@@ -123,10 +125,9 @@ pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<DisplacementS
         }
     }
     root.finish();
-    let gravity_m_s2 = gravity?;
-    Some(DisplacementStudy {
+    let mut study = DisplacementStudy {
         title: title?,
-        gravity_m_s2,
+        gravity_m_s2: gravity?,
         records: records?,
         record_sets: record_sets?,
         scaling: scaling?,
@@ -134,6 +135,8 @@ pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<DisplacementS
         structures: structures?,
         design: design?,
         output: output?,
-        warnings: top::warning_of_gravity(gravity_m_s2).into_iter().collect(),
-    })
+        warnings: Vec::new(),
+    };
+    study.warnings = warnings::of(&study);
+    Some(study)
 }

@@ -7,6 +7,7 @@ use crate::keys::SectionKeys;
 use crate::reading::{Paths, Section};
 use crate::sections::output::Output;
 use crate::uniform_risk::{self, CurveFile, SiteTable, UniformRiskStudy};
+use crate::warning::Warning;
 
 /// What a study is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -98,7 +99,7 @@ impl AnyStudy {
     }
 
     /// What is allowed but probably not meant.
-    pub fn warnings(&self) -> &[String] {
+    pub fn warnings(&self) -> &[Warning] {
         match self {
             Self::UniformRisk(study) => &study.warnings,
             Self::Displacement(study) => &study.warnings,

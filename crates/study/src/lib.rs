@@ -47,6 +47,7 @@ mod sections;
 mod structure;
 mod study;
 mod uniform_risk;
+mod warning;
 
 #[cfg(test)]
 mod tests;
@@ -68,3 +69,4 @@ pub use uniform_risk::{
     Bootstrap, Branch, Contour, Conversion, CurveFile, CurveKind, Hazard, MeasurePlan, Oscillator, Records, Regression,
     Risk, Site, SiteTable, UniformRiskStudy, definition_of, levels_within, lower_starts,
 };
+pub use warning::Warning;

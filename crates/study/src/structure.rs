@@ -14,6 +14,7 @@ use crate::reading::findings::refused;
 use crate::reading::other_file::Wanted;
 use crate::reading::text::{parse_table, read_text};
 use crate::reading::{Field, Finding, Findings, Origin, Rule, Section, Table};
+use crate::warning::Warning;
 
 /// What a number must be is judged by the description.
 const ANY: Rule = Rule::Is { holds: |_| true, words: "finite" };
@@ -31,6 +32,8 @@ pub struct Structure {
     pub system: EquivalentSystem,
     /// The solitary block that rotates exactly as the structure; none for one with tendons or curved ends.
     pub block: Option<RotatingBlock>,
+    /// What is allowed but probably not meant.
+    pub warnings: Vec<Warning>,
 }
 
 impl Structure {
@@ -51,7 +54,8 @@ impl Structure {
         if let Some(description) = description {
             match resolve(&description) {
                 Ok((system, block)) if findings.is_empty() => {
-                    return Ok(Self { file: file.to_owned(), description, system, block });
+                    let warnings = description.unlikely().iter().map(Warning::unlikely).collect();
+                    return Ok(Self { file: file.to_owned(), description, system, block, warnings });
                 }
                 Ok(_) => {}
                 Err(mistakes) => {

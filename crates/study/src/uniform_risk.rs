@@ -34,6 +34,7 @@ use crate::reading::{Paths, Section};
 use crate::sections::output::{self, Output};
 use crate::sections::stiffness;
 use crate::sections::{record_source, selection, strengths, top};
+use crate::warning::Warning;
 
 pub use bootstrap::Bootstrap;
 pub use branches::Branch;
@@ -126,7 +127,7 @@ pub struct UniformRiskStudy {
     pub output: Output,
     /// What is allowed but probably not meant.
     #[serde(skip)]
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Warning>,
 }
 
 impl UniformRiskStudy {

@@ -43,7 +43,7 @@ pub(crate) fn plan(study: &DisplacementStudy, study_file: &Path) -> Result<Plan,
     let inputs = Inputs::read(study)?;
     let records = &inputs.records;
     let sets = records.motions(study.gravity_m_s2)?;
-    let notes = study.warnings.iter().chain(&records.notes).cloned().collect();
+    let notes = study.warnings.iter().map(ToString::to_string).chain(records.notes.iter().cloned()).collect();
 
     let ways = study.scaling.ways().0;
     let plans = (sets.iter())

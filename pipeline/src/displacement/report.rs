@@ -7,6 +7,7 @@ use uplift_spectra::{MotionSet, Noisy};
 use uplift_study::{Kind, Structures};
 
 use super::{DesignRow, DisplacementOutcome, printed};
+use crate::alarms::Alarm;
 use crate::frame::RunHead;
 use crate::inputs::NamedSet;
 use crate::text::finite;
@@ -86,7 +87,7 @@ impl RunReport {
     /// The report on what was computed and written.
     pub(super) fn of(
         outcome: &DisplacementOutcome<'_>,
-        design: Vec<DesignRow>,
+        (design, alarms): (Vec<DesignRow>, Vec<Alarm>),
         files: Vec<PathBuf>,
         seconds: f64,
     ) -> Self {
@@ -94,7 +95,7 @@ impl RunReport {
         let records = (outcome.records.description.as_str(), outcome.records.synthetic);
         let sets = outcome.records.sets.iter().zip(outcome.sets);
         Self {
-            head: outcome.provenance.head(&study.title, records, outcome.warnings, files, seconds),
+            head: outcome.provenance.head(&study.title, records, alarms, files, seconds),
             kind: Kind::Displacement.key(),
             sets: sets.map(|(set, motions)| SetReport::of(set, motions)).collect(),
             analyses: outcome.analyses,

@@ -12,10 +12,11 @@ use super::rounding::rounding;
 use super::{
     DisplacementOutcome, Inputs, carry_out_designs, needs, set_spectra, write_displacement_csv, write_displacements,
 };
+use crate::alarms::alarms;
 use crate::checkpoint::{Checkpoint, FinishedRows, checkpoint_path};
 use crate::error::UpliftError;
 use crate::events::Events;
-use crate::frame::{Place, SYNTHETIC};
+use crate::frame::Place;
 use crate::inputs::RecordSets;
 use crate::result::earlier::Earlier;
 use crate::result::{Provenance, ResultFile};
@@ -59,7 +60,7 @@ pub(crate) fn run(
     let designs = carry_out_designs(study, &sets, Shard::WHOLE, (&checkpoint, total), events)?;
     let (designs, without_design) = designs.unzip();
     let mut warnings = records.notes.clone();
-    warnings.extend(warnings_of(study, records, &sets.motions));
+    warnings.extend(warnings_of(study, &sets.motions));
     warnings.extend(without_design.into_iter().flatten());
     if events.cancelled() {
         return Err(checkpoint.stopped(total, total));
@@ -85,12 +86,13 @@ pub(crate) fn run(
     checkpoint.remove();
     let mut files = vec![path.to_owned()];
     // the tables say what the file says
-    let rows = ResultFile::open(path)?.design()?.map_or_else(Vec::new, |design| design.rows);
+    let file = ResultFile::open(path)?;
+    let rows = file.design()?.map_or_else(Vec::new, |design| design.rows);
     if study.output.csv {
         files.extend(write_displacement_csv(path, &outcome, &rows)?);
     }
     earlier.set_aside(events)?;
-    Ok(RunReport::of(&outcome, rows, files, place.start.elapsed().as_secs_f64()))
+    Ok(RunReport::of(&outcome, (rows, alarms(&file)?), files, place.start.elapsed().as_secs_f64()))
 }
 
 fn checksums(records: &RecordSets) -> BTreeMap<String, String> {
@@ -101,11 +103,8 @@ fn checksums(records: &RecordSets) -> BTreeMap<String, String> {
     records.records.iter().flat_map(of_record).collect()
 }
 
-fn warnings_of(study: &DisplacementStudy, records: &RecordSets, sets: &[MotionSet<'_>]) -> Vec<String> {
+fn warnings_of(study: &DisplacementStudy, sets: &[MotionSet<'_>]) -> Vec<String> {
     let mut warnings = Vec::new();
-    if records.synthetic {
-        warnings.push(SYNTHETIC.to_owned());
-    }
     for set in sets {
         let motions = set.motions().len() as f64;
         let beyond = |percent: f64| motions * percent.min(100.0 - percent) / 100.0;

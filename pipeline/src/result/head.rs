@@ -40,7 +40,7 @@ pub struct Head {
     pub seed: Option<u64>,
     /// Name to SHA-256 of each record and hazard curve.
     pub input_checksums: BTreeMap<String, String>,
-    /// What to know before using the numbers.
+    /// What was noticed about the inputs; [`alarms`](crate::alarms::alarms) has all that is to be known.
     pub warnings: Vec<String>,
 }
 

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use super::digest::study_digest;
 use super::extend::now;
 use super::layout::LAYOUT;
+use crate::alarms::Alarm;
 use crate::checksum::checksum;
 use crate::error::UpliftError;
 use crate::frame::{RunHead, RunOptions};
@@ -84,7 +85,7 @@ impl Provenance {
         &self,
         title: &str,
         (record_set, synthetic): (&str, bool),
-        warnings: &[String],
+        alarms: Vec<Alarm>,
         files: Vec<PathBuf>,
         seconds: f64,
     ) -> RunHead {
@@ -97,7 +98,7 @@ impl Provenance {
             record_set: record_set.to_owned(),
             synthetic,
             files,
-            warnings: warnings.to_vec(),
+            alarms,
             seconds,
         }
     }

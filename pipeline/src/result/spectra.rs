@@ -2,6 +2,7 @@
 
 use uplift_motion::IntensityMeasure;
 use uplift_regression::Exponential;
+use uplift_risk::OrdinateFlag;
 
 use super::file::ResultFile;
 use super::layout::{axis, regression, urs};
@@ -30,6 +31,12 @@ pub struct MeasureSpectra {
     pub measure: IntensityMeasure,
     /// Displacements `[site, poe, strength]`, m; infinite where censored.
     pub u_m: Array<3>,
+    /// What kind of ordinate each is `[site, poe, strength]`.
+    pub flags: Array<3, OrdinateFlag>,
+    /// Shares of the risk of each that come from below the first stripe `[site, poe, strength]`, 0 to 1.
+    pub lower_tail_share: Array<3>,
+    /// Shares of the risk of each that come from above the last stripe `[site, poe, strength]`, 0 to 1.
+    pub upper_tail_share: Array<3>,
     /// Their coefficients `[site, poe]`.
     pub fits: Array<2, Fit>,
 }
@@ -67,6 +74,12 @@ pub struct Spectrum<'a> {
     pub poe: f64,
     /// Displacements over the strengths of the result, m; infinite where censored.
     pub u_m: &'a [f64],
+    /// What kind of ordinate each is.
+    pub flags: &'a [OrdinateFlag],
+    /// Share of the risk of each that comes from below the first stripe, 0 to 1.
+    pub lower_tail_share: &'a [f64],
+    /// Share of the risk of each that comes from above the last stripe, 0 to 1.
+    pub upper_tail_share: &'a [f64],
     /// Its coefficients.
     pub fit: Fit,
 }
@@ -80,6 +93,9 @@ impl StoredSpectra {
                 measure: measure.measure,
                 poe: self.poes[poe],
                 u_m,
+                flags: measure.flags.block([site, poe]),
+                lower_tail_share: measure.lower_tail_share.block([site, poe]),
+                upper_tail_share: measure.upper_tail_share.block([site, poe]),
                 fit: measure.fits[[site, poe]],
             })
         })
@@ -101,9 +117,14 @@ impl ResultFile {
             let (c2_m, rmse_m) = (column(&regression::c2_m(measure))?, column(&regression::rmse_m(measure))?);
             let path = regression::bound_active(measure);
             let bound = self.over(&path, self.reader.array_u8(&path)?, [sites, poes])?;
+            let lengths = [sites, poes, (axis::STRENGTH, axes.strengths.len())];
+            let of_ordinates = |path: &str| self.array(path, lengths);
             measures.push(MeasureSpectra {
                 measure,
-                u_m: self.array(&urs::u_m(measure), [sites, poes, (axis::STRENGTH, axes.strengths.len())])?,
+                u_m: of_ordinates(&urs::u_m(measure))?,
+                flags: self.flags(measure, lengths)?,
+                lower_tail_share: of_ordinates(&urs::lower_tail_share(measure))?,
+                upper_tail_share: of_ordinates(&urs::upper_tail_share(measure))?,
                 fits: Array::from_fn([sites.1, poes.1], |at| Fit {
                     c0_m: c0_m[at],
                     c1: c1[at],
@@ -115,5 +136,34 @@ impl ResultFile {
         }
         let super::RiskAxes { strengths, poes, years, sites, .. } = axes;
         Ok(StoredSpectra { strengths, poes, years, sites, measures })
+    }
+    /// The flags of the ordinates of `measure`.
+    fn flags(
+        &self,
+        measure: IntensityMeasure,
+        lengths: [(&str, usize); 3],
+    ) -> Result<Array<3, OrdinateFlag>, UpliftError> {
+        let path = urs::flag(measure);
+        let numbers = self.over(&path, self.reader.array_u8(&path)?, lengths)?;
+        if let Some(unknown) = numbers.values().iter().find(|&&number| flag_of(number).is_none()) {
+            return Err(self.damaged(format!("{path} has the unknown flag {unknown}")));
+        }
+        Ok(numbers.map(|&number| flag_of(number).unwrap_or(OrdinateFlag::Regular)))
+    }
+}
+
+/// The flag that is written as `number`.
+fn flag_of(number: u8) -> Option<OrdinateFlag> {
+    [OrdinateFlag::Regular, OrdinateFlag::NoExceedance, OrdinateFlag::Censored]
+        .into_iter()
+        .find(|&flag| flag_number(flag) == number)
+}
+
+/// How a flag stands in the file.
+pub(crate) fn flag_number(flag: OrdinateFlag) -> u8 {
+    match flag {
+        OrdinateFlag::Regular => 0,
+        OrdinateFlag::NoExceedance => 1,
+        OrdinateFlag::Censored => 2,
     }
 }

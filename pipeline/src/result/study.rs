@@ -100,7 +100,7 @@ impl ResultFile {
     }
 
     /// The study; its records and curves need not be there any more.
-    pub(super) fn stored_study(&self) -> Result<UniformRiskStudy, UpliftError> {
+    pub(crate) fn stored_study(&self) -> Result<UniformRiskStudy, UpliftError> {
         match Study::stored(&self.reader.attribute_text("/", "study_toml")?) {
             Ok(AnyStudy::UniformRisk(study)) => Ok(*study),
             Ok(AnyStudy::Displacement(study)) => {

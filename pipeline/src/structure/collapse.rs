@@ -26,6 +26,7 @@ pub(super) struct Collapse {
 /// * `demands_m` — over `[record, level]`, m; infinite where overturned
 /// * `weights` — what each stripe weighs, `[site]`
 /// * `years` — that the probabilities refer to
+/// * `may_overturn` — false for a system that cannot
 ///
 /// # Errors
 /// Arrays that do not fit together.
@@ -34,14 +35,18 @@ pub(super) fn collapse(
     demands_m: &[f64],
     weights: &[&StripeWeights],
     years: f64,
+    may_overturn: bool,
 ) -> Result<Collapse, UpliftError> {
     let stripes = Stripe::new(levels, demands_m)?;
     let counts = stripe_counts(&stripes, OVERTURNING_M)?;
     let demand = PooledDemand::new(&stripes)?;
     let risks = weights
         .iter()
-        .map(|weights| risk_of_exceeding(&demand, weights, OVERTURNING_M, years))
-        .collect::<Result<Vec<_>, _>>()?;
+        .map(|weights| {
+            let risk = risk_of_exceeding(&demand, weights, OVERTURNING_M, years)?;
+            Ok(if may_overturn { risk.bounded(weights, demand.record_count()) } else { risk })
+        })
+        .collect::<Result<Vec<_>, UpliftError>>()?;
     let fit = fit_lognormal(&counts);
     let fitted = fit.as_ref().ok().map(|fit| {
         let probabilities: Vec<f64> = levels.iter().map(|&level| fit.fragility.probability(level)).collect();
@@ -65,7 +70,7 @@ mod tests {
     fn a_case_by_hand() {
         let inf = f64::INFINITY;
         let weights = StripeWeights::new(&[1.0, 0.5, 0.25], None).unwrap();
-        let found = collapse(&[1.0, 2.0, 4.0], &[0.1, inf, inf, inf, 0.3, inf], &[&weights], 2.0).unwrap();
+        let found = collapse(&[1.0, 2.0, 4.0], &[0.1, inf, inf, inf, 0.3, inf], &[&weights], 2.0, true).unwrap();
         let counts: Vec<(u32, u32)> = found.counts.iter().map(|count| (count.exceedances, count.trials)).collect();
         assert_eq!(counts, [(1, 2), (1, 2), (2, 2)]);
         // ½ (½ + ½)(1 − ½) + ½ (½ + 1)(½ − ¼) + 1 · ¼
@@ -82,11 +87,15 @@ mod tests {
     }
 
     #[test]
-    fn a_structure_that_stands_has_no_risk_and_no_fit() {
+    fn a_structure_that_stands_has_no_risk_seen_and_no_fit() {
         let weights = StripeWeights::new(&[1.0, 0.5], None).unwrap();
-        let found = collapse(&[1.0, 2.0], &[0.1, 0.2, 0.3, 1e9], &[&weights], 50.0).unwrap();
+        let found = collapse(&[1.0, 2.0], &[0.1, 0.2, 0.3, 1e9], &[&weights], 50.0, true).unwrap();
         assert_eq!(found.fit, Err(FragilityError::NoExceedance));
         assert_eq!((found.risks[0].per_year, found.risks[0].upper_tail_share), (0.0, 0.0));
         assert!(found.fitted.is_none());
+        // beyond the last level everything may overturn
+        assert!(found.risks[0].at_most_per_year.unwrap() > 0.5);
+        let cannot = collapse(&[1.0, 2.0], &[0.1, 0.2, 0.3, 1e9], &[&weights], 50.0, false).unwrap();
+        assert_eq!(cannot.risks[0].at_most_per_year, None);
     }
 }

@@ -108,8 +108,11 @@ pub(super) fn exact_demand(
         PostUplift::Negative { capacity_m } => Some(capacity_m),
         PostUplift::Zero | PostUplift::Positive { .. } => None,
     };
+    let records = stripes.peaks.axes().motions;
+    let may_happen = |risk: EventRisk| risk.bounded(weights, records);
     let beyond_capacity =
-        capacity_m.map(|capacity_m| risk_of_exceeding(&own, weights, capacity_m, years)).transpose()?;
+        capacity_m.map(|capacity_m| risk_of_exceeding(&own, weights, capacity_m, years).map(may_happen)).transpose()?;
+    let overturning = risk_of_exceeding(&own, weights, OVERTURNING_M, years)?;
     let (mut demands_m, mut beyond, mut overturned, mut errors) = (vec![], vec![], vec![], [vec![], vec![]]);
     for &[zero, own] in &sweep.pairs {
         let (zero_m, own_m) = (ordinate(zero)?.displacement_m, ordinate(own)?.displacement_m);
@@ -148,7 +151,8 @@ pub(super) fn exact_demand(
         lower_tail_share: demand.lower_tail_share,
         upper_tail_share: demand.upper_tail_share,
         beyond_capacity,
-        overturning: risk_of_exceeding(&own, weights, OVERTURNING_M, years)?,
+        // what has no capacity cannot overturn
+        overturning: if capacity_m.is_some() { may_happen(overturning) } else { overturning },
         noise: DemandNoise {
             demand_m: Noisy::of(&demands_m),
             rule_errors: capacity_m.map(|_| RuleErrors { equal_displacement, equal_energy }),

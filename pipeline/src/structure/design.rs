@@ -13,21 +13,21 @@ use uplift_ida::{Shard, System};
 use uplift_motion::IntensityMeasure;
 use uplift_oscillator::PostUplift;
 use uplift_plausible::SAFETY_FACTOR;
-use uplift_risk::TAIL_SHARE_LIMIT;
 use uplift_study::Structure;
 
 use super::choice::{measure_index, records, site_index};
 use super::demand::{ExactDemand, exact_demand};
 use super::report::StructureReport;
+use super::risk::EventRisk;
 use super::rules::{RuleDemands, RuleOutcome, apply_rules};
 use super::spectrum::{SpectrumDemand, read_spectrum};
 use super::sweep::Sweep;
+use crate::alarms::{Alarm, OwnRisk, Scope, alarms_within, of_own_risks, of_safety_factor, of_structure, ranked};
 use crate::analysis::{Beside, LabelledPlan, ShardReport, Work};
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::inputs::RecordSet;
 use crate::result::{ResultFile, SpectraOfResult, StudyOfResult};
-use crate::text::per_cent;
 use crate::uniform_risk::{Stripes, motion_keys, plan_stripes};
 
 /// What is asked of a design.
@@ -93,8 +93,10 @@ pub struct DesignReport {
     pub exact: Option<ExactDemand>,
     /// The rules; none where they do not apply, to positive post-uplift stiffness.
     pub rules: Vec<RuleOutcome>,
-    /// What to know before using the numbers.
+    /// How the structure and the study differ, and what could not be done.
     pub notes: Vec<String>,
+    /// What to know before using the numbers, the worst first.
+    pub alarms: Vec<Alarm>,
 }
 
 /// Designs `structure` by a spectrum of the result at `result`, and tests the design by the structure's own risk.
@@ -112,7 +114,8 @@ pub fn design(
 ) -> Result<DesignReport, UpliftError> {
     let safety_factor = options.safety_factor;
     SAFETY_FACTOR.check("--safety-factor", safety_factor).map_err(|mistake| UpliftError::Implausible(vec![mistake]))?;
-    let source = ResultFile::open(result)?.study(options.manifest.as_deref())?;
+    let file = ResultFile::open(result)?;
+    let source = file.study(options.manifest.as_deref())?;
     require_zero_stiffness(&source)?;
     let site = site_index(&source, options.site.as_deref())?;
     let measure = &source.measures[measure_index(&source, options.measure)?];
@@ -158,8 +161,18 @@ pub fn design(
         of_structure_m: exact.map(|exact| exact.demand_m),
     };
     let rules = apply_rules(structure, safety_factor, demands)?;
+    let scope = Scope {
+        site: Some(site),
+        measure: Some(measure.measure()),
+        poe: Some(poe),
+        strengths: spectrum.map(|spectrum| spectrum.between_strengths).or(Some((f64::NAN, f64::NAN))),
+    };
+    let mut alarms = alarms_within(&file, &scope)?;
+    alarms.extend(of_structure(structure));
+    alarms.extend(of_safety_factor(safety_factor));
     if let Some(exact) = &exact {
-        notes.extend(tails(exact));
+        let records = file.axes()?.records.len();
+        alarms.extend(of_own_risks(&own_risks(exact, measure, &source.sites[site], records)));
     }
     if let Some(checkpoint) = checkpoint {
         checkpoint.remove();
@@ -180,6 +193,7 @@ pub fn design(
         exact,
         rules,
         notes,
+        alarms: ranked(alarms),
     })
 }
 
@@ -287,9 +301,6 @@ fn differences(structure: &Structure, source: &StudyOfResult, restitution: f64) 
     let (system, oscillator) = (&structure.system, &source.study.oscillator);
     let apart = |a: f64, b: f64| (a - b).abs() > 1e-9 * a.abs().max(b.abs());
     let mut notes = Vec::new();
-    if source.synthetic {
-        notes.push(super::SYNTHETIC.to_owned());
-    }
     let uplift_m = system.spectral_uplift_displacement_m();
     if apart(uplift_m, oscillator.uplift_displacement_m) {
         notes.push(format!(
@@ -316,21 +327,19 @@ fn differences(structure: &Structure, source: &StudyOfResult, restitution: f64) 
     notes
 }
 
-/// Risks that come from outside the stripes.
-fn tails(exact: &ExactDemand) -> Vec<String> {
-    let shares = [
-        ("the demand on the structure", exact.lower_tail_share.max(exact.upper_tail_share)),
-        ("exceeding the capacity", exact.beyond_capacity.map_or(0.0, |risk| risk.tail_share())),
-        ("overturning", exact.overturning.tail_share()),
-    ];
-    shares
-        .into_iter()
-        .filter(|(_, share)| *share > TAIL_SHARE_LIMIT)
-        .map(|(what, share)| {
-            format!(
-                "{} of the risk of {what} comes from outside the analysed levels: they should reach further",
-                per_cent((1000.0 * share).round() / 1000.0)
-            )
-        })
-        .collect()
+/// What may come from outside the stripes: the demand, exceeding the capacity, overturning.
+fn own_risks(exact: &ExactDemand, measure: &SpectraOfResult, site: &str, records: usize) -> Vec<OwnRisk> {
+    let levels = &measure.plan.levels;
+    let own = |what: &str, risk: EventRisk| OwnRisk {
+        subject: format!("{what}, {site}, {}", measure.measure().label()),
+        risk,
+        measure: measure.measure(),
+        levels: (levels[0], levels[levels.len() - 1]),
+        records,
+    };
+    let ExactDemand { lower_tail_share, upper_tail_share, .. } = *exact;
+    let demand = EventRisk { lower_tail_share, upper_tail_share, at_most_per_year: None, ..exact.overturning };
+    let mut risks = vec![own("demand on the structure", demand), own("overturning", exact.overturning)];
+    risks.extend(exact.beyond_capacity.map(|risk| own("exceeding the capacity", risk)));
+    risks
 }

@@ -7,7 +7,7 @@ use serde::Serialize;
 use uplift_fragility::LognormalFit;
 use uplift_ida::{Shard, System};
 use uplift_motion::IntensityMeasure;
-use uplift_risk::{StripeWeights, TAIL_SHARE_LIMIT};
+use uplift_risk::StripeWeights;
 use uplift_study::{Structure, UniformRiskStudy};
 
 use super::choice::{measure_index, records, site_index};
@@ -16,13 +16,13 @@ use super::models::models;
 use super::report::StructureReport;
 use super::risk::EventRisk;
 use super::tables::{risk_path, write_tables};
+use crate::alarms::{Alarm, OwnRisk, Scope, alarms_of_inputs, of_own_risks, of_structure, ranked};
 use crate::analysis::{Beside, LabelledPlan, ShardReport, Work};
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::inputs::RecordSet;
 use crate::outputs::{self, Output, OutputKind};
 use crate::result::{ResultFile, SpectraOfResult, StudyOfResult};
-use crate::text::per_cent;
 use crate::uniform_risk::{motion_keys, plan_stripes};
 
 /// What is asked of the overturning of a structure.
@@ -62,8 +62,10 @@ pub struct OverturningReport {
     pub models: Vec<ModelReport>,
     /// Fragility and risk, one a measure and model, in this order.
     pub overturning: Vec<CollapseReport>,
-    /// What to know before using the numbers.
+    /// How the models differ, and what could not be done.
     pub notes: Vec<String>,
+    /// What to know before using the numbers, the worst first.
+    pub alarms: Vec<Alarm>,
     /// What was written.
     #[serde(skip)]
     pub files: Vec<PathBuf>,
@@ -138,7 +140,8 @@ pub fn overturning(
     events: &dyn Events,
 ) -> Result<OverturningReport, UpliftError> {
     check_table(structure, result, options)?;
-    let source = ResultFile::open(result)?.study(options.manifest.as_deref())?;
+    let file = ResultFile::open(result)?;
+    let source = file.study(options.manifest.as_deref())?;
     let sites = match &options.site {
         Some(site) => vec![site_index(&source, Some(site))?],
         None => (0..source.sites.len()).collect(),
@@ -162,13 +165,17 @@ pub fn overturning(
     let mut found: Vec<(&SpectraOfResult, Vec<Collapse>)> = Vec::new();
     for measure in measures {
         let weights: Vec<&StripeWeights> = sites.iter().map(|&site| &measure.weights[site]).collect();
-        let of_models = analysed
-            .by_ref()
-            .take(models.len())
-            .map(|analysed| collapse(&measure.plan.levels, &analysed.peaks.of_system_m(0), &weights, study.risk.years));
+        let of_models = models.iter().zip(analysed.by_ref()).map(|((model, _), analysed)| {
+            let (levels, peaks_m) = (&measure.plan.levels, analysed.peaks.of_system_m(0));
+            collapse(levels, &peaks_m, &weights, study.risk.years, model.can_overturn())
+        });
         found.push((measure, of_models.collect::<Result<_, _>>()?));
     }
-    notes.extend(notes_on(&source, &models, &found));
+    notes.extend(notes_on(&models, &found));
+    let mut alarms = alarms_of_inputs(&file, &Scope { measure: options.measure, ..Scope::default() })?;
+    alarms.extend(of_structure(structure));
+    let names: Vec<&str> = sites.iter().map(|&site| source.sites[site].as_str()).collect();
+    alarms.extend(of_own_risks(&own_risks(&models, &found, &names, set.records.len())));
     let records = u32::try_from(set.records.len()).unwrap_or(u32::MAX);
     let of_measure = |(measure, found): &(&SpectraOfResult, Vec<Collapse>)| -> Vec<CollapseReport> {
         let names = sites.iter().map(|&site| source.sites[site].as_str());
@@ -183,6 +190,7 @@ pub fn overturning(
         models: models.iter().map(|(model, origin)| ModelReport::of(model, origin)).collect(),
         overturning: found.iter().flat_map(of_measure).collect(),
         notes,
+        alarms: ranked(alarms),
         files: Vec::new(),
         result: source.path.clone(),
         record_set: source.record_set.clone(),
@@ -281,15 +289,8 @@ fn check_table(structure: &Structure, result: &Path, options: &OverturningOption
 }
 
 /// What the numbers rest on.
-fn notes_on(
-    source: &StudyOfResult,
-    models: &[(System, &'static str)],
-    found: &[(&SpectraOfResult, Vec<Collapse>)],
-) -> Vec<String> {
+fn notes_on(models: &[(System, &'static str)], found: &[(&SpectraOfResult, Vec<Collapse>)]) -> Vec<String> {
     let mut notes = Vec::new();
-    if source.synthetic {
-        notes.push(super::SYNTHETIC.to_owned());
-    }
     if let [(a, _), (b, _)] = models
         && a.restitution().to_bits() != b.restitution().to_bits()
     {
@@ -306,18 +307,32 @@ fn notes_on(
             if let Err(reason) = &found.fit {
                 notes.push(format!("no lognormal fragility of the {} by {label}: {reason}", model.kind()));
             }
-            let largest = found.risks.iter().map(EventRisk::tail_share).fold(0.0, f64::max);
-            if largest > TAIL_SHARE_LIMIT {
-                notes.push(format!(
-                    "up to {} of the risk of the {} by {label} comes from outside the analysed levels: they should \
-                     reach further",
-                    per_cent((1000.0 * largest).round() / 1000.0),
-                    model.kind()
-                ));
-            }
         }
     }
     notes
+}
+
+/// The risk of every model at every site by every measure.
+fn own_risks(
+    models: &[(System, &'static str)],
+    found: &[(&SpectraOfResult, Vec<Collapse>)],
+    sites: &[&str],
+    records: usize,
+) -> Vec<OwnRisk> {
+    let mut risks = Vec::new();
+    for (measure, found) in found {
+        let levels = &measure.plan.levels;
+        for (found, (model, _)) in found.iter().zip(models) {
+            risks.extend(sites.iter().zip(&found.risks).map(|(site, &risk)| OwnRisk {
+                subject: format!("overturning of the {}, {site}, {}", model.kind(), measure.measure().label()),
+                risk,
+                measure: measure.measure(),
+                levels: (levels[0], levels[levels.len() - 1]),
+                records,
+            }));
+        }
+    }
+    risks
 }
 
 impl ModelReport {

@@ -18,6 +18,9 @@ pub struct EventRisk {
     pub lower_tail_share: f64,
     /// Share of the frequency that comes from above the last stripe, 0 to 1; 0 where it never happens.
     pub upper_tail_share: f64,
+    /// Where no run shows what may happen: the frequency that it has at most, 1/yr (docs/method.md, section 17). None
+    /// where some run does, or where it cannot happen.
+    pub at_most_per_year: Option<f64>,
 }
 
 impl EventRisk {
@@ -28,13 +31,32 @@ impl EventRisk {
     pub(super) fn new(per_year: f64, [lower_tail, upper_tail]: [f64; 2], years: f64) -> Result<Self, UpliftError> {
         let share = |tail: f64| if per_year > 0.0 { (tail / per_year).min(1.0) } else { 0.0 };
         let probability = probability_from_rate(per_year, years)?;
-        Ok(Self { per_year, probability, lower_tail_share: share(lower_tail), upper_tail_share: share(upper_tail) })
+        let (lower_tail_share, upper_tail_share) = (share(lower_tail), share(upper_tail));
+        Ok(Self { per_year, probability, lower_tail_share, upper_tail_share, at_most_per_year: None })
     }
 
-    /// The larger of the shares from the tails.
-    pub fn tail_share(&self) -> f64 {
-        self.lower_tail_share.max(self.upper_tail_share)
+    /// The same of something that may happen, though no run of `records` may show it.
+    pub(super) fn bounded(self, weights: &StripeWeights, records: usize) -> Self {
+        let at_most_per_year = (self.per_year == 0.0).then(|| at_most_per_year(weights, records));
+        Self { at_most_per_year, ..self }
     }
+}
+
+/// Confidence of the bound on the share of records at the last level.
+pub(crate) const BOUND_CONFIDENCE: f64 = 0.95;
+
+/// The share of all motions that may do what none of so many records did, with [`BOUND_CONFIDENCE`]: nearly 3/N.
+pub(crate) fn share_at_most(records: usize) -> f64 {
+    1.0 - (1.0 - BOUND_CONFIDENCE).powf(1.0 / records as f64)
+}
+
+/// The frequency that something has at most which no run shows, 1/yr: all motions stronger than the last level do it,
+/// and at that level the share that so many records leave open; from the level before it on that share grows from zero
+/// as a fragility between stripes does (Eq. 4.4).
+fn at_most_per_year(weights: &StripeWeights, records: usize) -> f64 {
+    let beyond = weights.upper_tail_per_year();
+    let last = weights.per_year().last().copied().unwrap_or(beyond);
+    beyond + share_at_most(records) * (last - beyond)
 }
 
 /// A threshold that nothing but overturning exceeds.
@@ -62,4 +84,24 @@ pub(super) fn risk_of_exceeding(
 /// None for stripes that were computed.
 pub(super) fn demand_of(stripes: &Stripes, oscillator: usize) -> Result<PooledDemand, UpliftError> {
     pooled_demand(stripes, oscillator)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn what_no_run_shows_has_a_bound_all_the_same() {
+        // 1 − 0.05^(1/N), that is some 3/N
+        assert!((share_at_most(1) - 0.95).abs() < 1e-12);
+        assert!((share_at_most(300) * 300.0 - 3.0).abs() < 0.02);
+        // rates 1, 0.5, 0.25: all beyond the last level, and 0.95 of half the last interval for a single record
+        let weights = StripeWeights::new(&[1.0, 0.5, 0.25], None).unwrap();
+        let none = EventRisk::new(0.0, [0.0, 0.0], 50.0).unwrap();
+        let bound = none.bounded(&weights, 1).at_most_per_year.unwrap();
+        assert!((bound - (0.25 + 0.95 * 0.125)).abs() < 1e-12, "{bound}");
+        let some = EventRisk::new(1e-3, [0.0, 0.0], 50.0).unwrap();
+        assert_eq!(some.bounded(&weights, 1).at_most_per_year, None);
+    }
 }

@@ -5,9 +5,11 @@ use std::path::Path;
 use serde::Serialize;
 use uplift_motion::IntensityMeasure;
 use uplift_regression::Exponential;
+use uplift_study::UniformRiskStudy;
 
 use super::TableOptions;
 use super::reference::ReferenceTable;
+use crate::alarms::{FitReach, reach_of_fit};
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::result::{ResultFile, Spectrum};
@@ -54,6 +56,8 @@ pub struct CoefficientRow {
     /// Root mean square error with n − 3 degrees of freedom, m.
     #[serde(rename = "rmse")]
     pub rmse_m: f64,
+    /// How far the curve goes with its spectrum; none without a fit, or where no ordinate is above uplift.
+    pub reach: Option<FitReach>,
     /// Median of our spectrum over the curve of the reference, for strengths in ([`COMPARED_ABOVE`], 1] where that
     /// curve exceeds [`COMPARED_FROM_M`]; none where the reference has no such row.
     pub median_ratio: Option<f64>,
@@ -91,13 +95,14 @@ pub(super) fn read(
     events: &dyn Events,
 ) -> Result<CoefficientTable, UpliftError> {
     let result = file.spectra()?;
+    let study = file.stored_study()?;
     let references = options.reference.as_deref().map_or_else(|| Ok(Vec::new()), read_reference)?;
     let rows: Vec<CoefficientRow> = result
         .rows()
         .filter(|spectrum| options.measure.is_none_or(|wanted| spectrum.measure == wanted))
         .map(|spectrum| {
             let reference = references.iter().find(|reference| same(&spectrum, reference));
-            CoefficientRow::of(&result.strengths, &spectrum, reference.map(|reference| reference.fit))
+            CoefficientRow::of(&study, &result.strengths, &spectrum, reference.map(|reference| reference.fit))
         })
         .collect();
     if rows.is_empty() {
@@ -121,8 +126,15 @@ pub(super) fn read(
 }
 
 impl CoefficientRow {
-    fn of(strengths: &[f64], spectrum: &Spectrum<'_>, reference: Option<ReferenceFit>) -> Self {
+    fn of(
+        study: &UniformRiskStudy,
+        strengths: &[f64],
+        spectrum: &Spectrum<'_>,
+        reference: Option<ReferenceFit>,
+    ) -> Self {
         let fit = &spectrum.fit;
+        let (above, uplift_m) = (study.regression.strength_above, study.oscillator.uplift_displacement_m);
+        let reach = |curve| reach_of_fit(&curve, (strengths, spectrum.u_m), above, uplift_m);
         Self {
             site: spectrum.site.to_owned(),
             im: spectrum.measure.label().to_owned(),
@@ -131,6 +143,7 @@ impl CoefficientRow {
             c1: fit.c1,
             c2_m: fit.c2_m,
             rmse_m: fit.rmse_m,
+            reach: fit.curve().and_then(reach),
             median_ratio: reference.and_then(|reference| median_ratio(strengths, spectrum.u_m, &reference)),
             bound_active: fit.bound_active,
             reference,

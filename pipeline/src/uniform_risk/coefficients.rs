@@ -26,11 +26,16 @@ pub fn fit_spectra(study: &UniformRiskStudy, spectra: &Spectra) -> Coefficients 
 
 /// Fit one spectrum over the strengths above `regression.strength_above`, or say why there is no fit.
 pub(super) fn fit_spectrum(study: &UniformRiskStudy, spectrum: &[Ordinate]) -> Result<ExponentialFit, String> {
-    let from = study.strengths.partition_point(|&strength| strength <= study.regression.strength_above);
-    let strengths = &study.strengths[from..];
-    let displacements: Vec<f64> = spectrum[from..].iter().map(|ordinate| ordinate.displacement_m).collect();
+    let u_m: Vec<f64> = spectrum.iter().map(|ordinate| ordinate.displacement_m).collect();
+    fit_ordinates(&study.strengths, &u_m, study.regression.strength_above)
+}
+
+/// Fit the ordinates `u_m`, m, over the `strengths` above `above`, or say why there is no fit.
+pub(crate) fn fit_ordinates(strengths: &[f64], u_m: &[f64], above: f64) -> Result<ExponentialFit, String> {
+    let from = strengths.partition_point(|&strength| strength <= above);
+    let (strengths, displacements) = (&strengths[from..], &u_m[from..]);
     if let Some(position) = displacements.iter().position(|u| u.is_infinite()) {
         return Err(format!("the spectrum is censored at strength {}", strengths[position]));
     }
-    fit(strengths, &displacements).map_err(|error| error.to_string())
+    fit(strengths, displacements).map_err(|error| error.to_string())
 }

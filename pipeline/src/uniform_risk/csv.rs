@@ -78,7 +78,8 @@ fn spectra_table(outcome: &Outcome<'_>) -> Vec<Column> {
     ]
 }
 
-pub(super) fn flag_word(flag: OrdinateFlag) -> &'static str {
+/// A flag in tables.
+pub(crate) fn flag_word(flag: OrdinateFlag) -> &'static str {
     match flag {
         OrdinateFlag::Regular => "regular",
         OrdinateFlag::NoExceedance => "no exceedance",

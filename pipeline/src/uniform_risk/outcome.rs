@@ -21,7 +21,7 @@ pub struct Outcome<'a> {
     pub spectra: &'a [Spectra],
     /// Its coefficients, `[measure]`.
     pub coefficients: &'a [Coefficients],
-    /// What a reader should know before using the numbers.
+    /// What was noticed about the inputs; what the numbers themselves give cause for, [`alarms`](crate::alarms) says.
     pub warnings: &'a [String],
     /// Where the numbers come from.
     pub provenance: &'a Provenance,

@@ -8,11 +8,12 @@ use uplift_study::UniformRiskStudy;
 
 use super::levels::{LevelCheck, check_levels};
 use super::{plan_stripes, site_table, systems};
+use crate::alarms::{look_like_probabilities, what_of_probabilities};
 use crate::analysis::seconds;
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::frame::PlanHead;
-use crate::inputs::{RecordSet, SiteList, read_hazard, read_records};
+use crate::inputs::{RecordSet, SiteHazard, SiteList, read_hazard, read_records};
 use crate::machine::{Needs, PROGRAM_BYTES};
 
 /// Time spent on a measure to see how fast this machine is.
@@ -35,7 +36,8 @@ pub(crate) fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Eve
     notes.extend(site_list.iter().flat_map(|list| list.notes.iter().cloned()));
     let records = read_records(study)?;
     let systems = systems(study)?;
-    notes.splice(0..0, study.warnings.iter().cloned());
+    notes.splice(0..0, study.warnings.iter().map(ToString::to_string));
+    notes.extend(suspicious(&hazard));
     notes.extend(records.notes.iter().cloned());
 
     let plans = (study.measures.iter())
@@ -61,6 +63,18 @@ pub(crate) fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Eve
         notes,
     };
     Ok(Plan { head, levels })
+}
+
+/// Curves whose rates look like probabilities.
+fn suspicious(hazard: &[Vec<SiteHazard>]) -> Vec<String> {
+    let curves = |site: &SiteHazard| {
+        let branches = site.branches.iter().map(|branch| &branch.input);
+        std::iter::once(&site.curve).chain(branches).any(|input| look_like_probabilities(&input.curve))
+    };
+    let sites = hazard.iter().flatten().filter(|site| curves(site));
+    sites
+        .map(|site| format!("{}, {}: {}", site.site, site.measure.label(), what_of_probabilities(&site.curve.curve)))
+        .collect()
 }
 
 /// What a run of `study` takes.

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 use super::{Outcome, Stripes};
+use crate::alarms::Alarm;
 use crate::array::Array;
 use crate::frame::RunHead;
 
@@ -96,7 +97,7 @@ pub struct BranchReport {
 
 impl RunReport {
     /// The report on what was computed and written.
-    pub(super) fn of(outcome: &Outcome<'_>, files: Vec<PathBuf>, seconds: f64) -> Self {
+    pub(super) fn of(outcome: &Outcome<'_>, alarms: Vec<Alarm>, files: Vec<PathBuf>, seconds: f64) -> Self {
         let study = outcome.study;
         let fits = |coefficients: &super::Coefficients| -> Vec<CoefficientsReport> {
             let im = coefficients.measure.label();
@@ -117,7 +118,7 @@ impl RunReport {
         };
         let records = (outcome.records.description.as_str(), outcome.records.synthetic);
         Self {
-            head: outcome.provenance.head(&study.title, records, outcome.warnings, files, seconds),
+            head: outcome.provenance.head(&study.title, records, alarms, files, seconds),
             measures: outcome.stripes.iter().map(MeasureReport::of).collect(),
             coefficients: outcome.coefficients.iter().flat_map(fits).collect(),
             strengths: study.strengths.to_vec(),

@@ -1,22 +1,21 @@
 //! A study of uniform risk, from its inputs to the result file.
 
 use uplift_ida::Shard;
-use uplift_risk::OrdinateFlag;
 use uplift_study::UniformRiskStudy;
 
 use super::report::RunReport;
 use super::{
-    Coefficients, Inputs, Outcome, Spectra, Stripes, csv_paths, fit_spectra, needs, site_table, uniform_risk_spectra,
-    write_csv, write_result,
+    Coefficients, Inputs, Outcome, Stripes, csv_paths, fit_spectra, needs, site_table, uniform_risk_spectra, write_csv,
+    write_result,
 };
+use crate::alarms::alarms;
 use crate::checkpoint::{Checkpoint, FinishedRows, checkpoint_path};
 use crate::error::UpliftError;
 use crate::events::Events;
-use crate::frame::{FEW_RECORDS, Place, SYNTHETIC};
-use crate::inputs::{RecordSet, read_hazard};
-use crate::result::Provenance;
+use crate::frame::Place;
+use crate::inputs::read_hazard;
 use crate::result::earlier::Earlier;
-use crate::text::per_cent;
+use crate::result::{Provenance, ResultFile};
 
 /// Carries out `study`, but for the rows of its analysis that are `known`.
 pub(crate) fn run(
@@ -50,7 +49,6 @@ pub(crate) fn run(
     let mut warnings = notes;
     warnings.extend(site_list.iter().flat_map(|list| list.notes.iter().cloned()));
     warnings.extend(records.notes.iter().cloned());
-    warnings.extend(warnings_of(study, records, &spectra, &coefficients));
 
     if events.cancelled() {
         return Err(checkpoint.stopped(total, total));
@@ -82,68 +80,7 @@ pub(crate) fn run(
     }
     files.extend(sites.finish()?);
     earlier.set_aside(events)?;
-    Ok(RunReport::of(&outcome, files, place.start.elapsed().as_secs_f64()))
-}
-
-fn warnings_of(
-    study: &UniformRiskStudy,
-    records: &RecordSet,
-    spectra: &[Spectra],
-    coefficients: &[Coefficients],
-) -> Vec<String> {
-    let mut warnings = Vec::new();
-    if records.synthetic {
-        warnings.push(SYNTHETIC.to_owned());
-    }
-    if records.records.len() < FEW_RECORDS {
-        warnings.push(format!(
-            "few records ({}): below about {FEW_RECORDS} the spectra depend strongly on the choice of records",
-            records.records.len()
-        ));
-    }
-    for spectra in spectra {
-        let label = spectra.measure.label();
-        for ([site, poe], spectrum) in spectra.ordinates.blocks() {
-            let name = format!("{label}, {}, {}", study.sites[site].name, per_cent(study.risk.poe[poe]));
-            let censored = spectrum.iter().filter(|ordinate| ordinate.flag == OrdinateFlag::Censored).count();
-            if censored > 0 {
-                warnings.push(format!(
-                    "{name}: {censored} of {} ordinates are censored: overturned runs, or the last threshold, \
-                     exceed the target risk",
-                    spectrum.len()
-                ));
-            }
-            let heavy = spectrum.iter().filter(|ordinate| ordinate.has_significant_tail()).count();
-            if heavy > 0 {
-                let share = |value: f64| format!("{:.1} %", 100.0 * value);
-                let lower = spectrum.iter().fold(0.0_f64, |most, ordinate| most.max(ordinate.lower_tail_share));
-                let upper = spectrum.iter().fold(0.0_f64, |most, ordinate| most.max(ordinate.upper_tail_share));
-                warnings.push(format!(
-                    "{name}: {heavy} of {} ordinates take more than 1 % of their risk from outside the stripes (at \
-                     most {} below the first, {} above the last)",
-                    spectrum.len(),
-                    share(lower),
-                    share(upper)
-                ));
-            }
-        }
-    }
-    for coefficients in coefficients {
-        for ([site, poe], fit) in coefficients.fits.blocks() {
-            let name = format!(
-                "{}, {}, {}",
-                coefficients.measure.label(),
-                study.sites[site].name,
-                per_cent(study.risk.poe[poe])
-            );
-            match &fit[0] {
-                Err(reason) => warnings.push(format!("{name}: no fit: {reason}")),
-                Ok(fit) if fit.at_search_limit => warnings.push(format!(
-                    "{name}: the spectrum is no decaying exponential: its coefficients mean nothing one by one"
-                )),
-                Ok(_) => {}
-            }
-        }
-    }
-    warnings
+    // the summary says what every other look at the file says
+    let alarms = alarms(&ResultFile::open(path)?)?;
+    Ok(RunReport::of(&outcome, alarms, files, place.start.elapsed().as_secs_f64()))
 }

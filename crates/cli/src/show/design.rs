@@ -7,6 +7,7 @@ use uplift::text::{per_cent, table};
 use uplift_spectra::Noisy;
 use uplift_structure::Rule;
 
+use super::alarms::print_alarms;
 use super::shown_path;
 use super::structure::{lines, risk_cells, short};
 use crate::error::CommandError;
@@ -28,7 +29,7 @@ fn relative(error: f64) -> String {
 
 /// How often in a year.
 fn rate(per_year: f64) -> String {
-    if per_year == 0.0 { "never".to_owned() } else { format!("{per_year:.3e}") }
+    if per_year == 0.0 { "none seen".to_owned() } else { format!("{per_year:.3e}") }
 }
 
 fn name(rule: Rule) -> &'static str {
@@ -64,7 +65,7 @@ pub(crate) fn print_design(report: &DesignReport) -> Result<(), CommandError> {
         print_noise(out, &report.rules, &exact.noise)?;
         print_rounding(out, &exact.rounding)?;
     }
-    Ok(())
+    print_alarms(out, &report.alarms)
 }
 
 /// Displacements of the structure, from the spectrum and exact.

@@ -5,6 +5,7 @@ use std::io::Write;
 use uplift::structure::{CollapseReport, OverturningReport};
 use uplift::text::table;
 
+use super::alarms::print_alarms;
 use super::shown_path;
 use super::structure::{lines, risk_cells};
 use crate::error::CommandError;
@@ -32,7 +33,8 @@ pub(crate) fn print_overturning(report: &OverturningReport) -> Result<(), Comman
         writeln!(out, "note       {note}")?;
     }
     print_fragility(out, report)?;
-    print_risk(out, report)
+    print_risk(out, report)?;
+    print_alarms(out, &report.alarms)
 }
 
 fn print_fragility(out: &mut impl Write, report: &OverturningReport) -> Result<(), CommandError> {

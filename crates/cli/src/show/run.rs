@@ -5,12 +5,10 @@ use std::io::Write;
 use uplift::analysis::ShardReport;
 use uplift::run::{RunHead, RunReport};
 
+use super::alarms::print_alarms;
 use super::{displacement, shown_path, uniform_risk};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
-
-/// Warnings printed; all of them are in the result file.
-const WARNINGS_SHOWN: usize = 12;
 
 /// The summary of a run; a quiet terminal shows nothing.
 pub(crate) fn print_run(report: &RunReport, terminal: &Terminal) -> Result<(), CommandError> {
@@ -35,19 +33,9 @@ pub(crate) fn print_run(report: &RunReport, terminal: &Terminal) -> Result<(), C
     Ok(())
 }
 
-/// What every run ends with: warnings, files, time.
+/// What every run ends with: alarms, files, time.
 fn print_end(out: &mut impl Write, head: &RunHead) -> Result<(), CommandError> {
-    let warnings = &head.warnings;
-    if !warnings.is_empty() {
-        writeln!(out, "\nBefore you use these numbers:")?;
-        for warning in warnings.iter().take(WARNINGS_SHOWN) {
-            writeln!(out, "  - {warning}")?;
-        }
-        if warnings.len() > WARNINGS_SHOWN {
-            let more = warnings.len() - WARNINGS_SHOWN;
-            writeln!(out, "  - {more} more in the attribute `warnings` of the result file")?;
-        }
-    }
+    print_alarms(out, &head.alarms)?;
     writeln!(out, "\nDone in {:.1} s. Results:", head.seconds)?;
     for file in &head.files {
         writeln!(out, "  {}", shown_path(file).display())?;

@@ -43,13 +43,17 @@ pub(super) fn lines(structure: &StructureReport) -> Vec<String> {
 
 /// Frequency, probability and return period in words.
 pub(super) fn risk_cells(risk: &EventRisk) -> [String; 3] {
-    if risk.per_year == 0.0 {
-        return ["never".to_owned(), "-".to_owned(), "-".to_owned()];
+    let return_period = |per_year: f64| match 1.0 / per_year {
+        years if years < 1e7 => format!("{years:.0}"),
+        years => format!("{years:.1e}"),
+    };
+    if risk.per_year > 0.0 {
+        let probability = format!("{:.3} %", 100.0 * risk.probability);
+        return [format!("{:.3e}", risk.per_year), probability, return_period(risk.per_year)];
     }
-    let years = 1.0 / risk.per_year;
-    [
-        format!("{:.3e}", risk.per_year),
-        format!("{:.3} %", 100.0 * risk.probability),
-        if years < 1e7 { format!("{years:.0}") } else { format!("{years:.1e}") },
-    ]
+    match risk.at_most_per_year {
+        // a count of none is no proof: an alarm says what the bound is
+        Some(bound) => [format!("< {bound:.1e}"), "-".to_owned(), format!("> {}", return_period(bound))],
+        None => ["cannot".to_owned(), "-".to_owned(), "-".to_owned()],
+    }
 }

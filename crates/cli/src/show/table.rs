@@ -4,19 +4,21 @@ mod design;
 
 use std::io::Write;
 
-use uplift::table::{COMPARED_ABOVE, COMPARED_FROM_M, CoefficientRow, CoefficientTable, TableReport};
+use uplift::table::{COMPARED_ABOVE, COMPARED_FROM_M, CoefficientRow, CoefficientTable, TableReport, TableRows};
 use uplift::text::{per_cent, table};
 
+use super::alarms::print_alarms;
 use crate::error::CommandError;
 use crate::terminal::output;
 
 /// The table of a result, of either kind.
 pub(crate) fn print_table(report: &TableReport) -> Result<(), CommandError> {
     let mut out = output();
-    match report {
-        TableReport::Coefficients(coefficients) => print_coefficients(&mut out, coefficients),
-        TableReport::Design(designs) => design::print_design(&mut out, designs),
-    }
+    match &report.rows {
+        TableRows::Coefficients(coefficients) => print_coefficients(&mut out, coefficients),
+        TableRows::Design(designs) => design::print_design(&mut out, designs),
+    }?;
+    print_alarms(&mut out, &report.alarms)
 }
 
 fn print_coefficients(out: &mut impl Write, report: &CoefficientTable) -> Result<(), CommandError> {

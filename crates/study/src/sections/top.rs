@@ -29,9 +29,3 @@ pub(crate) fn title(root: &mut Section<'_>) -> Option<String> {
 pub(crate) fn gravity(root: &mut Section<'_>) -> Option<f64> {
     root.number_or("gravity_m_s2", "m/s2", Rule::Within(uplift_plausible::GRAVITY), STANDARD_GRAVITY_M_S2)
 }
-
-/// What an acceleration of gravity \[m/s²\] is suspected of.
-pub(crate) fn warning_of_gravity(gravity_m_s2: f64) -> Option<String> {
-    (!(9.7..=9.9).contains(&gravity_m_s2))
-        .then(|| format!("gravity_m_s2 = {gravity_m_s2} m/s2 is not found on Earth, where it is 9.76 to 9.83"))
-}

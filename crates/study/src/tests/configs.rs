@@ -22,7 +22,7 @@ fn all_load() {
         }
         let name = entry.file_name().into_string().unwrap();
         let study = Study::load_any(&folder().join(&name), &[]).unwrap();
-        assert_eq!(study.warnings(), [""; 0], "{name}");
+        assert_eq!(study.warnings(), [], "{name}");
         assert!(!study.title().is_empty());
         let stem = study.output().file.file_stem().unwrap().to_str().unwrap().to_owned();
         assert_eq!(format!("{stem}.toml"), name);

@@ -289,9 +289,14 @@ fn large_nonsense() {
 #[test]
 fn warnings() {
     let study = load("gravity_m_s2 = 981\n[pgv]\n[strengths]\nvalues = [0, 0.5, 1]").unwrap();
-    let starts = ["gravity_m_s2 = 981 m/s2", "no [[sites]]", "regression.strength_above = 0.05 leaves 2"];
+    let starts = [
+        "gravity_m_s2 is 981 m/s2; usual is from 9.7 to 9.9",
+        "no [[sites]]",
+        "regression.strength_above = 0.05 leaves 2",
+    ];
     assert_eq!(study.warnings.len(), starts.len());
     for (warning, start) in study.warnings.iter().zip(starts) {
-        assert!(warning.starts_with(start), "{warning}");
+        assert!(warning.what.starts_with(start), "{warning}");
+        assert!(!warning.what_to_do.is_empty());
     }
 }

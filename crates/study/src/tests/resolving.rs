@@ -38,7 +38,7 @@ fn defaults() {
     assert!(study.output.csv);
     let results = std::env::current_dir().unwrap().join("results/study.h5");
     assert_eq!(study.output.file, results);
-    assert!(study.warnings[0].contains("no [[sites]]"));
+    assert!(study.warnings[0].what.contains("no [[sites]]"));
 }
 
 pub(super) const COMPLETE: &str = r#"

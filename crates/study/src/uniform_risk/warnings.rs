@@ -1,23 +1,63 @@
 //! What a study may say, but probably does not mean.
 
+use uplift_motion::IntensityMeasure;
+use uplift_oscillator::PostUplift;
+use uplift_plausible::{
+    Range, USUAL_CAPACITY, USUAL_GRAVITY, USUAL_RESTITUTION, USUAL_STRENGTH, USUAL_TOP_PGA, USUAL_TOP_PGV,
+    USUAL_UPLIFT_DISPLACEMENT, USUAL_YEARS,
+};
+
 use super::UniformRiskStudy;
-use crate::sections::top::warning_of_gravity;
+use crate::warning::Warning;
 
 /// The warnings of a resolved study; they depend on nothing but its contents.
-pub(super) fn of(study: &UniformRiskStudy) -> Vec<String> {
-    let mut warnings = Vec::new();
-    warnings.extend(warning_of_gravity(study.gravity_m_s2));
+pub(super) fn of(study: &UniformRiskStudy) -> Vec<Warning> {
+    let mut warnings: Vec<Warning> =
+        numbers(study).into_iter().filter_map(unlikely).map(|found| Warning::unlikely(&found)).collect();
     if study.sites.is_empty() && study.site_table.is_none() {
-        warnings.push("no [[sites]]: the responses are computed, but no uniform risk spectrum".to_owned());
+        warnings.push(Warning::new(
+            "no [[sites]]: the responses are computed, but no uniform risk spectrum",
+            "add [[sites]] with a hazard curve",
+        ));
     }
     let above = study.regression.strength_above;
     let fitted = study.strengths.iter().filter(|&&strength| strength > above);
     let fitted = fitted.count();
     if fitted < 4 {
-        warnings.push(format!(
-            "regression.strength_above = {above} leaves {fitted} of the strengths for a fit of \
-             3 coefficients: there will be none"
+        warnings.push(Warning::new(
+            format!(
+                "regression.strength_above = {above} leaves {fitted} of the strengths for a fit of 3 coefficients: \
+                 there will be none"
+            ),
+            "lower it, or give more strengths.values",
         ));
     }
     warnings
+}
+
+fn unlikely((name, value, usual): (&'static str, f64, Range)) -> Option<uplift_plausible::Unlikely> {
+    usual.unlikely(name, value)
+}
+
+/// The numbers whose unit is easily mistaken, with what they usually are.
+fn numbers(study: &UniformRiskStudy) -> Vec<(&'static str, f64, Range)> {
+    let oscillator = &study.oscillator;
+    let mut numbers = vec![
+        ("gravity_m_s2", study.gravity_m_s2, USUAL_GRAVITY),
+        ("oscillator.uplift_displacement_m", oscillator.uplift_displacement_m, USUAL_UPLIFT_DISPLACEMENT),
+        ("oscillator.restitution", oscillator.restitution, USUAL_RESTITUTION),
+        ("risk.years", study.risk.years, USUAL_YEARS),
+    ];
+    if let PostUplift::Negative { capacity_m } = oscillator.post_uplift {
+        numbers.push(("oscillator.capacity_m", capacity_m, USUAL_CAPACITY));
+    }
+    numbers.extend(study.strengths.last().map(|&most| ("the largest of strengths.values", most, USUAL_STRENGTH)));
+    for plan in &study.measures {
+        let (name, usual) = match plan.measure {
+            IntensityMeasure::Pgv => ("the highest of pgv.levels_cm_s", USUAL_TOP_PGV),
+            IntensityMeasure::Pga => ("the highest of pga.levels_g", USUAL_TOP_PGA),
+        };
+        numbers.extend(plan.levels.last().map(|&top| (name, top, usual)));
+    }
+    numbers
 }

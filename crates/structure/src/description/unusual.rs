@@ -1,0 +1,61 @@
+//! What a description says that can be, but is unlikely: numbers in another unit than the key's, mostly.
+
+use uplift_plausible::{
+    Range, USUAL_BULK, USUAL_GRAVITY, USUAL_LENGTH, USUAL_MASS, USUAL_RESTITUTION, USUAL_ROTATION,
+    USUAL_TENDON_STIFFNESS, USUAL_UPLIFT_DISPLACEMENT, Unlikely,
+};
+
+use super::{Kind, StructureDescription};
+use crate::equivalent::PostUpliftForce;
+
+/// The unlikely numbers of a description that [`resolve`](StructureDescription::resolve) takes.
+pub(super) fn unlikely(of: &StructureDescription) -> Vec<Unlikely> {
+    // what may be absent is no mistake of unit
+    let given = |value: Option<f64>| value.filter(|value| *value > 0.0);
+    let quantities: [(&'static str, Option<f64>, Range); 13] = [
+        ("width_m", of.width_m, USUAL_LENGTH),
+        ("height_m", of.height_m, USUAL_LENGTH),
+        ("centre_height_m", of.centre_height_m, USUAL_LENGTH),
+        ("size_m", of.size_m, USUAL_LENGTH),
+        ("extended_width_m", of.extended_width_m, USUAL_LENGTH),
+        ("mass_kg", of.mass_kg, USUAL_MASS),
+        ("column_mass_kg", given(of.column_mass_kg), USUAL_MASS),
+        ("deck_mass_kg", given(of.deck_mass_kg), USUAL_MASS),
+        ("tendon_stiffness_n_m", given(of.tendon_stiffness_n_m), USUAL_TENDON_STIFFNESS),
+        ("uplift_displacement_m", given(of.uplift_displacement_m), USUAL_UPLIFT_DISPLACEMENT),
+        ("gravity_m_s2", of.gravity_m_s2, USUAL_GRAVITY),
+        ("restitution", of.restitution, USUAL_RESTITUTION),
+        ("the rotation at the displacement capacity, capacity over height,", rotation_rad(of), USUAL_ROTATION),
+    ];
+    let mut found: Vec<Unlikely> =
+        quantities.into_iter().filter_map(|(name, value, usual)| usual.unlikely(name, value?)).collect();
+    found.extend(bulk_kg_m3(of).and_then(|(name, bulk)| USUAL_BULK.unlikely(name, bulk)));
+    found
+}
+
+/// Mass over width² times height of a block, or of a column of a frame, kg/m³; none for a body that its centre alone
+/// describes, and for columns without mass.
+fn bulk_kg_m3(of: &StructureDescription) -> Option<(&'static str, f64)> {
+    let (name, mass_kg) = match of.kind {
+        Kind::Block => ("mass_kg over the square of the width and the height", of.mass_kg?),
+        Kind::Frame | Kind::RestrainedFrame | Kind::CurvedFrame => {
+            ("column_mass_kg over the square of the width and the height", of.column_mass_kg?)
+        }
+        Kind::PointMass | Kind::Body => return None,
+    };
+    let geometry = of.geometry().ok()?;
+    let volume_m3 = geometry.width_m().powi(2) * geometry.height_m();
+    (mass_kg > 0.0 && volume_m3 > 0.0).then(|| (name, mass_kg / volume_m3))
+}
+
+/// The rotation at which a frame with tendons or curved ends has lost its stability, rad. A body that is held by
+/// nothing but its weight has its slenderness for it, and is judged by that.
+fn rotation_rad(of: &StructureDescription) -> Option<f64> {
+    if !matches!(of.kind, Kind::RestrainedFrame | Kind::CurvedFrame) {
+        return None;
+    }
+    match of.resolve().ok()?.post_uplift() {
+        PostUpliftForce::Negative { capacity_m } => Some(capacity_m / of.geometry().ok()?.height_m()),
+        PostUpliftForce::Zero | PostUpliftForce::Positive { .. } => None,
+    }
+}

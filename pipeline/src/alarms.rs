@@ -1,0 +1,187 @@
+//! What an engineer would raise before using the numbers of a result: one ranked list, each thing said once with what
+//! to do about it.
+//!
+//! It is derived from the result file, so that the summary of a run, `uplift table`, the page, an export and a design
+//! say the same; thresholds and their reasons: docs/method.md, section 17.
+//!
+//! | module | what it looks at |
+//! |---|---|
+//! | `inputs` | the study's numbers, the records, what was noticed about the inputs |
+//! | `hazard` | hazard curves that look like probabilities |
+//! | `levels` | ordinates that rest on what lies outside the analysed levels, or do not exist |
+//! | `measures` | spectra by PGV and by PGA that disagree |
+//! | `fit` | fitted curves that leave their spectrum |
+//! | `structure` | a structure's numbers, and risks of its own that the levels do not hold |
+
+mod evidence;
+mod fit;
+mod hazard;
+mod inputs;
+mod levels;
+mod measures;
+mod structure;
+
+use std::fmt;
+
+use serde::Serialize;
+
+use crate::error::UpliftError;
+use crate::result::{Kind, ResultFile};
+pub(crate) use evidence::{Evidence, Scope};
+pub use fit::{FitReach, reach_of_fit};
+pub(crate) use hazard::{look_like_probabilities, what_of_probabilities};
+pub(crate) use structure::{OwnRisk, of_own_risks, of_safety_factor, of_structure};
+
+/// How much depends on it, the worst first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Severity {
+    /// An input is probably not what was meant, and every number is wrong if so.
+    Mistake,
+    /// Numbers that should not be used before it is seen to.
+    Caution,
+    /// To be known with the numbers.
+    Note,
+}
+
+impl Severity {
+    /// Its word: `mistake?`, `caution`, `note`.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Mistake => "mistake?",
+            Self::Caution => "caution",
+            Self::Note => "note",
+        }
+    }
+}
+
+/// One thing to know before the numbers are used.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Alarm {
+    /// How much depends on it.
+    pub severity: Severity,
+    /// What kind it is, for programs: `measures-disagree`.
+    pub kind: &'static str,
+    /// What it is about: the study, or the worst of several spectra, `Athens, PGV, 2 %`.
+    pub subject: String,
+    /// The others of which the same is to be said.
+    pub also: Vec<String>,
+    /// What was found, with numbers.
+    pub what: String,
+    /// What to do about it, with the key of the study; empty where `what` says it.
+    pub what_to_do: String,
+}
+
+impl Alarm {
+    fn of_one(severity: Severity, kind: &'static str, subject: &str, what: String, what_to_do: &str) -> Self {
+        let (subject, what_to_do) = (subject.to_owned(), what_to_do.to_owned());
+        Self { severity, kind, subject, also: Vec::new(), what, what_to_do }
+    }
+
+    /// The one alarm of several cases of a kind: the worst of them, the others by name.
+    fn of_cases(kind: &'static str, mut cases: Vec<Case>) -> Option<Self> {
+        cases.sort_by(|a, b| b.badness.total_cmp(&a.badness));
+        let mut cases = cases.into_iter();
+        let worst = cases.next()?;
+        let Case { severity, subject, what, what_to_do, .. } = worst;
+        Some(Self { severity, kind, subject, also: cases.map(|case| case.subject).collect(), what, what_to_do })
+    }
+}
+
+impl fmt::Display for Alarm {
+    /// `Athens, PGV, 2 % (and 3 more): what was found`.
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let also = match &self.also[..] {
+            [] => String::new(),
+            [one] => format!(" (and {one})"),
+            more => format!(" (and {} more)", more.len()),
+        };
+        write!(formatter, "{}{also}: {}", self.subject, self.what)
+    }
+}
+
+/// One of several spectra, curves or sites of which the same is to be said.
+#[derive(Debug, Clone, PartialEq)]
+struct Case {
+    severity: Severity,
+    /// By which the worst is found.
+    badness: f64,
+    subject: String,
+    what: String,
+    what_to_do: String,
+}
+
+/// The alarms in the order in which they should be read.
+pub(crate) fn ranked(mut alarms: Vec<Alarm>) -> Vec<Alarm> {
+    alarms.sort_by_key(|alarm| alarm.severity);
+    alarms
+}
+
+/// All that is to be raised about the result `file`, the worst first.
+///
+/// # Errors
+/// A file that is damaged.
+pub fn alarms(file: &ResultFile) -> Result<Vec<Alarm>, UpliftError> {
+    let mut alarms = inputs::of_result(file)?;
+    if file.kind() == Kind::UniformRisk && !file.axes()?.sites.is_empty() {
+        alarms.extend(of_spectra(&Evidence::read(file)?, &Scope::default())?);
+    }
+    Ok(ranked(alarms))
+}
+
+/// The alarms that concern a structure which is read into the spectra of `file` within `scope`; not ranked yet.
+///
+/// # Errors
+/// A file that is damaged, or without sites.
+pub(crate) fn alarms_within(file: &ResultFile, scope: &Scope) -> Result<Vec<Alarm>, UpliftError> {
+    let evidence = Evidence::read(file)?;
+    let mut alarms = inputs::of_result(file)?;
+    alarms.extend(hazard::alarms(&evidence, scope));
+    alarms.extend(levels::alarms(&evidence, scope)?);
+    alarms.extend(measures::alarms(&evidence, scope));
+    Ok(alarms)
+}
+
+/// The alarms that concern curves and records alone, whoever asks something new of them; not ranked yet.
+///
+/// # Errors
+/// A file that is damaged, or without sites.
+pub(crate) fn alarms_of_inputs(file: &ResultFile, scope: &Scope) -> Result<Vec<Alarm>, UpliftError> {
+    let mut alarms = inputs::of_result(file)?;
+    alarms.extend(hazard::alarms(&Evidence::read(file)?, scope));
+    Ok(alarms)
+}
+
+fn of_spectra(evidence: &Evidence, scope: &Scope) -> Result<Vec<Alarm>, UpliftError> {
+    let mut alarms: Vec<Alarm> = hazard::alarms(evidence, scope).into_iter().collect();
+    alarms.extend(levels::alarms(evidence, scope)?);
+    alarms.extend(measures::alarms(evidence, scope));
+    alarms.extend(fit::alarms(evidence, scope));
+    Ok(alarms)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_worst_speaks_for_all_and_comes_first() {
+        let case = |badness: f64, severity, subject: &str| Case {
+            severity,
+            badness,
+            subject: subject.to_owned(),
+            what: format!("is off by {badness}"),
+            what_to_do: "mend it".to_owned(),
+        };
+        let cases = vec![case(2.0, Severity::Note, "Here"), case(3.0, Severity::Caution, "There")];
+        let found = Alarm::of_cases("off", cases).into_iter().collect::<Vec<_>>();
+        assert_eq!(found[0].to_string(), "There (and Here): is off by 3");
+        assert_eq!((found[0].severity, &found[0].also[..]), (Severity::Caution, &["Here".to_owned()][..]));
+        assert_eq!(Alarm::of_cases("off", Vec::new()), None);
+
+        let of = |severity| Alarm::of_one(severity, "kind", "subject", String::new(), "");
+        let order = ranked(vec![of(Severity::Note), of(Severity::Mistake), of(Severity::Caution)]);
+        let order: Vec<Severity> = order.iter().map(|alarm| alarm.severity).collect();
+        assert_eq!(order, [Severity::Mistake, Severity::Caution, Severity::Note]);
+    }
+}

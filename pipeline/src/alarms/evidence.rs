@@ -1,0 +1,105 @@
+//! What alarms are raised from: the spectra of a result with all that the file knows of them.
+
+use uplift_hazard::{HazardCurve, rate_from_probability};
+use uplift_motion::IntensityMeasure;
+use uplift_study::UniformRiskStudy;
+
+use crate::error::UpliftError;
+use crate::result::{MeasureSpectra, ResultFile, StoredBands, StoredHazard, StoredSpectra};
+use crate::text::per_cent;
+
+/// The spectra of a result, its study, hazard and bands.
+#[derive(Debug, Clone)]
+pub(crate) struct Evidence {
+    pub(crate) study: UniformRiskStudy,
+    pub(crate) spectra: StoredSpectra,
+    /// By measure, as the spectra.
+    pub(crate) hazard: Vec<StoredHazard>,
+    pub(crate) bands: Option<StoredBands>,
+}
+
+/// Which of the spectra are asked about; all where nothing is said.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Scope {
+    /// Position of the site.
+    pub(crate) site: Option<usize>,
+    pub(crate) measure: Option<IntensityMeasure>,
+    /// Position of the probability.
+    pub(crate) poe: Option<usize>,
+    /// The strengths between which the spectra are read, both included.
+    pub(crate) strengths: Option<(f64, f64)>,
+}
+
+impl Scope {
+    pub(super) fn holds(&self, site: usize, measure: IntensityMeasure) -> bool {
+        self.site.is_none_or(|wanted| wanted == site) && self.measure.is_none_or(|wanted| wanted == measure)
+    }
+
+    pub(super) fn holds_poe(&self, poe: usize) -> bool {
+        self.poe.is_none_or(|wanted| wanted == poe)
+    }
+
+    pub(super) fn holds_strength(&self, strength: f64) -> bool {
+        self.strengths.is_none_or(|(a, b)| (a..=b).contains(&strength))
+    }
+}
+
+/// One spectrum within a scope.
+pub(super) struct Place<'a> {
+    pub(super) of_measure: &'a MeasureSpectra,
+    pub(super) curve: &'a HazardCurve,
+    pub(super) site: usize,
+    pub(super) poe: usize,
+    /// Positions of the strengths that are asked about.
+    pub(super) strengths: Vec<usize>,
+    /// `Athens, PGV, 2 %`.
+    pub(super) name: String,
+}
+
+impl Evidence {
+    /// # Errors
+    /// A file that is damaged, of another kind, or without sites.
+    pub(crate) fn read(file: &ResultFile) -> Result<Self, UpliftError> {
+        Ok(Self { study: file.stored_study()?, spectra: file.spectra()?, hazard: file.hazard()?, bands: file.bands()? })
+    }
+
+    /// Every spectrum within `scope`.
+    pub(super) fn places(&self, scope: &Scope) -> Vec<Place<'_>> {
+        let spectra = &self.spectra;
+        let strengths: Vec<usize> = (0..spectra.strengths.len())
+            .filter(|&strength| scope.holds_strength(spectra.strengths[strength]))
+            .collect();
+        let mut places = Vec::new();
+        for (of_measure, hazard) in spectra.measures.iter().zip(&self.hazard) {
+            for (site, curves) in hazard.sites.iter().enumerate() {
+                for poe in 0..spectra.poes.len() {
+                    if scope.holds(site, of_measure.measure) && scope.holds_poe(poe) && !strengths.is_empty() {
+                        let curve = &curves.curve;
+                        let name = self.name(site, of_measure.measure, poe);
+                        places.push(Place { of_measure, curve, site, poe, strengths: strengths.clone(), name });
+                    }
+                }
+            }
+        }
+        places
+    }
+
+    /// `Athens, PGV, 2 %`.
+    pub(super) fn name(&self, site: usize, measure: IntensityMeasure, poe: usize) -> String {
+        let spectra = &self.spectra;
+        format!("{}, {}, {}", spectra.sites[site], measure.label(), per_cent(spectra.poes[poe]))
+    }
+
+    /// Target rate of a probability, 1/yr (Eq. 4.8).
+    pub(super) fn target_per_year(&self, poe: usize) -> Result<f64, UpliftError> {
+        Ok(rate_from_probability(self.spectra.poes[poe], self.spectra.years)?)
+    }
+}
+
+/// The key of the levels of a measure.
+pub(super) fn levels_key(measure: IntensityMeasure) -> &'static str {
+    match measure {
+        IntensityMeasure::Pgv => "pgv.levels_cm_s",
+        IntensityMeasure::Pga => "pga.levels_g",
+    }
+}

@@ -1,0 +1,154 @@
+//! Ordinates that rest on what lies outside the analysed levels, and spectra without ordinates.
+
+use uplift_risk::{OrdinateFlag, TAIL_SHARE_LIMIT};
+
+use super::evidence::{Evidence, Place, Scope, levels_key};
+use super::{Alarm, Case, Severity};
+use crate::error::UpliftError;
+use crate::text::per_cent;
+
+/// From this share of the target rate on, motions above the last level may matter though few records exceed the
+/// ordinate there: the risk integral goes on with the share of the last level (Eq. 4.4), and the truth may be all.
+const BEYOND_LIMIT: f64 = 0.1;
+/// From this share of the risk on, an ordinate is decided by what was not analysed.
+const DECISIVE: f64 = 0.1;
+
+pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Result<Vec<Alarm>, UpliftError> {
+    let (mut below, mut beyond, mut censored, mut zero) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    for place in evidence.places(scope) {
+        let target_per_year = evidence.target_per_year(place.poe)?;
+        below.extend(below_first(evidence, &place));
+        beyond.extend(beyond_last(evidence, &place, target_per_year)?);
+        censored.extend(without_ordinate(&place));
+        zero.extend(never_exceeded(&place, &evidence.spectra.strengths, target_per_year));
+    }
+    let kinds =
+        [("censored", censored), ("no-exceedance", zero), ("beyond-last-level", beyond), ("below-first-level", below)];
+    Ok(kinds.into_iter().filter_map(|(kind, cases)| Alarm::of_cases(kind, cases)).collect())
+}
+
+/// How many of the shares of a spectrum are more than the limit, and the largest.
+fn heavy(shares: &[f64], of: &[usize]) -> (usize, f64) {
+    let shares = of.iter().map(|&strength| shares[strength]);
+    let count = shares.clone().filter(|share| *share > TAIL_SHARE_LIMIT).count();
+    (count, shares.fold(0.0, f64::max))
+}
+
+fn severity(share: f64) -> Severity {
+    if share > DECISIVE { Severity::Caution } else { Severity::Note }
+}
+
+fn share_in_words(share: f64) -> String {
+    per_cent((1000.0 * share).round() / 1000.0)
+}
+
+/// Ordinates that rest on motions weaker than the first level, where the fragility is a straight line: too large.
+fn below_first(evidence: &Evidence, place: &Place<'_>) -> Option<Case> {
+    let (count, most) = heavy(place.of_measure.lower_tail_share.block([place.site, place.poe]), &place.strengths);
+    let plan = evidence.study.measures.iter().find(|plan| plan.measure == place.of_measure.measure)?;
+    let (measure, first) = (plan.measure, *plan.levels.first()?);
+    (count > 0).then(|| Case {
+        severity: severity(most),
+        badness: most,
+        subject: place.name.clone(),
+        what: format!(
+            "{count} of {} ordinates take more than {} of their risk from below the first level, {first} {}, at most \
+             {}: they come out too large",
+            place.strengths.len(),
+            per_cent(TAIL_SHARE_LIMIT),
+            measure.unit(),
+            share_in_words(most)
+        ),
+        what_to_do: if place.curve.first().im < first {
+            format!("begin {} lower: uplift check proposes a line", levels_key(measure))
+        } else {
+            format!("take a hazard curve from further down than {} {}", place.curve.first().im, measure.unit())
+        },
+    })
+}
+
+/// Ordinates that rest on motions stronger than the last level, or than the hazard curve goes.
+fn beyond_last(evidence: &Evidence, place: &Place<'_>, target_per_year: f64) -> Result<Option<Case>, UpliftError> {
+    let (count, most) = heavy(place.of_measure.upper_tail_share.block([place.site, place.poe]), &place.strengths);
+    let Some(plan) = evidence.study.measures.iter().find(|plan| plan.measure == place.of_measure.measure) else {
+        return Ok(None);
+    };
+    let (measure, unit, end) = (plan.measure, plan.measure.unit(), place.curve.last());
+    let Some(&last) = plan.levels.last() else { return Ok(None) };
+    // what is known of the hazard ends with the curve, though levels go on
+    let (known_to, per_year) = if end.im < last {
+        (format!("the hazard curve ends at {} {unit} and goes on by extrapolation, and that", end.im), end.maf)
+    } else {
+        let per_year = place.curve.rate_at_extrapolated(last, evidence.study.risk.extrapolate)?;
+        (format!("the last level, {last} {unit},"), per_year)
+    };
+    let beyond = per_year / target_per_year;
+    if count == 0 && beyond <= BEYOND_LIMIT {
+        return Ok(None);
+    }
+    let counted = match count {
+        0 => String::new(),
+        _ => format!(
+            "{count} of {} ordinates take more than {} of their risk from above the last level, at most {}; ",
+            place.strengths.len(),
+            per_cent(TAIL_SHARE_LIMIT),
+            share_in_words(most)
+        ),
+    };
+    Ok(Some(Case {
+        severity: severity(most.max(beyond)),
+        badness: most.max(beyond),
+        subject: place.name.clone(),
+        what: format!(
+            "{counted}{known_to} is exceeded {per_year:.1e} times a year, {} of the target rate of \
+             {target_per_year:.1e}: what stronger motions do is not known, and ordinates may be too small",
+            share_in_words(beyond)
+        ),
+        what_to_do: if end.im > last {
+            format!("let {} reach further up, the hazard curve goes to {} {unit}", levels_key(measure), end.im)
+        } else {
+            format!("take a hazard curve that goes beyond {} {unit}, and let {} follow it", end.im, levels_key(measure))
+        },
+    }))
+}
+
+/// Spectra that are infinite in places.
+fn without_ordinate(place: &Place<'_>) -> Option<Case> {
+    let flags = place.of_measure.flags.block([place.site, place.poe]);
+    let count = place.strengths.iter().filter(|&&strength| flags[strength] == OrdinateFlag::Censored).count();
+    (count > 0).then(|| Case {
+        severity: Severity::Caution,
+        badness: count as f64,
+        subject: place.name.clone(),
+        what: format!(
+            "{count} of {} ordinates are censored: overturned runs, or the last threshold, exceed the target risk",
+            place.strengths.len()
+        ),
+        what_to_do:
+            "no displacement meets the target there: take larger strengths.values or oscillator.capacity_m, or \
+                     with risk.contour = \"grid\" larger risk.thresholds_m"
+                .to_owned(),
+    })
+}
+
+/// Spectra that are zero although something rocks: the hazard curve begins above the target.
+fn never_exceeded(place: &Place<'_>, strengths: &[f64], target_per_year: f64) -> Option<Case> {
+    let flags = place.of_measure.flags.block([place.site, place.poe]);
+    let zero = |strength: &&usize| flags[**strength] == OrdinateFlag::NoExceedance && strengths[**strength] > 0.0;
+    let count = place.strengths.iter().filter(zero).count();
+    let foot = place.curve.first();
+    (count > 0).then(|| Case {
+        severity: Severity::Caution,
+        badness: count as f64,
+        subject: place.name.clone(),
+        what: format!(
+            "{count} of {} ordinates are 0: the target rate of {target_per_year:.1e} a year is not reached, and the \
+             hazard curve begins with {:.1e} a year at {} {}",
+            place.strengths.len(),
+            foot.maf,
+            foot.im,
+            place.curve.unit()
+        ),
+        what_to_do: "take a hazard curve from further down, or a smaller risk.poe".to_owned(),
+    })
+}

@@ -1,0 +1,179 @@
+//! What an engineer would raise: the same list in the summary of a run, the table, the page, an export and a design.
+
+use serde_json::Value;
+
+use crate::common::SmallStudy;
+
+const BLOCK: &str = "kind = \"block\"\nwidth_m = 0.8\nheight_m = 4\nmass_kg = 6000\n";
+
+/// A hazard curve as a file.
+fn curve(levels: &[f64], rate: impl Fn(f64) -> f64) -> String {
+    let rows: Vec<String> = levels.iter().map(|&level| format!("{level},{:e}\n", rate(level))).collect();
+    format!("iml,maf\n{}", rows.concat())
+}
+
+/// Two sites, one of which has a hazard curve of PGV that belongs to a hundredth of the shaking by PGA.
+fn study() -> SmallStudy {
+    let study = SmallStudy::new();
+    study.write("here-pgv.csv", &curve(&[0.5, 2.0, 20.0, 300.0], |v| 0.002 / (v * v)));
+    study.write("block.toml", BLOCK);
+    study
+}
+
+fn json(study: &SmallStudy, arguments: &[&str]) -> Value {
+    serde_json::from_str(&study.uplift(arguments).ok().stdout).unwrap()
+}
+
+/// The alarm of one kind.
+fn alarm<'a>(found: &'a Value, kind: &str) -> &'a Value {
+    let alarms = found["alarms"].as_array().unwrap();
+    alarms.iter().find(|alarm| alarm["kind"] == kind).unwrap_or_else(|| panic!("no {kind}: {alarms:#?}"))
+}
+
+fn text<'a>(alarm: &'a Value, key: &str) -> &'a str {
+    alarm[key].as_str().unwrap()
+}
+
+#[test]
+fn every_face_says_the_same() {
+    let study = study();
+    let run = json(&study, &["run", "study.toml", "-o", "r.h5", "--json"]);
+    let apart = alarm(&run, "measures-disagree");
+    assert!(text(apart, "subject").starts_with("Here"), "{apart}");
+    assert!(text(apart, "what").contains("more than 2 times apart") && text(apart, "what").contains("at strength"));
+    assert!(text(apart, "what_to_do").contains("uplift measures"), "{apart}");
+    // PGA ends at 1 g, which is exceeded a quarter as often as the target of 2 %
+    let beyond = alarm(&run, "beyond-last-level");
+    let words = "the last level, 1 g, is exceeded 1.0e-4 times a year, 24.7 % of the target rate";
+    assert!(text(beyond, "what").contains(words), "{beyond}");
+    assert!(text(beyond, "what_to_do").contains("pga.levels_g") && text(beyond, "what_to_do").contains("3 g"));
+    // and the curve of PGV begins with 0.008 a year, below the target of 50 %
+    let zero = alarm(&run, "no-exceedance");
+    assert!(text(zero, "subject") == "Here, PGV, 50 %" && text(zero, "what").contains("8.0e-3 a year at 0.5 cm/s"));
+    alarm(&run, "synthetic-records");
+    alarm(&run, "few-records");
+    let rank =
+        |alarm: &Value| ["mistake", "caution", "note"].iter().position(|word| alarm["severity"] == *word).unwrap();
+    let ranks: Vec<usize> = run["alarms"].as_array().unwrap().iter().map(rank).collect();
+    assert!(ranks.is_sorted(), "{ranks:?}");
+
+    let table = json(&study, &["table", "r.h5", "--json"]);
+    assert_eq!(table["alarms"], run["alarms"]);
+    // how far a curve goes with its spectrum stands with its coefficients
+    assert!(table["rows"][0]["reach"]["worst_ratio"].is_f64(), "{}", table["rows"][0]);
+    study.uplift(&["export", "r.h5", "--json", "--csv", "-q"]).ok();
+    let export: Value = serde_json::from_slice(&std::fs::read(study.path().join("r.json")).unwrap()).unwrap();
+    assert_eq!(export["alarms"], run["alarms"]);
+    let again = study.uplift(&["run", "study.toml", "-o", "r.h5"]).ok().stdout;
+    let shown = study.uplift(&["table", "r.h5"]).ok().stdout;
+    study.uplift(&["report", "r.h5", "-q"]).ok();
+    // as HTML a slash is spelt out
+    let page = std::fs::read_to_string(study.path().join("r.html")).unwrap().replace("&#x2f;", "/");
+    for face in [again, shown, page] {
+        assert!(face.contains("Before you use these numbers"), "{face:.300}");
+        for words in [text(apart, "what"), text(beyond, "what"), text(beyond, "what_to_do"), text(zero, "what")] {
+            assert_eq!(face.matches(words).count(), 1, "{words}\n{face:.2000}");
+        }
+    }
+    // with the ordinates stands what they rest on
+    let tidy = std::fs::read_to_string(study.path().join("r.spectra.csv")).unwrap();
+    assert!(tidy.lines().nth(1).unwrap().ends_with(",fit_m,flag,lower_tail_share,upper_tail_share"), "{tidy:.300}");
+    assert!(tidy.contains(",no exceedance,"));
+    let ordinates = &export["spectra"][0];
+    for key in ["flag", "lower_tail_share", "upper_tail_share"] {
+        assert_eq!(ordinates[key].as_array().unwrap().len(), 10, "{key}");
+    }
+
+    let design = json(&study, &["design", "block.toml", "--urs", "r.h5", "--site", "here", "--json"]);
+    let own = alarm(&design, "measures-disagree");
+    assert!(text(own, "subject") == "Here, 2 %" && own["also"] == serde_json::json!([]), "{own}");
+    assert!(!design["notes"].to_string().contains("synthetic"), "said once: {}", design["notes"]);
+}
+
+#[test]
+fn bands_decide_where_there_are_some() {
+    let study = study();
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    study.uplift(&["bootstrap", "r.h5", "--replicates", "30", "--sizes", "2,4", "-q"]).ok();
+    let table = json(&study, &["table", "r.h5", "--json"]);
+    assert!(
+        text(alarm(&table, "measures-disagree"), "what").contains("further apart than their 90 % bands"),
+        "{table}"
+    );
+}
+
+#[test]
+fn probabilities_taken_for_rates_are_told() {
+    let study = study();
+    study.write("here-pgv.csv", &curve(&[0.5, 1.0, 2.0, 20.0, 300.0], |v| -(-50.0 * 0.2 / v).exp_m1()));
+    let said = study.uplift(&["check", "study.toml"]).ok().stdout;
+    assert!(said.contains("Here, PGV: the rates of the hazard curve level off just below 1"), "{said}");
+    assert!(!said.contains("There, PGV: the rates"), "a curve of rates is none:\n{said}");
+    let run = json(&study, &["run", "study.toml", "-o", "r.h5", "--json"]);
+    let first = &run["alarms"][0];
+    assert!(first["kind"] == "hazard-probabilities" && first["severity"] == "mistake", "{first}");
+    assert!(text(first, "what_to_do").contains("kind = \"poe\""), "{first}");
+}
+
+#[test]
+fn numbers_in_other_units_are_taken_and_told() {
+    let study = study();
+    for (setting, words) in [
+        ("oscillator.uplift_displacement_m=5", "oscillator.uplift_displacement_m is 5 m; usual is"),
+        ("strengths.values=[5, 10, 20, 40]", "the largest of strengths.values is 40; usual is"),
+        ("gravity_m_s2=981", "gravity_m_s2 is 981 m/s2; usual is"),
+        ("pgv.levels_cm_s=[0.6, 1, 2]", "the highest of pgv.levels_cm_s is 2 cm/s; usual is"),
+    ] {
+        let said = study.uplift(&["check", "study.toml", "-q", "--set", setting]).ok().stdout;
+        assert!(said.contains(words), "{words}:\n{said}");
+    }
+    let run =
+        json(&study, &["run", "study.toml", "-o", "r.h5", "--json", "--set", "strengths.values=[0.2, 5, 10, 40]"]);
+    let first = &run["alarms"][0];
+    assert!(
+        first["kind"] == "unlikely-number" && first["severity"] == "mistake" && first["subject"] == "study",
+        "{first}"
+    );
+
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    study.write("pier.toml", "kind = \"block\"\nwidth_m = 40\nheight_m = 220\nmass_kg = 145\n");
+    let pier = ["design", "pier.toml", "--urs", "r.h5", "--site", "Here", "--safety-factor", "40"];
+    let found = json(&study, &[&pier[..], &["--json"]].concat());
+    let mistakes: Vec<&str> = found["alarms"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter(|alarm| alarm["severity"] == "mistake")
+        .map(|alarm| text(alarm, "what"))
+        .collect();
+    let starts =
+        ["height_m is 220 m", "mass_kg over the square of the width and the height is", "--safety-factor is 40"];
+    assert_eq!(mistakes.len(), starts.len(), "{mistakes:?}");
+    for (mistake, start) in mistakes.iter().zip(starts) {
+        assert!(mistake.starts_with(start), "{mistake}");
+    }
+}
+
+#[test]
+fn none_overturned_is_not_never() {
+    let study = study();
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    study.write("large.toml", "kind = \"block\"\nwidth_m = 30\nheight_m = 100\nmass_kg = 2e8\n");
+    for command in ["design", "overturning"] {
+        let arguments = [command, "large.toml", "--urs", "r.h5", "--site", "There"];
+        let found = json(&study, &[&arguments[..], &["--json"]].concat());
+        let none = alarm(&found, "none-overturned");
+        for words in ["0 of 4 records at any level up to", "that is not never, but at most", "52.7 %"] {
+            assert!(text(none, "what").contains(words), "{words}: {none}");
+        }
+        let shown = study.uplift(&arguments).ok().stdout;
+        assert!(shown.contains("  < ") && shown.contains("  > "), "{shown}");
+        assert!(!shown.contains("  never"), "{shown}");
+    }
+    // There by PGV: 0.1/v² from 0.5 cm/s on; the last levels are 30 and 100 cm/s
+    let found = json(&study, &["design", "large.toml", "--urs", "r.h5", "--site", "There", "--json"]);
+    let bound = found["exact"]["overturning"]["at_most_per_year"].as_f64().unwrap();
+    let (beyond, before) = (0.1 / 1e4, 0.1 / 900.0);
+    let expected = beyond + (1.0 - 0.05_f64.powf(0.25)) * 0.5 * (before - beyond);
+    assert!((bound - expected).abs() < 1e-3 * expected, "{bound} {expected}");
+}
