@@ -2,6 +2,7 @@
 
 use uplift_motion::IntensityMeasure;
 use uplift_regression::Exponential;
+use uplift_risk::OrdinateFlag;
 
 use super::file::ResultFile;
 use super::layout::{axis, regression, urs};
@@ -30,6 +31,10 @@ pub struct MeasureSpectra {
     pub measure: IntensityMeasure,
     /// Displacements `[site, poe, strength]`, m; infinite where censored.
     pub u_m: Array<3>,
+    /// Whether these exist, `[site, poe, strength]`.
+    pub flags: Array<3, OrdinateFlag>,
+    /// Shares of the risk from below the first stripe and from above the last, each `[site, poe, strength]`, 0 to 1.
+    pub tail_shares: [Array<3>; 2],
     /// Their coefficients `[site, poe]`.
     pub fits: Array<2, Fit>,
 }
@@ -101,9 +106,13 @@ impl ResultFile {
             let (c2_m, rmse_m) = (column(&regression::c2_m(measure))?, column(&regression::rmse_m(measure))?);
             let path = regression::bound_active(measure);
             let bound = self.over(&path, self.reader.array_u8(&path)?, [sites, poes])?;
+            let ordinates = [sites, poes, (axis::STRENGTH, axes.strengths.len())];
+            let of = |path: &str| self.array(path, ordinates);
             measures.push(MeasureSpectra {
                 measure,
-                u_m: self.array(&urs::u_m(measure), [sites, poes, (axis::STRENGTH, axes.strengths.len())])?,
+                u_m: of(&urs::u_m(measure))?,
+                flags: self.flags(measure, ordinates)?,
+                tail_shares: [of(&urs::lower_tail_share(measure))?, of(&urs::upper_tail_share(measure))?],
                 fits: Array::from_fn([sites.1, poes.1], |at| Fit {
                     c0_m: c0_m[at],
                     c1: c1[at],
@@ -115,5 +124,42 @@ impl ResultFile {
         }
         let super::RiskAxes { strengths, poes, years, sites, .. } = axes;
         Ok(StoredSpectra { strengths, poes, years, sites, measures })
+    }
+
+    /// Whether the ordinates of a measure exist.
+    fn flags(
+        &self,
+        measure: IntensityMeasure,
+        axes: [(&str, usize); 3],
+    ) -> Result<Array<3, OrdinateFlag>, UpliftError> {
+        let path = urs::flag(measure);
+        let numbers = self.over(&path, self.reader.array_u8(&path)?, axes)?;
+        if let Some(number) = numbers.values().iter().find(|&&number| flag_of(number).is_none()) {
+            return Err(self.damaged(format!("{path}: {number} is no flag")));
+        }
+        Ok(numbers.map(|&number| flag_of(number).unwrap_or(OrdinateFlag::Regular)))
+    }
+}
+
+/// How a flag stands in the file.
+pub(crate) fn flag_number(flag: OrdinateFlag) -> u8 {
+    match flag {
+        OrdinateFlag::Regular => 0,
+        OrdinateFlag::NoExceedance => 1,
+        OrdinateFlag::Censored => 2,
+    }
+}
+
+fn flag_of(number: u8) -> Option<OrdinateFlag> {
+    let flags = [OrdinateFlag::Regular, OrdinateFlag::NoExceedance, OrdinateFlag::Censored];
+    flags.into_iter().find(|&flag| flag_number(flag) == number)
+}
+
+/// How it stands in tables.
+pub(crate) fn flag_word(flag: OrdinateFlag) -> &'static str {
+    match flag {
+        OrdinateFlag::Regular => "regular",
+        OrdinateFlag::NoExceedance => "no exceedance",
+        OrdinateFlag::Censored => "censored",
     }
 }

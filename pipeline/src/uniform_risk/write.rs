@@ -3,15 +3,15 @@
 use std::path::Path;
 
 use uplift_motion::{Combination, IntensityMeasure};
-use uplift_risk::{Ordinate, OrdinateFlag};
+use uplift_risk::Ordinate;
 
 use super::Outcome;
 use super::write_hazard::{write_branches, write_hazard};
 use crate::checkpoint::{motion_key, oscillator_key};
 use crate::error::UpliftError;
 use crate::inputs::Record;
-use crate::result::Origin;
 use crate::result::layout::{axis, ida, records as layout, regression, risk, urs};
+use crate::result::{Origin, flag_number};
 use uplift_labelled::{LabelledError, LabelledWriter};
 
 /// Write `outcome` to `path`, atomically: an earlier file survives a failure.
@@ -184,12 +184,3 @@ fn write_measure(
 
 /// A column of the coefficients.
 type Value = fn(&uplift_regression::ExponentialFit) -> f64;
-
-/// How a flag stands in the file.
-fn flag_number(flag: OrdinateFlag) -> u8 {
-    match flag {
-        OrdinateFlag::Regular => 0,
-        OrdinateFlag::NoExceedance => 1,
-        OrdinateFlag::Censored => 2,
-    }
-}
