@@ -2,6 +2,7 @@
 //!
 //! [`ResultFile`] opens a result and reads it part by part; [`layout`] knows where everything is.
 
+mod asked;
 mod bands;
 mod design;
 mod displacements;
@@ -18,6 +19,8 @@ mod study;
 mod table;
 mod target;
 
+pub use asked::{AskedRisk, RiskTargets};
+pub(crate) use bands::BandMethod;
 pub use bands::{MeasureBands, StoredBands};
 pub(crate) use design::{BOUNDS, rule_names};
 pub use design::{DesignRow, RULES, StoredDesign, StoredDesigned};

@@ -16,7 +16,7 @@ pub use reference::ReferenceTable;
 
 use crate::error::UpliftError;
 use crate::events::Events;
-use crate::result::{Kind, ResultFile};
+use crate::result::{AskedRisk, Kind, ResultFile};
 
 /// Which table, and what stands beside it.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,6 +29,8 @@ pub struct TableOptions {
     pub reference: Option<PathBuf>,
     /// Which intensity measure, none for all; not of displacement spectra.
     pub measure: Option<IntensityMeasure>,
+    /// The risks of the spectra; not of displacement spectra.
+    pub risk: AskedRisk,
 }
 
 /// A table of a result.
@@ -46,7 +48,7 @@ pub enum TableReport {
 /// # Errors
 /// A file that is missing, damaged or no result; a result without such a table; a reference that cannot be read.
 pub fn table(options: &TableOptions, events: &dyn Events) -> Result<TableReport, UpliftError> {
-    let file = ResultFile::open(&options.result)?;
+    let file = ResultFile::open(&options.result)?.at(&options.risk)?;
     match file.kind() {
         Kind::UniformRisk => coefficients::read(options, &file, events).map(TableReport::Coefficients),
         Kind::Displacement => design::read(options, &file, events).map(TableReport::Design),

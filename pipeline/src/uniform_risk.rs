@@ -26,7 +26,7 @@ pub use outcome::Outcome;
 pub use plan::Plan;
 pub(crate) use plan::{needs, plan};
 pub use report::{BranchReport, CoefficientsReport, MeasureReport, RunReport, SpectrumReport};
-pub(crate) use run::run;
+pub(crate) use run::{run, warnings_of_spectra};
 pub(crate) use spectra::pooled_demand;
 pub use spectra::{Spectra, uniform_risk_spectra};
 pub use stripes::{Stripes, plan_stripes, systems};

@@ -6,17 +6,19 @@ use serde::Serialize;
 use uplift::UpliftError;
 use uplift::events::Events;
 use uplift::outputs::{self, Output, OutputKind, beside};
-use uplift::result::write_atomically;
+use uplift::result::{AskedRisk, write_atomically};
 
 use crate::page::page;
 
 /// Which results a page is of.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ReportOptions {
     /// The result files, one or more; several stand side by side.
     pub results: Vec<PathBuf>,
     /// The page; the first result with `.html` if none is given.
     pub output: Option<PathBuf>,
+    /// The risks of the spectra.
+    pub risk: AskedRisk,
     /// Whether whatever is at the place of the page gives way.
     pub force: bool,
 }
@@ -39,6 +41,6 @@ pub fn report(options: &ReportOptions, events: &dyn Events) -> Result<PageReport
     let file = options.output.clone().unwrap_or_else(|| beside(first, "html"));
     let output = Output::new(&file, OutputKind::Page).of(first);
     outputs::check(&[output], &options.results, options.force)?;
-    write_atomically(&file, page(&options.results, events)?.as_bytes())?;
+    write_atomically(&file, page(&options.results, &options.risk, events)?.as_bytes())?;
     Ok(PageReport { file })
 }

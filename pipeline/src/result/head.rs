@@ -94,8 +94,16 @@ impl ResultFile {
             seed: (self.kind() == Kind::UniformRisk).then(|| self.reader.attribute_u64("/", "seed")).transpose()?,
             input_checksums: serde_json::from_str(&text("input_checksums")?)
                 .map_err(|error| self.damaged(format!("attribute input_checksums of /: {error}")))?,
-            warnings: text("warnings")?.lines().map(str::to_owned).collect(),
+            warnings: match &self.asked {
+                Some(asked) => asked.warnings.clone(),
+                None => self.stored_warnings()?,
+            },
         })
+    }
+
+    /// What the run said to know before using its numbers.
+    pub(super) fn stored_warnings(&self) -> Result<Vec<String>, UpliftError> {
+        Ok(self.reader.attribute_text("/", "warnings")?.lines().map(str::to_owned).collect())
     }
 
     /// Where the records come from, in a line.

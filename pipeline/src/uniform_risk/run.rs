@@ -49,7 +49,8 @@ pub(crate) fn run(
     let mut warnings = notes;
     warnings.extend(site_list.iter().flat_map(|list| list.notes.iter().cloned()));
     warnings.extend(records.notes.iter().cloned());
-    warnings.extend(warnings_of(study, records, &spectra, &coefficients));
+    warnings.extend(warnings_of_records(records));
+    warnings.extend(warnings_of_spectra(study, &spectra, &coefficients));
 
     if events.cancelled() {
         return Err(checkpoint.stopped(total, total));
@@ -81,12 +82,8 @@ pub(crate) fn run(
     Ok(RunReport::of(&outcome, files, place.start.elapsed().as_secs_f64()))
 }
 
-fn warnings_of(
-    study: &UniformRiskStudy,
-    records: &RecordSet,
-    spectra: &[Spectra],
-    coefficients: &[Coefficients],
-) -> Vec<String> {
+/// What to know of the records before using the numbers.
+fn warnings_of_records(records: &RecordSet) -> Vec<String> {
     let mut warnings = Vec::new();
     if records.synthetic {
         warnings.push(SYNTHETIC.to_owned());
@@ -97,6 +94,16 @@ fn warnings_of(
             records.records.len()
         ));
     }
+    warnings
+}
+
+/// What to know of the spectra of `study` before using them.
+pub(crate) fn warnings_of_spectra(
+    study: &UniformRiskStudy,
+    spectra: &[Spectra],
+    coefficients: &[Coefficients],
+) -> Vec<String> {
+    let mut warnings = Vec::new();
     for spectra in spectra {
         let label = spectra.measure.label();
         for ([site, poe], spectrum) in spectra.ordinates.blocks() {

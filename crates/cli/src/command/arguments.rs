@@ -3,11 +3,13 @@
 mod figures;
 mod force;
 mod result;
+mod risk;
 mod structure;
 mod study;
 
 pub(crate) use figures::FigureArguments;
 pub(crate) use force::ForceArgument;
 pub(crate) use result::ResultArguments;
+pub(crate) use risk::RiskArguments;
 pub(crate) use structure::StructureArguments;
 pub(crate) use study::{StudyArguments, run_options, shard};
