@@ -6,6 +6,7 @@
 
 mod common;
 
+mod asked;
 mod bootstrap;
 mod damage;
 mod design;
