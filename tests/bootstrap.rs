@@ -71,10 +71,10 @@ fn a_study_becomes_bands() {
         }
     }
     let table = std::fs::read_to_string(study.path().join("results/study.table-4-1.csv")).unwrap();
-    assert!(table.lines().nth(1).unwrap().ends_with("sample_size,e_median_pct,r_90ci_pct"), "{table}");
+    assert!(table.lines().next().unwrap().ends_with("sample_size,e_median_pct,r_90ci_pct"), "{table}");
     let bands = std::fs::read_to_string(study.path().join("results/study.bands.csv")).unwrap();
-    assert_eq!(bands.lines().nth(1).unwrap(), "site,im,poe,years,sample_size,strength,u05_m,u50_m,u95_m");
-    assert_eq!(bands.lines().count(), 2 + 24 * 10);
+    assert_eq!(bands.lines().next().unwrap(), "site,im,poe,years,sample_size,strength,u05_m,u50_m,u95_m");
+    assert_eq!(bands.lines().count(), 1 + 24 * 10);
     // what the run wrote is still there
     assert!(LabelledReader::open(&result).unwrap().exists("/risk/pgv/maf_per_year"));
 }

@@ -396,7 +396,8 @@ fn questions_that_do_not_fit_the_result() {
     let study = study();
     let design = |more: &[&str]| study.uplift(&[&["design", "block.toml", "--urs", "r.h5"], more].concat());
     design(&["--site", "Nowhere"]).fails(2, &["--site", "Here"]);
-    design(&["--poe", "0.3"]).fails(2, &["--poe", "0.02"]);
+    design(&["--poe", "30"]).fails(2, &["--poe 30", "10 % is 0.1"]);
+    design(&["--poe", "0.1,0.3"]).fails(2, &["one risk at a time"]);
     design(&["--measure", "pga"]).fails(2, &["--measure", "pgv"]);
     design(&["--measure", "pgx"]).fails(2, &["pgx"]);
     design(&["--safety-factor", "0.5"]).fails(2, &["--safety-factor is 0.5"]);

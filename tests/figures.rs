@@ -82,7 +82,7 @@ fn ordinates(csv: &Path) -> Vec<Ordinate> {
             u_m: number(5),
         }
     };
-    text.lines().skip(2).map(row).collect()
+    text.lines().skip(1).map(row).collect()
 }
 
 /// The quantile of values, linear between order statistics.

@@ -25,7 +25,7 @@ pgv = { file = "there-pgv.csv", unit = "m/s", kind = "poe", years = 50 }
 fn of_a_run(study: &SmallStudy, set: &[&str], strengths: &[f64]) -> f64 {
     study.uplift(&[&["run", "study.toml", "-o", "r.h5", "-q"], set].concat()).ok();
     let csv = std::fs::read_to_string(study.path().join("r.urs.csv")).unwrap();
-    let rows = csv.lines().skip(2).map(|line| line.split(',').collect::<Vec<_>>());
+    let rows = csv.lines().skip(1).map(|line| line.split(',').collect::<Vec<_>>());
     rows.filter(|cells| strengths.iter().any(|strength| (cells[4].parse::<f64>().unwrap() - strength).abs() < 1e-9))
         .map(|cells| cells[7].parse().unwrap())
         .fold(0.0, f64::max)

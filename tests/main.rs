@@ -8,6 +8,7 @@ mod common;
 
 mod alarms;
 mod archives;
+mod asked;
 mod block_response;
 mod bootstrap;
 mod damage;

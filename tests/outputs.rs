@@ -28,11 +28,24 @@ fn a_name_says_what_is_written() {
         (&["run", "study.toml", "-o", "study.toml"][..], "study.toml", "ends in .h5"),
         (&["export", "r.h5", "--mat", "-o", "study.toml", "--force"], "study.toml", "ends in .mat, e.g. study.mat"),
         (&["export", "r.h5", "--csv", "-o", "r.h5", "--force"], "r.h5", "ends in .csv"),
+        (&["export", "r.h5", "--xlsx", "-o", "pga.csv", "--force"], "pga.csv", "ends in .xlsx, e.g. pga.xlsx"),
+        (&["export", "r.h5", "--json", "-o", "pga.csv", "--force"], "pga.csv", "ends in .json"),
         (&["report", "r.h5", "-o", "study.toml"], "study.toml", "ends in .html"),
         (&["response", "set/SYN001_H1.AT2", "--strength", "0.2", "--history", "study.toml"], "study.toml", ".csv"),
         (&["hazard", "plot", "pga.csv", "-o", "pga.csv"], "pga.csv", ".svg or .png"),
     ] {
         refused(&study, command, place, word);
+    }
+    for (command, word) in [
+        (&["run", "study.toml", "--shard", "1/2", "-o", "part.csv"][..], "does not end in .csv"),
+        (&["plot", "r.h5", "-o", "x.svg"], "x.svg: a folder would be made"),
+        (&["records", "synthesize", "-o", "new.CSV", "--count", "2"], "give a name without .csv"),
+        (&["pulse", "-o", "new.html"], "give a name without .html"),
+    ] {
+        study.uplift(command).fails(2, &[word]);
+    }
+    for name in ["part.csv", "x.svg", "new.CSV", "new.html"] {
+        assert!(!study.path().join(name).exists(), "{name}");
     }
     study.uplift(&["run", "study.toml", "--set", "output.file=x.txt"]).fails(3, &["x.txt", ".h5"]);
 }
@@ -43,8 +56,10 @@ fn what_others_wrote_is_left_alone() {
     let study = study();
     let response = ["response", "set/SYN001_H1.AT2", "--strength", "0.2"];
     let with = |more: &[&'static str]| [&response[..], more].concat();
-    let commands: [(Vec<&str>, &str); 11] = [
+    let commands: [(Vec<&str>, &str); 13] = [
         (vec!["export", "r.h5", "--csv"], "r.spectra.csv"),
+        (vec!["export", "r.h5", "--csv"], "r.spectra.csv-metadata.json"),
+        (vec!["export", "r.h5", "--xlsx"], "r.xlsx"),
         (vec!["export", "r.h5", "--json"], "r.json"),
         (vec!["export", "r.h5", "--mat"], "r.mat"),
         (vec!["report", "r.h5"], "r.html"),

@@ -175,7 +175,7 @@ fn tables_and_figures_hold_what_is_printed() {
     let found = json(&study, "block.toml", &["-o", "b.csv", "--plot", "b.svg", "--site", "there"]);
     let read = |name: &str| std::fs::read_to_string(study.path().join(name)).unwrap();
     let rows = |name: &str| -> Vec<Vec<String>> {
-        read(name).lines().skip(1).map(|line| line.split(',').map(str::to_owned).collect()).collect()
+        read(name).lines().map(|line| line.split(',').map(str::to_owned).collect()).collect()
     };
     let fragility = rows("b.csv");
     assert_eq!(fragility[0].join(","), "im,unit,level,model,restitution,overturned,records,share,lognormal");

@@ -74,19 +74,37 @@ fn a_report_is_one_file_without_a_network() {
 
 #[test]
 fn exports_hold_what_the_result_holds() {
-    let study = study();
-    study.uplift(&["export", "r.h5", "--csv", "--json", "--mat"]).ok();
-    study.uplift(&["export", "r.h5"]).fails(2, &["--csv"]);
+    // names that a comment, a formula, a cell or an encoding could break at
+    let text = common::SMALL_STUDY.replace("\"Here\"", "\"=1+1, Zürich\"").replace("\"There\"", "\"#1\"");
+    let study = SmallStudy::with(&text);
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    study.uplift(&["bootstrap", "r.h5", "--replicates", "30", "--sizes", "2,4", "-q"]).ok();
+    study.uplift(&["export", "r.h5", "--csv", "--json", "--mat", "--xlsx"]).ok();
+    study.uplift(&["export", "r.h5"]).fails(2, &["--csv", "--xlsx"]);
     study.uplift(&["export", "r.h5", "--mat", "-o", "r.h5"]).fails(2, &["r.h5", ".mat"]);
     study.uplift(&["export", "study.toml", "--mat"]).fails(4, &["study.toml"]);
     let Some(python) = common::python() else { return };
     let output = Command::new(python)
         .arg(common::repository().join("tests/python/read_export.py"))
-        .args(["r.h5", "r.spectra.csv", "r.json", "r.mat"])
+        .args(["r.h5", "r.spectra.csv", "r.json", "r.mat", "r.xlsx"])
         .current_dir(study.path())
         .output()
         .unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+#[test]
+fn an_export_is_the_same_bytes_whenever_it_is_made() {
+    let study = study();
+    let made = || -> Vec<Vec<u8>> {
+        study.uplift(&["export", "r.h5", "--csv", "--json", "--mat", "--xlsx"]).ok();
+        let names = ["r.spectra.csv", "r.spectra.csv-metadata.json", "r.json", "r.mat", "r.xlsx"];
+        names.map(|name| std::fs::read(study.path().join(name)).unwrap()).into()
+    };
+    let first = made();
+    assert!(first == made());
+    // no clock is in the archive: time and date of its first file are the beginning of 1980
+    assert_eq!((&first[4][..4], &first[4][10..14]), (&b"PK\x03\x04"[..], &[0, 0, 0x21, 0][..]));
 }
 
 /// The browser, if there is one: `UPLIFT_CHROMIUM`, else `chromium` on the path.

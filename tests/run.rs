@@ -96,9 +96,12 @@ fn summary_tables_and_provenance() {
     }
     assert!(run.stderr.contains("200 analyses"), "{}", run.stderr);
     let urs = std::fs::read_to_string(study.path().join("out/r.urs.csv")).unwrap();
+    let beside = std::fs::read_to_string(study.path().join("out/r.urs.csv-metadata.json")).unwrap();
+    let beside: serde_json::Value = serde_json::from_str(&beside).unwrap();
+    let line = beside["dc:provenance"].as_str().unwrap();
+    assert!(line.starts_with("uplift ") && line.contains("synthetic") && line.contains("study.toml"), "{line}");
+    assert_eq!((&beside["url"], &beside["tableSchema"]["columns"][5]["titles"]), (&"r.urs.csv".into(), &"u_m".into()));
     let mut lines = urs.lines();
-    let first = lines.next().unwrap();
-    assert!(first.starts_with("# uplift ") && first.contains("synthetic") && first.contains("study.toml"), "{first}");
     insta::assert_snapshot!(
         lines.next().unwrap(),
         @"site,im,poe,years,strength,u_m,flag,lower_tail_share,upper_tail_share"
@@ -106,10 +109,10 @@ fn summary_tables_and_provenance() {
     assert_eq!(lines.count(), 2 * 2 * 3 * 10);
     let regression = std::fs::read_to_string(study.path().join("out/r.regression.csv")).unwrap();
     insta::assert_snapshot!(
-        regression.lines().nth(1).unwrap(),
+        regression.lines().next().unwrap(),
         @"site,im,poe,years,c0_m,c1,c2_m,rmse_m,rmse_plain_m,bound_active,points"
     );
-    assert_eq!(regression.lines().count(), 2 + 12);
+    assert_eq!(regression.lines().count(), 1 + 12);
 
     let reader = LabelledReader::open(&study.path().join("out/r.h5")).unwrap();
     assert!(reader.attribute_text("/", "record_set").unwrap().contains("synthetic"));

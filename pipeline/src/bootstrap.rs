@@ -1,5 +1,6 @@
 //! How sure the spectra are: confidence bands from resampled records (Section 4.5, Table 4.1).
 
+mod asked;
 mod bands;
 mod checkpoint;
 mod compute;

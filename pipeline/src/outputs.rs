@@ -4,6 +4,8 @@
 //! both say of which, or where whoever asks for it forces it. A file that a job reads is never written over. All this
 //! is known before anything is computed.
 
+mod metadata;
+
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -11,19 +13,26 @@ use std::path::{Path, PathBuf};
 use uplift_atomic_file::AtomicFile;
 
 use crate::error::UpliftError;
+pub use metadata::metadata_path;
+pub(crate) use metadata::metadata_text;
 
+/// How names of files end that this program reads and writes; of none else that it makes.
+const FILE_ENDINGS: [&str; 12] =
+    ["h5", "toml", "csv", "json", "geojson", "mat", "xlsx", "svg", "png", "html", "txt", "AT2"];
 /// Bytes of a file in which this program names itself, where it wrote it.
 const HEAD: u64 = 4096;
 
 /// What a file is: how its name ends, and by what one of this program's is known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OutputKind {
-    /// A table with a column of this name.
+    /// A table with a column of this name; beside it stands where it comes from.
     Table(&'static str),
     /// Spectra and coefficients as JSON.
     Json,
     /// The same as a MATLAB file.
     Matlab,
+    /// The same as a workbook of Excel.
+    Workbook,
     /// A map of many sites.
     GeoJson,
     /// A figure, as its name ends.
@@ -69,14 +78,31 @@ impl Output {
         if let Some(reason) = wrong_ending(&self.path, self.kind.endings()) {
             return Some(reason);
         }
-        if inputs.iter().any(|input| is_same_file(&self.path, input)) {
-            return Some(format!("{name} would overwrite an input: give another name"));
+        if let Some(folder) = self.path.parent().filter(|folder| !folder.exists())
+            && let Some(ending) = file_ending(folder)
+        {
+            return Some(format!("{}: a folder would be made: give a name without .{ending}", folder.display()));
         }
-        let head = head_of(&self.path)?;
+        let beside = matches!(self.kind, OutputKind::Table(_)).then(|| metadata_path(&self.path));
+        for path in std::iter::once(&self.path).chain(&beside) {
+            if inputs.iter().any(|input| is_same_file(path, input)) {
+                return Some(format!("{} would overwrite an input: give another name", path.display()));
+            }
+        }
         if force {
             return None;
         }
-        if !self.kind.is_ours(&self.path, &head) {
+        let told = beside.as_deref().and_then(head_of);
+        if let (Some(beside), Some(told)) = (&beside, &told)
+            && !metadata::is_metadata(told)
+        {
+            let beside = beside.display();
+            return Some(format!(
+                "{beside} is there already, and is not from this program: give another name, or --force to replace it"
+            ));
+        }
+        let head = self.kind.head_of(&self.path)?;
+        if !self.kind.is_ours(&self.path, &head, told.is_some()) {
             let why = match self.kind {
                 OutputKind::Manifest => ", perhaps with columns of yours",
                 OutputKind::Curve => ", with another curve",
@@ -85,7 +111,8 @@ impl Output {
             };
             return Some(format!("{name} is there already{why}: give another name, or --force to replace it"));
         }
-        let other = self.result.as_ref().filter(|result| !names_result(&head, result));
+        let words = told.unwrap_or(head);
+        let other = self.result.as_ref().filter(|result| !names_result(&words, result));
         other.map(|result| format!("{name} is not of {result}: give another name, or --force to replace it"))
     }
 }
@@ -96,6 +123,7 @@ impl OutputKind {
             Self::Table(_) | Self::Manifest | Self::Curve => &["csv"],
             Self::Json => &["json"],
             Self::Matlab => &["mat"],
+            Self::Workbook => &["xlsx"],
             Self::GeoJson => &["geojson"],
             Self::Figure => &["svg", "png"],
             Self::Page => &["html"],
@@ -104,19 +132,30 @@ impl OutputKind {
         }
     }
 
-    fn is_ours(self, path: &Path, head: &[u8]) -> bool {
+    /// What the file at `path` says of itself; none where there is no file.
+    fn head_of(self, path: &Path) -> Option<Vec<u8>> {
+        let head = head_of(path)?;
+        Some(if self == Self::Workbook { workbook_properties(path).unwrap_or_default() } else { head })
+    }
+
+    /// Whether a file with this `head` is one of this program; `told` of a table that this stands beside it.
+    fn is_ours(self, path: &Path, head: &[u8], told: bool) -> bool {
         match self {
             Self::Table(column) => {
                 let mut lines = head.split(|&byte| byte == b'\n');
-                lines.next().is_some_and(|line| line.starts_with(b"# uplift "))
-                    && lines
-                        .next()
-                        .is_some_and(|line| line.split(|&byte| byte == b',').any(|name| name == column.as_bytes()))
+                let names = if told {
+                    lines.next()
+                } else {
+                    // tables said so in their first line once
+                    lines.next().filter(|line| line.starts_with(b"# uplift ")).and_then(|_| lines.next())
+                };
+                names.is_some_and(|names| names.split(|&byte| byte == b',').any(|name| name == column.as_bytes()))
             }
             Self::Json | Self::GeoJson => {
                 head.starts_with(b"{") && contains(&without_spaces(head), b"\"provenance\":\"uplift")
             }
             Self::Matlab => head.starts_with(b"MATLAB 5.0 MAT-file, uplift "),
+            Self::Workbook => contains(head, b"<dc:description>uplift "),
             Self::Figure if path.extension().is_some_and(|extension| extension == "png") => {
                 head.starts_with(b"\x89PNG") && contains(head, b"tEXtSoftwareuplift ")
             }
@@ -161,6 +200,25 @@ pub(crate) fn wrong_ending(path: &Path, endings: &[&str]) -> Option<String> {
     let example = path.with_extension(endings.first().copied().unwrap_or_default());
     let example = example.file_name().unwrap_or_default().to_string_lossy().into_owned();
     Some(format!("{}: give a name that ends in {}, e.g. {example}", path.display(), all.join(" or ")))
+}
+
+/// How a name ends that says of a file what it is.
+fn file_ending(path: &Path) -> Option<&'static str> {
+    let ending = path.extension()?;
+    FILE_ENDINGS.into_iter().find(|known| ending.eq_ignore_ascii_case(known))
+}
+
+/// Refuses a name for a shard that says that it is something else.
+///
+/// # Errors
+/// [`UpliftError::Usage`] for such a name.
+pub(crate) fn check_shard_name(path: &Path) -> Result<(), UpliftError> {
+    file_ending(path).map_or(Ok(()), |ending| {
+        let name = path.display();
+        Err(UpliftError::Usage(format!(
+            "{name}: a shard is a file of analysis rows: give a name that does not end in .{ending}"
+        )))
+    })
 }
 
 /// Whether both paths lead to one file, by whatever names and links.
@@ -208,12 +266,22 @@ pub fn provide_folder(folder: &Path) -> Result<(), UpliftError> {
 /// Whether the file at `path` says that this program made it of the result at `result`, or of one that lay there.
 pub(crate) fn is_of_result(path: &Path, result: &Path) -> bool {
     let Some(name) = result.file_name().and_then(|name| name.to_str()) else { return false };
-    head_of(path).is_some_and(|head| contains(&head, b"uplift ") && names_result(&head, name))
+    said_of(path).is_some_and(|said| contains(&said, b"uplift ") && names_result(&said, name))
 }
 
 /// Whether the file at `path` says that it has the numbers of a study of this digest.
 pub(crate) fn is_of_digest(path: &Path, digest: &str) -> bool {
-    head_of(path).is_some_and(|head| contains(&head, format!("study digest {digest}").as_bytes()))
+    said_of(path).is_some_and(|said| contains(&said, format!("study digest {digest}").as_bytes()))
+}
+
+/// What the file at `path` says of itself, and what stands beside it if it is a table.
+fn said_of(path: &Path) -> Option<Vec<u8>> {
+    let head = head_of(path)?;
+    match path.extension().and_then(|ending| ending.to_str()) {
+        Some("xlsx") => workbook_properties(path),
+        Some("csv") => Some([head, head_of(&metadata_path(path)).unwrap_or_default()].concat()),
+        _ => Some(head),
+    }
 }
 
 /// The first bytes of the file at `path`, those of texts of two bytes a letter without the second; none where there is
@@ -226,6 +294,14 @@ fn head_of(path: &Path) -> Option<Vec<u8>> {
     let _ = File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
     head.retain(|byte| *byte != 0);
     Some(head)
+}
+
+/// The properties of the workbook at `path`, as text; none where it has none.
+fn workbook_properties(path: &Path) -> Option<Vec<u8>> {
+    let mut archive = zip::ZipArchive::new(File::open(path).ok()?).ok()?;
+    let mut text = Vec::new();
+    archive.by_name("docProps/core.xml").ok()?.take(HEAD).read_to_end(&mut text).ok()?;
+    Some(text)
 }
 
 /// Whether a head says that its file is of this result, and not of one whose name merely ends or begins alike.

@@ -2,6 +2,7 @@
 //!
 //! [`ResultFile`] opens a result and reads it part by part; [`layout`] knows where everything is.
 
+mod asked;
 mod bands;
 mod design;
 pub(crate) mod digest;
@@ -21,6 +22,8 @@ mod study;
 mod table;
 mod target;
 
+pub use asked::{AskedRisk, RiskTargets};
+pub(crate) use bands::BandMethod;
 pub use bands::{MeasureBands, StoredBands};
 pub(crate) use design::{BOUNDS, bounds, rule_names};
 pub use design::{DesignRow, RULES, StoredDesign, StoredDesigned};
@@ -34,11 +37,11 @@ pub use head::{Head, Overview};
 pub(crate) use provenance::Origin;
 pub use provenance::Provenance;
 pub use records::StoredRecords;
-pub(crate) use spectra::flag_number;
 pub use spectra::{Fit, MeasureSpectra, Spectrum, StoredSpectra};
+pub(crate) use spectra::{flag_number, flag_word};
 pub use stripes::{StoredMeasure, StoredStripes};
 pub use study::{SpectraOfResult, StudyOfResult};
-pub(crate) use table::{neutral, plain, table_text};
+pub(crate) use table::{neutral, plain, table_text, write_metadata};
 pub use table::{write_atomically, write_table};
 pub(crate) use target::{check_place, replaces_another};
 pub use target::{check_target, is_hdf5};

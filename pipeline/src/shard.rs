@@ -10,6 +10,7 @@ use crate::error::UpliftError;
 use crate::events::Events;
 use crate::frame::RunOptions;
 use crate::inputs::read_hazard;
+use crate::outputs::check_shard_name;
 use crate::run::{RunReport, check_outputs, check_replaced, run_with};
 use crate::uniform_risk::site_table;
 use crate::{displacement, uniform_risk};
@@ -18,7 +19,7 @@ use crate::{displacement, uniform_risk};
 /// result.
 ///
 /// # Errors
-/// As [`run`](crate::run()).
+/// A name that is not one of a shard; else as [`run`](crate::run()).
 pub fn run_shard(
     study: &AnyStudy,
     path: &Path,
@@ -26,6 +27,7 @@ pub fn run_shard(
     earlier: Option<&Path>,
     events: &dyn Events,
 ) -> Result<ShardReport, UpliftError> {
+    check_shard_name(path)?;
     let _lock = hold(path)?;
     match study {
         AnyStudy::UniformRisk(study) => uniform_risk::run_shard(study, (path, shard), earlier, events),

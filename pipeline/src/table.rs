@@ -17,7 +17,7 @@ pub use reference::ReferenceTable;
 use crate::alarms::{Alarm, alarms};
 use crate::error::UpliftError;
 use crate::events::Events;
-use crate::result::{Kind, ResultFile};
+use crate::result::{AskedRisk, Kind, ResultFile};
 
 /// Which table, and what stands beside it.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,6 +30,8 @@ pub struct TableOptions {
     pub reference: Option<PathBuf>,
     /// Which intensity measure, none for all; not of displacement spectra.
     pub measure: Option<IntensityMeasure>,
+    /// The risks of the spectra; not of displacement spectra.
+    pub risk: AskedRisk,
 }
 
 /// A table of a result, with what to know before it is used.
@@ -56,7 +58,7 @@ pub enum TableRows {
 /// # Errors
 /// A file that is missing, damaged or no result; a result without such a table; a reference that cannot be read.
 pub fn table(options: &TableOptions, events: &dyn Events) -> Result<TableReport, UpliftError> {
-    let file = ResultFile::open(&options.result)?;
+    let file = ResultFile::open(&options.result)?.at(&options.risk)?;
     let rows = match file.kind() {
         Kind::UniformRisk => coefficients::read(options, &file, events).map(TableRows::Coefficients),
         Kind::Displacement => design::read(options, &file, events).map(TableRows::Design),

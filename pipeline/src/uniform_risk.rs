@@ -18,8 +18,8 @@ mod write_hazard;
 
 pub(crate) use coefficients::fit_ordinates;
 pub use coefficients::{Coefficients, fit_spectra};
+pub(crate) use csv::tables;
 pub use csv::{csv_paths, write_csv};
-pub(crate) use csv::{flag_word, tables};
 pub use earlier::EarlierStripes;
 pub use epistemic::{BranchSpectra, FRACTILES};
 pub use levels::{LevelCheck, LevelProposal};

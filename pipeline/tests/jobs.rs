@@ -11,6 +11,7 @@ use uplift::bootstrap::{BootstrapOptions, bootstrap};
 use uplift::efficiency::{EfficiencyOptions, efficiency};
 use uplift::events::{Events, Phase};
 use uplift::influence::{InfluenceOptions, influence};
+use uplift::result::{AskedRisk, RiskTargets};
 use uplift::structure::{DesignOptions, OverturningOptions, design, overturning};
 use uplift::study::{AnyStudy, Structure, Study};
 use uplift::{RunOptions, Silent, UpliftError, run};
@@ -202,8 +203,12 @@ fn a_stopped_bootstrap_goes_on() {
 #[test]
 fn influence_reports_what_it_writes() {
     let folder = Folder::new();
-    let report =
-        influence(&folder.result(), &InfluenceOptions { poe: Some(0.1), top: 2, force: false }, &Silent).unwrap();
+    let report = influence(
+        &folder.result(),
+        &InfluenceOptions { poe: Some(0.1), top: 2, ..InfluenceOptions::default() },
+        &Silent,
+    )
+    .unwrap();
     assert!(report.records.len() <= 2 * 2 * 3 * 2 && !report.records.is_empty());
     let without = array(&folder.result(), "/influence/pgv/u_without_m");
     let spectra = array(&folder.result(), "/urs/pgv/u_m");
@@ -249,7 +254,8 @@ fn efficiency_reports_what_it_writes() {
 #[test]
 fn a_design_starts_from_the_spectrum_in_the_file() {
     let folder = Folder::new();
-    let options = DesignOptions { site: Some("there".to_owned()), poe: Some(0.1), ..DesignOptions::default() };
+    let options =
+        DesignOptions { site: Some("there".to_owned()), risk: AskedRisk::probability(0.1), ..DesignOptions::default() };
     let events = Recorder::default();
     let report = design(&folder.block(), &folder.result(), &options, &events).unwrap();
     assert_eq!((report.site.as_str(), report.im, report.poe), ("There", "PGV", 0.1));
@@ -277,7 +283,11 @@ fn a_design_starts_from_the_spectrum_in_the_file() {
     let ask = |options: DesignOptions| design(&folder.block(), &folder.result(), &options, &Silent);
     assert!(is_choice(&ask(DesignOptions::default()), "--site"));
     assert!(is_choice(&ask(DesignOptions { site: Some("Nowhere".to_owned()), ..options.clone() }), "--site"));
-    assert!(is_choice(&ask(DesignOptions { poe: Some(0.3), ..options.clone() }), "--poe"));
+    let several = RiskTargets::Probabilities(vec![0.1, 0.3]);
+    for targets in [several, RiskTargets::Probabilities(vec![1.5]), RiskTargets::ReturnPeriods(vec![0.0])] {
+        let refused = ask(DesignOptions { risk: AskedRisk { targets, years: None }, ..options.clone() });
+        assert!(matches!(refused, Err(UpliftError::Usage(_))), "{refused:?}");
+    }
     let safety = ask(DesignOptions { safety_factor: 0.5, ..options.clone() });
     assert!(matches!(safety, Err(UpliftError::Implausible(_))));
     let alone = ask(DesignOptions { spectrum_only: true, ..options }).unwrap();
@@ -325,7 +335,7 @@ fn overturning_reports_what_it_writes() {
     assert_eq!(events.phases().len(), 2);
     assert_eq!(events.steps(), 2 * 4 * 4);
     let table = std::fs::read_to_string(folder.path("o.csv")).unwrap();
-    let overturned: Vec<&str> = table.lines().skip(2).map(|line| line.split(',').nth(5).unwrap()).collect();
+    let overturned: Vec<&str> = table.lines().skip(1).map(|line| line.split(',').nth(5).unwrap()).collect();
     let counted: Vec<String> =
         report.overturning.iter().flat_map(|found| found.overturned.iter().map(u32::to_string)).collect();
     assert_eq!(overturned, counted);

@@ -49,7 +49,7 @@ fn widths_of_the_bands() {
 
 fn of_table(path: &Path) -> Widths {
     let text = std::fs::read_to_string(path).unwrap();
-    let rows = text.lines().skip(2).map(|line| line.split(',').collect::<Vec<_>>());
+    let rows = text.lines().skip(1).map(|line| line.split(',').collect::<Vec<_>>());
     rows.filter(|cells| cells[2] == "0.02")
         .map(|cells| {
             let key = (cells[1].to_owned(), cells[4].parse().unwrap(), cells[0].to_owned());

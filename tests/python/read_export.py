@@ -1,8 +1,8 @@
-"""Reads the exports of a result and checks that they hold what the result holds.
+"""Reads the exports of a result as a reader would, and checks that they hold what the result holds.
 
-    python read_export.py RESULT.h5 RESULT.spectra.csv RESULT.json RESULT.mat
+    python read_export.py RESULT.h5 RESULT.spectra.csv RESULT.json RESULT.mat RESULT.xlsx
 
-Needs h5py, numpy, pandas and scipy.
+Needs h5py, numpy, openpyxl, pandas and scipy. The result has bands.
 """
 
 import json
@@ -10,40 +10,127 @@ import sys
 
 import h5py
 import numpy as np
+import openpyxl
 import pandas as pd
 from scipy.io import loadmat
 
-result, table, text, matlab = sys.argv[1:]
+result, table, text, matlab, book = sys.argv[1:]
+measures = ("pgv", "pga")
+limits = ("u05", "u50", "u95")
+flags = ("regular", "no exceedance", "censored")
 with h5py.File(result) as file:
-    u_m = {im: file[f"/urs/{im}/u_m"][()] for im in ("pgv", "pga")}
-    names = ("flag", "lower_tail_share", "upper_tail_share")
-    of_ordinates = {im: {name: file[f"/urs/{im}/{name}"][()] for name in names} for im in u_m}
-    c0_m = file["/regression/pgv/c0_m"][()]
+    u_m = {im: file[f"/urs/{im}/u_m"][()] for im in measures}
+    flag = {im: file[f"/urs/{im}/flag"][()] for im in measures}
+    bands = {(im, name): file[f"/bootstrap/{im}/{name}_m"][()] for im in measures for name in limits}
+    e_median = {im: file[f"/bootstrap/{im}/e_median"][()] for im in measures}
+    coefficients = {im: {name: file[f"/regression/{im}/{name}"][()] for name in ("c0_m", "c1", "c2_m", "rmse_m")}
+                    for im in measures}
     sites = list(file["/axes/site"].asstr())
     poe, strength = file["/axes/poe"][()], file["/axes/strength"][()]
+    sizes = file["/axes/sample_size"][()]
+    years = float(file.attrs["poe_years"])
+    warnings = file.attrs["warnings"].splitlines()
+    created, study = file.attrs["created"], file.attrs["study_toml"].splitlines()
+    maf = {(site, im): file[f"/hazard/{site}/{im}/maf_per_year"][()] for site in sites for im in measures}
+period = -years / np.log1p(-poe)
+shape = (len(sites), len(poe), len(strength))
 
-with open(table, encoding="utf-8") as lines:
-    assert lines.readline().startswith("# uplift ")
-tidy = pd.read_csv(table, skiprows=1)
-shares = ["lower_tail_share", "upper_tail_share"]
-assert list(tidy.columns) == ["site", "im", "poe", "years", "strength", "u_m", "fit_m", "flag", *shares]
-for im in ("pgv", "pga"):
-    own = tidy[tidy.im == im.upper()].u_m.to_numpy().reshape(len(sites), len(poe), len(strength))
-    assert np.array_equal(own, u_m[im])
+# a table is nothing but a table, whatever its sites are called
+tidy = pd.read_csv(table)
+names = [f"{name}_n{size}_m" for size in sizes for name in limits]
+assert list(tidy.columns) == ["site", "im", "poe", "years", "strength", "u_m", "fit_m", "return_period_years", "flag",
+                              *names]
+for im in measures:
+    own = tidy[tidy.im == im.upper()]
+    assert np.array_equal(own.u_m.to_numpy().reshape(shape), u_m[im])
+    assert list(own.flag) == [flags[number] for number in flag[im].ravel()]
+    for index, size in enumerate(sizes):
+        for name in limits:
+            values = own[f"{name}_n{size}_m"].to_numpy().reshape(shape)
+            assert np.array_equal(values, bands[im, name][:, :, index])
+assert np.allclose(np.sort(tidy.return_period_years.unique()), np.sort(period), rtol=1e-12)
+for beside in (table, table.replace(".spectra.csv", ".urs.csv"), table.replace(".spectra.csv", ".bands.csv")):
+    columns = list(pd.read_csv(beside).columns)
+    metadata = json.load(open(f"{beside}-metadata.json", encoding="utf-8"))
+    assert metadata["@context"] == "http://www.w3.org/ns/csvw" and metadata["dc:provenance"].startswith("uplift ")
+    assert [column["titles"] for column in metadata["tableSchema"]["columns"]] == columns
 
 tree = json.load(open(text, encoding="utf-8"))
-assert tree["strength"] == list(strength)
+assert tree["strength"] == list(strength) and tree["warnings"] == warnings
 first = tree["spectra"][0]
-assert first["site"] == sites[0] and first["u_m"] == list(u_m["pgv"][0, 0])
-assert set(first["flag"]) <= {"regular", "no exceedance", "censored"} and len(tree["alarms"]) > 0
+finite = [value if np.isfinite(value) else None for value in u_m["pgv"][0, 0]]
+assert first["site"] == sites[0] and first["u_m"] == finite
+assert first["flag"] == [flags[number] for number in flag["pgv"][0, 0]]
+assert [band["sample_size"] for band in first["bands"]] == list(sizes)
+lower = bands["pgv", "u05"][0, 0, -1]
+assert first["bands"][-1]["lower_m"] == [value if np.isfinite(value) else None for value in lower]
 
 file = loadmat(matlab)
 assert [str(name[0]) for name in file["site"][:, 0]] == sites
+assert [str(line[0]) for line in file["warnings"][:, 0]] == warnings
 assert np.array_equal(file["strength"][:, 0], strength) and np.array_equal(file["poe"][:, 0], poe)
-for im in ("pgv", "pga"):
+assert np.array_equal(file["sample_size"][:, 0], sizes)
+for im in measures:
     assert np.array_equal(file[f"u_{im}_m"], u_m[im].transpose(2, 1, 0))
-    for share in ("flag", *shares):
-        assert np.array_equal(file[f"{share}_{im}"], of_ordinates[im][share].transpose(2, 1, 0))
-assert np.array_equal(file["c0_pgv_m"], c0_m.T, equal_nan=True)
+    assert np.array_equal(file[f"flag_{im}"], flag[im].transpose(2, 1, 0))
+    for name in limits:
+        assert np.array_equal(file[f"{name}_{im}_m"], bands[im, name].transpose(3, 2, 1, 0))
+    assert np.array_equal(file[f"e_median_{im}_pct"], e_median[im].transpose(2, 1, 0), equal_nan=True)
+assert np.array_equal(file["c0_pgv_m"], coefficients["pgv"]["c0_m"].T, equal_nan=True)
 assert str(file["provenance"][0]).startswith("uplift ")
+
+workbook = openpyxl.load_workbook(book)
+assert workbook.sheetnames == ["About", "Spectra", "Bands", "Table 4.1", "Coefficients", "Hazard", "Study"]
+assert all(cell.data_type != "f" for sheet in workbook for row in sheet.iter_rows() for cell in row), "no formula"
+assert workbook.properties.created.strftime("%Y-%m-%dT%H:%M:%SZ") == created
+assert workbook.properties.description.startswith("uplift ")
+
+
+def number(value):
+    """A number of a cell; a censored ordinate is a word."""
+    return np.inf if value == "censored" else float(value)
+
+
+def block(sheet, head, value):
+    """The columns of a sheet by what stands at their head; `value` is the unit above the numbers."""
+    rows = list(workbook[sheet].iter_rows(values_only=True))
+    assert workbook[sheet].freeze_panes == f"B{head + 1}"
+    assert [row[0] for row in rows[head:]] == list(strength)
+    assert set(rows[head - 1][1:]) == {value}
+    return {tuple(row[column] for row in rows[: head - 1]): [number(row[column]) for row in rows[head:]]
+            for column in range(1, len(rows[0]))}
+
+
+spectra = block("Spectra", 5, "u, m")
+assert len(spectra) == 2 * len(sites) * len(poe)
+band = block("Bands", 7, "u, m")
+for im in measures:
+    for i, site in enumerate(sites):
+        for j, probability in enumerate(poe):
+            found = [key for key in spectra if key[:3] == (site, im.upper(), probability)]
+            assert len(found) == 1 and abs(found[0][3] / period[j] - 1) < 1e-12
+            assert spectra[found[0]] == list(u_m[im][i, j])
+            for index, size in enumerate(sizes):
+                for word, name in zip(("5 %", "median", "95 %"), limits):
+                    assert band[(*found[0], size, word)] == list(bands[im, name][i, j, index])
+cell = workbook["Spectra"]["B3"]
+assert cell.number_format == "0.00%" and workbook["Spectra"]["B6"].number_format == "0.0000"
+
+fits = pd.read_excel(book, sheet_name="Coefficients")
+for im in measures:
+    own = fits[fits.measure == im.upper()]
+    for name, column in (("c0_m", "c0, m"), ("c1", "c1, -"), ("c2_m", "c2, m"), ("rmse_m", "RMSE, m")):
+        expected = coefficients[im][name].ravel()
+        assert np.array_equal(own[column].to_numpy(dtype=float), expected, equal_nan=True), (im, name)
+figures = pd.read_excel(book, sheet_name="Table 4.1")
+own = figures[figures.measure == "PGV"]["error of the median, %"].to_numpy(dtype=float)
+assert np.array_equal(own, e_median["pgv"].ravel(), equal_nan=True)
+curves = list(workbook["Hazard"].iter_rows(values_only=True))
+assert curves[0][0] == sites[0] and curves[1][:2] == ("PGV, cm/s", "rate, 1/yr")
+assert [row[1] for row in curves[2:] if row[1] is not None] == list(maf[sites[0], "pgv"])
+about = {row[0]: row[1] for row in workbook["About"].iter_rows(values_only=True)}
+assert about["Made"] == created and len(about["Study, SHA-256"]) == 64
+said = [row[1] for row in workbook["About"].iter_rows(values_only=True)][-len(warnings):]
+assert said == warnings
+assert [row[0] for row in workbook["Study"].iter_rows(values_only=True)][1:] == [line or None for line in study]
 print("same numbers")

@@ -77,7 +77,7 @@ enum Command {
     Plot(plot::PlotArguments),
     /// Write one page with everything, to hand over: HTML that needs no network
     Report(report::ReportArguments),
-    /// Write the spectra and coefficients of a result as CSV, JSON or a MATLAB file
+    /// Write spectra, bands and coefficients of a result as an Excel workbook, CSV, JSON or a MATLAB file
     Export(export::ExportArguments),
     /// Print the coefficients of a result (Table 4.2), or its design example (Tables 2.1-2.3, 3.2-3.7), beside a
     /// reference if one is given

@@ -62,6 +62,9 @@ pub const THRESHOLD: Range = range(0.0, 1e4, "m", "in m, not in mm or cm");
 /// Time that a probability refers to: from a shift on a building site to a repository.
 pub const YEARS: Range = range(1e-3, 1e7, "yr", "50 years are usual");
 
+/// Return period of a risk: from days to the age of rocks.
+pub const RETURN_PERIOD: Range = range(1e-2, 1e9, "yr", "in years; 10 % in 50 years is 475");
+
 /// Conversion of a measure from one definition of the horizontal component to another.
 pub const CONVERSION: Range =
     range(0.1, 10.0, "", "definitions of the horizontal component differ by some tens of per cent");

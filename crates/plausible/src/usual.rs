@@ -53,9 +53,9 @@ pub const USUAL_ROTATION: Range =
 /// Safety factor on a displacement: Eq. 3.15 has 2.5.
 pub const USUAL_SAFETY_FACTOR: Range = usual(1.0, 10.0, "", "Section 3.4.5 has 2.5; was a percentage meant?");
 
-/// The highest level of PGV that records are scaled to.
+/// The highest level of PGV that records are scaled to: what is meant in m/s ends with 1 to 4.
 pub const USUAL_TOP_PGV: Range =
-    usual(10.0, 1000.0, "cm/s", "300 is the most that was recorded; was the level meant in m/s or mm/s?");
+    usual(5.0, 1000.0, "cm/s", "300 is the most that was recorded; was the level meant in m/s or mm/s?");
 
 /// The highest level of PGA that records are scaled to.
 pub const USUAL_TOP_PGA: Range =

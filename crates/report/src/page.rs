@@ -17,7 +17,7 @@ use uplift::UpliftError;
 use uplift::alarms::{Alarm, alarms};
 use uplift::events::Events;
 use uplift::outputs::mark;
-use uplift::result::{Kind, ResultFile};
+use uplift::result::{AskedRisk, Kind, ResultFile};
 use uplift::text::visible;
 use uplift_plot::{Figure, Marks, PanelPlace, Width};
 
@@ -77,17 +77,18 @@ struct ReadableLine {
     points: Vec<(f64, f64)>,
 }
 
-/// The page on the results at `paths`, in their order, as HTML.
+/// The page on the results at `paths`, in their order and at the risks `asked` for, as HTML.
 ///
 /// # Errors
 /// A result that is missing, damaged or without sites.
-pub fn page(paths: &[PathBuf], events: &dyn Events) -> Result<String, UpliftError> {
+pub fn page(paths: &[PathBuf], asked: &AskedRisk, events: &dyn Events) -> Result<String, UpliftError> {
     let mut sections = Vec::new();
     for (index, path) in paths.iter().enumerate() {
         if events.cancelled() {
             return Err(UpliftError::Interrupted);
         }
-        sections.push(section(&format!("r{}", index + 1), path)?);
+        let result = ResultFile::open(path)?.at(asked)?.resampled(events)?;
+        sections.push(section(&format!("r{}", index + 1), path, &result)?);
     }
     let mut subjects: Vec<&str> = sections.iter().map(|section| section.subject).collect();
     subjects.dedup();
@@ -123,13 +124,12 @@ struct Content {
     figures: Vec<Figure>,
 }
 
-fn section(key: &str, path: &Path) -> Result<Section, UpliftError> {
-    let result = ResultFile::open(path)?;
+fn section(key: &str, path: &Path, result: &ResultFile) -> Result<Section, UpliftError> {
     let head = result.head()?;
     let file = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let content = match result.kind() {
-        Kind::UniformRisk => risk::content(&result)?,
-        Kind::Displacement => displacement::content(&result)?,
+        Kind::UniformRisk => risk::content(result)?,
+        Kind::Displacement => displacement::content(result)?,
     };
     let mut facts = vec![
         ("Result", file.clone()),

@@ -6,18 +6,20 @@ use serde::Serialize;
 use uplift::UpliftError;
 use uplift::events::Events;
 use uplift::outputs::{self, Output, OutputKind, beside};
-use uplift::result::write_atomically;
+use uplift::result::{AskedRisk, write_atomically};
 use uplift::verify::require_whole;
 
 use crate::page::page;
 
 /// Which results a page is of.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ReportOptions {
     /// The result files, one or more; several stand side by side.
     pub results: Vec<PathBuf>,
     /// The page; the first result with `.html` if none is given.
     pub output: Option<PathBuf>,
+    /// The risks of the spectra.
+    pub risk: AskedRisk,
     /// Whether whatever is at the place of the page gives way.
     pub force: bool,
 }
@@ -42,6 +44,6 @@ pub fn report(options: &ReportOptions, events: &dyn Events) -> Result<PageReport
     outputs::check(&[output], &options.results, options.force)?;
     // what is handed over says nothing of a file that is not as it was written, even where it would not show
     require_whole(&options.results)?;
-    write_atomically(&file, page(&options.results, events)?.as_bytes())?;
+    write_atomically(&file, page(&options.results, &options.risk, events)?.as_bytes())?;
     Ok(PageReport { file })
 }

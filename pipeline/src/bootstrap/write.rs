@@ -104,20 +104,32 @@ fn add_bands(writer: &mut LabelledWriter, file: &BandsFile<'_>) -> Result<(), La
             }
             let dims = [axis::POE, axis::SAMPLE_SIZE];
             let ranges = percent(&joint.range_of_interval);
-            writer.array_f64(&path("r_90ci"), &dims, &ranges, "%", "range of the joint interval (Eq. 4.10)")?;
+            writer.array_f64(&path("r_90ci"), &dims, ranges.values(), "%", "range of the joint interval (Eq. 4.10)")?;
         }
         let dims = [axis::SITE, axis::POE, axis::SAMPLE_SIZE];
         let errors = percent(&bands.error_of_median);
-        writer.array_f64(&bootstrap::e_median(measure), &dims, &errors, "%", "error of the median (Eq. 4.9)")?;
+        writer.array_f64(
+            &bootstrap::e_median(measure),
+            &dims,
+            errors.values(),
+            "%",
+            "error of the median (Eq. 4.9)",
+        )?;
         let ranges = percent(&bands.range_of_interval);
-        writer.array_f64(&bootstrap::r_90ci(measure), &dims, &ranges, "%", "range of the interval (Eq. 4.10)")?;
+        writer.array_f64(
+            &bootstrap::r_90ci(measure),
+            &dims,
+            ranges.values(),
+            "%",
+            "range of the interval (Eq. 4.10)",
+        )?;
     }
     Ok(())
 }
 
 /// Shares in per cent; NaN for none.
-fn percent<const N: usize>(values: &Array<N, Option<f64>>) -> Vec<f64> {
-    values.map(|value| value.map_or(f64::NAN, |value| 100.0 * value)).into_values()
+pub(super) fn percent<const N: usize>(values: &Array<N, Option<f64>>) -> Array<N> {
+    values.map(|value| value.map_or(f64::NAN, |value| 100.0 * value))
 }
 
 fn bands_table(file: &BandsFile<'_>) -> Vec<Column> {

@@ -24,8 +24,8 @@ pub(crate) fn tables(study: &DisplacementStudy, result: &Path) -> Vec<Output> {
     if study.output.csv { tables.into() } else { Vec::new() }
 }
 
-/// Write the tables of `outcome` and its `design` beside the result file `result`, one comment line of provenance
-/// first; the files.
+/// Write the tables of `outcome` and its `design` beside the result file `result`, and beside each where it comes from;
+/// the tables.
 ///
 /// # Errors
 /// A file that cannot be written.

@@ -1,117 +1,70 @@
-//! MATLAB's file format, level 5: as much of it as arrays of numbers, texts and lists of texts need.
-//!
-//! Own code, since no maintained crate writes the format.
-//!
-//! # Source
-//! The `MathWorks`, MAT-File Format (R2016b and later), chapter 1: header, data elements, array types.
+//! A result as a MATLAB file.
 
-/// Data types of elements.
-const INT8: u32 = 1;
-const INT32: u32 = 5;
-const UINT16: u32 = 4;
-const UINT32: u32 = 6;
-const DOUBLE: u32 = 9;
-const MATRIX: u32 = 14;
-/// Classes of arrays.
-const CELL_CLASS: u32 = 1;
-const CHAR_CLASS: u32 = 4;
-const DOUBLE_CLASS: u32 = 6;
+mod level_5;
 
-/// Lengths of an array's dimensions, the first running fastest.
-pub(super) struct Shape(pub(super) Vec<usize>);
+use super::Export;
+use crate::error::UpliftError;
+use crate::result::{Fit, StoredSpectra, flag_number};
+use level_5::{MatFile, Shape};
 
-impl Shape {
-    /// A column of `rows`.
-    pub(super) fn column(rows: usize) -> Self {
-        Self(vec![rows, 1])
-    }
-}
+/// A coefficient of a spectrum.
+type Value = fn(&Fit) -> f64;
 
-/// A file being put together.
-pub(super) struct MatFile {
-    bytes: Vec<u8>,
-    /// Where an element was too large for its 32-bit length.
-    too_large: Option<String>,
-}
-
-impl MatFile {
-    /// A file whose first line of text says where it comes from.
-    pub(super) fn new(description: &str) -> Self {
-        let mut text: Vec<u8> = format!("MATLAB 5.0 MAT-file, {description}")
-            .chars()
-            .map(|character| if character.is_ascii() && !character.is_ascii_control() { character as u8 } else { b'?' })
-            .collect();
-        text.resize(124, b' ');
-        let mut bytes = text;
-        bytes.extend(0x0100_u16.to_le_bytes());
-        bytes.extend(b"IM");
-        Self { bytes, too_large: None }
-    }
-
-    /// An array of numbers; as many values as the shape says.
-    pub(super) fn numbers(&mut self, name: &str, shape: &Shape, values: &[f64]) {
-        debug_assert_eq!(shape.0.iter().product::<usize>(), values.len(), "{name}");
-        let data: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
-        let body = array(DOUBLE_CLASS, name, shape, &[element(DOUBLE, &data)]);
-        self.push(name, &body);
-    }
-
-    /// A text.
-    pub(super) fn text(&mut self, name: &str, text: &str) {
-        let body = text_array(name, text);
-        self.push(name, &body);
-    }
-
-    /// A cell array of texts, a column.
-    pub(super) fn texts(&mut self, name: &str, texts: &[&str]) {
-        let cells: Vec<Vec<u8>> = texts.iter().map(|text| element(MATRIX, &text_array("", text))).collect();
-        let body = array(CELL_CLASS, name, &Shape::column(texts.len()), &cells);
-        self.push(name, &body);
-    }
-
-    /// The whole file.
-    pub(super) fn finish(self) -> Result<Vec<u8>, String> {
-        match self.too_large {
-            Some(name) => {
-                Err(format!("{name} is too large for a MATLAB file of level 5 (4 GiB): read the HDF5 file instead"))
+impl Export {
+    /// A MATLAB file: `u_pgv_m` is strength × probability × site, bands `u05_pgv_m` are strength × size × probability ×
+    /// site, coefficients probability × site.
+    ///
+    /// # Errors
+    /// A result that is too large for the format.
+    pub fn matlab(&self) -> Result<Vec<u8>, UpliftError> {
+        let StoredSpectra { strengths, poes, years, sites, measures } = &self.spectra;
+        let mut file = MatFile::new(self.provenance());
+        file.text("provenance", self.provenance());
+        let alarms: Vec<String> = self.alarms.iter().map(ToString::to_string).collect();
+        file.texts("warnings", &alarms.iter().map(String::as_str).collect::<Vec<_>>());
+        file.numbers("strength", &Shape::column(strengths.len()), strengths);
+        file.numbers("poe", &Shape::column(poes.len()), poes);
+        file.numbers("years", &Shape::column(1), &[*years]);
+        file.numbers("return_period_years", &Shape::column(poes.len()), &self.return_periods);
+        file.texts("site", &sites.iter().map(String::as_str).collect::<Vec<_>>());
+        for spectra in measures {
+            let key = spectra.measure.key();
+            // spectra come site by site, in each probability by probability: the order of MATLAB's columns
+            let shape = Shape(vec![strengths.len(), poes.len(), sites.len()]);
+            file.numbers(&format!("u_{key}_m"), &shape, spectra.u_m.values());
+            let flags = spectra.flags.map(|&flag| f64::from(flag_number(flag)));
+            file.numbers(&format!("flag_{key}"), &shape, flags.values());
+            let columns: [(&str, Value); 4] = [
+                ("c0_{}_m", |fit| fit.c0_m),
+                ("c1_{}", |fit| fit.c1),
+                ("c2_{}_m", |fit| fit.c2_m),
+                ("rmse_{}_m", |fit| fit.rmse_m),
+            ];
+            for (name, value) in columns {
+                let values = spectra.fits.map(value);
+                file.numbers(&name.replace("{}", key), &Shape(vec![poes.len(), sites.len()]), values.values());
             }
-            None => Ok(self.bytes),
         }
+        self.add_bands(&mut file);
+        file.finish().map_err(UpliftError::input)
     }
 
-    fn push(&mut self, name: &str, body: &[u8]) {
-        if u32::try_from(body.len()).is_err() {
-            self.too_large = Some(name.to_owned());
-            return;
+    /// The bands, if there are some.
+    fn add_bands(&self, file: &mut MatFile) {
+        let Some(bands) = &self.bands else { return };
+        let StoredSpectra { strengths, poes, sites, .. } = &self.spectra;
+        let sizes: Vec<f64> = bands.sizes.iter().copied().map(f64::from).collect();
+        file.numbers("sample_size", &Shape::column(sizes.len()), &sizes);
+        file.numbers("confidence", &Shape::column(1), &[bands.confidence]);
+        for of in &bands.measures {
+            let key = of.measure.key();
+            let shape = Shape(vec![strengths.len(), sizes.len(), poes.len(), sites.len()]);
+            for (name, limits) in bands.limit_names().iter().zip(&of.limits_m) {
+                file.numbers(&format!("{}_{key}_m", name.trim_end_matches("_m")), &shape, limits.values());
+            }
+            let shape = Shape(vec![sizes.len(), poes.len(), sites.len()]);
+            file.numbers(&format!("e_median_{key}_pct"), &shape, of.error_of_median.values());
+            file.numbers(&format!("r_90ci_{key}_pct"), &shape, of.range_of_interval.values());
         }
-        self.bytes.extend(element(MATRIX, body));
     }
-}
-
-fn text_array(name: &str, text: &str) -> Vec<u8> {
-    let units: Vec<u16> = text.encode_utf16().collect();
-    let data: Vec<u8> = units.iter().flat_map(|unit| unit.to_le_bytes()).collect();
-    array(CHAR_CLASS, name, &Shape(vec![1, units.len()]), &[element(UINT16, &data)])
-}
-
-/// Flags, dimensions, name and data of an array.
-fn array(class: u32, name: &str, shape: &Shape, data: &[Vec<u8>]) -> Vec<u8> {
-    let flags: Vec<u8> = [class, 0].iter().flat_map(|word| word.to_le_bytes()).collect();
-    let lengths: Vec<u8> =
-        shape.0.iter().flat_map(|&length| i32::try_from(length).unwrap_or(i32::MAX).to_le_bytes()).collect();
-    let mut body = element(UINT32, &flags);
-    body.extend(element(INT32, &lengths));
-    body.extend(element(INT8, name.as_bytes()));
-    body.extend(data.iter().flatten());
-    body
-}
-
-/// An element: type, length, data, filled up to eight bytes.
-fn element(kind: u32, data: &[u8]) -> Vec<u8> {
-    let mut bytes = Vec::with_capacity(data.len() + 16);
-    bytes.extend(kind.to_le_bytes());
-    bytes.extend(u32::try_from(data.len()).unwrap_or(u32::MAX).to_le_bytes());
-    bytes.extend(data);
-    bytes.resize(bytes.len().next_multiple_of(8), 0);
-    bytes
 }

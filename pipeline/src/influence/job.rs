@@ -14,8 +14,10 @@ use crate::result::Addition;
 /// What is told of the influence; the files hold all of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct InfluenceOptions {
-    /// The probability of exceedance whose risk is taken apart; the smallest where none is given.
+    /// The probability of exceedance whose risk is taken apart, one of the result; the smallest where none is given.
     pub poe: Option<f64>,
+    /// The same by its return period, years, in place of `poe`.
+    pub return_period: Option<f64>,
     /// Records of each spectrum.
     pub top: usize,
     /// Whether whatever is at the place of the table gives way.
@@ -24,7 +26,7 @@ pub struct InfluenceOptions {
 
 impl Default for InfluenceOptions {
     fn default() -> Self {
-        Self { poe: None, top: 3, force: false }
+        Self { poe: None, return_period: None, top: 3, force: false }
     }
 }
 
@@ -43,7 +45,10 @@ pub fn influence(
     let stored = file.stripes()?;
     let table = Output::new(influence_path(&stored.path), OutputKind::Table("mean_change_pct"));
     outputs::check(&[table], &[result], options.force)?;
-    let poe = stored.poe_index(options.poe)?;
+    let poe = match options.return_period {
+        Some(years) => stored.return_period_index(years)?,
+        None => stored.poe_index(options.poe)?,
+    };
     let mut influences: Vec<Influence> = Vec::new();
     for measure in &stored.measures {
         if events.cancelled() {

@@ -9,6 +9,7 @@ fn refused(path: &Path, kind: OutputKind, inputs: &[&Path], force: bool) -> Opti
 fn only_an_earlier_output_of_the_same_kind_gives_way() {
     let folder = tempfile::tempdir().unwrap();
     let place = |name: &str| folder.path().join(name);
+    // as tables were once, and give way still
     let history = "# uplift 0.1.0 (abc); record a\ntime_s,displacement_m\n0,0\n";
     let cases: [(&str, OutputKind, &[u8], &[u8]); 6] = [
         ("a.csv", OutputKind::Table("time_s"), history.as_bytes(), b"# uplift 0.1.0 (abc)\nrecord_id,file_h1\n"),
@@ -44,6 +45,36 @@ fn of_another_result() {
     for part in ["e.h5", "one.h", "ne.h5"] {
         assert!(check(&[output(part)], &[Path::new(part)], false).is_err(), "{part}");
     }
+}
+
+#[test]
+fn a_table_is_known_by_what_stands_beside_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.csv");
+    let beside = metadata_path(&path);
+    assert_eq!(beside, folder.path().join("a.csv-metadata.json"));
+    let line = "uplift 0.1.0 (abc), 2026; one.h5; records: \"mine\"";
+    let write = |names: &str, told: &str| {
+        std::fs::write(&path, format!("{names}\n0,0\n")).unwrap();
+        std::fs::write(&beside, told).unwrap();
+    };
+    let kind = OutputKind::Table("u_m");
+    let ours = metadata_text(&path, line, ["site", "u_m"].into_iter());
+    write("site,u_m", &ours);
+    assert_eq!(refused(&path, kind, &[], false), None);
+    let of = |result: &str| check(&[Output::new(&path, kind).of(Path::new(result))], &[Path::new(result)], false);
+    of("one.h5").unwrap();
+    assert!(of("two.h5").unwrap_err().to_string().contains("not of two.h5"));
+    assert!(refused(&path, kind, &[&beside], true).unwrap().contains("an input"));
+    // another table in its place, or another file beside it
+    write("site,iml", &ours);
+    assert!(refused(&path, kind, &[], false).unwrap().contains("a.csv is there already"));
+    write("site,u_m", "{\"dc:title\": \"mine\"}");
+    assert!(refused(&path, kind, &[], false).unwrap().contains("a.csv-metadata.json is there already"));
+    assert_eq!(refused(&path, kind, &[], true), None);
+    // a table that nothing is said of
+    std::fs::remove_file(&beside).unwrap();
+    assert!(refused(&path, kind, &[], false).unwrap().contains("a.csv is there already"));
 }
 
 #[test]

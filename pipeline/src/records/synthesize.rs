@@ -10,7 +10,7 @@ use uplift_motion::{RecordPair, STANDARD_GRAVITY_M_S2, at2_text};
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::outputs::{self, Output, OutputKind};
-use crate::result::{write_atomically, write_table};
+use crate::result::{table_text, write_atomically};
 
 /// Which records are made, and where they go.
 #[derive(Debug, Clone)]
@@ -59,7 +59,7 @@ pub fn synthesize(options: &SynthesizeOptions, events: &dyn Events) -> Result<Sy
         }
     }
     let line = format!("uplift {} ({}), synthetic records: {set:?}", crate::VERSION, crate::COMMIT);
-    write_table(&manifest, &line, columns(&pairs))?;
+    write_atomically(&manifest, &table_text(&manifest, &line, columns(&pairs))?)?;
     Ok(SynthesizeReport { pairs: pairs.len(), manifest })
 }
 

@@ -1,6 +1,6 @@
 //! The confidence bands of a result, and the draws that they were made of.
 
-use uplift_bootstrap::ResamplingPlan;
+use uplift_bootstrap::{Interval, ResamplingPlan};
 use uplift_motion::IntensityMeasure;
 
 use super::file::ResultFile;
@@ -32,7 +32,23 @@ pub struct MeasureBands {
     pub range_of_interval: Array<3>,
 }
 
+/// How bands were made of their draws.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct BandMethod {
+    /// Share of the replicates between the limits.
+    pub(crate) confidence: f64,
+    /// How a limit is read.
+    pub(crate) interval: Interval,
+    /// Only strengths above this count in Eq. 4.9 and 4.10.
+    pub(crate) strength_above: f64,
+}
+
 impl StoredBands {
+    /// Names of lower limit, median and upper limit: `u05_m`, `u50_m`, `u95_m`.
+    pub fn limit_names(&self) -> [String; 3] {
+        limit_names(self.confidence)
+    }
+
     /// The bands of `measure`.
     pub fn of(&self, measure: IntensityMeasure) -> Option<&MeasureBands> {
         self.measures.iter().find(|bands| bands.measure == measure)
@@ -49,11 +65,15 @@ impl StoredBands {
 }
 
 impl ResultFile {
-    /// The confidence bands of a result of uniform risk; none before `uplift bootstrap`.
+    /// The confidence bands of a result of uniform risk; none before `uplift bootstrap`, and none of risks that it was
+    /// asked for before [`resampled`](Self::resampled).
     ///
     /// # Errors
     /// A file that is damaged, or of another kind.
     pub fn bands(&self) -> Result<Option<StoredBands>, UpliftError> {
+        if let Some(asked) = &self.asked {
+            return Ok(asked.bands.clone());
+        }
         let axes = self.axes()?;
         if !self.reader.exists(bootstrap::ROOT) {
             return Ok(None);
@@ -97,5 +117,19 @@ impl ResultFile {
         ResamplingPlan::from_multiplicities(records, &sizes, replicates, &counts)
             .map(Some)
             .map_err(|error| self.fail(error))
+    }
+
+    /// How the bands of the file were made of their draws.
+    ///
+    /// # Errors
+    /// A file without bands, or one that is damaged.
+    pub(crate) fn band_method(&self) -> Result<BandMethod, UpliftError> {
+        let word = self.reader.attribute_text(bootstrap::ROOT, "interval")?;
+        let interval = Interval::ALL.into_iter().find(|interval| interval.key() == word);
+        Ok(BandMethod {
+            confidence: self.reader.attribute_f64(bootstrap::ROOT, "confidence")?,
+            interval: interval.ok_or_else(|| self.damaged(format!("{}: interval {word:?}", bootstrap::ROOT)))?,
+            strength_above: self.reader.attribute_f64(bootstrap::ROOT, "strength_above")?,
+        })
     }
 }

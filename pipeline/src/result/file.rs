@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use uplift_labelled::{LabelledArray, LabelledReader};
 use uplift_study::Kind;
 
+use super::asked::Asked;
 use super::head::kind_of;
 use super::layout::{LAYOUT, axis};
 use super::other_file::no_result;
@@ -40,6 +41,7 @@ use crate::error::UpliftError;
 /// | [`stripes`](Self::stripes) | peak displacements of all runs, for what is asked after a run |
 /// | [`bands`](Self::bands), [`resampling_plan`](Self::resampling_plan) | confidence bands and their draws |
 /// | [`study`](Self::study) | the study itself, to be asked something new |
+/// | [`at`](Self::at), [`resampled`](Self::resampled) | the same at other probabilities or return periods |
 /// | **of displacement spectra** | |
 /// | [`displacements`](Self::displacements) | the spectra |
 /// | [`motions`](Self::motions) | every peak displacement of a set |
@@ -48,6 +50,8 @@ pub struct ResultFile {
     pub(super) path: PathBuf,
     pub(super) reader: LabelledReader,
     kind: Kind,
+    /// What it was asked for in place of the risks of its study.
+    pub(super) asked: Option<Asked>,
 }
 
 /// The axes of a result of uniform risk.
@@ -88,7 +92,7 @@ impl ResultFile {
             )));
         }
         let kind = kind_of(&reader);
-        Ok(Self { path: path.to_owned(), reader, kind })
+        Ok(Self { path: path.to_owned(), reader, kind, asked: None })
     }
 
     /// The file.
@@ -101,11 +105,21 @@ impl ResultFile {
         self.kind
     }
 
-    /// The axes of a result of uniform risk.
+    /// The axes of a result of uniform risk, with the probabilities that it was asked for, if it was.
     ///
     /// # Errors
     /// A file that is damaged, or of another kind.
     pub fn axes(&self) -> Result<RiskAxes, UpliftError> {
+        let mut axes = self.stored_axes()?;
+        if let Some(asked) = &self.asked {
+            axes.poes.clone_from(&asked.spectra.poes);
+            axes.years = asked.spectra.years;
+        }
+        Ok(axes)
+    }
+
+    /// The axes as the file has them.
+    pub(super) fn stored_axes(&self) -> Result<RiskAxes, UpliftError> {
         self.require(Kind::UniformRisk)?;
         let reader = &self.reader;
         let axes = RiskAxes {

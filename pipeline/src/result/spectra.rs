@@ -1,13 +1,14 @@
 //! The uniform risk spectra of a result, and what was fitted to them.
 
 use uplift_motion::IntensityMeasure;
-use uplift_regression::Exponential;
-use uplift_risk::OrdinateFlag;
+use uplift_regression::{Exponential, ExponentialFit};
+use uplift_risk::{Ordinate, OrdinateFlag};
 
 use super::file::ResultFile;
 use super::layout::{axis, regression, urs};
 use crate::array::Array;
 use crate::error::UpliftError;
+use crate::uniform_risk::{Coefficients, Spectra};
 
 /// The spectra of a result, read as its study says (`risk.contour`), with their coefficients.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,6 +58,14 @@ pub struct Fit {
 }
 
 impl Fit {
+    /// What a fit found, if there is one.
+    fn of(fit: Option<&ExponentialFit>) -> Self {
+        fit.map_or(
+            Self { c0_m: f64::NAN, c1: f64::NAN, c2_m: f64::NAN, rmse_m: f64::NAN, bound_active: false },
+            |fit| Self { c0_m: fit.c0, c1: fit.c1, c2_m: fit.c2, rmse_m: fit.rmse, bound_active: fit.bound_active },
+        )
+    }
+
     /// The curve; none where there is no fit.
     pub fn curve(&self) -> Option<Exponential> {
         self.c0_m.is_finite().then_some(Exponential { c0: self.c0_m, c1: self.c1, c2: self.c2_m })
@@ -102,12 +111,31 @@ impl StoredSpectra {
     }
 }
 
+impl MeasureSpectra {
+    /// The spectra as a run computes them, and their coefficients.
+    pub(super) fn of(spectra: &Spectra, coefficients: &Coefficients) -> Self {
+        let of = |value: fn(&Ordinate) -> f64| spectra.ordinates.map(value);
+        Self {
+            measure: spectra.measure,
+            u_m: of(|ordinate| ordinate.displacement_m),
+            flags: spectra.ordinates.map(|ordinate| ordinate.flag),
+            lower_tail_share: of(|ordinate| ordinate.lower_tail_share),
+            upper_tail_share: of(|ordinate| ordinate.upper_tail_share),
+            fits: coefficients.fits.map(|fit| Fit::of(fit.as_ref().ok())),
+        }
+    }
+}
+
 impl ResultFile {
-    /// The spectra and coefficients of a result of uniform risk.
+    /// The spectra and coefficients of a result of uniform risk; of the risks that it was asked for, if it was
+    /// ([`at`](Self::at)).
     ///
     /// # Errors
     /// A file that is damaged, or of another kind.
     pub fn spectra(&self) -> Result<StoredSpectra, UpliftError> {
+        if let Some(asked) = &self.asked {
+            return Ok(asked.spectra.clone());
+        }
         let axes = self.axes()?;
         let (sites, poes) = ((axis::SITE, axes.sites.len()), (axis::POE, axes.poes.len()));
         let mut measures = Vec::new();
@@ -137,6 +165,7 @@ impl ResultFile {
         let super::RiskAxes { strengths, poes, years, sites, .. } = axes;
         Ok(StoredSpectra { strengths, poes, years, sites, measures })
     }
+
     /// The flags of the ordinates of `measure`.
     fn flags(
         &self,
@@ -165,5 +194,14 @@ pub(crate) fn flag_number(flag: OrdinateFlag) -> u8 {
         OrdinateFlag::Regular => 0,
         OrdinateFlag::NoExceedance => 1,
         OrdinateFlag::Censored => 2,
+    }
+}
+
+/// How it stands in tables.
+pub(crate) fn flag_word(flag: OrdinateFlag) -> &'static str {
+    match flag {
+        OrdinateFlag::Regular => "regular",
+        OrdinateFlag::NoExceedance => "no exceedance",
+        OrdinateFlag::Censored => "censored",
     }
 }

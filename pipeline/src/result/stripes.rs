@@ -76,6 +76,23 @@ impl StoredStripes {
     pub fn poe_index(&self, wanted: Option<f64>) -> Result<usize, UpliftError> {
         poe_index(&self.poes, wanted)
     }
+
+    /// Position of the probability whose return period is `years`, which may be rounded as is usual: 475 years for
+    /// 474.6, 10 % in 50 years.
+    ///
+    /// # Errors
+    /// A return period that the result does not have.
+    pub fn return_period_index(&self, years: f64) -> Result<usize, UpliftError> {
+        let apart = |rate: &f64| (years * rate - 1.0).abs();
+        let nearest = (0..self.targets_per_year.len())
+            .min_by(|&a, &b| apart(&self.targets_per_year[a]).total_cmp(&apart(&self.targets_per_year[b])))
+            .filter(|&index| apart(&self.targets_per_year[index]) < 0.005);
+        nearest.ok_or_else(|| UpliftError::Choice {
+            option: "--return-period",
+            wanted: Some(years.to_string()),
+            known: self.targets_per_year.iter().map(|rate| format!("{:.1}", 1.0 / rate)).collect(),
+        })
+    }
 }
 
 /// Position of the probability `wanted` among `poes`, or of the smallest.
@@ -152,7 +169,7 @@ impl ResultFile {
         })
     }
 
-    fn stored_measure(
+    pub(super) fn stored_measure(
         &self,
         axes: &RiskAxes,
         targets_per_year: &[f64],

@@ -7,8 +7,9 @@ use uplift_hazard::rate_from_probability;
 use uplift_motion::IntensityMeasure;
 use uplift_risk::StripeWeights;
 
+use super::asked::{AskedRisk, RiskTargets};
 use super::file::ResultFile;
-use super::layout::{axis, urs};
+use super::layout::urs;
 use super::records::StoredRecords;
 use super::stripes::poe_index;
 use crate::array::Array;
@@ -63,16 +64,14 @@ impl ResultFile {
     pub fn study(&self, manifest: Option<&Path>) -> Result<StudyOfResult, UpliftError> {
         let axes = self.axes_with_sites()?;
         let mut study = self.stored_study()?;
+        study.risk.poe.clone_from(&axes.poes);
+        study.risk.years = axes.years;
+        let spectra = self.spectra()?;
         if let Some(manifest) = manifest {
             let absolute = std::path::absolute(manifest)
                 .map_err(|error| UpliftError::input(format!("{}: {error}", manifest.display())))?;
             study.records.source = study.records.source.by_manifest(absolute);
         }
-        let lengths = [
-            (axis::SITE, axes.sites.len()),
-            (axis::POE, study.risk.poe.len()),
-            (axis::STRENGTH, study.strengths.len()),
-        ];
         let measures = study
             .measures
             .iter()
@@ -81,9 +80,10 @@ impl ResultFile {
                     let curve = self.curves(site, plan.measure)?.curve;
                     self.weigh(site, &curve, &plan.levels, study.risk.extrapolate)
                 };
+                let own = spectra.measures.iter().find(|spectra| spectra.measure == plan.measure);
                 Ok(SpectraOfResult {
                     plan: plan.clone(),
-                    u_m: self.array(&urs::u_m(plan.measure), lengths)?,
+                    u_m: own.ok_or_else(|| self.damaged(urs::u_m(plan.measure) + " is missing"))?.u_m.clone(),
                     weights: axes.sites.iter().map(weigh).collect::<Result<_, _>>()?,
                 })
             })
@@ -143,12 +143,16 @@ impl StudyOfResult {
         }
     }
 
-    /// Position of the probability `wanted`, or of the smallest.
+    /// Position of the one probability that was `asked` for; of the smallest of the study where none was.
     ///
     /// # Errors
-    /// A probability that the result does not have.
-    pub fn poe_index(&self, wanted: Option<f64>) -> Result<usize, UpliftError> {
-        poe_index(&self.study.risk.poe, wanted)
+    /// [`UpliftError::Usage`] where several were.
+    pub(crate) fn only_risk(&self, asked: &AskedRisk) -> Result<usize, UpliftError> {
+        let poes = &self.study.risk.poe;
+        if asked.targets != RiskTargets::OfStudy && poes.len() > 1 {
+            return Err(UpliftError::Usage("one risk at a time: give one --poe or --return-period".to_owned()));
+        }
+        poe_index(poes, None)
     }
 
     /// Target rate of the probability at `poe`, 1/yr (Eq. 4.8).

@@ -9,19 +9,37 @@ use polars_io::prelude::{CsvWriter, SerWriter};
 use uplift_atomic_file::write_whole;
 
 use crate::error::UpliftError;
+use crate::outputs::{metadata_path, metadata_text};
 use crate::text::one_line;
 use cells::neutral_column;
 pub(crate) use cells::{neutral, plain};
 
-/// Write a comment line and a table, whole or not at all.
+/// Write a table, and beside it what `line` says of it ([`metadata_path`]); each whole or not at all.
 ///
 /// # Errors
 /// A file that cannot be written; an earlier one is then as it was.
 pub fn write_table(path: &Path, line: &str, columns: Vec<Column>) -> Result<(), UpliftError> {
-    write_atomically(path, &table_text(path, line, columns)?)
+    let names: Vec<String> = columns.iter().map(|column| column.name().to_string()).collect();
+    let table = table_text(path, "", columns)?;
+    // first, since a table without it is nobody's
+    write_metadata(path, line, names.iter().map(String::as_str))?;
+    write_atomically(path, &table)
 }
 
-/// The same as it is to be written to `path`. Texts that a spreadsheet would compute have an apostrophe before them.
+/// Write what stands beside the table at `path`: `line`, where its numbers come from, and the names of its columns.
+///
+/// # Errors
+/// A file that cannot be written; an earlier one is then as it was.
+pub(crate) fn write_metadata<'a>(
+    path: &Path,
+    line: &str,
+    columns: impl Iterator<Item = &'a str>,
+) -> Result<(), UpliftError> {
+    write_atomically(&metadata_path(path), metadata_text(path, line, columns).as_bytes())
+}
+
+/// A table as it is to be written to `path`, behind a comment of one `line` unless that is empty. Texts that a
+/// spreadsheet would compute have an apostrophe before them.
 ///
 /// # Errors
 /// Columns that make no table.

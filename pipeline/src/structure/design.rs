@@ -27,7 +27,7 @@ use crate::analysis::{Beside, LabelledPlan, ShardReport, Work};
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::inputs::RecordSet;
-use crate::result::{ResultFile, SpectraOfResult, StudyOfResult};
+use crate::result::{AskedRisk, ResultFile, SpectraOfResult, StudyOfResult};
 use crate::uniform_risk::{Stripes, motion_keys, plan_stripes};
 
 /// What is asked of a design.
@@ -37,8 +37,8 @@ pub struct DesignOptions {
     pub manifest: Option<PathBuf>,
     /// Site of the result; its only one where none is given.
     pub site: Option<String>,
-    /// Probability of exceedance, one of the result; the smallest where none is given.
-    pub poe: Option<f64>,
+    /// The risk of the design, one; the smallest probability of the study where none is given.
+    pub risk: AskedRisk,
     /// Measure of the spectrum; PGV where none is given and the result has it.
     pub measure: Option<IntensityMeasure>,
     /// Safety factor on the demand (Eq. 3.15), at least 1.
@@ -55,7 +55,7 @@ impl Default for DesignOptions {
         Self {
             manifest: None,
             site: None,
-            poe: None,
+            risk: AskedRisk::default(),
             measure: None,
             safety_factor: 2.5,
             spectrum_only: false,
@@ -103,9 +103,10 @@ pub struct DesignReport {
 ///
 /// # Errors
 /// A safety factor below 1 or implausibly large; a file that is missing, damaged, no result, or without sites; spectra
-/// of another system than ZSBE; a site, measure or probability that the result does not have; records of a manifest
-/// that was given and cannot be read; shards that do not belong together; [`UpliftError::Paused`] where `events` say
-/// so, [`UpliftError::Interrupted`] where no checkpoint can be written beside the result.
+/// of another system than ZSBE; a site or measure that the result does not have; a risk that is none, or several;
+/// records of a manifest that was given and cannot be read; shards that do not belong together;
+/// [`UpliftError::Paused`] where `events` say so, [`UpliftError::Interrupted`] where no checkpoint can be written
+/// beside the result.
 pub fn design(
     structure: &Structure,
     result: &Path,
@@ -114,12 +115,12 @@ pub fn design(
 ) -> Result<DesignReport, UpliftError> {
     let safety_factor = options.safety_factor;
     SAFETY_FACTOR.check("--safety-factor", safety_factor).map_err(|mistake| UpliftError::Implausible(vec![mistake]))?;
-    let file = ResultFile::open(result)?;
+    let file = ResultFile::open(result)?.at(&options.risk)?;
     let source = file.study(options.manifest.as_deref())?;
     require_zero_stiffness(&source)?;
     let site = site_index(&source, options.site.as_deref())?;
     let measure = &source.measures[measure_index(&source, options.measure)?];
-    let poe = source.poe_index(options.poe)?;
+    let poe = source.only_risk(&options.risk)?;
     let target_per_year = source.target_per_year(poe)?;
     let restitution = structure.description.restitution.unwrap_or(source.study.oscillator.restitution);
     let mut notes = differences(structure, &source, restitution);

@@ -3,14 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
-use uplift_risk::OrdinateFlag;
 use uplift_study::UniformRiskStudy;
 
 use super::Outcome;
 use super::site_table::site_table_paths;
 use crate::error::UpliftError;
 use crate::outputs::{Output, OutputKind, beside};
-use crate::result::write_table;
+use crate::result::{flag_word, write_table};
 
 /// The tables beside the result file `result`: spectra and coefficients.
 pub fn csv_paths(result: &Path) -> [PathBuf; 2] {
@@ -22,7 +21,7 @@ pub(crate) fn tables(study: &UniformRiskStudy, result: &Path) -> Vec<Output> {
     let mut tables = Vec::new();
     if study.output.csv && !study.sites.is_empty() {
         let [spectra, coefficients] = csv_paths(result);
-        tables.push(Output::new(spectra, OutputKind::Table("flag")));
+        tables.push(Output::new(spectra, OutputKind::Table("lower_tail_share")));
         tables.push(Output::new(coefficients, OutputKind::Table("rmse_plain_m")));
     }
     if study.site_table.is_some() {
@@ -34,7 +33,7 @@ pub(crate) fn tables(study: &UniformRiskStudy, result: &Path) -> Vec<Output> {
     tables
 }
 
-/// Write the tables of `outcome` beside the result file `result`, one comment line of provenance first.
+/// Write the tables of `outcome` beside the result file `result`, and beside each where it comes from.
 ///
 /// # Errors
 /// A file that cannot be written.
@@ -76,15 +75,6 @@ fn spectra_table(outcome: &Outcome<'_>) -> Vec<Column> {
         Column::new("lower_tail_share".into(), lower),
         Column::new("upper_tail_share".into(), upper),
     ]
-}
-
-/// A flag in tables.
-pub(crate) fn flag_word(flag: OrdinateFlag) -> &'static str {
-    match flag {
-        OrdinateFlag::Regular => "regular",
-        OrdinateFlag::NoExceedance => "no exceedance",
-        OrdinateFlag::Censored => "censored",
-    }
 }
 
 fn regression_table(outcome: &Outcome<'_>) -> Vec<Column> {

@@ -5,6 +5,7 @@ mod folder;
 mod force;
 mod probability;
 mod result;
+mod risk;
 mod structure;
 mod study;
 
@@ -13,5 +14,6 @@ pub(crate) use folder::require_folder;
 pub(crate) use force::ForceArgument;
 pub(crate) use probability::probability;
 pub(crate) use result::ResultArguments;
+pub(crate) use risk::RiskArguments;
 pub(crate) use structure::StructureArguments;
 pub(crate) use study::{StudyArguments, run_options, shard};

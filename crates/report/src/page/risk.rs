@@ -14,6 +14,10 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
     let mut tables = vec![summary(&source.spectra), coefficients(&source.spectra)];
     tables.extend(source.bands.as_ref().map(|bands| confidence(&source.spectra, bands)));
     let stored = &source.stored;
+    let mut facts = vec![("Seed", stored.seed.to_string())];
+    if file.is_asked() {
+        facts.push(("Probabilities", "asked for after the run, from the stripes of the result".to_owned()));
+    }
     Ok(Content {
         subject: "Uniform risk spectra",
         extent: format!(
@@ -22,7 +26,7 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
             stored.strengths.len(),
             stored.sites.len()
         ),
-        facts: vec![("Seed", stored.seed.to_string())],
+        facts,
         tables,
         figures: source.figures()?,
     })

@@ -22,7 +22,10 @@ pub(super) fn of(study: &DisplacementStudy) -> Vec<Warning> {
             numbers.extend(outermost(&family.strengths, (USUAL_STRENGTH, "strengths.values")));
         }
         Structures::Blocks(family) => {
-            numbers.extend(outermost(&family.height_m, (USUAL_LENGTH, "block.height_m")));
+            // one of several may stand for an endless block; a mistake of unit moves them all
+            if !family.height_m.iter().any(|&height_m| USUAL_LENGTH.contains(height_m)) {
+                numbers.extend(outermost(&family.height_m, (USUAL_LENGTH, "block.height_m")));
+            }
             numbers.extend(family.restitution.map(|value| ("block.restitution", value, USUAL_RESTITUTION)));
         }
     }

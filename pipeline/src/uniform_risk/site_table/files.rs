@@ -14,13 +14,14 @@ use super::spectra::SiteSpectra;
 use crate::error::UpliftError;
 use crate::inputs::{ListedSite, SiteList};
 use crate::outputs::beside;
-use crate::result::neutral;
+use crate::result::{flag_word, neutral, write_metadata};
 use crate::text::nearest;
-use crate::uniform_risk::csv::flag_word;
 use uplift_study::UniformRiskStudy;
 
 /// Strengths of which the map shows ordinates, unless the study names some.
 const SHOWN_ON_MAP: [f64; 3] = [0.1, 0.2, 0.4];
+/// Columns of the spectra.
+const SPECTRA: [&str; 9] = ["site", "longitude", "latitude", "im", "poe", "years", "strength", "u_m", "flag"];
 /// Columns of the coefficients, before those of the study's own table.
 const COEFFICIENTS: [&str; 12] =
     ["site", "longitude", "latitude", "im", "poe", "years", "c0_m", "c1", "c2_m", "rmse_m", "bound_active", "problem"];
@@ -37,6 +38,10 @@ pub struct SiteTableFiles {
     files: [GrowingFile; 3],
     layout: SiteTableLayout,
     features: u64,
+    /// Where the numbers come from.
+    line: String,
+    /// Names of the columns of the two tables.
+    columns: [Vec<String>; 2],
 }
 
 /// What the rows and properties are called.
@@ -90,16 +95,19 @@ impl SiteTableFiles {
         let paths = site_table_paths(result);
         let [spectra, coefficients, map] = &paths;
         let mut files = [GrowingFile::create(spectra)?, GrowingFile::create(coefficients)?, GrowingFile::create(map)?];
-        let columns: Vec<String> =
-            COEFFICIENTS.iter().map(|&name| name.to_owned()).chain(carried_columns(&list.carried)).collect();
-        let columns: Vec<String> = columns.iter().map(|name| cell(name)).collect();
-        files[0].write(&format!("# {line}\nsite,longitude,latitude,im,poe,years,strength,u_m,flag\n"))?;
-        files[1].write(&format!("# {line}\n{}\n", columns.join(",")))?;
+        let columns = [
+            SPECTRA.map(str::to_owned).to_vec(),
+            COEFFICIENTS.iter().map(|&name| name.to_owned()).chain(carried_columns(&list.carried)).collect(),
+        ];
+        for (file, names) in files.iter_mut().zip(&columns) {
+            let cells: Vec<String> = names.iter().map(|name| cell(name)).collect();
+            file.write(&format!("{}\n", cells.join(",")))?;
+        }
         files[2].write(&format!(
             "{{\"type\":\"FeatureCollection\",\n\"provenance\":{},\n\"features\":[",
             json_text(line)
         ))?;
-        Ok(Self { paths, files, layout, features: 0 })
+        Ok(Self { paths, files, layout, features: 0, line: line.to_owned(), columns })
     }
 
     /// What the rows and properties are called.
@@ -128,6 +136,9 @@ impl SiteTableFiles {
         self.files[2].write("\n]}\n")?;
         for file in &mut self.files {
             file.flush()?;
+        }
+        for (path, names) in self.paths.iter().zip(&self.columns) {
+            write_metadata(path, &self.line, names.iter().map(String::as_str))?;
         }
         self.files.into_iter().try_for_each(GrowingFile::put_in_place)?;
         Ok(self.paths.into())

@@ -33,10 +33,19 @@ impl<'a> SiteRisk<'a> {
     /// # Errors
     /// Numbers that do not fit together, which the check of the study rules out.
     pub fn new(study: &'a UniformRiskStudy, stripes: &Stripes) -> Result<Self, UpliftError> {
-        let demands = (0..stripes.peaks.axes().systems)
-            .into_par_iter()
-            .map(|strength| pooled_demand(stripes, strength))
-            .collect::<Result<_, _>>()?;
+        Self::of(study, stripes.peaks.axes().systems, |strength| pooled_demand(stripes, strength))
+    }
+
+    /// The same of demands that `demand` pools for each of the `strengths`.
+    ///
+    /// # Errors
+    /// Those of `demand`, and numbers that do not fit together.
+    pub(crate) fn of(
+        study: &'a UniformRiskStudy,
+        strengths: usize,
+        demand: impl Fn(usize) -> Result<PooledDemand, UpliftError> + Sync + Send,
+    ) -> Result<Self, UpliftError> {
+        let demands = (0..strengths).into_par_iter().map(demand).collect::<Result<_, _>>()?;
         Ok(Self { study, reading: Reading::of(study)?, demands })
     }
 

@@ -18,6 +18,9 @@ pub(crate) struct InfluenceArguments {
     /// Probability of exceedance shown, 0.1 or 10% [default: the smallest]
     #[arg(long, value_parser = probability)]
     poe: Option<f64>,
+    /// The same by its return period in years, for instance 475
+    #[arg(long, value_name = "YEARS", conflicts_with = "poe")]
+    return_period: Option<f64>,
     /// Print the rows as JSON
     #[arg(long)]
     json: bool,
@@ -25,7 +28,12 @@ pub(crate) struct InfluenceArguments {
 
 pub(crate) fn influence(arguments: &InfluenceArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let found = arguments.result.find(terminal)?;
-    let options = InfluenceOptions { poe: arguments.poe, top: arguments.top, force: arguments.result.force() };
+    let options = InfluenceOptions {
+        poe: arguments.poe,
+        return_period: arguments.return_period,
+        top: arguments.top,
+        force: arguments.result.force(),
+    };
     let report = run(&found.path, &options, terminal)?;
     if arguments.json { print_json(&report) } else { print_influence(&report, terminal) }
 }

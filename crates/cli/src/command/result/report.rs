@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use uplift_report::{ReportOptions, report as write_report};
 
-use crate::command::arguments::ForceArgument;
+use crate::command::arguments::{ForceArgument, RiskArguments};
 use crate::error::CommandError;
 use crate::show::print_files;
 use crate::terminal::Terminal;
@@ -19,6 +19,8 @@ pub(crate) struct ReportArguments {
     #[arg(short, long, value_name = "FILE.html")]
     output: Option<PathBuf>,
     #[command(flatten)]
+    risk: RiskArguments,
+    #[command(flatten)]
     overwriting: ForceArgument,
 }
 
@@ -26,6 +28,7 @@ pub(crate) fn report(arguments: &ReportArguments, terminal: &Terminal) -> Result
     let options = ReportOptions {
         results: arguments.results.clone(),
         output: arguments.output.clone(),
+        risk: arguments.risk.asked(),
         force: arguments.overwriting.force,
     };
     print_files(&[write_report(&options, terminal)?.file], terminal)

@@ -6,6 +6,7 @@ use clap::Args;
 use uplift::table::{TableOptions, table as table_of};
 use uplift_motion::IntensityMeasure;
 
+use crate::command::arguments::RiskArguments;
 use crate::error::CommandError;
 use crate::show::{print_json, print_table};
 use crate::terminal::Terminal;
@@ -25,6 +26,8 @@ pub(crate) struct TableArguments {
     /// Which intensity measure; not for displacement spectra
     #[arg(long, default_value = "pgv", value_parser = ["pgv", "pga", "all"], ignore_case = true)]
     im: String,
+    #[command(flatten)]
+    risk: RiskArguments,
     /// Print the rows as JSON
     #[arg(long)]
     json: bool,
@@ -35,6 +38,7 @@ pub(crate) fn table(arguments: &TableArguments, terminal: &Terminal) -> Result<(
         result: arguments.result.clone(),
         reference: arguments.reference.clone(),
         measure: IntensityMeasure::ALL.into_iter().find(|measure| arguments.im.eq_ignore_ascii_case(measure.key())),
+        risk: arguments.risk.asked(),
     };
     let report = table_of(&options, terminal)?;
     if arguments.json { print_json(&report) } else { print_table(&report) }

@@ -4,7 +4,7 @@ use clap::Args;
 use uplift::structure::{DesignOptions, design as run, design_shard};
 use uplift_motion::IntensityMeasure;
 
-use crate::command::arguments::{StructureArguments, probability};
+use crate::command::arguments::{RiskArguments, StructureArguments};
 use crate::error::CommandError;
 use crate::show::print_shard;
 use crate::show::{print_design, print_json};
@@ -20,9 +20,8 @@ pub(crate) struct DesignArguments {
     /// Site of the result [default: its only one]
     #[arg(long)]
     site: Option<String>,
-    /// Probability of exceedance, one of the result, 0.1 or 10% [default: the smallest]
-    #[arg(long, value_parser = probability)]
-    poe: Option<f64>,
+    #[command(flatten)]
+    risk: RiskArguments,
     /// Intensity measure of the spectrum: pgv or pga [default: pgv if the result has it]
     #[arg(long)]
     measure: Option<IntensityMeasure>,
@@ -47,7 +46,7 @@ pub(crate) fn design(arguments: &DesignArguments, terminal: &Terminal) -> Result
     let options = DesignOptions {
         manifest: manifest.clone(),
         site: arguments.site.clone(),
-        poe: arguments.poe,
+        risk: arguments.risk.asked(),
         measure: arguments.measure,
         safety_factor: arguments.safety_factor,
         spectrum_only: arguments.spectrum_only,

@@ -1,0 +1,39 @@
+//! Risks that a result is asked for: by probability or by return period.
+
+use clap::Args;
+use uplift::result::{AskedRisk, RiskTargets};
+
+use super::probability;
+
+/// The risks of the spectra, any: computed from the stripes of the result, without a new run.
+#[derive(Debug, Args)]
+pub(crate) struct RiskArguments {
+    /// Probabilities of exceedance, any, 0.1 or 10%, from the stripes of the result [default: those of its study]
+    #[arg(
+        long,
+        value_name = "P[,P…]",
+        value_delimiter = ',',
+        allow_negative_numbers = true,
+        value_parser = probability,
+        conflicts_with = "return_period"
+    )]
+    poe: Vec<f64>,
+    /// Return periods in years, in place of probabilities
+    #[arg(long, value_name = "YEARS[,…]", value_delimiter = ',', allow_negative_numbers = true)]
+    return_period: Vec<f64>,
+    /// Years that the probabilities refer to [default: those of the study]
+    #[arg(long, value_name = "YEARS", allow_negative_numbers = true)]
+    years: Option<f64>,
+}
+
+impl RiskArguments {
+    /// What is asked for.
+    pub(crate) fn asked(&self) -> AskedRisk {
+        let targets = match (self.poe.is_empty(), self.return_period.is_empty()) {
+            (false, _) => RiskTargets::Probabilities(self.poe.clone()),
+            (true, false) => RiskTargets::ReturnPeriods(self.return_period.clone()),
+            (true, true) => RiskTargets::OfStudy,
+        };
+        AskedRisk { targets, years: self.years }
+    }
+}

@@ -1,0 +1,66 @@
+//! A result as JSON.
+
+use serde_json::{Value, json};
+
+use super::Export;
+use super::source::{BandOf, Row};
+use crate::result::flag_word;
+use crate::text::finite;
+
+impl Export {
+    /// Everything as one JSON object; what is not finite is null.
+    pub fn json(&self) -> Value {
+        json!({
+            "provenance": self.provenance(),
+            "title": self.head.title,
+            "created": self.head.created,
+            "study_digest": self.head.study_digest(),
+            "record_set": self.head.record_set,
+            "synthetic": self.head.synthetic,
+            "alarms": self.alarms,
+            "years": self.spectra.years,
+            "strength": self.spectra.strengths,
+            "confidence": self.bands.as_ref().map(|bands| bands.confidence),
+            "spectra": self.rows().map(|row| self.spectrum(&row)).collect::<Vec<_>>(),
+        })
+    }
+
+    fn spectrum(&self, row: &Row<'_>) -> Value {
+        let fit = row.spectrum.fit;
+        let [lower, upper] = row.tail_shares().map(numbers);
+        json!({
+            "site": row.spectrum.site,
+            "im": row.spectrum.measure.label(),
+            "poe": row.spectrum.poe,
+            "return_period_years": finite(row.return_period),
+            "u_m": numbers(row.spectrum.u_m),
+            "flag": row.flags().iter().copied().map(flag_word).collect::<Vec<_>>(),
+            "lower_tail_share": lower,
+            "upper_tail_share": upper,
+            "fit": {
+                "c0_m": finite(fit.c0_m),
+                "c1": finite(fit.c1),
+                "c2_m": finite(fit.c2_m),
+                "rmse_m": finite(fit.rmse_m),
+                "bound_active": fit.bound_active,
+            },
+            "bands": self.bands_of(row).iter().map(band).collect::<Vec<_>>(),
+        })
+    }
+}
+
+fn band(band: &BandOf<'_>) -> Value {
+    let [lower_m, median_m, upper_m] = band.limits_m.map(numbers);
+    json!({
+        "sample_size": band.records,
+        "lower_m": lower_m,
+        "median_m": median_m,
+        "upper_m": upper_m,
+        "e_median_pct": finite(band.error_of_median_pct),
+        "r_90ci_pct": finite(band.range_of_interval_pct),
+    })
+}
+
+fn numbers(values: &[f64]) -> Vec<Option<f64>> {
+    values.iter().copied().map(finite).collect()
+}

@@ -1,0 +1,142 @@
+//! What is exported of a result, as every format takes it.
+
+use std::path::Path;
+
+use uplift_hazard::rate_from_probability;
+use uplift_risk::OrdinateFlag;
+use uplift_study::UniformRiskStudy;
+
+use crate::alarms::{Alarm, alarms};
+use crate::error::UpliftError;
+use crate::result::{Head, ResultFile, Spectrum, StoredBands, StoredHazard, StoredSpectra};
+
+/// The spectra, bands and coefficients of a result, and where they come from.
+pub struct Export {
+    pub(super) head: Head,
+    pub(super) study: UniformRiskStudy,
+    pub(super) spectra: StoredSpectra,
+    pub(super) bands: Option<StoredBands>,
+    pub(super) hazard: Vec<StoredHazard>,
+    /// Return periods of the probabilities, years (Eq. 4.8).
+    pub(super) return_periods: Vec<f64>,
+    /// What to know before using them, the worst first.
+    pub(super) alarms: Vec<Alarm>,
+    /// Number of records.
+    pub(super) records: usize,
+    /// Name of the result file.
+    pub(super) file: String,
+    /// One line: program, time, file, records.
+    provenance: String,
+}
+
+/// A spectrum with its place `[site, poe]` and all that goes with it over the strengths.
+pub(super) struct Row<'a> {
+    pub(super) at: [usize; 2],
+    pub(super) spectrum: Spectrum<'a>,
+    /// Years.
+    pub(super) return_period: f64,
+}
+
+impl Row<'_> {
+    /// Whether the ordinates exist.
+    pub(super) fn flags(&self) -> &[OrdinateFlag] {
+        self.spectrum.flags
+    }
+
+    /// Shares of their risk from below the first stripe and above the last, 0 to 1.
+    pub(super) fn tail_shares(&self) -> [&[f64]; 2] {
+        [self.spectrum.lower_tail_share, self.spectrum.upper_tail_share]
+    }
+}
+
+impl Export {
+    /// Read the result at `path`.
+    ///
+    /// # Errors
+    /// A file that is missing, damaged or no result of uniform risk spectra.
+    pub fn read(path: &Path) -> Result<Self, UpliftError> {
+        Self::of(&ResultFile::open(path)?)
+    }
+
+    /// Read `file`, at the risks that it was asked for.
+    ///
+    /// # Errors
+    /// A file that is damaged, or no result of uniform risk spectra.
+    pub fn of(file: &ResultFile) -> Result<Self, UpliftError> {
+        let path = file.path();
+        let spectra = file.spectra()?;
+        if spectra.measures.is_empty() {
+            return Err(UpliftError::input(format!("{}: has no spectra: the study has no sites", path.display())));
+        }
+        let head = file.head()?;
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let provenance = format!(
+            "uplift {} ({}), {}; result {name}; study digest {}; records: {}",
+            head.version,
+            head.commit,
+            head.created,
+            head.study_digest(),
+            head.record_set
+        )
+        .replace(['\n', '\r'], " ");
+        let return_period = |&poe: &f64| Ok(1.0 / rate_from_probability(poe, spectra.years)?);
+        Ok(Self {
+            return_periods: spectra.poes.iter().map(return_period).collect::<Result<_, UpliftError>>()?,
+            study: file.stored_study()?,
+            bands: file.bands()?,
+            hazard: file.hazard()?,
+            alarms: alarms(file)?,
+            records: file.axes()?.records.len(),
+            head,
+            spectra,
+            file: name,
+            provenance,
+        })
+    }
+
+    /// One line of provenance.
+    pub fn provenance(&self) -> &str {
+        &self.provenance
+    }
+
+    /// Every spectrum, by measure, then site, then probability.
+    pub(super) fn rows(&self) -> impl Iterator<Item = Row<'_>> {
+        let places = self
+            .spectra
+            .measures
+            .iter()
+            .flat_map(|measure| measure.fits.blocks::<2>().map(|(at, _)| at));
+        places.zip(self.spectra.rows()).map(|(at, spectrum)| Row {
+            at,
+            spectrum,
+            return_period: self.return_periods[at[1]],
+        })
+    }
+
+    /// The bands of a spectrum, by size of the sample: the number of records and lower limit, median and upper limit
+    /// over the strengths, m.
+    pub(super) fn bands_of(&self, row: &Row<'_>) -> Vec<BandOf<'_>> {
+        let Some(bands) = &self.bands else { return Vec::new() };
+        let Some(of_measure) = bands.of(row.spectrum.measure) else { return Vec::new() };
+        let [site, poe] = row.at;
+        let of_size = |(size, &records): (usize, &u32)| BandOf {
+            records,
+            limits_m: of_measure.limits_m.each_ref().map(|limits| limits.block([site, poe, size])),
+            error_of_median_pct: of_measure.error_of_median[[site, poe, size]],
+            range_of_interval_pct: of_measure.range_of_interval[[site, poe, size]],
+        };
+        bands.sizes.iter().enumerate().map(of_size).collect()
+    }
+}
+
+/// The band of a spectrum for one size of the sample.
+pub(super) struct BandOf<'a> {
+    /// Records in a sample.
+    pub(super) records: u32,
+    /// Lower limit, median and upper limit over the strengths, m.
+    pub(super) limits_m: [&'a [f64]; 3],
+    /// Error of the median (Eq. 4.9), %; NaN where there is none.
+    pub(super) error_of_median_pct: f64,
+    /// Width of the interval (Eq. 4.10), %; NaN where there is none.
+    pub(super) range_of_interval_pct: f64,
+}

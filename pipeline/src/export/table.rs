@@ -1,0 +1,61 @@
+//! A result as a tidy table.
+
+use polars::prelude::Column;
+
+use super::Export;
+use crate::result::flag_word;
+
+impl Export {
+    /// A row for each ordinate: its fit beside it, its return period and flag, and the limits of its bands for each
+    /// size of the sample, `u05_n20_m` for 20 records.
+    pub fn columns(&self) -> Vec<Column> {
+        let (mut site, mut im, mut flag) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut poe, mut period, mut strength, mut u_m, mut fit_m) =
+            (Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let names = self.band_names();
+        let mut limits: Vec<Vec<f64>> = vec![Vec::new(); names.len()];
+        for row in self.rows() {
+            let curve = row.spectrum.fit.curve();
+            for ((&eta, &ordinate_m), &of) in self.spectra.strengths.iter().zip(row.spectrum.u_m).zip(row.flags()) {
+                site.push(row.spectrum.site);
+                im.push(row.spectrum.measure.label());
+                poe.push(row.spectrum.poe);
+                period.push(row.return_period);
+                strength.push(eta);
+                u_m.push(ordinate_m);
+                fit_m.push(curve.map(|curve| curve.at(eta)));
+                flag.push(flag_word(of));
+            }
+            let bands = self.bands_of(&row);
+            let of_row = bands.iter().flat_map(|band| band.limits_m);
+            for (column, values) in limits.iter_mut().zip(of_row) {
+                column.extend_from_slice(values);
+            }
+        }
+        let years = vec![self.spectra.years; site.len()];
+        let mut columns = vec![
+            Column::new("site".into(), site),
+            Column::new("im".into(), im),
+            Column::new("poe".into(), poe),
+            Column::new("years".into(), years),
+            Column::new("strength".into(), strength),
+            Column::new("u_m".into(), u_m),
+            Column::new("fit_m".into(), fit_m),
+            Column::new("return_period_years".into(), period),
+            Column::new("flag".into(), flag),
+        ];
+        columns.extend(names.into_iter().zip(limits).map(|(name, values)| Column::new(name.into(), values)));
+        columns
+    }
+
+    /// Names of the columns of bands, by size of the sample, then limit.
+    fn band_names(&self) -> Vec<String> {
+        let Some(bands) = &self.bands else { return Vec::new() };
+        let limits = bands.limit_names();
+        let of_size = |size: &u32| {
+            let size = *size;
+            limits.each_ref().map(|limit| format!("{}_n{size}_m", limit.trim_end_matches("_m")))
+        };
+        bands.sizes.iter().flat_map(of_size).collect()
+    }
+}

@@ -1,0 +1,58 @@
+//! A result as a workbook of Excel: numbers laid out as an engineer reads them, and where they come from.
+
+mod about;
+mod sheet;
+mod spectra;
+mod tables;
+
+use rust_xlsxwriter::{DocProperties, ExcelDateTime, Workbook, XlsxError};
+
+use super::Export;
+use crate::error::UpliftError;
+use sheet::{Formats, Sheet, clipped};
+
+/// Most characters of a property that Excel shows.
+const LONGEST_PROPERTY: usize = 255;
+
+impl Export {
+    /// A workbook; the same bytes for the same result.
+    ///
+    /// # Errors
+    /// More spectra or bands than Excel has columns.
+    pub fn workbook(&self) -> Result<Vec<u8>, UpliftError> {
+        self.sheets().map_err(|error| match error {
+            XlsxError::RowColumnLimitError => UpliftError::input(format!(
+                "{}: has more spectra or bands than Excel has columns (16384): ask for fewer with --poe, or take --csv",
+                self.file
+            )),
+            error => UpliftError::input(format!("{}: no workbook can be made: {error}", self.file)),
+        })
+    }
+
+    fn sheets(&self) -> Result<Vec<u8>, XlsxError> {
+        let mut workbook = Workbook::new();
+        let properties = DocProperties::new()
+            .set_title(clipped(&self.head.title, LONGEST_PROPERTY))
+            .set_author("uplift")
+            .set_comment(self.provenance())
+            // the time of the result, since the workbook says nothing else
+            .set_creation_datetime(&ExcelDateTime::parse_from_str(&self.head.created)?);
+        workbook.set_properties(&properties);
+        let formats = Formats::new();
+        let mut add = |name: &str, fill: &dyn Fn(&Self, &mut Sheet<'_>) -> Result<(), XlsxError>| {
+            let worksheet = workbook.add_worksheet();
+            worksheet.set_name(name)?;
+            fill(self, &mut Sheet::new(worksheet, &formats))
+        };
+        add("About", &Self::about)?;
+        add("Spectra", &Self::spectra_sheet)?;
+        if self.bands.is_some() {
+            add("Bands", &Self::bands_sheet)?;
+            add("Table 4.1", &Self::band_figures)?;
+        }
+        add("Coefficients", &Self::coefficients)?;
+        add("Hazard", &Self::hazard_sheet)?;
+        add("Study", &Self::study_sheet)?;
+        workbook.save_to_buffer()
+    }
+}

@@ -1,0 +1,78 @@
+//! The sheets of spectra and of bands: strengths down, spectra across.
+
+use rust_xlsxwriter::XlsxError;
+
+use super::sheet::{Sheet, Shown};
+use crate::export::Export;
+use crate::export::source::Row;
+
+/// In place of an ordinate that does not exist.
+const CENSORED: &str = "censored";
+/// Label of the first column.
+const STRENGTH: &str = "strength f_up/(m g), -";
+/// Widths of the column of strengths, in characters.
+const WIDTHS: [f64; 1] = [26.0];
+
+impl Export {
+    /// The spectra.
+    pub(super) fn spectra_sheet(&self, sheet: &mut Sheet<'_>) -> Result<(), XlsxError> {
+        let below = self.heads(sheet, &[])?;
+        for (index, row) in self.rows().enumerate() {
+            let column = index + 1;
+            head_of(sheet, column, &row)?;
+            sheet.heading((below - 1, column), "u, m", true)?;
+            over_strengths(sheet, (below, column), row.spectrum.u_m)?;
+        }
+        sheet.finish((below, 1), &WIDTHS)
+    }
+
+    /// The bands of all sizes.
+    pub(super) fn bands_sheet(&self, sheet: &mut Sheet<'_>) -> Result<(), XlsxError> {
+        let below = self.heads(sheet, &["records in a sample", "limit"])?;
+        let [lower, upper] = self.bands.as_ref().map(crate::result::StoredBands::level_names).unwrap_or_default();
+        let names = [lower.as_str(), "median", upper.as_str()];
+        let mut column = 1;
+        for row in self.rows() {
+            for band in self.bands_of(&row) {
+                for (name, values) in names.iter().zip(band.limits_m) {
+                    head_of(sheet, column, &row)?;
+                    sheet.number((below - 3, column), f64::from(band.records), Shown::WholeHeading, "")?;
+                    sheet.heading((below - 2, column), name, false)?;
+                    sheet.heading((below - 1, column), "u, m", true)?;
+                    over_strengths(sheet, (below, column), values)?;
+                    column += 1;
+                }
+            }
+        }
+        sheet.finish((below, 1), &WIDTHS)
+    }
+
+    /// What the lines of headings are, with `more` of them, and the strengths below; the first line of numbers.
+    fn heads(&self, sheet: &mut Sheet<'_>, more: &[&str]) -> Result<usize, XlsxError> {
+        let probability = format!("probability in {} years", self.spectra.years);
+        let names = ["site", "intensity measure", &probability, "return period, years"];
+        for (line, name) in names.iter().chain(more).enumerate() {
+            sheet.heading((line, 0), name, false)?;
+        }
+        let below = names.len() + more.len() + 1;
+        sheet.heading((below - 1, 0), STRENGTH, true)?;
+        over_strengths(sheet, (below, 0), &self.spectra.strengths)?;
+        Ok(below)
+    }
+}
+
+/// What stands at the head of the column of a spectrum.
+fn head_of(sheet: &mut Sheet<'_>, column: usize, row: &Row<'_>) -> Result<(), XlsxError> {
+    sheet.heading((0, column), row.spectrum.site, false)?;
+    sheet.heading((1, column), row.spectrum.measure.label(), false)?;
+    sheet.number((2, column), row.spectrum.poe, Shown::Percent, "")?;
+    sheet.number((3, column), row.return_period, Shown::Whole, "")
+}
+
+/// Numbers below each other, from a place on.
+fn over_strengths(sheet: &mut Sheet<'_>, (row, column): (usize, usize), values: &[f64]) -> Result<(), XlsxError> {
+    for (index, &value) in values.iter().enumerate() {
+        sheet.number((row + index, column), value, Shown::FourDecimals, CENSORED)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,147 @@
+//! Any probability or return period of a result, without a new run: what a run of it would have given, to the bit.
+
+use serde_json::Value;
+
+use crate::common::{Finished, SmallStudy};
+
+/// Probabilities that the small study does not have, and one that it has.
+const ASKED: &str = "0.05,0.02,0.3";
+
+/// Two results of one study, `r.h5` of its own probabilities and `asked.h5` of those asked for, with `more` changed;
+/// both with bands.
+fn study(more: &[&str]) -> SmallStudy {
+    let study = SmallStudy::new();
+    let run = |name: &str, more: &[&str]| {
+        study.uplift(&[&["run", "study.toml", "-q", "-o", name], more].concat()).ok();
+        study.uplift(&["bootstrap", name, "--replicates", "30", "--sizes", "2,4", "-q"]).ok();
+    };
+    run("r.h5", more);
+    let poe = format!("risk.poe=[{ASKED}]");
+    run("asked.h5", &[&["--set", &poe], more].concat());
+    study
+}
+
+/// The export of a result as JSON, but for where it comes from.
+fn export(study: &SmallStudy, result: &str, more: &[&str]) -> Value {
+    study.uplift(&[&["export", result, "--json", "-o", "x.json", "--force", "-q"], more].concat()).ok();
+    let mut tree: Value = serde_json::from_slice(&std::fs::read(study.path().join("x.json")).unwrap()).unwrap();
+    let all = tree.as_object_mut().unwrap();
+    for key in ["provenance", "created", "study_digest"] {
+        assert!(all.remove(key).is_some(), "{key}");
+    }
+    tree
+}
+
+#[test]
+fn spectra_bands_and_warnings_are_those_of_a_run() {
+    for contour in ["risk.contour=exact", "risk.contour=grid"] {
+        let study = study(&["--set", contour]);
+        let mut run = export(&study, "asked.h5", &[]);
+        let mut ours = export(&study, "r.h5", &["--poe", ASKED]);
+        let (own, theirs) = (ours["warnings"].take(), run["warnings"].take());
+        let sorted = |warnings: Value| {
+            let mut lines: Vec<String> = serde_json::from_value(warnings).unwrap();
+            lines.sort();
+            lines
+        };
+        assert_eq!(sorted(own), sorted(theirs));
+        assert_eq!(ours, run);
+        let spectra = ours["spectra"].as_array().unwrap();
+        assert_eq!(spectra.len(), 2 * 2 * 3);
+        let some = &spectra[0]["u_m"][1];
+        assert!(some.as_f64().unwrap() > 0.0 && spectra[0]["bands"][1]["sample_size"] == 4, "{some}");
+        // and what the result has itself is not touched
+        assert_ne!(export(&study, "r.h5", &[]), ours);
+    }
+}
+
+#[test]
+fn a_return_period_is_a_probability() {
+    let study = study(&[]);
+    let poe = -(-50.0_f64 / 475.0).exp_m1();
+    let by_period = export(&study, "r.h5", &["--return-period", "475"]);
+    assert_eq!(by_period, export(&study, "r.h5", &["--poe", &poe.to_string()]));
+    let back = by_period["spectra"][0]["return_period_years"].as_f64().unwrap();
+    assert!((back - 475.0).abs() < 1e-9, "{back}");
+    // the same risk in other years is the same spectrum
+    let in_one = export(&study, "r.h5", &["--return-period", "475", "--years", "1"]);
+    assert_eq!((&in_one["years"], &in_one["spectra"][0]["u_m"]), (&1.0.into(), &by_period["spectra"][0]["u_m"]));
+    let in_hundred = export(&study, "r.h5", &["--years", "100"]);
+    let poes: Vec<&Value> = in_hundred["spectra"].as_array().unwrap()[..3].iter().map(|of| &of["poe"]).collect();
+    assert_eq!(poes, [0.02, 0.1, 0.5]);
+    assert_ne!(in_hundred["spectra"][0]["u_m"], export(&study, "r.h5", &[])["spectra"][0]["u_m"]);
+}
+
+#[test]
+fn designs_tables_and_pages_take_it() {
+    let study = study(&[]);
+    study.write("block.toml", "kind = \"block\"\nwidth_m = 0.8\nheight_m = 4\nmass_kg = 1000\n");
+    let without_file = |finished: Finished| {
+        let mut tree: Value = serde_json::from_str(&finished.ok().stdout).unwrap();
+        tree.as_object_mut().unwrap().remove("result");
+        tree
+    };
+    let design = |result: &str, more: &[&str]| {
+        let asked = ["design", "block.toml", "--urs", result, "--site", "Here", "--json", "-q"];
+        without_file(study.uplift(&[&asked[..], more].concat()))
+    };
+    let found = design("r.h5", &["--poe", "0.3"]);
+    assert_eq!(found["poe"], 0.3);
+    assert!(found["spectrum"]["ordinate_m"].as_f64().unwrap() > 0.0, "{found}");
+    assert_eq!(found, design("asked.h5", &["--poe", "0.3"]));
+    // the smallest, of the study
+    assert_eq!(design("asked.h5", &[]), design("r.h5", &["--poe", "0.02"]));
+
+    let table = |result: &str, more: &[&str]| -> Value {
+        let asked = ["table", result, "--im", "all", "--json"];
+        serde_json::from_str(&study.uplift(&[&asked[..], more].concat()).ok().stdout).unwrap()
+    };
+    assert_eq!(table("r.h5", &["--poe", ASKED]), table("asked.h5", &[]));
+
+    study.uplift(&["report", "r.h5", "-o", "page.html", "--poe", "0.05", "-q"]).ok();
+    let page = std::fs::read_to_string(study.path().join("page.html")).unwrap();
+    assert!(page.contains("5 % in 50 years") && page.contains("asked for after the run"));
+    assert!(page.contains("id=\"r1-bands-pgv\"") && !page.contains("2 % in 50 years"));
+}
+
+#[test]
+fn bands_need_the_draws() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-q", "-o", "r.h5"]).ok();
+    let said = study.uplift(&["export", "r.h5", "--csv", "--poe", "0.05"]).ok().stderr;
+    assert!(said.contains("no confidence bands") && said.contains("uplift bootstrap"), "{said}");
+}
+
+#[test]
+fn what_is_no_risk_is_refused() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-q", "-o", "r.h5"]).ok();
+    for (asked, words) in [
+        (&["--poe", "1.5,0"][..], &["--poe 1.5", "--poe 0:", "10 % is 0.1"][..]),
+        (&["--poe", "0.1,0.1"], &["--poe 0.1 is given twice"]),
+        (&["--poe", "x"], &["--poe", "x"]),
+        (&["--return-period", "-475"], &["--return-period is -475 yr"]),
+        (&["--return-period", "1"], &["in 50 years that is certain", "--years"]),
+        (&["--years", "0"], &["--years is 0 yr"]),
+        (&["--poe", "0.1", "--return-period", "475"], &["--poe", "--return-period", "cannot be used with"]),
+    ] {
+        for command in [&["table", "r.h5"][..], &["export", "r.h5", "--csv"], &["report", "r.h5"]] {
+            study.uplift(&[command, asked].concat()).fails(2, words);
+        }
+    }
+    assert!(!study.path().join("r.spectra.csv").exists() && !study.path().join("r.html").exists());
+    // a look at what the result has already
+    study.uplift(&["influence", "r.h5", "--return-period", "475", "-q"]).ok();
+    study.uplift(&["influence", "r.h5", "--return-period", "500"]).fails(2, &["--return-period 500", "474.6"]);
+}
+
+#[test]
+fn what_no_sheet_holds_is_said() {
+    let study = study(&[]);
+    let many: Vec<String> = (1..=700).map(|index| (f64::from(index) / 1000.0).to_string()).collect();
+    let refused = study.uplift(&["export", "r.h5", "--xlsx", "--poe", &many.join(",")]);
+    refused.fails(4, &["r.h5", "16384", "--csv"]);
+    study.uplift(&["export", "r.h5", "--csv", "--poe", &many.join(","), "-q"]).ok();
+    let table = std::fs::read_to_string(study.path().join("r.spectra.csv")).unwrap();
+    assert_eq!(table.lines().count(), 1 + 2 * 2 * 700 * 10);
+}
