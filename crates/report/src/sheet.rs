@@ -1,0 +1,63 @@
+//! The design sheet: one page on one structure at one site, to hand over.
+//!
+//! It leads with demand, margin and risk in a sentence each; then the structure to scale, the numbers, and what they
+//! rest on. Style and policy are those of the report.
+
+mod drawing;
+mod numbers;
+
+use std::path::Path;
+
+use minijinja::context;
+use uplift::UpliftError;
+use uplift::outputs::{self, Output, OutputKind, mark};
+use uplift::result::write_atomically;
+use uplift::structure::DesignReport;
+use uplift::study::Structure;
+
+use crate::page::alarm::Alarm;
+use crate::page::{STYLE, render};
+use drawing::drawing;
+use numbers::{facts, kind_name, lead, tables};
+
+const SHEET: &str = concat!(include_str!("page/table.html"), include_str!("sheet/sheet.html"));
+
+/// Refuses a name that is none of a page, and one that would replace something else, before anything is computed.
+///
+/// # Errors
+/// As [`outputs::check`].
+pub fn check_design_sheet(file: &Path, result: &Path, inputs: &[&Path], force: bool) -> Result<(), UpliftError> {
+    outputs::check(&[Output::new(file, OutputKind::Page).of(result)], inputs, force)
+}
+
+/// Writes the design of `structure` as one HTML page.
+///
+/// # Errors
+/// A file that cannot be written.
+pub fn write_design_sheet(structure: &Structure, report: &DesignReport, file: &Path) -> Result<(), UpliftError> {
+    let synthetic = report.synthetic.then(Alarm::synthetic);
+    // of synthetic records the first alarm speaks
+    let notes = report.notes.iter().filter(|note| !(report.synthetic && note.starts_with("the records are synthetic")));
+    let noted = report.structure.warnings.iter().chain(notes).map(|note| Alarm::note(note));
+    let alarms: Vec<Alarm> = synthetic.into_iter().chain(noted).collect();
+    let page = render(
+        SHEET,
+        context! {
+            name => report.structure.name,
+            kind => kind_name(report),
+            lead => lead(report),
+            alarms,
+            drawing => drawing(&structure.description),
+            facts => facts(structure, report),
+            tables => tables(report),
+            result => report.result.file_name().map(|name| name.to_string_lossy().into_owned()),
+            record_set => report.record_set,
+            style => STYLE,
+            script => include_str!("page/report.js"),
+            mark => mark(Some(&report.result)),
+            version => uplift::VERSION,
+            commit => uplift::COMMIT,
+        },
+    )?;
+    write_atomically(file, page.as_bytes())
+}
