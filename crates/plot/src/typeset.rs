@@ -92,7 +92,9 @@ fn spans(parts: &[(Place, &str)], size: f64) -> String {
         };
         let shift = height - wanted;
         height = wanted;
-        format!("<tspan dy=\"{shift:.1}\" font-size=\"{size:.1}\">{part}</tspan>")
+        // a shift of the first part would take the place of that of the whole text
+        let shift = if shift == 0.0 { String::new() } else { format!("dy=\"{shift:.1}\" ") };
+        format!("<tspan {shift}font-size=\"{size:.1}\">{part}</tspan>")
     };
     parts.iter().map(span).collect()
 }
@@ -108,7 +110,7 @@ mod tests {
         let svg = "<svg><text x=\"1\" font-size=\"100\">\n10^{−3} g\n</text><text x=\"2\">a</text></svg>";
         let expected = [
             "<svg><text x=\"1\" font-size=\"100\">",
-            "<tspan dy=\"0.0\" font-size=\"100.0\">10</tspan>",
+            "<tspan font-size=\"100.0\">10</tspan>",
             "<tspan dy=\"-36.0\" font-size=\"72.0\">−3</tspan>",
             "<tspan dy=\"36.0\" font-size=\"100.0\"> g</tspan>",
             "</text><text x=\"2\">a</text></svg>",
