@@ -32,7 +32,8 @@ pub(super) fn drawing(description: &StructureDescription) -> String {
     let top = (scene.y(top_m(description, &geometry) + scene.deck_m) - 24.0).max(0.0).floor();
     let high = HIGH - top;
     format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 {top} {WIDE} {high}\" width=\"{WIDE}\" height=\"{high}\" \
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 {top} {WIDE} {high}\" width=\"{WIDE}\" \
+         height=\"{high}\" \
          role=\"img\" aria-label=\"Elevation of the structure, {}\" font-family=\"sans-serif\" font-size=\"13\" \
          fill=\"none\" stroke=\"#1b1e23\">\n{}</svg>",
         description.kind.name(),
@@ -146,7 +147,8 @@ impl Svg<'_> {
         let (ground, mass) = (self.scene.ground, self.scene.y(centre_m));
         let mast = |style: &str| {
             format!(
-                "<path d=\"M{left:.1} {ground:.1}H{right:.1}M{middle:.1} {ground:.1}V{mass:.1}\" stroke-width=\"3\" {style}/>\n\
+                "<path d=\"M{left:.1} {ground:.1}H{right:.1}M{middle:.1} {ground:.1}V{mass:.1}\" \
+                 stroke-width=\"3\" {style}/>\n\
                  <circle cx=\"{middle:.1}\" cy=\"{mass:.1}\" r=\"11\" {style}/>"
             )
         };
@@ -200,7 +202,8 @@ impl Svg<'_> {
                 let sweep = 1 - u8::from(sweep);
                 let (tip, root) = (y + up * rise, y + up * height);
                 self.add(format_args!(
-                    "<path d=\"M{inner:.1} {y:.1}A{radius:.1} {radius:.1} 0 0 {sweep} {outer:.1} {tip:.1}V{root:.1}H{inner:.1}Z\" {BODY}/>"
+                    "<path d=\"M{inner:.1} {y:.1}A{radius:.1} {radius:.1} 0 0 {sweep} {outer:.1} {tip:.1}\
+                     V{root:.1}H{inner:.1}Z\" {BODY}/>"
                 ));
             }
         }

@@ -46,7 +46,8 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
                 format!("{}{} m", if check.margin_m < 0.0 { "−" } else { "+" }, significant(check.margin_m.abs()));
             say(
                 format!(
-                    "With a safety factor of {safety} it needs a capacity of {required} m by {}: {verdict}, margin {margin}.",
+                    "With a safety factor of {safety} it needs a capacity of {required} m by {}: {verdict}, margin \
+                     {margin}.",
                     name(rule)
                 ),
                 Some(if check.satisfied { "yes" } else { "no" }),
