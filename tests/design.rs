@@ -463,3 +463,33 @@ fn the_documentation_shows_what_is_printed() {
         assert_eq!(uplift(folder.path(), &command).ok().stdout, output, "{command:?}");
     }
 }
+
+#[test]
+fn a_design_sheet_says_what_the_design_says() {
+    let study = study();
+    let found = design(&study, "block.toml", &["--report", "sheet.html"]);
+    let page = std::fs::read_to_string(study.path().join("sheet.html")).unwrap();
+    // the demand in the table, to the tenth of a millimetre, and in the sentence before it
+    let demand_m = found["exact"]["demand_m"].as_f64().unwrap();
+    assert!(page.contains(&format!("<td class=\"number\">{demand_m:.4}</td>")), "{demand_m}");
+    let (lead, rest) = page.split_once("<div class=\"answer\">").unwrap().1.split_once("</div>").unwrap();
+    let said: f64 = lead.split_once("it must survive ").unwrap().1.split_once(" m").unwrap().0.parse().unwrap();
+    assert!((said / demand_m - 1.0).abs() < 0.06, "{lead}");
+    let satisfied = found["rules"].as_array().unwrap().iter().all(|rule| rule["from_spectrum"]["satisfied"] == true);
+    assert_eq!(lead.contains("class=\"verdict no\""), !satisfied, "{lead}");
+    // the block to scale, with its dimensions
+    let drawing = rest.split_once("<svg").unwrap().1.split_once("</svg>").unwrap().0;
+    assert!(drawing.contains(">0.8 m</text>") && drawing.contains(">4 m</text>"), "{drawing}");
+    assert_eq!(
+        page.matches("made by the program (synthetic records)").count(),
+        usize::from(found["synthetic"] == true)
+    );
+    assert!(
+        page.split("http").skip(1).all(|rest| rest.starts_with("://www.w3.org/2000/svg") || rest.starts_with("-equiv"))
+    );
+
+    study.write("notes.html", "mine");
+    let refused = ["design", "block.toml", "--urs", "r.h5", "--report", "notes.html"];
+    study.uplift(&refused).fails(2, &["notes.html", "--force"]);
+    study.uplift(&["design", "block.toml", "--urs", "r.h5", "--report", "sheet.pdf"]).fails(2, &["sheet.pdf", "html"]);
+}

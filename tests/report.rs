@@ -3,44 +3,68 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use uplift_labelled::LabelledReader;
+
 use crate::common::{self, SmallStudy};
 
-/// A result with bands.
+/// A result with bands and influence.
 fn study() -> SmallStudy {
     let study = SmallStudy::new();
     study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
     study.uplift(&["bootstrap", "r.h5", "--replicates", "30", "--sizes", "2,4", "-q"]).ok();
+    study.uplift(&["influence", "r.h5", "-q"]).ok();
     study
 }
 
-const FIGURES: [&str; 15] = [
-    "hazard",
-    "ida",
-    "fragility",
-    "risk-pgv",
-    "risk-pga",
-    "surface-pgv",
-    "surface-pga",
+/// The figures in the order of the page: the answer, how sure it is, where it comes from, what to compute with.
+const FIGURES: [&str; 21] = [
     "urs-pgv",
     "urs-pga",
-    "fits",
     "bands-pgv",
     "bands-pga",
     "bands-together",
     "initiation",
+    "fragility",
+    "tails-pgv",
+    "tails-pga",
+    "hazard",
+    "disaggregation-pgv",
+    "disaggregation-pga",
+    "influence-pgv",
+    "influence-pga",
+    "risk-pgv",
+    "risk-pga",
+    "surface-pgv",
+    "surface-pga",
+    "ida",
     "measures",
+    "fits",
 ];
 
 #[test]
 fn every_figure_is_drawn() {
     let study = study();
     study.uplift(&["plot", "r.h5", "-q"]).ok();
+    let mut powers_of_ten = 0;
     for name in FIGURES {
         let svg = std::fs::read_to_string(study.path().join(format!("r.figures/{name}.svg"))).unwrap();
         assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"), "{name}");
         assert!(svg.contains("synthetic records"), "{name}: synthetic records are named");
         assert!(!svg.contains("NaN") && !svg.contains("inf"), "{name}");
+        // formulae are set as such: no 1e-3, no f_up
+        let texts: String = svg.split("<text ").skip(1).filter_map(|text| text.split("</text>").next()).collect();
+        assert!(!texts.contains("e-") && !texts.contains("_{") && !texts.contains("_up"), "{name}: {texts}");
+        powers_of_ten += svg.matches(">10</tspan>").count();
     }
+    assert!(powers_of_ten > 0);
+    let hazard = std::fs::read_to_string(study.path().join("r.figures/hazard.svg")).unwrap();
+    assert!(!hazard.contains("Hazard curves"), "the title is for the caption");
+    study.uplift(&["plot", "r.h5", "--only", "hazard", "-o", "titled", "--title", "--format", "both"]).ok();
+    let titled = std::fs::read_to_string(study.path().join("titled/hazard.svg")).unwrap();
+    assert!(titled.contains("Hazard curves"));
+    let image = std::fs::read(study.path().join("titled/hazard.png")).unwrap();
+    let said = image.windows(4).position(|name| name == b"pHYs").expect("its resolution");
+    assert_eq!(image[said + 4..said + 8], 11_811_u32.to_be_bytes(), "300 dots an inch");
     let one = study.uplift(&["plot", "r.h5", "--only", "urs-pga", "-o", "one", "--width", "single"]).ok();
     assert_eq!(one.stdout.trim(), Path::new("one").join("urs-pga.svg").display().to_string());
     study.uplift(&["plot", "r.h5", "--only", "nonsense"]).fails(2, &["nonsense", "urs-pgv"]);
@@ -58,10 +82,15 @@ fn a_report_is_one_file_without_a_network() {
     }
     // no bootstrap, no bands
     assert!(page.contains("id=\"r2-urs-pgv\"") && !page.contains("id=\"r2-bands-pgv\""));
-    for word in ["r1-table-4-1", "r1-table-4-2", "Synthetic records.", "study.toml", "SHA-256", "Before you use"] {
+    for word in ["r1-table-4-1", "r1-table-4-2", "r1-records", "study.toml", "SHA-256", "Before you use"] {
         assert!(page.contains(word), "{word}");
     }
     assert!(page.contains("&lt;b&gt;second") && !page.contains("<b>second"), "text of the study is text");
+    // the studies differ by their titles alone, which name them; one figure has both
+    assert!(page.contains("<h2 id=\"r2-title\">&lt;b&gt;second") && page.contains("id=\"all-together\""));
+    assert_eq!(page.matches("made by the program (synthetic records)").count(), 2, "once for each result");
+    study.uplift(&["report", "r.h5", "other.h5", "-o", "again.html", "-q"]).ok();
+    assert_eq!(std::fs::read(study.path().join("again.html")).unwrap(), page.as_bytes(), "the same bytes again");
     let addresses: Vec<&str> =
         page.split("http").skip(1).filter(|rest| !rest.starts_with("://www.w3.org/2000/svg")).collect();
     assert!(addresses.iter().all(|rest| rest.starts_with("-equiv")), "{addresses:.40?}");
@@ -70,6 +99,53 @@ fn a_report_is_one_file_without_a_network() {
     study.uplift(&["report", "r.h5", "-o", "r.h5"]).fails(2, &["html"]);
     study.uplift(&["report", "absent.h5"]).fails(4, &["absent.h5"]);
     study.uplift(&["report"]).fails(2, &["RESULT"]);
+}
+
+/// The text of `page` between two marks, its tags left out.
+fn text_between(page: &str, from: &str, to: &str) -> String {
+    let part = page.split_once(from).unwrap_or_else(|| panic!("{from}")).1.split_once(to).unwrap().0;
+    let words = part.split('<').map(|piece| piece.split_once('>').map_or(piece, |(_, text)| text));
+    words.collect::<String>().split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[test]
+fn a_report_leads_with_the_answer() {
+    let study = study();
+    study.uplift(&["report", "r.h5", "-q"]).ok();
+    let page = std::fs::read_to_string(study.path().join("r.html")).unwrap();
+    let order =
+        ["class=\"answer\"", "class=\"alarms\"", "id=\"r1-urs-pgv\"", "id=\"r1-summary\"", "id=\"r1-bands-pgv\""];
+    let places: Vec<usize> = order.iter().map(|mark| page.find(mark).unwrap_or_else(|| panic!("{mark}"))).collect();
+    assert!(places.is_sorted(), "{places:?}");
+    // the sentence says what the file has: the ordinate and its band at the strength next to 0.1
+    let reader = LabelledReader::open(&study.path().join("r.h5")).unwrap();
+    let strengths = reader.axis_f64("strength").unwrap();
+    let poes = reader.axis_f64("poe").unwrap();
+    let rarest = (0..poes.len()).min_by(|&a, &b| poes[a].total_cmp(&poes[b])).unwrap();
+    let next = (0..strengths.len())
+        .min_by(|&a, &b| (strengths[a] - 0.1).abs().total_cmp(&(strengths[b] - 0.1).abs()))
+        .unwrap();
+    let u_m = reader.array_f64("/urs/pgv/u_m").unwrap().values[rarest * strengths.len() + next];
+    let sentence = text_between(&page, "<div class=\"answer\">", "</p>");
+    assert!(sentence.starts_with("At Here, for 2 % in 50 years, a structure that uplifts at "), "{sentence}");
+    let said = sentence.split_once("must survive ").unwrap().1;
+    let value: f64 = said.split_once(" m").unwrap().0.parse().unwrap();
+    assert!((value / u_m - 1.0).abs() < 0.06, "{sentence}: {u_m}");
+    assert!(said.contains("(90 % band "), "{sentence}");
+}
+
+#[test]
+fn several_results_are_named_by_what_differs() {
+    let study = study();
+    study.uplift(&["run", "study.toml", "-o", "bouncing.h5", "-q", "--set", "oscillator.restitution=0.9"]).ok();
+    study.uplift(&["report", "r.h5", "bouncing.h5", "-o", "both.html", "-q"]).ok();
+    let page = std::fs::read_to_string(study.path().join("both.html")).unwrap();
+    let title = |key: &str| text_between(&page, &format!("id=\"{key}-title\">"), "</h2>");
+    assert_eq!([title("r1"), title("r2")], ["oscillator.restitution = 0.95", "oscillator.restitution = 0.9"]);
+    let rows = text_between(&page, "id=\"differences\">", "</tbody>");
+    assert!(rows.ends_with("oscillator.restitution0.950.9"), "{rows}");
+    let legend = text_between(&page, "id=\"all-together\">", "</p>");
+    assert!(legend.contains("oscillator.restitution = 0.9"), "{legend}");
 }
 
 #[test]
@@ -155,7 +231,11 @@ const column = [...table.querySelectorAll('th')].findIndex(head => head.textCont
 table.querySelectorAll('th')[column].querySelector('button').click();
 document.body.dataset.sorted = [...table.tBodies[0].rows].map(row => row.cells[column].textContent).join(' ');
 document.body.dataset.wide = document.documentElement.scrollWidth > innerWidth;
-document.body.dataset.figures = document.querySelectorAll('figure svg').length;
+document.body.dataset.figures = document.querySelectorAll('figure').length;
+const panels = [...document.querySelectorAll('#r1-urs-pgv .panel')].map(panel => panel.getBoundingClientRect());
+document.body.dataset.stacked = panels.length > 1 && panels.every((box, at) => !at || box.top >= panels[at - 1].bottom);
+const scrolled = document.querySelector('#r1-summary .scroll');
+document.body.dataset.scrolled = scrolled.scrollWidth > scrolled.clientWidth;
 document.body.dataset.tables = document.querySelectorAll('.block > .scroll table').length;
 </script>";
 
@@ -199,5 +279,6 @@ fn a_browser_reads_the_report() {
     assert!(sorted.len() > 3 && sorted.is_sorted(), "{sorted:?}");
     assert_eq!(said("wide"), "false", "a phone scrolls up and down only");
     assert_eq!(said("figures"), FIGURES.len().to_string());
-    assert_eq!(said("tables"), "3");
+    assert_eq!((said("stacked"), said("scrolled")), ("true".to_owned(), "true".to_owned()), "on a phone");
+    assert_eq!(said("tables"), "5");
 }

@@ -245,13 +245,9 @@ pub fn beside(result: &Path, ending: &str) -> PathBuf {
     result.with_file_name(name)
 }
 
-/// What this program says of itself in a file, and of the result that the file is of.
-pub fn mark(result: Option<&Path>) -> String {
-    let program = format!("uplift {}", crate::VERSION_AND_COMMIT);
-    match result.and_then(Path::file_name) {
-        Some(name) => format!("{program}; {}", name.to_string_lossy()),
-        None => program,
-    }
+/// What this program says of itself in a file.
+pub fn mark() -> String {
+    format!("uplift {}", crate::VERSION_AND_COMMIT)
 }
 
 /// Makes a folder for what is to be written, and those above it.

@@ -1,6 +1,6 @@
 //! The images of the documents: drawn again and compared as SVG, which depends on no font; `UPDATE_DOCS=1` writes them.
 
-use uplift_plot::{Axis, Figure, Panel, Series, Tone, Width, svg};
+use uplift_plot::{Axis, Figure, Look, Panel, Series, Tone, Width, svg};
 
 use super::base_widths::LITTLE_ELSE;
 use super::{ordinates, range};
@@ -59,7 +59,7 @@ fn spectra_of_six_sites() {
         panels: vec![panel],
         columns: 1,
     };
-    compare("urs.svg", &svg(&figure, Width::Double).unwrap().svg);
+    compare("urs.svg", &svg(&figure, Look { width: Width::Double, title: true }).unwrap().svg);
 }
 
 /// The picture of docs/pulses.md.

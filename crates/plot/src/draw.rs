@@ -8,10 +8,20 @@
 
 use plotters::prelude::*;
 
-use super::figure::{Figure, Hatch, Marks, Tone};
-use super::map::{draw_hatch, hatching};
+use super::figure::{Figure, Panel};
+use super::legend::{Entry, draw_swatch, legend};
 use super::panel::{PanelPlace, draw_panel};
-use super::stroke::{Area, FAINT_LINE, FONT, Failure, LINE, UNITS, ZOOM, colour, dashed, draw_line, draw_mark};
+use super::stroke::{Area, Failure, UNITS, ZOOM, dashed, font};
+use super::typeset::{plain, typeset};
+
+/// How a figure is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Look {
+    /// How wide it is.
+    pub width: Width,
+    /// Whether its title stands in it; a journal wants it in the caption alone.
+    pub title: bool,
+}
 
 /// How wide a figure is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,7 +42,7 @@ impl Width {
     }
 }
 
-/// A drawn figure.
+/// A drawing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Drawing {
     /// The SVG document.
@@ -43,11 +53,29 @@ pub struct Drawing {
     pub places: Vec<PanelPlace>,
 }
 
+/// A name in the legend, and the line or area that stands before it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Swatch {
+    /// The name.
+    pub name: String,
+    /// The SVG document.
+    pub svg: String,
+}
+
+/// Pixels between the lines of a legend, above the first and below a title.
+const ROW: u32 = 17;
+const MARGIN: u32 = 6;
+const TITLE: u32 = 18;
+/// Width and height of a panel drawn by itself, and of a swatch, pixels.
+const PANEL: (u32, u32) = (360, 270);
+const SWATCH: (u32, u32) = (24, 12);
+
 /// Draw `figure`.
 ///
 /// # Errors
 /// What the drawing library cannot do, in its words; none is known.
-pub fn svg(figure: &Figure, width: Width) -> Result<Drawing, String> {
+pub fn svg(figure: &Figure, look: Look) -> Result<Drawing, String> {
+    let width = look.width;
     let columns = match width {
         Width::Single => 1,
         Width::Double => figure.columns.clamp(1, figure.panels.len().max(1)),
@@ -56,69 +84,63 @@ pub fn svg(figure: &Figure, width: Width) -> Result<Drawing, String> {
     let names = legend(figure);
     let wide = width.pixels() * ZOOM;
     let panel_height = (f64::from(width.pixels()) / columns as f64 * 0.72).clamp(190.0, 380.0) as u32 * ZOOM;
-    let legend_rows = legend_layout(&names, wide).last().map_or(0, |place| place.1 / (16 * UNITS) + 1);
-    let head = (24 + 16 * legend_rows as u32 + if figure.remark.is_empty() { 0 } else { 15 }) * ZOOM;
+    let title = if look.title { TITLE } else { 0 };
+    let legend_rows = legend_layout(&names, wide).last().map_or(0, |place| place.1 / (ROW * ZOOM) as i32 + 1);
+    let remark = u32::from(!figure.remark.is_empty());
+    let head = (MARGIN + title + ROW * (legend_rows as u32 + remark)) * ZOOM;
     let size = (wide, head + panel_height * rows as u32);
-    let mut text = String::new();
     let mut places = Vec::new();
-    let fail = |error: &dyn std::fmt::Display| error.to_string();
-    {
-        let root = SVGBackend::with_string(&mut text, size).into_drawing_area();
-        root.fill(&WHITE).map_err(|error| fail(&error))?;
-        draw_head(&root, figure, &names, head).map_err(|error| fail(&error))?;
+    let svg = document(size, |root| {
+        draw_head(root, figure, title, &names)?;
         let (_, below) = root.split_vertically(head);
         for (panel, area) in figure.panels.iter().zip(below.split_evenly((rows, columns))) {
-            places.push(draw_panel(&area, panel).map_err(|error| fail(&error))?);
+            places.push(draw_panel(&area, panel)?);
         }
-        root.present().map_err(|error| fail(&error))?;
+        Ok(())
+    })?;
+    Ok(Drawing { svg, size: (size.0 / ZOOM, size.1 / ZOOM), places })
+}
+
+/// Draw `panel` by itself, for a page that places panels and legend.
+///
+/// # Errors
+/// As [`svg`].
+pub fn panel_svg(panel: &Panel) -> Result<Drawing, String> {
+    let mut places = Vec::new();
+    let svg = document((PANEL.0 * ZOOM, PANEL.1 * ZOOM), |root| {
+        places.push(draw_panel(root, panel)?);
+        Ok(())
+    })?;
+    Ok(Drawing { svg, size: PANEL, places })
+}
+
+/// The legend of `figure`, for a page that places it.
+///
+/// # Errors
+/// As [`svg`].
+pub fn swatches(figure: &Figure) -> Result<Vec<Swatch>, String> {
+    let swatch = |entry: Entry| {
+        let svg = document((SWATCH.0 * ZOOM, SWATCH.1 * ZOOM), |root| draw_swatch(root, &entry, (UNITS, 0)))?;
+        Ok(Swatch { name: entry.name, svg })
+    };
+    legend(figure).into_iter().map(swatch).collect()
+}
+
+/// A drawing of `size` units as an SVG document, white below what `draw` draws.
+fn document(size: (u32, u32), draw: impl FnOnce(&Area<'_>) -> Result<(), Failure>) -> Result<String, String> {
+    let mut text = String::new();
+    {
+        let root = SVGBackend::with_string(&mut text, size).into_drawing_area();
+        root.fill(&WHITE)
+            .map_err(Failure::from)
+            .and_then(|()| draw(&root))
+            .and_then(|()| Ok(root.present()?))
+            .map_err(|error| error.to_string())?;
     }
-    // the page shows pixels, the drawing goes on in its units
-    let pixels = (size.0 / ZOOM, size.1 / ZOOM);
+    // a page shows pixels, the drawing goes on in its units
     let units = format!("width=\"{}\" height=\"{}\"", size.0, size.1);
-    let text = dashed(text.replacen(&units, &format!("width=\"{}\" height=\"{}\"", pixels.0, pixels.1), 1));
-    Ok(Drawing { svg: text, size: pixels, places })
-}
-
-/// A name in the legend and what stands before it.
-struct Entry {
-    name: String,
-    tone: Tone,
-    kind: Kind,
-}
-
-#[derive(Clone, Copy)]
-enum Kind {
-    Line,
-    Marks(Marks),
-    Area,
-    Level,
-    Region(Hatch),
-}
-
-/// What the legend names: each name once.
-fn legend(figure: &Figure) -> Vec<Entry> {
-    let mut entries: Vec<Entry> = Vec::new();
-    for panel in &figure.panels {
-        let lines = panel.series.iter().map(|series| {
-            let kind = if series.marks == Marks::None { Kind::Line } else { Kind::Marks(series.marks) };
-            (&series.name, series.tone, kind)
-        });
-        let bands = panel.bands.iter().map(|band| (&band.name, band.tone, Kind::Area));
-        let levels = panel.map.iter().flat_map(|map| {
-            let of = map.levels.len();
-            map.levels.iter().enumerate().map(move |(step, (_, name))| (name, Tone::Shade { step, of }, Kind::Level))
-        });
-        let regions = panel
-            .map
-            .iter()
-            .flat_map(|map| map.regions.iter().map(|region| (&region.name, region.tone, Kind::Region(region.hatch))));
-        for (name, tone, kind) in lines.chain(bands).chain(levels).chain(regions) {
-            if !name.is_empty() && entries.iter().all(|known| known.name != *name) {
-                entries.push(Entry { name: name.clone(), tone, kind });
-            }
-        }
-    }
-    entries
+    let pixels = format!("width=\"{}\" height=\"{}\"", size.0 / ZOOM, size.1 / ZOOM);
+    Ok(typeset(&dashed(text.replacen(&units, &pixels, 1))))
 }
 
 /// Left edge and top of each entry, units.
@@ -127,9 +149,9 @@ fn legend_layout(entries: &[Entry], wide: u32) -> Vec<(i32, i32)> {
     entries
         .iter()
         .map(|entry| {
-            let length = (42 + 6 * entry.name.chars().count() as i32) * UNITS;
+            let length = (42 + 6 * plain(&entry.name).chars().count() as i32) * UNITS;
             if x > 10 * UNITS && x + length > wide as i32 {
-                (x, y) = (10 * UNITS, y + 16 * UNITS);
+                (x, y) = (10 * UNITS, y + ROW as i32 * UNITS);
             }
             let place = (x, y);
             x += length;
@@ -138,36 +160,22 @@ fn legend_layout(entries: &[Entry], wide: u32) -> Vec<(i32, i32)> {
         .collect()
 }
 
-fn draw_head(root: &Area<'_>, figure: &Figure, entries: &[Entry], head: u32) -> Result<(), Failure> {
-    let title = (FONT, 13 * ZOOM).into_font().style(FontStyle::Bold);
-    root.draw(&Text::new(figure.title.clone(), (8 * UNITS, 6 * UNITS), title))?;
-    for (Entry { name, tone, kind }, (x, y)) in entries.iter().zip(legend_layout(entries, root.dim_in_pixel().0)) {
-        let top = 24 * UNITS + y;
-        let (middle, right) = (top + 6 * UNITS, x + 22 * UNITS);
-        match kind {
-            Kind::Area => {
-                let corners = [(x, middle - 4 * UNITS), (right, middle + 4 * UNITS)];
-                root.draw(&Rectangle::new(corners, colour(*tone).mix(0.25).filled()))?;
-            }
-            Kind::Level => {
-                let corners = [(x, middle - 4 * UNITS), (right, middle + 4 * UNITS)];
-                root.draw(&Rectangle::new(corners, colour(*tone).filled()))?;
-            }
-            Kind::Region(hatch) => {
-                let (top, bottom) = (middle - 4 * UNITS, middle + 4 * UNITS);
-                for ends in hatching(*hatch, x..right, top..bottom, |_| true) {
-                    draw_hatch(root, ends.to_vec(), *tone)?;
-                }
-                root.draw(&Rectangle::new([(x, top), (right, bottom)], colour(*tone).stroke_width(FAINT_LINE)))?;
-            }
-            Kind::Marks(marks) => draw_mark(root, (x + 11 * UNITS, middle), *tone, *marks)?,
-            Kind::Line => draw_line(root, &[(x, middle), (right, middle)], *tone, LINE)?,
-        }
-        root.draw(&Text::new(name.clone(), (x + 27 * UNITS, top), (FONT, 11 * ZOOM).into_font()))?;
+fn draw_head(root: &Area<'_>, figure: &Figure, title: u32, entries: &[Entry]) -> Result<(), Failure> {
+    if title > 0 {
+        let style = font(9.0).style(FontStyle::Bold);
+        root.draw(&Text::new(figure.title.clone(), (8 * UNITS, MARGIN as i32 * UNITS), style))?;
+    }
+    let mut below = (MARGIN + title) as i32 * UNITS;
+    let first = below;
+    for (entry, (x, y)) in entries.iter().zip(legend_layout(entries, root.dim_in_pixel().0)) {
+        let top = first + y;
+        draw_swatch(root, entry, (x, top))?;
+        root.draw(&Text::new(entry.name.clone(), (x + 27 * UNITS, top), font(8.0)))?;
+        below = top + ROW as i32 * UNITS;
     }
     if !figure.remark.is_empty() {
-        let style = (FONT, 11 * ZOOM).into_font().style(FontStyle::Italic).color(&RGBColor(170, 60, 0));
-        root.draw(&Text::new(figure.remark.clone(), (8 * UNITS, head as i32 - 15 * UNITS), style))?;
+        let style = font(8.0).style(FontStyle::Italic).color(&RGBColor(170, 60, 0));
+        root.draw(&Text::new(figure.remark.clone(), (8 * UNITS, below), style))?;
     }
     Ok(())
 }

@@ -1,6 +1,9 @@
-//! What a figure shows.
+//! What a figure shows. Its texts may have raised and lowered parts: `u_{max}`, `10^{−3}` ([`plain`](super::plain)).
 
 use serde::Serialize;
+
+/// So many computed values, and fewer, are marked along a line.
+const FEW: usize = 30;
 
 /// One figure: panels side by side with a common legend.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,7 +42,7 @@ pub struct Panel {
 /// An axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
-    /// Name and unit, e.g. `strength f_up/(m g)`.
+    /// Name and unit, e.g. `strength f_{up}/(m g)`.
     pub label: String,
     /// Linear or logarithmic.
     pub scale: Scale,
@@ -82,6 +85,8 @@ pub enum Marks {
     Only,
     /// Hollow dots alone, for points that are less sure.
     Rings,
+    /// A line with a dot at each of its points.
+    Both,
 }
 
 /// A line.
@@ -177,6 +182,12 @@ impl Series {
     pub fn line(name: impl Into<String>, points: Vec<(f64, f64)>, tone: Tone) -> Self {
         Self { name: name.into(), points, tone, marks: Marks::None }
     }
+
+    /// A line through computed values, which are marked where they are few: between them nothing was computed.
+    pub fn sampled(name: impl Into<String>, points: Vec<(f64, f64)>, tone: Tone) -> Self {
+        let marks = if points.len() <= FEW { Marks::Both } else { Marks::None };
+        Self { name: name.into(), points, tone, marks }
+    }
 }
 
 impl Scale {
@@ -186,6 +197,14 @@ impl Scale {
         match self {
             Self::Linear => value.is_finite().then_some(value),
             Self::Log => (value > 0.0 && value.is_finite()).then(|| value.log10()),
+        }
+    }
+
+    /// The value at a position.
+    pub(super) fn value(self, position: f64) -> f64 {
+        match self {
+            Self::Linear => position,
+            Self::Log => 10.0_f64.powf(position),
         }
     }
 }

@@ -7,15 +7,18 @@
 mod draw;
 mod figure;
 mod frame;
+mod legend;
 mod map;
 mod mark;
 mod panel;
 mod raster;
 mod stroke;
 mod ticks;
+mod typeset;
 
-pub use draw::{Drawing, Width, svg};
+pub use draw::{Drawing, Look, Swatch, Width, panel_svg, svg, swatches};
 pub use figure::{Axis, Band, Figure, Hatch, Map, Marks, Panel, Region, Scale, Series, Tone};
 pub use mark::{with_description, with_software};
-pub use panel::PanelPlace;
+pub use panel::{PanelPlace, share_y};
 pub use raster::{RasterError, png};
+pub use typeset::{html, plain};

@@ -14,10 +14,24 @@ pub fn with_description(svg: &str, text: &str) -> String {
 
 /// A PNG that says which software made it; letters outside Latin-1 become question marks.
 pub fn with_software(png: &[u8], text: &str) -> Vec<u8> {
+    let latin_1 = text.chars().map(|letter| u8::try_from(letter).unwrap_or(b'?'));
+    with_chunk(png, *b"tEXt", &b"Software\0".iter().copied().chain(latin_1).collect::<Vec<u8>>())
+}
+
+/// A PNG that says how large it is on paper, so that a text processor or a journal places it so.
+pub(super) fn with_resolution(png: &[u8], dots_per_inch: f32) -> Vec<u8> {
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "some thousands")]
+    let per_metre = (dots_per_inch / 0.0254).round() as u32;
+    let unit_is_metre = 1;
+    let data = [&per_metre.to_be_bytes()[..], &per_metre.to_be_bytes(), &[unit_is_metre]].concat();
+    with_chunk(png, *b"pHYs", &data)
+}
+
+/// A PNG with one chunk more, after its header.
+fn with_chunk(png: &[u8], name: [u8; 4], data: &[u8]) -> Vec<u8> {
     let Some((head, rest)) = png.split_at_checked(PNG_HEAD_BYTES) else { return png.to_owned() };
-    let mut chunk = b"tEXtSoftware\0".to_vec();
-    chunk.extend(text.chars().map(|letter| u8::try_from(letter).unwrap_or(b'?')));
-    let length = u32::try_from(chunk.len() - 4).unwrap_or_default().to_be_bytes();
+    let length = u32::try_from(data.len()).unwrap_or_default().to_be_bytes();
+    let chunk = [&name[..], data].concat();
     let checksum = crc32fast::hash(&chunk).to_be_bytes();
     [head, &length, &chunk, &checksum, rest].concat()
 }

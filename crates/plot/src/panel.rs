@@ -15,8 +15,8 @@ use serde::Serialize;
 use super::figure::{Axis, Marks, Panel, Scale, Series, Tone};
 use super::frame::{Frame, runs};
 use super::map::draw_map;
-use super::stroke::{Area, FAINT_LINE, FONT, Failure, LINE, ZOOM, colour, draw_line, draw_mark};
-use super::ticks::{label, ticks};
+use super::stroke::{Area, FAINT_LINE, Failure, LINE, ZOOM, colour, draw_line, draw_mark, font};
+use super::ticks::{Labels, ticks};
 
 /// Where the plotting area of a panel lies, in the units of the drawing's view box, and what its ends mean.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -37,9 +37,9 @@ pub struct PanelPlace {
 
 /// An axis with its own ticks, in positions.
 struct Ticked {
-    scale: Scale,
     ends: (f64, f64),
     ticks: Vec<f64>,
+    labels: Labels,
 }
 
 impl Ranged for Ticked {
@@ -63,22 +63,16 @@ impl Ranged for Ticked {
 
 impl ValueFormatter<f64> for Ticked {
     fn format_ext(&self, position: &f64) -> String {
-        label(self.scale, *position)
+        self.labels.text(*position)
     }
 }
 
-/// Ends of an axis as positions.
-fn ends(axis: &Axis, values: impl Iterator<Item = f64>) -> (f64, f64) {
-    if let Some((from, to)) = axis.range
-        && let (Some(from), Some(to)) = (axis.scale.position(from), axis.scale.position(to))
-    {
-        return (from, to);
-    }
+/// Ends of an axis that takes the range of its values, as positions; none without any that has one.
+fn spanned(scale: Scale, values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     let (least, most) = values
-        .filter_map(|value| axis.scale.position(value))
+        .filter_map(|value| scale.position(value))
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), value| (least.min(value), most.max(value)));
-    match axis.scale {
-        _ if !(least.is_finite() && most.is_finite()) => (0.0, 1.0),
+    let ends = match scale {
         Scale::Linear if least >= 0.0 => (0.0, if most > 0.0 { 1.05 * most } else { 1.0 }),
         Scale::Linear => {
             let margin = 0.05 * (most - least).max(1e-12);
@@ -88,38 +82,71 @@ fn ends(axis: &Axis, values: impl Iterator<Item = f64>) -> (f64, f64) {
             let margin = (0.04 * (most - least)).max(0.05);
             (least - margin, most + margin)
         }
+    };
+    (least.is_finite() && most.is_finite()).then_some(ends)
+}
+
+/// Ends of an axis as positions: those that it has, else those of its values.
+fn ends(axis: &Axis, values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
+    if let Some((from, to)) = axis.range
+        && let (Some(from), Some(to)) = (axis.scale.position(from), axis.scale.position(to))
+    {
+        return Some((from, to));
+    }
+    spanned(axis.scale, values)
+}
+
+fn x_ends(panel: &Panel) -> Option<(f64, f64)> {
+    let lines = panel.series.iter().flat_map(|series| series.points.iter().map(|point| point.0));
+    let bands = panel.bands.iter().flat_map(|band| band.points.iter().map(|point| point.0));
+    ends(&panel.x, lines.chain(bands).chain(panel.map.iter().flat_map(|map| map.x.iter().copied())))
+}
+
+fn y_ends(panel: &Panel) -> Option<(f64, f64)> {
+    let lines = panel.series.iter().flat_map(|series| series.points.iter().map(|point| point.1));
+    let bands = panel.bands.iter().flat_map(|band| band.points.iter().flat_map(|point| [point.1, point.2]));
+    ends(&panel.y, lines.chain(bands).chain(panel.map.iter().flat_map(|map| map.y.iter().copied())))
+}
+
+/// Gives the panels one range of the vertical axis, that of all of them: what lies higher in one than in another is
+/// larger. Panels that measure something else keep theirs.
+pub fn share_y(panels: &mut [Panel]) {
+    let Some(Axis { label, scale, .. }) = panels.first().map(|panel| panel.y.clone()) else { return };
+    if panels.iter().any(|panel| panel.y.label != label || panel.y.scale != scale) {
+        return;
+    }
+    let all = panels.iter().filter_map(y_ends).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
+    let Some((from, to)) = all else { return };
+    for panel in panels {
+        panel.y.range = Some((scale.value(from), scale.value(to)));
     }
 }
 
 pub(super) fn draw_panel(area: &Area<'_>, panel: &Panel) -> Result<PanelPlace, Failure> {
     let (x_scale, y_scale) = (panel.x.scale, panel.y.scale);
-    let xs = panel.series.iter().flat_map(|series| series.points.iter().map(|point| point.0));
-    let ys = panel.series.iter().flat_map(|series| series.points.iter().map(|point| point.1));
-    let band_xs = panel.bands.iter().flat_map(|band| band.points.iter().map(|point| point.0));
-    let band_ys = panel.bands.iter().flat_map(|band| band.points.iter().flat_map(|point| [point.1, point.2]));
-    let (map_xs, map_ys) = panel.map.as_ref().map_or((&[][..], &[][..]), |map| (&map.x, &map.y));
-    let (x0, x1) = ends(&panel.x, xs.chain(band_xs).chain(map_xs.iter().copied()));
-    let (y0, y1) = ends(&panel.y, ys.chain(band_ys).chain(map_ys.iter().copied()));
+    let (x0, x1) = x_ends(panel).unwrap_or((0.0, 1.0));
+    let (y0, y1) = y_ends(panel).unwrap_or((0.0, 1.0));
     let (wide, high) = area.dim_in_pixel();
     let x_ticks = ticks(x_scale, x0, x1, ((wide / ZOOM) as usize / 48).clamp(3, 8));
     let y_ticks = ticks(y_scale, y0, y1, ((high / ZOOM) as usize / 45).clamp(3, 8));
 
     let mut chart = ChartBuilder::on(area)
         .margin(6 * ZOOM)
+        .margin_left(16 * ZOOM)
         .margin_right(12 * ZOOM)
-        .caption(&panel.title, (FONT, 12 * ZOOM).into_font())
-        .x_label_area_size(36 * ZOOM)
-        .y_label_area_size(54 * ZOOM)
+        .caption(&panel.title, font(8.0).style(FontStyle::Bold))
+        .x_label_area_size(34 * ZOOM)
+        .y_label_area_size(46 * ZOOM)
         .build_cartesian_2d(
-            Ticked { scale: x_scale, ends: (x0, x1), ticks: x_ticks },
-            Ticked { scale: y_scale, ends: (y0, y1), ticks: y_ticks },
+            Ticked { ends: (x0, x1), labels: Labels::of(x_scale, &x_ticks), ticks: x_ticks },
+            Ticked { ends: (y0, y1), labels: Labels::of(y_scale, &y_ticks), ticks: y_ticks },
         )?;
     chart
         .configure_mesh()
         .x_desc(&panel.x.label)
         .y_desc(&panel.y.label)
-        .axis_desc_style((FONT, 11 * ZOOM))
-        .label_style((FONT, 10 * ZOOM))
+        .axis_desc_style(font(8.0))
+        .label_style(font(7.0))
         .set_all_tick_mark_size(4 * ZOOM)
         .axis_style(BLACK.stroke_width(ZOOM))
         .bold_line_style(RGBColor(228, 228, 228).stroke_width(ZOOM / 2))
@@ -151,18 +178,11 @@ pub(super) fn draw_panel(area: &Area<'_>, panel: &Panel) -> Result<PanelPlace, F
     Ok(PanelPlace {
         x_pixels: (x_pixels.start, x_pixels.end),
         y_pixels: (y_pixels.start, y_pixels.end),
-        x_range: (value(x_scale, x0), value(x_scale, x1)),
-        y_range: (value(y_scale, y0), value(y_scale, y1)),
+        x_range: (x_scale.value(x0), x_scale.value(x1)),
+        y_range: (y_scale.value(y0), y_scale.value(y1)),
         x_scale,
         y_scale,
     })
-}
-
-fn value(scale: Scale, position: f64) -> f64 {
-    match scale {
-        Scale::Linear => position,
-        Scale::Log => 10.0_f64.powf(position),
-    }
 }
 
 /// A limit of a band: zero lies at the foot of a logarithmic axis, infinity far above.
@@ -188,6 +208,8 @@ fn draw_series(
                 draw_mark(plot, pixel, series.tone, series.marks)?;
             }
         }
+    }
+    if matches!(series.marks, Marks::Only | Marks::Rings) {
         return Ok(());
     }
     let thick = if series.tone == Tone::Faint { FAINT_LINE } else { LINE };

@@ -4,12 +4,15 @@ use std::sync::{Arc, OnceLock};
 
 use resvg::{tiny_skia, usvg};
 
+use super::mark::with_resolution;
+
 /// Why a drawing could not become an image.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("the figure cannot be turned into an image: {0}")]
 pub struct RasterError(String);
 
-/// The PNG of an SVG drawing at `dots_per_inch`; 96 give a pixel of the drawing one of the image.
+/// The PNG of an SVG drawing at `dots_per_inch`, which it says of itself; 96 give a pixel of the drawing one of the
+/// image.
 ///
 /// # Errors
 /// A drawing that cannot be read, or an image too large; a machine without any font.
@@ -42,5 +45,6 @@ pub fn png(svg: &str, dots_per_inch: f32) -> Result<Vec<u8>, RasterError> {
     let mut pixels =
         tiny_skia::Pixmap::new(size.width(), size.height()).ok_or_else(|| RasterError("it is too large".to_owned()))?;
     resvg::render(&tree, tiny_skia::Transform::from_scale(zoom, zoom), &mut pixels.as_mut());
-    pixels.encode_png().map_err(|error| RasterError(error.to_string()))
+    let image = pixels.encode_png().map_err(|error| RasterError(error.to_string()))?;
+    Ok(with_resolution(&image, dots_per_inch))
 }

@@ -27,7 +27,12 @@ const DASHES: [Option<(i32, i32)>; 7] =
 /// A ramp of falling lightness through the same colours, so that its order shows in grey too.
 const RAMP: [(f64, f64, f64); 4] =
     [(250.0, 244.0, 190.0), (86.0, 180.0, 160.0), (0.0, 100.0, 160.0), (16.0, 24.0, 64.0)];
-pub(super) const FONT: &str = "sans-serif";
+/// A font of so many points, a point being 1/72 inch. A journal's column is drawn at its width, so that these are the
+/// points of the printed page: none below 7.
+pub(super) fn font(points: f64) -> FontDesc<'static> {
+    // the library divides the size by 1.24 for an SVG
+    ("sans-serif", 1.24 * points * 96.0 / 72.0 * f64::from(ZOOM)).into_font()
+}
 /// Units of the drawing to a pixel: the library draws in whole units, which must be too fine to be seen.
 pub(super) const ZOOM: u32 = 8;
 /// The same, signed.
@@ -56,13 +61,16 @@ fn shade(share: f64) -> RGBColor {
     RGBColor(mixed(from.0, to.0), mixed(from.1, to.1), mixed(from.2, to.2))
 }
 
-/// A dot, or a ring with the line below it covered.
+/// A dot, a smaller one upon a line, or a ring with the line below it covered.
 pub(super) fn draw_mark(area: &Area<'_>, at: (i32, i32), tone: Tone, marks: Marks) -> Result<(), Failure> {
-    if marks == Marks::Rings {
-        area.draw(&Circle::new(at, 3 * UNITS, WHITE.filled()))?;
-        area.draw(&Circle::new(at, 3 * UNITS, colour(tone).stroke_width(LINE)))?;
-    } else {
-        area.draw(&Circle::new(at, 2 * UNITS, colour(tone).filled()))?;
+    match marks {
+        Marks::None => {}
+        Marks::Only => area.draw(&Circle::new(at, 2 * UNITS, colour(tone).filled()))?,
+        Marks::Both => area.draw(&Circle::new(at, 3 * UNITS / 2, colour(tone).filled()))?,
+        Marks::Rings => {
+            area.draw(&Circle::new(at, 3 * UNITS, WHITE.filled()))?;
+            area.draw(&Circle::new(at, 3 * UNITS, colour(tone).stroke_width(LINE)))?;
+        }
     }
     Ok(())
 }

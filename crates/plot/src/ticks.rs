@@ -50,18 +50,43 @@ fn linear(from: f64, to: f64, wanted: usize) -> Vec<f64> {
     ticks
 }
 
-/// A tick as text.
-pub(super) fn label(scale: Scale, position: f64) -> String {
-    let value = match scale {
-        Scale::Linear => position,
-        Scale::Log => 10.0_f64.powf(position),
-    };
-    if value != 0.0 && (value.abs() < 1e-3 || value.abs() >= 1e5) {
-        // 1e-05 reads worse than 10 with a raised exponent, which SVG text of plotters cannot do
-        return format!("{value:.0e}");
+/// How the numbers along an axis are written: all of them as powers of ten, or none.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Labels {
+    scale: Scale,
+    powers: bool,
+}
+
+impl Labels {
+    /// Of the ticks at these positions: powers of ten where one of them would be long.
+    pub(super) fn of(scale: Scale, positions: &[f64]) -> Self {
+        let long = |value: f64| value != 0.0 && (value.abs() < 0.999e-3 || value.abs() > 0.999e5);
+        Self { scale, powers: positions.iter().any(|&position| long(scale.value(position))) }
     }
+
+    /// A tick as text, its exponent marked (`10^{−5}`).
+    pub(super) fn text(self, position: f64) -> String {
+        let value = self.scale.value(position);
+        let text = if self.powers && value != 0.0 { power(value) } else { decimal(value) };
+        text.replace('-', "−")
+    }
+}
+
+/// As few digits as tell the value.
+fn decimal(value: f64) -> String {
     let rounded = format!("{value:.4}");
     rounded.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// A factor, where it is not 1, times a power of ten.
+fn power(value: f64) -> String {
+    // two digits: ticks are 1, 2 or 5 times a power of ten, or a multiple of these
+    let written = format!("{value:.1e}");
+    let (factor, exponent) = written.split_once('e').unwrap_or((&written, "0"));
+    match factor.trim_end_matches(".0") {
+        "1" => format!("10^{{{exponent}}}"),
+        factor => format!("{factor}·10^{{{exponent}}}"),
+    }
 }
 
 #[cfg(test)]
@@ -85,10 +110,15 @@ mod tests {
 
     #[test]
     fn words() {
-        assert_eq!(label(Scale::Linear, 0.2), "0.2");
-        assert_eq!(label(Scale::Linear, 0.0), "0");
-        assert_eq!(label(Scale::Log, -2.0), "0.01");
-        assert_eq!(label(Scale::Log, -5.0), "1e-5");
-        assert_eq!(label(Scale::Linear, 100.0), "100");
+        let written = |scale: Scale, positions: &[f64]| {
+            let labels = Labels::of(scale, positions);
+            positions.iter().map(|&position| labels.text(position)).collect::<Vec<_>>().join(" ")
+        };
+        assert_eq!(written(Scale::Linear, &[0.0, 0.2, 100.0]), "0 0.2 100");
+        assert_eq!(written(Scale::Linear, &[-0.5, 0.0]), "−0.5 0");
+        assert_eq!(written(Scale::Log, &[-3.0, -2.0, 0.0, 1.0]), "0.001 0.01 1 10");
+        // one axis, one way of writing
+        assert_eq!(written(Scale::Log, &[-5.0, 0.0]), "10^{−5} 10^{0}");
+        assert_eq!(written(Scale::Linear, &[0.0, 2e-4, 12e-4]), "0 2·10^{−4} 1.2·10^{−3}");
     }
 }

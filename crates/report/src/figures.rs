@@ -1,5 +1,5 @@
-//! The figures of Chapters 2 to 4, made of a result file alone; and those of a record, a structure or a pulse, which
-//! need none.
+//! The figures of Chapters 2 to 4, and more, made of a result file alone; and those of a record, a structure or a
+//! pulse, which need none.
 //!
 //! What is to be seen is decided here, how it is drawn in [`plot`](uplift_plot).
 
@@ -8,23 +8,29 @@ mod demand;
 mod displacement;
 mod efficiency;
 mod history;
+mod influence;
 mod overturning;
 mod pulses;
 mod spectra;
+mod tails;
+mod together;
 
 pub use displacement::{Extent, displacement_figures};
 pub use history::{block_history_figure, history_figure};
 pub use overturning::overturning_figure;
 pub use pulses::pulse_figures;
 pub use spectra::hazard_figure;
+pub(crate) use together::together;
 
 use std::path::Path;
 
 use uplift::Array;
 use uplift::UpliftError;
-use uplift::result::{Kind, ResultFile, StoredBands, StoredHazard, StoredRecords, StoredSpectra, StoredStripes};
+use uplift::result::{
+    Kind, ResultFile, StoredBands, StoredHazard, StoredInfluence, StoredRecords, StoredSpectra, StoredStripes,
+};
 use uplift_motion::IntensityMeasure;
-use uplift_plot::{Axis, Figure, Panel, Series, Tone};
+use uplift_plot::{Axis, Figure, Panel, Series, Tone, share_y};
 
 /// The figures of the result at `path`, of either kind.
 ///
@@ -33,7 +39,7 @@ use uplift_plot::{Axis, Figure, Panel, Series, Tone};
 pub fn result_figures(path: &Path) -> Result<Vec<Figure>, UpliftError> {
     let file = ResultFile::open(path)?;
     match file.kind() {
-        Kind::UniformRisk => FigureSource::read(&file)?.figures(),
+        Kind::UniformRisk => Ok(FigureSource::read(&file)?.figures()?.into_all()),
         Kind::Displacement => displacement_figures(&file, &file.displacements()?, Extent::All),
     }
 }
@@ -43,9 +49,29 @@ pub struct FigureSource {
     pub(crate) stored: StoredStripes,
     pub(crate) spectra: StoredSpectra,
     pub(crate) bands: Option<StoredBands>,
+    pub(crate) influence: Vec<StoredInfluence>,
     hazard: Vec<StoredHazard>,
     records: StoredRecords,
     remark: &'static str,
+}
+
+/// The figures of a result of uniform risk spectra, by what they answer.
+pub struct RiskFigures {
+    /// How far must a structure be able to go?
+    pub answer: Vec<Figure>,
+    /// How sure is that?
+    pub confidence: Vec<Figure>,
+    /// Where does it come from?
+    pub causes: Vec<Figure>,
+    /// Curves fitted to it, to compute with.
+    pub fits: Vec<Figure>,
+}
+
+impl RiskFigures {
+    /// All of them, in their order.
+    pub fn into_all(self) -> Vec<Figure> {
+        [self.answer, self.confidence, self.causes, self.fits].concat()
+    }
 }
 
 impl FigureSource {
@@ -58,6 +84,8 @@ impl FigureSource {
             stored: file.stripes()?,
             spectra: file.spectra()?,
             bands: file.bands()?,
+            // of the risks of its study alone
+            influence: if file.is_asked() { Vec::new() } else { file.influence()? },
             hazard: file.hazard()?,
             records: file.records()?,
             remark: if file.head()?.synthetic { SYNTHETIC } else { "" },
@@ -69,24 +97,29 @@ impl FigureSource {
         self.spectra.measures.iter().find(|spectra| spectra.measure == measure).map(|spectra| &spectra.u_m)
     }
 
-    /// Every figure that the result has the numbers for, in the order of the chapter.
+    /// Every figure that the result has the numbers for.
     ///
     /// # Errors
     /// A file that is damaged.
-    pub fn figures(&self) -> Result<Vec<Figure>, UpliftError> {
-        let mut figures = Vec::new();
-        figures.push(spectra::hazard(self));
-        figures.extend(demand::ida_curves(self)?);
-        figures.extend(demand::fragilities(self)?);
-        figures.extend(demand::risk_curves(self)?);
-        figures.extend(demand::risk_surfaces(self)?);
-        figures.extend(spectra::spectra(self));
-        figures.extend(spectra::fits(self));
-        figures.extend(confidence::bands(self));
-        figures.extend(confidence::measures_together(self));
-        figures.extend(confidence::initiation(self));
-        figures.push(efficiency::efficiency(self)?);
-        Ok(figures)
+    pub fn figures(&self) -> Result<RiskFigures, UpliftError> {
+        let mut confidence = confidence::bands(self);
+        confidence.extend(confidence::measures_together(self));
+        confidence.extend(confidence::initiation(self));
+        confidence.extend(demand::fragilities(self)?);
+        confidence.extend(tails::tail_shares(self));
+        let mut causes = vec![spectra::hazard(self)];
+        causes.extend(influence::disaggregation(self));
+        causes.extend(influence::influence(self));
+        causes.extend(demand::risk_curves(self)?);
+        causes.extend(demand::risk_surfaces(self)?);
+        causes.extend(demand::ida_curves(self)?);
+        causes.push(efficiency::efficiency(self)?);
+        Ok(RiskFigures {
+            answer: spectra::spectra(self),
+            confidence,
+            causes,
+            fits: spectra::fits(self).into_iter().collect(),
+        })
     }
 
     fn figure(
@@ -94,8 +127,10 @@ impl FigureSource {
         id: impl Into<String>,
         title: impl Into<String>,
         caption: impl Into<String>,
-        panels: Vec<Panel>,
+        mut panels: Vec<Panel>,
     ) -> Figure {
+        // the sites are compared: what lies higher must be larger
+        share_y(&mut panels);
         let columns = if panels.len() > 4 { 3 } else { panels.len().min(2) };
         Figure {
             id: id.into(),
@@ -109,16 +144,16 @@ impl FigureSource {
 
     /// A line over the strengths.
     fn over_strengths(&self, name: impl Into<String>, values: &[f64], tone: Tone) -> Series {
-        Series::line(name, self.stored.strengths.iter().copied().zip(values.iter().copied()).collect(), tone)
+        Series::sampled(name, self.stored.strengths.iter().copied().zip(values.iter().copied()).collect(), tone)
     }
 
     /// Positions of the sites shown: the first nine.
-    fn sites(&self) -> std::ops::Range<usize> {
+    pub(crate) fn sites(&self) -> std::ops::Range<usize> {
         0..self.stored.sites.len().min(9)
     }
 
     /// Position of the smallest probability.
-    fn rarest(&self) -> usize {
+    pub(crate) fn rarest(&self) -> usize {
         let poes = &self.stored.poes;
         (0..poes.len()).min_by(|&a, &b| poes[a].total_cmp(&poes[b])).unwrap_or_default()
     }
@@ -135,4 +170,6 @@ fn spanned(axis: Axis, values: &[f64]) -> Axis {
 /// What figures of synthetic records say.
 const SYNTHETIC: &str = "synthetic records: not for design";
 /// Label of the strength axis.
-const STRENGTH: &str = "uplift strength f_up/(m g)";
+const STRENGTH: &str = "uplift strength η = f_{up}/(m g)";
+/// Label of an axis of peak displacements.
+const DISPLACEMENT: &str = "displacement u_{max}, m";

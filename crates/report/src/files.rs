@@ -7,7 +7,7 @@ use uplift::UpliftError;
 use uplift::outputs::{self, Output, OutputKind};
 use uplift::result::write_atomically;
 use uplift::text::visible;
-use uplift_plot::{Drawing, Figure, Width, png, svg, with_description, with_software};
+use uplift_plot::{Drawing, Figure, Look, Width, png, svg, with_description, with_software};
 
 /// Of a PNG for print.
 const DOTS_PER_INCH: f32 = 300.0;
@@ -29,13 +29,13 @@ pub enum FigureFormat {
 pub struct FigureOptions {
     /// Format of the files.
     pub format: FigureFormat,
-    /// Width of a journal's column (90 mm) or page (190 mm).
-    pub width: Width,
+    /// Width of a journal's column (90 mm) or page (190 mm), and whether the title stands in the figure.
+    pub look: Look,
 }
 
 impl Default for FigureOptions {
     fn default() -> Self {
-        Self { format: FigureFormat::Svg, width: Width::Double }
+        Self { format: FigureFormat::Svg, look: Look { width: Width::Double, title: false } }
     }
 }
 
@@ -55,16 +55,16 @@ impl FigureOptions {
         files.map(|file| Output::new(file, OutputKind::Figure)).collect()
     }
 
-    /// Writes `figure` into `folder`, which is there; the files written say that they are `of` a result.
+    /// Writes `figure` into `folder`, which is there; the files written say of themselves what `mark` says.
     ///
     /// # Errors
     /// A file that cannot be written, and no font for a PNG.
-    pub fn write(self, figure: &Figure, folder: &Path, of: Option<&Path>) -> Result<Vec<PathBuf>, UpliftError> {
-        let drawing = drawing_of(figure, self.width)?;
+    pub fn write(self, figure: &Figure, folder: &Path, mark: &str) -> Result<Vec<PathBuf>, UpliftError> {
+        let drawing = drawing_of(figure, self.look)?;
         let mut written = Vec::new();
         for ending in self.endings() {
             let file = folder.join(format!("{}.{ending}", figure.id));
-            write_drawing(figure, &drawing, &file, of)?;
+            write_drawing(figure, &drawing, &file, mark)?;
             written.push(file);
         }
         Ok(written)
@@ -80,18 +80,18 @@ pub fn check_figure_file(file: &Path, inputs: &[impl AsRef<Path>], force: bool) 
     outputs::check(&[Output::new(file, OutputKind::Figure)], inputs, force)
 }
 
-/// Writes `figure`, as wide as a page, to `file`, whose ending tells the format.
+/// Writes `figure` with its title, as wide as a page, to `file`, whose ending tells the format.
 ///
 /// # Errors
 /// A file that cannot be written, and no font for a PNG.
 pub fn write_figure_file(figure: &Figure, file: &Path) -> Result<(), UpliftError> {
-    let drawing = drawing_of(figure, Width::Double)?;
-    write_drawing(figure, &drawing, file, None)
+    let drawing = drawing_of(figure, Look { width: Width::Double, title: true })?;
+    write_drawing(figure, &drawing, file, &outputs::mark())
 }
 
-/// Writes a figure that was drawn, in the format of the ending; the file says that it is from this program.
-fn write_drawing(figure: &Figure, drawing: &Drawing, file: &Path, of: Option<&Path>) -> Result<(), UpliftError> {
-    let mark = visible(&outputs::mark(of)).into_owned();
+/// Writes a figure that was drawn, in the format of the ending, with what it says of itself.
+fn write_drawing(figure: &Figure, drawing: &Drawing, file: &Path, mark: &str) -> Result<(), UpliftError> {
+    let mark = visible(mark).into_owned();
     if file.extension().is_some_and(|extension| extension == "png") {
         let image = png(&drawing.svg, DOTS_PER_INCH).map_err(|error| refused(figure, error))?;
         write_atomically(file, &with_software(&image, &mark))
@@ -101,12 +101,12 @@ fn write_drawing(figure: &Figure, drawing: &Drawing, file: &Path, of: Option<&Pa
 }
 
 /// A figure as SVG, in whose texts what is no letter is spelt out: no reader of XML takes it.
-pub(crate) fn drawing_of(figure: &Figure, width: Width) -> Result<Drawing, UpliftError> {
-    let drawing = svg(figure, width).map_err(|reason| refused(figure, reason))?;
+fn drawing_of(figure: &Figure, look: Look) -> Result<Drawing, UpliftError> {
+    let drawing = svg(figure, look).map_err(|reason| refused(figure, reason))?;
     Ok(Drawing { svg: visible(&drawing.svg).into_owned(), ..drawing })
 }
 
 /// A figure that the drawing library does not draw.
-fn refused(figure: &Figure, reason: impl Display) -> UpliftError {
+pub(crate) fn refused(figure: &Figure, reason: impl Display) -> UpliftError {
     UpliftError::input(format!("{}: {reason}", figure.id))
 }

@@ -7,6 +7,7 @@
 //! | [`plot`](mod@plot) | the figures of results, curves, pulses and responses, written |
 //! | [`page`](mod@page) | one HTML page with every figure and table of results |
 //! | [`report`](mod@report) | that page, written |
+//! | [`sheet`] | one page on a structure that was designed |
 //!
 //! Nothing here prints or reads arguments: [`plot()`] and [`report()`] are jobs like those of [`uplift`].
 
@@ -15,6 +16,7 @@ pub mod files;
 pub mod page;
 pub mod plot;
 pub mod report;
+pub mod sheet;
 
 pub use files::{FigureFormat, FigureOptions, check_figure_file, write_figure_file};
 pub use plot::{
@@ -22,3 +24,4 @@ pub use plot::{
     plot_overturning, plot_pulses, plot_response,
 };
 pub use report::{PageReport, ReportOptions, report};
+pub use sheet::{check_design_sheet, write_design_sheet};

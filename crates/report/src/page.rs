@@ -1,80 +1,109 @@
-//! The report: one HTML file that opens anywhere, with every figure, the tables and where the numbers come from.
+//! The report: one HTML file that opens anywhere. It leads with the answer; then how sure it is, where it comes from,
+//! and what is needed to compute with it and to make it again.
 //!
 //! Styles and scripts are inside the file and nothing is fetched; its own policy forbids it. The figures are those of
 //! [`figures`](crate::figures), as SVG, with their values beside them for the script that reads them off.
 
+pub(crate) mod answer;
+mod differences;
 mod displacement;
+mod drawn;
 mod risk;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use minijinja::{Environment, context};
+use minijinja::{Environment, Value, context};
 use serde::Serialize;
 
-use crate::files::drawing_of;
+use answer::Answer;
+use differences::{differences, names};
+use drawn::DrawnFigure;
 use uplift::UpliftError;
 use uplift::alarms::{Alarm, alarms};
 use uplift::events::Events;
-use uplift::outputs::mark;
-use uplift::result::{AskedRisk, Kind, ResultFile};
+use uplift::result::{AskedRisk, Head, Kind, ResultFile};
 use uplift::text::visible;
-use uplift_plot::{Figure, Marks, PanelPlace, Width};
+use uplift_plot::{Figure, html};
+
+use crate::figures::{FigureSource, together};
+
+/// What every page begins with: its style, and how a table is written.
+pub(crate) const STYLE: &str = include_str!("page/report.css");
+const REPORT: &str = concat!(include_str!("page/table.html"), include_str!("page/report.html"));
 
 /// What the page shows of one result.
 #[derive(Debug, Serialize)]
 struct Section {
     key: String,
     title: String,
-    subject: &'static str,
-    extent: String,
     file: String,
+    extent: String,
     record_set: String,
-    synthetic: bool,
-    facts: Vec<(&'static str, String)>,
     alarms: Vec<Alarm>,
-    tables: Vec<Table>,
-    figures: Vec<DrawnFigure>,
+    answer: Option<Answer>,
+    parts: Vec<ShownPart>,
+    facts: Vec<(&'static str, String)>,
     study_toml: String,
     checksums: BTreeMap<String, String>,
 }
 
-/// A table; all columns but the first `text_columns` hold numbers.
+/// Tables and figures that answer one question, ready to be shown.
 #[derive(Debug, Serialize)]
-struct Table {
-    id: String,
-    title: String,
-    note: String,
-    header: Vec<String>,
-    text_columns: usize,
-    rows: Vec<Vec<String>>,
+struct ShownPart {
+    key: String,
+    title: &'static str,
+    /// Shown before the figures.
+    tables: Vec<Table>,
+    figures: Vec<DrawnFigure>,
+    /// Shown after them.
+    details: Vec<Table>,
 }
 
-/// A figure with the values that can be read off it.
+/// A table; all columns but the first `text_columns` hold numbers. Its headings have raised and lowered parts.
 #[derive(Debug, Serialize)]
-struct DrawnFigure {
-    id: String,
-    title: String,
-    caption: String,
-    svg: String,
-    panels: Vec<ReadablePanel>,
+pub(crate) struct Table {
+    pub(crate) id: String,
+    pub(crate) title: String,
+    pub(crate) note: String,
+    /// What stands above the headings of the numbers; empty for nothing.
+    pub(crate) group: String,
+    pub(crate) header: Vec<String>,
+    pub(crate) text_columns: usize,
+    pub(crate) rows: Vec<Vec<String>>,
 }
 
-/// A panel whose values can be read off.
-#[derive(Debug, Serialize)]
-struct ReadablePanel {
-    place: PanelPlace,
-    title: String,
-    x: String,
-    y: String,
-    lines: Vec<ReadableLine>,
+/// What is said of one result.
+struct Content {
+    /// What the result is of, e.g. `Uniform risk spectra`.
+    subject: &'static str,
+    /// How much it is of, a sentence.
+    extent: String,
+    answer: Option<Answer>,
+    facts: Vec<(&'static str, String)>,
+    parts: Vec<Part>,
+    /// Its spectra, to be laid over those of others.
+    source: Option<FigureSource>,
 }
 
-/// A line whose values can be read off.
-#[derive(Debug, Serialize)]
-struct ReadableLine {
-    name: String,
-    points: Vec<(f64, f64)>,
+/// Tables and figures that answer one question.
+struct Part {
+    /// Its name in links.
+    key: &'static str,
+    title: &'static str,
+    tables: Vec<Table>,
+    figures: Vec<Figure>,
+    details: Vec<Table>,
+}
+
+/// A result that was read.
+struct Read {
+    head: Head,
+    alarms: Vec<Alarm>,
+    /// What the page says of being made of it.
+    mark: String,
+    file: String,
+    content: Content,
 }
 
 /// The page on the results at `paths`, in their order and at the risks `asked` for, as HTML.
@@ -82,55 +111,84 @@ struct ReadableLine {
 /// # Errors
 /// A result that is missing, damaged or without sites.
 pub fn page(paths: &[PathBuf], asked: &AskedRisk, events: &dyn Events) -> Result<String, UpliftError> {
-    let mut sections = Vec::new();
-    for (index, path) in paths.iter().enumerate() {
+    let mut results = Vec::new();
+    for path in paths {
         if events.cancelled() {
             return Err(UpliftError::Interrupted);
         }
-        let result = ResultFile::open(path)?.at(asked)?.resampled(events)?;
-        sections.push(section(&format!("r{}", index + 1), path, &result)?);
+        results.push(read(path, &ResultFile::open(path)?.at(asked)?.resampled(events)?)?);
     }
-    let mut subjects: Vec<&str> = sections.iter().map(|section| section.subject).collect();
+    let heads: Vec<&Head> = results.iter().map(|of| &of.head).collect();
+    let titles: Vec<&str> = results.iter().map(Read::title).collect();
+    let files: Vec<&str> = results.iter().map(|of| of.file.as_str()).collect();
+    let differences = differences(&heads);
+    let names = names(&differences, &titles, &files);
+    let sources: Vec<(&str, &FigureSource)> = names
+        .iter()
+        .zip(&results)
+        .filter_map(|(name, of)| Some((name.as_str(), of.content.source.as_ref()?)))
+        .collect();
+    let common = if sources.len() > 1 { together(&sources) } else { None };
+    let common = common.map(|figure| DrawnFigure::new("all", &figure)).transpose()?;
+    let mut heading = titles.iter().map(|&title| title.to_owned()).collect::<Vec<_>>();
+    heading.dedup();
+    let mut subjects: Vec<&str> = results.iter().map(|of| of.content.subject).collect();
     subjects.dedup();
     let subjects = subjects.join(", ");
+    let several = results.len() > 1;
+    let mark = results.first().map(|of| of.mark.clone());
+    let sections = results.into_iter().zip(&names).enumerate().map(|(index, (result, name))| {
+        let title = if several { name.clone() } else { result.title().to_owned() };
+        section(&format!("r{}", index + 1), title, result)
+    });
+    let sections = sections.collect::<Result<Vec<Section>, UpliftError>>()?;
+    render(
+        REPORT,
+        context! {
+            sections, subjects, heading, several, names, differences, common,
+            style => STYLE,
+            script => include_str!("page/report.js"),
+            mark,
+            version => uplift::VERSION,
+            commit => uplift::COMMIT,
+        },
+    )
+}
+
+/// The page that `template` makes of `context`.
+///
+/// # Errors
+/// None for the templates of this crate.
+pub(crate) fn render(template: &'static str, context: Value) -> Result<String, UpliftError> {
     let mut templates = Environment::new();
+    templates.add_filter("typeset", |text: &str| Value::from_safe_string(html(text)));
     templates
-        .add_template("report.html", include_str!("page/report.html"))
-        .and_then(|()| templates.get_template("report.html"))
-        .and_then(|template| {
-            template.render(context! {
-                sections,
-                subjects,
-                style => include_str!("page/report.css"),
-                script => include_str!("page/report.js"),
-                mark => mark(paths.first().map(PathBuf::as_path)),
-                version => uplift::VERSION,
-                commit => uplift::COMMIT,
-            })
-        })
+        .add_template("page.html", template)
+        .and_then(|()| templates.get_template("page.html"))
+        .and_then(|template| template.render(context))
         // what is no letter may be hidden in a text of the results, and is of no page
         .map(|page| visible(&page).into_owned())
-        .map_err(|error| UpliftError::input(format!("the report cannot be made: {error}")))
+        .map_err(|error| UpliftError::input(format!("the page cannot be made: {error}")))
 }
 
-/// What differs between the kinds of results.
-struct Content {
-    /// What the result is of, e.g. `Uniform risk spectra`.
-    subject: &'static str,
-    /// How much it is of, a sentence.
-    extent: String,
-    facts: Vec<(&'static str, String)>,
-    tables: Vec<Table>,
-    figures: Vec<Figure>,
+impl Read {
+    /// The title of the study, or the name of the file where it has none.
+    fn title(&self) -> &str {
+        if self.head.title.is_empty() { &self.file } else { &self.head.title }
+    }
 }
 
-fn section(key: &str, path: &Path, result: &ResultFile) -> Result<Section, UpliftError> {
-    let head = result.head()?;
-    let file = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+fn read(path: &Path, result: &ResultFile) -> Result<Read, UpliftError> {
     let content = match result.kind() {
         Kind::UniformRisk => risk::content(result)?,
         Kind::Displacement => displacement::content(result)?,
     };
+    let file = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    Ok(Read { head: result.head()?, alarms: alarms(result)?, mark: result.mark()?, file, content })
+}
+
+fn section(key: &str, title: String, result: Read) -> Result<Section, UpliftError> {
+    let Read { head, alarms, file, content, .. } = result;
     let mut facts = vec![
         ("Result", file.clone()),
         ("Records", head.record_set.clone()),
@@ -139,65 +197,33 @@ fn section(key: &str, path: &Path, result: &ResultFile) -> Result<Section, Uplif
         ("Command", head.command),
     ];
     facts.extend(content.facts);
-    let mut tables = content.tables;
-    for table in &mut tables {
-        table.id = format!("{key}-{}", table.id);
-    }
-    let figures = content.figures.iter().map(|figure| drawn(key, figure)).collect::<Result<Vec<_>, _>>()?;
+    let keyed = |mut tables: Vec<Table>| {
+        for table in &mut tables {
+            table.id = format!("{key}-{}", table.id);
+        }
+        tables
+    };
+    let shown = |part: Part| {
+        let figures = part.figures.iter().map(|figure| DrawnFigure::new(key, figure)).collect::<Result<Vec<_>, _>>()?;
+        Ok(ShownPart {
+            key: format!("{key}-{}", part.key),
+            title: part.title,
+            tables: keyed(part.tables),
+            figures,
+            details: keyed(part.details),
+        })
+    };
     Ok(Section {
         key: key.to_owned(),
-        title: if head.title.is_empty() { file.clone() } else { head.title },
-        subject: content.subject,
-        extent: content.extent,
+        title,
         file,
+        extent: content.extent,
         record_set: head.record_set,
-        synthetic: head.synthetic,
+        alarms,
+        answer: content.answer,
+        parts: content.parts.into_iter().map(shown).collect::<Result<_, UpliftError>>()?,
         facts,
-        alarms: alarms(&result)?,
-        tables,
-        figures,
         study_toml: head.study_toml,
         checksums: head.input_checksums,
     })
-}
-
-fn drawn(key: &str, figure: &Figure) -> Result<DrawnFigure, UpliftError> {
-    let drawing = drawing_of(figure, Width::Double)?;
-    let panels = figure
-        .panels
-        .iter()
-        .zip(drawing.places)
-        .map(|(panel, place)| ReadablePanel {
-            place,
-            title: panel.title.clone(),
-            x: panel.x.label.clone(),
-            y: panel.y.label.clone(),
-            lines: panel
-                .series
-                .iter()
-                .filter(|series| !series.name.is_empty() && series.marks == Marks::None && series.points.len() > 2)
-                .map(|series| ReadableLine {
-                    name: series.name.clone(),
-                    points: series
-                        .points
-                        .iter()
-                        .filter(|point| point.0.is_finite() && point.1.is_finite())
-                        .map(|&(x, y)| (short(x), short(y)))
-                        .collect(),
-                })
-                .collect(),
-        })
-        .collect();
-    Ok(DrawnFigure {
-        id: format!("{key}-{}", figure.id),
-        title: figure.title.clone(),
-        caption: figure.caption.clone(),
-        svg: drawing.svg,
-        panels,
-    })
-}
-
-/// A number to the five digits that a reader takes off a curve.
-fn short(value: f64) -> f64 {
-    format!("{value:.4e}").parse().unwrap_or(value)
 }

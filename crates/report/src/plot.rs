@@ -9,6 +9,7 @@ use uplift::hazard_curves::{CurveOptions, read as read_curves};
 use uplift::outputs::{self, Output, beside, provide_folder};
 use uplift::pulses::{PULSE_FIGURES, PulseReport};
 use uplift::response::{BlockResponseReport, ResponseReport, ShakenBy};
+use uplift::result::ResultFile;
 use uplift::structure::OverturningReport;
 
 use crate::figures::{
@@ -61,12 +62,13 @@ pub fn plot(options: &PlotOptions, events: &dyn Events) -> Result<PlotReport, Up
     let outputs: Vec<Output> =
         options.figures.outputs(ids, &folder).into_iter().map(|output| output.of(&options.result)).collect();
     outputs::check(&outputs, &[&options.result], options.force)?;
+    let mark = ResultFile::open(&options.result)?.mark()?;
     let mut files = Vec::new();
     for figure in chosen {
         if events.cancelled() {
             return Err(UpliftError::Interrupted);
         }
-        files.extend(options.figures.write(figure, &folder, Some(&options.result))?);
+        files.extend(options.figures.write(figure, &folder, &mark)?);
     }
     Ok(PlotReport { files })
 }
@@ -88,7 +90,7 @@ pub fn plot_pulses(report: &PulseReport, folder: &Path, figures: FigureOptions) 
     provide_folder(folder)?;
     let mut files = Vec::new();
     for figure in pulse_figures(&report.plan, &report.spectra) {
-        files.extend(figures.write(&figure, folder, None)?);
+        files.extend(figures.write(&figure, folder, &outputs::mark())?);
     }
     Ok(files)
 }

@@ -101,11 +101,7 @@ impl Export {
 
     /// Every spectrum, by measure, then site, then probability.
     pub(super) fn rows(&self) -> impl Iterator<Item = Row<'_>> {
-        let places = self
-            .spectra
-            .measures
-            .iter()
-            .flat_map(|measure| measure.fits.blocks::<2>().map(|(at, _)| at));
+        let places = self.spectra.measures.iter().flat_map(|measure| measure.fits.blocks::<2>().map(|(at, _)| at));
         places.zip(self.spectra.rows()).map(|(at, spectrum)| Row {
             at,
             spectrum,

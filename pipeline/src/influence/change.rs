@@ -23,15 +23,15 @@ pub(super) struct Influence {
 
 /// How a record changes a spectrum.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct RecordInfluence {
+pub struct RecordInfluence {
     /// Position of the record.
-    pub(super) record: usize,
+    pub record: usize,
     /// Mean of the relative change of the ordinates without it, over the strengths above uplift.
-    pub(super) mean_change: f64,
+    pub mean_change: f64,
     /// The largest of these changes, by magnitude, with its sign.
-    pub(super) largest_change: f64,
+    pub largest_change: f64,
     /// The strength at which it is.
-    pub(super) strength: f64,
+    pub strength: f64,
 }
 
 /// One strength: ordinates without each record `[site][record, poe]`, shares `[site, poe, bin]`.
@@ -85,18 +85,18 @@ pub(super) fn influence_by(stored: &StoredStripes, measure: &StoredMeasure) -> R
 /// The influence of every record on one spectrum, the most influential first; empty where no ordinate lies above
 /// uplift.
 ///
+/// * `without_m` — exact ordinates without each record `[site, poe, record, strength]`, m
 /// * `at` — site and probability of the spectrum, by position
 ///
 /// Ordinates without a record are compared with those of `measure` with all of them, both exact: the change is never
 /// that between an exact ordinate and one of the study's grid.
-pub(super) fn rank_records(
+pub fn rank_records(
     stored: &StoredStripes,
     measure: &StoredMeasure,
-    influence: &Influence,
+    without_m: &Array<4>,
     at: [usize; 2],
 ) -> Vec<RecordInfluence> {
     let [site, poe] = at;
-    let Some(without_m) = &influence.without_m else { return Vec::new() };
     let mut all: Vec<RecordInfluence> = (0..stored.records.len())
         .filter_map(|record| {
             let changes: Vec<(f64, f64)> = without_m
@@ -119,8 +119,8 @@ pub(super) fn rank_records(
 /// The level below which a share of the risk lies, in the unit of the levels: linear within a bin, 0 at its lower end
 /// for the first, the last level for the last. NaN where there is no ordinate.
 ///
-/// * `shares` — of one ordinate, as in [`Influence::shares`]
-pub(super) fn level_of_share(levels: &[f64], shares: &[f64], share: f64) -> f64 {
+/// * `shares` — of one ordinate: below the first level, between the levels, above the last
+pub fn level_of_share(levels: &[f64], shares: &[f64], share: f64) -> f64 {
     let mut sum = 0.0;
     for (bin, &part) in shares.iter().enumerate() {
         if part > 0.0 && sum + part >= share * (1.0 - 1e-12) {

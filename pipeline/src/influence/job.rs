@@ -60,7 +60,10 @@ pub fn influence(
     let rankings: Vec<Array<2, Vec<RecordInfluence>>> = influences
         .iter()
         .zip(&stored.measures)
-        .map(|(influence, measure)| Array::from_fn(shape, |at| rank_records(&stored, measure, influence, at)))
+        .map(|(influence, measure)| {
+            let rank = |at| influence.without_m.as_ref().map(|without_m| rank_records(&stored, measure, without_m, at));
+            Array::from_fn(shape, |at| rank(at).unwrap_or_default())
+        })
         .collect();
     write_influence(&addition, &stored, &influences, &rankings)?;
     Ok(InfluenceReport::new(&stored, &influences, &rankings, poe, options.top))

@@ -54,6 +54,11 @@ impl StoredBands {
         self.measures.iter().find(|bands| bands.measure == measure)
     }
 
+    /// Position of the largest sample, whose bands say most.
+    pub fn largest(&self) -> usize {
+        (0..self.sizes.len()).max_by_key(|&size| self.sizes[size]).unwrap_or_default()
+    }
+
     /// The levels of both limits in words: `5 %`, `95 %`.
     pub fn level_names(&self) -> [String; 2] {
         let [lower, _, upper] = limit_names(self.confidence);

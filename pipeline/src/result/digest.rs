@@ -4,8 +4,11 @@ use std::collections::BTreeMap;
 
 use toml::Value;
 
+use super::file::ResultFile;
 use super::head::Head;
 use crate::checksum::checksum;
+use crate::error::UpliftError;
+use crate::outputs;
 use crate::result_of::what_counts;
 
 /// Letters of a digest that is written into tables and figures: two results of a folder do not share them.
@@ -38,6 +41,17 @@ impl Head {
     /// lie and whoever runs them.
     pub fn study_digest(&self) -> String {
         study_digest(&self.study_toml, &self.input_checksums)
+    }
+}
+
+impl ResultFile {
+    /// What a file that is made of this result says of itself: the program, the result and the digest of its study.
+    ///
+    /// # Errors
+    /// A file that is damaged.
+    pub fn mark(&self) -> Result<String, UpliftError> {
+        let name = self.path().file_name().unwrap_or_default().to_string_lossy();
+        Ok(format!("{}; {name}; study digest {}", outputs::mark(), self.head()?.study_digest()))
     }
 }
 

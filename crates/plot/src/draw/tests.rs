@@ -1,6 +1,8 @@
 #![allow(clippy::unwrap_used)]
 use super::*;
-use crate::{Axis, Band, Panel, Series, png};
+use crate::{Axis, Band, Marks, Panel, Series, Tone, png};
+
+const LOOK: Look = Look { width: Width::Double, title: false };
 
 fn figure() -> Figure {
     let line = |name: &str, factor: f64, tone: Tone| {
@@ -42,7 +44,7 @@ fn figure() -> Figure {
 #[test]
 fn everything_lies_within_the_drawing() {
     for width in [Width::Single, Width::Double] {
-        let drawing = svg(&figure(), width).unwrap();
+        let drawing = svg(&figure(), Look { width, title: true }).unwrap();
         assert_eq!(drawing.places.len(), 3);
         assert!(drawing.svg.contains("&lt;Site &amp; others&gt;") && drawing.svg.contains("synthetic"));
         assert!(!drawing.svg.contains("NaN") && !drawing.svg.contains("inf"));
@@ -60,7 +62,7 @@ fn everything_lies_within_the_drawing() {
 
 #[test]
 fn each_tone_has_its_dashes() {
-    let drawing = svg(&figure(), Width::Double).unwrap();
+    let drawing = svg(&figure(), LOOK).unwrap();
     // the line with gaps, in pieces and in the legend; the others are full or thin
     let dashed = drawing.svg.matches("stroke=\"#D55E00\" stroke-width=\"12\" stroke-dasharray=\"56 24\"").count();
     assert_eq!(dashed, drawing.svg.matches("stroke=\"#D55E00\"").count());
@@ -70,7 +72,7 @@ fn each_tone_has_its_dashes() {
 
 #[test]
 fn a_place_turns_pixels_into_values() {
-    let place = &svg(&figure(), Width::Double).unwrap().places[2];
+    let place = &svg(&figure(), LOOK).unwrap().places[2];
     assert_eq!(place.y_range, (0.2, 0.4));
     assert!(place.x_pixels.1 - place.x_pixels.0 > 200 * UNITS && place.y_pixels.1 - place.y_pixels.0 > 100 * UNITS);
 }
@@ -84,19 +86,22 @@ fn a_figure_without_numbers_can_be_drawn() {
             series.points.iter_mut().for_each(|point| point.1 = f64::NAN);
         }
     }
-    assert!(svg(&figure, Width::Double).is_ok());
+    assert!(svg(&figure, LOOK).is_ok());
     figure.panels.clear();
-    assert!(svg(&figure, Width::Double).is_ok());
+    assert!(svg(&figure, LOOK).is_ok());
 }
 
 #[test]
 fn an_image_has_the_resolution_asked_for() {
-    let drawing = svg(&figure(), Width::Single).unwrap();
+    let drawing = svg(&figure(), Look { width: Width::Single, ..LOOK }).unwrap();
     match png(&drawing.svg, 192.0) {
         Ok(image) => {
             // width and height stand in the header of a PNG
             let number = |at: usize| u32::from_be_bytes(image[at..at + 4].try_into().unwrap());
             assert_eq!((number(16), number(20)), (2 * drawing.size.0, 2 * drawing.size.1));
+            // and says how many dots there are to a metre
+            let said = image.windows(4).position(|name| name == b"pHYs").unwrap();
+            assert_eq!((number(said + 4), number(said + 8), image[said + 12]), (7559, 7559, 1));
         }
         Err(error) => assert!(error.to_string().contains("font"), "{error}"),
     }
@@ -108,7 +113,7 @@ fn rings_are_hollow() {
         let mut figure = figure();
         let points = vec![(0.5, 0.3)];
         figure.panels[0].series.push(Series { name: String::new(), points, tone: Tone::Distinct(4), marks });
-        svg(&figure, Width::Double).unwrap().svg
+        svg(&figure, LOOK).unwrap().svg
     };
     let circles = |svg: &str, filled: &str| {
         svg.lines().filter(|line| line.starts_with("<circle") && line.contains(&format!("fill=\"{filled}\""))).count()
@@ -116,4 +121,57 @@ fn rings_are_hollow() {
     let (dots, rings) = (marked(Marks::Only), marked(Marks::Rings));
     assert_eq!([circles(&dots, "#000000"), circles(&dots, "none"), circles(&dots, "#FFFFFF")], [1, 0, 0]);
     assert_eq!([circles(&rings, "#000000"), circles(&rings, "none"), circles(&rings, "#FFFFFF")], [0, 1, 1]);
+}
+
+#[test]
+fn a_title_stands_in_a_figure_only_where_it_is_wanted() {
+    let [with, without] = [true, false].map(|title| svg(&figure(), Look { title, ..LOOK }).unwrap());
+    assert!(with.svg.contains("A test") && !without.svg.contains("A test"));
+    assert!(without.size.1 < with.size.1, "and no gap is left for it");
+    assert!(without.svg.contains("synthetic"), "what warns stays");
+}
+
+#[test]
+fn texts_are_no_smaller_than_journals_take() {
+    for width in [Width::Single, Width::Double] {
+        let drawing = svg(&figure(), Look { width, ..LOOK }).unwrap();
+        let sizes = drawing.svg.split("<text ").skip(1).map(|text| {
+            let size = text.split_once("font-size=\"").unwrap().1;
+            size[..size.find('"').unwrap()].parse::<f64>().unwrap() / f64::from(ZOOM) * 72.0 / 96.0
+        });
+        let smallest = sizes.fold(f64::INFINITY, f64::min);
+        assert!(smallest > 6.99, "{smallest} points");
+    }
+}
+
+#[test]
+fn few_computed_values_are_marked() {
+    let circles = |count: u32| {
+        let points = (0..count).map(|i| (f64::from(i), 1.0)).collect();
+        let panel =
+            Panel::lines("", Axis::linear("x"), Axis::linear("y"), vec![Series::sampled("s", points, Tone::Faint)]);
+        panel_svg(&panel).unwrap().svg.matches("<circle").count()
+    };
+    assert_eq!((circles(5), circles(300)), (5, 0));
+}
+
+#[test]
+fn panels_share_a_range_if_they_measure_the_same() {
+    let panel = |label: &str, top: f64| {
+        let line = Series::line("", vec![(0.0, 0.0), (1.0, top)], Tone::Faint);
+        Panel::lines("", Axis::linear("x"), Axis::linear(label), vec![line])
+    };
+    let mut panels = vec![panel("u, m", 1.0), panel("u, m", 4.0), panel("u, m", f64::NAN)];
+    crate::share_y(&mut panels);
+    let ranges: Vec<_> = panels.iter().map(|panel| panel_svg(panel).unwrap().places[0].y_range).collect();
+    assert_eq!(ranges, [(0.0, 4.2); 3]);
+    let mut panels = vec![panel("u, m", 1.0), panel("v, m", 4.0)];
+    crate::share_y(&mut panels);
+    assert!(panels.iter().all(|panel| panel.y.range.is_none()));
+}
+
+#[test]
+fn a_legend_in_parts_is_that_of_the_figure() {
+    let names: Vec<String> = swatches(&figure()).unwrap().into_iter().map(|swatch| swatch.name).collect();
+    assert_eq!(names, ["full", "with a gap", "band"]);
 }

@@ -1,13 +1,25 @@
 //! Confidence bands of the spectra (Figures 4.8, 4.9, 4.10).
 
-use super::{FigureSource, STRENGTH};
+use super::{DISPLACEMENT, FigureSource, STRENGTH};
 use uplift::result::MeasureBands;
 use uplift::text::per_cent;
+use uplift_motion::IntensityMeasure;
 use uplift_plot::{Axis, Band, Figure, Panel, Series, Tone};
 
 impl FigureSource {
+    /// The bands of `measure`.
+    pub(super) fn bands_of(&self, measure: IntensityMeasure) -> Option<&MeasureBands> {
+        self.bands.as_ref()?.of(measure)
+    }
+
     /// Band and median of one site, probability and size, by position.
-    fn band(&self, bands: &MeasureBands, at: [usize; 3], name: impl Into<String>, tone: Tone) -> (Band, Series) {
+    pub(super) fn band(
+        &self,
+        bands: &MeasureBands,
+        at: [usize; 3],
+        name: impl Into<String>,
+        tone: Tone,
+    ) -> (Band, Series) {
         let [lower, median, upper] = bands.limits_m.each_ref().map(|limits| limits.block(at));
         let limits = lower.iter().zip(upper);
         let points = self.stored.strengths.iter().zip(limits).map(|(&eta, (&low, &high))| (eta, low, high)).collect();
@@ -22,7 +34,7 @@ pub(super) fn bands(source: &FigureSource) -> Vec<Figure> {
     let figure = |bands: &MeasureBands| {
         let panel = |site: usize| {
             let title = source.stored.sites[site].clone();
-            let mut panel = Panel::lines(title, Axis::linear(STRENGTH), Axis::log("displacement, m"), Vec::new());
+            let mut panel = Panel::lines(title, Axis::linear(STRENGTH), Axis::log(DISPLACEMENT), Vec::new());
             for (size, &records) in stored.sizes.iter().enumerate() {
                 let name = format!("{records} records");
                 let (band, median) = source.band(bands, [site, poe, size], name, Tone::Distinct(size));
@@ -50,7 +62,7 @@ pub(super) fn bands(source: &FigureSource) -> Vec<Figure> {
 /// Bands of the largest sample by all measures, for one probability.
 fn together(source: &FigureSource, poe: usize, y: &Axis, up_to: Option<f64>) -> Option<Vec<Panel>> {
     let stored = source.bands.as_ref().filter(|bands| !bands.measures.is_empty())?;
-    let size = (0..stored.sizes.len()).max_by_key(|&size| stored.sizes[size]).unwrap_or_default();
+    let size = stored.largest();
     let panel = |site: usize| {
         let mut panel = Panel::lines(source.stored.sites[site].clone(), Axis::linear(STRENGTH), y.clone(), Vec::new());
         for (index, measure) in source.stored.measures.iter().enumerate() {
@@ -73,7 +85,7 @@ fn together(source: &FigureSource, poe: usize, y: &Axis, up_to: Option<f64>) -> 
 
 pub(super) fn measures_together(source: &FigureSource) -> Option<Figure> {
     let poe = source.rarest();
-    let panels = together(source, poe, &Axis::log("displacement, m"), None)?;
+    let panels = together(source, poe, &Axis::log(DISPLACEMENT), None)?;
     let caption = format!(
         "Median and interval of the spectra of {} in {} years for the largest sample, by each intensity measure \
          (Fig. 4.9): where the areas part, the measures contradict each other.",
@@ -87,7 +99,7 @@ pub(super) fn initiation(source: &FigureSource) -> Option<Figure> {
     let stored = &source.stored;
     let poe = (0..stored.poes.len()).max_by(|&a, &b| stored.poes[a].total_cmp(&stored.poes[b]))?;
     let top = 4.0 * stored.uplift_displacement_m;
-    let panels = together(source, poe, &Axis::linear("displacement, m").between(0.0, top), Some(top))?;
+    let panels = together(source, poe, &Axis::linear(DISPLACEMENT).between(0.0, top), Some(top))?;
     let caption = format!(
         "Spectra of {} in {} years near the uplift displacement of {} m, for the largest sample (Fig. 4.10).",
         per_cent(stored.poes[poe]),

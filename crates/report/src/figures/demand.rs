@@ -3,7 +3,7 @@
 use uplift_fragility::{exceedance_probabilities, quantile};
 use uplift_risk::{RiskCurve, ThresholdGrid};
 
-use super::{FigureSource, STRENGTH};
+use super::{DISPLACEMENT, FigureSource, STRENGTH};
 use uplift::UpliftError;
 use uplift::text::{nearest, per_cent};
 use uplift_plot::{Axis, Figure, Panel, Series, Tone};
@@ -12,8 +12,9 @@ use uplift_plot::{Axis, Figure, Panel, Series, Tone};
 const SHOWN_STRENGTH: f64 = 0.2;
 /// Displacements whose fragilities are shown, m.
 const THRESHOLDS_M: [f64; 4] = [0.01, 0.05, 0.2, 0.5];
-/// Rates whose contours of the risk surface are shown, 1/yr.
+/// Rates whose contours of the risk surface are shown, 1/yr, and their names.
 const RATES_PER_YEAR: [f64; 4] = [1e-4, 1e-3, 1e-2, 1e-1];
+const RATE_NAMES: [&str; 4] = ["10^{−4} per year", "10^{−3} per year", "10^{−2} per year", "10^{−1} per year"];
 /// Strengths whose risk curves are shown.
 const RISK_STRENGTHS: [f64; 4] = [0.05, 0.1, 0.2, 0.4];
 
@@ -55,12 +56,12 @@ pub(super) fn ida_curves(source: &FigureSource) -> Result<Option<Figure>, Uplift
         }
         panels.push(Panel::lines(
             "",
-            Axis::log("peak displacement, m"),
+            Axis::log(DISPLACEMENT),
             Axis::linear(format!("{}, {}", measure.measure.label(), measure.measure.unit())),
             series,
         ));
     }
-    let title = format!("Incremental dynamic analysis at strength {:.3}", stored.strengths[strength]);
+    let title = format!("Incremental dynamic analysis at η = {:.3}", stored.strengths[strength]);
     let caption = "Peak displacement of every record scaled to every level (grey), of the first record, and \
                    percentiles over the records at each level (Fig. A2.13, A2.14).";
     Ok(Some(source.figure("ida", title, caption, panels)))
@@ -76,7 +77,7 @@ pub(super) fn fragilities(source: &FigureSource) -> Result<Option<Figure>, Uplif
         for (index, threshold_m) in THRESHOLDS_M.into_iter().enumerate() {
             let probabilities = exceedance_probabilities(&stripes, threshold_m).map_err(|error| source.fail(&error))?;
             let points = measure.levels.iter().copied().zip(probabilities).collect();
-            series.push(Series::line(format!("u > {threshold_m} m"), points, Tone::Distinct(index)));
+            series.push(Series::line(format!("u_{{max}} > {threshold_m} m"), points, Tone::Distinct(index)));
         }
         panels.push(Panel::lines(
             "",
@@ -85,7 +86,7 @@ pub(super) fn fragilities(source: &FigureSource) -> Result<Option<Figure>, Uplif
             series,
         ));
     }
-    let title = format!("Fragility at strength {:.3}", stored.strengths[strength]);
+    let title = format!("Fragility at η = {:.3}", stored.strengths[strength]);
     let caption = "Share of the records that exceed a displacement at each level (Eq. 4.7): counted, not fitted.";
     Ok(Some(source.figure("fragility", title, caption, panels)))
 }
@@ -103,7 +104,7 @@ pub(super) fn risk_curves(source: &FigureSource) -> Result<Vec<Figure>, UpliftEr
             .map(|site| {
                 Panel::lines(
                     stored.sites[site].clone(),
-                    Axis::log("displacement, m"),
+                    Axis::log(DISPLACEMENT),
                     Axis::log("mean annual frequency, 1/yr"),
                     Vec::new(),
                 )
@@ -115,7 +116,7 @@ pub(super) fn risk_curves(source: &FigureSource) -> Result<Vec<Figure>, UpliftEr
                 let curve = RiskCurve::new(&demand, &measure.weights[site]).map_err(|error| source.fail(&error))?;
                 let rates = curve.mean_annual_frequencies(&grid);
                 let points = grid.thresholds_m().iter().copied().zip(rates).skip(1).collect();
-                let name = format!("strength {:.3}", stored.strengths[strength]);
+                let name = format!("η = {:.3}", stored.strengths[strength]);
                 panel.series.push(Series::line(name, points, Tone::Distinct(index)));
             }
         }
@@ -167,18 +168,15 @@ pub(super) fn risk_surfaces(source: &FigureSource) -> Result<Vec<Figure>, Uplift
             .iter()
             .enumerate()
             .map(|(site, of_site)| {
-                let mut series: Vec<Series> = RATES_PER_YEAR
-                    .iter()
-                    .zip(of_site)
-                    .enumerate()
-                    .map(|(index, (rate, u_m))| {
-                        source.over_strengths(format!("{rate:e} per year"), u_m, Tone::Distinct([0, 1, 2, 3][index]))
-                    })
-                    .collect();
+                let named = RATE_NAMES.iter().zip(of_site).enumerate();
+                let contour = |(index, (name, u_m)): (usize, (&&str, &Vec<f64>))| {
+                    source.over_strengths(*name, u_m, Tone::Distinct(index))
+                };
+                let mut series: Vec<Series> = named.map(contour).collect();
                 let name = format!("{} in {} years", per_cent(stored.poes[rarest]), stored.years);
                 let spectrum = source.u_m(measure.measure).map(|u_m| u_m.block([site, rarest]));
                 series.extend(spectrum.map(|u_m| source.over_strengths(name, u_m, Tone::Distinct(4))));
-                Panel::lines(stored.sites[site].clone(), Axis::linear(STRENGTH), Axis::log("displacement, m"), series)
+                Panel::lines(stored.sites[site].clone(), Axis::linear(STRENGTH), Axis::log(DISPLACEMENT), series)
             })
             .collect();
         let label = measure.measure.label();

@@ -155,7 +155,7 @@ impl DisplacementSource<'_> {
         let mut points: Vec<(f64, f64)> = self.stored.abscissas.iter().copied().zip(ordinates_m).collect();
         let from = points.iter().rposition(|point| point.1.is_infinite()).map_or(0, |last| last + 1);
         points.drain(..from);
-        Series::line(line.name.clone(), points, line.tone)
+        Series::sampled(line.name.clone(), points, line.tone)
     }
 
     /// Rings where the lines of a panel hang on rounding, or those `behind` all of them do: `series` is what is drawn
@@ -222,5 +222,5 @@ impl DisplacementSource<'_> {
 }
 
 fn capacity_name(capacity_m: f64) -> String {
-    if capacity_m.is_infinite() { "u_cap = ∞".to_owned() } else { format!("u_cap = {capacity_m} m") }
+    if capacity_m.is_infinite() { "u_{cap} = ∞".to_owned() } else { format!("u_{{cap}} = {capacity_m} m") }
 }

@@ -6,10 +6,10 @@ use super::spanned;
 use uplift::pulses::{PulsePlan, PulseSpectra, Spectrum, wavelet};
 use uplift_plot::{Axis, Figure, Hatch, Map, Panel, Region, Series, Tone};
 
-const FREQUENCY: &str = "size-frequency parameter ω_p/p";
-const ACCELERATION: &str = "acceleration a_p/(g tan α)";
-const HALF_WIDTH: &str = "half-width b ω_p²/a_p";
-const DISPLACEMENT: &str = "displacement u_max ω_p²/a_p";
+const FREQUENCY: &str = "size-frequency parameter ω_{p}/p";
+const ACCELERATION: &str = "acceleration a_{p}/(g tan α)";
+const HALF_WIDTH: &str = "half-width b ω_{p}²/a_{p}";
+const DISPLACEMENT: &str = "displacement u_{max} ω_{p}²/a_{p}";
 /// A block that rotates or moves by less has not uplifted: rounding may lift one whose ground is as strong as it is.
 const MOVES: f64 = 1e-9;
 /// Lower ends of the areas of equal rotation θmax/α and displacement.
@@ -34,13 +34,13 @@ pub fn pulse_figures(plan: &PulsePlan, spectra: &[PulseSpectra]) -> Vec<Figure> 
     vec![
         figure(
             "rotation",
-            "Largest rotation θ_max/α",
+            "Largest rotation θ_{max}/α",
             format!("Largest rotation of {block} under Ricker wavelets; hatched where it overturns (Fig. 2.2)."),
             &|of| map(of.shape, &of.by_frequency, FREQUENCY, &ROTATIONS, |point| point.rotation),
         ),
         figure(
             "displacement",
-            "Largest displacement u_max ω_p²/a_p",
+            "Largest displacement u_{max} ω_{p}²/a_{p}",
             format!(
                 "Largest displacement of the top of {block} under Ricker wavelets; hatched where it overturns (Fig. \
                  2.3). It depends on the acceleration far more than on the size."
@@ -77,7 +77,7 @@ pub fn pulse_figures(plan: &PulsePlan, spectra: &[PulseSpectra]) -> Vec<Figure> 
         ),
         figure(
             "by-half-width",
-            "Displacement u_max ω_p²/a_p by half-width",
+            "Displacement u_{max} ω_{p}²/a_{p} by half-width",
             format!(
                 "Largest displacement of the top of {block} under Ricker wavelets; hatched where it overturns (Fig. \
                  2.7). The line is a base 2b of nine times a_p/ω_p²."
@@ -129,7 +129,7 @@ fn displacements<'a>(points: impl Iterator<Item = (f64, &'a SpectrumPoint)>) -> 
 fn over_acceleration(shape: RickerShape, spectrum: &Spectrum) -> Panel {
     let line = |(index, frequency): (usize, &f64)| {
         let points = displacements(spectrum.over_accelerations(index));
-        Series::line(format!("ω_p/p = {frequency}"), points, Tone::Distinct(index))
+        Series::line(format!("ω_{{p}}/p = {frequency}"), points, Tone::Distinct(index))
     };
     let series = spectrum.plan.sizes.iter().enumerate().map(line).collect();
     let x = spanned(Axis::linear(ACCELERATION), &spectrum.plan.accelerations);
@@ -139,7 +139,7 @@ fn over_acceleration(shape: RickerShape, spectrum: &Spectrum) -> Panel {
 fn over_frequency(shape: RickerShape, spectrum: &Spectrum) -> Panel {
     let line = |(index, acceleration): (usize, &f64)| {
         let points = displacements(spectrum.over_sizes(index));
-        Series::line(format!("a_p/(g tan α) = {acceleration}"), points, Tone::Distinct(index))
+        Series::line(format!("a_{{p}}/(g tan α) = {acceleration}"), points, Tone::Distinct(index))
     };
     let series = spectrum.plan.accelerations.iter().enumerate().map(line).collect();
     let x = spanned(Axis::linear(FREQUENCY), &spectrum.plan.sizes);
@@ -156,9 +156,9 @@ fn over_size(spectra: &PulseSpectra, period_s: f64) -> Panel {
     let series = blocks.slendernesses_rad.iter().enumerate().map(line).collect();
     let x = spanned(Axis::log("size parameter R, m"), &blocks.sizes_m);
     Panel::lines(
-        format!("{}, T_p = {period_s} s", wavelet(spectra.shape)),
+        format!("{}, T_{{p}} = {period_s} s", wavelet(spectra.shape)),
         x,
-        Axis::linear("displacement u_max, m"),
+        Axis::linear(super::DISPLACEMENT),
         series,
     )
 }
@@ -166,6 +166,6 @@ fn over_size(spectra: &PulseSpectra, period_s: f64) -> Panel {
 fn by_half_width(shape: RickerShape, spectrum: &Spectrum) -> Panel {
     let mut panel = map(shape, spectrum, HALF_WIDTH, &DISPLACEMENTS, |point| point.displacement);
     let ends = spectrum.plan.accelerations.iter().map(|&acceleration| (4.5, acceleration)).collect();
-    panel.series.push(Series::line("2b = 9 a_p/ω_p²", ends, Tone::Distinct(3)));
+    panel.series.push(Series::line("2b = 9 a_{p}/ω_{p}²", ends, Tone::Distinct(3)));
     panel
 }

@@ -1,6 +1,6 @@
 //! Hazard curves, uniform risk spectra and their fits (Figures 4.5, 4.6, 4.7, 4.11).
 
-use super::{FigureSource, STRENGTH};
+use super::{DISPLACEMENT, FigureSource, STRENGTH};
 use uplift::hazard_curves::NamedCurve;
 use uplift::text::per_cent;
 use uplift_motion::IntensityMeasure;
@@ -57,11 +57,24 @@ pub(super) fn spectra(source: &FigureSource) -> Vec<Figure> {
                 };
                 let series = spectra.poes.iter().enumerate().map(line).collect();
                 let title = spectra.sites[site].clone();
-                Panel::lines(title, Axis::linear(STRENGTH), Axis::log("displacement, m"), series)
+                let bands = (0..spectra.poes.len()).filter_map(|poe| {
+                    let at = [site, poe, source.bands.as_ref()?.largest()];
+                    Some(source.band(source.bands_of(of_measure.measure)?, at, "", Tone::Distinct(poe)).0)
+                });
+                let bands = bands.collect();
+                Panel { bands, ..Panel::lines(title, Axis::linear(STRENGTH), Axis::log(DISPLACEMENT), series) }
             };
+            let banded = source.bands.as_ref().filter(|bands| bands.of(of_measure.measure).is_some());
+            let banded = banded.map_or_else(String::new, |bands| {
+                format!(
+                    " Areas: {} of the spectra of resampled records, {} in a sample.",
+                    per_cent(bands.confidence),
+                    bands.sizes[bands.largest()]
+                )
+            });
             let caption = format!(
                 "Displacement that a rocking structure of a given uplift strength exceeds with the stated probability, \
-                 from stripes by {label} (Fig. 4.6, 4.7). Ordinates that are zero or censored are left out."
+                 from stripes by {label} (Fig. 4.6, 4.7).{banded} Ordinates that are zero or censored are left out."
             );
             let id = format!("urs-{}", of_measure.measure.key());
             let title = format!("Uniform risk spectra by {label}");
@@ -79,8 +92,9 @@ pub(super) fn fits(source: &FigureSource) -> Option<Figure> {
             let tone = Tone::Distinct(poe);
             let mut points = source.over_strengths("", by_pgv.u_m.block([site, poe]), tone);
             points.marks = Marks::Only;
-            // every fourth point: the curve must be seen between them
-            points.points = points.points.into_iter().step_by(4).collect();
+            // some seventy at most: the curve must be seen between them
+            let step = points.points.len().div_ceil(76).max(1);
+            points.points = points.points.into_iter().step_by(step).collect();
             series.push(points);
             if let Some(curve) = by_pgv.fits[[site, poe]].curve() {
                 let fitted = spectra.strengths.iter().filter(|&&strength| strength > 0.05);
@@ -90,9 +104,9 @@ pub(super) fn fits(source: &FigureSource) -> Option<Figure> {
             }
         }
         let title = spectra.sites[site].clone();
-        Panel::lines(title, Axis::linear(STRENGTH), Axis::log("displacement, m"), series)
+        Panel::lines(title, Axis::linear(STRENGTH), Axis::log(DISPLACEMENT), series)
     };
-    let caption = "Spectra by PGV (dots) and the exponential c0 exp(c1 strength) + c2 fitted to them (lines; \
+    let caption = "Spectra by PGV (dots) and the exponential c_{0} exp(c_{1} η) + c_{2} fitted to them (lines; \
                    Eq. 4.11, Fig. 4.11, Table 4.2).";
     Some(source.figure("fits", "Fitted spectra", caption, source.sites().map(panel).collect()))
 }

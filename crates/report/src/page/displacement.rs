@@ -1,6 +1,6 @@
 //! What the report shows of displacement spectra.
 
-use super::{Content, Table};
+use super::{Content, Part, Table};
 use crate::figures::{Extent, displacement_figures};
 use uplift::UpliftError;
 use uplift::result::{DesignRow, ResultFile, StoredDesign, StoredDisplacements, StoredStructures};
@@ -8,10 +8,14 @@ use uplift::text::thousands;
 
 pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
     let stored = file.displacements()?;
-    let mut tables = vec![sets(&stored)];
-    if let Some(design) = file.design()? {
-        tables.extend(designs(&stored, &design));
-    }
+    let designs = file.design()?.map(|design| designs(&stored, &design)).unwrap_or_default();
+    let parts = vec![Part {
+        key: "spectra",
+        title: "Spectra and designs",
+        tables: vec![sets(&stored)],
+        figures: displacement_figures(file, &stored, Extent::Main)?,
+        details: designs,
+    }];
     let (structures, abscissas) = match stored.structures {
         StoredStructures::Oscillators { .. } => ("oscillators", "uplift strengths"),
         StoredStructures::Blocks { .. } => ("rocking blocks", "slendernesses"),
@@ -27,8 +31,9 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
             stored.abscissas.len()
         ),
         facts: vec![("Analyses", thousands(stored.analyses))],
-        tables,
-        figures: displacement_figures(file, &stored, Extent::Main)?,
+        answer: None,
+        parts,
+        source: None,
     })
 }
 
@@ -59,6 +64,7 @@ fn sets(stored: &StoredDisplacements) -> Table {
                 )
             })
         ),
+        group: String::new(),
         header: ["set", "records", "motions", "median PGA, g", "median PGV, cm/s"].map(str::to_owned).to_vec(),
         text_columns: 1,
         rows: rows.collect(),
@@ -101,6 +107,7 @@ fn designs(stored: &StoredDisplacements, design: &StoredDesign) -> Vec<Table> {
                 id: format!("design-{}", index + 1),
                 title: format!("Design example, {}{rule}", first.record_set),
                 note: format!("{note}{}", rounding(of_table)),
+                group: String::new(),
                 header: header.collect(),
                 text_columns: 2,
                 rows: cells,

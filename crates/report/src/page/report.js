@@ -5,12 +5,10 @@ const digits = value => Number(value.toPrecision(4)).toString();
 for (const figure of document.querySelectorAll('figure')) {
   const panels = JSON.parse(figure.querySelector('script').textContent);
   const plot = figure.querySelector('.plot');
-  const svg = plot.querySelector('svg');
+  const drawings = [...plot.querySelectorAll('svg')];
   const reading = figure.querySelector('.reading');
   const cursor = document.createElementNS('http://www.w3.org/2000/svg', 'line');
   cursor.setAttribute('class', 'cursor');
-  cursor.setAttribute('visibility', 'hidden');
-  svg.append(cursor);
   let at = null; // panel and position along its axis, between 0 and 1
   const position = (scale, value) => scale === 'log' ? Math.log10(value) : value;
   const valueAt = (place, share) => {
@@ -41,18 +39,24 @@ for (const figure of document.querySelectorAll('figure')) {
   const show = (panel, share) => {
     const { x_pixels: [left, right], y_pixels: [top, bottom] } = panel.place;
     const x = left + share * (right - left);
-    for (const [name, value] of Object.entries({ x1: x, x2: x, y1: top, y2: bottom, visibility: 'visible' })) cursor.setAttribute(name, value);
+    for (const [name, value] of Object.entries({ x1: x, x2: x, y1: top, y2: bottom })) cursor.setAttribute(name, value);
+    drawings[panels.indexOf(panel)].append(cursor);
     at = { panel, share };
     return read(panel, share);
   };
-  const hide = () => { cursor.setAttribute('visibility', 'hidden'); tip.hidden = true; };
+  const hide = () => { cursor.remove(); tip.hidden = true; };
   const point = event => {
-    const box = svg.getBoundingClientRect();
-    const zoom = svg.viewBox.baseVal.width / box.width;
-    const [x, y] = [(event.clientX - box.left) * zoom, (event.clientY - box.top) * zoom];
-    const panel = panels.find(({ place }) => x >= place.x_pixels[0] && x <= place.x_pixels[1] && y >= place.y_pixels[0] && y <= place.y_pixels[1]);
+    const under = drawings.findIndex(svg => {
+      const box = svg.getBoundingClientRect();
+      return event.clientX >= box.left && event.clientX <= box.right && event.clientY >= box.top && event.clientY <= box.bottom;
+    });
+    const panel = panels[under];
     if (!panel || !panel.lines.length) { hide(); return; }
+    const box = drawings[under].getBoundingClientRect();
+    const zoom = drawings[under].viewBox.baseVal.width / box.width;
+    const x = (event.clientX - box.left) * zoom;
     const [left, right] = panel.place.x_pixels;
+    if (x < left || x > right) { hide(); return; }
     tip.textContent = show(panel, (x - left) / (right - left)).join('\n');
     tip.hidden = false;
     const place = tip.getBoundingClientRect();
@@ -83,7 +87,7 @@ for (const figure of document.querySelectorAll('figure')) {
 }
 // Tables: sorted by a click on a heading, copied for a spreadsheet.
 for (const table of document.querySelectorAll('.block table')) {
-  const heads = [...table.querySelectorAll('th')];
+  const heads = [...table.querySelectorAll('thead tr:last-child th')];
   heads.forEach((head, column) => head.querySelector('button')?.addEventListener('click', () => {
     const up = head.getAttribute('aria-sort') !== 'ascending';
     heads.forEach(other => other.removeAttribute('aria-sort'));
@@ -100,7 +104,7 @@ for (const table of document.querySelectorAll('.block table')) {
 }
 for (const button of document.querySelectorAll('.copy')) {
   button.addEventListener('click', async () => {
-    const rows = [...button.closest('.block').querySelectorAll('tr')];
+    const rows = [...button.closest('.block').querySelectorAll('tr:not(.group)')];
     const text = rows.map(row => [...row.cells].map(cell => cell.textContent).join('\t')).join('\n');
     try {
       await navigator.clipboard.writeText(text);
@@ -119,4 +123,4 @@ for (const button of document.querySelectorAll('.copy')) {
   });
 }
 // On paper nothing can be opened: what warns is printed open.
-addEventListener('beforeprint', () => document.querySelectorAll('details.notice').forEach(notice => { notice.open = true; }));
+addEventListener('beforeprint', () => document.querySelectorAll('.alarms details').forEach(more => { more.open = true; }));

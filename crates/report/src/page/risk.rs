@@ -1,19 +1,53 @@
 //! What the report shows of uniform risk spectra.
 
-use super::{Content, Table};
+use super::answer::{answer, significant};
+use super::{Content, Part, Table};
 use crate::figures::FigureSource;
 use uplift::UpliftError;
+use uplift::influence::{level_of_share, rank_records};
 use uplift::result::{MeasureBands, ResultFile, StoredBands, StoredSpectra};
 use uplift::text::{metres, nearest, per_cent};
 
-/// Strengths in the summary.
-const SHOWN_STRENGTHS: [f64; 3] = [0.1, 0.2, 0.4];
+/// Strengths in the table of displacements, and in that of intensities.
+const SHOWN_STRENGTHS: [f64; 5] = [0.05, 0.1, 0.2, 0.3, 0.4];
+const TAKEN_APART: [f64; 3] = [0.1, 0.2, 0.4];
+/// Records of each spectrum in the table of influence.
+const NAMED_RECORDS: usize = 3;
 
 pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
     let source = FigureSource::read(file)?;
-    let mut tables = vec![summary(&source.spectra), coefficients(&source.spectra)];
-    tables.extend(source.bands.as_ref().map(|bands| confidence(&source.spectra, bands)));
+    let figures = source.figures()?;
     let stored = &source.stored;
+    let parts = vec![
+        Part {
+            key: "answer",
+            title: "Displacements to survive",
+            tables: vec![summary(&source.spectra)],
+            figures: figures.answer,
+            details: Vec::new(),
+        },
+        Part {
+            key: "confidence",
+            title: "How sure it is",
+            tables: Vec::new(),
+            figures: figures.confidence,
+            details: source.bands.iter().map(|bands| confidence(&source.spectra, bands)).collect(),
+        },
+        Part {
+            key: "causes",
+            title: "Where it comes from",
+            tables: Vec::new(),
+            figures: figures.causes,
+            details: [intensities(&source), records(&source)].into_iter().flatten().collect(),
+        },
+        Part {
+            key: "fits",
+            title: "To compute with",
+            tables: vec![coefficients(&source.spectra)],
+            figures: figures.fits,
+            details: Vec::new(),
+        },
+    ];
     let mut facts = vec![("Seed", stored.seed.to_string())];
     if file.is_asked() {
         facts.push(("Probabilities", "asked for after the run, from the stripes of the result".to_owned()));
@@ -26,43 +60,115 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
             stored.strengths.len(),
             stored.sites.len()
         ),
+        answer: answer(&source),
         facts,
-        tables,
-        figures: source.figures()?,
+        parts,
+        source: Some(source),
     })
 }
 
 fn summary(stored: &StoredSpectra) -> Table {
     let shown = nearest(&stored.strengths, &SHOWN_STRENGTHS);
-    let mut header: Vec<String> = ["site", "measure"].map(str::to_owned).to_vec();
-    for &probability in &stored.poes {
-        header.extend(
-            shown.iter().map(|&strength| format!("{} · {:.2}", per_cent(probability), stored.strengths[strength])),
-        );
-    }
-    let mut rows = Vec::new();
-    for (site, name) in stored.sites.iter().enumerate() {
-        for measure in &stored.measures {
-            let mut row = vec![name.clone(), measure.measure.label().to_owned()];
-            for poe in 0..stored.poes.len() {
-                let u_m = measure.u_m.block([site, poe]);
-                row.extend(shown.iter().map(|&strength| metres(u_m[strength])));
-            }
-            rows.push(row);
-        }
-    }
+    let mut header = ["site", "measure", "probability"].map(str::to_owned).to_vec();
+    header.extend(shown.iter().map(|&strength| format!("{:.2} g", stored.strengths[strength])));
+    let rows = stored.rows().map(|spectrum| {
+        let mut row = vec![
+            spectrum.site.to_owned(),
+            spectrum.measure.label().to_owned(),
+            format!("{} in {} years", per_cent(spectrum.poe), stored.years),
+        ];
+        row.extend(shown.iter().map(|&strength| metres(spectrum.u_m[strength])));
+        row
+    });
     Table {
         id: "summary".to_owned(),
-        title: "Displacements to survive".to_owned(),
+        title: "Displacement in metres".to_owned(),
+        note: "What a structure goes beyond with the stated probability, if it uplifts at the stated acceleration."
+            .to_owned(),
+        group: "displacement, m, of a structure that uplifts at".to_owned(),
+        header,
+        text_columns: 3,
+        rows: rows.collect(),
+    }
+}
+
+/// Which levels make the risk of the rarest probability; none before `uplift influence`.
+fn intensities(source: &FigureSource) -> Option<Table> {
+    let stored = &source.stored;
+    let (poe, shown) = (source.rarest(), nearest(&stored.strengths, &TAKEN_APART));
+    let mut rows = Vec::new();
+    for (influence, measure) in source.influences() {
+        for (site, name) in stored.sites.iter().enumerate() {
+            for &strength in &shown {
+                let shares = influence.shares.block([site, poe, strength]);
+                let level = |share: f64| significant(level_of_share(&measure.levels, shares, share));
+                let mut row =
+                    vec![name.clone(), format!("{}, {}", influence.measure.label(), influence.measure.unit())];
+                row.push(format!("{:.2}", stored.strengths[strength]));
+                row.extend([0.05, 0.5, 0.95].map(level));
+                row.extend([shares.first(), shares.last()].map(|share| percentage(share.copied())));
+                rows.push(row);
+            }
+        }
+    }
+    let header =
+        ["site", "measure", "strength, g", "5 % below", "half below", "95 % below", "below all, %", "above all, %"];
+    (!rows.is_empty()).then(|| Table {
+        id: "intensities".to_owned(),
+        title: "Intensities that make the risk".to_owned(),
         note: format!(
-            "Displacement in metres that is exceeded with the stated probability in {} years, for the uplift strength \
-             f_up/(m g) after the dot.",
+            "Levels of the measure below which 5 %, half and 95 % of the risk at the ordinate of {} in {} years lie, \
+             and what of it comes from below and above all analysed levels.",
+            per_cent(stored.poes[poe]),
             stored.years
         ),
-        header,
+        group: String::new(),
+        header: header.map(str::to_owned).to_vec(),
         text_columns: 2,
         rows,
+    })
+}
+
+/// Which records carry the spectra of the rarest probability; none before `uplift influence`.
+fn records(source: &FigureSource) -> Option<Table> {
+    let stored = &source.stored;
+    let poe = source.rarest();
+    let mut rows = Vec::new();
+    for (influence, measure) in source.influences() {
+        let Some(without_m) = &influence.without_m else { continue };
+        for (site, name) in stored.sites.iter().enumerate() {
+            for of in rank_records(stored, measure, without_m, [site, poe]).iter().take(NAMED_RECORDS) {
+                rows.push(vec![
+                    name.clone(),
+                    influence.measure.label().to_owned(),
+                    stored.records[of.record].clone(),
+                    format!("{:+.1}", 100.0 * of.mean_change),
+                    format!("{:+.1}", 100.0 * of.largest_change),
+                    format!("{:.3}", of.strength),
+                ]);
+            }
+        }
     }
+    (!rows.is_empty()).then(|| Table {
+        id: "records".to_owned(),
+        title: "Records that carry the spectra".to_owned(),
+        note: format!(
+            "Change of the spectrum of {} in {} years if one record is left out, on average over the strengths that \
+             rock, and where it is largest.",
+            per_cent(stored.poes[poe]),
+            stored.years
+        ),
+        group: String::new(),
+        header: ["site", "measure", "record left out", "mean change, %", "largest, %", "at strength, g"]
+            .map(str::to_owned)
+            .to_vec(),
+        text_columns: 3,
+        rows,
+    })
+}
+
+fn percentage(share: Option<f64>) -> String {
+    share.filter(|share| share.is_finite()).map_or_else(|| "–".to_owned(), |share| format!("{:.1}", 100.0 * share))
 }
 
 fn coefficients(spectra: &StoredSpectra) -> Table {
@@ -87,10 +193,11 @@ fn coefficients(spectra: &StoredSpectra) -> Table {
         id: "table-4-2".to_owned(),
         title: "Coefficients (Table 4.2)".to_owned(),
         note: format!(
-            "u = c0 exp(c1 strength) + c2 with c2 not negative, for strengths above 0.05 or as the study says; \
+            "u = c0 exp(c1 η) + c2 with c2 not negative, for strengths η above 0.05 or as the study says; \
              probabilities in {} years.",
             spectra.years
         ),
+        group: String::new(),
         header: ["site", "measure", "probability", "c0, m", "c1", "c2, m", "RMSE, m"].map(str::to_owned).to_vec(),
         text_columns: 3,
         rows,
@@ -121,7 +228,8 @@ fn confidence(stored: &StoredSpectra, bands: &StoredBands) -> Table {
              largest (Eq. 4.9, 4.10).",
             per_cent(bands.confidence)
         ),
-        header: ["site", "measure", "probability", "records", "e_median, %", "r, %"].map(str::to_owned).to_vec(),
+        group: String::new(),
+        header: ["site", "measure", "probability", "records", "e_{median}, %", "r, %"].map(str::to_owned).to_vec(),
         text_columns: 3,
         rows: bands.measures.iter().flat_map(rows).collect(),
     }

@@ -1,7 +1,7 @@
 //! How figures are written, as arguments.
 
 use clap::{Args, ValueEnum};
-use uplift_plot::Width;
+use uplift_plot::{Look, Width};
 use uplift_report::{FigureFormat, FigureOptions};
 
 /// How figures are written.
@@ -13,6 +13,9 @@ pub(crate) struct FigureArguments {
     /// Width of a journal's column (90 mm) or page (190 mm)
     #[arg(long, value_enum, default_value_t = Columns::Double)]
     width: Columns,
+    /// Write the title into the figure; left out, it is for the caption to say
+    #[arg(long)]
+    title: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -36,9 +39,12 @@ impl FigureArguments {
                 Format::Png => FigureFormat::Png,
                 Format::Both => FigureFormat::Both,
             },
-            width: match self.width {
-                Columns::Single => Width::Single,
-                Columns::Double => Width::Double,
+            look: Look {
+                width: match self.width {
+                    Columns::Single => Width::Single,
+                    Columns::Double => Width::Double,
+                },
+                title: self.title,
             },
         }
     }

@@ -1,10 +1,13 @@
 //! `uplift design`: a structure against a uniform risk spectrum, and against its own risk.
 
+use std::path::PathBuf;
+
 use clap::Args;
 use uplift::structure::{DesignOptions, design as run, design_shard};
 use uplift_motion::IntensityMeasure;
+use uplift_report::{check_design_sheet, write_design_sheet};
 
-use crate::command::arguments::{RiskArguments, StructureArguments};
+use crate::command::arguments::{ForceArgument, RiskArguments, StructureArguments};
 use crate::error::CommandError;
 use crate::show::print_shard;
 use crate::show::{print_design, print_json};
@@ -39,10 +42,18 @@ pub(crate) struct DesignArguments {
     /// Print everything as JSON
     #[arg(long)]
     json: bool,
+    /// Write a page to hand over: drawing, demand, margin, risk, assumptions
+    #[arg(long, value_name = "FILE.html", conflicts_with = "shard")]
+    report: Option<PathBuf>,
+    #[command(flatten)]
+    overwriting: ForceArgument,
 }
 
 pub(crate) fn design(arguments: &DesignArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let StructureArguments { urs, manifest, shard, shards, .. } = &arguments.structure;
+    if let Some(file) = &arguments.report {
+        check_design_sheet(file, urs, &arguments.structure.inputs(), arguments.overwriting.force)?;
+    }
     let options = DesignOptions {
         manifest: manifest.clone(),
         site: arguments.site.clone(),
@@ -57,5 +68,12 @@ pub(crate) fn design(arguments: &DesignArguments, terminal: &Terminal) -> Result
         return print_shard(&design_shard(&structure, urs, &options, *shard, terminal)?, terminal);
     }
     let report = run(&structure, urs, &options, terminal)?;
-    if arguments.json { print_json(&report) } else { print_design(&report) }
+    if let Some(file) = &arguments.report {
+        write_design_sheet(&structure, &report, file)?;
+    }
+    if arguments.json { print_json(&report) } else { print_design(&report) }?;
+    if let Some(file) = &arguments.report {
+        terminal.say(&file.display().to_string());
+    }
+    Ok(())
 }

@@ -1,5 +1,6 @@
 //! The design examples (Figures 2.13 and 2.14).
 
+use super::super::DISPLACEMENT;
 use super::{DisplacementSource, HANGING};
 use uplift::result::{DesignRow, SpectrumPlace, StoredDesign, StoredDesigned, StoredStructures};
 use uplift_plot::{Axis, Figure, Marks, Panel, Series, Tone};
@@ -47,7 +48,7 @@ pub(super) fn procedure(source: &DisplacementSource<'_>, design: &StoredDesign) 
             Panel::lines(
                 stored.scalings[scaling].clone(),
                 source.abscissa(),
-                Axis::linear("displacement, m").between(0.0, top),
+                Axis::linear(DISPLACEMENT).between(0.0, top),
                 series,
             )
         };

@@ -1,5 +1,6 @@
 //! Spectra of single motions (Figures 2.9 and 3.13).
 
+use super::super::DISPLACEMENT;
 use super::DisplacementSource;
 use uplift::UpliftError;
 use uplift::result::SpectrumPlace;
@@ -31,14 +32,14 @@ pub(super) fn motions(source: &DisplacementSource<'_>) -> Result<Vec<Figure>, Up
                     })
                     .collect();
                 let title = format!("{}, PGV {:.0} cm/s", motions.names[motion], motions.pgv_cm_s[motion]);
-                Panel::lines(title, source.abscissa(), Axis::linear("displacement, m"), series)
+                Panel::lines(title, source.abscissa(), Axis::linear(DISPLACEMENT), series)
             })
             .collect();
         let scaled = match stored.scalings[scaling].as_str() {
             "unscaled" => "as recorded".to_owned(),
             to => format!("scaled to {to} by {}", stored.scaled_by[0]),
         };
-        let uplift = uplift_m.map_or_else(String::new, |uplift_m| format!(", u_up = {uplift_m} m"));
+        let uplift = uplift_m.map_or_else(String::new, |uplift_m| format!(", u_{{up}} = {uplift_m} m"));
         let caption = format!(
             "Peak displacement under single motions of the set {}, {scaled}{uplift} (Fig. 2.9, 3.13): spread over the \
              set by their PGV as recorded, from the weakest to the strongest.",

@@ -2,6 +2,7 @@
 
 use uplift_structure::{Capacity, Demand, Rule};
 
+use super::super::DISPLACEMENT;
 use super::{DisplacementSource, Line};
 use uplift::UpliftError;
 use uplift::result::{SpectrumPlace, StoredStructures};
@@ -50,7 +51,7 @@ impl DisplacementSource<'_> {
         let rounding = self.rounding_words(places, &lines, percentile);
         let [percentile_id, percentile] = self.percentile_names(percentile);
         let [uplift_id, uplift] = uplift_m.map_or_else(Default::default, |uplift_m| {
-            [format!("-uplift-{uplift_m}"), format!(", u_up = {uplift_m} m")]
+            [format!("-uplift-{uplift_m}"), format!(", u_{{up}} = {uplift_m} m")]
         });
         let set = &self.stored.sets[place.set].name;
         self.figure(
@@ -78,7 +79,7 @@ pub(super) fn spectra(source: &DisplacementSource<'_>) -> Vec<Figure> {
             "Peak displacement of a rocking block for several heights (Fig. 2.10 to 2.12)."
         }
     };
-    let kind = ["spectra", "Displacement spectra", "displacement, m"];
+    let kind = ["spectra", "Displacement spectra", DISPLACEMENT];
     source
         .shown()
         .map(|shown| {
@@ -100,10 +101,10 @@ pub(super) fn by_equal_energy(source: &DisplacementSource<'_>) -> Result<Vec<Fig
     if capacity_m.len() < 2 {
         return Ok(Vec::new());
     }
-    let caption = "Displacement spectra divided by γ_EE of the equal-energy rule (Eq. 3.11; Fig. 3.14 to 3.16, A2.4 to \
-                   A2.6, A2.10 to A2.12): where the rule holds the lines are one. They have gaps where it says that \
+    let caption = "Displacement spectra divided by γ_{EE} of the equal-energy rule (Eq. 3.11; Fig. 3.14 to 3.16, A2.4 \
+                   to A2.6, A2.10 to A2.12): where the rule holds the lines are one. They have gaps where it says that \
                    the system overturns (Eq. 3.14).";
-    let kind = ["equal-energy", "Displacement spectra over γ_EE", "displacement/γ_EE, m"];
+    let kind = ["equal-energy", "Displacement spectra over γ_{EE}", "u_{max}/γ_{EE}, m"];
     let figure = |shown: Shown| {
         let capacities = capacity_m
             .iter()
@@ -142,7 +143,7 @@ pub(super) fn uplift_displacements(source: &DisplacementSource<'_>) -> Vec<Figur
         return Vec::new();
     }
     let line = |(index, uplift_m): (usize, &f64)| Line {
-        name: format!("u_up = {uplift_m} m"),
+        name: format!("u_{{up}} = {uplift_m} m"),
         position: index * capacity_m.len() + endless,
         tone: Tone::Distinct(index),
     };
@@ -156,7 +157,7 @@ pub(super) fn uplift_displacements(source: &DisplacementSource<'_>) -> Vec<Figur
         let mut series: Vec<Series> = lines.iter().map(series).collect();
         series.extend(source.rings((place, percentile), (&lines, &[]), &series));
         let title = format!("{}, {}", stored.sets[place.set].name, stored.scalings[place.scaling]);
-        Panel::lines(title, source.abscissa(), Axis::linear("displacement, m"), series)
+        Panel::lines(title, source.abscissa(), Axis::linear(DISPLACEMENT), series)
     };
     let sets = stored.sets.len();
     let figure = |scaled_by: usize| {

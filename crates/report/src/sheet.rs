@@ -1,0 +1,61 @@
+//! The design sheet: one page on one structure at one site, to hand over.
+//!
+//! It leads with demand, margin and risk in a sentence each; then the structure to scale, the numbers, and what they
+//! rest on. Style and policy are those of the report.
+
+mod drawing;
+mod numbers;
+
+use std::path::Path;
+
+use minijinja::{Value, context};
+use uplift::UpliftError;
+use uplift::outputs::{self, Output, OutputKind};
+use uplift::result::{ResultFile, write_atomically};
+use uplift::structure::DesignReport;
+use uplift::study::Structure;
+
+use crate::page::{STYLE, render};
+use drawing::drawing;
+use numbers::{facts, kind_name, lead, tables};
+
+const SHEET: &str = concat!(include_str!("page/table.html"), include_str!("sheet/sheet.html"));
+
+/// Refuses a name that is none of a page, and one that would replace something else, before anything is computed.
+///
+/// # Errors
+/// As [`outputs::check`].
+pub fn check_design_sheet(file: &Path, result: &Path, inputs: &[&Path], force: bool) -> Result<(), UpliftError> {
+    outputs::check(&[Output::new(file, OutputKind::Page).of(result)], inputs, force)
+}
+
+/// Writes the design of `structure` as one HTML page.
+///
+/// # Errors
+/// A file that cannot be written.
+pub fn write_design_sheet(structure: &Structure, report: &DesignReport, file: &Path) -> Result<(), UpliftError> {
+    let noted =
+        report.structure.warnings.iter().chain(&report.notes).map(|note| context! { severity => "note", what => note });
+    let alarms: Vec<Value> = report.alarms.iter().map(Value::from_serialize).chain(noted).collect();
+    let mark = ResultFile::open(&report.result)?.mark()?;
+    let page = render(
+        SHEET,
+        context! {
+            name => report.structure.name,
+            kind => kind_name(report),
+            lead => lead(report),
+            alarms,
+            drawing => drawing(&structure.description),
+            facts => facts(structure, report),
+            tables => tables(report),
+            result => report.result.file_name().map(|name| name.to_string_lossy().into_owned()),
+            record_set => report.record_set,
+            style => STYLE,
+            script => include_str!("page/report.js"),
+            mark,
+            version => uplift::VERSION,
+            commit => uplift::COMMIT,
+        },
+    )?;
+    write_atomically(file, page.as_bytes())
+}

@@ -1,0 +1,284 @@
+//! The numbers of a design sheet: in sentences, as facts of the structure, in tables.
+
+use serde::Serialize;
+use uplift::structure::{DesignReport, EventRisk, RuleCheck};
+use uplift::study::Structure;
+use uplift::text::per_cent;
+use uplift_structure::Rule;
+
+use crate::page::Table;
+use crate::page::answer::significant;
+
+/// A sentence at the head of the sheet; `yes` or `no` where it is a verdict.
+#[derive(Debug, Serialize)]
+pub(super) struct Sentence {
+    text: String,
+    class: Option<&'static str>,
+}
+
+/// Demand, margin and risk, a sentence each.
+pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
+    let mut sentences = Vec::new();
+    let mut say = |text: String, class: Option<&'static str>| sentences.push(Sentence { text, class });
+    let (site, years) = (&report.site, report.years);
+    let of = format!("At {site}, for {} in {years} years", per_cent(report.poe));
+    let capacity = report.structure.capacity_m.map(|capacity_m| format!("; it can go {} m", significant(capacity_m)));
+    let capacity = capacity.unwrap_or_default();
+    match (&report.exact, &report.spectrum) {
+        (Some(exact), _) if exact.overturns => {
+            say(format!("{of}, there is no displacement that meets the target: it overturns more often."), Some("no"));
+        }
+        (Some(exact), _) => say(format!("{of}, it must survive {} m{capacity}.", significant(exact.demand_m)), None),
+        (None, Some(spectrum)) => {
+            let demand = significant(spectrum.zero_stiffness_demand_m);
+            say(format!("{of}, the spectrum asks for {demand} m without stiffness after uplift{capacity}."), None);
+        }
+        (None, None) => say(format!("{of}, there is no demand to tell."), None),
+    }
+    // the rule that asks for more is the one that counts
+    let asked = report.rules.iter().filter_map(|outcome| Some((outcome.rule, outcome.check()?)));
+    if let Some((rule, check)) = asked.max_by(|a, b| a.1.required_capacity_m.total_cmp(&b.1.required_capacity_m)) {
+        let safety = report.required_safety_factor;
+        if check.required_capacity_m.is_finite() && check.capacity_m.is_finite() {
+            let required = significant(check.required_capacity_m);
+            let verdict = if check.satisfied { "satisfied" } else { "NOT satisfied" };
+            let margin =
+                format!("{}{} m", if check.margin_m < 0.0 { "−" } else { "+" }, significant(check.margin_m.abs()));
+            say(
+                format!(
+                    "With a safety factor of {safety} it needs a capacity of {required} m by {}: {verdict}, margin \
+                     {margin}.",
+                    name(rule)
+                ),
+                Some(if check.satisfied { "yes" } else { "no" }),
+            );
+        } else if check.overturns {
+            say(format!("By {} it overturns.", name(rule)), Some("no"));
+        }
+    }
+    if let Some(exact) = &report.exact {
+        say(in_words("It overturns", &exact.overturning, years), None);
+    }
+    sentences
+}
+
+fn in_words(what: &str, risk: &EventRisk, years: f64) -> String {
+    if risk.per_year == 0.0 {
+        return format!("{what} in none of the analyses, which bounds nothing beyond the analysed levels.");
+    }
+    let between = 1.0 / risk.per_year;
+    format!(
+        "{what} once in {} years on average ({} a year): {} % in {years} years.",
+        if between < 1e7 { significant(between) } else { power(between, 1) },
+        power(risk.per_year, 1),
+        significant(100.0 * risk.probability)
+    )
+}
+
+/// What kind of structure it is, in words.
+pub(super) fn kind_name(report: &DesignReport) -> String {
+    report.structure.kind.replace('-', " ")
+}
+
+/// What the structure is, and what is equivalent to it: names and values.
+pub(super) fn facts(structure: &Structure, report: &DesignReport) -> Vec<(&'static str, String)> {
+    let (given, of) = (&structure.description, &report.structure);
+    let mut facts = vec![("Kind", format!("{}, Table 3.1 row {}", kind_name(report), of.table_3_1_row))];
+    let mut given_as = |name: &'static str, value: Option<f64>, unit: &str| {
+        facts.extend(value.map(|value| (name, format!("{} {unit}", number(value)))));
+    };
+    if let Ok(geometry) = given.geometry() {
+        given_as("Width 2b", Some(geometry.width_m()), "m");
+        match given.centre_height_m {
+            Some(centre_m) => given_as("Height of the mass h", Some(centre_m), "m"),
+            None => given_as("Height 2h", Some(geometry.height_m()), "m"),
+        }
+        given_as("Slenderness α", Some(geometry.slenderness_rad()), "rad");
+    }
+    given_as("Columns", given.columns.map(f64::from), "");
+    given_as("Mass", given.mass_kg, "kg");
+    given_as("Moment of inertia", given.moment_of_inertia_kg_m2, "kg m²");
+    given_as("Mass of a column", given.column_mass_kg, "kg");
+    given_as("Mass of the deck", given.deck_mass_kg, "kg");
+    given_as("Tendon stiffness, each", given.tendon_stiffness_n_m, "N/m");
+    given_as("Radius of the ends", given.curvature_radius_m, "m");
+    given_as("Width with extensions", given.extended_width_m, "m");
+    given_as("Equivalent mass", Some(of.mass_kg), "kg");
+    given_as("Force at uplift f_{up}", Some(of.uplift_force_n), "N");
+    given_as("Uplift strength f_{up}/(m g)", Some(of.strength), "");
+    given_as("Factor on the motion Γ", Some(of.participation), "");
+    given_as("Strength of the spectrum", Some(of.spectral_strength), "");
+    given_as("Uplift displacement u_{up}", Some(of.uplift_displacement_m), "m");
+    given_as("Restitution", of.restitution, "");
+    match of.capacity_m {
+        Some(capacity_m) => given_as("Displacement capacity u_{cap}", Some(capacity_m), "m"),
+        None => facts.push(("Displacement capacity u_{cap}", "none: the force does not fall after uplift".to_owned())),
+    }
+    facts
+}
+
+/// Demands, rules, risk, and what of them is noise.
+pub(super) fn tables(report: &DesignReport) -> Vec<Table> {
+    [demands(report), rules(report), risk(report), noise(report)].into_iter().flatten().collect()
+}
+
+fn table(id: &str, title: &str, note: String, header: &[&str], rows: Vec<Vec<String>>) -> Option<Table> {
+    (!rows.is_empty()).then(|| Table {
+        id: id.to_owned(),
+        title: title.to_owned(),
+        note,
+        group: String::new(),
+        header: header.iter().map(|&name| name.to_owned()).collect(),
+        text_columns: 1,
+        rows,
+    })
+}
+
+fn demands(report: &DesignReport) -> Option<Table> {
+    let mut rows = Vec::new();
+    let mut row = |what: &str, demand_m: f64| rows.push(vec![what.to_owned(), metres(demand_m)]);
+    if let Some(spectrum) = &report.spectrum {
+        row("without stiffness after uplift, from the spectrum", spectrum.zero_stiffness_demand_m);
+    }
+    if let Some(exact) = &report.exact {
+        row("without stiffness after uplift, exact", exact.zero_stiffness_demand_of_spectrum_m);
+        row("the same with the uplift and impacts of the structure", exact.zero_stiffness_demand_m);
+        row("the structure itself, exact", exact.demand_m);
+    }
+    let note = format!(
+        "{} by {}, {} in {} years: {} a year. Exact means of these records and levels.",
+        report.site,
+        report.im,
+        per_cent(report.poe),
+        report.years,
+        power(report.target_per_year, 2)
+    );
+    table("demand", "Demand", note, &["demand on", "displacement, m"], rows)
+}
+
+fn rules(report: &DesignReport) -> Option<Table> {
+    let row = |rule: Rule, check: &RuleCheck| {
+        let verdict = if check.satisfied { "satisfied" } else { "NOT satisfied" };
+        let stiffness = check.required_tendon_stiffness_n_m.map_or_else(|| "–".to_owned(), scientific);
+        vec![
+            name(rule).to_owned(),
+            metres(check.demand_m),
+            metres(check.required_capacity_m),
+            if check.capacity_m.is_finite() { metres(check.capacity_m) } else { "infinite".to_owned() },
+            if check.margin_m.is_finite() { format!("{:+.4}", check.margin_m) } else { "–".to_owned() },
+            if check.safety_factor.is_finite() { format!("{:.2}", check.safety_factor) } else { "–".to_owned() },
+            stiffness,
+            check.error.map_or_else(|| "–".to_owned(), relative),
+            verdict.to_owned(),
+        ]
+    };
+    let rows = report.rules.iter().filter_map(|outcome| Some(row(outcome.rule, outcome.check()?))).collect();
+    let note = format!(
+        "Required capacity with a safety factor of {} (Eq. 3.15); the error is that of the rule's demand against the \
+         exact one, negative is unsafe.",
+        report.required_safety_factor
+    );
+    let header = [
+        "rule",
+        "demand, m",
+        "required capacity, m",
+        "capacity, m",
+        "margin, m",
+        "safety factor",
+        "tendons for it, N/m",
+        "error",
+        "verdict",
+    ];
+    table("rules", "Margin by the design rules", note, &header, rows)
+}
+
+fn risk(report: &DesignReport) -> Option<Table> {
+    let exact = report.exact.as_ref()?;
+    let row = |what: String, risk: &EventRisk| {
+        let outside = per_cent((1000.0 * (risk.lower_tail_share + risk.upper_tail_share)).round() / 1000.0);
+        if risk.per_year == 0.0 {
+            // none of the runs does it: a bound, never never
+            let most =
+                risk.at_most_per_year.map_or_else(|| "none seen".to_owned(), |most| format!("< {}", scientific(most)));
+            return vec![what, most, "–".to_owned(), "–".to_owned(), "–".to_owned()];
+        }
+        let probability = format!("{} %", significant(100.0 * risk.probability));
+        vec![what, scientific(risk.per_year), probability, return_period(risk), outside]
+    };
+    let capacity_m = report.structure.capacity_m.unwrap_or(f64::NAN);
+    let beyond =
+        exact.beyond_capacity.iter().map(|risk| row(format!("beyond its capacity, {} m", metres(capacity_m)), risk));
+    let rows = beyond.chain([row("overturning".to_owned(), &exact.overturning)]).collect();
+    let years = format!("in {} years", report.years);
+    let header = ["the structure itself", "per year", &years, "return period, years", "from outside the levels"];
+    let note = "Counted over all records and levels, weighted by the hazard of the site (Eq. 4.4).".to_owned();
+    table("risk", "Risk", note, &header, rows)
+}
+
+fn noise(report: &DesignReport) -> Option<Table> {
+    let noise = &report.exact.as_ref()?.noise;
+    let range = |what: &str, of: &uplift_spectra::Noisy, shown: fn(f64) -> String| {
+        vec![what.to_owned(), shown(of.value), shown(of.lowest), shown(of.highest)]
+    };
+    let mut rows = vec![range("demand on the structure, m", &noise.demand_m, metres)];
+    if let Some(errors) = &noise.rule_errors {
+        rows.push(range("error of equal displacement", &errors.equal_displacement, relative));
+        rows.push(range("error of equal energy", &errors.equal_energy, relative));
+    }
+    rows.extend(
+        noise.beyond_capacity_per_year.as_ref().map(|of| range("beyond its capacity, per year", of, scientific)),
+    );
+    rows.push(range("overturning, per year", &noise.overturning_per_year, scientific));
+    let note = "The same for ten structures whose strength is up to one percent lower or higher: what lies within the \
+                range is no finding."
+        .to_owned();
+    table("noise", "How sure it is", note, &["within 1 % of the strength", "here", "lowest", "highest"], rows)
+}
+
+fn name(rule: Rule) -> &'static str {
+    match rule {
+        Rule::EqualDisplacement => "equal displacement",
+        Rule::EqualEnergy => "equal energy",
+    }
+}
+
+/// A displacement; infinite where the structure overturns.
+fn metres(value_m: f64) -> String {
+    if value_m.is_infinite() { "overturns".to_owned() } else { format!("{value_m:.4}") }
+}
+
+fn relative(error: f64) -> String {
+    match error {
+        _ if error.is_nan() => "–".to_owned(),
+        _ if error.is_infinite() => "too safe".to_owned(),
+        _ => format!("{:+.1} %", 100.0 * error),
+    }
+}
+
+/// Years between two events on average, two digits of them.
+fn return_period(risk: &EventRisk) -> String {
+    let years = 1.0 / risk.per_year;
+    if years < 1e7 { significant(years) } else { format!("{years:.1e}") }
+}
+
+/// A rate as programs and spreadsheets read it.
+fn scientific(value: f64) -> String {
+    if value == 0.0 { "0".to_owned() } else { format!("{value:.3e}") }
+}
+
+/// A factor of so many decimals times a power of ten, which is raised.
+fn power(value: f64, decimals: usize) -> String {
+    let written = format!("{value:.decimals$e}");
+    let (factor, exponent) = written.split_once('e').unwrap_or((&written, "0"));
+    format!("{factor}·10^{{{}}}", exponent.replace('-', "−"))
+}
+
+/// Five digits, and a power of ten where the number is very large or small.
+fn number(value: f64) -> String {
+    if value != 0.0 && !(1e-4..1e7).contains(&value.abs()) {
+        return power(value, 3);
+    }
+    let digits_before = format!("{:.0}", value.abs().trunc()).len();
+    let text = format!("{value:.0$}", 5_usize.saturating_sub(digits_before));
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
