@@ -38,13 +38,15 @@ fn spectra_bands_and_warnings_are_those_of_a_run() {
         let study = study(&["--set", contour]);
         let mut run = export(&study, "asked.h5", &[]);
         let mut ours = export(&study, "r.h5", &["--poe", ASKED]);
-        let (own, theirs) = (ours["warnings"].take(), run["warnings"].take());
-        let sorted = |warnings: Value| {
-            let mut lines: Vec<String> = serde_json::from_value(warnings).unwrap();
-            lines.sort();
-            lines
+        // in whatever order of what is equally grave
+        let sorted = |alarms: Value| {
+            let mut said: Vec<String> = alarms.as_array().unwrap().iter().map(ToString::to_string).collect();
+            said.sort();
+            said
         };
-        assert_eq!(sorted(own), sorted(theirs));
+        let (own, theirs) = (sorted(ours["alarms"].take()), sorted(run["alarms"].take()));
+        assert!(own.len() > 2);
+        assert_eq!(own, theirs);
         assert_eq!(ours, run);
         let spectra = ours["spectra"].as_array().unwrap();
         assert_eq!(spectra.len(), 2 * 2 * 3);
@@ -79,6 +81,8 @@ fn designs_tables_and_pages_take_it() {
     let without_file = |finished: Finished| {
         let mut tree: Value = serde_json::from_str(&finished.ok().stdout).unwrap();
         tree.as_object_mut().unwrap().remove("result");
+        // the measures are held against each other by bands, which are not made again for a table or a design
+        tree.as_object_mut().unwrap().remove("alarms");
         tree
     };
     let design = |result: &str, more: &[&str]| {
@@ -94,7 +98,7 @@ fn designs_tables_and_pages_take_it() {
 
     let table = |result: &str, more: &[&str]| -> Value {
         let asked = ["table", result, "--im", "all", "--json"];
-        serde_json::from_str(&study.uplift(&[&asked[..], more].concat()).ok().stdout).unwrap()
+        without_file(study.uplift(&[&asked[..], more].concat()))
     };
     assert_eq!(table("r.h5", &["--poe", ASKED]), table("asked.h5", &[]));
 
@@ -117,7 +121,7 @@ fn what_is_no_risk_is_refused() {
     let study = SmallStudy::new();
     study.uplift(&["run", "study.toml", "-q", "-o", "r.h5"]).ok();
     for (asked, words) in [
-        (&["--poe", "1.5,0"][..], &["--poe 1.5", "--poe 0:", "10 % is 0.1"][..]),
+        (&["--poe", "1.5,0"][..], &["--poe 1.5", "--poe 0:", "10 % is 0.1 or 10%"][..]),
         (&["--poe", "0.1,0.1"], &["--poe 0.1 is given twice"]),
         (&["--poe", "x"], &["--poe", "x"]),
         (&["--return-period", "-475"], &["--return-period is -475 yr"]),

@@ -279,7 +279,7 @@ fn tables_stand_beside_a_reference() {
     // and no design at all
     let text = BLOCKS.split("[design]").next().unwrap();
     study.write("study.toml", text);
-    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q", "--force"]).ok();
     study.uplift(&["table", "r.h5"]).fails(4, &["no design example", "[design]"]);
 }
 

@@ -190,7 +190,7 @@ fn a_curve_of_another_definition_is_refused_unless_converted() {
             })
             .collect::<String>(),
     );
-    study.uplift(&["run", "study.toml"]).ok();
+    study.uplift(&["run", "study.toml", "--force"]).ok();
     let halved = std::fs::read_to_string(study.path().join("results/study.urs.csv")).unwrap();
     let numbers = |text: &str| text.lines().map(str::to_owned).collect::<Vec<_>>();
     assert_eq!(numbers(&urs), numbers(&halved));

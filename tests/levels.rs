@@ -23,7 +23,7 @@ pgv = { file = "there-pgv.csv", unit = "m/s", kind = "poe", years = 50 }
 
 /// The largest share from below the first level at these strengths, as a run has it.
 fn of_a_run(study: &SmallStudy, set: &[&str], strengths: &[f64]) -> f64 {
-    study.uplift(&[&["run", "study.toml", "-o", "r.h5", "-q"], set].concat()).ok();
+    study.uplift(&[&["run", "study.toml", "--force", "-o", "r.h5", "-q"], set].concat()).ok();
     let csv = std::fs::read_to_string(study.path().join("r.urs.csv")).unwrap();
     let rows = csv.lines().skip(1).map(|line| line.split(',').collect::<Vec<_>>());
     rows.filter(|cells| strengths.iter().any(|strength| (cells[4].parse::<f64>().unwrap() - strength).abs() < 1e-9))

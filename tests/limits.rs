@@ -58,7 +58,7 @@ fn odd_but_legitimate_studies_pass() {
         &["oscillator.restitution=1", "strengths.values=[0, 5]"],
     ] {
         let settings = settings.iter().flat_map(|setting| ["--set", setting]);
-        let run: Vec<&str> = ["run", "study.toml", "-o", "odd.h5"].into_iter().chain(settings).collect();
+        let run: Vec<&str> = ["run", "study.toml", "-o", "odd.h5", "--force"].into_iter().chain(settings).collect();
         study.uplift(&run).ok();
     }
 }

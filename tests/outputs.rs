@@ -38,9 +38,9 @@ fn a_name_says_what_is_written() {
     }
     for (command, word) in [
         (&["run", "study.toml", "--shard", "1/2", "-o", "part.csv"][..], "does not end in .csv"),
-        (&["plot", "r.h5", "-o", "x.svg"], "x.svg: a folder would be made"),
+        (&["plot", "r.h5", "-o", "x.svg"], "write -o x"),
         (&["records", "synthesize", "-o", "new.CSV", "--count", "2"], "give a name without .csv"),
-        (&["pulse", "-o", "new.html"], "give a name without .html"),
+        (&["pulse", "-o", "new.html"], "write -o new"),
     ] {
         study.uplift(command).fails(2, &[word]);
     }
@@ -164,7 +164,7 @@ fn what_was_made_of_a_replaced_result_goes_with_it() {
         &["bootstrap", "r.h5", "--replicates", "20", "--sizes", "2"][..],
         &["influence", "r.h5"],
         &["measures", "r.h5"],
-        &["export", "r.h5", "--csv", "--json", "--mat"],
+        &["export", "r.h5", "--csv", "--json", "--mat", "--xlsx"],
         &["plot", "r.h5", "--only", "urs-pgv"],
         &["report", "r.h5"],
     ] {
@@ -172,13 +172,14 @@ fn what_was_made_of_a_replaced_result_goes_with_it() {
     }
     study.write("r.notes.csv", "what I think of uplift; r.h5\n");
     let digest = |name: &str| {
-        let status = study.uplift(&["status", name, "--json"]).ok().stdout;
-        let status: serde_json::Value = serde_json::from_str(&status).unwrap();
-        status["result"]["study_digest"].as_str().unwrap().to_owned()
+        let status = study.uplift(&["status", name]).ok().stdout;
+        let line = status.lines().find_map(|line| line.trim().strip_prefix("digest"));
+        line.unwrap().trim().to_owned()
     };
     let (first, before) = (digest("r.h5"), std::fs::read(study.path().join("r.h5")).unwrap());
     for table in ["r.urs.csv", "r.bands.csv", "r.influence.csv", "r.measures.csv", "r.json", "r.mat", "r.html"] {
-        let text = String::from_utf8_lossy(&std::fs::read(study.path().join(table)).unwrap()).into_owned();
+        let says = if table.ends_with(".csv") { format!("{table}-metadata.json") } else { table.to_owned() };
+        let text = String::from_utf8_lossy(&std::fs::read(study.path().join(says)).unwrap()).replace('\0', "");
         assert!(text.contains(&format!("study digest {first}")), "{table}");
     }
     // another run of the same numbers: the tables are of it still, and the bands that were in the file are kept
@@ -192,8 +193,11 @@ fn what_was_made_of_a_replaced_result_goes_with_it() {
     study.write("study.toml", &SMALL_STUDY.replace("first = 4", "first = 3"));
     let said = study.uplift(&run).ok().stderr;
     assert!(said.contains("r.earlier"), "{said}");
-    let kept = ["bands.csv", "figures", "h5", "html", "influence.csv", "json", "mat", "measures.csv", "spectra.csv"];
-    let kept: Vec<String> = kept.iter().map(|end| format!("r.{end}")).chain(["r.table-4-1.csv".to_owned()]).collect();
+    let tables = ["bands", "influence", "measures", "spectra", "table-4-1"];
+    let tables = tables.iter().flat_map(|name| ["csv", "csv-metadata.json"].map(|end| format!("r.{name}.{end}")));
+    let mut kept: Vec<String> = ["figures", "h5", "html", "json", "mat", "xlsx"].map(|end| format!("r.{end}")).into();
+    kept.extend(tables);
+    kept.sort();
     assert_eq!(names(&earlier), kept);
     assert_eq!(names(&earlier.join("r.figures")), ["urs-pgv.svg"]);
     let left = names(study.path());
@@ -203,7 +207,9 @@ fn what_was_made_of_a_replaced_result_goes_with_it() {
     assert!(left.iter().any(|name| name == "r.notes.csv") && left.iter().any(|name| name == "r.urs.csv"));
     assert_ne!(digest("r.h5"), first);
     // what is put back beside another result is seen
-    std::fs::copy(earlier.join("r.bands.csv"), study.path().join("r.bands.csv")).unwrap();
+    for name in ["r.bands.csv", "r.bands.csv-metadata.json"] {
+        std::fs::copy(earlier.join(name), study.path().join(name)).unwrap();
+    }
     let status = study.uplift(&["status", "r.h5"]).ok().stdout;
     assert!(status.contains("not of it: r.bands.csv"), "{status}");
 }
@@ -219,7 +225,7 @@ fn no_page_is_made_of_a_damaged_result() {
         damaged[(sound.len() as f64 * place) as usize] ^= 4;
         std::fs::write(&path, &damaged).unwrap();
         study.uplift(&["verify", "r.h5"]).fails(4, &["r.h5"]);
-        study.uplift(&["report", "r.h5"]).fails(4, &["r.h5", "as it was written"]);
+        study.uplift(&["report", "r.h5"]).fails(4, &["r.h5", "written"]);
     }
     // it is replaced, and kept for whoever wants to save something of it
     study.uplift(&["run", "study.toml", "-o", "r.h5"]).ok();

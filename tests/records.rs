@@ -189,7 +189,7 @@ fn synthetic_records_are_made_listed_shown_and_chosen() {
         let set = format!("records.manifest={}", at.join(manifest).display());
         let done = study.uplift(&["run", "study.toml", "--force", "--set", &set]).ok();
         assert!(
-            done.stderr.contains("synthetic pairs") && done.stdout.contains("the records are synthetic"),
+            done.stderr.contains("synthetic pairs") && done.stdout.contains("they are synthetic"),
             "{}",
             done.stdout
         );

@@ -328,12 +328,12 @@ fn a_link_and_its_file_are_one_result() {
     std::fs::create_dir(study.path().join("real")).unwrap();
     study.uplift(&["run", "study.toml", "-o", "real/a.h5", "--set", "records.first=1"]).ok();
     std::os::unix::fs::symlink("real/a.h5", study.path().join("link.h5")).unwrap();
-    let mut run = study.start(&["run", "study.toml", "-o", "real/a.h5", "--threads", "1"]);
+    let mut run = study.start(&["run", "study.toml", "-o", "real/a.h5", "--force", "--threads", "1"]);
     run.wait_until("a checkpoint", || study.path().join("real/a.h5.part").exists());
     run.hold();
-    study.uplift(&["run", "study.toml", "-o", "link.h5"]).fails(4, &["another run"]);
+    study.uplift(&["run", "study.toml", "-o", "link.h5", "--force"]).fails(4, &["another run"]);
     run.kill();
-    study.uplift(&["run", "study.toml", "-o", "link.h5"]).ok();
+    study.uplift(&["run", "study.toml", "-o", "link.h5", "--force"]).ok();
     assert!(study.path().join("link.h5").is_symlink() && !study.path().join("link.h5.part").exists());
 }
 
@@ -434,7 +434,7 @@ fn what_is_in_the_way_is_left_alone() {
     let set = ["--set", "records.manifest=set/manifest.csv"];
     study.uplift(&[&["check", "study.toml"][..], &set].concat()).ok();
     std::fs::remove_file(study.path().join("set/SYN002_H1.AT2")).unwrap();
-    study.uplift(&[&["run", "study.toml"][..], &set].concat()).fails(4, &["SYN002", "SYN002_H1.AT2"]);
+    study.uplift(&[&["run", "study.toml", "--force"][..], &set].concat()).fails(4, &["SYN002", "SYN002_H1.AT2"]);
 }
 
 // A file system of its own, so small that the run fills it: what is finished is kept, and once there is room the run

@@ -281,7 +281,7 @@ fn curves_that_do_not_cover_the_levels_and_sites_that_overturn_are_rows_with_a_r
     assert!(properties["pgv_2pct_50yr_u_m_at_0.1"].is_null());
     assert!(properties["problem"].as_str().unwrap().contains("pgv_2pct_50yr: no fit: the spectrum is censored"));
     // with a curve that goes on straight the site has a spectrum
-    study.uplift(&["run", "study.toml", "-o", "r.h5", "--set", "risk.extrapolate=loglog"]).ok();
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "--force", "--set", "risk.extrapolate=loglog"]).ok();
     assert!(read(study.path(), "r.sites.csv").contains("\n3,12.0,45.0,PGV,0.02"));
 }
 

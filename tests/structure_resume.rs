@@ -91,7 +91,7 @@ fn ctrl_c_leaves_a_checkpoint() {
     // long enough to be stopped
     study.uplift(&["records", "synthesize", "-o", "many", "--count", "60", "-q"]).ok();
     study.uplift(&["records", "import", "many", "-o", "many.csv", "-q"]).ok();
-    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q", "--set", "records.manifest=many.csv"]).ok();
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q", "--force", "--set", "records.manifest=many.csv"]).ok();
     let ask = ["design", "block.toml", "--urs", "r.h5", "--json"];
     let mut child = command(study.path())
         .args(ask)

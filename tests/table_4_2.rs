@@ -79,7 +79,8 @@ fn median_ratio_by_hand() {
     // a constant reference of 10 mm, so that the ratio is the median ordinate over 0.1 … 0.8 in units of 10 mm
     study.write("reference.csv", "# comment\nsite,poe_50y,c0_m,c1,c2_m,rmse_m\nhere,0.02,0,-1,0.01,0\n");
     let json = study.uplift(&["table", "r.h5", "--reference", "reference.csv", "--json"]).ok().stdout;
-    let rows: Vec<Value> = serde_json::from_str(&json).unwrap();
+    let table: Value = serde_json::from_str(&json).unwrap();
+    let rows = table["rows"].as_array().unwrap();
     let urs = std::fs::read_to_string(study.path().join("r.urs.csv")).unwrap();
     let mut ordinates: Vec<f64> = urs
         .lines()

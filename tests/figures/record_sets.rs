@@ -11,7 +11,8 @@ fn spectra_of_the_embedded_set_over_real_ones() {
     let folder = tempfile::tempdir().unwrap();
     let study = repository().join("configs/europe.toml").to_str().unwrap().to_owned();
     let spectra = |records: &[String]| {
-        let run = ["run", &study, "-o", "r.h5", "-q", "--set", "risk.maf_surface=false", "--set"].map(str::to_owned);
+        let run = ["run", &study, "-o", "r.h5", "-q", "--force", "--set", "risk.maf_surface=false", "--set"]
+            .map(str::to_owned);
         let strengths = ["strengths.values=[0.05, 0.1, 0.2, 0.3, 0.5]".to_owned()];
         uplift(folder.path(), &[&run[..], &strengths, records].concat()).ok();
         ordinates(&folder.path().join("r.urs.csv"))

@@ -34,6 +34,8 @@ impl Export {
             file.numbers(&format!("u_{key}_m"), &shape, spectra.u_m.values());
             let flags = spectra.flags.map(|&flag| f64::from(flag_number(flag)));
             file.numbers(&format!("flag_{key}"), &shape, flags.values());
+            file.numbers(&format!("lower_tail_share_{key}"), &shape, spectra.lower_tail_share.values());
+            file.numbers(&format!("upper_tail_share_{key}"), &shape, spectra.upper_tail_share.values());
             let columns: [(&str, Value); 4] = [
                 ("c0_{}_m", |fit| fit.c0_m),
                 ("c1_{}", |fit| fit.c1),

@@ -10,6 +10,7 @@ impl Export {
     /// size of the sample, `u05_n20_m` for 20 records.
     pub fn columns(&self) -> Vec<Column> {
         let (mut site, mut im, mut flag) = (Vec::new(), Vec::new(), Vec::new());
+        let mut shares = [Vec::new(), Vec::new()];
         let (mut poe, mut period, mut strength, mut u_m, mut fit_m) =
             (Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let names = self.band_names();
@@ -26,6 +27,9 @@ impl Export {
                 fit_m.push(curve.map(|curve| curve.at(eta)));
                 flag.push(flag_word(of));
             }
+            for (column, values) in shares.iter_mut().zip(row.tail_shares()) {
+                column.extend_from_slice(values);
+            }
             let bands = self.bands_of(&row);
             let of_row = bands.iter().flat_map(|band| band.limits_m);
             for (column, values) in limits.iter_mut().zip(of_row) {
@@ -33,6 +37,7 @@ impl Export {
             }
         }
         let years = vec![self.spectra.years; site.len()];
+        let [lower, upper] = shares;
         let mut columns = vec![
             Column::new("site".into(), site),
             Column::new("im".into(), im),
@@ -43,6 +48,8 @@ impl Export {
             Column::new("fit_m".into(), fit_m),
             Column::new("return_period_years".into(), period),
             Column::new("flag".into(), flag),
+            Column::new("lower_tail_share".into(), lower),
+            Column::new("upper_tail_share".into(), upper),
         ];
         columns.extend(names.into_iter().zip(limits).map(|(name, values)| Column::new(name.into(), values)));
         columns

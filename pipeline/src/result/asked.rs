@@ -99,7 +99,7 @@ fn probability(option: &str, value: f64, years: f64) -> Result<f64, String> {
     Err(if option == RETURN_PERIOD_OPTION {
         format!("{option} {value}: in {years} years that is certain: give fewer --years")
     } else {
-        format!("{option} {value}: a probability is above 0 and below 1 (10 % is 0.1)")
+        format!("{option} {value}: a probability is above 0 and below 1 (10 % is 0.1 or 10%)")
     })
 }
 

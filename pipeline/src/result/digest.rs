@@ -14,8 +14,8 @@ use crate::result_of::what_counts;
 /// Letters of a digest that is written into tables and figures: two results of a folder do not share them.
 const LETTERS: usize = 12;
 
-/// The digest of a study, complete as in a result, and of its inputs, name to SHA-256. Where its files lie, its title and
-/// what is asked of a result later do not count.
+/// The digest of a study, complete as in a result, and of its inputs, name to SHA-256. Where its files lie, its title
+/// and what is asked of a result later do not count.
 pub(crate) fn study_digest(study_toml: &str, input_checksums: &BTreeMap<String, String>) -> String {
     let mut said = Value::Table(what_counts(study_toml).unwrap_or_default());
     forget_places(&mut said);
@@ -37,8 +37,8 @@ fn forget_places(value: &mut Value) {
 }
 
 impl Head {
-    /// By what the numbers of this result are known: twelve letters, the same for the same study and inputs wherever they
-    /// lie and whoever runs them.
+    /// By what the numbers of this result are known: twelve letters, the same for the same study and inputs wherever
+    /// they lie and whoever runs them.
     pub fn study_digest(&self) -> String {
         study_digest(&self.study_toml, &self.input_checksums)
     }

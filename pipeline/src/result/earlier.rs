@@ -87,7 +87,9 @@ pub(crate) fn made_of(result: &Path, digest: &str) -> Vec<PathBuf> {
     let files = |folder: &Path, start: &str| -> Vec<PathBuf> {
         let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
         let named = entries.filter(|entry| entry.file_name().to_string_lossy().starts_with(start));
-        named.map(|entry| entry.path()).filter(|path| path.is_file()).collect()
+        // without the dot of a folder that has no name
+        let path = |entry: std::fs::DirEntry| entry.path().strip_prefix(".").map_or(entry.path(), Path::to_owned);
+        named.map(path).filter(|path| path.is_file()).collect()
     };
     let mut found = files(folder, &start);
     found.extend(files(&beside(result, "figures"), ""));

@@ -12,7 +12,7 @@ mod study;
 pub(crate) use figures::FigureArguments;
 pub(crate) use folder::require_folder;
 pub(crate) use force::ForceArgument;
-pub(crate) use probability::probability;
+pub(crate) use probability::{number_or_per_cent, probability};
 pub(crate) use result::ResultArguments;
 pub(crate) use risk::RiskArguments;
 pub(crate) use structure::StructureArguments;

@@ -1,17 +1,22 @@
 //! A probability as it is typed.
 
-/// Reads `0.1`, `10%` or `10 %`.
-pub(crate) fn probability(text: &str) -> Result<f64, String> {
+/// Reads `0.1`, `10%` or `10 %`, whatever the number.
+pub(crate) fn number_or_per_cent(text: &str) -> Result<f64, String> {
     let (number, unit) = match text.trim().strip_suffix('%') {
         Some(number) => (number.trim_end(), 100.0),
         None => (text.trim(), 1.0),
     };
-    let value = number.parse::<f64>().map_err(|_| "write a probability, 0.1 or 10%".to_owned())? / unit;
+    Ok(number.parse::<f64>().map_err(|_| "write a probability, 0.1 or 10%".to_owned())? / unit)
+}
+
+/// Reads a probability: `0.1`, `10%` or `10 %`.
+pub(crate) fn probability(text: &str) -> Result<f64, String> {
+    let value = number_or_per_cent(text)?;
     if value > 0.0 && value < 1.0 {
         return Ok(value);
     }
-    let hint = if unit == 1.0 && value > 1.0 && value < 100.0 {
-        format!("; {number} per cent is {number}%")
+    let hint = if !text.contains('%') && value > 1.0 && value < 100.0 {
+        format!("; {value} per cent is {value}%")
     } else {
         String::new()
     };

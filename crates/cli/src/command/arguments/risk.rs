@@ -3,7 +3,7 @@
 use clap::Args;
 use uplift::result::{AskedRisk, RiskTargets};
 
-use super::probability;
+use super::number_or_per_cent;
 
 /// The risks of the spectra, any: computed from the stripes of the result, without a new run.
 #[derive(Debug, Args)]
@@ -14,7 +14,7 @@ pub(crate) struct RiskArguments {
         value_name = "P[,P…]",
         value_delimiter = ',',
         allow_negative_numbers = true,
-        value_parser = probability,
+        value_parser = number_or_per_cent,
         conflicts_with = "return_period"
     )]
     poe: Vec<f64>,
