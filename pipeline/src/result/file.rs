@@ -40,7 +40,6 @@ use crate::error::UpliftError;
 /// | [`spectra`](Self::spectra) | the spectra and their coefficients, as the study read them |
 /// | [`stripes`](Self::stripes) | peak displacements of all runs, for what is asked after a run |
 /// | [`bands`](Self::bands), [`resampling_plan`](Self::resampling_plan) | confidence bands and their draws |
-/// | [`tail_shares`](Self::tail_shares) | what of the risk comes from outside the analysed levels |
 /// | [`influence`](Self::influence) | what each record and intensity does to the spectra |
 /// | [`study`](Self::study) | the study itself, to be asked something new |
 /// | [`at`](Self::at), [`resampled`](Self::resampled) | the same at other probabilities or return periods |
