@@ -4,7 +4,8 @@
 STUDY  ?= configs/europe.toml
 # A third of the strengths, so that the first look takes about a minute; `make run SET=` runs the study as it stands.
 SET    ?= --set strengths.values=0:1/100:1
-OUTPUT ?= results/$(if $(SET),first-look,$(basename $(notdir $(STUDY)))).h5
+NAME   := $(basename $(notdir $(STUDY)))
+OUTPUT ?= results/$(if $(SET),$(patsubst europe-%,%,$(NAME)-first-look),$(NAME)).h5
 
 TOOLS := $(shell .ci/provide-cmake)
 ifeq ($(TOOLS),)

@@ -171,6 +171,7 @@ fn what_was_made_of_a_replaced_result_goes_with_it() {
         study.uplift(made).ok();
     }
     study.write("r.notes.csv", "what I think of uplift; r.h5\n");
+    study.write("r.mine.json", "{\"note\": \"uplift gave results/r.h5, my own remarks\"}\n");
     let digest = |name: &str| {
         let status = study.uplift(&["status", name]).ok().stdout;
         let line = status.lines().find_map(|line| line.trim().strip_prefix("digest"));
@@ -193,11 +194,13 @@ fn what_was_made_of_a_replaced_result_goes_with_it() {
     assert_eq!(names(&earlier), ["r.h5"]);
     assert_eq!(std::fs::read(earlier.join("r.h5")).unwrap(), before);
     assert!(study.path().join("r.bands.csv").exists());
-    // and one of others
+    // and one of others: what was kept before stays as it is
     study.write("study.toml", &SMALL_STUDY.replace("first = 4", "first = 3"));
     let said = study.uplift(&run).ok().stderr;
     assert!(said.contains("r.earlier"), "{said}");
-    let tables = ["bands", "influence", "measures", "spectra", "table-4-1"];
+    assert_eq!(std::fs::read(earlier.join("r.h5")).unwrap(), before);
+    let earlier = study.path().join("r.earlier").join(format!("{first}-2"));
+    let tables = ["bands", "influence", "measures", "regression", "spectra", "table-4-1", "urs"];
     let tables = tables.iter().flat_map(|name| ["csv", "csv-metadata.json"].map(|end| format!("r.{name}.{end}")));
     let mut kept: Vec<String> = ["figures", "h5", "html", "json", "mat", "xlsx"].map(|end| format!("r.{end}")).into();
     kept.extend(tables);
@@ -205,10 +208,12 @@ fn what_was_made_of_a_replaced_result_goes_with_it() {
     assert_eq!(names(&earlier), kept);
     assert_eq!(names(&earlier.join("r.figures")), ["urs-pgv.svg"]);
     let left = names(study.path());
-    for gone in kept.iter().filter(|name| *name != "r.h5" && *name != "r.figures") {
-        assert!(!left.contains(gone), "{gone}");
+    let own = ["r.h5", "r.urs.csv", "r.urs.csv-metadata.json", "r.regression.csv", "r.regression.csv-metadata.json"];
+    for name in &kept {
+        assert_eq!(left.contains(name), own.contains(&name.as_str()), "{name}");
     }
-    assert!(left.iter().any(|name| name == "r.notes.csv") && left.iter().any(|name| name == "r.urs.csv"));
+    // and what somebody else wrote
+    assert!(left.iter().any(|name| name == "r.notes.csv") && left.iter().any(|name| name == "r.mine.json"));
     assert_ne!(digest("r.h5"), first);
     // what is put back beside another result is seen
     for name in ["r.bands.csv", "r.bands.csv-metadata.json"] {

@@ -30,7 +30,7 @@ use crate::result::{Kind, ResultFile};
 pub(crate) use evidence::{Evidence, Scope};
 pub use fit::{FitReach, reach_of_fit};
 pub(crate) use hazard::{look_like_probabilities, what_of_probabilities};
-pub(crate) use structure::{OwnRisk, of_own_risks, of_safety_factor, of_structure};
+pub(crate) use structure::{OwnRisk, of_own_demand, of_own_risks, of_safety_factor, of_structure};
 
 /// How much depends on it, the worst first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]

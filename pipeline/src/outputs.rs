@@ -259,10 +259,28 @@ pub fn provide_folder(folder: &Path) -> Result<(), UpliftError> {
         .map_err(|error| UpliftError::input(format!("{} cannot be made: {error}", folder.display())))
 }
 
+/// How the files of this program name it, without spaces: JSON and what stands beside tables, pages, SVG, PNG, MATLAB
+/// files, workbooks, and tables of earlier versions.
+const OWN_MARKS: [&str; 8] = [
+    "\"provenance\":\"uplift",
+    "\"dc:provenance\":\"uplift",
+    "content=\"uplift",
+    "<desc>uplift",
+    "tEXtSoftwareuplift",
+    "MATLAB5.0MAT-file,uplift",
+    "<dc:description>uplift",
+    "#uplift",
+];
+
 /// Whether the file at `path` says that this program made it of the result at `result`, or of one that lay there.
 pub(crate) fn is_of_result(path: &Path, result: &Path) -> bool {
     let Some(name) = result.file_name().and_then(|name| name.to_str()) else { return false };
-    said_of(path).is_some_and(|said| contains(&said, b"uplift ") && names_result(&said, name))
+    let escaped = name.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
+    said_of(path).is_some_and(|said| {
+        let ours = without_spaces(&said);
+        OWN_MARKS.iter().any(|mark| contains(&ours, mark.as_bytes()))
+            && (names_result(&said, name) || names_result(&said, &escaped))
+    })
 }
 
 /// Whether the file at `path` says that it has the numbers of a study of this digest.

@@ -73,7 +73,7 @@ pub fn require_whole(files: &[PathBuf]) -> Result<(), UpliftError> {
     for file in files {
         mistakes.extend(VerifiedFile::of(file.clone(), verify_bytes(file)?).mistakes);
     }
-    if mistakes.is_empty() { Ok(()) } else { Err(UpliftError::input(mistakes.join("\n"))) }
+    if mistakes.is_empty() { Ok(()) } else { Err(UpliftError::Inputs(mistakes)) }
 }
 
 impl VerifiedFile {

@@ -17,7 +17,7 @@ use uplift::study::Structure;
 
 use crate::page::{STYLE, render};
 use drawing::drawing;
-use numbers::{facts, kind_name, lead, tables};
+use numbers::{facts, kind_name, lead, rounding_words, tables};
 
 const SHEET: &str = concat!(include_str!("page/table.html"), include_str!("sheet/sheet.html"));
 
@@ -34,8 +34,14 @@ pub fn check_design_sheet(file: &Path, result: &Path, inputs: &[&Path], force: b
 /// # Errors
 /// A file that cannot be written.
 pub fn write_design_sheet(structure: &Structure, report: &DesignReport, file: &Path) -> Result<(), UpliftError> {
-    let noted =
-        report.structure.warnings.iter().chain(&report.notes).map(|note| context! { severity => "note", what => note });
+    let rounding = rounding_words(report);
+    let noted = report
+        .structure
+        .warnings
+        .iter()
+        .chain(&report.notes)
+        .chain(&rounding)
+        .map(|note| context! { severity => "note", what => note });
     let alarms: Vec<Value> = report.alarms.iter().map(Value::from_serialize).chain(noted).collect();
     let mark = ResultFile::open(&report.result)?.mark()?;
     let page = render(

@@ -94,7 +94,9 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Vec<Alarm> {
             ));
         }
         let Some(reach) = reach_of_fit(&curve, (strengths, u_m), above, uplift_m) else { continue };
-        let times = reach.worst_ratio.max(1.0 / reach.worst_ratio);
+        // a curve below zero is off by any factor
+        let times =
+            if reach.worst_ratio > 0.0 { reach.worst_ratio.max(1.0 / reach.worst_ratio) } else { f64::INFINITY };
         if times > FAR {
             let severity = if times > FAR_OFF { Severity::Caution } else { Severity::Note };
             far.push(case(

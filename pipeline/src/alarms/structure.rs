@@ -38,6 +38,31 @@ pub(crate) fn of_safety_factor(safety_factor: f64) -> Option<Alarm> {
     Some(Alarm::of_one(Severity::Mistake, "unlikely-number", "design", found.to_string(), what_to_do))
 }
 
+/// A design that the rules are content with and that the structure's own demand, m, is not, within the capacity over
+/// the safety factor.
+pub(crate) fn of_own_demand(
+    demand_m: f64,
+    capacity_m: Option<f64>,
+    safety_factor: f64,
+    satisfied: bool,
+) -> Option<Alarm> {
+    let capacity_m = capacity_m.filter(|_| satisfied)?;
+    (safety_factor * demand_m > capacity_m).then(|| {
+        Alarm::of_one(
+            Severity::Caution,
+            "rule-unsafe",
+            "design",
+            format!(
+                "the rules are satisfied, and the structure's own exact demand of {demand_m:.4} m is not: the \
+                 capacity of {capacity_m:.4} m is {:.2} times it, for a safety factor of {safety_factor}",
+                capacity_m / demand_m
+            ),
+            "size it by its own demand, or make the spectrum with its uplift displacement and restitution \
+             (oscillator.uplift_displacement_m, oscillator.restitution)",
+        )
+    })
+}
+
 /// Risks that come from outside the stripes, and those that no run of them shows.
 pub(crate) fn of_own_risks(risks: &[OwnRisk]) -> Vec<Alarm> {
     let outside = risks.iter().filter_map(outside_levels).collect();
@@ -102,6 +127,16 @@ mod tests {
     fn own(risk: EventRisk) -> OwnRisk {
         let subject = "overturning, Here, PGV".to_owned();
         OwnRisk { subject, risk, measure: IntensityMeasure::Pgv, levels: (1.0, 200.0), records: 30 }
+    }
+
+    #[test]
+    fn a_design_is_held_against_its_own_demand() {
+        assert_eq!(of_own_demand(0.2, Some(0.7), 2.5, true), None);
+        assert_eq!(of_own_demand(0.4, Some(0.7), 2.5, false), None, "the rules say so");
+        assert_eq!(of_own_demand(0.4, None, 2.5, true), None);
+        let Some(alarm) = of_own_demand(0.4, Some(0.7), 2.5, true) else { panic!() };
+        assert!(alarm.what.contains("1.75 times") && alarm.severity == Severity::Caution, "{alarm}");
+        assert!(of_own_demand(f64::INFINITY, Some(0.7), 2.5, true).is_some(), "it overturns");
     }
 
     #[test]

@@ -83,6 +83,7 @@ pub(crate) fn run(
     };
     let earlier = Earlier::keep(path, &provenance.study_digest)?;
     write_displacements(path, &outcome)?;
+    earlier.set_aside(events)?;
     checkpoint.remove();
     let mut files = vec![path.to_owned()];
     // the tables say what the file says
@@ -91,7 +92,6 @@ pub(crate) fn run(
     if study.output.csv {
         files.extend(write_displacement_csv(path, &outcome, &rows)?);
     }
-    earlier.set_aside(events)?;
     Ok(RunReport::of(&outcome, (rows, alarms(&file)?), files, place.start.elapsed().as_secs_f64()))
 }
 

@@ -37,11 +37,13 @@ impl Earlier {
             // what of it is sound is nobody's to throw away
             Err(_) => Some("damaged".to_owned()),
         };
-        let folder = beside(result, "earlier").join(name.as_deref().unwrap_or(digest));
+        let folder = free_folder(&beside(result, "earlier"), name.as_deref().unwrap_or(digest));
         let mut earlier = Self { result: result.to_owned(), digest: digest.to_owned(), folder, kept: 0 };
         if name.is_some() {
+            // a link is followed, as by the writer of the new one
+            let file = result.canonicalize().unwrap_or_else(|_| result.to_owned());
             earlier
-                .take(result, |from, to| std::fs::hard_link(from, to).or_else(|_| std::fs::copy(from, to).map(drop)))?;
+                .take(&file, |from, to| std::fs::hard_link(from, to).or_else(|_| std::fs::copy(from, to).map(drop)))?;
         }
         Ok(earlier)
     }
@@ -54,6 +56,8 @@ impl Earlier {
         for file in made_of(&self.result, &self.digest) {
             self.take(&file, |from, to| std::fs::rename(from, to))?;
         }
+        // left where every figure went
+        let _ = std::fs::remove_dir(beside(&self.result, "figures"));
         if self.kept > 0 {
             events
                 .remark("earlier", &format!("{} file(s) of the earlier result: {}", self.kept, self.folder.display()));
@@ -69,14 +73,20 @@ impl Earlier {
         };
         provide_folder(&folder)?;
         let to = folder.join(file.file_name().unwrap_or_default());
-        // of the same earlier result, set aside before
-        let _ = std::fs::remove_file(&to);
         how(file, &to).map_err(|error| {
             UpliftError::input(format!("{} cannot be kept as {}: {error}", file.display(), to.display()))
         })?;
         self.kept += 1;
         Ok(())
     }
+}
+
+/// A folder of this name within `all`, or of the name with a number behind it, that is not there yet: what was kept
+/// before is not replaced.
+fn free_folder(all: &Path, name: &str) -> PathBuf {
+    let numbered = (2..).map(|number| all.join(format!("{name}-{number}")));
+    let mut candidates = std::iter::once(all.join(name)).chain(numbered);
+    candidates.find(|folder| !folder.exists()).unwrap_or_else(|| all.join(name))
 }
 
 /// The files beside the result, and in the folder of its figures, that were made of a result of this name with other

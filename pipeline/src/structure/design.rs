@@ -22,7 +22,9 @@ use super::risk::EventRisk;
 use super::rules::{RuleDemands, RuleOutcome, apply_rules};
 use super::spectrum::{SpectrumDemand, read_spectrum};
 use super::sweep::Sweep;
-use crate::alarms::{Alarm, OwnRisk, Scope, alarms_within, of_own_risks, of_safety_factor, of_structure, ranked};
+use crate::alarms::{
+    Alarm, OwnRisk, Scope, alarms_within, of_own_demand, of_own_risks, of_safety_factor, of_structure, ranked,
+};
 use crate::analysis::{Beside, LabelledPlan, ShardReport, Work};
 use crate::error::UpliftError;
 use crate::events::Events;
@@ -174,6 +176,9 @@ pub fn design(
     if let Some(exact) = &exact {
         let records = file.axes()?.records.len();
         alarms.extend(of_own_risks(&own_risks(exact, measure, &source.sites[site], records)));
+        let satisfied = rules.iter().any(|rule| rule.check().is_some_and(|check| check.satisfied));
+        let capacity_m = StructureReport::of(structure, Some(restitution)).capacity_m;
+        alarms.extend(of_own_demand(exact.demand_m, capacity_m, safety_factor, satisfied));
     }
     if let Some(checkpoint) = checkpoint {
         checkpoint.remove();

@@ -72,6 +72,7 @@ pub(crate) fn run(
     };
     let earlier = Earlier::keep(path, &provenance.study_digest)?;
     write_result(path, &outcome)?;
+    earlier.set_aside(events)?;
     checkpoint.remove();
     let mut files = vec![path.to_owned()];
     if study.output.csv && !study.sites.is_empty() {
@@ -79,7 +80,6 @@ pub(crate) fn run(
         files.extend(csv_paths(path));
     }
     files.extend(sites.finish()?);
-    earlier.set_aside(events)?;
     // the summary says what every other look at the file says
     let alarms = alarms(&ResultFile::open(path)?)?;
     Ok(RunReport::of(&outcome, alarms, files, place.start.elapsed().as_secs_f64()))

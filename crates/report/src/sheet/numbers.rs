@@ -64,7 +64,10 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
 
 fn in_words(what: &str, risk: &EventRisk, years: f64) -> String {
     if risk.per_year == 0.0 {
-        return format!("{what} in none of the analyses, which bounds nothing beyond the analysed levels.");
+        return risk.at_most_per_year.map_or_else(
+            || format!("{what} in none of the analyses."),
+            |most| format!("{what} in none of the analyses: at most {} a year.", power(most, 1)),
+        );
     }
     let between = 1.0 / risk.per_year;
     format!(
@@ -73,6 +76,22 @@ fn in_words(what: &str, risk: &EventRisk, years: f64) -> String {
         power(risk.per_year, 1),
         significant(100.0 * risk.probability)
     )
+}
+
+/// Which demands hang on rounding, and from where to where; none where none does.
+pub(super) fn rounding_words(report: &DesignReport) -> Option<String> {
+    let rounding = &report.exact.as_ref()?.rounding;
+    let demands = [
+        ("zero stiffness, exact", &rounding.zero_stiffness_demand_of_spectrum_m),
+        ("zero stiffness with uplift and impacts of the structure", &rounding.zero_stiffness_demand_m),
+        ("the structure itself", &rounding.demand_m),
+    ];
+    let moved = demands.into_iter().filter(|(_, demand_m)| demand_m.shows_otherwise(metres));
+    let moved: Vec<String> =
+        moved.map(|(what, of)| format!("{what}: {} to {} m", metres(of.lowest), metres(of.highest))).collect();
+    let words = "rounding decides the last digits of a demand, and of what follows from it; with strengths some 1e-15 \
+                 lower and higher it is, lowest to highest (before the factor Γ)";
+    (!moved.is_empty()).then(|| format!("{words}: {}", moved.join("; ")))
 }
 
 /// What kind of structure it is, in words.
