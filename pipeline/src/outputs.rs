@@ -22,6 +22,19 @@ const FILE_ENDINGS: [&str; 12] =
 /// Bytes of a file in which this program names itself, where it wrote it.
 const HEAD: u64 = 4096;
 
+/// How this program names itself in a JSON file, but for spaces.
+const JSON_MARK: &[u8] = b"\"provenance\":\"uplift";
+const MATLAB_MARK: &[u8] = b"MATLAB 5.0 MAT-file, uplift ";
+const WORKBOOK_MARK: &[u8] = b"<dc:description>uplift ";
+/// Without the zero that stands in it, see [`head_of`].
+const PNG_MARK: &[u8] = b"tEXtSoftwareuplift ";
+const SVG_MARK: &[u8] = b"<desc>uplift ";
+const PAGE_MARK: &[u8] = b"<meta name=\"generator\" content=\"uplift ";
+/// Of remarks, and of tables once.
+const TEXT_MARK: &[u8] = b"# uplift ";
+/// All in which spaces count.
+const MARKS: [&[u8]; 6] = [MATLAB_MARK, WORKBOOK_MARK, PNG_MARK, SVG_MARK, PAGE_MARK, TEXT_MARK];
+
 /// What a file is: how its name ends, and by what one of this program's is known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OutputKind {
@@ -147,21 +160,19 @@ impl OutputKind {
                     lines.next()
                 } else {
                     // tables said so in their first line once
-                    lines.next().filter(|line| line.starts_with(b"# uplift ")).and_then(|_| lines.next())
+                    lines.next().filter(|line| line.starts_with(TEXT_MARK)).and_then(|_| lines.next())
                 };
                 names.is_some_and(|names| names.split(|&byte| byte == b',').any(|name| name == column.as_bytes()))
             }
-            Self::Json | Self::GeoJson => {
-                head.starts_with(b"{") && contains(&without_spaces(head), b"\"provenance\":\"uplift")
-            }
-            Self::Matlab => head.starts_with(b"MATLAB 5.0 MAT-file, uplift "),
-            Self::Workbook => contains(head, b"<dc:description>uplift "),
+            Self::Json | Self::GeoJson => head.starts_with(b"{") && contains(&without_spaces(head), JSON_MARK),
+            Self::Matlab => head.starts_with(MATLAB_MARK),
+            Self::Workbook => contains(head, WORKBOOK_MARK),
             Self::Figure if path.extension().is_some_and(|extension| extension == "png") => {
-                head.starts_with(b"\x89PNG") && contains(head, b"tEXtSoftwareuplift ")
+                head.starts_with(b"\x89PNG") && contains(head, PNG_MARK)
             }
-            Self::Figure => contains(head, b"<svg") && contains(head, b"<desc>uplift "),
-            Self::Page => contains(head, b"<meta name=\"generator\" content=\"uplift "),
-            Self::Remarks => head.starts_with(b"# uplift "),
+            Self::Figure => contains(head, b"<svg") && contains(head, SVG_MARK),
+            Self::Page => contains(head, PAGE_MARK),
+            Self::Remarks => head.starts_with(TEXT_MARK),
             Self::Manifest | Self::Curve | Self::Record => false,
         }
     }
@@ -259,27 +270,15 @@ pub fn provide_folder(folder: &Path) -> Result<(), UpliftError> {
         .map_err(|error| UpliftError::input(format!("{} cannot be made: {error}", folder.display())))
 }
 
-/// How the files of this program name it, without spaces: JSON and what stands beside tables, pages, SVG, PNG, MATLAB
-/// files, workbooks, and tables of earlier versions.
-const OWN_MARKS: [&str; 8] = [
-    "\"provenance\":\"uplift",
-    "\"dc:provenance\":\"uplift",
-    "content=\"uplift",
-    "<desc>uplift",
-    "tEXtSoftwareuplift",
-    "MATLAB5.0MAT-file,uplift",
-    "<dc:description>uplift",
-    "#uplift",
-];
-
 /// Whether the file at `path` says that this program made it of the result at `result`, or of one that lay there.
 pub(crate) fn is_of_result(path: &Path, result: &Path) -> bool {
     let Some(name) = result.file_name().and_then(|name| name.to_str()) else { return false };
     let escaped = name.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
     said_of(path).is_some_and(|said| {
-        let ours = without_spaces(&said);
-        OWN_MARKS.iter().any(|mark| contains(&ours, mark.as_bytes()))
-            && (names_result(&said, name) || names_result(&said, &escaped))
+        let spaceless = without_spaces(&said);
+        let ours = MARKS.iter().any(|mark| contains(&said, mark))
+            || [JSON_MARK, metadata::MARK].iter().any(|mark| contains(&spaceless, mark));
+        ours && (names_result(&said, name) || names_result(&said, &escaped))
     })
 }
 

@@ -27,16 +27,15 @@ impl Export {
 
     fn spectrum(&self, row: &Row<'_>) -> Value {
         let fit = row.spectrum.fit;
-        let [lower, upper] = row.tail_shares().map(numbers);
         json!({
             "site": row.spectrum.site,
             "im": row.spectrum.measure.label(),
             "poe": row.spectrum.poe,
             "return_period_years": finite(row.return_period),
             "u_m": numbers(row.spectrum.u_m),
-            "flag": row.flags().iter().copied().map(flag_word).collect::<Vec<_>>(),
-            "lower_tail_share": lower,
-            "upper_tail_share": upper,
+            "flag": row.spectrum.flags.iter().copied().map(flag_word).collect::<Vec<_>>(),
+            "lower_tail_share": numbers(row.spectrum.lower_tail_share),
+            "upper_tail_share": numbers(row.spectrum.upper_tail_share),
             "fit": {
                 "c0_m": finite(fit.c0_m),
                 "c1": finite(fit.c1),

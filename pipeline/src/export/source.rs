@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use uplift_hazard::rate_from_probability;
-use uplift_risk::OrdinateFlag;
 use uplift_study::UniformRiskStudy;
 
 use crate::alarms::{Alarm, alarms};
@@ -35,18 +34,6 @@ pub(super) struct Row<'a> {
     pub(super) spectrum: Spectrum<'a>,
     /// Years.
     pub(super) return_period: f64,
-}
-
-impl Row<'_> {
-    /// Whether the ordinates exist.
-    pub(super) fn flags(&self) -> &[OrdinateFlag] {
-        self.spectrum.flags
-    }
-
-    /// Shares of their risk from below the first stripe and above the last, 0 to 1.
-    pub(super) fn tail_shares(&self) -> [&[f64]; 2] {
-        [self.spectrum.lower_tail_share, self.spectrum.upper_tail_share]
-    }
 }
 
 impl Export {

@@ -10,14 +10,16 @@ impl Export {
     /// size of the sample, `u05_n20_m` for 20 records.
     pub fn columns(&self) -> Vec<Column> {
         let (mut site, mut im, mut flag) = (Vec::new(), Vec::new(), Vec::new());
-        let mut shares = [Vec::new(), Vec::new()];
+        let (mut lower, mut upper) = (Vec::new(), Vec::new());
         let (mut poe, mut period, mut strength, mut u_m, mut fit_m) =
             (Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let names = self.band_names();
         let mut limits: Vec<Vec<f64>> = vec![Vec::new(); names.len()];
         for row in self.rows() {
             let curve = row.spectrum.fit.curve();
-            for ((&eta, &ordinate_m), &of) in self.spectra.strengths.iter().zip(row.spectrum.u_m).zip(row.flags()) {
+            for ((&eta, &ordinate_m), &of) in
+                self.spectra.strengths.iter().zip(row.spectrum.u_m).zip(row.spectrum.flags)
+            {
                 site.push(row.spectrum.site);
                 im.push(row.spectrum.measure.label());
                 poe.push(row.spectrum.poe);
@@ -27,9 +29,8 @@ impl Export {
                 fit_m.push(curve.map(|curve| curve.at(eta)));
                 flag.push(flag_word(of));
             }
-            for (column, values) in shares.iter_mut().zip(row.tail_shares()) {
-                column.extend_from_slice(values);
-            }
+            lower.extend_from_slice(row.spectrum.lower_tail_share);
+            upper.extend_from_slice(row.spectrum.upper_tail_share);
             let bands = self.bands_of(&row);
             let of_row = bands.iter().flat_map(|band| band.limits_m);
             for (column, values) in limits.iter_mut().zip(of_row) {
@@ -37,7 +38,6 @@ impl Export {
             }
         }
         let years = vec![self.spectra.years; site.len()];
-        let [lower, upper] = shares;
         let mut columns = vec![
             Column::new("site".into(), site),
             Column::new("im".into(), im),

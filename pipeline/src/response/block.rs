@@ -196,16 +196,10 @@ impl BlockHistory {
     }
 
     fn write(&self, file: &Path, report: &BlockResponseReport) -> Result<(), UpliftError> {
-        let line = format!(
-            "uplift {} ({}); record {}, scale {}, block of size {} m, slenderness {} rad, restitution {}",
-            crate::VERSION,
-            crate::COMMIT,
-            report.shaken_by.record.display(),
-            report.shaken_by.scale,
-            report.size_m,
-            report.slenderness_rad,
-            report.restitution
-        );
+        let line = report.shaken_by.line(&format!(
+            "block of size {} m, slenderness {} rad, restitution {}",
+            report.size_m, report.slenderness_rad, report.restitution
+        ));
         let column = |name: &str, value: fn(&HistoryRow) -> f64| {
             Column::new(name.into(), self.rows.iter().map(value).collect::<Vec<f64>>())
         };

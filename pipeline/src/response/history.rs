@@ -69,15 +69,9 @@ impl ResponseHistory {
     }
 
     pub(super) fn write(&self, file: &Path, report: &ResponseReport) -> Result<(), UpliftError> {
-        let line = format!(
-            "uplift {} ({}); record {}, scale {}, strength {}, uplift displacement {} m",
-            crate::VERSION,
-            crate::COMMIT,
-            report.shaken_by.record.display(),
-            report.shaken_by.scale,
-            report.strength,
-            report.uplift_displacement_m
-        );
+        let line = report
+            .shaken_by
+            .line(&format!("strength {}, uplift displacement {} m", report.strength, report.uplift_displacement_m));
         let column = |name: &str, value: fn(&HistoryRow) -> f64| {
             Column::new(name.into(), self.rows.iter().map(value).collect::<Vec<f64>>())
         };

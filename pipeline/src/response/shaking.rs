@@ -126,3 +126,10 @@ pub struct ShakenBy {
     /// How long the free vibration was followed, s.
     pub free_vibration_s: f64,
 }
+
+impl ShakenBy {
+    /// What stands beside the table of a history of `system`.
+    pub(super) fn line(&self, system: &str) -> String {
+        format!("{}; record {}, scale {}, {system}", outputs::mark(), self.record.display(), self.scale)
+    }
+}

@@ -22,7 +22,7 @@ const HDF5_SIGNATURE: [u8; 8] = *b"\x89HDF\r\n\x1a\n";
 /// # Errors
 /// A folder that cannot be written, or a file there that is no HDF5 file.
 pub fn check_target(path: &Path) -> Result<(), UpliftError> {
-    check_replaceable(path, false).map(drop)
+    check_replaceable(path, false)
 }
 
 /// Check that the result of `study` can be written where `options` say, and replaces nothing but an earlier result;
@@ -40,7 +40,7 @@ pub(crate) fn check_place(study: &AnyStudy, options: &RunOptions, inputs: &[Path
     if inputs.iter().any(|input| is_same_file(path, input)) {
         return Err(UpliftError::Usage(format!("{name} would overwrite an input: give the result another name (-o)")));
     }
-    check_replaceable(path, options.force).map(drop)
+    check_replaceable(path, options.force)
 }
 
 /// Why an earlier result in the place of that of `study` is another's, so that it gives way to force alone: of another
@@ -48,10 +48,11 @@ pub(crate) fn check_place(study: &AnyStudy, options: &RunOptions, inputs: &[Path
 /// study file as it is now, edited or not, or the same numbers.
 ///
 /// # Errors
-/// As [`check_target`]; a study that cannot be written.
+/// A study that cannot be written.
 pub(crate) fn replaces_another(study: &AnyStudy, options: &RunOptions) -> Result<Option<String>, UpliftError> {
     let path = options.result_file(&study.output().file);
-    let Some(earlier) = check_replaceable(path, options.force)? else { return Ok(None) };
+    // whatever else is there was looked at by `check_place`
+    let Some(earlier) = LabelledReader::open(path).ok().filter(|_| !options.force) else { return Ok(None) };
     let text = |name: &str| earlier.attribute_text("/", name).unwrap_or_default();
     if what_counts(&text("study_toml")) == what_counts(&study.to_toml()?) {
         return Ok(None);
@@ -88,9 +89,9 @@ fn is_of_file(text: &impl Fn(&str) -> String, study: &AnyStudy, file: &Path) -> 
     same_place || (same_name && !title.is_empty() && title == study.title())
 }
 
-/// What there is to be replaced at `path`, if it can be opened; one that cannot is a result that was damaged, which
-/// gives way.
-fn check_replaceable(path: &Path, force: bool) -> Result<Option<LabelledReader>, UpliftError> {
+/// Refuses what lies at `path` and is no result; one that cannot be opened is a result that was damaged, which gives
+/// way.
+fn check_replaceable(path: &Path, force: bool) -> Result<(), UpliftError> {
     drop(LabelledWriter::create(path)?);
     let refused = |what: &str| {
         UpliftError::input(format!(
@@ -100,20 +101,18 @@ fn check_replaceable(path: &Path, force: bool) -> Result<Option<LabelledReader>,
         ))
     };
     if force || !path.exists() {
-        return Ok(None);
+        return Ok(());
     }
     if !is_hdf5(path) {
         return Err(refused("is not an HDF5 file"));
     }
     match LabelledReader::open(path) {
-        Ok(reader) if reader.attribute_text("/", "program").is_ok_and(|program| program == "uplift") => {
-            Ok(Some(reader))
-        }
+        Ok(reader) if reader.attribute_text("/", "program").is_ok_and(|program| program == "uplift") => Ok(()),
         Ok(_) => Err(refused("is an HDF5 file of another program")),
         // another program's, or one of ours that another program has written to
         Err(LabelledError::Unsealed { .. }) => Err(refused("is an HDF5 file without the checksum of this program")),
         Err(error @ (LabelledError::File(_) | LabelledError::Locked { .. })) => Err(error.into()),
-        Err(_) => Ok(None),
+        Err(_) => Ok(()),
     }
 }
 

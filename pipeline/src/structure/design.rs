@@ -170,6 +170,7 @@ pub fn design(
         poe: Some(poe),
         strengths: spectrum.map(|spectrum| spectrum.between_strengths).or(Some((f64::NAN, f64::NAN))),
     };
+    let told = StructureReport::of(structure, Some(restitution));
     let mut alarms = alarms_within(&file, &scope)?;
     alarms.extend(of_structure(structure));
     alarms.extend(of_safety_factor(safety_factor));
@@ -177,15 +178,14 @@ pub fn design(
         let records = file.axes()?.records.len();
         alarms.extend(of_own_risks(&own_risks(exact, measure, &source.sites[site], records)));
         let satisfied = rules.iter().any(|rule| rule.check().is_some_and(|check| check.satisfied));
-        let capacity_m = StructureReport::of(structure, Some(restitution)).capacity_m;
-        alarms.extend(of_own_demand(exact.demand_m, capacity_m, safety_factor, satisfied));
+        alarms.extend(of_own_demand(exact.demand_m, told.capacity_m, safety_factor, satisfied));
     }
     if let Some(checkpoint) = checkpoint {
         checkpoint.remove();
     }
     let risk = &source.study.risk;
     Ok(DesignReport {
-        structure: StructureReport::of(structure, Some(restitution)),
+        structure: told,
         site: source.sites[site].clone(),
         im: measure.measure().label(),
         poe: risk.poe[poe],

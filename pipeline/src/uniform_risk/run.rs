@@ -55,7 +55,7 @@ pub(crate) fn run(
     }
     let mut provenance = Provenance::new(place.options, records, &hazard);
     provenance.input_checksums.extend(site_list.iter().flat_map(|list| list.checksums.clone()));
-    let provenance = &mut provenance.of_result(path, &study.to_toml()?);
+    let mut provenance = provenance.of_result(path, &study.to_toml()?);
     let line = provenance.line(&study.title, &records.description);
     let mut sites = site_table::compute(study, site_list.as_ref(), &stripes, path, &line, events)?;
     warnings.append(&mut sites.warnings);
@@ -68,7 +68,7 @@ pub(crate) fn run(
         spectra: &spectra,
         coefficients: &coefficients,
         warnings: &warnings,
-        provenance,
+        provenance: &provenance,
     };
     let earlier = Earlier::keep(path, &provenance.study_digest)?;
     write_result(path, &outcome)?;
