@@ -5,19 +5,33 @@ use uplift_fragility::check_threshold;
 use crate::fixed_point::{MAX_RATE_PER_YEAR, quanta, rate_per_year};
 use crate::grid::interpolate_log_rate;
 use crate::{
-    Disaggregation, Ordinate, OrdinateFlag, PooledDemand, RecordSample, RiskError, StripeWeights, ThresholdGrid,
+    Disaggregation, Ordinate, OrdinateFlag, PooledDemand, RecordSample, RiskError, RunWeights, StripeWeights,
+    ThresholdGrid,
 };
 
-/// The risk curve λ(c) of one oscillator at one site, for all records or for a sample of them.
+/// The risk curve λ(c) of one oscillator at one site, for all records, for a sample of them, or for records that count
+/// differently.
 ///
-/// λ(c) = Σ w(level) m(record)/n over the runs with EDP > c: a right-continuous step function that falls at the
-/// demands. It is a view: nothing is computed before it is asked for.
+/// λ(c) = Σ w(level) m(record)/n, or Σ w(level) p(level, record), over the runs with EDP > c: a right-continuous step
+/// function that falls at the demands. It is a view: nothing is computed before it is asked for.
 #[derive(Debug, Clone, Copy)]
 pub struct RiskCurve<'a> {
     demand: &'a PooledDemand,
     weights: &'a StripeWeights,
-    sample: Option<&'a RecordSample>,
+    counting: Counting<'a>,
+    /// What the counts of the records at a level add up to.
     size: u32,
+}
+
+/// How much each record counts.
+#[derive(Debug, Clone, Copy)]
+enum Counting<'a> {
+    /// Once.
+    Once,
+    /// As often as it was drawn.
+    Drawn(&'a RecordSample),
+    /// By its share at the level.
+    Shared(&'a RunWeights),
 }
 
 impl<'a> RiskCurve<'a> {
@@ -29,7 +43,7 @@ impl<'a> RiskCurve<'a> {
         check_count("stripe weights", weights.level_count(), demand.level_count())?;
         // At most 65 535 records.
         let size = u32::try_from(demand.record_count()).unwrap_or(u32::MAX);
-        Ok(Self { demand, weights, sample: None, size })
+        Ok(Self { demand, weights, counting: Counting::Once, size })
     }
 
     /// Each record as often as the sample has it.
@@ -43,7 +57,17 @@ impl<'a> RiskCurve<'a> {
     ) -> Result<Self, RiskError> {
         check_count("multiplicities of records", sample.multiplicities().len(), demand.record_count())?;
         let curve = Self::new(demand, weights)?;
-        Ok(Self { sample: Some(sample), size: sample.size(), ..curve })
+        Ok(Self { counting: Counting::Drawn(sample), size: sample.size(), ..curve })
+    }
+
+    /// Each record by its share at each level.
+    ///
+    /// # Errors
+    /// Demand and weights with different numbers of levels or records.
+    pub fn weighted(demand: &'a PooledDemand, weights: &'a RunWeights) -> Result<Self, RiskError> {
+        check_count("records with shares", weights.record_count(), demand.record_count())?;
+        let curve = Self::new(demand, weights.stripes())?;
+        Ok(Self { counting: Counting::Shared(weights), size: 1, ..curve })
     }
 
     /// λ(c): mean annual frequency of exceeding `threshold_m`, 1/yr.
@@ -139,11 +163,12 @@ impl<'a> RiskCurve<'a> {
     /// A threshold that is negative or not finite.
     pub fn exceedance_probabilities(&self, threshold_m: f64) -> Result<Vec<f64>, RiskError> {
         check_threshold(threshold_m)?;
-        let mut counts = vec![0_u32; self.demand.level_count()];
+        let mut counts = vec![0.0; self.demand.level_count()];
         for run in &self.demand.runs()[..self.demand.exceeding(threshold_m)] {
-            counts[usize::from(run.level)] += self.multiplicity(run.record);
+            counts[usize::from(run.level)] += self.count(run.level, run.record);
         }
-        Ok(counts.into_iter().map(|count| f64::from(count) / f64::from(self.size)).collect())
+        // shares that were rounded may add up to a hair more than 1
+        Ok(counts.into_iter().map(|count: f64| (count / f64::from(self.size)).min(1.0)).collect())
     }
 
     /// Where λ(`threshold_m`) comes from: interval by interval, and the tails.
@@ -158,8 +183,14 @@ impl<'a> RiskCurve<'a> {
         rate_per_year(sum, self.size)
     }
 
-    fn multiplicity(&self, record: u16) -> u32 {
-        self.sample.map_or(1, |sample| sample.multiplicities()[usize::from(record)])
+    /// How much a record counts at a level: a whole number but for shares, so that counts are added exactly.
+    fn count(&self, level: u16, record: u16) -> f64 {
+        let record = usize::from(record);
+        match self.counting {
+            Counting::Once => 1.0,
+            Counting::Drawn(sample) => f64::from(sample.multiplicities()[record]),
+            Counting::Shared(weights) => weights.shares()[usize::from(level) * weights.record_count() + record],
+        }
     }
 
     /// A target rate as the largest sum that meets it.
@@ -175,9 +206,16 @@ impl<'a> RiskCurve<'a> {
     fn sum(&self, from: usize, to: usize) -> u128 {
         let weights = self.weights.quanta();
         let runs = &self.demand.runs()[from..to];
-        match self.sample {
-            None => runs.iter().map(|run| weights[usize::from(run.level)]).sum(),
-            Some(sample) => {
+        match self.counting {
+            Counting::Once => runs.iter().map(|run| weights[usize::from(run.level)]).sum(),
+            Counting::Shared(shared) => {
+                let (units, records) = (shared.units(), shared.record_count());
+                // all units together fit 62 bits
+                let sum =
+                    runs.iter().map(|run| units[usize::from(run.level) * records + usize::from(run.record)]).sum();
+                shared.quanta(sum)
+            }
+            Counting::Drawn(sample) => {
                 let multiplicities = sample.multiplicities();
                 let term =
                     |record, level| weights[usize::from(level)] * u128::from(multiplicities[usize::from(record)]);
@@ -222,15 +260,17 @@ impl<'a> RiskCurve<'a> {
 
     /// An ordinate with the tail shares of the risk of the runs swept.
     fn ordinate(&self, displacement_m: f64, flag: OrdinateFlag, swept: Sweep) -> Ordinate {
-        let draws = |records: &mut dyn Iterator<Item = u16>| -> f64 {
-            f64::from(records.map(|record| self.multiplicity(record)).sum::<u32>())
+        let counts = |level: usize, records: &mut dyn Iterator<Item = u16>| -> f64 {
+            // At most 65 535 levels.
+            let level = u16::try_from(level).unwrap_or(u16::MAX);
+            records.map(|record| self.count(level, record)).sum()
         };
         let total = self.rate(swept.sum) * f64::from(self.size);
         let share = |tail: f64| {
             if total > 0.0 { (tail / total).min(1.0) } else { 0.0 }
         };
-        let first = draws(&mut self.demand.records_at_first_level(swept.position));
-        let last = draws(&mut self.demand.records_at_last_level(swept.position));
+        let first = counts(0, &mut self.demand.records_at_first_level(swept.position));
+        let last = counts(self.demand.level_count() - 1, &mut self.demand.records_at_last_level(swept.position));
         Ordinate {
             displacement_m,
             flag,

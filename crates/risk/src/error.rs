@@ -68,6 +68,14 @@ pub enum RiskError {
         /// The offending probability.
         probability: f64,
     },
+    /// The shares of the records at a level are not those of a whole.
+    #[error("level {level}: shares of the records add up to {sum}: none may be negative, and all together must be 1")]
+    Shares {
+        /// Position of the level, counted from 0.
+        level: usize,
+        /// What they add up to.
+        sum: f64,
+    },
     /// A sample of records is empty or too large.
     #[error("record sample: {size} draws: between 1 and {MAX_SAMPLE_SIZE} are possible")]
     SampleSize {

@@ -5,7 +5,9 @@
 //! - [`RiskCurve`]: the two together, λ(c), the mean annual frequency of exceeding a displacement c; its ordinates are
 //!   [`RiskCurve::exact_ordinate`] and [`RiskCurve::grid_ordinate`].
 //! - [`RecordSample`]: which records count, and how often: a bootstrap replicate.
+//! - [`RunWeights`]: records that do not count alike, each with its share at every level.
 //! - [`ResamplingTable`]: the same ordinates for thousands of samples.
+//! - [`ReplicateWeights`]: the same for samples whose records are weighed anew, a few at once.
 //! - [`lognormal_risk`]: the risk integral of a lognormal fragility, exact on a log–log hazard curve.
 //!
 //! λ(c) is linear in the stripe fragilities, and these are counts (Eq. 4.7). So λ(c) = Σ w(level) m(record)/n over the
@@ -46,7 +48,9 @@ mod fixed_point;
 mod grid;
 mod lognormal;
 mod ordinate;
+mod replicate_weights;
 mod resampling;
+mod run_weights;
 mod sample;
 mod weights;
 
@@ -57,6 +61,8 @@ pub use error::RiskError;
 pub use grid::ThresholdGrid;
 pub use lognormal::{LognormalRisk, lognormal_risk};
 pub use ordinate::{Ordinate, OrdinateFlag, TAIL_SHARE_LIMIT};
+pub use replicate_weights::{REPLICATES_AT_ONCE, ReplicateWeights};
 pub use resampling::ResamplingTable;
+pub use run_weights::RunWeights;
 pub use sample::RecordSample;
 pub use weights::{StripeWeights, mean_annual_frequency};

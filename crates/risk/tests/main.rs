@@ -1,4 +1,5 @@
-//! Risk curves against plain sums, and risk-targeted ground motions.
+//! Risk curves against plain sums, weighted runs, and risk-targeted ground motions.
 
 mod risk_curve;
 mod rtgm;
+mod run_weights;
