@@ -1,0 +1,399 @@
+//! The exponents for which a set, scaled to x, has the site's hazard of y.
+//!
+//! A weighting of (record, level) has two margins, the hazard of x and that of y. Among all that have both, the one
+//! closest to "every record alike" in the sense of Kullback and Leibler is F(x) G(y) on the lines of the records
+//! (iterative proportional fitting; Deming and Stephan 1940). F is the normalisation at each stripe; ln G is
+//! [`Knots`]' smooth g: `p_ij = m_j exp(g(ln y_ij)) / Σ_k m_k exp(g(ln y_ik))`.
+//!
+//! What does not depend on exponents or multiplicities is worked out once: the basis of g at each run, and how many
+//! records, by falling q, exceed each compared level at each stripe. At any stripe y falls in the order of q, so that
+//! the runs above a level are the first ones.
+
+use crate::exponent::{Exponents, KNOTS, Knots};
+use crate::{ConsistencyError, NoRepair, Reach, ScaledAnalysis};
+
+/// Rates at which the implied hazard is fitted to the site's.
+pub const FIT_RATES: usize = 12;
+
+/// Smoothness of the exponent over the level where none is chosen.
+pub const DEFAULT_SMOOTHNESS: f64 = 0.05;
+
+/// Second differences of the exponents.
+const CURVATURES: usize = KNOTS - 2;
+
+/// A fit has not reached the curve where a residual is larger than this.
+const LARGEST_RESIDUAL: f64 = 0.1;
+
+/// An exponent beyond this has run away.
+const LARGEST_EXPONENT: f64 = 50.0;
+
+/// Most steps of a fit.
+const MOST_STEPS: u32 = 60;
+
+/// The problem of one analysis at one site; solved for the set, its resamples and with records left out.
+#[derive(Debug, Clone)]
+pub struct Solver<'a> {
+    analysis: &'a ScaledAnalysis<'a>,
+    smoothness: f64,
+    /// Levels y of the knots, rising.
+    knot_levels: [f64; KNOTS],
+    /// `ρ_n`, falling, 1/yr.
+    rates: [f64; FIT_RATES],
+    /// `y_n`, the site's level at each, rising.
+    site_levels: [f64; FIT_RATES],
+    /// `w_i`, 1/yr, `[level]`.
+    stripe_weights: Vec<f64>,
+    /// Contributions to g, `[level, rank]`; a rank is a record's place by falling q.
+    basis: Vec<[f64; KNOTS]>,
+    /// How many ranks have `y_ij > y_n`, `[level]`.
+    above: Vec<[usize; FIT_RATES]>,
+}
+
+/// What a fit came to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fit {
+    /// The best exponents b found, at the knots.
+    pub exponents: Exponents,
+    /// ln(implied rate of the site's level / ρ) at the fitted rates.
+    pub residuals: [f64; FIT_RATES],
+    /// Steps that brought the hazard nearer; the last one, which brought next to nothing, is not counted.
+    pub iterations: u32,
+}
+
+impl Fit {
+    /// The largest residual, without its sign.
+    pub fn largest_residual(&self) -> f64 {
+        self.residuals.iter().fold(0.0, |largest, residual| residual.abs().max(largest))
+    }
+
+    /// Whether an exponent is beyond 50.
+    pub fn has_run_away(&self) -> bool {
+        !self.exponents.iter().all(|exponent| exponent.abs() <= LARGEST_EXPONENT)
+    }
+
+    /// Whether the site's hazard is reached: every residual within 0.1, no exponent beyond 50.
+    pub fn is_reached(&self) -> bool {
+        self.largest_residual() <= LARGEST_RESIDUAL && !self.has_run_away()
+    }
+}
+
+/// Room for the numbers of one solve, used again by the next: one a thread.
+#[derive(Debug, Clone, Default)]
+pub struct Scratch {
+    /// The drawn records: rank, record and multiplicity, by falling q.
+    drawn: Vec<(usize, usize, f64)>,
+    /// How many of the drawn records have a lower rank, `[rank + 1]`.
+    drawn_before: Vec<usize>,
+    /// Exponents, then exponentials, of one stripe, in the order of `drawn`.
+    values: Vec<f64>,
+}
+
+/// Residuals with their derivatives by the exponents, and the sum of squares.
+struct Residuals {
+    values: [f64; FIT_RATES + CURVATURES],
+    by_exponent: [[f64; KNOTS]; FIT_RATES + CURVATURES],
+    squares: f64,
+}
+
+impl<'a> Solver<'a> {
+    /// Sets the problem of an analysis up.
+    ///
+    /// - `smoothness`: weight of the second differences of the exponents in the sum of squares; 0.05 is usual.
+    ///
+    /// # Errors
+    /// [`NoRepair::NarrowRange`] where the range of rates is too narrow; a smoothness that is negative or not finite.
+    pub fn new(analysis: &'a ScaledAnalysis<'a>, smoothness: f64) -> Result<Self, ConsistencyError> {
+        if !(smoothness.is_finite() && smoothness >= 0.0) {
+            return Err(ConsistencyError::Smoothness { value: smoothness });
+        }
+        let range = analysis.range();
+        if !range.is_wide() {
+            return Err(ConsistencyError::NoRepair(NoRepair::NarrowRange(*range)));
+        }
+        let (mut knot_levels, mut site_levels) = ([0.0; KNOTS], [0.0; FIT_RATES]);
+        for (level, rate) in knot_levels.iter_mut().zip(range.rates::<KNOTS>()) {
+            *level = analysis.other().im_at_rate(rate)?;
+        }
+        let rates = range.rates();
+        for (level, &rate) in site_levels.iter_mut().zip(&rates) {
+            *level = analysis.other().im_at_rate(rate)?;
+        }
+        let knots = Knots::new(knot_levels);
+        let (set, records) = (analysis.set(), analysis.set().len());
+        let mut basis = Vec::with_capacity(analysis.levels().len() * records);
+        let mut above = Vec::with_capacity(analysis.levels().len());
+        for level in analysis.levels() {
+            let brought = |rank: usize| level * set.ratios()[set.order()[rank]];
+            basis.extend((0..records).map(|rank| knots.basis(brought(rank).ln())));
+            above.push(
+                site_levels.map(|site_level| set.order().partition_point(|&j| level * set.ratios()[j] > site_level)),
+            );
+        }
+        let stripe_weights = analysis.stripes().per_year();
+        Ok(Self { analysis, smoothness, knot_levels, rates, site_levels, stripe_weights, basis, above })
+    }
+
+    /// The analysis.
+    pub fn analysis(&self) -> &'a ScaledAnalysis<'a> {
+        self.analysis
+    }
+
+    /// Levels y of the knots, rising, in the unit of the curve of y.
+    pub fn knot_levels(&self) -> &[f64; KNOTS] {
+        &self.knot_levels
+    }
+
+    /// The rates ρ of the fit, 1/yr, falling.
+    pub fn rates_per_year(&self) -> &[f64; FIT_RATES] {
+        &self.rates
+    }
+
+    /// How many of the rates no weights of the drawn records can give: to be asked before solving.
+    ///
+    /// - `multiplicities`: how often each record counts, `[record]`.
+    ///
+    /// # Errors
+    /// Another number of multiplicities than of records; no record drawn.
+    pub fn reach(&self, multiplicities: &[u32]) -> Result<Reach, ConsistencyError> {
+        self.check(multiplicities)?;
+        let set = self.analysis.set();
+        let drawn =
+            || set.order().iter().filter(|&&record| multiplicities[record] > 0).map(|&record| set.ratios()[record]);
+        let (largest, smallest) = (drawn().next().unwrap_or(0.0), drawn().next_back().unwrap_or(0.0));
+        let mut reach = Reach { set_above: 0, set_below: 0 };
+        for (&rate, &site_level) in self.rates.iter().zip(&self.site_levels) {
+            let rate_of = |ratio: f64| -> f64 {
+                let levels = self.analysis.levels().iter().zip(&self.stripe_weights);
+                levels.filter(|(level, _)| *level * ratio > site_level).map(|(_, weight)| weight).sum()
+            };
+            reach.set_above += usize::from(rate_of(smallest) > rate);
+            reach.set_below += usize::from(rate_of(largest) < rate);
+        }
+        Ok(reach)
+    }
+
+    /// Fits the exponents: Levenberg and Marquardt's method with the exact derivatives.
+    ///
+    /// A fit that does not reach the curve, [`Fit::is_reached`], is returned with the best exponents found.
+    ///
+    /// - `multiplicities`: how often each record counts, `[record]`: 1 for the set itself, 0 for a record left out.
+    /// - `start`: exponents to start from: 0, or those of the set for its resamples.
+    ///
+    /// # Errors
+    /// Another number of multiplicities than of records; no record drawn.
+    pub fn solve(
+        &self,
+        multiplicities: &[u32],
+        start: &Exponents,
+        scratch: &mut Scratch,
+    ) -> Result<Fit, ConsistencyError> {
+        self.draw(multiplicities, scratch)?;
+        let mut exponents = *start;
+        let mut residuals = self.residuals(&exponents, scratch);
+        let (mut damping, mut iterations) = (0.01, 0);
+        for _ in 0..MOST_STEPS {
+            let (gradient, normal) = residuals.normal_equations();
+            if gradient.iter().all(|component| component.abs() < 1e-10) {
+                break;
+            }
+            let step = solve_damped(&normal, &gradient, damping);
+            let tried: Exponents = std::array::from_fn(|k| exponents[k] - step[k]);
+            let found = self.residuals(&tried, scratch);
+            if found.squares < residuals.squares {
+                let decrease = residuals.squares - found.squares;
+                let is_little = decrease < 1e-12 * residuals.squares;
+                (exponents, residuals) = (tried, found);
+                damping = (damping / 5.0_f64).max(1e-9);
+                if is_little {
+                    break;
+                }
+                iterations += 1;
+            } else {
+                damping *= 5.0;
+                if damping > 1e10 {
+                    break;
+                }
+            }
+        }
+        Ok(Fit { exponents, residuals: std::array::from_fn(|n| residuals.values[n]), iterations })
+    }
+
+    /// The shares `p_ij` of the records, for exponents and multiplicities.
+    ///
+    /// - `shares`: receives them, `[level, record]`: what [`RunWeights`](uplift_risk::RunWeights) takes.
+    ///
+    /// # Errors
+    /// Another number of multiplicities than of records, or of shares than of runs; no record drawn.
+    pub fn shares(
+        &self,
+        multiplicities: &[u32],
+        exponents: &Exponents,
+        scratch: &mut Scratch,
+        shares: &mut [f64],
+    ) -> Result<(), ConsistencyError> {
+        self.draw(multiplicities, scratch)?;
+        let records = self.analysis.set().len();
+        if shares.len() != self.basis.len() {
+            return Err(ConsistencyError::Count { what: "shares", found: shares.len(), expected: self.basis.len() });
+        }
+        shares.fill(0.0);
+        for (level, row) in shares.chunks_exact_mut(records).enumerate() {
+            self.exponentials(level, exponents, scratch);
+            let total: f64 = scratch.values.iter().sum();
+            for (&(_, record, _), value) in scratch.drawn.iter().zip(&scratch.values) {
+                row[record] = value / total;
+            }
+        }
+        Ok(())
+    }
+
+    fn check(&self, multiplicities: &[u32]) -> Result<(), ConsistencyError> {
+        let expected = self.analysis.set().len();
+        if multiplicities.len() != expected {
+            return Err(ConsistencyError::Count { what: "multiplicities", found: multiplicities.len(), expected });
+        }
+        if multiplicities.iter().all(|&count| count == 0) {
+            return Err(ConsistencyError::NothingDrawn);
+        }
+        Ok(())
+    }
+
+    /// Puts the drawn records side by side, by falling q.
+    fn draw(&self, multiplicities: &[u32], scratch: &mut Scratch) -> Result<(), ConsistencyError> {
+        self.check(multiplicities)?;
+        scratch.drawn.clear();
+        scratch.drawn_before.clear();
+        for (rank, &record) in self.analysis.set().order().iter().enumerate() {
+            scratch.drawn_before.push(scratch.drawn.len());
+            if multiplicities[record] > 0 {
+                scratch.drawn.push((rank, record, f64::from(multiplicities[record])));
+            }
+        }
+        scratch.drawn_before.push(scratch.drawn.len());
+        Ok(())
+    }
+
+    /// `m_j exp(g(ln y_ij))` of the drawn records at a stripe, over the largest exponential.
+    fn exponentials(&self, level: usize, exponents: &Exponents, scratch: &mut Scratch) {
+        let basis = &self.basis[level * self.analysis.set().len()..];
+        let Scratch { drawn, values, .. } = scratch;
+        values.clear();
+        let mut largest = f64::NEG_INFINITY;
+        for &(rank, ..) in drawn.iter() {
+            let basis = &basis[rank];
+            let value = (0..KNOTS).map(|k| exponents[k] * basis[k]).sum();
+            largest = largest.max(value);
+            values.push(value);
+        }
+        for (value, (.., multiplicity)) in values.iter_mut().zip(drawn.iter()) {
+            *value = multiplicity * (*value - largest).exp();
+        }
+    }
+
+    /// Residuals and derivatives: `∂λ̂(y_n)/∂b_k = Σ_i w_i Σ_j p_ij (B_ijk − B̄_ik) 1[y_ij > y_n]`,
+    /// B̄ the weighted mean.
+    fn residuals(&self, exponents: &Exponents, scratch: &mut Scratch) -> Residuals {
+        let records = self.analysis.set().len();
+        let mut implied = [0.0; FIT_RATES];
+        let mut slopes = [[0.0; KNOTS]; FIT_RATES];
+        for (level, (&weight, above)) in self.stripe_weights.iter().zip(&self.above).enumerate() {
+            self.exponentials(level, exponents, scratch);
+            let basis = &self.basis[level * records..];
+            // Σ m e and Σ m e B over the first ranks, kept where each level ends
+            let (mut sum, mut moments) = (0.0, [0.0; KNOTS]);
+            let (mut sums, mut all_moments) = ([0.0; FIT_RATES], [[0.0; KNOTS]; FIT_RATES]);
+            let mut from = 0;
+            let mut add = |to: usize, sum: &mut f64, moments: &mut [f64; KNOTS]| {
+                for (&(rank, ..), &value) in scratch.drawn[from..to].iter().zip(&scratch.values[from..to]) {
+                    *sum += value;
+                    for (moment, basis) in moments.iter_mut().zip(&basis[rank]) {
+                        *moment += value * basis;
+                    }
+                }
+                from = to;
+            };
+            for n in (0..FIT_RATES).rev() {
+                add(scratch.drawn_before[above[n]], &mut sum, &mut moments);
+                (sums[n], all_moments[n]) = (sum, moments);
+            }
+            add(scratch.drawn.len(), &mut sum, &mut moments);
+            let factor = weight / sum;
+            let mean = moments.map(|moment| moment / sum);
+            for n in 0..FIT_RATES {
+                implied[n] += factor * sums[n];
+                for k in 0..KNOTS {
+                    slopes[n][k] += factor * (all_moments[n][k] - sums[n] * mean[k]);
+                }
+            }
+        }
+        let mut values = [0.0; FIT_RATES + CURVATURES];
+        let mut by_exponent = [[0.0; KNOTS]; FIT_RATES + CURVATURES];
+        for n in 0..FIT_RATES {
+            // a level that no drawn record reaches is far off, and no exponent changes that
+            let rate = implied[n].max(f64::MIN_POSITIVE);
+            values[n] = (rate / self.rates[n]).ln();
+            by_exponent[n] = slopes[n].map(|slope| slope / rate);
+        }
+        for k in 0..CURVATURES {
+            let row = FIT_RATES + k;
+            values[row] = self.smoothness * (exponents[k] - 2.0 * exponents[k + 1] + exponents[k + 2]);
+            by_exponent[row][k] = self.smoothness;
+            by_exponent[row][k + 1] = -2.0 * self.smoothness;
+            by_exponent[row][k + 2] = self.smoothness;
+        }
+        Residuals { values, by_exponent, squares: values.iter().map(|value| value * value).sum() }
+    }
+}
+
+impl Residuals {
+    /// Gradient `Jᵀr` and normal matrix `JᵀJ`.
+    fn normal_equations(&self) -> (Exponents, [[f64; KNOTS]; KNOTS]) {
+        let (mut gradient, mut normal) = ([0.0; KNOTS], [[0.0; KNOTS]; KNOTS]);
+        for (value, row) in self.values.iter().zip(&self.by_exponent) {
+            for k in 0..KNOTS {
+                gradient[k] += row[k] * value;
+                for l in 0..KNOTS {
+                    normal[k][l] += row[k] * row[l];
+                }
+            }
+        }
+        (gradient, normal)
+    }
+}
+
+/// The solution of (A + μ I) x = g by Cholesky's factors; A has no negative eigenvalue, and μ is above 0.
+fn solve_damped(normal: &[[f64; KNOTS]; KNOTS], gradient: &Exponents, damping: f64) -> Exponents {
+    let mut factor = *normal;
+    let mut x = *gradient;
+    for k in 0..KNOTS {
+        factor[k][k] += damping;
+        for l in 0..=k {
+            let dot: f64 = (0..l).map(|i| factor[k][i] * factor[l][i]).sum();
+            let rest = factor[k][l] - dot;
+            factor[k][l] = if k == l { rest.sqrt() } else { rest / factor[l][l] };
+        }
+        let dot: f64 = (0..k).map(|i| factor[k][i] * x[i]).sum();
+        x[k] = (x[k] - dot) / factor[k][k];
+    }
+    for k in (0..KNOTS).rev() {
+        let dot: f64 = (k + 1..KNOTS).map(|i| factor[i][k] * x[i]).sum();
+        x[k] = (x[k] - dot) / factor[k][k];
+    }
+    x
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn damped_equations_are_solved() {
+        let normal = [[4.0, 1.0, 0.0, 0.5], [1.0, 3.0, 0.2, 0.0], [0.0, 0.2, 2.0, 0.1], [0.5, 0.0, 0.1, 1.0]];
+        let expected = [1.0, -2.0, 3.0, 0.5];
+        let gradient =
+            std::array::from_fn(|k| (0..KNOTS).map(|l| normal[k][l] * expected[l]).sum::<f64>() + 0.25 * expected[k]);
+        for (found, expected) in solve_damped(&normal, &gradient, 0.25).iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-14);
+        }
+    }
+}

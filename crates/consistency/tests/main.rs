@@ -1,0 +1,9 @@
+//! Diagnosis and repair of whole record sets: against numbers of an independent prototype, and against what must hold
+//! of any set.
+
+mod common;
+mod expected;
+mod golden;
+mod properties;
+mod real_records;
+mod synthetic_records;

@@ -1,0 +1,222 @@
+//! What holds of any set.
+#![allow(clippy::unwrap_used)]
+
+use proptest::prelude::*;
+use uplift_consistency::{KNOTS, RecordSet, RepairOptions, ScaledAnalysis, Scratch, Seismology, SetRecord, Solver};
+use uplift_fragility::Stripes;
+use uplift_hazard::{Extrapolation, HazardCurve};
+use uplift_risk::{PooledDemand, RiskCurve, RunWeights};
+
+use crate::common::targets;
+
+/// Levels from `first`, 60 at equal ratios.
+fn rising(first: f64) -> Vec<f64> {
+    (0..60).map(|i| first * 1.14_f64.powi(i)).collect()
+}
+
+/// λ = (level/unit)^−2 · 0.3, bent down at the ends as a site's is.
+fn hazard(measure: &str, unit: &str, of_one: f64, factor: f64) -> HazardCurve {
+    let levels: Vec<f64> = rising(0.15).into_iter().map(|level| level * of_one).collect();
+    let rate = |level: &f64| factor * 0.3 / (1.0 + (level / of_one).powf(1.8) + 1e-3 * (level / of_one).powi(3));
+    let rates = levels.iter().map(rate).collect();
+    HazardCurve::new(measure, unit, "", levels, rates).unwrap()
+}
+
+/// Records of x = `scales` with q = e^`ln_ratios`.
+fn set(scales: &[f64], ln_ratios: &[f64]) -> RecordSet {
+    let record = |(index, (&scaled_to, ln_ratio)): (usize, (&f64, &f64))| SetRecord {
+        scaled_to,
+        other: scaled_to * ln_ratio.exp(),
+        pair: index,
+        event: None,
+        seismology: Seismology::default(),
+    };
+    RecordSet::new(scales.iter().zip(ln_ratios).enumerate().map(record).collect()).unwrap()
+}
+
+fn levels() -> Vec<f64> {
+    (0..55).map(|i| 0.3 * 1.13_f64.powi(i)).collect()
+}
+
+fn analysis<'a>(set: &'a RecordSet, x: &HazardCurve, y: &'a HazardCurve) -> ScaledAnalysis<'a> {
+    ScaledAnalysis::new(set, &levels(), x, y, &targets(), Extrapolation::Refuse).unwrap()
+}
+
+/// Sets wide enough for any curve of these tests.
+fn sets() -> impl Strategy<Value = (Vec<f64>, Vec<f64>)> {
+    (25..60_usize).prop_flat_map(|count| {
+        let spread = (0..count).map(|index| {
+            let middle = 2.6 * (index as f64 + 0.5) / count as f64 - 1.3;
+            middle - 0.15..middle + 0.15
+        });
+        (prop::collection::vec(0.5..20.0_f64, count), spread.collect::<Vec<_>>())
+    })
+}
+
+fn solved(solver: &Solver<'_>, multiplicities: &[u32]) -> ([f64; KNOTS], Vec<f64>) {
+    let mut scratch = Scratch::default();
+    let fit = solver.solve(multiplicities, &[0.0; KNOTS], &mut scratch).unwrap();
+    let mut shares = solver.analysis().even_shares();
+    solver.shares(multiplicities, &fit.exponents, &mut scratch, &mut shares).unwrap();
+    (fit.exponents, shares)
+}
+
+fn assert_close(found: &[f64], expected: &[f64], tolerance: f64) -> Result<(), TestCaseError> {
+    prop_assert_eq!(found.len(), expected.len());
+    for (found, expected) in found.iter().zip(expected) {
+        prop_assert!((found - expected).abs() <= tolerance, "{found} {expected}");
+    }
+    Ok(())
+}
+
+/// Demands that follow x and y of each run, m, `[record, level]`.
+fn demands_m(set: &RecordSet) -> Vec<f64> {
+    let of_record = |record: usize| {
+        let factor = 1e-3 * (1.0 + 0.3 * ((record * 7) % 5) as f64) * set.ratios()[record].sqrt();
+        levels().into_iter().map(move |level| factor * level.powf(1.3))
+    };
+    (0..set.len()).flat_map(of_record).collect()
+}
+
+fn ordinate_m(set: &RecordSet, weights: &RunWeights, target_per_year: f64) -> f64 {
+    let demand = PooledDemand::new(&Stripes::new(&levels(), &demands_m(set)).unwrap()).unwrap();
+    RiskCurve::weighted(&demand, weights).unwrap().exact_ordinate(target_per_year).unwrap().displacement_m
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    #[test]
+    fn alike_ratios_leave_records_alike(
+        count in 1..30_usize, ln_ratio in -1.0..1.0_f64, exponents in prop::array::uniform4(-20.0..20.0_f64),
+    ) {
+        let set = set(&vec![2.0; count], &vec![ln_ratio; count]);
+        let (x, y) = (hazard("PGV", "cm/s", 1.0, 1.0), hazard("other", "1", 1.0, 1.0));
+        let analysis = analysis(&set, &x, &y);
+        let solver = Solver::new(&analysis, 0.05).unwrap();
+        let mut shares = analysis.even_shares();
+        solver.shares(&set.once(), &exponents, &mut Scratch::default(), &mut shares).unwrap();
+        assert_close(&shares, &analysis.even_shares(), 1e-15)?;
+    }
+
+    #[test]
+    fn shares_add_up_and_the_hazard_is_met((scales, ln_ratios) in sets(), factor in 0.6..1.6_f64) {
+        let set = set(&scales, &ln_ratios);
+        let (x, y) = (hazard("PGV", "cm/s", 1.0, 1.0), hazard("other", "1", 1.0, factor));
+        let analysis = analysis(&set, &x, &y);
+        let solver = Solver::new(&analysis, 0.05).unwrap();
+        prop_assert!(solver.reach(&set.once()).unwrap().is_whole());
+        let repaired = analysis.repair(&RepairOptions::default()).unwrap();
+        for row in repaired.weights.shares().chunks_exact(set.len()) {
+            prop_assert!((row.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+        }
+        let (before, after) = (analysis.diagnose(None, [0.2, 5.0]).unwrap(), &repaired.diagnosis);
+        let deviation = after.deviation.as_ref().unwrap();
+        prop_assert!(deviation.rms <= before.deviation.unwrap().rms + 1e-9);
+        prop_assert!(deviation.max < 0.12, "{deviation:?}");
+    }
+
+    #[test]
+    fn the_unit_of_y_changes_nothing((scales, ln_ratios) in sets(), unit in prop::sample::select(vec![9.80665, 980.665])) {
+        let (x, y) = (hazard("PGV", "cm/s", 1.0, 1.0), hazard("other", "1", 1.0, 1.3));
+        let in_other = hazard("other", "1", unit, 1.3);
+        let shifted: Vec<f64> = ln_ratios.iter().map(|ln_ratio| ln_ratio + f64::ln(unit)).collect();
+        let (plain, shifted) = (set(&scales, &ln_ratios), set(&scales, &shifted));
+        let (plain, shifted) = (analysis(&plain, &x, &y), analysis(&shifted, &x, &in_other));
+        let options = RepairOptions::default();
+        let (plain, shifted) = (plain.repair(&options).unwrap(), shifted.repair(&options).unwrap());
+        assert_close(&shifted.fit.exponents, &plain.fit.exponents, 1e-6)?;
+        assert_close(shifted.weights.shares(), plain.weights.shares(), 1e-7)?;
+    }
+
+    #[test]
+    fn a_record_given_twice_is_one_that_counts_twice((scales, ln_ratios) in sets(), record in 0..25_usize) {
+        let (x, y) = (hazard("PGV", "cm/s", 1.0, 1.0), hazard("other", "1", 1.0, 1.3));
+        let one = set(&scales, &ln_ratios);
+        let mut multiplicities = one.once();
+        multiplicities[record] = 2;
+        let more = |values: &[f64]| [values, &[values[record]]].concat();
+        let two = set(&more(&scales), &more(&ln_ratios));
+        let (one, two) = (analysis(&one, &x, &y), analysis(&two, &x, &y));
+        let (counted, shares) = solved(&Solver::new(&one, 0.05).unwrap(), &multiplicities);
+        let (written, more_shares) = solved(&Solver::new(&two, 0.05).unwrap(), &two.set().once());
+        assert_close(&counted, &written, 1e-6)?;
+        let weights = RunWeights::new(one.stripes(), &shares).unwrap();
+        let more_weights = RunWeights::new(two.stripes(), &more_shares).unwrap();
+        // the demand depends on the number of a record: compare the hazard of y itself
+        let (implied, written) = (one.implied(Some(&weights)).unwrap(), two.implied(Some(&more_weights)).unwrap());
+        for target in targets() {
+            let (found, expected) = (implied.exact_ordinate(target).unwrap(), written.exact_ordinate(target).unwrap());
+            prop_assert!((found.displacement_m / expected.displacement_m - 1.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_record_left_out_is_a_set_without_it((scales, ln_ratios) in sets(), record in 0..25_usize) {
+        let (x, y) = (hazard("PGV", "cm/s", 1.0, 1.0), hazard("other", "1", 1.0, 1.3));
+        let whole = set(&scales, &ln_ratios);
+        let mut multiplicities = whole.once();
+        multiplicities[record] = 0;
+        let (mut scales, mut ln_ratios) = (scales, ln_ratios);
+        scales.remove(record);
+        ln_ratios.remove(record);
+        let rest = set(&scales, &ln_ratios);
+        let (whole, rest) = (analysis(&whole, &x, &y), analysis(&rest, &x, &y));
+        let (left_out, shares) = solved(&Solver::new(&whole, 0.05).unwrap(), &multiplicities);
+        let (without, _) = solved(&Solver::new(&rest, 0.05).unwrap(), &rest.set().once());
+        assert_close(&left_out, &without, 0.0)?;
+        prop_assert!(shares.chunks_exact(whole.set().len()).all(|row| row[record] == 0.0));
+    }
+
+    #[test]
+    fn the_order_of_the_records_changes_nothing_but_rounding((scales, ln_ratios) in sets()) {
+        let (x, y) = (hazard("PGV", "cm/s", 1.0, 1.0), hazard("other", "1", 1.0, 0.8));
+        let reverse = |values: &[f64]| values.iter().rev().copied().collect::<Vec<_>>();
+        let (forth, back) = (set(&scales, &ln_ratios), set(&reverse(&scales), &reverse(&ln_ratios)));
+        let (forth, back) = (analysis(&forth, &x, &y), analysis(&back, &x, &y));
+        let options = RepairOptions::default();
+        let (forth, back) = (forth.repair(&options).unwrap(), back.repair(&options).unwrap());
+        assert_close(&back.fit.exponents, &forth.fit.exponents, 1e-9)?;
+    }
+
+    /// A set that is consistent already needs no weights: its own implied hazard, at 400 levels, for the site's.
+    #[test]
+    fn a_consistent_set_stays_as_it_is((scales, ln_ratios) in sets()) {
+        let set = set(&scales, &ln_ratios);
+        let (x, any) = (hazard("PGV", "cm/s", 1.0, 1.0), hazard("other", "1", 1.0, 1.0));
+        let first = analysis(&set, &x, &any);
+        let implied = first.implied(None).unwrap();
+        let mut curve: Vec<(f64, f64)> = Vec::new();
+        for i in 0..400 {
+            let level = 0.2 * 1.022_f64.powi(i);
+            let rate = implied.mean_annual_frequency(level).unwrap();
+            if rate > 0.0 && curve.last().is_none_or(|last| rate < last.1) {
+                curve.push((level, rate));
+            }
+        }
+        let (levels, rates) = curve.into_iter().unzip();
+        let own = HazardCurve::new("other", "1", "", levels, rates).unwrap();
+        let analysis = analysis(&set, &x, &own);
+        let repaired = analysis.repair(&RepairOptions::default()).unwrap();
+        prop_assert!(repaired.fit.exponents.iter().all(|b| b.abs() < 0.1), "{:?}", repaired.fit);
+        let even = RunWeights::new(analysis.stripes(), &analysis.even_shares()).unwrap();
+        for target in targets() {
+            let ratio = ordinate_m(&set, &repaired.weights, target) / ordinate_m(&set, &even, target);
+            prop_assert!((ratio - 1.0).abs() < 0.07, "{ratio}");
+        }
+    }
+
+    /// The exact derivatives are those of the residuals: at the solution a small step either way is no better.
+    #[test]
+    fn no_step_from_the_solution_is_better((scales, ln_ratios) in sets(), step in prop::array::uniform4(-1.0..1.0_f64)) {
+        let set = set(&scales, &ln_ratios);
+        let (x, y) = (hazard("PGV", "cm/s", 1.0, 1.0), hazard("other", "1", 1.0, 1.3));
+        let analysis = analysis(&set, &x, &y);
+        let solver = Solver::new(&analysis, 0.05).unwrap();
+        let mut scratch = Scratch::default();
+        let best = solver.solve(&set.once(), &[0.0; KNOTS], &mut scratch).unwrap();
+        let start = std::array::from_fn(|k| best.exponents[k] + 3.0 * step[k]);
+        let again = solver.solve(&set.once(), &start, &mut scratch).unwrap();
+        assert_close(&again.exponents, &best.exponents, 1e-4)?;
+    }
+}
