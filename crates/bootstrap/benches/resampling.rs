@@ -1,10 +1,10 @@
-//! Ordinates of resampled spectra: one oscillator, one site, 105 records at 75 levels, three probabilities.
+//! Ordinates of resampled spectra at one site: 105 records at 75 levels, three probabilities.
 #![allow(missing_docs, clippy::unwrap_used)]
 
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use uplift_bootstrap::{Replicates, ResamplingPlan};
+use uplift_bootstrap::{BootstrapError, Replicates, ResamplingPlan, weighted_replicates};
 use uplift_fragility::Stripes;
 use uplift_hazard::{Extrapolation, HazardCurve};
 use uplift_risk::{PooledDemand, RiskCurve, StripeWeights};
@@ -46,6 +46,33 @@ fn benchmarks(criterion: &mut Criterion) {
                 let curve = RiskCurve::resampled(&demand, &weights, sample).unwrap();
                 black_box(curve.exact_ordinates(black_box(&TARGETS)).unwrap());
             }
+        });
+    });
+    group.finish();
+
+    // 40 strengths of 200 resamples, each weighed by itself: weighing is measured elsewhere
+    let strengths: Vec<PooledDemand> = (0..40)
+        .map(|strength| {
+            let factor = |i: usize| 1.0 + 0.2 * ((i * (strength + 3)) % 7) as f64;
+            let edp_m: Vec<f64> = edp_m.iter().enumerate().map(|(i, edp_m)| edp_m * factor(i)).collect();
+            PooledDemand::new(&Stripes::new(&levels, &edp_m).unwrap()).unwrap()
+        })
+        .collect();
+    let plan = ResamplingPlan::draw(RECORDS, &[105], 200, 1).unwrap();
+    let mut group = criterion.benchmark_group("weighted resamples");
+    group.throughput(Throughput::Elements(40 * 200));
+    group.sample_size(20);
+    group.bench_function("walk over the pool, 40 strengths", |bencher| {
+        bencher.iter(|| {
+            weighted_replicates(&strengths, &weights, black_box(&TARGETS), plan.samples(), |sample, shares| {
+                for row in shares.chunks_exact_mut(RECORDS) {
+                    for (share, &count) in row.iter_mut().zip(sample.multiplicities()) {
+                        *share = f64::from(count) / 105.0;
+                    }
+                }
+                Ok::<(), BootstrapError>(())
+            })
+            .unwrap()
         });
     });
     group.finish();

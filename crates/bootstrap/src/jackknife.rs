@@ -1,8 +1,8 @@
 //! The spectrum without each record: which records carry the result.
 
-use uplift_risk::{PooledDemand, RecordSample, ResamplingTable, StripeWeights};
+use uplift_risk::{PooledDemand, ResamplingTable, StripeWeights};
 
-use crate::BootstrapError;
+use crate::{BootstrapError, left_out};
 
 /// Exact ordinates without each of the records in turn, m, `[record, target]`; empty where there is but one record.
 ///
@@ -15,16 +15,11 @@ pub fn leave_one_out(
     weights: &StripeWeights,
     targets_per_year: &[f64],
 ) -> Result<Vec<f64>, BootstrapError> {
-    let records = demand.record_count();
-    if records < 2 {
-        return Ok(Vec::new());
-    }
+    let samples = left_out(demand.record_count())?;
     let table = ResamplingTable::new(demand, weights)?;
-    let mut ordinates_m = vec![0.0; records * targets_per_year.len()];
-    for (record, row) in ordinates_m.chunks_exact_mut(targets_per_year.len().max(1)).enumerate() {
-        let mut multiplicities = vec![1; records];
-        multiplicities[record] = 0;
-        table.ordinates(&RecordSample::new(multiplicities)?, targets_per_year, row)?;
+    let mut ordinates_m = vec![0.0; samples.len() * targets_per_year.len()];
+    for (sample, row) in samples.iter().zip(ordinates_m.chunks_exact_mut(targets_per_year.len().max(1))) {
+        table.ordinates(sample, targets_per_year, row)?;
     }
     Ok(ordinates_m)
 }

@@ -2,6 +2,7 @@
 //!
 //! - [`ResamplingPlan`]: which records each replicate draws; planned before any computing, from counter-based streams.
 //! - [`Replicates`]: the ordinates of one strength for all replicates, sites and probabilities.
+//! - [`weighted_replicates`]: the same where the records of each replicate are weighed anew.
 //! - [`Interval`], [`Band`]: confidence intervals of an ordinate, by percentiles or bias-corrected and
 //!   accelerated (BCa).
 //! - [`simultaneous_bands`]: a band that holds whole spectra.
@@ -23,6 +24,7 @@ mod plan;
 mod replicates;
 mod simultaneous;
 mod weighted;
+mod weighted_replicates;
 
 pub use accuracy::{error_of_median, range_of_interval};
 pub use error::BootstrapError;
@@ -32,3 +34,4 @@ pub use plan::ResamplingPlan;
 pub use replicates::Replicates;
 pub use simultaneous::simultaneous_bands;
 pub use weighted::weighted_quantile;
+pub use weighted_replicates::{left_out, weighted_replicates};

@@ -1,10 +1,12 @@
 //! The bootstrap against the plain way: write the drawn records out, count fragilities, integrate, invert, sort.
 #![allow(clippy::unwrap_used)]
 
-use uplift_bootstrap::{Band, Replicates, ResamplingPlan, leave_one_out};
+use uplift_bootstrap::{
+    Band, BootstrapError, Replicates, ResamplingPlan, leave_one_out, left_out, weighted_replicates,
+};
 use uplift_fragility::Stripes;
 use uplift_hazard::{Extrapolation, HazardCurve};
-use uplift_risk::{PooledDemand, StripeWeights, mean_annual_frequency};
+use uplift_risk::{PooledDemand, RecordSample, RiskCurve, RunWeights, StripeWeights, mean_annual_frequency};
 
 const LEVELS_CM_S: [f64; 8] = [2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0];
 const RECORDS: usize = 14;
@@ -134,4 +136,65 @@ fn a_set_that_never_moves_has_bands_of_zero() {
     let plan = ResamplingPlan::draw(3, &[3], 20, 1).unwrap();
     let replicates = Replicates::of(&demand, &[&weights], &TARGETS, &plan).unwrap();
     assert!(replicates.ordinates_m(0, 0, 0).iter().all(|&ordinate| ordinate == 0.0));
+}
+
+/// Shares that depend on record, level and draw: m (1 + record · level) over their sum.
+fn shares_of(sample: &RecordSample, shares: &mut [f64]) {
+    for (level, row) in shares.chunks_exact_mut(RECORDS).enumerate() {
+        for (record, (share, &count)) in row.iter_mut().zip(sample.multiplicities()).enumerate() {
+            *share = f64::from(count) * (1.0 + (record * level) as f64);
+        }
+        let sum: f64 = row.iter().sum();
+        for share in row {
+            *share /= sum;
+        }
+    }
+}
+
+#[test]
+fn weighted_replicates_are_each_their_own_curve() {
+    // two oscillators, the second twice as strong
+    let edp_m = demands();
+    let halved: Vec<f64> = edp_m.iter().map(|edp_m| 0.5 * edp_m).collect();
+    let pooled = |edp_m: &[f64]| PooledDemand::new(&Stripes::new(&LEVELS_CM_S, edp_m).unwrap()).unwrap();
+    let demands = [pooled(&edp_m), pooled(&halved)];
+    let [_, stripes] = weights();
+    let plan = ResamplingPlan::draw(RECORDS, &[5, 14], 13, 2).unwrap();
+    let samples: Vec<RecordSample> = plan.samples().iter().cloned().chain(left_out(RECORDS).unwrap()).collect();
+    let of = |samples: &[RecordSample]| {
+        weighted_replicates(&demands, &stripes, &TARGETS, samples, |sample, shares| {
+            shares_of(sample, shares);
+            Ok::<(), BootstrapError>(())
+        })
+        .unwrap()
+    };
+    let found = of(&samples);
+    let mut shares = vec![0.0; LEVELS_CM_S.len() * RECORDS];
+    for (index, sample) in samples.iter().enumerate() {
+        shares_of(sample, &mut shares);
+        let weights = RunWeights::new(&stripes, &shares).unwrap();
+        for (strength, demand) in demands.iter().enumerate() {
+            let curve = RiskCurve::weighted(demand, &weights).unwrap();
+            for (target_index, &target) in TARGETS.iter().enumerate() {
+                let expected = curve.exact_ordinate(target).unwrap().displacement_m;
+                let place = (strength * TARGETS.len() + target_index) * samples.len() + index;
+                assert_eq!(found[place], expected, "sample {index}, strength {strength}");
+            }
+        }
+    }
+    // in portions the same
+    assert_eq!(of(&samples[3..4])[4], found[4 * samples.len() + 3]);
+    let refused = weighted_replicates(&demands, &stripes, &TARGETS, &samples, |_, shares| {
+        shares.fill(0.5);
+        Ok::<(), BootstrapError>(())
+    });
+    assert!(matches!(refused, Err(BootstrapError::Risk(_))), "{refused:?}");
+}
+
+#[test]
+fn each_record_is_left_out_once() {
+    let samples = left_out(3).unwrap();
+    let multiplicities: Vec<&[u32]> = samples.iter().map(RecordSample::multiplicities).collect();
+    assert_eq!(multiplicities, [[0, 1, 1], [1, 0, 1], [1, 1, 0]]);
+    assert!(left_out(1).unwrap().is_empty() && left_out(0).unwrap().is_empty());
 }
