@@ -144,3 +144,80 @@ fn hostile_documents() {
     let sites: Vec<(&str, &str)> = sites.iter().map(|(position, poes)| (position.as_str(), *poes)).collect();
     assert_eq!(all(document(&group(MEAN, &sites))).unwrap().len(), 20_000);
 }
+
+/// A document of NRML 0.3: fields of curves with what is common to them beside.
+fn old_document(processing: &str, fields: &str) -> String {
+    format!(
+        "<?xml version='1.0'?>\n<nrml xmlns:gml=\"http://www.opengis.net/gml\" \
+         xmlns=\"http://openquake.org/xmlns/nrml/0.3\" gml:id=\"n\">\n<hazardResult gml:id=\"r\">\n\
+         <config><hazardProcessing {processing}/></config>\n{fields}</hazardResult>\n</nrml>\n"
+    )
+}
+
+/// A field with the attributes given, its measure, and a curve at each position.
+fn field(attributes: &str, imt: &str, curves: &[(&str, &str)]) -> String {
+    let mut text = format!("<hazardCurveField gml:id=\"f\" {attributes}>\n<IML IMT=\"{imt}\">0.1 0.2 0.4</IML>\n");
+    for (position, poe) in curves {
+        writeln!(
+            text,
+            "<HCNode gml:id=\"h\">\n<site><gml:Point srsName=\"epsg:4326\"><gml:pos>{position}</gml:pos></gml:Point>\
+             </site>\n<hazardCurve><poE>{poe}</poE></hazardCurve></HCNode>"
+        )
+        .unwrap();
+    }
+    text + "</hazardCurveField>\n"
+}
+
+#[test]
+fn fields_of_version_0_3() {
+    let curves = [("6.1 50.8", "0.5 0.02 0.001"), ("23.7 38.0", "0.9 0.25 0.1")];
+    let fields = field("statistics=\"mean\"", "PGA", &curves)
+        + &field("statistics=\"quantile\" quantileValue=\"0.16\"", "SA[0.2s]", &curves[..1])
+        + &field("statistics=\"median\"", "SA", &curves[..1])
+        + &field("endBranchLabel=\"1_1\"", "PGA", &curves[..1]);
+    let processing = "investigationTimeSpan=\"50.0\" IDmodel=\"m\" saPeriod=\"1\" saDamping=\"5\"";
+    let read = all(old_document(processing, &fields)).unwrap();
+    let kinds: Vec<(&str, &Statistic)> = read.iter().map(|curve| (curve.curve.measure(), &curve.kind)).collect();
+    assert_eq!(
+        kinds,
+        [
+            ("PGA", &Statistic::Mean),
+            ("PGA", &Statistic::Mean),
+            ("SA(0.2)", &Statistic::Quantile(0.16)),
+            ("SA(1.0)", &Statistic::Quantile(0.5)),
+            ("PGA", &Statistic::Branch("1_1".to_owned())),
+        ]
+    );
+    assert_eq!((read[1].site.longitude_deg, read[1].site.latitude_deg), (23.7, 38.0));
+    assert_eq!(read[0].investigation_years, Some(50.0));
+    assert_eq!(read[0].curve.im(), [0.1, 0.2, 0.4]);
+    assert_eq!(read[0].curve.maf()[0], std::f64::consts::LN_2 / 50.0);
+    // the same numbers in the newer version are the same curve
+    let newer = all(document(&group(MEAN, &curves[..1]))).unwrap();
+    assert_eq!(read[0].curve.maf(), newer[0].curve.maf());
+}
+
+#[test]
+fn fields_that_do_not_say_enough() {
+    let curve = [("6.1 50.8", "0.5 0.02 0.001")];
+    let plain = field("statistics=\"mean\"", "PGA", &curve);
+    let time = "investigationTimeSpan=\"50\"";
+    for (processing, fields, expected) in [
+        ("IDmodel=\"m\"", plain.clone(), "hazardProcessing without investigationTimeSpan"),
+        (time, plain.replace(" IMT=\"PGA\"", ""), "IML without attribute IMT"),
+        (time, plain.replace("IML", "IMLs"), "hazardCurveField must have one element IML"),
+        (time, plain.replace("\"PGA\"", "\"SA\""), "IMT SA without saPeriod"),
+        (time, plain.replace("\"PGA\"", "\"SA[x]\""), "SA[x]"),
+        (time, plain.replace("\"mean\"", "\"mode\""), "statistics \"mode\" is neither mean, median nor quantile"),
+        (time, plain.replace("<poE>", "<poEs>").replace("</poE>", "</poEs>"), "HCNode without poE"),
+        (time, plain.replace("6.1 50.8", ""), "HCNode without the longitude and latitude"),
+        (time, plain.replace("0.5 0.02", "0.02"), "2 poE for 3 levels"),
+        (time, plain.replace("HCNode", "Node"), "no HCNode in a hazardCurveField"),
+    ] {
+        let message = all(old_document(processing, &fields)).unwrap_err().to_string();
+        assert!(message.contains(expected), "{expected}: {message}");
+    }
+    let lone = plain.clone();
+    let message = all(format!("<nrml xmlns:gml=\"g\">{lone}</nrml>")).unwrap_err().to_string();
+    assert!(message.contains("no hazardProcessing"), "{message}");
+}

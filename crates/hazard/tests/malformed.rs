@@ -21,11 +21,12 @@ enum Reader {
 }
 
 /// A good file of every format and dialect, and the number of curves or weights in it.
-const SAMPLES: [(Reader, &[u8], usize); 7] = [
+const SAMPLES: [(Reader, &[u8], usize); 8] = [
     (Reader::Table, include_bytes!("samples/rates.csv"), 1),
     (Reader::Table, include_bytes!("samples/probabilities.csv"), 1),
     (Reader::Export, include_bytes!("samples/openquake.csv"), 2),
     (Reader::Export, include_bytes!("samples/curves.xml"), 3),
+    (Reader::Export, include_bytes!("samples/fields.xml"), 3),
     (Reader::Export, include_bytes!("samples/service.json"), 1),
     (Reader::Export, include_bytes!("samples/precomputed.json"), 2),
     (Reader::Realizations, include_bytes!("samples/realizations.csv"), 3),

@@ -1,25 +1,29 @@
-//! Hazard curves in NRML, the XML of the `OpenQuake` engine before version 3.
+//! Hazard curves in NRML, the XML of the `OpenQuake` engine before version 3, and of EFEHR's services.
 //!
-//! # Source
-//! NRML schema `hazard_curves.xsd`, versions 0.4 and 0.5 (element `hazardCurves`).
+//! | element | version | read by |
+//! |---|---|---|
+//! | `hazardCurves` | 0.4 and 0.5 | `curves` |
+//! | `hazardCurveField` | 0.3 | `fields` |
+
+mod curves;
+mod fields;
 
 use std::sync::Arc;
 
 use roxmltree::{Document, Node, ParsingOptions};
 
 use super::entry::{Entry, Head};
-use super::measure::{openquake_unit, spectral_acceleration};
-use super::{SitePlace, Statistic, coordinates};
-use crate::declaration::SecondColumn;
+use super::measure::spectral_acceleration;
+use super::{SitePlace, coordinates};
 use crate::error::{HazardError, Place};
-use crate::text::{excerpt, number};
+use crate::text::number;
 
 /// Most XML nodes: ten a site for a hundred thousand sites.
 const MAX_NODES: u32 = 1_000_000;
 /// Most quotes in one tag, two an attribute.
 const MAX_QUOTES: usize = 128;
-/// Longest path through the logic trees, bytes; every curve keeps a copy.
-const LONGEST_PATH: usize = 1000;
+/// Elements near a curve that are looked at for its place and its probabilities.
+const NEAR: usize = 100;
 /// Most declarations of a namespace.
 const MAX_NAMESPACES: usize = 1000;
 
@@ -36,17 +40,38 @@ pub(super) fn entries(text: &str, name: &str) -> Result<Vec<Entry>, HazardError>
     })?;
     let mut lines = LineNumbers { text, at: 0, line: 1 };
     let mut entries = Vec::new();
-    for group in document.descendants().filter(|node| is(*node, "hazardCurves")) {
+    for group in document.descendants() {
+        let version = match group.tag_name().name() {
+            "hazardCurves" => curves::VERSION,
+            "hazardCurveField" => fields::VERSION,
+            _ => continue,
+        };
         let line = lines.of(group);
-        let head = Arc::new(head(group, name, &Place::Line { file: name.to_owned(), line })?);
-        for curve in group.children().filter(|node| is(*node, "hazardCurve")) {
-            entries.push(entry(curve, lines.of(curve), &head)?);
+        let head = Arc::new((version.head)(group, name, &Place::Line { file: name.to_owned(), line })?);
+        for curve in group.children().filter(|node| is(*node, version.curve)) {
+            entries.push(entry(curve, lines.of(curve), &version, &head)?);
         }
     }
     if entries.is_empty() {
-        return Err(fail("no hazardCurve in hazardCurves; export the hazard curves in NRML 0.4 or 0.5".to_owned()));
+        return Err(fail(
+            "no hazardCurve in hazardCurves, and no HCNode in a hazardCurveField: export the hazard curves in NRML 0.3, \
+             0.4 or 0.5"
+                .to_owned(),
+        ));
     }
     Ok(entries)
+}
+
+/// What the versions differ in.
+struct Version {
+    /// The element of one curve.
+    curve: &'static str,
+    /// The element of its probabilities.
+    probabilities: &'static str,
+    /// What its levels are called.
+    levels: &'static str,
+    /// What the curves of a group have in common.
+    head: fn(Node, &str, &Place) -> Result<Head, HazardError>,
 }
 
 /// Whether the parser can be given the text.
@@ -68,80 +93,58 @@ fn is(node: Node, name: &str) -> bool {
     node.is_element() && node.tag_name().name() == name
 }
 
-fn head(group: Node, name: &str, place: &Place) -> Result<Head, HazardError> {
-    let row = |reason: String| HazardError::Row { place: place.clone(), reason };
-    let attribute = |name: &str| group.attribute(name).map(str::trim).filter(|value| !value.is_empty());
-    let required = |name: &str| attribute(name).ok_or_else(|| row(format!("hazardCurves without attribute {name}")));
-    let optional_number = |name: &str| attribute(name).map(|text| number(text, || place.clone())).transpose();
-
-    let imt = required("IMT")?;
-    let period_s = optional_number("saPeriod")?;
-    let damping = optional_number("saDamping")?;
-    let measure = match (imt, period_s) {
-        ("SA", None) => return Err(row("IMT SA without saPeriod".to_owned())),
-        ("SA", Some(period_s)) => match damping {
-            Some(per_cent) if per_cent != 5.0 => format!("SA({period_s:?},{per_cent:?})"),
-            _ => spectral_acceleration(period_s),
-        },
-        (other, _) => other.to_owned(),
-    };
-    let quantile = optional_number("quantileValue")?;
-    let kind = match (attribute("statistics"), quantile) {
-        (Some("mean"), _) => Statistic::Mean,
-        (Some("quantile"), Some(quantile)) if (0.0..=1.0).contains(&quantile) => Statistic::Quantile(quantile),
-        (Some(other), _) => {
-            return Err(row(format!(
-                "statistics {} is neither mean nor quantile with a quantileValue",
-                excerpt(other)
-            )));
-        }
-        (None, _) => match (attribute("sourceModelTreePath"), attribute("gsimTreePath")) {
-            (Some(source), Some(gsim)) if source.len() + gsim.len() > LONGEST_PATH => {
-                return Err(row(format!("a path of more than {LONGEST_PATH} bytes through the logic trees")));
-            }
-            (Some(source), Some(gsim)) => Statistic::Branch(format!("{source}~{gsim}")),
-            _ => Statistic::Unspecified,
-        },
-    };
-    let mut levels = group.children().filter(|node| is(*node, "IMLs"));
-    let (Some(levels), None) = (levels.next(), levels.next()) else {
-        return Err(row("hazardCurves must have one element IMLs".to_owned()));
-    };
-    Ok(Head {
-        file: name.to_owned(),
-        unit: openquake_unit(&measure, || place.clone())?,
-        source: format!("NRML hazard curves, {kind}, {measure}"),
-        measure,
-        kind,
-        content: SecondColumn::Probability,
-        years: Some(number(required("investigationTime")?, || place.clone())?),
-        levels: numbers(&content(levels), |_| place.clone())?,
-        component: None,
-    })
-}
-
-fn entry(curve: Node, line: usize, head: &Arc<Head>) -> Result<Entry, HazardError> {
+/// One curve of a group.
+fn entry(curve: Node, line: usize, version: &Version, head: &Arc<Head>) -> Result<Entry, HazardError> {
     let place = || Place::Line { file: head.file.clone(), line };
     let row = |reason: String| HazardError::Row { place: place(), reason };
     // Not among all descendants: curves inside one another would be gone through again and again.
-    let mut near = curve.children().flat_map(|child| std::iter::once(child).chain(child.children()));
-    let position = near.find(|node| is(*node, "pos")).map(content);
+    let near = || curve.children().flat_map(|child| std::iter::once(child).chain(child.children()));
+    let places = near().chain(near().flat_map(|node| node.children()));
+    let position = places.take(NEAR).find(|node| is(*node, "pos")).map(content);
     let position = numbers(&position.unwrap_or_default(), |_| place())?;
     let &[longitude, latitude, ..] = &position[..] else {
-        return Err(row("hazardCurve without the longitude and latitude of its gml:pos".to_owned()));
+        return Err(row(format!("{} without the longitude and latitude of its gml:pos", version.curve)));
     };
     let (longitude_deg, latitude_deg) = coordinates(longitude, latitude, place)?;
-    let Some(values) = curve.children().find(|node| is(*node, "poEs")) else {
-        return Err(row("hazardCurve without poEs".to_owned()));
+    let Some(values) = near().take(NEAR).find(|node| is(*node, version.probabilities)) else {
+        return Err(row(format!("{} without {}", version.curve, version.probabilities)));
     };
     let values = numbers(&content(values), |index| head.place(Some(line), index));
     if let Ok(values) = &values
         && values.len() != head.levels.len()
     {
-        return Err(row(format!("{} poEs for {} IMLs; export the file again", values.len(), head.levels.len())));
+        return Err(row(format!(
+            "{} {} for {} {}; export the file again",
+            values.len(),
+            version.probabilities,
+            head.levels.len(),
+            version.levels
+        )));
     }
     let site = SitePlace { name: None, longitude_deg, latitude_deg };
     Ok(Entry { head: Arc::clone(head), line: Some(line), site, vs30_m_s: None, values })
+}
+
+/// Name of the measure `imt` with the period, s, and the damping, per cent, of a spectral acceleration.
+fn measure(imt: &str, period_s: Option<f64>, damping: Option<f64>) -> Option<String> {
+    match (imt, period_s) {
+        ("SA", None) => None,
+        ("SA", Some(period_s)) => Some(match damping {
+            Some(per_cent) if per_cent != 5.0 => format!("SA({period_s:?},{per_cent:?})"),
+            _ => spectral_acceleration(period_s),
+        }),
+        (other, _) => Some(other.to_owned()),
+    }
+}
+
+/// An attribute that says something.
+fn attribute<'a>(node: Node<'a, '_>, name: &str) -> Option<&'a str> {
+    node.attribute(name).map(str::trim).filter(|value| !value.is_empty())
+}
+
+/// A number in an attribute.
+fn optional_number(node: Node, name: &str, place: &Place) -> Result<Option<f64>, HazardError> {
+    attribute(node, name).map(|text| number(text, || place.clone())).transpose()
 }
 
 /// All text in an element; comments may divide it.
