@@ -7,7 +7,7 @@ use crate::common::{self, SmallStudy, real_records, repository};
 /// With real records and the curves of hazard/, on a thinned grid: every tenth strength.
 ///
 /// The dissertation prints neither its 105 records nor its hazard curves, so the comparison is statistical, curve by
-/// curve, and most of what differs is the hazard, which was reconstructed (hazard/README.md): the same median ratios
+/// curve, and what differs are the records and the hazard (hazard/README.md): the same median ratios
 /// were found with an independent solver. The test holds the order of magnitude, which a wrong unit, component or
 /// weight would break, and prints the ratios.
 #[test]

@@ -48,11 +48,14 @@ fn of_the_repository() {
         computed.push((format!("curves.levels-{left}"), format!("{levels:.1} %")));
         computed.push((format!("curves.rates-{left}"), format!("{rates:.0} %")));
     }
-    let [lower, higher] = range(MEASURES.into_iter().flat_map(|measure| {
-        let [calibrated, neutral] =
-            ["athens", "athens/variant-neutral-fill"].map(|folder| levels(&curve(folder, measure)));
-        [0, 1, 2].map(|poe| 100.0 * (1.0 - neutral[poe] / calibrated[poe]))
-    }));
-    computed.push(("curves.neutral-fill".to_owned(), format!("{lower:.0} to {higher:.0} %")));
+    let ratios = |variant: &str, site: &str, measure| {
+        let [other, own] = [variant, site].map(|folder| levels(&curve(folder, measure)));
+        [0, 1, 2].map(|poe| other[poe] / own[poe])
+    };
+    let [lower, higher] = range(ratios("athens/variants/without-inslab", "athens", MEASURES[0]));
+    let lower_by = format!("{:.0} to {:.0} %", 100.0 * (1.0 - higher), 100.0 * (1.0 - lower));
+    computed.push(("curves.without-inslab".to_owned(), lower_by));
+    let [lower, higher] = range(ratios("focsani/variants/deep-parker-2020", "focsani", MEASURES[1]));
+    computed.push(("curves.deep".to_owned(), format!("{lower:.1} to {higher:.1}")));
     hold("curves", &computed);
 }
