@@ -9,10 +9,12 @@
 //! | `inputs` | the study's numbers, the records, what was noticed about the inputs |
 //! | `hazard` | hazard curves that look like probabilities |
 //! | `levels` | ordinates that rest on what lies outside the analysed levels, or do not exist |
+//! | `consistency` | records that do not bring the hazard of the other measure |
 //! | `measures` | spectra by PGV and by PGA that disagree |
 //! | `fit` | fitted curves that leave their spectrum |
 //! | `structure` | a structure's numbers, and risks of its own that the levels do not hold |
 
+mod consistency;
 mod evidence;
 mod fit;
 mod hazard;
@@ -139,6 +141,7 @@ pub(crate) fn alarms_within(file: &ResultFile, scope: &Scope) -> Result<Vec<Alar
     alarms.extend(hazard::alarms(&evidence, scope));
     alarms.extend(levels::alarms(&evidence, scope)?);
     alarms.extend(measures::alarms(&evidence, scope));
+    alarms.extend(consistency::alarms(&evidence, scope));
     Ok(alarms)
 }
 
@@ -156,6 +159,7 @@ fn of_spectra(evidence: &Evidence, scope: &Scope) -> Result<Vec<Alarm>, UpliftEr
     let mut alarms: Vec<Alarm> = hazard::alarms(evidence, scope).into_iter().collect();
     alarms.extend(levels::alarms(evidence, scope)?);
     alarms.extend(measures::alarms(evidence, scope));
+    alarms.extend(consistency::alarms(evidence, scope));
     alarms.extend(fit::alarms(evidence, scope));
     Ok(alarms)
 }

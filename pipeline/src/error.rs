@@ -6,6 +6,7 @@ use thiserror::Error;
 use uplift_atomic_file::FileError;
 use uplift_block::BlockError;
 use uplift_bootstrap::BootstrapError;
+use uplift_consistency::ConsistencyError;
 use uplift_fragility::FragilityError;
 use uplift_hazard::HazardError;
 use uplift_ida::IdaError;
@@ -82,6 +83,9 @@ pub enum UpliftError {
     /// Demands and hazard that do not fit together.
     #[error(transparent)]
     Risk(#[from] RiskError),
+    /// Records and hazard that cannot be held against each other.
+    #[error(transparent)]
+    Consistency(Box<ConsistencyError>),
     /// Resamples that cannot be drawn.
     #[error(transparent)]
     Bootstrap(#[from] BootstrapError),
@@ -170,6 +174,15 @@ impl From<IdaError> for UpliftError {
 impl From<BlockError> for UpliftError {
     fn from(error: BlockError) -> Self {
         Self::Blocks(vec![error])
+    }
+}
+
+impl From<ConsistencyError> for UpliftError {
+    fn from(error: ConsistencyError) -> Self {
+        match error {
+            ConsistencyError::Risk(error) => error.into(),
+            other => Self::Consistency(Box::new(other)),
+        }
     }
 }
 

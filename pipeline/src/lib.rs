@@ -47,6 +47,7 @@
 //! | [`uniform_risk`] | studies of uniform risk: stripes, spectra, coefficients |
 //! | [`displacement`] | studies of displacement spectra of record sets |
 //! | [`bootstrap`], [`influence`], [`efficiency`] | how sure a spectrum is, and what carries it |
+//! | [`mod@consistency`] | whether the records bring the hazard of the other measure, and weights by which they do |
 //! | [`structure`] | a structure under the records and hazard of a result |
 //! | [`result`](mod@result) | the HDF5 file and the tables beside it, written and read |
 //! | [`analysis`], [`checkpoint`] | plans carried out whole or in shards; their finished rows outlive a stop |
@@ -66,6 +67,7 @@ mod array;
 pub mod bootstrap;
 pub mod checkpoint;
 mod checksum;
+pub mod consistency;
 pub mod displacement;
 pub mod efficiency;
 mod error;

@@ -4,6 +4,7 @@
 
 mod asked;
 mod bands;
+mod consistency;
 mod design;
 pub(crate) mod digest;
 mod displacements;
@@ -26,6 +27,7 @@ mod target;
 pub use asked::{AskedRisk, RiskTargets};
 pub(crate) use bands::BandMethod;
 pub use bands::{MeasureBands, StoredBands};
+pub use consistency::StoredConsistency;
 pub(crate) use design::{BOUNDS, bounds, rule_names};
 pub use design::{DesignRow, RULES, StoredDesign, StoredDesigned};
 pub use displacements::{

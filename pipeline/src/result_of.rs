@@ -8,12 +8,12 @@ use crate::checkpoint::{motion_key, oscillator_key};
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::frame::RunOptions;
-use crate::inputs::{Record, read_hazard, read_records};
+use crate::inputs::{Record, read_hazard, read_other_hazard, read_records};
 use crate::result::{Kind, Provenance, ResultFile};
 use crate::run::run;
 
 /// Sections of a study on which its stripes and spectra do not depend.
-const WITHOUT_INFLUENCE: [&str; 3] = ["title", "bootstrap", "output"];
+const WITHOUT_INFLUENCE: [&str; 4] = ["title", "bootstrap", "consistency", "output"];
 
 /// The result file of `study`; a study without one is run.
 ///
@@ -44,7 +44,8 @@ fn is_result_of(study: &UniformRiskStudy, path: &Path) -> Result<bool, UpliftErr
     }
     let (hazard, _) = read_hazard(study)?;
     let records = read_records(study)?;
-    let provenance = Provenance::new(&RunOptions::default(), &records, &hazard);
+    let (other_hazard, _) = read_other_hazard(study)?;
+    let provenance = Provenance::new(&RunOptions::default(), &records, &hazard, &other_hazard);
     if head.input_checksums != provenance.input_checksums {
         return Ok(false);
     }

@@ -28,7 +28,7 @@ pub use plan::Plan;
 pub(crate) use plan::{needs, plan};
 pub use report::{BranchReport, CoefficientsReport, MeasureReport, RunReport, SpectrumReport};
 pub(crate) use run::run;
-pub(crate) use spectra::pooled_demand;
+pub(crate) use spectra::{Reading, pooled_demand};
 pub use spectra::{Spectra, uniform_risk_spectra};
 pub use stripes::{Stripes, plan_stripes, systems};
 pub(crate) use work::{Inputs, motion_keys, run_shard};

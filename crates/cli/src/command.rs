@@ -16,7 +16,7 @@ use uplift_oscillator::InstructionSet;
 
 use crate::error::CommandError;
 use crate::terminal::Terminal;
-use result::{bootstrap, export, influence, measures, plot, report, status, table, verify};
+use result::{bootstrap, consistency, export, influence, measures, plot, report, status, table, verify};
 use structures::{design, overturning};
 use study::{check, merge, run};
 
@@ -61,6 +61,8 @@ enum Command {
     Pulse(pulse::PulseArguments),
     /// How sure the spectra are: confidence bands from resampled records (Table 4.1)
     Bootstrap(bootstrap::BootstrapArguments),
+    /// Whether the records bring the site's hazard of the other measure, and weights by which they do
+    Consistency(consistency::ConsistencyArguments),
     /// Which records carry the spectra (jackknife), and which intensities (disaggregation)
     Influence(influence::InfluenceArguments),
     /// Which intensity measure to trust: efficiency and sufficiency
@@ -110,6 +112,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         Command::Response(arguments) => response::response(arguments, &terminal),
         Command::Pulse(arguments) => pulse::pulse(arguments, &terminal),
         Command::Bootstrap(arguments) => bootstrap::bootstrap(arguments, &terminal),
+        Command::Consistency(arguments) => consistency::consistency(arguments, &terminal),
         Command::Influence(arguments) => influence::influence(arguments, &terminal),
         Command::Measures(arguments) => measures::measures(arguments, &terminal),
         Command::Design(arguments) => design::design(arguments, &terminal),

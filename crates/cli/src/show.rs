@@ -2,6 +2,7 @@
 
 mod alarms;
 mod bootstrap;
+mod consistency;
 mod design;
 mod displacement;
 mod efficiency;
@@ -21,6 +22,7 @@ mod uniform_risk;
 mod verify;
 
 pub(crate) use bootstrap::print_bootstrap;
+pub(crate) use consistency::print_consistency;
 pub(crate) use design::print_design;
 pub(crate) use efficiency::print_efficiency;
 pub(crate) use hazard::{print_curves, print_hazard_import};

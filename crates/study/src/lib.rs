@@ -66,7 +66,7 @@ pub use sections::selection::{CRITERIA, Criterion, Range, RecordSelection};
 pub use structure::Structure;
 pub use study::Study;
 pub use uniform_risk::{
-    Bootstrap, Branch, Contour, Conversion, CurveFile, CurveKind, Hazard, MeasurePlan, Oscillator, Records, Regression,
-    Risk, Site, SiteTable, UniformRiskStudy, definition_of, levels_within, lower_starts,
+    Bootstrap, Branch, Consistency, Contour, Conversion, CurveFile, CurveKind, Hazard, MeasurePlan, Oscillator,
+    Records, Regression, Repair, Risk, Site, SiteTable, UniformRiskStudy, definition_of, levels_within, lower_starts,
 };
 pub use warning::Warning;

@@ -11,9 +11,11 @@
 //! | `site_table` | `[site_table]` |
 //! | `regression` | `[regression]` |
 //! | `bootstrap` | `[bootstrap]` |
+//! | `consistency` | `[consistency]` |
 
 mod bootstrap;
 mod branches;
+mod consistency;
 mod curve;
 mod hazard;
 mod lower_levels;
@@ -38,6 +40,7 @@ use crate::warning::Warning;
 
 pub use bootstrap::Bootstrap;
 pub use branches::Branch;
+pub use consistency::{Consistency, Repair};
 pub use curve::{CurveFile, CurveKind};
 pub use hazard::{Conversion, Hazard, definition_of};
 pub use lower_levels::lower_starts;
@@ -50,7 +53,7 @@ pub use site_table::SiteTable;
 pub use sites::Site;
 
 /// The reference of every key.
-pub(crate) const KEYS: [SectionKeys; 20] = [
+pub(crate) const KEYS: [SectionKeys; 21] = [
     TOP,
     records::KEYS,
     selection::KEYS,
@@ -70,6 +73,7 @@ pub(crate) const KEYS: [SectionKeys; 20] = [
     site_table::KEYS,
     regression::KEYS,
     bootstrap::KEYS,
+    consistency::KEYS,
     output::KEYS,
 ];
 
@@ -123,6 +127,9 @@ pub struct UniformRiskStudy {
     pub regression: Regression,
     /// The bootstrap over records.
     pub bootstrap: Bootstrap,
+    /// Whether the records bring the hazard of the other measure, and what is done about it.
+    #[serde(skip_serializing_if = "Consistency::is_default")]
+    pub consistency: Consistency,
     /// What is written where.
     pub output: Output,
     /// What is allowed but probably not meant.
@@ -157,6 +164,7 @@ pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<UniformRiskSt
     let site_table = site_table::read(root.field("site_table").as_ref(), &switched_on, strengths.as_ref(), paths);
     let regression = regression::read(root.section("regression"));
     let bootstrap = bootstrap::read(root.section("bootstrap"));
+    let consistency = consistency::read(root.section("consistency"));
     let inputs = (records.iter().filter_map(|records| records.source.manifest()))
         .chain(sites.iter().flatten().flat_map(|site| site.curves.iter().flat_map(CurveFile::files)))
         .chain(site_table.iter().flatten().flat_map(SiteTable::files));
@@ -182,6 +190,7 @@ pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<UniformRiskSt
         site_table: site_table?,
         regression: regression?,
         bootstrap: bootstrap?,
+        consistency: consistency?,
         output: output?,
         warnings: Vec::new(),
     };

@@ -5,7 +5,7 @@ use uplift_motion::IntensityMeasure;
 use uplift_study::UniformRiskStudy;
 
 use crate::error::UpliftError;
-use crate::result::{MeasureSpectra, ResultFile, StoredBands, StoredHazard, StoredSpectra};
+use crate::result::{MeasureSpectra, ResultFile, StoredBands, StoredConsistency, StoredHazard, StoredSpectra};
 use crate::text::per_cent;
 
 /// The spectra of a result, its study, hazard and bands.
@@ -16,6 +16,8 @@ pub(crate) struct Evidence {
     /// By measure, as the spectra.
     pub(crate) hazard: Vec<StoredHazard>,
     pub(crate) bands: Option<StoredBands>,
+    /// By the measure that records are scaled to.
+    pub(crate) consistency: Vec<StoredConsistency>,
 }
 
 /// Which of the spectra are asked about; all where nothing is said.
@@ -60,7 +62,13 @@ impl Evidence {
     /// # Errors
     /// A file that is damaged, of another kind, or without sites.
     pub(crate) fn read(file: &ResultFile) -> Result<Self, UpliftError> {
-        Ok(Self { study: file.stored_study()?, spectra: file.spectra()?, hazard: file.hazard()?, bands: file.bands()? })
+        Ok(Self {
+            study: file.stored_study()?,
+            spectra: file.spectra()?,
+            hazard: file.hazard()?,
+            bands: file.bands()?,
+            consistency: file.consistency()?,
+        })
     }
 
     /// Every spectrum within `scope`.

@@ -61,8 +61,9 @@ pub fn read_hazard(study: &UniformRiskStudy) -> Result<(Vec<Vec<SiteHazard>>, Ve
         for site in &study.sites {
             let Some(file) = site.curve(plan.measure) else { continue };
             let (notes, undefined, mistakes) = (&mut notes, &mut undefined, &mut mistakes);
-            let mut reader = SiteReader { site: &site.name, file, plan, study, notes, undefined, mistakes };
-            sites.extend(reader.read());
+            let measure = plan.measure;
+            let mut reader = SiteReader { site: &site.name, file, measure, study, notes, undefined, mistakes };
+            sites.extend(reader.read(plan));
         }
         all.push(sites);
     }
@@ -75,6 +76,42 @@ pub fn read_hazard(study: &UniformRiskStudy) -> Result<(Vec<Vec<SiteHazard>>, Ve
             definition_of(study.records.intensity)
         )
     }));
+    if mistakes.is_empty() { Ok((all, notes)) } else { Err(UpliftError::Inputs(mistakes)) }
+}
+
+/// The hazard of a site in a measure that its study is not analysed by: what the records bring is held against it.
+#[derive(Debug, Clone)]
+pub struct OtherHazard {
+    /// Name of the site.
+    pub site: String,
+    /// The measure.
+    pub measure: IntensityMeasure,
+    /// Where it was read; none for the mean of branches.
+    pub file: Option<PathBuf>,
+    /// SHA-256 of the file; empty for a mean.
+    pub checksum: String,
+    /// The curve in field units, cm/s or g.
+    pub curve: HazardCurve,
+}
+
+/// Reads the curves of the measures that `study` is not analysed by, and notes about what was dropped from them.
+///
+/// # Errors
+/// Everything that is wrong with them, at once.
+pub fn read_other_hazard(study: &UniformRiskStudy) -> Result<(Vec<OtherHazard>, Vec<String>), UpliftError> {
+    let (mut mistakes, mut notes, mut all) = (Vec::new(), Vec::new(), Vec::new());
+    for site in &study.sites {
+        for file in &site.curves {
+            if study.measures.iter().any(|plan| plan.measure == file.measure) {
+                continue;
+            }
+            let (mut undefined, measure) = (Vec::new(), file.measure);
+            let (notes, mistakes) = (&mut notes, &mut mistakes);
+            let undefined = &mut undefined;
+            let mut reader = SiteReader { site: &site.name, file, measure, study, notes, undefined, mistakes };
+            all.extend(reader.other());
+        }
+    }
     if mistakes.is_empty() { Ok((all, notes)) } else { Err(UpliftError::Inputs(mistakes)) }
 }
 
@@ -108,7 +145,7 @@ pub(super) fn implausible(curve: &HazardCurve, measure: IntensityMeasure) -> Opt
 struct SiteReader<'a> {
     site: &'a str,
     file: &'a CurveFile,
-    plan: &'a MeasurePlan,
+    measure: IntensityMeasure,
     study: &'a UniformRiskStudy,
     notes: &'a mut Vec<String>,
     /// Curves that do not say which definition of the measure they are of.
@@ -118,37 +155,66 @@ struct SiteReader<'a> {
 
 impl SiteReader<'_> {
     /// The hazard; none where something is wrong, which is then among the mistakes.
-    fn read(&mut self) -> Option<SiteHazard> {
+    fn read(&mut self, plan: &MeasurePlan) -> Option<SiteHazard> {
         let file = self.file;
         let branches: Vec<BranchHazard> = file
             .branches
             .iter()
             .filter_map(|branch| {
-                let input = self.input(&branch.file)?;
+                let input = self.input(&branch.file, plan)?;
                 Some(BranchHazard { name: branch.name.clone(), weight: branch.weight, input })
             })
             .collect();
         let curve = match &file.file {
-            Some(path) => self.input(path)?,
+            Some(path) => self.input(path, plan)?,
             // a mean of some of the branches would be another curve
             None if branches.len() < file.branches.len() => return None,
-            None => self.mean(&branches)?,
+            None => self.mean(&branches, plan)?,
         };
-        Some(SiteHazard { site: self.site.to_owned(), measure: self.plan.measure, curve, branches })
+        Some(SiteHazard { site: self.site.to_owned(), measure: self.measure, curve, branches })
     }
 
-    fn input(&mut self, path: &Path) -> Option<HazardInput> {
-        let read = self.read_file(path);
+    /// The curve of a measure that the study is not analysed by.
+    fn other(&mut self) -> Option<OtherHazard> {
+        let file = self.file;
+        let of = |file, checksum, curve, reader: &Self| OtherHazard {
+            site: reader.site.to_owned(),
+            measure: reader.measure,
+            file,
+            checksum,
+            curve,
+        };
+        if let Some(path) = &file.file {
+            let read = self.read_file(path);
+            let (curve, checksum) = self.noted(read)?;
+            return Some(of(Some(path.clone()), checksum, curve, self));
+        }
+        let mut curves = Vec::new();
+        for branch in &file.branches {
+            let read = self.read_file(&branch.file);
+            curves.push((branch.weight, self.noted(read)?.0));
+        }
+        let curves: Vec<(f64, &HazardCurve)> = curves.iter().map(|(weight, curve)| (*weight, curve)).collect();
+        let mean = HazardCurve::weighted_mean(&curves, &[]).map_err(|error| format!("the branches have no mean: {error}"));
+        let curve = self.noted(mean)?;
+        Some(of(None, String::new(), curve, self))
+    }
+
+    fn input(&mut self, path: &Path, plan: &MeasurePlan) -> Option<HazardInput> {
+        let read = self.read_file(path).and_then(|(curve, checksum)| {
+            let weights = self.weights(&curve, &path.display().to_string(), plan)?;
+            Ok(HazardInput { file: Some(path.to_owned()), checksum, curve, weights })
+        });
         self.noted(read)
     }
 
-    fn mean(&mut self, branches: &[BranchHazard]) -> Option<HazardInput> {
+    fn mean(&mut self, branches: &[BranchHazard], plan: &MeasurePlan) -> Option<HazardInput> {
         let curves: Vec<(f64, &HazardCurve)> =
             branches.iter().map(|branch| (branch.weight, &branch.input.curve)).collect();
-        let mean = HazardCurve::weighted_mean(&curves, &self.plan.levels)
+        let mean = HazardCurve::weighted_mean(&curves, &plan.levels)
             .map_err(|error| format!("the branches have no mean: {error}"))
             .and_then(|curve| {
-                let weights = self.weights(&curve, "the mean of the branches")?;
+                let weights = self.weights(&curve, "the mean of the branches", plan)?;
                 Ok(HazardInput { file: None, checksum: String::new(), curve, weights })
             });
         self.noted(mean)
@@ -158,14 +224,15 @@ impl SiteReader<'_> {
         match read {
             Ok(read) => Some(read),
             Err(reason) => {
-                self.mistakes.push(format!("site {}, {}: {reason}", self.site, self.plan.measure.label()));
+                self.mistakes.push(format!("site {}, {}: {reason}", self.site, self.measure.label()));
                 None
             }
         }
     }
 
-    fn read_file(&mut self, path: &Path) -> Result<HazardInput, String> {
-        let mut options = CsvOptions::new(self.plan.measure.label(), self.file.unit.symbol());
+    /// The curve of a file for the records' definition of the measure, and the file's SHA-256.
+    fn read_file(&mut self, path: &Path) -> Result<(HazardCurve, String), String> {
+        let mut options = CsvOptions::new(self.measure.label(), self.file.unit.symbol());
         match self.file.kind {
             CurveKind::Maf => options.second_column = Some(SecondColumn::AnnualRate),
             CurveKind::Poe { years } => {
@@ -181,30 +248,29 @@ impl SiteReader<'_> {
                 self.notes.push(format!(
                     "site {}, {}: {count} {what} of the hazard curve carry no rate and were dropped",
                     self.site,
-                    self.plan.measure.label()
+                    self.measure.label()
                 ));
             }
         }
         let curve = read.curve.in_field_units(self.study.gravity_m_s2).map_err(|error| error.to_string())?;
-        let converted = of_the_records_definition(self.study, self.plan.measure, &curve)
+        let converted = of_the_records_definition(self.study, self.measure, &curve)
             .map_err(|reason| format!("{}: {reason}", path.display()))?;
         if converted.is_none() {
-            self.undefined.push(format!("{}, {}", self.site, self.plan.measure.label()));
+            self.undefined.push(format!("{}, {}", self.site, self.measure.label()));
         }
         let curve = converted.unwrap_or(curve);
         self.notes.extend(
-            implausible(&curve, self.plan.measure).map(|reason| {
-                format!("site {}, {}: {}: {reason}", self.site, self.plan.measure.label(), path.display())
+            implausible(&curve, self.measure).map(|reason| {
+                format!("site {}, {}: {}: {reason}", self.site, self.measure.label(), path.display())
             }),
         );
-        let weights = self.weights(&curve, &path.display().to_string())?;
         let checksum = checksum_of_file(path).map_err(|error| format!("{}: {error}", path.display()))?;
-        Ok(HazardInput { file: Some(path.to_owned()), checksum, curve, weights })
+        Ok((curve, checksum))
     }
 
-    fn weights(&self, curve: &HazardCurve, name: &str) -> Result<StripeWeights, String> {
-        stripe_weights(self.study, self.plan, curve).map_err(|reason| {
-            let within = levels_within(self.plan.measure, curve.first().im, curve.last().im);
+    fn weights(&self, curve: &HazardCurve, name: &str, plan: &MeasurePlan) -> Result<StripeWeights, String> {
+        stripe_weights(self.study, plan, curve).map_err(|reason| {
+            let within = levels_within(self.measure, curve.first().im, curve.last().im);
             let within = within
                 .map_or_else(String::new, |(key, levels)| format!(": the default ones within it are {key} = {levels}"));
             format!("{name}: {reason}{within}")

@@ -4,7 +4,7 @@ use uplift_hazard::HazardCurve;
 use uplift_motion::IntensityMeasure;
 
 use super::file::ResultFile;
-use super::layout::{hazard, ida};
+use super::layout::{axis, hazard, ida};
 use crate::error::UpliftError;
 
 /// The hazard of one measure.
@@ -43,6 +43,18 @@ impl ResultFile {
     pub(super) fn measures(&self) -> Vec<IntensityMeasure> {
         let is_there = |measure: &IntensityMeasure| self.reader.exists(&ida::edp_m(*measure));
         IntensityMeasure::ALL.into_iter().filter(is_there).collect()
+    }
+
+    /// The curve of a site by any measure, whether the study is analysed by it or not; none where it has none.
+    pub(crate) fn mean_curve(&self, site: &str, measure: IntensityMeasure) -> Result<Option<HazardCurve>, UpliftError> {
+        let group = hazard::group(site, measure);
+        self.reader.exists(&group).then(|| self.curve(&group, measure)).transpose()
+    }
+
+    /// The levels of every measure with stripes.
+    pub(crate) fn levels(&self) -> Result<Vec<(IntensityMeasure, Vec<f64>)>, UpliftError> {
+        let of = |measure| Ok((measure, self.reader.axis_f64(&axis::level(measure))?));
+        self.measures().into_iter().map(of).collect()
     }
 
     /// The curves of one site and measure.

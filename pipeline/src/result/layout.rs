@@ -97,6 +97,52 @@ by_measure! {
     disaggregation: share = "share",
 }
 
+/// Whether the records bring the hazard of the other measure.
+pub mod consistency {
+    use uplift_motion::IntensityMeasure;
+
+    /// The group of all measures.
+    pub const ROOT: &str = "/consistency";
+    /// The arrays of a measure but for those of the other one ([`OF_OTHER`]).
+    pub const ARRAYS: &[&str] = &[
+        "rate_per_year",
+        "scale_factor_05",
+        "scale_factor_50",
+        "scale_factor_95",
+        "scale_factors_outside",
+        "effective_events",
+        "exponent",
+        "knot",
+        "iterations",
+        "effective_records",
+        "mean_ln_ratio",
+        "sd_ln_ratio",
+        "weight",
+        "u_m",
+        "flag",
+        "lower_tail_share",
+        "upper_tail_share",
+    ];
+    /// What the names of the arrays of the other measure end with: `pga_site`.
+    pub const OF_OTHER: &[&str] =
+        &["site", "implied", "repaired", "bias", "rms", "max", "verdict", "ratio", "times_as_often"];
+
+    /// An array of the analysis by a measure.
+    pub fn array(measure: IntensityMeasure, name: &str) -> String {
+        format!("{ROOT}/{}/{name}", measure.key())
+    }
+
+    /// The name of an array that is about the `other` measure.
+    pub fn of_other(other: IntensityMeasure, name: &str) -> String {
+        format!("{}_{name}", other.key())
+    }
+
+    /// A coefficient of the repaired spectra.
+    pub fn coefficient(measure: IntensityMeasure, name: &str) -> String {
+        format!("{ROOT}/{}/regression/{name}", measure.key())
+    }
+}
+
 by_measure! {
     /// Scatter of the demand.
     efficiency:
@@ -268,6 +314,8 @@ pub mod axis {
         PRINTED_SLENDERNESS,
         RULE,
         BOUND,
+        RATE,
+        KNOT,
     ];
     /// Ground motions.
     pub const RECORD: &str = "record";
@@ -307,6 +355,11 @@ pub mod axis {
     pub const RULE: &str = "rule";
     /// A value and its range.
     pub const BOUND: &str = "bound";
+
+    /// Rates at which the hazard of two measures is compared.
+    pub const RATE: &str = "rate";
+    /// Knots of the exponent of weights.
+    pub const KNOT: &str = "knot";
 
     /// The path of an axis.
     pub fn path(name: &str) -> String {
@@ -386,7 +439,7 @@ mod tests {
         let documented = |group: &str, name: &str| {
             page.lines().any(|line| line.contains(group) && line.contains(&format!("{name}`")))
         };
-        let groups: [(&str, &[&str]); 15] = [
+        let groups: [(&str, &[&str]); 16] = [
             ("`/records/", records::ARRAYS),
             ("`/ida/pgv/", ida::ARRAYS),
             ("`/risk/pgv/", risk::ARRAYS),
@@ -396,6 +449,7 @@ mod tests {
             ("`/influence/pgv/", influence::ARRAYS),
             ("`/disaggregation/pgv/", disaggregation::ARRAYS),
             ("`/efficiency/pgv/", efficiency::ARRAYS),
+            ("`/consistency/pgv/", consistency::ARRAYS),
             ("`/sufficiency/pgv/<covariate>/", sufficiency::ARRAYS),
             ("`/epistemic/pgv/<site>/", epistemic::ARRAYS),
             ("`/hazard/<site>/pgv/", &["maf_per_year"]),

@@ -10,7 +10,7 @@ use crate::alarms::Alarm;
 use crate::checksum::checksum;
 use crate::error::UpliftError;
 use crate::frame::{RunHead, RunOptions};
-use crate::inputs::{RecordSet, SiteHazard};
+use crate::inputs::{OtherHazard, RecordSet, SiteHazard};
 use uplift_labelled::LabelledWriter;
 
 /// What someone needs to repeat a run.
@@ -40,7 +40,12 @@ pub struct Provenance {
 
 impl Provenance {
     /// Provenance of a run that is about to write its result.
-    pub fn new(options: &RunOptions, records: &RecordSet, hazard: &[Vec<SiteHazard>]) -> Self {
+    pub fn new(
+        options: &RunOptions,
+        records: &RecordSet,
+        hazard: &[Vec<SiteHazard>],
+        other_hazard: &[OtherHazard],
+    ) -> Self {
         let mut input_checksums: BTreeMap<String, String> =
             records.records.iter().map(|record| (format!("record {}", record.id), record.checksum.clone())).collect();
         for curve in hazard.iter().flatten() {
@@ -51,6 +56,10 @@ impl Provenance {
             if curve.curve.file.is_some() {
                 input_checksums.insert(name, curve.curve.checksum.clone());
             }
+        }
+        for curve in other_hazard.iter().filter(|curve| curve.file.is_some()) {
+            let name = format!("hazard {} {}", curve.site, curve.measure.label());
+            input_checksums.insert(name, curve.checksum.clone());
         }
         Self::of_inputs(options, input_checksums)
     }

@@ -20,6 +20,8 @@ pub struct StoredRecords {
     pub pgv_cm_s: Vec<f64>,
     /// Moment magnitude; NaN where it is not known.
     pub magnitude: Vec<f64>,
+    /// Names of their earthquakes; empty where they are not known.
+    pub event: Vec<String>,
     /// Closest distance to the rupture, km; NaN where it is not known.
     pub rrup_km: Vec<f64>,
     /// Mean shear-wave velocity of the upper 30 m, m/s; NaN where it is not known.
@@ -61,6 +63,7 @@ impl ResultFile {
             )?,
             pga_g: number(records::PGA_G)?,
             pgv_cm_s: number(records::PGV_CM_S)?,
+            event: self.checked(records::EVENT, self.reader.array_text(records::EVENT)?, &axes)?,
             magnitude: number(records::MAGNITUDE)?,
             rrup_km: number(records::RRUP_KM)?,
             vs30: number(records::VS30)?,

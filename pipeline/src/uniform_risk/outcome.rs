@@ -3,7 +3,8 @@
 use uplift_study::UniformRiskStudy;
 
 use super::{Coefficients, Spectra, Stripes};
-use crate::inputs::{RecordSet, SiteHazard};
+use crate::consistency::Answer;
+use crate::inputs::{OtherHazard, RecordSet, SiteHazard};
 use crate::result::Provenance;
 
 /// All that a study computed, by measure where it depends on it.
@@ -21,6 +22,10 @@ pub struct Outcome<'a> {
     pub spectra: &'a [Spectra],
     /// Its coefficients, `[measure]`.
     pub coefficients: &'a [Coefficients],
+    /// Its hazard in measures that it is not analysed by.
+    pub other_hazard: &'a [OtherHazard],
+    /// Whether the records bring the hazard of other measures.
+    pub(crate) consistency: &'a Answer,
     /// What was noticed about the inputs; what the numbers themselves give cause for, [`alarms`](crate::alarms) says.
     pub warnings: &'a [String],
     /// Where the numbers come from.

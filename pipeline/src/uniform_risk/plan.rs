@@ -10,10 +10,11 @@ use super::levels::{LevelCheck, check_levels};
 use super::{plan_stripes, site_table, systems};
 use crate::alarms::{look_like_probabilities, what_of_probabilities};
 use crate::analysis::seconds;
+use crate::consistency::{Answer, ConsistencyReport};
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::frame::PlanHead;
-use crate::inputs::{RecordSet, SiteHazard, SiteList, read_hazard, read_records};
+use crate::inputs::{RecordSet, SiteHazard, SiteList, read_hazard, read_other_hazard, read_records};
 use crate::machine::{Needs, PROGRAM_BYTES};
 
 /// Time spent on a measure to see how fast this machine is.
@@ -27,11 +28,15 @@ pub struct Plan {
     pub head: PlanHead,
     /// How far down the levels of each measure reach, where sites say what the study is for.
     pub levels: Vec<LevelCheck>,
+    /// Whether the records bring the hazard of the other measure.
+    pub consistency: ConsistencyReport,
 }
 
 /// Reads and checks all inputs of `study`, and times some of its analyses.
 pub(crate) fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Events) -> Result<Plan, UpliftError> {
     let (hazard, mut notes) = read_hazard(study)?;
+    let (other_hazard, other_notes) = read_other_hazard(study)?;
+    notes.extend(other_notes);
     let site_list = site_table::read(study, events)?;
     notes.extend(site_list.iter().flat_map(|list| list.notes.iter().cloned()));
     let records = read_records(study)?;
@@ -62,7 +67,8 @@ pub(crate) fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Eve
         output: study.output.file.clone(),
         notes,
     };
-    Ok(Plan { head, levels })
+    let consistency = Answer::of_plan(study, &records, (&hazard, &other_hazard))?.report(&[]);
+    Ok(Plan { head, levels, consistency })
 }
 
 /// Curves whose rates look like probabilities.

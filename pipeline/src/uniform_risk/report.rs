@@ -3,10 +3,12 @@
 use std::path::PathBuf;
 
 use serde::Serialize;
+use uplift_motion::IntensityMeasure;
 
 use super::{Outcome, Stripes};
 use crate::alarms::Alarm;
 use crate::array::Array;
+use crate::consistency::ConsistencyReport;
 use crate::frame::RunHead;
 
 /// What a run tells.
@@ -19,6 +21,11 @@ pub struct RunReport {
     pub measures: Vec<MeasureReport>,
     /// The fits of Eq. 4.11 (Table 4.2), one a measure, site and probability.
     pub coefficients: Vec<CoefficientsReport>,
+    /// Whether the records bring the hazard of the other measure.
+    pub consistency: ConsistencyReport,
+    /// The spectra of weights by which they do, where the study asks for them.
+    #[serde(skip)]
+    pub repaired: Vec<SpectrumReport>,
     /// Strengths of the spectra.
     #[serde(skip)]
     pub strengths: Vec<f64>,
@@ -121,6 +128,8 @@ impl RunReport {
             head: outcome.provenance.head(&study.title, records, alarms, files, seconds),
             measures: outcome.stripes.iter().map(MeasureReport::of).collect(),
             coefficients: outcome.coefficients.iter().flat_map(fits).collect(),
+            consistency: outcome.consistency.report(&plain_m(outcome)),
+            repaired: outcome.consistency.repaired_spectra(),
             strengths: study.strengths.to_vec(),
             poes: study.risk.poe.clone(),
             years: study.risk.years,
@@ -128,6 +137,12 @@ impl RunReport {
             branches: branches(outcome),
         }
     }
+}
+
+/// The displacements `[site, poe, strength]` of each measure, m.
+fn plain_m(outcome: &Outcome<'_>) -> Vec<(IntensityMeasure, Array<3>)> {
+    let displacements = |spectra: &super::Spectra| spectra.ordinates.map(|ordinate| ordinate.displacement_m);
+    outcome.spectra.iter().map(|spectra| (spectra.measure, displacements(spectra))).collect()
 }
 
 fn spectra(outcome: &Outcome<'_>) -> Vec<SpectrumReport> {

@@ -9,11 +9,12 @@ use super::{
     write_result,
 };
 use crate::alarms::alarms;
+use crate::consistency::Answer;
 use crate::checkpoint::{Checkpoint, FinishedRows, checkpoint_path};
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::frame::Place;
-use crate::inputs::read_hazard;
+use crate::inputs::{read_hazard, read_other_hazard};
 use crate::result::earlier::Earlier;
 use crate::result::{Provenance, ResultFile};
 
@@ -25,7 +26,9 @@ pub(crate) fn run(
     events: &dyn Events,
 ) -> Result<RunReport, UpliftError> {
     let path = place.path;
-    let (hazard, notes) = read_hazard(study)?;
+    let (hazard, mut notes) = read_hazard(study)?;
+    let (other_hazard, other_notes) = read_other_hazard(study)?;
+    notes.extend(other_notes);
     let site_list = site_table::read(study, events)?;
     let inputs = Inputs::read(study)?;
     let records = &inputs.records;
@@ -46,6 +49,7 @@ pub(crate) fn run(
         spectra.push(uniform_risk_spectra(study, stripes, hazard)?);
     }
     let coefficients: Vec<Coefficients> = spectra.iter().map(|spectra| fit_spectra(study, spectra)).collect();
+    let consistency = Answer::of_run(study, records, (&hazard, &other_hazard), &stripes)?;
     let mut warnings = notes;
     warnings.extend(site_list.iter().flat_map(|list| list.notes.iter().cloned()));
     warnings.extend(records.notes.iter().cloned());
@@ -53,7 +57,7 @@ pub(crate) fn run(
     if events.cancelled() {
         return Err(checkpoint.stopped(total, total));
     }
-    let mut provenance = Provenance::new(place.options, records, &hazard);
+    let mut provenance = Provenance::new(place.options, records, &hazard, &other_hazard);
     provenance.input_checksums.extend(site_list.iter().flat_map(|list| list.checksums.clone()));
     let mut provenance = provenance.of_result(path, &study.to_toml()?);
     let line = provenance.line(&study.title, &records.description);
@@ -64,6 +68,8 @@ pub(crate) fn run(
         study,
         records,
         hazard: &hazard,
+        other_hazard: &other_hazard,
+        consistency: &consistency,
         stripes: &stripes,
         spectra: &spectra,
         coefficients: &coefficients,

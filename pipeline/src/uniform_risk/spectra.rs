@@ -37,15 +37,15 @@ impl Spectra {
 }
 
 /// How ordinates are read: the target rates and the thresholds of a study.
-pub(super) struct Reading {
+pub(crate) struct Reading {
     /// Target rates, 1/yr, one a probability.
-    pub(super) targets: Vec<f64>,
+    pub(crate) targets: Vec<f64>,
     grid: ThresholdGrid,
     contour: Contour,
 }
 
 impl Reading {
-    pub(super) fn of(study: &UniformRiskStudy) -> Result<Self, UpliftError> {
+    pub(crate) fn of(study: &UniformRiskStudy) -> Result<Self, UpliftError> {
         let rate = |&poe: &f64| rate_from_probability(poe, study.risk.years);
         let targets = study.risk.poe.iter().map(rate).collect::<Result<Vec<_>, _>>()?;
         let grid = ThresholdGrid::new(study.risk.thresholds_m.to_vec())?;
@@ -53,7 +53,7 @@ impl Reading {
     }
 
     /// The ordinates of one strength, one a probability.
-    pub(super) fn ordinates(&self, curve: &RiskCurve<'_>) -> Result<Vec<Ordinate>, RiskError> {
+    pub(crate) fn ordinates(&self, curve: &RiskCurve<'_>) -> Result<Vec<Ordinate>, RiskError> {
         match self.contour {
             Contour::Exact => curve.exact_ordinates(&self.targets),
             Contour::Grid => self.targets.iter().map(|&target| curve.grid_ordinate(&self.grid, target)).collect(),

@@ -6,8 +6,9 @@ use uplift_motion::{Combination, IntensityMeasure};
 use uplift_risk::Ordinate;
 
 use super::Outcome;
-use super::write_hazard::{write_branches, write_hazard};
+use super::write_hazard::{write_branches, write_hazard, write_other_hazard};
 use crate::checkpoint::{motion_key, oscillator_key};
+use crate::consistency::Keep;
 use crate::error::UpliftError;
 use crate::inputs::Record;
 use crate::result::layout::{axis, ida, records as layout, regression, risk, urs};
@@ -24,9 +25,11 @@ pub fn write_result(path: &Path, outcome: &Outcome<'_>) -> Result<(), UpliftErro
     write_axes(&mut writer, outcome)?;
     write_records(&mut writer, &outcome.records.records, outcome.study.records.intensity)?;
     write_hazard(&mut writer, outcome.hazard)?;
+    write_other_hazard(&mut writer, outcome.other_hazard)?;
     for (index, plan) in outcome.study.measures.iter().enumerate() {
         write_measure(&mut writer, outcome, index, plan.measure)?;
     }
+    outcome.consistency.add(&mut writer, Keep::Exponents)?;
     writer.finish()?;
     Ok(())
 }

@@ -1,11 +1,13 @@
 //! Hazard curves in the result file, and the spectra of weighted ones.
 
 use std::collections::BTreeSet;
+use std::path::Path;
 
+use uplift_hazard::HazardCurve;
 use uplift_labelled::{LabelledError, LabelledWriter};
 
 use super::{FRACTILES, Outcome, Spectra};
-use crate::inputs::{HazardInput, SiteHazard};
+use crate::inputs::{HazardInput, OtherHazard, SiteHazard};
 use crate::result::layout::{axis, epistemic, hazard as layout, percentile_name};
 
 /// Write the curves `[measure][site]` with their branches.
@@ -14,10 +16,10 @@ pub(super) fn write_hazard(writer: &mut LabelledWriter, hazard: &[Vec<SiteHazard
     for site in hazard.iter().flatten() {
         let label = site.measure.label();
         let axis = axis::hazard(&site.site, site.measure, &mut axes);
-        write_curve(writer, &site.curve, &layout::group(&site.site, site.measure), &axis, label)?;
+        write_curve(writer, of_input(&site.curve), &layout::group(&site.site, site.measure), &axis, label)?;
         for (index, branch) in site.branches.iter().enumerate() {
             let group = layout::branch(&site.site, site.measure, index);
-            write_curve(writer, &branch.input, &group, &format!("{axis}_{}", index + 1), label)?;
+            write_curve(writer, of_input(&branch.input), &group, &format!("{axis}_{}", index + 1), label)?;
             writer.attribute(&group, "name", branch.name.as_str())?;
             writer.attribute(&group, "weight", branch.weight)?;
         }
@@ -25,21 +27,36 @@ pub(super) fn write_hazard(writer: &mut LabelledWriter, hazard: &[Vec<SiteHazard
     Ok(())
 }
 
+/// Write the curves of measures that the study is not analysed by.
+pub(super) fn write_other_hazard(writer: &mut LabelledWriter, hazard: &[OtherHazard]) -> Result<(), LabelledError> {
+    let mut axes = BTreeSet::new();
+    for other in hazard {
+        let axis = axis::hazard(&other.site, other.measure, &mut axes);
+        let file = other.file.as_deref();
+        let group = layout::group(&other.site, other.measure);
+        write_curve(writer, (&other.curve, file), &group, &axis, other.measure.label())?;
+    }
+    Ok(())
+}
+
 fn write_curve(
     writer: &mut LabelledWriter,
-    input: &HazardInput,
+    (curve, file): (&HazardCurve, Option<&Path>),
     group: &str,
     axis: &str,
     label: &str,
 ) -> Result<(), LabelledError> {
-    let curve = &input.curve;
     writer.axis_f64(axis, curve.im(), curve.unit(), &format!("{label} of the hazard curve"))?;
     let path = layout::maf_per_year(group);
     writer.array_f64(&path, &[axis], curve.maf(), "1/yr", "mean annual frequency of exceedance")?;
-    let file = input.file.as_ref().map(|file| file.display().to_string()).unwrap_or_default();
+    let file = file.map(|file| file.display().to_string()).unwrap_or_default();
     writer.attribute(group, "source", curve.source())?;
     writer.attribute(group, "file", file.as_str())?;
     writer.attribute(group, "unit", curve.unit())
+}
+
+fn of_input(input: &HazardInput) -> (&HazardCurve, Option<&Path>) {
+    (&input.curve, input.file.as_deref())
 }
 
 /// Write the spectra of the branches of `spectra`, their mean and their fractiles.

@@ -1,6 +1,7 @@
 //! Commands that take a result: look at it, hand it on, or ask it something.
 
 pub(super) mod bootstrap;
+pub(super) mod consistency;
 pub(super) mod export;
 pub(super) mod influence;
 pub(super) mod measures;

@@ -8,6 +8,7 @@ use uplift::text::{bytes, thousands};
 use uplift::uniform_risk::LevelCheck;
 use uplift_study::AnyStudy;
 
+use super::consistency::consistency_lines;
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
@@ -41,6 +42,9 @@ pub(crate) fn print_plan(plan: &Plan, study: &AnyStudy, terminal: &Terminal) -> 
         Plan::UniformRisk(plan) => {
             for check in &plan.levels {
                 writeln!(out, "levels    {}", levels(check))?;
+            }
+            for line in consistency_lines(&plan.consistency) {
+                writeln!(out, "hazard    {line}")?;
             }
         }
         Plan::Displacement(_) => {}

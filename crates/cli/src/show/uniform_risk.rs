@@ -25,21 +25,41 @@ pub(super) fn print_spectra(out: &mut impl Write, report: &RunReport) -> Result<
             at.join(", "),
             if report.head.synthetic { " (synthetic records)" } else { "" }
         )?;
-        let mut header = vec!["site".to_owned()];
-        for poe in &report.poes {
-            header.push(format!("{} in {} yr", per_cent(*poe), report.years));
-            header.extend(std::iter::repeat_n(String::new(), shown.len() - 1));
-        }
-        // the spectra of a site follow each other, one a probability
-        let row = |of_site: &[&uplift::uniform_risk::SpectrumReport]| {
-            let cells = of_site.iter().flat_map(|spectrum| shown.iter().map(|&index| metres(spectrum.u_m[index])));
-            std::iter::once(of_site[0].site.clone()).chain(cells).collect()
-        };
-        let rows: Vec<Vec<String>> = own.chunks(report.poes.len()).map(row).collect();
-        let header: Vec<&str> = header.iter().map(String::as_str).collect();
-        writeln!(out, "{}", table(&header, &rows))?;
+        writeln!(out, "{}", spectra_table(report, &own, &shown))?;
     }
-    print_branches(out, report, &shown)
+    print_branches(out, report, &shown)?;
+    print_repaired(out, report, &shown)
+}
+
+/// The spectra of weighted records, where the study asks for them.
+fn print_repaired(out: &mut impl Write, report: &RunReport, shown: &[usize]) -> Result<(), CommandError> {
+    for measure in &report.measures {
+        let own: Vec<_> = report.repaired.iter().filter(|spectrum| spectrum.im == measure.im).collect();
+        if own.is_empty() {
+            continue;
+        }
+        writeln!(out, "\nBy {}, with the records weighted so that they bring the site's hazard of both measures", measure.im)?;
+        writeln!(out, "{}", spectra_table(report, &own, shown))?;
+    }
+    Ok(())
+}
+
+/// Displacements of the spectra of one measure: a row a site.
+fn spectra_table(report: &RunReport, own: &[&uplift::uniform_risk::SpectrumReport], shown: &[usize]) -> String {
+    let mut header = vec!["site".to_owned()];
+    for poe in &report.poes {
+        header.push(format!("{} in {} yr", per_cent(*poe), report.years));
+        header.extend(std::iter::repeat_n(String::new(), shown.len() - 1));
+    }
+    let displacement = |u_m: f64| if u_m.is_nan() { "-".to_owned() } else { metres(u_m) };
+    // the spectra of a site follow each other, one a probability
+    let row = |of_site: &[&uplift::uniform_risk::SpectrumReport]| {
+        let cells = of_site.iter().flat_map(|spectrum| shown.iter().map(|&index| displacement(spectrum.u_m[index])));
+        std::iter::once(of_site[0].site.clone()).chain(cells).collect()
+    };
+    let rows: Vec<Vec<String>> = own.chunks(report.poes.len()).map(row).collect();
+    let header: Vec<&str> = header.iter().map(String::as_str).collect();
+    table(&header, &rows)
 }
 
 /// The spread of the spectra over weighted hazard curves, where a site has some.

@@ -1,0 +1,178 @@
+//! Whether the records bring the hazard of the other measure.
+
+use std::io::Write;
+
+use uplift::consistency::{AgreementRow, ConsistencyReport, ConsistencyRow};
+use uplift::text::{per_cent, table};
+
+use super::shown_path;
+use crate::error::CommandError;
+use crate::terminal::{Terminal, output};
+
+/// The report for people; a quiet terminal gets the tables alone.
+pub(crate) fn print_consistency(report: &ConsistencyReport, terminal: &Terminal) -> Result<(), CommandError> {
+    let out = &mut output();
+    if report.rows.is_empty() {
+        writeln!(out, "{}", report.note)?;
+        return Ok(());
+    }
+    print_levels(out, report)?;
+    print_scale_factors(out, report)?;
+    print_two_sided(out, report)?;
+    print_agreement(out, report)?;
+    for warning in &report.warnings {
+        writeln!(out, "\ncaution: {warning}")?;
+    }
+    if !terminal.is_quiet() {
+        if let Some(result) = &report.result {
+            writeln!(out, "\nAll of it: /consistency in {}", shown_path(result).display())?;
+        }
+        if let Some(path) = &report.table {
+            writeln!(out, "           {}", shown_path(path).display())?;
+        }
+    }
+    Ok(())
+}
+
+/// A line a row that is not consistent, and one for all that are.
+pub(super) fn consistency_lines(report: &ConsistencyReport) -> Vec<String> {
+    let is_consistent = |row: &&ConsistencyRow| row.verdict == Some("consistent");
+    let mut lines: Vec<String> = Vec::new();
+    for row in report.rows.iter().filter(|row| !is_consistent(row)) {
+        let (site, scaled_to, shows) = (&row.site, row.scaled_to, row.shows);
+        lines.push(match (row.bias, row.verdict) {
+            (Some(bias), Some(verdict)) => format!(
+                "{site} by {scaled_to}: the records bring {bias:.2} times the {shows} of the site's hazard: {verdict} \
+                 (uplift consistency)"
+            ),
+            _ => format!("{site} by {scaled_to}: no verdict on the {shows} that the records bring (uplift consistency)"),
+        });
+    }
+    let consistent = report.rows.iter().filter(is_consistent).count();
+    if consistent > 0 {
+        lines.push(format!("{consistent} of {} analyses are consistent with the other measure", report.rows.len()));
+    }
+    lines
+}
+
+/// A number with a sensible number of digits, or a dash.
+fn number(value: Option<f64>, decimals: usize) -> String {
+    value.filter(|value| value.is_finite()).map_or_else(|| "-".to_owned(), |value| format!("{value:.decimals$}"))
+}
+
+/// The values of the probabilities, parted by strokes.
+fn of_targets(row: &ConsistencyRow, value: impl Fn(&uplift::consistency::TargetRow) -> String) -> String {
+    row.targets.iter().map(value).collect::<Vec<_>>().join(" / ")
+}
+
+fn probabilities(report: &ConsistencyReport) -> String {
+    let Some(row) = report.rows.first() else { return String::new() };
+    let poes: Vec<String> = row.targets.iter().map(|target| per_cent(target.poe)).collect();
+    format!("{} in {} years", poes.join(" / "), report.years)
+}
+
+fn print_levels(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), CommandError> {
+    writeln!(
+        out,
+        "\nWhat the records, scaled to one measure, bring of the other: its level over that of the site's own hazard\n\
+         curve at {}, and how many times as often as it should the\n\
+         site's level is reached; mean and largest deviation over the rates compared",
+        probabilities(report)
+    )?;
+    let repaired = report.rows.iter().any(|row| row.repair.is_some());
+    let rows: Vec<Vec<String>> = report
+        .rows
+        .iter()
+        .map(|row| {
+            let mut cells = vec![
+                row.site.clone(),
+                row.scaled_to.to_owned(),
+                row.shows.to_owned(),
+                of_targets(row, |target| number(target.ratio, 2)),
+                of_targets(row, |target| number(target.times_as_often, 1)),
+                number(row.bias, 2),
+                number(row.max, 2),
+            ];
+            if repaired {
+                let least = row.repair.as_ref().and_then(|repair| repair.least_effective);
+                cells.push(format!("{} of {}", number(least, 0), report.records));
+            }
+            cells.push(row.verdict.unwrap_or("-").to_owned());
+            cells
+        })
+        .collect();
+    let mut header = vec!["site", "scaled to", "shows", "brings over site's", "times as often", "bias", "max"];
+    if repaired {
+        header.push("effective, least");
+    }
+    header.push("verdict");
+    writeln!(out, "{}", table(&header, &rows))?;
+    Ok(())
+}
+
+fn print_scale_factors(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), CommandError> {
+    let [least, largest] = report.scale_factors;
+    writeln!(
+        out,
+        "\nScale factors, 5 / 50 / 95 % of them, at each probability; how many lie outside {least} to {largest}; \
+         effective\nearthquakes of {}",
+        report.events.map_or_else(|| "unknown number".to_owned(), |events| events.to_string())
+    )?;
+    let mut rows = Vec::new();
+    for row in &report.rows {
+        for (index, target) in row.targets.iter().enumerate() {
+            let shown = |text: &str| if index == 0 { text.to_owned() } else { String::new() };
+            rows.push(vec![
+                shown(&row.site),
+                shown(row.scaled_to),
+                per_cent(target.poe),
+                target.scale_factors.map(|factor| format!("{factor:.2}")).join(" / "),
+                format!("{:.0} %", 100.0 * target.outside_limits),
+                number(target.effective_events, 1),
+            ]);
+        }
+    }
+    writeln!(out, "{}", table(&["site", "scaled to", "probability", "factors", "outside", "earthquakes"], &rows))?;
+    Ok(())
+}
+
+fn print_two_sided(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), CommandError> {
+    if report.two_sided.is_empty() {
+        return Ok(());
+    }
+    writeln!(
+        out,
+        "\nBoth analyses together: where the set lies between the measures, which other records can cure, and what no\n\
+         single set can avoid; factors of the level"
+    )?;
+    let rows: Vec<Vec<String>> = report
+        .two_sided
+        .iter()
+        .map(|row| {
+            vec![row.site.clone(), format!("{:.2}", row.location.exp()), format!("{:.2}", row.spread.exp())]
+        })
+        .collect();
+    writeln!(out, "{}", table(&["site", "location", "spread"], &rows))?;
+    Ok(())
+}
+
+fn print_agreement(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), CommandError> {
+    if report.agreement.is_empty() {
+        return Ok(());
+    }
+    writeln!(
+        out,
+        "\nSpectra by PGA over spectra by PGV, displacements of 10 mm and more: geometric mean and range\n\
+         (that they agree after the repair is a check of its numbers, not evidence)"
+    )?;
+    let shown = |found: &Option<(usize, f64, f64, f64)>| match found {
+        Some((count, mean, least, most)) => format!("{mean:.2} ({least:.2} to {most:.2}, {count} ordinates)"),
+        None => "-".to_owned(),
+    };
+    let row = |row: &AgreementRow| {
+        vec![row.site.clone().unwrap_or_else(|| "all sites".to_owned()), shown(&row.plain), shown(&row.repaired)]
+    };
+    let rows: Vec<Vec<String>> = report.agreement.iter().map(row).collect();
+    writeln!(out, "{}", table(&["site", "as they are", "repaired"], &rows))?;
+    Ok(())
+}

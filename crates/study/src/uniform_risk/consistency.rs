@@ -1,0 +1,132 @@
+//! The section `[consistency]`: whether the records bring the site's hazard in the other measure, and what is done
+//! about it.
+
+use serde::{Serialize, Serializer};
+
+use crate::keys::{Key, SectionKeys};
+use crate::reading::{Field, Rule, Section};
+
+pub(super) const KEYS: SectionKeys = SectionKeys {
+    section: "consistency",
+    keys: &[
+        Key {
+            names: &["repair"],
+            meaning: "`\"weights\"`: spectra with weights of the records by which the set has both hazard curves of a \
+                      site, beside the plain ones; `\"none\"`: the question is asked, and nothing done about it",
+            default: "`\"none\"`",
+            range: "`\"none\"`, `\"weights\"`",
+        },
+        Key {
+            names: &["smoothness"],
+            meaning: "how much a bend of the weights' exponent over the level counts against the fit",
+            default: "0.05",
+            range: "0.001 to 10",
+        },
+        Key {
+            names: &["least_effective"],
+            meaning: "effective records below which a repaired spectrum gets a warning",
+            default: "20",
+            range: "1 to 65535",
+        },
+        Key {
+            names: &["scale_factors"],
+            meaning: "scale factors outside of these two are counted; nothing is left out",
+            default: "`[0.2, 5]`",
+            range: "1e-6 to 1e6, the smaller first",
+        },
+    ],
+};
+
+const SMOOTHNESS: Rule =
+    Rule::Is { holds: |value| (0.001..=10.0).contains(&value), words: "0.001 to 10 (0.05 is usual)" };
+const SCALE_FACTOR: Rule = Rule::Is { holds: |value| (1e-6..=1e6).contains(&value), words: "1e-6 to 1e6" };
+/// Most records of an analysis.
+const MOST_RECORDS: u64 = 65_535;
+
+/// What is asked of the records, and done about it (docs/method.md, "Hazard consistency").
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Consistency {
+    /// What is done where the records do not bring the hazard of the other measure.
+    pub repair: Repair,
+    /// Weight of the second differences of the exponent in the fit \[-\].
+    pub smoothness: f64,
+    /// Effective records below which a warning is raised.
+    pub least_effective: u64,
+    /// Least and largest scale factor that are not counted as large \[-\].
+    pub scale_factors: [f64; 2],
+}
+
+/// What is done where the records do not bring the hazard of the other measure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Repair {
+    /// Nothing: it is told.
+    None,
+    /// Spectra with weights of the records, beside the plain ones.
+    Weights,
+}
+
+impl Repair {
+    /// Every way.
+    pub const ALL: [Self; 2] = [Self::None, Self::Weights];
+
+    /// Its word in files and keys: none, weights.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Weights => "weights",
+        }
+    }
+}
+
+impl Serialize for Repair {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.key())
+    }
+}
+
+impl Default for Consistency {
+    fn default() -> Self {
+        Self { repair: Repair::None, smoothness: 0.05, least_effective: 20, scale_factors: [0.2, 5.0] }
+    }
+}
+
+impl Consistency {
+    /// Whether the study says no more than is so without the section: it is then left out where the study is kept, as
+    /// it was before there was such a section.
+    pub(super) fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+/// Reads the section.
+pub(super) fn read(mut section: Section<'_>) -> Option<Consistency> {
+    let default = Consistency::default();
+    let ways = Repair::ALL.map(|way| (way.key(), way));
+    let repair = section.choice_or("repair", &ways, default.repair);
+    let smoothness = section.number_or("smoothness", "", SMOOTHNESS, default.smoothness);
+    let least_effective = section.integer_or("least_effective", 1..=MOST_RECORDS, default.least_effective);
+    let scale_factors =
+        section.field("scale_factors").map_or(Some(default.scale_factors), |field| scale_factors(&field));
+    section.finish();
+    Some(Consistency {
+        repair: repair?,
+        smoothness: smoothness?,
+        least_effective: least_effective?,
+        scale_factors: scale_factors?,
+    })
+}
+
+fn scale_factors(field: &Field<'_>) -> Option<[f64; 2]> {
+    let items = field.items();
+    let numbers: Vec<f64> = items.iter().filter_map(|item| item.number("", SCALE_FACTOR)).collect();
+    if numbers.len() < items.len() {
+        return None;
+    }
+    match numbers[..] {
+        [least, largest] if least < largest => Some([least, largest]),
+        _ => {
+            field.mistake("these are no two factors, the smaller first", "write e.g. scale_factors = [0.2, 5]");
+            None
+        }
+    }
+}

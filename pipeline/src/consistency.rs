@@ -1,0 +1,28 @@
+//! Hazard consistency: whether the records bring, at each site, what its hazard says of the other intensity measure, and
+//! the spectra of weights by which they do (docs/method.md, section 18).
+//!
+//! | module | what is in it |
+//! |---|---|
+//! | `answer` | all of it for a run |
+//! | `question` | what is asked of: records, stripes and the hazard of every measure, from a run or from a result |
+//! | `finding` | the answer for one set of stripes at one site, with the repair |
+//! | `spectra` | the spectra of repaired weights |
+//! | `report` | both as rows and sentences |
+//! | `write` | arrays of the result file, and the table beside it |
+//! | `job` | `uplift consistency` |
+
+mod answer;
+mod finding;
+mod job;
+mod question;
+mod report;
+mod spectra;
+mod write;
+
+pub(crate) use answer::Answer;
+pub use finding::Finding;
+pub use job::{ConsistencyOptions, consistency};
+pub(crate) use question::Question;
+pub use report::{AgreementRow, ConsistencyReport, ConsistencyRow, RepairRow, TargetRow, TwoSidedRow};
+pub(crate) use spectra::Repairs;
+pub(crate) use write::Keep;

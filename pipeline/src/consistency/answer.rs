@@ -1,0 +1,86 @@
+//! All that consistency makes of a run: the question, the findings, and the spectra of repaired weights.
+
+use uplift_labelled::{LabelledError, LabelledWriter};
+use uplift_motion::IntensityMeasure;
+use uplift_risk::Ordinate;
+use uplift_study::{Repair, UniformRiskStudy};
+
+use super::spectra::{Repairs, Spectral, repaired_spectra};
+use super::write::{Keep, add};
+use super::{ConsistencyReport, Finding, Question};
+use crate::array::Array;
+use crate::error::UpliftError;
+use crate::inputs::{OtherHazard, RecordSet, SiteHazard};
+use crate::uniform_risk::{Reading, SpectrumReport, Stripes, pooled_demand};
+
+/// All that consistency makes of a study.
+#[derive(Debug, Clone)]
+pub(crate) struct Answer {
+    question: Question,
+    findings: Vec<Finding>,
+    repairs: Vec<Repairs>,
+}
+
+impl Answer {
+    /// For a study that is looked at, and not run: no spectra.
+    pub(crate) fn of_plan(
+        study: &UniformRiskStudy,
+        records: &RecordSet,
+        (hazard, other): (&[Vec<SiteHazard>], &[OtherHazard]),
+    ) -> Result<Self, UpliftError> {
+        let question = Question::of_study(study, records, hazard, other)?;
+        let findings = question.findings(study.consistency.repair == Repair::Weights)?;
+        Ok(Self { question, findings, repairs: Vec::new() })
+    }
+
+    /// For a run, with its `stripes`.
+    pub(crate) fn of_run(
+        study: &UniformRiskStudy,
+        records: &RecordSet,
+        hazard: (&[Vec<SiteHazard>], &[OtherHazard]),
+        stripes: &[Stripes],
+    ) -> Result<Self, UpliftError> {
+        let mut answer = Self::of_plan(study, records, hazard)?;
+        if study.consistency.repair == Repair::Weights && !answer.findings.is_empty() {
+            let reading = Reading::of(study)?;
+            let spectral = Spectral {
+                strengths: &study.strengths,
+                fitted_above: study.regression.strength_above,
+                reading: &reading,
+                sites: study.sites.len(),
+            };
+            for stripes in stripes {
+                let demand = |strength| pooled_demand(stripes, strength);
+                answer.repairs.push(repaired_spectra(stripes.measure, &answer.findings, &spectral, demand)?);
+            }
+        }
+        Ok(answer)
+    }
+
+    /// Adds it to a result.
+    pub(crate) fn add(&self, writer: &mut LabelledWriter, keep: Keep) -> Result<(), LabelledError> {
+        add(writer, &self.question, &self.findings, &self.repairs, keep)
+    }
+
+    /// The repaired spectra; NaN where a set could not be repaired.
+    pub(crate) fn repaired_spectra(&self) -> Vec<SpectrumReport> {
+        let mut reports = Vec::new();
+        for repairs in &self.repairs {
+            for ([site, poe], spectrum) in repairs.ordinates.blocks() {
+                let displacement = |ordinate: &Option<Ordinate>| ordinate.map_or(f64::NAN, |own| own.displacement_m);
+                reports.push(SpectrumReport {
+                    site: self.question.sites[site].clone(),
+                    im: repairs.measure.label(),
+                    poe,
+                    u_m: spectrum.iter().map(displacement).collect(),
+                });
+            }
+        }
+        reports
+    }
+
+    /// What is told of it beside the plain spectra.
+    pub(crate) fn report(&self, plain_m: &[(IntensityMeasure, Array<3>)]) -> ConsistencyReport {
+        ConsistencyReport::of(&self.question, &self.findings, plain_m, &self.repairs)
+    }
+}

@@ -1,0 +1,79 @@
+//! What one set of stripes brings at one site, and the weights that mend it.
+
+use rayon::prelude::*;
+use uplift_consistency::{
+    ConsistencyError, Diagnosis, NoRepair, RateRange, RecordSet, RepairOptions, Repaired, ScaledAnalysis,
+};
+use uplift_motion::IntensityMeasure;
+
+use super::Question;
+use crate::error::UpliftError;
+
+/// The answer for the stripes of one measure at one site.
+#[derive(Debug, Clone)]
+pub struct Finding {
+    /// Position of the site.
+    pub site: usize,
+    /// The measure that the records are scaled to.
+    pub scaled_to: IntensityMeasure,
+    /// The measure whose hazard is compared.
+    pub other: IntensityMeasure,
+    /// Where it can be compared.
+    pub range: RateRange,
+    /// What records that count alike bring.
+    pub diagnosis: Diagnosis,
+    /// The repair, or why there is none; none where it was not asked for.
+    pub repair: Option<Result<Box<Repaired>, NoRepair>>,
+}
+
+/// The other measures that a set scaled to `scaled_to` is asked about.
+fn others(scaled_to: IntensityMeasure) -> impl Iterator<Item = IntensityMeasure> {
+    IntensityMeasure::ALL.into_iter().filter(move |measure| *measure != scaled_to)
+}
+
+impl Question {
+    /// Every analysis at every site that has both curves, in this order; with repairs where `repair`.
+    ///
+    /// # Errors
+    /// Levels and curves that do not fit, which an analysis of the study would find as well.
+    pub(crate) fn findings(&self, repair: bool) -> Result<Vec<Finding>, UpliftError> {
+        let mut findings = Vec::new();
+        for (scaled_to, levels) in &self.analyses {
+            for other in others(*scaled_to) {
+                let set = self.set(*scaled_to, other)?;
+                let of_site = |site| self.finding(site, (*scaled_to, levels), other, &set, repair);
+                let of_sites: Result<Vec<Option<Finding>>, UpliftError> =
+                    (0..self.sites.len()).into_par_iter().map(of_site).collect();
+                findings.extend(of_sites?.into_iter().flatten());
+            }
+        }
+        Ok(findings)
+    }
+
+    fn finding(
+        &self,
+        site: usize,
+        (scaled_to, levels): (IntensityMeasure, &[f64]),
+        other: IntensityMeasure,
+        set: &RecordSet,
+        repair: bool,
+    ) -> Result<Option<Finding>, UpliftError> {
+        let (Some(own), Some(compared)) = (self.curve(scaled_to, site), self.curve(other, site)) else {
+            return Ok(None);
+        };
+        let analysis = ScaledAnalysis::new(set, levels, own, compared, &self.targets_per_year, self.extrapolation)?;
+        let options = RepairOptions {
+            smoothness: self.settings.smoothness,
+            least_effective: self.settings.least_effective as f64,
+            scale_factor_limits: self.settings.scale_factors,
+        };
+        let diagnosis = analysis.diagnose(None, options.scale_factor_limits)?;
+        let repair = match repair.then(|| analysis.repair(&options)) {
+            None => None,
+            Some(Ok(repaired)) => Some(Ok(Box::new(repaired))),
+            Some(Err(ConsistencyError::NoRepair(reason))) => Some(Err(reason)),
+            Some(Err(error)) => return Err(error.into()),
+        };
+        Ok(Some(Finding { site, scaled_to, other, range: *analysis.range(), diagnosis, repair }))
+    }
+}

@@ -1,0 +1,87 @@
+//! `uplift consistency`: the question asked of a result, and the answer added to it.
+
+use std::path::Path;
+
+use uplift_motion::IntensityMeasure;
+use uplift_study::Repair;
+
+use super::report::ConsistencyReport;
+use super::spectra::{Repairs, Spectral, repaired_spectra};
+use super::write::{Keep, add, columns, consistency_path, replaced};
+use super::{Finding, Question};
+use crate::array::Array;
+use crate::error::UpliftError;
+use crate::events::Events;
+use crate::outputs::{self, Output, OutputKind};
+use crate::result::{Addition, ResultFile, StoredStripes, line, write_table};
+use crate::uniform_risk::Reading;
+
+/// What is done beyond asking.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct ConsistencyOptions {
+    /// Whether weights are solved, and the spectra made of them, whatever the study says.
+    pub repair: bool,
+    /// Whether the weight of every run is kept in the file.
+    pub keep_weights: bool,
+    /// Whether whatever is at the place of the table gives way.
+    pub force: bool,
+}
+
+/// Whether the records of the result at `result` bring the hazard of the other measure, and if asked for the spectra of
+/// weights by which they do: written into the file and into a table beside it.
+///
+/// # Errors
+/// A file that is missing, damaged or of another kind; a file that cannot be written; [`UpliftError::Interrupted`] where
+/// `events` say so.
+pub fn consistency(
+    result: &Path,
+    options: &ConsistencyOptions,
+    events: &dyn Events,
+) -> Result<ConsistencyReport, UpliftError> {
+    let (addition, file) = Addition::begin(result, events)?;
+    let question = Question::of_result(&file)?;
+    if !question.can_be_asked() {
+        return Ok(ConsistencyReport::of(&question, &[], &[], &[]));
+    }
+    let stored = file.stripes()?;
+    let table = Output::new(consistency_path(&stored.path), OutputKind::Table("implied_level"));
+    outputs::check(&[table], &[result], options.force)?;
+    let repair = options.repair || options.keep_weights || question.settings.repair == Repair::Weights;
+    let findings = question.findings(repair)?;
+    if events.cancelled() {
+        return Err(UpliftError::Interrupted);
+    }
+    let repairs = if repair { repairs_of(&file, &stored, &question, &findings)? } else { Vec::new() };
+    let keep = if options.keep_weights { Keep::Weights } else { Keep::Exponents };
+    addition.write(&stored, &replaced(), |writer| add(writer, &question, &findings, &repairs, keep))?;
+    let plain_m: Vec<(IntensityMeasure, Array<3>)> =
+        file.spectra()?.measures.into_iter().map(|spectra| (spectra.measure, spectra.u_m)).collect();
+    let mut report = ConsistencyReport::of(&question, &findings, &plain_m, &repairs);
+    let path = consistency_path(&stored.path);
+    write_table(&path, &line(&stored, "hazard consistency"), columns(&report))?;
+    report.result = Some(stored.path.clone());
+    report.table = Some(path);
+    Ok(report)
+}
+
+/// The repaired spectra of every measure of a result.
+fn repairs_of(
+    file: &ResultFile,
+    stored: &StoredStripes,
+    question: &Question,
+    findings: &[Finding],
+) -> Result<Vec<Repairs>, UpliftError> {
+    let study = file.stored_study()?;
+    let reading = Reading::of(&study)?;
+    let spectral = Spectral {
+        strengths: &stored.strengths,
+        fitted_above: study.regression.strength_above,
+        reading: &reading,
+        sites: question.sites.len(),
+    };
+    stored
+        .measures
+        .iter()
+        .map(|measure| repaired_spectra(measure.measure, findings, &spectral, |strength| measure.demand(strength)))
+        .collect()
+}

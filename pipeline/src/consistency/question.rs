@@ -1,0 +1,215 @@
+//! What consistency is asked of: the records, the stripes, and the hazard of every measure at every site.
+
+use std::collections::BTreeMap;
+
+use uplift_consistency::{RecordSet as ScaledSet, Seismology, SetRecord};
+use uplift_hazard::{Extrapolation, HazardCurve};
+use uplift_motion::{Component, IntensityMeasure};
+use uplift_study::{Consistency, UniformRiskStudy};
+
+use crate::error::UpliftError;
+use crate::inputs::{OtherHazard, RecordSet, SiteHazard};
+use crate::result::ResultFile;
+
+/// A record as far as consistency asks.
+#[derive(Debug, Clone)]
+pub(crate) struct AskedRecord {
+    /// Its name.
+    pub(crate) id: String,
+    /// The pair that it is a component of.
+    pair: usize,
+    /// Its earthquake, by its position among their names; none where it is not known.
+    event: Option<usize>,
+    pga_g: f64,
+    pgv_cm_s: f64,
+    seismology: Seismology,
+}
+
+impl AskedRecord {
+    fn intensity(&self, measure: IntensityMeasure) -> f64 {
+        match measure {
+            IntensityMeasure::Pga => self.pga_g,
+            IntensityMeasure::Pgv => self.pgv_cm_s,
+        }
+    }
+}
+
+/// What consistency is asked of.
+#[derive(Debug, Clone)]
+pub(crate) struct Question {
+    /// What the study says of it.
+    pub(crate) settings: Consistency,
+    /// What happens to a stripe outside its curve.
+    pub(crate) extrapolation: Extrapolation,
+    /// Probabilities of exceedance.
+    pub(crate) poes: Vec<f64>,
+    /// Years that they refer to.
+    pub(crate) years: f64,
+    /// Their rates, 1/yr (Eq. 4.8).
+    pub(crate) targets_per_year: Vec<f64>,
+    /// Names of the sites.
+    pub(crate) sites: Vec<String>,
+    /// The records.
+    pub(crate) records: Vec<AskedRecord>,
+    /// Names of the earthquakes.
+    pub(crate) events: Vec<String>,
+    /// The measures that the records are scaled to, with their levels.
+    pub(crate) analyses: Vec<(IntensityMeasure, Vec<f64>)>,
+    /// The hazard of every measure that a site has a curve of, `[measure][site]`.
+    curves: BTreeMap<IntensityMeasure, Vec<Option<HazardCurve>>>,
+}
+
+impl Question {
+    /// What a study asks, with its records and hazard `[measure][site]`, that of measures which it is not analysed by
+    /// in `other`.
+    pub(crate) fn of_study(
+        study: &UniformRiskStudy,
+        records: &RecordSet,
+        hazard: &[Vec<SiteHazard>],
+        other: &[OtherHazard],
+    ) -> Result<Self, UpliftError> {
+        let targets_per_year = targets(&study.risk.poe, study.risk.years)?;
+        let sites: Vec<String> = study.sites.iter().map(|site| site.name.clone()).collect();
+        let mut curves: BTreeMap<IntensityMeasure, Vec<Option<HazardCurve>>> = BTreeMap::new();
+        let known = hazard.iter().flatten().map(|site| (site.measure, &site.site, &site.curve.curve));
+        for (measure, name, curve) in known.chain(other.iter().map(|other| (other.measure, &other.site, &other.curve))) {
+            if let Some(site) = sites.iter().position(|site| site == name) {
+                curves.entry(measure).or_insert_with(|| vec![None; sites.len()])[site] = Some(curve.clone());
+            }
+        }
+        let rows = records.records.iter().map(|record| RawRecord {
+            id: record.id.clone(),
+            event: record.metadata.get("event").cloned().unwrap_or_default(),
+            pga_g: record.pga_g,
+            pgv_cm_s: record.pgv_cm_s,
+            magnitude: record.number("magnitude"),
+            rrup_km: record.number("rrup_km"),
+            vs30: record.number("vs30"),
+        });
+        let (records, events) = asked_records(rows, study.records.component);
+        Ok(Self {
+            settings: study.consistency.clone(),
+            extrapolation: study.risk.extrapolate,
+            poes: study.risk.poe.clone(),
+            years: study.risk.years,
+            targets_per_year,
+            sites,
+            records,
+            events,
+            analyses: study.measures.iter().map(|plan| (plan.measure, plan.levels.to_vec())).collect(),
+            curves,
+        })
+    }
+
+    /// What the result `file` is asked.
+    pub(crate) fn of_result(file: &ResultFile) -> Result<Self, UpliftError> {
+        let study = file.stored_study()?;
+        let axes = file.axes()?;
+        let stored = file.records()?;
+        let analyses = file.levels()?;
+        let mut curves = BTreeMap::new();
+        for measure in IntensityMeasure::ALL {
+            let of_sites: Result<Vec<_>, UpliftError> =
+                axes.sites.iter().map(|site| file.mean_curve(site, measure)).collect();
+            let of_sites = of_sites?;
+            if of_sites.iter().any(Option::is_some) {
+                curves.insert(measure, of_sites);
+            }
+        }
+        let rows = (0..stored.ids.len()).map(|record| RawRecord {
+            id: stored.ids[record].clone(),
+            event: stored.event[record].clone(),
+            pga_g: stored.pga_g[record],
+            pgv_cm_s: stored.pgv_cm_s[record],
+            magnitude: stored.magnitude[record],
+            rrup_km: stored.rrup_km[record],
+            vs30: stored.vs30[record],
+        });
+        let (records, events) = asked_records(rows, study.records.component);
+        Ok(Self {
+            settings: study.consistency,
+            extrapolation: study.risk.extrapolate,
+            targets_per_year: targets(&axes.poes, axes.years)?,
+            poes: axes.poes,
+            years: axes.years,
+            sites: axes.sites,
+            records,
+            events,
+            analyses,
+            curves,
+        })
+    }
+
+    /// The curve of a site.
+    pub(crate) fn curve(&self, measure: IntensityMeasure, site: usize) -> Option<&HazardCurve> {
+        self.curves.get(&measure)?.get(site)?.as_ref()
+    }
+
+    /// Whether any site has curves of two measures.
+    pub(crate) fn can_be_asked(&self) -> bool {
+        let has_both = |site: usize| self.curves.values().filter(|curves| curves[site].is_some()).count() > 1;
+        (0..self.sites.len()).any(has_both)
+    }
+
+    /// The records with the measure that they are scaled to and the other one.
+    pub(super) fn set(&self, scaled_to: IntensityMeasure, other: IntensityMeasure) -> Result<ScaledSet, UpliftError> {
+        let row = |record: &AskedRecord| SetRecord {
+            scaled_to: record.intensity(scaled_to),
+            other: record.intensity(other),
+            pair: record.pair,
+            event: record.event,
+            seismology: record.seismology,
+        };
+        Ok(ScaledSet::new(self.records.iter().map(row).collect())?)
+    }
+}
+
+/// Target rates of probabilities, 1/yr (Eq. 4.8).
+fn targets(poes: &[f64], years: f64) -> Result<Vec<f64>, UpliftError> {
+    let rate = |&poe: &f64| Ok(uplift_hazard::rate_from_probability(poe, years)?);
+    poes.iter().map(rate).collect()
+}
+
+/// A record as a study or a result has it; NaN where a number is not known, empty where the earthquake is not.
+struct RawRecord {
+    id: String,
+    event: String,
+    pga_g: f64,
+    pgv_cm_s: f64,
+    magnitude: f64,
+    rrup_km: f64,
+    vs30: f64,
+}
+
+/// The records, and the names of their earthquakes.
+fn asked_records(rows: impl Iterator<Item = RawRecord>, component: Component) -> (Vec<AskedRecord>, Vec<String>) {
+    let (mut pairs, mut events): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
+    let position = |known: &mut Vec<String>, name: &str| {
+        known.iter().position(|known| known == name).unwrap_or_else(|| {
+            known.push(name.to_owned());
+            known.len() - 1
+        })
+    };
+    let records = rows
+        .map(|row| {
+            let suffix = if component == Component::Both { row.id.rsplit_once(':') } else { None };
+            let pair = position(&mut pairs, suffix.map_or(row.id.as_str(), |(pair, _)| pair));
+            // what the program made is of no earthquake
+            let known = !row.event.is_empty() && !row.event.to_lowercase().starts_with("synthetic");
+            let number = |value: f64| value.is_finite().then_some(value);
+            AskedRecord {
+                pair,
+                event: known.then(|| position(&mut events, &row.event)),
+                pga_g: row.pga_g,
+                pgv_cm_s: row.pgv_cm_s,
+                seismology: Seismology {
+                    magnitude: number(row.magnitude),
+                    distance_km: number(row.rrup_km),
+                    vs30_m_s: number(row.vs30),
+                },
+                id: row.id,
+            }
+        })
+        .collect();
+    (records, events)
+}
