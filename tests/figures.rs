@@ -26,6 +26,7 @@ mod two_solvers;
 
 use std::path::Path;
 
+use uplift::events::Silent;
 use uplift::inputs::{RecordSets, read_record_sets};
 use uplift_motion::RecordPair;
 use uplift_study::{AnyStudy, Study};
@@ -55,7 +56,7 @@ fn record_sets(settings: &[String]) -> Option<RecordSets> {
     let manifest = format!("records.manifest={}", real_records()?.join("manifest.csv").display());
     let file = repository().join("configs/chapter-3.toml");
     match Study::load_any(&file, &[&[manifest], settings].concat()).unwrap() {
-        AnyStudy::Displacement(study) => Some(read_record_sets(&study).unwrap()),
+        AnyStudy::Displacement(study) => Some(read_record_sets(&study, &Silent).unwrap()),
         AnyStudy::UniformRisk(_) => panic!("{} is of another kind", file.display()),
     }
 }

@@ -112,6 +112,7 @@ fn arguments_that_nobody_means() {
     {
         study.uplift(&["pulse", option, value]).fails(2, &["from 1e-4 to 10000"]);
     }
+    study.uplift(&["pulse", "--sizes-m", "1,1e12"]).fails(2, &["size is 1e12 m", "from 0.001 to 1e9 m"]);
     study.uplift(&["pulse", "--period-s", "1e6"]).fails(2, &["period is 1e6 s", "from 1e-4 to 10000 s"]);
     study.uplift(&["pulse", "--amplitude-g", "1e300"]).fails(2, &["from 1e-6 to 1000 g"]);
     study.uplift(&["records", "synthesize", "-o", "d", "--count", "1000000000"]).fails(2, &["1 to 10000"]);

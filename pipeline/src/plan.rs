@@ -42,7 +42,7 @@ pub fn plan(study: &AnyStudy, options: &RunOptions, events: &dyn Events) -> Resu
     let study_file = &options.study_file;
     let mut plan = match study {
         AnyStudy::UniformRisk(study) => Plan::UniformRisk(uniform_risk::plan(study, study_file, events)?),
-        AnyStudy::Displacement(study) => Plan::Displacement(displacement::plan(study, study_file)?),
+        AnyStudy::Displacement(study) => Plan::Displacement(displacement::plan(study, study_file, events)?),
     };
     // a study is looked at more often than it is run
     if let Some(reason) = replaces_another(study, options)? {

@@ -6,7 +6,7 @@ use uplift_study::{AnyStudy, UniformRiskStudy};
 
 use crate::checkpoint::{motion_key, oscillator_key};
 use crate::error::UpliftError;
-use crate::events::Events;
+use crate::events::{Events, Silent};
 use crate::frame::RunOptions;
 use crate::inputs::{Record, read_hazard, read_other_hazard, read_records};
 use crate::result::{Kind, Provenance, ResultFile};
@@ -43,7 +43,7 @@ fn is_result_of(study: &UniformRiskStudy, path: &Path) -> Result<bool, UpliftErr
         return Ok(false);
     }
     let (hazard, _) = read_hazard(study)?;
-    let records = read_records(study)?;
+    let records = read_records(study, &Silent)?;
     let (other_hazard, _) = read_other_hazard(study)?;
     let provenance = Provenance::new(&RunOptions::default(), &records, &hazard, &other_hazard);
     if head.input_checksums != provenance.input_checksums {

@@ -65,12 +65,12 @@ pub fn merge(
     let result = options.result_file(&study.output().file);
     let known = match study {
         AnyStudy::UniformRisk(study) => {
-            let inputs = uniform_risk::Inputs::read(study)?;
+            let inputs = uniform_risk::Inputs::read(study, events)?;
             uniform_risk::needs(study, &inputs.records, None).with_rows_of(shards).require(result, events)?;
             join(shards, &inputs.work(study, None)?)?
         }
         AnyStudy::Displacement(study) => {
-            let inputs = displacement::Inputs::read(study)?;
+            let inputs = displacement::Inputs::read(study, events)?;
             let sets = inputs.sets(study)?;
             displacement::needs(study, &inputs.records, &sets.motions).with_rows_of(shards).require(result, events)?;
             join(shards, &sets.work(study)?)?

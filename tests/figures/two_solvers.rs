@@ -2,6 +2,7 @@
 //! solvers, real records.
 
 use rayon::prelude::*;
+use uplift::events::Silent;
 use uplift::inputs::{Record, read_records};
 use uplift::result::{ResultFile, StoredMeasure};
 use uplift_fragility::Stripes;
@@ -62,7 +63,7 @@ fn spectra_of_both_solvers() {
     let mut run = ["run", file.to_str().unwrap(), "-o", "r.h5", "-q"].map(str::to_owned).to_vec();
     run.extend(settings.iter().flat_map(|setting| ["--set".to_owned(), setting.clone()]));
     uplift(folder.path(), &run).ok();
-    let records = read_records(&Study::load(&file, &settings).unwrap()).unwrap().records;
+    let records = read_records(&Study::load(&file, &settings).unwrap(), &Silent).unwrap().records;
     let stored = ResultFile::open(&folder.path().join("r.h5")).unwrap().stripes().unwrap();
     let mut all: Vec<(f64, String)> = Vec::new();
     for of in &stored.measures {

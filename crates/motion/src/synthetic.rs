@@ -147,37 +147,69 @@ impl SyntheticSetOptions {
     }
 }
 
-/// Generates the synthetic record set of `options`.
-///
-/// The pairs are named `SYN001`, `SYN002`, …; their metadata hold `event`, `magnitude`, `rrup_km`,
-/// `vs30` \[m/s\], `station`, `mechanism` and `set_tags`. "synthetic" stands in event, station and
-/// tags. The scenario of each candidate is drawn from [`SyntheticSetOptions::scenario`].
+/// Generates the synthetic record set of `options`, all of [`Pairs`].
 ///
 /// # Errors
 ///
-/// [`MotionError::SyntheticOption`] for an option out of its range,
-/// [`MotionError::SyntheticCandidates`] when too few candidates reach `minimum_pga_g`.
+/// As [`Pairs::of`] and each of its pairs.
 pub fn generate(options: &SyntheticSetOptions) -> Result<Vec<RecordPair>, MotionError> {
-    options.check()?;
-    let most = CANDIDATES_PER_PAIR * options.pairs as u64;
-    let mut pairs = Vec::with_capacity(options.pairs);
-    for candidate in 0..most {
-        let Some(motion) = Candidate::simulate(options, candidate) else {
-            continue;
-        };
-        if motion.geometric_mean_pga_g() > options.minimum_pga_g {
-            pairs.push(motion.into_pair(options, pairs.len() + 1)?);
-        }
-        if pairs.len() == options.pairs {
-            return Ok(pairs);
-        }
+    Pairs::of(options)?.collect()
+}
+
+/// The pairs of a synthetic record set, each made when it is asked for: some 25 ms of a core.
+///
+/// They are named `SYN001`, `SYN002`, …; their metadata hold `event`, `magnitude`, `rrup_km`, `vs30` \[m/s\],
+/// `station`, `mechanism` and `set_tags`. "synthetic" stands in event, station and tags. The scenario of each candidate
+/// is drawn from [`SyntheticSetOptions::scenario`].
+#[derive(Debug, Clone)]
+pub struct Pairs<'a> {
+    options: &'a SyntheticSetOptions,
+    kept: usize,
+    candidate: u64,
+}
+
+impl<'a> Pairs<'a> {
+    /// The set of `options`, none of it made yet.
+    ///
+    /// # Errors
+    ///
+    /// [`MotionError::SyntheticOption`] for an option out of its range.
+    pub fn of(options: &'a SyntheticSetOptions) -> Result<Self, MotionError> {
+        options.check()?;
+        Ok(Self { options, kept: 0, candidate: 0 })
     }
-    Err(MotionError::SyntheticCandidates {
-        kept: pairs.len(),
-        tried: most,
-        wanted: options.pairs,
-        minimum_pga_g: options.minimum_pga_g,
-    })
+}
+
+impl Iterator for Pairs<'_> {
+    type Item = Result<RecordPair, MotionError>;
+
+    /// The next pair; [`MotionError::SyntheticCandidates`], and nothing more, when too few candidates reach
+    /// `minimum_pga_g`.
+    fn next(&mut self) -> Option<Self::Item> {
+        let options = self.options;
+        let most = CANDIDATES_PER_PAIR * options.pairs as u64;
+        if self.kept == options.pairs || self.candidate > most {
+            return None;
+        }
+        while self.candidate < most {
+            let candidate = self.candidate;
+            self.candidate += 1;
+            let Some(motion) = Candidate::simulate(options, candidate) else {
+                continue;
+            };
+            if motion.geometric_mean_pga_g() > options.minimum_pga_g {
+                self.kept += 1;
+                return Some(motion.into_pair(options, self.kept));
+            }
+        }
+        self.candidate = most + 1;
+        Some(Err(MotionError::SyntheticCandidates {
+            kept: self.kept,
+            tried: most,
+            wanted: options.pairs,
+            minimum_pga_g: options.minimum_pga_g,
+        }))
+    }
 }
 
 /// One realisation of the model, before it is known whether the set keeps it.

@@ -12,6 +12,7 @@ use super::spectra::with_free_vibration;
 use super::{Inputs, design_analyses, printed};
 use crate::analysis::seconds;
 use crate::error::UpliftError;
+use crate::events::Events;
 use crate::frame::PlanHead;
 use crate::inputs::RecordSets;
 use crate::machine::{Needs, PROGRAM_BYTES};
@@ -39,8 +40,8 @@ pub struct Plan {
 }
 
 /// Reads and checks all inputs of `study`, and times some of its analyses.
-pub(crate) fn plan(study: &DisplacementStudy, study_file: &Path) -> Result<Plan, UpliftError> {
-    let inputs = Inputs::read(study)?;
+pub(crate) fn plan(study: &DisplacementStudy, study_file: &Path, events: &dyn Events) -> Result<Plan, UpliftError> {
+    let inputs = Inputs::read(study, events)?;
     let records = &inputs.records;
     let sets = records.motions(study.gravity_m_s2)?;
     let notes = study.warnings.iter().map(ToString::to_string).chain(records.notes.iter().cloned()).collect();

@@ -32,7 +32,7 @@ pub(crate) fn run(
     events: &dyn Events,
 ) -> Result<RunReport, UpliftError> {
     let path = place.path;
-    let inputs = Inputs::read(study)?;
+    let inputs = Inputs::read(study, events)?;
     let records = &inputs.records;
     events.remark("records", &records.description);
     let sets = inputs.sets(study)?;

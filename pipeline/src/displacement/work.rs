@@ -38,10 +38,10 @@ impl Inputs {
     ///
     /// # Errors
     /// Records that cannot be used.
-    pub(crate) fn read(study: &DisplacementStudy) -> Result<Self, UpliftError> {
+    pub(crate) fn read(study: &DisplacementStudy, events: &dyn Events) -> Result<Self, UpliftError> {
         let structures = structures(study)?;
         let printed = printed_structures(study, &structures);
-        Ok(Self { records: read_record_sets(study)?, structures, printed })
+        Ok(Self { records: read_record_sets(study, events)?, structures, printed })
     }
 
     /// The motions of every set.
@@ -92,7 +92,7 @@ pub(crate) fn run_shard(
     (path, shard): (&Path, Shard),
     events: &dyn Events,
 ) -> Result<ShardReport, UpliftError> {
-    let inputs = Inputs::read(study)?;
+    let inputs = Inputs::read(study, events)?;
     events.remark("records", &inputs.records.description);
     let sets = inputs.sets(study)?;
     needs(study, &inputs.records, &sets.motions).of_shard(shard).with_rows_of(&[path]).require(path, events)?;

@@ -11,10 +11,13 @@ use std::time::SystemTime;
 
 use serde::{Deserialize, Serialize};
 use uplift_atomic_file::{read_file, write_whole};
-use uplift_motion::synthetic::{SyntheticSetOptions, generate};
-use uplift_motion::{Accelerogram, MotionError, RecordPair};
+use uplift_motion::synthetic::SyntheticSetOptions;
+use uplift_motion::{Accelerogram, RecordPair};
 
+use super::made::made_pairs;
 use crate::checksum::checksum;
+use crate::error::UpliftError;
+use crate::events::Events;
 
 /// The most that the sets take together, bytes: some 150 sets of 105 pairs.
 const LARGEST_CACHE: u64 = 2 << 30;
@@ -30,7 +33,10 @@ struct Header {
 }
 
 /// The set that `options` make, from the cache if it is there.
-pub(super) fn synthetic_set(options: &SyntheticSetOptions) -> Result<Vec<RecordPair>, MotionError> {
+pub(super) fn synthetic_set(
+    options: &SyntheticSetOptions,
+    events: &dyn Events,
+) -> Result<Vec<RecordPair>, UpliftError> {
     let path = folder().map(|folder| folder.join(file_name(options)));
     if let Some(path) = &path
         && let Some(set) = load(path).filter(|set| set.len() == options.pairs)
@@ -39,7 +45,7 @@ pub(super) fn synthetic_set(options: &SyntheticSetOptions) -> Result<Vec<RecordP
         let _ = File::options().append(true).open(path).and_then(|file| file.set_modified(SystemTime::now()));
         return Ok(set);
     }
-    let set = generate(options)?;
+    let set = made_pairs(options, events)?;
     if let Some(path) = path {
         store(&path, &set);
         shrink(&path, LARGEST_CACHE);
@@ -134,6 +140,8 @@ fn store(path: &Path, set: &[RecordPair]) {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
+    use uplift_motion::synthetic::generate;
+
     use super::*;
 
     #[test]

@@ -11,7 +11,7 @@ use super::pairs::{self, CheckedPair};
 use super::{cache, manifest, selection};
 use crate::checksum::checksum;
 use crate::error::UpliftError;
-use crate::events::Silent;
+use crate::events::{Events, Silent};
 use crate::import::unusual_peak;
 use crate::machine::{Needs, PROGRAM_BYTES};
 use uplift_study::{RecordSource, UniformRiskStudy};
@@ -66,10 +66,13 @@ pub struct RecordSet {
 /// Read or make the records of `study`.
 ///
 /// # Errors
-/// Everything that is wrong with the manifest or the record files, at once.
-pub fn read_records(study: &UniformRiskStudy) -> Result<RecordSet, UpliftError> {
+/// Everything that is wrong with the manifest or the record files, at once; [`UpliftError::Interrupted`] where `events`
+/// say so while synthetic ones are made.
+pub fn read_records(study: &UniformRiskStudy, events: &dyn Events) -> Result<RecordSet, UpliftError> {
     let (pairs, source, synthetic) = match &study.records.source {
-        RecordSource::Synthetic { pairs, seed } => (synthetic_pairs(*pairs, *seed)?, format!("seed {seed}"), true),
+        RecordSource::Synthetic { pairs, seed } => {
+            (synthetic_pairs((*pairs, *seed), events)?, format!("seed {seed}"), true)
+        }
         RecordSource::Manifest { manifest, tag } => {
             let name = manifest.file_name().unwrap_or(manifest.as_os_str()).to_string_lossy();
             let tag_note = tag.as_ref().map_or_else(String::new, |tag| format!(", tag {tag}"));
@@ -155,14 +158,14 @@ pub(super) fn alike(pairs: &[CheckedPair]) -> Vec<String> {
 const SYNTHETIC_PAIR_BYTES: u64 = 500_000;
 
 /// The synthetic pairs, where the machine has the memory for them.
-pub(super) fn synthetic_pairs(pairs: u64, seed: u64) -> Result<Vec<CheckedPair>, UpliftError> {
+pub(super) fn synthetic_pairs((pairs, seed): (u64, u64), events: &dyn Events) -> Result<Vec<CheckedPair>, UpliftError> {
     let memory_bytes = PROGRAM_BYTES + pairs.saturating_mul(SYNTHETIC_PAIR_BYTES);
     let needs = Needs { memory_bytes, disk_bytes: 0, disk_least_bytes: 0 };
     // the whole plan is looked at once they are there
     needs.room(Path::new(".")).refuse(&Silent)?;
     let pairs = usize::try_from(pairs).unwrap_or(usize::MAX);
     let options = SyntheticSetOptions { seed, pairs, ..SyntheticSetOptions::default() };
-    let set = cache::synthetic_set(&options).map_err(|error| UpliftError::input(error.to_string()))?;
+    let set = cache::synthetic_set(&options, events)?;
     Ok(set
         .into_iter()
         .map(|pair| {

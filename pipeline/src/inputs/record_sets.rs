@@ -11,6 +11,7 @@ use super::pairs;
 use super::record_set::{alike, is_made, synthetic_pairs};
 use super::selection;
 use crate::error::UpliftError;
+use crate::events::Events;
 use uplift_study::{DisplacementStudy, RecordSource, SetPlan};
 
 /// Name of the set where a study names none.
@@ -89,8 +90,9 @@ impl RecordSets {
 /// Read or make the records of `study`, and put them into its sets.
 ///
 /// # Errors
-/// Everything that is wrong with the manifest, the sets or the record files, at once.
-pub fn read_record_sets(study: &DisplacementStudy) -> Result<RecordSets, UpliftError> {
+/// Everything that is wrong with the manifest, the sets or the record files, at once; [`UpliftError::Interrupted`]
+/// where `events` say so while synthetic ones are made.
+pub fn read_record_sets(study: &DisplacementStudy, events: &dyn Events) -> Result<RecordSets, UpliftError> {
     let (pairs, chosen, source, mut notes) = match &study.records.source {
         &RecordSource::Synthetic { pairs, seed } => {
             let named = study.record_sets.len();
@@ -100,7 +102,7 @@ pub fn read_record_sets(study: &DisplacementStudy) -> Result<RecordSets, UpliftE
                          one set"
                 )
             });
-            let pairs = synthetic_pairs(pairs, seed)?;
+            let pairs = synthetic_pairs((pairs, seed), events)?;
             let ids = pairs.iter().map(|(pair, _)| pair.id.clone()).collect();
             let plan = Chosen { name: SYNTHETIC.to_owned(), tag: String::new(), ids };
             (pairs, vec![plan], format!("seed {seed}"), Vec::from_iter(unused))

@@ -2,7 +2,7 @@
 
 use uplift_block::{BlockError, PulseSpectrumPlan, RickerPulse, RickerShape, RockingBlock, SizeMeasure};
 use uplift_motion::STANDARD_GRAVITY_M_S2;
-use uplift_plausible::{Implausible, PULSE_AMPLITUDE, PULSE_PERIOD, PULSE_RATIO};
+use uplift_plausible::{Implausible, PULSE_AMPLITUDE, PULSE_PERIOD, PULSE_RATIO, SIZE};
 
 use crate::error::UpliftError;
 use crate::text::thousands;
@@ -102,6 +102,8 @@ impl PulsePlan {
             .flat_map(|(name, axis)| axis.first().into_iter().chain(axis.last()).map(move |end| (name, *end)));
         let mut implausible: Vec<Implausible> =
             ends.filter_map(|(name, end)| PULSE_RATIO.check(name, end).err()).collect();
+        let sizes_m = [self.blocks.sizes_m.first(), self.blocks.sizes_m.last()].into_iter().flatten();
+        implausible.extend(sizes_m.filter_map(|&size_m| SIZE.check("size", size_m).err()));
         implausible.extend(PULSE_AMPLITUDE.check("amplitude", self.blocks.amplitude_g.abs()).err());
         implausible.extend(self.blocks.period_s.and_then(|period_s| PULSE_PERIOD.check("period", period_s).err()));
         if !implausible.is_empty() {

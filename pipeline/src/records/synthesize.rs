@@ -4,11 +4,12 @@ use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
 use serde::Serialize;
-use uplift_motion::synthetic::{SyntheticSetOptions, generate};
+use uplift_motion::synthetic::SyntheticSetOptions;
 use uplift_motion::{RecordPair, STANDARD_GRAVITY_M_S2, at2_text};
 
 use crate::error::UpliftError;
 use crate::events::Events;
+use crate::inputs::made_pairs;
 use crate::outputs::{self, Output, OutputKind};
 use crate::result::{table_text, write_atomically};
 
@@ -42,7 +43,7 @@ pub fn synthesize(options: &SynthesizeOptions, events: &dyn Events) -> Result<Sy
     let manifest = folder.join("manifest.csv");
     outputs::check(&[Output::new(&manifest, OutputKind::Manifest)], &nothing, *force)?;
     events.note("synthetic records: not for design");
-    let pairs = generate(set)?;
+    let pairs = made_pairs(set, events)?;
     let records = pairs.iter().flat_map(|pair| ["H1", "H2"].map(|component| folder.join(file_name(pair, component))));
     let records: Vec<Output> = records.map(|path| Output::new(path, OutputKind::Record)).collect();
     outputs::check(&records, &nothing, *force)?;

@@ -15,6 +15,7 @@ use super::stripes::poe_index;
 use crate::array::Array;
 use crate::checkpoint::motion_key;
 use crate::error::UpliftError;
+use crate::events::Silent;
 use crate::inputs::{RecordSet, read_records};
 use uplift_study::{AnyStudy, MeasurePlan, Study, UniformRiskStudy};
 
@@ -120,7 +121,7 @@ impl StudyOfResult {
     /// # Errors
     /// Records that are not there, or are others: what is wrong, and what to do.
     pub fn records(&self) -> Result<RecordSet, String> {
-        let set = read_records(&self.study).map_err(|error| error.to_string())?;
+        let set = read_records(&self.study, &Silent).map_err(|error| error.to_string())?;
         let made_from = &self.made_from;
         if set.records.len() != made_from.ids.len() {
             let (found, made) = (set.records.len(), made_from.ids.len());

@@ -39,7 +39,7 @@ pub(crate) fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Eve
     notes.extend(other_notes);
     let site_list = site_table::read(study, events)?;
     notes.extend(site_list.iter().flat_map(|list| list.notes.iter().cloned()));
-    let records = read_records(study)?;
+    let records = read_records(study, events)?;
     let systems = systems(study)?;
     notes.splice(0..0, study.warnings.iter().map(ToString::to_string));
     notes.extend(suspicious(&hazard));

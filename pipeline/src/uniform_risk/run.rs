@@ -30,7 +30,7 @@ pub(crate) fn run(
     let (other_hazard, other_notes) = read_other_hazard(study)?;
     notes.extend(other_notes);
     let site_list = site_table::read(study, events)?;
-    let inputs = Inputs::read(study)?;
+    let inputs = Inputs::read(study, events)?;
     let records = &inputs.records;
     events.remark("records", &records.description);
 

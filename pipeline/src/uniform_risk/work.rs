@@ -26,8 +26,8 @@ impl Inputs {
     ///
     /// # Errors
     /// Records that cannot be used.
-    pub(crate) fn read(study: &UniformRiskStudy) -> Result<Self, UpliftError> {
-        let records = read_records(study)?;
+    pub(crate) fn read(study: &UniformRiskStudy, events: &dyn Events) -> Result<Self, UpliftError> {
+        let records = read_records(study, events)?;
         Ok(Self { systems: systems(study)?, motions: motion_keys(&records), records })
     }
 
@@ -78,7 +78,7 @@ pub(crate) fn run_shard(
 ) -> Result<ShardReport, UpliftError> {
     // a mistake in the hazard is found before, not when the shards are joined
     read_hazard(study)?;
-    let inputs = Inputs::read(study)?;
+    let inputs = Inputs::read(study, events)?;
     events.remark("records", &inputs.records.description);
     needs(study, &inputs.records, None).of_shard(shard).with_rows_of(&[path]).require(path, events)?;
     carry_out_shard(inputs.work(study, earlier)?, (path, shard), events, &|_| Ok(()))
