@@ -464,6 +464,14 @@ fn the_documentation_shows_what_is_printed() {
     }
 }
 
+/// A number as it is shown, with an asterisk where rounding decides its digits; infinite where it is null.
+fn marked(range: &Value, shown: impl Fn(f64) -> String) -> String {
+    let [value, lowest, highest] =
+        ["value", "lowest", "highest"].map(|end| range[end].as_f64().map_or("overturns".to_owned(), &shown));
+    let mark = if lowest == value && highest == value { "" } else { "*" };
+    format!("{value}{mark}")
+}
+
 #[test]
 fn a_design_sheet_says_what_the_design_says() {
     let study = study();
@@ -471,7 +479,14 @@ fn a_design_sheet_says_what_the_design_says() {
     let page = std::fs::read_to_string(study.path().join("sheet.html")).unwrap();
     // the demand in the table, to the tenth of a millimetre, and in the sentence before it
     let demand_m = found["exact"]["demand_m"].as_f64().unwrap();
-    assert!(page.contains(&format!("<td class=\"number\">{demand_m:.4}</td>")), "{demand_m}");
+    let exact = &found["exact"];
+    for name in ["zero_stiffness_demand_of_spectrum_m", "zero_stiffness_demand_m", "demand_m"] {
+        let shown = marked(&exact["rounding"][name], |demand_m| format!("{demand_m:.4}"));
+        assert!(page.contains(&format!("<td class=\"number\">{shown}</td>")), "{name}: {shown}");
+    }
+    let overturning = marked(&exact["rounding"]["overturning_per_year"], |per_year| format!("{per_year:.3e}"));
+    assert!(page.contains(&format!("<td class=\"number\">{overturning}</td>")), "{overturning}");
+    assert_eq!(page.contains("rounding decides"), page.contains("*</td>"));
     let (lead, rest) = page.split_once("<div class=\"answer\">").unwrap().1.split_once("</div>").unwrap();
     let said: f64 = lead.split_once("it must survive ").unwrap().1.split_once(" m").unwrap().0.parse().unwrap();
     assert!((said / demand_m - 1.0).abs() < 0.06, "{lead}");

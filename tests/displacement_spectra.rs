@@ -194,7 +194,7 @@ fn sets_are_made_by_tags_and_records_left_out() {
     let mut lines = csv.lines();
     insta::assert_snapshot!(
         lines.next().unwrap(),
-        @"record_set,scaling,scaled_by,uplift_displacement_m,capacity_m,strength,u50_m,u90_m,overturned"
+        @"record_set,scaling,scaled_by,uplift_displacement_m,capacity_m,strength,u50_m,u90_m,overturned,u50_rounding_lowest_m,u50_rounding_highest_m,u90_rounding_lowest_m,u90_rounding_highest_m"
     );
     assert_eq!(lines.count(), 2 * 5 * 20);
 

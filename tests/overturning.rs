@@ -178,10 +178,18 @@ fn tables_and_figures_hold_what_is_printed() {
         read(name).lines().map(|line| line.split(',').map(str::to_owned).collect()).collect()
     };
     let fragility = rows("b.csv");
-    assert_eq!(fragility[0].join(","), "im,unit,level,model,restitution,overturned,records,share,lognormal");
+    assert_eq!(
+        fragility[0].join(","),
+        "im,unit,level,model,restitution,overturned,records,share,lognormal,overturned_rounding_lowest,\
+         overturned_rounding_highest"
+    );
     assert_eq!(fragility.len(), 1 + 2 * 7);
     for (row, level) in fragility[1..8].iter().zip(0..) {
-        assert_eq!(row[5], model(&found, "PGA", "oscillator")["overturned"][level].to_string());
+        let of_model = model(&found, "PGA", "oscillator");
+        assert_eq!(row[5], of_model["overturned"][level].to_string());
+        let [fewest, most] = [0, 1].map(|end| &of_model["overturned_rounding"][level][end]);
+        assert_eq!(row[9..], [fewest.to_string(), most.to_string()]);
+        assert!(fewest.as_u64() <= row[5].parse().ok() && row[5].parse().ok() <= most.as_u64(), "{row:?}");
     }
     let risk = rows("b.risk.csv");
     assert_eq!(risk.len(), 3);
@@ -195,6 +203,36 @@ fn tables_and_figures_hold_what_is_printed() {
         assert!(shown.contains(words), "{words}: {shown}");
     }
     assert_eq!(shown, study.uplift(&["overturning", "block.toml", "--urs", "r.h5", "--threads", "5"]).ok().stdout);
+}
+
+/// Motions on the edge of overturning at many levels: one of them rounding pushes over it.
+#[test]
+fn what_rounding_decides_is_marked() {
+    let levels: Vec<String> = (0..60).map(|level| format!("{:.3}", 0.1 + 0.01 * f64::from(level))).collect();
+    let study = study(&WITH_PGA.replace("0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 0.8", &levels.join(", ")));
+    let found = json(&study, "block.toml", &["--site", "Here", "--restitution", "0.98"]);
+    let of_model = model(&found, "PGA", "oscillator");
+    let hanging =
+        |level: &usize| of_model["overturned_rounding"][level][0] != of_model["overturned_rounding"][level][1];
+    let hanging: Vec<usize> = (0..levels.len()).filter(hanging).collect();
+    assert!(!hanging.is_empty() && hanging.len() < levels.len() / 2, "{hanging:?}");
+    let range = &of_model["sites"][0]["per_year_rounding"];
+    let [lowest, value, highest] = ["lowest", "value", "highest"].map(|end| range[end].as_f64().unwrap());
+    assert!(lowest <= value && value <= highest && lowest < highest, "{range}");
+    assert_eq!(of_model["sites"][0]["per_year"], range["value"]);
+    let arguments = ["overturning", "block.toml", "--urs", "r.h5", "--site", "Here", "--restitution", "0.98"];
+    let shown = study.uplift(&arguments).ok().stdout;
+    let mark = if [lowest, highest].map(|end| format!("{end:.3e}")) == [value; 2].map(|own| format!("{own:.3e}")) {
+        ""
+    } else {
+        "*"
+    };
+    assert!(shown.contains(&format!(" {value:.3e}{mark} ")), "{value:.3e}{mark}\n{shown}");
+    for level in hanging {
+        let [fewest, most] = [0, 1].map(|end| &of_model["overturned_rounding"][level][end]);
+        let words = format!("{fewest} to {most} at {}", of_model["levels"][level]);
+        assert!(shown.contains(&words), "{words}\n{shown}");
+    }
 }
 
 #[test]

@@ -144,6 +144,38 @@ fn what_hangs_on_rounding_is_marked_wherever_it_is_shown() {
     }
 }
 
+/// The table has the range beside the ordinates that are printed, and nothing beside the others.
+#[test]
+fn the_table_of_spectra_has_the_range() {
+    let study = SmallStudy::with(STUDY);
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    let reader = LabelledReader::open(&study.path().join("r.h5")).unwrap();
+    let rounding = reader.array_f64("/spectra/u_m_rounding").unwrap().values;
+    let table = std::fs::read_to_string(study.path().join("r.displacements.csv")).unwrap();
+    let mut rows = table.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let header = rows.next().unwrap();
+    let column =
+        |name: &str| header.iter().position(|found| *found == name).unwrap_or_else(|| panic!("{name}: {header:?}"));
+    let mut seen = 0;
+    for row in rows {
+        let number = |name: &str| row[column(name)].parse::<f64>().unwrap();
+        let line = CAPACITIES_M.iter().position(|capacity_m| *capacity_m == number("capacity_m")).unwrap();
+        let place = PRINTED.iter().position(|(_, strength)| *strength == number("strength"));
+        for (percentile, name) in ["u50", "u84"].into_iter().enumerate() {
+            let [lowest, highest] = ["lowest", "highest"].map(|end| format!("{name}_rounding_{end}_m"));
+            let Some(place) = place else {
+                assert_eq!([row[column(&lowest)], row[column(&highest)]], ["", ""]);
+                continue;
+            };
+            let at = 3 * ((line * PERCENTILES.len() + percentile) * PRINTED.len() + place);
+            let found = [&format!("{name}_m"), &lowest, &highest].map(|name| number(name));
+            assert_eq!(found, rounding[at..at + 3], "{row:?}");
+            seen += 1;
+        }
+    }
+    assert_eq!(3 * seen, rounding.len());
+}
+
 #[test]
 fn a_check_tells_what_the_repetition_costs() {
     let study = SmallStudy::with(STUDY);

@@ -13,7 +13,7 @@ mod spectrum;
 mod sweep;
 mod tables;
 
-pub use demand::{DemandNoise, DemandRounding, ExactDemand, RuleErrors};
+pub use demand::{DemandNoise, DemandRounding, ExactDemand, RuleRanges};
 pub use design::{DesignOptions, DesignReport, design, design_shard};
 pub use overturning::{
     CollapseReport, ModelReport, OverturningOptions, OverturningReport, SiteRisk, overturning, overturning_shard,

@@ -94,6 +94,12 @@ impl Noisy {
         shown(self.lowest) != value || shown(self.highest) != value
     }
 
+    /// The value as it is `shown`, with an asterisk where an end of the range is shown otherwise.
+    pub fn marked(&self, shown: impl Fn(f64) -> String) -> String {
+        let mark = if self.shows_otherwise(&shown) { "*" } else { "" };
+        format!("{}{mark}", shown(self.value))
+    }
+
     /// Whether `other` lies in the range.
     pub fn holds(&self, other: f64) -> bool {
         self.lowest <= other && other <= self.highest
@@ -136,6 +142,7 @@ mod tests {
         let of = |lowest, highest| Noisy { value: 0.04, lowest, highest };
         assert!(!of(0.0399, 0.0401).shows_otherwise(shown));
         assert!(of(0.01, 0.0401).shows_otherwise(shown) && of(0.04, f64::INFINITY).shows_otherwise(shown));
+        assert_eq!((of(0.0399, 0.0401).marked(shown), of(0.01, 0.0401).marked(shown)), ("0.04".into(), "0.04*".into()));
     }
 
     #[test]

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
 
-use super::{DesignRow, DisplacementOutcome};
+use super::{DesignRow, DisplacementOutcome, printed};
 use crate::error::UpliftError;
 use crate::outputs::{Output, OutputKind, beside};
 use crate::result::layout::percentile_name;
@@ -66,7 +66,10 @@ fn spectra_table(outcome: &DisplacementOutcome<'_>) -> Vec<Column> {
     let mut of_line: Vec<Vec<f64>> = vec![Vec::new(); line_names.len()];
     let (mut at, mut overturned) = (Vec::new(), Vec::new());
     let mut u_m: Vec<Vec<f64>> = vec![Vec::new(); percentiles.len()];
-    for (set, spectra) in outcome.sets.iter().zip(outcome.spectra) {
+    // what rounding makes of those that a run prints; nothing is known of the others
+    let repeated = printed(abscissa);
+    let mut rounding: Vec<[Vec<Option<f64>>; 2]> = vec![[Vec::new(), Vec::new()]; percentiles.len()];
+    for ((set, spectra), moved) in outcome.sets.iter().zip(outcome.spectra).zip(outcome.rounding) {
         for (to, target) in study.scaling.to.iter().enumerate() {
             for (by, whose) in study.scaling.by.iter().enumerate() {
                 // motions that are not scaled stand there once
@@ -87,6 +90,13 @@ fn spectra_table(outcome: &DisplacementOutcome<'_>) -> Vec<Column> {
                         for (percentile, column) in u_m.iter_mut().enumerate() {
                             let place = (row * percentiles.len() + percentile) * abscissa.len() + position;
                             column.push(spectra.percentile_m[place]);
+                            let ordinate = repeated
+                                .iter()
+                                .position(|&at| at == position)
+                                .map(|at| moved[(row * percentiles.len() + percentile) * repeated.len() + at]);
+                            let [lowest, highest] = &mut rounding[percentile];
+                            lowest.push(ordinate.map(|noisy| noisy.lowest));
+                            highest.push(ordinate.map(|noisy| noisy.highest));
                         }
                         overturned.push(spectra.overturned[row * abscissa.len() + position]);
                     }
@@ -105,6 +115,13 @@ fn spectra_table(outcome: &DisplacementOutcome<'_>) -> Vec<Column> {
         percentiles.iter().zip(u_m).map(|(percent, values)| Column::new(percentile_name(*percent).into(), values)),
     );
     columns.push(Column::new("overturned".into(), overturned));
+    for (percent, ends) in percentiles.iter().zip(rounding) {
+        let name = percentile_name(*percent);
+        let name = name.trim_end_matches("_m");
+        for (end, values) in ["lowest", "highest"].into_iter().zip(ends) {
+            columns.push(Column::new(format!("{name}_rounding_{end}_m").into(), values));
+        }
+    }
     columns
 }
 

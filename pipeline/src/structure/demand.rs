@@ -5,7 +5,7 @@ use serde::Serialize;
 use uplift_oscillator::PostUplift;
 use uplift_risk::{Ordinate, RiskCurve, StripeWeights};
 use uplift_spectra::Noisy;
-use uplift_structure::{EquivalentSystem, relative_error};
+use uplift_structure::{EquivalentSystem, Rule, relative_error};
 
 use super::risk::{EventRisk, OVERTURNING_M, demand_of, risk_of_exceeding};
 use super::sweep::{OF_STUDY, OWN, Sweep, ZERO_STIFFNESS};
@@ -54,6 +54,10 @@ pub struct DemandRounding {
     pub zero_stiffness_demand_m: Noisy,
     /// Demand on the structure, m.
     pub demand_m: Noisy,
+    /// Demand by the rules, from the exact demand on its ZSBE oscillator, m; none for a structure without capacity.
+    pub rule_demands_m: Option<RuleRanges>,
+    /// Their error against the demand on the structure; none for one without capacity.
+    pub rule_errors: Option<RuleRanges>,
     /// Frequency of exceeding the capacity, 1/yr; none for a structure without one.
     pub beyond_capacity_per_year: Option<Noisy>,
     /// Frequency of overturning, 1/yr.
@@ -68,21 +72,40 @@ pub struct DemandNoise {
     pub demand_m: Noisy,
     /// Error of the rules against it, from the exact demand on the ZSBE oscillator of the same strength; none for a
     /// structure without capacity.
-    pub rule_errors: Option<RuleErrors>,
+    pub rule_errors: Option<RuleRanges>,
     /// Frequency of exceeding the capacity, 1/yr; none for a structure without one.
     pub beyond_capacity_per_year: Option<Noisy>,
     /// Frequency of overturning, 1/yr.
     pub overturning_per_year: Noisy,
 }
 
-/// Relative errors of the two rules.
+/// A number of each of the two rules, with its range.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub struct RuleErrors {
+pub struct RuleRanges {
     /// Of equal displacement.
     pub equal_displacement: Noisy,
     /// Of equal energy.
     pub equal_energy: Noisy,
+}
+
+impl RuleRanges {
+    /// That of `rule`.
+    pub fn of(&self, rule: Rule) -> Noisy {
+        match rule {
+            Rule::EqualDisplacement => self.equal_displacement,
+            Rule::EqualEnergy => self.equal_energy,
+        }
+    }
+}
+
+impl DemandRounding {
+    /// Relative error of a demand, m, against that on the structure, with its range; NaN where there is none to refer
+    /// to.
+    pub fn error_of(&self, demand_m: f64) -> Noisy {
+        let error = |own_m: f64| relative_error(demand_m, own_m).unwrap_or(f64::NAN);
+        Noisy::around(error(self.demand_m.value), [self.demand_m.lowest, self.demand_m.highest].map(error))
+    }
 }
 
 /// The demand on `system`, whose oscillators are `sweep` with the `stripes` over `[record, oscillator, level]`, of the
@@ -113,6 +136,9 @@ pub(super) fn exact_demand(
     let beyond_capacity =
         capacity_m.map(|capacity_m| risk_of_exceeding(&own, weights, capacity_m, years).map(may_happen)).transpose()?;
     let overturning = risk_of_exceeding(&own, weights, OVERTURNING_M, years)?;
+    let by_rule_m = |rule: Rule, zero_m: f64| -> Result<f64, UpliftError> {
+        Ok(system.capacity().and_then(|capacity| rule.demand(&capacity, zero_m))?.displacement_m())
+    };
     let (mut demands_m, mut beyond, mut overturned, mut errors) = (vec![], vec![], vec![], [vec![], vec![]]);
     for &[zero, own] in &sweep.pairs {
         let (zero_m, own_m) = (ordinate(zero)?.displacement_m, ordinate(own)?.displacement_m);
@@ -122,9 +148,7 @@ pub(super) fn exact_demand(
         if let Some(capacity_m) = capacity_m {
             beyond.push(risk_of_exceeding(&pool, weights, capacity_m, years)?.per_year);
             for (rule, errors) in RULES.into_iter().zip(&mut errors) {
-                let demand = system.capacity().and_then(|capacity| rule.demand(&capacity, zero_m));
-                let demand_m = demand?.displacement_m();
-                errors.push(relative_error(demand_m, own_m).unwrap_or(f64::NAN));
+                errors.push(relative_error(by_rule_m(rule, zero_m)?, own_m).unwrap_or(f64::NAN));
             }
         }
     }
@@ -141,6 +165,25 @@ pub(super) fn exact_demand(
         Ok(Noisy::around(rate(OWN)?, nudged))
     };
     let [equal_displacement, equal_energy] = errors.map(|errors| Noisy::of(&errors));
+    // of every rule: its demand from that on the ZSBE oscillator, and the error of that against the structure's
+    let mut by_rules = Vec::new();
+    for &[_, zero, own] in [[OF_STUDY, ZERO_STIFFNESS, OWN]].iter().chain(&sweep.rounded) {
+        if capacity_m.is_none() {
+            break;
+        }
+        let (zero_m, own_m) = (displacement_m(zero)?, displacement_m(own)?);
+        let of = |rule: Rule| -> Result<[f64; 2], UpliftError> {
+            let demand_m = by_rule_m(rule, zero_m)?;
+            Ok([demand_m, relative_error(demand_m, own_m).unwrap_or(f64::NAN)])
+        };
+        by_rules.push([of(Rule::EqualDisplacement)?, of(Rule::EqualEnergy)?]);
+    }
+    let rounded_rules = |which: usize| {
+        let (own, nudged) = by_rules.split_first()?;
+        let [equal_displacement, equal_energy] =
+            [0, 1].map(|rule| Noisy::around(own[rule][which], nudged.iter().map(|of| of[rule][which])));
+        Some(RuleRanges { equal_displacement, equal_energy })
+    };
     let demand = ordinate(OWN)?;
     Ok(ExactDemand {
         analyses: stripes.analyses,
@@ -155,7 +198,7 @@ pub(super) fn exact_demand(
         overturning: if capacity_m.is_some() { may_happen(overturning) } else { overturning },
         noise: DemandNoise {
             demand_m: Noisy::of(&demands_m),
-            rule_errors: capacity_m.map(|_| RuleErrors { equal_displacement, equal_energy }),
+            rule_errors: capacity_m.map(|_| RuleRanges { equal_displacement, equal_energy }),
             beyond_capacity_per_year: capacity_m.map(|_| Noisy::of(&beyond)),
             overturning_per_year: Noisy::of(&overturned),
         },
@@ -163,6 +206,8 @@ pub(super) fn exact_demand(
             zero_stiffness_demand_of_spectrum_m: rounded_m(OF_STUDY)?,
             zero_stiffness_demand_m: rounded_m(ZERO_STIFFNESS)?,
             demand_m: rounded_m(OWN)?,
+            rule_demands_m: rounded_rules(0),
+            rule_errors: rounded_rules(1),
             beyond_capacity_per_year: capacity_m.map(rounded_rate).transpose()?,
             overturning_per_year: rounded_rate(OVERTURNING_M)?,
         },

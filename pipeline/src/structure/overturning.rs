@@ -8,6 +8,7 @@ use uplift_fragility::LognormalFit;
 use uplift_ida::{Shard, System};
 use uplift_motion::IntensityMeasure;
 use uplift_risk::StripeWeights;
+use uplift_spectra::{NUDGES, Noisy, nudges};
 use uplift_study::{Structure, UniformRiskStudy};
 
 use super::choice::{measure_index, records, site_index};
@@ -99,12 +100,19 @@ pub struct CollapseReport {
     pub levels: Vec<f64>,
     /// Records that overturn the structure at each level.
     pub overturned: Vec<u32>,
+    /// Fewest and most of them with all scale factors up to 4e-15 smaller and larger: another count than the one above
+    /// hangs on runs beyond double precision (docs/method.md, section 1.5).
+    pub overturned_rounding: Vec<[u32; 2]>,
     /// Records.
     pub records: u32,
     /// Median of the lognormal fragility of maximum likelihood; none where there is no fit.
     pub theta: Option<f64>,
     /// Its dispersion.
     pub beta: Option<f64>,
+    /// The median with its range over the same scale factors; NaN where one of them has no fit.
+    pub theta_rounding: Option<Noisy>,
+    /// The dispersion with its range.
+    pub beta_rounding: Option<Noisy>,
     /// Its logarithmic likelihood.
     pub log_likelihood: Option<f64>,
     /// The risk at each site.
@@ -124,6 +132,10 @@ pub struct SiteRisk {
     pub risk: EventRisk,
     /// Frequency with the lognormal fragility in place of the counts, 1/yr; none without a fit.
     pub lognormal_per_year: Option<f64>,
+    /// The frequency from the counts with its range over scale factors up to 4e-15 smaller and larger, 1/yr.
+    pub per_year_rounding: Noisy,
+    /// That with the lognormal fragility; NaN where one of them has no fit.
+    pub lognormal_per_year_rounding: Option<Noisy>,
 }
 
 /// How often `structure` overturns under the records and the hazard of the result at `result`.
@@ -162,12 +174,22 @@ pub fn overturning(
     let (analysed, checkpoint) = beside.results(shaken.work(&measures, &models, &asked)?, &options.shards, events)?;
     let Shaken { study, set, .. } = &shaken;
     let mut analysed = analysed.into_iter();
-    let mut found: Vec<(&SpectraOfResult, Vec<Collapse>)> = Vec::new();
+    let mut found: Vec<(&SpectraOfResult, Vec<Collapses>)> = Vec::new();
     for measure in measures {
         let weights: Vec<&StripeWeights> = sites.iter().map(|&site| &measure.weights[site]).collect();
         let of_models = models.iter().zip(analysed.by_ref()).map(|((model, _), analysed)| {
-            let (levels, peaks_m) = (&measure.plan.levels, analysed.peaks.of_system_m(0));
-            collapse(levels, &peaks_m, &weights, study.risk.years, model.can_overturn())
+            let levels = &measure.plan.levels;
+            let at_nudge = |nudge: usize| {
+                let first = nudge * levels.len();
+                let of_level = |scale| analysed.peaks.over_motions_m(0, scale);
+                let peaks_m: Vec<Vec<f64>> = (first..first + levels.len()).map(of_level).collect();
+                let records = 0..analysed.peaks.axes().motions;
+                let peaks_m: Vec<f64> =
+                    records.flat_map(|record| peaks_m.iter().map(move |of_level| of_level[record])).collect();
+                collapse(levels, &peaks_m, &weights, study.risk.years, model.can_overturn())
+            };
+            let rounded = (1..=NUDGES).map(at_nudge).collect::<Result<_, _>>()?;
+            Ok::<_, UpliftError>(Collapses { own: at_nudge(0)?, rounded })
         });
         found.push((measure, of_models.collect::<Result<_, _>>()?));
     }
@@ -177,9 +199,9 @@ pub fn overturning(
     let names: Vec<&str> = sites.iter().map(|&site| source.sites[site].as_str()).collect();
     alarms.extend(of_own_risks(&own_risks(&models, &found, &names, set.records.len())));
     let records = u32::try_from(set.records.len()).unwrap_or(u32::MAX);
-    let of_measure = |(measure, found): &(&SpectraOfResult, Vec<Collapse>)| -> Vec<CollapseReport> {
+    let of_measure = |(measure, found): &(&SpectraOfResult, Vec<Collapses>)| -> Vec<CollapseReport> {
         let names = sites.iter().map(|&site| source.sites[site].as_str());
-        let report = |(found, (model, _)): (&Collapse, &(System, _))| {
+        let report = |(found, (model, _)): (&Collapses, &(System, _))| {
             CollapseReport::of(found, measure.measure(), model.kind(), records, names.clone())
         };
         found.iter().zip(&models).map(report).collect()
@@ -258,7 +280,8 @@ impl Shaken {
         Ok(Self { motions: motion_keys(&set), study, set })
     }
 
-    /// The stripes of each model by each measure, the models running fastest.
+    /// The stripes of each model by each measure, the models running fastest; those of the scale factors themselves,
+    /// then those of their neighbours.
     fn work<'a>(
         &'a self,
         measures: &[&SpectraOfResult],
@@ -266,9 +289,11 @@ impl Shaken {
         title: &str,
     ) -> Result<Work<'a>, UpliftError> {
         let mut plans = Vec::new();
+        let factors: Vec<f64> = [1.0].into_iter().chain(nudges()).collect();
         for measure in measures {
             for (model, _) in models {
                 let plan = plan_stripes(&self.study, &measure.plan, &self.set, std::slice::from_ref(model))?;
+                let plan = plan.multiplied(&factors)?;
                 let label = format!("{}, {}", measure.measure().label(), model.kind());
                 plans.push(LabelledPlan { label, remark: None, plan, motions: &self.motions, known: None });
             }
@@ -288,8 +313,14 @@ fn check_table(structure: &Structure, result: &Path, options: &OverturningOption
     outputs::check(&tables, &inputs, options.force)
 }
 
+/// Overturning at the scale factors themselves, and at their neighbours some roundings away.
+struct Collapses {
+    own: Collapse,
+    rounded: Vec<Collapse>,
+}
+
 /// What the numbers rest on.
-fn notes_on(models: &[(System, &'static str)], found: &[(&SpectraOfResult, Vec<Collapse>)]) -> Vec<String> {
+fn notes_on(models: &[(System, &'static str)], found: &[(&SpectraOfResult, Vec<Collapses>)]) -> Vec<String> {
     let mut notes = Vec::new();
     if let [(a, _), (b, _)] = models
         && a.restitution().to_bits() != b.restitution().to_bits()
@@ -304,7 +335,7 @@ fn notes_on(models: &[(System, &'static str)], found: &[(&SpectraOfResult, Vec<C
     for (measure, found) in found {
         let label = measure.measure().label();
         for (found, (model, _)) in found.iter().zip(models) {
-            if let Err(reason) = &found.fit {
+            if let Err(reason) = &found.own.fit {
                 notes.push(format!("no lognormal fragility of the {} by {label}: {reason}", model.kind()));
             }
         }
@@ -315,7 +346,7 @@ fn notes_on(models: &[(System, &'static str)], found: &[(&SpectraOfResult, Vec<C
 /// The risk of every model at every site by every measure.
 fn own_risks(
     models: &[(System, &'static str)],
-    found: &[(&SpectraOfResult, Vec<Collapse>)],
+    found: &[(&SpectraOfResult, Vec<Collapses>)],
     sites: &[&str],
     records: usize,
 ) -> Vec<OwnRisk> {
@@ -323,7 +354,7 @@ fn own_risks(
     for (measure, found) in found {
         let levels = &measure.plan.levels;
         for (found, (model, _)) in found.iter().zip(models) {
-            risks.extend(sites.iter().zip(&found.risks).map(|(site, &risk)| OwnRisk {
+            risks.extend(sites.iter().zip(&found.own.risks).map(|(site, &risk)| OwnRisk {
                 subject: format!("overturning of the {}, {site}, {}", model.kind(), measure.measure().label()),
                 risk,
                 measure: measure.measure(),
@@ -353,27 +384,44 @@ impl ModelReport {
 
 impl CollapseReport {
     fn of<'a>(
-        found: &Collapse,
+        Collapses { own, rounded }: &Collapses,
         measure: IntensityMeasure,
         model: &'static str,
         records: u32,
         sites: impl Iterator<Item = &'a str>,
     ) -> Self {
-        let fit = found.fit.as_ref().ok();
+        let around = |value: &dyn Fn(&Collapse) -> f64| Noisy::around(value(own), rounded.iter().map(value));
+        let fit = own.fit.as_ref().ok();
+        let of_fit = |value: &dyn Fn(&LognormalFit) -> f64| {
+            fit.map(|_| around(&|found| found.fit.as_ref().map_or(f64::NAN, value)))
+        };
         let site = |(index, site): (usize, &str)| SiteRisk {
             site: site.to_owned(),
-            risk: found.risks[index],
-            lognormal_per_year: found.fitted.as_ref().map(|fitted| fitted[index].per_year),
+            risk: own.risks[index],
+            lognormal_per_year: own.fitted.as_ref().map(|fitted| fitted[index].per_year),
+            per_year_rounding: around(&|found| found.risks[index].per_year),
+            lognormal_per_year_rounding: own
+                .fitted
+                .as_ref()
+                .map(|_| around(&|found| found.fitted.as_ref().map_or(f64::NAN, |fitted| fitted[index].per_year))),
+        };
+        let count = |found: &Collapse, level: usize| found.counts[level].exceedances;
+        let counts_at = |level: usize| {
+            let counts = rounded.iter().map(move |found| count(found, level));
+            counts.fold([count(own, level); 2], |[fewest, most], other| [fewest.min(other), most.max(other)])
         };
         Self {
             im: measure.label(),
             unit: measure.unit(),
             model,
-            levels: found.counts.iter().map(|count| count.level).collect(),
-            overturned: found.counts.iter().map(|count| count.exceedances).collect(),
+            levels: own.counts.iter().map(|count| count.level).collect(),
+            overturned: own.counts.iter().map(|count| count.exceedances).collect(),
+            overturned_rounding: (0..own.counts.len()).map(counts_at).collect(),
             records,
             theta: fit.map(|fit| fit.fragility.median()),
             beta: fit.map(|fit| fit.fragility.dispersion()),
+            theta_rounding: of_fit(&|fit| fit.fragility.median()),
+            beta_rounding: of_fit(&|fit| fit.fragility.dispersion()),
             log_likelihood: fit.map(|fit| fit.log_likelihood),
             sites: sites.enumerate().map(site).collect(),
             fit: fit.copied(),

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
+use uplift_spectra::Noisy;
 
 use super::overturning::{CollapseReport, OverturningReport};
 use super::risk::EventRisk;
@@ -34,15 +35,19 @@ pub(super) fn write_tables(path: &Path, report: &OverturningReport) -> Result<()
 fn fragility(report: &OverturningReport) -> Vec<Column> {
     let (mut im, mut unit, mut level, mut model, mut restitution) = (vec![], vec![], vec![], vec![], vec![]);
     let (mut overturned, mut records, mut share, mut fitted) = (vec![], vec![], vec![], vec![]);
+    let (mut fewest, mut most) = (vec![], vec![]);
     // the rows of a measure follow each other, one a model
     for (found, of) in report.overturning.iter().zip(report.models.iter().cycle()) {
-        for (&at, &count) in found.levels.iter().zip(&found.overturned) {
+        let counts = found.overturned.iter().zip(&found.overturned_rounding);
+        for (&at, (&count, &[least, greatest])) in found.levels.iter().zip(counts) {
             im.push(found.im);
             unit.push(found.unit);
             level.push(at);
             model.push(found.model);
             restitution.push(of.restitution);
             overturned.push(count);
+            fewest.push(least);
+            most.push(greatest);
             records.push(found.records);
             share.push(f64::from(count) / f64::from(found.records));
             fitted.push(found.fit.map(|fit| fit.fragility.probability(at)));
@@ -58,6 +63,8 @@ fn fragility(report: &OverturningReport) -> Vec<Column> {
         Column::new("records".into(), records),
         Column::new("share".into(), share),
         Column::new("lognormal".into(), fitted),
+        Column::new("overturned_rounding_lowest".into(), fewest),
+        Column::new("overturned_rounding_highest".into(), most),
     ]
 }
 
@@ -76,6 +83,9 @@ fn risk(report: &OverturningReport) -> Vec<Column> {
     let of = |value: fn(&EventRisk) -> f64| -> Vec<f64> {
         rows.iter().map(|(site, found)| value(&found.sites[*site].risk)).collect()
     };
+    let rounding = |end: fn(&Noisy) -> f64| -> Vec<f64> {
+        rows.iter().map(|(site, found)| end(&found.sites[*site].per_year_rounding)).collect()
+    };
     let by_fit: Vec<Option<f64>> = rows.iter().map(|(site, found)| found.sites[*site].lognormal_per_year).collect();
     vec![
         Column::new("site".into(), name),
@@ -89,5 +99,7 @@ fn risk(report: &OverturningReport) -> Vec<Column> {
         Column::new("theta".into(), of_fit(|found| found.theta)),
         Column::new("beta".into(), of_fit(|found| found.beta)),
         Column::new("maf_lognormal_per_year".into(), by_fit),
+        Column::new("maf_rounding_lowest_per_year".into(), rounding(|of| of.lowest)),
+        Column::new("maf_rounding_highest_per_year".into(), rounding(|of| of.highest)),
     ]
 }

@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use uplift::structure::{DemandNoise, DemandRounding, DesignReport, ExactDemand, RuleCheck, RuleOutcome};
+use uplift::structure::{DemandRounding, DesignReport, ExactDemand, RuleOutcome};
 use uplift::text::{per_cent, table};
 use uplift_spectra::Noisy;
 use uplift_structure::Rule;
@@ -62,8 +62,8 @@ pub(crate) fn print_design(report: &DesignReport) -> Result<(), CommandError> {
     print_rules(out, report)?;
     if let Some(exact) = &report.exact {
         print_risk(out, report, exact)?;
-        print_noise(out, &report.rules, &exact.noise)?;
-        print_rounding(out, &exact.rounding)?;
+        print_noise(out, &report.rules, exact)?;
+        print_rounding(out, &report.rules, &exact.rounding)?;
     }
     print_alarms(out, &report.alarms)
 }
@@ -73,8 +73,8 @@ fn print_demands(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
     let factor = report.structure.participation;
     let mut rows = Vec::new();
     let mut row = |what: String, demand_m: f64, rounding: Option<&Noisy>| {
-        let mark = if rounding.is_some_and(|rounding| rounding.shows_otherwise(metres)) { "*" } else { "" };
-        rows.push(vec![what, metres(demand_m / factor), format!("{}{mark}", metres(demand_m))]);
+        let shown = rounding.map_or_else(|| metres(demand_m), |rounding| rounding.marked(metres));
+        rows.push(vec![what, metres(demand_m / factor), shown]);
     };
     if let Some(spectrum) = &report.spectrum {
         let (a, b) = spectrum.between_strengths;
@@ -110,19 +110,24 @@ fn print_rules(out: &mut impl Write, report: &DesignReport) -> Result<(), Comman
         )?;
         return Ok(());
     }
-    if report.exact.is_some() {
-        let cells = |check: Option<&RuleCheck>| match check {
-            Some(check) => [metres(check.demand_m), relative(check.error.unwrap_or(f64::NAN))],
-            None => ["-".to_owned(), "-".to_owned()],
-        };
-        let rows: Vec<Vec<String>> = report
-            .rules
-            .iter()
+    if let Some(ExactDemand { rounding, .. }) = &report.exact {
+        let rows: Vec<Vec<String>> = (report.rules.iter())
             .map(|outcome| {
-                let mut row = vec![name(outcome.rule).to_owned()];
-                row.extend(cells(outcome.from_spectrum.as_ref()));
-                row.extend(cells(outcome.from_exact.as_ref()));
-                row
+                let from_spectrum = outcome
+                    .from_spectrum
+                    .as_ref()
+                    .map(|check| [metres(check.demand_m), rounding.error_of(check.demand_m).marked(relative)]);
+                let from_exact = outcome.from_exact.as_ref().map(|check| {
+                    let [demand, error] = [rounding.rule_demands_m, rounding.rule_errors]
+                        .map(|ranges| ranges.map(|ranges| ranges.of(outcome.rule)));
+                    [
+                        demand.map_or_else(|| metres(check.demand_m), |demand| demand.marked(metres)),
+                        error.map_or_else(|| "-".to_owned(), |error| error.marked(relative)),
+                    ]
+                });
+                let nothing = || ["-".to_owned(), "-".to_owned()];
+                let cells = [from_spectrum, from_exact].map(|cells| cells.unwrap_or_else(nothing)).concat();
+                [vec![name(outcome.rule).to_owned()], cells].concat()
             })
             .collect();
         let header = ["rule", "from the spectrum, m", "error", "from the exact demand, m", "error of the rule"];
@@ -208,24 +213,21 @@ fn print_risk(out: &mut impl Write, report: &DesignReport, exact: &ExactDemand) 
 }
 
 /// What of these numbers is noise.
-fn print_noise(out: &mut impl Write, rules: &[RuleOutcome], noise: &DemandNoise) -> Result<(), CommandError> {
+fn print_noise(out: &mut impl Write, rules: &[RuleOutcome], exact: &ExactDemand) -> Result<(), CommandError> {
+    let ExactDemand { noise, rounding, .. } = exact;
     let mut rows = Vec::new();
-    let mut row = |what: String, noisy: Noisy, shown: &dyn Fn(f64) -> String| {
-        rows.push(vec![what, shown(noisy.value), shown(noisy.lowest), shown(noisy.highest)]);
+    let mut row = |what: String, [noisy, rounding]: [Noisy; 2], shown: &dyn Fn(f64) -> String| {
+        rows.push(vec![what, rounding.marked(shown), shown(noisy.lowest), shown(noisy.highest)]);
     };
-    row("demand on the structure, m".to_owned(), noise.demand_m, &metres);
-    if let Some(errors) = noise.rule_errors {
-        for outcome in rules {
-            let error = match outcome.rule {
-                Rule::EqualDisplacement => errors.equal_displacement,
-                Rule::EqualEnergy => errors.equal_energy,
-            };
-            row(format!("error of {}", name(outcome.rule)), error, &relative);
+    row("demand on the structure, m".to_owned(), [noise.demand_m, rounding.demand_m], &metres);
+    if let (Some(noisy), Some(rounding)) = (noise.rule_errors, rounding.rule_errors) {
+        for &RuleOutcome { rule, .. } in rules {
+            row(format!("error of {}", name(rule)), [noisy.of(rule), rounding.of(rule)], &relative);
         }
     }
-    if let Some(beyond) = noise.beyond_capacity_per_year {
-        row("u > capacity, per year".to_owned(), beyond, &rate);
-        row("overturning, per year".to_owned(), noise.overturning_per_year, &rate);
+    if let (Some(noisy), Some(rounded)) = (noise.beyond_capacity_per_year, rounding.beyond_capacity_per_year) {
+        row("u > capacity, per year".to_owned(), [noisy, rounded], &rate);
+        row("overturning, per year".to_owned(), [noise.overturning_per_year, rounding.overturning_per_year], &rate);
     }
     let header = ["within 1 % of the strength", "here", "lowest", "highest"];
     writeln!(out, "\n{}", table(&header, &rows))?;
@@ -233,7 +235,7 @@ fn print_noise(out: &mut impl Write, rules: &[RuleOutcome], noise: &DemandNoise)
 }
 
 /// What asterisks mean, and from where to where rounding moves these numbers; nothing where there are none.
-fn print_rounding(out: &mut impl Write, rounding: &DemandRounding) -> Result<(), CommandError> {
+fn print_rounding(out: &mut impl Write, rules: &[RuleOutcome], rounding: &DemandRounding) -> Result<(), CommandError> {
     let mut moved = Vec::new();
     let mut tell = |what: &str, noisy: Option<Noisy>, shown: fn(f64) -> String| {
         if let Some(noisy) = noisy.filter(|noisy| noisy.shows_otherwise(shown)) {
@@ -243,6 +245,15 @@ fn print_rounding(out: &mut impl Write, rounding: &DemandRounding) -> Result<(),
     tell("zero stiffness, exact, m", Some(rounding.zero_stiffness_demand_of_spectrum_m), metres);
     tell("zero stiffness, uplift and impacts of the structure, m", Some(rounding.zero_stiffness_demand_m), metres);
     tell("the structure itself, m", Some(rounding.demand_m), metres);
+    for outcome in rules {
+        let rule = name(outcome.rule);
+        let of_spectrum = outcome.from_spectrum.as_ref().map(|check| rounding.error_of(check.demand_m));
+        let [demand, error] =
+            [rounding.rule_demands_m, rounding.rule_errors].map(|ranges| ranges.map(|ranges| ranges.of(outcome.rule)));
+        tell(&format!("error of {rule} from the spectrum"), of_spectrum, relative);
+        tell(&format!("{rule} from the exact demand, m"), demand, metres);
+        tell(&format!("error of {rule} from the exact demand"), error, relative);
+    }
     tell("u > capacity, per year", rounding.beyond_capacity_per_year, rate);
     tell("overturning, per year", Some(rounding.overturning_per_year), rate);
     if !moved.is_empty() {

@@ -4,6 +4,7 @@ use std::io::Write;
 
 use uplift::structure::{CollapseReport, OverturningReport};
 use uplift::text::table;
+use uplift_spectra::Noisy;
 
 use super::alarms::print_alarms;
 use super::shown_path;
@@ -34,25 +35,53 @@ pub(crate) fn print_overturning(report: &OverturningReport) -> Result<(), Comman
     }
     print_fragility(out, report)?;
     print_risk(out, report)?;
+    print_rounding(out, report)?;
     print_alarms(out, &report.alarms)
+}
+
+/// A count, with an asterisk where rounding decides it.
+fn counted(count: u32, [fewest, most]: [u32; 2]) -> String {
+    let mark = if fewest < most { "*" } else { "" };
+    format!("{count}{mark}")
+}
+
+fn digits(value: f64) -> String {
+    format!("{value:.4}")
+}
+
+/// How often in a year.
+fn rate(per_year: f64) -> String {
+    format!("{per_year:.3e}")
+}
+
+fn or_dash(value: Option<Noisy>, shown: fn(f64) -> String) -> String {
+    value.map_or_else(|| "-".to_owned(), |value| value.marked(shown))
+}
+
+/// The first level at which enough records overturn, with an asterisk where rounding decides which it is.
+fn first_level(found: &CollapseReport, enough: &dyn Fn(u32) -> bool) -> String {
+    let first = |count: &dyn Fn(usize) -> u32| (0..found.levels.len()).find(|&level| enough(count(level)));
+    let own = first(&|level| found.overturned[level]);
+    let [fewest, most] = [0, 1].map(|end| first(&|level| found.overturned_rounding[level][end]));
+    let mark = if fewest == most { "" } else { "*" };
+    own.map_or_else(|| format!("-{mark}"), |level| format!("{}{mark}", found.levels[level]))
 }
 
 fn print_fragility(out: &mut impl Write, report: &OverturningReport) -> Result<(), CommandError> {
     let row = |found: &CollapseReport| {
-        let counts = || found.levels.iter().zip(&found.overturned);
-        let level = |wanted: &dyn Fn(u32) -> bool| {
-            let first = counts().find(|(_, overturned)| wanted(**overturned));
-            first.map_or_else(|| "-".to_owned(), |(level, _)| level.to_string())
-        };
-        let digits = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.4}"));
+        let last = found.overturned.iter().zip(&found.overturned_rounding).next_back();
         vec![
             format!("{}, {}", found.im, found.unit),
             found.model.to_owned(),
-            level(&|overturned| overturned > 0),
-            level(&|overturned| 2 * overturned >= found.records),
-            format!("{} of {}", found.overturned.last().unwrap_or(&0), found.records),
-            digits(found.theta),
-            digits(found.beta),
+            first_level(found, &|overturned| overturned > 0),
+            first_level(found, &|overturned| 2 * overturned >= found.records),
+            format!(
+                "{} of {}",
+                last.map_or_else(|| "0".to_owned(), |(&own, &range)| counted(own, range)),
+                found.records
+            ),
+            or_dash(found.theta_rounding, digits),
+            or_dash(found.beta_rounding, digits),
         ]
     };
     let rows: Vec<Vec<String>> = report.overturning.iter().map(row).collect();
@@ -76,8 +105,11 @@ fn print_risk(out: &mut impl Write, report: &OverturningReport) -> Result<(), Co
             let shown = if place == 0 { of_site.site.clone() } else { String::new() };
             let mut row = vec![shown, found.im.to_owned(), found.model.to_owned()];
             row.extend(risk_cells(&of_site.risk));
+            if of_site.per_year_rounding.shows_otherwise(rate) {
+                row[3].push('*');
+            }
             row.extend([
-                of_site.lognormal_per_year.map_or_else(|| "-".to_owned(), |per_year| format!("{per_year:.3e}")),
+                or_dash(of_site.lognormal_per_year_rounding, rate),
                 percent(of_site.risk.lower_tail_share),
                 percent(of_site.risk.upper_tail_share),
             ]);
@@ -92,5 +124,38 @@ fn print_risk(out: &mut impl Write, report: &OverturningReport) -> Result<(), Co
          first comes from below and\nabove the analysed levels\n{}",
         table(&header, &rows)
     )?;
+    Ok(())
+}
+
+/// What asterisks mean, and from where to where rounding moves counts and frequencies; nothing where there are none.
+fn print_rounding(out: &mut impl Write, report: &OverturningReport) -> Result<(), CommandError> {
+    let mut moved = Vec::new();
+    for found in &report.overturning {
+        let counts: Vec<String> = (found.levels.iter().zip(&found.overturned_rounding))
+            .filter(|(_, [fewest, most])| fewest < most)
+            .map(|(level, [fewest, most])| format!("{fewest} to {most} at {level}"))
+            .collect();
+        if !counts.is_empty() {
+            moved.push(format!("   {}, {}, {}: {}", found.im, found.unit, found.model, counts.join(", ")));
+        }
+        for of_site in &found.sites {
+            let of = &of_site.per_year_rounding;
+            if of.shows_otherwise(rate) {
+                let (lowest, highest) = (rate(of.lowest), rate(of.highest));
+                moved.push(format!(
+                    "   {}, {}, {}: {lowest} to {highest} per year",
+                    of_site.site, found.im, found.model
+                ));
+            }
+        }
+    }
+    if !moved.is_empty() {
+        writeln!(
+            out,
+            "*: rounding decides it, and what follows from it: with all scale factors some 1e-15 smaller and larger it \
+             is, lowest to highest\n(docs/method.md, section 1.5)\n{}",
+            moved.join("\n")
+        )?;
+    }
     Ok(())
 }

@@ -1,9 +1,10 @@
 //! The numbers of a design sheet: in sentences, as facts of the structure, in tables.
 
 use serde::Serialize;
-use uplift::structure::{DesignReport, EventRisk, RuleCheck};
+use uplift::structure::{DesignReport, EventRisk, ExactDemand, RuleCheck, RuleOutcome};
 use uplift::study::Structure;
 use uplift::text::per_cent;
+use uplift_spectra::Noisy;
 use uplift_structure::Rule;
 
 use crate::page::Table;
@@ -28,7 +29,10 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
         (Some(exact), _) if exact.overturns => {
             say(format!("{of}, there is no displacement that meets the target: it overturns more often."), Some("no"));
         }
-        (Some(exact), _) => say(format!("{of}, it must survive {} m{capacity}.", significant(exact.demand_m)), None),
+        (Some(exact), _) => {
+            let demand = exact.rounding.demand_m.marked(significant);
+            say(format!("{of}, it must survive {demand} m{capacity}."), None);
+        }
         (None, Some(spectrum)) => {
             let demand = significant(spectrum.zero_stiffness_demand_m);
             say(format!("{of}, the spectrum asks for {demand} m without stiffness after uplift{capacity}."), None);
@@ -57,13 +61,14 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
         }
     }
     if let Some(exact) = &report.exact {
-        say(in_words("It overturns", &exact.overturning, years), None);
+        say(in_words("It overturns", &exact.overturning, &exact.rounding.overturning_per_year, years), None);
     }
     sentences
 }
 
-fn in_words(what: &str, risk: &EventRisk, years: f64) -> String {
+fn in_words(what: &str, risk: &EventRisk, rounding: &Noisy, years: f64) -> String {
     if risk.per_year == 0.0 {
+        // a neighbour that overturns is in the note
         return risk.at_most_per_year.map_or_else(
             || format!("{what} in none of the analyses."),
             |most| format!("{what} in none of the analyses: at most {} a year.", power(most, 1)),
@@ -73,24 +78,38 @@ fn in_words(what: &str, risk: &EventRisk, years: f64) -> String {
     format!(
         "{what} once in {} years on average ({} a year): {} % in {years} years.",
         if between < 1e7 { significant(between) } else { power(between, 1) },
-        power(risk.per_year, 1),
+        rounding.marked(|per_year| power(per_year, 1)),
         significant(100.0 * risk.probability)
     )
 }
 
-/// Which demands hang on rounding, and from where to where; none where none does.
+/// Which numbers hang on rounding, and from where to where; none where none does.
 pub(super) fn rounding_words(report: &DesignReport) -> Option<String> {
     let rounding = &report.exact.as_ref()?.rounding;
-    let demands = [
-        ("zero stiffness, exact", &rounding.zero_stiffness_demand_of_spectrum_m),
-        ("zero stiffness with uplift and impacts of the structure", &rounding.zero_stiffness_demand_m),
-        ("the structure itself", &rounding.demand_m),
-    ];
-    let moved = demands.into_iter().filter(|(_, demand_m)| demand_m.shows_otherwise(metres));
-    let moved: Vec<String> =
-        moved.map(|(what, of)| format!("{what}: {} to {} m", metres(of.lowest), metres(of.highest))).collect();
-    let words = "rounding decides the last digits of a demand, and of what follows from it; with strengths some 1e-15 \
-                 lower and higher it is, lowest to highest (before the factor Γ)";
+    let mut moved = Vec::new();
+    let mut tell = |what: &str, of: &Noisy, shown: fn(f64) -> String, unit: &str| {
+        if of.shows_otherwise(shown) {
+            moved.push(format!("{what}: {} to {}{unit}", shown(of.lowest), shown(of.highest)));
+        }
+    };
+    tell("zero stiffness, exact", &rounding.zero_stiffness_demand_of_spectrum_m, metres, " m");
+    tell("zero stiffness with uplift and impacts of the structure", &rounding.zero_stiffness_demand_m, metres, " m");
+    tell("the structure itself", &rounding.demand_m, metres, " m");
+    for outcome in &report.rules {
+        if let Some(check) = &outcome.from_spectrum {
+            tell(&format!("error of {}", name(outcome.rule)), &rounding.error_of(check.demand_m), relative, "");
+        }
+        if let Some(errors) = &rounding.rule_errors {
+            let of = format!("error of {} from the exact demand", name(outcome.rule));
+            tell(&of, &errors.of(outcome.rule), relative, "");
+        }
+    }
+    if let Some(of) = &rounding.beyond_capacity_per_year {
+        tell("beyond its capacity", of, scientific, " a year");
+    }
+    tell("overturning", &rounding.overturning_per_year, scientific, " a year");
+    let words = "*: rounding decides the last digits, and those of what follows from it; with strengths some 1e-15 \
+                 lower and higher it is, lowest to highest";
     (!moved.is_empty()).then(|| format!("{words}: {}", moved.join("; ")))
 }
 
@@ -155,14 +174,15 @@ fn table(id: &str, title: &str, note: String, header: &[&str], rows: Vec<Vec<Str
 
 fn demands(report: &DesignReport) -> Option<Table> {
     let mut rows = Vec::new();
-    let mut row = |what: &str, demand_m: f64| rows.push(vec![what.to_owned(), metres(demand_m)]);
+    let mut row = |what: &str, demand: String| rows.push(vec![what.to_owned(), demand]);
     if let Some(spectrum) = &report.spectrum {
-        row("without stiffness after uplift, from the spectrum", spectrum.zero_stiffness_demand_m);
+        row("without stiffness after uplift, from the spectrum", metres(spectrum.zero_stiffness_demand_m));
     }
-    if let Some(exact) = &report.exact {
-        row("without stiffness after uplift, exact", exact.zero_stiffness_demand_of_spectrum_m);
-        row("the same with the uplift and impacts of the structure", exact.zero_stiffness_demand_m);
-        row("the structure itself, exact", exact.demand_m);
+    if let Some(ExactDemand { rounding, .. }) = &report.exact {
+        let marked = |demand_m: &Noisy| demand_m.marked(metres);
+        row("without stiffness after uplift, exact", marked(&rounding.zero_stiffness_demand_of_spectrum_m));
+        row("the same with the uplift and impacts of the structure", marked(&rounding.zero_stiffness_demand_m));
+        row("the structure itself, exact", marked(&rounding.demand_m));
     }
     let note = format!(
         "{} by {}, {} in {} years: {} a year. Exact means of these records and levels.",
@@ -176,22 +196,30 @@ fn demands(report: &DesignReport) -> Option<Table> {
 }
 
 fn rules(report: &DesignReport) -> Option<Table> {
-    let row = |rule: Rule, check: &RuleCheck| {
+    let rounding = report.exact.as_ref().map(|exact| exact.rounding);
+    let marked = |outcome: &RuleOutcome, error: f64| {
+        let range = rounding.and_then(|rounding| match &outcome.from_spectrum {
+            Some(check) => Some(rounding.error_of(check.demand_m)),
+            None => rounding.rule_errors.map(|errors| errors.of(outcome.rule)),
+        });
+        range.map_or_else(|| relative(error), |range| range.marked(relative))
+    };
+    let row = |outcome: &RuleOutcome, check: &RuleCheck| {
         let verdict = if check.satisfied { "satisfied" } else { "NOT satisfied" };
         let stiffness = check.required_tendon_stiffness_n_m.map_or_else(|| "–".to_owned(), scientific);
         vec![
-            name(rule).to_owned(),
+            name(outcome.rule).to_owned(),
             metres(check.demand_m),
             metres(check.required_capacity_m),
             if check.capacity_m.is_finite() { metres(check.capacity_m) } else { "infinite".to_owned() },
             if check.margin_m.is_finite() { format!("{:+.4}", check.margin_m) } else { "–".to_owned() },
             if check.safety_factor.is_finite() { format!("{:.2}", check.safety_factor) } else { "–".to_owned() },
             stiffness,
-            check.error.map_or_else(|| "–".to_owned(), relative),
+            check.error.map_or_else(|| "–".to_owned(), |error| marked(outcome, error)),
             verdict.to_owned(),
         ]
     };
-    let rows = report.rules.iter().filter_map(|outcome| Some(row(outcome.rule, outcome.check()?))).collect();
+    let rows = report.rules.iter().filter_map(|outcome| Some(row(outcome, outcome.check()?))).collect();
     let note = format!(
         "Required capacity with a safety factor of {} (Eq. 3.15); the error is that of the rule's demand against the \
          exact one, negative is unsafe.",
@@ -213,21 +241,25 @@ fn rules(report: &DesignReport) -> Option<Table> {
 
 fn risk(report: &DesignReport) -> Option<Table> {
     let exact = report.exact.as_ref()?;
-    let row = |what: String, risk: &EventRisk| {
+    let row = |what: String, risk: &EventRisk, rounding: &Noisy| {
+        let mark = if rounding.shows_otherwise(scientific) { "*" } else { "" };
         let outside = per_cent((1000.0 * (risk.lower_tail_share + risk.upper_tail_share)).round() / 1000.0);
         if risk.per_year == 0.0 {
             // none of the runs does it: a bound, never never
             let most =
                 risk.at_most_per_year.map_or_else(|| "none seen".to_owned(), |most| format!("< {}", scientific(most)));
+            let most = format!("{most}{mark}");
             return vec![what, most, "–".to_owned(), "–".to_owned(), "–".to_owned()];
         }
         let probability = format!("{} %", significant(100.0 * risk.probability));
-        vec![what, scientific(risk.per_year), probability, return_period(risk), outside]
+        vec![what, rounding.marked(scientific), probability, return_period(risk), outside]
     };
     let capacity_m = report.structure.capacity_m.unwrap_or(f64::NAN);
-    let beyond =
-        exact.beyond_capacity.iter().map(|risk| row(format!("beyond its capacity, {} m", metres(capacity_m)), risk));
-    let rows = beyond.chain([row("overturning".to_owned(), &exact.overturning)]).collect();
+    let rounding = &exact.rounding;
+    let beyond = exact.beyond_capacity.iter().zip(&rounding.beyond_capacity_per_year);
+    let beyond = beyond.map(|(risk, of)| row(format!("beyond its capacity, {} m", metres(capacity_m)), risk, of));
+    let overturning = row("overturning".to_owned(), &exact.overturning, &rounding.overturning_per_year);
+    let rows = beyond.chain([overturning]).collect();
     let years = format!("in {} years", report.years);
     let header = ["the structure itself", "per year", &years, "return period, years", "from outside the levels"];
     let note = "Counted over all records and levels, weighted by the hazard of the site (Eq. 4.4).".to_owned();
@@ -235,19 +267,20 @@ fn risk(report: &DesignReport) -> Option<Table> {
 }
 
 fn noise(report: &DesignReport) -> Option<Table> {
-    let noise = &report.exact.as_ref()?.noise;
-    let range = |what: &str, of: &uplift_spectra::Noisy, shown: fn(f64) -> String| {
-        vec![what.to_owned(), shown(of.value), shown(of.lowest), shown(of.highest)]
+    let ExactDemand { noise, rounding, .. } = report.exact.as_ref()?;
+    let mut rows = Vec::new();
+    let mut range = |what: &str, [of, rounding]: [&Noisy; 2], shown: fn(f64) -> String| {
+        rows.push(vec![what.to_owned(), rounding.marked(shown), shown(of.lowest), shown(of.highest)]);
     };
-    let mut rows = vec![range("demand on the structure, m", &noise.demand_m, metres)];
-    if let Some(errors) = &noise.rule_errors {
-        rows.push(range("error of equal displacement", &errors.equal_displacement, relative));
-        rows.push(range("error of equal energy", &errors.equal_energy, relative));
+    range("demand on the structure, m", [&noise.demand_m, &rounding.demand_m], metres);
+    if let (Some(of), Some(rounding)) = (&noise.rule_errors, &rounding.rule_errors) {
+        range("error of equal displacement", [&of.equal_displacement, &rounding.equal_displacement], relative);
+        range("error of equal energy", [&of.equal_energy, &rounding.equal_energy], relative);
     }
-    rows.extend(
-        noise.beyond_capacity_per_year.as_ref().map(|of| range("beyond its capacity, per year", of, scientific)),
-    );
-    rows.push(range("overturning, per year", &noise.overturning_per_year, scientific));
+    if let (Some(of), Some(rounding)) = (&noise.beyond_capacity_per_year, &rounding.beyond_capacity_per_year) {
+        range("beyond its capacity, per year", [of, rounding], scientific);
+    }
+    range("overturning, per year", [&noise.overturning_per_year, &rounding.overturning_per_year], scientific);
     let note = "The same for ten structures whose strength is up to one percent lower or higher: what lies within the \
                 range is no finding."
         .to_owned();
