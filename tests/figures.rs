@@ -9,6 +9,7 @@
 
 mod base_widths;
 mod conditioning;
+mod coverage;
 mod design_tables;
 mod designs;
 mod embedded_set;
@@ -20,9 +21,12 @@ mod level_grids;
 mod marks;
 mod newmark;
 mod record_sets;
+mod rounding_of_ordinates;
 mod table_4_1;
 mod table_4_2;
 mod two_solvers;
+mod uplift_and_impacts;
+mod worked_pier;
 
 use std::path::Path;
 

@@ -9,9 +9,10 @@ const BEGIN: &str = "<!-- figure: ";
 const END: &str = "<!-- end -->";
 
 /// The sources, by which names begin; those that `make test` leaves out are slow.
-const SOURCES: [&str; 20] = [
+const SOURCES: [&str; 25] = [
     "base-widths",
     "conditioning",
+    "coverage",
     "curves",
     "designs",
     "embedded",
@@ -22,14 +23,18 @@ const SOURCES: [&str; 20] = [
     "levels",
     "levels-at-athens",
     "newmark",
+    "own-oscillator",
+    "own-oscillator-embedded",
     "real",
     "rounding",
     "rounding-missed",
+    "rounding-ordinates",
     "table-4-1",
     "table-4-2",
     "tables-2",
     "tables-3",
     "two-solvers",
+    "worked",
 ];
 
 /// One process writes, one source at a time.
