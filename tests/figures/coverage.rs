@@ -1,5 +1,5 @@
-//! How often bootstrap bands hold what they are bands of (docs/limits.md): sets drawn from all real records, which stand
-//! for the world.
+//! How often bootstrap bands hold what they are bands of (docs/limits.md): sets drawn from all real records, which
+//! stand for the world.
 
 use rayon::prelude::*;
 use uplift::result::{ResultFile, StoredMeasure, StoredStripes};

@@ -1,5 +1,5 @@
-//! What rounding makes of uniform risk ordinates (docs/method.md, section 1.5): the same spectra at neighbouring levels,
-//! real records.
+//! What rounding makes of uniform risk ordinates (docs/method.md, section 1.5): the same spectra at neighbouring
+//! levels, real records.
 
 use super::marks::hold;
 use super::{Ordinate, ordinates, quantile, range, with_real_records};
@@ -12,7 +12,7 @@ const PGV_CM_S: [[f64; 3]; 3] = [[0.1, 0.1, 0.9], [1.0, 0.5, 20.0], [25.0, 5.0, 
 const PGA_G: [[f64; 3]; 4] = [[0.001, 1.0, 0.001], [0.0025, 0.0025, 0.0225], [0.025, 0.005, 0.195], [0.2, 0.05, 2.0]];
 
 /// The levels of a grid, each times `factor`, as a study has them.
-#[expect(clippy::cast_possible_truncation, reason = "a number of steps")]
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of steps")]
 fn levels(grid: &[[f64; 3]], factor: f64) -> String {
     let of = |&[first, step, last]: &[f64; 3]| {
         let steps = ((last - first) / step).round() as u32;
