@@ -44,8 +44,9 @@ impl<'a> ScaledAnalysis<'a> {
     /// - `extrapolation`: what to do with a stripe outside the curve of x, as for the analysis itself.
     ///
     /// # Errors
-    /// Levels that do not rise; a stripe outside the curve of x under [`Extrapolation::Refuse`]; no target, or one that
-    /// is not positive and finite; more than 65 535 records or levels.
+    /// Levels that do not rise; a stripe outside the curve of x under [`Extrapolation::Refuse`]; a record whose y at a
+    /// stripe is no number any more; no target, or one that is not positive and finite; more than 65 535 records or
+    /// levels.
     pub fn new(
         set: &'a RecordSet,
         levels: &[f64],
@@ -55,6 +56,14 @@ impl<'a> ScaledAnalysis<'a> {
         extrapolation: Extrapolation,
     ) -> Result<Self, ConsistencyError> {
         let stripes = StripeWeights::from_hazard(scaled_to, levels, extrapolation)?;
+        let (first, last) = (levels.first().copied().unwrap_or(1.0), levels.last().copied().unwrap_or(1.0));
+        for (record, ratio) in set.ratios().iter().enumerate() {
+            for value in [first * ratio, last * ratio] {
+                if !value.is_normal() {
+                    return Err(ConsistencyError::Intensity { record, what: "other intensity at a stripe", value });
+                }
+            }
+        }
         let brought: Vec<f64> =
             set.ratios().iter().flat_map(|ratio| levels.iter().map(move |level| level * ratio)).collect();
         let brought = PooledDemand::new(&Stripes::new(levels, &brought)?)?;

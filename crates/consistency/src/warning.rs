@@ -12,6 +12,9 @@ const LARGEST_EVENT_SHARE: f64 = 0.5;
 /// ln q should scatter by this much at least at the stripes of the targets.
 const LEAST_SCATTER: f64 = 0.35;
 
+/// A larger share of resamples that do not reach the curve is told.
+const MOST_FAILED_RESAMPLES: f64 = 0.05;
+
 /// Something about a repaired set that its reader should know; the limits are judgement, not calibrated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Warning {
@@ -51,6 +54,13 @@ pub enum Warning {
     },
     /// The stripes begin too high for the largest target rate.
     LowerTail,
+    /// Many resamples cannot be weighted to the site's hazard: their bands are those of the best weights found.
+    FailedResamples {
+        /// Records in a resample.
+        size: u32,
+        /// Share of the resamples that do not reach the curve.
+        share: f64,
+    },
 }
 
 impl Warning {
@@ -89,6 +99,14 @@ impl Warning {
         warnings
     }
 
+    /// Whether too many of the resamples of `size` records did not reach the curve ([`Fit::is_reached`]).
+    ///
+    /// [`Fit::is_reached`]: crate::Fit::is_reached
+    pub fn of_resamples(size: u32, failed: usize, replicates: usize) -> Option<Self> {
+        let share = failed as f64 / replicates as f64;
+        (share > MOST_FAILED_RESAMPLES).then_some(Self::FailedResamples { size, share })
+    }
+
     /// A sentence that says it, and what to do.
     pub fn sentence(&self, words: &Words<'_>) -> String {
         let (x, y) = (words.scaled_to, words.other);
@@ -111,13 +129,18 @@ impl Warning {
                 words.level(level)
             ),
             Self::NarrowScatter { target, sd_ln_ratio } => format!(
-                "ln({y}/{x}) scatters by only {sd_ln_ratio:.2} at the level of {}, where 0.35 and more is expected: the \
-                 set lacks one side",
+                "ln({y}/{x}) scatters by only {sd_ln_ratio:.2} at the level of {}, where 0.35 and more is expected: \
+                 the set lacks one side",
                 (words.target)(target)
             ),
             Self::LowerTail => format!(
                 "the stripes begin too high for the most frequent target: add stripes of {x} below {}",
                 words.level(0)
+            ),
+            Self::FailedResamples { size, share } => format!(
+                "{:.0} % of the resamples of {size} records cannot be weighted to the site's {y}: their bands are \
+                 those of the best weights found",
+                100.0 * share
             ),
         }
     }
@@ -153,5 +176,119 @@ impl Words<'_> {
 impl std::fmt::Debug for Words<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Words").field("scaled_to", &self.scaled_to).field("other", &self.other).finish_non_exhaustive()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use uplift_hazard::{Extrapolation, HazardCurve};
+
+    use super::*;
+    use crate::{LeastEffective, NoRepair, RateRange, Reach, RecordSet, Seismology, SetRecord};
+
+    fn with_words(test: impl Fn(&Words<'_>)) {
+        test(&Words {
+            scaled_to: "PGV",
+            scaled_to_unit: "cm/s",
+            other: "PGA",
+            levels: &[1.0, 2.5, 40.0],
+            record: &|record| format!("RSN{record}"),
+            event: &|event| format!("event {event}"),
+            target: &|target| ["2 % in 50 years", "10 % in 50 years"][target].to_owned(),
+        });
+    }
+
+    #[test]
+    fn each_warning_has_its_limit_and_its_sentence() {
+        let record = |pair: usize| SetRecord {
+            scaled_to: 1.0,
+            other: 0.01 * (pair as f64 / 20.0 - 1.0).exp(),
+            pair,
+            event: Some(7),
+            seismology: Seismology::default(),
+        };
+        let set = RecordSet::new((0..41).map(record).collect()).unwrap();
+        let rates = vec![0.5, 0.01, 1e-4, 1e-7];
+        let x = HazardCurve::new("PGV", "cm/s", "", vec![0.5, 2.0, 10.0, 100.0], rates.clone()).unwrap();
+        let y = HazardCurve::new("PGA", "g", "", vec![0.005, 0.02, 0.1, 1.0], rates).unwrap();
+        let of = |levels: &[f64], change: &dyn Fn(&mut Diagnosis)| {
+            let analysis = ScaledAnalysis::new(&set, levels, &x, &y, &[0.01, 0.001], Extrapolation::Refuse).unwrap();
+            let mut diagnosis = analysis.diagnose(None, [0.2, 5.0]).unwrap();
+            for stripe in &mut diagnosis.stripes {
+                stripe.largest_event = Some((7, 0.4));
+            }
+            change(&mut diagnosis);
+            Warning::of(&analysis, &diagnosis, 20.0)
+        };
+        let levels = [1.0, 3.0, 5.0, 40.0];
+        assert_eq!(of(&levels, &|_| {}), []);
+        assert_eq!(of(&[2.5, 3.0, 40.0], &|_| {}), [Warning::LowerTail]);
+        // the first stripe is outside the range, the second in it
+        let found = of(&levels, &|diagnosis| {
+            diagnosis.least_effective = Some(LeastEffective { records: 12.34, level: 1 });
+            for (level, share) in [(0, 0.9), (1, 0.3)] {
+                diagnosis.stripes[level].largest_record_share = share;
+                diagnosis.stripes[level].largest_record = 40;
+                diagnosis.stripes[level].largest_event = Some((7, 2.0 * share));
+            }
+            let stripe = diagnosis.targets[1].stripe;
+            diagnosis.stripes[stripe].sd_ln_ratio = 0.31;
+        });
+        let expected = [
+            Warning::FewEffective { records: 12.34, level: 1, limit: 20.0 },
+            Warning::OneRecord { record: 40, share: 0.3, level: 1 },
+            Warning::OneEvent { event: 7, share: 0.6, level: 1 },
+            Warning::NarrowScatter { target: 1, sd_ln_ratio: 0.31 },
+        ];
+        assert_eq!(found, expected);
+        with_words(|words| {
+            let sentences = expected.map(|warning| warning.sentence(words));
+            assert!(sentences[0].starts_with("the weights leave 12.3 effective records at the stripe 2.5 cm/s"));
+            assert_eq!(sentences[1], "record RSN40 has 30 % of the weight at the stripe 2.5 cm/s");
+            assert_eq!(sentences[2], "the earthquake event 7 has 60 % of the weight at the stripe 2.5 cm/s");
+            assert!(sentences[3].starts_with("ln(PGA/PGV) scatters by only 0.31 at the level of 10 % in 50 years"));
+            assert!(Warning::LowerTail.sentence(words).ends_with("add stripes of PGV below 1 cm/s"));
+        });
+    }
+
+    #[test]
+    fn failed_resamples_are_told_above_five_per_cent() {
+        assert_eq!(Warning::of_resamples(20, 50, 1000), None);
+        let warning = Warning::of_resamples(20, 250, 1000).unwrap();
+        assert_eq!(warning, Warning::FailedResamples { size: 20, share: 0.25 });
+        with_words(|words| assert!(warning.sentence(words).starts_with("25 % of the resamples of 20 records")));
+    }
+
+    #[test]
+    fn each_reason_against_a_repair_has_its_sentence() {
+        let range = RateRange {
+            high_per_year: 1e-3,
+            low_per_year: 5e-4,
+            high_limit: HighLimit::FirstStripe,
+            low_limit: crate::LowLimit::OtherCurve,
+        };
+        with_words(|words| {
+            for (reason, parts) in [
+                (
+                    NoRepair::NarrowRange(range),
+                    ["1.00e-3 per year (half the rate of the first stripe of PGV)", "5.00e-4"],
+                ),
+                (
+                    NoRepair::OutOfReach(Reach { set_above: 12, set_below: 0 }),
+                    ["at 12 of 12 rates every record brings PGA more often", "records of lower PGA/PGV are missing"],
+                ),
+                (
+                    NoRepair::OutOfReach(Reach { set_above: 1, set_below: 2 }),
+                    ["at 1 of 12", "at 2 of 12 rates every record brings PGA less often"],
+                ),
+                (NoRepair::Runaway { exponents: [0.0, -61.0, 3.0, 0.0] }, ["exponent -61", "add records of lower"]),
+                (NoRepair::NotReached { largest_residual: 0.2 }, ["22 %", "records of higher PGA/PGV"]),
+                (NoRepair::TooFew(LeastEffective { records: 3.21, level: 2 }), ["3.2 effective", "40 cm/s"]),
+            ] {
+                let sentence = reason.sentence(words);
+                assert!(parts.iter().all(|part| sentence.contains(part)), "{sentence}");
+            }
+        });
     }
 }

@@ -12,8 +12,11 @@ use uplift_motion::{IntensityMeasure, RecordPair, STANDARD_GRAVITY_M_S2};
 use uplift_oscillator::Oscillator;
 use uplift_risk::PooledDemand;
 
-/// Strengths whose repaired ordinates are compared.
-pub(crate) const STRENGTHS: [f64; 5] = [0.05, 0.1, 0.2, 0.4, 0.8];
+/// Strengths whose spectra by both measures are compared.
+pub(crate) const STRENGTHS: [f64; 8] = [0.05, 0.1, 0.2, 0.3, 0.4, 0.6, 0.8, 1.0];
+
+/// Those whose ordinates are compared one by one: 0.05, 0.1, 0.2, 0.4, 0.8.
+pub(crate) const ONE_BY_ONE: [usize; 5] = [0, 1, 2, 4, 6];
 
 /// The measure that a set is scaled to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -77,10 +80,18 @@ impl Site {
     }
 
     pub(crate) fn analysis<'a>(&'a self, set: &'a RecordSet, scaled_to: ScaledTo) -> ScaledAnalysis<'a> {
-        let (own, other) = match scaled_to {
-            ScaledTo::Pgv => (&self.pgv, &self.pga),
-            ScaledTo::Pga => (&self.pga, &self.pgv),
-        };
+        let other = if scaled_to == ScaledTo::Pgv { &self.pga } else { &self.pgv };
+        self.analysis_with(set, scaled_to, other)
+    }
+
+    /// With another hazard of the other measure.
+    pub(crate) fn analysis_with<'a>(
+        &self,
+        set: &'a RecordSet,
+        scaled_to: ScaledTo,
+        other: &'a HazardCurve,
+    ) -> ScaledAnalysis<'a> {
+        let own = if scaled_to == ScaledTo::Pgv { &self.pgv } else { &self.pga };
         ScaledAnalysis::new(set, &scaled_to.levels(), own, other, &targets(), Extrapolation::Refuse).unwrap()
     }
 }

@@ -2,10 +2,11 @@
 #![allow(clippy::unwrap_used)]
 
 use proptest::prelude::*;
-use uplift_consistency::{KNOTS, RecordSet, RepairOptions, ScaledAnalysis, Scratch, Seismology, SetRecord, Solver};
-use uplift_fragility::Stripes;
+use uplift_consistency::{
+    ConsistencyError, KNOTS, NoRepair, RecordSet, RepairOptions, ScaledAnalysis, Scratch, Seismology, SetRecord, Solver,
+};
 use uplift_hazard::{Extrapolation, HazardCurve};
-use uplift_risk::{PooledDemand, RiskCurve, RunWeights};
+use uplift_risk::{RunWeights, StripeWeights};
 
 use crate::common::targets;
 
@@ -69,20 +70,6 @@ fn assert_close(found: &[f64], expected: &[f64], tolerance: f64) -> Result<(), T
     Ok(())
 }
 
-/// Demands that follow x and y of each run, m, `[record, level]`.
-fn demands_m(set: &RecordSet) -> Vec<f64> {
-    let of_record = |record: usize| {
-        let factor = 1e-3 * (1.0 + 0.3 * ((record * 7) % 5) as f64) * set.ratios()[record].sqrt();
-        levels().into_iter().map(move |level| factor * level.powf(1.3))
-    };
-    (0..set.len()).flat_map(of_record).collect()
-}
-
-fn ordinate_m(set: &RecordSet, weights: &RunWeights, target_per_year: f64) -> f64 {
-    let demand = PooledDemand::new(&Stripes::new(&levels(), &demands_m(set)).unwrap()).unwrap();
-    RiskCurve::weighted(&demand, weights).unwrap().exact_ordinate(target_per_year).unwrap().displacement_m
-}
-
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
@@ -117,7 +104,9 @@ proptest! {
     }
 
     #[test]
-    fn the_unit_of_y_changes_nothing((scales, ln_ratios) in sets(), unit in prop::sample::select(vec![9.80665, 980.665])) {
+    fn the_unit_of_y_changes_nothing(
+        (scales, ln_ratios) in sets(), unit in prop::sample::select(vec![9.80665, 980.665]),
+    ) {
         let (x, y) = (hazard("PGV", "cm/s", 1.0, 1.0), hazard("other", "1", 1.0, 1.3));
         let in_other = hazard("other", "1", unit, 1.3);
         let shifted: Vec<f64> = ln_ratios.iter().map(|ln_ratio| ln_ratio + f64::ln(unit)).collect();
@@ -179,36 +168,11 @@ proptest! {
         assert_close(&back.fit.exponents, &forth.fit.exponents, 1e-9)?;
     }
 
-    /// A set that is consistent already needs no weights: its own implied hazard, at 400 levels, for the site's.
+    /// There is one solution, and the derivatives lead to it from anywhere near.
     #[test]
-    fn a_consistent_set_stays_as_it_is((scales, ln_ratios) in sets()) {
-        let set = set(&scales, &ln_ratios);
-        let (x, any) = (hazard("PGV", "cm/s", 1.0, 1.0), hazard("other", "1", 1.0, 1.0));
-        let first = analysis(&set, &x, &any);
-        let implied = first.implied(None).unwrap();
-        let mut curve: Vec<(f64, f64)> = Vec::new();
-        for i in 0..400 {
-            let level = 0.2 * 1.022_f64.powi(i);
-            let rate = implied.mean_annual_frequency(level).unwrap();
-            if rate > 0.0 && curve.last().is_none_or(|last| rate < last.1) {
-                curve.push((level, rate));
-            }
-        }
-        let (levels, rates) = curve.into_iter().unzip();
-        let own = HazardCurve::new("other", "1", "", levels, rates).unwrap();
-        let analysis = analysis(&set, &x, &own);
-        let repaired = analysis.repair(&RepairOptions::default()).unwrap();
-        prop_assert!(repaired.fit.exponents.iter().all(|b| b.abs() < 0.1), "{:?}", repaired.fit);
-        let even = RunWeights::new(analysis.stripes(), &analysis.even_shares()).unwrap();
-        for target in targets() {
-            let ratio = ordinate_m(&set, &repaired.weights, target) / ordinate_m(&set, &even, target);
-            prop_assert!((ratio - 1.0).abs() < 0.07, "{ratio}");
-        }
-    }
-
-    /// The exact derivatives are those of the residuals: at the solution a small step either way is no better.
-    #[test]
-    fn no_step_from_the_solution_is_better((scales, ln_ratios) in sets(), step in prop::array::uniform4(-1.0..1.0_f64)) {
+    fn any_start_ends_in_the_same_exponents(
+        (scales, ln_ratios) in sets(), step in prop::array::uniform4(-1.0..1.0_f64),
+    ) {
         let set = set(&scales, &ln_ratios);
         let (x, y) = (hazard("PGV", "cm/s", 1.0, 1.0), hazard("other", "1", 1.0, 1.3));
         let analysis = analysis(&set, &x, &y);
@@ -218,5 +182,60 @@ proptest! {
         let start = std::array::from_fn(|k| best.exponents[k] + 3.0 * step[k]);
         let again = solver.solve(&set.once(), &start, &mut scratch).unwrap();
         assert_close(&again.exponents, &best.exponents, 1e-4)?;
+    }
+}
+
+#[test]
+fn what_does_not_belong_together_is_refused() {
+    let (x, y) = (hazard("PGV", "cm/s", 1.0, 1.0), hazard("other", "1", 1.0, 1.3));
+    let scales = [1.0; 30];
+    let ln_ratios: Vec<f64> = (0..30).map(|i| f64::from(i) / 12.0 - 1.2).collect();
+    let set = set(&scales, &ln_ratios);
+    let of = |set, levels: &[f64], targets: &[f64]| {
+        ScaledAnalysis::new(set, levels, &x, &y, targets, Extrapolation::Refuse).map(|_| ())
+    };
+    let targets = targets();
+    assert!(matches!(of(&set, &levels(), &[]), Err(ConsistencyError::NoTargets)));
+    assert!(matches!(of(&set, &[2.0, 1.0], &targets), Err(ConsistencyError::Risk(_))));
+    assert!(matches!(of(&set, &[1e-3, 1.0], &targets), Err(ConsistencyError::Risk(_))));
+    let small = RecordSet::new(vec![SetRecord { scaled_to: 1e160, other: 1e-160, ..set.records()[0] }]).unwrap();
+    assert!(matches!(of(&small, &levels(), &targets), Err(ConsistencyError::Intensity { record: 0, .. })));
+
+    let analysis = analysis(&set, &x, &y);
+    for value in [-0.1, f64::NAN, f64::INFINITY] {
+        assert!(matches!(Solver::new(&analysis, value), Err(ConsistencyError::Smoothness { .. })));
+    }
+    let solver = Solver::new(&analysis, 0.05).unwrap();
+    let (mut scratch, start) = (Scratch::default(), [0.0; KNOTS]);
+    let error = solver.solve(&[1; 29], &start, &mut scratch).unwrap_err();
+    assert!(matches!(error, ConsistencyError::Count { found: 29, expected: 30, .. }), "{error}");
+    assert_eq!(solver.solve(&[0; 30], &start, &mut scratch).unwrap_err(), ConsistencyError::NothingDrawn);
+    assert_eq!(solver.reach(&[0; 30]).unwrap_err(), ConsistencyError::NothingDrawn);
+    let error = solver.shares(&[1; 30], &start, &mut scratch, &mut [0.0; 7]).unwrap_err();
+    assert!(matches!(error, ConsistencyError::Count { found: 7, .. }), "{error}");
+    let stripes = StripeWeights::new(&[0.1], None).unwrap();
+    let other = RunWeights::new(&stripes, &[1.0]).unwrap();
+    assert!(analysis.diagnose(Some(&other), [0.2, 5.0]).is_err());
+
+    // two stripes close together leave no range of rates
+    let narrow = ScaledAnalysis::new(&set, &[8.0, 9.0], &x, &y, &targets, Extrapolation::Refuse).unwrap();
+    assert_eq!(narrow.diagnose(None, [0.2, 5.0]).unwrap().verdict(), None);
+    let error = narrow.repair(&RepairOptions::default()).unwrap_err();
+    assert!(matches!(error, ConsistencyError::NoRepair(NoRepair::NarrowRange(_))), "{error}");
+}
+
+/// Both components of a pair are two records of one pair: they share its weight, and count as one.
+#[test]
+fn both_components_are_one_pair() {
+    let (x, y) = (hazard("PGV", "cm/s", 1.0, 1.0), hazard("other", "1", 1.0, 1.3));
+    let ln_ratios: Vec<f64> = (0..30).map(|i| f64::from(i) / 12.0 - 1.2).collect();
+    let one = set(&[1.0; 30], &ln_ratios);
+    let both = RecordSet::new(one.records().iter().flat_map(|record| [*record; 2]).collect()).unwrap();
+    let options = RepairOptions::default();
+    let [one, both] = [&one, &both].map(|set| analysis(set, &x, &y).repair(&options).unwrap());
+    for (one, both) in one.diagnosis.stripes.iter().zip(&both.diagnosis.stripes) {
+        assert!((one.effective_records / both.effective_records - 1.0).abs() < 1e-6);
+        assert!((one.largest_record_share / both.largest_record_share - 1.0).abs() < 1e-6);
+        assert!(2 * one.largest_record == both.largest_record && both.effective_events.is_none());
     }
 }

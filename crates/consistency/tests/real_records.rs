@@ -9,14 +9,14 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 use uplift_consistency::{
-    ConsistencyError, HighLimit, KNOTS, RecordSet, RepairOptions, Repaired, Scratch, Solver, StripeStatistics,
+    ConsistencyError, HighLimit, KNOTS, RecordSet, RepairOptions, Repaired, Scratch, Solver, StripeStatistics, Warning,
 };
 use uplift_motion::{ReadOptions, RecordPair, read_path};
 use uplift_risk::{PooledDemand, RiskCurve, RunWeights};
 
-use crate::common::{STRENGTHS, ScaledTo, Site, demands_m, pooled, record_set, records_folder, targets};
+use crate::common::{ONE_BY_ONE, STRENGTHS, ScaledTo, Site, demands_m, pooled, record_set, records_folder, targets};
 use crate::expected::{Expected, original_zones, project_sites};
-use crate::golden::{compare, compare_ordinates, keep, scatter};
+use crate::golden::{agree, both_ways, compare, compare_ordinates, from_10_mm, keep, needs_nothing, scatter};
 
 /// The 105 pairs of the stand-in set, in the order of their manifest.
 fn pairs() -> Option<&'static [RecordPair]> {
@@ -66,11 +66,13 @@ fn demands(pairs: &[RecordPair]) -> &'static [Vec<PooledDemand>; 2] {
 }
 
 fn compare_site(pairs: &[RecordPair], site: &Site, expected: &Expected) -> [Repaired; 2] {
-    let mut found = Vec::new();
+    let (mut found, mut stripes) = (Vec::new(), Vec::new());
     for (index, scaled_to) in ScaledTo::BOTH.into_iter().enumerate() {
         let set = record_set(pairs, scaled_to);
         let name = format!("{} by {}", expected.site, scaled_to.measure());
-        let repaired = compare(&name, &site.analysis(&set, scaled_to), &expected.rows[index]);
+        let analysis = site.analysis(&set, scaled_to);
+        let repaired = compare(&name, &analysis, &expected.rows[index]);
+        println!("{name}: {:?}", repaired.warnings);
         assert!((4..=5).contains(&repaired.fit.iterations), "{name}: {} steps", repaired.fit.iterations);
         for (target, ordinates_m) in targets().into_iter().zip(&expected.ordinates_m[index]) {
             if let Some(ordinates_m) = ordinates_m {
@@ -79,8 +81,13 @@ fn compare_site(pairs: &[RecordPair], site: &Site, expected: &Expected) -> [Repa
             }
         }
         found.push(repaired);
+        stripes.push(analysis.stripes().clone());
     }
-    found.try_into().unwrap()
+    let found = found.try_into().unwrap();
+    // by PGV Aachen's stripes begin too high for 50 % in 50 years
+    let count = if expected.site == "Aachen" { 2 } else { 3 };
+    agree(&both_ways(demands(pairs), [&stripes[0], &stripes[1]], &found, &targets()[..count]));
+    found
 }
 
 #[test]
@@ -93,6 +100,7 @@ fn the_set_at_three_sites_of_the_project() {
         for (index, scaled_to) in ScaledTo::BOTH.into_iter().enumerate() {
             let name = format!("{} by {}", expected.site, scaled_to.measure());
             let set = record_set(pairs, scaled_to);
+            needs_nothing(&set, &site, scaled_to, &demands(pairs)[index]);
             let analysis = site.analysis(&set, scaled_to);
             let range = analysis.range();
             let lower_tail = name == "Aachen by PGV";
@@ -129,6 +137,36 @@ fn the_set_at_three_sites_of_the_project() {
                 _ => {}
             }
         }
+    }
+}
+
+/// The difference between spectra by PGA and by PGV that a single scaled set makes, and how much of it is left: 144
+/// ordinates of six sites, those of 10 mm and more.
+#[test]
+fn spectra_by_pga_and_by_pgv_agree_once_repaired() {
+    let Some(pairs) = pairs() else { return };
+    let sets = ScaledTo::BOTH.map(|scaled_to| record_set(pairs, scaled_to));
+    let (mut before, mut after) = (Vec::new(), Vec::new());
+    for name in ["Aachen", "Baden", "Montreux", "Perugia", "Focsani", "Athens"] {
+        let site = Site::of_project(name);
+        let [pgv, pga] = [0, 1].map(|index| site.analysis(&sets[index], ScaledTo::BOTH[index]));
+        let repaired = [&pgv, &pga].map(|analysis| analysis.repair(&RepairOptions::default()).unwrap());
+        let of_site = both_ways(demands(pairs), [pgv.stripes(), pga.stripes()], &repaired, &targets());
+        for (all, of_site) in [&mut before, &mut after].into_iter().zip(of_site) {
+            all.extend(of_site);
+        }
+        if name == "Aachen" {
+            assert_eq!(repaired[0].warnings, [Warning::LowerTail]);
+            let narrow = |warning: &&Warning| matches!(warning, Warning::NarrowScatter { .. });
+            assert_eq!(repaired[1].warnings.iter().filter(narrow).count(), 3, "{:?}", repaired[1].warnings);
+        }
+    }
+    assert_eq!(before.len(), 144);
+    for (pairs_m, count, mean, rms) in [(&before, 46, 3.59, 1.395), (&after, 47, 1.0, 0.048)] {
+        let found = from_10_mm(pairs_m);
+        println!("{found:?}");
+        assert_eq!(found.count, count, "{found:?}");
+        assert!((found.geometric_mean / mean - 1.0).abs() < 0.005 && (found.rms - rms).abs() < 0.001, "{found:?}");
     }
 }
 
@@ -183,8 +221,8 @@ fn a_resample_of_the_set() {
     }
     assert!((after.least_effective.unwrap().records / 22.13 - 1.0).abs() < 0.01);
     let demands = &demands(pairs)[0];
-    for (demand, expected) in demands.iter().zip([0.33435, 0.24196, 0.18515, 0.069013]) {
-        let ordinate = RiskCurve::weighted(demand, &weights).unwrap().exact_ordinate(targets()[0]).unwrap();
+    for (strength, expected) in ONE_BY_ONE.into_iter().zip([0.33435, 0.24196, 0.18515, 0.069013]) {
+        let ordinate = RiskCurve::weighted(&demands[strength], &weights).unwrap().exact_ordinate(targets()[0]).unwrap();
         assert!((ordinate.displacement_m / expected - 1.0).abs() < 0.03, "{ordinate:?} {expected}");
     }
 }

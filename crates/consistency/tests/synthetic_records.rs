@@ -3,10 +3,11 @@
 #![allow(clippy::unreadable_literal)]
 #![allow(clippy::unwrap_used)]
 
+use uplift_consistency::Warning;
 use uplift_motion::synthetic::{SyntheticSetOptions, generate};
 
 use crate::common::{STRENGTHS, ScaledTo, Site, demands_m, pooled, record_set, targets};
-use crate::golden::{Row, compare, compare_ordinates};
+use crate::golden::{Row, agree, both_ways, compare, compare_ordinates, needs_nothing};
 
 #[test]
 fn the_synthetic_set_at_montreux() {
@@ -33,12 +34,23 @@ fn the_synthetic_set_at_montreux() {
         },
     ];
     let ordinates_m = [[0.072762, 0.031648, 0.01306, 0.0046962], [0.073373, 0.03242, 0.012595, 0.0048483]];
+    let (mut all_demands, mut all_repaired, mut all_stripes) = (Vec::new(), Vec::new(), Vec::new());
     for ((scaled_to, row), ordinates_m) in ScaledTo::BOTH.into_iter().zip(&rows).zip(&ordinates_m) {
         let set = record_set(&pairs, scaled_to);
         let name = format!("Montreux by {}", scaled_to.measure());
-        let repaired = compare(&name, &site.analysis(&set, scaled_to), row);
+        let analysis = site.analysis(&set, scaled_to);
+        let repaired = compare(&name, &analysis, row);
         let demands: Vec<_> =
-            demands_m(&pairs, scaled_to, &STRENGTHS[..4]).iter().map(|of_one| pooled(of_one, scaled_to)).collect();
+            demands_m(&pairs, scaled_to, &STRENGTHS[..5]).iter().map(|of_one| pooled(of_one, scaled_to)).collect();
         compare_ordinates(&name, &repaired, &demands, targets()[0], ordinates_m);
+        let few = repaired.warnings.iter().any(|warning| matches!(warning, Warning::FewEffective { .. }));
+        assert_eq!(few, scaled_to == ScaledTo::Pga, "{:?}", repaired.warnings);
+        needs_nothing(&set, &site, scaled_to, &demands);
+        all_demands.push(demands);
+        all_repaired.push(repaired);
+        all_stripes.push(analysis.stripes().clone());
     }
+    let stripes = [&all_stripes[0], &all_stripes[1]];
+    let (demands, repaired) = (all_demands.try_into().unwrap(), all_repaired.try_into().unwrap());
+    agree(&both_ways(&demands, stripes, &repaired, &targets()));
 }

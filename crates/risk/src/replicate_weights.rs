@@ -1,9 +1,9 @@
 //! The ordinates of a few replicates at once, where every run of each has a weight of its own.
 //!
 //! A replicate whose records are weighed anew has no table that could be shared with others, as
-//! [`ResamplingTable`](crate::ResamplingTable) is. So its runs are walked in the order of falling demand, until the last
-//! target is crossed; that order is shared by [`REPLICATES_AT_ONCE`] replicates, whose weights lie side by side for the
-//! processor to add at once. Weights are whole numbers, so the ordinates are those of
+//! [`ResamplingTable`](crate::ResamplingTable) is. So its runs are walked in the order of falling demand, until the
+//! last target is crossed; that order is shared by [`REPLICATES_AT_ONCE`] replicates, whose weights lie side by side
+//! for the processor to add at once. Weights are whole numbers, so the ordinates are those of
 //! [`RiskCurve::weighted`](crate::RiskCurve::weighted), to the bit.
 
 use crate::run_weights::UnitScale;

@@ -11,8 +11,9 @@ const SUM_TOLERANCE: f64 = 1e-9;
 
 /// The weight w(level) p(level, record) of every run in the risk integral, 1/yr.
 ///
-/// w is what the site's hazard makes of the stripe ([`StripeWeights`]) and p the share of the record at it, Σ p = 1 over
-/// the records. Where every record counts alike, p = 1/N, this is what [`RiskCurve::new`](crate::RiskCurve::new) has.
+/// w is what the site's hazard makes of the stripe ([`StripeWeights`]) and p the share of the record at it, Σ p = 1
+/// over the records. Where every record counts alike, p = 1/N, this is what
+/// [`RiskCurve::new`](crate::RiskCurve::new) has.
 ///
 /// A weight is a whole number of units; a unit is a power of two of the quanta in which rates are added, the smallest
 /// in which all weights together fit 62 bits: 3e-19 per year or less where the hazard curve begins below one per year.

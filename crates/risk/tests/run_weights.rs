@@ -113,7 +113,9 @@ proptest! {
 
     /// Shares of 1/N, or of m/n, are records that count alike, or as often as they were drawn.
     #[test]
-    fn shares_of_a_sample_are_the_sample(case in case(), draws in prop::collection::vec(0..4_u32, 9), target in 1e-5..1.0_f64) {
+    fn shares_of_a_sample_are_the_sample(
+        case in case(), draws in prop::collection::vec(0..4_u32, 9), target in 1e-5..1.0_f64,
+    ) {
         let (pool, stripes) = (case.pool(), case.stripes());
         let mut draws = draws[..case.records].to_vec();
         draws[0] += 1;
