@@ -221,6 +221,67 @@ fn what_was_made_of_a_replaced_result_goes_with_it() {
     }
     let status = study.uplift(&["status", "r.h5"]).ok().stdout;
     assert!(status.contains("not of it: r.bands.csv"), "{status}");
+    // and by whoever takes numbers of the result
+    for command in [&["table", "r.h5"][..], &["report", "r.h5"], &["export", "r.h5", "--json"], &["plot", "r.h5"]] {
+        let said = study.uplift(command).ok().stderr;
+        assert!(said.contains("r.bands.csv beside r.h5 is of another result of that name"), "{command:?}: {said}");
+    }
+    std::fs::remove_file(study.path().join("r.bands.csv")).unwrap();
+    std::fs::remove_file(study.path().join("r.bands.csv-metadata.json")).unwrap();
+    let said = study.uplift(&["table", "r.h5"]).ok().stderr;
+    assert!(!said.contains("another result"), "{said}");
+}
+
+// The new result is in its place, and what was made of the earlier one beside it still, as a kill between leaves them.
+#[test]
+fn what_a_killed_run_left_goes_to_the_result_that_it_is_of() {
+    let study = study();
+    let run = ["run", "study.toml", "-o", "r.h5", "-q"];
+    study.uplift(&["export", "r.h5", "--csv", "-q"]).ok();
+    let first = digest(&study, "r.h5");
+    let tables = ["r.spectra.csv", "r.spectra.csv-metadata.json"];
+    let kept: Vec<Vec<u8>> = tables.map(|name| std::fs::read(study.path().join(name)).unwrap()).into();
+    study.write("study.toml", &SMALL_STUDY.replace("first = 4", "first = 3"));
+    study.uplift(&run).ok();
+    let second = digest(&study, "r.h5");
+    for (name, bytes) in tables.iter().zip(&kept) {
+        study.write_bytes(name, bytes);
+    }
+    // of the second nothing was made but its own tables, which are written anew
+    study.write("study.toml", &SMALL_STUDY.replace("first = 4", "first = 2"));
+    study.uplift(&run).ok();
+    let earlier = study.path().join("r.earlier");
+    assert_eq!(names(&earlier.join(format!("{first}-2"))), tables);
+    assert!(!names(&earlier.join(&second)).contains(&"r.spectra.csv".to_owned()));
+}
+
+#[test]
+fn a_page_of_several_results_says_of_which() {
+    let study = study();
+    study.uplift(&["run", "study.toml", "-o", "b.h5", "-q", "--set", "records.first=3"]).ok();
+    study.uplift(&["report", "r.h5", "b.h5", "-q"]).ok();
+    let page = std::fs::read_to_string(study.path().join("r.html")).unwrap();
+    let head = page.split("</head>").next().unwrap();
+    for name in ["r.h5", "b.h5"] {
+        let words = format!("; {name}; study digest {}", digest(&study, name));
+        assert!(head.contains(&words), "{words}: {head:.600}");
+    }
+}
+
+#[test]
+fn a_file_where_earlier_results_go_is_found_before_anything_is_computed() {
+    let study = study();
+    study.write("n.earlier", "notes of mine\n");
+    study.uplift(&["check", "study.toml", "--set", "output.file=n.h5"]).fails(2, &["n.earlier is a file", "n.h5"]);
+    refused(&study, &["run", "study.toml", "-o", "n.h5"], "n.earlier", "another name");
+    refused(&study, &["run", "study.toml", "-o", "n.h5", "--force"], "n.earlier", "another name");
+}
+
+/// What the numbers of a result of the study are known by.
+fn digest(study: &SmallStudy, result: &str) -> String {
+    let status = study.uplift(&["status", result]).ok().stdout;
+    let words = status.split("digest").nth(1).unwrap();
+    words.split_whitespace().next().unwrap().to_owned()
 }
 
 // A damaged byte that no table of a page needs.

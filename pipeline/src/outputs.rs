@@ -287,6 +287,15 @@ pub(crate) fn is_of_digest(path: &Path, digest: &str) -> bool {
     said_of(path).is_some_and(|said| contains(&said, format!("study digest {digest}").as_bytes()))
 }
 
+/// The digest of the study whose numbers the file at `path` has, where it says so.
+pub(crate) fn digest_said(path: &Path) -> Option<String> {
+    const WORDS: &[u8] = b"study digest ";
+    let said = said_of(path)?;
+    let at = said.windows(WORDS.len()).position(|window| window == WORDS)?;
+    let digest = said[at + WORDS.len()..].iter().take_while(|byte| byte.is_ascii_hexdigit());
+    Some(digest.map(|&byte| char::from(byte)).collect::<String>()).filter(|digest| !digest.is_empty())
+}
+
 /// What the file at `path` says of itself, and what stands beside it if it is a table.
 fn said_of(path: &Path) -> Option<Vec<u8>> {
     let head = head_of(path)?;

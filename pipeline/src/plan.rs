@@ -7,8 +7,7 @@ use crate::error::UpliftError;
 use crate::events::Events;
 pub use crate::frame::PlanHead;
 use crate::frame::RunOptions;
-use crate::result::replaces_another;
-use crate::run::check_outputs;
+use crate::run::{check_outputs, replaced};
 use crate::{displacement, uniform_risk};
 
 /// What a study costs, by its kind.
@@ -45,7 +44,7 @@ pub fn plan(study: &AnyStudy, options: &RunOptions, events: &dyn Events) -> Resu
         AnyStudy::Displacement(study) => Plan::Displacement(displacement::plan(study, study_file, events)?),
     };
     // a study is looked at more often than it is run
-    if let Some(reason) = replaces_another(study, options)? {
+    if let Some(reason) = replaced(study, options)? {
         match &mut plan {
             Plan::UniformRisk(plan) => plan.head.notes.push(reason),
             Plan::Displacement(plan) => plan.head.notes.push(reason),

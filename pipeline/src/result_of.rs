@@ -9,7 +9,7 @@ use crate::error::UpliftError;
 use crate::events::{Events, Silent};
 use crate::frame::RunOptions;
 use crate::inputs::{Record, read_hazard, read_other_hazard, read_records};
-use crate::result::{Kind, Provenance, ResultFile};
+use crate::result::{Kind, Provenance, ResultFile, replaces_another};
 use crate::run::run;
 
 /// Sections of a study on which its stripes and spectra do not depend.
@@ -21,11 +21,18 @@ const WITHOUT_INFLUENCE: [&str; 4] = ["title", "bootstrap", "consistency", "outp
 /// Inputs that cannot be used; as [`run`].
 pub fn result_of(study: &UniformRiskStudy, options: &RunOptions, events: &dyn Events) -> Result<PathBuf, UpliftError> {
     let path = options.result_file(&study.output.file);
+    let of_kind = AnyStudy::UniformRisk(Box::new(study.clone()));
     if path.exists() && is_result_of(study, path)? {
         events.remark("result", &format!("{} is that of the study", path.display()));
+    } else if let Some(reason) = replaces_another(&of_kind, options)? {
+        let name = path.display();
+        return Err(UpliftError::Usage(format!(
+            "{reason}: give {name} in place of the study file to take that result, the --set values that it was made \
+             with, or --force to replace it"
+        )));
     } else {
         events.remark("result", &format!("{} is made first", path.display()));
-        run(&AnyStudy::UniformRisk(Box::new(study.clone())), options, events)?;
+        run(&of_kind, options, events)?;
     }
     Ok(path.to_owned())
 }

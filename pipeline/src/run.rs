@@ -71,9 +71,15 @@ pub(crate) fn check_outputs(study: &AnyStudy, options: &RunOptions) -> Result<()
     outputs::check(&tables, &inputs, options.force)
 }
 
+/// Why a run would replace the result of another, and what to do about it, see [`replaces_another`].
+pub(crate) fn replaced(study: &AnyStudy, options: &RunOptions) -> Result<Option<String>, UpliftError> {
+    let way_out = |reason| format!("{reason}: give the result another name (-o), or --force to replace it");
+    Ok(replaces_another(study, options)?.map(way_out))
+}
+
 /// Refuses a run that would replace the result of another, see [`replaces_another`].
 pub(crate) fn check_replaced(study: &AnyStudy, options: &RunOptions) -> Result<(), UpliftError> {
-    replaces_another(study, options)?.map_or(Ok(()), |reason| Err(UpliftError::Usage(reason)))
+    replaced(study, options)?.map_or(Ok(()), |reason| Err(UpliftError::Usage(reason)))
 }
 
 /// As [`run`], with rows of the analysis that are `known` from elsewhere.

@@ -62,7 +62,8 @@ pub fn plot(options: &PlotOptions, events: &dyn Events) -> Result<PlotReport, Up
     let outputs: Vec<Output> =
         options.figures.outputs(ids, &folder).into_iter().map(|output| output.of(&options.result)).collect();
     outputs::check(&outputs, &[&options.result], options.force)?;
-    let mark = ResultFile::open(&options.result)?.mark()?;
+    let result = ResultFile::open(&options.result)?;
+    let mark = result.mark()?;
     let mut files = Vec::new();
     for figure in chosen {
         if events.cancelled() {
@@ -70,6 +71,8 @@ pub fn plot(options: &PlotOptions, events: &dyn Events) -> Result<PlotReport, Up
         }
         files.extend(options.figures.write(figure, &folder, &mark)?);
     }
+    // after what was drawn anew
+    result.tell_made_of_another(events)?;
     Ok(PlotReport { files })
 }
 

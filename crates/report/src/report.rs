@@ -6,7 +6,7 @@ use serde::Serialize;
 use uplift::UpliftError;
 use uplift::events::Events;
 use uplift::outputs::{self, Output, OutputKind, beside};
-use uplift::result::{AskedRisk, write_atomically};
+use uplift::result::{AskedRisk, ResultFile, is_hdf5, write_atomically};
 use uplift::verify::require_whole;
 
 use crate::page::page;
@@ -42,8 +42,16 @@ pub fn report(options: &ReportOptions, events: &dyn Events) -> Result<PageReport
     let file = options.output.clone().unwrap_or_else(|| beside(first, "html"));
     let output = Output::new(&file, OutputKind::Page).of(first);
     outputs::check(&[output], &options.results, options.force)?;
+    // what is no result at all is told as what it is
+    for other in options.results.iter().filter(|path| !is_hdf5(path)) {
+        ResultFile::open(other)?;
+    }
     // what is handed over says nothing of a file that is not as it was written, even where it would not show
     require_whole(&options.results)?;
     write_atomically(&file, page(&options.results, &options.risk, events)?.as_bytes())?;
+    // after the page itself was written anew
+    for result in &options.results {
+        ResultFile::open(result)?.tell_made_of_another(events)?;
+    }
     Ok(PageReport { file })
 }

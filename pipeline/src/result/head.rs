@@ -7,6 +7,7 @@ use uplift_labelled::LabelledReader;
 use uplift_motion::IntensityMeasure;
 use uplift_study::Kind;
 
+use super::digest::UNSAID_NUMERICS;
 use super::file::ResultFile;
 use super::layout::{axis, bootstrap, design, efficiency, ida, influence, set, spectra};
 use crate::error::UpliftError;
@@ -40,6 +41,8 @@ pub struct Head {
     pub seed: Option<u64>,
     /// Name to SHA-256 of each record and hazard curve.
     pub input_checksums: BTreeMap<String, String>,
+    /// Version of the solver's numbers that it was computed with; results that say none are of the last that did not.
+    pub numerics: u32,
     /// What was noticed about the inputs; [`alarms`](crate::alarms::alarms) has all that is to be known.
     pub warnings: Vec<String>,
 }
@@ -97,8 +100,14 @@ impl ResultFile {
             seed: (self.kind() == Kind::UniformRisk).then(|| self.reader.attribute_u64("/", "seed")).transpose()?,
             input_checksums: serde_json::from_str(&text("input_checksums")?)
                 .map_err(|error| self.damaged(format!("attribute input_checksums of /: {error}")))?,
+            numerics: self.numerics(),
             warnings: text("warnings")?.lines().map(str::to_owned).collect(),
         })
+    }
+
+    fn numerics(&self) -> u32 {
+        let said = self.reader.attribute_i64("/", "numerics").ok().and_then(|said| u32::try_from(said).ok());
+        said.unwrap_or(UNSAID_NUMERICS)
     }
 
     /// Where the records come from, in a line.

@@ -11,6 +11,7 @@ use crate::checksum::checksum;
 use crate::error::UpliftError;
 use crate::frame::{RunHead, RunOptions};
 use crate::inputs::{OtherHazard, RecordSet, SiteHazard};
+use uplift_ida::NUMERICS;
 use uplift_labelled::LabelledWriter;
 
 /// What someone needs to repeat a run.
@@ -148,6 +149,7 @@ impl Origin<'_> {
         writer.attribute("/", "version", crate::VERSION)?;
         writer.attribute("/", "commit", crate::COMMIT)?;
         writer.attribute("/", "layout", LAYOUT)?;
+        writer.attribute("/", "numerics", i64::from(NUMERICS))?;
         writer.attribute("/", "created", provenance.created.as_str())?;
         writer.attribute("/", "command", provenance.command.as_str())?;
         writer.attribute("/", "overrides", provenance.overrides.join("\n").as_str())?;

@@ -10,7 +10,7 @@ use uplift_study::AnyStudy;
 use super::provenance::place_of;
 use crate::error::UpliftError;
 use crate::frame::RunOptions;
-use crate::outputs::{is_same_file, wrong_ending};
+use crate::outputs::{beside, is_same_file, wrong_ending};
 use crate::result_of::what_counts;
 
 /// First bytes of every HDF5 file.
@@ -40,6 +40,15 @@ pub(crate) fn check_place(study: &AnyStudy, options: &RunOptions, inputs: &[Path
     if inputs.iter().any(|input| is_same_file(path, input)) {
         return Err(UpliftError::Usage(format!("{name} would overwrite an input: give the result another name (-o)")));
     }
+    // what gives way to the result goes there, whatever is forced
+    let earlier = beside(path, "earlier");
+    if earlier.exists() && !earlier.is_dir() {
+        return Err(UpliftError::Usage(format!(
+            "{} is a file, and a folder of this name keeps what gives way to {name}: give that file another name, or \
+             the result (-o)",
+            earlier.display()
+        )));
+    }
     check_replaceable(path, options.force)
 }
 
@@ -58,10 +67,9 @@ pub(crate) fn replaces_another(study: &AnyStudy, options: &RunOptions) -> Result
         return Ok(None);
     }
     let name = path.display();
-    let way_out = "give the result another name (-o), or --force to replace it";
     if !is_of_file(&text, study, &options.study_file) {
         let other = text("study_file");
-        return Ok(Some(format!("{name} is the result of another study ({other}): {way_out}")));
+        return Ok(Some(format!("{name} is the result of another study ({other})")));
     }
     let sorted = |mut all: Vec<String>| {
         all.sort();
@@ -75,7 +83,7 @@ pub(crate) fn replaces_another(study: &AnyStudy, options: &RunOptions) -> Result
             [] => "as the file stands".to_owned(),
             all => format!("with --set {}", all.join(" --set ")),
         };
-        format!("{name} is the result of this study {}, and this run is {}: {way_out}", said(&kept), said(&own))
+        format!("{name} is the result of this study {}, and this run is {}", said(&kept), said(&own))
     }))
 }
 
