@@ -1,7 +1,9 @@
 //! Tables and texts for the terminal.
 
+mod risk;
 mod visible;
 
+pub use risk::{per_cent, risk_in_words, risk_name, share};
 pub use visible::{is_obeyed, one_line, visible};
 
 /// A number for a table or JSON, which have no infinity and no NaN: none for these.
@@ -53,15 +55,6 @@ pub fn metres(value: f64) -> String {
     if value.is_infinite() { "censored".to_owned() } else { format!("{value:.4}") }
 }
 
-/// A probability in per cent, without digits that say nothing; one far below that as it is, 1e-9.
-pub fn per_cent(probability: f64) -> String {
-    if probability > 0.0 && probability < 1e-6 {
-        let text = format!("{probability:.5e}");
-        return text.parse::<f64>().map_or(text, |short| format!("{short:e}"));
-    }
-    format!("{} %", (probability * 1e8).round() / 1e6)
-}
-
 /// A size in bytes, in kB, MB or GB.
 pub fn bytes(number: u64) -> String {
     match number {
@@ -92,9 +85,6 @@ mod tests {
     fn numbers_for_people() {
         assert_eq!(thousands(2_370_375), "2,370,375");
         assert_eq!(thousands(12), "12");
-        assert_eq!((per_cent(0.02), per_cent(0.1), per_cent(0.0025)), ("2 %".into(), "10 %".into(), "0.25 %".into()));
-        let rare = [1e-9, 2.5e-7, 1e-6, 0.0].map(per_cent);
-        assert_eq!(rare, ["1e-9", "2.5e-7", "0.0001 %", "0 %"]);
         assert_eq!(metres(f64::INFINITY), "censored");
     }
 

@@ -62,6 +62,10 @@ pub const THRESHOLD: Range = range(0.0, 1e4, "m", "in m, not in mm or cm");
 /// Time that a probability refers to: from a shift on a building site to a repository.
 pub const YEARS: Range = range(1e-3, 1e7, "yr", "50 years are usual");
 
+/// Probability of exceedance: twelve nines are as near to certain as a double can tell, and rarer than the other end
+/// nothing is known.
+pub const PROBABILITY: Range = range(1e-12, 0.999_999_999_999, "", "10 % is 0.1");
+
 /// Return period of a risk: from days to the age of rocks.
 pub const RETURN_PERIOD: Range = range(1e-2, 1e9, "yr", "in years; 10 % in 50 years is 475");
 

@@ -22,6 +22,7 @@ use drawn::DrawnFigure;
 use uplift::UpliftError;
 use uplift::alarms::{Alarm, alarms};
 use uplift::events::Events;
+use uplift::outputs;
 use uplift::result::{AskedRisk, Head, Kind, ResultFile};
 use uplift::text::visible;
 use uplift_plot::{Figure, html};
@@ -53,6 +54,8 @@ struct Section {
 struct ShownPart {
     key: String,
     title: &'static str,
+    /// A sentence below the title; empty for none.
+    note: &'static str,
     /// Shown before the figures.
     tables: Vec<Table>,
     figures: Vec<DrawnFigure>,
@@ -91,6 +94,8 @@ struct Part {
     /// Its name in links.
     key: &'static str,
     title: &'static str,
+    /// A sentence below the title; empty for none.
+    note: &'static str,
     tables: Vec<Table>,
     figures: Vec<Figure>,
     details: Vec<Table>,
@@ -100,7 +105,7 @@ struct Part {
 struct Read {
     head: Head,
     alarms: Vec<Alarm>,
-    /// What the page says of being made of it.
+    /// Its name and digest, of which the page says to be made.
     mark: String,
     file: String,
     content: Content,
@@ -136,7 +141,8 @@ pub fn page(paths: &[PathBuf], asked: &AskedRisk, events: &dyn Events) -> Result
     subjects.dedup();
     let subjects = subjects.join(", ");
     let several = results.len() > 1;
-    let mark = results.first().map(|of| of.mark.clone());
+    let marks: Vec<&str> = results.iter().map(|of| of.mark.as_str()).collect();
+    let mark = format!("{}; {}", outputs::mark(), marks.join("; "));
     let sections = results.into_iter().zip(&names).enumerate().map(|(index, (result, name))| {
         let title = if several { name.clone() } else { result.title().to_owned() };
         section(&format!("r{}", index + 1), title, result)
@@ -184,7 +190,7 @@ fn read(path: &Path, result: &ResultFile) -> Result<Read, UpliftError> {
         Kind::Displacement => displacement::content(result)?,
     };
     let file = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    Ok(Read { head: result.head()?, alarms: alarms(result)?, mark: result.mark()?, file, content })
+    Ok(Read { head: result.head()?, alarms: alarms(result)?, mark: result.name_and_digest()?, file, content })
 }
 
 fn section(key: &str, title: String, result: Read) -> Result<Section, UpliftError> {
@@ -208,6 +214,7 @@ fn section(key: &str, title: String, result: Read) -> Result<Section, UpliftErro
         Ok(ShownPart {
             key: format!("{key}-{}", part.key),
             title: part.title,
+            note: part.note,
             tables: keyed(part.tables),
             figures,
             details: keyed(part.details),

@@ -1,7 +1,7 @@
 //! A result asked for other risks than those of its study: its stripes and hazard hold them all.
 
 use uplift_hazard::probability_from_rate;
-use uplift_plausible::{RETURN_PERIOD, YEARS};
+use uplift_plausible::{PROBABILITY, RETURN_PERIOD, YEARS};
 use uplift_study::{Kind, UniformRiskStudy};
 
 use super::file::{ResultFile, RiskAxes};
@@ -34,7 +34,7 @@ pub enum RiskTargets {
     /// Those of the probabilities of the study.
     #[default]
     OfStudy,
-    /// Those of these probabilities of exceedance, above 0 and below 1.
+    /// Those of these probabilities of exceedance, within [`PROBABILITY`].
     Probabilities(Vec<f64>),
     /// Those of these return periods, years: a rate of one in so many (Eq. 4.8).
     ReturnPeriods(Vec<f64>),
@@ -93,13 +93,19 @@ fn probability(option: &str, value: f64, years: f64) -> Result<f64, String> {
     } else {
         value
     };
-    if poe > 0.0 && poe < 1.0 {
+    if PROBABILITY.contains(poe) {
         return Ok(poe);
     }
     Err(if option == RETURN_PERIOD_OPTION {
-        format!("{option} {value}: in {years} years that is certain: give fewer --years")
+        let (what, way_out) = if poe > 0.5 { ("certain", "fewer") } else { ("rarer than can be told", "more") };
+        format!("{option} {value}: in {years} years that is {what}: give {way_out} --years")
+    } else if poe > 0.0 && poe < 1.0 {
+        format!("{option} {value:e}: a probability is {PROBABILITY}")
     } else {
-        format!("{option} {value}: a probability is above 0 and below 1 (10 % is 0.1 or 10%)")
+        format!(
+            "{option} {value}: a probability is above 0 and below 1 (10 % is 0.1 or 10%; a comma separates two, the \
+             decimal mark is a point)"
+        )
     })
 }
 

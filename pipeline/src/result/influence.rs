@@ -21,6 +21,11 @@ pub struct StoredInfluence {
 }
 
 impl ResultFile {
+    /// Whether `uplift influence` left something, of the probabilities of the study.
+    pub fn has_influence(&self) -> bool {
+        self.measures().iter().any(|measure| self.reader.exists(&disaggregation::share(*measure)))
+    }
+
     /// The influence on the spectra of each measure of a result of uniform risk; none before `uplift influence`.
     ///
     /// # Errors

@@ -14,7 +14,7 @@ use super::plan_stripes;
 use super::spectra::Reading;
 use crate::error::UpliftError;
 use crate::inputs::{RecordSet, SiteHazard};
-use crate::text::per_cent;
+use crate::text::risk_name;
 
 /// Strengths tried, spread over those of the study up to the largest.
 const TRIED: usize = 4;
@@ -154,7 +154,9 @@ impl Trial<'_> {
             }
         }
         let named = |(site, shares): (&SiteHazard, Vec<f64>)| {
-            let name = |(share, poe): (f64, &f64)| (share, format!("{} at {}", per_cent(*poe), site.site));
+            let name = |(share, poe): (f64, &f64)| {
+                (share, format!("{} at {}", risk_name(*poe, self.study.risk.years), site.site))
+            };
             shares.into_iter().zip(&self.study.risk.poe).map(name).collect::<Vec<_>>()
         };
         let mut shares: Vec<(f64, String)> = self.hazard.iter().zip(shares).flat_map(named).collect();

@@ -16,7 +16,7 @@ use super::Stripes;
 use crate::UpliftError;
 use crate::events::{Events, Progress};
 use crate::inputs::{BatchSite, SiteCurves, SiteList, read_site_list};
-use crate::text::{per_cent, thousands};
+use crate::text::{risk_name, thousands};
 use uplift_study::UniformRiskStudy;
 
 /// Bytes of text, about, that are in memory at a time.
@@ -166,7 +166,8 @@ impl Tally {
             for (&poe, counts) in study.risk.poe.iter().zip(counts) {
                 for (&count, words) in counts.iter().zip(WORDS).filter(|(count, _)| **count > 0) {
                     let (label, count) = (export.measure.label(), thousands(count));
-                    warnings.push(format!("site table, {label}, {}: {count} of {all} sites {words}", per_cent(poe)));
+                    let risk = risk_name(poe, study.risk.years);
+                    warnings.push(format!("site table, {label}, {risk}: {count} of {all} sites {words}"));
                 }
             }
         }

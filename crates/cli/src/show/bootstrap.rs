@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use uplift::bootstrap::{BootstrapReport, Initiation};
-use uplift::text::{per_cent, table};
+use uplift::text::{per_cent, risk_in_words, risk_name, table};
 
 use super::shown_path;
 use crate::error::CommandError;
@@ -41,10 +41,9 @@ fn print_figures(
     let reference = Some(&report.reference).filter(|rows| compared && !rows.is_empty());
     writeln!(
         out,
-        "\nHow sure the spectra of {} in {} years are: error of the median e and width r of the {} interval, per \
+        "\nHow sure the spectra of {} are: error of the median e and width r of the {} interval, per \
          cent{}",
-        per_cent(report.poes[poe]),
-        report.years,
+        risk_in_words(report.poes[poe], report.years),
         per_cent(report.confidence),
         if reference.is_some() { "; right of the bars the reference" } else { "" }
     )?;
@@ -115,10 +114,9 @@ fn print_reading(out: &mut impl Write, report: &BootstrapReport) -> Result<(), C
                 .collect();
             writeln!(
                 out,
-                "  {}, {} in {} years: the spectrum is known from {}",
+                "  {}, {}: the spectrum is known from {}",
                 bands.measure.label(),
-                per_cent(probability),
-                report.years,
+                risk_in_words(probability, report.years),
                 parts.join("; ")
             )?;
         }
@@ -136,7 +134,7 @@ fn print_joint(out: &mut impl Write, report: &BootstrapReport) -> Result<(), Com
                 rows.push(vec![
                     report.sites[joint.site].clone(),
                     bands.measure.label().to_owned(),
-                    per_cent(report.poes[poe]),
+                    risk_name(report.poes[poe], report.years),
                     report.sizes[size].to_string(),
                     figure(of_records, 0),
                     figure(range[0], 0),
@@ -175,10 +173,9 @@ fn print_initiation(out: &mut impl Write, report: &BootstrapReport) -> Result<()
     }
     writeln!(
         out,
-        "\nRocking initiation, {} in {} years, samples of {}: strength at which the limits and the median fall to the\n\
+        "\nRocking initiation, {}, samples of {}: strength at which the limits and the median fall to the\n\
          uplift displacement of {} m, and the width of the interval there over the median",
-        per_cent(report.poes[poe]),
-        report.years,
+        risk_in_words(report.poes[poe], report.years),
         report.sizes[size_index],
         report.uplift_displacement_m
     )?;

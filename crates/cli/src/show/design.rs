@@ -2,8 +2,8 @@
 
 use std::io::Write;
 
-use uplift::structure::{DemandRounding, DesignReport, ExactDemand, RuleOutcome};
-use uplift::text::{per_cent, table};
+use uplift::structure::{DemandNoise, DemandRounding, DesignReport, ExactDemand, RuleCheck, RuleOutcome};
+use uplift::text::{risk_in_words, table};
 use uplift_spectra::Noisy;
 use uplift_structure::Rule;
 
@@ -47,11 +47,10 @@ pub(crate) fn print_design(report: &DesignReport) -> Result<(), CommandError> {
     }
     writeln!(
         out,
-        "demand     {} by {}, {} in {} years: {:.4e} per year",
+        "demand     {} by {}, {}: {:.4e} per year",
         report.site,
         report.im,
-        per_cent(report.poe),
-        report.years,
+        risk_in_words(report.poe, report.years),
         report.target_per_year
     )?;
     writeln!(out, "           {}, {}", shown_path(&report.result).display(), report.record_set)?;

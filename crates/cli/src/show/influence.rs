@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use uplift::influence::InfluenceReport;
-use uplift::text::{metres, per_cent, table};
+use uplift::text::{metres, risk_in_words, table};
 
 use super::shown_path;
 use crate::error::CommandError;
@@ -12,7 +12,7 @@ use crate::terminal::{Terminal, output};
 /// The report for people; a quiet terminal gets the tables alone.
 pub(crate) fn print_influence(report: &InfluenceReport, terminal: &Terminal) -> Result<(), CommandError> {
     let out = &mut output();
-    let name = format!("{} in {} years", per_cent(report.poe), report.years);
+    let name = risk_in_words(report.poe, report.years);
     print_records(out, report, &name)?;
     print_intensities(out, report, &name)?;
     if !terminal.is_quiet() {

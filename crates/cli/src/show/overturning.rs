@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use uplift::structure::{CollapseReport, OverturningReport};
-use uplift::text::table;
+use uplift::text::{share, table};
 use uplift_spectra::Noisy;
 
 use super::alarms::print_alarms;
@@ -96,7 +96,10 @@ fn print_fragility(out: &mut impl Write, report: &OverturningReport) -> Result<(
 }
 
 fn print_risk(out: &mut impl Write, report: &OverturningReport) -> Result<(), CommandError> {
-    let percent = |share: f64| format!("{:.1} %", 100.0 * share);
+    let percent = |of_all: f64| match share(of_all) {
+        text if text.starts_with("below") || text.starts_with("above") => text,
+        _ => format!("{:.1} %", 100.0 * of_all),
+    };
     let sites = report.overturning.first().map_or(0, |found| found.sites.len());
     let mut rows = Vec::new();
     for index in 0..sites {

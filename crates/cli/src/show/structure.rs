@@ -1,6 +1,7 @@
 //! What a design and an overturning tell alike: the structure, and how often something happens to it.
 
 use uplift::structure::{EventRisk, StructureReport};
+use uplift::text::per_cent;
 
 use super::shown_path;
 
@@ -48,7 +49,11 @@ pub(super) fn risk_cells(risk: &EventRisk) -> [String; 3] {
         years => format!("{years:.1e}"),
     };
     if risk.per_year > 0.0 {
-        let probability = format!("{:.3} %", 100.0 * risk.probability);
+        let probability = match format!("{:.3} %", 100.0 * risk.probability) {
+            // three decimals are too few to tell it from never and always
+            text if ["0.000 %", "100.000 %"].contains(&text.as_str()) => per_cent(risk.probability),
+            text => text,
+        };
         return [format!("{:.3e}", risk.per_year), probability, return_period(risk.per_year)];
     }
     match risk.at_most_per_year {

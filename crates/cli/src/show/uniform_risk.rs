@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use uplift::text::{metres, nearest, per_cent, table};
+use uplift::text::{metres, nearest, risk_in_words, risk_name, table};
 use uplift::uniform_risk::RunReport;
 
 use crate::error::CommandError;
@@ -48,7 +48,7 @@ fn print_repaired(out: &mut impl Write, report: &RunReport, shown: &[usize]) -> 
 fn spectra_table(report: &RunReport, own: &[&uplift::uniform_risk::SpectrumReport], shown: &[usize]) -> String {
     let mut header = vec!["site".to_owned()];
     for poe in &report.poes {
-        header.push(format!("{} in {} yr", per_cent(*poe), report.years));
+        header.push(risk_in_words(*poe, report.years).replace(" years", " yr"));
         header.extend(std::iter::repeat_n(String::new(), shown.len() - 1));
     }
     let displacement = |u_m: f64| if u_m.is_nan() { "-".to_owned() } else { metres(u_m) };
@@ -70,7 +70,7 @@ fn print_branches(out: &mut impl Write, report: &RunReport, shown: &[usize]) -> 
             rows.push(vec![
                 branches.site.clone(),
                 branches.im.to_owned(),
-                per_cent(report.poes[branches.poe]),
+                risk_name(report.poes[branches.poe], report.years),
                 format!("{:.3}", report.strengths[strength]),
                 metres(branches.low_m[strength]),
                 metres(branches.mean_m[strength]),

@@ -2,7 +2,7 @@
 
 use super::{DISPLACEMENT, FigureSource, STRENGTH};
 use uplift::result::MeasureBands;
-use uplift::text::per_cent;
+use uplift::text::risk_in_words;
 use uplift_motion::IntensityMeasure;
 use uplift_plot::{Axis, Band, Figure, Panel, Series, Tone};
 
@@ -44,10 +44,9 @@ pub(super) fn bands(source: &FigureSource) -> Vec<Figure> {
             panel
         };
         let caption = format!(
-            "Median (lines) and {lower} to {upper} interval (areas) of the spectra of {} in {} years over resampled \
+            "Median (lines) and {lower} to {upper} interval (areas) of the spectra of {} over resampled \
              records, for each size of the sample (Fig. 4.8).",
-            per_cent(source.stored.poes[poe]),
-            source.stored.years
+            risk_in_words(source.stored.poes[poe], source.stored.years)
         );
         source.figure(
             format!("bands-{}", bands.measure.key()),
@@ -87,10 +86,9 @@ pub(super) fn measures_together(source: &FigureSource) -> Option<Figure> {
     let poe = source.rarest();
     let panels = together(source, poe, &Axis::log(DISPLACEMENT), None)?;
     let caption = format!(
-        "Median and interval of the spectra of {} in {} years for the largest sample, by each intensity measure \
+        "Median and interval of the spectra of {} for the largest sample, by each intensity measure \
          (Fig. 4.9): where the areas part, the measures contradict each other.",
-        per_cent(source.stored.poes[poe]),
-        source.stored.years
+        risk_in_words(source.stored.poes[poe], source.stored.years)
     );
     Some(source.figure("bands-together", "The measures side by side", caption, panels))
 }
@@ -101,9 +99,8 @@ pub(super) fn initiation(source: &FigureSource) -> Option<Figure> {
     let top = 4.0 * stored.uplift_displacement_m;
     let panels = together(source, poe, &Axis::linear(DISPLACEMENT).between(0.0, top), Some(top))?;
     let caption = format!(
-        "Spectra of {} in {} years near the uplift displacement of {} m, for the largest sample (Fig. 4.10).",
-        per_cent(stored.poes[poe]),
-        stored.years,
+        "Spectra of {} near the uplift displacement of {} m, for the largest sample (Fig. 4.10).",
+        risk_in_words(stored.poes[poe], stored.years),
         stored.uplift_displacement_m
     );
     Some(source.figure("initiation", "Where rocking begins", caption, panels))

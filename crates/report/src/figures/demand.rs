@@ -5,7 +5,7 @@ use uplift_risk::{RiskCurve, ThresholdGrid};
 
 use super::{DISPLACEMENT, FigureSource, STRENGTH};
 use uplift::UpliftError;
-use uplift::text::{nearest, per_cent};
+use uplift::text::{nearest, risk_in_words, risk_name};
 use uplift_plot::{Axis, Figure, Panel, Series, Tone};
 
 /// Strength of the oscillator shown.
@@ -123,7 +123,7 @@ pub(super) fn risk_curves(source: &FigureSource) -> Result<Vec<Figure>, UpliftEr
         for panel in &mut panels {
             for (poe, &target) in stored.targets_per_year.iter().enumerate() {
                 let name = if poe == 0 {
-                    let all: Vec<String> = stored.poes.iter().map(|&poe| per_cent(poe)).collect();
+                    let all: Vec<String> = stored.poes.iter().map(|&poe| risk_name(poe, stored.years)).collect();
                     format!("targets: {} in {} years", all.join(", "), stored.years)
                 } else {
                     String::new()
@@ -173,7 +173,7 @@ pub(super) fn risk_surfaces(source: &FigureSource) -> Result<Vec<Figure>, Uplift
                     source.over_strengths(*name, u_m, Tone::Distinct(index))
                 };
                 let mut series: Vec<Series> = named.map(contour).collect();
-                let name = format!("{} in {} years", per_cent(stored.poes[rarest]), stored.years);
+                let name = risk_in_words(stored.poes[rarest], stored.years);
                 let spectrum = source.u_m(measure.measure).map(|u_m| u_m.block([site, rarest]));
                 series.extend(spectrum.map(|u_m| source.over_strengths(name, u_m, Tone::Distinct(4))));
                 Panel::lines(stored.sites[site].clone(), Axis::linear(STRENGTH), Axis::log(DISPLACEMENT), series)

@@ -3,7 +3,7 @@
 use uplift::Array;
 use uplift::influence::rank_records;
 use uplift::result::{StoredInfluence, StoredMeasure};
-use uplift::text::{nearest, per_cent};
+use uplift::text::{nearest, risk_in_words};
 use uplift_plot::{Axis, Figure, Marks, Panel, Series, Tone};
 
 use super::{FigureSource, STRENGTH};
@@ -46,11 +46,10 @@ pub(super) fn disaggregation(source: &FigureSource) -> Vec<Figure> {
         };
         let label = influence.measure.label();
         let caption = format!(
-            "Share of the risk at the ordinate of {} in {} years that comes from below a level of {label}: half of it \
+            "Share of the risk at the ordinate of {} that comes from below a level of {label}: half of it \
              lies below the level where a line crosses 50 %. What a line misses of 100 % at its end comes from above \
              the last level.",
-            per_cent(stored.poes[poe]),
-            stored.years
+            risk_in_words(stored.poes[poe], stored.years)
         );
         let id = format!("disaggregation-{}", influence.measure.key());
         let title = format!("Intensities that make the risk, by {label}");
@@ -85,10 +84,9 @@ pub(super) fn influence(source: &FigureSource) -> Vec<Figure> {
         };
         let label = influence.measure.label();
         let caption = format!(
-            "Change of the spectrum of {} in {} years by {label} if one record is left out, a line for each record; \
+            "Change of the spectrum of {} by {label} if one record is left out, a line for each record; \
              those that change it most, at any site, are named.",
-            per_cent(stored.poes[poe]),
-            stored.years
+            risk_in_words(stored.poes[poe], stored.years)
         );
         let id = format!("influence-{}", influence.measure.key());
         let title = format!("Records that carry the spectra, by {label}");

@@ -2,7 +2,7 @@
 
 use super::{DISPLACEMENT, FigureSource, STRENGTH};
 use uplift::hazard_curves::NamedCurve;
-use uplift::text::per_cent;
+use uplift::text::{per_cent, risk_in_words};
 use uplift_motion::IntensityMeasure;
 use uplift_plot::{Axis, Figure, Marks, Panel, Series, Tone};
 
@@ -52,7 +52,7 @@ pub(super) fn spectra(source: &FigureSource) -> Vec<Figure> {
             let label = of_measure.measure.label();
             let panel = |site: usize| {
                 let line = |(poe, probability): (usize, &f64)| {
-                    let name = format!("{} in {} years", per_cent(*probability), spectra.years);
+                    let name = risk_in_words(*probability, spectra.years);
                     source.over_strengths(name, of_measure.u_m.block([site, poe]), Tone::Distinct(poe))
                 };
                 let series = spectra.poes.iter().enumerate().map(line).collect();
@@ -98,7 +98,7 @@ pub(super) fn fits(source: &FigureSource) -> Option<Figure> {
             series.push(points);
             if let Some(curve) = by_pgv.fits[[site, poe]].curve() {
                 let fitted = spectra.strengths.iter().filter(|&&strength| strength > 0.05);
-                let name = format!("fit, {} in {} years", per_cent(probability), spectra.years);
+                let name = format!("fit, {}", risk_in_words(probability, spectra.years));
                 let points = fitted.map(|&strength| (strength, curve.at(strength))).collect();
                 series.push(Series::line(name, points, tone));
             }

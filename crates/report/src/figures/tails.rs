@@ -1,7 +1,7 @@
 //! What of the risk comes from outside the analysed levels.
 
 use uplift::result::MeasureSpectra;
-use uplift::text::per_cent;
+use uplift::text::{per_cent, risk_in_words};
 use uplift_plot::{Axis, Figure, Panel, Tone};
 use uplift_risk::TAIL_SHARE_LIMIT;
 
@@ -15,7 +15,7 @@ pub(super) fn tail_shares(source: &FigureSource) -> Vec<Figure> {
         let panel = |site: usize| {
             let mut series = Vec::new();
             for (poe, &probability) in stored.poes.iter().enumerate() {
-                let name = format!("{} in {} years", per_cent(probability), stored.years);
+                let name = risk_in_words(probability, stored.years);
                 let [lower, upper] =
                     [&tails.lower_tail_share, &tails.upper_tail_share].map(|shares| shares.block([site, poe]));
                 let outside: Vec<f64> = lower.iter().zip(upper).map(|(lower, upper)| 100.0 * (lower + upper)).collect();

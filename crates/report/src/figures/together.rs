@@ -1,6 +1,6 @@
 //! One spectrum of several results in one figure.
 
-use uplift::text::per_cent;
+use uplift::text::risk_in_words;
 use uplift_plot::{Axis, Figure, Panel, Tone, share_y};
 
 use super::{DISPLACEMENT, FigureSource, STRENGTH};
@@ -39,7 +39,7 @@ pub(crate) fn together(results: &[(&str, &FigureSource)]) -> Option<Figure> {
     share_y(&mut panels);
     Some(Figure {
         id: "together".to_owned(),
-        title: format!("Spectra of {} in {years} years by {}", per_cent(poe), measure.label()),
+        title: format!("Spectra of {} by {}", risk_in_words(poe, years), measure.label()),
         caption: "The same spectrum of every result: what the settings that differ do to it.".to_owned(),
         remark: results
             .iter()

@@ -1,7 +1,7 @@
 //! The answer in a sentence for each site: how far a structure must be able to go.
 
 use serde::Serialize;
-use uplift::text::{nearest, per_cent};
+use uplift::text::{nearest, per_cent, risk_in_words};
 
 use crate::figures::FigureSource;
 
@@ -70,7 +70,7 @@ pub(super) fn answer(source: &FigureSource) -> Option<Answer> {
         cases: shown.iter().map(|&strength| case(site, strength)).collect(),
     };
     Some(Answer {
-        probability: format!("{} in {} years", per_cent(spectra.poes[poe]), spectra.years),
+        probability: risk_in_words(spectra.poes[poe], spectra.years),
         measure: of.measure.label(),
         confidence: bands.map(|(stored, _)| per_cent(stored.confidence)),
         sites: source.sites().map(site).collect(),

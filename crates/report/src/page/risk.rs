@@ -6,11 +6,14 @@ use crate::figures::FigureSource;
 use uplift::UpliftError;
 use uplift::influence::{level_of_share, rank_records};
 use uplift::result::{MeasureBands, ResultFile, StoredBands, StoredSpectra};
-use uplift::text::{metres, nearest, per_cent};
+use uplift::text::{metres, nearest, per_cent, risk_in_words, risk_name};
 
 /// Strengths in the table of displacements, and in that of intensities.
 const SHOWN_STRENGTHS: [f64; 5] = [0.05, 0.1, 0.2, 0.3, 0.4];
 const TAKEN_APART: [f64; 3] = [0.1, 0.2, 0.4];
+/// In place of what is of other probabilities than those of the page.
+const INFLUENCE_LEFT_OUT: &str = "Which records and intensities carry the spectra is left out: uplift influence found \
+                                  it for the probabilities of the study, and this page is of others.";
 /// Records of each spectrum in the table of influence.
 const NAMED_RECORDS: usize = 3;
 
@@ -22,6 +25,7 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
         Part {
             key: "answer",
             title: "Displacements to survive",
+            note: "",
             tables: vec![summary(&source.spectra)],
             figures: figures.answer,
             details: Vec::new(),
@@ -29,6 +33,7 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
         Part {
             key: "confidence",
             title: "How sure it is",
+            note: "",
             tables: Vec::new(),
             figures: figures.confidence,
             details: source.bands.iter().map(|bands| confidence(&source.spectra, bands)).collect(),
@@ -36,6 +41,7 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
         Part {
             key: "causes",
             title: "Where it comes from",
+            note: if file.is_asked() && file.has_influence() { INFLUENCE_LEFT_OUT } else { "" },
             tables: Vec::new(),
             figures: figures.causes,
             details: [intensities(&source), records(&source)].into_iter().flatten().collect(),
@@ -43,6 +49,7 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
         Part {
             key: "fits",
             title: "To compute with",
+            note: "",
             tables: vec![coefficients(&source.spectra)],
             figures: figures.fits,
             details: Vec::new(),
@@ -75,7 +82,7 @@ fn summary(stored: &StoredSpectra) -> Table {
         let mut row = vec![
             spectrum.site.to_owned(),
             spectrum.measure.label().to_owned(),
-            format!("{} in {} years", per_cent(spectrum.poe), stored.years),
+            risk_in_words(spectrum.poe, stored.years),
         ];
         row.extend(shown.iter().map(|&strength| metres(spectrum.u_m[strength])));
         row
@@ -117,10 +124,9 @@ fn intensities(source: &FigureSource) -> Option<Table> {
         id: "intensities".to_owned(),
         title: "Intensities that make the risk".to_owned(),
         note: format!(
-            "Levels of the measure below which 5 %, half and 95 % of the risk at the ordinate of {} in {} years lie, \
+            "Levels of the measure below which 5 %, half and 95 % of the risk at the ordinate of {} lie, \
              and what of it comes from below and above all analysed levels.",
-            per_cent(stored.poes[poe]),
-            stored.years
+            risk_in_words(stored.poes[poe], stored.years)
         ),
         group: String::new(),
         header: header.map(str::to_owned).to_vec(),
@@ -153,10 +159,9 @@ fn records(source: &FigureSource) -> Option<Table> {
         id: "records".to_owned(),
         title: "Records that carry the spectra".to_owned(),
         note: format!(
-            "Change of the spectrum of {} in {} years if one record is left out, on average over the strengths that \
+            "Change of the spectrum of {} if one record is left out, on average over the strengths that \
              rock, and where it is largest.",
-            per_cent(stored.poes[poe]),
-            stored.years
+            risk_in_words(stored.poes[poe], stored.years)
         ),
         group: String::new(),
         header: ["site", "measure", "record left out", "mean change, %", "largest, %", "at strength, g"]
@@ -181,7 +186,7 @@ fn coefficients(spectra: &StoredSpectra) -> Table {
             vec![
                 spectrum.site.to_owned(),
                 spectrum.measure.label().to_owned(),
-                per_cent(spectrum.poe),
+                risk_name(spectrum.poe, spectra.years),
                 number(fit.c0_m, 4),
                 number(fit.c1, 4),
                 number(fit.c2_m, 4),
@@ -212,7 +217,7 @@ fn confidence(stored: &StoredSpectra, bands: &StoredBands) -> Table {
             vec![
                 stored.sites[site].clone(),
                 of_measure.measure.label().to_owned(),
-                per_cent(stored.poes[poe]),
+                risk_name(stored.poes[poe], stored.years),
                 bands.sizes[size].to_string(),
                 number(error[0], 1),
                 number(of_measure.range_of_interval[at], 0),

@@ -1,6 +1,6 @@
 //! What a number must satisfy.
 
-use uplift_plausible::{RESTITUTION, Range};
+use uplift_plausible::{PROBABILITY as PLAUSIBLE_PROBABILITY, RESTITUTION, Range};
 
 /// What a number must satisfy.
 #[derive(Debug, Clone, Copy)]
@@ -30,8 +30,7 @@ impl Rule {
 }
 
 pub(crate) const ZERO_TO_ONE: Rule = Rule::Within(RESTITUTION);
-pub(crate) const PROBABILITY: Rule =
-    Rule::Is { holds: |value| value > 0.0 && value < 1.0, words: "above 0 and below 1 (10 % is 0.1)" };
+pub(crate) const PROBABILITY: Rule = Rule::Within(PLAUSIBLE_PROBABILITY);
 
 /// A number with its unit, for messages.
 pub(crate) fn quantity(value: f64, unit: &str) -> String {

@@ -15,7 +15,7 @@ pub(super) const KEYS: SectionKeys = SectionKeys {
             names: &["poe"],
             meaning: "probabilities of exceedance in `years`, one or a list",
             default: "`[0.02, 0.10, 0.50]`",
-            range: "above 0, below 1; each once; at most 1000",
+            range: "1e-12 to 0.999999999999; each once; at most 1000",
         },
         Key { names: &["years"], meaning: "time that they refer to, yr", default: "50", range: "0.001 to 1e7" },
         Key {
