@@ -1,5 +1,8 @@
 //! What an engineer would raise: the same list in the summary of a run, the table, the page, an export and a design.
 
+use std::io::Read;
+use std::path::Path;
+
 use serde_json::Value;
 
 use crate::common::SmallStudy;
@@ -102,6 +105,81 @@ fn bands_decide_where_there_are_some() {
     );
 }
 
+/// Words of a file of the study that spells its texts as they are, in bytes of two or in a packed sheet.
+fn holds(file: &Path, words: &str) -> bool {
+    let bytes = std::fs::read(file).unwrap();
+    let spelt = |bytes: &[u8], words: &[u8]| bytes.windows(words.len()).any(|window| window == words);
+    if file.extension().is_some_and(|ending| ending == "mat") {
+        let units: Vec<u8> = words.encode_utf16().flat_map(u16::to_le_bytes).collect();
+        return spelt(&bytes, &units);
+    }
+    let mut sheets = zip::ZipArchive::new(std::io::Cursor::new(bytes)).unwrap();
+    let mut texts = String::new();
+    sheets.by_name("xl/sharedStrings.xml").unwrap().read_to_string(&mut texts).unwrap();
+    texts.contains(words)
+}
+
+#[test]
+fn workbook_matlab_and_design_sheet_say_it_too() {
+    let study = study();
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    study.uplift(&["export", "r.h5", "--xlsx", "--mat", "-q"]).ok();
+    let table = json(&study, &["table", "r.h5", "--json"]);
+    for (kind, word) in [("measures-disagree", "caution"), ("few-records", "caution"), ("no-exceedance", "caution")] {
+        let what = text(alarm(&table, kind), "what").to_owned();
+        for file in ["r.xlsx", "r.mat"] {
+            let subject = text(alarm(&table, kind), "subject");
+            assert!(holds(&study.path().join(file), &what), "{file}: {what}");
+            assert!(holds(&study.path().join(file), &format!("{word}: {subject}")), "{file}: {word}: {subject}");
+        }
+    }
+    let design = ["design", "block.toml", "--urs", "r.h5", "--site", "Here", "--json"];
+    let found = json(&study, &[&design[..], &["--report", "sheet.html"]].concat());
+    let sheet = std::fs::read_to_string(study.path().join("sheet.html")).unwrap().replace("&#x2f;", "/");
+    for alarm in found["alarms"].as_array().unwrap() {
+        assert!(sheet.contains(text(alarm, "what")), "{alarm}");
+    }
+}
+
+#[test]
+fn a_table_of_one_measure_says_what_concerns_it() {
+    let study = study();
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    let kinds = |more: &[&str]| -> Vec<String> {
+        let table = json(&study, &[&["table", "r.h5", "--json"], more].concat());
+        let alarms = table["alarms"].as_array().unwrap().iter();
+        alarms.map(|alarm| format!("{} {}", text(alarm, "kind"), text(alarm, "subject"))).collect()
+    };
+    let (all, pgv) = (kinds(&[]), kinds(&["--im", "pgv"]));
+    assert_eq!(all, kinds(&["--im", "all"]));
+    assert!(all.iter().any(|said| said.contains(", PGA")) && !pgv.iter().any(|said| said.contains(", PGA")), "{pgv:?}");
+    // what is of both, and of the records, is said of each
+    for kind in ["measures-disagree", "synthetic-records"] {
+        assert!(pgv.iter().any(|said| said.starts_with(kind)), "{kind}: {pgv:?}");
+    }
+    assert!(!kinds(&["--im", "pga"]).iter().any(|said| said.contains(", PGV")));
+}
+
+#[test]
+fn a_response_asks_about_unlikely_numbers() {
+    let study = SmallStudy::new();
+    study.uplift(&["records", "synthesize", "-o", "set", "--count", "1", "-q"]).ok();
+    let record = ["response", "set/SYN001_H1.AT2"];
+    for (asked, words) in [
+        (&["--block", "--width-m", "40", "--height-m", "220"][..], "--height-m is 220 m; usual is"),
+        (&["--strength", "40"], "--strength is 40; usual is"),
+        (&["--strength", "0.2", "--uplift-displacement-m", "0.5"], "--uplift-displacement-m is 0.5 m; usual is"),
+        (&["--strength", "0.2", "--gravity-m-s2", "981"], "--gravity-m-s2 is 981 m/s2; usual is"),
+    ] {
+        let said = study.uplift(&[&record[..], asked].concat()).ok().stdout;
+        assert!(said.contains("Before you use these numbers") && said.contains(words), "{words}:\n{said}");
+        let found = json(&study, &[&record[..], asked, &["--json"]].concat());
+        assert_eq!(alarm(&found, "unlikely-number")["severity"], "mistake");
+    }
+    let usual = json(&study, &[&record[..], &["--strength", "0.2", "--json"]].concat());
+    assert_eq!(usual["alarms"], serde_json::json!([]));
+}
+
 #[test]
 fn probabilities_taken_for_rates_are_told() {
     let study = study();
@@ -170,6 +248,18 @@ fn none_overturned_is_not_never() {
         assert!(shown.contains("  < ") && shown.contains("  > "), "{shown}");
         assert!(!shown.contains("  never"), "{shown}");
     }
+    // in the table of risks beside it, and on the sheet
+    study.uplift(&["overturning", "large.toml", "--urs", "r.h5", "--site", "There", "-o", "o.csv", "-q"]).ok();
+    let risk = std::fs::read_to_string(study.path().join("o.risk.csv")).unwrap();
+    let mut rows = risk.lines().map(|line| line.split(',').collect::<Vec<&str>>());
+    let at = rows.next().unwrap().iter().position(|name| *name == "at_most_per_year").unwrap();
+    for row in rows {
+        assert!(row[at - 1] == "0.0" && row[at].parse::<f64>().unwrap() > 0.0, "{row:?}");
+    }
+    let design = ["design", "large.toml", "--urs", "r.h5", "--site", "There", "--report", "sheet.html"];
+    study.uplift(&design).ok();
+    let sheet = std::fs::read_to_string(study.path().join("sheet.html")).unwrap();
+    assert!(sheet.contains(">none seen</td>") && !sheet.contains(">0</td>"), "{sheet}");
     // There by PGV: 0.1/v² from 0.5 cm/s on; the last levels are 30 and 100 cm/s
     let found = json(&study, &["design", "large.toml", "--urs", "r.h5", "--site", "There", "--json"]);
     let bound = found["exact"]["overturning"]["at_most_per_year"].as_f64().unwrap();

@@ -11,6 +11,7 @@
 //! | `levels` | ordinates that rest on what lies outside the analysed levels, or do not exist |
 //! | `consistency` | records that do not bring the hazard of the other measure |
 //! | `measures` | spectra by PGV and by PGA that disagree |
+//! | `numbers` | numbers of a command line in another unit, probably |
 //! | `fit` | fitted curves that leave their spectrum |
 //! | `structure` | a structure's numbers, and risks of its own that the levels do not hold |
 
@@ -21,17 +22,20 @@ mod hazard;
 mod inputs;
 mod levels;
 mod measures;
+mod numbers;
 mod structure;
 
 use std::fmt;
 
 use serde::Serialize;
+use uplift_motion::IntensityMeasure;
 
 use crate::error::UpliftError;
 use crate::result::{Kind, ResultFile};
 pub(crate) use evidence::{Evidence, Scope};
 pub use fit::{FitReach, reach_of_fit};
 pub(crate) use hazard::{look_like_probabilities, what_of_probabilities};
+pub(crate) use numbers::of_numbers;
 pub(crate) use structure::{OwnRisk, of_own_demand, of_own_risks, of_safety_factor, of_structure};
 
 /// How much depends on it, the worst first.
@@ -124,9 +128,21 @@ pub(crate) fn ranked(mut alarms: Vec<Alarm>) -> Vec<Alarm> {
 /// # Errors
 /// A file that is damaged.
 pub fn alarms(file: &ResultFile) -> Result<Vec<Alarm>, UpliftError> {
+    alarms_of(file, &Scope::default())
+}
+
+/// The alarms of the spectra by one `measure`, the worst first.
+///
+/// # Errors
+/// A file that is damaged.
+pub(crate) fn alarms_by(file: &ResultFile, measure: IntensityMeasure) -> Result<Vec<Alarm>, UpliftError> {
+    alarms_of(file, &Scope { measure: Some(measure), ..Scope::default() })
+}
+
+fn alarms_of(file: &ResultFile, scope: &Scope) -> Result<Vec<Alarm>, UpliftError> {
     let mut alarms = inputs::of_result(file)?;
     if file.kind() == Kind::UniformRisk && !file.axes()?.sites.is_empty() {
-        alarms.extend(of_spectra(&Evidence::read(file)?, &Scope::default())?);
+        alarms.extend(of_spectra(&Evidence::read(file)?, scope)?);
     }
     Ok(ranked(alarms))
 }

@@ -10,12 +10,16 @@ use serde::Serialize;
 use uplift_ida::{IdaError, System};
 use uplift_motion::Accelerogram;
 use uplift_oscillator::{Excitation, FreeVibration, Oscillator, PostUplift, respond, respond_with_history};
-use uplift_plausible::{CAPACITY, POST_UPLIFT_STIFFNESS, RESTITUTION, STRENGTH, UPLIFT_DISPLACEMENT};
+use uplift_plausible::{
+    CAPACITY, POST_UPLIFT_STIFFNESS, RESTITUTION, STRENGTH, UPLIFT_DISPLACEMENT, USUAL_CAPACITY, USUAL_RESTITUTION,
+    USUAL_STRENGTH, USUAL_UPLIFT_DISPLACEMENT,
+};
 
 pub use block::{BlockHistory, BlockResponseOptions, BlockResponseReport, block_response};
 pub use history::{HistoryRow, ResponseHistory};
 pub use shaking::{ShakenBy, Shaking};
 
+use crate::alarms::Alarm;
 use crate::error::UpliftError;
 
 /// Which oscillator is shaken, and by what.
@@ -58,6 +62,16 @@ impl ResponseOptions {
             (CAPACITY, "capacity_m", self.capacity_m),
             (POST_UPLIFT_STIFFNESS, "post_uplift_stiffness_per_s2", self.post_uplift_stiffness_per_s2),
             (RESTITUTION, "restitution", Some(self.restitution)),
+        ])
+    }
+
+    /// The numbers that can be but are unlikely, mistakes of unit mostly.
+    fn alarms(&self) -> Vec<Alarm> {
+        self.shaking.alarms(&[
+            (USUAL_STRENGTH, "--strength", Some(self.strength)),
+            (USUAL_UPLIFT_DISPLACEMENT, "--uplift-displacement-m", Some(self.uplift_displacement_m)),
+            (USUAL_CAPACITY, "--capacity-m", self.capacity_m),
+            (USUAL_RESTITUTION, "--restitution", Some(self.restitution)),
         ])
     }
 
@@ -119,6 +133,8 @@ pub struct ResponseReport {
     pub end_displacement_m: f64,
     /// Velocity at the end, m/s.
     pub end_velocity_m_s: f64,
+    /// What to know before using the numbers.
+    pub alarms: Vec<Alarm>,
     /// When the system overturned, s.
     #[serde(skip)]
     pub time_of_overturning_s: Option<f64>,
@@ -170,6 +186,7 @@ pub fn response(options: &ResponseOptions) -> Result<ResponseReport, UpliftError
         overturned: result.overturned,
         end_displacement_m: result.end_displacement_m,
         end_velocity_m_s: result.end_velocity_m_s,
+        alarms: options.alarms(),
         time_of_overturning_s: result.overturned.then_some(result.time_of_peak_s),
         history,
         history_file: shaking.history_file.clone(),

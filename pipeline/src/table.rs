@@ -14,7 +14,7 @@ pub use coefficients::{COMPARED_ABOVE, COMPARED_FROM_M, CoefficientRow, Coeffici
 pub use design::{DesignTable, DesignTableRow};
 pub use reference::ReferenceTable;
 
-use crate::alarms::{Alarm, alarms};
+use crate::alarms::{Alarm, alarms, alarms_by};
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::result::{AskedRisk, Kind, ResultFile};
@@ -28,10 +28,33 @@ pub struct TableOptions {
     /// `c2_m`, `rmse_m`; for displacement spectra `record_set`, `scaling`, `quantity`, `value` and, for oscillators,
     /// `rule`.
     pub reference: Option<PathBuf>,
-    /// Which intensity measure, none for all; not of displacement spectra.
-    pub measure: Option<IntensityMeasure>,
+    /// By which intensity measures; not of displacement spectra.
+    pub measure: TableMeasure,
     /// The risks of the spectra; not of displacement spectra.
     pub risk: AskedRisk,
+}
+
+/// By which intensity measures the rows of a table are.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum TableMeasure {
+    /// PGV, as Table 4.2 is; what is to be known of the result is told as a whole.
+    #[default]
+    Usual,
+    /// This one, and what is to be known of it alone.
+    Only(IntensityMeasure),
+    /// Every measure of the result.
+    All,
+}
+
+impl TableMeasure {
+    /// The measure of the rows; none for all.
+    pub(crate) fn of_rows(self) -> Option<IntensityMeasure> {
+        match self {
+            Self::Usual => Some(IntensityMeasure::Pgv),
+            Self::Only(measure) => Some(measure),
+            Self::All => None,
+        }
+    }
 }
 
 /// A table of a result, with what to know before it is used.
@@ -63,5 +86,12 @@ pub fn table(options: &TableOptions, events: &dyn Events) -> Result<TableReport,
         Kind::UniformRisk => coefficients::read(options, &file, events).map(TableRows::Coefficients),
         Kind::Displacement => design::read(options, &file, events).map(TableRows::Design),
     }?;
-    Ok(TableReport { rows, alarms: alarms(&file)? })
+    file.tell_made_of_another(events)?;
+    // bands tell which measures disagree, at whatever risk
+    let file = file.resampled(events)?;
+    let alarms = match options.measure {
+        TableMeasure::Only(measure) if file.kind() == Kind::UniformRisk => alarms_by(&file, measure),
+        _ => alarms(&file),
+    }?;
+    Ok(TableReport { rows, alarms })
 }

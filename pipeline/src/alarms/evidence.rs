@@ -6,7 +6,7 @@ use uplift_study::UniformRiskStudy;
 
 use crate::error::UpliftError;
 use crate::result::{MeasureSpectra, ResultFile, StoredBands, StoredConsistency, StoredHazard, StoredSpectra};
-use crate::text::per_cent;
+use crate::text::risk_name;
 
 /// The spectra of a result, its study, hazard and bands.
 #[derive(Debug, Clone)]
@@ -95,7 +95,8 @@ impl Evidence {
     /// `Athens, PGV, 2 %`.
     pub(super) fn name(&self, site: usize, measure: IntensityMeasure, poe: usize) -> String {
         let spectra = &self.spectra;
-        format!("{}, {}, {}", spectra.sites[site], measure.label(), per_cent(spectra.poes[poe]))
+        let risk = risk_name(spectra.poes[poe], spectra.years);
+        format!("{}, {}, {risk}", spectra.sites[site], measure.label())
     }
 
     /// Target rate of a probability, 1/yr (Eq. 4.8).

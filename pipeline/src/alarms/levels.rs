@@ -5,7 +5,7 @@ use uplift_risk::{OrdinateFlag, TAIL_SHARE_LIMIT};
 use super::evidence::{Evidence, Place, Scope, levels_key};
 use super::{Alarm, Case, Severity};
 use crate::error::UpliftError;
-use crate::text::per_cent;
+use crate::text::{per_cent, share};
 
 /// From this share of the target rate on, motions above the last level may matter though few records exceed the
 /// ordinate there: the risk integral goes on with the share of the last level (Eq. 4.4), and the truth may be all.
@@ -38,10 +38,6 @@ fn severity(share: f64) -> Severity {
     if share > DECISIVE { Severity::Caution } else { Severity::Note }
 }
 
-fn share_in_words(share: f64) -> String {
-    per_cent((1000.0 * share).round() / 1000.0)
-}
-
 /// Ordinates that rest on motions weaker than the first level, where the fragility is a straight line: too large.
 fn below_first(evidence: &Evidence, place: &Place<'_>) -> Option<Case> {
     let (count, most) = heavy(place.of_measure.lower_tail_share.block([place.site, place.poe]), &place.strengths);
@@ -57,7 +53,7 @@ fn below_first(evidence: &Evidence, place: &Place<'_>) -> Option<Case> {
             place.strengths.len(),
             per_cent(TAIL_SHARE_LIMIT),
             measure.unit(),
-            share_in_words(most)
+            share(most)
         ),
         what_to_do: if place.curve.first().im < first {
             format!("begin {} lower: uplift check proposes a line", levels_key(measure))
@@ -92,7 +88,7 @@ fn beyond_last(evidence: &Evidence, place: &Place<'_>, target_per_year: f64) -> 
             "{count} of {} ordinates take more than {} of their risk from above the last level, at most {}; ",
             place.strengths.len(),
             per_cent(TAIL_SHARE_LIMIT),
-            share_in_words(most)
+            share(most)
         ),
     };
     Ok(Some(Case {
@@ -102,7 +98,7 @@ fn beyond_last(evidence: &Evidence, place: &Place<'_>, target_per_year: f64) -> 
         what: format!(
             "{counted}{known_to} is exceeded {per_year:.1e} times a year, {} of the target rate of \
              {target_per_year:.1e}: what stronger motions do is not known, and ordinates may be too small",
-            share_in_words(beyond)
+            share(beyond)
         ),
         what_to_do: if end.im > last {
             format!("let {} reach further up, the hazard curve goes to {} {unit}", levels_key(measure), end.im)

@@ -8,7 +8,7 @@ use super::{Alarm, Case, Severity};
 use crate::array::Array;
 use crate::result::{MeasureSpectra, StoredBands};
 use crate::table::COMPARED_FROM_M;
-use crate::text::per_cent;
+use crate::text::{per_cent, risk_name};
 
 /// Ordinates that are further apart than this need no band to say so: with 105 recorded pairs 90 % bands are some 40 %
 /// wide by PGV and 120 to 170 % by PGA (docs/method.md, section 9), half of each to either side.
@@ -68,7 +68,13 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
             let (one, other) = (side(pgv), side(pga));
             let Some(gap) = largest_gap(one, other, &strengths) else { continue };
             let banded = one.band_m.is_some() && other.band_m.is_some();
-            cases.push(case(evidence, format!("{name}, {}", per_cent(probability)), (one, other), gap, banded));
+            cases.push(case(
+                evidence,
+                format!("{name}, {}", risk_name(probability, spectra.years)),
+                (one, other),
+                gap,
+                banded,
+            ));
         }
     }
     Alarm::of_cases("measures-disagree", cases)

@@ -9,7 +9,7 @@ use super::evidence::levels_key;
 use super::inputs::of_warning;
 use super::{Alarm, Case, Severity};
 use crate::structure::{BOUND_CONFIDENCE, EventRisk, share_at_most};
-use crate::text::per_cent;
+use crate::text::{per_cent, share as share_in_words};
 
 /// From this share of a risk on, it is decided by what was not analysed.
 const DECISIVE: f64 = 0.1;
@@ -85,7 +85,7 @@ fn outside_levels(own: &OwnRisk) -> Option<Case> {
         subject: own.subject.clone(),
         what: format!(
             "{} of the risk comes from outside the analysed levels, {where_from} {}: it is {therefore}",
-            per_cent((1000.0 * share).round() / 1000.0),
+            share_in_words(share),
             own.measure.unit()
         ),
         what_to_do: format!("let {} of the study {remedy}, and run it again", levels_key(own.measure)),
@@ -104,7 +104,7 @@ fn none_seen(own: &OwnRisk) -> Option<Case> {
              to {} at the last level ({} confidence)",
             own.levels.1,
             own.measure.unit(),
-            per_cent((1000.0 * share_at_most(own.records)).round() / 1000.0),
+            share_in_words(share_at_most(own.records)),
             per_cent(BOUND_CONFIDENCE),
             records = own.records,
         ),

@@ -8,9 +8,10 @@ use uplift_block::{
     FreeRocking, History, HistoryRow, Moment, Overturning, RockingBlock, respond, respond_with_history,
 };
 use uplift_motion::Accelerogram;
-use uplift_plausible::{LENGTH, RESTITUTION, SIZE};
+use uplift_plausible::{LENGTH, RESTITUTION, SIZE, USUAL_LENGTH, USUAL_RESTITUTION};
 
 use super::{ShakenBy, Shaking};
+use crate::alarms::Alarm;
 use crate::error::UpliftError;
 use crate::result::write_table;
 
@@ -76,6 +77,16 @@ impl BlockResponseOptions {
         Ok(self.restitution.map_or(Ok(block), |restitution| block.with_restitution(restitution))?)
     }
 
+    /// The numbers that can be but are unlikely, mistakes of unit mostly.
+    fn alarms(&self) -> Vec<Alarm> {
+        self.shaking.alarms(&[
+            (USUAL_LENGTH, "--width-m", self.width_m),
+            (USUAL_LENGTH, "--height-m", self.height_m),
+            (USUAL_LENGTH, "--size-m", self.size_m),
+            (USUAL_RESTITUTION, "--restitution", self.restitution),
+        ])
+    }
+
     fn free_rocking(&self) -> FreeRocking {
         let duration_s = self.shaking.free_vibration_s;
         if duration_s > 0.0 { FreeRocking::Lasting { duration_s } } else { FreeRocking::FirstPeak }
@@ -120,6 +131,8 @@ pub struct BlockResponseReport {
     pub time_of_overturning_s: Option<f64>,
     /// Whether a nearly elastic block that rebounded 100,000 times in a sample interval was put to rest.
     pub chatter_was_cut: bool,
+    /// What to know before using the numbers.
+    pub alarms: Vec<Alarm>,
     /// The time history, where it was asked for.
     #[serde(skip)]
     pub history: Option<BlockHistory>,
@@ -173,6 +186,7 @@ pub fn block_response(options: &BlockResponseOptions) -> Result<BlockResponseRep
         time_of_peak_s: (!overturned && result.uplift_s.is_some()).then_some(result.time_s),
         time_of_uplift_s: result.uplift_s,
         impacts: result.impacts,
+        alarms: options.alarms(),
         overturned,
         time_of_overturning_s: overturned.then_some(result.time_s),
         chatter_was_cut: result.chatter_was_cut,

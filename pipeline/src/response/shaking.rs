@@ -4,8 +4,9 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 use uplift_motion::{AccelerationUnit, Accelerogram, ReadOptions, STANDARD_GRAVITY_M_S2, read_path};
-use uplift_plausible::{FREE_VIBRATION, GRAVITY, Range, SCALE, TIME_STEP};
+use uplift_plausible::{FREE_VIBRATION, GRAVITY, Range, SCALE, TIME_STEP, USUAL_GRAVITY};
 
+use crate::alarms::{Alarm, of_numbers};
 use crate::error::UpliftError;
 use crate::outputs::{self, Output, OutputKind};
 
@@ -65,6 +66,12 @@ impl Shaking {
         let given = system.iter().chain(&shaking);
         let mistakes: Vec<_> = given.filter_map(|(range, name, value)| range.check(name, (*value)?).err()).collect();
         if mistakes.is_empty() { Ok(()) } else { Err(UpliftError::Implausible(mistakes)) }
+    }
+
+    /// What is unlikely of the numbers that are given, the `system`'s among them.
+    pub(super) fn alarms(&self, system: &[Given]) -> Vec<Alarm> {
+        let gravity = (USUAL_GRAVITY, "--gravity-m-s2", Some(self.gravity_m_s2));
+        of_numbers("response", &[system, &[gravity]].concat())
     }
 
     /// Whether the motion is to be kept.

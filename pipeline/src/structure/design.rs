@@ -117,7 +117,7 @@ pub fn design(
 ) -> Result<DesignReport, UpliftError> {
     let safety_factor = options.safety_factor;
     SAFETY_FACTOR.check("--safety-factor", safety_factor).map_err(|mistake| UpliftError::Implausible(vec![mistake]))?;
-    let file = ResultFile::open(result)?.at(&options.risk)?;
+    let file = ResultFile::open(result)?.at(&options.risk)?.resampled(events)?;
     let source = file.study(options.manifest.as_deref())?;
     require_zero_stiffness(&source)?;
     let site = site_index(&source, options.site.as_deref())?;

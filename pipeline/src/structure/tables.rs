@@ -86,12 +86,15 @@ fn risk(report: &OverturningReport) -> Vec<Column> {
     let rounding = |end: fn(&Noisy) -> f64| -> Vec<f64> {
         rows.iter().map(|(site, found)| end(&found.sites[*site].per_year_rounding)).collect()
     };
+    let bound: Vec<Option<f64>> = rows.iter().map(|(site, found)| found.sites[*site].risk.at_most_per_year).collect();
     let by_fit: Vec<Option<f64>> = rows.iter().map(|(site, found)| found.sites[*site].lognormal_per_year).collect();
     vec![
         Column::new("site".into(), name),
         Column::new("im".into(), text(|found| found.im)),
         Column::new("model".into(), text(|found| found.model)),
         Column::new("maf_per_year".into(), of(|risk| risk.per_year)),
+        // where no run overturns, the frequency that it has at most: a count of none is no proof of never
+        Column::new("at_most_per_year".into(), bound),
         Column::new("years".into(), vec![report.years; rows.len()]),
         Column::new("probability".into(), of(|risk| risk.probability)),
         Column::new("lower_tail_share".into(), of(|risk| risk.lower_tail_share)),

@@ -96,10 +96,11 @@ pub(super) fn read(
 ) -> Result<CoefficientTable, UpliftError> {
     let result = file.spectra()?;
     let study = file.stored_study()?;
+    let wanted = options.measure.of_rows();
     let references = options.reference.as_deref().map_or_else(|| Ok(Vec::new()), read_reference)?;
     let rows: Vec<CoefficientRow> = result
         .rows()
-        .filter(|spectrum| options.measure.is_none_or(|wanted| spectrum.measure == wanted))
+        .filter(|spectrum| wanted.is_none_or(|wanted| spectrum.measure == wanted))
         .map(|spectrum| {
             let reference = references.iter().find(|reference| same(&spectrum, reference));
             CoefficientRow::of(&study, &result.strengths, &spectrum, reference.map(|reference| reference.fit))
@@ -110,7 +111,7 @@ pub(super) fn read(
         return Err(UpliftError::input(format!(
             "{}: has no spectra by {}: {found}",
             options.result.display(),
-            options.measure.map_or("ALL", IntensityMeasure::label)
+            wanted.map_or("ALL", IntensityMeasure::label)
         )));
     }
     let compared = options.reference.is_some();

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use uplift::response::{BlockResponseReport, ResponseReport, ShakenBy};
 
+use super::alarms::print_alarms;
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
@@ -30,6 +31,7 @@ pub(crate) fn print_response(
             report.impacts
         )?;
     }
+    print_alarms(&mut out, &report.alarms)?;
     print_files(report.history_file.as_deref(), figure, terminal)
 }
 
@@ -71,6 +73,7 @@ pub(crate) fn print_block_response(
     if report.chatter_was_cut {
         terminal.say("note: a nearly elastic block rebounded 100,000 times in a sample interval, and was put to rest");
     }
+    print_alarms(&mut out, &report.alarms)?;
     print_files(report.history_file.as_deref(), figure, terminal)
 }
 

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use uplift::table::{TableOptions, table as table_of};
+use uplift::table::{TableMeasure, TableOptions, table as table_of};
 use uplift_motion::IntensityMeasure;
 
 use crate::command::arguments::RiskArguments;
@@ -23,9 +23,10 @@ pub(crate) struct TableArguments {
                 displacement spectra record_set, scaling, quantity, value and, for oscillators, rule (ED, EE)"
     )]
     reference: Option<PathBuf>,
-    /// Which intensity measure; not for displacement spectra
-    #[arg(long, default_value = "pgv", value_parser = ["pgv", "pga", "all"], ignore_case = true)]
-    im: String,
+    /// Which intensity measure, with the warnings of it alone; not for displacement spectra [default: pgv, with every
+    /// warning]
+    #[arg(long, value_parser = ["pgv", "pga", "all"], ignore_case = true)]
+    im: Option<String>,
     #[command(flatten)]
     risk: RiskArguments,
     /// Print the rows as JSON
@@ -33,11 +34,19 @@ pub(crate) struct TableArguments {
     json: bool,
 }
 
+impl TableArguments {
+    fn measure(&self) -> TableMeasure {
+        let Some(word) = &self.im else { return TableMeasure::Usual };
+        let found = IntensityMeasure::ALL.into_iter().find(|measure| word.eq_ignore_ascii_case(measure.key()));
+        found.map_or(TableMeasure::All, TableMeasure::Only)
+    }
+}
+
 pub(crate) fn table(arguments: &TableArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let options = TableOptions {
         result: arguments.result.clone(),
         reference: arguments.reference.clone(),
-        measure: IntensityMeasure::ALL.into_iter().find(|measure| arguments.im.eq_ignore_ascii_case(measure.key())),
+        measure: arguments.measure(),
         risk: arguments.risk.asked(),
     };
     let report = table_of(&options, terminal)?;
