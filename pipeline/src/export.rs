@@ -1,5 +1,6 @@
 //! Spectra, bands and coefficients for other programs: a tidy table, JSON, a MATLAB file, a workbook.
 
+mod added;
 mod json;
 mod matlab;
 mod source;
@@ -87,7 +88,8 @@ pub fn export(options: &ExportOptions, events: &dyn Events) -> Result<ExportRepo
     let outputs: Vec<Output> = options.formats.iter().map(output).collect();
     let result = ResultFile::open(&options.result)?.at(&options.risk)?;
     outputs::check(&outputs, &[&options.result], options.force)?;
-    let export = Export::of(&result.resampled(events)?)?;
+    let result = result.resampled(events)?;
+    let export = Export::of(&result)?;
     let mut files = Vec::new();
     for format in &options.formats {
         if events.cancelled() {
@@ -102,5 +104,7 @@ pub fn export(options: &ExportOptions, events: &dyn Events) -> Result<ExportRepo
         }
         files.push(file);
     }
+    // after what was written anew
+    result.tell_made_of_another(events)?;
     Ok(ExportReport { files })
 }

@@ -9,6 +9,7 @@ mod design;
 pub(crate) mod digest;
 mod displacements;
 pub(crate) mod earlier;
+mod efficiency;
 mod extend;
 mod file;
 mod hazard;
@@ -33,6 +34,7 @@ pub use design::{DesignRow, RULES, StoredDesign, StoredDesigned};
 pub use displacements::{
     SpectrumPlace, StoredDisplacements, StoredMotions, StoredRounding, StoredSet, StoredStructures,
 };
+pub use efficiency::{StoredEfficiency, StoredTrend};
 pub(crate) use extend::{Addition, line, sign};
 pub use file::{ResultFile, RiskAxes};
 pub use hazard::{StoredCurves, StoredHazard};

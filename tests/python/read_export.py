@@ -69,7 +69,10 @@ assert first["bands"][-1]["lower_m"] == [value if np.isfinite(value) else None f
 file = loadmat(matlab)
 assert [str(name[0]) for name in file["site"][:, 0]] == sites
 said = [str(line[0]) for line in file["warnings"][:, 0]]
-assert len(said) == len(alarms) and all(line.endswith(what) for line, what in zip(said, alarms))
+words = {"mistake": "mistake?", "caution": "caution", "note": "note"}
+assert len(said) == len(alarms)
+for line, alarm in zip(said, tree["alarms"]):
+    assert line.startswith(words[alarm["severity"]] + ": ") and line.endswith(alarm["what"]), line
 assert np.array_equal(file["strength"][:, 0], strength) and np.array_equal(file["poe"][:, 0], poe)
 assert np.array_equal(file["sample_size"][:, 0], sizes)
 for im in measures:
@@ -82,7 +85,8 @@ assert np.array_equal(file["c0_pgv_m"], coefficients["pgv"]["c0_m"].T, equal_nan
 assert str(file["provenance"][0]).startswith("uplift ")
 
 workbook = openpyxl.load_workbook(book)
-assert workbook.sheetnames == ["About", "Spectra", "Bands", "Table 4.1", "Coefficients", "Hazard", "Study"]
+assert workbook.sheetnames == ["About", "Spectra", "Bands", "Table 4.1", "Flags and tails", "Coefficients", "Hazard",
+                               "Study"]
 assert all(cell.data_type != "f" for sheet in workbook for row in sheet.iter_rows() for cell in row), "no formula"
 assert workbook.properties.created.strftime("%Y-%m-%dT%H:%M:%SZ") == created
 assert workbook.properties.description.startswith("uplift ")
@@ -115,6 +119,11 @@ for im in measures:
             for index, size in enumerate(sizes):
                 for word, name in zip(("5 %", "median", "95 %"), limits):
                     assert band[(*found[0], size, word)] == list(bands[im, name][i, j, index])
+rows = list(workbook["Flags and tails"].iter_rows(values_only=True))
+heads = [tuple(row[column] for row in rows[:3]) + (rows[4][column],) for column in range(1, len(rows[0]))]
+column = 1 + heads.index((sites[0], "PGV", poe[0], "flag"))
+assert [row[column] for row in rows[5:]] == [flags[number] for number in flag["pgv"][0, 0]]
+assert rows[4][column + 1:column + 3] == ("share from below, %", "share from above, %")
 cell = workbook["Spectra"]["B3"]
 assert cell.number_format == "0.00%" and workbook["Spectra"]["B6"].number_format == "0.0000"
 

@@ -3,8 +3,10 @@
 use serde_json::{Value, json};
 
 use super::Export;
+use super::added::Influence;
 use super::source::{BandOf, Row};
-use crate::result::flag_word;
+use crate::influence::RecordInfluence;
+use crate::result::{StoredEfficiency, StoredTrend, flag_word};
 use crate::text::finite;
 
 impl Export {
@@ -21,6 +23,8 @@ impl Export {
             "years": self.spectra.years,
             "strength": self.spectra.strengths,
             "confidence": self.bands.as_ref().map(|bands| bands.confidence),
+            "influence": self.influences(),
+            "efficiency": self.added.efficiency.iter().map(efficiency).collect::<Vec<_>>(),
             "spectra": self.rows().map(|row| self.spectrum(&row)).collect::<Vec<_>>(),
         })
     }
@@ -44,8 +48,55 @@ impl Export {
                 "bound_active": fit.bound_active,
             },
             "bands": self.bands_of(row).iter().map(band).collect::<Vec<_>>(),
+            "disaggregation": self.influence_on(row).map(|influence| self.disaggregation(row.at, influence)),
         })
     }
+
+    /// The records of every spectrum, the most influential first.
+    fn influences(&self) -> Vec<Value> {
+        let of_row = |row: Row<'_>| {
+            let of = |found: &RecordInfluence| {
+                json!({
+                    "site": row.spectrum.site,
+                    "im": row.spectrum.measure.label(),
+                    "poe": row.spectrum.poe,
+                    "record": self.added.records[found.record],
+                    "mean_change_pct": finite(100.0 * found.mean_change),
+                    "largest_change_pct": finite(100.0 * found.largest_change),
+                    "at_strength": found.strength,
+                })
+            };
+            let ranking = self.influence_on(&row).map(|influence| &influence.ranking[row.at]);
+            ranking.into_iter().flatten().map(of).collect::<Vec<Value>>()
+        };
+        self.rows().flat_map(of_row).collect()
+    }
+
+    /// Where the risk of each ordinate comes from.
+    fn disaggregation(&self, [site, poe]: [usize; 2], influence: &Influence) -> Value {
+        let share = |strength| numbers(influence.stored.shares.block([site, poe, strength]));
+        json!({
+            "level_from": influence.stored.bins,
+            "share": (0..self.spectra.strengths.len()).map(share).collect::<Vec<_>>(),
+        })
+    }
+}
+
+fn efficiency(of: &StoredEfficiency) -> Value {
+    let trend = |trend: &StoredTrend| {
+        json!({
+            "covariate": trend.covariate,
+            "slope": numbers(&trend.slope),
+            "p_value": numbers(&trend.p_value),
+        })
+    };
+    json!({
+        "im": of.measure.label(),
+        "dispersion_rocking": numbers(&of.rocking),
+        "undefined_share": numbers(&of.undefined),
+        "dispersion_initiation": numbers(&of.initiation),
+        "trends": of.trends.iter().map(trend).collect::<Vec<_>>(),
+    })
 }
 
 fn band(band: &BandOf<'_>) -> Value {

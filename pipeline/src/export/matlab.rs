@@ -3,6 +3,8 @@
 mod level_5;
 
 use super::Export;
+use super::added::Influence;
+use crate::alarms::Alarm;
 use crate::error::UpliftError;
 use crate::result::{Fit, StoredSpectra, flag_number};
 use level_5::{MatFile, Shape};
@@ -20,7 +22,8 @@ impl Export {
         let StoredSpectra { strengths, poes, years, sites, measures } = &self.spectra;
         let mut file = MatFile::new(self.provenance());
         file.text("provenance", self.provenance());
-        let alarms: Vec<String> = self.alarms.iter().map(ToString::to_string).collect();
+        let said = |alarm: &Alarm| format!("{}: {alarm}", alarm.severity.word());
+        let alarms: Vec<String> = self.alarms.iter().map(said).collect();
         file.texts("warnings", &alarms.iter().map(String::as_str).collect::<Vec<_>>());
         file.numbers("strength", &Shape::column(strengths.len()), strengths);
         file.numbers("poe", &Shape::column(poes.len()), poes);
@@ -48,7 +51,44 @@ impl Export {
             }
         }
         self.add_bands(&mut file);
+        self.add_influence(&mut file);
+        self.add_efficiency(&mut file);
         file.finish().map_err(UpliftError::input)
+    }
+
+    /// What `uplift influence` found, if it was run: `share_pgv` is bin × strength × probability × site,
+    /// `u_without_pgv_m` strength × record × probability × site.
+    fn add_influence(&self, file: &mut MatFile) {
+        let StoredSpectra { strengths, poes, sites, .. } = &self.spectra;
+        let records: Vec<&str> = self.added.records.iter().map(String::as_str).collect();
+        if !self.added.influence.is_empty() {
+            file.texts("record", &records);
+        }
+        for Influence { stored, .. } in &self.added.influence {
+            let key = stored.measure.key();
+            file.numbers(&format!("bin_{key}"), &Shape::column(stored.bins.len()), &stored.bins);
+            let shape = Shape(vec![stored.bins.len(), strengths.len(), poes.len(), sites.len()]);
+            file.numbers(&format!("share_{key}"), &shape, stored.shares.values());
+            if let Some(without_m) = &stored.without_m {
+                let shape = Shape(vec![strengths.len(), records.len(), poes.len(), sites.len()]);
+                file.numbers(&format!("u_without_{key}_m"), &shape, without_m.values());
+            }
+        }
+    }
+
+    /// What `uplift measures` found, if it was run: columns over the strengths.
+    fn add_efficiency(&self, file: &mut MatFile) {
+        let shape = Shape::column(self.spectra.strengths.len());
+        for of in &self.added.efficiency {
+            let key = of.measure.key();
+            file.numbers(&format!("dispersion_rocking_{key}"), &shape, &of.rocking);
+            file.numbers(&format!("undefined_share_{key}"), &shape, &of.undefined);
+            file.numbers(&format!("dispersion_initiation_{key}"), &shape, &of.initiation);
+            for trend in &of.trends {
+                file.numbers(&format!("slope_{}_{key}", trend.covariate), &shape, &trend.slope);
+                file.numbers(&format!("p_value_{}_{key}", trend.covariate), &shape, &trend.p_value);
+            }
+        }
     }
 
     /// The bands, if there are some.

@@ -5,6 +5,7 @@ use std::path::Path;
 use uplift_hazard::rate_from_probability;
 use uplift_study::UniformRiskStudy;
 
+use super::added::Added;
 use crate::alarms::{Alarm, alarms};
 use crate::error::UpliftError;
 use crate::result::{Head, ResultFile, Spectrum, StoredBands, StoredHazard, StoredSpectra};
@@ -20,6 +21,8 @@ pub struct Export {
     pub(super) return_periods: Vec<f64>,
     /// What to know before using them, the worst first.
     pub(super) alarms: Vec<Alarm>,
+    /// What was added to it after the run.
+    pub(super) added: Added,
     /// Number of records.
     pub(super) records: usize,
     /// Name of the result file.
@@ -73,6 +76,7 @@ impl Export {
             bands: file.bands()?,
             hazard: file.hazard()?,
             alarms: alarms(file)?,
+            added: Added::read(file)?,
             records: file.axes()?.records.len(),
             head,
             spectra,

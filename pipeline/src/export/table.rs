@@ -3,7 +3,10 @@
 use polars::prelude::Column;
 
 use super::Export;
+use super::added::SHARES;
+use super::source::Row;
 use crate::result::flag_word;
+use crate::text::finite;
 
 impl Export {
     /// A row for each ordinate: its fit beside it, its return period and flag, and the limits of its bands for each
@@ -13,6 +16,7 @@ impl Export {
         let (mut lower, mut upper) = (Vec::new(), Vec::new());
         let (mut poe, mut period, mut strength, mut u_m, mut fit_m) =
             (Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let mut added = AddedColumns::default();
         let names = self.band_names();
         let mut limits: Vec<Vec<f64>> = vec![Vec::new(); names.len()];
         for row in self.rows() {
@@ -31,6 +35,7 @@ impl Export {
             }
             lower.extend_from_slice(row.spectrum.lower_tail_share);
             upper.extend_from_slice(row.spectrum.upper_tail_share);
+            added.extend(self, &row);
             let bands = self.bands_of(&row);
             let of_row = bands.iter().flat_map(|band| band.limits_m);
             for (column, values) in limits.iter_mut().zip(of_row) {
@@ -52,6 +57,7 @@ impl Export {
             Column::new("upper_tail_share".into(), upper),
         ];
         columns.extend(names.into_iter().zip(limits).map(|(name, values)| Column::new(name.into(), values)));
+        columns.extend(added.into_columns());
         columns
     }
 
@@ -64,5 +70,42 @@ impl Export {
             limits.each_ref().map(|limit| format!("{}_n{size}_m", limit.trim_end_matches("_m")))
         };
         bands.sizes.iter().flat_map(of_size).collect()
+    }
+}
+
+/// Columns of what `uplift influence` and `uplift measures` added; empty where they were not run.
+#[derive(Default)]
+struct AddedColumns {
+    /// Levels below which 5 %, half and 95 % of the risk of an ordinate lie, in the unit of the measure.
+    levels: [Vec<Option<f64>>; 3],
+    /// Dispersion of the stripes that rock, and of the level at first uplift.
+    dispersions: [Vec<Option<f64>>; 2],
+}
+
+impl AddedColumns {
+    /// The cells of one spectrum.
+    fn extend(&mut self, export: &Export, row: &Row<'_>) {
+        let strengths = 0..export.spectra.strengths.len();
+        if !export.added.influence.is_empty() {
+            let influence = export.influence_on(row);
+            for (cells, share) in self.levels.iter_mut().zip(SHARES) {
+                let level = |strength| finite(influence?.level(row.at, strength, share));
+                cells.extend(strengths.clone().map(level));
+            }
+        }
+        if !export.added.efficiency.is_empty() {
+            let of = export.added.efficiency_of(row.spectrum.measure);
+            let values = [of.map(|of| &of.rocking), of.map(|of| &of.initiation)];
+            for (cells, values) in self.dispersions.iter_mut().zip(values) {
+                cells.extend(strengths.clone().map(|strength| finite(values?[strength])));
+            }
+        }
+    }
+
+    fn into_columns(self) -> impl Iterator<Item = Column> {
+        let names = ["level_p05", "level_p50", "level_p95", "dispersion_rocking", "dispersion_initiation"];
+        let cells = self.levels.into_iter().chain(self.dispersions);
+        let some = names.into_iter().zip(cells).filter(|(_, cells)| !cells.is_empty());
+        some.map(|(name, cells)| Column::new(name.into(), cells))
     }
 }

@@ -1,6 +1,7 @@
 //! A result as a workbook of Excel: numbers laid out as an engineer reads them, and where they come from.
 
 mod about;
+mod added;
 mod sheet;
 mod spectra;
 mod tables;
@@ -50,7 +51,15 @@ impl Export {
             add("Bands", &Self::bands_sheet)?;
             add("Table 4.1", &Self::band_figures)?;
         }
+        add("Flags and tails", &Self::tails_sheet)?;
         add("Coefficients", &Self::coefficients)?;
+        if !self.added.influence.is_empty() {
+            add("Influence", &Self::influence_sheet)?;
+            add("Disaggregation", &Self::disaggregation_sheet)?;
+        }
+        if !self.added.efficiency.is_empty() {
+            add("Efficiency", &Self::efficiency_sheet)?;
+        }
         add("Hazard", &Self::hazard_sheet)?;
         add("Study", &Self::study_sheet)?;
         workbook.save_to_buffer()

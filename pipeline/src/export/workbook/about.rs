@@ -5,7 +5,7 @@ use uplift_oscillator::PostUplift;
 
 use super::sheet::Sheet;
 use crate::export::Export;
-use crate::text::per_cent;
+use crate::text::{per_cent, risk_in_words};
 
 impl Export {
     /// What the workbook is of, and what to know before using it.
@@ -18,7 +18,8 @@ impl Export {
             PostUplift::Negative { capacity_m } => format!("negative stiffness, capacity {capacity_m} m"),
             PostUplift::Positive { stiffness_per_s2 } => format!("positive stiffness, {stiffness_per_s2} 1/s2"),
         };
-        let poes: Vec<String> = self.spectra.poes.iter().map(|&poe| per_cent(poe)).collect();
+        let years = self.spectra.years;
+        let risks: Vec<String> = self.spectra.poes.iter().map(|&poe| risk_in_words(poe, years)).collect();
         let bands = self.bands.as_ref().map(|bands| {
             let sizes: Vec<String> = bands.sizes.iter().map(u32::to_string).collect();
             format!("{} over resampled records, samples of {}", per_cent(bands.confidence), sizes.join(", "))
@@ -36,7 +37,7 @@ impl Export {
             ("Uplift displacement", format!("{} m", oscillator.uplift_displacement_m)),
             ("Restitution", oscillator.restitution.to_string()),
             ("After uplift", post_uplift),
-            ("Probabilities", format!("{} in {} years", poes.join(", "), self.spectra.years)),
+            ("Probabilities", risks.join(", ")),
             ("Ordinates", study.risk.contour.key().to_owned()),
             ("Confidence bands", bands.unwrap_or_else(|| "none: `uplift bootstrap` makes them".to_owned())),
             ("Coefficients", "u = c0 exp(c1 strength) + c2, c2 not negative (Eq. 4.11)".to_owned()),

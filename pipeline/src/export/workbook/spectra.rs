@@ -5,11 +5,14 @@ use rust_xlsxwriter::XlsxError;
 use super::sheet::{Sheet, Shown};
 use crate::export::Export;
 use crate::export::source::Row;
+use crate::result::flag_word;
 
 /// In place of an ordinate that does not exist.
 const CENSORED: &str = "censored";
 /// Label of the first column.
 const STRENGTH: &str = "strength f_up/(m g), -";
+/// What is told of each ordinate beside itself.
+const TAILS: [&str; 3] = ["flag", "share from below, %", "share from above, %"];
 /// Widths of the column of strengths, in characters.
 const WIDTHS: [f64; 1] = [26.0];
 
@@ -22,6 +25,29 @@ impl Export {
             head_of(sheet, column, &row)?;
             sheet.heading((below - 1, column), "u, m", true)?;
             over_strengths(sheet, (below, column), row.spectrum.u_m)?;
+        }
+        sheet.finish((below, 1), &WIDTHS)
+    }
+
+    /// What each ordinate is, and what of its risk comes from outside the analysed levels.
+    pub(super) fn tails_sheet(&self, sheet: &mut Sheet<'_>) -> Result<(), XlsxError> {
+        let below = self.heads(sheet, &[])?;
+        let mut column = 1;
+        for row in self.rows() {
+            let spectrum = &row.spectrum;
+            for name in TAILS {
+                head_of(sheet, column, &row)?;
+                sheet.heading((below - 1, column), name, true)?;
+                column += 1;
+            }
+            for (index, &flag) in spectrum.flags.iter().enumerate() {
+                sheet.text((below + index, column - TAILS.len()), flag_word(flag))?;
+            }
+            for (shares, column) in [(spectrum.lower_tail_share, column - 2), (spectrum.upper_tail_share, column - 1)] {
+                for (index, &share) in shares.iter().enumerate() {
+                    sheet.number((below + index, column), share, Shown::Percent, "")?;
+                }
+            }
         }
         sheet.finish((below, 1), &WIDTHS)
     }
@@ -48,7 +74,7 @@ impl Export {
     }
 
     /// What the lines of headings are, with `more` of them, and the strengths below; the first line of numbers.
-    fn heads(&self, sheet: &mut Sheet<'_>, more: &[&str]) -> Result<usize, XlsxError> {
+    pub(super) fn heads(&self, sheet: &mut Sheet<'_>, more: &[&str]) -> Result<usize, XlsxError> {
         let probability = format!("probability in {} years", self.spectra.years);
         let names = ["site", "intensity measure", &probability, "return period, years"];
         for (line, name) in names.iter().chain(more).enumerate() {
@@ -62,7 +88,7 @@ impl Export {
 }
 
 /// What stands at the head of the column of a spectrum.
-fn head_of(sheet: &mut Sheet<'_>, column: usize, row: &Row<'_>) -> Result<(), XlsxError> {
+pub(super) fn head_of(sheet: &mut Sheet<'_>, column: usize, row: &Row<'_>) -> Result<(), XlsxError> {
     sheet.heading((0, column), row.spectrum.site, false)?;
     sheet.heading((1, column), row.spectrum.measure.label(), false)?;
     sheet.number((2, column), row.spectrum.poe, Shown::Percent, "")?;
@@ -70,7 +96,11 @@ fn head_of(sheet: &mut Sheet<'_>, column: usize, row: &Row<'_>) -> Result<(), Xl
 }
 
 /// Numbers below each other, from a place on.
-fn over_strengths(sheet: &mut Sheet<'_>, (row, column): (usize, usize), values: &[f64]) -> Result<(), XlsxError> {
+pub(super) fn over_strengths(
+    sheet: &mut Sheet<'_>,
+    (row, column): (usize, usize),
+    values: &[f64],
+) -> Result<(), XlsxError> {
     for (index, &value) in values.iter().enumerate() {
         sheet.number((row + index, column), value, Shown::FourDecimals, CENSORED)?;
     }

@@ -7,7 +7,7 @@ use crate::export::Export;
 use crate::export::source::Row;
 
 /// Columns of what a line is of.
-const OF: usize = 5;
+pub(super) const OF: usize = 5;
 
 impl Export {
     /// The coefficients of Eq. 4.11.
@@ -62,7 +62,7 @@ impl Export {
     }
 
     /// What the line of a table is of.
-    fn line_of(&self, sheet: &mut Sheet<'_>, line: usize, row: &Row<'_>) -> Result<(), XlsxError> {
+    pub(super) fn line_of(&self, sheet: &mut Sheet<'_>, line: usize, row: &Row<'_>) -> Result<(), XlsxError> {
         sheet.text((line, 0), row.spectrum.site)?;
         sheet.text((line, 1), row.spectrum.measure.label())?;
         sheet.number((line, 2), row.spectrum.poe, Shown::Percent, "")?;
@@ -72,7 +72,7 @@ impl Export {
 }
 
 /// The headings of what a line is of, and of `more`.
-fn of_headings(sheet: &mut Sheet<'_>, more: &[&str]) -> Result<(), XlsxError> {
+pub(super) fn of_headings(sheet: &mut Sheet<'_>, more: &[&str]) -> Result<(), XlsxError> {
     let names: [&str; OF] = ["site", "measure", "probability", "in years", "return period, years"];
     for (column, name) in names.iter().chain(more).enumerate() {
         sheet.heading((0, column), name, true)?;

@@ -1,0 +1,74 @@
+//! The sheets of what `uplift influence` and `uplift measures` added to a result.
+
+use rust_xlsxwriter::XlsxError;
+
+use super::sheet::{Sheet, Shown};
+use super::spectra::{head_of, over_strengths};
+use super::tables::{OF, of_headings};
+use crate::export::Export;
+use crate::export::added::SHARES;
+
+impl Export {
+    /// The records of every spectrum, the most influential first: how it changes without them.
+    pub(super) fn influence_sheet(&self, sheet: &mut Sheet<'_>) -> Result<(), XlsxError> {
+        of_headings(sheet, &["record left out", "mean change, %", "largest change, %", "at strength, -"])?;
+        let mut line = 1;
+        for row in self.rows() {
+            let Some(influence) = self.influence_on(&row) else { continue };
+            for found in &influence.ranking[row.at] {
+                self.line_of(sheet, line, &row)?;
+                sheet.text((line, OF), &self.added.records[found.record])?;
+                sheet.number((line, OF + 1), 100.0 * found.mean_change, Shown::OneDecimal, "")?;
+                sheet.number((line, OF + 2), 100.0 * found.largest_change, Shown::OneDecimal, "overturns")?;
+                sheet.number((line, OF + 3), found.strength, Shown::FourDecimals, "")?;
+                line += 1;
+            }
+        }
+        sheet.finish((1, 1), &[18.0, 9.0, 12.0, 9.0, 14.0, 18.0, 16.0, 18.0, 14.0])
+    }
+
+    /// The levels below which 5 %, half and 95 % of the risk of each ordinate lie.
+    pub(super) fn disaggregation_sheet(&self, sheet: &mut Sheet<'_>) -> Result<(), XlsxError> {
+        let below = self.heads(sheet, &["share of the risk below"])?;
+        let mut column = 1;
+        for row in self.rows() {
+            let Some(influence) = self.influence_on(&row) else { continue };
+            for share in SHARES {
+                head_of(sheet, column, &row)?;
+                sheet.number((below - 2, column), share, Shown::Percent, "")?;
+                let measure = row.spectrum.measure;
+                sheet.heading((below - 1, column), &format!("{}, {}", measure.label(), measure.unit()), true)?;
+                let strengths = 0..self.spectra.strengths.len();
+                let levels: Vec<f64> = strengths.map(|strength| influence.level(row.at, strength, share)).collect();
+                over_strengths(sheet, (below, column), &levels)?;
+                column += 1;
+            }
+        }
+        sheet.finish((below, 1), &[26.0])
+    }
+
+    /// How efficient and sufficient the measures are: strengths down, measures across.
+    pub(super) fn efficiency_sheet(&self, sheet: &mut Sheet<'_>) -> Result<(), XlsxError> {
+        sheet.heading((1, 0), "strength f_up/(m g), -", true)?;
+        over_strengths(sheet, (2, 0), &self.spectra.strengths)?;
+        let mut column = 1;
+        for of in &self.added.efficiency {
+            let mut columns = vec![
+                ("dispersion, rocking".to_owned(), &of.rocking),
+                ("share undefined".to_owned(), &of.undefined),
+                ("dispersion, first uplift".to_owned(), &of.initiation),
+            ];
+            for trend in &of.trends {
+                columns.push((format!("slope over {}", trend.covariate), &trend.slope));
+                columns.push((format!("p value of {}", trend.covariate), &trend.p_value));
+            }
+            for (name, values) in columns {
+                sheet.heading((0, column), of.measure.label(), false)?;
+                sheet.heading((1, column), &name, true)?;
+                over_strengths(sheet, (2, column), values)?;
+                column += 1;
+            }
+        }
+        sheet.finish((2, 1), &[26.0])
+    }
+}
