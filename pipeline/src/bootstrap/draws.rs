@@ -32,11 +32,28 @@ pub(super) fn draws(
     });
     let replicates = options.replicates.unwrap_or(study.replicates);
     let seed = options.seed.unwrap_or(stored.seed);
+    refuse_endless(&sizes, replicates, records)?;
     needs(stored, sizes.len(), replicates, settings).require(&stored.path, events)?;
     let count = usize::try_from(replicates).unwrap_or(usize::MAX);
     let plan = ResamplingPlan::draw(records, &sizes, count, seed)
         .map_err(|error| UpliftError::Usage(format!("--sizes: {error}")))?;
     Ok((plan, format!("seed {seed}")))
+}
+
+/// Records in a sample for each record of the set, at most: the band of a hundred times as many is a tenth as wide, and
+/// says nothing more of the records.
+const MOST_OF_SET: u64 = 100;
+/// Samples of that many records are drawn whatever the set.
+const ALWAYS: u64 = 1000;
+
+/// Refuses samples far larger than the set that they are drawn from, which take long and tell nothing.
+fn refuse_endless(sizes: &[u32], replicates: u64, records: usize) -> Result<(), UpliftError> {
+    let most = ALWAYS.max(MOST_OF_SET * records as u64);
+    let Some(size) = sizes.iter().find(|&&size| u64::from(size) > most) else { return Ok(()) };
+    Err(UpliftError::Usage(format!(
+        "--sizes: samples of {size} records from a set of {records}, {replicates} of them: at most {most} are drawn, \
+         {MOST_OF_SET} times the set or {ALWAYS}: give sizes of the order of the set"
+    )))
 }
 
 /// The draws that the result at `path` keeps, from the same records.

@@ -79,8 +79,8 @@ pub(super) fn read_file(
         (_, _, Some(declared)) => declared,
         _ => {
             return Err(UpliftError::input(format!(
-                "{}: the table does not say its measure and unit: add a first line such as \"# IM: PGV [cm/s]\", \
-                 or give --measure and --unit",
+                "{}: the table does not say its measure and unit: call its column pgv_cm_s or pga_g, \
+                 add a first line such as \"# IM: PGV [cm/s]\", or give --measure and --unit",
                 path.display()
             )));
         }

@@ -95,6 +95,8 @@ pub(super) fn find_pairs(options: &ImportOptions, events: &dyn Events) -> Result
     for outcome in read {
         match outcome {
             Ok(found) => components.extend(found),
+            // a file cannot be asked, whoever imports it can
+            Err(error @ MotionError::MissingUnit { .. }) => passed_over.push(format!("{error} (--unit)")),
             Err(error) => passed_over.push(error.to_string()),
         }
     }

@@ -3,6 +3,7 @@
 mod figures;
 mod folder;
 mod force;
+mod number;
 mod probability;
 mod result;
 mod risk;
@@ -12,6 +13,7 @@ mod study;
 pub(crate) use figures::FigureArguments;
 pub(crate) use folder::require_folder;
 pub(crate) use force::ForceArgument;
+pub(crate) use number::number;
 pub(crate) use probability::{number_or_per_cent, probability};
 pub(crate) use result::ResultArguments;
 pub(crate) use risk::RiskArguments;

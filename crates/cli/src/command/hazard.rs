@@ -10,6 +10,7 @@ use clap::{Args, Subcommand};
 use uplift::hazard_curves::CurveOptions;
 use uplift_hazard::SiteSelection;
 
+use super::arguments::number;
 use crate::error::CommandError;
 use crate::terminal::Terminal;
 
@@ -78,7 +79,7 @@ struct TableArguments {
     #[arg(long, value_name = "UNIT")]
     unit: Option<String>,
     /// Years that the probabilities of a table refer to
-    #[arg(long, value_name = "YEARS")]
+    #[arg(long, value_name = "YEARS", value_parser = number)]
     years: Option<f64>,
 }
 

@@ -10,7 +10,7 @@ use uplift_block::RickerShape;
 use uplift_report::{check_pulse_figures, plot_pulses};
 use uplift_study::Grid;
 
-use super::arguments::{FigureArguments, ForceArgument, require_folder};
+use super::arguments::{FigureArguments, ForceArgument, number, require_folder};
 use crate::error::CommandError;
 use crate::show::{print_json, print_pulses};
 use crate::terminal::Terminal;
@@ -27,10 +27,10 @@ pub(super) struct PulseArguments {
     #[arg(long, value_enum, default_value_t = Shape::Both)]
     shape: Shape,
     /// Slenderness alpha of the block, atan(b/h), rad
-    #[arg(long, value_name = "RAD", default_value_t = 0.1, allow_negative_numbers = true)]
+    #[arg(long, value_name = "RAD", default_value_t = 0.1, allow_negative_numbers = true, value_parser = number)]
     slenderness: f64,
     /// Coefficient of restitution at impact [default: Housner's, Eq. 2.3]
-    #[arg(long, value_name = "R", allow_negative_numbers = true)]
+    #[arg(long, value_name = "R", allow_negative_numbers = true, value_parser = number)]
     restitution: Option<f64>,
     /// Axis omega_p/p of the spectra
     #[arg(
@@ -63,10 +63,17 @@ pub(super) struct PulseArguments {
     )]
     acceleration_lines: Grid,
     /// Largest ground acceleration a_p, g
-    #[arg(long, value_name = "G", default_value_t = 1.0, help_heading = BLOCKS, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "G",
+        default_value_t = 1.0,
+        help_heading = BLOCKS,
+        allow_negative_numbers = true,
+        value_parser = number
+    )]
     amplitude_g: f64,
     /// Period T_p of the wavelet, s [default: 0.5 symmetric, 1 antisymmetric]
-    #[arg(long, value_name = "S", help_heading = BLOCKS, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", help_heading = BLOCKS, allow_negative_numbers = true, value_parser = number)]
     period_s: Option<f64>,
     /// Axis of sizes: parameter R, half the diagonal of the block, m
     #[arg(

@@ -14,6 +14,7 @@ use uplift::records::SetOptions;
 use uplift_motion::{AccelerationUnit, Combination, RecordFormat, STANDARD_GRAVITY_M_S2};
 use uplift_study::{CRITERIA, Criterion, Range, RecordSelection};
 
+use super::arguments::number;
 use crate::error::CommandError;
 use crate::terminal::Terminal;
 
@@ -57,10 +58,10 @@ struct FileArguments {
     #[arg(long, value_name = "UNIT")]
     unit: Option<AccelerationUnit>,
     /// Time step of files with one column that name none, s
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", value_parser = number)]
     dt_s: Option<f64>,
     /// Acceleration of gravity, m/s2
-    #[arg(long, value_name = "M_S2", default_value_t = STANDARD_GRAVITY_M_S2)]
+    #[arg(long, value_name = "M_S2", default_value_t = STANDARD_GRAVITY_M_S2, value_parser = number)]
     gravity_m_s2: f64,
 }
 

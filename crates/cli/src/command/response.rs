@@ -7,7 +7,7 @@ use uplift::response::{BlockResponseOptions, ResponseOptions, Shaking, block_res
 use uplift_motion::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
 use uplift_report::{check_figure_file, plot_block_response, plot_response};
 
-use super::arguments::ForceArgument;
+use super::arguments::{ForceArgument, number};
 use crate::error::CommandError;
 use crate::show::{print_block_response, print_json, print_response};
 use crate::terminal::Terminal;
@@ -22,34 +22,49 @@ pub(super) struct ResponseArguments {
         value_name = "ETA",
         required_unless_present = "block",
         conflicts_with = "block",
-        allow_negative_numbers = true
+        allow_negative_numbers = true,
+        value_parser = number,
     )]
     strength: Option<f64>,
     /// Factor on the record
-    #[arg(long, default_value_t = 1.0, allow_negative_numbers = true)]
+    #[arg(long, default_value_t = 1.0, allow_negative_numbers = true, value_parser = number)]
     scale: f64,
     /// Displacement at uplift, m
-    #[arg(long, default_value_t = 0.0005, value_name = "M", conflicts_with = "block", allow_negative_numbers = true)]
+    #[arg(
+        long,
+        default_value_t = 0.0005,
+        value_name = "M",
+        conflicts_with = "block",
+        allow_negative_numbers = true,
+        value_parser = number
+    )]
     uplift_displacement_m: f64,
     /// Displacement where the restoring force vanishes, m: a negative-stiffness system that can overturn
     #[arg(
         long, value_name = "M", conflicts_with_all = ["post_uplift_stiffness_per_s2", "block"],
-        allow_negative_numbers = true
+        allow_negative_numbers = true,
+        value_parser = number,
     )]
     capacity_m: Option<f64>,
     /// Stiffness after uplift over the mass, 1/s2: a system of positive post-uplift stiffness
-    #[arg(long, value_name = "K", conflicts_with = "block", allow_negative_numbers = true)]
+    #[arg(long, value_name = "K", conflicts_with = "block", allow_negative_numbers = true, value_parser = number)]
     post_uplift_stiffness_per_s2: Option<f64>,
     /// Coefficient of restitution at impact [default: 0.95; of a block Housner's, Eq. 2.3]
-    #[arg(long, value_name = "R", allow_negative_numbers = true)]
+    #[arg(long, value_name = "R", allow_negative_numbers = true, value_parser = number)]
     restitution: Option<f64>,
     #[command(flatten)]
     block: BlockArguments,
     /// Acceleration of gravity, m/s2
-    #[arg(long, default_value_t = STANDARD_GRAVITY_M_S2, value_name = "G", allow_negative_numbers = true)]
+    #[arg(
+        long,
+        default_value_t = STANDARD_GRAVITY_M_S2,
+        value_name = "G",
+        allow_negative_numbers = true,
+        value_parser = number
+    )]
     gravity_m_s2: f64,
     /// Sampling interval of a one-column record, s
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = number)]
     dt_s: Option<f64>,
     /// Unit of a text record: g, m/s2, cm/s2 or gal
     #[arg(long)]
@@ -59,7 +74,7 @@ pub(super) struct ResponseArguments {
     channel: Option<usize>,
     /// Follow the free vibration after the record for so many seconds; without it an oscillator is followed to the end
     /// of the record, a block to its first peak after it
-    #[arg(long, default_value_t = 0.0, value_name = "S", allow_negative_numbers = true)]
+    #[arg(long, default_value_t = 0.0, value_name = "S", allow_negative_numbers = true, value_parser = number)]
     free_vibration_s: f64,
     /// Print the response as JSON
     #[arg(long)]
@@ -82,16 +97,16 @@ struct BlockArguments {
     #[arg(long)]
     block: bool,
     /// Width 2b, m
-    #[arg(long, value_name = "M", requires = "block", allow_negative_numbers = true)]
+    #[arg(long, value_name = "M", requires = "block", allow_negative_numbers = true, value_parser = number)]
     width_m: Option<f64>,
     /// Height 2h, m
-    #[arg(long, value_name = "M", requires = "block", allow_negative_numbers = true)]
+    #[arg(long, value_name = "M", requires = "block", allow_negative_numbers = true, value_parser = number)]
     height_m: Option<f64>,
     /// Size R, half the diagonal, m
-    #[arg(long, value_name = "M", requires = "block", allow_negative_numbers = true)]
+    #[arg(long, value_name = "M", requires = "block", allow_negative_numbers = true, value_parser = number)]
     size_m: Option<f64>,
     /// Slenderness alpha, atan(width/height), rad
-    #[arg(long, value_name = "RAD", requires = "block", allow_negative_numbers = true)]
+    #[arg(long, value_name = "RAD", requires = "block", allow_negative_numbers = true, value_parser = number)]
     slenderness: Option<f64>,
 }
 

@@ -3,7 +3,7 @@
 use clap::Args;
 use uplift::result::{AskedRisk, RiskTargets};
 
-use super::number_or_per_cent;
+use super::{number, number_or_per_cent};
 
 /// The risks of the spectra, any: computed from the stripes of the result, without a new run.
 #[derive(Debug, Args)]
@@ -19,10 +19,10 @@ pub(crate) struct RiskArguments {
     )]
     poe: Vec<f64>,
     /// Return periods in years, in place of probabilities
-    #[arg(long, value_name = "YEARS[,…]", value_delimiter = ',', allow_negative_numbers = true)]
+    #[arg(long, value_name = "YEARS[,…]", value_delimiter = ',', allow_negative_numbers = true, value_parser = number)]
     return_period: Vec<f64>,
     /// Years that the probabilities refer to [default: those of the study]
-    #[arg(long, value_name = "YEARS", allow_negative_numbers = true)]
+    #[arg(long, value_name = "YEARS", allow_negative_numbers = true, value_parser = number)]
     years: Option<f64>,
 }
 

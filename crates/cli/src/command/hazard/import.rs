@@ -7,7 +7,7 @@ use uplift::hazard_curves::{HazardImportOptions, import as import_curves};
 use uplift_hazard::ComponentDefinition;
 
 use super::SiteArguments;
-use crate::command::arguments::{ForceArgument, require_folder};
+use crate::command::arguments::{ForceArgument, number, require_folder};
 use crate::error::CommandError;
 use crate::show::print_hazard_import;
 use crate::terminal::Terminal;
@@ -31,7 +31,7 @@ pub(super) struct ImportArguments {
     #[arg(long, value_name = "FILE")]
     weights: Option<PathBuf>,
     /// Refuse a site farther from --near than this, km
-    #[arg(long, value_name = "KM", default_value_t = 100.0)]
+    #[arg(long, value_name = "KM", default_value_t = 100.0, value_parser = number)]
     within_km: f64,
     #[command(flatten)]
     overwriting: ForceArgument,

@@ -9,7 +9,7 @@ use uplift_motion::synthetic::{Faulting, ScenarioRange, SyntheticSetOptions};
 use uplift_study::Range;
 
 use super::range;
-use crate::command::arguments::ForceArgument;
+use crate::command::arguments::{ForceArgument, number};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
@@ -41,10 +41,10 @@ pub(super) struct SynthesizeArguments {
     #[arg(long, value_enum, default_value_t = Mechanism::Either)]
     mechanism: Mechanism,
     /// Keep pairs whose geometric-mean PGA is above this, g
-    #[arg(long, value_name = "G", default_value_t = 0.14)]
+    #[arg(long, value_name = "G", default_value_t = 0.14, value_parser = number)]
     minimum_pga_g: f64,
     /// Time step, 0.001 to 0.01 s
-    #[arg(long, value_name = "SECONDS", default_value_t = 0.01)]
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.01, value_parser = number)]
     dt_s: f64,
     #[command(flatten)]
     overwriting: ForceArgument,

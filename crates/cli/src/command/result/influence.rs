@@ -3,7 +3,7 @@
 use clap::Args;
 use uplift::influence::{InfluenceOptions, influence as run};
 
-use crate::command::arguments::{ResultArguments, probability};
+use crate::command::arguments::{ResultArguments, number, probability};
 use crate::error::CommandError;
 use crate::show::{print_influence, print_json};
 use crate::terminal::Terminal;
@@ -19,7 +19,7 @@ pub(crate) struct InfluenceArguments {
     #[arg(long, value_parser = probability)]
     poe: Option<f64>,
     /// The same by its return period in years, for instance 475
-    #[arg(long, value_name = "YEARS", conflicts_with = "poe")]
+    #[arg(long, value_name = "YEARS", conflicts_with = "poe", value_parser = number)]
     return_period: Option<f64>,
     /// Print the rows as JSON
     #[arg(long)]

@@ -7,7 +7,7 @@ use uplift::structure::{DesignOptions, design as run, design_shard};
 use uplift_motion::IntensityMeasure;
 use uplift_report::{check_design_sheet, write_design_sheet};
 
-use crate::command::arguments::{ForceArgument, RiskArguments, StructureArguments};
+use crate::command::arguments::{ForceArgument, RiskArguments, StructureArguments, number};
 use crate::error::CommandError;
 use crate::show::print_shard;
 use crate::show::{print_design, print_json};
@@ -33,7 +33,8 @@ pub(crate) struct DesignArguments {
         long,
         value_name = "FS",
         default_value_t = DesignOptions::default().safety_factor,
-        allow_negative_numbers = true
+        allow_negative_numbers = true,
+        value_parser = number,
     )]
     safety_factor: f64,
     /// Read the spectrum and apply the rules, without analysing the structure itself

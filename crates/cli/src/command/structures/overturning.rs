@@ -8,7 +8,7 @@ use uplift::structure::{OverturningOptions, overturning as run, overturning_shar
 use uplift_motion::IntensityMeasure;
 use uplift_report::{check_figure_file, plot_overturning};
 
-use crate::command::arguments::{ForceArgument, StructureArguments};
+use crate::command::arguments::{ForceArgument, StructureArguments, number};
 use crate::error::CommandError;
 use crate::show::{print_json, print_overturning, print_shard};
 use crate::terminal::Terminal;
@@ -28,7 +28,7 @@ pub(crate) struct OverturningArguments {
     measure: Option<IntensityMeasure>,
     /// One coefficient of restitution for both models, in place of the structure's, the study's (oscillator) and that
     /// of angular momentum (block)
-    #[arg(long, value_name = "R", allow_negative_numbers = true)]
+    #[arg(long, value_name = "R", allow_negative_numbers = true, value_parser = number)]
     restitution: Option<f64>,
     /// Print everything as JSON
     #[arg(long)]

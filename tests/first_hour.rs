@@ -1,0 +1,114 @@
+//! What a newcomer types first, and types wrong.
+
+use crate::common::{SmallStudy, repository};
+
+fn study() -> SmallStudy {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    study
+}
+
+#[test]
+fn a_decimal_comma_is_named() {
+    let study = SmallStudy::new();
+    study.uplift(&["records", "synthesize", "-o", "set", "--count", "1", "-q"]).ok();
+    let record = "set/SYN001_H1.AT2";
+    for (command, words) in [
+        (&["response", record, "--strength", "0,2"][..], "write 0.2"),
+        (&["response", record, "--strength", "0.2", "--scale", "1,5"], "write 1.5"),
+        (&["pulse", "--restitution", "0,9", "-o", "p"], "write 0.9"),
+        (&["table", "r.h5", "--years", "50,5"], "write 50.5"),
+        (&["response", record, "--strength", "a fifth"], "write a number, 0.2 or 2e-4"),
+    ] {
+        study.uplift(command).fails(2, &[words]);
+    }
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    study.uplift(&["table", "r.h5", "--poe", "0,02"]).fails(2, &["--poe 0:", "the decimal mark is a point"]);
+}
+
+#[test]
+fn a_study_in_place_of_a_result_is_told_as_one() {
+    let study = study();
+    for command in ["report", "table", "export"] {
+        let format = if command == "export" { &["--json"][..] } else { &[] };
+        let said = study.uplift(&[&[command, "study.toml"], format].concat());
+        said.fails(4, &["study.toml: is a study, and a result is wanted: `uplift run` makes one of it"]);
+    }
+}
+
+#[test]
+fn samples_far_larger_than_the_set_are_refused() {
+    let study = study();
+    let words = ["--sizes: samples of 100000 records from a set of 4", "at most 1000"];
+    study.uplift(&["bootstrap", "r.h5", "--sizes", "2,100000"]).fails(2, &words);
+    study.uplift(&["bootstrap", "r.h5", "--sizes", "400", "--replicates", "3", "-q"]).ok();
+}
+
+#[test]
+fn the_result_of_a_changed_study_is_not_made_anew_unasked() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-q", "--set", "records.first=3"]).ok();
+    let before = std::fs::read(study.path().join("results/study.h5")).unwrap();
+    let refused = study.uplift(&["bootstrap", "study.toml", "--replicates", "20", "--sizes", "2"]);
+    assert!(!refused.stderr.contains("made first"), "{}", refused.stderr);
+    refused.fails(2, &["with --set records.first=3", "give", "in place of the study file", "--force"]);
+    assert_eq!(std::fs::read(study.path().join("results/study.h5")).unwrap(), before);
+    let same = ["bootstrap", "study.toml", "--replicates", "20", "--sizes", "2", "-q", "--set", "records.first=3"];
+    study.uplift(&same).ok();
+}
+
+// The line of the README that writes a curve, as a shell would.
+#[test]
+fn the_curve_of_the_readme_says_what_it_is() {
+    let study = SmallStudy::new();
+    let readme = std::fs::read_to_string(repository().join("README.md")).unwrap();
+    let line = readme.lines().find(|line| line.starts_with("printf") && line.ends_with("> pgv.csv")).unwrap();
+    study.write("pgv.csv", &line.split('\'').nth(1).unwrap().replace("\\n", "\n"));
+    let shown = study.uplift(&["hazard", "show", "pgv.csv"]).ok().stdout;
+    assert!(shown.contains("PGV [cm/s]"), "{shown}");
+    study.write("unsaid.csv", "iml,maf\n1,0.4\n10,0.01\n");
+    study.uplift(&["hazard", "show", "unsaid.csv"]).fails(4, &["unsaid.csv", "pgv_cm_s", "--measure and --unit"]);
+}
+
+#[test]
+fn an_import_names_the_option_for_the_unit() {
+    let study = SmallStudy::new();
+    std::fs::create_dir(study.path().join("downloads")).unwrap();
+    let samples: String = (0..200).map(|i| format!("{:.3} {:.5}\n", 0.01 * f64::from(i), 0.01)).collect();
+    for name in ["downloads/a_H1.txt", "downloads/a_H2.txt"] {
+        study.write(name, &samples);
+    }
+    let said = study.uplift(&["records", "import", "downloads", "-o", "m.csv"]).stderr;
+    assert!(said.contains("does not say its unit") && said.contains("--unit"), "{said}");
+}
+
+#[test]
+fn figures_are_as_wide_as_a_journal_asks() {
+    let study = study();
+    let plot = ["plot", "r.h5", "--only", "urs-pgv", "-o", "narrow", "--format", "both"];
+    study.uplift(&[&plot[..], &["--width-mm", "84", "--dpi", "600", "-q"]].concat()).ok();
+    let svg = std::fs::read_to_string(study.path().join("narrow/urs-pgv.svg")).unwrap();
+    // 84 mm at 96 to the inch
+    assert!(svg.contains("width=\"317\""), "{svg:.200}");
+    let image = std::fs::read(study.path().join("narrow/urs-pgv.png")).unwrap();
+    let said = image.windows(4).position(|name| name == b"pHYs").unwrap();
+    assert_eq!(image[said + 4..said + 8], 23_622_u32.to_be_bytes(), "600 dots an inch");
+    study.uplift(&[&plot[..], &["--width-mm", "5"]].concat()).fails(2, &["60..=500"]);
+    // no title inside, whatever draws
+    study.uplift(&["records", "synthesize", "-o", "set", "--count", "1", "-q"]).ok();
+    let curves = ["hazard", "plot", "pga.csv", "--measure", "PGA", "--unit", "g", "-o", "curves.svg"];
+    study.uplift(&curves).ok();
+    study.uplift(&["response", "set/SYN001_H1.AT2", "--strength", "0.2", "--plot", "history.svg"]).ok();
+    for (name, title) in [("curves.svg", "Hazard curves"), ("history.svg", "strength 0.2")] {
+        let drawn = std::fs::read_to_string(study.path().join(name)).unwrap();
+        assert!(!drawn.contains(title), "{name}");
+    }
+}
+
+#[test]
+fn a_footnote_stands_where_a_star_does() {
+    let study = study();
+    let shown = study.uplift(&["table", "r.h5", "--im", "all"]).ok().stdout;
+    let (table, notes) = shown.split_once("probabilities in").unwrap();
+    assert_eq!(table.contains(" *\n") || table.contains(" *  "), table.ends_with("* c2 held at 0; "), "{shown}{notes}");
+}
