@@ -74,9 +74,9 @@ fn the_curve_of_the_readme_says_what_it_is() {
 fn an_import_names_the_option_for_the_unit() {
     let study = SmallStudy::new();
     std::fs::create_dir(study.path().join("downloads")).unwrap();
-    let samples: String = (0..200).map(|i| format!("{:.3} {:.5}\n", 0.01 * f64::from(i), 0.01)).collect();
+    let samples: Vec<String> = (0..200).map(|i| format!("{:.3} 0.01\n", 0.01 * f64::from(i))).collect();
     for name in ["downloads/a_H1.txt", "downloads/a_H2.txt"] {
-        study.write(name, &samples);
+        study.write(name, &samples.concat());
     }
     let said = study.uplift(&["records", "import", "downloads", "-o", "m.csv"]).stderr;
     assert!(said.contains("does not say its unit") && said.contains("--unit"), "{said}");

@@ -30,7 +30,12 @@ pub enum Width {
     Single,
     /// Both columns, 190 mm.
     Double,
+    /// As wide as a journal asks for, mm.
+    Millimetres(u16),
 }
+
+/// A figure of less than this has its panels below each other, mm.
+const TWO_COLUMNS_MM: u16 = 140;
 
 impl Width {
     /// Pixels at 96 to the inch.
@@ -38,6 +43,16 @@ impl Width {
         match self {
             Self::Single => 340,
             Self::Double => 718,
+            Self::Millimetres(width) => (f64::from(width) / 25.4 * 96.0).round() as u32,
+        }
+    }
+
+    /// Panels in a row, of so many that a figure would have.
+    fn columns(self, wanted: usize) -> usize {
+        match self {
+            Self::Single => 1,
+            Self::Millimetres(width) if width < TWO_COLUMNS_MM => 1,
+            Self::Double | Self::Millimetres(_) => wanted,
         }
     }
 }
@@ -76,10 +91,7 @@ const SWATCH: (u32, u32) = (24, 12);
 /// What the drawing library cannot do, in its words; none is known.
 pub fn svg(figure: &Figure, look: Look) -> Result<Drawing, String> {
     let width = look.width;
-    let columns = match width {
-        Width::Single => 1,
-        Width::Double => figure.columns.clamp(1, figure.panels.len().max(1)),
-    };
+    let columns = width.columns(figure.columns.clamp(1, figure.panels.len().max(1)));
     let rows = figure.panels.len().div_ceil(columns).max(1);
     let names = legend(figure);
     let wide = width.pixels() * ZOOM;

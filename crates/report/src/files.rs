@@ -10,7 +10,7 @@ use uplift::text::visible;
 use uplift_plot::{Drawing, Figure, Look, Width, png, svg, with_description, with_software};
 
 /// Of a PNG for print.
-const DOTS_PER_INCH: f32 = 300.0;
+pub const DOTS_PER_INCH: u16 = 300;
 
 /// Formats of figure files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -18,7 +18,7 @@ pub enum FigureFormat {
     /// SVG.
     #[default]
     Svg,
-    /// PNG, 300 dots an inch.
+    /// PNG.
     Png,
     /// A file of each.
     Both,
@@ -29,13 +29,16 @@ pub enum FigureFormat {
 pub struct FigureOptions {
     /// Format of the files.
     pub format: FigureFormat,
-    /// Width of a journal's column (90 mm) or page (190 mm), and whether the title stands in the figure.
+    /// How wide they are, and whether the title stands in the figure.
     pub look: Look,
+    /// Dots an inch of a PNG.
+    pub dots_per_inch: u16,
 }
 
 impl Default for FigureOptions {
     fn default() -> Self {
-        Self { format: FigureFormat::Svg, look: Look { width: Width::Double, title: false } }
+        let look = Look { width: Width::Double, title: false };
+        Self { format: FigureFormat::Svg, look, dots_per_inch: DOTS_PER_INCH }
     }
 }
 
@@ -64,7 +67,7 @@ impl FigureOptions {
         let mut written = Vec::new();
         for ending in self.endings() {
             let file = folder.join(format!("{}.{ending}", figure.id));
-            write_drawing(figure, &drawing, &file, mark)?;
+            write_drawing(figure, &drawing, &file, (mark, self.dots_per_inch))?;
             written.push(file);
         }
         Ok(written)
@@ -80,20 +83,25 @@ pub fn check_figure_file(file: &Path, inputs: &[impl AsRef<Path>], force: bool) 
     outputs::check(&[Output::new(file, OutputKind::Figure)], inputs, force)
 }
 
-/// Writes `figure` with its title, as wide as a page, to `file`, whose ending tells the format.
+/// Writes `figure`, as wide as a page, to `file`, whose ending tells the format.
 ///
 /// # Errors
 /// A file that cannot be written, and no font for a PNG.
 pub fn write_figure_file(figure: &Figure, file: &Path) -> Result<(), UpliftError> {
-    let drawing = drawing_of(figure, Look { width: Width::Double, title: true })?;
-    write_drawing(figure, &drawing, file, &outputs::mark())
+    let FigureOptions { look, dots_per_inch, .. } = FigureOptions::default();
+    write_drawing(figure, &drawing_of(figure, look)?, file, (&outputs::mark(), dots_per_inch))
 }
 
 /// Writes a figure that was drawn, in the format of the ending, with what it says of itself.
-fn write_drawing(figure: &Figure, drawing: &Drawing, file: &Path, mark: &str) -> Result<(), UpliftError> {
+fn write_drawing(
+    figure: &Figure,
+    drawing: &Drawing,
+    file: &Path,
+    (mark, dots_per_inch): (&str, u16),
+) -> Result<(), UpliftError> {
     let mark = visible(mark).into_owned();
     if file.extension().is_some_and(|extension| extension == "png") {
-        let image = png(&drawing.svg, DOTS_PER_INCH).map_err(|error| refused(figure, error))?;
+        let image = png(&drawing.svg, f32::from(dots_per_inch)).map_err(|error| refused(figure, error))?;
         write_atomically(file, &with_software(&image, &mark))
     } else {
         write_atomically(file, with_description(&drawing.svg, &mark).as_bytes())

@@ -18,7 +18,7 @@ pub mod plot;
 pub mod report;
 pub mod sheet;
 
-pub use files::{FigureFormat, FigureOptions, check_figure_file, write_figure_file};
+pub use files::{DOTS_PER_INCH, FigureFormat, FigureOptions, check_figure_file, write_figure_file};
 pub use plot::{
     HazardPlotOptions, PlotOptions, PlotReport, check_pulse_figures, plot, plot_block_response, plot_hazard,
     plot_overturning, plot_pulses, plot_response,

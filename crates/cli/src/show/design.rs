@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use uplift::structure::{DemandNoise, DemandRounding, DesignReport, ExactDemand, RuleCheck, RuleOutcome};
+use uplift::structure::{DemandRounding, DesignReport, ExactDemand, RuleOutcome};
 use uplift::text::{risk_in_words, table};
 use uplift_spectra::Noisy;
 use uplift_structure::Rule;

@@ -5,7 +5,7 @@ mod design;
 use std::io::Write;
 
 use uplift::table::{COMPARED_ABOVE, COMPARED_FROM_M, CoefficientRow, CoefficientTable, TableReport, TableRows};
-use uplift::text::{per_cent, table};
+use uplift::text::{risk_name, table};
 
 use super::alarms::print_alarms;
 use crate::error::CommandError;
@@ -28,7 +28,7 @@ fn print_coefficients(out: &mut impl Write, report: &CoefficientTable) -> Result
         header.extend(["| c0", "c1", "c2", "rmse", "| ratio"]);
     }
     let cells = |row: &CoefficientRow| {
-        let mut cells = vec![row.site.clone(), row.im.clone(), per_cent(row.poe)];
+        let mut cells = vec![row.site.clone(), row.im.clone(), risk_name(row.poe, report.years)];
         cells.extend(ours(row));
         if report.compared {
             cells.extend(theirs(row));
@@ -37,7 +37,8 @@ fn print_coefficients(out: &mut impl Write, report: &CoefficientTable) -> Result
     };
     let rows: Vec<Vec<String>> = report.rows.iter().map(cells).collect();
     writeln!(out, "{}", table(&header, &rows))?;
-    writeln!(out, "* c2 held at 0; probabilities in {} years; rmse with n - 3 degrees of freedom", report.years)?;
+    let starred = if report.rows.iter().any(|row| row.bound_active) { "* c2 held at 0; " } else { "" };
+    writeln!(out, "{starred}probabilities in {} years; rmse with n - 3 degrees of freedom", report.years)?;
     if report.compared {
         writeln!(
             out,

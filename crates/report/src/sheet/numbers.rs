@@ -3,7 +3,7 @@
 use serde::Serialize;
 use uplift::structure::{DesignReport, EventRisk, ExactDemand, RuleCheck, RuleOutcome};
 use uplift::study::Structure;
-use uplift::text::per_cent;
+use uplift::text::{per_cent, risk_in_words, share};
 use uplift_spectra::Noisy;
 use uplift_structure::Rule;
 
@@ -22,7 +22,7 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
     let mut sentences = Vec::new();
     let mut say = |text: String, class: Option<&'static str>| sentences.push(Sentence { text, class });
     let (site, years) = (&report.site, report.years);
-    let of = format!("At {site}, for {} in {years} years", per_cent(report.poe));
+    let of = format!("At {site}, for {}", risk_in_words(report.poe, years));
     let capacity = report.structure.capacity_m.map(|capacity_m| format!("; it can go {} m", significant(capacity_m)));
     let capacity = capacity.unwrap_or_default();
     match (&report.exact, &report.spectrum) {
@@ -76,10 +76,10 @@ fn in_words(what: &str, risk: &EventRisk, rounding: &Noisy, years: f64) -> Strin
     }
     let between = 1.0 / risk.per_year;
     format!(
-        "{what} once in {} years on average ({} a year): {} % in {years} years.",
+        "{what} once in {} years on average ({} a year): {} in {years} years.",
         if between < 1e7 { significant(between) } else { power(between, 1) },
         rounding.marked(|per_year| power(per_year, 1)),
-        significant(100.0 * risk.probability)
+        chance(risk.probability)
     )
 }
 
@@ -185,11 +185,10 @@ fn demands(report: &DesignReport) -> Option<Table> {
         row("the structure itself, exact", marked(&rounding.demand_m));
     }
     let note = format!(
-        "{} by {}, {} in {} years: {} a year. Exact means of these records and levels.",
+        "{} by {}, {}: {} a year. Exact means of these records and levels.",
         report.site,
         report.im,
-        per_cent(report.poe),
-        report.years,
+        risk_in_words(report.poe, report.years),
         power(report.target_per_year, 2)
     );
     table("demand", "Demand", note, &["demand on", "displacement, m"], rows)
@@ -206,7 +205,7 @@ fn rules(report: &DesignReport) -> Option<Table> {
     };
     let row = |outcome: &RuleOutcome, check: &RuleCheck| {
         let verdict = if check.satisfied { "satisfied" } else { "NOT satisfied" };
-        let stiffness = check.required_tendon_stiffness_n_m.map_or_else(|| "–".to_owned(), scientific);
+        let stiffness = check.required_tendon_stiffness_n_m.map_or_else(|| "–".to_owned(), tendons);
         vec![
             name(outcome.rule).to_owned(),
             metres(check.demand_m),
@@ -221,8 +220,10 @@ fn rules(report: &DesignReport) -> Option<Table> {
     };
     let rows = report.rules.iter().filter_map(|outcome| Some(row(outcome, outcome.check()?))).collect();
     let note = format!(
-        "Required capacity with a safety factor of {} (Eq. 3.15); the error is that of the rule's demand against the \
-         exact one, negative is unsafe.",
+        "Required capacity with a safety factor of {0} (Eq. 3.15). By equal energy the demand grows where the capacity \
+         shrinks: it is {0} times the demand that a structure of just that capacity would have, and not {0} times the \
+         demand of this one. The error is that of the rule's demand, from the spectrum where that can be read, \
+         against the exact one, spectrum and rule together; negative is unsafe.",
         report.required_safety_factor
     );
     let header = [
@@ -233,7 +234,7 @@ fn rules(report: &DesignReport) -> Option<Table> {
         "margin, m",
         "safety factor",
         "tendons for it, N/m",
-        "error",
+        "error of spectrum and rule",
         "verdict",
     ];
     table("rules", "Margin by the design rules", note, &header, rows)
@@ -243,7 +244,7 @@ fn risk(report: &DesignReport) -> Option<Table> {
     let exact = report.exact.as_ref()?;
     let row = |what: String, risk: &EventRisk, rounding: &Noisy| {
         let mark = if rounding.shows_otherwise(scientific) { "*" } else { "" };
-        let outside = per_cent((1000.0 * (risk.lower_tail_share + risk.upper_tail_share)).round() / 1000.0);
+        let outside = share(risk.lower_tail_share + risk.upper_tail_share);
         if risk.per_year == 0.0 {
             // none of the runs does it: a bound, never never
             let most =
@@ -251,7 +252,7 @@ fn risk(report: &DesignReport) -> Option<Table> {
             let most = format!("{most}{mark}");
             return vec![what, most, "–".to_owned(), "–".to_owned(), "–".to_owned()];
         }
-        let probability = format!("{} %", significant(100.0 * risk.probability));
+        let probability = chance(risk.probability);
         vec![what, rounding.marked(scientific), probability, return_period(risk), outside]
     };
     let capacity_m = report.structure.capacity_m.unwrap_or(f64::NAN);
@@ -274,15 +275,16 @@ fn noise(report: &DesignReport) -> Option<Table> {
     };
     range("demand on the structure, m", [&noise.demand_m, &rounding.demand_m], metres);
     if let (Some(of), Some(rounding)) = (&noise.rule_errors, &rounding.rule_errors) {
-        range("error of equal displacement", [&of.equal_displacement, &rounding.equal_displacement], relative);
-        range("error of equal energy", [&of.equal_energy, &rounding.equal_energy], relative);
+        range("own error of equal displacement", [&of.equal_displacement, &rounding.equal_displacement], relative);
+        range("own error of equal energy", [&of.equal_energy, &rounding.equal_energy], relative);
     }
     if let (Some(of), Some(rounding)) = (&noise.beyond_capacity_per_year, &rounding.beyond_capacity_per_year) {
-        range("beyond its capacity, per year", [of, rounding], scientific);
+        range("beyond its capacity, per year", [of, rounding], counted);
     }
-    range("overturning, per year", [&noise.overturning_per_year, &rounding.overturning_per_year], scientific);
+    range("overturning, per year", [&noise.overturning_per_year, &rounding.overturning_per_year], counted);
     let note = "The same for ten structures whose strength is up to one percent lower or higher: what lies within the \
-                range is no finding."
+                range is no finding. The own error of a rule starts from the exact demand on zero stiffness, not from \
+                the spectrum."
         .to_owned();
     table("noise", "How sure it is", note, &["within 1 % of the strength", "here", "lowest", "highest"], rows)
 }
@@ -307,6 +309,12 @@ fn relative(error: f64) -> String {
     }
 }
 
+/// A probability in per cent, two digits of it unless they say that it is certain.
+fn chance(probability: f64) -> String {
+    let short = significant(100.0 * probability);
+    if short == "100" { per_cent(probability) } else { format!("{short} %") }
+}
+
 /// Years between two events on average, two digits of them.
 fn return_period(risk: &EventRisk) -> String {
     let years = 1.0 / risk.per_year;
@@ -315,7 +323,17 @@ fn return_period(risk: &EventRisk) -> String {
 
 /// A rate as programs and spreadsheets read it.
 fn scientific(value: f64) -> String {
-    if value == 0.0 { "0".to_owned() } else { format!("{value:.3e}") }
+    format!("{value:.3e}")
+}
+
+/// Stiffness of a tendon, N/m; none is needed where the capacity is there without.
+fn tendons(stiffness_n_m: f64) -> String {
+    if stiffness_n_m > 0.0 { scientific(stiffness_n_m) } else { "none".to_owned() }
+}
+
+/// A rate that was counted: none of the runs is not never.
+fn counted(per_year: f64) -> String {
+    if per_year == 0.0 { "none seen".to_owned() } else { scientific(per_year) }
 }
 
 /// A factor of so many decimals times a power of ten, which is raised.

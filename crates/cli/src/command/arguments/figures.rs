@@ -1,8 +1,13 @@
 //! How figures are written, as arguments.
 
+use std::ops::RangeInclusive;
+
 use clap::{Args, ValueEnum};
 use uplift_plot::{Look, Width};
-use uplift_report::{FigureFormat, FigureOptions};
+use uplift_report::{DOTS_PER_INCH, FigureFormat, FigureOptions};
+
+/// From half a column to a poster: narrower, the letters of a legend do not fit.
+const WIDTHS_MM: RangeInclusive<i64> = 60..=500;
 
 /// How figures are written.
 #[derive(Debug, Args)]
@@ -13,6 +18,22 @@ pub(crate) struct FigureArguments {
     /// Width of a journal's column (90 mm) or page (190 mm)
     #[arg(long, value_enum, default_value_t = Columns::Double)]
     width: Columns,
+    /// Any other width, mm, for instance 84 or 174; below 140 the panels stand below each other
+    #[arg(
+        long,
+        value_name = "MM",
+        conflicts_with = "width",
+        value_parser = clap::value_parser!(u16).range(WIDTHS_MM)
+    )]
+    width_mm: Option<u16>,
+    /// Resolution of a PNG, dots an inch
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = DOTS_PER_INCH,
+        value_parser = clap::value_parser!(u16).range(72..=1200)
+    )]
+    dpi: u16,
     /// Write the title into the figure; left out, it is for the caption to say
     #[arg(long)]
     title: bool,
@@ -40,12 +61,14 @@ impl FigureArguments {
                 Format::Both => FigureFormat::Both,
             },
             look: Look {
-                width: match self.width {
-                    Columns::Single => Width::Single,
-                    Columns::Double => Width::Double,
+                width: match (self.width_mm, self.width) {
+                    (Some(width), _) => Width::Millimetres(width),
+                    (None, Columns::Single) => Width::Single,
+                    (None, Columns::Double) => Width::Double,
                 },
                 title: self.title,
             },
+            dots_per_inch: self.dpi,
         }
     }
 }
