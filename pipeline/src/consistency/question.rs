@@ -72,7 +72,8 @@ impl Question {
         let sites: Vec<String> = study.sites.iter().map(|site| site.name.clone()).collect();
         let mut curves: BTreeMap<IntensityMeasure, Vec<Option<HazardCurve>>> = BTreeMap::new();
         let known = hazard.iter().flatten().map(|site| (site.measure, &site.site, &site.curve.curve));
-        for (measure, name, curve) in known.chain(other.iter().map(|other| (other.measure, &other.site, &other.curve))) {
+        for (measure, name, curve) in known.chain(other.iter().map(|other| (other.measure, &other.site, &other.curve)))
+        {
             if let Some(site) = sites.iter().position(|site| site == name) {
                 curves.entry(measure).or_insert_with(|| vec![None; sites.len()])[site] = Some(curve.clone());
             }

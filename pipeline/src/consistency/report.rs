@@ -169,7 +169,8 @@ impl ConsistencyReport {
 
     /// The worst verdict of all rows; none where there is none.
     pub fn worst(&self) -> Option<Verdict> {
-        let verdict = |row: &ConsistencyRow| Verdict::ALL.into_iter().find(|verdict| Some(verdict.key()) == row.verdict);
+        let verdict =
+            |row: &ConsistencyRow| Verdict::ALL.into_iter().find(|verdict| Some(verdict.key()) == row.verdict);
         self.rows.iter().filter_map(verdict).max()
     }
 }
@@ -273,11 +274,9 @@ fn warnings(question: &Question, finding: &Finding) -> Vec<String> {
         Some(Err(reason)) => {
             vec![format!("no repaired spectrum: {}", said(question, finding, |words| reason.sentence(words)))]
         }
-        Some(Ok(repaired)) => repaired
-            .warnings
-            .iter()
-            .map(|warning| said(question, finding, |words| warning.sentence(words)))
-            .collect(),
+        Some(Ok(repaired)) => {
+            repaired.warnings.iter().map(|warning| said(question, finding, |words| warning.sentence(words))).collect()
+        }
     };
     sentences.into_iter().map(|sentence| format!("{subject}: {sentence}")).collect()
 }

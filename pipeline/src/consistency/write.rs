@@ -92,7 +92,14 @@ impl Table<'_> {
         all
     }
 
-    fn array(&mut self, name: &str, dims: &[&str], values: &[f64], unit: &str, what: &str) -> Result<(), LabelledError> {
+    fn array(
+        &mut self,
+        name: &str,
+        dims: &[&str],
+        values: &[f64],
+        unit: &str,
+        what: &str,
+    ) -> Result<(), LabelledError> {
         self.writer.array_f64(&layout::array(self.measure, name), dims, values, unit, what)
     }
 
@@ -138,7 +145,8 @@ impl Table<'_> {
         }
         let mut verdicts = vec![String::new(); self.question.sites.len()];
         for finding in self.findings {
-            verdicts[finding.site] = finding.diagnosis.verdict().map_or_else(String::new, |verdict| verdict.key().into());
+            verdicts[finding.site] =
+                finding.diagnosis.verdict().map_or_else(String::new, |verdict| verdict.key().into());
         }
         let path = layout::array(self.measure, &layout::of_other(other, "verdict"));
         self.writer.array_text(&path, &[axis::SITE], &verdicts, "consistent, off or inconsistent; empty where unknown")
@@ -186,7 +194,8 @@ impl Table<'_> {
     /// The weights of the repair, and what the set is under them.
     fn weights(&mut self, keep: Keep) -> Result<(), LabelledError> {
         let question = self.question;
-        let levels = question.analyses.iter().find(|(own, _)| *own == self.measure).map_or(0, |(_, levels)| levels.len());
+        let levels =
+            question.analyses.iter().find(|(own, _)| *own == self.measure).map_or(0, |(_, levels)| levels.len());
         let level = axis::level(self.measure);
         let of_repaired = |value: fn(&Repaired) -> Vec<f64>| {
             move |finding: &Finding| match &finding.repair {
@@ -287,9 +296,8 @@ enum Levels {
 /// The rows of a report as a table: a row a measure, site and probability.
 pub(super) fn columns(report: &ConsistencyReport) -> Vec<Column> {
     let targets = || report.rows.iter().flat_map(|row| row.targets.iter().map(move |target| (row, target)));
-    let text = |value: fn(&super::ConsistencyRow) -> String| -> Vec<String> {
-        targets().map(|(row, _)| value(row)).collect()
-    };
+    let text =
+        |value: fn(&super::ConsistencyRow) -> String| -> Vec<String> { targets().map(|(row, _)| value(row)).collect() };
     let number = |value: fn(&super::ConsistencyRow, &super::TargetRow) -> Option<f64>| -> Vec<Option<f64>> {
         targets().map(|(row, target)| value(row, target)).collect()
     };

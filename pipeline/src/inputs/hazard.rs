@@ -195,7 +195,8 @@ impl SiteReader<'_> {
             curves.push((branch.weight, self.noted(read)?.0));
         }
         let curves: Vec<(f64, &HazardCurve)> = curves.iter().map(|(weight, curve)| (*weight, curve)).collect();
-        let mean = HazardCurve::weighted_mean(&curves, &[]).map_err(|error| format!("the branches have no mean: {error}"));
+        let mean =
+            HazardCurve::weighted_mean(&curves, &[]).map_err(|error| format!("the branches have no mean: {error}"));
         let curve = self.noted(mean)?;
         Some(of(None, String::new(), curve, self))
     }
@@ -260,9 +261,8 @@ impl SiteReader<'_> {
         }
         let curve = converted.unwrap_or(curve);
         self.notes.extend(
-            implausible(&curve, self.measure).map(|reason| {
-                format!("site {}, {}: {}: {reason}", self.site, self.measure.label(), path.display())
-            }),
+            implausible(&curve, self.measure)
+                .map(|reason| format!("site {}, {}: {}: {reason}", self.site, self.measure.label(), path.display())),
         );
         let checksum = checksum_of_file(path).map_err(|error| format!("{}: {error}", path.display()))?;
         Ok((curve, checksum))

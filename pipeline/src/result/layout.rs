@@ -357,9 +357,9 @@ pub mod axis {
     pub const BOUND: &str = "bound";
 
     /// Rates at which the hazard of two measures is compared.
-    pub const RATE: &str = "rate";
+    pub const RATE: &str = "rate_number";
     /// Knots of the exponent of weights.
-    pub const KNOT: &str = "knot";
+    pub const KNOT: &str = "knot_number";
 
     /// The path of an axis.
     pub fn path(name: &str) -> String {

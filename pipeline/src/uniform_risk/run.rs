@@ -9,8 +9,8 @@ use super::{
     write_result,
 };
 use crate::alarms::alarms;
-use crate::consistency::Answer;
 use crate::checkpoint::{Checkpoint, FinishedRows, checkpoint_path};
+use crate::consistency::Answer;
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::frame::Place;

@@ -45,7 +45,9 @@ pub(super) fn consistency_lines(report: &ConsistencyReport) -> Vec<String> {
                 "{site} by {scaled_to}: the records bring {bias:.2} times the {shows} of the site's hazard: {verdict} \
                  (uplift consistency)"
             ),
-            _ => format!("{site} by {scaled_to}: no verdict on the {shows} that the records bring (uplift consistency)"),
+            _ => {
+                format!("{site} by {scaled_to}: no verdict on the {shows} that the records bring (uplift consistency)")
+            }
         });
     }
     let consistent = report.rows.iter().filter(is_consistent).count();
@@ -148,9 +150,7 @@ fn print_two_sided(out: &mut impl Write, report: &ConsistencyReport) -> Result<(
     let rows: Vec<Vec<String>> = report
         .two_sided
         .iter()
-        .map(|row| {
-            vec![row.site.clone(), format!("{:.2}", row.location.exp()), format!("{:.2}", row.spread.exp())]
-        })
+        .map(|row| vec![row.site.clone(), format!("{:.2}", row.location.exp()), format!("{:.2}", row.spread.exp())])
         .collect();
     writeln!(out, "{}", table(&["site", "location", "spread"], &rows))?;
     Ok(())

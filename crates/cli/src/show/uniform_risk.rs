@@ -38,7 +38,11 @@ fn print_repaired(out: &mut impl Write, report: &RunReport, shown: &[usize]) -> 
         if own.is_empty() {
             continue;
         }
-        writeln!(out, "\nBy {}, with the records weighted so that they bring the site's hazard of both measures", measure.im)?;
+        writeln!(
+            out,
+            "\nBy {}, with the records weighted so that they bring the site's hazard of both measures",
+            measure.im
+        )?;
         writeln!(out, "{}", spectra_table(report, &own, shown))?;
     }
     Ok(())
