@@ -56,6 +56,7 @@ mod set;
 mod solver;
 mod stripe;
 mod warning;
+mod words;
 
 pub use agreement::Agreement;
 pub use analysis::{ScaledAnalysis, Target};
@@ -70,4 +71,5 @@ pub use repair::{RepairOptions, Repaired};
 pub use set::{RecordSet, Seismology, SetRecord};
 pub use solver::{DEFAULT_SMOOTHNESS, FIT_RATES, Fit, Scratch, Solver};
 pub use stripe::{Medians, ScaleFactors, StripeStatistics};
-pub use warning::{Warning, Words};
+pub use warning::Warning;
+pub use words::Words;

@@ -80,3 +80,41 @@ impl NoRepair {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::words::with_words;
+
+    #[test]
+    fn each_reason_against_a_repair_has_its_sentence() {
+        let range = RateRange {
+            high_per_year: 1e-3,
+            low_per_year: 5e-4,
+            high_limit: HighLimit::FirstStripe,
+            low_limit: LowLimit::OtherCurve,
+        };
+        with_words(|words| {
+            for (reason, parts) in [
+                (
+                    NoRepair::NarrowRange(range),
+                    ["1.00e-3 per year (half the rate of the first stripe of PGV)", "5.00e-4"],
+                ),
+                (
+                    NoRepair::OutOfReach(Reach { set_above: 12, set_below: 0 }),
+                    ["at 12 of 12 rates every record brings PGA more often", "records of lower PGA/PGV are missing"],
+                ),
+                (
+                    NoRepair::OutOfReach(Reach { set_above: 1, set_below: 2 }),
+                    ["at 1 of 12", "at 2 of 12 rates every record brings PGA less often"],
+                ),
+                (NoRepair::Runaway { exponents: [0.0, -61.0, 3.0, 0.0] }, ["exponent -61", "add records of lower"]),
+                (NoRepair::NotReached { largest_residual: 0.2 }, ["22 %", "records of higher PGA/PGV"]),
+                (NoRepair::TooFew(LeastEffective { records: 3.21, level: 2 }), ["3.2 effective", "40 cm/s"]),
+            ] {
+                let sentence = reason.sentence(words);
+                assert!(parts.iter().all(|part| sentence.contains(part)), "{sentence}");
+            }
+        });
+    }
+}

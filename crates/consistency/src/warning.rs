@@ -1,7 +1,7 @@
 //! What deserves a look in a repaired set.
 
 use crate::range::HighLimit;
-use crate::{Diagnosis, ScaledAnalysis};
+use crate::{Diagnosis, ScaledAnalysis, Words};
 
 /// A record that has more than this share at a stripe is named.
 const LARGEST_RECORD_SHARE: f64 = 0.25;
@@ -146,58 +146,14 @@ impl Warning {
     }
 }
 
-/// The words of a site, for sentences.
-#[derive(Clone, Copy)]
-pub struct Words<'a> {
-    /// The measure that the set is scaled to: PGV.
-    pub scaled_to: &'a str,
-    /// Its unit: cm/s.
-    pub scaled_to_unit: &'a str,
-    /// The other measure: PGA.
-    pub other: &'a str,
-    /// Stripe levels of x, `[level]`.
-    pub levels: &'a [f64],
-    /// The name of a record, by its position.
-    pub record: &'a dyn Fn(usize) -> String,
-    /// The name of an earthquake, by the caller's number.
-    pub event: &'a dyn Fn(usize) -> String,
-    /// The name of a target by its position: 2 % in 50 years.
-    pub target: &'a dyn Fn(usize) -> String,
-}
-
-impl Words<'_> {
-    /// A stripe: its level with the unit.
-    pub(crate) fn level(&self, level: usize) -> String {
-        let value = self.levels.get(level).copied().unwrap_or(f64::NAN);
-        format!("{value} {}", self.scaled_to_unit)
-    }
-}
-
-impl std::fmt::Debug for Words<'_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Words").field("scaled_to", &self.scaled_to).field("other", &self.other).finish_non_exhaustive()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
     use uplift_hazard::{Extrapolation, HazardCurve};
 
     use super::*;
-    use crate::{LeastEffective, NoRepair, RateRange, Reach, RecordSet, Seismology, SetRecord};
-
-    fn with_words(test: impl Fn(&Words<'_>)) {
-        test(&Words {
-            scaled_to: "PGV",
-            scaled_to_unit: "cm/s",
-            other: "PGA",
-            levels: &[1.0, 2.5, 40.0],
-            record: &|record| format!("RSN{record}"),
-            event: &|event| format!("event {event}"),
-            target: &|target| ["2 % in 50 years", "10 % in 50 years"][target].to_owned(),
-        });
-    }
+    use crate::words::with_words;
+    use crate::{LeastEffective, RecordSet, Seismology, SetRecord};
 
     #[test]
     fn each_warning_has_its_limit_and_its_sentence() {
@@ -258,37 +214,5 @@ mod tests {
         let warning = Warning::of_resamples(20, 250, 1000).unwrap();
         assert_eq!(warning, Warning::FailedResamples { size: 20, share: 0.25 });
         with_words(|words| assert!(warning.sentence(words).starts_with("25 % of the resamples of 20 records")));
-    }
-
-    #[test]
-    fn each_reason_against_a_repair_has_its_sentence() {
-        let range = RateRange {
-            high_per_year: 1e-3,
-            low_per_year: 5e-4,
-            high_limit: HighLimit::FirstStripe,
-            low_limit: crate::LowLimit::OtherCurve,
-        };
-        with_words(|words| {
-            for (reason, parts) in [
-                (
-                    NoRepair::NarrowRange(range),
-                    ["1.00e-3 per year (half the rate of the first stripe of PGV)", "5.00e-4"],
-                ),
-                (
-                    NoRepair::OutOfReach(Reach { set_above: 12, set_below: 0 }),
-                    ["at 12 of 12 rates every record brings PGA more often", "records of lower PGA/PGV are missing"],
-                ),
-                (
-                    NoRepair::OutOfReach(Reach { set_above: 1, set_below: 2 }),
-                    ["at 1 of 12", "at 2 of 12 rates every record brings PGA less often"],
-                ),
-                (NoRepair::Runaway { exponents: [0.0, -61.0, 3.0, 0.0] }, ["exponent -61", "add records of lower"]),
-                (NoRepair::NotReached { largest_residual: 0.2 }, ["22 %", "records of higher PGA/PGV"]),
-                (NoRepair::TooFew(LeastEffective { records: 3.21, level: 2 }), ["3.2 effective", "40 cm/s"]),
-            ] {
-                let sentence = reason.sentence(words);
-                assert!(parts.iter().all(|part| sentence.contains(part)), "{sentence}");
-            }
-        });
     }
 }
