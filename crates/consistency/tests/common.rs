@@ -70,11 +70,16 @@ pub(crate) struct Site {
 impl Site {
     /// A site of the project.
     pub(crate) fn of_project(name: &str) -> Self {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../hazard").join(name.to_lowercase());
-        Self::read(&folder.join("pgv.csv"), &folder.join("pga.csv"))
+        Self::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../hazard").join(name.to_lowercase()))
     }
 
-    pub(crate) fn read(pgv: &Path, pga: &Path) -> Self {
+    /// A site with the curves that the project had before, which most golden numbers are for.
+    pub(crate) fn former(name: &str) -> Self {
+        Self::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/curves").join(name.to_lowercase()))
+    }
+
+    fn read(folder: &Path) -> Self {
+        let (pgv, pga) = (&folder.join("pgv.csv"), &folder.join("pga.csv"));
         let curve = |path, measure: &str, unit: &str| read_path(path, &CsvOptions::new(measure, unit)).unwrap().curve;
         Self { pgv: curve(pgv, "PGV", "cm/s"), pga: curve(pga, "PGA", "g") }
     }

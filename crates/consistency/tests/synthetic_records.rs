@@ -12,7 +12,7 @@ use crate::golden::{Row, agree, both_ways, compare, compare_ordinates, needs_not
 #[test]
 fn the_synthetic_set_at_montreux() {
     let pairs = generate(&SyntheticSetOptions { seed: 1, pairs: 105, ..SyntheticSetOptions::default() }).unwrap();
-    let site = Site::of_project("Montreux");
+    let site = Site::former("Montreux");
     let rows = [
         Row {
             implied: [0.22437, 0.11, 0.040776],
