@@ -135,7 +135,8 @@ fn workbook_matlab_and_design_sheet_say_it_too() {
     }
     let design = ["design", "block.toml", "--urs", "r.h5", "--site", "Here", "--json"];
     let found = json(&study, &[&design[..], &["--report", "sheet.html"]].concat());
-    let sheet = std::fs::read_to_string(study.path().join("sheet.html")).unwrap().replace("&#x2f;", "/");
+    let sheet =
+        std::fs::read_to_string(study.path().join("sheet.html")).unwrap().replace("&#x2f;", "/").replace("&#x27;", "'");
     for alarm in found["alarms"].as_array().unwrap() {
         assert!(sheet.contains(text(alarm, "what")), "{alarm}");
     }

@@ -9,6 +9,7 @@
 
 mod base_widths;
 mod conditioning;
+mod consistency;
 mod coverage;
 mod design_tables;
 mod designs;

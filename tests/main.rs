@@ -11,6 +11,7 @@ mod archives;
 mod asked;
 mod block_response;
 mod bootstrap;
+mod consistency;
 mod damage;
 mod design;
 mod displacement_figures;

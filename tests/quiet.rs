@@ -4,13 +4,14 @@ use crate::common::{Finished, SmallStudy, repository};
 use crate::hazard::{SITES, openquake};
 
 /// Commands whose answer is printed, and those that are told to write files; by their first words.
-const ANSWER: [&str; 16] = [
+const ANSWER: [&str; 17] = [
     "status",
     "verify",
     "check",
     "response",
     "pulse",
     "bootstrap",
+    "consistency",
     "influence",
     "measures",
     "design",
@@ -56,6 +57,7 @@ fn nothing_but_what_was_asked_for() {
         "response one.txt --block --size-m 2 --slenderness 0.2 --unit g --dt-s 0.01 --history b.csv",
         "pulse -o pulses --frequencies 1:1:3 --accelerations 1:1:3 --half-widths 1:1:3 --sizes-m 1,2 --shape symmetric",
         "bootstrap s.h5",
+        "consistency s.h5",
         "influence s.h5",
         "measures s.h5",
         &format!("design {structure}"),

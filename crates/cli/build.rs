@@ -4,8 +4,8 @@ use std::env::var;
 
 fn main() {
     println!("cargo:rerun-if-changed=build.rs");
-    // Functions that compile to the same code are kept once, a fifth of the program. lld can, which links Rust's programs
-    // for this target since 1.90.
+    // Functions that compile to the same code are kept once. lld can, which links programs for this target since
+    // Rust 1.90.
     let released = var("PROFILE").is_ok_and(|profile| profile == "release");
     if released && var("TARGET").is_ok_and(|target| target == "x86_64-unknown-linux-gnu") {
         println!("cargo:rustc-link-arg-bins=-Wl,--icf=all");

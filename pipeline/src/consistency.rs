@@ -1,5 +1,5 @@
-//! Hazard consistency: whether the records bring, at each site, what its hazard says of the other intensity measure, and
-//! the spectra of weights by which they do (docs/method.md, section 18).
+//! Hazard consistency: whether the records bring, at each site, what its hazard says of the other intensity measure,
+//! and the spectra of weights by which they do (docs/method.md, section 18).
 //!
 //! | module | what is in it |
 //! |---|---|
@@ -9,9 +9,11 @@
 //! | `spectra` | the spectra of repaired weights |
 //! | `report` | both as rows and sentences |
 //! | `write` | arrays of the result file, and the table beside it |
+//! | `asked` | the answer at other risks than those of the study |
 //! | `job` | `uplift consistency` |
 
 mod answer;
+mod asked;
 mod finding;
 mod job;
 mod question;
@@ -20,6 +22,7 @@ mod spectra;
 mod write;
 
 pub(crate) use answer::Answer;
+pub(crate) use asked::consistency_of_asked;
 pub use finding::Finding;
 pub use job::{ConsistencyOptions, consistency};
 pub(crate) use question::Question;

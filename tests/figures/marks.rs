@@ -9,9 +9,10 @@ const BEGIN: &str = "<!-- figure: ";
 const END: &str = "<!-- end -->";
 
 /// The sources, by which names begin; those that `make test` leaves out are slow.
-const SOURCES: [&str; 25] = [
+const SOURCES: [&str; 26] = [
     "base-widths",
     "conditioning",
+    "consistency",
     "coverage",
     "curves",
     "designs",

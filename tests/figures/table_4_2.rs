@@ -1,4 +1,4 @@
-//! Table 4.2 beside ours (docs/method.md, section 15; hazard/README.md).
+//! Table 4.2 beside ours (docs/method.md, section 15).
 
 use serde_json::Value;
 
@@ -42,7 +42,6 @@ fn on_the_bound(rows: &[Value], poe: f64) -> String {
 fn ours_beside_the_dissertation() {
     let Some(set) = with_real_records() else { return };
     let (synthetic, real) = (rows(&[]), rows(&set));
-    let athens = real.iter().find(|row| row["site"] == "Athens" && row["poe"] == 0.02).unwrap();
     let name = |name: &str| format!("table-4-2.{name}");
     hold(
         "table-4-2",
@@ -50,7 +49,6 @@ fn ours_beside_the_dissertation() {
             (name("synthetic"), ratios(&synthetic)),
             (name("real"), ratios(&real)),
             (name("compared"), real.iter().filter(|row| row["median_ratio"].is_number()).count().to_string()),
-            (name("athens"), format!("{:.2}", athens["median_ratio"].as_f64().unwrap())),
             (name("bound-2"), on_the_bound(&real, 0.02)),
             (name("bound-10"), on_the_bound(&real, 0.1)),
             (name("bound-50"), on_the_bound(&real, 0.5)),

@@ -3,7 +3,7 @@
 //! | written by | format | values | read by |
 //! |---|---|---|---|
 //! | `OpenQuake` engine | CSV, one row a site | probabilities in the investigation time | `openquake`, line by line |
-//! | `OpenQuake` engine before version 3, EFEHR's services | NRML (XML) | probabilities in the investigation time | `nrml` |
+//! | `OpenQuake` engine before version 3, EFEHR | NRML (XML) | probabilities in the investigation time | `nrml` |
 //! | USGS hazard services (nshmp-haz) | JSON | annual frequencies | `usgs` |
 //!
 //! The format is recognised by the content, and gzip is unpacked. All become [`ExportedCurve`]s:

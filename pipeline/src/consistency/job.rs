@@ -31,8 +31,8 @@ pub struct ConsistencyOptions {
 /// weights by which they do: written into the file and into a table beside it.
 ///
 /// # Errors
-/// A file that is missing, damaged or of another kind; a file that cannot be written; [`UpliftError::Interrupted`] where
-/// `events` say so.
+/// A file that is missing, damaged or of another kind; a file that cannot be written; [`UpliftError::Interrupted`]
+/// where `events` say so.
 pub fn consistency(
     result: &Path,
     options: &ConsistencyOptions,
@@ -64,14 +64,15 @@ pub fn consistency(
     Ok(report)
 }
 
-/// The repaired spectra of every measure of a result.
-fn repairs_of(
+/// The repaired spectra of every measure of a result, at the risks of `question`.
+pub(super) fn repairs_of(
     file: &ResultFile,
     stored: &StoredStripes,
     question: &Question,
     findings: &[Finding],
 ) -> Result<Vec<Repairs>, UpliftError> {
-    let study = file.stored_study()?;
+    let mut study = file.stored_study()?;
+    (study.risk.poe, study.risk.years) = (question.poes.clone(), question.years);
     let reading = Reading::of(&study)?;
     let spectral = Spectral {
         strengths: &stored.strengths,

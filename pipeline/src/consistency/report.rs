@@ -179,8 +179,8 @@ fn nothing_to_ask(question: &Question) -> String {
     if question.sites.is_empty() {
         "the study has no sites, so there is no hazard that records could be held against".to_owned()
     } else {
-        "no site has hazard curves of two measures: give each a second one (sites.<name>.pga beside pgv) to see whether \
-         the records bring it"
+        "no site has hazard curves of two measures: give each a second one (sites.<name>.pga beside pgv) to see \
+         whether the records bring it"
             .to_owned()
     }
 }

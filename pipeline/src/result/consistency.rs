@@ -5,6 +5,7 @@ use uplift_motion::IntensityMeasure;
 use super::file::ResultFile;
 use super::layout::{axis, consistency};
 use crate::array::Array;
+use crate::consistency::consistency_of_asked;
 use crate::error::UpliftError;
 
 /// The consistency of the records scaled to one measure; NaN at sites that were not looked at.
@@ -37,12 +38,17 @@ pub struct StoredConsistency {
 }
 
 impl ResultFile {
-    /// The consistency of the records with the hazard of another measure, a set a measure that they are scaled to; none
-    /// where no site has curves of two measures, and in results of versions that did not ask.
+    /// The consistency of the records with the hazard of another measure, at the risks asked for: one for each measure
+    /// that they are scaled to; none where no site has curves of two measures, and in results of versions that did not
+    /// ask.
     ///
     /// # Errors
     /// A file that is damaged, or of another kind.
     pub fn consistency(&self) -> Result<Vec<StoredConsistency>, UpliftError> {
+        if self.asked.is_some() {
+            let is_repaired = self.measures().iter().any(|&own| self.reader.exists(&consistency::array(own, "u_m")));
+            return consistency_of_asked(self, is_repaired);
+        }
         let mut found = Vec::new();
         for scaled_to in self.measures() {
             for other in IntensityMeasure::ALL {

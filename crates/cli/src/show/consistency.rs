@@ -129,7 +129,7 @@ fn print_scale_factors(out: &mut impl Write, report: &ConsistencyReport) -> Resu
                 shown(row.scaled_to),
                 per_cent(target.poe),
                 target.scale_factors.map(|factor| format!("{factor:.2}")).join(" / "),
-                format!("{:.0} %", 100.0 * target.outside_limits),
+                format!("{:.0} %", (100.0 * target.outside_limits).max(0.0)),
                 number(target.effective_events, 1),
             ]);
         }

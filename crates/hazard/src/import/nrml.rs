@@ -54,8 +54,8 @@ pub(super) fn entries(text: &str, name: &str) -> Result<Vec<Entry>, HazardError>
     }
     if entries.is_empty() {
         return Err(fail(
-            "no hazardCurve in hazardCurves, and no HCNode in a hazardCurveField: export the hazard curves in NRML 0.3, \
-             0.4 or 0.5"
+            "no hazardCurve in hazardCurves, and no HCNode in a hazardCurveField: export the hazard curves in NRML \
+             0.3, 0.4 or 0.5"
                 .to_owned(),
         ));
     }

@@ -1,7 +1,7 @@
 //! `hazardCurveField` of NRML 0.3: what the first `OpenQuake` wrote and the hazard services of EFEHR answer.
 //!
-//! The levels stand in `IML` with the measure as its attribute, a curve in `HCNode`, and the time of the probabilities in
-//! `hazardProcessing` beside the fields, with period and damping of a spectral acceleration.
+//! The levels stand in `IML` with the measure as its attribute, a curve in `HCNode`, and the time of the probabilities
+//! in `hazardProcessing` beside the fields, with period and damping of a spectral acceleration.
 //!
 //! # Source
 //! NRML schema 0.3, elements `hazardResult` and `hazardCurveField`; notebooks that read the services of EFEHR (Efehr

@@ -1,0 +1,77 @@
+//! The answer at risks that a result was asked for after its run, as if it stood in the file.
+
+use uplift_consistency::{DEVIATION_RATES, Verdict};
+use uplift_motion::IntensityMeasure;
+
+use super::job::repairs_of;
+use super::{Finding, Question, Repairs};
+use crate::array::Array;
+use crate::error::UpliftError;
+use crate::result::{ResultFile, StoredConsistency};
+
+/// What [`ResultFile::consistency`] would say had `file` been run for the risks that it is asked for; with the spectra of
+/// weights where `is_repaired`.
+pub(crate) fn consistency_of_asked(
+    file: &ResultFile,
+    is_repaired: bool,
+) -> Result<Vec<StoredConsistency>, UpliftError> {
+    let question = Question::of_result(file)?;
+    let findings = question.findings(is_repaired)?;
+    let repairs = if is_repaired { repairs_of(file, &file.stripes()?, &question, &findings)? } else { Vec::new() };
+    let mut found = Vec::new();
+    for (scaled_to, levels) in &question.analyses {
+        let own: Vec<&Finding> = findings.iter().filter(|finding| finding.scaled_to == *scaled_to).collect();
+        if let Some(first) = own.first() {
+            let repairs = repairs.iter().find(|repairs| repairs.measure == *scaled_to);
+            found.push(stored(&question, (*scaled_to, first.other), levels.len(), &own, repairs));
+        }
+    }
+    Ok(found)
+}
+
+fn stored(
+    question: &Question,
+    (scaled_to, other): (IntensityMeasure, IntensityMeasure),
+    levels: usize,
+    findings: &[&Finding],
+    repairs: Option<&Repairs>,
+) -> StoredConsistency {
+    let sites = question.sites.len();
+    let of_site = |site: usize| findings.iter().find(|finding| finding.site == site);
+    let deviation = |site: usize| of_site(site)?.diagnosis.deviation.as_ref();
+    let repaired = |site: usize| of_site(site)?.repair.as_ref()?.as_ref().ok();
+    let rates = [sites, DEVIATION_RATES];
+    StoredConsistency {
+        scaled_to,
+        other,
+        rate_per_year: Array::from_fn(rates, |[site, rate]| {
+            of_site(site).map_or(f64::NAN, |finding| finding.range.rates::<DEVIATION_RATES>()[rate])
+        }),
+        site_level: Array::from_fn(rates, |[site, rate]| deviation(site).map_or(f64::NAN, |own| own.site_levels[rate])),
+        implied_level: Array::from_fn(rates, |[site, rate]| {
+            deviation(site).map_or(f64::NAN, |own| own.implied_levels[rate])
+        }),
+        repaired_level: repairs.map(|_| {
+            Array::from_fn(rates, |[site, rate]| {
+                let own = repaired(site).and_then(|repaired| repaired.diagnosis.deviation.as_ref());
+                own.map_or(f64::NAN, |own| own.implied_levels[rate])
+            })
+        }),
+        bias: (0..sites).map(|site| deviation(site).map_or(f64::NAN, |own| own.bias)).collect(),
+        max: (0..sites).map(|site| deviation(site).map_or(f64::NAN, |own| own.max)).collect(),
+        verdict: (0..sites)
+            .map(|site| of_site(site).and_then(|own| own.diagnosis.verdict()).map_or("", Verdict::key).to_owned())
+            .collect(),
+        ratio: Array::from_fn([sites, question.poes.len()], |[site, poe]| {
+            of_site(site).and_then(|own| own.diagnosis.targets[poe].ratio).unwrap_or(f64::NAN)
+        }),
+        effective_records: repairs.map(|_| {
+            Array::from_fn([sites, levels], |[site, level]| {
+                repaired(site).map_or(f64::NAN, |own| own.diagnosis.stripes[level].effective_records)
+            })
+        }),
+        u_m: repairs.map(|repairs| {
+            repairs.ordinates.map(|ordinate| ordinate.map_or(f64::NAN, |ordinate| ordinate.displacement_m))
+        }),
+    }
+}
