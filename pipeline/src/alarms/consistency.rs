@@ -1,6 +1,8 @@
 //! Records that do not bring the site's hazard of the other measure: spectra of such a set are true of the set, and not
 //! of the site.
 
+use uplift_consistency::Verdict;
+
 use super::evidence::{Evidence, Scope};
 use super::{Alarm, Case, Severity};
 use crate::result::StoredConsistency;
@@ -9,26 +11,34 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
     let mut cases = Vec::new();
     for consistency in &evidence.consistency {
         for (site, name) in evidence.spectra.sites.iter().enumerate() {
-            if scope.holds(site, consistency.scaled_to) && consistency.verdict[site] == "inconsistent" {
-                cases.push(case(consistency, site, name));
+            // one risk is judged by itself, so that the others of a result do not matter to it
+            let (times, verdict) = match scope.poe {
+                None => (consistency.bias[site], consistency.verdict[site].as_str()),
+                Some(poe) => {
+                    let ratio = consistency.ratio[[site, poe]];
+                    (ratio, Verdict::of(ratio, ratio.ln().abs()).key())
+                }
+            };
+            if scope.holds(site, consistency.scaled_to) && times.is_finite() && verdict == Verdict::Inconsistent.key() {
+                cases.push(case(consistency, site, name, times));
             }
         }
     }
     Alarm::of_cases("hazard-inconsistent", cases)
 }
 
-fn case(consistency: &StoredConsistency, site: usize, name: &str) -> Case {
-    let StoredConsistency { scaled_to, other, bias, u_m, .. } = consistency;
+/// `times` the level of the other measure do the records bring.
+fn case(consistency: &StoredConsistency, site: usize, name: &str, times: f64) -> Case {
+    let StoredConsistency { scaled_to, other, u_m, .. } = consistency;
     let (scaled_to, other) = (scaled_to.label(), other.label());
     let is_repaired = u_m.as_ref().is_some_and(|u_m| u_m.block([site]).iter().any(|u_m| !u_m.is_nan()));
     Case {
         severity: if is_repaired { Severity::Note } else { Severity::Caution },
-        badness: bias[site].ln().abs(),
+        badness: times.ln().abs(),
         subject: format!("{name} by {scaled_to}"),
         what: format!(
-            "the records bring {:.1} times the {other} of the site's hazard; spectra by {scaled_to} are not \
-             hazard-consistent",
-            bias[site]
+            "the records bring {times:.1} times the {other} of the site's hazard; spectra by {scaled_to} are not \
+             hazard-consistent"
         ),
         what_to_do: if is_repaired {
             "use the repaired spectra beside them (uplift consistency)".to_owned()
