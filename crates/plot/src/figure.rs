@@ -65,6 +65,8 @@ pub enum Scale {
 pub enum Tone {
     /// One of the told-apart colours; they repeat after seven.
     Distinct(usize),
+    /// One of the same colours, thin and full, for what stands beside a line of that colour.
+    Thin(usize),
     /// Thin and grey, for many lines that need no names.
     Faint,
     /// A step of a ramp from light to dark, for values in their order.

@@ -5,7 +5,7 @@ use plotters::prelude::*;
 
 use super::figure::{Figure, Hatch, Marks, Tone};
 use super::map::{draw_hatch, hatching};
-use super::stroke::{Area, FAINT_LINE, Failure, LINE, UNITS, colour, draw_line};
+use super::stroke::{Area, FAINT_LINE, Failure, UNITS, colour, draw_line, width};
 
 /// A name in the legend and what stands before it.
 pub(super) struct Entry {
@@ -65,7 +65,7 @@ pub(super) fn draw_swatch(root: &Area<'_>, entry: &Entry, (x, top): (i32, i32)) 
             root.draw(&Rectangle::new(corners, colour(tone).stroke_width(FAINT_LINE)))?;
         }
         Kind::Dots => root.draw(&Circle::new((x + 11 * UNITS, middle), 2 * UNITS, colour(tone).filled()))?,
-        Kind::Line => draw_line(root, &[(x, middle), (right, middle)], tone, LINE)?,
+        Kind::Line => draw_line(root, &[(x, middle), (right, middle)], tone, width(tone))?,
     }
     Ok(())
 }

@@ -12,10 +12,10 @@ use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, ValueFormatte
 use plotters::prelude::*;
 use serde::Serialize;
 
-use super::figure::{Axis, Marks, Panel, Scale, Series, Tone};
+use super::figure::{Axis, Marks, Panel, Scale, Series};
 use super::frame::{Frame, runs};
 use super::map::draw_map;
-use super::stroke::{Area, FAINT_LINE, Failure, LINE, ZOOM, colour, draw_line, draw_mark, font};
+use super::stroke::{Area, Failure, ZOOM, colour, draw_line, draw_mark, font, width};
 use super::ticks::{Labels, ticks};
 
 /// Where the plotting area of a panel lies, in the units of the drawing's view box, and what its ends mean.
@@ -212,7 +212,7 @@ fn draw_series(
     if matches!(series.marks, Marks::Only | Marks::Rings) {
         return Ok(());
     }
-    let thick = if series.tone == Tone::Faint { FAINT_LINE } else { LINE };
+    let thick = width(series.tone);
     for run in runs(&series.points, positions) {
         for piece in frame.clip(&run) {
             draw_line(plot, &shifted(piece), series.tone, thick)?;

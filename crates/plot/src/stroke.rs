@@ -46,10 +46,15 @@ pub(super) type Failure = Box<dyn std::error::Error>;
 
 pub(super) fn colour(tone: Tone) -> RGBColor {
     match tone {
-        Tone::Distinct(index) => COLOURS[index % COLOURS.len()],
+        Tone::Distinct(index) | Tone::Thin(index) => COLOURS[index % COLOURS.len()],
         Tone::Faint => RGBColor(205, 205, 205),
         Tone::Shade { step, of } => shade(step as f64 / of.saturating_sub(1).max(1) as f64),
     }
+}
+
+/// How wide a line is, units. Only those of the full width have dashes: see [`dashed`].
+pub(super) fn width(tone: Tone) -> u32 {
+    if matches!(tone, Tone::Faint | Tone::Thin(_)) { FAINT_LINE } else { LINE }
 }
 
 /// The colour at a share of the ramp.

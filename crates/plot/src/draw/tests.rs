@@ -1,4 +1,5 @@
 #![allow(clippy::unwrap_used)]
+use super::super::stroke::{FAINT_LINE, LINE};
 use super::*;
 use crate::{Axis, Band, Marks, Panel, Series, Tone, png};
 
@@ -39,6 +40,25 @@ fn figure() -> Figure {
         ],
         columns: 2,
     }
+}
+
+#[test]
+fn a_thin_line_has_the_colour_of_another_and_no_dashes() {
+    let of_tone = |tone: Tone| {
+        let line = Series::line("line", vec![(0.0, 1.0), (1.0, 2.0)], tone);
+        let panels = vec![Panel::lines("", Axis::linear("x"), Axis::linear("y"), vec![line])];
+        let drawn = svg(&Figure { panels, columns: 1, remark: String::new(), ..figure() }, LOOK).unwrap().svg;
+        let lines = drawn.split("stroke=\"#D55E00\" ").skip(1).map(|rest| rest.split("/>").next().unwrap().to_owned());
+        lines.collect::<Vec<String>>()
+    };
+    // the line and its sample in the legend
+    let (thick, thin) = (of_tone(Tone::Distinct(1)), of_tone(Tone::Thin(1)));
+    assert_eq!((thick.len(), thin.len()), (2, 2));
+    assert!(thick.iter().all(|line| line.contains("stroke-dasharray") && line.contains(&format!("\"{LINE}\""))));
+    assert!(
+        thin.iter().all(|line| !line.contains("stroke-dasharray") && line.contains(&format!("\"{FAINT_LINE}\""))),
+        "{thin:?}"
+    );
 }
 
 #[test]
