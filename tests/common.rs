@@ -94,6 +94,26 @@ pgv = { file = "there-pgv.csv", unit = "m/s", kind = "poe", years = 50 }
 pga = "pga.csv"
 "#;
 
+/// All but the sites of [`SmallStudy::repaired`].
+const REPAIRED_STUDY: &str = r#"title = "repaired"
+[records.synthetic]
+pairs = 40
+[strengths]
+values = [0.05, 0.1, 0.2, 0.4]
+[pgv]
+levels_cm_s = [0.5, 1, 2, 4, 8, 15, 30, 60, 120]
+[pga]
+levels_g = [0.01, 0.02, 0.04, 0.08, 0.15, 0.3, 0.6, 1.2]
+[risk]
+maf_surface = false
+[regression]
+strength_above = 0
+[consistency]
+repair = "weights"
+[hazard]
+conversions = [{ from = "GMRotI50", to = "geometric mean", pgv = 1.0, pga = 1.0 }]
+"#;
+
 impl SmallStudy {
     pub fn new() -> Self {
         Self::with(SMALL_STUDY)
@@ -115,6 +135,20 @@ impl SmallStudy {
             pgv.iter().map(|&(im, rate)| (im / 100.0, -(-50.0 * 0.5 * rate).exp_m1())).collect();
         study.write("there-pgv.csv", &rows(&probabilities, "iml,poe"));
         study.write("pga.csv", &rows(&curve(&[0.01, 0.1, 3.0], 1e-4, 2.2), "iml,maf"));
+        study
+    }
+
+    /// A result `r.h5` of records that do not bring the hazard of all sites: by PGV the first cannot be repaired, and
+    /// the second is; its name is markup.
+    pub fn repaired() -> Self {
+        let hazard = |file: &str| repository().join("hazard").join(file).display().to_string();
+        let site = |name: &str, folder: &str| {
+            let [pgv, pga] = ["pgv", "pga"].map(|measure| hazard(&format!("{folder}/{measure}.csv")));
+            format!("[[sites]]\nname = \"{name}\"\npgv = '{pgv}'\npga = '{pga}'\n")
+        };
+        let text = format!("{REPAIRED_STUDY}{}{}", site("Montreux", "montreux"), site("Athens &lt; 1", "athens"));
+        let study = Self::with(&text);
+        study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
         study
     }
 

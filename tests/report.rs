@@ -17,7 +17,7 @@ fn study() -> SmallStudy {
 }
 
 /// The figures in the order of the page: the answer, how sure it is, where it comes from, what to compute with.
-const FIGURES: [&str; 21] = [
+const FIGURES: [&str; 22] = [
     "urs-pgv",
     "urs-pga",
     "bands-pgv",
@@ -27,6 +27,7 @@ const FIGURES: [&str; 21] = [
     "fragility",
     "tails-pgv",
     "tails-pga",
+    "consistency",
     "hazard",
     "disaggregation-pgv",
     "disaggregation-pga",
@@ -132,6 +133,69 @@ fn a_report_leads_with_the_answer() {
     let value: f64 = said.split_once(" m").unwrap().0.parse().unwrap();
     assert!((value / u_m - 1.0).abs() < 0.06, "{sentence}: {u_m}");
     assert!(said.contains("(90 % band "), "{sentence}");
+}
+
+#[test]
+fn a_report_says_whether_the_records_bring_the_hazard() {
+    let study = SmallStudy::repaired();
+    study.uplift(&["report", "r.h5", "-q"]).ok();
+    let page = std::fs::read_to_string(study.path().join("r.html")).unwrap();
+    assert!(page.contains("Athens &amp;lt; 1") && !page.contains("Athens &lt; 1"), "text of the study is text");
+    let ids: Vec<&str> = page.split(" id=\"").skip(1).map(|rest| rest.split_once('"').unwrap().0).collect();
+    let distinct: std::collections::BTreeSet<&str> = ids.iter().copied().collect();
+    assert_eq!(ids.len(), distinct.len(), "{ids:?}");
+    // a line each measure and site, its numbers those of the file
+    let reader = LabelledReader::open(&study.path().join("r.h5")).unwrap();
+    let bias = reader.array_f64("/consistency/pgv/pga_bias").unwrap().values;
+    let table = page.split_once("id=\"r1-what-is-brought\"").unwrap().1.split_once("</tbody>").unwrap().0;
+    let rows: Vec<Vec<&str>> = table.split("<tr><td>").skip(1).map(|row| row.split("</td>").collect()).collect();
+    let cell = |row: usize, column: usize| rows[row][column].rsplit('>').next().unwrap();
+    assert_eq!(rows.len(), 4);
+    assert_eq!([1, 2, 3].map(|column| cell(1, column)), ["PGV", "PGA", "inconsistent"]);
+    assert_eq!(cell(1, 7), format!("{:.2}", bias[1]), "{table}");
+    assert_eq!(cell(0, 9), "–", "it could not be repaired");
+    assert_eq!(cell(1, 9), "23", "as uplift consistency says");
+    // the sentence of the site that was repaired says both, the other one
+    let answer = page.split_once("<div class=\"answer\">").unwrap().1.split_once("</div>").unwrap().0;
+    let [plain, repaired] = [1, 2].map(|site| answer.split("<p>").nth(site).unwrap());
+    assert!(!plain.contains("weighted") && repaired.contains("weighted so that they do, <strong>"), "{answer}");
+    let u_m = reader.array_f64("/consistency/pgv/u_m").unwrap();
+    assert_eq!(u_m.dims, ["site", "poe", "strength"]);
+    let said = repaired.split_once("weighted so that they do, <strong>").unwrap().1.split_once(" m").unwrap().0;
+    // the second site, 2 %, the second strength
+    let expected = u_m.values[3 * 4 + 1];
+    assert!((said.parse::<f64>().unwrap() / expected - 1.0).abs() < 0.06, "{said}: {expected}");
+    let summary = text_between(&page, "id=\"r1-summary\">", "</tbody>");
+    // a row each probability by either measure
+    assert_eq!(summary.matches(", repaired").count(), 6, "{summary}");
+
+    // repaired spectra are of the probabilities of the study
+    study.uplift(&["report", "r.h5", "-o", "asked.html", "--poe", "0.05", "-q"]).ok();
+    let asked = std::fs::read_to_string(study.path().join("asked.html")).unwrap();
+    assert!(asked.contains("Repaired spectra are left out") && !asked.contains("weighted so that they do"));
+    assert!(asked.contains("id=\"r1-consistency\"") && !asked.contains(", repaired<"));
+}
+
+#[test]
+fn the_figure_of_consistency_has_what_there_is() {
+    let study = SmallStudy::repaired();
+    study.uplift(&["plot", "r.h5", "--only", "consistency", "-q"]).ok();
+    let svg = std::fs::read_to_string(study.path().join("r.figures/consistency.svg")).unwrap();
+    for words in ["hazard of the site", "brought by the records", "brought by weighted records", "rates compared"] {
+        assert!(svg.contains(words), "{words}");
+    }
+    assert_eq!(svg.matches("scaled to PG").count(), 4, "a panel each site and measure");
+    assert!(svg.contains("PGA, g") && svg.contains("PGV, cm/s") && !svg.contains("NaN"));
+    // what was not repaired has no line of weighted records
+    study.uplift(&["run", "study.toml", "-o", "plain.h5", "-q", "--set", "consistency.repair=\"none\""]).ok();
+    study.uplift(&["plot", "plain.h5", "--only", "consistency", "-q"]).ok();
+    let plain = std::fs::read_to_string(study.path().join("plain.figures/consistency.svg")).unwrap();
+    assert!(plain.contains("brought by the records") && !plain.contains("weighted"));
+    // and no figure shows repaired spectra
+    study.uplift(&["plot", "r.h5", "--only", "urs-pgv", "-q"]).ok();
+    study.uplift(&["plot", "plain.h5", "--only", "urs-pgv", "-q"]).ok();
+    let read = |folder: &str| std::fs::read_to_string(study.path().join(folder).join("urs-pgv.svg")).unwrap();
+    assert!(read("r.figures").contains("repaired") && !read("plain.figures").contains("repaired"));
 }
 
 #[test]
@@ -280,5 +344,5 @@ fn a_browser_reads_the_report() {
     assert_eq!(said("wide"), "false", "a phone scrolls up and down only");
     assert_eq!(said("figures"), FIGURES.len().to_string());
     assert_eq!((said("stacked"), said("scrolled")), ("true".to_owned(), "true".to_owned()), "on a phone");
-    assert_eq!(said("tables"), "5");
+    assert_eq!(said("tables"), "6");
 }

@@ -4,6 +4,7 @@
 //! What is to be seen is decided here, how it is drawn in [`plot`](uplift_plot).
 
 mod confidence;
+mod consistency;
 mod demand;
 mod displacement;
 mod efficiency;
@@ -27,7 +28,8 @@ use std::path::Path;
 use uplift::Array;
 use uplift::UpliftError;
 use uplift::result::{
-    Kind, ResultFile, StoredBands, StoredHazard, StoredInfluence, StoredRecords, StoredSpectra, StoredStripes,
+    Kind, ResultFile, StoredBands, StoredConsistency, StoredHazard, StoredInfluence, StoredRecords, StoredSpectra,
+    StoredStripes,
 };
 use uplift_motion::IntensityMeasure;
 use uplift_plot::{Axis, Figure, Panel, Series, Tone, share_y};
@@ -50,6 +52,7 @@ pub struct FigureSource {
     pub(crate) spectra: StoredSpectra,
     pub(crate) bands: Option<StoredBands>,
     pub(crate) influence: Vec<StoredInfluence>,
+    pub(crate) consistency: Vec<StoredConsistency>,
     hazard: Vec<StoredHazard>,
     records: StoredRecords,
     remark: &'static str,
@@ -61,6 +64,8 @@ pub struct RiskFigures {
     pub answer: Vec<Figure>,
     /// How sure is that?
     pub confidence: Vec<Figure>,
+    /// Does the record set bring the site's hazard?
+    pub consistency: Vec<Figure>,
     /// Where does it come from?
     pub causes: Vec<Figure>,
     /// Curves fitted to it, to compute with.
@@ -70,7 +75,7 @@ pub struct RiskFigures {
 impl RiskFigures {
     /// All of them, in their order.
     pub fn into_all(self) -> Vec<Figure> {
-        [self.answer, self.confidence, self.causes, self.fits].concat()
+        [self.answer, self.confidence, self.consistency, self.causes, self.fits].concat()
     }
 }
 
@@ -86,6 +91,7 @@ impl FigureSource {
             bands: file.bands()?,
             // of the risks of its study alone
             influence: if file.is_asked() { Vec::new() } else { file.influence()? },
+            consistency: file.consistency()?,
             hazard: file.hazard()?,
             records: file.records()?,
             remark: if file.head()?.synthetic { SYNTHETIC } else { "" },
@@ -95,6 +101,14 @@ impl FigureSource {
     /// The spectra `[site, poe, strength]` of `measure` as the result has them, m.
     pub(crate) fn u_m(&self, measure: IntensityMeasure) -> Option<&Array<3>> {
         self.spectra.measures.iter().find(|spectra| spectra.measure == measure).map(|spectra| &spectra.u_m)
+    }
+
+    /// The spectra `[site, poe, strength]` of weighted records, m, where they stand beside the plain ones of a site: the
+    /// records as they are do not bring its hazard. None in a result that was asked for other probabilities than those
+    /// of its study.
+    pub(crate) fn repaired(&self, measure: IntensityMeasure, site: usize) -> Option<&Array<3>> {
+        let stands = |of: &&StoredConsistency| of.scaled_to == measure && of.stands_beside(site);
+        self.consistency.iter().filter(stands).find(|of| of.is_of(&self.spectra))?.u_m.as_ref()
     }
 
     /// Every figure that the result has the numbers for.
@@ -117,6 +131,7 @@ impl FigureSource {
         Ok(RiskFigures {
             answer: spectra::spectra(self),
             confidence,
+            consistency: consistency::consistency(self).into_iter().collect(),
             causes,
             fits: spectra::fits(self).into_iter().collect(),
         })

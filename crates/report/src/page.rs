@@ -5,6 +5,7 @@
 //! [`figures`](crate::figures), as SVG, with their values beside them for the script that reads them off.
 
 pub(crate) mod answer;
+mod consistency;
 mod differences;
 mod displacement;
 mod drawn;

@@ -6,7 +6,9 @@ use uplift::text::{per_cent, risk_in_words};
 use uplift_motion::IntensityMeasure;
 use uplift_plot::{Axis, Figure, Marks, Panel, Series, Tone};
 
-const RATE: &str = "mean annual frequency, 1/yr";
+pub(super) const RATE: &str = "mean annual frequency, 1/yr";
+/// What the caption says of repaired spectra.
+const THIN: &str = " Thin: of records weighted so that they bring the site's hazard of both measures.";
 
 pub(super) fn hazard(source: &FigureSource) -> Figure {
     let panel = |hazard: &uplift::result::StoredHazard| {
@@ -55,7 +57,8 @@ pub(super) fn spectra(source: &FigureSource) -> Vec<Figure> {
                     let name = risk_in_words(*probability, spectra.years);
                     source.over_strengths(name, of_measure.u_m.block([site, poe]), Tone::Distinct(poe))
                 };
-                let series = spectra.poes.iter().enumerate().map(line).collect();
+                let mut series: Vec<Series> = spectra.poes.iter().enumerate().map(line).collect();
+                series.extend(repaired(source, of_measure.measure, site));
                 let title = spectra.sites[site].clone();
                 let bands = (0..spectra.poes.len()).filter_map(|poe| {
                     let at = [site, poe, source.bands.as_ref()?.largest()];
@@ -72,15 +75,30 @@ pub(super) fn spectra(source: &FigureSource) -> Vec<Figure> {
                     bands.sizes[bands.largest()]
                 )
             });
+            let is_thin = |panel: &Panel| panel.series.iter().any(|line| matches!(line.tone, Tone::Thin(_)));
+            let panels: Vec<Panel> = source.sites().map(panel).collect();
+            let thin = if panels.iter().any(is_thin) { THIN } else { "" };
             let caption = format!(
                 "Displacement that a rocking structure of a given uplift strength exceeds with the stated probability, \
-                 from stripes by {label} (Fig. 4.6, 4.7).{banded} Ordinates that are zero or censored are left out."
+                 from stripes by {label} (Fig. 4.6, 4.7).{banded}{thin} Ordinates that are zero or censored are left \
+                 out."
             );
             let id = format!("urs-{}", of_measure.measure.key());
             let title = format!("Uniform risk spectra by {label}");
-            source.figure(id, title, caption, source.sites().map(panel).collect())
+            source.figure(id, title, caption, panels)
         })
         .collect()
+}
+
+/// Spectra of weighted records at a site whose hazard the records as they are do not bring.
+fn repaired(source: &FigureSource, measure: IntensityMeasure, site: usize) -> Vec<Series> {
+    let Some(u_m) = source.repaired(measure, site) else { return Vec::new() };
+    let spectra = &source.spectra;
+    let line = |(poe, &probability): (usize, &f64)| {
+        let points = spectra.strengths.iter().copied().zip(u_m.block([site, poe]).iter().copied()).collect();
+        Series::line(format!("{}, repaired", risk_in_words(probability, spectra.years)), points, Tone::Thin(poe))
+    };
+    spectra.poes.iter().enumerate().map(line).collect()
 }
 
 pub(super) fn fits(source: &FigureSource) -> Option<Figure> {

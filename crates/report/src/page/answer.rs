@@ -27,6 +27,8 @@ pub(super) struct Answer {
 struct SiteAnswer {
     site: String,
     cases: Vec<Case>,
+    /// By weighted records, where the records as they are do not bring the site's hazard; none elsewhere.
+    repaired: Vec<Case>,
 }
 
 #[derive(Debug, Serialize)]
@@ -44,6 +46,15 @@ pub(super) fn answer(source: &FigureSource) -> Option<Answer> {
     let poe = source.rarest();
     let shown = nearest(&spectra.strengths, &SHOWN_STRENGTHS);
     let bands = source.bands.as_ref().and_then(|stored| Some((stored, stored.of(of.measure)?)));
+    let without_band = |strength: usize, u_m: f64| Case {
+        strength: significant(spectra.strengths[strength]),
+        displacement: if u_m.is_finite() {
+            format!("{} m", significant(u_m))
+        } else {
+            "more than was analysed".to_owned()
+        },
+        band: None,
+    };
     let case = |site: usize, strength: usize| {
         let band = bands.map(|(stored, bands)| {
             let [lower, _, upper] =
@@ -55,19 +66,16 @@ pub(super) fn answer(source: &FigureSource) -> Option<Answer> {
             }
         });
         let u_m = of.u_m[[site, poe, strength]];
-        Case {
-            strength: significant(spectra.strengths[strength]),
-            displacement: if u_m.is_finite() {
-                format!("{} m", significant(u_m))
-            } else {
-                "more than was analysed".to_owned()
-            },
-            band: band.filter(|_| u_m.is_finite()),
-        }
+        Case { band: band.filter(|_| u_m.is_finite()), ..without_band(strength, u_m) }
+    };
+    let repaired = |site: usize| -> Vec<Case> {
+        let Some(u_m) = source.repaired(of.measure, site) else { return Vec::new() };
+        shown.iter().map(|&strength| without_band(strength, u_m[[site, poe, strength]])).collect()
     };
     let site = |site: usize| SiteAnswer {
         site: spectra.sites[site].clone(),
         cases: shown.iter().map(|&strength| case(site, strength)).collect(),
+        repaired: repaired(site),
     };
     Some(Answer {
         probability: risk_in_words(spectra.poes[poe], spectra.years),

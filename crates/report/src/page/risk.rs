@@ -1,6 +1,7 @@
 //! What the report shows of uniform risk spectra.
 
 use super::answer::{answer, significant};
+use super::consistency;
 use super::{Content, Part, Table};
 use crate::figures::FigureSource;
 use uplift::UpliftError;
@@ -14,6 +15,9 @@ const TAKEN_APART: [f64; 3] = [0.1, 0.2, 0.4];
 /// In place of what is of other probabilities than those of the page.
 const INFLUENCE_LEFT_OUT: &str = "Which records and intensities carry the spectra is left out: uplift influence found \
                                   it for the probabilities of the study, and this page is of others.";
+/// What the table of displacements says of repaired spectra.
+const REPAIRED: &str = " Repaired: of records weighted so that they bring the site's hazard of both measures, where as \
+                        they are they do not.";
 /// Records of each spectrum in the table of influence.
 const NAMED_RECORDS: usize = 3;
 
@@ -21,12 +25,12 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
     let source = FigureSource::read(file)?;
     let figures = source.figures()?;
     let stored = &source.stored;
-    let parts = vec![
+    let mut parts = vec![
         Part {
             key: "answer",
             title: "Displacements to survive",
             note: "",
-            tables: vec![summary(&source.spectra)],
+            tables: vec![summary(&source)],
             figures: figures.answer,
             details: Vec::new(),
         },
@@ -47,7 +51,7 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
             details: [intensities(&source), records(&source)].into_iter().flatten().collect(),
         },
         Part {
-            key: "fits",
+            key: "compute",
             title: "To compute with",
             note: "",
             tables: vec![coefficients(&source.spectra)],
@@ -55,6 +59,10 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
             details: Vec::new(),
         },
     ];
+    if let Some(part) = consistency::part(&source, figures.consistency) {
+        // before where it comes from
+        parts.insert(2, part);
+    }
     let mut facts = vec![("Seed", stored.seed.to_string())];
     if file.is_asked() {
         facts.push(("Probabilities", "asked for after the run, from the stripes of the result".to_owned()));
@@ -74,28 +82,39 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
     })
 }
 
-fn summary(stored: &StoredSpectra) -> Table {
+fn summary(source: &FigureSource) -> Table {
+    let stored = &source.spectra;
     let shown = nearest(&stored.strengths, &SHOWN_STRENGTHS);
     let mut header = ["site", "measure", "probability"].map(str::to_owned).to_vec();
     header.extend(shown.iter().map(|&strength| format!("{:.2} g", stored.strengths[strength])));
-    let rows = stored.rows().map(|spectrum| {
-        let mut row = vec![
-            spectrum.site.to_owned(),
-            spectrum.measure.label().to_owned(),
-            risk_in_words(spectrum.poe, stored.years),
-        ];
-        row.extend(shown.iter().map(|&strength| metres(spectrum.u_m[strength])));
+    let row = |site: &str, measure: String, poe: f64, u_m: &[f64]| {
+        let mut row = vec![site.to_owned(), measure, risk_in_words(poe, stored.years)];
+        row.extend(shown.iter().map(|&strength| metres(u_m[strength])));
         row
-    });
+    };
+    let places = stored.measures.iter().flat_map(|of| of.u_m.blocks::<2>().map(|(at, _)| at));
+    let mut rows = Vec::new();
+    let mut is_repaired = false;
+    for ([site, poe], spectrum) in places.zip(stored.rows()) {
+        let label = spectrum.measure.label();
+        rows.push(row(spectrum.site, label.to_owned(), spectrum.poe, spectrum.u_m));
+        if let Some(u_m) = source.repaired(spectrum.measure, site) {
+            rows.push(row(spectrum.site, format!("{label}, repaired"), spectrum.poe, u_m.block([site, poe])));
+            is_repaired = true;
+        }
+    }
+    let repaired = if is_repaired { REPAIRED } else { "" };
     Table {
         id: "summary".to_owned(),
         title: "Displacement in metres".to_owned(),
-        note: "What a structure goes beyond with the stated probability, if it uplifts at the stated acceleration."
-            .to_owned(),
+        note: format!(
+            "What a structure goes beyond with the stated probability, if it uplifts at the stated acceleration.\
+             {repaired}"
+        ),
         group: "displacement, m, of a structure that uplifts at".to_owned(),
         header,
         text_columns: 3,
-        rows: rows.collect(),
+        rows,
     }
 }
 
