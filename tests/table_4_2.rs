@@ -1,6 +1,7 @@
 //! Table 4.2 of the dissertation, ours beside it.
 
 use serde_json::Value;
+use uplift_labelled::LabelledReader;
 
 use crate::common::{self, SmallStudy, real_records, repository};
 
@@ -96,4 +97,31 @@ fn median_ratio_by_hand() {
     let found = rows[0]["median_ratio"].as_f64().unwrap();
     assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");
     assert!(rows[1]["median_ratio"].is_null());
+}
+
+#[test]
+fn coefficients_of_repaired_spectra_stand_beside_the_plain_ones() {
+    let study = SmallStudy::repaired();
+    let rows = |more: &[&str]| -> Vec<Value> {
+        let text = study.uplift(&[&["table", "r.h5", "--json"], more].concat()).ok().stdout;
+        serde_json::from_str::<Value>(&text).unwrap()["rows"].as_array().unwrap().clone()
+    };
+    // by PGV: three probabilities of the first site, then each of the second twice
+    let by_pgv = rows(&[]);
+    let repaired: Vec<bool> = by_pgv.iter().map(|row| row.get("repaired") == Some(&Value::Bool(true))).collect();
+    assert_eq!(repaired, [false, false, false, false, true, false, true, false, true]);
+    let reader = LabelledReader::open(&study.path().join("r.h5")).unwrap();
+    for (name, key) in [("c0_m", "c0"), ("c1", "c1"), ("c2_m", "c2"), ("rmse_m", "rmse")] {
+        let stored = reader.array_f64(&format!("/consistency/pgv/regression/{name}")).unwrap().values;
+        let said: Vec<f64> = [4, 6, 8].map(|row: usize| by_pgv[row][key].as_f64().unwrap()).into();
+        assert_eq!(said, stored[3..], "{name}");
+        assert_ne!(by_pgv[3][key], by_pgv[4][key]);
+    }
+    let text = study.uplift(&["table", "r.h5"]).ok().stdout;
+    assert_eq!(text.matches("PGV, repaired").count(), 3, "{text}");
+    assert!(text.contains("\nrepaired: of records weighted"), "{text}");
+    // of other probabilities there are none
+    assert_eq!(rows(&["--poe", "0.05"]).len(), 2);
+    let asked = study.uplift(&["table", "r.h5", "--poe", "0.05"]).ok().stdout;
+    assert!(!asked.contains("repaired: of"), "{asked}");
 }

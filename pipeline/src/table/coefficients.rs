@@ -12,7 +12,7 @@ use super::reference::ReferenceTable;
 use crate::alarms::{FitReach, reach_of_fit};
 use crate::error::UpliftError;
 use crate::events::Events;
-use crate::result::{ResultFile, Spectrum};
+use crate::result::{ResultFile, Spectrum, StoredConsistency, StoredSpectra};
 
 /// Strengths above this are compared, up to 1 (the range of Table 4.2's fits).
 pub const COMPARED_ABOVE: f64 = 0.05;
@@ -43,6 +43,10 @@ pub struct CoefficientRow {
     pub site: String,
     /// Intensity measure, `PGV` or `PGA`.
     pub im: String,
+    /// Whether the spectrum is that of weighted records, which bring the site's hazard of both measures; said only
+    /// where it is.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub repaired: bool,
     /// Probability of exceedance in the years of the study.
     pub poe: f64,
     /// c0, m.
@@ -64,7 +68,7 @@ pub struct CoefficientRow {
     /// Whether c2 is held at 0.
     #[serde(skip)]
     pub bound_active: bool,
-    /// What the reference says.
+    /// What the reference says; nothing of repaired spectra.
     #[serde(skip)]
     pub reference: Option<ReferenceFit>,
 }
@@ -98,12 +102,19 @@ pub(super) fn read(
     let study = file.stored_study()?;
     let wanted = options.measure.of_rows();
     let references = options.reference.as_deref().map_or_else(|| Ok(Vec::new()), read_reference)?;
-    let rows: Vec<CoefficientRow> = result
-        .rows()
-        .filter(|spectrum| wanted.is_none_or(|wanted| spectrum.measure == wanted))
-        .map(|spectrum| {
+    let consistency = file.consistency()?;
+    let places = result.measures.iter().flat_map(|of| of.fits.blocks::<2>().map(|(at, _)| at));
+    let rows: Vec<CoefficientRow> = places
+        .zip(result.rows())
+        .filter(|(_, spectrum)| wanted.is_none_or(|wanted| spectrum.measure == wanted))
+        .flat_map(|(at, spectrum)| {
             let reference = references.iter().find(|reference| same(&spectrum, reference));
-            CoefficientRow::of(&study, &result.strengths, &spectrum, reference.map(|reference| reference.fit))
+            let row =
+                |spectrum: &Spectrum<'_>, reference| CoefficientRow::of(&study, &result.strengths, spectrum, reference);
+            let plain = row(&spectrum, reference.map(|reference| reference.fit));
+            let repaired = repaired(&consistency, &result, at, &spectrum);
+            let repaired = repaired.map(|spectrum| CoefficientRow { repaired: true, ..row(&spectrum, None) });
+            std::iter::once(plain).chain(repaired)
         })
         .collect();
     if rows.is_empty() {
@@ -126,6 +137,18 @@ pub(super) fn read(
     Ok(CoefficientTable { rows, record_set: file.head()?.record_set, years: result.years, compared })
 }
 
+/// The spectrum of weighted records beside `plain`, the one at `[site, poe]`; none without a repair there.
+fn repaired<'a>(
+    consistency: &'a [StoredConsistency],
+    result: &StoredSpectra,
+    [site, poe]: [usize; 2],
+    plain: &Spectrum<'a>,
+) -> Option<Spectrum<'a>> {
+    let is_of = |of: &&StoredConsistency| of.scaled_to == plain.measure && of.is_repaired(site) && of.is_of(result);
+    let of = consistency.iter().find(is_of)?;
+    Some(Spectrum { u_m: of.u_m.as_ref()?.block([site, poe]), fit: of.fits.as_ref()?[[site, poe]], ..*plain })
+}
+
 impl CoefficientRow {
     fn of(
         study: &UniformRiskStudy,
@@ -139,6 +162,7 @@ impl CoefficientRow {
         Self {
             site: spectrum.site.to_owned(),
             im: spectrum.measure.label().to_owned(),
+            repaired: false,
             poe: spectrum.poe,
             c0_m: fit.c0_m,
             c1: fit.c1,

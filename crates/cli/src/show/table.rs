@@ -28,7 +28,7 @@ fn print_coefficients(out: &mut impl Write, report: &CoefficientTable) -> Result
         header.extend(["| c0", "c1", "c2", "rmse", "| ratio"]);
     }
     let cells = |row: &CoefficientRow| {
-        let mut cells = vec![row.site.clone(), row.im.clone(), risk_name(row.poe, report.years)];
+        let mut cells = vec![row.site.clone(), measure(row), risk_name(row.poe, report.years)];
         cells.extend(ours(row));
         if report.compared {
             cells.extend(theirs(row));
@@ -39,6 +39,9 @@ fn print_coefficients(out: &mut impl Write, report: &CoefficientTable) -> Result
     writeln!(out, "{}", table(&header, &rows))?;
     let starred = if report.rows.iter().any(|row| row.bound_active) { "* c2 held at 0; " } else { "" };
     writeln!(out, "{starred}probabilities in {} years; rmse with n - 3 degrees of freedom", report.years)?;
+    if report.rows.iter().any(|row| row.repaired) {
+        writeln!(out, "repaired: of records weighted so that they bring the site's hazard of both measures")?;
+    }
     if report.compared {
         writeln!(
             out,
@@ -48,6 +51,10 @@ fn print_coefficients(out: &mut impl Write, report: &CoefficientTable) -> Result
         )?;
     }
     Ok(())
+}
+
+fn measure(row: &CoefficientRow) -> String {
+    if row.repaired { format!("{}, repaired", row.im) } else { row.im.clone() }
 }
 
 fn ours(row: &CoefficientRow) -> Vec<String> {
