@@ -3,8 +3,9 @@
 use std::io::Read;
 
 use serde_json::Value;
+use uplift_labelled::LabelledReader;
 
-use crate::common::SmallStudy;
+use crate::common::{SMALL_STUDY, SmallStudy};
 
 const EXPORT: [&str; 7] = ["export", "r.h5", "--json", "--csv", "--mat", "--xlsx", "-q"];
 
@@ -75,4 +76,74 @@ fn influence_and_efficiency_are_exported_once_they_are_there() {
     let asked = json(&study);
     assert_eq!(asked["influence"], Value::Array(Vec::new()));
     assert_eq!(asked["efficiency"], some["efficiency"]);
+}
+
+#[test]
+fn repaired_spectra_are_exported_where_there_are_some() {
+    let study = SmallStudy::repaired();
+    study.uplift(&["consistency", "r.h5", "-q"]).ok();
+    study.uplift(&EXPORT).ok();
+    let some = json(&study);
+    let reader = LabelledReader::open(&study.path().join("r.h5")).unwrap();
+    let [u_m, c1] =
+        ["u_m", "regression/c1"].map(|name| reader.array_f64(&format!("/consistency/pgv/{name}")).unwrap().values);
+    let spectra = some["spectra"].as_array().unwrap();
+    assert_eq!(spectra.len(), 12);
+    // by PGV, the first site could not be repaired, the second was: its rarest probability stands fourth
+    assert!(spectra[..3].iter().all(|spectrum| spectrum.get("u_consistent_m").is_none()));
+    let said: Vec<f64> = serde_json::from_value(spectra[3]["u_consistent_m"].clone()).unwrap();
+    assert_eq!(said, u_m[12..16]);
+    assert_eq!(spectra[3]["fit_consistent"]["c1"].as_f64().unwrap(), c1[3]);
+    let found = some["consistency"].as_array().unwrap();
+    let of: Vec<[&str; 4]> = found
+        .iter()
+        .map(|row| ["site", "scaled_to", "shows", "verdict"].map(|key| row[key].as_str().unwrap()))
+        .collect();
+    assert_eq!(of[1], ["Athens &lt; 1", "PGV", "PGA", "inconsistent"]);
+    assert_eq!(found.len(), 4);
+    assert!(found[0]["least_effective_records"].is_null() && found[1]["least_effective_records"].as_f64() > Some(5.0));
+    // the table beside the result says the same
+    let table = std::fs::read_to_string(study.path().join("r.consistency.csv")).unwrap();
+    let column = |name: &str| table.lines().next().unwrap().split(',').position(|own| own == name).unwrap();
+    let (ratio, bias) = (column("ratio"), column("bias"));
+    for (index, line) in table.lines().skip(1).enumerate() {
+        let cell = |column: usize| line.split(',').nth(column).unwrap().parse::<f64>().unwrap();
+        let row = &found[index / 3];
+        assert_eq!(row["ratio"][index % 3].as_f64().unwrap(), cell(ratio), "{line}");
+        assert_eq!(row["bias"].as_f64().unwrap(), cell(bias), "{line}");
+    }
+
+    let spectra = std::fs::read_to_string(study.path().join("r.spectra.csv")).unwrap();
+    let last: Vec<&str> = spectra.lines().map(|line| line.rsplit(',').next().unwrap()).collect();
+    assert_eq!((last[0], last[1]), ("u_consistent_m", ""));
+    assert_eq!(last[13].parse::<f64>().unwrap(), u_m[12]);
+    for name in ["u_consistent_pgv_m", "c1_consistent_pga", "consistency_ratio_pga", "consistency_verdict_pgv"] {
+        assert!(matlab_has(&study, name), "{name}");
+    }
+    for name in ["Consistency", "Consistent spectra", "Consistent coefficients"] {
+        assert!(sheets(&study).contains(&format!("name=\"{name}\"")), "{name}");
+    }
+
+    // of other probabilities there are none, and without a repair nothing is said of them
+    study.uplift(&[&EXPORT[..], &["--poe", "0.05"]].concat()).ok();
+    study.uplift(&["run", "study.toml", "-o", "plain/r.h5", "-q", "--set", "consistency.repair=\"none\""]).ok();
+    study.uplift(&[&["export", "plain/r.h5"], &EXPORT[2..]].concat()).ok();
+    for folder in ["", "plain"] {
+        let folder = study.path().join(folder);
+        let text = std::fs::read_to_string(folder.join("r.json")).unwrap();
+        assert!(text.contains("\"consistency\"") && !text.contains("_consistent"), "{text}");
+        let head = std::fs::read_to_string(folder.join("r.spectra.csv")).unwrap();
+        assert!(!head.contains("u_consistent_m"), "{head}");
+    }
+}
+
+#[test]
+fn what_has_one_hazard_curve_is_exported_as_ever() {
+    let study = SmallStudy::with(
+        &SMALL_STUDY.replace("pga = \"pga.csv\"\n", "").replace("[pga]\nlevels_g = [0.02, 0.1, 0.3, 1.0]\n", ""),
+    );
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    study.uplift(&EXPORT).ok();
+    assert!(json(&study).get("consistency").is_none());
+    assert!(!sheets(&study).contains("Consisten") && !matlab_has(&study, "consisten"));
 }

@@ -1,6 +1,7 @@
 //! Spectra, bands and coefficients for other programs: a tidy table, JSON, a MATLAB file, a workbook.
 
 mod added;
+mod consistency;
 mod json;
 mod matlab;
 mod source;

@@ -25,6 +25,7 @@ with h5py.File(result) as file:
     e_median = {im: file[f"/bootstrap/{im}/e_median"][()] for im in measures}
     coefficients = {im: {name: file[f"/regression/{im}/{name}"][()] for name in ("c0_m", "c1", "c2_m", "rmse_m")}
                     for im in measures}
+    bias = {im: file[f"/consistency/{im}/{other}_bias"][()] for im, other in (("pgv", "pga"), ("pga", "pgv"))}
     sites = list(file["/axes/site"].asstr())
     poe, strength = file["/axes/poe"][()], file["/axes/strength"][()]
     sizes = file["/axes/sample_size"][()]
@@ -81,12 +82,13 @@ for im in measures:
     for name in limits:
         assert np.array_equal(file[f"{name}_{im}_m"], bands[im, name].transpose(3, 2, 1, 0))
     assert np.array_equal(file[f"e_median_{im}_pct"], e_median[im].transpose(2, 1, 0), equal_nan=True)
+    assert np.array_equal(file[f"consistency_bias_{im}"][:, 0], bias[im], equal_nan=True)
 assert np.array_equal(file["c0_pgv_m"], coefficients["pgv"]["c0_m"].T, equal_nan=True)
 assert str(file["provenance"][0]).startswith("uplift ")
 
 workbook = openpyxl.load_workbook(book)
-assert workbook.sheetnames == ["About", "Spectra", "Bands", "Table 4.1", "Flags and tails", "Coefficients", "Hazard",
-                               "Study"]
+assert workbook.sheetnames == ["About", "Spectra", "Bands", "Table 4.1", "Flags and tails", "Coefficients",
+                               "Consistency", "Hazard", "Study"]
 assert all(cell.data_type != "f" for sheet in workbook for row in sheet.iter_rows() for cell in row), "no formula"
 assert workbook.properties.created.strftime("%Y-%m-%dT%H:%M:%SZ") == created
 assert workbook.properties.description.startswith("uplift ")
@@ -136,6 +138,10 @@ for im in measures:
 figures = pd.read_excel(book, sheet_name="Table 4.1")
 own = figures[figures.measure == "PGV"]["error of the median, %"].to_numpy(dtype=float)
 assert np.array_equal(own, e_median["pgv"].ravel(), equal_nan=True)
+found = pd.read_excel(book, sheet_name="Consistency")
+assert list(found.site) == 2 * sites and list(found["scaled to"]) == 2 * ["PGV"] + 2 * ["PGA"]
+assert list(found.verdict) == [row["verdict"] or "no verdict" for row in tree["consistency"]]
+assert np.array_equal(found.bias.to_numpy(dtype=float), np.concatenate([bias[im] for im in measures]), equal_nan=True)
 curves = list(workbook["Hazard"].iter_rows(values_only=True))
 assert curves[0][0] == sites[0] and curves[1][:2] == ("PGV, cm/s", "rate, 1/yr")
 assert [row[1] for row in curves[2:] if row[1] is not None] == list(maf[sites[0], "pgv"])

@@ -4,15 +4,16 @@ use serde_json::{Value, json};
 
 use super::Export;
 use super::added::Influence;
+use super::consistency::ConsistencyOf;
 use super::source::{BandOf, Row};
 use crate::influence::RecordInfluence;
-use crate::result::{StoredEfficiency, StoredTrend, flag_word};
+use crate::result::{Fit, StoredEfficiency, StoredTrend, flag_word};
 use crate::text::finite;
 
 impl Export {
     /// Everything as one JSON object; what is not finite is null.
     pub fn json(&self) -> Value {
-        json!({
+        let mut all = json!({
             "provenance": self.provenance(),
             "title": self.head.title,
             "created": self.head.created,
@@ -26,12 +27,15 @@ impl Export {
             "influence": self.influences(),
             "efficiency": self.added.efficiency.iter().map(efficiency).collect::<Vec<_>>(),
             "spectra": self.rows().map(|row| self.spectrum(&row)).collect::<Vec<_>>(),
-        })
+        });
+        if !self.consistency.is_empty() {
+            all["consistency"] = self.consistencies().map(|row| consistency(&row)).collect();
+        }
+        all
     }
 
     fn spectrum(&self, row: &Row<'_>) -> Value {
-        let fit = row.spectrum.fit;
-        json!({
+        let mut spectrum = json!({
             "site": row.spectrum.site,
             "im": row.spectrum.measure.label(),
             "poe": row.spectrum.poe,
@@ -40,16 +44,15 @@ impl Export {
             "flag": row.spectrum.flags.iter().copied().map(flag_word).collect::<Vec<_>>(),
             "lower_tail_share": numbers(row.spectrum.lower_tail_share),
             "upper_tail_share": numbers(row.spectrum.upper_tail_share),
-            "fit": {
-                "c0_m": finite(fit.c0_m),
-                "c1": finite(fit.c1),
-                "c2_m": finite(fit.c2_m),
-                "rmse_m": finite(fit.rmse_m),
-                "bound_active": fit.bound_active,
-            },
+            "fit": coefficients(&row.spectrum.fit),
             "bands": self.bands_of(row).iter().map(band).collect::<Vec<_>>(),
             "disaggregation": self.influence_on(row).map(|influence| self.disaggregation(row.at, influence)),
-        })
+        });
+        if let Some((u_m, fit)) = self.repaired(row) {
+            spectrum["u_consistent_m"] = numbers(u_m).into();
+            spectrum["fit_consistent"] = coefficients(fit);
+        }
+        spectrum
     }
 
     /// The records of every spectrum, the most influential first.
@@ -80,6 +83,34 @@ impl Export {
             "share": (0..self.spectra.strengths.len()).map(share).collect::<Vec<_>>(),
         })
     }
+}
+
+fn coefficients(fit: &Fit) -> Value {
+    json!({
+        "c0_m": finite(fit.c0_m),
+        "c1": finite(fit.c1),
+        "c2_m": finite(fit.c2_m),
+        "rmse_m": finite(fit.rmse_m),
+        "bound_active": fit.bound_active,
+    })
+}
+
+fn consistency(row: &ConsistencyOf<'_>) -> Value {
+    let mut said = json!({
+        "site": row.site,
+        "scaled_to": row.of.scaled_to.label(),
+        "shows": row.of.other.label(),
+        "poe": row.of.poes,
+        "years": row.of.years,
+        "ratio": numbers(row.ratio),
+        "bias": finite(row.bias),
+        "max": finite(row.max),
+        "verdict": row.verdict,
+    });
+    if let Some(least) = row.least_effective {
+        said["least_effective_records"] = finite(least).into();
+    }
+    said
 }
 
 fn efficiency(of: &StoredEfficiency) -> Value {

@@ -11,6 +11,13 @@ use level_5::{MatFile, Shape};
 
 /// A coefficient of a spectrum.
 type Value = fn(&Fit) -> f64;
+/// The coefficients by name, in which `{}` stands for what they are of.
+const COEFFICIENTS: [(&str, Value); 4] = [
+    ("c0_{}_m", |fit| fit.c0_m),
+    ("c1_{}", |fit| fit.c1),
+    ("c2_{}_m", |fit| fit.c2_m),
+    ("rmse_{}_m", |fit| fit.rmse_m),
+];
 
 impl Export {
     /// A MATLAB file: `u_pgv_m` is strength × probability × site, bands `u05_pgv_m` are strength × size × probability ×
@@ -39,21 +46,47 @@ impl Export {
             file.numbers(&format!("flag_{key}"), &shape, flags.values());
             file.numbers(&format!("lower_tail_share_{key}"), &shape, spectra.lower_tail_share.values());
             file.numbers(&format!("upper_tail_share_{key}"), &shape, spectra.upper_tail_share.values());
-            let columns: [(&str, Value); 4] = [
-                ("c0_{}_m", |fit| fit.c0_m),
-                ("c1_{}", |fit| fit.c1),
-                ("c2_{}_m", |fit| fit.c2_m),
-                ("rmse_{}_m", |fit| fit.rmse_m),
-            ];
-            for (name, value) in columns {
+            for (name, value) in COEFFICIENTS {
                 let values = spectra.fits.map(value);
                 file.numbers(&name.replace("{}", key), &Shape(vec![poes.len(), sites.len()]), values.values());
             }
         }
+        self.add_consistency(&mut file);
         self.add_bands(&mut file);
         self.add_influence(&mut file);
         self.add_efficiency(&mut file);
         file.finish().map_err(UpliftError::input)
+    }
+
+    /// Whether the records bring the site's hazard, columns over the sites, and the spectra of weighted records as the
+    /// plain ones.
+    fn add_consistency(&self, file: &mut MatFile) {
+        let StoredSpectra { strengths, poes, sites, .. } = &self.spectra;
+        for of in &self.consistency {
+            let key = of.scaled_to.key();
+            let column = Shape::column(sites.len());
+            file.numbers(&format!("consistency_bias_{key}"), &column, &of.bias);
+            file.numbers(&format!("consistency_max_{key}"), &column, &of.max);
+            let verdicts: Vec<&str> = of.verdict.iter().map(String::as_str).collect();
+            file.texts(&format!("consistency_verdict_{key}"), &verdicts);
+            if let Some(least) = &of.least_effective {
+                file.numbers(&format!("consistency_least_effective_{key}"), &column, least);
+            }
+            // what follows is of the probabilities of the study
+            if !of.is_of(&self.spectra) {
+                continue;
+            }
+            let shape = Shape(vec![poes.len(), sites.len()]);
+            file.numbers(&format!("consistency_ratio_{key}"), &shape, of.ratio.values());
+            if let (Some(u_m), Some(fits)) = (&of.u_m, &of.fits) {
+                let spectra = Shape(vec![strengths.len(), poes.len(), sites.len()]);
+                file.numbers(&format!("u_consistent_{key}_m"), &spectra, u_m.values());
+                for (name, value) in COEFFICIENTS {
+                    let name = name.replace("{}", &format!("consistent_{key}"));
+                    file.numbers(&name, &shape, fits.map(value).values());
+                }
+            }
+        }
     }
 
     /// What `uplift influence` found, if it was run: `share_pgv` is bin × strength × probability × site,

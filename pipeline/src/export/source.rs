@@ -8,7 +8,7 @@ use uplift_study::UniformRiskStudy;
 use super::added::Added;
 use crate::alarms::{Alarm, alarms};
 use crate::error::UpliftError;
-use crate::result::{Head, ResultFile, Spectrum, StoredBands, StoredHazard, StoredSpectra};
+use crate::result::{Head, ResultFile, Spectrum, StoredBands, StoredConsistency, StoredHazard, StoredSpectra};
 
 /// The spectra, bands and coefficients of a result, and where they come from.
 pub struct Export {
@@ -23,6 +23,8 @@ pub struct Export {
     pub(super) alarms: Vec<Alarm>,
     /// What was added to it after the run.
     pub(super) added: Added,
+    /// Whether its records bring the site's hazard of the other measure.
+    pub(super) consistency: Vec<StoredConsistency>,
     /// Number of records.
     pub(super) records: usize,
     /// Name of the result file.
@@ -77,6 +79,7 @@ impl Export {
             hazard: file.hazard()?,
             alarms: alarms(file)?,
             added: Added::read(file)?,
+            consistency: file.consistency()?,
             records: file.axes()?.records.len(),
             head,
             spectra,

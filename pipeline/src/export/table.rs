@@ -17,6 +17,7 @@ impl Export {
         let (mut poe, mut period, mut strength, mut u_m, mut fit_m) =
             (Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let mut added = AddedColumns::default();
+        let has_repaired = self.has_repaired();
         let names = self.band_names();
         let mut limits: Vec<Vec<f64>> = vec![Vec::new(); names.len()];
         for row in self.rows() {
@@ -36,6 +37,9 @@ impl Export {
             lower.extend_from_slice(row.spectrum.lower_tail_share);
             upper.extend_from_slice(row.spectrum.upper_tail_share);
             added.extend(self, &row);
+            if has_repaired {
+                added.extend_repaired(self, &row);
+            }
             let bands = self.bands_of(&row);
             let of_row = bands.iter().flat_map(|band| band.limits_m);
             for (column, values) in limits.iter_mut().zip(of_row) {
@@ -73,13 +77,15 @@ impl Export {
     }
 }
 
-/// Columns of what `uplift influence` and `uplift measures` added; empty where they were not run.
+/// Columns of what `uplift influence`, `uplift measures` and a repair added; empty where there was none.
 #[derive(Default)]
 struct AddedColumns {
     /// Levels below which 5 %, half and 95 % of the risk of an ordinate lie, in the unit of the measure.
     levels: [Vec<Option<f64>>; 3],
     /// Dispersion of the stripes that rock, and of the level at first uplift.
     dispersions: [Vec<Option<f64>>; 2],
+    /// Displacements of weighted records, m.
+    consistent_m: [Vec<Option<f64>>; 1],
 }
 
 impl AddedColumns {
@@ -102,9 +108,20 @@ impl AddedColumns {
         }
     }
 
+    /// Those of weighted records; infinite where censored.
+    fn extend_repaired(&mut self, export: &Export, row: &Row<'_>) {
+        let [cells] = &mut self.consistent_m;
+        let u_m = export.repaired(row).map(|(u_m, _)| u_m);
+        cells.extend(
+            (0..export.spectra.strengths.len())
+                .map(|strength| u_m.map(|u_m| u_m[strength]).filter(|u_m| !u_m.is_nan())),
+        );
+    }
+
     fn into_columns(self) -> impl Iterator<Item = Column> {
-        let names = ["level_p05", "level_p50", "level_p95", "dispersion_rocking", "dispersion_initiation"];
-        let cells = self.levels.into_iter().chain(self.dispersions);
+        let names =
+            ["level_p05", "level_p50", "level_p95", "dispersion_rocking", "dispersion_initiation", "u_consistent_m"];
+        let cells = self.levels.into_iter().chain(self.dispersions).chain(self.consistent_m);
         let some = names.into_iter().zip(cells).filter(|(_, cells)| !cells.is_empty());
         some.map(|(name, cells)| Column::new(name.into(), cells))
     }

@@ -2,6 +2,7 @@
 
 mod about;
 mod added;
+mod consistency;
 mod sheet;
 mod spectra;
 mod tables;
@@ -53,6 +54,13 @@ impl Export {
         }
         add("Flags and tails", &Self::tails_sheet)?;
         add("Coefficients", &Self::coefficients)?;
+        if !self.consistency.is_empty() {
+            add("Consistency", &Self::consistency_sheet)?;
+        }
+        if self.has_repaired() {
+            add("Consistent spectra", &Self::consistent_spectra)?;
+            add("Consistent coefficients", &Self::consistent_coefficients)?;
+        }
         if !self.added.influence.is_empty() {
             add("Influence", &Self::influence_sheet)?;
             add("Disaggregation", &Self::disaggregation_sheet)?;

@@ -5,6 +5,7 @@ use rust_xlsxwriter::XlsxError;
 use super::sheet::{Sheet, Shown};
 use crate::export::Export;
 use crate::export::source::Row;
+use crate::result::Fit;
 
 /// Columns of what a line is of.
 pub(super) const OF: usize = 5;
@@ -12,11 +13,20 @@ pub(super) const OF: usize = 5;
 impl Export {
     /// The coefficients of Eq. 4.11.
     pub(super) fn coefficients(&self, sheet: &mut Sheet<'_>) -> Result<(), XlsxError> {
+        self.coefficients_of(sheet, |row| Some(row.spectrum.fit))
+    }
+
+    /// The coefficients of the spectra that `fit` has one of.
+    pub(super) fn coefficients_of(
+        &self,
+        sheet: &mut Sheet<'_>,
+        fit: impl Fn(&Row<'_>) -> Option<Fit>,
+    ) -> Result<(), XlsxError> {
         of_headings(sheet, &["c0, m", "c1, -", "c2, m", "RMSE, m", "c2 held at 0"])?;
-        for (index, row) in self.rows().enumerate() {
+        let fitted = self.rows().filter_map(|row| fit(&row).map(|fit| (row, fit)));
+        for (index, (row, fit)) in fitted.enumerate() {
             let line = index + 1;
             self.line_of(sheet, line, &row)?;
-            let fit = row.spectrum.fit;
             for (column, value) in [fit.c0_m, fit.c1, fit.c2_m, fit.rmse_m].into_iter().enumerate() {
                 sheet.number((line, OF + column), value, Shown::FourDecimals, "")?;
             }
