@@ -104,11 +104,10 @@ impl FigureSource {
     }
 
     /// The spectra `[site, poe, strength]` of weighted records, m, where they stand beside the plain ones of a site: the
-    /// records as they are do not bring its hazard. None in a result that was asked for other probabilities than those
-    /// of its study.
+    /// records as they are do not bring its hazard.
     pub(crate) fn repaired(&self, measure: IntensityMeasure, site: usize) -> Option<&Array<3>> {
         let stands = |of: &&StoredConsistency| of.scaled_to == measure && of.stands_beside(site);
-        self.consistency.iter().filter(stands).find(|of| of.is_of(&self.spectra))?.u_m.as_ref()
+        self.consistency.iter().find(stands)?.u_m.as_ref()
     }
 
     /// Every figure that the result has the numbers for.

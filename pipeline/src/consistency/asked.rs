@@ -7,7 +7,7 @@ use super::job::repairs_of;
 use super::{Finding, Question, Repairs};
 use crate::array::Array;
 use crate::error::UpliftError;
-use crate::result::{ResultFile, StoredConsistency};
+use crate::result::{Fit, ResultFile, StoredConsistency};
 
 /// What [`ResultFile::consistency`] would say had `file` been run for the risks that it is asked for; with the spectra of
 /// weights where `is_repaired`.
@@ -62,6 +62,8 @@ fn stored(
         verdict: (0..sites)
             .map(|site| of_site(site).and_then(|own| own.diagnosis.verdict()).map_or("", Verdict::key).to_owned())
             .collect(),
+        poes: question.poes.clone(),
+        years: question.years,
         ratio: Array::from_fn([sites, question.poes.len()], |[site, poe]| {
             of_site(site).and_then(|own| own.diagnosis.targets[poe].ratio).unwrap_or(f64::NAN)
         }),
@@ -70,6 +72,11 @@ fn stored(
                 repaired(site).map_or(f64::NAN, |own| own.diagnosis.stripes[level].effective_records)
             })
         }),
+        least_effective: repairs.map(|_| {
+            let least = |site| repaired(site)?.diagnosis.least_effective.map(|least| least.records);
+            (0..sites).map(|site| least(site).unwrap_or(f64::NAN)).collect()
+        }),
+        fits: repairs.map(|repairs| repairs.fits.map(|fit| Fit::of(fit.as_ref().ok()))),
         u_m: repairs.map(|repairs| {
             repairs.ordinates.map(|ordinate| ordinate.map_or(f64::NAN, |ordinate| ordinate.displacement_m))
         }),

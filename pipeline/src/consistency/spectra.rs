@@ -52,11 +52,8 @@ pub(crate) fn repaired_spectra(
     let targets = spectral.reading.targets.len();
     let of_strength = |strength: usize| -> Result<Vec<Option<Vec<Ordinate>>>, UpliftError> {
         let demand = demand(strength)?;
-        let of_site = |weights: &Option<&RunWeights>| {
-            let read = |weights| Ok(spectral.reading.ordinates(&RiskCurve::weighted(&demand, weights)?)?);
-            weights.map(read).transpose()
-        };
-        weights.iter().map(of_site).collect()
+        let read = |weights: &RunWeights| Ok(spectral.reading.ordinates(&RiskCurve::weighted(&demand, weights)?)?);
+        weights.iter().map(|weights| weights.map(read).transpose()).collect()
     };
     let by_strength: Result<Vec<_>, UpliftError> =
         (0..spectral.strengths.len()).into_par_iter().map(of_strength).collect();

@@ -3,9 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
-use uplift_consistency::{DEVIATION_RATES, Diagnosis, KNOTS, Repaired};
+use uplift_consistency::{DEVIATION_RATES, Deviation, Diagnosis, KNOTS, Repaired};
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_motion::IntensityMeasure;
+use uplift_regression::ExponentialFit;
+use uplift_risk::Ordinate;
 
 use super::{ConsistencyReport, Finding, Question, Repairs};
 use crate::outputs::beside;
@@ -14,6 +16,11 @@ use crate::result::{flag_number, sign};
 
 /// Flag of an ordinate that does not exist, since the set could not be repaired.
 const NO_REPAIR: u8 = 3;
+
+/// A column: what it is of the thing that a row is about.
+type Of<T, V = f64> = fn(&T) -> V;
+/// The same over the levels of a repaired set.
+type OfLevels = Of<Repaired, Vec<f64>>;
 
 /// The groups and axes that a new look replaces.
 pub(super) fn replaced() -> Vec<String> {
@@ -49,9 +56,9 @@ pub(crate) fn add(
     sign(writer, layout::ROOT)?;
     writer.attribute(layout::ROOT, "smoothness", question.settings.smoothness)?;
     writer.attribute(layout::ROOT, "repair", if repairs.is_empty() { "none" } else { "weights" })?;
-    let rates: Vec<u32> = (1..=DEVIATION_RATES as u32).collect();
+    let rates: Vec<u32> = (1..).take(DEVIATION_RATES).collect();
     writer.axis_u32(axis::RATE, &rates, "1", "annual rate at which hazards are compared, the most frequent first")?;
-    let knots: Vec<u32> = (1..=KNOTS as u32).collect();
+    let knots: Vec<u32> = (1..).take(KNOTS).collect();
     writer.axis_u32(axis::KNOT, &knots, "1", "knot of the weights' exponent")?;
     for (measure, _) in &question.analyses {
         let own: Vec<&Finding> = findings.iter().filter(|finding| finding.scaled_to == *measure).collect();
@@ -131,10 +138,10 @@ impl Table<'_> {
             let name = layout::of_other(other, name);
             self.array(&name, &[axis::SITE, axis::RATE], &values, unit, &format!("{what}, {}", other.label()))?;
         }
-        let number = |value: fn(&uplift_consistency::Deviation) -> f64| {
+        let number = |value: Of<Deviation>| {
             move |finding: &Finding| vec![finding.diagnosis.deviation.as_ref().map_or(f64::NAN, value)]
         };
-        let columns: [(&str, fn(&uplift_consistency::Deviation) -> f64, &str); 3] = [
+        let columns: [(&str, Of<Deviation>, &str); 3] = [
             ("bias", |deviation| deviation.bias, "level that the records bring over the site's, mean of the range"),
             ("rms", |deviation| deviation.rms, "root mean square of ln(implied/site)"),
             ("max", |deviation| deviation.max, "largest absolute ln(implied/site)"),
@@ -197,7 +204,7 @@ impl Table<'_> {
         let levels =
             question.analyses.iter().find(|(own, _)| *own == self.measure).map_or(0, |(_, levels)| levels.len());
         let level = axis::level(self.measure);
-        let of_repaired = |value: fn(&Repaired) -> Vec<f64>| {
+        let of_repaired = |value: OfLevels| {
             move |finding: &Finding| match &finding.repair {
                 Some(Ok(repaired)) => value(repaired),
                 _ => Vec::new(),
@@ -210,7 +217,7 @@ impl Table<'_> {
         self.array("knot", &[axis::SITE, axis::KNOT], &values, self.other.unit(), &what)?;
         let values = self.by_site(1, of_repaired(|repaired| vec![f64::from(repaired.fit.iterations)]));
         self.array("iterations", &[axis::SITE], &values, "1", "steps of the fit")?;
-        let stripes: [(&str, fn(&Repaired) -> Vec<f64>, &str); 3] = [
+        let stripes: [(&str, OfLevels, &str); 3] = [
             (
                 "effective_records",
                 |repaired| repaired.diagnosis.stripes.iter().map(|stripe| stripe.effective_records).collect(),
@@ -243,7 +250,7 @@ impl Table<'_> {
     /// The spectra of the weights, with their fits.
     fn spectra(&mut self, repairs: &Repairs) -> Result<(), LabelledError> {
         let dims = [axis::SITE, axis::POE, axis::STRENGTH];
-        let columns: [(&str, fn(&uplift_risk::Ordinate) -> f64, &str, &str); 3] = [
+        let columns: [(&str, Of<Ordinate>, &str, &str); 3] = [
             ("u_m", |ordinate| ordinate.displacement_m, "m", "uniform risk displacement of the weighted records"),
             (
                 "lower_tail_share",
@@ -262,14 +269,13 @@ impl Table<'_> {
             let values = repairs.ordinates.map(|ordinate| ordinate.as_ref().map_or(f64::NAN, value)).into_values();
             self.array(name, &dims, &values, unit, what)?;
         }
-        let flag = |ordinate: &Option<uplift_risk::Ordinate>| {
-            ordinate.as_ref().map_or(NO_REPAIR, |ordinate| flag_number(ordinate.flag))
-        };
+        let flag =
+            |ordinate: &Option<Ordinate>| ordinate.as_ref().map_or(NO_REPAIR, |ordinate| flag_number(ordinate.flag));
         let flags = repairs.ordinates.map(flag).into_values();
         let what = "0 regular, 1 no exceedance so that the ordinate is 0, 2 censored, 3 no repair";
         self.writer.array_u8(&layout::array(self.measure, "flag"), &dims, &flags, "1", what)?;
         let dims = [axis::SITE, axis::POE];
-        let columns: [(&str, fn(&uplift_regression::ExponentialFit) -> f64, &str, &str); 4] = [
+        let columns: [(&str, Of<ExponentialFit>, &str, &str); 4] = [
             ("c0_m", |fit| fit.c0, "m", "c0 of u = c0 exp(c1 strength) + c2, weighted records"),
             ("c1", |fit| fit.c1, "1", "c1"),
             ("c2_m", |fit| fit.c2, "m", "c2, not negative"),

@@ -33,10 +33,9 @@ impl Export {
         self.rows().any(|row| self.repaired(&row).is_some())
     }
 
-    /// The displacements of weighted records over the strengths, m, and their coefficients; none without a repair, and
-    /// of other probabilities than those of the study.
+    /// The displacements of weighted records over the strengths, m, and their coefficients; none without a repair.
     pub(super) fn repaired(&self, row: &Row<'_>) -> Option<(&[f64], &Fit)> {
-        let is_beside = |of: &&StoredConsistency| of.scaled_to == row.spectrum.measure && of.is_of(&self.spectra);
+        let is_beside = |of: &&StoredConsistency| of.scaled_to == row.spectrum.measure;
         let of = self.consistency.iter().filter(is_beside).find(|of| of.is_repaired(row.at[0]))?;
         Some((of.u_m.as_ref()?.block(row.at), &of.fits.as_ref()?[row.at]))
     }

@@ -72,10 +72,6 @@ impl Export {
             if let Some(least) = &of.least_effective {
                 file.numbers(&format!("consistency_least_effective_{key}"), &column, least);
             }
-            // what follows is of the probabilities of the study
-            if !of.is_of(&self.spectra) {
-                continue;
-            }
             let shape = Shape(vec![poes.len(), sites.len()]);
             file.numbers(&format!("consistency_ratio_{key}"), &shape, of.ratio.values());
             if let (Some(u_m), Some(fits)) = (&of.u_m, &of.fits) {

@@ -2,9 +2,9 @@
 
 use uplift_motion::IntensityMeasure;
 
+use super::Fit;
 use super::file::ResultFile;
 use super::layout::{axis, consistency};
-use super::{Fit, StoredSpectra};
 use crate::array::Array;
 use crate::consistency::consistency_of_asked;
 use crate::error::UpliftError;
@@ -30,7 +30,7 @@ pub struct StoredConsistency {
     pub max: Vec<f64>,
     /// `consistent`, `off`, `inconsistent`, or empty `[site]`.
     pub verdict: Vec<String>,
-    /// Probabilities that ratios and repaired spectra are of: those of the study, whatever the result was asked for.
+    /// Probabilities that ratios and repaired spectra are of.
     pub poes: Vec<f64>,
     /// Years that they refer to.
     pub years: f64,
@@ -57,11 +57,6 @@ impl StoredConsistency {
     /// do not bring the site's hazard.
     pub fn stands_beside(&self, site: usize) -> bool {
         self.verdict[site] == "inconsistent" && self.is_repaired(site)
-    }
-
-    /// Whether it is of the probabilities of `spectra`: not where the result was asked for others.
-    pub fn is_of(&self, spectra: &StoredSpectra) -> bool {
-        self.poes == spectra.poes && self.years.to_bits() == spectra.years.to_bits()
     }
 }
 

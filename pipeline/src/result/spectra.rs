@@ -59,7 +59,7 @@ pub struct Fit {
 
 impl Fit {
     /// What a fit found, if there is one.
-    fn of(fit: Option<&ExponentialFit>) -> Self {
+    pub(crate) fn of(fit: Option<&ExponentialFit>) -> Self {
         fit.map_or(
             Self { c0_m: f64::NAN, c1: f64::NAN, c2_m: f64::NAN, rmse_m: f64::NAN, bound_active: false },
             |fit| Self { c0_m: fit.c0, c1: fit.c1, c2_m: fit.c2, rmse_m: fit.rmse, bound_active: fit.bound_active },

@@ -12,7 +12,7 @@ use super::reference::ReferenceTable;
 use crate::alarms::{FitReach, reach_of_fit};
 use crate::error::UpliftError;
 use crate::events::Events;
-use crate::result::{ResultFile, Spectrum, StoredConsistency, StoredSpectra};
+use crate::result::{ResultFile, Spectrum, StoredConsistency};
 
 /// Strengths above this are compared, up to 1 (the range of Table 4.2's fits).
 pub const COMPARED_ABOVE: f64 = 0.05;
@@ -112,7 +112,7 @@ pub(super) fn read(
             let row =
                 |spectrum: &Spectrum<'_>, reference| CoefficientRow::of(&study, &result.strengths, spectrum, reference);
             let plain = row(&spectrum, reference.map(|reference| reference.fit));
-            let repaired = repaired(&consistency, &result, at, &spectrum);
+            let repaired = repaired(&consistency, at, &spectrum);
             let repaired = repaired.map(|spectrum| CoefficientRow { repaired: true, ..row(&spectrum, None) });
             std::iter::once(plain).chain(repaired)
         })
@@ -140,11 +140,10 @@ pub(super) fn read(
 /// The spectrum of weighted records beside `plain`, the one at `[site, poe]`; none without a repair there.
 fn repaired<'a>(
     consistency: &'a [StoredConsistency],
-    result: &StoredSpectra,
     [site, poe]: [usize; 2],
     plain: &Spectrum<'a>,
 ) -> Option<Spectrum<'a>> {
-    let is_of = |of: &&StoredConsistency| of.scaled_to == plain.measure && of.is_repaired(site) && of.is_of(result);
+    let is_of = |of: &&StoredConsistency| of.scaled_to == plain.measure && of.is_repaired(site);
     let of = consistency.iter().find(is_of)?;
     Some(Spectrum { u_m: of.u_m.as_ref()?.block([site, poe]), fit: of.fits.as_ref()?[[site, poe]], ..*plain })
 }

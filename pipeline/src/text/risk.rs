@@ -97,7 +97,7 @@ mod tests {
         }
         for nines in 1..=12 {
             let said = per_cent(1.0 - 10_f64.powi(-nines));
-            assert!(said.starts_with("9") && !said.contains("100"), "{nines}: {said}");
+            assert!(said.starts_with('9') && !said.contains("100"), "{nines}: {said}");
         }
         assert_eq!(
             [0.0, 1e-5, 0.078, 0.99999, 1.0].map(share),

@@ -7,17 +7,12 @@ use super::{Part, Table};
 use crate::figures::FigureSource;
 use uplift_plot::Figure;
 
-/// In place of what is of other probabilities than those of the page.
-const REPAIRED_LEFT_OUT: &str = "Repaired spectra are left out: uplift consistency made them for the probabilities of \
-                                 the study, and this page is of others.";
-
 /// The part of the page with its `figures`; none where no site has hazard curves of two measures.
 pub(super) fn part(source: &FigureSource, figures: Vec<Figure>) -> Option<Part> {
-    let left_out = source.consistency.iter().any(|of| of.u_m.is_some() && !of.is_of(&source.spectra));
     (!source.consistency.is_empty()).then(|| Part {
         key: "record-set",
         title: "Does the record set bring the site's hazard",
-        note: if left_out { REPAIRED_LEFT_OUT } else { "" },
+        note: "",
         tables: vec![table(source)],
         figures,
         details: Vec::new(),
