@@ -15,8 +15,8 @@ fn study(measures: &str, sites: &str, more: &str) -> SmallStudy {
         format!("[[sites]]\nname = \"{name}\"\n{}\n", curves.join("\n"))
     };
     SmallStudy::with(&format!(
-        "[strengths]\nvalues = [0.1, 0.2, 0.4]\n{measures}\n[risk]\nmaf_surface = false\n[hazard]\nconversions = [{{ from \
-         = \"GMRotI50\", to = \"geometric mean\", pgv = 1.0, pga = 1.0 }}]\n{}{}{more}",
+        "[strengths]\nvalues = [0.1, 0.2, 0.4]\n{measures}\n[risk]\nmaf_surface = false\n[hazard]\nconversions = \
+         [{{ from = \"GMRotI50\", to = \"geometric mean\", pgv = 1.0, pga = 1.0 }}]\n{}{}{more}",
         site("Montreux"),
         site("Athens")
     ))

@@ -169,11 +169,11 @@ fn a_report_says_whether_the_records_bring_the_hazard() {
     // a row each probability by either measure
     assert_eq!(summary.matches(", repaired").count(), 6, "{summary}");
 
-    // so does a page of another probability
-    study.uplift(&["report", "r.h5", "-o", "asked.html", "--poe", "0.05", "-q"]).ok();
+    // so does a page of other probabilities
+    study.uplift(&["report", "r.h5", "-o", "asked.html", "--poe", "0.02,0.05,0.3", "-q"]).ok();
     let asked = std::fs::read_to_string(study.path().join("asked.html")).unwrap();
     assert!(asked.contains("id=\"r1-consistency\"") && asked.contains("weighted so that they do"));
-    assert_eq!(text_between(&asked, "id=\"r1-summary\">", "</tbody>").matches(", repaired").count(), 2);
+    assert_eq!(text_between(&asked, "id=\"r1-summary\">", "</tbody>").matches(", repaired").count(), 6);
 }
 
 #[test]

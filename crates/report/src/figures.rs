@@ -103,8 +103,8 @@ impl FigureSource {
         self.spectra.measures.iter().find(|spectra| spectra.measure == measure).map(|spectra| &spectra.u_m)
     }
 
-    /// The spectra `[site, poe, strength]` of weighted records, m, where they stand beside the plain ones of a site: the
-    /// records as they are do not bring its hazard.
+    /// The spectra `[site, poe, strength]` of weighted records, m, where they stand beside the plain ones of a site:
+    /// the records as they are do not bring its hazard.
     pub(crate) fn repaired(&self, measure: IntensityMeasure, site: usize) -> Option<&Array<3>> {
         let stands = |of: &&StoredConsistency| of.scaled_to == measure && of.stands_beside(site);
         self.consistency.iter().find(stands)?.u_m.as_ref()

@@ -9,8 +9,8 @@ use crate::array::Array;
 use crate::error::UpliftError;
 use crate::result::{Fit, ResultFile, StoredConsistency};
 
-/// What [`ResultFile::consistency`] would say had `file` been run for the risks that it is asked for; with the spectra of
-/// weights where `is_repaired`.
+/// What [`ResultFile::consistency`] would say had `file` been run for the risks that it is asked for; with the spectra
+/// of weights where `is_repaired`.
 pub(crate) fn consistency_of_asked(
     file: &ResultFile,
     is_repaired: bool,

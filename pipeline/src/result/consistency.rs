@@ -38,8 +38,8 @@ pub struct StoredConsistency {
     pub ratio: Array<2>,
     /// Effective records under the weights `[site, level]`; none before a repair.
     pub effective_records: Option<Array<2>>,
-    /// Fewest effective records at a level within the rates compared `[site]`; NaN where there is no repair. None before
-    /// one.
+    /// Fewest effective records at a level within the rates compared `[site]`; NaN where there is no repair. None
+    /// before one.
     pub least_effective: Option<Vec<f64>>,
     /// Displacements of weighted records `[site, poe, strength]`, m; NaN where there is no repair. None before one.
     pub u_m: Option<Array<3>>,

@@ -17,8 +17,8 @@ pub(super) fn consistency(source: &FigureSource) -> Option<Figure> {
     let panels: Vec<Panel> = by_measure.flatten().collect();
     let caption = "Annual rate at which a level of the other measure is exceeded: by the hazard curve of the site \
                    (full), by the records as they are scaled (dashed) and, after a repair, by the weighted records \
-                   (thin). Shaded: the rates compared; grey lines: the rates of the spectra. Where the dashed line lies \
-                   right of the full one, the records bring too much.";
+                   (thin). Shaded: the rates compared; grey lines: the rates of the spectra. Where the dashed line \
+                   lies right of the full one, the records bring too much.";
     (!panels.is_empty()).then(|| source.figure("consistency", "What the record set brings", caption, panels))
 }
 

@@ -64,8 +64,8 @@ fn table(source: &FigureSource) -> Table {
         note: format!(
             "Level of the measure that records are not scaled to: what they bring over what the hazard curve of the \
              site says, at each probability in {years} years and on average over the rates compared (bias), and the \
-             largest deviation of its logarithm. Where the verdict is inconsistent the spectra are true of the records, \
-             and not of the site. {repair}"
+             largest deviation of its logarithm. Where the verdict is inconsistent the spectra are true of the \
+             records, and not of the site. {repair}"
         ),
         group: String::new(),
         header,
