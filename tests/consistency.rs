@@ -75,6 +75,15 @@ fn asked_in_every_run_and_repaired_beside_the_plain_spectra() {
     let mean = |key: &str| all[key][1].as_f64().unwrap();
     assert!(mean("plain") > 1.5 && (mean("repaired") - 1.0).abs() < 0.1, "{all}");
     assert_eq!(plain(&study, "r.h5"), before, "a repair changed a plain number");
+    // asked again, the repair stays; asked for another risk, it is read off the same weights
+    study.uplift(&["consistency", "r.h5", "-q"]).ok();
+    let rows = |poes: &str| -> Vec<Value> {
+        let table = json(&study.uplift(&["table", "r.h5", "--im", "all", "--poe", poes, "--json"]).ok());
+        let all = table["rows"].as_array().unwrap().iter();
+        all.filter(|row| row["repaired"] == true && row["poe"] == 0.1).cloned().collect()
+    };
+    assert_eq!(rows("0.1"), rows("0.02,0.1,0.5"));
+    assert_eq!(rows("0.1").len(), 4);
     let table = std::fs::read_to_string(study.path().join("r.consistency.csv")).unwrap();
     assert_eq!(table.lines().count(), 1 + 4 * 3);
 

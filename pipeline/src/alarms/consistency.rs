@@ -40,11 +40,13 @@ fn case(consistency: &StoredConsistency, site: usize, name: &str, times: f64) ->
             "the records bring {times:.1} times the {other} of the site's hazard; spectra by {scaled_to} are not \
              hazard-consistent"
         ),
-        what_to_do: if is_repaired {
-            "use the repaired spectra beside them (uplift consistency)".to_owned()
-        } else {
-            "[consistency] repair = \"weights\" gives spectra that are, beside the plain ones (uplift consistency)"
-                .to_owned()
-        },
+        what_to_do: match u_m {
+            Some(_) if is_repaired => "use the repaired spectra beside them (uplift consistency)",
+            Some(_) => "no weights of these records can mend it: uplift consistency says which are missing",
+            None => {
+                "[consistency] repair = \"weights\" gives spectra that are, beside the plain ones (uplift consistency)"
+            }
+        }
+        .to_owned(),
     }
 }

@@ -1,4 +1,5 @@
-//! The answer at risks that a result was asked for after its run, as if it stood in the file.
+//! The answer at risks that a result was asked for after its run: verdict and weights are those of the study's own
+//! probabilities, and spectra are read at the others.
 
 use uplift_consistency::{DEVIATION_RATES, Verdict};
 use uplift_motion::IntensityMeasure;
@@ -9,21 +10,28 @@ use crate::array::Array;
 use crate::error::UpliftError;
 use crate::result::{Fit, ResultFile, StoredConsistency};
 
-/// What [`ResultFile::consistency`] would say had `file` been run for the risks that it is asked for; with the spectra
-/// of weights where `is_repaired`.
+/// What [`ResultFile::consistency`] says of `file` at the risks that it is asked for; with the spectra of weights where
+/// `is_repaired`.
 pub(crate) fn consistency_of_asked(
     file: &ResultFile,
     is_repaired: bool,
 ) -> Result<Vec<StoredConsistency>, UpliftError> {
     let question = Question::of_result(file)?;
     let findings = question.findings(is_repaired)?;
-    let repairs = if is_repaired { repairs_of(file, &file.stripes()?, &question, &findings)? } else { Vec::new() };
+    let axes = file.axes()?;
+    let asked = question.at(&axes.poes, axes.years)?;
+    let levels_asked = asked.findings(false)?;
+    let repairs = if is_repaired { repairs_of(file, &file.stripes()?, &asked, &findings)? } else { Vec::new() };
     let mut found = Vec::new();
     for (scaled_to, levels) in &question.analyses {
         let own: Vec<&Finding> = findings.iter().filter(|finding| finding.scaled_to == *scaled_to).collect();
         if let Some(first) = own.first() {
             let repairs = repairs.iter().find(|repairs| repairs.measure == *scaled_to);
-            found.push(stored(&question, (*scaled_to, first.other), levels.len(), &own, repairs));
+            let ratio = Array::from_fn([question.sites.len(), asked.poes.len()], |[site, poe]| {
+                let at = |finding: &&Finding| finding.site == site && finding.scaled_to == *scaled_to;
+                levels_asked.iter().find(at).and_then(|own| own.diagnosis.targets[poe].ratio).unwrap_or(f64::NAN)
+            });
+            found.push(stored(&asked, (*scaled_to, first.other), (levels.len(), ratio), &own, repairs));
         }
     }
     Ok(found)
@@ -32,7 +40,7 @@ pub(crate) fn consistency_of_asked(
 fn stored(
     question: &Question,
     (scaled_to, other): (IntensityMeasure, IntensityMeasure),
-    levels: usize,
+    (levels, ratio): (usize, Array<2>),
     findings: &[&Finding],
     repairs: Option<&Repairs>,
 ) -> StoredConsistency {
@@ -64,9 +72,7 @@ fn stored(
             .collect(),
         poes: question.poes.clone(),
         years: question.years,
-        ratio: Array::from_fn([sites, question.poes.len()], |[site, poe]| {
-            of_site(site).and_then(|own| own.diagnosis.targets[poe].ratio).unwrap_or(f64::NAN)
-        }),
+        ratio,
         effective_records: repairs.map(|_| {
             Array::from_fn([sites, levels], |[site, level]| {
                 repaired(site).map_or(f64::NAN, |own| own.diagnosis.stripes[level].effective_records)

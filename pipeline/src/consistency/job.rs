@@ -46,7 +46,9 @@ pub fn consistency(
     let stored = file.stripes()?;
     let table = Output::new(consistency_path(&stored.path), OutputKind::Table("implied_level"));
     outputs::check(&[table], &[result], options.force)?;
-    let repair = options.repair || options.keep_weights || question.settings.repair == Repair::Weights;
+    // a repair that is there stays: what was made of it would be of another result
+    let is_there = file.consistency()?.iter().any(|own| own.u_m.is_some());
+    let repair = options.repair || options.keep_weights || is_there || question.settings.repair == Repair::Weights;
     let findings = question.findings(repair)?;
     if events.cancelled() {
         return Err(UpliftError::Interrupted);

@@ -102,10 +102,16 @@ impl Question {
         })
     }
 
-    /// What the result `file` is asked.
+    /// The same at other probabilities.
+    pub(super) fn at(&self, poes: &[f64], years: f64) -> Result<Self, UpliftError> {
+        Ok(Self { poes: poes.to_vec(), years, targets_per_year: targets(poes, years)?, ..self.clone() })
+    }
+
+    /// What the result `file` is asked, at the probabilities of its study: the range of rates and the weights are of
+    /// these, whatever else spectra are read at.
     pub(crate) fn of_result(file: &ResultFile) -> Result<Self, UpliftError> {
         let study = file.stored_study()?;
-        let axes = file.axes()?;
+        let axes = file.stored_axes()?;
         let stored = file.records()?;
         let analyses = file.levels()?;
         let mut curves = BTreeMap::new();

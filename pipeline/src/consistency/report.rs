@@ -26,6 +26,8 @@ pub struct ConsistencyReport {
     pub warnings: Vec<String>,
     /// Why nothing could be asked; empty where it could.
     pub note: String,
+    /// Sites that nothing is said of, since they have no curves of two measures.
+    pub unasked: Vec<String>,
     /// Records of the set.
     pub records: usize,
     /// Earthquakes of the set, where they are known.
@@ -158,6 +160,7 @@ impl ConsistencyReport {
             agreement: agreement(question, plain_m, repairs),
             warnings: findings.iter().flat_map(|finding| warnings(question, finding)).collect(),
             note,
+            unasked: unasked(question, findings),
             records: question.records.len(),
             events: (!question.events.is_empty()).then_some(question.events.len()),
             years: question.years,
@@ -175,12 +178,17 @@ impl ConsistencyReport {
     }
 }
 
+fn unasked(question: &Question, findings: &[Finding]) -> Vec<String> {
+    let is_unasked = |(site, _): &(usize, &String)| findings.iter().all(|finding| finding.site != *site);
+    question.sites.iter().enumerate().filter(is_unasked).map(|(_, name)| name.clone()).collect()
+}
+
 fn nothing_to_ask(question: &Question) -> String {
     if question.sites.is_empty() {
         "the study has no sites, so there is no hazard that records could be held against".to_owned()
     } else {
-        "no site has hazard curves of two measures: give each a second one (sites.<name>.pga beside pgv) to see \
-         whether the records bring it"
+        "no site has hazard curves of two measures: give each both, pgv and pga, to see whether the records bring \
+         the one that they are not scaled to"
             .to_owned()
     }
 }

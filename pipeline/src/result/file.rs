@@ -120,7 +120,7 @@ impl ResultFile {
     }
 
     /// The axes as the file has them.
-    pub(super) fn stored_axes(&self) -> Result<RiskAxes, UpliftError> {
+    pub(crate) fn stored_axes(&self) -> Result<RiskAxes, UpliftError> {
         self.require(Kind::UniformRisk)?;
         let reader = &self.reader;
         let axes = RiskAxes {

@@ -17,6 +17,9 @@ pub(crate) fn print_consistency(report: &ConsistencyReport, terminal: &Terminal)
         return Ok(());
     }
     print_levels(out, report)?;
+    if !report.unasked.is_empty() {
+        writeln!(out, "\nnot asked, for want of curves of two measures: {}", report.unasked.join(", "))?;
+    }
     print_scale_factors(out, report)?;
     print_two_sided(out, report)?;
     print_agreement(out, report)?;

@@ -45,6 +45,11 @@ fn print_repaired(out: &mut impl Write, report: &RunReport, shown: &[usize]) -> 
         )?;
         writeln!(out, "{}", spectra_table(report, &own, shown))?;
     }
+    if !report.repaired.is_empty() {
+        for warning in &report.consistency.warnings {
+            writeln!(out, "caution: {warning}")?;
+        }
+    }
     Ok(())
 }
 

@@ -70,6 +70,8 @@ fn require(report: &ConsistencyReport, required: Required) -> Result<(), Command
     let worse: Vec<String> = worse
         .map(|row| format!("{} by {}: {}", row.site, row.scaled_to, row.verdict.unwrap_or("no verdict")))
         .collect();
+    let unasked = report.unasked.iter().map(|site| format!("{site}: has no curves of two measures"));
+    let worse: Vec<String> = worse.into_iter().chain(unasked).collect();
     if worse.is_empty() {
         return Ok(());
     }
