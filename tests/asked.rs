@@ -54,7 +54,8 @@ fn spectra_bands_and_warnings_are_those_of_a_run() {
         assert!(own.len() > 2);
         assert_eq!(own, theirs);
         // verdicts are of the range of the study's own probabilities
-        (ours["consistency"].take(), run["consistency"].take());
+        ours["consistency"].take();
+        run["consistency"].take();
         assert_eq!(ours, run);
         let spectra = ours["spectra"].as_array().unwrap();
         assert_eq!(spectra.len(), 2 * 2 * 3);
