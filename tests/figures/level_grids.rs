@@ -39,7 +39,8 @@ fn ordinates_over_those_of_dense_levels() {
     for (set, records) in [("synthetic", &[][..]), ("real", &real[..])] {
         // one result in one place: what the dense levels hold is not computed again
         let spectra = |levels: &[&str]| {
-            let run = ["run", &study, "-o", "r.h5", "-q", "--set", "risk.maf_surface=false", "--set", STRENGTHS];
+            let surface = "risk.maf_surface=false";
+            let run = ["run", &study, "-o", "r.h5", "-q", "--force", "--set", surface, "--set", STRENGTHS];
             let mut run = run.map(str::to_owned).to_vec();
             run.extend_from_slice(records);
             run.extend(levels.iter().flat_map(|levels| ["--set".to_owned(), (*levels).to_owned()]));
