@@ -31,7 +31,7 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
 fn case(consistency: &StoredConsistency, site: usize, name: &str, times: f64) -> Case {
     let StoredConsistency { scaled_to, other, u_m, .. } = consistency;
     let (scaled_to, other) = (scaled_to.label(), other.label());
-    let is_repaired = u_m.as_ref().is_some_and(|u_m| u_m.block([site]).iter().any(|u_m| !u_m.is_nan()));
+    let is_repaired = consistency.is_repaired(site);
     Case {
         severity: if is_repaired { Severity::Note } else { Severity::Caution },
         badness: times.ln().abs(),

@@ -5,13 +5,13 @@ use uplift_motion::IntensityMeasure;
 use uplift_risk::Ordinate;
 use uplift_study::{Repair, UniformRiskStudy};
 
-use super::spectra::{Repairs, Spectral, repaired_spectra};
+use super::spectra::{Repairs, repaired_spectra};
 use super::write::{Keep, add};
 use super::{ConsistencyReport, Finding, Question};
 use crate::array::Array;
 use crate::error::UpliftError;
 use crate::inputs::{OtherHazard, RecordSet, SiteHazard};
-use crate::uniform_risk::{Reading, SpectrumReport, Stripes, pooled_demand};
+use crate::uniform_risk::{SpectrumReport, Stripes, pooled_demand};
 
 /// All that consistency makes of a study.
 #[derive(Debug, Clone)]
@@ -42,16 +42,9 @@ impl Answer {
     ) -> Result<Self, UpliftError> {
         let mut answer = Self::of_plan(study, records, hazard)?;
         if study.consistency.repair == Repair::Weights && !answer.findings.is_empty() {
-            let reading = Reading::of(study)?;
-            let spectral = Spectral {
-                strengths: &study.strengths,
-                fitted_above: study.regression.strength_above,
-                reading: &reading,
-                sites: study.sites.len(),
-            };
             for stripes in stripes {
                 let demand = |strength| pooled_demand(stripes, strength);
-                answer.repairs.push(repaired_spectra(stripes.measure, &answer.findings, &spectral, demand)?);
+                answer.repairs.push(repaired_spectra(study, stripes.measure, &answer.findings, demand)?);
             }
         }
         Ok(answer)

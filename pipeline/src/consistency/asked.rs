@@ -11,12 +11,9 @@ use crate::error::UpliftError;
 use crate::result::{Fit, ResultFile, StoredConsistency};
 
 /// What [`ResultFile::consistency`] says of `file` at the risks that it is asked for; with the spectra of weights where
-/// `is_repaired`.
-pub(crate) fn consistency_of_asked(
-    file: &ResultFile,
-    is_repaired: bool,
-) -> Result<Vec<StoredConsistency>, UpliftError> {
-    let question = Question::of_result(file)?;
+/// it has some.
+pub(crate) fn consistency_of_asked(file: &ResultFile) -> Result<Vec<StoredConsistency>, UpliftError> {
+    let (question, is_repaired) = (Question::of_result(file)?, file.has_repair());
     let findings = question.findings(is_repaired)?;
     let axes = file.axes()?;
     let asked = question.at(&axes.poes, axes.years)?;
@@ -47,7 +44,7 @@ fn stored(
     let sites = question.sites.len();
     let of_site = |site: usize| findings.iter().find(|finding| finding.site == site);
     let deviation = |site: usize| of_site(site)?.diagnosis.deviation.as_ref();
-    let repaired = |site: usize| of_site(site)?.repair.as_ref()?.as_ref().ok();
+    let repaired = |site: usize| of_site(site)?.repaired();
     let rates = [sites, DEVIATION_RATES];
     StoredConsistency {
         scaled_to,

@@ -26,6 +26,13 @@ pub struct Finding {
     pub repair: Option<Result<Box<Repaired>, NoRepair>>,
 }
 
+impl Finding {
+    /// The repair; none where there is none, whether it was asked for or not.
+    pub(crate) fn repaired(&self) -> Option<&Repaired> {
+        self.repair.as_ref()?.as_deref().ok()
+    }
+}
+
 /// The other measures that a set scaled to `scaled_to` is asked about.
 fn others(scaled_to: IntensityMeasure) -> impl Iterator<Item = IntensityMeasure> {
     IntensityMeasure::ALL.into_iter().filter(move |measure| *measure != scaled_to)

@@ -6,15 +6,14 @@ use uplift_motion::IntensityMeasure;
 use uplift_study::Repair;
 
 use super::report::ConsistencyReport;
-use super::spectra::{Repairs, Spectral, repaired_spectra};
+use super::spectra::{Repairs, repaired_spectra};
 use super::write::{Keep, add, columns, consistency_path, replaced};
 use super::{Finding, Question};
 use crate::array::Array;
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::outputs::{self, Output, OutputKind};
-use crate::result::{Addition, ResultFile, StoredStripes, line, write_table};
-use crate::uniform_risk::Reading;
+use crate::result::{Addition, ResultFile, StoredMeasure, StoredStripes, line, write_table};
 
 /// What is done beyond asking.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -47,7 +46,7 @@ pub fn consistency(
     let table = Output::new(consistency_path(&stored.path), OutputKind::Table("implied_level"));
     outputs::check(&[table], &[result], options.force)?;
     // a repair that is there stays: what was made of it would be of another result
-    let is_there = file.consistency()?.iter().any(|own| own.u_m.is_some());
+    let is_there = file.has_repair();
     let repair = options.repair || options.keep_weights || is_there || question.settings.repair == Repair::Weights;
     let findings = question.findings(repair)?;
     if events.cancelled() {
@@ -75,16 +74,8 @@ pub(super) fn repairs_of(
 ) -> Result<Vec<Repairs>, UpliftError> {
     let mut study = file.stored_study()?;
     (study.risk.poe, study.risk.years) = (question.poes.clone(), question.years);
-    let reading = Reading::of(&study)?;
-    let spectral = Spectral {
-        strengths: &stored.strengths,
-        fitted_above: study.regression.strength_above,
-        reading: &reading,
-        sites: question.sites.len(),
+    let of_measure = |measure: &StoredMeasure| {
+        repaired_spectra(&study, measure.measure, findings, |strength| measure.demand(strength))
     };
-    stored
-        .measures
-        .iter()
-        .map(|measure| repaired_spectra(measure.measure, findings, &spectral, |strength| measure.demand(strength)))
-        .collect()
+    stored.measures.iter().map(of_measure).collect()
 }

@@ -169,13 +169,6 @@ impl ConsistencyReport {
             table: None,
         }
     }
-
-    /// The worst verdict of all rows; none where there is none.
-    pub fn worst(&self) -> Option<Verdict> {
-        let verdict =
-            |row: &ConsistencyRow| Verdict::ALL.into_iter().find(|verdict| Some(verdict.key()) == row.verdict);
-        self.rows.iter().filter_map(verdict).max()
-    }
 }
 
 fn unasked(question: &Question, findings: &[Finding]) -> Vec<String> {

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use uplift_motion::IntensityMeasure;
 use uplift_regression::ExponentialFit;
 use uplift_risk::{Ordinate, PooledDemand, RiskCurve, RunWeights};
+use uplift_study::UniformRiskStudy;
 
 use super::Finding;
 use crate::array::Array;
@@ -21,51 +22,35 @@ pub(crate) struct Repairs {
     pub(crate) fits: Array<2, Result<ExponentialFit, String>>,
 }
 
-/// What spectra are read of, whether of a run or of a result.
-pub(crate) struct Spectral<'a> {
-    /// Strengths.
-    pub(crate) strengths: &'a [f64],
-    /// Only strengths above this are fitted.
-    pub(crate) fitted_above: f64,
-    /// How ordinates are read.
-    pub(crate) reading: &'a Reading,
-    /// Number of sites.
-    pub(crate) sites: usize,
-}
-
-/// The spectra of the weights in `findings` of the analysis by `measure`; `demand` pools that of a strength.
+/// The spectra of the weights in `findings` of the analysis by `measure`, read as `study` says; `demand` pools that of
+/// a strength.
 ///
 /// # Errors
 /// Demands that are not demands, in a file that was changed.
 pub(crate) fn repaired_spectra(
+    study: &UniformRiskStudy,
     measure: IntensityMeasure,
     findings: &[Finding],
-    spectral: &Spectral<'_>,
     demand: impl Fn(usize) -> Result<PooledDemand, UpliftError> + Sync,
 ) -> Result<Repairs, UpliftError> {
-    let weights: Vec<Option<&RunWeights>> = (0..spectral.sites)
-        .map(|site| {
-            let own = findings.iter().find(|finding| finding.site == site && finding.scaled_to == measure)?;
-            own.repair.as_ref()?.as_ref().ok().map(|repaired| &repaired.weights)
-        })
-        .collect();
-    let targets = spectral.reading.targets.len();
+    let reading = Reading::of(study)?;
+    let (sites, targets, strengths) = (study.sites.len(), reading.targets.len(), study.strengths.len());
+    let of_site = |site: usize| findings.iter().find(|own| own.site == site && own.scaled_to == measure);
+    let weights: Vec<Option<&RunWeights>> = (0..sites).map(|site| Some(&of_site(site)?.repaired()?.weights)).collect();
     let of_strength = |strength: usize| -> Result<Vec<Option<Vec<Ordinate>>>, UpliftError> {
         let demand = demand(strength)?;
-        let read = |weights: &RunWeights| Ok(spectral.reading.ordinates(&RiskCurve::weighted(&demand, weights)?)?);
+        let read = |weights: &RunWeights| Ok(reading.ordinates(&RiskCurve::weighted(&demand, weights)?)?);
         weights.iter().map(|weights| weights.map(read).transpose()).collect()
     };
-    let by_strength: Result<Vec<_>, UpliftError> =
-        (0..spectral.strengths.len()).into_par_iter().map(of_strength).collect();
-    let by_strength = by_strength?;
-    let shape = [spectral.sites, targets, spectral.strengths.len()];
-    let ordinates =
-        Array::from_fn(shape, |[site, poe, strength]| by_strength[strength][site].as_ref().map(|of| of[poe]));
-    let fits = Array::from_fn([spectral.sites, targets], |at| {
+    let by_strength = (0..strengths).into_par_iter().map(of_strength).collect::<Result<Vec<_>, UpliftError>>()?;
+    let ordinates = Array::from_fn([sites, targets, strengths], |[site, poe, strength]| {
+        by_strength[strength][site].as_ref().map(|of| of[poe])
+    });
+    let fits = Array::from_fn([sites, targets], |at| {
         let u_m: Option<Vec<f64>> =
             ordinates.block(at).iter().map(|ordinate| ordinate.map(|ordinate| ordinate.displacement_m)).collect();
         let u_m = u_m.ok_or_else(|| "the set could not be repaired".to_owned())?;
-        fit_ordinates(spectral.strengths, &u_m, spectral.fitted_above)
+        fit_ordinates(&study.strengths, &u_m, study.regression.strength_above)
     });
     Ok(Repairs { measure, ordinates, fits })
 }

@@ -19,6 +19,8 @@ const NO_REPAIR: u8 = 3;
 
 /// A column: what it is of the thing that a row is about.
 type Of<T, V = f64> = fn(&T) -> V;
+/// Levels of the other measure over the rates compared, where there are some.
+type LevelsOf = fn(&Finding) -> Option<&[f64]>;
 /// The same over the levels of a repaired set.
 type OfLevels = Of<Repaired, Vec<f64>>;
 
@@ -115,26 +117,21 @@ impl Table<'_> {
         let (other, unit) = (self.other, self.other.unit());
         let rates = self.by_site(DEVIATION_RATES, |finding| finding.range.rates::<DEVIATION_RATES>().to_vec());
         self.array("rate_per_year", &[axis::SITE, axis::RATE], &rates, "1/yr", "annual rate of exceedance")?;
-        let levels = |finding: &Finding, which: Levels| -> Vec<f64> {
-            let repaired = finding.repair.as_ref().and_then(|repair| repair.as_ref().ok());
-            let diagnosis = match which {
-                Levels::Repaired => match repaired {
-                    Some(repaired) => &repaired.diagnosis,
-                    None => return Vec::new(),
-                },
-                _ => &finding.diagnosis,
-            };
-            diagnosis.deviation.as_ref().map_or_else(Vec::new, |deviation| match which {
-                Levels::Site => deviation.site_levels.to_vec(),
-                _ => deviation.implied_levels.to_vec(),
-            })
-        };
-        for (which, name, what) in [
-            (Levels::Site, "site", "level of the site's own hazard curve"),
-            (Levels::Implied, "implied", "level that the records bring"),
-            (Levels::Repaired, "repaired", "level that the weighted records bring"),
-        ] {
-            let values = self.by_site(DEVIATION_RATES, |finding| levels(finding, which));
+        let levels: [(&str, LevelsOf, &str); 3] = [
+            (
+                "site",
+                |own| Some(&own.diagnosis.deviation.as_ref()?.site_levels),
+                "level of the site's own hazard curve",
+            ),
+            ("implied", |own| Some(&own.diagnosis.deviation.as_ref()?.implied_levels), "level that the records bring"),
+            (
+                "repaired",
+                |own| Some(&own.repaired()?.diagnosis.deviation.as_ref()?.implied_levels),
+                "level that the weighted records bring",
+            ),
+        ];
+        for (name, levels, what) in levels {
+            let values = self.by_site(DEVIATION_RATES, |finding| levels(finding).unwrap_or_default().to_vec());
             let name = layout::of_other(other, name);
             self.array(&name, &[axis::SITE, axis::RATE], &values, unit, &format!("{what}, {}", other.label()))?;
         }
@@ -204,12 +201,7 @@ impl Table<'_> {
         let levels =
             question.analyses.iter().find(|(own, _)| *own == self.measure).map_or(0, |(_, levels)| levels.len());
         let level = axis::level(self.measure);
-        let of_repaired = |value: OfLevels| {
-            move |finding: &Finding| match &finding.repair {
-                Some(Ok(repaired)) => value(repaired),
-                _ => Vec::new(),
-            }
-        };
+        let of_repaired = |value: OfLevels| move |finding: &Finding| finding.repaired().map_or_else(Vec::new, value);
         let values = self.by_site(KNOTS, of_repaired(|repaired| repaired.fit.exponents.to_vec()));
         self.array("exponent", &[axis::SITE, axis::KNOT], &values, "1", "exponent of the weights")?;
         let values = self.by_site(KNOTS, of_repaired(|repaired| repaired.knot_levels.to_vec()));
@@ -289,14 +281,6 @@ impl Table<'_> {
         }
         Ok(())
     }
-}
-
-/// Which levels of the other measure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Levels {
-    Site,
-    Implied,
-    Repaired,
 }
 
 /// The rows of a report as a table: a row a measure, site and probability.

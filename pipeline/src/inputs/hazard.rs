@@ -141,6 +141,11 @@ pub(super) fn implausible(curve: &HazardCurve, measure: IntensityMeasure) -> Opt
     ))
 }
 
+/// The mean of weighted curves, with the levels asked for among its own.
+fn weighted_mean(curves: &[(f64, &HazardCurve)], levels: &[f64]) -> Result<HazardCurve, String> {
+    HazardCurve::weighted_mean(curves, levels).map_err(|error| format!("the branches have no mean: {error}"))
+}
+
 /// Reads what belongs to one site and measure.
 struct SiteReader<'a> {
     site: &'a str,
@@ -177,28 +182,26 @@ impl SiteReader<'_> {
     /// The curve of a measure that the study is not analysed by.
     fn other(&mut self) -> Option<OtherHazard> {
         let file = self.file;
-        let of = |file, checksum, curve, reader: &Self| OtherHazard {
-            site: reader.site.to_owned(),
-            measure: reader.measure,
-            file,
+        let (curve, checksum) = if let Some(path) = &file.file {
+            let read = self.read_file(path);
+            self.noted(read)?
+        } else {
+            let mut curves = Vec::new();
+            for branch in &file.branches {
+                let read = self.read_file(&branch.file);
+                curves.push((branch.weight, self.noted(read)?.0));
+            }
+            let curves: Vec<(f64, &HazardCurve)> = curves.iter().map(|(weight, curve)| (*weight, curve)).collect();
+            let mean = weighted_mean(&curves, &[]);
+            (self.noted(mean)?, String::new())
+        };
+        Some(OtherHazard {
+            site: self.site.to_owned(),
+            measure: self.measure,
+            file: file.file.clone(),
             checksum,
             curve,
-        };
-        if let Some(path) = &file.file {
-            let read = self.read_file(path);
-            let (curve, checksum) = self.noted(read)?;
-            return Some(of(Some(path.clone()), checksum, curve, self));
-        }
-        let mut curves = Vec::new();
-        for branch in &file.branches {
-            let read = self.read_file(&branch.file);
-            curves.push((branch.weight, self.noted(read)?.0));
-        }
-        let curves: Vec<(f64, &HazardCurve)> = curves.iter().map(|(weight, curve)| (*weight, curve)).collect();
-        let mean =
-            HazardCurve::weighted_mean(&curves, &[]).map_err(|error| format!("the branches have no mean: {error}"));
-        let curve = self.noted(mean)?;
-        Some(of(None, String::new(), curve, self))
+        })
     }
 
     fn input(&mut self, path: &Path, plan: &MeasurePlan) -> Option<HazardInput> {
@@ -212,12 +215,10 @@ impl SiteReader<'_> {
     fn mean(&mut self, branches: &[BranchHazard], plan: &MeasurePlan) -> Option<HazardInput> {
         let curves: Vec<(f64, &HazardCurve)> =
             branches.iter().map(|branch| (branch.weight, &branch.input.curve)).collect();
-        let mean = HazardCurve::weighted_mean(&curves, &plan.levels)
-            .map_err(|error| format!("the branches have no mean: {error}"))
-            .and_then(|curve| {
-                let weights = self.weights(&curve, "the mean of the branches", plan)?;
-                Ok(HazardInput { file: None, checksum: String::new(), curve, weights })
-            });
+        let mean = weighted_mean(&curves, &plan.levels).and_then(|curve| {
+            let weights = self.weights(&curve, "the mean of the branches", plan)?;
+            Ok(HazardInput { file: None, checksum: String::new(), curve, weights })
+        });
         self.noted(mean)
     }
 

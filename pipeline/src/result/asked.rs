@@ -5,8 +5,9 @@ use uplift_plausible::{PROBABILITY, RETURN_PERIOD, YEARS};
 use uplift_study::{Kind, UniformRiskStudy};
 
 use super::file::{ResultFile, RiskAxes};
-use super::{MeasureSpectra, StoredBands, StoredMeasure, StoredSpectra};
+use super::{MeasureSpectra, StoredBands, StoredConsistency, StoredMeasure, StoredSpectra};
 use crate::array::Array;
+use crate::consistency::consistency_of_asked;
 use crate::error::UpliftError;
 use crate::uniform_risk::site_table::{SiteRisk, SiteSpectra};
 use crate::uniform_risk::{Coefficients, Spectra};
@@ -43,6 +44,7 @@ pub enum RiskTargets {
 /// What a result says of the risks that it was asked for.
 pub(super) struct Asked {
     pub(super) spectra: StoredSpectra,
+    pub(super) consistency: Vec<StoredConsistency>,
     /// None until they are made.
     pub(super) bands: Option<StoredBands>,
 }
@@ -140,7 +142,11 @@ impl ResultFile {
         let RiskAxes { strengths, sites, .. } = axes;
         let measures = spectra.iter().zip(&coefficients).map(|(of, fits)| MeasureSpectra::of(of, fits)).collect();
         let spectra = StoredSpectra { strengths, poes: study.risk.poe, years: study.risk.years, sites, measures };
-        self.asked = Some(Asked { spectra, bands: None });
+        self.asked = Some(Asked { spectra, consistency: Vec::new(), bands: None });
+        let consistency = consistency_of_asked(&self)?;
+        if let Some(asked) = &mut self.asked {
+            asked.consistency = consistency;
+        }
         Ok(self)
     }
 

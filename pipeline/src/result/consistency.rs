@@ -6,7 +6,6 @@ use super::Fit;
 use super::file::ResultFile;
 use super::layout::{axis, consistency};
 use crate::array::Array;
-use crate::consistency::consistency_of_asked;
 use crate::error::UpliftError;
 
 /// The consistency of the records scaled to one measure; NaN at sites that were not looked at.
@@ -68,9 +67,8 @@ impl ResultFile {
     /// # Errors
     /// A file that is damaged, or of another kind.
     pub fn consistency(&self) -> Result<Vec<StoredConsistency>, UpliftError> {
-        if self.asked.is_some() {
-            let is_repaired = self.measures().iter().any(|&own| self.reader.exists(&consistency::array(own, "u_m")));
-            return consistency_of_asked(self, is_repaired);
+        if let Some(asked) = &self.asked {
+            return Ok(asked.consistency.clone());
         }
         let mut found = Vec::new();
         for scaled_to in self.measures() {
@@ -82,6 +80,11 @@ impl ResultFile {
             }
         }
         Ok(found)
+    }
+
+    /// Whether there are spectra of weighted records.
+    pub(crate) fn has_repair(&self) -> bool {
+        self.measures().iter().any(|&own| self.reader.exists(&consistency::array(own, "u_m")))
     }
 
     fn consistency_of(

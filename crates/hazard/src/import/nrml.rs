@@ -13,8 +13,9 @@ use std::sync::Arc;
 use roxmltree::{Document, Node, ParsingOptions};
 
 use super::entry::{Entry, Head};
-use super::measure::spectral_acceleration;
-use super::{SitePlace, coordinates};
+use super::measure::{openquake_unit, spectral_acceleration};
+use super::{SitePlace, Statistic, coordinates};
+use crate::declaration::SecondColumn;
 use crate::error::{HazardError, Place};
 use crate::text::number;
 
@@ -123,6 +124,39 @@ fn entry(curve: Node, line: usize, version: &Version, head: &Arc<Head>) -> Resul
     }
     let site = SitePlace { name: None, longitude_deg, latitude_deg };
     Ok(Entry { head: Arc::clone(head), line: Some(line), site, vs30_m_s: None, values })
+}
+
+/// What curves of probabilities have in common; `levels` is the one element that should have them.
+fn head<'a>(
+    name: &str,
+    (kind, measure, years): (Statistic, String, f64),
+    levels: Node<'a, 'a>,
+    place: &Place,
+) -> Result<Head, HazardError> {
+    Ok(Head {
+        file: name.to_owned(),
+        unit: openquake_unit(&measure, || place.clone())?,
+        source: format!("NRML hazard curves, {kind}, {measure}"),
+        measure,
+        kind,
+        content: SecondColumn::Probability,
+        years: Some(years),
+        levels: numbers(&content(levels), |_| place.clone())?,
+        component: None,
+    })
+}
+
+/// The only child of that name, or a mistake of the element `parent`.
+fn only<'a, 'input>(
+    node: Node<'a, 'input>,
+    (parent, name): (&str, &str),
+    place: &Place,
+) -> Result<Node<'a, 'input>, HazardError> {
+    let mut found = node.children().filter(|child| is(*child, name));
+    match (found.next(), found.next()) {
+        (Some(only), None) => Ok(only),
+        _ => Err(HazardError::Row { place: place.clone(), reason: format!("{parent} must have one element {name}") }),
+    }
 }
 
 /// Name of the measure `imt` with the period, s, and the damping, per cent, of a spectral acceleration.

@@ -7,9 +7,7 @@ use roxmltree::Node;
 
 use super::super::Statistic;
 use super::super::entry::Head;
-use super::super::measure::openquake_unit;
-use super::{Version, attribute, content, is, measure, numbers, optional_number};
-use crate::declaration::SecondColumn;
+use super::{Version, attribute, measure, only, optional_number};
 use crate::error::{HazardError, Place};
 use crate::text::{excerpt, number};
 
@@ -46,19 +44,7 @@ fn head(group: Node, name: &str, place: &Place) -> Result<Head, HazardError> {
             _ => Statistic::Unspecified,
         },
     };
-    let mut levels = group.children().filter(|node| is(*node, "IMLs"));
-    let (Some(levels), None) = (levels.next(), levels.next()) else {
-        return Err(row("hazardCurves must have one element IMLs".to_owned()));
-    };
-    Ok(Head {
-        file: name.to_owned(),
-        unit: openquake_unit(&measure, || place.clone())?,
-        source: format!("NRML hazard curves, {kind}, {measure}"),
-        measure,
-        kind,
-        content: SecondColumn::Probability,
-        years: Some(number(required("investigationTime")?, || place.clone())?),
-        levels: numbers(&content(levels), |_| place.clone())?,
-        component: None,
-    })
+    let levels = only(group, ("hazardCurves", "IMLs"), place)?;
+    let years = number(required("investigationTime")?, || place.clone())?;
+    super::head(name, (kind, measure, years), levels, place)
 }

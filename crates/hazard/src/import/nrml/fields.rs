@@ -11,9 +11,7 @@ use roxmltree::Node;
 
 use super::super::Statistic;
 use super::super::entry::Head;
-use super::super::measure::openquake_unit;
-use super::{Version, attribute, content, is, measure, numbers, optional_number};
-use crate::declaration::SecondColumn;
+use super::{Version, attribute, is, measure, only, optional_number};
 use crate::error::{HazardError, Place};
 use crate::text::excerpt;
 
@@ -24,10 +22,7 @@ const LONGEST_LABEL: usize = 1000;
 
 fn head(field: Node, name: &str, place: &Place) -> Result<Head, HazardError> {
     let row = |reason: String| HazardError::Row { place: place.clone(), reason };
-    let mut levels = field.children().filter(|node| is(*node, "IML"));
-    let (Some(levels), None) = (levels.next(), levels.next()) else {
-        return Err(row("hazardCurveField must have one element IML".to_owned()));
-    };
+    let levels = only(field, ("hazardCurveField", "IML"), place)?;
     let imt = attribute(levels, "IMT").ok_or_else(|| row("IML without attribute IMT".to_owned()))?;
     let processing = processing(field)
         .ok_or_else(|| row("no hazardProcessing, which says the years of the probabilities".to_owned()))?;
@@ -39,17 +34,7 @@ fn head(field: Node, name: &str, place: &Place) -> Result<Head, HazardError> {
     let measure = measure(imt, period_s, optional_number("saDamping")?)
         .ok_or_else(|| row("IMT SA without saPeriod in hazardProcessing".to_owned()))?;
     let kind = statistic(field, place)?;
-    Ok(Head {
-        file: name.to_owned(),
-        unit: openquake_unit(&measure, || place.clone())?,
-        source: format!("NRML hazard curves, {kind}, {measure}"),
-        measure,
-        kind,
-        content: SecondColumn::Probability,
-        years: Some(years),
-        levels: numbers(&content(levels), |_| place.clone())?,
-        component: None,
-    })
+    super::head(name, (kind, measure, years), levels, place)
 }
 
 /// How the curves of the result were computed: beside the field, or in the `config` beside it.
