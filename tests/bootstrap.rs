@@ -1,19 +1,9 @@
 //! `uplift bootstrap`, `influence` and `measures`: what they say, what they leave behind, and how they stop and go on.
 
-use std::path::Path;
-
 use serde_json::Value;
 use uplift_labelled::LabelledReader;
 
-use crate::common::{self, SmallStudy, real_records, repository};
-
-fn array(path: &Path, name: &str) -> Vec<f64> {
-    LabelledReader::open(path).unwrap().array_f64(name).unwrap().values
-}
-
-fn same_bits(a: &[f64], b: &[f64]) -> bool {
-    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
-}
+use crate::common::{self, SmallStudy, array, real_records, repository, same_bits};
 
 const BANDS: [&str; 3] = ["u05_m", "u50_m", "u95_m"];
 
@@ -107,6 +97,63 @@ fn same_bits_on_any_number_of_threads_and_from_a_kept_plan() {
     study.uplift(&["run", "study.toml", "-o", "d.h5", "-q", "--set", "records.first=3"]).ok();
     study.uplift(&["bootstrap", "d.h5", "--plan", "a.h5"]).fails(4, &["other records"]);
     study.uplift(&["bootstrap", "a.h5", "--plan", "d.h5"]).fails(4, &["keeps no resampling plan"]);
+}
+
+/// Six pairs of three earthquakes, in one study.
+fn study_of_earthquakes() -> SmallStudy {
+    let study = SmallStudy::new();
+    study.uplift(&["records", "synthesize", "--count", "6", "-o", "set", "-q"]).ok();
+    let path = study.path().join("set/manifest.csv");
+    let mut manifest = std::fs::read_to_string(&path).unwrap();
+    for (record, event) in ["A", "B", "A", "C", "B", "A"].iter().enumerate() {
+        let line = manifest.lines().find(|line| line.starts_with(&format!("SYN00{}", record + 1))).unwrap().to_owned();
+        let quoted = line.split('"').nth(1).unwrap();
+        manifest = manifest.replace(&line, &line.replace(&format!("\"{quoted}\""), event));
+    }
+    std::fs::write(&path, manifest).unwrap();
+    study
+}
+
+#[test]
+fn earthquakes_are_drawn_with_all_their_records() {
+    let study = study_of_earthquakes();
+    let source = ["--set", "records.manifest=set/manifest.csv", "--set", "records.first=6"];
+    study.uplift(&[&["run", "study.toml", "-o", "r.h5", "-q"][..], &source].concat()).ok();
+    let options = ["--unit", "event", "--sizes", "4,12", "--replicates", "300", "--interval", "bca"];
+    let told = study.uplift(&[&["bootstrap", "r.h5"][..], &options].concat()).ok();
+    assert!(told.stderr.contains("with their earthquakes, 2, 6 of 3"), "{}", told.stderr);
+    let file = study.path().join("r.h5");
+    let drawn = LabelledReader::open(&file).unwrap().array_u32("/bootstrap/multiplicity").unwrap().values;
+    for (index, drawn) in drawn.chunks_exact(6).enumerate() {
+        assert!(drawn[0] == drawn[2] && drawn[0] == drawn[5] && drawn[1] == drawn[4], "{drawn:?}");
+        assert_eq!(drawn[0] + drawn[1] + drawn[3], if index < 300 { 2 } else { 6 });
+    }
+    // whoever asks it something new draws the same: the plan of the file is one of earthquakes
+    let json = |more: &[&str]| {
+        study.uplift(&[&["export", "r.h5", "--json", "-o", "e.json", "-q", "--force"][..], more].concat()).ok();
+        let text = std::fs::read_to_string(study.path().join("e.json")).unwrap();
+        serde_json::from_str::<Value>(&text).unwrap()["spectra"][0]["bands"].clone()
+    };
+    assert_eq!(json(&[]), json(&["--poe", "0.02,0.1,0.5"]));
+    // the same from the study's key
+    std::fs::copy(&file, study.path().join("s.h5")).unwrap();
+    let keyed = [&["run", "study.toml", "-o", "s.h5", "-q", "--force"][..], &source].concat();
+    study.uplift(&[&keyed[..], &["--set", "bootstrap.unit=event", "--set", "bootstrap.replicates=300"]].concat()).ok();
+    study.uplift(&["bootstrap", "s.h5", "-q", "--sizes", "4,12", "--interval", "bca"]).ok();
+    for name in BANDS.map(|name| format!("/bootstrap/pgv/{name}")) {
+        assert!(same_bits(&array(&file, &name), &array(&study.path().join("s.h5"), &name)), "{name}");
+    }
+    // the plan goes on to another result of these records
+    study.uplift(&["bootstrap", "s.h5", "--plan", "r.h5", "-q", "--interval", "bca"]).ok();
+
+    // synthetic records are of no earthquake, and records of one alone cannot be drawn
+    study.uplift(&["run", "study.toml", "-o", "a.h5", "-q"]).ok();
+    let alone = study.uplift(&["bootstrap", "a.h5", "--unit", "event", "--replicates", "5", "--sizes", "4"]).ok();
+    assert!(alone.stderr.contains("no two records are known to share an earthquake"), "{}", alone.stderr);
+    let manifest = std::fs::read_to_string(study.path().join("set/manifest.csv")).unwrap();
+    study.write("set/manifest.csv", &manifest.replace(",B,", ",A,").replace(",C,", ",A,"));
+    study.uplift(&[&["run", "study.toml", "-o", "o.h5", "-q"][..], &source].concat()).ok();
+    study.uplift(&["bootstrap", "o.h5", "--unit", "event"]).fails(2, &["all records are of one earthquake"]);
 }
 
 /// The number in "12 of 100 strengths are kept".

@@ -8,6 +8,7 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
+use uplift_labelled::LabelledReader;
 
 pub use crate::python::{python, repository};
 
@@ -286,4 +287,14 @@ pub fn real_records() -> Option<PathBuf> {
     }
     println!("skipped: no real records (set UPLIFT_RECORDS to a folder with a manifest.csv)");
     None
+}
+
+/// The numbers of an array of a result.
+pub fn array(path: &Path, name: &str) -> Vec<f64> {
+    LabelledReader::open(path).unwrap().array_f64(name).unwrap().values
+}
+
+/// Whether two arrays are the same to the bit.
+pub fn same_bits(a: &[f64], b: &[f64]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
 }

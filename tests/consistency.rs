@@ -4,7 +4,7 @@ use serde_json::Value;
 use uplift::result::ResultFile;
 use uplift_motion::IntensityMeasure;
 
-use crate::common::{Finished, SmallStudy, repository};
+use crate::common::{Finished, SmallStudy, array, repository};
 
 /// 105 synthetic pairs at Montreux and Athens, three strengths, the stripes of Chapter 4.
 fn study(measures: &str, sites: &str, more: &str) -> SmallStudy {
@@ -153,4 +153,76 @@ fn mistakes_in_the_section_are_named() {
         3,
         &["4 mistakes", "did you mean `weights`", "0.001 to 10", "these are no two factors, the smaller first"],
     );
+}
+
+/// Influence, design and overturning by the repaired spectra, beside those by the plain ones.
+#[test]
+fn what_is_made_of_a_repair_is_made_of_its_weights() {
+    // Montreux cannot be repaired, Athens is
+    let (study, site) = (SmallStudy::repaired(), "Athens &lt; 1");
+    let path = study.path().join("r.h5");
+    let repaired_m = |im: &str| array(&path, &format!("/consistency/{im}/u_m"));
+
+    let influence = json(&study.uplift(&["influence", "r.h5", "--json", "-q", "--top", "40"]).ok());
+    let rows = influence["records"].as_array().unwrap();
+    assert_eq!(rows.iter().filter(|row| row["repaired"] == true).count() * 3, rows.len());
+    // left out, a record changes the repaired spectrum by what the file says
+    let without_m = array(&path, "/influence/pga/consistent/u_without_m");
+    let of_set_m = repaired_m("pga");
+    let (strengths, records) = (4, 40);
+    // [site, poe, …]: the second site, the first probability
+    let (spectrum, rows_before) = (3 * strengths, 3 * records);
+    let change = |record: usize| -> f64 {
+        let of_set_m = &of_set_m[spectrum..][..strengths];
+        let without_m = &without_m[(rows_before + record) * strengths..][..strengths];
+        let rocking = of_set_m.iter().zip(without_m).filter(|(of_set_m, _)| **of_set_m > 5e-4);
+        let changes: Vec<f64> = rocking.map(|(of_set_m, without_m)| without_m / of_set_m - 1.0).collect();
+        changes.iter().sum::<f64>() / changes.len() as f64
+    };
+    let most = (0..records).map(|record| change(record).abs()).fold(0.0, f64::max);
+    let told = rows
+        .iter()
+        .find(|row| row["repaired"] == true && row["site"] == site && row["im"] == "PGA" && row["poe"] == 0.02);
+    let told = told.unwrap()["mean_change_pct"].as_f64().unwrap();
+    assert!((told.abs() / (100.0 * most) - 1.0).abs() < 1e-9 && most > 1e-3, "{told} {most}");
+    // shares of the risk are of the weighted runs, and all of it
+    for share in ["share", "consistent/share"].map(|name| array(&path, &format!("/disaggregation/pga/{name}"))) {
+        let ordinate = &share[(spectrum + 1) * 9..][..9];
+        assert!((ordinate.iter().sum::<f64>() - 1.0).abs() < 1e-9, "{ordinate:?}");
+    }
+    let table = std::fs::read_to_string(study.path().join("r.influence.csv")).unwrap();
+    assert!(table.contains("PGA, repaired") || table.contains("\"PGA, repaired\""), "{table}");
+
+    let frame = repository().join("configs/structures/frame.toml").display().to_string();
+    let design = |more: &[&str]| {
+        let asked = ["design", &frame, "--urs", "r.h5", "--site", site, "--measure", "pga", "--json", "-q"];
+        json(&study.uplift(&[&asked[..], more].concat()).ok())
+    };
+    let (plain, repaired) = (design(&[]), design(&["--repaired"]));
+    assert_eq!((&plain["repaired"], &repaired["repaired"]), (&Value::from(false), &Value::from(true)));
+    let demand = |report: &Value| report["spectrum"]["zero_stiffness_demand_m"].as_f64().unwrap();
+    let note = plain["notes"].as_array().unwrap().iter().find(|note| note.as_str().unwrap().contains("--repaired"));
+    assert!(note.unwrap().as_str().unwrap().contains(&format!("{:.4} m", demand(&repaired))), "{note:?}");
+    assert!(demand(&plain) > 1.2 * demand(&repaired));
+    // its own analysis is weighed alike: the zero-stiffness oscillator at its strength is on the repaired spectrum
+    let exact = repaired["exact"]["zero_stiffness_demand_of_spectrum_m"].as_f64().unwrap();
+    assert!((exact / demand(&repaired) - 1.0).abs() < 0.25, "{exact} {}", demand(&repaired));
+    let kinds = |report: &Value| -> Vec<String> {
+        report["alarms"].as_array().unwrap().iter().map(|alarm| alarm["kind"].as_str().unwrap().to_owned()).collect()
+    };
+    assert!(kinds(&plain).contains(&"hazard-inconsistent".to_owned()));
+    assert!(!kinds(&repaired).contains(&"hazard-inconsistent".to_owned()));
+
+    let overturning = ["overturning", &frame, "--urs", "r.h5", "--site", site, "-q", "-o", "o.csv", "--json"];
+    let overturning = json(&study.uplift(&overturning).ok());
+    let by_pga = &overturning["overturning"][2]["sites"][0];
+    assert_eq!(overturning["overturning"][2]["im"], "PGA");
+    let rate = |of: &Value| of["per_year"].as_f64().unwrap();
+    assert!(rate(&by_pga["repaired"]) < rate(by_pga), "{by_pga}");
+    let table = std::fs::read_to_string(study.path().join("o.risk.csv")).unwrap();
+    assert!(table.lines().next().unwrap().ends_with(",maf_consistent_per_year"), "{table}");
+
+    study
+        .uplift(&["design", &frame, "--urs", "r.h5", "--site", "Montreux", "--repaired"])
+        .fails(4, &["has no repaired spectrum of Montreux by PGV", "uplift consistency"]);
 }

@@ -32,6 +32,7 @@ mod pulse;
 mod python;
 mod quiet;
 mod records;
+mod repaired_bands;
 mod report;
 mod response;
 mod result_file;

@@ -156,8 +156,12 @@ pub(crate) fn alarms_within(file: &ResultFile, scope: &Scope) -> Result<Vec<Alar
     let mut alarms = inputs::of_result(file)?;
     alarms.extend(hazard::alarms(&evidence, scope));
     alarms.extend(levels::alarms(&evidence, scope)?);
-    alarms.extend(measures::alarms(&evidence, scope));
-    alarms.extend(consistency::alarms(&evidence, scope));
+    if scope.repaired {
+        alarms.extend(consistency::failing_samples(&evidence, scope));
+    } else {
+        alarms.extend(measures::alarms(&evidence, scope));
+        alarms.extend(consistency::alarms(&evidence, scope));
+    }
     Ok(alarms)
 }
 
@@ -176,6 +180,7 @@ fn of_spectra(evidence: &Evidence, scope: &Scope) -> Result<Vec<Alarm>, UpliftEr
     alarms.extend(levels::alarms(evidence, scope)?);
     alarms.extend(measures::alarms(evidence, scope));
     alarms.extend(consistency::alarms(evidence, scope));
+    alarms.extend(consistency::failing_samples(evidence, scope));
     alarms.extend(fit::alarms(evidence, scope));
     Ok(alarms)
 }

@@ -8,11 +8,12 @@ mod draws;
 mod job;
 mod needs;
 mod reference;
+mod repaired;
 mod report;
 mod write;
 
-pub use bands::{Bands, JointBands};
+pub use bands::{Bands, JointBands, RepairedBands, SpectraBands};
 pub(crate) use checkpoint::{finished_strengths, part_path};
 pub use job::{BootstrapOptions, bootstrap};
 pub use reference::{ReferenceRow, read_reference};
-pub use report::{BootstrapReport, BootstrapRow, Initiation};
+pub use report::{BootstrapReport, BootstrapRow, Initiation, RepairedFigures};

@@ -7,6 +7,7 @@
 //! | `question` | what is asked of: records, stripes and the hazard of every measure, from a run or from a result |
 //! | `finding` | the answer for one set of stripes at one site, with the repair |
 //! | `spectra` | the spectra of repaired weights |
+//! | `reweighing` | the same for other samples of the records, each with weights of its own |
 //! | `report` | both as rows and sentences |
 //! | `write` | arrays of the result file, and the table beside it |
 //! | `asked` | the answer at other risks than those of the study |
@@ -18,6 +19,7 @@ mod finding;
 mod job;
 mod question;
 mod report;
+mod reweighing;
 mod spectra;
 mod write;
 
@@ -25,7 +27,8 @@ pub(crate) use answer::Answer;
 pub(crate) use asked::consistency_of_asked;
 pub use finding::Finding;
 pub use job::{ConsistencyOptions, consistency};
-pub(crate) use question::Question;
+pub(crate) use question::{AskedRecord, Question};
 pub use report::{AgreementRow, ConsistencyReport, ConsistencyRow, RepairRow, TargetRow, TwoSidedRow};
+pub(crate) use reweighing::Reweighing;
 pub(crate) use spectra::Repairs;
 pub(crate) use write::Keep;

@@ -12,6 +12,7 @@ mod rules;
 mod spectrum;
 mod sweep;
 mod tables;
+mod weights;
 
 pub use demand::{DemandNoise, DemandRounding, ExactDemand, RuleRanges};
 pub use design::{DesignOptions, DesignReport, design, design_shard};

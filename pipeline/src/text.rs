@@ -11,6 +11,11 @@ pub fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 
+/// Which spectrum, by the measure that records are scaled to: `PGV`, or `PGV, repaired`.
+pub fn spectrum_words(measure: &str, repaired: bool) -> String {
+    if repaired { format!("{measure}, repaired") } else { measure.to_owned() }
+}
+
 /// Lines of a table: the first column to the left, the others to the right, a rule below the header.
 pub fn table(header: &[&str], rows: &[Vec<String>]) -> String {
     let width = |column: usize| {

@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use super::marks::hold;
 use super::{range, with_real_records};
-use crate::common::{repository, uplift};
+use crate::common::{array, repository, uplift};
 
 #[test]
 fn of_the_real_records() {
@@ -32,7 +32,20 @@ fn of_the_real_records() {
         let [mean, least, most] = [1, 2, 3].map(|place| all[key][place].as_f64().unwrap());
         format!("{mean:.2} ({least:.2} to {most:.2})")
     };
+    // samples that no weights mend, by their size
+    uplift(folder.path(), &["bootstrap", "r.h5", "-q", "--sizes", "20,40,105"]).ok();
+    let failed = |im: &str| {
+        let shares = array(&folder.path().join("r.h5"), &format!("/bootstrap/{im}/consistent/failed"));
+        let of_size = |size: usize| {
+            let [least, most] = range(shares.iter().skip(size).step_by(3).copied());
+            let [least, most] = [least, most].map(|share| format!("{:.0}", 100.0 * share));
+            if least == most { most } else { format!("{least} to {most}") }
+        };
+        format!("{}, {} and {} %", of_size(2), of_size(1), of_size(0))
+    };
     let computed = [
+        ("failed-pgv", failed("pgv")),
+        ("failed-pga", failed("pga")),
         ("bias-pga", biases("PGA")),
         ("bias-pgv", biases("PGV")),
         ("plain", agreement("plain")),

@@ -43,14 +43,14 @@ fn errors_of_the_rules() {
         near.extend(close.into_iter().map(|design| (over_capacity(design), design.clone())));
         if (im, name) == ("pga", "pier") {
             let noise = &designs[3]["exact"]["within_one_percent_of_strength"]["rule_errors"]["equal-energy"];
-            let [lowest, highest] = ["lowest", "highest"].map(|end| -100.0 * noise[end].as_f64().unwrap());
-            computed.push(("designs.focsani".to_owned(), format!("{highest:.0} to {lowest:.0} %")));
+            let [lowest, highest] = ["lowest", "highest"].map(|end| signed(noise[end].as_f64().unwrap()));
+            computed.push(("designs.focsani".to_owned(), format!("{lowest} to {highest} %")));
         }
         if (im, name) == ("pgv", "pier") {
             let end = |name: &str, end: &str| designs[1]["exact"]["rounding"][name][end].as_f64().unwrap();
             let range = |name: &str| [end(name, "lowest"), end(name, "highest")];
             let [low, high] = range("zero_stiffness_demand_of_spectrum_m");
-            computed.push(("designs.rounding-demand".to_owned(), format!("{low:.4} to {high:.4} m")));
+            computed.push(("designs.rounding-demand".to_owned(), format!("{} m", between(low, high, 4))));
             let [low, high] = range("overturning_per_year").map(|rate| 1e5 * rate);
             computed.push(("designs.rounding-risk".to_owned(), format!("{low:.3} to {high:.3}")));
         }
@@ -75,8 +75,14 @@ fn errors_of_the_rules() {
     computed.extend([
         ("designs.near".to_owned(), near.len().to_string()),
         ("designs.near-demand".to_owned(), shares.join(" and ")),
-        ("designs.near-ed".to_owned(), format!("{low:.0} to {high:.0} %")),
+        ("designs.near-ed".to_owned(), format!("{} %", between(low, high, 0))),
         ("designs.near-ee".to_owned(), warned.to_string()),
     ]);
     hold("designs", &computed);
+}
+
+/// From where to where, or the one value that both are in these digits.
+fn between(low: f64, high: f64, digits: usize) -> String {
+    let [low, high] = [low, high].map(|end| format!("{end:.digits$}"));
+    if low == high { low } else { format!("{low} to {high}") }
 }

@@ -45,6 +45,9 @@ pub enum BootstrapError {
         /// Records drawn.
         found: u64,
     },
+    /// Records of a single earthquake, which are to be drawn with their earthquakes.
+    #[error("all records are of one earthquake: there is no other choice of earthquakes to draw")]
+    OneEvent,
     /// Demand and hazard that do not belong together.
     #[error(transparent)]
     Risk(#[from] RiskError),

@@ -1,6 +1,6 @@
 //! The spectrum without each record: which records carry the result.
 
-use uplift_risk::{PooledDemand, ResamplingTable, StripeWeights};
+use uplift_risk::{PooledDemand, RecordSample, ResamplingTable, StripeWeights};
 
 use crate::{BootstrapError, left_out};
 
@@ -15,7 +15,19 @@ pub fn leave_one_out(
     weights: &StripeWeights,
     targets_per_year: &[f64],
 ) -> Result<Vec<f64>, BootstrapError> {
-    let samples = left_out(demand.record_count())?;
+    without_each(demand, weights, targets_per_year, &left_out(demand.record_count())?)
+}
+
+/// Exact ordinates of `samples`, the records without a part of them each, m, `[sample, target]`.
+///
+/// # Errors
+/// As [`leave_one_out`].
+pub fn without_each(
+    demand: &PooledDemand,
+    weights: &StripeWeights,
+    targets_per_year: &[f64],
+    samples: &[RecordSample],
+) -> Result<Vec<f64>, BootstrapError> {
     let table = ResamplingTable::new(demand, weights)?;
     let mut ordinates_m = vec![0.0; samples.len() * targets_per_year.len()];
     for (sample, row) in samples.iter().zip(ordinates_m.chunks_exact_mut(targets_per_year.len().max(1))) {

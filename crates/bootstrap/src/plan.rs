@@ -4,10 +4,13 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use uplift_risk::RecordSample;
 
-use crate::BootstrapError;
+use crate::unit::units;
+use crate::{BootstrapError, Unit, left_out};
 
 /// Fills the seed behind the 8 bytes of the user's number, so that no other use of the generator shares these streams.
-const DOMAIN: &[u8; 24] = b"uplift bootstrap records";
+const RECORDS: &[u8; 24] = b"uplift bootstrap records";
+/// The same for draws of earthquakes.
+const EVENTS: &[u8; 24] = b"uplift bootstrap  events";
 
 /// Largest sample size.
 const LARGEST_SIZE: u32 = 100_000;
@@ -24,6 +27,8 @@ pub struct ResamplingPlan {
     sizes: Vec<u32>,
     /// `[size, replicate]`.
     samples: Vec<RecordSample>,
+    /// The records of each earthquake; none where records are drawn one by one.
+    events: Option<Vec<Vec<usize>>>,
 }
 
 impl ResamplingPlan {
@@ -37,34 +42,56 @@ impl ResamplingPlan {
     /// No records, sizes or replicates; a size of 0, above 100 000, or given twice.
     pub fn draw(record_count: usize, sizes: &[u32], replicates: usize, seed: u64) -> Result<Self, BootstrapError> {
         check(record_count, sizes, replicates)?;
-        let records = u32::try_from(record_count).unwrap_or(u32::MAX);
-        let mut samples = Vec::with_capacity(sizes.len() * replicates);
-        for &size in sizes {
-            for replicate in 0..replicates {
-                let mut stream = Stream::new(seed, size, replicate);
-                let mut multiplicities = vec![0; record_count];
-                for _ in 0..size {
-                    multiplicities[stream.below(records) as usize] += 1;
-                }
-                samples.push(RecordSample::new(multiplicities)?);
-            }
+        let records: Vec<Vec<usize>> = (0..record_count).map(|record| vec![record]).collect();
+        let samples = draw(&records, record_count, (sizes, replicates), |size, replicate| {
+            (Stream::new(RECORDS, seed, size, replicate), size)
+        })?;
+        Ok(Self { record_count, replicates, sizes: sizes.to_vec(), samples, events: None })
+    }
+
+    /// Draws earthquakes with all their records.
+    ///
+    /// - `event_of`: the earthquake of each record, `[record]`: any numbers, alike for the records of one.
+    /// - `sizes`: records in a sample on average: as many earthquakes are drawn as have so many records on average, at
+    ///   least one ([`ResamplingPlan::units_drawn`]).
+    /// - `replicates`: samples of each size.
+    ///
+    /// # Errors
+    /// As [`ResamplingPlan::draw`]; a single earthquake, of which no other choice can be drawn.
+    pub fn draw_events(
+        event_of: &[usize],
+        sizes: &[u32],
+        replicates: usize,
+        seed: u64,
+    ) -> Result<Self, BootstrapError> {
+        check(event_of.len(), sizes, replicates)?;
+        let events = units(event_of);
+        if events.len() < 2 {
+            return Err(BootstrapError::OneEvent);
         }
-        Ok(Self { record_count, replicates, sizes: sizes.to_vec(), samples })
+        let records = event_of.len();
+        let samples = draw(&events, records, (sizes, replicates), |size, replicate| {
+            (Stream::new(EVENTS, seed, size, replicate), events_of(size, events.len(), records))
+        })?;
+        Ok(Self { record_count: records, replicates, sizes: sizes.to_vec(), samples, events: Some(events) })
     }
 
     /// A plan that was stored.
     ///
     /// - `multiplicities`: how often each record was drawn, `[size, replicate, record]`.
+    /// - `event_of`: the earthquake of each record, where they were drawn with all their records.
     ///
     /// # Errors
     /// As [`ResamplingPlan::draw`]; another number of multiplicities; a replicate that does not draw as many
-    /// records as its size says.
+    /// records as its size says, or other records of an earthquake than all.
     pub fn from_multiplicities(
         record_count: usize,
         sizes: &[u32],
         replicates: usize,
         multiplicities: &[u32],
+        event_of: Option<&[usize]>,
     ) -> Result<Self, BootstrapError> {
+        let events = event_of.map(units);
         check(record_count, sizes, replicates)?;
         let expected = sizes.len() * replicates * record_count;
         if multiplicities.len() != expected {
@@ -76,13 +103,57 @@ impl ResamplingPlan {
             .map(|(index, row)| {
                 let size = sizes[index / replicates];
                 let found: u64 = row.iter().map(|&count| u64::from(count)).sum();
-                if found != u64::from(size) {
+                let is_drawn = match &events {
+                    None => found == u64::from(size),
+                    Some(events) => {
+                        let is_whole = |event: &Vec<usize>| event.iter().all(|&record| row[record] == row[event[0]]);
+                        let drawn: u64 = events.iter().map(|event| u64::from(row[event[0]])).sum();
+                        let expected = events_of(size, events.len(), record_count);
+                        events.iter().all(is_whole) && drawn == u64::from(expected)
+                    }
+                };
+                if !is_drawn {
                     return Err(BootstrapError::Draws { size, replicate: index % replicates, found });
                 }
                 Ok(RecordSample::new(row.to_vec())?)
             })
             .collect::<Result<_, BootstrapError>>()?;
-        Ok(Self { record_count, replicates, sizes: sizes.to_vec(), samples })
+        Ok(Self { record_count, replicates, sizes: sizes.to_vec(), samples, events })
+    }
+
+    /// What was drawn.
+    pub fn unit(&self) -> Unit {
+        if self.events.is_some() { Unit::Event } else { Unit::Record }
+    }
+
+    /// How many units there are to draw from: records, or earthquakes.
+    pub fn unit_count(&self) -> usize {
+        self.events.as_ref().map_or(self.record_count, Vec::len)
+    }
+
+    /// How many units a sample of `size` records has: itself, or as many earthquakes as have so many records on
+    /// average.
+    pub fn units_drawn(&self, size: u32) -> u32 {
+        match &self.events {
+            None => size,
+            Some(events) => events_of(size, events.len(), self.record_count),
+        }
+    }
+
+    /// The records without each of the units in turn, `[unit]`; none where there is but one.
+    ///
+    /// # Errors
+    /// More than 2²⁴ records.
+    pub fn left_out(&self) -> Result<Vec<RecordSample>, BootstrapError> {
+        let Some(events) = &self.events else { return Ok(left_out(self.record_count)?) };
+        let without = |event: &Vec<usize>| {
+            let mut multiplicities = vec![1; self.record_count];
+            for &record in event {
+                multiplicities[record] = 0;
+            }
+            Ok(RecordSample::new(multiplicities)?)
+        };
+        events.iter().map(without).collect()
     }
 
     /// Records drawn from.
@@ -112,6 +183,36 @@ impl ResamplingPlan {
     }
 }
 
+/// The earthquakes of a sample of `size` records, where `events` of them have so many `records`.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most the size, and not negative")]
+fn events_of(size: u32, events: usize, records: usize) -> u32 {
+    ((f64::from(size) * events as f64 / records as f64).round() as u32).max(1)
+}
+
+/// Samples of units, `[size, replicate]`; `stream` says from which numbers, and how many units are drawn.
+fn draw(
+    units: &[Vec<usize>],
+    record_count: usize,
+    (sizes, replicates): (&[u32], usize),
+    stream: impl Fn(u32, usize) -> (Stream, u32),
+) -> Result<Vec<RecordSample>, BootstrapError> {
+    let count = u32::try_from(units.len()).unwrap_or(u32::MAX);
+    let mut samples = Vec::with_capacity(sizes.len() * replicates);
+    for &size in sizes {
+        for replicate in 0..replicates {
+            let (mut stream, drawn) = stream(size, replicate);
+            let mut multiplicities = vec![0; record_count];
+            for _ in 0..drawn {
+                for &record in &units[stream.below(count) as usize] {
+                    multiplicities[record] += 1;
+                }
+            }
+            samples.push(RecordSample::new(multiplicities)?);
+        }
+    }
+    Ok(samples)
+}
+
 fn check(record_count: usize, sizes: &[u32], replicates: usize) -> Result<(), BootstrapError> {
     if record_count == 0 || sizes.is_empty() || replicates == 0 {
         return Err(BootstrapError::Empty { records: record_count, sizes: sizes.len(), replicates });
@@ -128,10 +229,10 @@ fn check(record_count: usize, sizes: &[u32], replicates: usize) -> Result<(), Bo
 struct Stream(ChaCha8Rng);
 
 impl Stream {
-    fn new(seed: u64, size: u32, replicate: usize) -> Self {
+    fn new(domain: &[u8; 24], seed: u64, size: u32, replicate: usize) -> Self {
         let mut bytes = [0; 32];
         bytes[..8].copy_from_slice(&seed.to_le_bytes());
-        bytes[8..].copy_from_slice(DOMAIN);
+        bytes[8..].copy_from_slice(domain);
         let mut generator = ChaCha8Rng::from_seed(bytes);
         generator.set_stream((u64::from(size) << 32) | replicate as u64);
         Self(generator)
@@ -164,7 +265,7 @@ mod tests {
         assert_eq!(plan.samples()[30..33], alone.samples()[..]);
         assert_ne!(plan.samples()[30..33], ResamplingPlan::draw(7, &[5], 3, 2).unwrap().samples()[..]);
         assert_ne!(plan.samples()[30], plan.samples()[31]);
-        let kept = ResamplingPlan::from_multiplicities(7, &[20, 5], 30, &plan.multiplicities()).unwrap();
+        let kept = ResamplingPlan::from_multiplicities(7, &[20, 5], 30, &plan.multiplicities(), None).unwrap();
         assert_eq!(kept, plan);
     }
 
@@ -200,9 +301,45 @@ mod tests {
         for sizes in [[0, 1], [4, 4], [1, 100_001]] {
             assert!(matches!(ResamplingPlan::draw(3, &sizes, 2, 1), Err(BootstrapError::Size { .. })));
         }
-        let kept = |counts: &[u32]| ResamplingPlan::from_multiplicities(2, &[3], 2, counts);
+        let kept = |counts: &[u32]| ResamplingPlan::from_multiplicities(2, &[3], 2, counts, None);
         assert!(kept(&[1, 2, 3, 0]).is_ok());
         assert!(matches!(kept(&[1, 2, 3]), Err(BootstrapError::Shape { found: 3, expected: 4 })));
         assert!(matches!(kept(&[1, 2, 3, 1]), Err(BootstrapError::Draws { size: 3, replicate: 1, found: 4 })));
+    }
+
+    #[test]
+    fn earthquakes_are_drawn_with_all_their_records() {
+        // three earthquakes of 4, 1 and 2 records
+        let event_of = [8, 8, 3, 8, 5, 5, 8];
+        let plan = ResamplingPlan::draw_events(&event_of, &[7, 2, 14], 400, 1).unwrap();
+        assert_eq!((plan.unit(), plan.unit_count()), (Unit::Event, 3));
+        // 3/7 of 2 records is one earthquake, 3/7 of 14 six
+        assert_eq!([7, 2, 14].map(|size| plan.units_drawn(size)), [3, 1, 6]);
+        for (index, sample) in plan.samples().iter().enumerate() {
+            let drawn = sample.multiplicities();
+            assert!([1, 3, 6].iter().all(|&record| drawn[record] == drawn[0]) && drawn[4] == drawn[5]);
+            assert_eq!(drawn[0] + drawn[2] + drawn[4], [3, 1, 6][index / 400]);
+        }
+        // as often each: 2400 draws of 3, with a standard deviation of 23
+        let of_last: u32 = plan.samples()[800..].iter().map(|sample| sample.multiplicities()[2]).sum();
+        assert!(of_last.abs_diff(800) < 100, "{of_last}");
+        let stored = |counts: &[u32]| ResamplingPlan::from_multiplicities(7, &[7, 2, 14], 400, counts, Some(&event_of));
+        let mut counts = plan.multiplicities();
+        assert_eq!(stored(&counts), Ok(plan.clone()));
+        counts[0] += 1;
+        assert!(matches!(stored(&counts), Err(BootstrapError::Draws { size: 7, replicate: 0, .. })));
+        let without: Vec<Vec<u32>> =
+            plan.left_out().unwrap().iter().map(|sample| sample.multiplicities().to_vec()).collect();
+        assert_eq!(without, [[0, 0, 1, 0, 1, 1, 0], [1, 1, 0, 1, 1, 1, 1], [1, 1, 1, 1, 0, 0, 1]]);
+        assert_eq!(ResamplingPlan::draw_events(&[1, 1], &[2], 5, 1), Err(BootstrapError::OneEvent));
+    }
+
+    #[test]
+    fn earthquakes_of_one_record_are_records_from_another_stream() {
+        let events = ResamplingPlan::draw_events(&[0, 1, 2, 3], &[4], 50, 1).unwrap();
+        let records = ResamplingPlan::draw(4, &[4], 50, 1).unwrap();
+        assert!(events.samples().iter().all(|sample| sample.size() == 4));
+        assert_ne!(events.multiplicities(), records.multiplicities());
+        assert_eq!(events.left_out().unwrap(), records.left_out().unwrap());
     }
 }

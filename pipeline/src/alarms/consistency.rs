@@ -27,6 +27,36 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
     Alarm::of_cases("hazard-inconsistent", cases)
 }
 
+/// More failing samples than this deserve a warning.
+const MANY_FAILED: f64 = 0.05;
+
+/// Bands of repaired spectra of whose samples many cannot be weighed to the site's hazard.
+pub(super) fn failing_samples(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
+    let stored = evidence.bands.as_ref()?;
+    let mut cases = Vec::new();
+    for bands in &stored.measures {
+        let Some(repaired) = &bands.repaired else { continue };
+        for (site, name) in evidence.spectra.sites.iter().enumerate() {
+            let share = repaired.failed[[site, stored.largest()]];
+            if scope.holds(site, bands.measure) && share > MANY_FAILED {
+                cases.push(Case {
+                    severity: Severity::Note,
+                    badness: share,
+                    subject: format!("{name} by {}", bands.measure.label()),
+                    what: format!(
+                        "no weights bring the site's hazard to {:.0} % of the samples of {} records: their repaired \
+                         spectra lean to the plain ones, and so does the band",
+                        100.0 * share,
+                        stored.sizes[stored.largest()]
+                    ),
+                    what_to_do: "take more records, or records of another kind (uplift consistency)".to_owned(),
+                });
+            }
+        }
+    }
+    Alarm::of_cases("repair-of-samples", cases)
+}
+
 /// `times` the level of the other measure do the records bring.
 fn case(consistency: &StoredConsistency, site: usize, name: &str, times: f64) -> Case {
     let StoredConsistency { scaled_to, other, u_m, .. } = consistency;
@@ -41,7 +71,9 @@ fn case(consistency: &StoredConsistency, site: usize, name: &str, times: f64) ->
              hazard-consistent"
         ),
         what_to_do: match u_m {
-            Some(_) if is_repaired => "use the repaired spectra beside them (uplift consistency)",
+            Some(_) if is_repaired => {
+                "use the repaired spectra beside them (uplift consistency; uplift design --repaired)"
+            }
             Some(_) => "no weights of these records can mend it: uplift consistency says which are missing",
             None => {
                 "[consistency] repair = \"weights\" gives spectra that are, beside the plain ones (uplift consistency)"

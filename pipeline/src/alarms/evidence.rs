@@ -30,6 +30,8 @@ pub(crate) struct Scope {
     pub(crate) poe: Option<usize>,
     /// The strengths between which the spectra are read, both included.
     pub(crate) strengths: Option<(f64, f64)>,
+    /// Whether it is asked by repaired spectra, so that what is wrong with the plain ones is of no account.
+    pub(crate) repaired: bool,
 }
 
 impl Scope {

@@ -104,7 +104,7 @@ fn none_seen(own: &OwnRisk) -> Option<Case> {
              to {} at the last level ({} confidence)",
             own.levels.1,
             own.measure.unit(),
-            share_in_words(share_at_most(own.records)),
+            share_in_words(share_at_most(own.records as f64)),
             per_cent(BOUND_CONFIDENCE),
             records = own.records,
         ),

@@ -1,13 +1,12 @@
 //! The bands of a result at risks that it is asked for after its bootstrap: from the draws that it keeps.
 
-use rayon::prelude::*;
-use uplift_ida::Watch;
-
-use super::bands::{BandSettings, Bands, StrengthBands, bands_of_strength, gather_bands};
+use super::bands::{BandSettings, Bands, RepairedBands};
+use super::compute::{Source, compute};
 use super::write::percent;
+use crate::consistency::Reweighing;
 use crate::error::UpliftError;
-use crate::events::{Events, Progress};
-use crate::result::{BandMethod, MeasureBands, ResultFile, StoredBands};
+use crate::events::Events;
+use crate::result::{BandMethod, MeasureBands, RepairedMeasureBands, ResultFile, StoredBands};
 
 impl ResultFile {
     /// The same result with bands at the risks that it was asked for ([`at`](Self::at)), made of the draws of its
@@ -30,32 +29,27 @@ impl ResultFile {
         let BandMethod { confidence, interval, strength_above } = self.band_method()?;
         let settings = BandSettings { confidence, interval, simultaneous: false, strength_above };
         let stored = self.stripes()?;
-        let mut measures = Vec::new();
-        for measure in &stored.measures {
-            let strengths = stored.strengths.len();
-            let progress = Progress::begin(events, measure.measure.label(), "strengths", strengths as u64);
-            let of_strength = |strength| {
-                if progress.cancelled() {
-                    return Err(UpliftError::Interrupted);
-                }
-                let bands = bands_of_strength(&stored, measure, strength, &plan, &settings);
-                progress.finished(1);
-                bands.map_err(|error| error.in_file(&stored.path))
-            };
-            let bands = (0..strengths).into_par_iter().map(of_strength).collect::<Result<Vec<StrengthBands>, _>>()?;
-            let bands: Vec<&StrengthBands> = bands.iter().collect();
-            measures.push(stored_bands(gather_bands(&stored, measure, &plan, &settings, &bands)));
-        }
+        // where the bootstrap made bands of repaired spectra as well
+        let reweighing = if self.has_repaired_bands() { Reweighing::of_result(&self)? } else { None };
+        let source = Source { stored: &stored, reweighing: reweighing.as_ref(), plan: &plan, settings: &settings };
+        let measures = compute(&source, None, events)?.into_iter().map(stored_bands).collect();
         Ok(self.with_bands(StoredBands { sizes: plan.sizes().to_vec(), confidence, measures }))
     }
 }
 
 /// Bands as a result has them.
 fn stored_bands(bands: Bands) -> MeasureBands {
+    let Bands { measure, plain, repaired, .. } = bands;
     MeasureBands {
-        measure: bands.measure,
-        error_of_median: percent(&bands.error_of_median),
-        range_of_interval: percent(&bands.range_of_interval),
-        limits_m: [bands.lower_m, bands.median_m, bands.upper_m],
+        measure,
+        error_of_median: percent(&plain.error_of_median),
+        range_of_interval: percent(&plain.range_of_interval),
+        limits_m: [plain.lower_m, plain.median_m, plain.upper_m],
+        repaired: repaired.map(|RepairedBands { bands, failed }| RepairedMeasureBands {
+            error_of_median: percent(&bands.error_of_median),
+            range_of_interval: percent(&bands.range_of_interval),
+            limits_m: [bands.lower_m, bands.median_m, bands.upper_m],
+            failed,
+        }),
     }
 }

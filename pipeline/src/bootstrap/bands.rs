@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 use uplift_bootstrap::{
-    Band, BootstrapError, Interval, Replicates, ResamplingPlan, acceleration, leave_one_out, simultaneous_bands,
-    weighted_quantile,
+    Band, BootstrapError, Interval, Replicates, ResamplingPlan, acceleration, simultaneous_bands, weighted_quantile,
+    without_each,
 };
 use uplift_motion::IntensityMeasure;
 use uplift_risk::{PooledDemand, StripeWeights};
@@ -25,6 +25,34 @@ pub(super) struct BandSettings {
     pub(super) strength_above: f64,
 }
 
+impl BandSettings {
+    /// The band of an ordinate with its replicates.
+    ///
+    /// - `sorted`: room.
+    /// - `estimate_m`: the ordinate of all records, m.
+    /// - `without_each_m`, `size`: that without each unit of the draws, m, which BCa asks for; the units of a sample.
+    pub(super) fn band(
+        &self,
+        replicates_m: &[f64],
+        sorted: &mut Vec<f64>,
+        estimate_m: f64,
+        (without_each_m, size): (&[f64], u32),
+    ) -> Band {
+        sorted.clear();
+        sorted.extend_from_slice(replicates_m);
+        sorted.sort_unstable_by(f64::total_cmp);
+        match self.interval {
+            Interval::Percentile => Band::percentile(sorted, self.confidence),
+            Interval::Bca => Band::bca(sorted, self.confidence, estimate_m, acceleration(without_each_m, size)),
+        }
+    }
+
+    /// Position of the first strength that counts in Eq. 4.9 and 4.10.
+    pub(super) fn first_strength(&self, strengths: &[f64]) -> usize {
+        strengths.partition_point(|&strength| strength <= self.strength_above)
+    }
+}
+
 /// The bands of one strength.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct StrengthBands {
@@ -39,6 +67,17 @@ pub(super) struct StrengthBands {
 pub struct Bands {
     /// The measure.
     pub measure: IntensityMeasure,
+    /// Those of the spectra of records that count alike.
+    pub plain: SpectraBands,
+    /// Bands over records and hazard together, for the sites with branches.
+    pub joint: Vec<JointBands>,
+    /// Those of the repaired spectra, where the result has some.
+    pub repaired: Option<RepairedBands>,
+}
+
+/// Bands of the spectra of all sites, with the figures of Table 4.1.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SpectraBands {
     /// Lower limits `[site, poe, size, strength]`, m.
     pub lower_m: Array<4>,
     /// Medians `[site, poe, size, strength]`, m.
@@ -47,12 +86,19 @@ pub struct Bands {
     pub upper_m: Array<4>,
     /// Lower and upper limits of the band of whole spectra `[site, poe, size, strength]`, m, if made.
     pub simultaneous_m: Option<[Array<4>; 2]>,
-    /// Bands over records and hazard together, for the sites with branches.
-    pub joint: Vec<JointBands>,
     /// Error of the median `[site, poe, size]` (Eq. 4.9); none where an ordinate is censored or 0.
     pub error_of_median: Array<3, Option<f64>>,
     /// Width of the interval `[site, poe, size]` (Eq. 4.10); none where an ordinate is censored or 0.
     pub range_of_interval: Array<3, Option<f64>>,
+}
+
+/// Bands of repaired spectra; NaN at sites without repair.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RepairedBands {
+    /// The bands.
+    pub bands: SpectraBands,
+    /// Share of the samples whose weights do not bring the site's hazard `[site, size]`.
+    pub failed: Array<2>,
 }
 
 /// The bands of one site over records and weighted hazard curves together.
@@ -83,6 +129,10 @@ pub(super) fn bands_of_strength(
 ) -> Result<StrengthBands, UpliftError> {
     let demand = measure.demand(index)?;
     let targets = &stored.targets_per_year;
+    let left_out = match settings.interval {
+        Interval::Percentile => Vec::new(),
+        Interval::Bca => plan.left_out()?,
+    };
     let mut done = StrengthBands { bands: Vec::new(), replicates_m: Vec::new() };
     let mut sorted = Vec::new();
     for (site, weights) in measure.weights.iter().enumerate() {
@@ -90,23 +140,19 @@ pub(super) fn bands_of_strength(
         let replicates = Replicates::of(&demand, &sites, targets, plan)?;
         let without_each = match settings.interval {
             Interval::Percentile => Vec::new(),
-            Interval::Bca => leave_one_out(&demand, weights, targets)?,
+            Interval::Bca => without_each(&demand, weights, targets, &left_out)?,
         };
         for poe in 0..targets.len() {
             let estimate_m = measure.exact_m[[site, poe, index]];
             let without_each_m: Vec<f64> = without_each.iter().skip(poe).step_by(targets.len()).copied().collect();
             for (size_index, &size) in plan.sizes().iter().enumerate() {
                 let ordinates_m = replicates.ordinates_m(0, poe, size_index);
-                sorted.clear();
-                sorted.extend_from_slice(ordinates_m);
-                sorted.sort_unstable_by(f64::total_cmp);
-                done.bands.push(match settings.interval {
-                    Interval::Percentile => Band::percentile(&sorted, settings.confidence),
-                    Interval::Bca => {
-                        let acceleration = acceleration(&without_each_m, size);
-                        Band::bca(&sorted, settings.confidence, estimate_m, acceleration)
-                    }
-                });
+                done.bands.push(settings.band(
+                    ordinates_m,
+                    &mut sorted,
+                    estimate_m,
+                    (&without_each_m, plan.units_drawn(size)),
+                ));
                 if settings.simultaneous {
                     done.replicates_m.extend_from_slice(ordinates_m);
                 }
@@ -159,18 +205,7 @@ pub(super) fn gather_bands(
     let (sites, poes, sizes) = (stored.sites.len(), stored.poes.len(), plan.sizes().len());
     let shape = [sites, poes, sizes, strengths.len()];
     let cell = |site: usize, poe: usize, size: usize| (site * poes + poe) * sizes + size;
-    let of = |value: fn(&Band) -> f64| {
-        Array::from_fn(shape, |[site, poe, size, strength]| value(&strengths[strength].bands[cell(site, poe, size)]))
-    };
-    let (lower_m, median_m, upper_m) = (of(|band| band.lower_m), of(|band| band.median_m), of(|band| band.upper_m));
-    let first = stored.strengths.partition_point(|&strength| strength <= settings.strength_above);
-    let error_of_median = Array::from_fn([sites, poes, sizes], |at @ [site, poe, _]| {
-        uplift_bootstrap::error_of_median(&median_m.block(at)[first..], &measure.exact_m.block([site, poe])[first..])
-    });
-    let range_of_interval = Array::from_fn([sites, poes, sizes], |at| {
-        let [lower, median, upper] = [&lower_m, &median_m, &upper_m].map(|limits| &limits.block(at)[first..]);
-        uplift_bootstrap::range_of_interval(lower, median, upper)
-    });
+    let first = settings.first_strength(&stored.strengths);
     let simultaneous_m = settings.simultaneous.then(|| {
         let count = plan.replicates();
         // [site, poe, size][strength]
@@ -206,14 +241,27 @@ pub(super) fn gather_bands(
             JointBands { site, lower_m, median_m, upper_m, range_of_interval }
         })
         .collect();
-    Bands {
-        measure: measure.measure,
-        lower_m,
-        median_m,
-        upper_m,
-        simultaneous_m,
-        joint,
-        error_of_median,
-        range_of_interval,
+    let band = |[site, poe, size, strength]: [usize; 4]| strengths[strength].bands[cell(site, poe, size)];
+    let mut plain = SpectraBands::of(&Array::from_fn(shape, band), &measure.exact_m, first);
+    plain.simultaneous_m = simultaneous_m;
+    Bands { measure: measure.measure, plain, joint, repaired: None }
+}
+
+impl SpectraBands {
+    /// Bands `[site, poe, size, strength]` of spectra `[site, poe, strength]`, m, with the figures of Table 4.1 over
+    /// the strengths from the position `first` on.
+    pub(super) fn of(bands: &Array<4, Band>, spectra_m: &Array<3>, first: usize) -> Self {
+        let [lower_m, median_m, upper_m] =
+            [|band: &Band| band.lower_m, |band: &Band| band.median_m, |band: &Band| band.upper_m]
+                .map(|value: fn(&Band) -> f64| bands.map(value));
+        let [sites, poes, sizes, _] = bands.shape();
+        let error_of_median = Array::from_fn([sites, poes, sizes], |at @ [site, poe, _]| {
+            uplift_bootstrap::error_of_median(&median_m.block(at)[first..], &spectra_m.block([site, poe])[first..])
+        });
+        let range_of_interval = Array::from_fn([sites, poes, sizes], |at| {
+            let [lower, median, upper] = [&lower_m, &median_m, &upper_m].map(|limits| &limits.block(at)[first..]);
+            uplift_bootstrap::range_of_interval(lower, median, upper)
+        });
+        Self { lower_m, median_m, upper_m, simultaneous_m: None, error_of_median, range_of_interval }
     }
 }

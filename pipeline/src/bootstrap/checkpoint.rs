@@ -4,17 +4,35 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
-use uplift_bootstrap::{Band, ResamplingPlan};
+use uplift_bootstrap::Band;
 use uplift_motion::IntensityMeasure;
 
-use super::bands::{BandSettings, StrengthBands};
+use super::bands::StrengthBands;
+use super::compute::Source;
+use super::repaired::{SiteBands, SiteShape};
+use crate::consistency::Reweighing;
 use crate::error::UpliftError;
 use crate::outputs::beside;
-use crate::result::StoredStripes;
 use uplift_labelled::{LabelledReader, LabelledWriter};
 
-/// Finished strengths by measure and index.
-pub(super) type Finished = BTreeMap<(&'static str, usize), StrengthBands>;
+/// What is finished.
+#[derive(Debug, Default)]
+pub(super) struct Finished {
+    /// Strengths, by measure and index.
+    pub(super) strengths: BTreeMap<(&'static str, usize), StrengthBands>,
+    /// Sites with repaired spectra, by measure and index.
+    pub(super) sites: BTreeMap<(&'static str, usize), SiteBands>,
+}
+
+/// What a checkpoint may hold: a damaged one may hold anything.
+pub(super) struct Expected {
+    /// Measures, by their keys.
+    pub(super) keys: Vec<&'static str>,
+    /// Shape of the bands of a repaired site.
+    pub(super) site: SiteShape,
+    /// Whether there are bands of whole spectra.
+    pub(super) simultaneous: bool,
+}
 
 /// The file beside a result that holds the finished part of its bootstrap.
 #[derive(Debug)]
@@ -40,7 +58,8 @@ pub(crate) fn finished_strengths(part: &Path) -> Option<u64> {
 
 impl Checkpoint {
     /// The checkpoint of this very bootstrap: its fingerprint covers all numbers that the bands depend on.
-    pub(super) fn of(stored: &StoredStripes, plan: &ResamplingPlan, settings: &BandSettings) -> Self {
+    pub(super) fn of(source: &Source<'_>) -> Self {
+        let Source { stored, reweighing, plan, settings } = source;
         let mut hash = Sha256::new();
         let mut add = |values: &[f64]| {
             hash.update((values.len() as u64).to_le_bytes());
@@ -59,7 +78,8 @@ impl Checkpoint {
             let branch_weights: Vec<f64> = measure.branches.iter().flatten().map(|(weight, _)| *weight).collect();
             add(&branch_weights);
         }
-        hash.update(format!("{:?} {} {:?}", plan.sizes(), plan.replicates(), settings));
+        add(&reweighing.map(Reweighing::numbers).unwrap_or_default());
+        hash.update(format!("{:?} {:?} {} {:?}", plan.unit(), plan.sizes(), plan.replicates(), settings));
         for count in plan.multiplicities() {
             hash.update(count.to_le_bytes());
         }
@@ -71,15 +91,15 @@ impl Checkpoint {
         &self.path
     }
 
-    /// What is there already of the measures `keys`; nothing if it belongs to other numbers or cannot be read.
-    pub(super) fn load(&self, keys: &[&'static str]) -> Finished {
+    /// What is there already; nothing if it belongs to other numbers or cannot be read.
+    pub(super) fn load(&self, expected: &Expected) -> Finished {
         let read = || -> Result<Finished, UpliftError> {
             let reader = LabelledReader::open(&self.path)?;
-            let mut finished = Finished::new();
+            let mut finished = Finished::default();
             if reader.attribute_text("/", "fingerprint")? != self.fingerprint {
                 return Ok(finished);
             }
-            for &key in keys.iter().filter(|key| reader.exists(&format!("/{key}/bands_m"))) {
+            for &key in expected.keys.iter().filter(|key| reader.exists(&format!("/{key}/bands_m"))) {
                 let strengths = reader.array_u32(&format!("/{key}/strength"))?.values;
                 let bands = reader.array_f64(&format!("/{key}/bands_m"))?.values;
                 let path = format!("/{key}/replicates_m");
@@ -94,7 +114,16 @@ impl Checkpoint {
                         .map(|band| Band { lower_m: band[0], median_m: band[1], upper_m: band[2] })
                         .collect();
                     let replicates_m = replicates[row * per_replicate..(row + 1) * per_replicate].to_vec();
-                    finished.insert((key, strength as usize), StrengthBands { bands, replicates_m });
+                    let strength = (key, strength as usize);
+                    finished.strengths.insert(strength, StrengthBands { bands, replicates_m });
+                }
+            }
+            for &key in expected.keys.iter().filter(|key| reader.exists(&format!("/{key}/repaired"))) {
+                let sites = reader.array_u32(&format!("/{key}/site"))?.values;
+                let numbers = reader.array_f64(&format!("/{key}/repaired"))?.values;
+                for (row, &site) in numbers.chunks_exact((numbers.len() / sites.len().max(1)).max(1)).zip(&sites) {
+                    let bands = SiteBands::of_numbers(row, expected.site, expected.simultaneous);
+                    finished.sites.extend(bands.map(|bands| ((key, site as usize), bands)));
                 }
             }
             Ok(finished)
@@ -110,39 +139,29 @@ impl Checkpoint {
         let mut writer = LabelledWriter::create(&self.path)?;
         writer.attribute("/", "program", "uplift")?;
         writer.attribute("/", "fingerprint", self.fingerprint.as_str())?;
-        let mut keys: Vec<&'static str> = finished.keys().map(|&(key, _)| key).collect();
-        keys.dedup();
-        for key in keys {
-            let rows: Vec<(u32, &StrengthBands)> = finished
-                .iter()
-                .filter(|((of, _), _)| *of == key)
-                .map(|((_, strength), bands)| (u32::try_from(*strength).unwrap_or(u32::MAX), bands))
-                .collect();
-            let indices: Vec<u32> = (0..).take(rows.len()).collect();
-            let (row, value) = (format!("{key}_row"), format!("{key}_value"));
-            writer.axis_u32(&row, &indices, "1", "row")?;
-            let strengths: Vec<u32> = rows.iter().map(|row| row.0).collect();
-            writer.array_u32(&format!("/{key}/strength"), &[&row], &strengths, "1", "index of the strength")?;
+        for (key, rows) in by_measure(&finished.strengths) {
+            let row = row_axis(&mut writer, &format!("{key}_row"), rows.len())?;
+            writer.array_u32(&format!("/{key}/strength"), &[&row], &indices(&rows), "1", "index of the strength")?;
             let bands: Vec<f64> = rows
                 .iter()
                 .flat_map(|(_, done)| done.bands.iter().flat_map(|band| [band.lower_m, band.median_m, band.upper_m]))
                 .collect();
-            let values: Vec<u32> = (0..).take(bands.len() / rows.len()).collect();
-            writer.axis_u32(&value, &values, "1", "limit")?;
+            let value = row_axis(&mut writer, &format!("{key}_value"), bands.len() / rows.len())?;
             writer.array_f64(&format!("/{key}/bands_m"), &[&row, &value], &bands, "m", "bands")?;
             let replicates: Vec<f64> = rows.iter().flat_map(|(_, done)| done.replicates_m.iter().copied()).collect();
             if !replicates.is_empty() {
-                let replicate = format!("{key}_replicate");
-                let values: Vec<u32> = (0..).take(replicates.len() / rows.len()).collect();
-                writer.axis_u32(&replicate, &values, "1", "replicate")?;
-                writer.array_f64(
-                    &format!("/{key}/replicates_m"),
-                    &[&row, &replicate],
-                    &replicates,
-                    "m",
-                    "replicates",
-                )?;
+                let axis = row_axis(&mut writer, &format!("{key}_replicate"), replicates.len() / rows.len())?;
+                let path = format!("/{key}/replicates_m");
+                writer.array_f64(&path, &[&row, &axis], &replicates, "m", "replicates")?;
             }
+        }
+        for (key, rows) in by_measure(&finished.sites) {
+            let row = row_axis(&mut writer, &format!("{key}_site_row"), rows.len())?;
+            writer.array_u32(&format!("/{key}/site"), &[&row], &indices(&rows), "1", "index of the site")?;
+            let numbers: Vec<f64> = rows.iter().flat_map(|(_, done)| done.numbers()).collect();
+            let value = row_axis(&mut writer, &format!("{key}_site_value"), numbers.len() / rows.len())?;
+            let what = "bands of repaired spectra";
+            writer.array_f64(&format!("/{key}/repaired"), &[&row, &value], &numbers, "1", what)?;
         }
         writer.finish()?;
         Ok(())
@@ -152,4 +171,24 @@ impl Checkpoint {
     pub(super) fn remove(&self) {
         let _ = std::fs::remove_file(&self.path);
     }
+}
+
+/// What is finished of each measure, with its index.
+fn by_measure<'a, T>(finished: &'a BTreeMap<(&'static str, usize), T>) -> BTreeMap<&'static str, Vec<(usize, &'a T)>> {
+    let mut found: BTreeMap<&'static str, Vec<(usize, &'a T)>> = BTreeMap::new();
+    for (&(key, index), done) in finished {
+        found.entry(key).or_default().push((index, done));
+    }
+    found
+}
+
+fn indices<T>(rows: &[(usize, T)]) -> Vec<u32> {
+    rows.iter().map(|(index, _)| u32::try_from(*index).unwrap_or(u32::MAX)).collect()
+}
+
+/// An axis of numbers, by its name.
+fn row_axis(writer: &mut LabelledWriter, name: &str, length: usize) -> Result<String, UpliftError> {
+    let numbers: Vec<u32> = (0..).take(length).collect();
+    writer.axis_u32(name, &numbers, "1", "number")?;
+    Ok(name.to_owned())
 }

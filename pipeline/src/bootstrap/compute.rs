@@ -5,36 +5,90 @@ use std::time::{Duration, Instant};
 use rayon::prelude::*;
 use uplift_bootstrap::ResamplingPlan;
 use uplift_ida::Watch;
+use uplift_risk::PooledDemand;
 
 use super::bands::{BandSettings, Bands, StrengthBands, bands_of_strength, gather_bands};
-use super::checkpoint::{Checkpoint, Finished};
+use super::checkpoint::{Checkpoint, Expected, Finished};
+use super::repaired::{SiteBands, SiteShape, bands_of_site, gather_repaired};
+use crate::consistency::Reweighing;
 use crate::error::UpliftError;
 use crate::events::{Events, Progress};
-use crate::result::StoredStripes;
+use crate::result::{StoredMeasure, StoredStripes};
 
 /// Strengths done between two looks at the clock and at whoever may stop the job, a thread.
 const BATCH: usize = 16;
 /// What is finished is kept so often.
 const KEPT_EVERY: Duration = Duration::from_secs(30);
 
-/// The bands of all measures.
+/// What bands are made of.
+pub(super) struct Source<'a> {
+    /// The stripes of the result.
+    pub(super) stored: &'a StoredStripes,
+    /// What weighs the records of its repaired spectra anew; none where it has none.
+    pub(super) reweighing: Option<&'a Reweighing>,
+    /// The draws.
+    pub(super) plan: &'a ResamplingPlan,
+    /// What kind of bands.
+    pub(super) settings: &'a BandSettings,
+}
+
+/// The bands of all measures; what is finished is kept in `checkpoint`, if there is one.
+///
+/// # Errors
+/// Numbers that do not fit together, in a file that was changed; a checkpoint that cannot be written; where `events`
+/// say so [`UpliftError::Paused`], and [`UpliftError::Interrupted`] without a checkpoint.
 pub(super) fn compute(
-    stored: &StoredStripes,
-    plan: &ResamplingPlan,
-    settings: &BandSettings,
-    checkpoint: &Checkpoint,
+    source: &Source<'_>,
+    checkpoint: Option<&Checkpoint>,
     events: &dyn Events,
 ) -> Result<Vec<Bands>, UpliftError> {
-    let mut finished = finished_before(stored, plan, settings, checkpoint);
-    if !finished.is_empty() {
-        events.remark("resumed", &format!("{} strengths from {}", finished.len(), checkpoint.path().display()));
+    let mut finished = checkpoint.map(|checkpoint| finished_before(source, checkpoint)).unwrap_or_default();
+    let (strengths, sites) = (finished.strengths.len(), finished.sites.len());
+    if let Some(checkpoint) = checkpoint
+        && strengths + sites > 0
+    {
+        let of_sites = if sites > 0 { format!(" and {sites} repaired sites") } else { String::new() };
+        events.remark("resumed", &format!("{strengths} strengths{of_sites} from {}", checkpoint.path().display()));
     }
     let start = Instant::now();
+    plain_bands(source, &mut finished, checkpoint, events)?;
+    repaired_bands(source, &mut finished, checkpoint, events)?;
+    if let Some(checkpoint) = checkpoint
+        && start.elapsed() > KEPT_EVERY
+    {
+        // the result may not be writable, on a disk that has filled up for instance
+        checkpoint.save(&finished)?;
+    }
+    let Source { stored, plan, settings, .. } = source;
+    let of_measure = |measure: &StoredMeasure| {
+        let key = measure.measure.key();
+        let own: Vec<&StrengthBands> =
+            finished.strengths.range((key, 0)..=(key, usize::MAX)).map(|(_, bands)| bands).collect();
+        let mut bands = gather_bands(stored, measure, plan, settings, &own);
+        bands.repaired = source.reweighing.map(|_| {
+            let own: Vec<Option<&SiteBands>> =
+                (0..stored.sites.len()).map(|site| finished.sites.get(&(key, site))).collect();
+            gather_repaired(&own, source.site_shape(), settings.first_strength(&stored.strengths))
+        });
+        bands
+    };
+    Ok(stored.measures.iter().map(of_measure).collect())
+}
+
+/// Finishes the bands of plain spectra, a strength after the other.
+fn plain_bands(
+    source: &Source<'_>,
+    finished: &mut Finished,
+    checkpoint: Option<&Checkpoint>,
+    events: &dyn Events,
+) -> Result<(), UpliftError> {
+    let Source { stored, plan, settings, .. } = source;
     let strengths = stored.strengths.len();
     let per_strength = (stored.sites.len() * stored.poes.len() * plan.samples().len()) as u64;
     for measure in &stored.measures {
         let key = measure.measure.key();
-        let left: Vec<usize> = (0..strengths).filter(|&strength| !finished.contains_key(&(key, strength))).collect();
+        let left: Vec<usize> =
+            (0..strengths).filter(|&strength| !finished.strengths.contains_key(&(key, strength))).collect();
         let total = per_strength * left.len() as u64;
         let progress = Progress::begin(events, measure.measure.label(), "ordinates", total);
         let mut kept = Instant::now();
@@ -51,44 +105,103 @@ pub(super) fn compute(
                     Ok(Some((strength, bands)))
                 })
                 .collect::<Result<_, UpliftError>>()?;
-            finished.extend(done.into_iter().flatten().map(|(strength, bands)| ((key, strength), bands)));
-            let stopped = events.cancelled();
-            if stopped || kept.elapsed() > KEPT_EVERY {
-                checkpoint.save(&finished)?;
-                kept = Instant::now();
+            finished.strengths.extend(done.into_iter().flatten().map(|(strength, bands)| ((key, strength), bands)));
+            if events.cancelled() {
+                let done = ("strengths", finished.strengths.len(), strengths * stored.measures.len());
+                return Err(stopped(finished, done, checkpoint));
             }
-            if stopped {
-                return Err(UpliftError::Paused {
-                    what: "strengths",
-                    done: finished.len() as u64,
-                    total: (strengths * stored.measures.len()) as u64,
-                    path: checkpoint.path().to_owned(),
-                });
+            if let Some(checkpoint) = checkpoint
+                && kept.elapsed() > KEPT_EVERY
+            {
+                checkpoint.save(finished)?;
+                kept = Instant::now();
             }
         }
     }
-    if start.elapsed() > KEPT_EVERY {
-        // the result may not be writable, on a disk that has filled up for instance
-        checkpoint.save(&finished)?;
-    }
-    let of_measure = |measure: &crate::result::StoredMeasure| {
-        let key = measure.measure.key();
-        let own: Vec<&StrengthBands> = finished.range((key, 0)..=(key, usize::MAX)).map(|(_, bands)| bands).collect();
-        gather_bands(stored, measure, plan, settings, &own)
+    Ok(())
+}
+
+/// Finishes the bands of repaired spectra, a site after the other: their weights are those of all strengths together.
+fn repaired_bands(
+    source: &Source<'_>,
+    finished: &mut Finished,
+    checkpoint: Option<&Checkpoint>,
+    events: &dyn Events,
+) -> Result<(), UpliftError> {
+    let Source { stored, plan, settings, .. } = source;
+    let Some(reweighing) = source.reweighing else { return Ok(()) };
+    let sites_of = |measure: &StoredMeasure| -> Vec<usize> {
+        (0..stored.sites.len()).filter(|&site| reweighing.is_repaired(measure.measure, site)).collect()
     };
-    Ok(stored.measures.iter().map(of_measure).collect())
+    let total: usize = stored.measures.iter().map(|measure| sites_of(measure).len()).sum();
+    for measure in &stored.measures {
+        let (im, key) = (measure.measure, measure.measure.key());
+        let left: Vec<usize> =
+            sites_of(measure).into_iter().filter(|&site| !finished.sites.contains_key(&(key, site))).collect();
+        if left.is_empty() {
+            continue;
+        }
+        let progress = Progress::begin(events, &format!("{} repaired", im.label()), "sites", left.len() as u64);
+        let demand = |strength| measure.demand(strength);
+        let demands: Vec<PooledDemand> = (0..stored.strengths.len())
+            .into_par_iter()
+            .map(demand)
+            .collect::<Result<_, UpliftError>>()
+            .map_err(|error| error.in_file(&stored.path))?;
+        let mut kept = Instant::now();
+        for site in left {
+            let is_cancelled = || progress.cancelled();
+            let of = (reweighing, (im, site));
+            match bands_of_site(of, &demands, &stored.targets_per_year, plan, settings, &is_cancelled) {
+                Ok(bands) => finished.sites.extend(bands.map(|bands| ((key, site), bands))),
+                Err(UpliftError::Interrupted) => {
+                    return Err(stopped(finished, ("repaired sites", finished.sites.len(), total), checkpoint));
+                }
+                Err(error) => return Err(error.in_file(&stored.path)),
+            }
+            progress.finished(1);
+            if let Some(checkpoint) = checkpoint
+                && kept.elapsed() > KEPT_EVERY
+            {
+                checkpoint.save(finished)?;
+                kept = Instant::now();
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Keeps what is finished, so much `done` of so much, before a job stops.
+fn stopped(
+    finished: &Finished,
+    (what, done, total): (&'static str, usize, usize),
+    checkpoint: Option<&Checkpoint>,
+) -> UpliftError {
+    let Some(checkpoint) = checkpoint else { return UpliftError::Interrupted };
+    match checkpoint.save(finished) {
+        Ok(()) => {
+            let path = checkpoint.path().to_owned();
+            UpliftError::Paused { what, done: done as u64, total: total as u64, path }
+        }
+        Err(error) => error,
+    }
+}
+
+impl Source<'_> {
+    /// Shape of the bands of a repaired site.
+    fn site_shape(&self) -> SiteShape {
+        let Self { stored, plan, .. } = self;
+        SiteShape { poes: stored.poes.len(), sizes: plan.sizes().len(), strengths: stored.strengths.len() }
+    }
 }
 
 /// What the checkpoint has; a damaged file may hold anything.
-fn finished_before(
-    stored: &StoredStripes,
-    plan: &ResamplingPlan,
-    settings: &BandSettings,
-    checkpoint: &Checkpoint,
-) -> Finished {
+fn finished_before(source: &Source<'_>, checkpoint: &Checkpoint) -> Finished {
+    let Source { stored, plan, settings, .. } = source;
     let keys: Vec<&'static str> = stored.measures.iter().map(|measure| measure.measure.key()).collect();
-    let mut finished = checkpoint.load(&keys);
-    finished.retain(|(key, strength), done| {
+    let expected = Expected { keys, site: source.site_shape(), simultaneous: settings.simultaneous };
+    let mut finished = checkpoint.load(&expected);
+    finished.strengths.retain(|(key, strength), done| {
         let measure = stored.measures.iter().find(|measure| measure.measure.key() == *key);
         let spectra = measure.map_or(0, |measure| {
             stored.sites.len() + measure.branches.iter().filter(|branches| !branches.is_empty()).count()
@@ -99,5 +212,6 @@ fn finished_before(
             && done.bands.len() == spectra * stored.poes.len() * plan.sizes().len()
             && done.replicates_m.len() == replicates
     });
+    finished.sites.retain(|(_, site), _| *site < stored.sites.len());
     finished
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use uplift_bootstrap::ResamplingPlan;
+use uplift_bootstrap::{BootstrapError, ResamplingPlan, Unit};
 use uplift_study::Bootstrap;
 
 use super::BootstrapOptions;
@@ -19,8 +19,9 @@ const SIZES: [u32; 4] = [20, 40, 60, 80];
 pub(super) fn draws(
     options: &BootstrapOptions,
     study: &Bootstrap,
-    stored: &StoredStripes,
-    (settings, events): (&BandSettings, &dyn Events),
+    (file, stored): (&ResultFile, &StoredStripes),
+    (settings, is_repaired): (&BandSettings, bool),
+    events: &dyn Events,
 ) -> Result<(ResamplingPlan, String), UpliftError> {
     if let Some(path) = &options.plan {
         return Ok((kept_draws(path, stored)?, format!("draws of {}", path.display())));
@@ -33,11 +34,18 @@ pub(super) fn draws(
     let replicates = options.replicates.unwrap_or(study.replicates);
     let seed = options.seed.unwrap_or(stored.seed);
     refuse_endless(&sizes, replicates, records)?;
-    needs(stored, sizes.len(), replicates, settings).require(&stored.path, events)?;
+    needs(stored, sizes.len(), replicates, (settings, is_repaired)).require(&stored.path, events)?;
     let count = usize::try_from(replicates).unwrap_or(usize::MAX);
-    let plan = ResamplingPlan::draw(records, &sizes, count, seed)
-        .map_err(|error| UpliftError::Usage(format!("--sizes: {error}")))?;
-    Ok((plan, format!("seed {seed}")))
+    let plan = match options.unit.unwrap_or(study.unit) {
+        Unit::Record => ResamplingPlan::draw(records, &sizes, count, seed),
+        Unit::Event => ResamplingPlan::draw_events(&file.event_of()?, &sizes, count, seed),
+    };
+    let plan = plan.map_err(|error| match error {
+        BootstrapError::OneEvent => UpliftError::Usage(format!("--unit event: {error}")),
+        error => UpliftError::Usage(format!("--sizes: {error}")),
+    })?;
+    let unit = if plan.unit() == Unit::Event { ", earthquakes with all their records" } else { "" };
+    Ok((plan, format!("seed {seed}{unit}")))
 }
 
 /// Records in a sample for each record of the set, at most: the band of a hundred times as many is a tenth as wide, and
@@ -85,6 +93,23 @@ pub(super) fn announce(stored: &StoredStripes, plan: &ResamplingPlan, events: &d
             plan.record_count()
         ),
     );
+    if plan.unit() == Unit::Event {
+        let drawn: Vec<String> = plan.sizes().iter().map(|&size| plan.units_drawn(size).to_string()).collect();
+        events.remark(
+            "",
+            &format!(
+                "with their earthquakes, {} of {}: a sample has so many records on average",
+                drawn.join(", "),
+                plan.unit_count()
+            ),
+        );
+        if plan.unit_count() == plan.record_count() {
+            events.note(
+                "no two records are known to share an earthquake: the band is that of records drawn one by one (column \
+                 event of the manifest)",
+            );
+        }
+    }
     if let Some(size) = plan.sizes().iter().find(|&&size| size as usize > plan.record_count()) {
         events.note(&format!(
             "samples of {size} records from a set of {} show how narrow the band would be with more records of the \

@@ -3,16 +3,17 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use uplift_bootstrap::Interval;
+use uplift_bootstrap::{Interval, Unit};
 use uplift_study::Bootstrap;
 
 use super::bands::BandSettings;
 use super::checkpoint::Checkpoint;
-use super::compute::compute;
+use super::compute::{Source, compute};
 use super::draws::{announce, draws};
 use super::reference::ReferenceRow;
 use super::report::BootstrapReport;
 use super::write::{BandsFile, band_paths, tables, write_bands};
+use crate::consistency::Reweighing;
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::outputs;
@@ -32,6 +33,8 @@ pub struct BootstrapOptions {
     pub seed: Option<u64>,
     /// How limits are read.
     pub interval: Option<Interval>,
+    /// What is drawn.
+    pub unit: Option<Unit>,
     /// Also bands that hold whole spectra; false leaves it to the study.
     pub simultaneous: bool,
     /// A result whose draws are taken, in place of sizes, replicates and seed.
@@ -65,12 +68,14 @@ pub fn bootstrap(
         simultaneous: options.simultaneous || study.simultaneous,
         strength_above: study.strength_above,
     };
-    let (plan, plan_source) = draws(options, study, &stored, (&settings, events))?;
+    let reweighing = Reweighing::of_result(&file)?;
+    let (plan, plan_source) = draws(options, study, (&file, &stored), (&settings, reweighing.is_some()), events)?;
     announce(&stored, &plan, events);
 
     let start = Instant::now();
-    let checkpoint = Checkpoint::of(&stored, &plan, &settings);
-    let bands = compute(&stored, &plan, &settings, &checkpoint, events)?;
+    let source = Source { stored: &stored, reweighing: reweighing.as_ref(), plan: &plan, settings: &settings };
+    let checkpoint = Checkpoint::of(&source);
+    let bands = compute(&source, Some(&checkpoint), events)?;
     events.remark("", &format!("{:.1} s", start.elapsed().as_secs_f64()));
     write_bands(
         &addition,

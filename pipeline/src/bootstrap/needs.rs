@@ -8,8 +8,14 @@ use crate::result::StoredStripes;
 ///
 /// A demand of the result has 8 bytes; a sample 12 bytes a record and some for itself, and 4 more where the draws are
 /// written; a replicate 8 bytes an ordinate of the one site that a thread is at, and where whole spectra are wanted of
-/// all of them, twice while they are put in order or kept.
-pub(super) fn needs(stored: &StoredStripes, sizes: usize, replicates: u64, settings: &BandSettings) -> Needs {
+/// all of them, twice while they are put in order or kept. Repaired spectra are made of all demands of a measure, 12
+/// bytes each in the order of their size, and of all replicates of a site, twice while they are gathered.
+pub(super) fn needs(
+    stored: &StoredStripes,
+    sizes: usize,
+    replicates: u64,
+    (settings, is_repaired): (&BandSettings, bool),
+) -> Needs {
     let product = |factors: &[usize]| factors.iter().fold(1_u64, |product, &f| product.saturating_mul(f as u64));
     let samples = usize::try_from(replicates).unwrap_or(usize::MAX).saturating_mul(sizes);
     let (records, strengths) = (stored.records.len(), stored.strengths.len());
@@ -20,10 +26,17 @@ pub(super) fn needs(stored: &StoredStripes, sizes: usize, replicates: u64, setti
     let branches = stored.measures.iter().flat_map(|measure| &measure.branches).map(Vec::len).max().unwrap_or(0);
     let at_work = product(&[8, rayon::current_num_threads(), samples, poes, 2 + branches]);
     let kept = if settings.simultaneous { product(&[16, measures, strengths, sites, poes, samples]) } else { 0 };
-    let bands = product(&[40, measures, strengths, sites, poes, sizes]);
+    let most_levels = stored.measures.iter().map(|measure| measure.levels.len()).max().unwrap_or(0);
+    let repaired = if is_repaired {
+        let of_site = product(&[16, strengths, poes, samples]).saturating_mul(1 + u64::from(settings.simultaneous));
+        product(&[12, records, strengths, most_levels]).saturating_add(of_site)
+    } else {
+        0
+    };
+    let bands = product(&[if is_repaired { 80 } else { 40 }, measures, strengths, sites, poes, sizes]);
     let sum = |terms: &[u64]| terms.iter().fold(0_u64, |sum, &term| sum.saturating_add(term));
     Needs {
-        memory_bytes: sum(&[PROGRAM_BYTES, demands, draws, at_work, kept, bands]),
+        memory_bytes: sum(&[PROGRAM_BYTES, demands, draws, at_work.max(repaired), kept, bands]),
         disk_bytes: sum(&[draws / 4, bands, kept / 2]),
         disk_least_bytes: 0,
     }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
-use super::bands::{BandSettings, Bands};
+use super::bands::{BandSettings, Bands, SpectraBands};
 use super::reference::ReferenceRow;
 use crate::result::StoredStripes;
 
@@ -65,6 +65,20 @@ pub struct BootstrapRow {
     pub e_median: Option<f64>,
     /// Range of the interval (Eq. 4.10), per cent.
     pub r_90ci: Option<f64>,
+    /// The same of the repaired spectrum; none where there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub repaired: Option<RepairedFigures>,
+}
+
+/// The figures of Table 4.1 of a repaired spectrum.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct RepairedFigures {
+    /// Error of the median (Eq. 4.9), per cent.
+    pub e_median: Option<f64>,
+    /// Range of the interval (Eq. 4.10), per cent.
+    pub r_90ci: Option<f64>,
+    /// Samples whose weights do not bring the site's hazard, per cent.
+    pub failed: f64,
 }
 
 /// Where rocking begins (Section 4.5.2, Fig. 4.10): the strengths at which the band falls to the uplift displacement;
@@ -92,14 +106,21 @@ impl BootstrapReport {
     ) -> Self {
         let mut rows = Vec::new();
         for bands in &bands {
-            for (at @ [site, poe, size], error) in bands.error_of_median.blocks() {
+            let percent = |share: Option<f64>| share.map(|share| 100.0 * share);
+            for (at @ [site, poe, size], error) in bands.plain.error_of_median.blocks() {
+                let repaired = bands.repaired.as_ref().filter(|own| !own.failed[[site, size]].is_nan());
                 rows.push(BootstrapRow {
                     site: stored.sites[site].clone(),
                     im: bands.measure.label(),
                     poe: stored.poes[poe],
                     sample_size: sizes[size],
-                    e_median: error[0].map(|error| 100.0 * error),
-                    r_90ci: bands.range_of_interval[at].map(|range| 100.0 * range),
+                    e_median: percent(error[0]),
+                    r_90ci: percent(bands.plain.range_of_interval[at]),
+                    repaired: repaired.map(|own| RepairedFigures {
+                        e_median: percent(own.bands.error_of_median[at]),
+                        r_90ci: percent(own.bands.range_of_interval[at]),
+                        failed: 100.0 * own.failed[[site, size]],
+                    }),
                 });
             }
         }
@@ -123,7 +144,7 @@ impl BootstrapReport {
     ///
     /// # Panics
     /// If a position is out of range, which is a bug of the caller.
-    pub fn initiation(&self, bands: &Bands, at: [usize; 3]) -> Initiation {
+    pub fn initiation(&self, bands: &SpectraBands, at: [usize; 3]) -> Initiation {
         let at_uplift = |values: &[f64]| values.iter().position(|&u_m| u_m <= self.uplift_displacement_m);
         let strength = |values: &[f64]| at_uplift(values).map(|index| self.strengths[index]);
         let (lower, median, upper) = (bands.lower_m.block(at), bands.median_m.block(at), bands.upper_m.block(at));

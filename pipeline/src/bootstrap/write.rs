@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use polars::prelude::Column;
 use uplift_bootstrap::ResamplingPlan;
 
-use super::bands::{BandSettings, Bands};
+use super::bands::{BandSettings, Bands, RepairedBands, SpectraBands};
 use crate::array::Array;
 use crate::error::UpliftError;
 use crate::outputs::{Output, OutputKind, beside};
-use crate::result::layout::{MULTIPLICITY, axis, band, bootstrap, joint_band, limit_names};
+use crate::result::layout::{MULTIPLICITY, axis, band, bootstrap, joint_band, limit_names, repaired_band};
 use crate::result::{Addition, StoredStripes, line, sign, write_table};
 use uplift_labelled::{LabelledError, LabelledWriter};
 
@@ -71,6 +71,7 @@ fn add_bands(writer: &mut LabelledWriter, file: &BandsFile<'_>) -> Result<(), La
     let root = bootstrap::ROOT;
     sign(writer, root)?;
     writer.attribute(root, "plan", file.plan_source)?;
+    writer.attribute(root, "unit", plan.unit().key())?;
     writer.attribute(root, "confidence", settings.confidence)?;
     writer.attribute(root, "interval", settings.interval.key())?;
     writer.attribute(root, "strength_above", settings.strength_above)?;
@@ -80,21 +81,8 @@ fn add_bands(writer: &mut LabelledWriter, file: &BandsFile<'_>) -> Result<(), La
     let [lower, median, upper] = limit_names(settings.confidence);
     for bands in file.bands {
         let measure = bands.measure;
-        let dims = [axis::SITE, axis::POE, axis::SAMPLE_SIZE, axis::STRENGTH];
-        for (name, values, what) in [
-            (&lower, &bands.lower_m, "lower limit"),
-            (&median, &bands.median_m, "median of the replicates"),
-            (&upper, &bands.upper_m, "upper limit"),
-        ] {
-            writer.array_f64(&band(measure, name), &dims, values.values(), "m", what)?;
-        }
-        if let Some([lower, upper]) = &bands.simultaneous_m {
-            let paths = [bootstrap::simultaneous_lower_m(measure), bootstrap::simultaneous_upper_m(measure)];
-            for (path, values) in paths.iter().zip([lower, upper]) {
-                let long_name = "limit of the band that holds whole spectra";
-                writer.array_f64(path, &dims, values.values(), "m", long_name)?;
-            }
-        }
+        let path = |name: &str| band(measure, name);
+        add_spectra_bands(writer, &path, &bands.plain, settings.confidence)?;
         for joint in &bands.joint {
             let path = |name: &str| joint_band(measure, &stored.sites[joint.site], name);
             for (name, values) in [(&lower, &joint.lower_m), (&median, &joint.median_m), (&upper, &joint.upper_m)] {
@@ -104,25 +92,51 @@ fn add_bands(writer: &mut LabelledWriter, file: &BandsFile<'_>) -> Result<(), La
             }
             let dims = [axis::POE, axis::SAMPLE_SIZE];
             let ranges = percent(&joint.range_of_interval);
-            writer.array_f64(&path("r_90ci"), &dims, ranges.values(), "%", "range of the joint interval (Eq. 4.10)")?;
+            writer.array_f64(
+                &path(bootstrap::R_90CI),
+                &dims,
+                ranges.values(),
+                "%",
+                "range of the joint interval (Eq. 4.10)",
+            )?;
         }
-        let dims = [axis::SITE, axis::POE, axis::SAMPLE_SIZE];
-        let errors = percent(&bands.error_of_median);
-        writer.array_f64(
-            &bootstrap::e_median(measure),
-            &dims,
-            errors.values(),
-            "%",
-            "error of the median (Eq. 4.9)",
-        )?;
-        let ranges = percent(&bands.range_of_interval);
-        writer.array_f64(
-            &bootstrap::r_90ci(measure),
-            &dims,
-            ranges.values(),
-            "%",
-            "range of the interval (Eq. 4.10)",
-        )?;
+        if let Some(repaired) = &bands.repaired {
+            let path = |name: &str| repaired_band(measure, name);
+            add_spectra_bands(writer, &path, &repaired.bands, settings.confidence)?;
+            let dims = [axis::SITE, axis::SAMPLE_SIZE];
+            let long_name = "share of the replicates whose weights do not bring the site's hazard";
+            writer.array_f64(&path(bootstrap::FAILED), &dims, repaired.failed.values(), "1", long_name)?;
+        }
+    }
+    Ok(())
+}
+
+/// Adds the bands of the spectra of all sites; `path` says where an array lies, by its name.
+fn add_spectra_bands(
+    writer: &mut LabelledWriter,
+    path: &dyn Fn(&str) -> String,
+    bands: &SpectraBands,
+    confidence: f64,
+) -> Result<(), LabelledError> {
+    let dims = [axis::SITE, axis::POE, axis::SAMPLE_SIZE, axis::STRENGTH];
+    let [lower, median, upper] = limit_names(confidence);
+    for (name, values, what) in [
+        (&lower, &bands.lower_m, "lower limit"),
+        (&median, &bands.median_m, "median of the replicates"),
+        (&upper, &bands.upper_m, "upper limit"),
+    ] {
+        writer.array_f64(&path(name), &dims, values.values(), "m", what)?;
+    }
+    for (name, values) in bootstrap::SIMULTANEOUS.iter().zip(bands.simultaneous_m.iter().flatten()) {
+        let long_name = "limit of the band that holds whole spectra";
+        writer.array_f64(&path(name), &dims, values.values(), "m", long_name)?;
+    }
+    let dims = [axis::SITE, axis::POE, axis::SAMPLE_SIZE];
+    for (name, values, what) in [
+        (bootstrap::E_MEDIAN, &bands.error_of_median, "error of the median (Eq. 4.9)"),
+        (bootstrap::R_90CI, &bands.range_of_interval, "range of the interval (Eq. 4.10)"),
+    ] {
+        writer.array_f64(&path(name), &dims, percent(values).values(), "%", what)?;
     }
     Ok(())
 }
@@ -136,16 +150,8 @@ fn bands_table(file: &BandsFile<'_>) -> Vec<Column> {
     let (stored, sizes) = (file.stored, file.plan.sizes());
     let (mut site, mut im) = (Vec::new(), Vec::new());
     let (mut poe, mut size, mut strength) = (Vec::new(), Vec::new(), Vec::new());
-    let mut limits: [Vec<f64>; 5] = Default::default();
     for bands in file.bands {
-        let mut columns = vec![&bands.lower_m, &bands.median_m, &bands.upper_m];
-        if let Some([lower, upper]) = &bands.simultaneous_m {
-            columns.extend([lower, upper]);
-        }
-        for (all, of_measure) in limits.iter_mut().zip(columns) {
-            all.extend_from_slice(of_measure.values());
-        }
-        for ([site_index, poe_index, size_index, strength_index], _) in bands.lower_m.blocks() {
+        for ([site_index, poe_index, size_index, strength_index], _) in bands.plain.lower_m.blocks() {
             site.push(stored.sites[site_index].as_str());
             im.push(bands.measure.label());
             poe.push(stored.poes[poe_index]);
@@ -162,30 +168,58 @@ fn bands_table(file: &BandsFile<'_>) -> Vec<Column> {
         Column::new("sample_size".into(), size),
         Column::new("strength".into(), strength),
     ];
-    let [lower, median, upper] = limit_names(file.settings.confidence);
-    let names = [lower, median, upper, "simultaneous_lower_m".to_owned(), "simultaneous_upper_m".to_owned()];
-    for (name, values) in names.into_iter().zip(limits).filter(|(_, values)| !values.is_empty()) {
-        columns.push(Column::new(name.into(), values));
-    }
+    let plain: Vec<&SpectraBands> = file.bands.iter().map(|bands| &bands.plain).collect();
+    columns.extend(limit_columns("", &plain, file.settings.confidence));
+    let repaired: Vec<&SpectraBands> =
+        file.bands.iter().filter_map(|bands| bands.repaired.as_ref().map(|repaired| &repaired.bands)).collect();
+    columns.extend(limit_columns("_consistent", &repaired, file.settings.confidence));
     columns
+}
+
+/// The limits of all measures, their names with `suffix` before the unit; none of no bands.
+fn limit_columns(suffix: &str, bands: &[&SpectraBands], confidence: f64) -> Vec<Column> {
+    let of_measures = bands.iter().map(|bands| {
+        let mut columns = vec![&bands.lower_m, &bands.median_m, &bands.upper_m];
+        columns.extend(bands.simultaneous_m.iter().flatten());
+        columns
+    });
+    let mut limits: Vec<Vec<f64>> = Vec::new();
+    for columns in of_measures {
+        limits.resize_with(columns.len(), Vec::new);
+        for (all, of_measure) in limits.iter_mut().zip(columns) {
+            all.extend_from_slice(of_measure.values());
+        }
+    }
+    let names = limit_names(confidence);
+    let names = names.iter().map(String::as_str).chain(bootstrap::SIMULTANEOUS);
+    names
+        .zip(limits)
+        .map(|(name, values)| Column::new(format!("{}{suffix}_m", name.trim_end_matches("_m")).into(), values))
+        .collect()
 }
 
 fn figures_table(file: &BandsFile<'_>) -> Vec<Column> {
     let (stored, sizes) = (file.stored, file.plan.sizes());
     let (mut site, mut im, mut poe, mut size) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let (mut errors, mut ranges) = (Vec::new(), Vec::new());
+    let (mut repaired_errors, mut repaired_ranges, mut failed) = (Vec::new(), Vec::new(), Vec::new());
     for bands in file.bands {
-        for (at @ [site_index, poe_index, size_index], error) in bands.error_of_median.blocks() {
+        for (at @ [site_index, poe_index, size_index], error) in bands.plain.error_of_median.blocks() {
             site.push(stored.sites[site_index].as_str());
             im.push(bands.measure.label());
             poe.push(stored.poes[poe_index]);
             size.push(sizes[size_index]);
             errors.push(error[0].map(|error| 100.0 * error));
-            ranges.push(bands.range_of_interval[at].map(|range| 100.0 * range));
+            ranges.push(bands.plain.range_of_interval[at].map(|range| 100.0 * range));
+            if let Some(RepairedBands { bands, failed: share }) = &bands.repaired {
+                repaired_errors.push(bands.error_of_median[at].map(|error| 100.0 * error));
+                repaired_ranges.push(bands.range_of_interval[at].map(|range| 100.0 * range));
+                failed.push(Some(100.0 * share[[site_index, size_index]]).filter(|share| !share.is_nan()));
+            }
         }
     }
     let years = vec![stored.years; site.len()];
-    vec![
+    let mut columns = vec![
         Column::new("site".into(), site),
         Column::new("im".into(), im),
         Column::new("poe".into(), poe),
@@ -193,5 +227,11 @@ fn figures_table(file: &BandsFile<'_>) -> Vec<Column> {
         Column::new("sample_size".into(), size),
         Column::new("e_median_pct".into(), errors),
         Column::new("r_90ci_pct".into(), ranges),
-    ]
+    ];
+    if !failed.is_empty() {
+        columns.push(Column::new("e_median_consistent_pct".into(), repaired_errors));
+        columns.push(Column::new("r_90ci_consistent_pct".into(), repaired_ranges));
+        columns.push(Column::new("failed_consistent_pct".into(), failed));
+    }
+    columns
 }

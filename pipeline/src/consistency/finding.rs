@@ -65,10 +65,7 @@ impl Question {
         set: &RecordSet,
         repair: bool,
     ) -> Result<Option<Finding>, UpliftError> {
-        let (Some(own), Some(compared)) = (self.curve(scaled_to, site), self.curve(other, site)) else {
-            return Ok(None);
-        };
-        let analysis = ScaledAnalysis::new(set, levels, own, compared, &self.targets_per_year, self.extrapolation)?;
+        let Some(analysis) = self.analysis(site, (scaled_to, levels), other, set)? else { return Ok(None) };
         let options = RepairOptions {
             smoothness: self.settings.smoothness,
             least_effective: self.settings.least_effective as f64,
@@ -82,5 +79,23 @@ impl Question {
             Some(Err(error)) => return Err(error.into()),
         };
         Ok(Some(Finding { site, scaled_to, other, range: *analysis.range(), diagnosis, repair }))
+    }
+
+    /// A set scaled to `levels` at a site, with the hazard of both measures; none where the site has not both.
+    ///
+    /// # Errors
+    /// As [`findings`](Self::findings).
+    pub(super) fn analysis<'a>(
+        &'a self,
+        site: usize,
+        (scaled_to, levels): (IntensityMeasure, &[f64]),
+        other: IntensityMeasure,
+        set: &'a RecordSet,
+    ) -> Result<Option<ScaledAnalysis<'a>>, UpliftError> {
+        let (Some(own), Some(compared)) = (self.curve(scaled_to, site), self.curve(other, site)) else {
+            return Ok(None);
+        };
+        let analysis = ScaledAnalysis::new(set, levels, own, compared, &self.targets_per_year, self.extrapolation)?;
+        Ok(Some(analysis))
     }
 }

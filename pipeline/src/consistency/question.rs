@@ -26,6 +26,11 @@ pub(crate) struct AskedRecord {
 }
 
 impl AskedRecord {
+    /// A number that the records of its earthquake share; of its pair alone where the earthquake is not known.
+    pub(crate) fn earthquake(&self) -> usize {
+        self.event.map_or(2 * self.pair, |event| 2 * event + 1)
+    }
+
     fn intensity(&self, measure: IntensityMeasure) -> f64 {
         match measure {
             IntensityMeasure::Pga => self.pga_g,

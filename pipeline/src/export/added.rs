@@ -44,7 +44,10 @@ impl Added {
         for stored in file.influence()? {
             let Some(measure) = stripes.measures.iter().find(|of| of.measure == stored.measure) else { continue };
             let ranking = Array::from_fn(shape, |at| {
-                stored.without_m.as_ref().map_or_else(Vec::new, |without| rank_records(&stripes, measure, without, at))
+                stored
+                    .without_m
+                    .as_ref()
+                    .map_or_else(Vec::new, |without| rank_records(&stripes, &measure.exact_m, without, at))
             });
             influence.push(Influence { stored, levels: measure.levels.clone(), ranking });
         }

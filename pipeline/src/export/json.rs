@@ -51,6 +51,7 @@ impl Export {
         if let Some((u_m, fit)) = self.repaired(row) {
             spectrum["u_consistent_m"] = numbers(u_m).into();
             spectrum["fit_consistent"] = coefficients(fit);
+            spectrum["bands_consistent"] = self.repaired_bands_of(row).iter().map(band).collect();
         }
         spectrum
     }
@@ -132,14 +133,18 @@ fn efficiency(of: &StoredEfficiency) -> Value {
 
 fn band(band: &BandOf<'_>) -> Value {
     let [lower_m, median_m, upper_m] = band.limits_m.map(numbers);
-    json!({
+    let mut said = json!({
         "sample_size": band.records,
         "lower_m": lower_m,
         "median_m": median_m,
         "upper_m": upper_m,
         "e_median_pct": finite(band.error_of_median_pct),
         "r_90ci_pct": finite(band.range_of_interval_pct),
-    })
+    });
+    if let Some(share) = band.failed_share {
+        said["failed_share"] = finite(share).into();
+    }
+    said
 }
 
 fn numbers(values: &[f64]) -> Vec<Option<f64>> {

@@ -5,6 +5,7 @@ mod level_5;
 use super::Export;
 use super::added::Influence;
 use crate::alarms::Alarm;
+use crate::array::Array;
 use crate::error::UpliftError;
 use crate::result::{Fit, StoredSpectra, flag_number};
 use level_5::{MatFile, Shape};
@@ -129,13 +130,22 @@ impl Export {
         file.numbers("confidence", &Shape::column(1), &[bands.confidence]);
         for of in &bands.measures {
             let key = of.measure.key();
-            let shape = Shape(vec![strengths.len(), sizes.len(), poes.len(), sites.len()]);
-            for (name, limits) in bands.limit_names().iter().zip(&of.limits_m) {
-                file.numbers(&format!("{}_{key}_m", name.trim_end_matches("_m")), &shape, limits.values());
+            let spectra = Shape(vec![strengths.len(), sizes.len(), poes.len(), sites.len()]);
+            let figures = Shape(vec![sizes.len(), poes.len(), sites.len()]);
+            let mut add = |key: &str, limits_m: &[Array<4>; 3], [errors, ranges]: [&Array<3>; 2]| {
+                for (name, limits) in bands.limit_names().iter().zip(limits_m) {
+                    file.numbers(&format!("{}_{key}_m", name.trim_end_matches("_m")), &spectra, limits.values());
+                }
+                file.numbers(&format!("e_median_{key}_pct"), &figures, errors.values());
+                file.numbers(&format!("r_90ci_{key}_pct"), &figures, ranges.values());
+            };
+            add(key, &of.limits_m, [&of.error_of_median, &of.range_of_interval]);
+            if let Some(own) = &of.repaired {
+                let key = format!("consistent_{key}");
+                add(&key, &own.limits_m, [&own.error_of_median, &own.range_of_interval]);
+                let shape = Shape(vec![sizes.len(), sites.len()]);
+                file.numbers(&format!("failed_{key}"), &shape, own.failed.values());
             }
-            let shape = Shape(vec![sizes.len(), poes.len(), sites.len()]);
-            file.numbers(&format!("e_median_{key}_pct"), &shape, of.error_of_median.values());
-            file.numbers(&format!("r_90ci_{key}_pct"), &shape, of.range_of_interval.values());
         }
     }
 }

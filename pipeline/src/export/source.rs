@@ -114,8 +114,32 @@ impl Export {
             limits_m: of_measure.limits_m.each_ref().map(|limits| limits.block([site, poe, size])),
             error_of_median_pct: of_measure.error_of_median[[site, poe, size]],
             range_of_interval_pct: of_measure.range_of_interval[[site, poe, size]],
+            failed_share: None,
         };
         bands.sizes.iter().enumerate().map(of_size).collect()
+    }
+
+    /// The same of the repaired spectrum; none where it has none.
+    pub(super) fn repaired_bands_of(&self, row: &Row<'_>) -> Vec<BandOf<'_>> {
+        let Some(bands) = &self.bands else { return Vec::new() };
+        let [site, poe] = row.at;
+        let repaired = bands.of(row.spectrum.measure).and_then(|of| of.repaired.as_ref());
+        let Some(of) = repaired.filter(|of| of.failed.block([site]).iter().all(|share| !share.is_nan())) else {
+            return Vec::new();
+        };
+        let of_size = |(size, &records): (usize, &u32)| BandOf {
+            records,
+            limits_m: of.limits_m.each_ref().map(|limits| limits.block([site, poe, size])),
+            error_of_median_pct: of.error_of_median[[site, poe, size]],
+            range_of_interval_pct: of.range_of_interval[[site, poe, size]],
+            failed_share: Some(of.failed[[site, size]]),
+        };
+        bands.sizes.iter().enumerate().map(of_size).collect()
+    }
+
+    /// Whether there are bands of repaired spectra.
+    pub(super) fn has_repaired_bands(&self) -> bool {
+        self.bands.iter().flat_map(|bands| &bands.measures).any(|of| of.repaired.is_some())
     }
 }
 
@@ -129,4 +153,6 @@ pub(super) struct BandOf<'a> {
     pub(super) error_of_median_pct: f64,
     /// Width of the interval (Eq. 4.10), %; NaN where there is none.
     pub(super) range_of_interval_pct: f64,
+    /// Share of the samples whose weights do not bring the site's hazard; of repaired spectra alone.
+    pub(super) failed_share: Option<f64>,
 }

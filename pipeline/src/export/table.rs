@@ -20,6 +20,13 @@ impl Export {
         let has_repaired = self.has_repaired();
         let names = self.band_names();
         let mut limits: Vec<Vec<f64>> = vec![Vec::new(); names.len()];
+        let repaired_names: Vec<String> = if self.has_repaired_bands() {
+            let of_repair = |name: &String| name.replacen("_n", "_consistent_n", 1);
+            names.iter().map(of_repair).collect()
+        } else {
+            Vec::new()
+        };
+        let mut repaired_limits: Vec<Vec<Option<f64>>> = vec![Vec::new(); repaired_names.len()];
         for row in self.rows() {
             let curve = row.spectrum.fit.curve();
             for ((&eta, &ordinate_m), &of) in
@@ -45,6 +52,12 @@ impl Export {
             for (column, values) in limits.iter_mut().zip(of_row) {
                 column.extend_from_slice(values);
             }
+            let repaired = self.repaired_bands_of(&row);
+            let of_row: Vec<&[f64]> = repaired.iter().flat_map(|band| band.limits_m).collect();
+            for (place, column) in repaired_limits.iter_mut().enumerate() {
+                let value = |strength| of_row.get(place).map(|values: &&[f64]| values[strength]);
+                column.extend((0..self.spectra.strengths.len()).map(value));
+            }
         }
         let years = vec![self.spectra.years; site.len()];
         let mut columns = vec![
@@ -62,6 +75,8 @@ impl Export {
         ];
         columns.extend(names.into_iter().zip(limits).map(|(name, values)| Column::new(name.into(), values)));
         columns.extend(added.into_columns());
+        let repaired = repaired_names.into_iter().zip(repaired_limits);
+        columns.extend(repaired.map(|(name, values)| Column::new(name.into(), values)));
         columns
     }
 

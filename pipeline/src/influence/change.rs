@@ -1,19 +1,24 @@
 //! Which records carry a spectrum, and which intensities: the jackknife and the disaggregation of its risk.
 
 use rayon::prelude::*;
-use uplift_bootstrap::leave_one_out;
+use uplift_bootstrap::{leave_one_out, left_out};
 use uplift_motion::IntensityMeasure;
-use uplift_risk::RiskCurve;
+use uplift_risk::{PooledDemand, RiskCurve};
 
 use crate::array::Array;
+use crate::consistency::Reweighing;
 use crate::error::UpliftError;
 use crate::result::{StoredMeasure, StoredStripes};
 
-/// Influence on the spectra of one measure.
+/// Influence on the spectra of one measure, plain or repaired.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Influence {
     /// The measure.
     pub(super) measure: IntensityMeasure,
+    /// Whether they are the repaired ones.
+    pub(super) repaired: bool,
+    /// Exact ordinates of all records `[site, poe, strength]`, m; NaN where there is no repaired one.
+    pub(super) exact_m: Array<3>,
     /// Exact ordinates without each record `[site, poe, record, strength]`, m; none for a single record.
     pub(super) without_m: Option<Array<4>>,
     /// Shares of the risk at each exact ordinate `[site, poe, strength, bin]`. Bin 0 lies below the first level, bin i
@@ -51,17 +56,7 @@ pub(super) fn influence_by(stored: &StoredStripes, measure: &StoredMeasure) -> R
             without.push(leave_one_out(&demand, weights, &stored.targets_per_year)?);
             let curve = RiskCurve::new(&demand, weights)?;
             for poe in 0..poes {
-                let ordinate_m = measure.exact_m[[site, poe, strength]];
-                if !(ordinate_m > 0.0 && ordinate_m.is_finite()) {
-                    shares.extend(std::iter::repeat_n(f64::NAN, bins));
-                    continue;
-                }
-                // the risk that fixes the ordinate is that of the runs that reach it
-                let parts = curve.disaggregation(ordinate_m.next_down())?;
-                let total = parts.total_per_year();
-                shares.push(parts.lower_tail_per_year / total);
-                shares.extend(parts.intervals_per_year.iter().map(|part| part / total));
-                shares.push(parts.upper_tail_per_year / total);
+                shares.extend(shares_of(&curve, measure.exact_m[[site, poe, strength]], bins)?);
             }
         }
         Ok((without, shares))
@@ -79,7 +74,76 @@ pub(super) fn influence_by(stored: &StoredStripes, measure: &StoredMeasure) -> R
     let shares = Array::from_fn([sites, poes, strengths, bins], |[site, poe, strength, bin]| {
         by_strength[strength].1[(site * poes + poe) * bins + bin]
     });
-    Ok(Influence { measure: measure.measure, without_m, shares })
+    let exact_m = measure.exact_m.clone();
+    Ok(Influence { measure: measure.measure, repaired: false, exact_m, without_m, shares })
+}
+
+/// The shares of the risk at an ordinate: from below the first level, between the levels, and above the last; NaN where
+/// there is no ordinate.
+fn shares_of(curve: &RiskCurve<'_>, ordinate_m: f64, bins: usize) -> Result<Vec<f64>, UpliftError> {
+    if !(ordinate_m > 0.0 && ordinate_m.is_finite()) {
+        return Ok(vec![f64::NAN; bins]);
+    }
+    // the risk that fixes the ordinate is that of the runs that reach it
+    let parts = curve.disaggregation(ordinate_m.next_down())?;
+    let total = parts.total_per_year();
+    let between = parts.intervals_per_year.iter().map(|part| part / total);
+    let below = std::iter::once(parts.lower_tail_per_year / total);
+    Ok(below.chain(between).chain([parts.upper_tail_per_year / total]).collect())
+}
+
+/// The same of the repaired spectra, whose weights are solved anew without each record.
+///
+/// # Errors
+/// [`UpliftError::Interrupted`]; numbers that do not fit together, in a file that was changed.
+pub(super) fn influence_on_repaired(
+    stored: &StoredStripes,
+    measure: &StoredMeasure,
+    reweighing: &Reweighing,
+    is_cancelled: &(dyn Fn() -> bool + Sync),
+) -> Result<Influence, UpliftError> {
+    let (sites, poes, strengths) = (stored.sites.len(), stored.poes.len(), stored.strengths.len());
+    let (records, bins) = (stored.records.len(), measure.levels.len() + 1);
+    let demand = |strength| measure.demand(strength);
+    let demands: Vec<PooledDemand> = (0..strengths).into_par_iter().map(demand).collect::<Result<_, UpliftError>>()?;
+    let samples = left_out(records)?;
+    let (mut exact, mut shares) =
+        (vec![f64::NAN; sites * poes * strengths], vec![f64::NAN; sites * poes * strengths * bins]);
+    let mut without = vec![f64::NAN; sites * poes * records * strengths];
+    let targets = &stored.targets_per_year;
+    for site in 0..sites {
+        let of = (measure.measure, site);
+        let Some(weights) = reweighing.weights(measure.measure, site) else { continue };
+        let Some(of_set_m) = reweighing.ordinates_of_set(of, &demands, targets)? else { continue };
+        for (strength, demand) in demands.iter().enumerate() {
+            let curve = RiskCurve::weighted(demand, weights)?;
+            for (poe, &ordinate_m) in of_set_m[strength].iter().enumerate() {
+                let place = (site * poes + poe) * strengths + strength;
+                exact[place] = ordinate_m;
+                let own = shares_of(&curve, ordinate_m, bins)?;
+                shares[place * bins..][..bins].copy_from_slice(&own);
+            }
+        }
+        let Some(anew) = reweighing.ordinates(of, &demands, targets, &samples, is_cancelled)? else { continue };
+        for (place, &ordinate_m) in anew.ordinates_m.iter().enumerate() {
+            let (record, poe, strength) =
+                (place % samples.len(), place / samples.len() % poes, place / samples.len() / poes);
+            without[((site * poes + poe) * records + record) * strengths + strength] = ordinate_m;
+        }
+    }
+    let of_record = |[site, poe, record, strength]: [usize; 4]| {
+        without[((site * poes + poe) * records + record) * strengths + strength]
+    };
+    let spectrum = |site: usize, poe: usize, strength: usize| (site * poes + poe) * strengths + strength;
+    Ok(Influence {
+        measure: measure.measure,
+        repaired: true,
+        exact_m: Array::from_fn([sites, poes, strengths], |[site, poe, strength]| exact[spectrum(site, poe, strength)]),
+        without_m: (records > 1).then(|| Array::from_fn([sites, poes, records, strengths], of_record)),
+        shares: Array::from_fn([sites, poes, strengths, bins], |[site, poe, strength, bin]| {
+            shares[spectrum(site, poe, strength) * bins + bin]
+        }),
+    })
 }
 
 /// The influence of every record on one spectrum, the most influential first; empty where no ordinate lies above
@@ -88,11 +152,11 @@ pub(super) fn influence_by(stored: &StoredStripes, measure: &StoredMeasure) -> R
 /// * `without_m` — exact ordinates without each record `[site, poe, record, strength]`, m
 /// * `at` — site and probability of the spectrum, by position
 ///
-/// Ordinates without a record are compared with those of `measure` with all of them, both exact: the change is never
-/// that between an exact ordinate and one of the study's grid.
+/// * `exact_m` — exact ordinates with all of them `[site, poe, strength]`, m: the change is never that between an exact
+///   ordinate and one of the study's grid
 pub fn rank_records(
     stored: &StoredStripes,
-    measure: &StoredMeasure,
+    exact_m: &Array<3>,
     without_m: &Array<4>,
     at: [usize; 2],
 ) -> Vec<RecordInfluence> {
@@ -102,7 +166,7 @@ pub fn rank_records(
             let changes: Vec<(f64, f64)> = without_m
                 .block([site, poe, record])
                 .iter()
-                .zip(measure.exact_m.block(at))
+                .zip(exact_m.block(at))
                 .zip(&stored.strengths)
                 .filter(|((_, full), _)| full.is_finite() && **full > stored.uplift_displacement_m)
                 .map(|((without, full), &strength)| ((without - full) / full, strength))

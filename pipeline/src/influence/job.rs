@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
-use super::change::{Influence, RecordInfluence, influence_by, rank_records};
+use super::change::{Influence, RecordInfluence, influence_by, influence_on_repaired, rank_records};
 use super::report::InfluenceReport;
 use super::write::{influence_path, write_influence};
 use crate::array::Array;
+use crate::consistency::Reweighing;
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::outputs::{self, Output, OutputKind};
@@ -49,19 +50,25 @@ pub fn influence(
         Some(years) => stored.return_period_index(years)?,
         None => stored.poe_index(options.poe)?,
     };
+    let reweighing = Reweighing::of_result(&file)?;
+    let is_cancelled = || events.cancelled();
     let mut influences: Vec<Influence> = Vec::new();
     for measure in &stored.measures {
-        if events.cancelled() {
+        if is_cancelled() {
             return Err(UpliftError::Interrupted);
         }
         influences.push(influence_by(&stored, measure)?);
+        if let Some(reweighing) = &reweighing {
+            let repaired = influence_on_repaired(&stored, measure, reweighing, &is_cancelled);
+            influences.push(repaired.map_err(|error| error.in_file(&stored.path))?);
+        }
     }
     let shape = [stored.sites.len(), stored.poes.len()];
     let rankings: Vec<Array<2, Vec<RecordInfluence>>> = influences
         .iter()
-        .zip(&stored.measures)
-        .map(|(influence, measure)| {
-            let rank = |at| influence.without_m.as_ref().map(|without_m| rank_records(&stored, measure, without_m, at));
+        .map(|influence| {
+            let Influence { exact_m, without_m, .. } = influence;
+            let rank = |at| without_m.as_ref().map(|without_m| rank_records(&stored, exact_m, without_m, at));
             Array::from_fn(shape, |at| rank(at).unwrap_or_default())
         })
         .collect();

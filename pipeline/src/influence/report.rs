@@ -41,6 +41,9 @@ pub struct RecordChange {
     pub site: String,
     /// `PGV` or `PGA`.
     pub im: &'static str,
+    /// Whether the spectrum is the repaired one.
+    #[serde(skip_serializing_if = "is_plain")]
+    pub repaired: bool,
     /// Probability of exceedance.
     pub poe: f64,
     /// The record.
@@ -60,6 +63,9 @@ pub struct IntensityShares {
     pub site: String,
     /// `PGV` or `PGA`.
     pub im: &'static str,
+    /// Whether the spectrum is the repaired one.
+    #[serde(skip_serializing_if = "is_plain")]
+    pub repaired: bool,
     /// Unit of the levels.
     pub unit: &'static str,
     /// Probability of exceedance.
@@ -95,6 +101,7 @@ impl InfluenceReport {
                     records.push(RecordChange {
                         site: stored.sites[site].clone(),
                         im: influence.measure.label(),
+                        repaired: influence.repaired,
                         poe: stored.poes[poe],
                         record: stored.records[entry.record].clone(),
                         mean_change_pct: 100.0 * entry.mean_change,
@@ -115,22 +122,33 @@ impl InfluenceReport {
     }
 }
 
+/// Whether a spectrum is a plain one, of which nothing is said.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde asks")]
+fn is_plain(repaired: &bool) -> bool {
+    !repaired
+}
+
 fn intensities(stored: &StoredStripes, influences: &[Influence], poe: usize) -> Vec<IntensityShares> {
     let shown = nearest(&stored.strengths, &SHOWN_STRENGTHS);
     let mut rows = Vec::new();
-    for (influence, measure) in influences.iter().zip(&stored.measures) {
+    for influence in influences {
+        let Some(measure) = stored.measures.iter().find(|own| own.measure == influence.measure) else { continue };
         for (site, name) in stored.sites.iter().enumerate() {
             for &strength in &shown {
                 let at = [site, poe, strength];
+                if influence.exact_m[at].is_nan() {
+                    continue;
+                }
                 let shares = influence.shares.block(at);
                 let level = |share: f64| level_of_share(&measure.levels, shares, share);
                 rows.push(IntensityShares {
                     site: name.clone(),
                     im: measure.measure.label(),
+                    repaired: influence.repaired,
                     unit: measure.measure.unit(),
                     poe: stored.poes[poe],
                     strength: stored.strengths[strength],
-                    u_m: measure.exact_m[at],
+                    u_m: influence.exact_m[at],
                     level_05: level(0.05),
                     level_50: level(0.5),
                     level_95: level(0.95),

@@ -11,6 +11,7 @@ use crate::error::UpliftError;
 use crate::outputs::beside;
 use crate::result::layout::{axis, disaggregation, influence};
 use crate::result::{Addition, StoredStripes, line, sign, write_table};
+use crate::text::spectrum_words;
 use uplift_labelled::{LabelledError, LabelledWriter};
 
 /// The groups that a new look replaces.
@@ -47,20 +48,28 @@ pub(super) fn write_influence(
 fn add(writer: &mut LabelledWriter, stored: &StoredStripes, influences: &[Influence]) -> Result<(), LabelledError> {
     sign(writer, influence::ROOT)?;
     sign(writer, disaggregation::ROOT)?;
-    for (found, measure) in influences.iter().zip(&stored.measures) {
+    for found in influences {
+        let Some(measure) = stored.measures.iter().find(|own| own.measure == found.measure) else { continue };
+        let [without_path, share_path] = if found.repaired {
+            [influence::repaired(found.measure), disaggregation::repaired(found.measure)]
+        } else {
+            [influence::u_without_m(found.measure), disaggregation::share(found.measure)]
+        };
         if let Some(without_m) = &found.without_m {
             let dims = [axis::SITE, axis::POE, axis::RECORD, axis::STRENGTH];
             let long_name = "uniform risk displacement without the record";
-            writer.array_f64(&influence::u_without_m(found.measure), &dims, without_m.values(), "m", long_name)?;
+            writer.array_f64(&without_path, &dims, without_m.values(), "m", long_name)?;
         }
-        let from: Vec<f64> = std::iter::once(0.0).chain(measure.levels.iter().copied()).collect();
         let bin = axis::bin(found.measure);
-        let long_name =
-            format!("{} from which a bin reaches up to the next, the last without end", found.measure.label());
-        writer.axis_f64(&bin, &from, found.measure.unit(), &long_name)?;
+        if !found.repaired {
+            let from: Vec<f64> = std::iter::once(0.0).chain(measure.levels.iter().copied()).collect();
+            let long_name =
+                format!("{} from which a bin reaches up to the next, the last without end", found.measure.label());
+            writer.axis_f64(&bin, &from, found.measure.unit(), &long_name)?;
+        }
         let dims = [axis::SITE, axis::POE, axis::STRENGTH, &bin];
         let long_name = "share of the risk at the ordinate";
-        writer.array_f64(&disaggregation::share(found.measure), &dims, found.shares.values(), "1", long_name)?;
+        writer.array_f64(&share_path, &dims, found.shares.values(), "1", long_name)?;
     }
     Ok(())
 }
@@ -76,7 +85,7 @@ fn ranking_table(
         for ([site_index, poe_index], ranking) in rankings.blocks() {
             for entry in &ranking[0] {
                 site.push(stored.sites[site_index].as_str());
-                im.push(influence.measure.label());
+                im.push(spectrum_words(influence.measure.label(), influence.repaired));
                 poe.push(stored.poes[poe_index]);
                 record.push(stored.records[entry.record].as_str());
                 mean.push(100.0 * entry.mean_change);

@@ -1,11 +1,12 @@
 //! The confidence bands of a result, and the draws that they were made of.
 
-use uplift_bootstrap::{Interval, ResamplingPlan};
+use uplift_bootstrap::{Interval, ResamplingPlan, Unit};
 use uplift_motion::IntensityMeasure;
 
 use super::file::ResultFile;
-use super::layout::{MULTIPLICITY, axis, band, bootstrap, limit_names};
+use super::layout::{MULTIPLICITY, axis, band, bootstrap, limit_names, repaired_band};
 use crate::array::Array;
+use crate::consistency::{AskedRecord, Question};
 use crate::error::UpliftError;
 
 /// The confidence bands of a result.
@@ -30,6 +31,21 @@ pub struct MeasureBands {
     pub error_of_median: Array<3>,
     /// Widths of the interval `[site, poe, size]`, % (Eq. 4.10); NaN where an ordinate is censored or 0.
     pub range_of_interval: Array<3>,
+    /// Those of the repaired spectra; none where the result had none at the time.
+    pub repaired: Option<RepairedMeasureBands>,
+}
+
+/// The bands of the repaired spectra of one measure; NaN at sites without repair.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RepairedMeasureBands {
+    /// Lower limits, medians and upper limits, each `[site, poe, size, strength]`, m.
+    pub limits_m: [Array<4>; 3],
+    /// Errors of the median `[site, poe, size]`, % (Eq. 4.9).
+    pub error_of_median: Array<3>,
+    /// Widths of the interval `[site, poe, size]`, % (Eq. 4.10).
+    pub range_of_interval: Array<3>,
+    /// Share of the samples whose weights do not bring the site's hazard `[site, size]`.
+    pub failed: Array<2>,
 }
 
 /// How bands were made of their draws.
@@ -94,16 +110,31 @@ impl ResultFile {
             if !self.reader.exists(&bootstrap::group(measure)) {
                 continue;
             }
-            let limit = |name: &String| self.array(&band(measure, name), [site, poe, size, strength]);
-            let [lower, median, upper] = &names;
-            measures.push(MeasureBands {
-                measure,
-                limits_m: [limit(lower)?, limit(median)?, limit(upper)?],
-                error_of_median: self.array(&bootstrap::e_median(measure), spectra)?,
-                range_of_interval: self.array(&bootstrap::r_90ci(measure), spectra)?,
-            });
+            let arrays = |path: &dyn Fn(&str) -> String| {
+                let limit = |name: &String| self.array(&path(name), [site, poe, size, strength]);
+                let [lower, median, upper] = &names;
+                let figures = |name| self.array(&path(name), spectra);
+                let limits_m = [limit(lower)?, limit(median)?, limit(upper)?];
+                Ok::<_, UpliftError>((limits_m, figures(bootstrap::E_MEDIAN)?, figures(bootstrap::R_90CI)?))
+            };
+            let (limits_m, error_of_median, range_of_interval) = arrays(&|name| band(measure, name))?;
+            let of_repair = |name: &str| repaired_band(measure, name);
+            let failed = of_repair(bootstrap::FAILED);
+            let repaired = if self.reader.exists(&failed) {
+                let (limits_m, error_of_median, range_of_interval) = arrays(&of_repair)?;
+                let failed = self.array(&failed, [site, size])?;
+                Some(RepairedMeasureBands { limits_m, error_of_median, range_of_interval, failed })
+            } else {
+                None
+            };
+            measures.push(MeasureBands { measure, limits_m, error_of_median, range_of_interval, repaired });
         }
         Ok(Some(StoredBands { sizes, confidence, measures }))
+    }
+
+    /// Whether there are bands of repaired spectra.
+    pub(crate) fn has_repaired_bands(&self) -> bool {
+        self.measures().iter().any(|&own| self.reader.exists(&repaired_band(own, bootstrap::FAILED)))
     }
 
     /// The draws of the bands; none before `uplift bootstrap`.
@@ -119,9 +150,21 @@ impl ResultFile {
         let replicates = self.reader.axis_u32(axis::REPLICATE)?.len();
         let lengths = [(axis::SAMPLE_SIZE, sizes.len()), (axis::REPLICATE, replicates), (axis::RECORD, records)];
         let counts = self.checked(MULTIPLICITY, self.reader.array_u32(MULTIPLICITY)?, &lengths)?;
-        ResamplingPlan::from_multiplicities(records, &sizes, replicates, &counts)
+        // results of before drew records
+        let unit = self.reader.attribute_text(bootstrap::ROOT, "unit").unwrap_or_default();
+        let event_of = if unit == Unit::Event.key() { Some(self.event_of()?) } else { None };
+        ResamplingPlan::from_multiplicities(records, &sizes, replicates, &counts, event_of.as_deref())
             .map(Some)
             .map_err(|error| self.fail(error))
+    }
+
+    /// The earthquake of each record, `[record]`, as a number that its records share; a record whose earthquake is not
+    /// known has one of its own, with the other component of its pair.
+    ///
+    /// # Errors
+    /// A file that is damaged, or of another kind.
+    pub(crate) fn event_of(&self) -> Result<Vec<usize>, UpliftError> {
+        Ok(Question::of_result(self)?.records.iter().map(AskedRecord::earthquake).collect())
     }
 
     /// How the bands of the file were made of their draws.

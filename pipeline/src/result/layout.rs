@@ -80,21 +80,37 @@ by_measure! {
     max_abs_residual_m = "max_abs_residual_m", bound_active = "bound_active", points = "points",
 }
 
-by_measure! {
-    /// Confidence bands; their limits are named after their levels (`limit_names`).
-    bootstrap:
-    simultaneous_lower_m = "simultaneous_lower_m", simultaneous_upper_m = "simultaneous_upper_m",
-    e_median = "e_median", r_90ci = "r_90ci",
+/// Confidence bands; their limits are named after their levels ([`limit_names`]).
+pub mod bootstrap {
+    use uplift_motion::IntensityMeasure;
+
+    /// The group of all measures.
+    pub const ROOT: &str = "/bootstrap";
+    /// Limits of the band of whole spectra.
+    pub const SIMULTANEOUS: [&str; 2] = ["simultaneous_lower_m", "simultaneous_upper_m"];
+    /// Error of the median (Eq. 4.9).
+    pub const E_MEDIAN: &str = "e_median";
+    /// Range of the interval (Eq. 4.10).
+    pub const R_90CI: &str = "r_90ci";
+    /// Share of the replicates whose weights fail, of repaired spectra.
+    pub const FAILED: &str = "failed";
+    /// The arrays of a measure but for the limits.
+    pub const ARRAYS: &[&str] = &[SIMULTANEOUS[0], SIMULTANEOUS[1], E_MEDIAN, R_90CI, FAILED];
+
+    /// The group of a measure.
+    pub fn group(measure: IntensityMeasure) -> String {
+        format!("{ROOT}/{}", measure.key())
+    }
 }
 
 by_measure! {
     /// The spectra without each record.
-    influence: u_without_m = "u_without_m",
+    influence: u_without_m = "u_without_m", repaired = "consistent/u_without_m",
 }
 
 by_measure! {
     /// The intensities that the risk comes from.
-    disaggregation: share = "share",
+    disaggregation: share = "share", repaired = "consistent/share",
 }
 
 /// Whether the records bring the hazard of the other measure.
@@ -206,6 +222,11 @@ pub const MULTIPLICITY: &str = "/bootstrap/multiplicity";
 /// A limit or median of the bands of a measure, by its name.
 pub fn band(measure: IntensityMeasure, limit: &str) -> String {
     format!("{}/{limit}", bootstrap::group(measure))
+}
+
+/// An array of the bands of the repaired spectra of a measure, by its name.
+pub fn repaired_band(measure: IntensityMeasure, name: &str) -> String {
+    format!("{}/consistent/{name}", bootstrap::group(measure))
 }
 
 /// An array of the bands of a site over records and weighted hazard curves together, by its name.

@@ -3,12 +3,13 @@
 
 use serde::Serialize;
 use uplift_oscillator::PostUplift;
-use uplift_risk::{Ordinate, RiskCurve, StripeWeights};
+use uplift_risk::Ordinate;
 use uplift_spectra::Noisy;
 use uplift_structure::{EquivalentSystem, Rule, relative_error};
 
 use super::risk::{EventRisk, OVERTURNING_M, demand_of, risk_of_exceeding};
 use super::sweep::{OF_STUDY, OWN, Sweep, ZERO_STIFFNESS};
+use super::weights::SiteWeights;
 use crate::displacement::RULES;
 use crate::error::UpliftError;
 use crate::uniform_risk::Stripes;
@@ -114,14 +115,14 @@ impl DemandRounding {
 /// # Errors
 /// Stripes and weights that do not fit together.
 pub(super) fn exact_demand(
-    (stripes, weights): (&Stripes, &StripeWeights),
+    (stripes, weights): (&Stripes, &SiteWeights<'_>),
     (system, sweep): (&EquivalentSystem, &Sweep),
     (target_per_year, years): (f64, f64),
 ) -> Result<ExactDemand, UpliftError> {
     let factor = system.participation();
     let ordinate = |oscillator: usize| -> Result<Ordinate, UpliftError> {
         let demand = demand_of(stripes, oscillator)?;
-        let ordinate = RiskCurve::new(&demand, weights)?.exact_ordinate(target_per_year)?;
+        let ordinate = weights.curve(&demand)?.exact_ordinate(target_per_year)?;
         Ok(Ordinate { displacement_m: factor * ordinate.displacement_m, ..ordinate })
     };
     let own = demand_of(stripes, OWN)?;

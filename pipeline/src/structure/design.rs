@@ -22,14 +22,17 @@ use super::risk::EventRisk;
 use super::rules::{RuleDemands, RuleOutcome, apply_rules};
 use super::spectrum::{SpectrumDemand, read_spectrum};
 use super::sweep::Sweep;
+use super::weights::SiteWeights;
 use crate::alarms::{
     Alarm, OwnRisk, Scope, alarms_within, of_own_demand, of_own_risks, of_safety_factor, of_structure, ranked,
 };
 use crate::analysis::{Beside, LabelledPlan, ShardReport, Work};
+use crate::consistency::Reweighing;
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::inputs::RecordSet;
-use crate::result::{AskedRisk, ResultFile, SpectraOfResult, StudyOfResult};
+use crate::result::{AskedRisk, ResultFile, SpectraOfResult, StoredConsistency, StudyOfResult};
+use crate::text::spectrum_words;
 use crate::uniform_risk::{Stripes, motion_keys, plan_stripes};
 
 /// What is asked of a design.
@@ -43,6 +46,8 @@ pub struct DesignOptions {
     pub risk: AskedRisk,
     /// Measure of the spectrum; PGV where none is given and the result has it.
     pub measure: Option<IntensityMeasure>,
+    /// Take the repaired spectrum, and weigh the structure's own analysis as it is.
+    pub repaired: bool,
     /// Safety factor on the demand (Eq. 3.15), at least 1.
     pub safety_factor: f64,
     /// Read the spectrum and apply the rules, without analysing the structure itself.
@@ -59,6 +64,7 @@ impl Default for DesignOptions {
             site: None,
             risk: AskedRisk::default(),
             measure: None,
+            repaired: false,
             safety_factor: 2.5,
             spectrum_only: false,
             shards: Vec::new(),
@@ -81,6 +87,8 @@ pub struct DesignReport {
     pub site: String,
     /// `PGV` or `PGA`.
     pub im: &'static str,
+    /// Whether spectrum and risks are of records weighted so that they bring the site's hazard.
+    pub repaired: bool,
     /// Probability of exceedance.
     pub poe: f64,
     /// Years that it refers to.
@@ -101,14 +109,21 @@ pub struct DesignReport {
     pub alarms: Vec<Alarm>,
 }
 
+impl DesignReport {
+    /// By which spectrum, in words: `PGV`, or `PGV, repaired`.
+    pub fn spectrum_words(&self) -> String {
+        spectrum_words(self.im, self.repaired)
+    }
+}
+
 /// Designs `structure` by a spectrum of the result at `result`, and tests the design by the structure's own risk.
 ///
 /// # Errors
 /// A safety factor below 1 or implausibly large; a file that is missing, damaged, no result, or without sites; spectra
-/// of another system than ZSBE; a site or measure that the result does not have; a risk that is none, or several;
-/// records of a manifest that was given and cannot be read; shards that do not belong together;
-/// [`UpliftError::Paused`] where `events` say so, [`UpliftError::Interrupted`] where no checkpoint can be written
-/// beside the result.
+/// of another system than ZSBE; a site or measure that the result does not have, or no repaired spectrum where one is
+/// asked for; a risk that is none, or several; records of a manifest that was given and cannot be read; shards that do
+/// not belong together; [`UpliftError::Paused`] where `events` say so, [`UpliftError::Interrupted`] where no checkpoint
+/// can be written beside the result.
 pub fn design(
     structure: &Structure,
     result: &Path,
@@ -124,10 +139,24 @@ pub fn design(
     let measure = &source.measures[measure_index(&source, options.measure)?];
     let poe = source.only_risk(&options.risk)?;
     let target_per_year = source.target_per_year(poe)?;
+    let consistency = file.consistency()?;
+    let repaired_m = repaired_spectrum(&consistency, measure, [site, poe]);
+    let reweighing = if options.repaired { Reweighing::of_result(&file)? } else { None };
+    let repair = reweighing.as_ref().and_then(|reweighing| reweighing.weights(measure.measure(), site));
+    let weights = match (options.repaired, repair) {
+        (false, _) => SiteWeights::Alike(&measure.weights[site]),
+        (true, Some(weights)) => SiteWeights::Repaired(weights),
+        (true, None) => return Err(not_repaired(&source, measure, site)),
+    };
     let restitution = structure.description.restitution.unwrap_or(source.study.oscillator.restitution);
     let mut notes = differences(structure, &source, restitution);
 
-    let spectrum = spectrum_demand(structure, &source, source.spectrum(measure, site, poe));
+    let plain = spectrum_demand(structure, &source, source.spectrum(measure, site, poe));
+    let repaired = repaired_m.and_then(|u_m| spectrum_demand(structure, &source, u_m));
+    let spectrum = if options.repaired { repaired } else { plain };
+    if !options.repaired {
+        notes.extend(beside(plain, repaired));
+    }
     if spectrum.is_none() {
         notes.push(beyond_spectrum(structure, &source));
     }
@@ -146,8 +175,7 @@ pub fn design(
                 checkpoint = Some(left);
                 let stripes = analysed.into_iter().map(|analysed| Stripes::of(&measure.plan, analysed));
                 let own = (&structure.system, &shaken.sweep);
-                let exact =
-                    |stripes: Stripes| exact_demand((&stripes, &measure.weights[site]), own, (target_per_year, years));
+                let exact = |stripes: Stripes| exact_demand((&stripes, &weights), own, (target_per_year, years));
                 stripes.map(exact).next().transpose()?
             }
             Err(reason) => {
@@ -169,6 +197,7 @@ pub fn design(
         measure: Some(measure.measure()),
         poe: Some(poe),
         strengths: spectrum.map(|spectrum| spectrum.between_strengths).or(Some((f64::NAN, f64::NAN))),
+        repaired: options.repaired,
     };
     let told = StructureReport::of(structure, Some(restitution));
     let mut alarms = alarms_within(&file, &scope)?;
@@ -188,6 +217,7 @@ pub fn design(
         structure: told,
         site: source.sites[site].clone(),
         im: measure.measure().label(),
+        repaired: options.repaired,
         poe: risk.poe[poe],
         years: risk.years,
         result: source.path,
@@ -257,6 +287,37 @@ impl Shaken {
         let labelled = LabelledPlan { label, remark: None, plan, motions: &self.motions, known: None };
         Ok(Work::new(title, vec![labelled]))
     }
+}
+
+/// The repaired spectrum at a site and probability, m, `[strength]`; none where there is none.
+fn repaired_spectrum<'a>(
+    consistency: &'a [StoredConsistency],
+    measure: &SpectraOfResult,
+    [site, poe]: [usize; 2],
+) -> Option<&'a [f64]> {
+    let is_own = |of: &&StoredConsistency| of.scaled_to == measure.measure() && of.is_repaired(site);
+    Some(consistency.iter().find(is_own)?.u_m.as_ref()?.block([site, poe]))
+}
+
+/// Why there is no repaired spectrum of a site.
+fn not_repaired(source: &StudyOfResult, measure: &SpectraOfResult, site: usize) -> UpliftError {
+    UpliftError::input(format!(
+        "{}: has no repaired spectrum of {} by {}: `uplift consistency {} --repair` makes it, or says what keeps it \
+         from being made",
+        source.path.display(),
+        source.sites[site],
+        measure.measure().label(),
+        source.path.display()
+    ))
+}
+
+/// What the repaired spectrum says beside the plain one.
+fn beside(plain: Option<SpectrumDemand>, repaired: Option<SpectrumDemand>) -> Option<String> {
+    let [plain_m, repaired_m] = [plain?, repaired?].map(|demand| demand.zero_stiffness_demand_m);
+    Some(format!(
+        "the repaired spectrum, of records weighted so that they bring the site's hazard, demands {repaired_m:.4} m \
+         with zero stiffness where the plain one has {plain_m:.4} m: --repaired designs by it"
+    ))
 }
 
 /// The rules start from the ZSBE system: a spectrum of another says nothing to them.

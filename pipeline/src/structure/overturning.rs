@@ -7,7 +7,7 @@ use serde::Serialize;
 use uplift_fragility::LognormalFit;
 use uplift_ida::{Shard, System};
 use uplift_motion::IntensityMeasure;
-use uplift_risk::StripeWeights;
+use uplift_risk::{RunWeights, StripeWeights};
 use uplift_spectra::{NUDGES, Noisy, nudges};
 use uplift_study::{Structure, UniformRiskStudy};
 
@@ -19,6 +19,7 @@ use super::risk::EventRisk;
 use super::tables::{risk_path, write_tables};
 use crate::alarms::{Alarm, OwnRisk, Scope, alarms_of_inputs, of_own_risks, of_structure, ranked};
 use crate::analysis::{Beside, LabelledPlan, ShardReport, Work};
+use crate::consistency::Reweighing;
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::inputs::RecordSet;
@@ -130,6 +131,10 @@ pub struct SiteRisk {
     /// From the counts, with no curve fitted.
     #[serde(flatten)]
     pub risk: EventRisk,
+    /// From the counts with repaired weights, by which the records bring the site's hazard; none where the result has
+    /// none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub repaired: Option<EventRisk>,
     /// Frequency with the lognormal fragility in place of the counts, 1/yr; none without a fit.
     pub lognormal_per_year: Option<f64>,
     /// The frequency from the counts with its range over scale factors up to 4e-15 smaller and larger, 1/yr.
@@ -173,10 +178,13 @@ pub fn overturning(
     let beside = Beside { result, name: &asked };
     let (analysed, checkpoint) = beside.results(shaken.work(&measures, &models, &asked)?, &options.shards, events)?;
     let Shaken { study, set, .. } = &shaken;
+    let reweighing = Reweighing::of_result(&file)?;
     let mut analysed = analysed.into_iter();
     let mut found: Vec<(&SpectraOfResult, Vec<Collapses>)> = Vec::new();
     for measure in measures {
-        let weights: Vec<&StripeWeights> = sites.iter().map(|&site| &measure.weights[site]).collect();
+        let of_repair = |site| reweighing.as_ref()?.weights(measure.measure(), site);
+        let weights: Vec<(&StripeWeights, Option<&RunWeights>)> =
+            sites.iter().map(|&site| (&measure.weights[site], of_repair(site))).collect();
         let of_models = models.iter().zip(analysed.by_ref()).map(|((model, _), analysed)| {
             let levels = &measure.plan.levels;
             let at_nudge = |nudge: usize| {
@@ -398,6 +406,7 @@ impl CollapseReport {
         let site = |(index, site): (usize, &str)| SiteRisk {
             site: site.to_owned(),
             risk: own.risks[index],
+            repaired: own.repaired[index],
             lognormal_per_year: own.fitted.as_ref().map(|fitted| fitted[index].per_year),
             per_year_rounding: around(&|found| found.risks[index].per_year),
             lognormal_per_year_rounding: own

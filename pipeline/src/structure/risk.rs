@@ -2,8 +2,9 @@
 
 use serde::Serialize;
 use uplift_hazard::probability_from_rate;
-use uplift_risk::{PooledDemand, RiskCurve, StripeWeights};
+use uplift_risk::{PooledDemand, StripeWeights};
 
+use super::weights::SiteWeights;
 use crate::error::UpliftError;
 use crate::uniform_risk::{Stripes, pooled_demand};
 
@@ -36,8 +37,9 @@ impl EventRisk {
     }
 
     /// The same of something that may happen, though no run of `records` may show it.
-    pub(super) fn bounded(self, weights: &StripeWeights, records: usize) -> Self {
-        let at_most_per_year = (self.per_year == 0.0).then(|| at_most_per_year(weights, records));
+    pub(super) fn bounded(self, weights: &SiteWeights<'_>, records: usize) -> Self {
+        let records = weights.effective_records(records);
+        let at_most_per_year = (self.per_year == 0.0).then(|| at_most_per_year(weights.stripes(), records));
         Self { at_most_per_year, ..self }
     }
 }
@@ -46,14 +48,14 @@ impl EventRisk {
 pub(crate) const BOUND_CONFIDENCE: f64 = 0.95;
 
 /// The share of all motions that may do what none of so many records did, with [`BOUND_CONFIDENCE`]: nearly 3/N.
-pub(crate) fn share_at_most(records: usize) -> f64 {
-    1.0 - (1.0 - BOUND_CONFIDENCE).powf(1.0 / records as f64)
+pub(crate) fn share_at_most(records: f64) -> f64 {
+    1.0 - (1.0 - BOUND_CONFIDENCE).powf(1.0 / records)
 }
 
 /// The frequency that something has at most which no run shows, 1/yr: all motions stronger than the last level do it,
 /// and at that level the share that so many records leave open; from the level before it on that share grows from zero
 /// as a fragility between stripes does (Eq. 4.4).
-fn at_most_per_year(weights: &StripeWeights, records: usize) -> f64 {
+fn at_most_per_year(weights: &StripeWeights, records: f64) -> f64 {
     let beyond = weights.upper_tail_per_year();
     let last = weights.per_year().last().copied().unwrap_or(beyond);
     beyond + share_at_most(records) * (last - beyond)
@@ -68,11 +70,11 @@ pub(super) const OVERTURNING_M: f64 = f64::MAX;
 /// Stripes and weights of different levels; a threshold that is none.
 pub(super) fn risk_of_exceeding(
     demand: &PooledDemand,
-    weights: &StripeWeights,
+    weights: &SiteWeights<'_>,
     threshold_m: f64,
     years: f64,
 ) -> Result<EventRisk, UpliftError> {
-    let curve = RiskCurve::new(demand, weights)?;
+    let curve = weights.curve(demand)?;
     let per_year = curve.mean_annual_frequency(threshold_m)?;
     let parts = curve.disaggregation(threshold_m)?;
     EventRisk::new(per_year, [parts.lower_tail_per_year, parts.upper_tail_per_year], years)
@@ -94,11 +96,12 @@ mod tests {
     #[test]
     fn what_no_run_shows_has_a_bound_all_the_same() {
         // 1 − 0.05^(1/N), that is some 3/N
-        assert!((share_at_most(1) - 0.95).abs() < 1e-12);
-        assert!((share_at_most(300) * 300.0 - 3.0).abs() < 0.02);
+        assert!((share_at_most(1.0) - 0.95).abs() < 1e-12);
+        assert!((share_at_most(300.0) * 300.0 - 3.0).abs() < 0.02);
         // rates 1, 0.5, 0.25: all beyond the last level, and 0.95 of half the last interval for a single record
         let weights = StripeWeights::new(&[1.0, 0.5, 0.25], None).unwrap();
         let none = EventRisk::new(0.0, [0.0, 0.0], 50.0).unwrap();
+        let weights = SiteWeights::Alike(&weights);
         let bound = none.bounded(&weights, 1).at_most_per_year.unwrap();
         assert!((bound - (0.25 + 0.95 * 0.125)).abs() < 1e-12, "{bound}");
         let some = EventRisk::new(1e-3, [0.0, 0.0], 50.0).unwrap();

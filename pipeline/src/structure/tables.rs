@@ -87,8 +87,10 @@ fn risk(report: &OverturningReport) -> Vec<Column> {
         rows.iter().map(|(site, found)| end(&found.sites[*site].per_year_rounding)).collect()
     };
     let bound: Vec<Option<f64>> = rows.iter().map(|(site, found)| found.sites[*site].risk.at_most_per_year).collect();
+    let repaired: Vec<Option<f64>> =
+        rows.iter().map(|(site, found)| found.sites[*site].repaired.map(|risk| risk.per_year)).collect();
     let by_fit: Vec<Option<f64>> = rows.iter().map(|(site, found)| found.sites[*site].lognormal_per_year).collect();
-    vec![
+    let mut columns = vec![
         Column::new("site".into(), name),
         Column::new("im".into(), text(|found| found.im)),
         Column::new("model".into(), text(|found| found.model)),
@@ -104,5 +106,9 @@ fn risk(report: &OverturningReport) -> Vec<Column> {
         Column::new("maf_lognormal_per_year".into(), by_fit),
         Column::new("maf_rounding_lowest_per_year".into(), rounding(|of| of.lowest)),
         Column::new("maf_rounding_highest_per_year".into(), rounding(|of| of.highest)),
-    ]
+    ];
+    if repaired.iter().any(Option::is_some) {
+        columns.push(Column::new("maf_consistent_per_year".into(), repaired));
+    }
+    columns
 }

@@ -9,6 +9,9 @@ use super::shown_path;
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
+/// More failing samples than this, per cent, deserve a warning.
+const MANY_FAILED_PERCENT: f64 = 5.0;
+
 /// The report for people; a quiet terminal gets the tables alone.
 pub(crate) fn print_bootstrap(report: &BootstrapReport, terminal: &Terminal) -> Result<(), CommandError> {
     let out = &mut output();
@@ -17,6 +20,7 @@ pub(crate) fn print_bootstrap(report: &BootstrapReport, terminal: &Terminal) -> 
         let rarest = report.poes.iter().all(|&other| other >= probability);
         print_figures(out, report, poe, rarest)?;
     }
+    print_repaired(out, report)?;
     if !terminal.is_quiet() {
         print_reading(out, report)?;
     }
@@ -62,8 +66,8 @@ fn print_figures(
             let shown = if size_index == 0 { name.clone() } else { String::new() };
             let mut row = vec![shown, size.to_string()];
             for bands in &report.bands {
-                row.push(figure(bands.error_of_median[at], 1));
-                row.push(figure(bands.range_of_interval[at], 0));
+                row.push(figure(bands.plain.error_of_median[at], 1));
+                row.push(figure(bands.plain.range_of_interval[at], 0));
                 if let Some(reference) = reference {
                     let found = reference
                         .iter()
@@ -81,6 +85,50 @@ fn print_figures(
     Ok(())
 }
 
+/// The figures of repaired spectra, beside those of the plain ones.
+fn print_repaired(out: &mut impl Write, report: &BootstrapReport) -> Result<(), CommandError> {
+    let mut rows = Vec::new();
+    let mut failing = Vec::new();
+    for row in &report.rows {
+        let Some(repaired) = row.repaired else { continue };
+        let percent = |value: Option<f64>, digits: usize| figure(value.map(|value| value / 100.0), digits);
+        rows.push(vec![
+            row.site.clone(),
+            row.im.to_owned(),
+            risk_name(row.poe, report.years),
+            row.sample_size.to_string(),
+            percent(row.r_90ci, 0),
+            percent(repaired.e_median, 1),
+            percent(repaired.r_90ci, 0),
+            format!("{:.1}", repaired.failed),
+        ]);
+        let told = format!("{} by {}, samples of {}: {:.0} %", row.site, row.im, row.sample_size, repaired.failed);
+        if repaired.failed > MANY_FAILED_PERCENT && !failing.contains(&told) {
+            failing.push(told);
+        }
+    }
+    if rows.is_empty() {
+        return Ok(());
+    }
+    writeln!(
+        out,
+        "\nHow sure the repaired spectra are, their weights solved anew for every sample: e and r of the {} interval, \
+         beside r of the plain spectra, and samples whose weights do not bring the site's hazard, all in per cent",
+        per_cent(report.confidence)
+    )?;
+    let header = ["site", "im", "probability", "records", "plain r", "repaired e", "repaired r", "failed"];
+    writeln!(out, "{}", table(&header, &rows))?;
+    if !failing.is_empty() {
+        writeln!(
+            out,
+            "Many samples fail, and the band of their repaired spectra leans to the plain ones ({}): more records, or \
+             records of another kind",
+            failing.join("; ")
+        )?;
+    }
+    Ok(())
+}
+
 /// What the figures mean, in sentences.
 fn print_reading(out: &mut impl Write, report: &BootstrapReport) -> Result<(), CommandError> {
     let sizes = &report.sizes;
@@ -94,7 +142,7 @@ fn print_reading(out: &mut impl Write, report: &BootstrapReport) -> Result<(), C
     for bands in &report.bands {
         for (poe, &probability) in report.poes.iter().enumerate() {
             let widths = |size: usize| -> Vec<f64> {
-                (0..report.sites.len()).filter_map(|site| bands.range_of_interval[[site, poe, size]]).collect()
+                (0..report.sites.len()).filter_map(|site| bands.plain.range_of_interval[[site, poe, size]]).collect()
             };
             let parts: Vec<String> = sizes
                 .iter()
@@ -130,7 +178,7 @@ fn print_joint(out: &mut impl Write, report: &BootstrapReport) -> Result<(), Com
     for bands in &report.bands {
         for joint in &bands.joint {
             for ([poe, size], range) in joint.range_of_interval.blocks() {
-                let of_records = bands.range_of_interval[[joint.site, poe, size]];
+                let of_records = bands.plain.range_of_interval[[joint.site, poe, size]];
                 rows.push(vec![
                     report.sites[joint.site].clone(),
                     bands.measure.label().to_owned(),
@@ -167,7 +215,7 @@ fn print_initiation(out: &mut impl Write, report: &BootstrapReport) -> Result<()
         for (index, bands) in report.bands.iter().enumerate() {
             let mut row = vec![if index == 0 { name.clone() } else { String::new() }];
             row.push(bands.measure.label().to_owned());
-            row.extend(initiation(report.initiation(bands, [site, poe, size_index])));
+            row.extend(initiation(report.initiation(&bands.plain, [site, poe, size_index])));
             rows.push(row);
         }
     }

@@ -49,7 +49,7 @@ pub(crate) fn print_design(report: &DesignReport) -> Result<(), CommandError> {
         out,
         "demand     {} by {}, {}: {:.4e} per year",
         report.site,
-        report.im,
+        report.spectrum_words(),
         risk_in_words(report.poe, report.years),
         report.target_per_year
     )?;

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use uplift::influence::InfluenceReport;
-use uplift::text::{metres, risk_in_words, table};
+use uplift::text::{metres, risk_in_words, spectrum_words, table};
 
 use super::shown_path;
 use crate::error::CommandError;
@@ -22,9 +22,12 @@ pub(crate) fn print_influence(report: &InfluenceReport, terminal: &Terminal) -> 
     Ok(())
 }
 
+/// The measure of a spectrum, and whether it is repaired.
+type Spectrum<'a> = (&'a str, bool);
+
 /// The site of a row where it is not that of the row above: rows follow each other by measure, then by site.
-fn shown_site<'a>(above: &mut Option<(&'a str, &'a str)>, im: &'a str, site: &'a str) -> String {
-    let same = above.replace((im, site)) == Some((im, site));
+fn shown_site<'a>(above: &mut Option<(Spectrum<'a>, &'a str)>, of: Spectrum<'a>, site: &'a str) -> String {
+    let same = above.replace((of, site)) == Some((of, site));
     if same { String::new() } else { site.to_owned() }
 }
 
@@ -39,8 +42,8 @@ fn print_records(out: &mut impl Write, report: &InfluenceReport, name: &str) -> 
     let rows: Vec<Vec<String>> = of_poe
         .map(|row| {
             vec![
-                shown_site(&mut above, row.im, &row.site),
-                row.im.to_owned(),
+                shown_site(&mut above, (row.im, row.repaired), &row.site),
+                spectrum_words(row.im, row.repaired),
                 row.record.clone(),
                 format!("{:+.1}", row.mean_change_pct),
                 format!("{:+.0}", row.largest_change_pct),
@@ -70,8 +73,8 @@ fn print_intensities(out: &mut impl Write, report: &InfluenceReport, name: &str)
         .iter()
         .map(|row| {
             vec![
-                shown_site(&mut above, row.im, &row.site),
-                format!("{}, {}", row.im, row.unit),
+                shown_site(&mut above, (row.im, row.repaired), &row.site),
+                format!("{}, {}", spectrum_words(row.im, row.repaired), row.unit),
                 format!("{:.3}", row.strength),
                 metres(row.u_m),
                 level(row.level_05),

@@ -101,6 +101,7 @@ fn print_risk(out: &mut impl Write, report: &OverturningReport) -> Result<(), Co
         _ => format!("{:.1} %", 100.0 * of_all),
     };
     let sites = report.overturning.first().map_or(0, |found| found.sites.len());
+    let is_repaired = report.overturning.iter().flat_map(|found| &found.sites).any(|site| site.repaired.is_some());
     let mut rows = Vec::new();
     for index in 0..sites {
         for (place, found) in report.overturning.iter().enumerate() {
@@ -111,6 +112,9 @@ fn print_risk(out: &mut impl Write, report: &OverturningReport) -> Result<(), Co
             if of_site.per_year_rounding.shows_otherwise(rate) {
                 row[3].push('*');
             }
+            if is_repaired {
+                row.push(of_site.repaired.map_or_else(|| "-".to_owned(), |risk| risk_cells(&risk)[0].clone()));
+            }
             row.extend([
                 or_dash(of_site.lognormal_per_year_rounding, rate),
                 percent(of_site.risk.lower_tail_share),
@@ -120,11 +124,18 @@ fn print_risk(out: &mut impl Write, report: &OverturningReport) -> Result<(), Co
         }
     }
     let in_years = format!("in {} years", report.years);
-    let header = ["site", "im", "model", "per year", &in_years, "return period", "lognormal", "below", "above"];
+    let mut header = vec!["site", "im", "model", "per year", &in_years, "return period"];
+    let weighted = if is_repaired {
+        header.push("repaired");
+        "; with the records weighted so that they bring the\nsite's hazard"
+    } else {
+        ""
+    };
+    header.extend(["lognormal", "below", "above"]);
     writeln!(
         out,
-        "\nRisk of overturning: from the counted shares; with the lognormal curve in their place; and what of the \
-         first comes from below and\nabove the analysed levels\n{}",
+        "\nRisk of overturning: from the counted shares{weighted}; with the lognormal curve in their place; and what \
+         of the first comes from below and\nabove the analysed levels\n{}",
         table(&header, &rows)
     )?;
     Ok(())

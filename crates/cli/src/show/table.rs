@@ -5,7 +5,7 @@ mod design;
 use std::io::Write;
 
 use uplift::table::{COMPARED_ABOVE, COMPARED_FROM_M, CoefficientRow, CoefficientTable, TableReport, TableRows};
-use uplift::text::{risk_name, table};
+use uplift::text::{risk_name, spectrum_words, table};
 
 use super::alarms::print_alarms;
 use crate::error::CommandError;
@@ -54,7 +54,7 @@ fn print_coefficients(out: &mut impl Write, report: &CoefficientTable) -> Result
 }
 
 fn measure(row: &CoefficientRow) -> String {
-    if row.repaired { format!("{}, repaired", row.im) } else { row.im.clone() }
+    spectrum_words(&row.im, row.repaired)
 }
 
 fn ours(row: &CoefficientRow) -> Vec<String> {

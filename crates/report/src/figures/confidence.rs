@@ -1,29 +1,66 @@
 //! Confidence bands of the spectra (Figures 4.8, 4.9, 4.10).
 
 use super::{DISPLACEMENT, FigureSource, STRENGTH};
+use uplift::Array;
 use uplift::result::MeasureBands;
 use uplift::text::risk_in_words;
 use uplift_motion::IntensityMeasure;
 use uplift_plot::{Axis, Band, Figure, Panel, Series, Tone};
 
+/// Limits and medians of bands, each `[site, poe, size, strength]`, m.
+type Limits = [Array<4>; 3];
+
 impl FigureSource {
-    /// The bands of `measure`.
-    pub(super) fn bands_of(&self, measure: IntensityMeasure) -> Option<&MeasureBands> {
-        self.bands.as_ref()?.of(measure)
+    /// The bands of the plain spectra by `measure`.
+    pub(super) fn bands_of(&self, measure: IntensityMeasure) -> Option<&Limits> {
+        Some(&self.bands.as_ref()?.of(measure)?.limits_m)
     }
 
     /// Band and median of one site, probability and size, by position.
     pub(super) fn band(
         &self,
-        bands: &MeasureBands,
+        limits_m: &Limits,
         at: [usize; 3],
         name: impl Into<String>,
         tone: Tone,
     ) -> (Band, Series) {
-        let [lower, median, upper] = bands.limits_m.each_ref().map(|limits| limits.block(at));
+        let [lower, median, upper] = limits_m.each_ref().map(|limits| limits.block(at));
         let limits = lower.iter().zip(upper);
         let points = self.stored.strengths.iter().zip(limits).map(|(&eta, (&low, &high))| (eta, low, high)).collect();
         (Band { name: String::new(), points, tone }, self.over_strengths(name, median, tone))
+    }
+}
+
+/// Which spectra bands are of.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Of {
+    /// Those of records that count alike.
+    Plain,
+    /// Those of weighted records.
+    Repaired,
+}
+
+impl Of {
+    fn limits(self, bands: &MeasureBands) -> Option<&Limits> {
+        match self {
+            Self::Plain => Some(&bands.limits_m),
+            Self::Repaired => Some(&bands.repaired.as_ref()?.limits_m),
+        }
+    }
+
+    /// What the names of its figures end with.
+    fn ending(self) -> &'static str {
+        match self {
+            Self::Plain => "",
+            Self::Repaired => "-repaired",
+        }
+    }
+
+    fn spectra(self) -> &'static str {
+        match self {
+            Self::Plain => "spectra",
+            Self::Repaired => "repaired spectra",
+        }
     }
 }
 
@@ -31,43 +68,50 @@ pub(super) fn bands(source: &FigureSource) -> Vec<Figure> {
     let Some(stored) = &source.bands else { return Vec::new() };
     let poe = source.rarest();
     let [lower, upper] = stored.level_names();
-    let figure = |bands: &MeasureBands| {
+    let figure = |bands: &MeasureBands, of: Of| {
+        let limits_m = of.limits(bands)?;
         let panel = |site: usize| {
             let title = source.stored.sites[site].clone();
             let mut panel = Panel::lines(title, Axis::linear(STRENGTH), Axis::log(DISPLACEMENT), Vec::new());
             for (size, &records) in stored.sizes.iter().enumerate() {
                 let name = format!("{records} records");
-                let (band, median) = source.band(bands, [site, poe, size], name, Tone::Distinct(size));
+                let (band, median) = source.band(limits_m, [site, poe, size], name, Tone::Distinct(size));
                 panel.bands.push(band);
                 panel.series.push(median);
             }
             panel
         };
+        let anew = if of == Of::Repaired { "; every sample has weights of its own" } else { "" };
         let caption = format!(
-            "Median (lines) and {lower} to {upper} interval (areas) of the spectra of {} over resampled \
-             records, for each size of the sample (Fig. 4.8).",
+            "Median (lines) and {lower} to {upper} interval (areas) of the {} of {} over resampled records, for each \
+             size of the sample (Fig. 4.8){anew}.",
+            of.spectra(),
             risk_in_words(source.stored.poes[poe], source.stored.years)
         );
-        source.figure(
-            format!("bands-{}", bands.measure.key()),
-            format!("How sure the spectra are, by {}", bands.measure.label()),
+        Some(source.figure(
+            format!("bands-{}{}", bands.measure.key(), of.ending()),
+            format!("How sure the {} are, by {}", of.spectra(), bands.measure.label()),
             caption,
             source.sites().map(panel).collect(),
-        )
+        ))
     };
-    stored.measures.iter().map(figure).collect()
+    let of_measure = |bands| [Of::Plain, Of::Repaired].into_iter().filter_map(move |of| figure(bands, of));
+    stored.measures.iter().flat_map(of_measure).collect()
 }
 
 /// Bands of the largest sample by all measures, for one probability.
-fn together(source: &FigureSource, poe: usize, y: &Axis, up_to: Option<f64>) -> Option<Vec<Panel>> {
-    let stored = source.bands.as_ref().filter(|bands| !bands.measures.is_empty())?;
+fn together(source: &FigureSource, of: Of, poe: usize, y: &Axis, up_to: Option<f64>) -> Option<Vec<Panel>> {
+    let stored = source.bands.as_ref()?;
+    if !stored.measures.iter().any(|bands| of.limits(bands).is_some()) {
+        return None;
+    }
     let size = stored.largest();
     let panel = |site: usize| {
         let mut panel = Panel::lines(source.stored.sites[site].clone(), Axis::linear(STRENGTH), y.clone(), Vec::new());
         for (index, measure) in source.stored.measures.iter().enumerate() {
-            let Some(bands) = stored.of(measure.measure) else { continue };
+            let Some(limits_m) = stored.of(measure.measure).and_then(|bands| of.limits(bands)) else { continue };
             let name = measure.measure.label();
-            let (mut band, mut line) = source.band(bands, [site, poe, size], name, Tone::Distinct(index));
+            let (mut band, mut line) = source.band(limits_m, [site, poe, size], name, Tone::Distinct(index));
             if let Some(up_to) = up_to {
                 // where the median comes down to that displacement, and on
                 let from = line.points.iter().position(|point| point.1 < up_to).unwrap_or(line.points.len());
@@ -82,22 +126,31 @@ fn together(source: &FigureSource, poe: usize, y: &Axis, up_to: Option<f64>) -> 
     Some(source.sites().map(panel).collect())
 }
 
-pub(super) fn measures_together(source: &FigureSource) -> Option<Figure> {
+/// The measures side by side, and so again where repaired spectra have bands.
+pub(super) fn measures_together(source: &FigureSource) -> Vec<Figure> {
     let poe = source.rarest();
-    let panels = together(source, poe, &Axis::log(DISPLACEMENT), None)?;
-    let caption = format!(
-        "Median and interval of the spectra of {} for the largest sample, by each intensity measure \
-         (Fig. 4.9): where the areas part, the measures contradict each other.",
-        risk_in_words(source.stored.poes[poe], source.stored.years)
-    );
-    Some(source.figure("bands-together", "The measures side by side", caption, panels))
+    let figure = |of: Of| {
+        let panels = together(source, of, poe, &Axis::log(DISPLACEMENT), None)?;
+        let title = match of {
+            Of::Plain => "The measures side by side",
+            Of::Repaired => "The measures side by side, repaired",
+        };
+        let caption = format!(
+            "Median and interval of the {} of {} for the largest sample, by each intensity measure (Fig. 4.9): where \
+             the areas part, the measures contradict each other.",
+            of.spectra(),
+            risk_in_words(source.stored.poes[poe], source.stored.years)
+        );
+        Some(source.figure(format!("bands-together{}", of.ending()), title, caption, panels))
+    };
+    [Of::Plain, Of::Repaired].into_iter().filter_map(figure).collect()
 }
 
 pub(super) fn initiation(source: &FigureSource) -> Option<Figure> {
     let stored = &source.stored;
     let poe = (0..stored.poes.len()).max_by(|&a, &b| stored.poes[a].total_cmp(&stored.poes[b]))?;
     let top = 4.0 * stored.uplift_displacement_m;
-    let panels = together(source, poe, &Axis::linear(DISPLACEMENT).between(0.0, top), Some(top))?;
+    let panels = together(source, Of::Plain, poe, &Axis::linear(DISPLACEMENT).between(0.0, top), Some(top))?;
     let caption = format!(
         "Spectra of {} near the uplift displacement of {} m, for the largest sample (Fig. 4.10).",
         risk_in_words(stored.poes[poe], stored.years),

@@ -99,7 +99,7 @@ pub(super) fn influence(source: &FigureSource) -> Vec<Figure> {
 fn most_influential(source: &FigureSource, measure: &StoredMeasure, without_m: &Array<4>) -> Vec<usize> {
     let mut largest = vec![0.0_f64; source.stored.records.len()];
     for site in source.sites() {
-        for of in rank_records(&source.stored, measure, without_m, [site, source.rarest()]) {
+        for of in rank_records(&source.stored, &measure.exact_m, without_m, [site, source.rarest()]) {
             largest[of.record] = largest[of.record].max(of.mean_change.abs());
         }
     }

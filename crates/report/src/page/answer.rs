@@ -1,6 +1,7 @@
 //! The answer in a sentence for each site: how far a structure must be able to go.
 
 use serde::Serialize;
+use uplift::Array;
 use uplift::text::{nearest, per_cent, risk_in_words};
 
 use crate::figures::FigureSource;
@@ -55,26 +56,27 @@ pub(super) fn answer(source: &FigureSource) -> Option<Answer> {
         },
         band: None,
     };
-    let case = |site: usize, strength: usize| {
-        let band = bands.map(|(stored, bands)| {
-            let [lower, _, upper] =
-                bands.limits_m.each_ref().map(|limit_m| limit_m[[site, poe, stored.largest(), strength]]);
+    let case = |site: usize, strength: usize, u_m: f64, limits_m: Option<&[Array<4>; 3]>| {
+        let size = bands.map_or(0, |(stored, _)| stored.largest());
+        let band = limits_m.map(|limits_m| {
+            let [lower, _, upper] = limits_m.each_ref().map(|limit_m| limit_m[[site, poe, size, strength]]);
             if upper.is_finite() {
                 format!("{} to {} m", significant(lower), significant(upper))
             } else {
                 format!("{} m and more", significant(lower))
             }
         });
-        let u_m = of.u_m[[site, poe, strength]];
         Case { band: band.filter(|_| u_m.is_finite()), ..without_band(strength, u_m) }
     };
+    let plain_m = bands.map(|(_, bands)| &bands.limits_m);
+    let repaired_m = bands.and_then(|(_, bands)| Some(&bands.repaired.as_ref()?.limits_m));
     let repaired = |site: usize| -> Vec<Case> {
         let Some(u_m) = source.repaired(of.measure, site) else { return Vec::new() };
-        shown.iter().map(|&strength| without_band(strength, u_m[[site, poe, strength]])).collect()
+        shown.iter().map(|&strength| case(site, strength, u_m[[site, poe, strength]], repaired_m)).collect()
     };
     let site = |site: usize| SiteAnswer {
         site: spectra.sites[site].clone(),
-        cases: shown.iter().map(|&strength| case(site, strength)).collect(),
+        cases: shown.iter().map(|&strength| case(site, strength, of.u_m[[site, poe, strength]], plain_m)).collect(),
         repaired: repaired(site),
     };
     Some(Answer {

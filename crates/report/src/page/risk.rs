@@ -4,10 +4,11 @@ use super::answer::{answer, significant};
 use super::consistency;
 use super::{Content, Part, Table};
 use crate::figures::FigureSource;
+use uplift::Array;
 use uplift::UpliftError;
 use uplift::influence::{level_of_share, rank_records};
 use uplift::result::{MeasureBands, ResultFile, StoredBands, StoredSpectra};
-use uplift::text::{metres, nearest, per_cent, risk_in_words, risk_name};
+use uplift::text::{metres, nearest, per_cent, risk_in_words, risk_name, spectrum_words};
 
 /// Strengths in the table of displacements, and in that of intensities.
 const SHOWN_STRENGTHS: [f64; 5] = [0.05, 0.1, 0.2, 0.3, 0.4];
@@ -15,6 +16,9 @@ const TAKEN_APART: [f64; 3] = [0.1, 0.2, 0.4];
 /// In place of what is of other probabilities than those of the page.
 const INFLUENCE_LEFT_OUT: &str = "Which records and intensities carry the spectra is left out: uplift influence found \
                                   it for the probabilities of the study, and this page is of others.";
+/// What Table 4.1 says of repaired spectra.
+const REPAIRED_BANDS: &str = " Those of repaired spectra have weights of their own in every resample.";
+
 /// What the table of displacements says of repaired spectra.
 const REPAIRED: &str = " Repaired: of records weighted so that they bring the site's hazard of both measures, where as \
                         they are they do not.";
@@ -99,7 +103,7 @@ fn summary(source: &FigureSource) -> Table {
         let label = spectrum.measure.label();
         rows.push(row(spectrum.site, label.to_owned(), spectrum.poe, spectrum.u_m));
         if let Some(u_m) = source.repaired(spectrum.measure, site) {
-            rows.push(row(spectrum.site, format!("{label}, repaired"), spectrum.poe, u_m.block([site, poe])));
+            rows.push(row(spectrum.site, spectrum_words(label, true), spectrum.poe, u_m.block([site, poe])));
             is_repaired = true;
         }
     }
@@ -162,7 +166,7 @@ fn records(source: &FigureSource) -> Option<Table> {
     for (influence, measure) in source.influences() {
         let Some(without_m) = &influence.without_m else { continue };
         for (site, name) in stored.sites.iter().enumerate() {
-            for of in rank_records(stored, measure, without_m, [site, poe]).iter().take(NAMED_RECORDS) {
+            for of in rank_records(stored, &measure.exact_m, without_m, [site, poe]).iter().take(NAMED_RECORDS) {
                 rows.push(vec![
                     name.clone(),
                     influence.measure.label().to_owned(),
@@ -231,26 +235,37 @@ fn coefficients(spectra: &StoredSpectra) -> Table {
 fn confidence(stored: &StoredSpectra, bands: &StoredBands) -> Table {
     let number = |value: f64, digits: usize| if value.is_nan() { "-".to_owned() } else { format!("{value:.digits$}") };
     let rows = |of_measure: &MeasureBands| -> Vec<Vec<String>> {
-        let row = |(at, error): ([usize; 3], &[f64])| {
+        let row = |at: [usize; 3], measure: String, [error, range]: [&Array<3>; 2]| {
             let [site, poe, size] = at;
             vec![
                 stored.sites[site].clone(),
-                of_measure.measure.label().to_owned(),
+                measure,
                 risk_name(stored.poes[poe], stored.years),
                 bands.sizes[size].to_string(),
-                number(error[0], 1),
-                number(of_measure.range_of_interval[at], 0),
+                number(error[at], 1),
+                number(range[at], 0),
             ]
         };
-        of_measure.error_of_median.blocks().map(row).collect()
+        let label = of_measure.measure.label();
+        let plain = [&of_measure.error_of_median, &of_measure.range_of_interval];
+        let mut rows = Vec::new();
+        for (at @ [site, _, size], _) in of_measure.error_of_median.blocks::<3>() {
+            rows.push(row(at, label.to_owned(), plain));
+            if let Some(own) = of_measure.repaired.as_ref().filter(|own| !own.failed[[site, size]].is_nan()) {
+                let figures = [&own.error_of_median, &own.range_of_interval];
+                rows.push(row(at, spectrum_words(label, true), figures));
+            }
+        }
+        rows
     };
     Table {
         id: "table-4-1".to_owned(),
         title: "How sure the spectra are (Table 4.1)".to_owned(),
         note: format!(
             "Error of the median and width of the {} interval over resampled records, at the strength where each is \
-             largest (Eq. 4.9, 4.10).",
-            per_cent(bands.confidence)
+             largest (Eq. 4.9, 4.10).{}",
+            per_cent(bands.confidence),
+            if bands.measures.iter().any(|of| of.repaired.is_some()) { REPAIRED_BANDS } else { "" }
         ),
         group: String::new(),
         header: ["site", "measure", "probability", "records", "e_{median}, %", "r, %"].map(str::to_owned).to_vec(),

@@ -187,7 +187,7 @@ fn demands(report: &DesignReport) -> Option<Table> {
     let note = format!(
         "{} by {}, {}: {} a year. Exact means of these records and levels.",
         report.site,
-        report.im,
+        report.spectrum_words(),
         risk_in_words(report.poe, report.years),
         power(report.target_per_year, 2)
     );

@@ -1,7 +1,7 @@
 //! The section `[bootstrap]`: confidence bands from resampled records.
 
 use serde::{Serialize, Serializer};
-use uplift_bootstrap::Interval;
+use uplift_bootstrap::{Interval, Unit};
 use uplift_plausible::STRENGTH;
 
 use crate::keys::{Key, SectionKeys};
@@ -27,6 +27,13 @@ pub(super) const KEYS: SectionKeys = SectionKeys {
             names: &["interval"],
             meaning: "`\"percentile\"`, or `\"bca\"`: bias-corrected and accelerated",
             default: "`\"percentile\"`",
+            range: "",
+        },
+        Key {
+            names: &["unit"],
+            meaning: "what is drawn: `\"record\"`, or `\"event\"`: earthquakes with all their records, as many as have \
+                      so many records on average",
+            default: "`\"record\"`",
             range: "",
         },
         Key {
@@ -67,6 +74,9 @@ pub struct Bootstrap {
     /// How a limit is read from the replicates.
     #[serde(serialize_with = "write_interval")]
     pub interval: Interval,
+    /// What is drawn; not written where it is records, as in studies of before.
+    #[serde(serialize_with = "write_unit", skip_serializing_if = "is_record")]
+    pub unit: Unit,
     /// Whether bands that hold whole spectra are made too.
     pub simultaneous: bool,
     /// Only strengths above this count in Eq. 4.9 and 4.10 \[-\].
@@ -81,6 +91,7 @@ impl Default for Bootstrap {
             replicates: 1000,
             confidence: 0.9,
             interval: Interval::Percentile,
+            unit: Unit::Record,
             simultaneous: false,
             strength_above: 0.0,
         }
@@ -92,6 +103,16 @@ fn write_interval<S: Serializer>(interval: &Interval, serializer: S) -> Result<S
     serializer.serialize_str(interval.key())
 }
 
+#[allow(clippy::trivially_copy_pass_by_ref)] // as serde calls it
+fn write_unit<S: Serializer>(unit: &Unit, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(unit.key())
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref)] // as serde calls it
+fn is_record(unit: &Unit) -> bool {
+    *unit == Unit::Record
+}
+
 /// Reads the section.
 pub(super) fn read(mut section: Section<'_>) -> Option<Bootstrap> {
     let default = Bootstrap::default();
@@ -100,6 +121,7 @@ pub(super) fn read(mut section: Section<'_>) -> Option<Bootstrap> {
     let confidence = section.number_or("confidence", "", CONFIDENCE, default.confidence);
     let intervals = Interval::ALL.map(|interval| (interval.key(), interval));
     let interval = section.choice_or("interval", &intervals, default.interval);
+    let unit = section.choice_or("unit", &Unit::ALL.map(|unit| (unit.key(), unit)), default.unit);
     let simultaneous = section.boolean_or("simultaneous", default.simultaneous);
     let strength_above = section.number_or("strength_above", "", Rule::Within(STRENGTH), default.strength_above);
     section.finish();
@@ -108,6 +130,7 @@ pub(super) fn read(mut section: Section<'_>) -> Option<Bootstrap> {
         replicates: replicates?,
         confidence: confidence?,
         interval: interval?,
+        unit: unit?,
         simultaneous: simultaneous?,
         strength_above: strength_above?,
     })

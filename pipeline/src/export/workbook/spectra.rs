@@ -54,14 +54,23 @@ impl Export {
 
     /// The bands of all sizes.
     pub(super) fn bands_sheet(&self, sheet: &mut Sheet<'_>) -> Result<(), XlsxError> {
-        let below = self.heads(sheet, &["records in a sample", "limit"])?;
+        // plain bands alone need no line that says so
+        let has_repaired = self.has_repaired_bands();
+        let weights = has_repaired.then_some("weights");
+        let headings: Vec<&str> = weights.into_iter().chain(["records in a sample", "limit"]).collect();
+        let below = self.heads(sheet, &headings)?;
         let [lower, upper] = self.bands.as_ref().map(crate::result::StoredBands::level_names).unwrap_or_default();
         let names = [lower.as_str(), "median", upper.as_str()];
         let mut column = 1;
         for row in self.rows() {
-            for band in self.bands_of(&row) {
+            let plain = self.bands_of(&row).into_iter().map(|band| ("alike", band));
+            let repaired = self.repaired_bands_of(&row).into_iter().map(|band| ("repaired", band));
+            for (weights, band) in plain.chain(repaired) {
                 for (name, values) in names.iter().zip(band.limits_m) {
                     head_of(sheet, column, &row)?;
+                    if has_repaired {
+                        sheet.heading((below - 4, column), weights, false)?;
+                    }
                     sheet.number((below - 3, column), f64::from(band.records), Shown::WholeHeading, "")?;
                     sheet.heading((below - 2, column), name, false)?;
                     sheet.heading((below - 1, column), "u, m", true)?;

@@ -38,18 +38,22 @@ impl Export {
 
     /// How wide the bands are (Table 4.1).
     pub(super) fn band_figures(&self, sheet: &mut Sheet<'_>) -> Result<(), XlsxError> {
-        of_headings(sheet, &["records in a sample", "error of the median, %", "range of the interval, %"])?;
+        let headings = ["records in a sample", "error of the median, %", "range of the interval, %", "weights"];
+        of_headings(sheet, &headings)?;
         let mut line = 1;
         for row in self.rows() {
-            for band in self.bands_of(&row) {
+            let plain = self.bands_of(&row).into_iter().map(|band| ("alike", band));
+            let repaired = self.repaired_bands_of(&row).into_iter().map(|band| ("repaired", band));
+            for (weights, band) in plain.chain(repaired) {
                 self.line_of(sheet, line, &row)?;
                 sheet.number((line, OF), f64::from(band.records), Shown::Whole, "")?;
                 sheet.number((line, OF + 1), band.error_of_median_pct, Shown::OneDecimal, "")?;
                 sheet.number((line, OF + 2), band.range_of_interval_pct, Shown::OneDecimal, "")?;
+                sheet.text((line, OF + 3), weights)?;
                 line += 1;
             }
         }
-        sheet.finish((1, 1), &[18.0, 9.0, 12.0, 9.0, 14.0, 18.0, 20.0, 20.0])
+        sheet.finish((1, 1), &[18.0, 9.0, 12.0, 9.0, 14.0, 18.0, 20.0, 20.0, 10.0])
     }
 
     /// The hazard curves as used, each its own two columns.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use uplift::bootstrap::{BootstrapOptions, bootstrap as run, read_reference};
-use uplift_bootstrap::Interval;
+use uplift_bootstrap::{Interval, Unit};
 
 use crate::command::arguments::ResultArguments;
 use crate::error::CommandError;
@@ -27,6 +27,9 @@ pub(crate) struct BootstrapArguments {
     /// How limits are read: percentile or bca (bias-corrected and accelerated)
     #[arg(long, value_parser = ["percentile", "bca"])]
     interval: Option<String>,
+    /// What is drawn: record, or event (earthquakes with all their records)
+    #[arg(long, value_parser = ["record", "event"], conflicts_with = "plan")]
+    unit: Option<String>,
     /// Also bands that hold whole spectra
     #[arg(long)]
     simultaneous: bool,
@@ -56,6 +59,7 @@ pub(crate) fn bootstrap(arguments: &BootstrapArguments, terminal: &Terminal) -> 
         replicates: arguments.replicates,
         seed: arguments.seed,
         interval: interval.map(|word| if word == "bca" { Interval::Bca } else { Interval::Percentile }),
+        unit: arguments.unit.as_deref().map(|word| if word == "event" { Unit::Event } else { Unit::Record }),
         simultaneous: arguments.simultaneous,
         plan: arguments.plan.clone(),
         reference: reference.unwrap_or_default(),

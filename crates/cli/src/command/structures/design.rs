@@ -28,6 +28,10 @@ pub(crate) struct DesignArguments {
     /// Intensity measure of the spectrum: pgv or pga [default: pgv if the result has it]
     #[arg(long)]
     measure: Option<IntensityMeasure>,
+    /// Design by the repaired spectrum, of records weighted so that they bring the site's hazard, and weigh the
+    /// structure's own analysis alike (uplift consistency --repair)
+    #[arg(long)]
+    repaired: bool,
     /// Safety factor on the demand (Eq. 3.15)
     #[arg(
         long,
@@ -60,6 +64,7 @@ pub(crate) fn design(arguments: &DesignArguments, terminal: &Terminal) -> Result
         site: arguments.site.clone(),
         risk: arguments.risk.asked(),
         measure: arguments.measure,
+        repaired: arguments.repaired,
         safety_factor: arguments.safety_factor,
         spectrum_only: arguments.spectrum_only,
         shards: shards.clone(),
