@@ -13,7 +13,7 @@ mod terminal;
 use command::Arguments;
 
 /// A panic is a bug of the program; everything a user can cause is an error with a message.
-const EXIT_BUG: u8 = 1;
+const EXIT_BUG: i32 = 1;
 
 /// A file that grows beyond the limit of the process (`ulimit -f`) is then an error, as on a full disk, and does not
 /// end the program without a word.
@@ -32,14 +32,22 @@ fn main() -> ExitCode {
             "uplift: a bug in the program: {info}\nPlease report it with the study file and this line. No result file \
              was touched."
         );
+        end_at_once();
     }));
-    let outcome = std::panic::catch_unwind(|| command::execute(&Arguments::parse()));
-    match outcome {
-        Ok(Ok(())) => ExitCode::SUCCESS,
-        Ok(Err(error)) => {
+    match command::execute(&Arguments::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
             terminal::tell_error(&error);
             ExitCode::from(error.exit_code())
         }
-        Err(_) => ExitCode::from(EXIT_BUG),
     }
+}
+
+/// Ends the program as a kill does: nothing is unwound, and nothing that other threads are at is waited for. What is
+/// half written has names of its own, which the next run clears up.
+fn end_at_once() -> ! {
+    #[cfg(unix)]
+    signal_hook::low_level::exit(EXIT_BUG);
+    #[cfg(not(unix))]
+    std::process::exit(EXIT_BUG)
 }

@@ -56,7 +56,7 @@ struct ShownPart {
     key: String,
     title: &'static str,
     /// A sentence below the title; empty for none.
-    note: &'static str,
+    note: String,
     /// Shown before the figures.
     tables: Vec<Table>,
     figures: Vec<DrawnFigure>,
@@ -96,7 +96,7 @@ struct Part {
     key: &'static str,
     title: &'static str,
     /// A sentence below the title; empty for none.
-    note: &'static str,
+    note: String,
     tables: Vec<Table>,
     figures: Vec<Figure>,
     details: Vec<Table>,

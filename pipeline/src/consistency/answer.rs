@@ -7,7 +7,7 @@ use uplift_study::{Repair, UniformRiskStudy};
 
 use super::spectra::{Repairs, repaired_spectra};
 use super::write::{Keep, add};
-use super::{ConsistencyReport, Finding, Question};
+use super::{AskedRecord, ConsistencyReport, Finding, Question};
 use crate::array::Array;
 use crate::error::UpliftError;
 use crate::inputs::{OtherHazard, RecordSet, SiteHazard};
@@ -48,6 +48,11 @@ impl Answer {
             }
         }
         Ok(answer)
+    }
+
+    /// The earthquake of each record, `[record]`, as a number that its records share.
+    pub(crate) fn event_of(&self) -> Vec<usize> {
+        self.question.records.iter().map(AskedRecord::earthquake).collect()
     }
 
     /// Adds it to a result.

@@ -73,6 +73,9 @@ by_measure! {
     urs: u_m = "u_m", flag = "flag", lower_tail_share = "lower_tail_share", upper_tail_share = "upper_tail_share",
 }
 
+/// The sentence on how well the records know the spectra of a measure, an attribute of its group in `/urs`.
+pub const URS_PRECISION: &str = "precision";
+
 by_measure! {
     /// Coefficients of Eq. 4.11.
     regression:

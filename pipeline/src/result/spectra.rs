@@ -5,7 +5,7 @@ use uplift_regression::{Exponential, ExponentialFit};
 use uplift_risk::{Ordinate, OrdinateFlag};
 
 use super::file::ResultFile;
-use super::layout::{axis, regression, urs};
+use super::layout::{URS_PRECISION, axis, regression, urs};
 use crate::array::Array;
 use crate::error::UpliftError;
 use crate::uniform_risk::{Coefficients, Spectra};
@@ -127,6 +127,13 @@ impl MeasureSpectra {
 }
 
 impl ResultFile {
+    /// How well the records know the spectra, a sentence a measure; none in results of before, and where nothing can be
+    /// said.
+    pub fn precision(&self) -> Vec<String> {
+        let words = |measure: IntensityMeasure| self.reader.attribute_text(&urs::group(measure), URS_PRECISION).ok();
+        self.measures().into_iter().filter_map(words).collect()
+    }
+
     /// The spectra and coefficients of a result of uniform risk; of the risks that it was asked for, if it was
     /// ([`at`](Self::at)).
     ///

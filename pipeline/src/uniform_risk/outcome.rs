@@ -2,7 +2,7 @@
 
 use uplift_study::UniformRiskStudy;
 
-use super::{Coefficients, Spectra, Stripes};
+use super::{Coefficients, Precision, Spectra, Stripes};
 use crate::consistency::Answer;
 use crate::inputs::{OtherHazard, RecordSet, SiteHazard};
 use crate::result::Provenance;
@@ -22,6 +22,8 @@ pub struct Outcome<'a> {
     pub spectra: &'a [Spectra],
     /// Its coefficients, `[measure]`.
     pub coefficients: &'a [Coefficients],
+    /// How well its records know them; by no measure where nothing can be said.
+    pub precision: &'a [Precision],
     /// Its hazard in measures that it is not analysed by.
     pub other_hazard: &'a [OtherHazard],
     /// Whether the records bring the hazard of other measures.

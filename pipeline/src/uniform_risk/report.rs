@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 use uplift_motion::IntensityMeasure;
 
-use super::{Outcome, Stripes};
+use super::{Outcome, Precision, Stripes};
 use crate::alarms::Alarm;
 use crate::array::Array;
 use crate::consistency::ConsistencyReport;
@@ -21,6 +21,8 @@ pub struct RunReport {
     pub measures: Vec<MeasureReport>,
     /// The fits of Eq. 4.11 (Table 4.2), one a measure, site and probability.
     pub coefficients: Vec<CoefficientsReport>,
+    /// Whether the records are enough, by each measure.
+    pub precision: Vec<Precision>,
     /// Whether the records bring the hazard of the other measure.
     pub consistency: ConsistencyReport,
     /// The spectra of weights by which they do, where the study asks for them.
@@ -128,6 +130,7 @@ impl RunReport {
             head: outcome.provenance.head(&study.title, records, alarms, files, seconds),
             measures: outcome.stripes.iter().map(MeasureReport::of).collect(),
             coefficients: outcome.coefficients.iter().flat_map(fits).collect(),
+            precision: outcome.precision.to_vec(),
             consistency: outcome.consistency.report(&plain_m(outcome)),
             repaired: outcome.consistency.repaired_spectra(),
             strengths: study.strengths.to_vec(),

@@ -3,6 +3,7 @@
 use uplift_ida::Shard;
 use uplift_study::UniformRiskStudy;
 
+use super::precision::precision;
 use super::report::RunReport;
 use super::{
     Coefficients, Inputs, Outcome, Stripes, csv_paths, fit_spectra, needs, site_table, uniform_risk_spectra, write_csv,
@@ -50,6 +51,11 @@ pub(crate) fn run(
     }
     let coefficients: Vec<Coefficients> = spectra.iter().map(|spectra| fit_spectra(study, spectra)).collect();
     let consistency = Answer::of_run(study, records, (&hazard, &other_hazard), &stripes)?;
+    let event_of = consistency.event_of();
+    let mut precisions = Vec::new();
+    for (stripes, hazard) in stripes.iter().zip(&hazard) {
+        precisions.extend(precision(study, stripes, hazard, &event_of)?);
+    }
     let mut warnings = notes;
     warnings.extend(site_list.iter().flat_map(|list| list.notes.iter().cloned()));
     warnings.extend(records.notes.iter().cloned());
@@ -73,6 +79,7 @@ pub(crate) fn run(
         stripes: &stripes,
         spectra: &spectra,
         coefficients: &coefficients,
+        precision: &precisions,
         warnings: &warnings,
         provenance: &provenance,
     };

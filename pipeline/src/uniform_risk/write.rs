@@ -11,7 +11,7 @@ use crate::checkpoint::{motion_key, oscillator_key};
 use crate::consistency::Keep;
 use crate::error::UpliftError;
 use crate::inputs::Record;
-use crate::result::layout::{axis, ida, records as layout, regression, risk, urs};
+use crate::result::layout::{URS_PRECISION, axis, ida, records as layout, regression, risk, urs};
 use crate::result::{Origin, flag_number};
 use uplift_labelled::{LabelledError, LabelledWriter};
 
@@ -161,6 +161,14 @@ fn write_measure(
     let long_name = "share of the risk from above the last stripe";
     writer.array_f64(&urs::upper_tail_share(measure), &dims, &upper, "1", long_name)?;
 
+    if let Some(precision) = outcome.precision.iter().find(|own| own.im == measure.label()) {
+        let group = urs::group(measure);
+        writer.attribute(&group, URS_PRECISION, precision.words().as_str())?;
+        writer.attribute(&group, "half_width", precision.half_width[0])?;
+        if let Some(by_event) = precision.half_width_by_event {
+            writer.attribute(&group, "half_width_by_event", by_event)?;
+        }
+    }
     write_branches(writer, outcome, spectra)?;
 
     let fits = outcome.coefficients[index].fits.values();

@@ -28,7 +28,14 @@ pub(super) fn print_spectra(out: &mut impl Write, report: &RunReport) -> Result<
         writeln!(out, "{}", spectra_table(report, &own, &shown))?;
     }
     print_branches(out, report, &shown)?;
-    print_repaired(out, report, &shown)
+    print_repaired(out, report, &shown)?;
+    for (place, precision) in report.precision.iter().enumerate() {
+        if place == 0 {
+            writeln!(out, "\nHow sure, {}:", risk_in_words(precision.poe, report.years))?;
+        }
+        writeln!(out, "  {}", precision.words())?;
+    }
+    Ok(())
 }
 
 /// The spectra of weighted records, where the study asks for them.

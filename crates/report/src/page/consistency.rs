@@ -12,7 +12,7 @@ pub(super) fn part(source: &FigureSource, figures: Vec<Figure>) -> Option<Part> 
     (!source.consistency.is_empty()).then(|| Part {
         key: "record-set",
         title: "Does the record set bring the site's hazard",
-        note: "",
+        note: String::new(),
         tables: vec![table(source)],
         figures,
         details: Vec::new(),

@@ -12,7 +12,7 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
     let parts = vec![Part {
         key: "spectra",
         title: "Spectra and designs",
-        note: "",
+        note: String::new(),
         tables: vec![sets(&stored)],
         figures: displacement_figures(file, &stored, Extent::Main)?,
         details: designs,

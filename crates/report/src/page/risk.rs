@@ -33,7 +33,7 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
         Part {
             key: "answer",
             title: "Displacements to survive",
-            note: "",
+            note: String::new(),
             tables: vec![summary(&source)],
             figures: figures.answer,
             details: Vec::new(),
@@ -41,7 +41,7 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
         Part {
             key: "confidence",
             title: "How sure it is",
-            note: "",
+            note: how_sure(&file.precision()),
             tables: Vec::new(),
             figures: figures.confidence,
             details: source.bands.iter().map(|bands| confidence(&source.spectra, bands)).collect(),
@@ -49,7 +49,7 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
         Part {
             key: "causes",
             title: "Where it comes from",
-            note: if file.is_asked() && file.has_influence() { INFLUENCE_LEFT_OUT } else { "" },
+            note: if file.is_asked() && file.has_influence() { INFLUENCE_LEFT_OUT } else { "" }.to_owned(),
             tables: Vec::new(),
             figures: figures.causes,
             details: [intensities(&source), records(&source)].into_iter().flatten().collect(),
@@ -57,7 +57,7 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
         Part {
             key: "compute",
             title: "To compute with",
-            note: "",
+            note: String::new(),
             tables: vec![coefficients(&source.spectra)],
             figures: figures.fits,
             details: Vec::new(),
@@ -84,6 +84,12 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
         parts,
         source: Some(source),
     })
+}
+
+/// Whether the records are enough, by every measure.
+fn how_sure(precision: &[String]) -> String {
+    let sentences: Vec<String> = precision.iter().map(|sentence| format!("{sentence}.")).collect();
+    sentences.join(" ")
 }
 
 fn summary(source: &FigureSource) -> Table {

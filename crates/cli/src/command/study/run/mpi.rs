@@ -3,7 +3,6 @@
 //! The ranks share nothing but the file system. MPI says who they are, lets the first wait for the others, and ends all
 //! when one fails: the shards are then as those of any run that stopped, and the same command goes on from there.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Duration;
 
 use ::mpi::Threading;
@@ -36,25 +35,23 @@ pub(super) fn run(arguments: &RunArguments, terminal: &Terminal) -> Option<Resul
         return None;
     }
     let shard = Shard { index, count };
-    let outcome = catch_unwind(AssertUnwindSafe(|| run_rank(arguments, &world, shard, terminal)));
-    match outcome {
-        Ok(done @ (Ok(()) | Err(CommandError::OutputClosed))) => Some(done),
+    match run_rank(arguments, &world, shard, terminal) {
+        done @ (Ok(()) | Err(CommandError::OutputClosed)) => Some(done),
         // a stop is sent to all ranks, and one says so
-        Ok(Err(error @ CommandError::Uplift(UpliftError::Paused { .. } | UpliftError::Interrupted))) => {
+        Err(error @ CommandError::Uplift(UpliftError::Paused { .. } | UpliftError::Interrupted)) => {
             if index == 0 {
                 tell_error(&error);
             }
             std::process::exit(error.exit_code().into())
         }
         // the others would wait for this rank for ever: it ends them
-        Ok(Err(error)) => {
+        Err(error) => {
             terminal.set_interruption_message(format!("rank {index} of {count} has ended the run"));
             let host = ::mpi::environment::processor_name().unwrap_or_default();
             tell(&format!("uplift: rank {index} of {count} on {host} ends the run:"));
             tell_error(&error);
             world.abort(error.exit_code().into())
         }
-        Err(_) => world.abort(1),
     }
 }
 

@@ -1,0 +1,177 @@
+//! How well so many records know a spectrum: whether they are enough, in a line.
+//!
+//! A bootstrap of few replicates at a few strengths, small enough for every run; `uplift bootstrap` gives the bands.
+
+use rayon::prelude::*;
+use serde::Serialize;
+use uplift_bootstrap::{BootstrapError, Replicates, ResamplingPlan};
+use uplift_fragility::quantile;
+use uplift_study::UniformRiskStudy;
+
+use super::{Stripes, pooled_demand};
+use crate::error::UpliftError;
+use crate::inputs::SiteHazard;
+use crate::text::nearest;
+
+/// Strengths that are looked at.
+const STRENGTHS: [f64; 3] = [0.1, 0.2, 0.4];
+/// Samples of the records: the half width is then known within a tenth of itself.
+const REPLICATES: usize = 200;
+/// Share of the samples between the limits.
+const CONFIDENCE: f64 = 0.9;
+/// Bands shrink as one over the root of the records (Section 4.5.1): half as wide takes so many times as many.
+const TIMES_FOR_HALF: usize = 4;
+
+/// How well the records know the spectra by one measure, of the rarest probability of the study.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Precision {
+    /// `PGV` or `PGA`.
+    pub im: &'static str,
+    /// Probability of exceedance.
+    pub poe: f64,
+    /// Records in the set.
+    pub records: usize,
+    /// Their earthquakes, a record whose earthquake is not known being one of its own; none where no two are known to
+    /// share one.
+    pub events: Option<usize>,
+    /// To how many earthquakes of equally many records these amount: 1/Σ (share of the records)².
+    pub effective_events: Option<f64>,
+    /// Half of the 90 % interval of an ordinate over its median, records drawn one by one: the middle one, the least and
+    /// the most, of the sites and the strengths 0.1, 0.2 and 0.4.
+    pub half_width: [f64; 3],
+    /// The middle one with earthquakes drawn with all their records.
+    pub half_width_by_event: Option<f64>,
+    /// Records of the same kind that would halve it.
+    pub records_for_half: usize,
+}
+
+/// The precision of the spectra by the measure of `stripes`; none without sites, for a single record, and where no
+/// ordinate is finite and above 0.
+///
+/// - `event_of`: the earthquake of each record, `[record]`.
+///
+/// # Errors
+/// Numbers that do not fit together, which the checks of study and inputs rule out.
+pub(crate) fn precision(
+    study: &UniformRiskStudy,
+    stripes: &Stripes,
+    hazard: &[SiteHazard],
+    event_of: &[usize],
+) -> Result<Option<Precision>, UpliftError> {
+    let records = event_of.len();
+    let Some(&poe) = study.risk.poe.iter().min_by(|a, b| a.total_cmp(b)) else { return Ok(None) };
+    let target = uplift_hazard::rate_from_probability(poe, study.risk.years)?;
+    let size = u32::try_from(records).unwrap_or(u32::MAX);
+    if records < 2 {
+        return Ok(None);
+    }
+    let widths = |plan: &ResamplingPlan| -> Result<Vec<f64>, UpliftError> {
+        let of_strength = |&strength: &usize| -> Result<Vec<f64>, UpliftError> {
+            let demand = pooled_demand(stripes, strength)?;
+            let of_site = |site: &SiteHazard| -> Result<Option<f64>, BootstrapError> {
+                let replicates = Replicates::of(&demand, &[&site.curve.weights], &[target], plan)?;
+                Ok(half_width(replicates.ordinates_m(0, 0, 0)))
+            };
+            let of_sites: Result<Vec<Option<f64>>, BootstrapError> = hazard.iter().map(of_site).collect();
+            Ok(of_sites?.into_iter().flatten().collect())
+        };
+        let shown = nearest(&study.strengths, &STRENGTHS);
+        let all: Vec<Vec<f64>> = shown.par_iter().map(of_strength).collect::<Result<_, _>>()?;
+        let mut all = all.concat();
+        all.sort_by(f64::total_cmp);
+        Ok(all)
+    };
+    let by_record = widths(&ResamplingPlan::draw(records, &[size], REPLICATES, study.seed)?)?;
+    let [Some(&least), Some(&most)] = [by_record.first(), by_record.last()] else { return Ok(None) };
+    let counts = counts(event_of);
+    let is_shared = counts.len() < records;
+    let by_event = if is_shared && counts.len() > 1 {
+        widths(&ResamplingPlan::draw_events(event_of, &[size], REPLICATES, study.seed)?)?
+    } else {
+        Vec::new()
+    };
+    let squares: f64 = counts.iter().map(|&count| (count as f64 / records as f64).powi(2)).sum();
+    Ok(Some(Precision {
+        im: stripes.measure.label(),
+        poe,
+        records,
+        events: is_shared.then_some(counts.len()),
+        effective_events: is_shared.then_some(1.0 / squares),
+        half_width: [quantile(&by_record, 0.5), least, most],
+        half_width_by_event: (!by_event.is_empty()).then(|| quantile(&by_event, 0.5)),
+        records_for_half: TIMES_FOR_HALF * records,
+    }))
+}
+
+/// Half of the interval over the median; none where an ordinate is censored or 0.
+fn half_width(ordinates_m: &[f64]) -> Option<f64> {
+    let mut sorted = ordinates_m.to_vec();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let tail = 0.5 * (1.0 - CONFIDENCE);
+    let [lower_m, median_m, upper_m] = [tail, 0.5, 1.0 - tail].map(|level| quantile(&sorted, level));
+    (median_m > 0.0 && upper_m.is_finite()).then(|| 0.5 * (upper_m - lower_m) / median_m)
+}
+
+/// How many records each earthquake has.
+fn counts(event_of: &[usize]) -> Vec<usize> {
+    let mut counts = std::collections::BTreeMap::new();
+    for event in event_of {
+        *counts.entry(event).or_insert(0) += 1;
+    }
+    counts.into_values().collect()
+}
+
+impl Precision {
+    /// Whether they are enough, in a sentence.
+    pub fn words(&self) -> String {
+        let percent = |width: f64| format!("{:.0}", 100.0 * width);
+        let [middle, least, most] = self.half_width.map(percent);
+        let events = self.events.zip(self.effective_events).map_or_else(String::new, |(events, effective)| {
+            format!(" of {events} earthquakes, which count as {effective:.0},")
+        });
+        let by_event = self
+            .half_width_by_event
+            .map_or_else(String::new, |width| format!("; ±{} % if earthquakes were others", percent(width)));
+        format!(
+            "{} records{events} know a spectrum by {} within ±{middle} % ({least} to {most} by site and \
+             strength{by_event}); half of that takes some {}",
+            self.records, self.im, self.records_for_half
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn half_widths_by_hand() {
+        // 1 to 101: 5 % at 6, the median 51, 95 % at 96
+        let ordinates: Vec<f64> = (1..=101).rev().map(f64::from).collect();
+        assert_eq!(half_width(&ordinates), Some(45.0 / 51.0));
+        assert_eq!(half_width(&[0.0; 9]), None);
+        assert_eq!(half_width(&[1.0, 1.0, f64::INFINITY]), None);
+        assert_eq!(counts(&[4, 1, 4, 4]), [1, 3]);
+    }
+
+    #[test]
+    fn the_sentence_says_what_is_known() {
+        let mut precision = Precision {
+            im: "PGV",
+            poe: 0.02,
+            records: 105,
+            events: Some(22),
+            effective_events: Some(9.9),
+            half_width: [0.161, 0.12, 0.253],
+            half_width_by_event: Some(0.24),
+            records_for_half: 420,
+        };
+        assert_eq!(
+            precision.words(),
+            "105 records of 22 earthquakes, which count as 10, know a spectrum by PGV within ±16 % (12 to 25 by site \
+             and strength; ±24 % if earthquakes were others); half of that takes some 420"
+        );
+        (precision.events, precision.effective_events, precision.half_width_by_event) = (None, None, None);
+        assert!(precision.words().starts_with("105 records know a spectrum by PGV within ±16 %"));
+    }
+}
