@@ -149,7 +149,7 @@ fn earthquakes_are_drawn_with_all_their_records() {
     // synthetic records are of no earthquake, and records of one alone cannot be drawn
     study.uplift(&["run", "study.toml", "-o", "a.h5", "-q"]).ok();
     let alone = study.uplift(&["bootstrap", "a.h5", "--unit", "event", "--replicates", "5", "--sizes", "4"]).ok();
-    assert!(alone.stderr.contains("no two records are known to share an earthquake"), "{}", alone.stderr);
+    assert!(alone.stderr.contains("no two pairs are known to share an earthquake"), "{}", alone.stderr);
     let manifest = std::fs::read_to_string(study.path().join("set/manifest.csv")).unwrap();
     study.write("set/manifest.csv", &manifest.replace(",B,", ",A,").replace(",C,", ",A,"));
     study.uplift(&[&["run", "study.toml", "-o", "o.h5", "-q"][..], &source].concat()).ok();

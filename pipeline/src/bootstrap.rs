@@ -16,4 +16,5 @@ pub use bands::{Bands, JointBands, RepairedBands, SpectraBands};
 pub(crate) use checkpoint::{finished_strengths, part_path};
 pub use job::{BootstrapOptions, bootstrap};
 pub use reference::{ReferenceRow, read_reference};
+pub use repaired::MANY_FAILED;
 pub use report::{BootstrapReport, BootstrapRow, Initiation, RepairedFigures};

@@ -27,7 +27,7 @@ pub(crate) use answer::Answer;
 pub(crate) use asked::consistency_of_asked;
 pub use finding::Finding;
 pub use job::{ConsistencyOptions, consistency};
-pub(crate) use question::{AskedRecord, Question};
+pub(crate) use question::Question;
 pub use report::{AgreementRow, ConsistencyReport, ConsistencyRow, RepairRow, TargetRow, TwoSidedRow};
 pub(crate) use reweighing::Reweighing;
 pub(crate) use spectra::Repairs;

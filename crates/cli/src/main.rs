@@ -30,7 +30,7 @@ fn main() -> ExitCode {
         let _ = writeln!(
             terminal::error_output(),
             "uplift: a bug in the program: {info}\nPlease report it with the study file and this line. No result file \
-             was touched."
+             is left half written."
         );
         end_at_once();
     }));
@@ -43,8 +43,8 @@ fn main() -> ExitCode {
     }
 }
 
-/// Ends the program as a kill does: nothing is unwound, and nothing that other threads are at is waited for. What is
-/// half written has names of its own, which the next run clears up.
+/// Ends the program as a kill does: nothing is unwound, and on Unix nothing that other threads are at is waited for.
+/// What is half written has names of its own, which the next writer of the same file clears up.
 fn end_at_once() -> ! {
     #[cfg(unix)]
     signal_hook::low_level::exit(EXIT_BUG);

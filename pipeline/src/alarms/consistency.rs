@@ -5,6 +5,7 @@ use uplift_consistency::Verdict;
 
 use super::evidence::{Evidence, Scope};
 use super::{Alarm, Case, Severity};
+use crate::bootstrap::MANY_FAILED;
 use crate::result::StoredConsistency;
 
 pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
@@ -27,9 +28,6 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
     Alarm::of_cases("hazard-inconsistent", cases)
 }
 
-/// More failing samples than this deserve a warning.
-const MANY_FAILED: f64 = 0.05;
-
 /// Bands of repaired spectra of whose samples many cannot be weighed to the site's hazard.
 pub(super) fn failing_samples(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
     let stored = evidence.bands.as_ref()?;
@@ -40,12 +38,12 @@ pub(super) fn failing_samples(evidence: &Evidence, scope: &Scope) -> Option<Alar
             let share = repaired.failed[[site, stored.largest()]];
             if scope.holds(site, bands.measure) && share > MANY_FAILED {
                 cases.push(Case {
-                    severity: Severity::Note,
+                    severity: Severity::Caution,
                     badness: share,
                     subject: format!("{name} by {}", bands.measure.label()),
                     what: format!(
-                        "no weights bring the site's hazard to {:.0} % of the samples of {} records: their repaired \
-                         spectra lean to the plain ones, and so does the band",
+                        "no weights bring the site's hazard to {:.0} % of the samples of {} records: their \
+                         spectra are repaired in part only, and so is the band",
                         100.0 * share,
                         stored.sizes[stored.largest()]
                     ),

@@ -24,6 +24,8 @@ pub(crate) struct OwnRisk {
     /// The first and the last level of the stripes.
     pub(crate) levels: (f64, f64),
     pub(crate) records: usize,
+    /// To how many records that count alike these amount.
+    pub(crate) effective_records: f64,
 }
 
 /// Numbers of the structure file that are probably in another unit.
@@ -100,13 +102,18 @@ fn none_seen(own: &OwnRisk) -> Option<Case> {
         subject: own.subject.clone(),
         what: format!(
             "0 of {records} records at any level up to {} {}: that is not never, but at most {at_most_per_year:.1e} a \
-             year; stronger motions were not analysed and count as if all did, and 0 of {records} leave a share of up \
-             to {} at the last level ({} confidence)",
+             year; stronger motions were not analysed and count as if all did, and 0 of {records}{weighted} leave \
+             a share of up to {} at the last level ({} confidence)",
             own.levels.1,
             own.measure.unit(),
-            share_in_words(share_at_most(own.records as f64)),
+            share_in_words(share_at_most(own.effective_records)),
             per_cent(BOUND_CONFIDENCE),
             records = own.records,
+            weighted = if own.effective_records < own.records as f64 {
+                format!(" (which, weighted, count as {:.0})", own.effective_records)
+            } else {
+                String::new()
+            },
         ),
         what_to_do: format!("for a smaller bound let {} of the study reach further up", levels_key(own.measure)),
     })
@@ -126,7 +133,14 @@ mod tests {
 
     fn own(risk: EventRisk) -> OwnRisk {
         let subject = "overturning, Here, PGV".to_owned();
-        OwnRisk { subject, risk, measure: IntensityMeasure::Pgv, levels: (1.0, 200.0), records: 30 }
+        OwnRisk {
+            subject,
+            risk,
+            measure: IntensityMeasure::Pgv,
+            levels: (1.0, 200.0),
+            records: 30,
+            effective_records: 30.0,
+        }
     }
 
     #[test]

@@ -33,7 +33,7 @@ impl ResultFile {
         let reweighing = if self.has_repaired_bands() { Reweighing::of_result(&self)? } else { None };
         let source = Source { stored: &stored, reweighing: reweighing.as_ref(), plan: &plan, settings: &settings };
         let measures = compute(&source, None, events)?.into_iter().map(stored_bands).collect();
-        Ok(self.with_bands(StoredBands { sizes: plan.sizes().to_vec(), confidence, measures }))
+        Ok(self.with_bands(StoredBands { sizes: plan.sizes().to_vec(), unit: plan.unit(), confidence, measures }))
     }
 }
 

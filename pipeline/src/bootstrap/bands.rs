@@ -30,7 +30,8 @@ impl BandSettings {
     ///
     /// - `sorted`: room.
     /// - `estimate_m`: the ordinate of all records, m.
-    /// - `without_each_m`, `size`: that without each unit of the draws, m, which BCa asks for; the units of a sample.
+    /// - `without_each_m`: that without each unit of the draws, m, which BCa asks for.
+    /// - `size`: units in a sample, records or earthquakes.
     pub(super) fn band(
         &self,
         replicates_m: &[f64],

@@ -68,7 +68,12 @@ pub(super) fn compute(
         bands.repaired = source.reweighing.map(|_| {
             let own: Vec<Option<&SiteBands>> =
                 (0..stored.sites.len()).map(|site| finished.sites.get(&(key, site))).collect();
-            gather_repaired(&own, source.site_shape(), settings.first_strength(&stored.strengths))
+            gather_repaired(
+                &own,
+                source.site_shape(),
+                settings.first_strength(&stored.strengths),
+                settings.simultaneous,
+            )
         });
         bands
     };

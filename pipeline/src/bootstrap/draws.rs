@@ -81,7 +81,7 @@ fn kept_draws(path: &Path, stored: &StoredStripes) -> Result<ResamplingPlan, Upl
 }
 
 /// Tells what is drawn from what.
-pub(super) fn announce(stored: &StoredStripes, plan: &ResamplingPlan, events: &dyn Events) {
+pub(super) fn announce(stored: &StoredStripes, plan: &ResamplingPlan, shares_earthquakes: bool, events: &dyn Events) {
     events.remark("records", &stored.record_set);
     let sizes: Vec<String> = plan.sizes().iter().map(u32::to_string).collect();
     events.remark(
@@ -103,9 +103,9 @@ pub(super) fn announce(stored: &StoredStripes, plan: &ResamplingPlan, events: &d
                 plan.unit_count()
             ),
         );
-        if plan.unit_count() == plan.record_count() {
+        if !shares_earthquakes {
             events.note(
-                "no two records are known to share an earthquake: the band is that of records drawn one by one (column \
+                "no two pairs are known to share an earthquake: the band is that of pairs drawn one by one (column \
                  event of the manifest)",
             );
         }

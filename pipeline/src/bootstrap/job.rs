@@ -48,7 +48,7 @@ pub struct BootstrapOptions {
 /// How sure the spectra of the result at `result` are: bands from resampled records, written into the file and into
 /// tables beside it (Section 4.5).
 ///
-/// Finished strengths outlive whatever stops the job, in a checkpoint beside the result.
+/// Finished strengths, and repaired sites, outlive whatever stops the job, in a checkpoint beside the result.
 ///
 /// # Errors
 /// A file that is missing, damaged, no result, or without sites; draws that cannot be made or do not belong to its
@@ -70,7 +70,7 @@ pub fn bootstrap(
     };
     let reweighing = Reweighing::of_result(&file)?;
     let (plan, plan_source) = draws(options, study, (&file, &stored), (&settings, reweighing.is_some()), events)?;
-    announce(&stored, &plan, events);
+    announce(&stored, &plan, file.shares_earthquakes()?, events);
 
     let start = Instant::now();
     let source = Source { stored: &stored, reweighing: reweighing.as_ref(), plan: &plan, settings: &settings };

@@ -113,8 +113,17 @@ pub(super) fn bands_of_site(
     }))
 }
 
-/// The bands of all sites, in order, as arrays; with the two figures of Table 4.1, from the strength at `first` on.
-pub(super) fn gather_repaired(sites: &[Option<&SiteBands>], shape: SiteShape, first: usize) -> RepairedBands {
+/// Of all replicates of repaired spectra, this share may fail before it is a matter to be told.
+pub const MANY_FAILED: f64 = 0.05;
+
+/// The bands of all sites, in order, as arrays; with the two figures of Table 4.1, from the strength at `first` on; and
+/// where `simultaneous` with those of whole spectra, whether a site has some or not.
+pub(super) fn gather_repaired(
+    sites: &[Option<&SiteBands>],
+    shape: SiteShape,
+    first: usize,
+    simultaneous: bool,
+) -> RepairedBands {
     let SiteShape { poes, sizes, strengths } = shape;
     let all = [sites.len(), poes, sizes, strengths];
     let cell = |[poe, size, strength]: [usize; 3]| (poe * sizes + size) * strengths + strength;
@@ -126,7 +135,7 @@ pub(super) fn gather_repaired(sites: &[Option<&SiteBands>], shape: SiteShape, fi
         sites[site].map_or(f64::NAN, |own| own.spectra_m[poe * strengths + strength])
     });
     let mut bands = SpectraBands::of(&Array::from_fn(all, band), &spectra_m, first);
-    if sites.iter().flatten().any(|own| !own.simultaneous_m.is_empty()) {
+    if simultaneous {
         let limits = Array::from_fn(all, |[site, poe, size, strength]| {
             sites[site].map_or((f64::NAN, f64::NAN), |own| own.simultaneous_m[cell([poe, size, strength])])
         });
@@ -156,9 +165,12 @@ mod tests {
         assert_eq!(SiteBands::of_numbers(&numbers, shape, true), Some(bands.clone()));
         assert_eq!(SiteBands::of_numbers(&numbers, shape, false), None);
         assert_eq!(SiteBands::of_numbers(&numbers[1..], shape, true), None);
-        let gathered = gather_repaired(&[None, Some(&bands)], shape, 0);
+        let gathered = gather_repaired(&[None, Some(&bands)], shape, 0, true);
         assert!(gathered.failed[[0, 1]].is_nan() && gathered.failed[[1, 1]] == 0.25);
         assert_eq!(gathered.bands.lower_m.block([1, 0]), [1.0, 2.0, 3.0, 4.0]);
+        // a measure by which no site is repaired has the same columns
+        let none = gather_repaired(&[None, None], shape, 0, true);
+        assert_eq!(none.bands.simultaneous_m.map(|[lower, _]| lower.shape()), Some([2, 1, 2, 2]));
         // |1.5 − 1|/1 and |2.5 − 2|/2 of the first size, Eq. 4.9 takes the largest
         assert!((gathered.bands.error_of_median[[1, 0, 0]].unwrap() - 0.5).abs() < 1e-12);
         assert_eq!(gathered.bands.error_of_median[[0, 0, 0]], None);

@@ -7,7 +7,7 @@ use uplift_study::{Repair, UniformRiskStudy};
 
 use super::spectra::{Repairs, repaired_spectra};
 use super::write::{Keep, add};
-use super::{AskedRecord, ConsistencyReport, Finding, Question};
+use super::{ConsistencyReport, Finding, Question};
 use crate::array::Array;
 use crate::error::UpliftError;
 use crate::inputs::{OtherHazard, RecordSet, SiteHazard};
@@ -50,9 +50,9 @@ impl Answer {
         Ok(answer)
     }
 
-    /// The earthquake of each record, `[record]`, as a number that its records share.
-    pub(crate) fn event_of(&self) -> Vec<usize> {
-        self.question.records.iter().map(AskedRecord::earthquake).collect()
+    /// What was asked.
+    pub(crate) fn question(&self) -> &Question {
+        &self.question
     }
 
     /// Adds it to a result.

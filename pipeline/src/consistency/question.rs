@@ -152,6 +152,18 @@ impl Question {
         })
     }
 
+    /// The earthquake of each record, `[record]`, as a number that its records share.
+    pub(crate) fn event_of(&self) -> Vec<usize> {
+        self.records.iter().map(AskedRecord::earthquake).collect()
+    }
+
+    /// Whether two pairs are known to be of one earthquake.
+    pub(crate) fn shares_earthquakes(&self) -> bool {
+        let mut pair_of = BTreeMap::new();
+        let mut known = self.records.iter().filter_map(|record| Some((record.event?, record.pair)));
+        known.any(|(event, pair)| *pair_of.entry(event).or_insert(pair) != pair)
+    }
+
     /// The curve of a site.
     pub(crate) fn curve(&self, measure: IntensityMeasure, site: usize) -> Option<&HazardCurve> {
         self.curves.get(&measure)?.get(site)?.as_ref()

@@ -57,7 +57,7 @@ impl Reweighing {
         Some(&self.finding(measure, site)?.repaired()?.weights)
     }
 
-    /// All numbers that weights depend on, for a checkpoint to know them again.
+    /// Numbers by which a checkpoint knows the weights again: what the set's own repair came to.
     pub(crate) fn numbers(&self) -> Vec<f64> {
         let mut numbers = vec![self.question.settings.smoothness];
         for finding in &self.findings {

@@ -24,6 +24,7 @@ impl Export {
             "years": self.spectra.years,
             "strength": self.spectra.strengths,
             "confidence": self.bands.as_ref().map(|bands| bands.confidence),
+            "resampled": self.bands.as_ref().map(|bands| bands.unit.key()),
             "influence": self.influences(),
             "efficiency": self.added.efficiency.iter().map(efficiency).collect::<Vec<_>>(),
             "spectra": self.rows().map(|row| self.spectrum(&row)).collect::<Vec<_>>(),

@@ -8,6 +8,7 @@ use uplift_risk::{PooledDemand, RiskCurve};
 use crate::array::Array;
 use crate::consistency::Reweighing;
 use crate::error::UpliftError;
+use crate::events::Events;
 use crate::result::{StoredMeasure, StoredStripes};
 
 /// Influence on the spectra of one measure, plain or repaired.
@@ -100,8 +101,9 @@ pub(super) fn influence_on_repaired(
     stored: &StoredStripes,
     measure: &StoredMeasure,
     reweighing: &Reweighing,
-    is_cancelled: &(dyn Fn() -> bool + Sync),
+    events: &dyn Events,
 ) -> Result<Influence, UpliftError> {
+    let is_cancelled = || events.cancelled();
     let (sites, poes, strengths) = (stored.sites.len(), stored.poes.len(), stored.strengths.len());
     let (records, bins) = (stored.records.len(), measure.levels.len() + 1);
     let demand = |strength| measure.demand(strength);
@@ -124,7 +126,18 @@ pub(super) fn influence_on_repaired(
                 shares[place * bins..][..bins].copy_from_slice(&own);
             }
         }
-        let Some(anew) = reweighing.ordinates(of, &demands, targets, &samples, is_cancelled)? else { continue };
+        let Some(anew) = reweighing.ordinates(of, &demands, targets, &samples, &is_cancelled)? else { continue };
+        let failing: Vec<&str> = (stored.records.iter().zip(&anew.is_reached))
+            .filter_map(|(record, is_reached)| (!is_reached).then_some(record.as_str()))
+            .collect();
+        if !failing.is_empty() {
+            events.note(&format!(
+                "{} by {}: without {} no weights bring the site's hazard: what is left is repaired in part only",
+                stored.sites[site],
+                measure.measure.label(),
+                failing.join(", ")
+            ));
+        }
         for (place, &ordinate_m) in anew.ordinates_m.iter().enumerate() {
             let (record, poe, strength) =
                 (place % samples.len(), place / samples.len() % poes, place / samples.len() / poes);

@@ -51,15 +51,14 @@ pub fn influence(
         None => stored.poe_index(options.poe)?,
     };
     let reweighing = Reweighing::of_result(&file)?;
-    let is_cancelled = || events.cancelled();
     let mut influences: Vec<Influence> = Vec::new();
     for measure in &stored.measures {
-        if is_cancelled() {
+        if events.cancelled() {
             return Err(UpliftError::Interrupted);
         }
         influences.push(influence_by(&stored, measure)?);
         if let Some(reweighing) = &reweighing {
-            let repaired = influence_on_repaired(&stored, measure, reweighing, &is_cancelled);
+            let repaired = influence_on_repaired(&stored, measure, reweighing, events);
             influences.push(repaired.map_err(|error| error.in_file(&stored.path))?);
         }
     }

@@ -6,7 +6,7 @@ use uplift_motion::IntensityMeasure;
 use super::file::ResultFile;
 use super::layout::{MULTIPLICITY, axis, band, bootstrap, limit_names, repaired_band};
 use crate::array::Array;
-use crate::consistency::{AskedRecord, Question};
+use crate::consistency::Question;
 use crate::error::UpliftError;
 
 /// The confidence bands of a result.
@@ -14,6 +14,8 @@ use crate::error::UpliftError;
 pub struct StoredBands {
     /// Records in a sample.
     pub sizes: Vec<u32>,
+    /// What was drawn.
+    pub unit: Unit,
     /// Share of the replicates between the limits.
     pub confidence: f64,
     /// The bands of each measure, PGV first.
@@ -63,6 +65,14 @@ impl StoredBands {
     /// Names of lower limit, median and upper limit: `u05_m`, `u50_m`, `u95_m`.
     pub fn limit_names(&self) -> [String; 3] {
         limit_names(self.confidence)
+    }
+
+    /// What was drawn, in words: "resampled records".
+    pub fn drawn_words(&self) -> &'static str {
+        match self.unit {
+            Unit::Record => "resampled records",
+            Unit::Event => "resampled earthquakes with all their records",
+        }
     }
 
     /// The bands of `measure`.
@@ -129,7 +139,7 @@ impl ResultFile {
             };
             measures.push(MeasureBands { measure, limits_m, error_of_median, range_of_interval, repaired });
         }
-        Ok(Some(StoredBands { sizes, confidence, measures }))
+        Ok(Some(StoredBands { sizes, unit: self.drawn_unit()?, confidence, measures }))
     }
 
     /// Whether there are bands of repaired spectra.
@@ -150,12 +160,17 @@ impl ResultFile {
         let replicates = self.reader.axis_u32(axis::REPLICATE)?.len();
         let lengths = [(axis::SAMPLE_SIZE, sizes.len()), (axis::REPLICATE, replicates), (axis::RECORD, records)];
         let counts = self.checked(MULTIPLICITY, self.reader.array_u32(MULTIPLICITY)?, &lengths)?;
-        // results of before drew records
-        let unit = self.reader.attribute_text(bootstrap::ROOT, "unit").unwrap_or_default();
-        let event_of = if unit == Unit::Event.key() { Some(self.event_of()?) } else { None };
+        let event_of = if self.drawn_unit()? == Unit::Event { Some(self.event_of()?) } else { None };
         ResamplingPlan::from_multiplicities(records, &sizes, replicates, &counts, event_of.as_deref())
             .map(Some)
             .map_err(|error| self.fail(error))
+    }
+
+    /// What the draws are of; records in results of before.
+    fn drawn_unit(&self) -> Result<Unit, UpliftError> {
+        let Ok(word) = self.reader.attribute_text(bootstrap::ROOT, "unit") else { return Ok(Unit::Record) };
+        let unit = Unit::ALL.into_iter().find(|unit| unit.key() == word);
+        unit.ok_or_else(|| self.damaged(format!("{}: unit {word:?}", bootstrap::ROOT)))
     }
 
     /// The earthquake of each record, `[record]`, as a number that its records share; a record whose earthquake is not
@@ -164,7 +179,15 @@ impl ResultFile {
     /// # Errors
     /// A file that is damaged, or of another kind.
     pub(crate) fn event_of(&self) -> Result<Vec<usize>, UpliftError> {
-        Ok(Question::of_result(self)?.records.iter().map(AskedRecord::earthquake).collect())
+        Ok(Question::of_result(self)?.event_of())
+    }
+
+    /// Whether two pairs are known to be of one earthquake.
+    ///
+    /// # Errors
+    /// A file that is damaged, or of another kind.
+    pub(crate) fn shares_earthquakes(&self) -> Result<bool, UpliftError> {
+        Ok(Question::of_result(self)?.shares_earthquakes())
     }
 
     /// How the bands of the file were made of their draws.

@@ -31,7 +31,7 @@ use crate::consistency::Reweighing;
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::inputs::RecordSet;
-use crate::result::{AskedRisk, ResultFile, SpectraOfResult, StoredConsistency, StudyOfResult};
+use crate::result::{AskedRisk, ResultFile, SpectraOfResult, StudyOfResult};
 use crate::text::spectrum_words;
 use crate::uniform_risk::{Stripes, motion_keys, plan_stripes};
 
@@ -139,8 +139,7 @@ pub fn design(
     let measure = &source.measures[measure_index(&source, options.measure)?];
     let poe = source.only_risk(&options.risk)?;
     let target_per_year = source.target_per_year(poe)?;
-    let consistency = file.consistency()?;
-    let repaired_m = repaired_spectrum(&consistency, measure, [site, poe]);
+    let repaired_m = repaired_spectrum(&file, measure, [site, poe])?;
     let reweighing = if options.repaired { Reweighing::of_result(&file)? } else { None };
     let repair = reweighing.as_ref().and_then(|reweighing| reweighing.weights(measure.measure(), site));
     let weights = match (options.repaired, repair) {
@@ -152,7 +151,7 @@ pub fn design(
     let mut notes = differences(structure, &source, restitution);
 
     let plain = spectrum_demand(structure, &source, source.spectrum(measure, site, poe));
-    let repaired = repaired_m.and_then(|u_m| spectrum_demand(structure, &source, u_m));
+    let repaired = repaired_m.and_then(|u_m| spectrum_demand(structure, &source, &u_m));
     let spectrum = if options.repaired { repaired } else { plain };
     if !options.repaired {
         notes.extend(beside(plain, repaired));
@@ -205,7 +204,7 @@ pub fn design(
     alarms.extend(of_safety_factor(safety_factor));
     if let Some(exact) = &exact {
         let records = file.axes()?.records.len();
-        alarms.extend(of_own_risks(&own_risks(exact, measure, &source.sites[site], records)));
+        alarms.extend(of_own_risks(&own_risks(exact, measure, &source.sites[site], (records, &weights))));
         let satisfied = rules.iter().any(|rule| rule.check().is_some_and(|check| check.satisfied));
         alarms.extend(of_own_demand(exact.demand_m, told.capacity_m, safety_factor, satisfied));
     }
@@ -290,13 +289,14 @@ impl Shaken {
 }
 
 /// The repaired spectrum at a site and probability, m, `[strength]`; none where there is none.
-fn repaired_spectrum<'a>(
-    consistency: &'a [StoredConsistency],
+fn repaired_spectrum(
+    file: &ResultFile,
     measure: &SpectraOfResult,
     [site, poe]: [usize; 2],
-) -> Option<&'a [f64]> {
-    let is_own = |of: &&StoredConsistency| of.scaled_to == measure.measure() && of.is_repaired(site);
-    Some(consistency.iter().find(is_own)?.u_m.as_ref()?.block([site, poe]))
+) -> Result<Option<Vec<f64>>, UpliftError> {
+    let consistency = file.consistency()?;
+    let own = consistency.iter().find(|of| of.scaled_to == measure.measure() && of.is_repaired(site));
+    Ok(own.and_then(|of| Some(of.u_m.as_ref()?.block([site, poe]).to_vec())))
 }
 
 /// Why there is no repaired spectrum of a site.
@@ -395,7 +395,13 @@ fn differences(structure: &Structure, source: &StudyOfResult, restitution: f64) 
 }
 
 /// What may come from outside the stripes: the demand, exceeding the capacity, overturning.
-fn own_risks(exact: &ExactDemand, measure: &SpectraOfResult, site: &str, records: usize) -> Vec<OwnRisk> {
+fn own_risks(
+    exact: &ExactDemand,
+    measure: &SpectraOfResult,
+    site: &str,
+    (records, weights): (usize, &SiteWeights<'_>),
+) -> Vec<OwnRisk> {
+    let effective_records = weights.effective_records(records);
     let levels = &measure.plan.levels;
     let own = |what: &str, risk: EventRisk| OwnRisk {
         subject: format!("{what}, {site}, {}", measure.measure().label()),
@@ -403,6 +409,7 @@ fn own_risks(exact: &ExactDemand, measure: &SpectraOfResult, site: &str, records
         measure: measure.measure(),
         levels: (levels[0], levels[levels.len() - 1]),
         records,
+        effective_records,
     };
     let ExactDemand { lower_tail_share, upper_tail_share, .. } = *exact;
     let demand = EventRisk { lower_tail_share, upper_tail_share, at_most_per_year: None, ..exact.overturning };

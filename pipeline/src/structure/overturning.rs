@@ -368,6 +368,7 @@ fn own_risks(
                 measure: measure.measure(),
                 levels: (levels[0], levels[levels.len() - 1]),
                 records,
+                effective_records: records as f64,
             }));
         }
     }

@@ -6,17 +6,21 @@ use rayon::prelude::*;
 use serde::Serialize;
 use uplift_bootstrap::{BootstrapError, Replicates, ResamplingPlan};
 use uplift_fragility::quantile;
+use uplift_risk::PooledDemand;
 use uplift_study::UniformRiskStudy;
 
 use super::{Stripes, pooled_demand};
+use crate::consistency::Question;
 use crate::error::UpliftError;
 use crate::inputs::SiteHazard;
-use crate::text::nearest;
+use crate::text::{nearest, per_cent, risk_in_words};
 
 /// Strengths that are looked at.
 const STRENGTHS: [f64; 3] = [0.1, 0.2, 0.4];
 /// Samples of the records: the half width is then known within a tenth of itself.
 const REPLICATES: usize = 200;
+/// Of more records nothing is said: samples of a bootstrap are no larger.
+const MOST_RECORDS: usize = 100_000;
 /// Share of the samples between the limits.
 const CONFIDENCE: f64 = 0.9;
 /// Bands shrink as one over the root of the records (Section 4.5.1): half as wide takes so many times as many.
@@ -29,15 +33,17 @@ pub struct Precision {
     pub im: &'static str,
     /// Probability of exceedance.
     pub poe: f64,
+    /// Years that it refers to.
+    pub years: f64,
     /// Records in the set.
     pub records: usize,
-    /// Their earthquakes, a record whose earthquake is not known being one of its own; none where no two are known to
-    /// share one.
+    /// Their earthquakes, a pair whose earthquake is not known being one of its own; none where no two pairs are known
+    /// to share one.
     pub events: Option<usize>,
     /// To how many earthquakes of equally many records these amount: 1/Σ (share of the records)².
     pub effective_events: Option<f64>,
-    /// Half of the 90 % interval of an ordinate over its median, records drawn one by one: the middle one, the least and
-    /// the most, of the sites and the strengths 0.1, 0.2 and 0.4.
+    /// Half of the 90 % interval of an ordinate over its median, records drawn one by one: the middle one, the least
+    /// and the most, of the sites and the strengths 0.1, 0.2 and 0.4.
     pub half_width: [f64; 3],
     /// The middle one with earthquakes drawn with all their records.
     pub half_width_by_event: Option<f64>,
@@ -48,7 +54,7 @@ pub struct Precision {
 /// The precision of the spectra by the measure of `stripes`; none without sites, for a single record, and where no
 /// ordinate is finite and above 0.
 ///
-/// - `event_of`: the earthquake of each record, `[record]`.
+/// - `question`: knows the earthquakes of the records.
 ///
 /// # Errors
 /// Numbers that do not fit together, which the checks of study and inputs rule out.
@@ -56,37 +62,36 @@ pub(crate) fn precision(
     study: &UniformRiskStudy,
     stripes: &Stripes,
     hazard: &[SiteHazard],
-    event_of: &[usize],
+    question: &Question,
 ) -> Result<Option<Precision>, UpliftError> {
+    let event_of = question.event_of();
     let records = event_of.len();
     let Some(&poe) = study.risk.poe.iter().min_by(|a, b| a.total_cmp(b)) else { return Ok(None) };
     let target = uplift_hazard::rate_from_probability(poe, study.risk.years)?;
     let size = u32::try_from(records).unwrap_or(u32::MAX);
-    if records < 2 {
+    if !(2..=MOST_RECORDS).contains(&records) {
         return Ok(None);
     }
     let widths = |plan: &ResamplingPlan| -> Result<Vec<f64>, UpliftError> {
-        let of_strength = |&strength: &usize| -> Result<Vec<f64>, UpliftError> {
-            let demand = pooled_demand(stripes, strength)?;
-            let of_site = |site: &SiteHazard| -> Result<Option<f64>, BootstrapError> {
-                let replicates = Replicates::of(&demand, &[&site.curve.weights], &[target], plan)?;
-                Ok(half_width(replicates.ordinates_m(0, 0, 0)))
-            };
-            let of_sites: Result<Vec<Option<f64>>, BootstrapError> = hazard.iter().map(of_site).collect();
-            Ok(of_sites?.into_iter().flatten().collect())
+        let of_site = |demand: &PooledDemand, site: &SiteHazard| -> Result<Option<f64>, BootstrapError> {
+            let replicates = Replicates::of(demand, &[&site.curve.weights], &[target], plan)?;
+            Ok(half_width(replicates.ordinates_m(0, 0, 0)))
         };
-        let shown = nearest(&study.strengths, &STRENGTHS);
-        let all: Vec<Vec<f64>> = shown.par_iter().map(of_strength).collect::<Result<_, _>>()?;
-        let mut all = all.concat();
+        let mut all = Vec::new();
+        for strength in nearest(&study.strengths, &STRENGTHS) {
+            let demand = pooled_demand(stripes, strength)?;
+            let of_sites: Result<Vec<Option<f64>>, BootstrapError> =
+                hazard.par_iter().map(|site| of_site(&demand, site)).collect();
+            all.extend(of_sites?.into_iter().flatten());
+        }
         all.sort_by(f64::total_cmp);
         Ok(all)
     };
     let by_record = widths(&ResamplingPlan::draw(records, &[size], REPLICATES, study.seed)?)?;
     let [Some(&least), Some(&most)] = [by_record.first(), by_record.last()] else { return Ok(None) };
-    let counts = counts(event_of);
-    let is_shared = counts.len() < records;
+    let (counts, is_shared) = (counts(&event_of), question.shares_earthquakes());
     let by_event = if is_shared && counts.len() > 1 {
-        widths(&ResamplingPlan::draw_events(event_of, &[size], REPLICATES, study.seed)?)?
+        widths(&ResamplingPlan::draw_events(&event_of, &[size], REPLICATES, study.seed)?)?
     } else {
         Vec::new()
     };
@@ -94,6 +99,7 @@ pub(crate) fn precision(
     Ok(Some(Precision {
         im: stripes.measure.label(),
         poe,
+        years: study.risk.years,
         records,
         events: is_shared.then_some(counts.len()),
         effective_events: is_shared.then_some(1.0 / squares),
@@ -133,9 +139,13 @@ impl Precision {
             .half_width_by_event
             .map_or_else(String::new, |width| format!("; ±{} % if earthquakes were others", percent(width)));
         format!(
-            "{} records{events} know a spectrum by {} within ±{middle} % ({least} to {most} by site and \
-             strength{by_event}); half of that takes some {}",
-            self.records, self.im, self.records_for_half
+            "{} records{events} know the spectra of {} by {} within ±{middle} % ({least} to {most} by site and \
+             strength, {} of resamples{by_event}); half of that takes some {}",
+            self.records,
+            risk_in_words(self.poe, self.years),
+            self.im,
+            per_cent(CONFIDENCE),
+            self.records_for_half
         )
     }
 }
@@ -159,6 +169,7 @@ mod tests {
         let mut precision = Precision {
             im: "PGV",
             poe: 0.02,
+            years: 50.0,
             records: 105,
             events: Some(22),
             effective_events: Some(9.9),
@@ -168,10 +179,11 @@ mod tests {
         };
         assert_eq!(
             precision.words(),
-            "105 records of 22 earthquakes, which count as 10, know a spectrum by PGV within ±16 % (12 to 25 by site \
-             and strength; ±24 % if earthquakes were others); half of that takes some 420"
+            "105 records of 22 earthquakes, which count as 10, know the spectra of 2 % in 50 years by PGV within ±16 % \
+             (12 to 25 by site and strength, 90 % of resamples; ±24 % if earthquakes were others); half of that takes \
+             some 420"
         );
         (precision.events, precision.effective_events, precision.half_width_by_event) = (None, None, None);
-        assert!(precision.words().starts_with("105 records know a spectrum by PGV within ±16 %"));
+        assert!(precision.words().starts_with("105 records know the spectra of 2 % in 50 years by PGV within"));
     }
 }

@@ -51,10 +51,9 @@ pub(crate) fn run(
     }
     let coefficients: Vec<Coefficients> = spectra.iter().map(|spectra| fit_spectra(study, spectra)).collect();
     let consistency = Answer::of_run(study, records, (&hazard, &other_hazard), &stripes)?;
-    let event_of = consistency.event_of();
     let mut precisions = Vec::new();
     for (stripes, hazard) in stripes.iter().zip(&hazard) {
-        precisions.extend(precision(study, stripes, hazard, &event_of)?);
+        precisions.extend(precision(study, stripes, hazard, consistency.question())?);
     }
     let mut warnings = notes;
     warnings.extend(site_list.iter().flat_map(|list| list.notes.iter().cloned()));

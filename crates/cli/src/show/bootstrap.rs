@@ -2,15 +2,12 @@
 
 use std::io::Write;
 
-use uplift::bootstrap::{BootstrapReport, Initiation};
+use uplift::bootstrap::{BootstrapReport, Initiation, MANY_FAILED};
 use uplift::text::{per_cent, risk_in_words, risk_name, table};
 
 use super::shown_path;
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
-
-/// More failing samples than this, per cent, deserve a warning.
-const MANY_FAILED_PERCENT: f64 = 5.0;
 
 /// The report for people; a quiet terminal gets the tables alone.
 pub(crate) fn print_bootstrap(report: &BootstrapReport, terminal: &Terminal) -> Result<(), CommandError> {
@@ -103,7 +100,7 @@ fn print_repaired(out: &mut impl Write, report: &BootstrapReport) -> Result<(), 
             format!("{:.1}", repaired.failed),
         ]);
         let told = format!("{} by {}, samples of {}: {:.0} %", row.site, row.im, row.sample_size, repaired.failed);
-        if repaired.failed > MANY_FAILED_PERCENT && !failing.contains(&told) {
+        if repaired.failed > 100.0 * MANY_FAILED && !failing.contains(&told) {
             failing.push(told);
         }
     }
@@ -121,8 +118,8 @@ fn print_repaired(out: &mut impl Write, report: &BootstrapReport) -> Result<(), 
     if !failing.is_empty() {
         writeln!(
             out,
-            "Many samples fail, and the band of their repaired spectra leans to the plain ones ({}): more records, or \
-             records of another kind",
+            "Many samples fail, and their spectra are repaired in part only, so that the band is too ({}): take more \
+             records, or records of another kind",
             failing.join("; ")
         )?;
     }

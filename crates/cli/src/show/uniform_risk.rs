@@ -31,7 +31,7 @@ pub(super) fn print_spectra(out: &mut impl Write, report: &RunReport) -> Result<
     print_repaired(out, report, &shown)?;
     for (place, precision) in report.precision.iter().enumerate() {
         if place == 0 {
-            writeln!(out, "\nHow sure, {}:", risk_in_words(precision.poe, report.years))?;
+            writeln!(out, "\nHow sure:")?;
         }
         writeln!(out, "  {}", precision.words())?;
     }

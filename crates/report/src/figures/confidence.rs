@@ -83,10 +83,11 @@ pub(super) fn bands(source: &FigureSource) -> Vec<Figure> {
         };
         let anew = if of == Of::Repaired { "; every sample has weights of its own" } else { "" };
         let caption = format!(
-            "Median (lines) and {lower} to {upper} interval (areas) of the {} of {} over resampled records, for each \
-             size of the sample (Fig. 4.8){anew}.",
+            "Median (lines) and {lower} to {upper} interval (areas) of the {} of {} over {}, for each size of \
+             the sample (Fig. 4.8){anew}.",
             of.spectra(),
-            risk_in_words(source.stored.poes[poe], source.stored.years)
+            risk_in_words(source.stored.poes[poe], source.stored.years),
+            stored.drawn_words()
         );
         Some(source.figure(
             format!("bands-{}{}", bands.measure.key(), of.ending()),

@@ -70,8 +70,9 @@ pub(super) fn spectra(source: &FigureSource) -> Vec<Figure> {
             let banded = source.bands.as_ref().filter(|bands| bands.of(of_measure.measure).is_some());
             let banded = banded.map_or_else(String::new, |bands| {
                 format!(
-                    " Areas: {} of the spectra of resampled records, {} in a sample.",
+                    " Areas: {} of the spectra of {}, {} records in a sample.",
                     per_cent(bands.confidence),
+                    bands.drawn_words(),
                     bands.sizes[bands.largest()]
                 )
             });

@@ -41,7 +41,8 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
         Part {
             key: "confidence",
             title: "How sure it is",
-            note: how_sure(&file.precision()),
+            // it is of the rarest probability of the study
+            note: if file.is_asked() { String::new() } else { how_sure(&file.precision()) },
             tables: Vec::new(),
             figures: figures.confidence,
             details: source.bands.iter().map(|bands| confidence(&source.spectra, bands)).collect(),
@@ -268,9 +269,10 @@ fn confidence(stored: &StoredSpectra, bands: &StoredBands) -> Table {
         id: "table-4-1".to_owned(),
         title: "How sure the spectra are (Table 4.1)".to_owned(),
         note: format!(
-            "Error of the median and width of the {} interval over resampled records, at the strength where each is \
-             largest (Eq. 4.9, 4.10).{}",
+            "Error of the median and width of the {} interval over {}, at the strength where each is largest (Eq. 4.9, \
+             4.10).{}",
             per_cent(bands.confidence),
+            bands.drawn_words(),
             if bands.measures.iter().any(|of| of.repaired.is_some()) { REPAIRED_BANDS } else { "" }
         ),
         group: String::new(),

@@ -22,7 +22,7 @@ impl Export {
         let risks: Vec<String> = self.spectra.poes.iter().map(|&poe| risk_in_words(poe, years)).collect();
         let bands = self.bands.as_ref().map(|bands| {
             let sizes: Vec<String> = bands.sizes.iter().map(u32::to_string).collect();
-            format!("{} over resampled records, samples of {}", per_cent(bands.confidence), sizes.join(", "))
+            format!("{} over {}, samples of {}", per_cent(bands.confidence), bands.drawn_words(), sizes.join(", "))
         });
         let facts = [
             ("Uniform risk spectra", head.title.clone()),
