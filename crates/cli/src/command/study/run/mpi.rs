@@ -1,8 +1,8 @@
 //! `uplift run` under `mpirun`: every rank computes one shard of the analyses, and the first joins them.
 //!
 //! The ranks share nothing but the file system. MPI says who they are, lets the first wait for the others, and ends all
-//! when one fails (one with a bug ends itself, for the launcher to notice): the shards are then as those of any run that
-//! stopped, and the same command goes on from there.
+//! when one fails (one with a bug ends itself, for the launcher to notice): the shards are then as those of any run
+//! that stopped, and the same command goes on from there.
 
 use std::time::Duration;
 
