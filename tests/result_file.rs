@@ -92,7 +92,7 @@ fn results_of_version_0_1_are_read() {
     assert_eq!(file.hazard().unwrap()[0].sites[0].curve.points().count(), 2);
     let bands = file.bands().unwrap().unwrap();
     assert_eq!((bands.sizes.as_slice(), bands.level_names()), (&[2, 3][..], ["5 %".to_owned(), "95 %".to_owned()]));
-    assert_eq!(bands.measures[0].limits_m[1].shape(), [1, 1, 2, 5]);
+    assert_eq!(bands.measures[0].plain.limits_m[1].shape(), [1, 1, 2, 5]);
     assert_eq!(file.resampling_plan().unwrap().unwrap().replicates(), 5);
     let study = file.study(None).unwrap();
     assert_eq!(study.spectrum(&study.measures[0], 0, 0), expected);

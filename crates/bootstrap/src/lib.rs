@@ -1,7 +1,7 @@
 //! How sure a uniform risk spectrum is: the bootstrap over records of Section 4.5, and the influence of single records.
 //!
 //! - [`ResamplingPlan`]: which records each replicate draws; planned before any computing, from counter-based streams.
-//! - [`Unit`]: whether records are drawn one by one, or earthquakes with all their records.
+//! - [`Unit`]: whether records are drawn one by one, or earthquakes with all their records ([`units`]).
 //! - [`Replicates`]: the ordinates of one strength for all replicates, sites and probabilities.
 //! - [`weighted_replicates`]: the same where the records of each replicate are weighed anew.
 //! - [`Interval`], [`Band`]: confidence intervals of an ordinate, by percentiles or bias-corrected and
@@ -35,6 +35,6 @@ pub use jackknife::{acceleration, leave_one_out, without_each};
 pub use plan::ResamplingPlan;
 pub use replicates::Replicates;
 pub use simultaneous::simultaneous_bands;
-pub use unit::Unit;
+pub use unit::{Unit, units};
 pub use weighted::weighted_quantile;
 pub use weighted_replicates::{left_out, weighted_replicates};

@@ -5,6 +5,7 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 use uplift_risk::RecordSample;
 
 use crate::unit::units;
+use crate::weighted_replicates::without;
 use crate::{BootstrapError, Unit, left_out};
 
 /// Fills the seed behind the 8 bytes of the user's number, so that no other use of the generator shares these streams.
@@ -146,14 +147,7 @@ impl ResamplingPlan {
     /// More than 2²⁴ records.
     pub fn left_out(&self) -> Result<Vec<RecordSample>, BootstrapError> {
         let Some(events) = &self.events else { return Ok(left_out(self.record_count)?) };
-        let without = |event: &Vec<usize>| {
-            let mut multiplicities = vec![1; self.record_count];
-            for &record in event {
-                multiplicities[record] = 0;
-            }
-            Ok(RecordSample::new(multiplicities)?)
-        };
-        events.iter().map(without).collect()
+        events.iter().map(|event| Ok(without(self.record_count, event)?)).collect()
     }
 
     /// Records drawn from.

@@ -32,7 +32,7 @@ impl Unit {
 /// - `unit_of`: the unit that a record belongs to, `[record]`: any numbers, alike for the records of one unit.
 ///
 /// Units come in the order of their first records.
-pub(crate) fn units(unit_of: &[usize]) -> Vec<Vec<usize>> {
+pub fn units(unit_of: &[usize]) -> Vec<Vec<usize>> {
     let mut names: Vec<usize> = Vec::new();
     let mut units: Vec<Vec<usize>> = Vec::new();
     for (record, name) in unit_of.iter().enumerate() {
@@ -44,4 +44,15 @@ pub(crate) fn units(unit_of: &[usize]) -> Vec<Vec<usize>> {
         units[position].push(record);
     }
     units
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_have_their_records() {
+        assert_eq!(units(&[4, 1, 4, 4]), [vec![0, 2, 3], vec![1]]);
+        assert!(units(&[]).is_empty());
+    }
 }

@@ -53,10 +53,17 @@ pub fn weighted_replicates<E: From<RiskError>>(
 /// # Errors
 /// More than 2²⁴ records.
 pub fn left_out(records: usize) -> Result<Vec<RecordSample>, RiskError> {
-    let without = |record: usize| {
-        let mut multiplicities = vec![1; records];
+    if records < 2 { Ok(Vec::new()) } else { (0..records).map(|record| without(records, &[record])).collect() }
+}
+
+/// So many `records` once, but for those `left_out`.
+///
+/// # Errors
+/// None left; more than 2²⁴ records.
+pub(crate) fn without(records: usize, left_out: &[usize]) -> Result<RecordSample, RiskError> {
+    let mut multiplicities = vec![1; records];
+    for &record in left_out {
         multiplicities[record] = 0;
-        RecordSample::new(multiplicities)
-    };
-    if records < 2 { Ok(Vec::new()) } else { (0..records).map(without).collect() }
+    }
+    RecordSample::new(multiplicities)
 }

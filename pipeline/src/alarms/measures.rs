@@ -110,7 +110,7 @@ fn side<'a>(spectra: &'a MeasureSpectra, bands: Option<&'a StoredBands>, [site, 
     let band = || {
         let bands = bands?;
         let size = (0..bands.sizes.len()).max_by_key(|&size| bands.sizes[size])?;
-        let [lower, _, upper] = &bands.of(spectra.measure)?.limits_m;
+        let [lower, _, upper] = &bands.of(spectra.measure)?.plain.limits_m;
         let of = |limit: &'a Array<4>| limit.block([site, poe, size]);
         Some([of(lower), of(upper)])
     };

@@ -1,12 +1,12 @@
 //! The bands of a result at risks that it is asked for after its bootstrap: from the draws that it keeps.
 
-use super::bands::{BandSettings, Bands, RepairedBands};
+use super::bands::{BandSettings, Bands, RepairedBands, SpectraBands};
 use super::compute::{Source, compute};
 use super::write::percent;
 use crate::consistency::Reweighing;
 use crate::error::UpliftError;
 use crate::events::Events;
-use crate::result::{BandMethod, MeasureBands, RepairedMeasureBands, ResultFile, StoredBands};
+use crate::result::{BandMethod, MeasureBands, ResultFile, StoredBands, StoredRepairedBands, StoredSpectraBands};
 
 impl ResultFile {
     /// The same result with bands at the risks that it was asked for ([`at`](Self::at)), made of the draws of its
@@ -39,17 +39,12 @@ impl ResultFile {
 
 /// Bands as a result has them.
 fn stored_bands(bands: Bands) -> MeasureBands {
-    let Bands { measure, plain, repaired, .. } = bands;
-    MeasureBands {
-        measure,
-        error_of_median: percent(&plain.error_of_median),
-        range_of_interval: percent(&plain.range_of_interval),
-        limits_m: [plain.lower_m, plain.median_m, plain.upper_m],
-        repaired: repaired.map(|RepairedBands { bands, failed }| RepairedMeasureBands {
-            error_of_median: percent(&bands.error_of_median),
-            range_of_interval: percent(&bands.range_of_interval),
-            limits_m: [bands.lower_m, bands.median_m, bands.upper_m],
-            failed,
-        }),
-    }
+    let stored = |bands: SpectraBands| StoredSpectraBands {
+        error_of_median: percent(&bands.error_of_median),
+        range_of_interval: percent(&bands.range_of_interval),
+        limits_m: [bands.lower_m, bands.median_m, bands.upper_m],
+    };
+    let repaired =
+        bands.repaired.map(|RepairedBands { bands, failed }| StoredRepairedBands { bands: stored(bands), failed });
+    MeasureBands { measure: bands.measure, plain: stored(bands.plain), repaired }
 }

@@ -28,23 +28,15 @@ pub(super) struct BandSettings {
 impl BandSettings {
     /// The band of an ordinate with its replicates.
     ///
-    /// - `sorted`: room.
     /// - `estimate_m`: the ordinate of all records, m.
     /// - `without_each_m`: that without each unit of the draws, m, which BCa asks for.
     /// - `size`: units in a sample, records or earthquakes.
-    pub(super) fn band(
-        &self,
-        replicates_m: &[f64],
-        sorted: &mut Vec<f64>,
-        estimate_m: f64,
-        (without_each_m, size): (&[f64], u32),
-    ) -> Band {
-        sorted.clear();
-        sorted.extend_from_slice(replicates_m);
+    pub(super) fn band(&self, replicates_m: &[f64], estimate_m: f64, (without_each_m, size): (&[f64], u32)) -> Band {
+        let mut sorted = replicates_m.to_vec();
         sorted.sort_unstable_by(f64::total_cmp);
         match self.interval {
-            Interval::Percentile => Band::percentile(sorted, self.confidence),
-            Interval::Bca => Band::bca(sorted, self.confidence, estimate_m, acceleration(without_each_m, size)),
+            Interval::Percentile => Band::percentile(&sorted, self.confidence),
+            Interval::Bca => Band::bca(&sorted, self.confidence, estimate_m, acceleration(without_each_m, size)),
         }
     }
 
@@ -52,6 +44,17 @@ impl BandSettings {
     pub(super) fn first_strength(&self, strengths: &[f64]) -> usize {
         strengths.partition_point(|&strength| strength <= self.strength_above)
     }
+}
+
+/// Lower limit, median and upper limit of each band, one after the other.
+pub(super) fn numbers_of_bands(bands: &[Band]) -> impl Iterator<Item = f64> {
+    bands.iter().flat_map(|band| [band.lower_m, band.median_m, band.upper_m])
+}
+
+/// The bands of such numbers.
+pub(super) fn bands_of_numbers(numbers: &[f64]) -> Vec<Band> {
+    let band = |band: &[f64]| Band { lower_m: band[0], median_m: band[1], upper_m: band[2] };
+    numbers.chunks_exact(3).map(band).collect()
 }
 
 /// The bands of one strength.
@@ -135,7 +138,6 @@ pub(super) fn bands_of_strength(
         Interval::Bca => plan.left_out()?,
     };
     let mut done = StrengthBands { bands: Vec::new(), replicates_m: Vec::new() };
-    let mut sorted = Vec::new();
     for (site, weights) in measure.weights.iter().enumerate() {
         let sites: [&StripeWeights; 1] = [weights];
         let replicates = Replicates::of(&demand, &sites, targets, plan)?;
@@ -148,12 +150,8 @@ pub(super) fn bands_of_strength(
             let without_each_m: Vec<f64> = without_each.iter().skip(poe).step_by(targets.len()).copied().collect();
             for (size_index, &size) in plan.sizes().iter().enumerate() {
                 let ordinates_m = replicates.ordinates_m(0, poe, size_index);
-                done.bands.push(settings.band(
-                    ordinates_m,
-                    &mut sorted,
-                    estimate_m,
-                    (&without_each_m, plan.units_drawn(size)),
-                ));
+                let of_sample = (without_each_m.as_slice(), plan.units_drawn(size));
+                done.bands.push(settings.band(ordinates_m, estimate_m, of_sample));
                 if settings.simultaneous {
                     done.replicates_m.extend_from_slice(ordinates_m);
                 }

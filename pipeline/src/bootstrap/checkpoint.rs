@@ -4,10 +4,9 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
-use uplift_bootstrap::Band;
 use uplift_motion::IntensityMeasure;
 
-use super::bands::StrengthBands;
+use super::bands::{StrengthBands, bands_of_numbers, numbers_of_bands};
 use super::compute::Source;
 use super::repaired::{SiteBands, SiteShape};
 use crate::consistency::Reweighing;
@@ -109,10 +108,7 @@ impl Checkpoint {
                 }
                 let (per_band, per_replicate) = (bands.len() / strengths.len(), replicates.len() / strengths.len());
                 for (row, &strength) in strengths.iter().enumerate() {
-                    let bands = bands[row * per_band..(row + 1) * per_band]
-                        .chunks_exact(3)
-                        .map(|band| Band { lower_m: band[0], median_m: band[1], upper_m: band[2] })
-                        .collect();
+                    let bands = bands_of_numbers(&bands[row * per_band..(row + 1) * per_band]);
                     let replicates_m = replicates[row * per_replicate..(row + 1) * per_replicate].to_vec();
                     let strength = (key, strength as usize);
                     finished.strengths.insert(strength, StrengthBands { bands, replicates_m });
@@ -142,10 +138,7 @@ impl Checkpoint {
         for (key, rows) in by_measure(&finished.strengths) {
             let row = row_axis(&mut writer, &format!("{key}_row"), rows.len())?;
             writer.array_u32(&format!("/{key}/strength"), &[&row], &indices(&rows), "1", "index of the strength")?;
-            let bands: Vec<f64> = rows
-                .iter()
-                .flat_map(|(_, done)| done.bands.iter().flat_map(|band| [band.lower_m, band.median_m, band.upper_m]))
-                .collect();
+            let bands: Vec<f64> = rows.iter().flat_map(|(_, done)| numbers_of_bands(&done.bands)).collect();
             let value = row_axis(&mut writer, &format!("{key}_value"), bands.len() / rows.len())?;
             writer.array_f64(&format!("/{key}/bands_m"), &[&row, &value], &bands, "m", "bands")?;
             let replicates: Vec<f64> = rows.iter().flat_map(|(_, done)| done.replicates_m.iter().copied()).collect();

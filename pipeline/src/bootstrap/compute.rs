@@ -51,14 +51,11 @@ pub(super) fn compute(
         events.remark("resumed", &format!("{strengths} strengths{of_sites} from {}", checkpoint.path().display()));
     }
     let start = Instant::now();
-    plain_bands(source, &mut finished, checkpoint, events)?;
-    repaired_bands(source, &mut finished, checkpoint, events)?;
-    if let Some(checkpoint) = checkpoint
-        && start.elapsed() > KEPT_EVERY
-    {
-        // the result may not be writable, on a disk that has filled up for instance
-        checkpoint.save(&finished)?;
-    }
+    let mut keeper = Keeper { checkpoint, kept: start };
+    plain_bands(source, &mut finished, &mut keeper, events)?;
+    repaired_bands(source, &mut finished, &mut keeper, events)?;
+    // the result may not be writable, on a disk that has filled up for instance
+    Keeper { checkpoint, kept: start }.keep_now_and_then(&finished)?;
     let Source { stored, plan, settings, .. } = source;
     let of_measure = |measure: &StoredMeasure| {
         let key = measure.measure.key();
@@ -84,7 +81,7 @@ pub(super) fn compute(
 fn plain_bands(
     source: &Source<'_>,
     finished: &mut Finished,
-    checkpoint: Option<&Checkpoint>,
+    keeper: &mut Keeper<'_>,
     events: &dyn Events,
 ) -> Result<(), UpliftError> {
     let Source { stored, plan, settings, .. } = source;
@@ -96,7 +93,6 @@ fn plain_bands(
             (0..strengths).filter(|&strength| !finished.strengths.contains_key(&(key, strength))).collect();
         let total = per_strength * left.len() as u64;
         let progress = Progress::begin(events, measure.measure.label(), "ordinates", total);
-        let mut kept = Instant::now();
         for batch in left.chunks(BATCH * rayon::current_num_threads()) {
             let done: Vec<Option<(usize, StrengthBands)>> = batch
                 .par_iter()
@@ -113,14 +109,9 @@ fn plain_bands(
             finished.strengths.extend(done.into_iter().flatten().map(|(strength, bands)| ((key, strength), bands)));
             if events.cancelled() {
                 let done = ("strengths", finished.strengths.len(), strengths * stored.measures.len());
-                return Err(stopped(finished, done, checkpoint));
+                return Err(keeper.stopped(finished, done));
             }
-            if let Some(checkpoint) = checkpoint
-                && kept.elapsed() > KEPT_EVERY
-            {
-                checkpoint.save(finished)?;
-                kept = Instant::now();
-            }
+            keeper.keep_now_and_then(finished)?;
         }
     }
     Ok(())
@@ -130,13 +121,13 @@ fn plain_bands(
 fn repaired_bands(
     source: &Source<'_>,
     finished: &mut Finished,
-    checkpoint: Option<&Checkpoint>,
+    keeper: &mut Keeper<'_>,
     events: &dyn Events,
 ) -> Result<(), UpliftError> {
     let Source { stored, plan, settings, .. } = source;
     let Some(reweighing) = source.reweighing else { return Ok(()) };
     let sites_of = |measure: &StoredMeasure| -> Vec<usize> {
-        (0..stored.sites.len()).filter(|&site| reweighing.is_repaired(measure.measure, site)).collect()
+        (0..stored.sites.len()).filter(|&site| reweighing.weights(measure.measure, site).is_some()).collect()
     };
     let total: usize = stored.measures.iter().map(|measure| sites_of(measure).len()).sum();
     for measure in &stored.measures {
@@ -153,42 +144,52 @@ fn repaired_bands(
             .map(demand)
             .collect::<Result<_, UpliftError>>()
             .map_err(|error| error.in_file(&stored.path))?;
-        let mut kept = Instant::now();
         for site in left {
             let is_cancelled = || progress.cancelled();
             let of = (reweighing, (im, site));
             match bands_of_site(of, &demands, &stored.targets_per_year, plan, settings, &is_cancelled) {
                 Ok(bands) => finished.sites.extend(bands.map(|bands| ((key, site), bands))),
                 Err(UpliftError::Interrupted) => {
-                    return Err(stopped(finished, ("repaired sites", finished.sites.len(), total), checkpoint));
+                    return Err(keeper.stopped(finished, ("repaired sites", finished.sites.len(), total)));
                 }
                 Err(error) => return Err(error.in_file(&stored.path)),
             }
             progress.finished(1);
-            if let Some(checkpoint) = checkpoint
-                && kept.elapsed() > KEPT_EVERY
-            {
-                checkpoint.save(finished)?;
-                kept = Instant::now();
-            }
+            keeper.keep_now_and_then(finished)?;
         }
     }
     Ok(())
 }
 
-/// Keeps what is finished, so much `done` of so much, before a job stops.
-fn stopped(
-    finished: &Finished,
-    (what, done, total): (&'static str, usize, usize),
-    checkpoint: Option<&Checkpoint>,
-) -> UpliftError {
-    let Some(checkpoint) = checkpoint else { return UpliftError::Interrupted };
-    match checkpoint.save(finished) {
-        Ok(()) => {
-            let path = checkpoint.path().to_owned();
-            UpliftError::Paused { what, done: done as u64, total: total as u64, path }
+/// Keeps what is finished, if there is a checkpoint to keep it in.
+struct Keeper<'a> {
+    checkpoint: Option<&'a Checkpoint>,
+    /// When it was kept last.
+    kept: Instant,
+}
+
+impl Keeper<'_> {
+    /// Keeps it where that is long ago.
+    fn keep_now_and_then(&mut self, finished: &Finished) -> Result<(), UpliftError> {
+        if let Some(checkpoint) = self.checkpoint
+            && self.kept.elapsed() > KEPT_EVERY
+        {
+            checkpoint.save(finished)?;
+            self.kept = Instant::now();
         }
-        Err(error) => error,
+        Ok(())
+    }
+
+    /// Keeps it, so much `done` of so much, before a job stops.
+    fn stopped(&self, finished: &Finished, (what, done, total): (&'static str, usize, usize)) -> UpliftError {
+        let Some(checkpoint) = self.checkpoint else { return UpliftError::Interrupted };
+        match checkpoint.save(finished) {
+            Ok(()) => {
+                let path = checkpoint.path().to_owned();
+                UpliftError::Paused { what, done: done as u64, total: total as u64, path }
+            }
+            Err(error) => error,
+        }
     }
 }
 

@@ -81,7 +81,14 @@ fn kept_draws(path: &Path, stored: &StoredStripes) -> Result<ResamplingPlan, Upl
 }
 
 /// Tells what is drawn from what.
-pub(super) fn announce(stored: &StoredStripes, plan: &ResamplingPlan, shares_earthquakes: bool, events: &dyn Events) {
+///
+/// # Errors
+/// A file that is damaged.
+pub(super) fn announce(
+    (file, stored): (&ResultFile, &StoredStripes),
+    plan: &ResamplingPlan,
+    events: &dyn Events,
+) -> Result<(), UpliftError> {
     events.remark("records", &stored.record_set);
     let sizes: Vec<String> = plan.sizes().iter().map(u32::to_string).collect();
     events.remark(
@@ -103,7 +110,7 @@ pub(super) fn announce(stored: &StoredStripes, plan: &ResamplingPlan, shares_ear
                 plan.unit_count()
             ),
         );
-        if !shares_earthquakes {
+        if !file.shares_earthquakes()? {
             events.note(
                 "no two pairs are known to share an earthquake: the band is that of pairs drawn one by one (column \
                  event of the manifest)",
@@ -117,4 +124,5 @@ pub(super) fn announce(stored: &StoredStripes, plan: &ResamplingPlan, shares_ear
             plan.record_count()
         ));
     }
+    Ok(())
 }

@@ -70,7 +70,7 @@ pub fn bootstrap(
     };
     let reweighing = Reweighing::of_result(&file)?;
     let (plan, plan_source) = draws(options, study, (&file, &stored), (&settings, reweighing.is_some()), events)?;
-    announce(&stored, &plan, file.shares_earthquakes()?, events);
+    announce((&file, &stored), &plan, events)?;
 
     let start = Instant::now();
     let source = Source { stored: &stored, reweighing: reweighing.as_ref(), plan: &plan, settings: &settings };

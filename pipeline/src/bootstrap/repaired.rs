@@ -8,7 +8,7 @@ use uplift_bootstrap::{Band, Interval, ResamplingPlan, simultaneous_bands};
 use uplift_motion::IntensityMeasure;
 use uplift_risk::{PooledDemand, RecordSample};
 
-use super::bands::{BandSettings, RepairedBands, SpectraBands};
+use super::bands::{BandSettings, RepairedBands, SpectraBands, bands_of_numbers, numbers_of_bands};
 use crate::array::Array;
 use crate::consistency::Reweighing;
 use crate::error::UpliftError;
@@ -43,7 +43,7 @@ impl SiteShape {
 impl SiteBands {
     /// All numbers in a row, for a checkpoint.
     pub(super) fn numbers(&self) -> Vec<f64> {
-        let bands = self.bands.iter().flat_map(|band| [band.lower_m, band.median_m, band.upper_m]);
+        let bands = numbers_of_bands(&self.bands);
         let simultaneous = self.simultaneous_m.iter().flat_map(|limits| [limits.0, limits.1]);
         bands.chain(simultaneous).chain(self.spectra_m.iter().copied()).chain(self.failed.iter().copied()).collect()
     }
@@ -53,9 +53,8 @@ impl SiteBands {
         let (bands, rest) = numbers.split_at_checked(3 * shape.cells())?;
         let (limits, rest) = rest.split_at_checked(if simultaneous { 2 * shape.cells() } else { 0 })?;
         let (spectra_m, failed) = rest.split_at_checked(shape.poes * shape.strengths)?;
-        let band = |band: &[f64]| Band { lower_m: band[0], median_m: band[1], upper_m: band[2] };
         (failed.len() == shape.sizes).then(|| Self {
-            bands: bands.chunks_exact(3).map(band).collect(),
+            bands: bands_of_numbers(bands),
             simultaneous_m: limits.chunks_exact(2).map(|limits| (limits[0], limits[1])).collect(),
             spectra_m: spectra_m.to_vec(),
             failed: failed.to_vec(),
@@ -94,7 +93,7 @@ pub(super) fn bands_of_site(
         let (poe, size, strength) = (cell / (sizes * strengths), cell / strengths % sizes, cell % strengths);
         let without_each_m = &without_each[(strength * poes + poe) * units..][..units];
         let of_sample = (without_each_m, plan.units_drawn(plan.sizes()[size]));
-        settings.band(replicates_m(strength, poe, size), &mut Vec::new(), of_set_m[strength][poe], of_sample)
+        settings.band(replicates_m(strength, poe, size), of_set_m[strength][poe], of_sample)
     };
     let bands = (0..poes * sizes * strengths).into_par_iter().map(of_cell).collect();
     let spectra = if settings.simultaneous { poes * sizes } else { 0 };

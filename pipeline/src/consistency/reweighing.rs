@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 use uplift_bootstrap::weighted_replicates;
-use uplift_consistency::{Exponents, RecordSet as ScaledSet, ScaledAnalysis, Scratch, Solver};
+use uplift_consistency::{Exponents, RecordSet as ScaledSet, Repaired, ScaledAnalysis, Scratch, Solver};
 use uplift_motion::IntensityMeasure;
 use uplift_risk::{PooledDemand, REPLICATES_AT_ONCE, RecordSample, RiskCurve, RunWeights};
 
@@ -42,19 +42,14 @@ impl Reweighing {
     }
 
     /// The repaired analysis of the records scaled to `measure` at a site.
-    fn finding(&self, measure: IntensityMeasure, site: usize) -> Option<&Finding> {
-        let is_own = |own: &&Finding| own.site == site && own.scaled_to == measure && own.repaired().is_some();
-        self.findings.iter().find(is_own)
-    }
-
-    /// Whether there are repaired spectra of the records scaled to `measure` at a site.
-    pub(crate) fn is_repaired(&self, measure: IntensityMeasure, site: usize) -> bool {
-        self.finding(measure, site).is_some()
+    fn repaired(&self, measure: IntensityMeasure, site: usize) -> Option<(&Finding, &Repaired)> {
+        let finding = self.findings.iter().find(|own| own.site == site && own.scaled_to == measure)?;
+        Some((finding, finding.repaired()?))
     }
 
     /// The weights of the whole set, by which it brings a site's hazard; none where there is no repair.
     pub(crate) fn weights(&self, measure: IntensityMeasure, site: usize) -> Option<&RunWeights> {
-        Some(&self.finding(measure, site)?.repaired()?.weights)
+        Some(&self.repaired(measure, site)?.1.weights)
     }
 
     /// Numbers by which a checkpoint knows the weights again: what the set's own repair came to.
@@ -79,9 +74,9 @@ impl Reweighing {
         demands: &[PooledDemand],
         targets_per_year: &[f64],
     ) -> Result<Option<Vec<Vec<f64>>>, UpliftError> {
-        let Some(repaired) = self.finding(measure, site).and_then(Finding::repaired) else { return Ok(None) };
+        let Some(weights) = self.weights(measure, site) else { return Ok(None) };
         let of_strength = |demand: &PooledDemand| {
-            let ordinates = RiskCurve::weighted(demand, &repaired.weights)?.exact_ordinates(targets_per_year)?;
+            let ordinates = RiskCurve::weighted(demand, weights)?.exact_ordinates(targets_per_year)?;
             Ok(ordinates.iter().map(|ordinate| ordinate.displacement_m).collect())
         };
         demands.par_iter().map(of_strength).collect::<Result<_, UpliftError>>().map(Some)
@@ -104,10 +99,8 @@ impl Reweighing {
         samples: &[RecordSample],
         is_cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<Reweighed>, UpliftError> {
-        let Some(finding) = self.finding(measure, site) else { return Ok(None) };
-        let (Some(repaired), set) = (finding.repaired(), self.question.set(measure, finding.other)?) else {
-            return Ok(None);
-        };
+        let Some((finding, repaired)) = self.repaired(measure, site) else { return Ok(None) };
+        let set = self.question.set(measure, finding.other)?;
         let Some(analysis) = self.analysis(finding, &set)? else { return Ok(None) };
         let solver = Solver::new(&analysis, self.question.settings.smoothness)?;
         let of_portion = |samples: &[RecordSample]| {

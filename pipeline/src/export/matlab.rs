@@ -5,9 +5,8 @@ mod level_5;
 use super::Export;
 use super::added::Influence;
 use crate::alarms::Alarm;
-use crate::array::Array;
 use crate::error::UpliftError;
-use crate::result::{Fit, StoredSpectra, flag_number};
+use crate::result::{Fit, StoredSpectra, StoredSpectraBands, flag_number};
 use level_5::{MatFile, Shape};
 
 /// A coefficient of a spectrum.
@@ -132,17 +131,17 @@ impl Export {
             let key = of.measure.key();
             let spectra = Shape(vec![strengths.len(), sizes.len(), poes.len(), sites.len()]);
             let figures = Shape(vec![sizes.len(), poes.len(), sites.len()]);
-            let mut add = |key: &str, limits_m: &[Array<4>; 3], [errors, ranges]: [&Array<3>; 2]| {
-                for (name, limits) in bands.limit_names().iter().zip(limits_m) {
+            let mut add = |key: &str, own: &StoredSpectraBands| {
+                for (name, limits) in bands.limit_names().iter().zip(&own.limits_m) {
                     file.numbers(&format!("{}_{key}_m", name.trim_end_matches("_m")), &spectra, limits.values());
                 }
-                file.numbers(&format!("e_median_{key}_pct"), &figures, errors.values());
-                file.numbers(&format!("r_90ci_{key}_pct"), &figures, ranges.values());
+                file.numbers(&format!("e_median_{key}_pct"), &figures, own.error_of_median.values());
+                file.numbers(&format!("r_90ci_{key}_pct"), &figures, own.range_of_interval.values());
             };
-            add(key, &of.limits_m, [&of.error_of_median, &of.range_of_interval]);
+            add(key, &of.plain);
             if let Some(own) = &of.repaired {
                 let key = format!("consistent_{key}");
-                add(&key, &own.limits_m, [&own.error_of_median, &own.range_of_interval]);
+                add(&key, &own.bands);
                 let shape = Shape(vec![sizes.len(), sites.len()]);
                 file.numbers(&format!("failed_{key}"), &shape, own.failed.values());
             }

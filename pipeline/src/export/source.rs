@@ -7,8 +7,12 @@ use uplift_study::UniformRiskStudy;
 
 use super::added::Added;
 use crate::alarms::{Alarm, alarms};
+use crate::array::Array;
 use crate::error::UpliftError;
-use crate::result::{Head, ResultFile, Spectrum, StoredBands, StoredConsistency, StoredHazard, StoredSpectra};
+use crate::result::{
+    Head, MeasureBands, ResultFile, Spectrum, StoredBands, StoredConsistency, StoredHazard, StoredRepairedBands,
+    StoredSpectra, StoredSpectraBands,
+};
 
 /// The spectra, bands and coefficients of a result, and where they come from.
 pub struct Export {
@@ -106,35 +110,40 @@ impl Export {
     /// The bands of a spectrum, by size of the sample: the number of records and lower limit, median and upper limit
     /// over the strengths, m.
     pub(super) fn bands_of(&self, row: &Row<'_>) -> Vec<BandOf<'_>> {
-        let Some(bands) = &self.bands else { return Vec::new() };
-        let Some(of_measure) = bands.of(row.spectrum.measure) else { return Vec::new() };
-        let [site, poe] = row.at;
-        let of_size = |(size, &records): (usize, &u32)| BandOf {
-            records,
-            limits_m: of_measure.limits_m.each_ref().map(|limits| limits.block([site, poe, size])),
-            error_of_median_pct: of_measure.error_of_median[[site, poe, size]],
-            range_of_interval_pct: of_measure.range_of_interval[[site, poe, size]],
-            failed_share: None,
-        };
-        bands.sizes.iter().enumerate().map(of_size).collect()
+        self.bands_of_measure(row).map(|of| self.by_size(&of.plain, None, row.at)).unwrap_or_default()
     }
 
     /// The same of the repaired spectrum; none where it has none.
     pub(super) fn repaired_bands_of(&self, row: &Row<'_>) -> Vec<BandOf<'_>> {
-        let Some(bands) = &self.bands else { return Vec::new() };
-        let [site, poe] = row.at;
-        let repaired = bands.of(row.spectrum.measure).and_then(|of| of.repaired.as_ref());
-        let Some(of) = repaired.filter(|of| of.failed.block([site]).iter().all(|share| !share.is_nan())) else {
-            return Vec::new();
-        };
+        let is_whole = |of: &&StoredRepairedBands| of.failed.block([row.at[0]]).iter().all(|share| !share.is_nan());
+        let repaired = self.bands_of_measure(row).and_then(|of| of.repaired.as_ref()).filter(is_whole);
+        repaired.map(|of| self.by_size(&of.bands, Some(&of.failed), row.at)).unwrap_or_default()
+    }
+
+    /// Those of the plain spectrum, then those of the repaired one, with what the weights of their records are.
+    pub(super) fn all_bands_of(&self, row: &Row<'_>) -> impl Iterator<Item = (&'static str, BandOf<'_>)> {
+        let plain = self.bands_of(row).into_iter().map(|band| ("alike", band));
+        plain.chain(self.repaired_bands_of(row).into_iter().map(|band| ("repaired", band)))
+    }
+
+    fn bands_of_measure(&self, row: &Row<'_>) -> Option<&MeasureBands> {
+        self.bands.as_ref()?.of(row.spectrum.measure)
+    }
+
+    fn by_size<'a>(
+        &self,
+        of: &'a StoredSpectraBands,
+        failed: Option<&Array<2>>,
+        [site, poe]: [usize; 2],
+    ) -> Vec<BandOf<'a>> {
         let of_size = |(size, &records): (usize, &u32)| BandOf {
             records,
             limits_m: of.limits_m.each_ref().map(|limits| limits.block([site, poe, size])),
             error_of_median_pct: of.error_of_median[[site, poe, size]],
             range_of_interval_pct: of.range_of_interval[[site, poe, size]],
-            failed_share: Some(of.failed[[site, size]]),
+            failed_share: failed.map(|failed| failed[[site, size]]),
         };
-        bands.sizes.iter().enumerate().map(of_size).collect()
+        self.bands.iter().flat_map(|bands| bands.sizes.iter().enumerate()).map(of_size).collect()
     }
 
     /// Whether there are bands of repaired spectra.

@@ -108,25 +108,22 @@ pub(super) fn influence_on_repaired(
     let (records, bins) = (stored.records.len(), measure.levels.len() + 1);
     let demand = |strength| measure.demand(strength);
     let demands: Vec<PooledDemand> = (0..strengths).into_par_iter().map(demand).collect::<Result<_, UpliftError>>()?;
-    let samples = left_out(records)?;
-    let (mut exact, mut shares) =
-        (vec![f64::NAN; sites * poes * strengths], vec![f64::NAN; sites * poes * strengths * bins]);
-    let mut without = vec![f64::NAN; sites * poes * records * strengths];
-    let targets = &stored.targets_per_year;
+    let (samples, targets) = (left_out(records)?, &stored.targets_per_year);
+    let mut of_sites = Vec::with_capacity(sites);
     for site in 0..sites {
         let of = (measure.measure, site);
-        let Some(weights) = reweighing.weights(measure.measure, site) else { continue };
-        let Some(of_set_m) = reweighing.ordinates_of_set(of, &demands, targets)? else { continue };
-        for (strength, demand) in demands.iter().enumerate() {
+        let anew = reweighing.ordinates(of, &demands, targets, &samples, &is_cancelled)?;
+        let of_set_m = reweighing.ordinates_of_set(of, &demands, targets)?;
+        let (Some(weights), Some(of_set_m), Some(anew)) = (reweighing.weights(of.0, of.1), of_set_m, anew) else {
+            of_sites.push(None);
+            continue;
+        };
+        // [strength][poe][bin]
+        let shares_at = |(demand, of_set_m): (&PooledDemand, &Vec<f64>)| -> Result<Vec<Vec<f64>>, UpliftError> {
             let curve = RiskCurve::weighted(demand, weights)?;
-            for (poe, &ordinate_m) in of_set_m[strength].iter().enumerate() {
-                let place = (site * poes + poe) * strengths + strength;
-                exact[place] = ordinate_m;
-                let own = shares_of(&curve, ordinate_m, bins)?;
-                shares[place * bins..][..bins].copy_from_slice(&own);
-            }
-        }
-        let Some(anew) = reweighing.ordinates(of, &demands, targets, &samples, &is_cancelled)? else { continue };
+            of_set_m.iter().map(|&ordinate_m| shares_of(&curve, ordinate_m, bins)).collect()
+        };
+        let shares = demands.iter().zip(&of_set_m).map(shares_at).collect::<Result<Vec<_>, _>>()?;
         let failing: Vec<&str> = (stored.records.iter().zip(&anew.is_reached))
             .filter_map(|(record, is_reached)| (!is_reached).then_some(record.as_str()))
             .collect();
@@ -138,25 +135,21 @@ pub(super) fn influence_on_repaired(
                 failing.join(", ")
             ));
         }
-        for (place, &ordinate_m) in anew.ordinates_m.iter().enumerate() {
-            let (record, poe, strength) =
-                (place % samples.len(), place / samples.len() % poes, place / samples.len() / poes);
-            without[((site * poes + poe) * records + record) * strengths + strength] = ordinate_m;
-        }
+        of_sites.push(Some((of_set_m, shares, anew.ordinates_m)));
     }
-    let of_record = |[site, poe, record, strength]: [usize; 4]| {
-        without[((site * poes + poe) * records + record) * strengths + strength]
-    };
-    let spectrum = |site: usize, poe: usize, strength: usize| (site * poes + poe) * strengths + strength;
-    Ok(Influence {
-        measure: measure.measure,
-        repaired: true,
-        exact_m: Array::from_fn([sites, poes, strengths], |[site, poe, strength]| exact[spectrum(site, poe, strength)]),
-        without_m: (records > 1).then(|| Array::from_fn([sites, poes, records, strengths], of_record)),
-        shares: Array::from_fn([sites, poes, strengths, bins], |[site, poe, strength, bin]| {
-            shares[spectrum(site, poe, strength) * bins + bin]
-        }),
-    })
+    let exact_m = Array::from_fn([sites, poes, strengths], |[site, poe, strength]| {
+        of_sites[site].as_ref().map_or(f64::NAN, |(of_set_m, ..)| of_set_m[strength][poe])
+    });
+    let shares = Array::from_fn([sites, poes, strengths, bins], |[site, poe, strength, bin]| {
+        of_sites[site].as_ref().map_or(f64::NAN, |(_, shares, _)| shares[strength][poe][bin])
+    });
+    let without_m = (records > 1).then(|| {
+        Array::from_fn([sites, poes, records, strengths], |[site, poe, record, strength]| {
+            let place = (strength * poes + poe) * records + record;
+            of_sites[site].as_ref().map_or(f64::NAN, |(.., without_m)| without_m[place])
+        })
+    });
+    Ok(Influence { measure: measure.measure, repaired: true, exact_m, without_m, shares })
 }
 
 /// The influence of every record on one spectrum, the most influential first; empty where no ordinate lies above

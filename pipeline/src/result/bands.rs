@@ -27,25 +27,28 @@ pub struct StoredBands {
 pub struct MeasureBands {
     /// The measure.
     pub measure: IntensityMeasure,
+    /// Those of the spectra of records that count alike.
+    pub plain: StoredSpectraBands,
+    /// Those of the repaired spectra; none where the result had none at the time.
+    pub repaired: Option<StoredRepairedBands>,
+}
+
+/// Bands of the spectra of all sites, with the figures of Table 4.1.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StoredSpectraBands {
     /// Lower limits, medians and upper limits, each `[site, poe, size, strength]`, m.
     pub limits_m: [Array<4>; 3],
     /// Errors of the median `[site, poe, size]`, % (Eq. 4.9); NaN where an ordinate is censored or 0.
     pub error_of_median: Array<3>,
     /// Widths of the interval `[site, poe, size]`, % (Eq. 4.10); NaN where an ordinate is censored or 0.
     pub range_of_interval: Array<3>,
-    /// Those of the repaired spectra; none where the result had none at the time.
-    pub repaired: Option<RepairedMeasureBands>,
 }
 
-/// The bands of the repaired spectra of one measure; NaN at sites without repair.
+/// The bands of repaired spectra; NaN at sites without repair.
 #[derive(Debug, Clone, PartialEq)]
-pub struct RepairedMeasureBands {
-    /// Lower limits, medians and upper limits, each `[site, poe, size, strength]`, m.
-    pub limits_m: [Array<4>; 3],
-    /// Errors of the median `[site, poe, size]`, % (Eq. 4.9).
-    pub error_of_median: Array<3>,
-    /// Widths of the interval `[site, poe, size]`, % (Eq. 4.10).
-    pub range_of_interval: Array<3>,
+pub struct StoredRepairedBands {
+    /// The bands.
+    pub bands: StoredSpectraBands,
     /// Share of the samples whose weights do not bring the site's hazard `[site, size]`.
     pub failed: Array<2>,
 }
@@ -124,20 +127,21 @@ impl ResultFile {
                 let limit = |name: &String| self.array(&path(name), [site, poe, size, strength]);
                 let [lower, median, upper] = &names;
                 let figures = |name| self.array(&path(name), spectra);
-                let limits_m = [limit(lower)?, limit(median)?, limit(upper)?];
-                Ok::<_, UpliftError>((limits_m, figures(bootstrap::E_MEDIAN)?, figures(bootstrap::R_90CI)?))
+                Ok::<_, UpliftError>(StoredSpectraBands {
+                    limits_m: [limit(lower)?, limit(median)?, limit(upper)?],
+                    error_of_median: figures(bootstrap::E_MEDIAN)?,
+                    range_of_interval: figures(bootstrap::R_90CI)?,
+                })
             };
-            let (limits_m, error_of_median, range_of_interval) = arrays(&|name| band(measure, name))?;
+            let plain = arrays(&|name| band(measure, name))?;
             let of_repair = |name: &str| repaired_band(measure, name);
             let failed = of_repair(bootstrap::FAILED);
             let repaired = if self.reader.exists(&failed) {
-                let (limits_m, error_of_median, range_of_interval) = arrays(&of_repair)?;
-                let failed = self.array(&failed, [site, size])?;
-                Some(RepairedMeasureBands { limits_m, error_of_median, range_of_interval, failed })
+                Some(StoredRepairedBands { bands: arrays(&of_repair)?, failed: self.array(&failed, [site, size])? })
             } else {
                 None
             };
-            measures.push(MeasureBands { measure, limits_m, error_of_median, range_of_interval, repaired });
+            measures.push(MeasureBands { measure, plain, repaired });
         }
         Ok(Some(StoredBands { sizes, unit: self.drawn_unit()?, confidence, measures }))
     }

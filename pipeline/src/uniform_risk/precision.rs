@@ -4,7 +4,7 @@
 
 use rayon::prelude::*;
 use serde::Serialize;
-use uplift_bootstrap::{BootstrapError, Replicates, ResamplingPlan};
+use uplift_bootstrap::{Band, BootstrapError, Replicates, ResamplingPlan, units};
 use uplift_fragility::quantile;
 use uplift_risk::PooledDemand;
 use uplift_study::UniformRiskStudy;
@@ -72,16 +72,18 @@ pub(crate) fn precision(
     if !(2..=MOST_RECORDS).contains(&records) {
         return Ok(None);
     }
+    let shown = nearest(&study.strengths, &STRENGTHS);
+    let demands: Vec<PooledDemand> =
+        shown.into_iter().map(|strength| pooled_demand(stripes, strength)).collect::<Result<_, _>>()?;
     let widths = |plan: &ResamplingPlan| -> Result<Vec<f64>, UpliftError> {
         let of_site = |demand: &PooledDemand, site: &SiteHazard| -> Result<Option<f64>, BootstrapError> {
             let replicates = Replicates::of(demand, &[&site.curve.weights], &[target], plan)?;
             Ok(half_width(replicates.ordinates_m(0, 0, 0)))
         };
         let mut all = Vec::new();
-        for strength in nearest(&study.strengths, &STRENGTHS) {
-            let demand = pooled_demand(stripes, strength)?;
+        for demand in &demands {
             let of_sites: Result<Vec<Option<f64>>, BootstrapError> =
-                hazard.par_iter().map(|site| of_site(&demand, site)).collect();
+                hazard.par_iter().map(|site| of_site(demand, site)).collect();
             all.extend(of_sites?.into_iter().flatten());
         }
         all.sort_by(f64::total_cmp);
@@ -89,7 +91,8 @@ pub(crate) fn precision(
     };
     let by_record = widths(&ResamplingPlan::draw(records, &[size], REPLICATES, study.seed)?)?;
     let [Some(&least), Some(&most)] = [by_record.first(), by_record.last()] else { return Ok(None) };
-    let (counts, is_shared) = (counts(&event_of), question.shares_earthquakes());
+    let counts: Vec<usize> = units(&event_of).iter().map(Vec::len).collect();
+    let is_shared = question.shares_earthquakes();
     let by_event = if is_shared && counts.len() > 1 {
         widths(&ResamplingPlan::draw_events(&event_of, &[size], REPLICATES, study.seed)?)?
     } else {
@@ -113,18 +116,8 @@ pub(crate) fn precision(
 fn half_width(ordinates_m: &[f64]) -> Option<f64> {
     let mut sorted = ordinates_m.to_vec();
     sorted.sort_unstable_by(f64::total_cmp);
-    let tail = 0.5 * (1.0 - CONFIDENCE);
-    let [lower_m, median_m, upper_m] = [tail, 0.5, 1.0 - tail].map(|level| quantile(&sorted, level));
+    let Band { lower_m, median_m, upper_m } = Band::percentile(&sorted, CONFIDENCE);
     (median_m > 0.0 && upper_m.is_finite()).then(|| 0.5 * (upper_m - lower_m) / median_m)
-}
-
-/// How many records each earthquake has.
-fn counts(event_of: &[usize]) -> Vec<usize> {
-    let mut counts = std::collections::BTreeMap::new();
-    for event in event_of {
-        *counts.entry(event).or_insert(0) += 1;
-    }
-    counts.into_values().collect()
 }
 
 impl Precision {
@@ -161,7 +154,6 @@ mod tests {
         assert_eq!(half_width(&ordinates), Some(45.0 / 51.0));
         assert_eq!(half_width(&[0.0; 9]), None);
         assert_eq!(half_width(&[1.0, 1.0, f64::INFINITY]), None);
-        assert_eq!(counts(&[4, 1, 4, 4]), [1, 3]);
     }
 
     #[test]

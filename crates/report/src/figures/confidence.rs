@@ -13,7 +13,7 @@ type Limits = [Array<4>; 3];
 impl FigureSource {
     /// The bands of the plain spectra by `measure`.
     pub(super) fn bands_of(&self, measure: IntensityMeasure) -> Option<&Limits> {
-        Some(&self.bands.as_ref()?.of(measure)?.limits_m)
+        Some(&self.bands.as_ref()?.of(measure)?.plain.limits_m)
     }
 
     /// Band and median of one site, probability and size, by position.
@@ -43,8 +43,8 @@ enum Of {
 impl Of {
     fn limits(self, bands: &MeasureBands) -> Option<&Limits> {
         match self {
-            Self::Plain => Some(&bands.limits_m),
-            Self::Repaired => Some(&bands.repaired.as_ref()?.limits_m),
+            Self::Plain => Some(&bands.plain.limits_m),
+            Self::Repaired => Some(&bands.repaired.as_ref()?.bands.limits_m),
         }
     }
 

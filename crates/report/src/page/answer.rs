@@ -68,8 +68,8 @@ pub(super) fn answer(source: &FigureSource) -> Option<Answer> {
         });
         Case { band: band.filter(|_| u_m.is_finite()), ..without_band(strength, u_m) }
     };
-    let plain_m = bands.map(|(_, bands)| &bands.limits_m);
-    let repaired_m = bands.and_then(|(_, bands)| Some(&bands.repaired.as_ref()?.limits_m));
+    let plain_m = bands.map(|(_, bands)| &bands.plain.limits_m);
+    let repaired_m = bands.and_then(|(_, bands)| Some(&bands.repaired.as_ref()?.bands.limits_m));
     let repaired = |site: usize| -> Vec<Case> {
         let Some(u_m) = source.repaired(of.measure, site) else { return Vec::new() };
         shown.iter().map(|&strength| case(site, strength, u_m[[site, poe, strength]], repaired_m)).collect()

@@ -4,10 +4,9 @@ use super::answer::{answer, significant};
 use super::consistency;
 use super::{Content, Part, Table};
 use crate::figures::FigureSource;
-use uplift::Array;
 use uplift::UpliftError;
 use uplift::influence::{level_of_share, rank_records};
-use uplift::result::{MeasureBands, ResultFile, StoredBands, StoredSpectra};
+use uplift::result::{MeasureBands, ResultFile, StoredBands, StoredSpectra, StoredSpectraBands};
 use uplift::text::{metres, nearest, per_cent, risk_in_words, risk_name, spectrum_words};
 
 /// Strengths in the table of displacements, and in that of intensities.
@@ -242,25 +241,23 @@ fn coefficients(spectra: &StoredSpectra) -> Table {
 fn confidence(stored: &StoredSpectra, bands: &StoredBands) -> Table {
     let number = |value: f64, digits: usize| if value.is_nan() { "-".to_owned() } else { format!("{value:.digits$}") };
     let rows = |of_measure: &MeasureBands| -> Vec<Vec<String>> {
-        let row = |at: [usize; 3], measure: String, [error, range]: [&Array<3>; 2]| {
+        let row = |at: [usize; 3], measure: String, own: &StoredSpectraBands| {
             let [site, poe, size] = at;
             vec![
                 stored.sites[site].clone(),
                 measure,
                 risk_name(stored.poes[poe], stored.years),
                 bands.sizes[size].to_string(),
-                number(error[at], 1),
-                number(range[at], 0),
+                number(own.error_of_median[at], 1),
+                number(own.range_of_interval[at], 0),
             ]
         };
         let label = of_measure.measure.label();
-        let plain = [&of_measure.error_of_median, &of_measure.range_of_interval];
         let mut rows = Vec::new();
-        for (at @ [site, _, size], _) in of_measure.error_of_median.blocks::<3>() {
-            rows.push(row(at, label.to_owned(), plain));
+        for (at @ [site, _, size], _) in of_measure.plain.error_of_median.blocks::<3>() {
+            rows.push(row(at, label.to_owned(), &of_measure.plain));
             if let Some(own) = of_measure.repaired.as_ref().filter(|own| !own.failed[[site, size]].is_nan()) {
-                let figures = [&own.error_of_median, &own.range_of_interval];
-                rows.push(row(at, spectrum_words(label, true), figures));
+                rows.push(row(at, spectrum_words(label, true), &own.bands));
             }
         }
         rows

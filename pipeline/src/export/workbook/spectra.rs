@@ -63,9 +63,7 @@ impl Export {
         let names = [lower.as_str(), "median", upper.as_str()];
         let mut column = 1;
         for row in self.rows() {
-            let plain = self.bands_of(&row).into_iter().map(|band| ("alike", band));
-            let repaired = self.repaired_bands_of(&row).into_iter().map(|band| ("repaired", band));
-            for (weights, band) in plain.chain(repaired) {
+            for (weights, band) in self.all_bands_of(&row) {
                 for (name, values) in names.iter().zip(band.limits_m) {
                     head_of(sheet, column, &row)?;
                     if has_repaired {

@@ -42,9 +42,7 @@ impl Export {
         of_headings(sheet, &headings)?;
         let mut line = 1;
         for row in self.rows() {
-            let plain = self.bands_of(&row).into_iter().map(|band| ("alike", band));
-            let repaired = self.repaired_bands_of(&row).into_iter().map(|band| ("repaired", band));
-            for (weights, band) in plain.chain(repaired) {
+            for (weights, band) in self.all_bands_of(&row) {
                 self.line_of(sheet, line, &row)?;
                 sheet.number((line, OF), f64::from(band.records), Shown::Whole, "")?;
                 sheet.number((line, OF + 1), band.error_of_median_pct, Shown::OneDecimal, "")?;
