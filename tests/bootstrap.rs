@@ -303,11 +303,19 @@ fn measures_are_compared() {
     let study = SmallStudy::new();
     study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
     let text = study.uplift(&["measures", "r.h5"]).ok().stdout;
-    for word in ["Efficiency", "Sufficiency", "PGV magnitude", "PGA ln_duration", "more efficient"] {
+    for word in ["Efficiency", "Sufficiency", "SA(1.0) +", "magnitude\n", "ln_duration\n", "most efficient"] {
         assert!(text.contains(word), "{word}:\n{text}");
     }
     let rows = rows(&study.uplift(&["measures", "r.h5", "--json"]).ok().stdout);
-    assert_eq!(rows.len(), 20);
+    // ten measures, ten strengths
+    assert_eq!(rows.len(), 100);
+    // each strength has each place once
+    for strength in 0..10 {
+        let mut places: Vec<u64> =
+            rows.iter().skip(strength).step_by(10).filter_map(|row| row["rank"].as_u64()).collect();
+        places.sort_unstable();
+        assert!(places.is_empty() || places == (1..=10).collect::<Vec<u64>>(), "{places:?}");
+    }
     for row in &rows {
         for trend in row["trends"].as_object().unwrap().values() {
             if let Some(p_value) = trend["p_value"].as_f64() {

@@ -226,3 +226,24 @@ fn what_is_made_of_a_repair_is_made_of_its_weights() {
         .uplift(&["design", &frame, "--urs", "r.h5", "--site", "Montreux", "--repaired"])
         .fails(4, &["has no repaired spectrum of Montreux by PGV", "uplift consistency"]);
 }
+
+// A disaggregation of the hazard by PGV at 10 % in 50 years, as the engine writes it.
+#[test]
+fn the_earthquakes_of_the_hazard_stand_beside_those_of_the_records() {
+    let study = SmallStudy::repaired();
+    let head = "#,,,,\"generated_by='OpenQuake engine 3.16.0', investigation_time=50.0, lon=0.0, lat=0.0\"";
+    study.write("mr.csv", &format!("{head}\nimt,poe,mag,dist,mean\nPGV,0.1,5.5,10,0.025\nPGV,0.1,6.5,30,0.075\n"));
+    let run = |file: &str, more: &[&str]| {
+        study.uplift(&[&["consistency", "r.h5", "--force", "--disaggregation", file], more].concat())
+    };
+    let text = run("Montreux=mr.csv", &[]).ok().stdout;
+    assert!(text.contains("M of hazard") && text.contains("Montreux"), "{text}");
+    let found: Value = serde_json::from_str(&run("montreux=mr.csv", &["--json"]).ok().stdout).unwrap();
+    let rows = found["earthquakes"].as_array().unwrap();
+    assert_eq!(rows.len(), 1);
+    let mean = rows[0]["mean_magnitude"].as_f64().unwrap();
+    assert!((mean - 6.25).abs() < 0.02, "{mean}");
+    run("mr.csv", &[]).fails(2, &["--disaggregation SITE=FILE", "Montreux"]);
+    run("Montreux=r.urs.csv", &[]).fails(4, &["first line"]);
+    run("Montreux=missing.csv", &[]).fails(4, &["missing.csv"]);
+}

@@ -58,12 +58,23 @@ fn influence_and_efficiency_are_exported_once_they_are_there() {
     let sums: Vec<f64> = shares.iter().filter_map(|shares| shares.iter().copied().sum::<Option<f64>>()).collect();
     assert!(sums.len() > 5 && sums.iter().all(|sum| (sum - 1.0).abs() < 1e-9), "{sums:?}");
     let efficiency = some["efficiency"].as_array().unwrap();
-    assert_eq!((efficiency.len(), efficiency[0]["dispersion_rocking"].as_array().unwrap().len()), (2, 10));
+    // PGV and PGA, by which records are scaled, and eight more
+    assert_eq!((efficiency.len(), efficiency[0]["dispersion_rocking"].as_array().unwrap().len()), (10, 10));
+    let names: Vec<&str> = efficiency.iter().map(|of| of["im"].as_str().unwrap()).collect();
+    assert_eq!(names[..3], ["PGV", "PGA", "SA(0.5)"]);
+    assert_eq!(efficiency[2]["scaled_to"], "PGV");
     assert!(efficiency[0]["trends"][0]["p_value"].as_array().unwrap().len() == 10, "{}", efficiency[0]);
     let head = head_of_table(&study);
     assert!(head.ends_with("level_p05,level_p50,level_p95,dispersion_rocking,dispersion_initiation"), "{head}");
-    for name in ["share_pgv", "bin_pga", "u_without_pgv_m", "record", "dispersion_rocking_pga", "p_value_magnitude_pgv"]
-    {
+    for name in [
+        "share_pgv",
+        "bin_pga",
+        "u_without_pgv_m",
+        "record",
+        "dispersion_rocking_pga",
+        "p_value_magnitude_pgv",
+        "dispersion_level_sa_1s",
+    ] {
         assert!(matlab_has(&study, name), "{name}");
     }
     let sheets = sheets(&study);

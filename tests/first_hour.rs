@@ -112,3 +112,18 @@ fn a_footnote_stands_where_a_star_does() {
     let (table, notes) = shown.split_once("probabilities in").unwrap();
     assert_eq!(table.contains(" *\n") || table.contains(" *  "), table.ends_with("* c2 held at 0; "), "{shown}{notes}");
 }
+
+#[test]
+fn a_quiet_table_is_the_table_and_says_what_its_risks_are() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    let (told, quiet) = (["table", "r.h5"], ["table", "r.h5", "-q", "--return-period", "475"]);
+    let told = study.uplift(&told).ok().stdout;
+    assert!(told.contains("Before you use these numbers") && told.contains("probabilities in 50 years"), "{told}");
+    let quiet = study.uplift(&quiet).ok().stdout;
+    assert!(quiet.contains("475 years") && !quiet.contains("Before you use"), "{quiet}");
+    assert!(!quiet.contains("probabilities"), "{quiet}");
+    // zero has no sign in a table
+    let csv = std::fs::read_to_string(study.path().join("r.urs.csv")).unwrap();
+    assert!(csv.contains(",0.0") && !csv.contains(",-0.0"), "{csv}");
+}

@@ -25,6 +25,7 @@ mod hazard;
 mod instructions;
 mod levels;
 mod limits;
+mod measures;
 mod mistakes;
 mod outputs;
 mod overturning;

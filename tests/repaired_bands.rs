@@ -46,7 +46,7 @@ fn a_replicate_is_weighed_by_weights_of_its_own() {
     let plan = file.resampling_plan().unwrap().unwrap();
     for (own, other) in [(0, 1), (1, 0)] {
         let measure = &stripes.measures[own];
-        let [x, y] = [own, other].map(|at| records.intensities(stripes.measures[at].measure));
+        let [x, y] = [own, other].map(|at| records.intensities(stripes.measures[at].measure).unwrap());
         let row = |(pair, (&scaled_to, &other)): (usize, (&f64, &f64))| {
             let seismology = Seismology::default();
             SetRecord { scaled_to, other, pair, event: None, seismology }

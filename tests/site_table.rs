@@ -261,7 +261,7 @@ fn curves_that_do_not_cover_the_levels_and_sites_that_overturn_are_rows_with_a_r
     let done = study.uplift(&["run", "study.toml", "-o", "r.h5", "--set", "oscillator.capacity_m=0.002"]).ok();
     for words in [
         "2 of 7 sites have no hazard curve that can be used: 3 (12, 45): ",
-        "leave the level out of [pgv]",
+        "leave the level out of pgv.levels_cm_s",
         "have ordinates that are censored",
         "have no fit",
         "1 curves of pgv-export.csv end in zeros",

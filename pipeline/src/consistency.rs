@@ -6,6 +6,7 @@
 //! | `answer` | all of it for a run |
 //! | `question` | what is asked of: records, stripes and the hazard of every measure, from a run or from a result |
 //! | `finding` | the answer for one set of stripes at one site, with the repair |
+//! | `earthquakes` | those of the site's hazard, beside those of the records |
 //! | `spectra` | the spectra of repaired weights |
 //! | `reweighing` | the same for other samples of the records, each with weights of its own |
 //! | `report` | both as rows and sentences |
@@ -15,6 +16,7 @@
 
 mod answer;
 mod asked;
+mod earthquakes;
 mod finding;
 mod job;
 mod question;
@@ -25,6 +27,7 @@ mod write;
 
 pub(crate) use answer::Answer;
 pub(crate) use asked::consistency_of_asked;
+pub use earthquakes::EarthquakeRow;
 pub use finding::Finding;
 pub use job::{ConsistencyOptions, consistency};
 pub(crate) use question::Question;

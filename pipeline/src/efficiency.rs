@@ -3,10 +3,12 @@
 mod covariates;
 mod job;
 mod of_measure;
+mod reaching;
 mod report;
+mod restated;
 mod write;
 
 pub use covariates::covariates;
-pub use job::{EfficiencyOptions, efficiency};
+pub use job::{EfficiencyOptions, efficiency, usual_measures};
 pub use of_measure::{Covariate, MeasureEfficiency, efficiency_by};
 pub use report::{EfficiencyReport, EfficiencyRow, Trend};

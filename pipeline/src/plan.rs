@@ -15,9 +15,9 @@ use crate::{displacement, uniform_risk};
 #[serde(untagged)]
 pub enum Plan {
     /// A study of uniform risk.
-    UniformRisk(uniform_risk::Plan),
+    UniformRisk(Box<uniform_risk::Plan>),
     /// A study of displacement spectra.
-    Displacement(displacement::Plan),
+    Displacement(Box<displacement::Plan>),
 }
 
 impl Plan {
@@ -40,8 +40,8 @@ pub fn plan(study: &AnyStudy, options: &RunOptions, events: &dyn Events) -> Resu
     check_outputs(study, options)?;
     let study_file = &options.study_file;
     let mut plan = match study {
-        AnyStudy::UniformRisk(study) => Plan::UniformRisk(uniform_risk::plan(study, study_file, events)?),
-        AnyStudy::Displacement(study) => Plan::Displacement(displacement::plan(study, study_file, events)?),
+        AnyStudy::UniformRisk(study) => Plan::UniformRisk(Box::new(uniform_risk::plan(study, study_file, events)?)),
+        AnyStudy::Displacement(study) => Plan::Displacement(Box::new(displacement::plan(study, study_file, events)?)),
     };
     // a study is looked at more often than it is run
     if let Some(reason) = replaced(study, options)? {

@@ -37,7 +37,8 @@ pub struct TableOptions {
 /// By which intensity measures the rows of a table are.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum TableMeasure {
-    /// PGV, as Table 4.2 is; what is to be known of the result is told as a whole.
+    /// PGV, as Table 4.2 is, or the first measure of a study without it; what is to be known of the result is told as a
+    /// whole.
     #[default]
     Usual,
     /// This one, and what is to be known of it alone.
@@ -47,10 +48,10 @@ pub enum TableMeasure {
 }
 
 impl TableMeasure {
-    /// The measure of the rows; none for all.
-    pub(crate) fn of_rows(self) -> Option<IntensityMeasure> {
+    /// The measure of the rows of a result that has spectra by `known` ones, in order; none for all.
+    pub(crate) fn of_rows(self, known: &[IntensityMeasure]) -> Option<IntensityMeasure> {
         match self {
-            Self::Usual => Some(IntensityMeasure::Pgv),
+            Self::Usual => Some(known.first().copied().unwrap_or(IntensityMeasure::Pgv)),
             Self::Only(measure) => Some(measure),
             Self::All => None,
         }

@@ -3,12 +3,12 @@
 mod risk;
 mod visible;
 
-pub use risk::{per_cent, risk_in_words, risk_name, share};
+pub use risk::{kind_of_risks, per_cent, risk_in_words, risk_name, risks_in_words, share};
 pub use visible::{is_obeyed, one_line, visible};
 
-/// A number for a table or JSON, which have no infinity and no NaN: none for these.
+/// A number for a table or JSON, which have no infinity and no NaN: none for these. Zero has no sign there.
 pub fn finite(value: f64) -> Option<f64> {
-    value.is_finite().then_some(value)
+    value.is_finite().then_some(value + 0.0)
 }
 
 /// Which spectrum, by the measure that records are scaled to: `PGV`, or `PGV, repaired`.

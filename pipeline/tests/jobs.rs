@@ -234,7 +234,7 @@ fn influence_reports_what_it_writes() {
 #[test]
 fn efficiency_reports_what_it_writes() {
     let folder = Folder::new();
-    let report = efficiency(&folder.result(), EfficiencyOptions::default(), &Silent).unwrap();
+    let report = efficiency(&folder.result(), &EfficiencyOptions::default(), &Silent).unwrap();
     assert_eq!((report.rows.len(), report.records), (2 * STRENGTHS, 4));
     for (rows, im) in report.rows.chunks(STRENGTHS).zip(["pgv", "pga"]) {
         let of = |name: &str| array(&folder.result(), &format!("/{name}"));
@@ -247,7 +247,7 @@ fn efficiency_reports_what_it_writes() {
             same(found, of(&format!("sufficiency/{im}/{covariate}/p_value")));
         }
     }
-    let stopped = efficiency(&folder.result(), EfficiencyOptions::default(), &Recorder::stopping_after(0));
+    let stopped = efficiency(&folder.result(), &EfficiencyOptions::default(), &Recorder::stopping_after(0));
     assert!(matches!(stopped, Err(UpliftError::Interrupted)));
 }
 

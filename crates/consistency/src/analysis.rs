@@ -57,15 +57,15 @@ impl<'a> ScaledAnalysis<'a> {
     ) -> Result<Self, ConsistencyError> {
         let stripes = StripeWeights::from_hazard(scaled_to, levels, extrapolation)?;
         let (first, last) = (levels.first().copied().unwrap_or(1.0), levels.last().copied().unwrap_or(1.0));
-        for (record, ratio) in set.ratios().iter().enumerate() {
-            for value in [first * ratio, last * ratio] {
+        for (record, &ratio) in set.ratios().iter().enumerate() {
+            for value in [set.brought(first, ratio), set.brought(last, ratio)] {
                 if !value.is_normal() {
                     return Err(ConsistencyError::Intensity { record, what: "other intensity at a stripe", value });
                 }
             }
         }
         let brought: Vec<f64> =
-            set.ratios().iter().flat_map(|ratio| levels.iter().map(move |level| level * ratio)).collect();
+            set.ratios().iter().flat_map(|ratio| levels.iter().map(move |&level| set.brought(level, *ratio))).collect();
         let brought = PooledDemand::new(&Stripes::new(levels, &brought)?)?;
         let range = RateRange::new(targets_per_year, &stripes, other)?;
         let target = |&rate_per_year: &f64| {

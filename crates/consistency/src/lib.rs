@@ -68,7 +68,7 @@ pub use no_repair::NoRepair;
 pub use range::{HighLimit, LowLimit, RateRange};
 pub use reach::Reach;
 pub use repair::{RepairOptions, Repaired};
-pub use set::{RecordSet, Seismology, SetRecord};
+pub use set::{Powers, RecordSet, Seismology, SetRecord};
 pub use solver::{DEFAULT_SMOOTHNESS, FIT_RATES, Fit, Scratch, Solver};
 pub use stripe::{Medians, ScaleFactors, StripeStatistics};
 pub use warning::Warning;

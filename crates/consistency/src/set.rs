@@ -30,10 +30,39 @@ pub struct SetRecord {
     pub seismology: Seismology,
 }
 
+/// The powers of the scale factor with which x and y grow: 1 for velocities and accelerations, 2 for the Arias
+/// intensity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Powers {
+    /// That of x.
+    pub scaled_to: f64,
+    /// That of y.
+    pub other: f64,
+}
+
+impl Default for Powers {
+    fn default() -> Self {
+        Self { scaled_to: 1.0, other: 1.0 }
+    }
+}
+
+impl Powers {
+    /// What x is raised to where it stands for y.
+    fn ratio(self) -> f64 {
+        self.other / self.scaled_to
+    }
+}
+
+/// x to a power; x itself where this is 1.
+fn raised(x: f64, power: f64) -> f64 {
+    if power == 1.0 { x } else { x.powf(power) }
+}
+
 /// A set of records: the same for every site.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RecordSet {
     records: Vec<SetRecord>,
+    powers: Powers,
     /// q = y/x, `[record]`.
     ratios: Vec<f64>,
     /// Records by falling q.
@@ -47,17 +76,25 @@ pub struct RecordSet {
 }
 
 impl RecordSet {
-    /// Checks the records.
+    /// Checks the records, of measures that grow as the scale factor does.
+    ///
+    /// # Errors
+    /// As [`with_powers`](Self::with_powers).
+    pub fn new(records: Vec<SetRecord>) -> Result<Self, ConsistencyError> {
+        Self::with_powers(records, Powers::default())
+    }
+
+    /// Checks the records, of measures that grow with these `powers` of the scale factor.
     ///
     /// # Errors
     /// No record; an intensity that is not finite and above 0.
-    pub fn new(records: Vec<SetRecord>) -> Result<Self, ConsistencyError> {
+    pub fn with_powers(records: Vec<SetRecord>, powers: Powers) -> Result<Self, ConsistencyError> {
         if records.is_empty() {
             return Err(ConsistencyError::NoRecords);
         }
         let mut ratios = Vec::with_capacity(records.len());
         for (record, row) in records.iter().enumerate() {
-            let ratio = row.other / row.scaled_to;
+            let ratio = row.other / raised(row.scaled_to, powers.ratio());
             let parts = [("intensity scaled to", row.scaled_to), ("other intensity", row.other), ("ratio", ratio)];
             for (what, value) in parts {
                 if !(value.is_finite() && value > 0.0) {
@@ -79,7 +116,7 @@ impl RecordSet {
             events.push(record.event.map(|event| position(&mut known_events, event)));
         }
         let (pair_count, event_count) = (known_pairs.len(), known_events.len());
-        Ok(Self { records, ratios, order, pairs, events, pair_count, event_count })
+        Ok(Self { records, powers, ratios, order, pairs, events, pair_count, event_count })
     }
 
     /// Number of records N.
@@ -93,7 +130,17 @@ impl RecordSet {
         &self.records
     }
 
-    /// q = y/x of each record, `[record]`.
+    /// y of a record with the ratio q, scaled to the level x: x q.
+    pub(crate) fn brought(&self, level: f64, ratio: f64) -> f64 {
+        raised(level, self.powers.ratio()) * ratio
+    }
+
+    /// By what a record is multiplied to reach the level x.
+    pub(crate) fn scale_factor(&self, level: f64, record: &SetRecord) -> f64 {
+        raised(level / record.scaled_to, 1.0 / self.powers.scaled_to)
+    }
+
+    /// q = y/x of each record, `[record]`: y over x to the power that makes it grow as y does.
     pub fn ratios(&self) -> &[f64] {
         &self.ratios
     }
@@ -165,6 +212,18 @@ mod tests {
         assert_eq!((set.record_of_pair(1), set.event_number(1)), (2, 9));
         assert!(set.knows_all_events());
         assert!(!RecordSet::new(vec![record(1.0, 1.0, 0, None)]).unwrap().knows_all_events());
+    }
+
+    // Three times the amplitude: nine times the Arias intensity, and a third of the way back.
+    #[test]
+    fn measures_grow_with_their_powers() {
+        let rows = || vec![record(2.0, 5.0, 0, None)];
+        let squared = RecordSet::with_powers(rows(), Powers { scaled_to: 1.0, other: 2.0 }).unwrap();
+        assert_eq!(squared.brought(6.0, squared.ratios()[0]), 45.0);
+        assert_eq!(squared.scale_factor(6.0, &squared.records()[0]), 3.0);
+        let root = RecordSet::with_powers(rows(), Powers { scaled_to: 2.0, other: 1.0 }).unwrap();
+        assert!((root.brought(18.0, root.ratios()[0]) - 15.0).abs() < 1e-14);
+        assert_eq!(root.scale_factor(18.0, &root.records()[0]), 3.0);
     }
 
     #[test]

@@ -122,11 +122,11 @@ impl<'a> Solver<'a> {
         let (set, records) = (analysis.set(), analysis.set().len());
         let mut basis = Vec::with_capacity(analysis.levels().len() * records);
         let mut above = Vec::with_capacity(analysis.levels().len());
-        for level in analysis.levels() {
-            let brought = |rank: usize| level * set.ratios()[set.order()[rank]];
-            basis.extend((0..records).map(|rank| knots.basis(brought(rank).ln())));
+        for &level in analysis.levels() {
+            let brought = |record: usize| set.brought(level, set.ratios()[record]);
+            basis.extend(set.order().iter().map(|&record| knots.basis(brought(record).ln())));
             above.push(
-                site_levels.map(|site_level| set.order().partition_point(|&j| level * set.ratios()[j] > site_level)),
+                site_levels.map(|site_level| set.order().partition_point(|&record| brought(record) > site_level)),
             );
         }
         let stripe_weights = analysis.stripes().per_year();
@@ -164,7 +164,7 @@ impl<'a> Solver<'a> {
         for (&rate, &site_level) in self.rates.iter().zip(&self.site_levels) {
             let rate_of = |ratio: f64| -> f64 {
                 let levels = self.analysis.levels().iter().zip(&self.stripe_weights);
-                levels.filter(|(level, _)| *level * ratio > site_level).map(|(_, weight)| weight).sum()
+                levels.filter(|(level, _)| set.brought(**level, ratio) > site_level).map(|(_, weight)| weight).sum()
             };
             reach.set_above += usize::from(rate_of(smallest) > rate);
             reach.set_below += usize::from(rate_of(largest) < rate);

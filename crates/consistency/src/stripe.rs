@@ -68,7 +68,7 @@ impl ScaleFactors {
     /// To `level`, with the shares p of the records; `limits` are the lower and the upper one.
     pub(crate) fn of(set: &RecordSet, level: f64, shares: &[f64], limits: [f64; 2]) -> Self {
         let mut factors: Vec<(f64, f64)> =
-            set.records().iter().zip(shares).map(|(record, &share)| (level / record.scaled_to, share)).collect();
+            set.records().iter().zip(shares).map(|(record, &share)| (set.scale_factor(level, record), share)).collect();
         factors.sort_by(|a, b| a.0.total_cmp(&b.0));
         let outside = |[lower, upper]: [f64; 2]| -> f64 {
             factors.iter().filter(|(factor, _)| !(lower..=upper).contains(factor)).map(|(_, share)| share).sum()

@@ -7,3 +7,4 @@ mod golden;
 mod properties;
 mod real_records;
 mod synthetic_records;
+mod twin_world;

@@ -36,8 +36,9 @@ impl HazardCurve {
     /// Builds a curve from levels `im`, in `unit`, and annual rates of exceedance `maf`, 1/yr, one per level.
     ///
     /// `measure` is the intensity measure ("PGV", "PGA", "SA(1.0)", or any other name), `unit` its unit ("cm/s", "g"),
-    /// `source` says where the numbers come from and may be empty. PGV must be in a unit of velocity, PGA and SA in one
-    /// of acceleration; other measures may have any unit.
+    /// `source` says where the numbers come from and may be empty. PGV, CAV and the Arias intensity must be in a unit
+    /// of velocity, PGA and SA in one of acceleration, PGD and SI in one of displacement; other measures may have any
+    /// unit.
     ///
     /// # Errors
     /// [`HazardError`] with the index and both values for the first point that breaks a rule; an empty label; a unit
@@ -192,7 +193,8 @@ impl HazardCurve {
         HazardPoint { im: self.im[index], maf: self.maf[index] }
     }
 
-    /// The same curve with its levels in the units of the field: cm/s for velocities, g for accelerations.
+    /// The same curve with its levels in the units of the field: cm/s for velocities, g for accelerations, cm for
+    /// displacements.
     ///
     /// `gravity_m_s2` is the acceleration that 1 g stands for, m/s². A curve whose unit is not known here is returned
     /// as it is.
@@ -206,7 +208,8 @@ impl HazardCurve {
         }
     }
 
-    /// The same curve with its levels in another `unit` of the same dimension: cm/s or m/s; g, m/s2 or cm/s2.
+    /// The same curve with its levels in another `unit` of the same dimension: cm/s, m/s or g s; g, m/s2 or cm/s2; cm
+    /// or m.
     ///
     /// `gravity_m_s2` is the acceleration that 1 g stands for, m/s².
     ///

@@ -42,7 +42,7 @@ pub(crate) enum Column {
 /// Names of intensity columns that say nothing about the measure.
 const GENERIC: [&str; 5] = ["iml", "im", "imls", "level", "intensity"];
 /// Measures accepted as column names; the declared measure is always accepted beside them.
-const MEASURES: [&str; 4] = ["pgv", "pga", "sa", "psa"];
+const MEASURES: [&str; 10] = ["pgv", "pga", "sa", "psa", "avgsa", "pgd", "cav", "ia", "arias", "si"];
 /// Longest unit behind a name, with its underscore, bytes.
 const LONGEST_UNIT: usize = 16;
 const RATES: [&str; 8] =
@@ -66,7 +66,7 @@ pub(crate) fn column(name: &str, declared_measure: Option<&str>) -> Option<Colum
         return Some(Column::Intensity(Declaration { unit, ..Declaration::default() }));
     }
     let is_declared = declared_measure.is_some_and(|declared| same_measure(plain, declared));
-    (is(&MEASURES) || key.starts_with("sa(") || is_declared)
+    (is(&MEASURES) || key.starts_with("sa(") || key.starts_with("avgsa(") || is_declared)
         .then(|| Column::Intensity(Declaration { measure: Some(plain.to_owned()), unit, ..Declaration::default() }))
 }
 
@@ -123,10 +123,17 @@ impl Declaration {
     }
 }
 
-/// Whether two texts name the same measure.
+/// Whether two texts name the same measure: `SA(1)` and `SA(1.0)`; `AvgSA`, which says no periods, and
+/// `AvgSA(0.2-2.0)`.
 pub(crate) fn same_measure(a: &str, b: &str) -> bool {
     let plain = |text: &str| text.to_ascii_lowercase().replace([' ', '_'], "");
-    plain(a) == plain(b)
+    let (a, b) = (plain(a), plain(b));
+    let period_s = |text: &str| -> Option<f64> { text.strip_prefix("sa(")?.strip_suffix(')')?.parse().ok() };
+    let average = |text: &str| text == "avgsa" || text.starts_with("avgsa(");
+    let unsaid = |text: &str| text == "avgsa";
+    a == b
+        || period_s(&a).is_some_and(|period| period_s(&b) == Some(period))
+        || average(&a) && average(&b) && (unsaid(&a) || unsaid(&b))
 }
 
 /// Splits `PGV [cm/s]`, `PGV (cm/s)`, `pgv_cm_s` and `maf_1_yr` into name and unit. Only brackets may
@@ -208,6 +215,13 @@ mod tests {
         // Without a measure or a key it is prose.
         assert_eq!(comment("averaged over models, geometric mean, rock"), named(None, None));
         assert_eq!(comment("component: see the report"), named(None, None));
+        for (one, other) in [("SA(1)", "sa(1.00)"), ("AvgSA", "AvgSA(0.2-2.0)"), ("PGV", "pgv")] {
+            assert!(same_measure(one, other) && same_measure(other, one), "{one} {other}");
+        }
+        for (one, other) in [("SA(1)", "SA(2)"), ("AvgSA(0.2-2.0)", "AvgSA(0.1-1.0)"), ("SA(1)", "AvgSA"), ("SA", "SI")]
+        {
+            assert!(!same_measure(one, other), "{one} {other}");
+        }
         assert_eq!(comment("imt: PGA; units: m/s2"), named(Some("PGA"), Some("m/s2")));
         assert_eq!(comment("measure: SA(1.0) [g]"), named(Some("SA(1.0)"), Some("g")));
         assert_eq!(comment("units: see the report"), named(None, None));

@@ -10,8 +10,10 @@
 //!
 //! - [`read_export`]: the curves of one site or of all ([`SiteSelection`]).
 //! - [`ExportedCurves`]: the curves of a file one after the other; of `OpenQuake`'s CSV only one row is in memory.
+//! - [`read_disaggregation`]: the earthquakes by which levels are exceeded ([`Disaggregation`]).
 //! - [`read_realization_weights`]: the weights of `OpenQuake`'s logic tree realizations.
 
+mod disaggregation;
 mod entry;
 mod measure;
 mod nrml;
@@ -29,6 +31,7 @@ use std::path::Path;
 use crate::curve::HazardCurve;
 use crate::error::{HazardError, Place};
 use crate::input::{self, Input};
+pub use disaggregation::{Disaggregation, read_disaggregation};
 use entry::Entry;
 pub use realizations::{RealizationWeight, read_realization_weights};
 pub use selection::SiteSelection;

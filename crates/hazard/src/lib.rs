@@ -46,8 +46,8 @@ pub use csv::{CsvCurve, CsvOptions, Declared, MAX_FILE_BYTES, SecondColumn, read
 pub use curve::{HazardCurve, HazardPoint};
 pub use error::{HazardError, Place};
 pub use import::{
-    ExportedCurve, ExportedCurves, ExportedSite, MAX_JSON_BYTES, MAX_NRML_BYTES, RealizationWeight, SitePlace,
-    SiteSelection, Statistic, read_export, read_realization_weights,
+    Disaggregation, ExportedCurve, ExportedCurves, ExportedSite, MAX_JSON_BYTES, MAX_NRML_BYTES, RealizationWeight,
+    SitePlace, SiteSelection, Statistic, read_disaggregation, read_export, read_realization_weights,
 };
 pub use interpolation::Extrapolation;
 pub use probability::{probability_from_rate, rate_from_probability};

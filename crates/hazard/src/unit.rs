@@ -5,6 +5,7 @@
 pub(crate) enum Dimension {
     Velocity,
     Acceleration,
+    Displacement,
 }
 
 impl Dimension {
@@ -12,9 +13,10 @@ impl Dimension {
     pub(crate) fn of_measure(measure: &str) -> Option<Self> {
         let name = measure.trim().to_ascii_lowercase();
         match name.as_str() {
-            "pgv" => Some(Self::Velocity),
-            "pga" | "sa" | "psa" => Some(Self::Acceleration),
-            _ if name.starts_with("sa(") => Some(Self::Acceleration),
+            "pgv" | "cav" | "ia" | "arias" => Some(Self::Velocity),
+            "pga" | "sa" | "psa" | "avgsa" => Some(Self::Acceleration),
+            "pgd" | "si" => Some(Self::Displacement),
+            _ if name.starts_with("sa(") || name.starts_with("avgsa(") => Some(Self::Acceleration),
             _ => None,
         }
     }
@@ -24,14 +26,16 @@ impl Dimension {
         match self {
             Self::Velocity => "cm/s or m/s",
             Self::Acceleration => "g, m/s2 or cm/s2",
+            Self::Displacement => "cm or m",
         }
     }
 
-    /// The unit of the field: cm/s for velocities, g for accelerations.
+    /// The unit of the field: cm/s for velocities, g for accelerations, cm for displacements.
     pub(crate) fn field_unit(self) -> CurveUnit {
         match self {
             Self::Velocity => CurveUnit::CmPerS,
             Self::Acceleration => CurveUnit::G,
+            Self::Displacement => CurveUnit::Cm,
         }
     }
 }
@@ -43,17 +47,24 @@ pub enum CurveUnit {
     CmPerS,
     /// Metres per second.
     MPerS,
+    /// The acceleration of gravity times a second, a velocity.
+    GS,
     /// The acceleration of gravity.
     G,
     /// Metres per second squared.
     MPerS2,
     /// Centimetres per second squared.
     CmPerS2,
+    /// Centimetres.
+    Cm,
+    /// Metres.
+    M,
 }
 
 impl CurveUnit {
     /// Every unit.
-    pub const ALL: [Self; 5] = [Self::CmPerS, Self::MPerS, Self::G, Self::MPerS2, Self::CmPerS2];
+    pub const ALL: [Self; 8] =
+        [Self::CmPerS, Self::MPerS, Self::GS, Self::G, Self::MPerS2, Self::CmPerS2, Self::Cm, Self::M];
 
     /// Recognises a unit as people write it; column names cannot hold a slash, so `_` stands for it too.
     pub fn parse(text: &str) -> Option<Self> {
@@ -61,38 +72,45 @@ impl CurveUnit {
         match plain.as_str() {
             "cm/s" | "cm_s" | "cm/sec" | "cm s-1" => Some(Self::CmPerS),
             "m/s" | "m_s" | "m/sec" | "m s-1" => Some(Self::MPerS),
+            "g s" | "g_s" | "g-s" | "g sec" | "g-sec" => Some(Self::GS),
             "g" => Some(Self::G),
             "m/s2" | "m_s2" | "m/s/s" | "m s-2" => Some(Self::MPerS2),
             "cm/s2" | "cm_s2" | "cm/s/s" | "cm s-2" | "gal" => Some(Self::CmPerS2),
+            "cm" => Some(Self::Cm),
+            "m" => Some(Self::M),
             _ => None,
         }
     }
 
-    /// Name in text, files and keys: cm/s, m/s, g, m/s2, cm/s2.
+    /// Name in text, files and keys: cm/s, m/s, g s, g, m/s2, cm/s2, cm, m.
     pub fn symbol(self) -> &'static str {
         match self {
             Self::CmPerS => "cm/s",
             Self::MPerS => "m/s",
+            Self::GS => "g s",
             Self::G => "g",
             Self::MPerS2 => "m/s2",
             Self::CmPerS2 => "cm/s2",
+            Self::Cm => "cm",
+            Self::M => "m",
         }
     }
 
     pub(crate) fn dimension(self) -> Dimension {
         match self {
-            Self::CmPerS | Self::MPerS => Dimension::Velocity,
+            Self::CmPerS | Self::MPerS | Self::GS => Dimension::Velocity,
             Self::G | Self::MPerS2 | Self::CmPerS2 => Dimension::Acceleration,
+            Self::Cm | Self::M => Dimension::Displacement,
         }
     }
 
-    /// How many of this unit make one SI unit (m/s or m/s²): whole numbers where possible, so that
+    /// How many of this unit make one SI unit (m/s, m/s² or m): whole numbers where possible, so that
     /// conversions round once.
     pub(crate) fn per_si(self, gravity_m_s2: f64) -> f64 {
         match self {
-            Self::MPerS | Self::MPerS2 => 1.0,
-            Self::CmPerS | Self::CmPerS2 => 100.0,
-            Self::G => 1.0 / gravity_m_s2,
+            Self::MPerS | Self::MPerS2 | Self::M => 1.0,
+            Self::CmPerS | Self::CmPerS2 | Self::Cm => 100.0,
+            Self::G | Self::GS => 1.0 / gravity_m_s2,
         }
     }
 }
@@ -124,12 +142,14 @@ mod tests {
             ("gal", CurveUnit::CmPerS2),
             ("cm_s2", CurveUnit::CmPerS2),
             (" g ", CurveUnit::G),
+            ("g-sec", CurveUnit::GS),
+            ("CM", CurveUnit::Cm),
         ] {
             assert_eq!(CurveUnit::parse(text), Some(unit), "{text}");
             assert_eq!(CurveUnit::parse(unit.symbol()), Some(unit));
         }
         assert!(CurveUnit::ALL.iter().all(|unit| CurveUnit::parse(unit.symbol()) == Some(*unit)));
-        for text in ["", "mm/s", "ms", "kg", "%g", "s", "m"] {
+        for text in ["", "mm/s", "ms", "kg", "%g", "s", "km"] {
             assert_eq!(CurveUnit::parse(text), None, "{text}");
         }
     }

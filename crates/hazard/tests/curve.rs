@@ -117,7 +117,9 @@ fn a_known_measure_has_a_unit_of_its_dimension() {
     {
         assert!(build(measure, unit).is_ok(), "{measure} in {unit}");
     }
-    for (measure, unit) in [("PGV", "g"), ("PGA", "cm/s"), ("SA(1.0)", "m"), ("PGV", "knots")] {
+    for (measure, unit) in
+        [("PGV", "g"), ("PGA", "cm/s"), ("SA(1.0)", "m"), ("PGV", "knots"), ("AvgSA(0.2-2.0)", "m"), ("CAV", "g")]
+    {
         assert!(matches!(build(measure, unit), Err(HazardError::UnitOfMeasure { .. })), "{measure} in {unit}");
     }
     assert_eq!(build("PGV", "g").unwrap_err().to_string(), "measure PGV cannot be in \"g\": use cm/s or m/s");
@@ -141,7 +143,11 @@ fn units_of_the_field() {
     // No arithmetic where nothing changes, and the spelling becomes the usual one.
     let converted = curve("PGV", "cm_s").in_field_units(gravity).unwrap();
     assert_eq!((converted.unit(), converted.im()), ("cm/s", &[0.5, 2.0][..]));
-    assert_eq!(curve("CAV", "g s").in_field_units(gravity).unwrap().unit(), "g s");
+    let converted = curve("CAV", "g s").in_field_units(gravity).unwrap();
+    assert_eq!(converted.unit(), "cm/s");
+    assert!(close(converted.im()[1], 2.0 * 100.0 * gravity));
+    assert_eq!(curve("PGD", "m").in_field_units(gravity).unwrap().im(), [50.0, 200.0]);
+    assert_eq!(curve("D5-95", "s").in_field_units(gravity).unwrap().unit(), "s");
     assert!(matches!(curve("PGV", "m/s").in_unit("g", gravity), Err(HazardError::Conversion { .. })));
     assert!(matches!(curve("PGV", "m/s").in_unit("cm/s", 0.0), Err(HazardError::Argument { .. })));
 }

@@ -3,10 +3,10 @@
 use std::fmt;
 use std::str::FromStr;
 
-use crate::accelerogram::Accelerogram;
 use crate::error::MotionError;
 use crate::measure::geometric_mean;
 use crate::pair::RecordPair;
+use crate::rotation::{OfDirections, Rotated, largest, median};
 
 /// How the peaks of the two horizontal components of a pair make one intensity.
 ///
@@ -53,6 +53,15 @@ impl Combination {
         }
     }
 
+    /// How the values of all directions make one, for the definitions that look at all directions.
+    pub(crate) fn of_directions(self) -> Option<OfDirections> {
+        match self {
+            Self::GeometricMean => None,
+            Self::RotD50 => Some(median),
+            Self::RotD100 => Some(largest),
+        }
+    }
+
     /// Peaks of `pair`: acceleration \[m/s²\] and velocity \[m/s\].
     ///
     /// Motion in a direction is a(θ) = a₁ cos θ + a₂ sin θ, for θ = 0°, 1°, … 179°; the median of
@@ -66,8 +75,8 @@ impl Combination {
     pub fn peaks_of(self, pair: &RecordPair) -> Result<Peaks, MotionError> {
         match self {
             Self::GeometricMean => Ok(geometric_mean_of(pair)),
-            Self::RotD50 => Rotated::of(pair).map(|rotated| rotated.median()),
-            Self::RotD100 => Rotated::of(pair).map(|rotated| rotated.largest()),
+            Self::RotD50 => Rotated::of(pair).map(|rotated| rotated.peaks(median)),
+            Self::RotD100 => Rotated::of(pair).map(|rotated| rotated.peaks(largest)),
         }
     }
 
@@ -75,8 +84,8 @@ impl Combination {
     /// steps differ.
     pub fn all_peaks_of(pair: &RecordPair) -> [Option<Peaks>; 3] {
         let rotated = Rotated::of(pair).ok();
-        let of_rotated = |peaks: fn(&Rotated) -> Peaks| rotated.as_ref().map(peaks);
-        [Some(geometric_mean_of(pair)), of_rotated(Rotated::median), of_rotated(Rotated::largest)]
+        let of_rotated = |chosen: OfDirections| rotated.as_ref().map(|rotated| rotated.peaks(chosen));
+        [Some(geometric_mean_of(pair)), of_rotated(median), of_rotated(largest)]
     }
 }
 
@@ -109,6 +118,18 @@ pub struct Peaks {
     pub pgv_m_s: f64,
 }
 
+impl Peaks {
+    /// Peak ground acceleration \[g\], with the acceleration of gravity `gravity_m_s2` \[m/s²\].
+    pub fn pga_g(self, gravity_m_s2: f64) -> f64 {
+        self.pga_m_s2 / gravity_m_s2
+    }
+
+    /// Peak ground velocity \[cm/s\].
+    pub fn pgv_cm_s(self) -> f64 {
+        100.0 * self.pgv_m_s
+    }
+}
+
 fn geometric_mean_of(RecordPair { h1, h2, .. }: &RecordPair) -> Peaks {
     Peaks {
         pga_m_s2: geometric_mean(h1.pga_m_s2(), h2.pga_m_s2()),
@@ -116,84 +137,11 @@ fn geometric_mean_of(RecordPair { h1, h2, .. }: &RecordPair) -> Peaks {
     }
 }
 
-/// Directions, one a degree; the motion in the opposite direction has the same peak.
-const DIRECTIONS: usize = 180;
-
-/// Peaks in every direction, in ascending order.
-struct Rotated {
-    acceleration_m_s2: Vec<f64>,
-    velocity_m_s: Vec<f64>,
-}
-
-impl Rotated {
-    fn of(pair: &RecordPair) -> Result<Self, MotionError> {
-        let (h1_s, h2_s) = (pair.h1.dt_s(), pair.h2.dt_s());
-        if h1_s != h2_s {
-            return Err(MotionError::UnequalTimeSteps { h1_s, h2_s });
-        }
-        let [a1, a2] = [&pair.h1, &pair.h2].map(Accelerogram::acceleration_m_s2);
-        let [v1, v2] = [&pair.h1, &pair.h2].map(Accelerogram::velocity_m_s);
-        let last = |velocity: &[f64]| velocity.last().copied().unwrap_or(0.0);
-        let sorted = |mut peaks: Vec<f64>| {
-            peaks.sort_unstable_by(f64::total_cmp);
-            peaks
-        };
-        Ok(Self {
-            acceleration_m_s2: sorted(rotated_peaks(&together([a1, a2], [0.0; 2]))),
-            velocity_m_s: sorted(rotated_peaks(&together([&v1, &v2], [last(&v1), last(&v2)]))),
-        })
-    }
-
-    fn median(&self) -> Peaks {
-        let median = |peaks: &[f64]| 0.5 * (peaks[DIRECTIONS / 2 - 1] + peaks[DIRECTIONS / 2]);
-        Peaks { pga_m_s2: median(&self.acceleration_m_s2), pgv_m_s: median(&self.velocity_m_s) }
-    }
-
-    fn largest(&self) -> Peaks {
-        let largest = |peaks: &[f64]| peaks[DIRECTIONS - 1];
-        Peaks { pga_m_s2: largest(&self.acceleration_m_s2), pgv_m_s: largest(&self.velocity_m_s) }
-    }
-}
-
-/// The points of a plane motion; the shorter component goes on with the value `after` its end.
-fn together([x, y]: [&[f64]; 2], after: [f64; 2]) -> Vec<[f64; 2]> {
-    let at = |component: &[f64], index: usize, after: f64| component.get(index).copied().unwrap_or(after);
-    (0..x.len().max(y.len())).map(|index| [at(x, index, after[0]), at(y, index, after[1])]).collect()
-}
-
-/// Farthest of `points` in the `direction`, and how far it reaches.
-fn farthest(points: &[[f64; 2]], [cos, sin]: [f64; 2]) -> ([f64; 2], f64) {
-    let mut farthest = ([0.0; 2], 0.0);
-    for &[x, y] in points {
-        let reach = (x * cos + y * sin).abs();
-        if reach > farthest.1 {
-            farthest = ([x, y], reach);
-        }
-    }
-    farthest
-}
-
-/// Peak of x cos θ + y sin θ for every direction.
-fn rotated_peaks(points: &[[f64; 2]]) -> Vec<f64> {
-    let directions: Vec<[f64; 2]> = (0..DIRECTIONS)
-        .map(|degrees| {
-            let (sin, cos) = (degrees as f64).to_radians().sin_cos();
-            [cos, sin]
-        })
-        .collect();
-    // What a few points reach in every direction, no point nearer to the origin can exceed anywhere.
-    let few: Vec<[f64; 2]> = directions.iter().step_by(30).map(|&direction| farthest(points, direction).0).collect();
-    let radius = directions.iter().map(|&direction| farthest(&few, direction).1).fold(f64::INFINITY, f64::min);
-    // Rounding must not cut a point that matters.
-    let squared = radius * radius * (1.0 - 1e-12);
-    let far: Vec<[f64; 2]> = points.iter().copied().filter(|[x, y]| x * x + y * y >= squared).collect();
-    directions.iter().map(|&direction| farthest(&far, direction).1).collect()
-}
-
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+    use crate::accelerogram::Accelerogram;
     use proptest::prelude::*;
     use std::collections::BTreeMap;
 
@@ -249,17 +197,6 @@ mod tests {
     }
 
     proptest! {
-        // All 180 directions over all points, nothing left out.
-        #[test]
-        fn points_left_out_change_nothing(points in prop::collection::vec((-1.0..1.0_f64, -1.0..1.0_f64), 2..200)) {
-            let plane: Vec<[f64; 2]> = points.iter().map(|&(x, y)| [x, y]).collect();
-            for (degrees, found) in rotated_peaks(&plane).into_iter().enumerate() {
-                let (sin, cos) = (degrees as f64).to_radians().sin_cos();
-                let expected = points.iter().fold(0.0_f64, |m, (x, y)| m.max((x * cos + y * sin).abs()));
-                prop_assert_eq!(found, expected);
-            }
-        }
-
         #[test]
         fn rotated_peaks_are_ordered(points in prop::collection::vec((-1.0..1.0_f64, -1.0..1.0_f64), 2..50)) {
             let (x, y): (Vec<f64>, Vec<f64>) = points.into_iter().unzip();

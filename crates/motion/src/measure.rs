@@ -1,105 +1,86 @@
 //! Intensity measures of a pair, and the factor that scales it to a level.
 
-use std::fmt;
-use std::str::FromStr;
+mod names;
+mod period;
+mod value;
 
-use crate::combination::Peaks;
 use crate::error::MotionError;
-use crate::pair::RecordPair;
 
-/// Intensity measure on which responses are conditioned.
+pub use period::Period;
+
+/// Intensity measure on which responses are conditioned, or which is compared with such.
 ///
 /// A further measure is a further variant; whatever depends on the measure is a `match` over all of them, so that
-/// nothing compiles until the new one is given its description, its value in [`IntensityMeasure::of_pair`] and
-/// its place elsewhere.
+/// nothing compiles until the new one is given its names, its value of a component and its place elsewhere.
+///
+/// They rise in the order in which they are told: PGV first, as in Chapter 4.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum IntensityMeasure {
-    /// Peak ground velocity \[cm/s\], geometric mean of the two horizontal components (Eq. 4.6).
+    /// Peak ground velocity \[cm/s\] (Eq. 4.6).
     Pgv,
-    /// Peak ground acceleration \[g\], geometric mean of the two horizontal components (Eq. 4.5).
+    /// Peak ground acceleration \[g\] (Eq. 4.5).
     Pga,
-}
-
-/// How a measure is called.
-struct Description {
-    label: &'static str,
-    key: &'static str,
-    unit: &'static str,
-    long_name: &'static str,
-}
-
-impl IntensityMeasure {
-    /// Every measure.
-    pub const ALL: [Self; 2] = [Self::Pgv, Self::Pga];
-
-    /// The words that [`FromStr`] accepts, for messages.
-    pub const ACCEPTED: &'static str = "pgv, pga";
-
-    fn description(self) -> Description {
-        match self {
-            Self::Pgv => Description { label: "PGV", key: "pgv", unit: "cm/s", long_name: "peak ground velocity" },
-            Self::Pga => Description { label: "PGA", key: "pga", unit: "g", long_name: "peak ground acceleration" },
-        }
-    }
-
-    /// Short name for text and plots, e.g. "PGV".
-    pub fn label(self) -> &'static str {
-        self.description().label
-    }
-
-    /// Name in files and keys, e.g. "pgv".
-    pub fn key(self) -> &'static str {
-        self.description().key
-    }
-
-    /// Unit of the levels, e.g. "cm/s".
-    pub fn unit(self) -> &'static str {
-        self.description().unit
-    }
-
-    /// Name in full; how the components of a pair are combined belongs to it ([`Combination`](crate::Combination)).
-    pub fn long_name(self) -> &'static str {
-        self.description().long_name
-    }
-
-    /// The measure of an unscaled pair, in [`IntensityMeasure::unit`] (PGV in cm/s, Eq. 4.6; PGA
-    /// in g, Eq. 4.5), with the acceleration of gravity `gravity_m_s2` \[m/s²\]; the geometric mean
-    /// of the components.
+    /// Pseudo-spectral acceleration SA(T) of 5 % damping \[g\].
+    Sa(Period),
+    /// Average spectral acceleration \[g\]: geometric mean of SA at [`AVERAGED_PERIODS`](crate::AVERAGED_PERIODS)
+    /// periods at equal steps, both ends included.
     ///
     /// # Source
     ///
-    /// Reggiani Manzo, dissertation, Section 4.3.1.
-    pub fn of_pair(self, pair: &RecordPair, gravity_m_s2: f64) -> f64 {
+    /// L. Eads, E. Miranda and D. G. Lignos, Earthquake Eng. Struct. Dyn. 44 (2015) 2057–2073.
+    AvgSa {
+        /// The shortest period.
+        from: Period,
+        /// The longest period.
+        to: Period,
+    },
+    /// Peak ground displacement \[cm\].
+    Pgd,
+    /// Cumulative absolute velocity \[cm/s\].
+    Cav,
+    /// Arias intensity \[cm/s\].
+    Arias,
+    /// Housner's spectrum intensity \[cm\]: the integral of the pseudo-velocity of 5 % damping from 0.1 to 2.5 s.
+    SpectrumIntensity,
+    /// Significant duration D5-75 \[s\].
+    D575,
+    /// Significant duration D5-95 \[s\].
+    D595,
+}
+
+impl IntensityMeasure {
+    /// The measures of Chapter 4, which every study and result knows of its records.
+    pub const OF_CHAPTER_4: [Self; 2] = [Self::Pgv, Self::Pga];
+
+    /// The measures that no period belongs to.
+    pub const WITHOUT_PERIOD: [Self; 8] =
+        [Self::Pgv, Self::Pga, Self::Pgd, Self::Cav, Self::Arias, Self::SpectrumIntensity, Self::D575, Self::D595];
+
+    /// The power of the scale factor with which the measure grows: 1 for what is linear in the acceleration, 2 for the
+    /// Arias intensity, 0 for durations.
+    pub fn power(self) -> u8 {
         match self {
-            Self::Pgv => 100.0 * geometric_mean(pair.h1.pgv_m_s(), pair.h2.pgv_m_s()),
-            Self::Pga => geometric_mean(pair.h1.pga_m_s2(), pair.h2.pga_m_s2()) / gravity_m_s2,
+            Self::Pgv
+            | Self::Pga
+            | Self::Sa(_)
+            | Self::AvgSa { .. }
+            | Self::Pgd
+            | Self::Cav
+            | Self::SpectrumIntensity => 1,
+            Self::Arias => 2,
+            Self::D575 | Self::D595 => 0,
         }
     }
 
-    /// The measure that a pair with these `peaks` has, in [`IntensityMeasure::unit`], with the
-    /// acceleration of gravity `gravity_m_s2` \[m/s²\].
-    pub fn of_peaks(self, peaks: Peaks, gravity_m_s2: f64) -> f64 {
-        match self {
-            Self::Pgv => 100.0 * peaks.pgv_m_s,
-            Self::Pga => peaks.pga_m_s2 / gravity_m_s2,
-        }
+    /// Whether records can be scaled to its levels: not to those of a duration, which no factor changes.
+    pub fn can_be_scaled_to(self) -> bool {
+        self.power() > 0
     }
-}
 
-impl fmt::Display for IntensityMeasure {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.label())
-    }
-}
-
-/// Accepts the key or the label of a measure, in any case.
-impl FromStr for IntensityMeasure {
-    type Err = MotionError;
-
-    fn from_str(word: &str) -> Result<Self, MotionError> {
-        Self::ALL.into_iter().find(|measure| measure.key() == word.trim().to_lowercase()).ok_or_else(|| {
-            MotionError::UnknownWord { what: "intensity measure", given: word.to_owned(), accepted: Self::ACCEPTED }
-        })
+    /// The number that grows as the scale factor does where the measure is `value`, in its unit or its root: of it
+    /// `level` over that of a record is the factor.
+    pub fn amplitude(self, value: f64) -> f64 {
+        if self.power() == 2 { value.sqrt() } else { value }
     }
 }
 
@@ -130,6 +111,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::accelerogram::Accelerogram;
+    use crate::pair::RecordPair;
     use proptest::prelude::*;
     use std::collections::BTreeMap;
 
@@ -169,17 +151,6 @@ mod tests {
         }
     }
 
-    #[test]
-    fn names() {
-        for measure in IntensityMeasure::ALL {
-            assert_eq!(measure.label().parse::<IntensityMeasure>().unwrap(), measure);
-            assert_eq!(measure.key().parse::<IntensityMeasure>().unwrap(), measure);
-            assert!(IntensityMeasure::ACCEPTED.contains(measure.key()));
-        }
-        let message = "sa".parse::<IntensityMeasure>().unwrap_err().to_string();
-        assert_eq!(message, "unknown intensity measure \"sa\"; use one of: pgv, pga");
-    }
-
     proptest! {
         #[test]
         fn the_geometric_mean_lies_between_and_is_symmetric(x in 0.0..1e3_f64, y in 0.0..1e3_f64) {
@@ -197,14 +168,18 @@ mod tests {
             level in 0.01..200.0_f64,
         ) {
             let unscaled = pair(h1, h2);
-            for measure in IntensityMeasure::ALL {
-                let factor = scale_factor(level, measure.of_pair(&unscaled, 9.81)).unwrap();
+            let half = Period::from_s(0.5).unwrap();
+            let further = [IntensityMeasure::Sa(half), IntensityMeasure::Pgd, IntensityMeasure::Arias];
+            for measure in IntensityMeasure::OF_CHAPTER_4.into_iter().chain(further) {
+                let [level_amplitude, amplitude] =
+                    [level, measure.of_pair(&unscaled, 9.81)].map(|value| measure.amplitude(value));
+                let factor = scale_factor(level_amplitude, amplitude).unwrap();
                 let scaled = RecordPair {
                     h1: unscaled.h1.scaled(factor).unwrap(),
                     h2: unscaled.h2.scaled(factor).unwrap(),
                     ..unscaled.clone()
                 };
-                prop_assert!((measure.of_pair(&scaled, 9.81) / level - 1.0).abs() < 1e-13);
+                prop_assert!((measure.of_pair(&scaled, 9.81) / level - 1.0).abs() < 1e-12);
             }
         }
     }

@@ -56,6 +56,15 @@ pub const PGV_LEVEL: Range = range(1e-5, 1e4, "cm/s", "in cm/s, not in m/s or mm
 /// Peak ground acceleration that records are scaled to. The strongest recorded is some 4 g.
 pub const PGA_LEVEL: Range = range(1e-7, 1000.0, "g", "in g, not in cm/s2 or m/s2; 4 is the most that was recorded");
 
+/// Spectral acceleration that records are scaled to.
+pub const SA_LEVEL: Range = range(1e-7, 1000.0, "g", "in g, not in cm/s2 or m/s2");
+
+/// Peak ground displacement, or spectrum intensity, that records are scaled to.
+pub const DISPLACEMENT_LEVEL: Range = range(1e-5, 1e5, "cm", "in cm, not in m or mm");
+
+/// Cumulative absolute velocity, or Arias intensity, that records are scaled to.
+pub const CUMULATIVE_LEVEL: Range = range(1e-8, 1e6, "cm/s", "in cm/s, not in m/s or g s");
+
 /// Displacement whose annual frequency of exceedance is asked for.
 pub const THRESHOLD: Range = range(0.0, 1e4, "m", "in m, not in mm or cm");
 
@@ -121,6 +130,9 @@ mod tests {
             (MASS, &[0.01, 4e8]),
             (PGV_LEVEL, &[0.01, 1000.0]),
             (PGA_LEVEL, &[1e-5, 100.0]),
+            (SA_LEVEL, &[1e-5, 100.0]),
+            (DISPLACEMENT_LEVEL, &[0.01, 10_000.0]),
+            (CUMULATIVE_LEVEL, &[1e-5, 100_000.0]),
             (YEARS, &[0.02, 1.0, 10_000.0]),
             (TIME_STEP, &[1e-5, 0.02, 1.0]),
             (PEAK_ACCELERATION, &[1e-6, 40.0, 981.0]),

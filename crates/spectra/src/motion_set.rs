@@ -34,13 +34,14 @@ pub struct Motion<'a> {
 }
 
 impl Motion<'_> {
-    /// The peak that a scaling refers to, in the unit of the measure.
+    /// The peak that a scaling refers to, in the unit of the measure; NaN for a measure that is neither PGA nor PGV.
     pub fn peak(&self, measure: IntensityMeasure, by: ScaledBy) -> f64 {
         match (measure, by) {
             (IntensityMeasure::Pga, ScaledBy::Component) => self.pga_g,
             (IntensityMeasure::Pga, ScaledBy::Record) => self.record_pga_g,
             (IntensityMeasure::Pgv, ScaledBy::Component) => self.pgv_cm_s,
             (IntensityMeasure::Pgv, ScaledBy::Record) => self.record_pgv_cm_s,
+            _ => f64::NAN,
         }
     }
 }
@@ -116,11 +117,12 @@ impl<'a> MotionSet<'a> {
         self.median_pgv_cm_s
     }
 
-    /// The median that multiples in a scaling refer to, in the unit of the measure.
+    /// The median that multiples in a scaling refer to, in the unit of the measure; NaN as for [`Motion::peak`].
     pub fn median(&self, measure: IntensityMeasure) -> f64 {
         match measure {
             IntensityMeasure::Pga => self.median_pga_g,
             IntensityMeasure::Pgv => self.median_pgv_cm_s,
+            _ => f64::NAN,
         }
     }
 

@@ -67,6 +67,7 @@ pub use structure::Structure;
 pub use study::Study;
 pub use uniform_risk::{
     Bootstrap, Branch, Consistency, Contour, Conversion, CurveFile, CurveKind, Hazard, MeasurePlan, Oscillator,
-    Records, Regression, Repair, Risk, Site, SiteTable, UniformRiskStudy, definition_of, levels_within, lower_starts,
+    Records, Regression, Repair, Risk, Site, SiteTable, UniformRiskStudy, definition_of, levels_key, levels_within,
+    lower_starts,
 };
 pub use warning::Warning;

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `records` | `[records]` |
 //! | `oscillator` | `[oscillator]` |
-//! | `measures`, `lower_levels` | `[pgv]`, `[pga]`, and where their levels could begin |
+//! | `measures`, `lower_levels` | `[pgv]`, `[pga]`, `[measures.…]`, and where their levels could begin |
 //! | `risk` | `[risk]` |
 //! | `hazard` | `[hazard]` |
 //! | `sites`, `curve`, `branches` | `[[sites]]`, the hazard curves of one, their weighted alternatives |
@@ -28,7 +28,10 @@ mod site_table;
 mod sites;
 mod warnings;
 
+use std::collections::BTreeSet;
+
 use serde::Serialize;
+use uplift_motion::IntensityMeasure;
 
 use crate::grid::Grid;
 use crate::keys::{Key, SectionKeys};
@@ -43,7 +46,7 @@ pub use branches::Branch;
 pub use consistency::{Consistency, Repair};
 pub use curve::{CurveFile, CurveKind};
 pub use hazard::{Conversion, Hazard, definition_of};
-pub use lower_levels::lower_starts;
+pub use lower_levels::{levels_key, lower_starts};
 pub use measures::{MeasurePlan, levels_within};
 pub use oscillator::Oscillator;
 pub use records::Records;
@@ -53,7 +56,7 @@ pub use site_table::SiteTable;
 pub use sites::Site;
 
 /// The reference of every key.
-pub(crate) const KEYS: [SectionKeys; 21] = [
+pub(crate) const KEYS: [SectionKeys; 24] = [
     TOP,
     records::KEYS,
     selection::KEYS,
@@ -62,14 +65,17 @@ pub(crate) const KEYS: [SectionKeys; 21] = [
     strengths::KEYS,
     measures::PGV_KEYS,
     measures::PGA_KEYS,
+    measures::FURTHER_KEYS,
     risk::KEYS,
     hazard::KEYS,
     hazard::CONVERSION_KEYS,
     sites::KEYS,
     SectionKeys { section: "sites.pgv", keys: curve::KEYS },
     SectionKeys { section: "sites.pga", keys: curve::KEYS },
+    SectionKeys { section: "sites.sa_1s", keys: curve::KEYS },
     SectionKeys { section: "sites.pgv.branches", keys: branches::KEYS },
     SectionKeys { section: "sites.pga.branches", keys: branches::KEYS },
+    SectionKeys { section: "sites.sa_1s.branches", keys: branches::KEYS },
     site_table::KEYS,
     regression::KEYS,
     bootstrap::KEYS,
@@ -138,6 +144,17 @@ pub struct UniformRiskStudy {
 }
 
 impl UniformRiskStudy {
+    /// The measures beside PGV and PGA that the study needs of its records: those that it is analysed by, and those
+    /// with a hazard curve.
+    pub fn further_measures(&self) -> Vec<IntensityMeasure> {
+        let analysed = self.measures.iter().map(|plan| plan.measure);
+        let of_sites = self.sites.iter().flat_map(|site| site.curves.iter().map(|curve| curve.measure));
+        let of_table = self.site_table.iter().flat_map(|table| table.exports.iter().map(|(measure, _)| *measure));
+        let known = |measure: &IntensityMeasure| !IntensityMeasure::OF_CHAPTER_4.contains(measure);
+        let all: BTreeSet<IntensityMeasure> = analysed.chain(of_sites).chain(of_table).filter(known).collect();
+        all.into_iter().collect()
+    }
+
     /// The study as TOML, complete and loadable; the warnings are left out, since loading finds them again.
     ///
     /// # Errors

@@ -106,11 +106,3 @@ impl Evidence {
         Ok(rate_from_probability(self.spectra.poes[poe], self.spectra.years)?)
     }
 }
-
-/// The key of the levels of a measure.
-pub(super) fn levels_key(measure: IntensityMeasure) -> &'static str {
-    match measure {
-        IntensityMeasure::Pgv => "pgv.levels_cm_s",
-        IntensityMeasure::Pga => "pga.levels_g",
-    }
-}

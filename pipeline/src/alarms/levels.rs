@@ -2,7 +2,9 @@
 
 use uplift_risk::{OrdinateFlag, TAIL_SHARE_LIMIT};
 
-use super::evidence::{Evidence, Place, Scope, levels_key};
+use uplift_study::levels_key;
+
+use super::evidence::{Evidence, Place, Scope};
 use super::{Alarm, Case, Severity};
 use crate::error::UpliftError;
 use crate::text::{per_cent, share};

@@ -5,11 +5,11 @@ use uplift_plausible::USUAL_SAFETY_FACTOR;
 use uplift_risk::TAIL_SHARE_LIMIT;
 use uplift_study::Structure;
 
-use super::evidence::levels_key;
 use super::inputs::of_warning;
 use super::{Alarm, Case, Severity};
 use crate::structure::{BOUND_CONFIDENCE, EventRisk, share_at_most};
 use crate::text::{per_cent, share as share_in_words};
+use uplift_study::levels_key;
 
 /// From this share of a risk on, it is decided by what was not analysed.
 const DECISIVE: f64 = 0.1;

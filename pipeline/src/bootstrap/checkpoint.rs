@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
-use uplift_motion::IntensityMeasure;
 
 use super::bands::{StrengthBands, bands_of_numbers, numbers_of_bands};
 use super::compute::Source;
@@ -49,10 +48,10 @@ pub(crate) fn part_path(result: &Path) -> PathBuf {
 pub(crate) fn finished_strengths(part: &Path) -> Option<u64> {
     let reader = LabelledReader::open(part).ok()?;
     reader.attribute_text("/", "fingerprint").ok()?;
-    let count = |measure: IntensityMeasure| {
-        reader.array_u32(&format!("/{}/strength", measure.key())).map_or(0, |strengths| strengths.values.len() as u64)
+    let count = |measure: &String| {
+        reader.array_u32(&format!("/{measure}/strength")).map_or(0, |strengths| strengths.values.len() as u64)
     };
-    Some(IntensityMeasure::ALL.into_iter().map(count).sum())
+    Some(reader.children("/").ok()?.iter().map(count).sum())
 }
 
 impl Checkpoint {

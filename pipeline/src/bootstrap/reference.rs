@@ -25,7 +25,7 @@ pub struct ReferenceRow {
 pub fn read_reference(path: &Path) -> Result<Vec<ReferenceRow>, UpliftError> {
     let table = ReferenceTable::read(path)?;
     let columns = |key: &str| (format!("{key}_e_median_pct"), format!("{key}_r_90ci_pct"));
-    let measures: Vec<&str> = IntensityMeasure::ALL
+    let measures: Vec<&str> = IntensityMeasure::OF_CHAPTER_4
         .into_iter()
         .map(IntensityMeasure::key)
         .filter(|key| {

@@ -33,11 +33,6 @@ impl Finding {
     }
 }
 
-/// The other measures that a set scaled to `scaled_to` is asked about.
-fn others(scaled_to: IntensityMeasure) -> impl Iterator<Item = IntensityMeasure> {
-    IntensityMeasure::ALL.into_iter().filter(move |measure| *measure != scaled_to)
-}
-
 impl Question {
     /// Every analysis at every site that has both curves, in this order; with repairs where `repair`.
     ///
@@ -46,13 +41,12 @@ impl Question {
     pub(crate) fn findings(&self, repair: bool) -> Result<Vec<Finding>, UpliftError> {
         let mut findings = Vec::new();
         for (scaled_to, levels) in &self.analyses {
-            for other in others(*scaled_to) {
-                let set = self.set(*scaled_to, other)?;
-                let of_site = |site| self.finding(site, (*scaled_to, levels), other, &set, repair);
-                let of_sites: Result<Vec<Option<Finding>>, UpliftError> =
-                    (0..self.sites.len()).into_par_iter().map(of_site).collect();
-                findings.extend(of_sites?.into_iter().flatten());
-            }
+            let Some(other) = self.other(*scaled_to) else { continue };
+            let set = self.set(*scaled_to, other)?;
+            let of_site = |site| self.finding(site, (*scaled_to, levels), other, &set, repair);
+            let of_sites: Result<Vec<Option<Finding>>, UpliftError> =
+                (0..self.sites.len()).into_par_iter().map(of_site).collect();
+            findings.extend(of_sites?.into_iter().flatten());
         }
         Ok(findings)
     }

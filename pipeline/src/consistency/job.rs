@@ -1,10 +1,11 @@
 //! `uplift consistency`: the question asked of a result, and the answer added to it.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use uplift_motion::IntensityMeasure;
 use uplift_study::Repair;
 
+use super::earthquakes::{disaggregated, earthquakes};
 use super::report::ConsistencyReport;
 use super::spectra::{Repairs, repaired_spectra};
 use super::write::{Keep, add, columns, consistency_path, replaced};
@@ -16,12 +17,15 @@ use crate::outputs::{self, Output, OutputKind};
 use crate::result::{Addition, ResultFile, StoredMeasure, StoredStripes, line, write_table};
 
 /// What is done beyond asking.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct ConsistencyOptions {
     /// Whether weights are solved, and the spectra made of them, whatever the study says.
     pub repair: bool,
     /// Whether the weight of every run is kept in the file.
     pub keep_weights: bool,
+    /// Disaggregations of the site's hazard, tables of the engine: each with the site that it is of, none where the
+    /// result has but one.
+    pub disaggregations: Vec<(Option<String>, PathBuf)>,
     /// Whether whatever is at the place of the table gives way.
     pub force: bool,
 }
@@ -39,6 +43,7 @@ pub fn consistency(
 ) -> Result<ConsistencyReport, UpliftError> {
     let (addition, file) = Addition::begin(result, events)?;
     let question = Question::of_result(&file)?;
+    let shaken = disaggregated(&question, &options.disaggregations)?;
     if !question.can_be_asked() {
         return Ok(ConsistencyReport::of(&question, &[], &[], &[]));
     }
@@ -58,6 +63,7 @@ pub fn consistency(
     let plain_m: Vec<(IntensityMeasure, Array<3>)> =
         file.spectra()?.measures.into_iter().map(|spectra| (spectra.measure, spectra.u_m)).collect();
     let mut report = ConsistencyReport::of(&question, &findings, &plain_m, &repairs);
+    report.earthquakes = earthquakes(&question, &report.rows, &shaken);
     let path = consistency_path(&stored.path);
     write_table(&path, &line(&stored, "hazard consistency"), columns(&report))?;
     report.result = Some(stored.path.clone());

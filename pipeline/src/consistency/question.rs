@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use uplift_consistency::{RecordSet as ScaledSet, Seismology, SetRecord};
+use uplift_consistency::{Powers, RecordSet as ScaledSet, Seismology, SetRecord};
 use uplift_hazard::{Extrapolation, HazardCurve};
 use uplift_motion::{Component, IntensityMeasure};
 use uplift_study::{Consistency, UniformRiskStudy};
@@ -20,10 +20,13 @@ pub(crate) struct AskedRecord {
     pair: usize,
     /// Its earthquake, by its position among their names; none where it is not known.
     event: Option<usize>,
-    pga_g: f64,
-    pgv_cm_s: f64,
+    /// Its measures, in their units.
+    intensities: Intensities,
     seismology: Seismology,
 }
+
+/// Measures of an unscaled pair, in their units.
+type Intensities = BTreeMap<IntensityMeasure, f64>;
 
 impl AskedRecord {
     /// A number that the records of its earthquake share; of its pair alone where the earthquake is not known.
@@ -31,11 +34,9 @@ impl AskedRecord {
         self.event.map_or(2 * self.pair, |event| 2 * event + 1)
     }
 
+    /// A measure, in its unit; NaN where it is not known.
     fn intensity(&self, measure: IntensityMeasure) -> f64 {
-        match measure {
-            IntensityMeasure::Pga => self.pga_g,
-            IntensityMeasure::Pgv => self.pgv_cm_s,
-        }
+        self.intensities.get(&measure).copied().unwrap_or(f64::NAN)
     }
 }
 
@@ -86,8 +87,7 @@ impl Question {
         let rows = records.records.iter().map(|record| RawRecord {
             id: record.id.clone(),
             event: record.metadata.get("event").cloned().unwrap_or_default(),
-            pga_g: record.pga_g,
-            pgv_cm_s: record.pgv_cm_s,
+            intensities: known_measures(record.further.keys().copied(), |measure| record.intensity(measure)),
             magnitude: record.number("magnitude"),
             rrup_km: record.number("rrup_km"),
             vs30: record.number("vs30"),
@@ -120,7 +120,7 @@ impl Question {
         let stored = file.records()?;
         let analyses = file.levels()?;
         let mut curves = BTreeMap::new();
-        for measure in IntensityMeasure::ALL {
+        for measure in IntensityMeasure::OF_CHAPTER_4.into_iter().chain(stored.further.keys().copied()) {
             let of_sites: Result<Vec<_>, UpliftError> =
                 axes.sites.iter().map(|site| file.mean_curve(site, measure)).collect();
             let of_sites = of_sites?;
@@ -131,8 +131,9 @@ impl Question {
         let rows = (0..stored.ids.len()).map(|record| RawRecord {
             id: stored.ids[record].clone(),
             event: stored.event[record].clone(),
-            pga_g: stored.pga_g[record],
-            pgv_cm_s: stored.pgv_cm_s[record],
+            intensities: known_measures(stored.further.keys().copied(), |measure| {
+                stored.intensities(measure).map_or(f64::NAN, |values| values[record])
+            }),
             magnitude: stored.magnitude[record],
             rrup_km: stored.rrup_km[record],
             vs30: stored.vs30[record],
@@ -169,6 +170,14 @@ impl Question {
         self.curves.get(&measure)?.get(site)?.as_ref()
     }
 
+    /// The measure that a set scaled to `scaled_to` is asked about: the one that the study names, else the first with a
+    /// curve, PGV before PGA; none where no site has a curve of another.
+    pub(crate) fn other(&self, scaled_to: IntensityMeasure) -> Option<IntensityMeasure> {
+        let is_other = |measure: &IntensityMeasure| *measure != scaled_to && self.curves.contains_key(measure);
+        let named = self.settings.against.filter(is_other);
+        named.or_else(|| self.curves.keys().copied().find(|measure| is_other(measure)))
+    }
+
     /// Whether any site has curves of two measures.
     pub(crate) fn can_be_asked(&self) -> bool {
         let has_both = |site: usize| self.curves.values().filter(|curves| curves[site].is_some()).count() > 1;
@@ -184,7 +193,9 @@ impl Question {
             event: record.event,
             seismology: record.seismology,
         };
-        Ok(ScaledSet::new(self.records.iter().map(row).collect())?)
+        let power = |measure: IntensityMeasure| f64::from(measure.power());
+        let powers = Powers { scaled_to: power(scaled_to), other: power(other) };
+        Ok(ScaledSet::with_powers(self.records.iter().map(row).collect(), powers)?)
     }
 }
 
@@ -194,12 +205,19 @@ fn targets(poes: &[f64], years: f64) -> Result<Vec<f64>, UpliftError> {
     poes.iter().map(rate).collect()
 }
 
+/// The measures of Chapter 4 and `further` ones, each with its value.
+fn known_measures(
+    further: impl Iterator<Item = IntensityMeasure>,
+    value: impl Fn(IntensityMeasure) -> f64,
+) -> Intensities {
+    IntensityMeasure::OF_CHAPTER_4.into_iter().chain(further).map(|measure| (measure, value(measure))).collect()
+}
+
 /// A record as a study or a result has it; NaN where a number is not known, empty where the earthquake is not.
 struct RawRecord {
     id: String,
     event: String,
-    pga_g: f64,
-    pgv_cm_s: f64,
+    intensities: Intensities,
     magnitude: f64,
     rrup_km: f64,
     vs30: f64,
@@ -224,8 +242,7 @@ fn asked_records(rows: impl Iterator<Item = RawRecord>, component: Component) ->
             AskedRecord {
                 pair,
                 event: known.then(|| position(&mut events, &row.event)),
-                pga_g: row.pga_g,
-                pgv_cm_s: row.pgv_cm_s,
+                intensities: row.intensities,
                 seismology: Seismology {
                     magnitude: number(row.magnitude),
                     distance_km: number(row.rrup_km),

@@ -6,6 +6,7 @@ use serde::Serialize;
 use uplift_consistency::{Agreement, Diagnosis, NoRepair, TwoSided, Verdict, Words};
 use uplift_motion::IntensityMeasure;
 
+use super::earthquakes::EarthquakeRow;
 use super::{Finding, Question, Repairs};
 use crate::array::Array;
 use crate::text::per_cent;
@@ -22,6 +23,9 @@ pub struct ConsistencyReport {
     pub two_sided: Vec<TwoSidedRow>,
     /// Spectra by PGA over those by PGV, before and after the repair; none where there are not both.
     pub agreement: Vec<AgreementRow>,
+    /// What the site's hazard is made of beside what the set has, where disaggregations were given.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub earthquakes: Vec<EarthquakeRow>,
     /// What deserves a look, and why a set could not be repaired.
     pub warnings: Vec<String>,
     /// Why nothing could be asked; empty where it could.
@@ -165,6 +169,7 @@ impl ConsistencyReport {
             events: (!question.events.is_empty()).then_some(question.events.len()),
             years: question.years,
             scale_factors: question.settings.scale_factors,
+            earthquakes: Vec::new(),
             result: None,
             table: None,
         }
@@ -284,11 +289,12 @@ fn warnings(question: &Question, finding: &Finding) -> Vec<String> {
 
 fn two_sided(question: &Question, findings: &[Finding]) -> Vec<TwoSidedRow> {
     let of_site = |site: usize| {
-        let deviation = |scaled_to| {
-            let own = findings.iter().find(|finding| finding.site == site && finding.scaled_to == scaled_to)?;
-            own.diagnosis.deviation.as_ref()
+        let deviation = |scaled_to, other| {
+            let is_own = |own: &&Finding| own.site == site && own.scaled_to == scaled_to && own.other == other;
+            findings.iter().find(is_own)?.diagnosis.deviation.as_ref()
         };
-        let both = TwoSided::of(deviation(IntensityMeasure::Pgv)?, deviation(IntensityMeasure::Pga)?);
+        let (pgv, pga) = (IntensityMeasure::Pgv, IntensityMeasure::Pga);
+        let both = TwoSided::of(deviation(pgv, pga)?, deviation(pga, pgv)?);
         Some(TwoSidedRow { site: question.sites[site].clone(), location: both.location, spread: both.spread })
     };
     (0..question.sites.len()).filter_map(of_site).collect()

@@ -5,6 +5,7 @@ use uplift_fragility::{Dispersion, mean_residuals, standard_deviation, uplift_le
 use uplift_motion::IntensityMeasure;
 use uplift_regression::{Line, fit_line};
 
+use super::restated::Restated;
 use crate::error::UpliftError;
 use crate::result::{StoredMeasure, StoredStripes};
 
@@ -24,13 +25,22 @@ pub struct Covariate {
 pub struct MeasureEfficiency {
     /// The measure.
     pub measure: IntensityMeasure,
+    /// The measure that the records of the runs were scaled to: another one where the runs are told by `measure`.
+    pub scaled_to: IntensityMeasure,
+    /// Levels of the measure, `[level]`.
+    pub levels: Vec<f64>,
+    /// Scatter of the level at which the records bring the structure to a displacement: the standard deviation of its
+    /// logarithm (of its root's, for the Arias intensity), median over the displacements from uplift to the largest
+    /// that all reach in the runs of the first measure; NaN where that is not known.
+    pub reaching: Vec<f64>,
     /// Scatter of the demand over `[strength, level]`.
     pub dispersions: Vec<Dispersion>,
     /// Median over the stripes that rock of the dispersion by percentiles; NaN where no stripe has one.
     pub rocking: Vec<f64>,
     /// Share of the stripes that rock whose dispersion does not exist, for too much overturning.
     pub undefined: Vec<f64>,
-    /// Standard deviation of the logarithm of the level at which a record first lifts the structure.
+    /// Standard deviation of the logarithm of the level (of its root, for the Arias intensity) at which a record first
+    /// lifts the structure.
     pub initiation: Vec<f64>,
     /// Records that have such a level.
     pub initiation_records: Vec<u32>,
@@ -51,11 +61,37 @@ pub fn efficiency_by(
     measure: &StoredMeasure,
     covariates: &[Covariate],
 ) -> Result<MeasureEfficiency, UpliftError> {
+    efficiency_of(stored, measure, None, covariates)
+}
+
+/// Efficiency and sufficiency of the measure that the runs `own` are told by.
+///
+/// # Errors
+/// As [`efficiency_by`].
+pub(super) fn efficiency_restated(
+    stored: &StoredStripes,
+    own: &StoredMeasure,
+    restated: &Restated,
+    covariates: &[Covariate],
+) -> Result<MeasureEfficiency, UpliftError> {
+    let found = efficiency_of(stored, &restated.stripes, Some(&restated.uplift_levels), covariates)?;
+    Ok(MeasureEfficiency { scaled_to: own.measure, ..found })
+}
+
+/// Efficiency and sufficiency of stripes, whose levels at first uplift are found unless they are given,
+/// `[strength][record]`.
+fn efficiency_of(
+    stored: &StoredStripes,
+    measure: &StoredMeasure,
+    uplift: Option<&[Vec<f64>]>,
+    covariates: &[Covariate],
+) -> Result<MeasureEfficiency, UpliftError> {
     let u_up = stored.uplift_displacement_m;
     let of_strength = |strength: usize| -> Result<OfStrength, UpliftError> {
         let stripes = measure.stripes(strength)?;
         let dispersions = (0..measure.levels.len()).map(|level| Dispersion::of(&stripes, level)).collect();
-        let uplift: Vec<f64> = uplift_levels(&stripes, u_up).into_iter().filter(|level| level.is_finite()).collect();
+        let uplift = uplift.map_or_else(|| uplift_levels(&stripes, u_up), |of| of[strength].clone());
+        let uplift: Vec<f64> = uplift.into_iter().filter(|level| level.is_finite()).collect();
         let residuals = mean_residuals(&stripes, u_up);
         let lines = covariates.iter().map(|covariate| line(&covariate.values, &residuals)).collect();
         Ok((dispersions, uplift, lines))
@@ -76,11 +112,15 @@ pub fn efficiency_by(
         defined.sort_by(f64::total_cmp);
         rocking.push(uplift_fragility::quantile(&defined, 0.5));
         undefined.push(if all.is_empty() { f64::NAN } else { 1.0 - defined.len() as f64 / all.len() as f64 });
-        initiation.push(standard_deviation(&uplift.iter().map(|level| level.ln()).collect::<Vec<_>>()));
+        let amplitudes = uplift.iter().map(|&level| measure.measure.amplitude(level).ln());
+        initiation.push(standard_deviation(&amplitudes.collect::<Vec<_>>()));
         initiation_records.push(u32::try_from(uplift.len()).unwrap_or(u32::MAX));
     }
     Ok(MeasureEfficiency {
         measure: measure.measure,
+        scaled_to: measure.measure,
+        levels: measure.levels.clone(),
+        reaching: vec![f64::NAN; stored.strengths.len()],
         rocking,
         undefined,
         initiation,

@@ -7,15 +7,20 @@ use uplift_fragility::Dispersion;
 use uplift_regression::Line;
 
 use super::of_measure::{Covariate, MeasureEfficiency};
+use super::report::rank;
 use crate::error::UpliftError;
 use crate::outputs::beside;
 use crate::result::layout::{axis, efficiency, sufficiency};
 use crate::result::{Addition, StoredStripes, line, sign, write_table};
 use crate::text::finite;
-use uplift_labelled::{LabelledError, LabelledWriter};
+use uplift_labelled::{LabelledError, LabelledReader, LabelledWriter};
 
-/// The groups that a new look replaces.
-const REPLACED: [&str; 2] = [efficiency::ROOT, sufficiency::ROOT];
+/// The groups and axes that a new look replaces.
+fn replaced(stored: &StoredStripes) -> Result<Vec<String>, UpliftError> {
+    let axes = LabelledReader::open(&stored.path)?.children("/axes")?;
+    let of_levels = axes.iter().filter(|axis| axis.ends_with(axis::COMMON_LEVEL)).map(|axis| axis::path(axis));
+    Ok([efficiency::ROOT, sufficiency::ROOT].map(str::to_owned).into_iter().chain(of_levels).collect())
+}
 
 /// The table beside the result file.
 pub(super) fn efficiency_path(result: &Path) -> PathBuf {
@@ -32,7 +37,7 @@ pub(super) fn write_efficiency(
     covariates: &[Covariate],
     measures: &[MeasureEfficiency],
 ) -> Result<(), UpliftError> {
-    addition.write(stored, &REPLACED, |writer| add(writer, covariates, measures))?;
+    addition.write(stored, &replaced(stored)?, |writer| add(writer, covariates, measures))?;
     write_table(
         &efficiency_path(&stored.path),
         &line(stored, "efficiency and sufficiency"),
@@ -67,10 +72,21 @@ fn add(
             (efficiency::zeros(measure), of(|scatter| scatter.zeros as f64), "1", "demands of zero"),
             (efficiency::overturned(measure), of(|scatter| scatter.overturned as f64), "1", "overturned runs"),
         ];
-        for (path, values, unit, long_name) in stripes {
-            writer.array_f64(&path, &[axis::STRENGTH, &axis::level(measure)], &values, unit, long_name)?;
+        let levels = if found.scaled_to == measure { axis::level(measure) } else { axis::common_level(measure) };
+        if found.scaled_to != measure {
+            let long_name = format!("level of {} that every record is brought to", measure.long_name());
+            writer.axis_f64(&levels, &found.levels, measure.unit(), &long_name)?;
         }
+        for (path, values, unit, long_name) in stripes {
+            writer.array_f64(&path, &[axis::STRENGTH, &levels], &values, unit, long_name)?;
+        }
+        writer.attribute(&efficiency::group(measure), "scaled_to", found.scaled_to.key())?;
         let of_strength = [
+            (
+                efficiency::reaching(measure),
+                &found.reaching,
+                "deviation of the logarithm of the level at which a displacement is reached, median over displacements",
+            ),
             (efficiency::rocking(measure), &found.rocking, "median dispersion of the stripes whose median rocks"),
             (
                 efficiency::undefined(measure),
@@ -117,13 +133,20 @@ fn efficiency_table(stored: &StoredStripes, covariates: &[Covariate], measures: 
     let strengths = stored.strengths.len();
     let im: Vec<&str> =
         measures.iter().flat_map(|efficiency| std::iter::repeat_n(efficiency.measure.label(), strengths)).collect();
+    let scaled_to: Vec<&str> =
+        measures.iter().flat_map(|efficiency| std::iter::repeat_n(efficiency.scaled_to.label(), strengths)).collect();
     let strength: Vec<f64> = measures.iter().flat_map(|_| stored.strengths.iter().copied()).collect();
+    let rank: Vec<Option<u32>> =
+        measures.iter().flat_map(|of| (0..strengths).map(move |index| rank(measures, of, index))).collect();
     let join = |value: fn(&MeasureEfficiency) -> &Vec<f64>| -> Vec<Option<f64>> {
         measures.iter().flat_map(|efficiency| value(efficiency).iter().copied().map(finite)).collect()
     };
     let mut columns = vec![
         Column::new("im".into(), im),
+        Column::new("scaled_to".into(), scaled_to),
         Column::new("strength".into(), strength),
+        Column::new("dispersion_level".into(), join(|efficiency| &efficiency.reaching)),
+        Column::new("rank".into(), rank),
         Column::new("dispersion_rocking".into(), join(|efficiency| &efficiency.rocking)),
         Column::new("undefined_share".into(), join(|efficiency| &efficiency.undefined)),
         Column::new("dispersion_initiation".into(), join(|efficiency| &efficiency.initiation)),

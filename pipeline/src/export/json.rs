@@ -125,6 +125,8 @@ fn efficiency(of: &StoredEfficiency) -> Value {
     };
     json!({
         "im": of.measure.label(),
+        "scaled_to": of.scaled_to.label(),
+        "dispersion_level": numbers(&of.reaching),
         "dispersion_rocking": numbers(&of.rocking),
         "undefined_share": numbers(&of.undefined),
         "dispersion_initiation": numbers(&of.initiation),

@@ -110,6 +110,7 @@ impl Export {
         let shape = Shape::column(self.spectra.strengths.len());
         for of in &self.added.efficiency {
             let key = of.measure.key();
+            file.numbers(&format!("dispersion_level_{key}"), &shape, &of.reaching);
             file.numbers(&format!("dispersion_rocking_{key}"), &shape, &of.rocking);
             file.numbers(&format!("undefined_share_{key}"), &shape, &of.undefined);
             file.numbers(&format!("dispersion_initiation_{key}"), &shape, &of.initiation);

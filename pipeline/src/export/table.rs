@@ -41,8 +41,9 @@ impl Export {
                 fit_m.push(curve.map(|curve| curve.at(eta)));
                 flag.push(flag_word(of));
             }
-            lower.extend_from_slice(row.spectrum.lower_tail_share);
-            upper.extend_from_slice(row.spectrum.upper_tail_share);
+            // zero has no sign in a table
+            lower.extend(row.spectrum.lower_tail_share.iter().map(|share| share + 0.0));
+            upper.extend(row.spectrum.upper_tail_share.iter().map(|share| share + 0.0));
             added.extend(self, &row);
             if has_repaired {
                 added.extend_repaired(self, &row);

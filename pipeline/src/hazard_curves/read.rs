@@ -6,7 +6,7 @@ use uplift_hazard::{
     CsvOptions, Declared, ExportedCurve, ExportedCurves, HazardCurve, SecondColumn, SiteSelection, Statistic, read_csv,
     read_export, table_text,
 };
-use uplift_motion::STANDARD_GRAVITY_M_S2;
+use uplift_motion::{IntensityMeasure, STANDARD_GRAVITY_M_S2};
 
 use crate::error::UpliftError;
 use crate::events::Events;
@@ -75,7 +75,10 @@ pub(super) fn read_file(
         return Err(export);
     }
     let declared = match (&options.measure, &options.unit, Declared::in_table(&text)) {
-        (Some(measure), Some(unit), _) => Declared { measure: measure.to_uppercase(), unit: unit.clone() },
+        (Some(measure), Some(unit), _) => {
+            let known = measure.parse().map(|known: IntensityMeasure| known.label().to_owned());
+            Declared { measure: known.unwrap_or_else(|_| measure.to_uppercase()), unit: unit.clone() }
+        }
         (_, _, Some(declared)) => declared,
         _ => {
             return Err(UpliftError::input(format!(

@@ -1,8 +1,8 @@
 //! What a pair of components measures.
 
 use uplift_motion::{
-    Accelerogram, Combination, IntensityMeasure, PulseClassification, RecordPair, classify_pulse, geometric_mean,
-    may_be_pulse_like, read_auto, record_bytes,
+    Accelerogram, Combination, PulseClassification, RecordPair, classify_pulse, geometric_mean, may_be_pulse_like,
+    read_auto, record_bytes,
 };
 
 use super::collect::{Component, ImportedPair};
@@ -36,7 +36,7 @@ impl PairMeasures {
     pub fn of(pair: &RecordPair, gravity_m_s2: f64, pulses: bool) -> Self {
         let peaks = Combination::all_peaks_of(pair).map(|peaks| {
             let peaks = peaks?;
-            Some([IntensityMeasure::Pga, IntensityMeasure::Pgv].map(|measure| measure.of_peaks(peaks, gravity_m_s2)))
+            Some([peaks.pga_g(gravity_m_s2), peaks.pgv_cm_s()])
         });
         let strong = may_be_pulse_like(&pair.h1, &pair.h2);
         let pulse = if pulses && strong { classify_pulse(&pair.h1, &pair.h2).ok() } else { None };

@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
-use uplift_motion::IntensityMeasure;
 
 use super::change::{Influence, RecordInfluence};
 use crate::array::Array;
@@ -15,8 +14,8 @@ use crate::text::spectrum_words;
 use uplift_labelled::{LabelledError, LabelledWriter};
 
 /// The groups that a new look replaces.
-fn replaced() -> Vec<String> {
-    let bins = IntensityMeasure::ALL.map(|measure| axis::path(&axis::bin(measure)));
+fn replaced(stored: &StoredStripes) -> Vec<String> {
+    let bins = stored.measures.iter().map(|own| axis::path(&axis::bin(own.measure)));
     [influence::ROOT, disaggregation::ROOT].map(str::to_owned).into_iter().chain(bins).collect()
 }
 
@@ -37,7 +36,7 @@ pub(super) fn write_influence(
     influences: &[Influence],
     rankings: &[Array<2, Vec<RecordInfluence>>],
 ) -> Result<(), UpliftError> {
-    addition.write(stored, &replaced(), |writer| add(writer, stored, influences))?;
+    addition.write(stored, &replaced(stored), |writer| add(writer, stored, influences))?;
     write_table(
         &influence_path(&stored.path),
         &line(stored, "spectra without each record"),

@@ -8,7 +8,7 @@ use uplift_risk::StripeWeights;
 
 use crate::checksum::checksum_of_file;
 use crate::error::UpliftError;
-use uplift_study::{CurveFile, CurveKind, MeasurePlan, UniformRiskStudy, definition_of, levels_within};
+use uplift_study::{CurveFile, CurveKind, MeasurePlan, UniformRiskStudy, definition_of, levels_key, levels_within};
 
 /// The hazard of one site in one measure.
 #[derive(Debug, Clone)]
@@ -67,7 +67,13 @@ pub fn read_hazard(study: &UniformRiskStudy) -> Result<(Vec<Vec<SiteHazard>>, Ve
         }
         all.push(sites);
     }
-    notes.extend(undefined.first().map(|first| {
+    notes.extend(undefined_note(study, &undefined));
+    if mistakes.is_empty() { Ok((all, notes)) } else { Err(UpliftError::Inputs(mistakes)) }
+}
+
+/// That curves do not say how horizontal components are combined; none where all do.
+fn undefined_note(study: &UniformRiskStudy, undefined: &[String]) -> Option<String> {
+    undefined.first().map(|first| {
         format!(
             "{} hazard curve(s) do not say how horizontal components are combined ({first}{}): taken as {}; say it \
              with [hazard] component",
@@ -75,8 +81,7 @@ pub fn read_hazard(study: &UniformRiskStudy) -> Result<(Vec<Vec<SiteHazard>>, Ve
             if undefined.len() > 1 { ", …" } else { "" },
             definition_of(study.records.intensity)
         )
-    }));
-    if mistakes.is_empty() { Ok((all, notes)) } else { Err(UpliftError::Inputs(mistakes)) }
+    })
 }
 
 /// The hazard of a site in a measure that its study is not analysed by: what the records bring is held against it.
@@ -92,6 +97,8 @@ pub struct OtherHazard {
     pub checksum: String,
     /// The curve in field units, cm/s or g.
     pub curve: HazardCurve,
+    /// Name and SHA-256 of the file of each branch that it is the mean of.
+    pub branches: Vec<(String, String)>,
 }
 
 /// Reads the curves of the measures that `study` is not analysed by, and notes about what was dropped from them.
@@ -99,27 +106,30 @@ pub struct OtherHazard {
 /// # Errors
 /// Everything that is wrong with them, at once.
 pub fn read_other_hazard(study: &UniformRiskStudy) -> Result<(Vec<OtherHazard>, Vec<String>), UpliftError> {
-    let (mut mistakes, mut notes, mut all) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut mistakes, mut notes, mut undefined, mut all) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for site in &study.sites {
         for file in &site.curves {
             if study.measures.iter().any(|plan| plan.measure == file.measure) {
                 continue;
             }
-            let (mut undefined, measure) = (Vec::new(), file.measure);
-            let (notes, mistakes) = (&mut notes, &mut mistakes);
-            let undefined = &mut undefined;
+            let measure = file.measure;
+            let (notes, undefined, mistakes) = (&mut notes, &mut undefined, &mut mistakes);
             let mut reader = SiteReader { site: &site.name, file, measure, study, notes, undefined, mistakes };
             all.extend(reader.other());
         }
     }
+    notes.extend(undefined_note(study, &undefined));
     if mistakes.is_empty() { Ok((all, notes)) } else { Err(UpliftError::Inputs(mistakes)) }
 }
 
 /// A level that hardly any site exceeds, and one that nearly every site does, in field units.
-fn extreme_levels(measure: IntensityMeasure) -> [f64; 2] {
+fn extreme_levels(measure: IntensityMeasure) -> Option<[f64; 2]> {
     match measure {
-        IntensityMeasure::Pgv => [1000.0, 0.3],
-        IntensityMeasure::Pga => [10.0, 0.003],
+        IntensityMeasure::Pgv => Some([1000.0, 0.3]),
+        IntensityMeasure::Pga => Some([10.0, 0.003]),
+        // at long periods even the faintest may be rare
+        IntensityMeasure::Sa(period) if period.s() <= 0.5 => Some([20.0, 0.003]),
+        _ => None,
     }
 }
 
@@ -127,7 +137,7 @@ fn extreme_levels(measure: IntensityMeasure) -> [f64; 2] {
 pub(super) fn implausible(curve: &HazardCurve, measure: IntensityMeasure) -> Option<String> {
     /// Once in ten thousand years.
     const RARE_PER_YEAR: f64 = 1e-4;
-    let [strong, faint] = extreme_levels(measure);
+    let [strong, faint] = extreme_levels(measure)?;
     let unit = measure.unit();
     let at = |level: f64| curve.rate_at(level).ok();
     if let Some(rate) = at(strong).filter(|&rate| rate > RARE_PER_YEAR) {
@@ -182,6 +192,7 @@ impl SiteReader<'_> {
     /// The curve of a measure that the study is not analysed by.
     fn other(&mut self) -> Option<OtherHazard> {
         let file = self.file;
+        let mut branches = Vec::new();
         let (curve, checksum) = if let Some(path) = &file.file {
             let read = self.read_file(path);
             self.noted(read)?
@@ -189,7 +200,9 @@ impl SiteReader<'_> {
             let mut curves = Vec::new();
             for branch in &file.branches {
                 let read = self.read_file(&branch.file);
-                curves.push((branch.weight, self.noted(read)?.0));
+                let (curve, checksum) = self.noted(read)?;
+                curves.push((branch.weight, curve));
+                branches.push((branch.name.clone(), checksum));
             }
             let curves: Vec<(f64, &HazardCurve)> = curves.iter().map(|(weight, curve)| (*weight, curve)).collect();
             let mean = weighted_mean(&curves, &[]);
@@ -201,6 +214,7 @@ impl SiteReader<'_> {
             file: file.file.clone(),
             checksum,
             curve,
+            branches,
         })
     }
 
@@ -321,5 +335,5 @@ pub(super) fn stripe_weights(
     curve: &HazardCurve,
 ) -> Result<StripeWeights, String> {
     StripeWeights::from_hazard(curve, &plan.levels, study.risk.extrapolate)
-        .map_err(|error| format!("{error}; or leave the level out of [{}]", plan.measure.key()))
+        .map_err(|error| format!("{error}; or leave the level out of {}", levels_key(plan.measure)))
 }

@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 use uplift_motion::synthetic::SyntheticSetOptions;
-use uplift_motion::{Accelerogram, Combination, Component, Horizontal, IntensityMeasure};
+use uplift_motion::{Accelerogram, Combination, Component, Horizontal, IntensityMeasure, MotionError};
 
 use super::pairs::{self, CheckedPair};
 use super::{cache, manifest, selection};
@@ -29,6 +30,8 @@ pub struct Record {
     pub pga_g: f64,
     /// PGV of the pair, cm/s, as the study combines its components (Eq. 4.6).
     pub pgv_cm_s: f64,
+    /// The other measures that the study asks of its records, in their units, combined in the same way.
+    pub further: BTreeMap<IntensityMeasure, f64>,
     /// Event, magnitude and whatever else is known.
     pub metadata: BTreeMap<String, String>,
     /// SHA-256 of the record's file; of the samples of a synthetic one.
@@ -41,11 +44,12 @@ impl Record {
         self.metadata.get(key).and_then(|text| text.parse().ok()).unwrap_or(f64::NAN)
     }
 
-    /// Intensity of the pair in the unit of `measure`.
+    /// Intensity of the pair in the unit of `measure`; NaN for one that the study does not ask of its records.
     pub fn intensity(&self, measure: IntensityMeasure) -> f64 {
         match measure {
             IntensityMeasure::Pga => self.pga_g,
             IntensityMeasure::Pgv => self.pgv_cm_s,
+            _ => self.further.get(&measure).copied().unwrap_or(f64::NAN),
         }
     }
 }
@@ -69,6 +73,18 @@ pub struct RecordSet {
 /// Everything that is wrong with the manifest or the record files, at once; [`UpliftError::Interrupted`] where `events`
 /// say so while synthetic ones are made.
 pub fn read_records(study: &UniformRiskStudy, events: &dyn Events) -> Result<RecordSet, UpliftError> {
+    read_measured(study, &study.further_measures(), events)
+}
+
+/// The same with the measures `further` beside PGV and PGA, whatever the study asks for.
+///
+/// # Errors
+/// As [`read_records`].
+pub(crate) fn read_measured(
+    study: &UniformRiskStudy,
+    further: &[IntensityMeasure],
+    events: &dyn Events,
+) -> Result<RecordSet, UpliftError> {
     let (pairs, source, synthetic) = match &study.records.source {
         RecordSource::Synthetic { pairs, seed } => {
             (synthetic_pairs((*pairs, *seed), events)?, format!("seed {seed}"), true)
@@ -92,7 +108,7 @@ pub fn read_records(study: &UniformRiskStudy, events: &dyn Events) -> Result<Rec
     let chosen = if chosen.is_empty() { String::new() } else { format!(", {chosen}") };
     let description =
         format!("{} {kind} {noun} ({source}{chosen}), component {}", pairs.len(), study.records.component);
-    Ok(RecordSet { description, synthetic, records: analysis_records(pairs, study)?, notes })
+    Ok(RecordSet { description, synthetic, records: analysis_records(pairs, study, further)?, notes })
 }
 
 /// Whether the program made the pair itself: it stays synthetic, whichever way it comes back.
@@ -197,11 +213,22 @@ fn first_of(study: &UniformRiskStudy) -> usize {
 }
 
 /// The components that a study analyses, each with the intensities of its pair.
-fn analysis_records(pairs: Vec<CheckedPair>, study: &UniformRiskStudy) -> Result<Vec<Record>, UpliftError> {
+fn analysis_records(
+    pairs: Vec<CheckedPair>,
+    study: &UniformRiskStudy,
+    further: &[IntensityMeasure],
+) -> Result<Vec<Record>, UpliftError> {
     let component = study.records.component;
     let mut records = Vec::new();
     let mut mistakes = Vec::new();
-    for (pair, sums) in pairs {
+    let further_of = |(pair, _): &CheckedPair| -> Result<BTreeMap<IntensityMeasure, f64>, MotionError> {
+        let of_pair = |&measure: &IntensityMeasure| {
+            Ok((measure, measure.of_combined(study.records.intensity, pair, study.gravity_m_s2)?))
+        };
+        further.iter().map(of_pair).collect()
+    };
+    let measured: Vec<_> = pairs.par_iter().map(further_of).collect();
+    for ((pair, sums), measured) in pairs.into_iter().zip(measured) {
         if study.records.intensity != Combination::GeometricMean
             && let Some(apart_s) = pair.metadata.get(pairs::START_APART)
         {
@@ -220,8 +247,7 @@ fn analysis_records(pairs: Vec<CheckedPair>, study: &UniformRiskStudy) -> Result
                 continue;
             }
         };
-        let intensity = |measure: IntensityMeasure| measure.of_peaks(peaks, study.gravity_m_s2);
-        let (pga_g, pgv_cm_s) = (intensity(IntensityMeasure::Pga), intensity(IntensityMeasure::Pgv));
+        let (pga_g, pgv_cm_s) = (peaks.pga_g(study.gravity_m_s2), peaks.pgv_cm_s());
         if !(pga_g > 0.0 && pgv_cm_s > 0.0) {
             mistakes.push(format!(
                 "record {}: a component does not move (PGA {pga_g} g, PGV {pgv_cm_s} cm/s), so it cannot be scaled; \
@@ -230,6 +256,7 @@ fn analysis_records(pairs: Vec<CheckedPair>, study: &UniformRiskStudy) -> Result
             ));
             continue;
         }
+        let measured = measured?;
         for (which, accelerogram) in pair.components(component, drawn(study.seed, &pair.id)) {
             let id = if component == Component::Both { format!("{}:{which}", pair.id) } else { pair.id.clone() };
             let [sum1, sum2] = &sums;
@@ -239,6 +266,7 @@ fn analysis_records(pairs: Vec<CheckedPair>, study: &UniformRiskStudy) -> Result
                 accelerogram: accelerogram.clone(),
                 pga_g,
                 pgv_cm_s,
+                further: measured.clone(),
                 metadata: pair.metadata.clone(),
                 checksum: if which == Horizontal::H1 { sum1.clone() } else { sum2.clone() },
             });

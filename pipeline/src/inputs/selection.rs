@@ -1,7 +1,7 @@
 //! The records of a set that satisfy what a study asks for.
 
 use rayon::prelude::*;
-use uplift_motion::{Combination, IntensityMeasure, RecordPair, classify_pulse, geometric_mean, may_be_pulse_like};
+use uplift_motion::{Combination, RecordPair, classify_pulse, geometric_mean, may_be_pulse_like};
 
 use super::pairs::CheckedPair;
 use crate::error::UpliftError;
@@ -81,11 +81,10 @@ fn judge(
     let duration = |from: f64, to: f64| {
         geometric_mean(pair.h1.significant_duration_s(from, to), pair.h2.significant_duration_s(from, to))
     };
-    let of_peaks = |measure: IntensityMeasure| measure.of_peaks(peaks, gravity_m_s2);
     for (criterion, range) in &selection.ranges {
         let value = match criterion.key {
-            "pga_g" => of_peaks(IntensityMeasure::Pga),
-            "pgv_cm_s" => of_peaks(IntensityMeasure::Pgv),
+            "pga_g" => peaks.pga_g(gravity_m_s2),
+            "pgv_cm_s" => peaks.pgv_cm_s(),
             "d5_75_s" => duration(0.05, 0.75),
             "d5_95_s" => duration(0.05, 0.95),
             key => match pair.metadata.get(key).and_then(|text| text.parse().ok()) {

@@ -1,7 +1,7 @@
 //! The records of a manifest.
 
 use serde::Serialize;
-use uplift_motion::{Combination, IntensityMeasure, RecordPair, STANDARD_GRAVITY_M_S2, geometric_mean};
+use uplift_motion::{Combination, RecordPair, STANDARD_GRAVITY_M_S2, geometric_mean};
 
 use super::SetOptions;
 use crate::error::UpliftError;
@@ -55,7 +55,6 @@ pub fn list(options: &SetOptions, events: &dyn Events) -> Result<ListReport, Upl
 
 fn listed(pair: &RecordPair, intensity: Combination) -> Result<ListedRecord, UpliftError> {
     let peaks = intensity.peaks_of(pair)?;
-    let of = |measure: IntensityMeasure| measure.of_peaks(peaks, STANDARD_GRAVITY_M_S2);
     let said = |key: &str| pair.metadata.get(key).cloned();
     Ok(ListedRecord {
         record: pair.id.clone(),
@@ -63,8 +62,8 @@ fn listed(pair: &RecordPair, intensity: Combination) -> Result<ListedRecord, Upl
         magnitude: said("magnitude"),
         distance_km: said("rrup_km").or_else(|| said("repi_km")),
         vs30: said("vs30"),
-        pga_g: of(IntensityMeasure::Pga),
-        pgv_cm_s: of(IntensityMeasure::Pgv),
+        pga_g: peaks.pga_g(STANDARD_GRAVITY_M_S2),
+        pgv_cm_s: peaks.pgv_cm_s(),
         d5_75_s: geometric_mean(pair.h1.d5_75_s(), pair.h2.d5_75_s()),
         pulse_like: said("pulse_like"),
     })

@@ -72,11 +72,9 @@ impl ResultFile {
         }
         let mut found = Vec::new();
         for scaled_to in self.measures() {
-            for other in IntensityMeasure::ALL {
-                let path = consistency::array(scaled_to, &consistency::of_other(other, "site"));
-                if self.reader.exists(&path) {
-                    found.push(self.consistency_of(scaled_to, other)?);
-                }
+            let arrays = self.reader.children(&consistency::group(scaled_to)).unwrap_or_default();
+            for other in arrays.iter().filter_map(|name| consistency::other_of_site(name)) {
+                found.push(self.consistency_of(scaled_to, other)?);
             }
         }
         Ok(found)

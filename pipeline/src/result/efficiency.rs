@@ -11,6 +11,11 @@ use crate::error::UpliftError;
 pub struct StoredEfficiency {
     /// The measure.
     pub measure: IntensityMeasure,
+    /// The measure that the records of the runs were scaled to.
+    pub scaled_to: IntensityMeasure,
+    /// Deviation of the logarithm of the level at which a displacement is reached, median over displacements: what
+    /// ranks measures. NaN in results of versions that did not ask.
+    pub reaching: Vec<f64>,
     /// Median dispersion of the stripes whose median rocks.
     pub rocking: Vec<f64>,
     /// Share of these stripes that have none, for zeros or overturning.
@@ -47,15 +52,19 @@ impl ResultFile {
                 let array = |name| over_strengths(&sufficiency::array(measure, &covariate, name));
                 Ok(StoredTrend { slope: array("slope")?, p_value: array("p_value")?, covariate })
             };
+            // results of earlier versions have no others
+            let said = self.reader.attribute_text(&efficiency::group(measure), "scaled_to").ok();
+            let scaled_to = said.and_then(|key| key.parse().ok()).unwrap_or(measure);
             Ok(StoredEfficiency {
                 measure,
+                scaled_to,
+                reaching: over_strengths(&efficiency::reaching(measure)).unwrap_or(vec![f64::NAN; strengths.1]),
                 rocking: over_strengths(&efficiency::rocking(measure))?,
                 undefined: over_strengths(&efficiency::undefined(measure))?,
                 initiation: over_strengths(&efficiency::initiation(measure))?,
                 trends: covariates.into_iter().map(trend).collect::<Result<_, UpliftError>>()?,
             })
         };
-        let has = |measure: &IntensityMeasure| self.reader.exists(&efficiency::rocking(*measure));
-        self.measures().into_iter().filter(has).map(of).collect()
+        self.measures_in(efficiency::ROOT).into_iter().map(of).collect()
     }
 }

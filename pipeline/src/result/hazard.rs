@@ -42,7 +42,15 @@ impl ResultFile {
     /// The measures with stripes, PGV first.
     pub(super) fn measures(&self) -> Vec<IntensityMeasure> {
         let is_there = |measure: &IntensityMeasure| self.reader.exists(&ida::edp_m(*measure));
-        IntensityMeasure::ALL.into_iter().filter(is_there).collect()
+        self.measures_in(ida::ROOT).into_iter().filter(is_there).collect()
+    }
+
+    /// The measures with a group of their own in `group`, PGV first; none where there is no such group.
+    pub(super) fn measures_in(&self, group: &str) -> Vec<IntensityMeasure> {
+        let children = self.reader.children(group).unwrap_or_default();
+        let mut measures: Vec<IntensityMeasure> = children.iter().filter_map(|name| name.parse().ok()).collect();
+        measures.sort_unstable();
+        measures
     }
 
     /// The curve of a site by any measure, whether the study is analysed by it or not; none where it has none.

@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 use uplift_labelled::LabelledReader;
-use uplift_motion::IntensityMeasure;
 use uplift_study::Kind;
 
 use super::digest::UNSAID_NUMERICS;
@@ -138,12 +137,10 @@ impl ResultFile {
         }
         let mut analyses = Vec::new();
         // by their keys, as a listing of the file has them
-        let mut measures = IntensityMeasure::ALL;
+        let mut measures = self.measures_in(ida::ROOT);
         measures.sort_by_key(|measure| measure.key());
         for measure in measures {
-            if reader.exists(&ida::group(measure)) {
-                analyses.push((measure.key(), reader.attribute_u64(&ida::group(measure), "analyses")?));
-            }
+            analyses.push((measure.key(), reader.attribute_u64(&ida::group(measure), "analyses")?));
         }
         let sites = reader.exists(&axis::path(axis::SITE)).then(|| reader.axis_text(axis::SITE)).transpose()?;
         let added = [(bootstrap::ROOT, "bootstrap"), (influence::ROOT, "influence"), (efficiency::ROOT, "measures")];

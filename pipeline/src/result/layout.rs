@@ -58,6 +58,11 @@ in_group! {
     SAMPLES = "samples",
 }
 
+/// The array of an intensity measure of the unscaled pairs: `/records/pga_g`, `/records/sa_1s_g`.
+pub fn intensity(measure: IntensityMeasure) -> String {
+    format!("{}/{}_{}", records::GROUP, measure.key(), measure.unit_key())
+}
+
 by_measure! {
     /// Peak displacements of all runs.
     ida: edp_m = "edp_m", impacts = "impacts",
@@ -146,9 +151,19 @@ pub mod consistency {
     pub const OF_OTHER: &[&str] =
         &["site", "implied", "repaired", "bias", "rms", "max", "verdict", "ratio", "times_as_often"];
 
+    /// The group of the analysis by a measure.
+    pub fn group(measure: IntensityMeasure) -> String {
+        format!("{ROOT}/{}", measure.key())
+    }
+
     /// An array of the analysis by a measure.
     pub fn array(measure: IntensityMeasure, name: &str) -> String {
-        format!("{ROOT}/{}/{name}", measure.key())
+        format!("{}/{name}", group(measure))
+    }
+
+    /// The other measure whose levels at the site are in the array `name`; none for any other array.
+    pub(crate) fn other_of_site(name: &str) -> Option<IntensityMeasure> {
+        name.strip_suffix("_site")?.parse().ok()
     }
 
     /// The name of an array that is about the `other` measure.
@@ -166,7 +181,8 @@ by_measure! {
     /// Scatter of the demand.
     efficiency:
     median_m = "median_m", dispersion = "dispersion", ln_deviation = "ln_deviation", zeros = "zeros",
-    overturned = "overturned", rocking = "rocking", undefined = "undefined", initiation = "initiation",
+    overturned = "overturned", reaching = "reaching", rocking = "rocking", undefined = "undefined",
+    initiation = "initiation",
     initiation_records = "initiation_records",
 }
 
@@ -393,6 +409,14 @@ pub mod axis {
     /// Stripe levels of a measure.
     pub fn level(measure: IntensityMeasure) -> String {
         format!("{}_level", measure.key())
+    }
+
+    /// What the names of axes end with whose levels every record is brought to, of a measure that it is not scaled to.
+    pub const COMMON_LEVEL: &str = "_common_level";
+
+    /// Levels of a measure that every record is brought to, though it is scaled to another.
+    pub fn common_level(measure: IntensityMeasure) -> String {
+        format!("{}{COMMON_LEVEL}", measure.key())
     }
 
     /// Levels from which the bins of a measure reach up.

@@ -58,9 +58,14 @@ impl Provenance {
                 input_checksums.insert(name, curve.curve.checksum.clone());
             }
         }
-        for curve in other_hazard.iter().filter(|curve| curve.file.is_some()) {
+        for curve in other_hazard {
             let name = format!("hazard {} {}", curve.site, curve.measure.label());
-            input_checksums.insert(name, curve.checksum.clone());
+            for (branch, checksum) in &curve.branches {
+                input_checksums.insert(format!("{name} {branch}"), checksum.clone());
+            }
+            if curve.file.is_some() {
+                input_checksums.insert(name, curve.checksum.clone());
+            }
         }
         Self::of_inputs(options, input_checksums)
     }

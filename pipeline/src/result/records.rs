@@ -1,10 +1,12 @@
 //! What a result knows of its records.
 
+use std::collections::BTreeMap;
+
 use uplift_motion::IntensityMeasure;
 use uplift_study::Kind;
 
 use super::file::ResultFile;
-use super::layout::{axis, ida, records};
+use super::layout::{axis, ida, intensity, records};
 use crate::error::UpliftError;
 
 /// What a result knows of its records; arrays run over `[record]`.
@@ -18,6 +20,8 @@ pub struct StoredRecords {
     pub pga_g: Vec<f64>,
     /// PGV of the unscaled pair, cm/s.
     pub pgv_cm_s: Vec<f64>,
+    /// The other measures of the unscaled pairs that the study asked for, in their units.
+    pub further: BTreeMap<IntensityMeasure, Vec<f64>>,
     /// Moment magnitude; NaN where it is not known.
     pub magnitude: Vec<f64>,
     /// Names of their earthquakes; empty where they are not known.
@@ -31,11 +35,12 @@ pub struct StoredRecords {
 }
 
 impl StoredRecords {
-    /// Intensities of the unscaled pairs by `measure`, in its unit.
-    pub fn intensities(&self, measure: IntensityMeasure) -> &[f64] {
+    /// Intensities of the unscaled pairs by `measure`, in its unit; none where the result does not know them.
+    pub fn intensities(&self, measure: IntensityMeasure) -> Option<&[f64]> {
         match measure {
-            IntensityMeasure::Pga => &self.pga_g,
-            IntensityMeasure::Pgv => &self.pgv_cm_s,
+            IntensityMeasure::Pga => Some(&self.pga_g),
+            IntensityMeasure::Pgv => Some(&self.pgv_cm_s),
+            _ => self.further.get(&measure).map(Vec::as_slice),
         }
     }
 }
@@ -55,7 +60,10 @@ impl ResultFile {
         let ids = self.reader.axis_text(axis::RECORD)?;
         let axes = [(axis::RECORD, ids.len())];
         let number = |path: &str| self.array(path, axes).map(crate::array::Array::into_values);
+        let further = self.stored_study()?.further_measures();
+        let of_measure = |measure: IntensityMeasure| Ok((measure, number(&intensity(measure))?));
         Ok(StoredRecords {
+            further: further.into_iter().map(of_measure).collect::<Result<_, UpliftError>>()?,
             motion_sha256: self.checked(
                 records::MOTION_SHA256,
                 self.reader.array_text(records::MOTION_SHA256)?,

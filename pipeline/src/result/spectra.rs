@@ -146,7 +146,7 @@ impl ResultFile {
         let axes = self.axes()?;
         let (sites, poes) = ((axis::SITE, axes.sites.len()), (axis::POE, axes.poes.len()));
         let mut measures = Vec::new();
-        for measure in IntensityMeasure::ALL.into_iter().filter(|&measure| self.reader.exists(&urs::u_m(measure))) {
+        for measure in self.measures_in(urs::ROOT) {
             let column = |path: &str| self.array(path, [sites, poes]);
             let (c0_m, c1) = (column(&regression::c0_m(measure))?, column(&regression::c1(measure))?);
             let (c2_m, rmse_m) = (column(&regression::c2_m(measure))?, column(&regression::rmse_m(measure))?);

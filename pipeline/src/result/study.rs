@@ -16,7 +16,7 @@ use crate::array::Array;
 use crate::checkpoint::motion_key;
 use crate::error::UpliftError;
 use crate::events::Silent;
-use crate::inputs::{RecordSet, read_records};
+use crate::inputs::{RecordSet, read_measured};
 use uplift_study::{AnyStudy, MeasurePlan, Study, UniformRiskStudy};
 
 /// A result with its study.
@@ -121,7 +121,15 @@ impl StudyOfResult {
     /// # Errors
     /// Records that are not there, or are others: what is wrong, and what to do.
     pub fn records(&self) -> Result<RecordSet, String> {
-        let set = read_records(&self.study, &Silent).map_err(|error| error.to_string())?;
+        self.records_measured(&self.study.further_measures())
+    }
+
+    /// The same with the measures `further` beside PGV and PGA.
+    ///
+    /// # Errors
+    /// As [`records`](Self::records).
+    pub(crate) fn records_measured(&self, further: &[IntensityMeasure]) -> Result<RecordSet, String> {
+        let set = read_measured(&self.study, further, &Silent).map_err(|error| error.to_string())?;
         let made_from = &self.made_from;
         if set.records.len() != made_from.ids.len() {
             let (found, made) = (set.records.len(), made_from.ids.len());

@@ -100,7 +100,8 @@ pub(super) fn read(
 ) -> Result<CoefficientTable, UpliftError> {
     let result = file.spectra()?;
     let study = file.stored_study()?;
-    let wanted = options.measure.of_rows();
+    let known: Vec<IntensityMeasure> = result.measures.iter().map(|of| of.measure).collect();
+    let wanted = options.measure.of_rows(&known);
     let references = options.reference.as_deref().map_or_else(|| Ok(Vec::new()), read_reference)?;
     let consistency = file.consistency()?;
     let places = result.measures.iter().flat_map(|of| of.fits.blocks::<2>().map(|(at, _)| at));
@@ -118,7 +119,8 @@ pub(super) fn read(
         })
         .collect();
     if rows.is_empty() {
-        let found = if result.measures.is_empty() { "it has none" } else { "it has the other measure: use --im" };
+        let keys: Vec<&str> = known.iter().map(|measure| measure.key()).collect();
+        let found = if keys.is_empty() { "it has none".to_owned() } else { format!("use --im {}", keys.join(" or ")) };
         return Err(UpliftError::input(format!(
             "{}: has no spectra by {}: {found}",
             options.result.display(),

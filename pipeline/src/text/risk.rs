@@ -43,6 +43,26 @@ pub fn risk_in_words(poe: f64, years: f64) -> String {
     asked_return_period(poe, years).map_or(probability.clone(), |period| format!("{period} years ({probability})"))
 }
 
+/// Several risks, parted by `between`: `2 %, 10 % in 50 years`, or `475 years, 2 % in 50 years`.
+pub fn risks_in_words(poes: &[f64], years: f64, between: &str) -> String {
+    if poes.iter().any(|&poe| asked_return_period(poe, years).is_some()) {
+        let name = |&poe: &f64| {
+            let probability = || format!("{} in {years} years", per_cent(poe));
+            asked_return_period(poe, years).map_or_else(probability, |period| format!("{period} years"))
+        };
+        return poes.iter().map(name).collect::<Vec<_>>().join(between);
+    }
+    let all: Vec<String> = poes.iter().map(|&poe| per_cent(poe)).collect();
+    format!("{} in {years} years", all.join(between))
+}
+
+/// What the names of several risks are ([`risk_name`]), for the foot of their table: `probabilities in 50 years`; none
+/// where all are return periods.
+pub fn kind_of_risks(poes: &[f64], years: f64) -> Option<String> {
+    let is_probability = |&poe: &f64| asked_return_period(poe, years).is_none();
+    poes.iter().any(is_probability).then(|| format!("probabilities in {years} years"))
+}
+
 /// The return period that a probability stands for, years, where it is a round number and the probability is none.
 fn asked_return_period(poe: f64, years: f64) -> Option<f64> {
     let inside = poe > 0.0 && poe < 1.0;
@@ -88,6 +108,16 @@ mod tests {
         ] {
             assert_eq!(per_cent(probability), said);
         }
+    }
+
+    #[test]
+    fn several_risks_are_probabilities_or_return_periods() {
+        assert_eq!(risks_in_words(&[0.02, 0.1], 50.0, " / "), "2 % / 10 % in 50 years");
+        let period = of_period(50.0, 475.0);
+        assert_eq!(risks_in_words(&[period], 50.0, ", "), "475 years");
+        assert_eq!(risks_in_words(&[period, 0.02], 50.0, ", "), "475 years, 2 % in 50 years");
+        assert_eq!(kind_of_risks(&[period], 50.0), None);
+        assert_eq!(kind_of_risks(&[period, 0.1], 50.0).as_deref(), Some("probabilities in 50 years"));
     }
 
     #[test]

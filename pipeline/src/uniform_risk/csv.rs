@@ -58,8 +58,9 @@ fn spectra_table(outcome: &Outcome<'_>) -> Vec<Column> {
                 strength.push(*eta);
                 u_m.push(ordinate.displacement_m);
                 flag.push(flag_word(ordinate.flag));
-                lower.push(ordinate.lower_tail_share);
-                upper.push(ordinate.upper_tail_share);
+                // zero has no sign in a table
+                lower.push(ordinate.lower_tail_share + 0.0);
+                upper.push(ordinate.upper_tail_share + 0.0);
             }
         }
     }

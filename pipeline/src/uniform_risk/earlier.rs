@@ -4,11 +4,10 @@ use std::collections::HashMap;
 use std::path::Path;
 
 use uplift_ida::{Axes, Cells};
-use uplift_motion::IntensityMeasure;
 
 use crate::checkpoint::oscillator_key;
 use crate::inputs::RecordSet;
-use crate::result::layout::{axis, ida, records};
+use crate::result::layout::{axis, ida, intensity, records};
 use uplift_labelled::{LabelledError, LabelledReader};
 use uplift_study::{MeasurePlan, UniformRiskStudy};
 
@@ -51,12 +50,7 @@ impl EarlierStripes {
             return Ok(());
         }
         let stored_motions = reader.array_text(records::MOTION_SHA256)?.values;
-        let intensities = reader
-            .array_f64(match measure.measure {
-                IntensityMeasure::Pga => records::PGA_G,
-                IntensityMeasure::Pgv => records::PGV_CM_S,
-            })?
-            .values;
+        let intensities = reader.array_f64(&intensity(measure.measure))?.values;
         let positions = |values: &[f64]| -> HashMap<u64, usize> {
             values.iter().enumerate().map(|(index, value)| (value.to_bits(), index)).collect()
         };

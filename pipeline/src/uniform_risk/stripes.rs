@@ -64,10 +64,12 @@ pub fn plan_stripes<'a>(
     set: &'a RecordSet,
     systems: &'a [System],
 ) -> Result<Plan<'a>, UpliftError> {
+    let amplitude = |value: f64| measure.measure.amplitude(value);
     let records = set.records.iter().map(|record| StripeRecord {
         id: &record.id,
         accelerogram: &record.accelerogram,
-        intensity: record.intensity(measure.measure),
+        intensity: amplitude(record.intensity(measure.measure)),
     });
-    Ok(Plan::stripes(records.collect(), systems, &measure.levels, study.oscillator.free_vibration)?)
+    let levels: Vec<f64> = measure.levels.iter().map(|&level| amplitude(level)).collect();
+    Ok(Plan::stripes(records.collect(), systems, &levels, study.oscillator.free_vibration)?)
 }

@@ -11,7 +11,7 @@ use crate::checkpoint::{motion_key, oscillator_key};
 use crate::consistency::Keep;
 use crate::error::UpliftError;
 use crate::inputs::Record;
-use crate::result::layout::{URS_PRECISION, axis, ida, records as layout, regression, risk, urs};
+use crate::result::layout::{URS_PRECISION, axis, ida, intensity, records as layout, regression, risk, urs};
 use crate::result::{Origin, flag_number};
 use uplift_labelled::{LabelledError, LabelledWriter};
 
@@ -74,7 +74,11 @@ fn write_axes(writer: &mut LabelledWriter, outcome: &Outcome<'_>) -> Result<(), 
     writer.axis_f64(axis::POE, &study.risk.poe, "1", &format!("probability of exceedance in {years} years"))
 }
 
-fn write_records(writer: &mut LabelledWriter, records: &[Record], intensity: Combination) -> Result<(), LabelledError> {
+fn write_records(
+    writer: &mut LabelledWriter,
+    records: &[Record],
+    combination: Combination,
+) -> Result<(), LabelledError> {
     let dims = &[axis::RECORD];
     let number = |key: &str| -> Vec<f64> { records.iter().map(|record| record.number(key)).collect() };
     let text = |key: &str| -> Vec<String> {
@@ -97,7 +101,7 @@ fn write_records(writer: &mut LabelledWriter, records: &[Record], intensity: Com
         dims,
         &pga,
         "g",
-        &format!("PGA of the unscaled pair, {}", intensity.long_name()),
+        &format!("PGA of the unscaled pair, {}", combination.long_name()),
     )?;
     let pgv: Vec<f64> = records.iter().map(|record| record.pgv_cm_s).collect();
     writer.array_f64(
@@ -105,8 +109,14 @@ fn write_records(writer: &mut LabelledWriter, records: &[Record], intensity: Com
         dims,
         &pgv,
         "cm/s",
-        &format!("PGV of the unscaled pair, {}", intensity.long_name()),
+        &format!("PGV of the unscaled pair, {}", combination.long_name()),
     )?;
+    let further = records.first().map_or_else(Vec::new, |record| record.further.keys().copied().collect());
+    for measure in further {
+        let values: Vec<f64> = records.iter().map(|record| record.intensity(measure)).collect();
+        let long_name = format!("{} of the unscaled pair, {}", measure.long_name(), combination.long_name());
+        writer.array_f64(&intensity(measure), dims, &values, measure.unit(), &long_name)?;
+    }
     for (path, from, to) in [(layout::DURATION_5_75_S, 0.05, 0.75), (layout::DURATION_5_95_S, 0.05, 0.95)] {
         let durations: Vec<f64> =
             records.iter().map(|record| record.accelerogram.significant_duration_s(from, to)).collect();

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use uplift::consistency::{AgreementRow, ConsistencyReport, ConsistencyRow};
-use uplift::text::{per_cent, table};
+use uplift::text::{per_cent, risk_name, risks_in_words, table};
 
 use super::shown_path;
 use crate::error::CommandError;
@@ -21,6 +21,7 @@ pub(crate) fn print_consistency(report: &ConsistencyReport, terminal: &Terminal)
         writeln!(out, "\nnot asked, for want of curves of two measures: {}", report.unasked.join(", "))?;
     }
     print_scale_factors(out, report)?;
+    print_earthquakes(out, report)?;
     print_two_sided(out, report)?;
     print_agreement(out, report)?;
     for warning in &report.warnings {
@@ -72,8 +73,8 @@ fn of_targets(row: &ConsistencyRow, value: impl Fn(&uplift::consistency::TargetR
 
 fn probabilities(report: &ConsistencyReport) -> String {
     let Some(row) = report.rows.first() else { return String::new() };
-    let poes: Vec<String> = row.targets.iter().map(|target| per_cent(target.poe)).collect();
-    format!("{} in {} years", poes.join(" / "), report.years)
+    let poes: Vec<f64> = row.targets.iter().map(|target| target.poe).collect();
+    risks_in_words(&poes, report.years, " / ")
 }
 
 fn print_levels(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), CommandError> {
@@ -111,6 +112,33 @@ fn print_levels(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), 
         header.push("effective, least");
     }
     header.push("verdict");
+    writeln!(out, "{}", table(&header, &rows))?;
+    Ok(())
+}
+
+/// Magnitude and distance of the hazard beside those of the records, where disaggregations were given.
+fn print_earthquakes(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), CommandError> {
+    if report.earthquakes.is_empty() {
+        return Ok(());
+    }
+    let is_repaired = report.rows.iter().any(|row| row.repair.is_some());
+    let rows = report.earthquakes.iter().map(|row| {
+        let mut cells = vec![row.site.clone(), row.scaled_to.to_owned(), risk_name(row.poe, report.years)];
+        cells.extend([number(Some(row.mean_magnitude), 2), number(row.magnitude, 2)]);
+        cells.extend(is_repaired.then(|| number(row.repaired_magnitude, 2)));
+        cells.extend([format!("| {}", number(Some(row.mean_distance_km), 0)), number(row.distance_km, 0)]);
+        cells.extend(is_repaired.then(|| number(row.repaired_distance_km, 0)));
+        cells
+    });
+    let rows: Vec<Vec<String>> = rows.collect();
+    let mut header = vec!["site", "scaled to", "risk", "M of hazard", "records"];
+    header.extend(is_repaired.then_some("weighed"));
+    header.extend(["| km of hazard", "records"]);
+    header.extend(is_repaired.then_some("weighed"));
+    writeln!(
+        out,
+        "\nEarthquakes: mean magnitude and distance of the site's hazard (disaggregation), and medians of the records"
+    )?;
     writeln!(out, "{}", table(&header, &rows))?;
     Ok(())
 }

@@ -19,84 +19,133 @@ pub(crate) fn print_efficiency(report: &EfficiencyReport, terminal: &Terminal) -
     let out = &mut output();
     let shown = nearest(&report.strengths, &SHOWN_STRENGTHS);
     let measures: Vec<&[EfficiencyRow]> = report.rows.chunks(report.strengths.len()).collect();
-    print_scatter(out, report, &measures, &shown)?;
-    print_trends(out, report, &measures, &shown)?;
+    let shown = Shown { report, measures, strengths: shown };
+    shown.print_scatter(out)?;
+    shown.print_trends(out)?;
     if !terminal.is_quiet() {
-        print_reading(out, report, &measures, &shown)?;
+        shown.print_reading(out)?;
         writeln!(out, "\nAll of it: /efficiency and /sufficiency in {}", shown_path(&report.result).display())?;
         writeln!(out, "           {}", shown_path(&report.table).display())?;
     }
     Ok(())
 }
 
+/// What is shown of a report: a row a measure, a column a strength.
+struct Shown<'a> {
+    report: &'a EfficiencyReport,
+    /// The rows of each measure, `[measure][strength]`.
+    measures: Vec<&'a [EfficiencyRow]>,
+    /// Positions of the strengths shown.
+    strengths: Vec<usize>,
+}
+
 fn number(value: f64, digits: usize) -> String {
     if value.is_finite() { format!("{value:.digits$}") } else { "-".to_owned() }
 }
 
-fn print_scatter(
-    out: &mut impl Write,
-    report: &EfficiencyReport,
-    measures: &[&[EfficiencyRow]],
-    shown: &[usize],
-) -> Result<(), CommandError> {
-    writeln!(
-        out,
-        "\nEfficiency: scatter (logarithmic) of the displacement at a given level once the structure rocks, of the \
-         level at which it\nbegins to rock, and the stripes whose scatter does not exist because too many runs overturn"
-    )?;
-    let mut header = vec!["strength".to_owned()];
-    for rows in measures {
-        header.extend([format!("{} rocking", rows[0].im), "initiation".to_owned(), "undefined".to_owned()]);
+impl Shown<'_> {
+    /// A table with a row a measure and a column a strength shown.
+    fn table(&self, cell: impl Fn(&EfficiencyRow) -> String) -> String {
+        let mut header = vec!["measure".to_owned()];
+        header.extend(self.strengths.iter().map(|&index| format!("{:.3}", self.report.strengths[index])));
+        let row = |rows: &&[EfficiencyRow]| {
+            let label = if rows[0].is_told() { format!("{} +", rows[0].im) } else { rows[0].im.to_owned() };
+            std::iter::once(label).chain(self.strengths.iter().map(|&index| cell(&rows[index]))).collect()
+        };
+        let rows: Vec<Vec<String>> = self.measures.iter().map(row).collect();
+        let header: Vec<&str> = header.iter().map(String::as_str).collect();
+        table(&header, &rows)
     }
-    let rows: Vec<Vec<String>> = shown
-        .iter()
-        .map(|&index| {
-            let mut cells = vec![format!("{:.3}", report.strengths[index])];
-            for row in measures.iter().map(|rows| &rows[index]) {
-                cells.push(number(row.dispersion_rocking, 2));
-                cells.push(number(row.dispersion_initiation, 3));
-                cells.push(format!("{} %", number(100.0 * row.undefined_share, 0)));
-            }
-            cells
-        })
-        .collect();
-    let header: Vec<&str> = header.iter().map(String::as_str).collect();
-    writeln!(out, "{}", table(&header, &rows))?;
-    Ok(())
-}
 
-fn print_trends(
-    out: &mut impl Write,
-    report: &EfficiencyReport,
-    measures: &[&[EfficiencyRow]],
-    shown: &[usize],
-) -> Result<(), CommandError> {
-    writeln!(
-        out,
-        "\nSufficiency: p-value of the trend of a record's mean residual with what the record is (below \
-         {SIGNIFICANT}, marked *: the measure\nleaves something out), one observation a record"
-    )?;
-    if report.covariates.is_empty() {
-        writeln!(out, "nothing is known of the records: give magnitude and rrup_km in the manifest")?;
-        return Ok(());
+    fn print_scatter(&self, out: &mut impl Write) -> Result<(), CommandError> {
+        writeln!(
+            out,
+            "\nEfficiency: scatter (logarithmic) of the level at which records bring the structure to a displacement, \
+             and rank, by\nstrength; the median over displacements from uplift to the largest that all records reach"
+        )?;
+        let ranked = |row: &EfficiencyRow| match row.rank {
+            Some(rank) => format!("{} ({rank})", number(row.dispersion_level, 2)),
+            None => "-".to_owned(),
+        };
+        writeln!(out, "{}", self.table(ranked))?;
+        writeln!(
+            out,
+            "\nScatter of the displacement at a given level once the structure rocks, over the levels at hand"
+        )?;
+        writeln!(out, "{}", self.table(|row| number(row.dispersion_rocking, 2)))?;
+        let undefined = |row: &EfficiencyRow| format!("{} %", number(100.0 * row.undefined_share, 0));
+        if self.rows().any(|row| row.undefined_share > 0.0) {
+            writeln!(out, "\nStripes whose scatter does not exist because too many runs overturn")?;
+            writeln!(out, "{}", self.table(undefined))?;
+        }
+        writeln!(out, "\nScatter of the level at which it begins to rock")?;
+        writeln!(out, "{}", self.table(|row| number(row.dispersion_initiation, 3)))?;
+        if let Some(told) = self.rows().find(|row| row.is_told()) {
+            writeln!(out, "+ told of the runs scaled to {}, at levels that all records reach", told.scaled_to)?;
+        }
+        Ok(())
     }
-    let mut header = vec!["strength".to_owned()];
-    for rows in measures {
-        header.extend(report.covariates.iter().map(|covariate| format!("{} {covariate}", rows[0].im)));
+
+    /// The rows that are shown.
+    fn rows(&self) -> impl Iterator<Item = &EfficiencyRow> {
+        self.measures.iter().flat_map(|rows| self.strengths.iter().map(|&index| &rows[index]))
     }
-    let rows: Vec<Vec<String>> = shown
-        .iter()
-        .map(|&index| {
-            let mut cells = vec![format!("{:.3}", report.strengths[index])];
-            for row in measures.iter().map(|rows| &rows[index]) {
-                cells.extend(report.covariates.iter().map(|covariate| p_value(&row.trends[covariate])));
+
+    fn print_trends(&self, out: &mut impl Write) -> Result<(), CommandError> {
+        writeln!(
+            out,
+            "\nSufficiency: p-value of the trend of a record's mean residual with what the record is (below \
+             {SIGNIFICANT}, marked *: the measure\nleaves something out), one observation a record"
+        )?;
+        if self.report.covariates.is_empty() {
+            writeln!(out, "nothing is known of the records: give magnitude and rrup_km in the manifest")?;
+        }
+        for covariate in &self.report.covariates {
+            writeln!(out, "{covariate}\n{}", self.table(|row| p_value(&row.trends[covariate])))?;
+        }
+        Ok(())
+    }
+
+    fn print_reading(&self, out: &mut impl Write) -> Result<(), CommandError> {
+        writeln!(out, "\nIn words:")?;
+        for (what, of) in [
+            ("the displacement of a rocking structure", (|row| row.dispersion_level) as fn(&EfficiencyRow) -> f64),
+            ("the onset of rocking", |row| row.dispersion_initiation),
+        ] {
+            writeln!(out, "  {}", self.most_efficient(what, of))?;
+        }
+        writeln!(
+            out,
+            "  a measure serves a risk analysis only if hazard curves of it can be had: for PGV, PGA and SA ground \
+             motion models and\n  maps exist"
+        )?;
+        if self.report.records < 30 {
+            writeln!(out, "  with {} records a p-value finds only strong trends", self.report.records)?;
+        }
+        Ok(())
+    }
+
+    /// Which measure scatters least, and at how many of the strengths shown.
+    fn most_efficient(&self, what: &str, of: fn(&EfficiencyRow) -> f64) -> String {
+        let best = |&index: &usize| {
+            let known = self.measures.iter().filter(|rows| of(&rows[index]).is_finite());
+            let least = known.min_by(|a, b| of(&a[index]).total_cmp(&of(&b[index])))?;
+            Some(least[index].im)
+        };
+        let winners: Vec<&str> = self.strengths.iter().filter_map(best).collect();
+        let mut names = winners.clone();
+        names.dedup();
+        match names[..] {
+            [] => format!("for {what} the stripes do not tell which is the most efficient"),
+            [one] => format!("{one} is the most efficient for {what}, at every strength shown"),
+            _ => {
+                let at = winners.iter().zip(self.strengths.iter().filter(|index| best(index).is_some()));
+                let told: Vec<String> =
+                    at.map(|(name, &index)| format!("{name} at {:.3}", self.report.strengths[index])).collect();
+                format!("the most efficient for {what}: {}", told.join(", "))
             }
-            cells
-        })
-        .collect();
-    let header: Vec<&str> = header.iter().map(String::as_str).collect();
-    writeln!(out, "{}", table(&header, &rows))?;
-    Ok(())
+        }
+    }
 }
 
 fn p_value(trend: &Trend) -> String {
@@ -108,45 +157,4 @@ fn p_value(trend: &Trend) -> String {
             format!("{shown} {mark}")
         },
     )
-}
-
-fn print_reading(
-    out: &mut impl Write,
-    report: &EfficiencyReport,
-    measures: &[&[EfficiencyRow]],
-    shown: &[usize],
-) -> Result<(), CommandError> {
-    writeln!(out, "\nIn words:")?;
-    if let [first, second] = measures {
-        for (what, rocking) in [("the displacement of a rocking structure", true), ("the onset of rocking", false)] {
-            let of = |row: &EfficiencyRow| if rocking { row.dispersion_rocking } else { row.dispersion_initiation };
-            let wins: Vec<bool> = shown
-                .iter()
-                .map(|&index| (of(&first[index]), of(&second[index])))
-                .filter(|(first, second)| first.is_finite() && second.is_finite())
-                .map(|(first, second)| first < second)
-                .collect();
-            let count = wins.iter().filter(|&&win| win).count();
-            let (a, b) = (first[0].im, second[0].im);
-            let said = match count {
-                _ if wins.is_empty() => format!("for {what} the stripes do not tell which is more efficient"),
-                all if all == wins.len() => format!("{a} is the more efficient for {what}, at every strength shown"),
-                0 => format!("{b} is the more efficient for {what}, at every strength shown"),
-                some => format!(
-                    "{a} is the more efficient for {what} at {some} of the {} strengths shown, {b} at the others",
-                    wins.len()
-                ),
-            };
-            writeln!(out, "  {said}")?;
-        }
-    }
-    writeln!(
-        out,
-        "  a measure serves a risk analysis only if hazard curves of it can be had: for PGV and PGA ground motion \
-         models and maps exist"
-    )?;
-    if report.records < 30 {
-        writeln!(out, "  with {} records a p-value finds only strong trends", report.records)?;
-    }
-    Ok(())
 }

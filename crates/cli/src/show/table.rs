@@ -5,20 +5,21 @@ mod design;
 use std::io::Write;
 
 use uplift::table::{COMPARED_ABOVE, COMPARED_FROM_M, CoefficientRow, CoefficientTable, TableReport, TableRows};
-use uplift::text::{risk_name, spectrum_words, table};
+use uplift::text::{kind_of_risks, risk_name, spectrum_words, table};
 
 use super::alarms::print_alarms;
 use crate::error::CommandError;
-use crate::terminal::output;
+use crate::terminal::{Terminal, output};
 
-/// The table of a result, of either kind.
-pub(crate) fn print_table(report: &TableReport) -> Result<(), CommandError> {
+/// The table of a result, of either kind, with what to know before it is used.
+pub(crate) fn print_table(report: &TableReport, terminal: &Terminal) -> Result<(), CommandError> {
     let mut out = output();
     match &report.rows {
         TableRows::Coefficients(coefficients) => print_coefficients(&mut out, coefficients),
         TableRows::Design(designs) => design::print_design(&mut out, designs),
     }?;
-    print_alarms(&mut out, &report.alarms)
+    // a quiet terminal gets what was asked for alone
+    if terminal.is_quiet() { Ok(()) } else { print_alarms(&mut out, &report.alarms) }
 }
 
 fn print_coefficients(out: &mut impl Write, report: &CoefficientTable) -> Result<(), CommandError> {
@@ -38,7 +39,9 @@ fn print_coefficients(out: &mut impl Write, report: &CoefficientTable) -> Result
     let rows: Vec<Vec<String>> = report.rows.iter().map(cells).collect();
     writeln!(out, "{}", table(&header, &rows))?;
     let starred = if report.rows.iter().any(|row| row.bound_active) { "* c2 held at 0; " } else { "" };
-    writeln!(out, "{starred}probabilities in {} years; rmse with n - 3 degrees of freedom", report.years)?;
+    let poes: Vec<f64> = report.rows.iter().map(|row| row.poe).collect();
+    let kind = kind_of_risks(&poes, report.years).map_or_else(String::new, |kind| kind + "; ");
+    writeln!(out, "{starred}{kind}rmse with n - 3 degrees of freedom")?;
     if report.rows.iter().any(|row| row.repaired) {
         writeln!(out, "repaired: of records weighted so that they bring the site's hazard of both measures")?;
     }

@@ -201,7 +201,7 @@ fn head(name: &str, comment: Option<(usize, String)>, columns: &Columns) -> Resu
 }
 
 /// The value of `key=value` in the comment: in quotes of either kind, doubled where a spreadsheet did so, or bare.
-fn value<'a>(comment: &'a str, key: &str) -> Option<&'a str> {
+pub(super) fn value<'a>(comment: &'a str, key: &str) -> Option<&'a str> {
     let after = comment.match_indices(key).find_map(|(at, _)| {
         let before = comment[..at].chars().next_back();
         let whole_word = before.is_none_or(|c| !(c.is_alphanumeric() || c == '_'));

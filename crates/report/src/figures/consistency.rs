@@ -1,7 +1,7 @@
 //! Whether the records bring the site's hazard of the measure that they are not scaled to.
 
 use uplift::result::StoredConsistency;
-use uplift::text::risk_name;
+use uplift::text::risks_in_words;
 use uplift_plot::{Axis, Band, Figure, Panel, Series, Tone};
 
 use super::FigureSource;
@@ -63,6 +63,5 @@ fn panel(source: &FigureSource, of: &StoredConsistency, site: usize) -> Option<P
 /// The name of the rates of the spectra.
 fn targets(source: &FigureSource) -> String {
     let stored = &source.stored;
-    let all: Vec<String> = stored.poes.iter().map(|&poe| risk_name(poe, stored.years)).collect();
-    format!("targets: {} in {} years", all.join(", "), stored.years)
+    format!("targets: {}", risks_in_words(&stored.poes, stored.years, ", "))
 }

@@ -5,7 +5,7 @@ use uplift_risk::{RiskCurve, ThresholdGrid};
 
 use super::{DISPLACEMENT, FigureSource, STRENGTH};
 use uplift::UpliftError;
-use uplift::text::{nearest, risk_in_words, risk_name};
+use uplift::text::{nearest, risk_in_words, risks_in_words};
 use uplift_plot::{Axis, Figure, Panel, Series, Tone};
 
 /// Strength of the oscillator shown.
@@ -123,8 +123,7 @@ pub(super) fn risk_curves(source: &FigureSource) -> Result<Vec<Figure>, UpliftEr
         for panel in &mut panels {
             for (poe, &target) in stored.targets_per_year.iter().enumerate() {
                 let name = if poe == 0 {
-                    let all: Vec<String> = stored.poes.iter().map(|&poe| risk_name(poe, stored.years)).collect();
-                    format!("targets: {} in {} years", all.join(", "), stored.years)
+                    format!("targets: {}", risks_in_words(&stored.poes, stored.years, ", "))
                 } else {
                     String::new()
                 };

@@ -104,18 +104,19 @@ fn repaired(source: &FigureSource, measure: IntensityMeasure, site: usize) -> Ve
 
 pub(super) fn fits(source: &FigureSource) -> Option<Figure> {
     let spectra = &source.spectra;
-    let by_pgv = spectra.measures.iter().find(|spectra| spectra.measure == IntensityMeasure::Pgv)?;
+    // PGV, as Table 4.2 is, where it is studied
+    let by_first = spectra.measures.first()?;
     let panel = |site: usize| {
         let mut series = Vec::new();
         for (poe, &probability) in spectra.poes.iter().enumerate() {
             let tone = Tone::Distinct(poe);
-            let mut points = source.over_strengths("", by_pgv.u_m.block([site, poe]), tone);
+            let mut points = source.over_strengths("", by_first.u_m.block([site, poe]), tone);
             points.marks = Marks::Only;
             // some seventy at most: the curve must be seen between them
             let step = points.points.len().div_ceil(76).max(1);
             points.points = points.points.into_iter().step_by(step).collect();
             series.push(points);
-            if let Some(curve) = by_pgv.fits[[site, poe]].curve() {
+            if let Some(curve) = by_first.fits[[site, poe]].curve() {
                 let fitted = spectra.strengths.iter().filter(|&&strength| strength > 0.05);
                 let name = format!("fit, {}", risk_in_words(probability, spectra.years));
                 let points = fitted.map(|&strength| (strength, curve.at(strength))).collect();

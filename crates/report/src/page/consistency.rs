@@ -57,13 +57,12 @@ fn table(source: &FigureSource) -> Table {
     } else {
         "There, ask for weighted records by uplift consistency --repair, or choose records that bring it."
     };
-    let years = all.first().map_or(source.stored.years, |of| of.years);
     Table {
         id: "what-is-brought".to_owned(),
         title: "What the record set brings of the other measure".to_owned(),
         note: format!(
             "Level of the measure that records are not scaled to: what they bring over what the hazard curve of the \
-             site says, at each probability in {years} years and on average over the rates compared (bias), and the \
+             site says, at each risk and on average over the rates compared (bias), and the \
              largest deviation of its logarithm. Where the verdict is inconsistent the spectra are true of the \
              records, and not of the site. {repair}"
         ),

@@ -7,7 +7,7 @@ use crate::figures::FigureSource;
 use uplift::UpliftError;
 use uplift::influence::{level_of_share, rank_records};
 use uplift::result::{MeasureBands, ResultFile, StoredBands, StoredSpectra, StoredSpectraBands};
-use uplift::text::{metres, nearest, per_cent, risk_in_words, risk_name, spectrum_words};
+use uplift::text::{kind_of_risks, metres, nearest, per_cent, risk_in_words, risk_name, spectrum_words};
 
 /// Strengths in the table of displacements, and in that of intensities.
 const SHOWN_STRENGTHS: [f64; 5] = [0.05, 0.1, 0.2, 0.3, 0.4];
@@ -227,9 +227,8 @@ fn coefficients(spectra: &StoredSpectra) -> Table {
         id: "table-4-2".to_owned(),
         title: "Coefficients (Table 4.2)".to_owned(),
         note: format!(
-            "u = c0 exp(c1 η) + c2 with c2 not negative, for strengths η above 0.05 or as the study says; \
-             probabilities in {} years.",
-            spectra.years
+            "u = c0 exp(c1 η) + c2 with c2 not negative, for strengths η above 0.05 or as the study says{}.",
+            kind_of_risks(&spectra.poes, spectra.years).map_or_else(String::new, |kind| format!("; {kind}"))
         ),
         group: String::new(),
         header: ["site", "measure", "probability", "c0, m", "c1", "c2, m", "RMSE, m"].map(str::to_owned).to_vec(),

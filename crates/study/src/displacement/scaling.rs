@@ -87,7 +87,7 @@ impl ScaledTo {
         if text == "unscaled" {
             return Some(Self::Unscaled);
         }
-        IntensityMeasure::ALL.into_iter().find_map(|measure| {
+        IntensityMeasure::OF_CHAPTER_4.into_iter().find_map(|measure| {
             let multiple: f64 = text.strip_suffix(measure.key())?.trim().parse().ok()?;
             MULTIPLE.contains(multiple).then_some(Self::Median { multiple, measure })
         })

@@ -118,16 +118,23 @@ impl<'a> Field<'a> {
         let words: Vec<&str> = choices.iter().map(|(word, _)| *word).collect();
         let list = format!("\"{}\"", words.join("\", \""));
         let Value::Text(text) = &self.node.value else {
-            return self.wrong_type(&format!("one of {list}"), "put the word in double quotes");
+            let example = words.last().copied().unwrap_or_default();
+            let help = format!("put the word in double quotes: {} = \"{example}\"", self.name());
+            return self.wrong_type(&format!("one of {list}"), &help);
         };
         let chosen = choices.iter().find(|(word, _)| word == text);
         if chosen.is_none() {
-            let name = self.key.rsplit('.').next().and_then(|name| name.split('[').next()).unwrap_or_default();
+            let name = self.name();
             let one_of = format!("it is one of {list}");
             let help = did_you_mean(text, &words).map_or(one_of.clone(), |hint| format!("{hint} {one_of}"));
             self.mistake(format!("unknown {name}: {}", self.node.describe()), help);
         }
         chosen.map(|(_, value)| *value)
+    }
+
+    /// The last part of the key, without a position in a list.
+    fn name(&self) -> &str {
+        self.key.rsplit('.').next().and_then(|name| name.split('[').next()).unwrap_or_default()
     }
 
     /// The items of a list; a value that is none counts as a list of itself.

@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use super::suggestion::{did_you_mean, other_unit};
+use super::suggestion::{did_you_mean, measure_by_its_key, other_unit};
 use super::{Field, Finding, Findings, LARGEST_INTEGER, Origin, Rule, Table};
 
 /// A table being read. It learns its keys as they are asked for; [`Section::finish`] reports the others.
@@ -28,6 +28,11 @@ impl<'a> Section<'a> {
     /// Whether the document has this section.
     pub(crate) fn is_present(&self) -> bool {
         self.table.is_some()
+    }
+
+    /// The keys that the document has here.
+    pub(crate) fn keys(&self) -> impl Iterator<Item = &'a str> + use<'a> {
+        self.table.into_iter().flat_map(|table| &table.entries).map(|entry| entry.key.as_str())
     }
 
     /// The value of `key`, if given.
@@ -114,5 +119,5 @@ impl<'a> Section<'a> {
 }
 
 fn did_you_mean_key(key: &str, known: &[&str]) -> Option<String> {
-    other_unit(key, known).or_else(|| did_you_mean(key, known))
+    other_unit(key, known).or_else(|| measure_by_its_key(key, known)).or_else(|| did_you_mean(key, known))
 }

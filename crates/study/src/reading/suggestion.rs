@@ -1,5 +1,7 @@
 //! What an unknown word was probably meant to be.
 
+use uplift_motion::IntensityMeasure;
+
 /// Unit suffixes of keys with the unit that they stand for, longest first.
 const UNIT_SUFFIXES: [(&str, &str); 12] = [
     ("_per_s2", "1/s2"),
@@ -35,6 +37,20 @@ pub(crate) fn did_you_mean(word: &str, known: &[&str]) -> Option<String> {
         .filter(|&(alike, _)| alike > 0.55)
         .max_by(|(a, _), (b, _)| a.total_cmp(b))
         .map(|(_, candidate)| format!("did you mean `{candidate}`?"))
+}
+
+/// What to do where `key` is another spelling of an intensity measure, among `known` keys of measures.
+pub(crate) fn measure_by_its_key(key: &str, known: &[&str]) -> Option<String> {
+    let is_spectral = ["sa", "avgsa"].iter().any(|name| {
+        let rest = key.to_lowercase();
+        rest.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with(['_', '(']))
+    });
+    match key.parse::<IntensityMeasure>() {
+        _ if !known.contains(&IntensityMeasure::Pgv.key()) => None,
+        Ok(measure) if measure.key() != key => Some(format!("write {} as `{}`", measure.label(), measure.key())),
+        Err(_) if is_spectral => Some(format!("measures are {}", IntensityMeasure::ACCEPTED)),
+        _ => None,
+    }
 }
 
 /// What to do where `key` is one of `known` but for its unit.

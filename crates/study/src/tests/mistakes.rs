@@ -39,6 +39,25 @@ pga = { file = "pga.csv", kind = "poe" }
 }
 
 #[test]
+fn measures_that_are_none() {
+    let folder = Folder::new(
+        "[measures.pgv]
+[measures.d5_95]
+[measures.\"SA(1.0)\"]
+[measures.sa_99s]
+[consistency]
+against = \"d5_75\"
+[[sites]]
+name = \"x\"
+sa_1.0s = \"pga.csv\"
+d5_95 = \"pga.csv\"
+",
+    );
+    insta::assert_snapshot!(folder.rendered(&folder.load(&[]).unwrap_err()));
+    assert!(mistakes("[pgv]\n[consistency]\nagainst = \"sa\"\n", &[])[0].contains("unknown intensity measure \"sa\""));
+}
+
+#[test]
 fn unknown_keys_and_sections() {
     let folder = Folder::new(
         "sede = 2

@@ -97,6 +97,29 @@ csv = false
 "#;
 
 #[test]
+fn a_study_of_spectral_acceleration_alone() {
+    let text = "[measures.sa_0p5s]\n[measures.arias]\nlevels_cm_s = [1, 10, 100]\n[[sites]]\nname = \"x\"\n\
+                sa_0p5s = { file = \"pga.csv\", unit = \"m/s2\" }\narias = \"pgv.csv\"\npgd = \"pgv.csv\"\n\
+                [consistency]\nagainst = \"SA(0.50)\"\n";
+    let folder = Folder::new(text);
+    let study = folder.load(&[]).unwrap();
+    let half: IntensityMeasure = "sa_0p5s".parse().unwrap();
+    let measures: Vec<_> = study.measures.iter().map(|plan| (plan.measure, plan.levels.len())).collect();
+    assert_eq!(measures, [(half, 82), (IntensityMeasure::Arias, 3)]);
+    assert_eq!(study.consistency.against, Some(half));
+    let site = &study.sites[0];
+    assert_eq!(site.curve(half).unwrap().unit, CurveUnit::MPerS2);
+    assert_eq!(site.curve(IntensityMeasure::Pgd).unwrap().unit, CurveUnit::Cm);
+    assert_eq!(study.further_measures(), [half, IntensityMeasure::Pgd, IntensityMeasure::Arias]);
+    let written = folder.path("written.toml");
+    std::fs::write(&written, study.to_toml().unwrap()).unwrap();
+    let again = Study::load(&written, &[]).unwrap();
+    assert_eq!((&again.measures, &again.consistency), (&study.measures, &study.consistency));
+    let error = folder.load(&["measures.sa_2s.levels_g=0.1:0.1:1"]).unwrap_err();
+    assert_eq!(error.mistakes().len(), 1, "no curve: {error}");
+}
+
+#[test]
 fn complete_study() {
     let text = COMPLETE.replace("../pgv.csv", "./pgv.csv");
     let folder = Folder::new(&text);

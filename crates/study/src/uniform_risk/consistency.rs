@@ -2,9 +2,11 @@
 //! about it.
 
 use serde::{Serialize, Serializer};
+use uplift_motion::IntensityMeasure;
 
+use super::measures::cannot_be_scaled_to;
 use crate::keys::{Key, SectionKeys};
-use crate::reading::{Field, Rule, Section};
+use crate::reading::{Field, Rule, Section, optional};
 
 pub(super) const KEYS: SectionKeys = SectionKeys {
     section: "consistency",
@@ -15,6 +17,13 @@ pub(super) const KEYS: SectionKeys = SectionKeys {
                       site, beside the plain ones; `\"none\"`: the question is asked, and nothing done about it",
             default: "`\"none\"`",
             range: "`\"none\"`, `\"weights\"`",
+        },
+        Key {
+            names: &["against"],
+            meaning: "the measure whose hazard is compared with what records scaled to another bring, and which a \
+                      repair honours as well",
+            default: "PGV, for records scaled to it PGA; where no site has a curve of it, the first measure with one",
+            range: "a measure with a curve at a site",
         },
         Key {
             names: &["smoothness"],
@@ -48,6 +57,9 @@ const MOST_RECORDS: u64 = 65_535;
 pub struct Consistency {
     /// What is done where the records do not bring the hazard of the other measure.
     pub repair: Repair,
+    /// The measure whose hazard is compared where records are scaled to another; none where the study does not say.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "write_measure")]
+    pub against: Option<IntensityMeasure>,
     /// Weight of the second differences of the exponent in the fit \[-\].
     pub smoothness: f64,
     /// Effective records below which a warning is raised.
@@ -78,6 +90,11 @@ impl Repair {
     }
 }
 
+#[allow(clippy::ref_option, clippy::trivially_copy_pass_by_ref)] // as serde calls it
+fn write_measure<S: Serializer>(measure: &Option<IntensityMeasure>, serializer: S) -> Result<S::Ok, S::Error> {
+    measure.map(IntensityMeasure::key).serialize(serializer)
+}
+
 impl Serialize for Repair {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.serialize_str(self.key())
@@ -86,7 +103,7 @@ impl Serialize for Repair {
 
 impl Default for Consistency {
     fn default() -> Self {
-        Self { repair: Repair::None, smoothness: 0.05, least_effective: 20, scale_factors: [0.2, 5.0] }
+        Self { repair: Repair::None, against: None, smoothness: 0.05, least_effective: 20, scale_factors: [0.2, 5.0] }
     }
 }
 
@@ -103,6 +120,8 @@ pub(super) fn read(mut section: Section<'_>) -> Option<Consistency> {
     let default = Consistency::default();
     let ways = Repair::ALL.map(|way| (way.key(), way));
     let repair = section.choice_or("repair", &ways, default.repair);
+    let against = section.field("against");
+    let against = optional(against.as_ref(), measure);
     let smoothness = section.number_or("smoothness", "", SMOOTHNESS, default.smoothness);
     let least_effective = section.integer_or("least_effective", 1..=MOST_RECORDS, default.least_effective);
     let scale_factors =
@@ -110,10 +129,26 @@ pub(super) fn read(mut section: Section<'_>) -> Option<Consistency> {
     section.finish();
     Some(Consistency {
         repair: repair?,
+        against: against?,
         smoothness: smoothness?,
         least_effective: least_effective?,
         scale_factors: scale_factors?,
     })
+}
+
+fn measure(field: &Field<'_>) -> Option<IntensityMeasure> {
+    let text = field.filled_text()?;
+    match text.parse::<IntensityMeasure>() {
+        Ok(measure) if measure.can_be_scaled_to() => Some(measure),
+        Ok(measure) => {
+            field.mistake(cannot_be_scaled_to(measure), "name another measure");
+            None
+        }
+        Err(error) => {
+            field.mistake(error.to_string(), "write e.g. against = \"sa_1s\"");
+            None
+        }
+    }
 }
 
 fn scale_factors(field: &Field<'_>) -> Option<[f64; 2]> {

@@ -17,8 +17,9 @@ pub(super) const KEYS: &[Key] = &[
     Key {
         names: &["unit"],
         meaning: "unit of its levels",
-        default: "`\"cm/s\"` for PGV, `\"g\"` for PGA",
-        range: "`\"cm/s\"`, `\"m/s\"`; `\"g\"`, `\"m/s2\"`, `\"cm/s2\"`",
+        default: "`\"cm/s\"` for PGV, CAV and the Arias intensity, `\"g\"` for PGA and spectral accelerations, \
+                  `\"cm\"` for PGD and SI",
+        range: "`\"cm/s\"`, `\"m/s\"`, `\"g s\"` (CAV); `\"g\"`, `\"m/s2\"`, `\"cm/s2\"`; `\"cm\"`, `\"m\"`",
     },
     Key {
         names: &["kind"],

@@ -7,6 +7,7 @@ use uplift_hazard::ComponentDefinition;
 use uplift_motion::{Combination, IntensityMeasure};
 use uplift_plausible::CONVERSION;
 
+use super::measures;
 use crate::keys::{Key, SectionKeys};
 use crate::reading::{Field, Rule, Section, optional};
 
@@ -42,9 +43,9 @@ pub(super) const CONVERSION_KEYS: SectionKeys = SectionKeys {
             range: "as `component`",
         },
         Key {
-            names: &["pgv", "pga"],
+            names: &["pgv", "pga", "sa_1s"],
             meaning: "what the levels of such a curve are multiplied by, that is the records' definition of the \
-                      measure over the curve's",
+                      measure over the curve's; of any measure, by its name",
             default: "one is needed",
             range: "0.1 to 10",
         },
@@ -147,7 +148,7 @@ fn conversions(field: &Field<'_>) -> Option<Vec<Conversion>> {
             None
         });
         let mut factors = Some(Vec::new());
-        for measure in IntensityMeasure::ALL {
+        for measure in measures::named(&section) {
             let Some(field) = section.field(measure.key()) else { continue };
             match (&mut factors, field.number("", Rule::Within(CONVERSION))) {
                 (Some(factors), Some(factor)) => factors.push((measure, factor)),

@@ -2,7 +2,7 @@
 
 use uplift_motion::IntensityMeasure;
 
-use super::measures::{MeasureKeys, MeasurePlan};
+use super::measures::{MeasureKeys, MeasurePlan, section_of};
 use crate::grid::GridError;
 
 /// How far below a first level others are looked for.
@@ -59,9 +59,9 @@ impl MeasurePlan {
     }
 }
 
-/// The key of the levels of `measure`, with its section.
-pub(super) fn levels_key(measure: IntensityMeasure) -> String {
-    format!("{}.{}", measure.key(), MeasureKeys::of(measure).levels)
+/// The key of the levels of `measure`, with its section: `pgv.levels_cm_s`, `measures.sa_1s.levels_g`.
+pub fn levels_key(measure: IntensityMeasure) -> String {
+    format!("{}.{}", section_of(measure), MeasureKeys::of(measure).levels)
 }
 
 /// The power of ten at or below `value`.

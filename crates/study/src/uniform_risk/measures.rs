@@ -1,9 +1,9 @@
-//! The sections `[pgv]` and `[pga]`: intensity measures, each with its keys, levels and units.
+//! The sections `[pgv]`, `[pga]` and `[measures.…]`: intensity measures, each with its keys, levels and units.
 
 use serde::{Serialize, Serializer};
 use uplift_hazard::CurveUnit;
 use uplift_motion::IntensityMeasure;
-use uplift_plausible::{PGA_LEVEL, PGV_LEVEL, Range};
+use uplift_plausible::{CUMULATIVE_LEVEL, DISPLACEMENT_LEVEL, PGA_LEVEL, PGV_LEVEL, Range, SA_LEVEL};
 
 use super::lower_levels::levels_key;
 use crate::grid::{Grid, GridRule};
@@ -29,12 +29,28 @@ pub(super) const PGA_KEYS: SectionKeys = SectionKeys {
     }],
 };
 
+/// The section of the measures that Chapter 4 has not, each under its own name.
+const FURTHER: &str = "measures";
+
+/// The keys of any of them, shown with one.
+pub(super) const FURTHER_KEYS: SectionKeys = SectionKeys {
+    section: "measures.sa_1s",
+    keys: &[Key {
+        names: &["levels_g"],
+        meaning: "levels that records are scaled to, a grid: `levels_g` of spectral accelerations, g; `levels_cm` of \
+                  PGD and SI, cm; `levels_cm_s` of CAV and the Arias intensity, cm/s",
+        default: "those of PGA; for the others 0.1 to 200 cm (PGD), 0.5 to 1000 cm (SI), 1 to 3000 cm/s (CAV), 0.001 \
+                  to 5000 cm/s (Arias)",
+        range: "1e-7 to 1000 g; 1e-5 to 1e5 cm; 1e-8 to 1e6 cm/s; at least 2",
+    }],
+};
+
 /// An intensity measure with its levels.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeasurePlan {
     /// The measure.
     pub measure: IntensityMeasure,
-    /// Levels in [`IntensityMeasure::unit`], cm/s for PGV and g for PGA; at least two.
+    /// Levels in [`IntensityMeasure::unit`], cm/s for PGV, g for PGA and spectral accelerations; at least two.
     pub levels: Grid,
 }
 
@@ -61,24 +77,87 @@ impl MeasureKeys {
             },
             IntensityMeasure::Pga => Self {
                 levels: "levels_g",
-                // 82 levels
-                default_levels: &["0.001", "0.0025:0.0025:0.0225", "0.025:0.005:0.195", "0.2:0.05:2"],
+                default_levels: ACCELERATIONS,
                 plausible: PGA_LEVEL,
                 units: &[CurveUnit::G, CurveUnit::MPerS2, CurveUnit::CmPerS2],
+            },
+            IntensityMeasure::Sa(_) | IntensityMeasure::AvgSa { .. } => {
+                Self { plausible: SA_LEVEL, ..Self::of(IntensityMeasure::Pga) }
+            }
+            IntensityMeasure::Pgd => Self {
+                levels: "levels_cm",
+                default_levels: &["0.1:0.1:0.9", "1:0.5:20", "25:5:200"],
+                plausible: DISPLACEMENT_LEVEL,
+                units: &[CurveUnit::Cm, CurveUnit::M],
+            },
+            IntensityMeasure::SpectrumIntensity => {
+                Self { default_levels: &["0.5:0.5:4.5", "5:2.5:100", "125:25:1000"], ..Self::of(IntensityMeasure::Pgd) }
+            }
+            IntensityMeasure::Cav => Self {
+                levels: "levels_cm_s",
+                default_levels: &["1:1:9", "10:10:200", "250:50:3000"],
+                plausible: CUMULATIVE_LEVEL,
+                units: &[CurveUnit::CmPerS, CurveUnit::MPerS, CurveUnit::GS],
+            },
+            // what cannot be scaled to has levels nowhere; its name is refused where it is read
+            IntensityMeasure::Arias | IntensityMeasure::D575 | IntensityMeasure::D595 => Self {
+                // it grows with the square of the factor
+                default_levels: &[
+                    "0.001:0.001:0.009",
+                    "0.01:0.01:0.09",
+                    "0.1:0.1:0.9",
+                    "1:1:9",
+                    "10:10:90",
+                    "100:100:900",
+                    "1000:1000:5000",
+                ],
+                ..Self::of(IntensityMeasure::Cav)
             },
         }
     }
 }
 
+/// 82 levels, g.
+const ACCELERATIONS: &[&str] = &["0.001", "0.0025:0.0025:0.0225", "0.025:0.005:0.195", "0.2:0.05:2"];
+
+/// The section of a measure: its own where it is of Chapter 4.
+pub(super) fn section_of(measure: IntensityMeasure) -> String {
+    if IntensityMeasure::OF_CHAPTER_4.contains(&measure) {
+        measure.key().to_owned()
+    } else {
+        format!("{FURTHER}.{}", measure.key())
+    }
+}
+
 /// The sections of the measures, as a study file has them.
 pub(super) fn write<S: Serializer>(plans: &[MeasurePlan], serializer: S) -> Result<S::Ok, S::Error> {
+    /// The section of one measure.
     struct Levels<'a>(&'a MeasurePlan);
     impl Serialize for Levels<'_> {
         fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
             serializer.collect_map([(MeasureKeys::of(self.0.measure).levels, &self.0.levels)])
         }
     }
-    serializer.collect_map(plans.iter().map(|plan| (plan.measure.key(), Levels(plan))))
+    /// One of them, or the section of those that Chapter 4 has not.
+    enum Part<'a> {
+        Measure(Levels<'a>),
+        Further(Vec<&'a MeasurePlan>),
+    }
+    impl Serialize for Part<'_> {
+        fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+            match self {
+                Self::Measure(levels) => levels.serialize(serializer),
+                Self::Further(plans) => {
+                    serializer.collect_map(plans.iter().map(|plan| (plan.measure.key(), Levels(plan))))
+                }
+            }
+        }
+    }
+    let is_own = |plan: &&MeasurePlan| IntensityMeasure::OF_CHAPTER_4.contains(&plan.measure);
+    let (own, further): (Vec<&MeasurePlan>, Vec<&MeasurePlan>) = plans.iter().partition(is_own);
+    let own = own.into_iter().map(|plan| (plan.measure.key(), Part::Measure(Levels(plan))));
+    let further = (!further.is_empty()).then_some((FURTHER, Part::Further(further)));
+    serializer.collect_map(own.chain(further))
 }
 
 /// The default levels of `measure` that lie from `least` to `most`, as a study writes them: key and grid. None where
@@ -109,27 +188,76 @@ pub fn levels_within(measure: IntensityMeasure, least: f64, most: f64) -> Option
     (cut && parts.iter().any(range)).then(|| (levels_key(measure), format!("[{}]", quoted.join(", "))))
 }
 
+/// The measures that keys of `section` are the names of, in their order; those of Chapter 4 whether they are there or
+/// not.
+pub(super) fn named(section: &Section<'_>) -> Vec<IntensityMeasure> {
+    let further = section.keys().filter_map(|key| {
+        let measure: IntensityMeasure = key.parse().ok()?;
+        (measure.key() == key && !IntensityMeasure::OF_CHAPTER_4.contains(&measure)).then_some(measure)
+    });
+    let mut named: Vec<IntensityMeasure> = IntensityMeasure::OF_CHAPTER_4.into_iter().chain(further).collect();
+    named.sort_unstable();
+    named
+}
+
+/// The sections of measures that the document has, each with its measure.
+fn sections<'a>(root: &mut Section<'a>) -> Vec<(IntensityMeasure, Section<'a>)> {
+    let mut sections = Vec::new();
+    for measure in IntensityMeasure::OF_CHAPTER_4 {
+        if root.field(measure.key()).is_some() {
+            sections.push((measure, root.section(measure.key())));
+        }
+    }
+    let mut further = root.section(FURTHER);
+    for measure in named(&further) {
+        if IntensityMeasure::OF_CHAPTER_4.contains(&measure) {
+            let key = measure.key();
+            // asked for only where it is there: it has no place here
+            if let Some(field) = further.keys().any(|there| there == key).then(|| further.field(key)).flatten() {
+                field.mistake(format!("[{FURTHER}.{key}] is [{key}]"), format!("head the section with [{key}]"));
+            }
+            continue;
+        }
+        let Some(field) = further.field(measure.key()) else { continue };
+        if measure.can_be_scaled_to() {
+            sections.push((measure, field.section()));
+        } else {
+            field.mistake(cannot_be_scaled_to(measure), "leave the section out");
+        }
+    }
+    further.finish();
+    sections
+}
+
+/// Why a study cannot be analysed by a duration.
+pub(super) fn cannot_be_scaled_to(measure: IntensityMeasure) -> String {
+    format!("no factor changes the {} of a record, so none can be scaled to a level of it", measure.long_name())
+}
+
 /// Which measures the document has sections of.
 pub(super) fn switched_on(root: &mut Section<'_>) -> Vec<IntensityMeasure> {
-    IntensityMeasure::ALL.into_iter().filter(|measure| root.field(measure.key()).is_some()).collect()
+    // mistakes are told when they are read
+    let further = named(&root.section(FURTHER));
+    let own = IntensityMeasure::OF_CHAPTER_4.into_iter().filter(|measure| root.field(measure.key()).is_some());
+    let further = further.into_iter().filter(|measure| !IntensityMeasure::OF_CHAPTER_4.contains(measure));
+    own.chain(further).collect()
 }
 
 /// Reads the sections of the measures.
 pub(super) fn read(root: &mut Section<'_>) -> Option<Vec<MeasurePlan>> {
-    let switched_on = switched_on(root);
-    if switched_on.is_empty() {
+    let sections = sections(root);
+    if sections.is_empty() {
         root.mistake(
             "",
             "the study has no intensity measure",
-            "add a section [pgv], a section [pga], or both; it may be empty",
+            "add a section [pgv], a section [pga], or both; it may be empty; or [measures.sa_1s] and the like",
         );
         return None;
     }
     let mut plans = Some(Vec::new());
-    for measure in switched_on {
+    for (measure, mut section) in sections {
         let keys = MeasureKeys::of(measure);
         let rule = GridRule { unit: measure.unit(), each: Rule::Within(keys.plausible), least_count: 2 };
-        let mut section = root.section(measure.key());
         let levels = Grid::of_key(&mut section, keys.levels, rule, keys.default_levels);
         section.finish();
         match (&mut plans, levels) {

@@ -6,6 +6,7 @@ use serde::{Serialize, Serializer};
 use uplift_motion::IntensityMeasure;
 use uplift_plausible::DISTANCE;
 
+use super::measures;
 use crate::grid::Grid;
 use crate::keys::{Key, SectionKeys};
 use crate::reading::{Field, Paths, Rule, Section, optional, quantity};
@@ -22,9 +23,9 @@ pub(super) const KEYS: SectionKeys = SectionKeys {
             range: "existing file",
         },
         Key {
-            names: &["pgv", "pga"],
-            meaning: "export of mean hazard curves: OpenQuake's CSV, NRML or the JSON of the USGS, PGV in cm/s and \
-                      PGA in g as they write them",
+            names: &["pgv", "pga", "sa_1s"],
+            meaning: "export of mean hazard curves of any measure, by its name: OpenQuake's CSV, NRML or the JSON of \
+                      the USGS, PGV in cm/s and PGA in g as they write them",
             default: "one of a measure that is switched on is needed",
             range: "existing file",
         },
@@ -93,7 +94,7 @@ pub(super) fn read(
 
 fn section(
     mut section: Section<'_>,
-    measures: &[IntensityMeasure],
+    studied: &[IntensityMeasure],
     known: Option<&Grid>,
     paths: &Paths,
 ) -> Option<SiteTable> {
@@ -104,16 +105,16 @@ fn section(
     let sites = optional(sites_field.as_ref(), |field| paths.input(field));
     let mut exports = Some(Vec::new());
     let mut of_the_study = false;
-    for measure in IntensityMeasure::ALL {
+    for measure in measures::named(&section) {
         let Some(field) = section.field(measure.key()) else { continue };
-        of_the_study |= measures.contains(&measure);
+        of_the_study |= studied.contains(&measure);
         match (&mut exports, paths.input(&field)) {
             (Some(exports), Some(path)) => exports.push((measure, path)),
             _ => exports = None,
         }
     }
-    if !of_the_study && !measures.is_empty() {
-        let keys: Vec<&str> = measures.iter().map(|measure| measure.key()).collect();
+    if !of_the_study && !studied.is_empty() {
+        let keys: Vec<&str> = studied.iter().map(|measure| measure.key()).collect();
         section.mistake(
             "",
             "the site table has no hazard curves of a measure that the study switches on",

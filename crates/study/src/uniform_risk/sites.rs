@@ -4,6 +4,7 @@ use serde::{Serialize, Serializer};
 use uplift_motion::IntensityMeasure;
 
 use super::curve::{self, CurveFile};
+use super::measures::{self, cannot_be_scaled_to, section_of};
 use crate::keys::{Key, SectionKeys};
 use crate::reading::{Field, Paths, Value};
 use crate::sections::name;
@@ -22,6 +23,12 @@ pub(super) const KEYS: SectionKeys = SectionKeys {
             meaning: "hazard curve: a path, or a table of the keys below",
             default: "needed if the measure is switched on",
             range: "",
+        },
+        Key {
+            names: &["sa_1s"],
+            meaning: "the same of any further measure, by its name",
+            default: "needed if the measure is switched on",
+            range: "the names below but `d5_75`, `d5_95`",
         },
     ],
 };
@@ -75,30 +82,38 @@ pub(super) fn read(field: Option<Field<'_>>, measures: &[IntensityMeasure], path
     sites
 }
 
-fn site(item: &Field<'_>, measures: &[IntensityMeasure], paths: &Paths, names: &mut Vec<String>) -> Option<Site> {
+fn site(item: &Field<'_>, studied: &[IntensityMeasure], paths: &Paths, names: &mut Vec<String>) -> Option<Site> {
     let mut section = item.section();
     if !section.is_present() {
         return None;
     }
     let name = name::read(&mut section, "site", "Athens", names);
     let mut curves = Some(Vec::new());
-    for measure in IntensityMeasure::ALL {
+    let mut named = measures::named(&section);
+    named.extend(studied.iter().filter(|measure| !named.contains(measure)).copied().collect::<Vec<_>>());
+    for measure in named {
         let key = measure.key();
         let Some(field) = section.field(key) else {
-            if measures.contains(&measure) {
+            if studied.contains(&measure) {
                 section.mistake(
                     key,
                     format!(
-                        "{} has no {} curve, and the study has a section [{key}]",
+                        "{} has no {} curve, and the study has a section [{}]",
                         name.as_deref().unwrap_or("the site"),
-                        measure.label()
+                        measure.label(),
+                        section_of(measure)
                     ),
-                    format!("add {key} = \"path of the curve\" to the site, or remove [{key}]"),
+                    format!("add {key} = \"path of the curve\" to the site, or remove [{}]", section_of(measure)),
                 );
                 curves = None;
             }
             continue;
         };
+        if !measure.can_be_scaled_to() {
+            field.mistake(cannot_be_scaled_to(measure), "leave the curve out");
+            curves = None;
+            continue;
+        }
         match (&mut curves, curve::read(&field, measure, paths)) {
             (Some(curves), Some(curve)) => curves.push(curve),
             _ => curves = None,

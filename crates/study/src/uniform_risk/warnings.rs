@@ -56,6 +56,8 @@ fn numbers(study: &UniformRiskStudy) -> Vec<(&'static str, f64, Range)> {
         let (name, usual) = match plan.measure {
             IntensityMeasure::Pgv => ("the highest of pgv.levels_cm_s", USUAL_TOP_PGV),
             IntensityMeasure::Pga => ("the highest of pga.levels_g", USUAL_TOP_PGA),
+            // what the others usually are depends on the period, or is told by nobody
+            _ => continue,
         };
         numbers.extend(plan.levels.last().map(|&top| (name, top, usual)));
     }

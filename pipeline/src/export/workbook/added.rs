@@ -54,6 +54,7 @@ impl Export {
         let mut column = 1;
         for of in &self.added.efficiency {
             let mut columns = vec![
+                ("dispersion of the level".to_owned(), &of.reaching),
                 ("dispersion, rocking".to_owned(), &of.rocking),
                 ("share undefined".to_owned(), &of.undefined),
                 ("dispersion, first uplift".to_owned(), &of.initiation),

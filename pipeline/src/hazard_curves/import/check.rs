@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use uplift_hazard::{ExportedCurve, HazardCurve, RealizationWeight, SiteSelection, Statistic};
-use uplift_motion::IntensityMeasure;
 use uplift_study::levels_within;
 
+use super::text::{is_of, measures_of};
 use super::{Chosen, HazardImportOptions, weight_of};
 use crate::error::UpliftError;
 
@@ -37,10 +37,9 @@ pub(super) fn check_weights(
 /// What the user should know before a study takes the curves.
 pub(super) fn remarks(written: &[Chosen]) -> Vec<String> {
     let mut remarks = Vec::new();
-    for measure in IntensityMeasure::ALL {
-        let of: Vec<&HazardCurve> = (written.iter().map(|written| &written.exported.curve))
-            .filter(|curve| curve.measure().eq_ignore_ascii_case(measure.key()))
-            .collect();
+    for measure in measures_of(written) {
+        let of: Vec<&HazardCurve> =
+            (written.iter().map(|written| &written.exported.curve)).filter(|curve| is_of(curve, measure)).collect();
         let least = of.iter().map(|curve| curve.first().im).fold(0.0, f64::max);
         let most = of.iter().map(|curve| curve.last().im).fold(f64::INFINITY, f64::min);
         if let (false, Some((key, levels))) = (of.is_empty(), levels_within(measure, least, most)) {

@@ -1,9 +1,10 @@
 //! What is written: names and text of the curve files, and the lines for a study.
 
+use std::collections::BTreeSet;
 use std::path::Path;
-use uplift_motion::IntensityMeasure;
 
 use uplift_hazard::{ExportedCurve, HazardCurve, Statistic};
+use uplift_motion::IntensityMeasure;
 
 use super::Chosen;
 
@@ -41,13 +42,25 @@ pub(super) fn curve_text(curve: &HazardCurve, exported: &ExportedCurve) -> Strin
     curve.to_csv(&remarks)
 }
 
+/// Whether a curve is of `measure`.
+pub(super) fn is_of(curve: &HazardCurve, measure: IntensityMeasure) -> bool {
+    curve.measure().parse().is_ok_and(|own: IntensityMeasure| own == measure)
+}
+
+/// The measures that a study can take curves of, in their order.
+pub(super) fn measures_of(written: &[Chosen]) -> BTreeSet<IntensityMeasure> {
+    let measures = written.iter().filter_map(|written| written.exported.curve.measure().parse().ok());
+    measures.filter(|measure: &IntensityMeasure| measure.can_be_scaled_to()).collect()
+}
+
 /// The section of a study that uses what was written.
 pub(super) fn study_lines(written: &[Chosen], folder: &Path, site: &str) -> String {
     let quoted = |text: &str| toml::Value::from(text).to_string();
     let path = |file: &str| quoted(&folder.join(file).display().to_string());
     let mut lines = vec!["[[sites]]".to_owned(), format!("name = {}", quoted(site))];
-    for key in IntensityMeasure::ALL.map(IntensityMeasure::key) {
-        let of = |written: &&Chosen| written.exported.curve.measure().eq_ignore_ascii_case(key);
+    for measure in measures_of(written) {
+        let key = measure.key();
+        let of = |written: &&Chosen| is_of(&written.exported.curve, measure);
         let single = |written: &&Chosen| matches!(written.exported.kind, Statistic::Mean | Statistic::Unspecified);
         let mean = written.iter().filter(of).find(single).map(|written| path(&written.file));
         let branches: Vec<String> = written

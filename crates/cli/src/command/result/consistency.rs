@@ -1,5 +1,7 @@
 //! `uplift consistency`: whether the records bring the hazard of the other measure, and weights by which they do.
 
+use std::path::{Path, PathBuf};
+
 use clap::{Args, ValueEnum};
 use uplift::consistency::{ConsistencyOptions, ConsistencyReport, consistency as run};
 
@@ -18,12 +20,31 @@ pub(crate) struct ConsistencyArguments {
     /// Keep the weight of every run in the result; implies --repair
     #[arg(long)]
     keep_weights: bool,
+    /// What the site's hazard is made of, shown beside the magnitudes and distances of the records
+    #[arg(
+        long = "disaggregation",
+        value_name = "[SITE=]FILE",
+        value_parser = site_and_file,
+        help = "Table Mag_Dist of an OpenQuake disaggregation: its mean magnitude and distance are shown beside those \
+                of the records; given several times, with the site where the result has several"
+    )]
+    disaggregations: Vec<(Option<String>, PathBuf)>,
     /// Fail with exit code 4 where a verdict is worse than this
     #[arg(long, value_name = "VERDICT")]
     require: Option<Required>,
     /// Print the rows as JSON
     #[arg(long)]
     json: bool,
+}
+
+/// `Athens=Mag_Dist-mean-0.csv`, or a file alone.
+#[expect(clippy::unnecessary_wraps, reason = "as clap calls it")]
+fn site_and_file(text: &str) -> Result<(Option<String>, PathBuf), String> {
+    Ok(match text.split_once('=') {
+        // a file may be called so
+        Some((site, file)) if !Path::new(text).exists() => (Some(site.trim().to_owned()), file.into()),
+        _ => (None, text.into()),
+    })
 }
 
 /// The worst verdict that is taken.
@@ -50,6 +71,7 @@ pub(crate) fn consistency(arguments: &ConsistencyArguments, terminal: &Terminal)
     let options = ConsistencyOptions {
         repair: arguments.repair,
         keep_weights: arguments.keep_weights,
+        disaggregations: arguments.disaggregations.clone(),
         force: arguments.result.force(),
     };
     let report = run(&found.path, &options, terminal)?;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use uplift::table::{TableMeasure, TableOptions, table as table_of};
-use uplift_motion::IntensityMeasure;
+use uplift_motion::MotionError;
 
 use crate::command::arguments::RiskArguments;
 use crate::error::CommandError;
@@ -25,8 +25,8 @@ pub(crate) struct TableArguments {
     reference: Option<PathBuf>,
     /// Which intensity measure, with the warnings of it alone; not for displacement spectra [default: pgv, with every
     /// warning]
-    #[arg(long, value_parser = ["pgv", "pga", "all"], ignore_case = true)]
-    im: Option<String>,
+    #[arg(long, value_name = "pgv|pga|sa_1s|...|all", value_parser = which_measure)]
+    im: Option<TableMeasure>,
     #[command(flatten)]
     risk: RiskArguments,
     /// Print the rows as JSON
@@ -34,21 +34,21 @@ pub(crate) struct TableArguments {
     json: bool,
 }
 
-impl TableArguments {
-    fn measure(&self) -> TableMeasure {
-        let Some(word) = &self.im else { return TableMeasure::Usual };
-        let found = IntensityMeasure::ALL.into_iter().find(|measure| word.eq_ignore_ascii_case(measure.key()));
-        found.map_or(TableMeasure::All, TableMeasure::Only)
+/// A measure, or all of them.
+fn which_measure(word: &str) -> Result<TableMeasure, MotionError> {
+    if word.trim().eq_ignore_ascii_case("all") {
+        return Ok(TableMeasure::All);
     }
+    word.parse().map(TableMeasure::Only)
 }
 
 pub(crate) fn table(arguments: &TableArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let options = TableOptions {
         result: arguments.result.clone(),
         reference: arguments.reference.clone(),
-        measure: arguments.measure(),
+        measure: arguments.im.unwrap_or_default(),
         risk: arguments.risk.asked(),
     };
     let report = table_of(&options, terminal)?;
-    if arguments.json { print_json(&report) } else { print_table(&report) }
+    if arguments.json { print_json(&report) } else { print_table(&report, terminal) }
 }
