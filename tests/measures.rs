@@ -70,7 +70,8 @@ fn a_study_of_spectral_acceleration_alone() {
 fn levels_of_arias_intensity_are_squares() {
     let one = "[records.synthetic]\npairs = 1\n[strengths]\nvalues = [0.1, 0.3]\n";
     let study = SmallStudy::with(&format!(
-        "{one}[pgv]\nlevels_cm_s = [10, 40]\n[[sites]]\nname = \"x\"\npgv = \"here-pgv.csv\"\narias = {{ file = \"arias.csv\", unit = \"m/s\" }}\n"
+        "{one}[pgv]\nlevels_cm_s = [10, 40]\n[[sites]]\nname = \"x\"\npgv = \"here-pgv.csv\"\n\
+         arias = {{ file = \"arias.csv\", unit = \"m/s\" }}\n"
     ));
     study.write("arias.csv", "# IM: IA [m/s]\niml,maf\n0.00001,1\n10,1e-6\n");
     study.uplift(&["run", "study.toml", "-o", "pgv.h5", "-q"]).ok();
@@ -91,7 +92,8 @@ fn levels_of_arias_intensity_are_squares() {
 fn a_measure_told_of_others_runs_scatters_as_in_its_own() {
     let both = "[records.synthetic]\npairs = 40\n[strengths]\nvalues = [0.1]\n";
     let levels = "levels_cm_s = [\"0.1:0.1:0.9\", \"1:1:20\", \"25:5:200\"]\n";
-    let site = "[[sites]]\nname = \"Here\"\npgv = \"here-pgv.csv\"\npga = \"pga.csv\"\n[risk]\nextrapolate = \"loglog\"\nmaf_surface = false\n";
+    let site = "[[sites]]\nname = \"Here\"\npgv = \"here-pgv.csv\"\npga = \"pga.csv\"\n[risk]\n\
+                extrapolate = \"loglog\"\nmaf_surface = false\n";
     let study = SmallStudy::with(&format!("{both}[pgv]\n{levels}{site}"));
     study.uplift(&["run", "study.toml", "-o", "pgv.h5", "-q"]).ok();
     study.write(

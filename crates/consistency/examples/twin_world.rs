@@ -22,13 +22,13 @@ use uplift_risk::{PooledDemand, RiskCurve, RunWeights, StripeWeights};
 const STRENGTHS: [f64; 6] = [0.05, 0.1, 0.2, 0.3, 0.4, 0.6];
 
 /// Spectra over the true ones, of the ordinates in one class of displacement.
-pub struct Row {
+pub(crate) struct Row {
     /// Which spectra.
-    pub name: &'static str,
+    pub(crate) name: &'static str,
     /// Geometric mean of the ratios, and root mean square of their logarithm, where the truth is 10 mm and more.
-    pub large: [f64; 2],
+    pub(crate) large: [f64; 2],
     /// The same from 0.5 to 10 mm.
-    pub small: [f64; 2],
+    pub(crate) small: [f64; 2],
 }
 
 /// Stripes of a measure, and what oscillators come to at them.
@@ -113,7 +113,7 @@ fn shares(z: &[f64], mean: f64, deviation: f64) -> Vec<f64> {
 }
 
 /// What the spectra of the twin are over those of the true world.
-pub fn compare(pairs: &[RecordPair]) -> Result<Vec<Row>, Box<dyn Error>> {
+pub(crate) fn compare(pairs: &[RecordPair]) -> Result<Vec<Row>, Box<dyn Error>> {
     let (pgv, pga) = (IntensityMeasure::Pgv, IntensityMeasure::Pga);
     let rising =
         |first: f64, ratio: f64, count: i32| (0..count).map(move |i| first * ratio.powi(i)).collect::<Vec<f64>>();

@@ -195,7 +195,8 @@ impl Stepper {
         State { displacement: sum(self.displacement), velocity: sum(self.velocity) }
     }
 
-    /// Whether a displacement in a step can be larger than `peak`: twice the step at the faster end is more than enough.
+    /// Whether a displacement in a step can be larger than `peak`: twice the step at the faster end is more than
+    /// enough.
     fn may_exceed(&self, state: State, next: State, peak: f64) -> bool {
         let fastest = state.velocity.abs().max(next.velocity.abs());
         state.displacement.abs().max(next.displacement.abs()) + 2.0 * fastest * self.length > peak

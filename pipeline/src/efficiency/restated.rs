@@ -166,8 +166,8 @@ mod tests {
                     branches: Vec::new(),
                     exact_m: Array::from_fn([0, 0, 1], |_| 0.0),
                 };
-                let factors: Vec<Vec<f64>> =
-                    (0..x.len()).map(|record| levels.iter().map(|&level| from.factor(record, level)).collect()).collect();
+                let of_record = |record| levels.iter().map(|&level| from.factor(record, level)).collect();
+                let factors: Vec<Vec<f64>> = (0..x.len()).map(of_record).collect();
                 let common = common_levels(&own, &factors, to);
                 prop_assert!(common.len() > 1);
                 for &level in &common {

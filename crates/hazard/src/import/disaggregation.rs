@@ -76,7 +76,7 @@ pub fn read_disaggregation(text: &str, name: &str) -> Result<Vec<Disaggregation>
         ));
     };
     let shares = shares(&header, comment).ok_or_else(|| {
-        file("several realizations without their weights: export the mean, or keep the line that the engine writes first")
+        file("several realizations without weights: export the mean, or keep the line that the engine writes first")
     })?;
     let mut all: Vec<Sums> = Vec::new();
     for (index, line) in lines {

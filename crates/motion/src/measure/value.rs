@@ -29,9 +29,9 @@ impl IntensityMeasure {
     /// The measure of an unscaled pair whose components are combined in any way, in [`IntensityMeasure::unit`], with
     /// the acceleration of gravity `gravity_m_s2` \[m/s²\].
     ///
-    /// In a direction θ the motion is a₁ cos θ + a₂ sin θ, and the measure that of this motion; `RotD50` and `RotD100` are
-    /// the median and the largest over 180 directions. Of several periods, each has its own directions, and the mean or
-    /// the integral is taken of the combined ordinates.
+    /// In a direction θ the motion is a₁ cos θ + a₂ sin θ, and the measure that of this motion; `RotD50` and `RotD100`
+    /// are the median and the largest over 180 directions. Of several periods, each has its own directions, and the
+    /// mean or the integral is taken of the combined ordinates.
     ///
     /// # Errors
     ///
