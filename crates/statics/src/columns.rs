@@ -16,6 +16,7 @@
 use uplift_structure::Geometry;
 
 use crate::error::{StaticsError, not_negative, positive, require};
+use crate::parts::Parts;
 use crate::path::{Elongation, TendonPath};
 use crate::restrainer::Restrainer;
 use crate::tilt::{largest_rotation_rad, rise_m, rotation_rad, travel_m};
@@ -97,6 +98,11 @@ impl RestrainedColumns {
         Ok(Self { path, restrained: self.columns, restrainer: Some(restrainer), ..self })
     }
 
+    /// The same with another law of the restrainers, on the same path.
+    pub(crate) fn with_law(self, restrainer: Restrainer) -> Self {
+        Self { restrainer: Some(restrainer), ..self }
+    }
+
     /// The same with a restrainer in some of the columns only: after the loss of a tendon, for instance.
     ///
     /// # Errors
@@ -146,6 +152,16 @@ impl RestrainedColumns {
     /// The restrainer of a restrained column.
     pub fn restrainer(&self) -> Option<&Restrainer> {
         self.restrainer.as_ref().filter(|_| self.restrained > 0)
+    }
+
+    /// The same without stoppers: they are a reserve, which a design does not count upon.
+    ///
+    /// # Errors
+    /// None that the restrainer itself did not have.
+    pub fn without_stoppers(&self) -> Result<Self, StaticsError> {
+        let Some(restrainer) = &self.restrainer else { return Ok(self.clone()) };
+        let bare = Restrainer::new(Parts { stopper: None, ..*restrainer.parts() })?;
+        Ok(self.clone().with_law(bare))
     }
 
     /// Elongation of a restrainer at a rotation (rad).

@@ -15,6 +15,9 @@
 //! | [`capacity`] | neutral equilibrium |
 //! | [`events`] | uplift, touch, stopper, yield, flat springs, and where |
 //! | [`linear`] | the linearised law (Eq. 5.2–5.7, 6.1, 6.2) |
+//! | [`protocol`] | cyclic loading (Fig. 5.11), and the columns under it |
+//! | [`hysteresis`] | measured loops: energy, equivalent damping, slope |
+//! | [`selection`] | stacks out of a catalogue for a target; stoppers |
 //! | [`description`] | a restrainer as written in a file |
 //!
 //! ```
@@ -36,11 +39,14 @@ pub mod description;
 pub mod disc;
 mod error;
 pub mod events;
+pub mod hysteresis;
 pub mod linear;
 pub mod parts;
 pub mod path;
+pub mod protocol;
 pub mod restrainer;
 mod root;
+pub mod selection;
 pub mod stack;
 pub mod tilt;
 
@@ -51,8 +57,11 @@ pub use description::{RestrainerDescription, RestrainerKind, StopperDescription,
 pub use disc::{DiscDimensions, DiscSpring, SPRING_STEEL_YOUNG_MODULUS_PA, STEEL_POISSON};
 pub use error::StaticsError;
 pub use events::{Event, EventKind};
+pub use hysteresis::{LoopCycle, MeasuredLoop};
 pub use linear::{LinearLaw, LinearState};
 pub use parts::{Parts, Spring, Stopper, Tendon, WhenFlat};
 pub use path::{Elongation, TendonPath};
+pub use protocol::{CyclicState, LoadingProtocol, ProtocolPoint};
 pub use restrainer::{Piece, PieceLaw, Restrainer, RestrainerState, Threshold};
+pub use selection::{Candidate, CatalogueDisc, Limits, Ranking, Target};
 pub use stack::DiscStack;

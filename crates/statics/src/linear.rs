@@ -10,6 +10,7 @@
 
 use crate::columns::RestrainedColumns;
 use crate::error::{StaticsError, not_negative};
+use crate::restrainer::Threshold;
 
 /// The linearised columns.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,7 +72,37 @@ impl RestrainedColumns {
     }
 }
 
+impl RestrainedColumns {
+    /// Stiffness of the linear restrainer with which the linearised columns have the displacement capacity of the exact
+    /// law, N/m: the one to give to an equivalent oscillator. Stoppers are not counted. Where the exact force does not
+    /// vanish before the springs are flat and within four times the slenderness, the two forces agree there; 0 without
+    /// a restrainer.
+    ///
+    /// # Errors
+    /// None that the columns themselves did not have.
+    pub fn equivalent_stiffness_n_m(&self) -> Result<f64, StaticsError> {
+        if self.restrainer().is_none() {
+            return Ok(0.0);
+        }
+        let bare = self.without_stoppers()?;
+        let law = LinearLaw { prestress_n: 0.0, ..bare.linear(0.0)? };
+        if let Some(capacity) = bare.capacity() {
+            return Ok(law.stiffness_for_capacity_n_m(capacity.displacement_m));
+        }
+        let flat_m = bare.restrainer().and_then(|held| held.elongation_at_m(Threshold::SpringsFlat));
+        let flat_rad = flat_m.and_then(|flat_m| bare.rotation_at_elongation_rad(flat_m)).unwrap_or(f64::INFINITY);
+        let last_rad = (4.0 * bare.geometry().slenderness_rad()).min(flat_rad).min(bare.last_rotation_rad());
+        let state = bare.at_rotation(last_rad)?;
+        let share = 1.0 - (1.0 - state.force_n / law.uplift_force_n()) * law.width_m() / state.displacement_m;
+        Ok(share.max(0.0) * law.critical_stiffness_n_m())
+    }
+}
+
 impl LinearLaw {
+    fn width_m(&self) -> f64 {
+        2.0 * self.half_width_m
+    }
+
     /// The same with another `α`, rad: `b/h` where the text takes it for the angle.
     #[must_use]
     pub fn with_slenderness(self, slenderness_rad: f64) -> Self {
