@@ -6,8 +6,8 @@
 //! ```
 //!
 //! The file is an object with `statics` (columns with a restrainer as in a structure file, expected `scalars` and
-//! `points`) and `discs` (a disc, expected forces at deflections), SI units; see `tests/data/statics_cases.json`. A case
-//! may have its own `tolerance`; else it is 1e-9, relative, and 1e-12 for discs. Each line of output is
+//! `points`) and `discs` (a disc, expected forces at deflections), SI units; see `tests/data/statics_cases.json`. A
+//! case may have its own `tolerance`; else it is 1e-9, relative, and 1e-12 for discs. Each line of output is
 //! `case quantity: ours | expected | tolerance`; the last says how many cases agree. Exit code 1 if one does not.
 #![allow(clippy::print_stdout)]
 

@@ -4,12 +4,13 @@
 //! | kind | what it is | keys it needs |
 //! |---|---|---|
 //! | `none` | nothing | |
-//! | `linear` | a spring of constant stiffness | `stiffness_n_m`: with the tendon, where no tendon is given beside it |
+//! | `linear` | a spring of constant stiffness | `stiffness_n_m`, with the tendon's unless one is given |
 //! | `tendon` | a bare tendon | the tendon's |
-//! | `disc-springs` | a stack of disc springs, and a tendon behind it | `outer_diameter_m`, `inner_diameter_m`, `thickness_m`, `cone_height_m` or `free_height_m`, `springs`; the tendon's if there is one |
+//! | `disc-springs` | a stack of disc springs | the disc's, and `springs`, how many in alternate sense |
 //!
-//! * disc springs may give `parallel` (1), `reduced_thickness_m` where they have contact flats, `young_modulus_pa`
-//!   (206e9), `poisson` (0.3) and `when_flat` (`"tendon"` or `"stop"`);
+//! * a disc is `outer_diameter_m`, `inner_diameter_m`, `thickness_m`, and `cone_height_m` or `free_height_m`;
+//! * disc springs may give a tendon behind them, `parallel` (1), `reduced_thickness_m` where they have
+//!   contact flats, `young_modulus_pa` (206e9), `poisson` (0.3) and `when_flat` (`"tendon"` or `"stop"`);
 //! * a tendon is `tendon_stiffness_n_m`, or `tendon_area_m2`, `tendon_length_m` and `tendon_young_modulus_pa`
 //!   (190e9); it may have `tendon_yield_n`, `tendon_failure_n`;
 //! * `anchorage` is `"column"`, `"foundation"`, or `"shifted"` with `duct_gap_m` and `tendon_length_m`;

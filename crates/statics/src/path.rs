@@ -7,8 +7,11 @@
 //! |---|---|
 //! | at the column's foot, centred | `2b sin(θ/2)` |
 //! | in the foundation | `4b sin(θ/2)` |
-//! | at the column's foot, free in the duct (Eq. A2.6) | `√(x² + y²) − ℓ`, `x = b(1 − cos θ) + 2h sin θ`, `y = 2h cos θ + b sin θ + ℓ − 2h` |
-//! | the same, touching the duct (Eq. A2.7, corrected) | `√(4h² + c²) + √(x² + y²) − ℓ`, `x = b(1 − cos θ) + c cos θ`, `y = (b − c) sin θ + ℓ − 2h` |
+//! | at the column's foot, free in the duct (Eq. A2.6) | `√(x² + y²) − ℓ` |
+//! | the same, touching the duct (Eq. A2.7, corrected) | `√(4h² + c²) + √(x'² + y'²) − ℓ` |
+//!
+//! `x = b(1 − cos θ) + 2h sin θ`, `y = 2h cos θ + b sin θ + ℓ − 2h`,
+//! `x' = b(1 − cos θ) + c cos θ`, `y' = (b − c) sin θ + ℓ − 2h`.
 //!
 //! Free in the duct the straight tendon lies off the axis, at the column's top, by
 //! `2h [b(1 − cos θ) + (ℓ − 2h) sin θ]/[2h + b sin θ + (ℓ − 2h) cos θ]`; it touches where that equals `c`. There the

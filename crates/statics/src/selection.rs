@@ -93,8 +93,8 @@ pub struct Limits {
     pub path: TendonPath,
     /// By how much a stiffness may miss its target, as a share of it.
     pub tolerance: f64,
-    /// By how much a capacity may exceed what is asked for, as a share of it: beyond, the restrainer is stronger than it
-    /// need be.
+    /// By how much a capacity may exceed what is asked for, as a share of it: beyond, the restrainer is stronger
+    /// than it need be.
     pub capacity_excess: f64,
     /// Share of `n h0` that the stack may be pressed by at the travel of the target.
     pub stroke_share: f64,
@@ -343,8 +343,8 @@ fn rank(candidate: &Candidate, ranking: Ranking) -> f64 {
     }
 }
 
-/// A stopper that protects its tendon: the largest force at which its rods may yield so that the tendon carries them and
-/// the springs, `F_y ≤ T_y/FS − F_s(gap + F_y/k_st)` (Section 6.3.4), N; none where the springs alone are too much.
+/// A stopper that protects its tendon: the largest force at which its rods may yield so that the tendon carries them
+/// and the springs, `F_y ≤ T_y/FS − F_s(gap + F_y/k_st)` (Section 6.3.4), N; none where the springs alone are too much.
 ///
 /// # Errors
 /// Gap, stiffness and factor must be finite and positive, the factor at least 1; the tendon must have a yield force.

@@ -9,8 +9,8 @@ use uplift_statics::{
 
 use crate::hand_solutions::{column, stack};
 
-/// Figure 5.11: 18 amplitudes from 0.36 % by 1.25; the 17th is 12.8 %, the last 15.99 % (the text rounds it to 15 %, its
-/// summary to 16 %); two cycles each at 1.38e-4/s are 12.6 h.
+/// Figure 5.11: 18 amplitudes from 0.36 % by 1.25; the 17th is 12.8 %, the last 15.99 % (the text rounds it to 15 %,
+/// its summary to 16 %); two cycles each at 1.38e-4/s are 12.6 h.
 #[test]
 fn the_protocol_of_figure_5_11() {
     let protocol = LoadingProtocol::new(0.0036, 1.25, 18, 2, 1.38e-4).unwrap();
@@ -49,7 +49,7 @@ fn stoppers_dissipate_once() {
         let states = columns.under(&history).unwrap();
         let energy: f64 = states
             .windows(2)
-            // no rotation, no force to speak of: the step through zero does no work but the uplift force's, which cancels
+            // the step through zero does no work but that of the uplift force, which cancels
             .filter(|pair| pair[0].force_n.is_some() && pair[1].force_n.is_some())
             .map(|pair| {
                 let way = pair[1].displacement_m - pair[0].displacement_m;

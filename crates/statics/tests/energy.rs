@@ -46,7 +46,10 @@ proptest! {
         knots.insert(0, 0.0);
         knots.push(elongation);
         // the spring in series softens smoothly: twenty parts of a piece are enough for 1e-10
-        let nodes = [(0.339_981_043_584_856_3, 0.652_145_154_862_546_1), (0.861_136_311_594_052_6, 0.347_854_845_137_453_9)];
+        let nodes = [
+            (0.339_981_043_584_856_3, 0.652_145_154_862_546_1),
+            (0.861_136_311_594_052_6, 0.347_854_845_137_453_9),
+        ];
         let mut work = 0.0;
         for ends in knots.windows(2) {
             let width = (ends[1] - ends[0]) / 20.0;
@@ -78,7 +81,8 @@ proptest! {
             let from = piece.from_elongation_m;
             let (before, after) = (at(from - 1e-12), at(from + 1e-12));
             prop_assert!((after.force_n - before.force_n).abs() < 1e-3, "{piece:?}: {before:?} {after:?}");
-            prop_assert!((after.energy_j - before.energy_j).abs() < 4e-12 * after.force_n.max(1.0), "{piece:?}: {before:?} {after:?}");
+            let way = 4e-12 * after.force_n.max(1.0);
+            prop_assert!((after.energy_j - before.energy_j).abs() < way, "{piece:?}: {before:?} {after:?}");
         }
         // the force's inverse
         let force = at(share * limit).force_n;

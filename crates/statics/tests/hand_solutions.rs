@@ -175,7 +175,11 @@ proptest! {
     /// `Δ' = dΔ/dθ`, by a central difference, before and after the touch; continuous in value and slope where the
     /// tendon touches.
     #[test]
-    fn the_rate_is_the_slope_of_the_elongation(gap in 0.0005_f64..0.05, above in 0.01_f64..2.0, theta in 0.001_f64..0.5) {
+    fn the_rate_is_the_slope_of_the_elongation(
+        gap in 0.0005_f64..0.05,
+        above in 0.01_f64..2.0,
+        theta in 0.001_f64..0.5,
+    ) {
         let path = TendonPath::Shifted { duct_gap_m: gap, tendon_length_m: 1.6 + above };
         let step = 1e-6;
         let touch = path.touch_rotation_rad(&column()).unwrap();
