@@ -115,6 +115,12 @@ impl DiscSpring {
         Ok(Self { dimensions, flats_factor: k4, law })
     }
 
+    /// The same disc of a material so many times as stiff.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        Self { law: Cubic::new(self.law.coefficients().map(|c| factor * c)), ..*self }
+    }
+
     /// The dimensions.
     pub fn dimensions(&self) -> DiscDimensions {
         self.dimensions

@@ -18,6 +18,7 @@
 //! | [`protocol`] | cyclic loading (Fig. 5.11), and the columns under it |
 //! | [`hysteresis`] | measured loops: energy, equivalent damping, slope |
 //! | [`selection`] | stacks out of a catalogue for a target; stoppers |
+//! | [`tolerance`] | what slack, duct, softer springs and the loss of a tendon do to the capacity |
 //! | [`description`] | a restrainer as written in a file |
 //!
 //! ```
@@ -49,6 +50,7 @@ mod root;
 pub mod selection;
 pub mod stack;
 pub mod tilt;
+pub mod tolerance;
 
 pub use capacity::Capacity;
 pub use columns::{PushoverState, RestrainedColumns, Sections};
@@ -65,3 +67,4 @@ pub use protocol::{CyclicState, LoadingProtocol, ProtocolPoint};
 pub use restrainer::{Piece, PieceLaw, Restrainer, RestrainerState, Threshold};
 pub use selection::{Candidate, CatalogueDisc, Limits, Ranking, Target};
 pub use stack::DiscStack;
+pub use tolerance::{Imperfections, Tolerance};

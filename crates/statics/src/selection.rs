@@ -140,9 +140,9 @@ impl Limits {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Ranking {
     /// By what they miss the target by.
-    #[default]
     Target,
     /// By mass.
+    #[default]
     Mass,
     /// By the height of the unloaded stack.
     Length,

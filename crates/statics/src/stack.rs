@@ -27,6 +27,12 @@ impl DiscStack {
         Ok(Self { disc, parallel, series })
     }
 
+    /// The same stack of a material so many times as stiff.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        Self { disc: self.disc.scaled(factor), ..*self }
+    }
+
     /// The disc.
     pub fn disc(&self) -> &DiscSpring {
         &self.disc

@@ -26,15 +26,29 @@ fn the_flat_load_by_hand() {
     assert!((found_n / by_hand_n - 1.0).abs() < 1e-13, "{found_n} {by_hand_n}");
 }
 
-/// DIN 2093 prints 0.75 h0 loads; for 50/25.4/3 (series A, h0 1.1 mm) it is 12.0 kN, and 20/10.2/1.1 (h0 0.45 mm)
-/// 1.53 kN: printed to three digits.
+/// DIN 2093 has the load at 0.75 h0 of every size, to three digits: series A and B, the last four with contact flats.
+/// Its nominal reduced thickness is that which keeps the load of the plain disc.
 #[test]
-fn two_loads_of_the_standard() {
-    for (spring, load_n) in
-        [(disc(0.05, 0.0254, 0.003, 0.0011), 12_000.0), (disc(0.02, 0.0102, 0.0011, 0.00045), 1_530.0)]
-    {
-        let found_n = spring.force_n(0.75 * spring.flat_deflection_m());
-        assert!((found_n / load_n - 1.0).abs() < 0.01, "{found_n} {load_n}");
+fn loads_of_the_standard() {
+    for ([outer, inner, thickness, cone], reduced, load_n) in [
+        ([20.0, 10.2, 1.1, 0.45], None, 1_530.0),
+        ([50.0, 25.4, 3.0, 1.1], None, 12_000.0),
+        ([63.0, 31.0, 3.5, 1.4], None, 15_000.0),
+        ([100.0, 51.0, 6.0, 2.2], None, 48_000.0),
+        ([50.0, 25.4, 2.0, 1.4], None, 4_760.0),
+        ([80.0, 41.0, 3.0, 2.3], None, 10_500.0),
+        ([100.0, 51.0, 3.5, 2.8], None, 13_100.0),
+        ([125.0, 64.0, 8.0, 2.6], Some(7.5), 85_900.0),
+        ([160.0, 82.0, 10.0, 3.5], Some(9.4), 138_000.0),
+        ([200.0, 102.0, 12.0, 4.2], Some(11.25), 183_000.0),
+        ([200.0, 102.0, 8.0, 5.6], Some(7.5), 76_400.0),
+    ] {
+        let plain = disc(1e-3 * outer, 1e-3 * inner, 1e-3 * thickness, 1e-3 * cone);
+        let reduced_thickness_m = reduced.map(|reduced: f64| 1e-3 * reduced);
+        let ground = DiscSpring::new(DiscDimensions { reduced_thickness_m, ..plain.dimensions() }).unwrap();
+        let at_m = 0.75e-3 * cone;
+        assert!((ground.force_n(at_m) / load_n - 1.0).abs() < 0.004, "{outer}: {} {load_n}", ground.force_n(at_m));
+        assert!((ground.force_n(at_m) / plain.force_n(at_m) - 1.0).abs() < 0.001, "{outer}");
     }
 }
 

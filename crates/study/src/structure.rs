@@ -18,7 +18,7 @@ use crate::error::StudyError;
 use crate::reading::findings::refused;
 use crate::reading::other_file::Wanted;
 use crate::reading::text::{parse_table, read_text};
-use crate::reading::{Field, Finding, Findings, Origin, Rule, Section, Table};
+use crate::reading::{Field, Finding, Findings, Origin, Rule, Section, Table, Value};
 use crate::warning::Warning;
 use restrainer::ReadRestrainer;
 pub use restrainer::RestrainerFile;
@@ -90,6 +90,15 @@ impl Structure {
             }
         }
         Err(refused(file, text, findings, &[]))
+    }
+
+    /// Whether `file` is TOML of a structure, right or wrong, by the kind that it says.
+    pub fn is_written_in(file: &Path) -> bool {
+        let document = read_text(file, Wanted::Structure).and_then(|text| parse_table(file, &text));
+        document.is_ok_and(|document| {
+            let kind = document.get("kind").map(|entry| &entry.node.value);
+            Kind::ALL.iter().any(|known| matches!(kind, Some(Value::Text(kind)) if kind == known.name()))
+        })
     }
 
     /// Name for people: that of the file.
