@@ -25,8 +25,8 @@ fn run(arguments: &[&str]) -> (tempfile::TempDir, Finished) {
     (folder, finished)
 }
 
-/// Column J: peak, capacity exact and linear, the load on its section; the rows are those of Eq. 5.1 where the restrainer
-/// is linear.
+/// Column J: peak, capacity exact and linear, the load on its section; the rows are those of Eq. 5.1 where the
+/// restrainer is linear.
 #[test]
 fn a_pushover_in_numbers() {
     let column = structure("column-j.toml");
@@ -81,7 +81,8 @@ fn a_pushover_in_words() {
     run(&["pushover", &frame, "--lost", "5"]).1.fails(2, &["5 tendons lost of 4"]);
 }
 
-/// Rows and protocol as tables, with what they are beside them; a figure of each; nothing of somebody else's is replaced.
+/// Rows and protocol as tables, with what they are beside them; a figure of each; nothing of somebody else's is
+/// replaced.
 #[test]
 fn tables_and_figures() {
     let study = SmallStudy::new();

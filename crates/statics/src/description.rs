@@ -41,6 +41,9 @@
 //! ```
 
 use serde::Deserialize;
+use uplift_plausible::{
+    DISC_DIAMETER, DISC_HEIGHT, LENGTH, SPRING_GAP, TENDON_AREA, TENDON_FORCE, TENDON_STIFFNESS, YOUNG_MODULUS,
+};
 
 use crate::disc::{DiscDimensions, DiscSpring, SPRING_STEEL_YOUNG_MODULUS_PA, STEEL_POISSON};
 use crate::error::{StaticsError, positive};
@@ -176,6 +179,7 @@ impl RestrainerDescription {
     /// # Errors
     /// At least one mistake, each with key, value, unit and what to do.
     pub fn resolve(&self) -> Result<Option<(Restrainer, TendonPath)>, Vec<StaticsError>> {
+        let implausible = self.implausible();
         let mut mistakes = self.misplaced();
         let mut keep = |found: Result<Option<Spring>, Vec<StaticsError>>| match found {
             Ok(spring) => spring,
@@ -190,6 +194,12 @@ impl RestrainerDescription {
         let stopper = self.stopper.map(|StopperDescription { gap_m, stiffness_n_m, yield_n }| {
             Stopper { gap_m, stiffness_n_m, yield_n }.checked().map_err(|mistake| mistakes.push(mistake))
         });
+        // of a number that cannot be it is said once, with its range
+        let told = |mistake: &StaticsError| {
+            implausible.iter().any(|found| mistake.keys().iter().any(|key| found.keys().contains(key)))
+        };
+        mistakes.retain(|mistake| !told(mistake));
+        mistakes.extend(implausible);
         if !mistakes.is_empty() {
             return Err(mistakes);
         }
@@ -315,6 +325,35 @@ impl RestrainerDescription {
                     .ok_or_else(|| missing("tendon_length_m", "with anchorage \"shifted\" give it in m"))?,
             }),
         }
+    }
+
+    /// Numbers that no restrainer has: mistakes of unit, mostly.
+    fn implausible(&self) -> Vec<StaticsError> {
+        let stopper = self.stopper.as_ref();
+        [
+            ("stiffness_n_m", self.stiffness_n_m, TENDON_STIFFNESS),
+            ("outer_diameter_m", self.outer_diameter_m, DISC_DIAMETER),
+            ("inner_diameter_m", self.inner_diameter_m, DISC_DIAMETER),
+            ("thickness_m", self.thickness_m, DISC_HEIGHT),
+            ("cone_height_m", self.cone_height_m, DISC_HEIGHT),
+            ("free_height_m", self.free_height_m, DISC_HEIGHT),
+            ("reduced_thickness_m", self.reduced_thickness_m, DISC_HEIGHT),
+            ("young_modulus_pa", self.young_modulus_pa, YOUNG_MODULUS),
+            ("tendon_stiffness_n_m", self.tendon_stiffness_n_m, TENDON_STIFFNESS),
+            ("tendon_area_m2", self.tendon_area_m2, TENDON_AREA),
+            ("tendon_young_modulus_pa", self.tendon_young_modulus_pa, YOUNG_MODULUS),
+            ("tendon_length_m", self.tendon_length_m, LENGTH),
+            ("tendon_yield_n", self.tendon_yield_n, TENDON_FORCE),
+            ("tendon_failure_n", self.tendon_failure_n, TENDON_FORCE),
+            ("prestress_n", self.prestress_n, TENDON_FORCE),
+            ("slack_m", self.slack_m, SPRING_GAP),
+            ("duct_gap_m", self.duct_gap_m, SPRING_GAP),
+            ("gap_m", stopper.map(|stopper| stopper.gap_m), SPRING_GAP),
+            ("yield_n", stopper.and_then(|stopper| stopper.yield_n), TENDON_FORCE),
+        ]
+        .into_iter()
+        .filter_map(|(key, value, range)| range.check(key, value?).err().map(StaticsError::Implausible))
+        .collect()
     }
 
     /// Keys that mean nothing for the kind, the anchorage or the tendon given.

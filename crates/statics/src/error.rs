@@ -1,6 +1,7 @@
 //! What can be wrong with a spring, a restrainer or the columns that it holds.
 
 use thiserror::Error;
+use uplift_plausible::Implausible;
 use uplift_structure::StructureError;
 
 /// Why a restrainer, or what it holds, cannot be computed.
@@ -18,6 +19,9 @@ pub enum StaticsError {
         /// What would be accepted.
         requirement: &'static str,
     },
+    /// A number of a description is beyond what any restrainer has.
+    #[error("`{}`{}", .0.name, .0.to_string().trim_start_matches(.0.name))]
+    Implausible(Implausible),
     /// A description lacks a quantity that its kind of restrainer needs.
     #[error("`{key}` is missing: a restrainer of kind \"{kind}\" needs it; {advice}")]
     Missing {
@@ -201,6 +205,7 @@ impl StaticsError {
                 std::slice::from_ref(key)
             }
             Self::Twice { key, .. } => std::slice::from_ref(key),
+            Self::Implausible(Implausible { name, .. }) => std::slice::from_ref(name),
             Self::Hole { .. } => &["inner_diameter_m", "outer_diameter_m"],
             Self::FreeHeight { .. } => &["free_height_m", "thickness_m"],
             Self::ReducedThickness { .. } => &["reduced_thickness_m", "thickness_m"],

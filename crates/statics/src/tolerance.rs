@@ -1,5 +1,5 @@
-//! What small things that nobody meant do to the displacement capacity (a loose nut, a duct without spacer, springs that
-//! are softer than ordered, a tendon that is lost).
+//! What small things that nobody meant do to the displacement capacity (a loose nut, a duct without spacer, springs
+//! that are softer than ordered, a tendon that is lost).
 
 use crate::columns::RestrainedColumns;
 use crate::error::{StaticsError, positive};
@@ -33,8 +33,8 @@ pub struct Tolerance {
 }
 
 impl RestrainedColumns {
-    /// Displacement capacities with one imperfection each: springs 5 % stiffer and softer, slack, a tendon that shifts in
-    /// its duct, and one tendon less. Nothing without a restrainer.
+    /// Displacement capacities with one imperfection each: springs 5 % stiffer and softer, slack, a tendon that shifts
+    /// in its duct, and one tendon less. Nothing without a restrainer.
     ///
     /// # Errors
     /// The slack must be finite and positive, gap and length go with the column.

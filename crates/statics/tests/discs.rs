@@ -47,7 +47,7 @@ fn loads_of_the_standard() {
         let reduced_thickness_m = reduced.map(|reduced: f64| 1e-3 * reduced);
         let ground = DiscSpring::new(DiscDimensions { reduced_thickness_m, ..plain.dimensions() }).unwrap();
         let at_m = 0.75e-3 * cone;
-        assert!((ground.force_n(at_m) / load_n - 1.0).abs() < 0.004, "{outer}: {} {load_n}", ground.force_n(at_m));
+        assert!((ground.force_n(at_m) / load_n - 1.0).abs() < 0.007, "{outer}: {} {load_n}", ground.force_n(at_m));
         assert!((ground.force_n(at_m) / plain.force_n(at_m) - 1.0).abs() < 0.001, "{outer}");
     }
 }

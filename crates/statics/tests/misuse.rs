@@ -30,7 +30,7 @@ fn refused(changes: Value, words: &str) {
 
 #[test]
 fn numbers_that_cannot_be() {
-    refused(json!({"thickness_m": 0.0}), "`thickness_m` is 0 m: it must be finite and positive");
+    refused(json!({"thickness_m": 0.0}), "`thickness_m` is 0 m: it must be from 1e-5 to 0.3 m (in m, not in mm");
     refused(json!({"inner_diameter_m": 0.2}), "must be below `outer_diameter_m` = 0.125 m");
     refused(json!({"springs": 0}), "`springs` is 0: it must be at least 1");
     refused(json!({"poisson": 0.7}), "`poisson` is 0.7: it must be from 0 to 0.5");
@@ -46,6 +46,26 @@ fn numbers_that_cannot_be() {
     refused(json!({"stopper": {"gap_m": 0.04, "stiffness_n_m": 2e7}}), "it would never engage; shorten the gap");
     refused(json!({"stopper": {"gap_m": 0.001, "stiffness_n_m": 2e7}, "prestress_n": 5e3}), "take less prestress or a");
     refused(json!({"stopper": {"gap_m": 0.001, "stiffness_n_m": 0.0}}), "`stiffness_n_m` is 0 N/m");
+}
+
+/// Lengths in millimetres, an area in their squares, a modulus in megapascals: all at once, each with its unit.
+#[test]
+fn mistakes_of_unit() {
+    let found = mistakes(&json!({"outer_diameter_m": 125, "inner_diameter_m": 61, "thickness_m": 6,
+        "cone_height_m": 3.6, "young_modulus_pa": 206e3, "tendon_stiffness_n_m": null, "tendon_area_m2": 150.0,
+        "tendon_length_m": 2.134, "stopper": {"gap_m": 15, "stiffness_n_m": 2e7}}));
+    for words in [
+        "`outer_diameter_m` is 125 m",
+        "`inner_diameter_m` is 61 m",
+        "`thickness_m` is 6 m",
+        "`cone_height_m` is 3.6 m",
+        "`young_modulus_pa` is 206000 Pa",
+        "`tendon_area_m2` is 150 m2",
+        "`gap_m` is 15 m",
+    ] {
+        assert!(found.iter().any(|message| message.contains(words)), "{words}: {found:#?}");
+    }
+    assert_eq!(found.len(), 7, "{found:#?}");
 }
 
 #[test]

@@ -143,6 +143,22 @@ fn stoppers_of_the_frame() {
     close(columns.first(EventKind::StopperYields).unwrap().state.tendon_n, 85.2e3, 0.002);
 }
 
+/// Section 6.2.1: `k_crit` is `(1 + 2γ) m_c g/(b α)` at the column, with γ the deck's mass over that of all columns,
+/// and a quarter of it in the foundation.
+#[test]
+fn critical_stiffnesses() {
+    let (deck_n, column_n, b, alpha) = (94.35e3, 1.22e3, 0.0985, (98.5_f64 / 725.0).atan());
+    let at_column = frame(deck_n, column_n);
+    let printed_n_m = (1.0 + 2.0 * deck_n / (4.0 * column_n)) * column_n / (b * alpha);
+    close(at_column.linear(0.0).unwrap().critical_stiffness_n_m(), printed_n_m, 1e-12);
+    let law = Restrainer::new(Parts::linear(1e5)).unwrap();
+    let foundation = at_column.with_restrainer(law, TendonPath::Foundation).unwrap();
+    close(foundation.linear(0.0).unwrap().critical_stiffness_n_m(), 0.25 * printed_n_m, 1e-12);
+    // at it the linear force stays
+    let law = foundation.linear(0.25 * printed_n_m).unwrap();
+    close(law.at(0.3).force_n, law.uplift_force_n(), 1e-12);
+}
+
 /// Section 6.6: the force at uplift, 12.9 kN, with 9435 kg · 9.81; the weights in print give 13.15 kN.
 #[test]
 fn uplift_force_of_the_frame() {

@@ -211,8 +211,8 @@ pub fn pushover(
 pub(crate) fn pushed(structure: &Structure, lost: u32) -> Result<RestrainedColumns, UpliftError> {
     let Some(columns) = structure.columns.clone() else {
         return Err(UpliftError::Usage(format!(
-            "{}: a pushover is of columns with flat ends, and kind \"{}\" has none: it is computed for block, frame and \
-             restrained-frame",
+            "{}: a pushover is of columns with flat ends, and kind \"{}\" has none: it is computed for block, frame \
+             and restrained-frame",
             structure.file.display(),
             structure.description.kind.name()
         )));
@@ -312,8 +312,8 @@ fn warnings(columns: &RestrainedColumns, to_m: f64) -> Vec<String> {
     if columns.restrainer().is_some() && lost > 0 {
         let left = columns.restrained();
         warnings.push(format!(
-            "{left} of {} columns are restrained: the deck would twist as well, which is not counted; sections are those \
-             of a restrained column",
+            "{left} of {} columns are restrained: the deck would twist as well, which is not counted; sections are \
+             those of a restrained column",
             columns.columns()
         ));
     }

@@ -21,8 +21,8 @@ const MOST_ROWS: u32 = 100_000;
 /// What is asked of a curve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RestrainerCurveOptions {
-    /// Elongation up to which rows are computed, m; to flat springs, to the yield of the tendon or to 50 mm where none is
-    /// given.
+    /// Elongation up to which rows are computed, m; to flat springs, to the yield of the tendon or to 50 mm where none
+    /// is given.
     pub to_m: Option<f64>,
     /// Rows, evenly spaced from 0.
     pub rows: u32,

@@ -132,9 +132,9 @@ pub struct RestrainerDesign {
 /// Finds stacks out of a catalogue for the columns of a structure.
 ///
 /// # Errors
-/// A structure without columns, or whose restrainer has no tendon; a catalogue that cannot be read; a target that cannot
-/// be, or that no stack meets, with what comes nearest; a table that would replace something else or cannot be written;
-/// what a design by a spectrum may meet.
+/// A structure without columns, or whose restrainer has no tendon; a catalogue that cannot be read; a target that
+/// cannot be, or that no stack meets, with what comes nearest; a table that would replace something else or cannot be
+/// written; what a design by a spectrum may meet.
 pub fn design(
     structure: &Structure,
     options: &RestrainerDesignOptions,
@@ -335,8 +335,8 @@ fn none_found(
             "no stack of these discs comes near it: take other discs, or allow more in a row with --springs".to_owned()
         }
         Some(near) => format!(
-            "the nearest without limits is {} x {}{}, {:+.1} % of the target, pressed by {:.0} % of its stroke, {:.0} kN, \
-             {:.3} m long: allow it by --tolerance, --stroke, --tendon-factor, --largest-diameter-m, \
+            "the nearest without limits is {} x {}{}, {:+.1} % of the target, pressed by {:.0} % of its stroke, {:.0} \
+             kN, {:.3} m long: allow it by --tolerance, --stroke, --tendon-factor, --largest-diameter-m, \
              --least-inner-diameter-m, --largest-length-m or --largest-force-n, or take other discs",
             near.springs,
             if near.parallel > 1 { format!("{} x ", near.parallel) } else { String::new() },

@@ -19,7 +19,8 @@ pub(crate) fn print_restrainer_curve(report: &RestrainerCurve, terminal: &Termin
         let parallel = if stack.parallel > 1 { format!(" packets of {}", stack.parallel) } else { String::new() };
         writeln!(
             out,
-            "stack      {}{parallel} in alternate sense: flat at {:.2} mm and {} kN, {:.1} mm high, h0/t {:.3}, K4 {:.4}",
+            "stack      {}{parallel} in alternate sense: flat at {:.2} mm and {} kN, {:.1} mm high, h0/t {:.3}, \
+             K4 {:.4}",
             stack.springs,
             1e3 * stack.flat_deformation_m,
             kilo(stack.flat_force_n),

@@ -97,8 +97,8 @@ fn restrainer_figure_of(name: &str, restrainer: &Restrainer, to_m: f64) -> Figur
     figure(
         "restrainer",
         format!("Restrainer of {name}"),
-        "Force over elongation of the restrainer, tendon included, and over deformation of its springs alone (Fig. 5.9, \
-         6.8).",
+        "Force over elongation of the restrainer, tendon included, and over deformation of its springs alone (Fig. \
+         5.9, 6.8).",
         vec![Panel::lines("", x, Axis::linear("force T, kN"), series)],
     )
 }
@@ -116,8 +116,8 @@ pub fn protocol_figure(report: &ProtocolReport) -> Figure {
 }
 
 /// Every figure of a structure's columns: its pushover, linear restrainers of several stiffnesses (Fig. 5.4, 6.4), the
-/// moment at the base by anchorage (Fig. 6.4), sections, the restrainer (Fig. 5.9, 6.8) and the path of its tendon (Fig.
-/// 6.9, A2.1).
+/// moment at the base by anchorage (Fig. 6.4), sections, the restrainer (Fig. 5.9, 6.8) and the path of its tendon
+/// (Fig. 6.9, A2.1).
 ///
 /// # Errors
 /// Columns that cannot be restrained otherwise: none that could be pushed.
@@ -192,8 +192,8 @@ fn base_moments(columns: &RestrainedColumns) -> Result<Figure, UpliftError> {
     Ok(figure(
         "base-moment",
         "Moment at the base by anchorage".to_owned(),
-        "Moment at the base of a column with restrainers of the same pushover, half the critical stiffness: anchored in \
-         the foundation it grows with the tendon's force, in the column it does not (Fig. 6.4b, c).",
+        "Moment at the base of a column with restrainers of the same pushover, half the critical stiffness: anchored \
+         in the foundation it grows with the tendon's force, in the column it does not (Fig. 6.4b, c).",
         vec![Panel::lines("", Axis::linear(DISPLACEMENT), y, series)],
     ))
 }
@@ -222,8 +222,8 @@ fn sections(report: &PushoverReport) -> Figure {
     )
 }
 
-/// The same restrainer with the tendon held in the axis and, where the structure says how far it moves, shifted (Fig. 6.9,
-/// A2.1).
+/// The same restrainer with the tendon held in the axis and, where the structure says how far it moves, shifted (Fig.
+/// 6.9, A2.1).
 fn paths(report: &PushoverReport, restrainer: &Restrainer) -> Result<Figure, UpliftError> {
     let columns = &report.pushed;
     let bare = Restrainer::new(Parts { stopper: None, ..*restrainer.parts() })?;

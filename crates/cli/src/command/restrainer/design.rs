@@ -19,8 +19,8 @@ use crate::terminal::Terminal;
 #[derive(Debug, Args)]
 #[command(
     group = ArgGroup::new("target").required(true).multiple(false),
-    after_help = "The tendon, its prestress and its path are those of [restrainer] in the structure file; until there is \
-                  a stack its kind is \"tendon\". A worked design: docs/restrained-columns.md"
+    after_help = "The tendon, its prestress and its path are those of [restrainer] in the structure file; until there \
+                  is a stack its kind is \"tendon\". A worked design: docs/restrained-columns.md"
 )]
 pub(super) struct DesignArguments {
     /// Structure file (TOML): a restrained frame with the tendon in its [restrainer]
