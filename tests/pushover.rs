@@ -261,6 +261,20 @@ fn from_a_spectrum_to_a_stack() {
     study.uplift(&arguments).fails(2, &["the columns have 0.4000 m without any restrainer"]);
 }
 
+/// One file serves statics and design: the oscillator of the design has the capacity of the exact law.
+#[test]
+fn a_restrainer_in_a_design() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    let column = structure("column-j.toml");
+    let exact = json(study.uplift(&["pushover", &column, "--json"]));
+    let arguments = ["design", &column, "--urs", "r.h5", "--site", "Here", "--spectrum-only", "--json", "-q"];
+    let design = json(study.uplift(&arguments));
+    let capacity_m = exact["capacity"]["exact"]["displacement_m"].as_f64().unwrap();
+    close(&design["structure"]["capacity_m"], capacity_m, 1e-9);
+    assert_eq!(design["structure"]["kind"], "restrained-frame");
+}
+
 #[test]
 fn what_is_typed_wrong() {
     let study = SmallStudy::new();
