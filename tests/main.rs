@@ -30,6 +30,7 @@ mod mistakes;
 mod outputs;
 mod overturning;
 mod pulse;
+mod pushover;
 mod python;
 mod quiet;
 mod records;

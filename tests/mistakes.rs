@@ -240,7 +240,7 @@ fn files_in_the_wrong_place() {
         (&["design", "r.h5", "--urs", "r.h5"], 3, &["it is a result, and a structure is wanted", "--urs"]),
         (&["table", "study.toml"], 4, &["study.toml: is a study, and a result is wanted", "`uplift run`"]),
         (&["export", "study.toml", "--csv"], 4, &["study.toml: is a study, and a result is wanted"]),
-        (&["table", "block.toml"], 4, &["block.toml: is a structure, and a result is wanted"]),
+        (&["export", "block.toml", "--csv"], 4, &["block.toml: is a structure, and a result is wanted"]),
         (&["table", "r.urs.csv"], 4, &["r.urs.csv: is a table, and a result is wanted"]),
         (&["design", "block.toml", "--urs", "study.toml", "--site", "Here"], 4, &["study.toml: is a study"]),
         (&["run", "absent.toml"], 3, &["absent.toml", "there is no such file"]),

@@ -4,7 +4,7 @@ use crate::common::{Finished, SmallStudy, repository};
 use crate::hazard::{SITES, openquake};
 
 /// Commands whose answer is printed, and those that are told to write files; by their first words.
-const ANSWER: [&str; 17] = [
+const ANSWER: [&str; 21] = [
     "status",
     "verify",
     "check",
@@ -17,6 +17,10 @@ const ANSWER: [&str; 17] = [
     "design",
     "overturning",
     "table",
+    "pushover",
+    "protocol",
+    "restrainer curve",
+    "restrainer design",
     "records list",
     "records show",
     "records select",
@@ -36,7 +40,9 @@ fn listed(help: &str) -> Vec<String> {
 #[test]
 fn nothing_but_what_was_asked_for() {
     let study = SmallStudy::new();
-    std::fs::copy(repository().join("configs/structures/block.toml"), study.path().join("block.toml")).unwrap();
+    for name in ["block.toml", "column-j.toml", "disc-springs.csv"] {
+        std::fs::copy(repository().join("configs/structures").join(name), study.path().join(name)).unwrap();
+    }
     std::fs::write(study.path().join("one.txt"), "0\n0.1\n0.4\n-0.3\n0\n").unwrap();
     study.write("export.csv", &openquake("mean", 1.0, &SITES));
     let quiet = |arguments: &str| -> Finished {
@@ -71,6 +77,10 @@ fn nothing_but_what_was_asked_for() {
         "records list again.csv",
         "records show again.csv SYN001",
         "records select again.csv --pga-g 0: -o chosen.csv",
+        "pushover block.toml -o rows.csv --plot h.svg",
+        "protocol --sets 2 -o sets.csv",
+        "restrainer curve column-j.toml -o curve.csv",
+        "restrainer design column-j.toml --catalogue disc-springs.csv --capacity-m 0.5 -o stacks.csv",
         "hazard import export.csv -o mine --name here",
         "hazard show here-pgv.csv --unit cm/s --measure PGV",
         "hazard plot here-pgv.csv -o h.png --unit cm/s --measure PGV",
@@ -84,7 +94,7 @@ fn nothing_but_what_was_asked_for() {
             assert!(is(&ANSWER), "{arguments}");
             assert!(!run.stdout.is_empty(), "{arguments}");
             // no list of the files that were written beside the answer
-            for file in ["h.csv", "h.svg", "b.csv", "o.svg", "o.csv", "pulses/", "s.bootstrap"] {
+            for file in ["h.csv", "h.svg", "b.csv", "o.svg", "o.csv", "rows.csv", "pulses/", "s.bootstrap"] {
                 assert!(!run.stdout.contains(file), "{arguments}\n{}", run.stdout);
             }
         }
@@ -93,13 +103,19 @@ fn nothing_but_what_was_asked_for() {
     // errors are told
     quiet("run absent.toml").fails(3, &["absent.toml"]);
     // a command that is new is here too
-    for (above, help) in
-        [("", &["--help"][..]), ("records ", &["records", "--help"]), ("hazard ", &["hazard", "--help"])]
-    {
+    for (above, help) in [
+        ("", &["--help"][..]),
+        ("records ", &["records", "--help"]),
+        ("hazard ", &["hazard", "--help"]),
+        ("restrainer ", &["restrainer", "--help"]),
+    ] {
         for name in listed(&study.uplift(help).ok().stdout) {
             let command = format!("{above}{name}");
             let known = ANSWER.iter().chain(&FILES).any(|known| *known == command);
-            assert!(known || ["records", "hazard"].contains(&command.as_str()), "{command} is not tried with -q");
+            assert!(
+                known || ["records", "hazard", "restrainer"].contains(&command.as_str()),
+                "{command} is not tried with -q"
+            );
             let tried = seen.iter().any(|arguments| arguments.starts_with(&format!("{command} ")));
             assert!(tried || !known, "{command}");
         }

@@ -16,6 +16,7 @@ use uplift_oscillator::OscillatorError;
 use uplift_plausible::Implausible;
 use uplift_risk::RiskError;
 use uplift_spectra::SpectraError;
+use uplift_statics::StaticsError;
 use uplift_structure::StructureError;
 use uplift_study::StudyError;
 
@@ -74,6 +75,9 @@ pub enum UpliftError {
     /// A structure that cannot be, or to which a rule does not apply.
     #[error(transparent)]
     Structure(#[from] StructureError),
+    /// Columns, a restrainer or a protocol that cannot be, or a displacement beyond their reach.
+    #[error(transparent)]
+    Statics(#[from] StaticsError),
     /// An analysis that cannot be planned or finished; one that was told to stop is [`Interrupted`](Self::Interrupted).
     #[error(transparent)]
     Analysis(Box<IdaError>),

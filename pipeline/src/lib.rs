@@ -13,7 +13,8 @@
 //! 4. How sure it is: [`bootstrap::bootstrap`], [`influence::influence`], [`efficiency::efficiency`] ask the result,
 //!    and add their arrays to it.
 //! 5. From a spectrum to a structure: [`structure::design`] and [`structure::overturning`].
-//! 6. For others: [`export::export`] here; figures and the page are made by the crate `uplift_report`.
+//! 6. Pushed rather than shaken: [`pushover::pushover`], [`restrainer::curve`], [`restrainer::design`].
+//! 7. For others: [`export::export`] here; figures and the page are made by the crate `uplift_report`.
 //!
 //! ```no_run
 //! use std::path::Path;
@@ -58,6 +59,7 @@
 //! | [`mod@alarms`] | what to know before the numbers of a result are used |
 //! | [`table`](mod@table), [`export`] | a result beside a reference, and for other programs |
 //! | [`response`], [`pulses`] | one record through one oscillator; rocking spectra under wavelets |
+//! | [`pushover`](mod@pushover), [`restrainer`] | columns under a static force; restrainers, stacks of a catalogue |
 //! | [`outputs`] | files that a job is asked to write: what may give way to them |
 //! | [`text`] | numbers in words |
 
@@ -83,8 +85,10 @@ pub mod machine;
 pub mod outputs;
 pub mod plan;
 pub mod pulses;
+pub mod pushover;
 pub mod records;
 pub mod response;
+pub mod restrainer;
 pub mod result;
 mod result_of;
 pub mod run;

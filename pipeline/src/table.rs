@@ -2,6 +2,7 @@
 //! (Tables 2.1 to 2.3 and 3.2 to 3.7).
 
 mod coefficients;
+mod columns;
 mod design;
 mod reference;
 
@@ -9,8 +10,10 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 use uplift_motion::IntensityMeasure;
+use uplift_study::Structure;
 
 pub use coefficients::{COMPARED_ABOVE, COMPARED_FROM_M, CoefficientRow, CoefficientTable, ReferenceFit};
+pub use columns::{ColumnsRow, ColumnsTable};
 pub use design::{DesignTable, DesignTableRow};
 pub use reference::ReferenceTable;
 
@@ -22,7 +25,7 @@ use crate::result::{AskedRisk, Kind, ResultFile};
 /// Which table, and what stands beside it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TableOptions {
-    /// The result file.
+    /// The result file, or a structure file.
     pub result: PathBuf,
     /// CSV table to compare with: for uniform risk spectra with the columns `site`, `poe_50y` (or `poe`), `c0_m`, `c1`,
     /// `c2_m`, `rmse_m`; for displacement spectra `record_set`, `scaling`, `quantity`, `value` and, for oscillators,
@@ -75,13 +78,19 @@ pub enum TableRows {
     Coefficients(CoefficientTable),
     /// Of displacement spectra.
     Design(DesignTable),
+    /// Of the columns of a structure.
+    Columns(ColumnsTable),
 }
 
-/// Reads the table of a result, and what a reference says beside each row.
+/// Reads the table of a result, or what the columns of a structure have, and what a reference says beside each row.
 ///
 /// # Errors
 /// A file that is missing, damaged or no result; a result without such a table; a reference that cannot be read.
 pub fn table(options: &TableOptions, events: &dyn Events) -> Result<TableReport, UpliftError> {
+    if Structure::is_written_in(&options.result) {
+        let rows = TableRows::Columns(columns::read(options)?);
+        return Ok(TableReport { rows, alarms: Vec::new() });
+    }
     let file = ResultFile::open(&options.result)?.at(&options.risk)?;
     let rows = match file.kind() {
         Kind::UniformRisk => coefficients::read(options, &file, events).map(TableRows::Coefficients),

@@ -3,9 +3,12 @@
 mod arguments;
 mod hazard;
 mod manual;
+mod protocol;
 mod pulse;
+mod pushover;
 mod records;
 mod response;
+mod restrainer;
 mod result;
 mod structures;
 mod study;
@@ -71,18 +74,24 @@ enum Command {
     Design(design::DesignArguments),
     /// How often a structure overturns: collapse fragility and risk, by oscillator and rigid block
     Overturning(overturning::OverturningArguments),
+    /// Push columns sideways: force, restrainer, sections and events over the displacement (Chapters 5 and 6)
+    Pushover(pushover::PushoverArguments),
+    /// Cyclic loading protocols: amplitudes that grow from set to set (Figure 5.11)
+    Protocol(protocol::ProtocolArguments),
+    /// Restrainers of tendons and disc springs: their force, and stacks out of a catalogue
+    Restrainer(Box<restrainer::RestrainerArguments>),
     /// Bring record files: import a folder, list, show, choose, synthesize
     Records(records::RecordsArguments),
     /// Bring hazard curves: take them from the exports of engines, show, draw
     Hazard(hazard::HazardArguments),
-    /// Draw the figures of a result
+    /// Draw the figures of a result, or of a structure's columns
     Plot(plot::PlotArguments),
     /// Write one page with everything, to hand over: HTML that needs no network
     Report(report::ReportArguments),
     /// Write spectra, bands and coefficients of a result as an Excel workbook, CSV, JSON or a MATLAB file
     Export(export::ExportArguments),
     /// Print the coefficients of a result (Table 4.2), or its design example (Tables 2.1-2.3, 3.2-3.7), beside a
-    /// reference if one is given
+    /// reference if one is given; or what the columns of a structure have (Table 5.1, Section 6.3)
     Table(table::TableArguments),
     /// Write the pages of the manual and the completions of the shells
     #[command(hide = true)]
@@ -117,6 +126,9 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         Command::Measures(arguments) => measures::measures(arguments, &terminal),
         Command::Design(arguments) => design::design(arguments, &terminal),
         Command::Overturning(arguments) => overturning::overturning(arguments, &terminal),
+        Command::Pushover(arguments) => pushover::pushover(arguments, &terminal),
+        Command::Protocol(arguments) => protocol::protocol(arguments, &terminal),
+        Command::Restrainer(arguments) => restrainer::restrainer(arguments, &terminal),
         Command::Records(arguments) => records::records(arguments, &terminal),
         Command::Hazard(arguments) => hazard::hazard(arguments, &terminal),
         Command::Plot(arguments) => plot::plot(arguments, &terminal),

@@ -41,6 +41,7 @@ impl CommandError {
                 | UpliftError::Choice { .. }
                 | UpliftError::Oscillator(_)
                 | UpliftError::Blocks(_)
+                | UpliftError::Statics(_)
                 | UpliftError::Implausible(_)
                 | UpliftError::Motion(MotionError::SyntheticOption { .. } | MotionError::SyntheticCandidates { .. }),
             ) => 2,

@@ -44,6 +44,26 @@ pub const MOMENT_OF_INERTIA: Range = range(1e-12, 1e24, "kg m2", "about the pivo
 /// Stiffness of a tendon; none is a structure without.
 pub const TENDON_STIFFNESS: Range = range(0.0, 1e13, "N/m", "in N/m, EA over its length: a metre of 100 mm2 has 2e7");
 
+/// Diameter of a disc spring: from a watch to a crane.
+pub const DISC_DIAMETER: Range =
+    range(1e-3, 3.0, "m", "in m, not in mm: the standard's discs have from 0.008 to 0.25 m");
+
+/// Thickness, reduced thickness, cone height or free height of a disc spring.
+pub const DISC_HEIGHT: Range =
+    range(1e-5, 0.3, "m", "in m, not in mm: the standard's discs are from 0.0002 to 0.014 m thick");
+
+/// Young's modulus.
+pub const YOUNG_MODULUS: Range = range(1e6, 1e13, "Pa", "in Pa, not in MPa or GPa: steel has 2.06e11");
+
+/// Area of a tendon.
+pub const TENDON_AREA: Range = range(1e-8, 10.0, "m2", "in m2, not in mm2: a strand of 150 mm2 has 150e-6");
+
+/// Force of a tendon, or of the rods beside its springs.
+pub const TENDON_FORCE: Range = range(0.0, 1e12, "N", "in N: a strand of 150 mm2 yields at some 2.4e5");
+
+/// What a spring is pressed by, a nut is loose by or a duct is wider by.
+pub const SPRING_GAP: Range = range(0.0, 5.0, "m", "in m, not in mm");
+
 /// Number of columns of a frame.
 pub const COLUMNS: Range = range(1.0, 1e6, "", "columns of one frame");
 
@@ -138,6 +158,10 @@ mod tests {
             (PEAK_ACCELERATION, &[1e-6, 40.0, 981.0]),
             (SCALE, &[0.0, 1000.0]),
             (TENDON_STIFFNESS, &[0.0, 2e9]),
+            (DISC_DIAMETER, &[0.003, 1.0]),
+            (DISC_HEIGHT, &[5e-5, 0.05]),
+            (YOUNG_MODULUS, &[1e8, 2.1e11]),
+            (TENDON_AREA, &[1e-6, 0.5]),
         ] {
             for &value in values {
                 assert!(range.contains(value), "{value} {range}");
@@ -158,6 +182,11 @@ mod tests {
             (TIME_STEP, 1e-9),
             (PEAK_ACCELERATION, 1e6),
             (SCALE, 1e308),
+            (DISC_DIAMETER, 125.0),
+            (DISC_HEIGHT, 0.5),
+            (YOUNG_MODULUS, 206e3),
+            (TENDON_AREA, 150.0),
+            (SPRING_GAP, 15.0),
         ] {
             assert!(!range.contains(value), "{value} {range}");
         }

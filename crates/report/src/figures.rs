@@ -3,6 +3,7 @@
 //!
 //! What is to be seen is decided here, how it is drawn in [`plot`](uplift_plot).
 
+mod columns;
 mod confidence;
 mod consistency;
 mod demand;
@@ -16,6 +17,7 @@ mod spectra;
 mod tails;
 mod together;
 
+pub use columns::{column_figures, protocol_figure, pushover_figure, restrainer_figure};
 pub use displacement::{Extent, displacement_figures};
 pub use history::{block_history_figure, history_figure};
 pub use overturning::overturning_figure;

@@ -17,6 +17,7 @@ use uplift::study::Structure;
 
 use crate::page::{STYLE, render};
 use drawing::drawing;
+pub(crate) use drawing::drawing as elevation;
 use numbers::{facts, kind_name, lead, rounding_words, tables};
 
 const SHEET: &str = concat!(include_str!("page/table.html"), include_str!("sheet/sheet.html"));

@@ -23,6 +23,7 @@
 //! | read that again, when its files may be gone | [`Study::stored`] |
 //! | tell what the keys are | [`Kind::keys`] |
 //! | load a structure file | [`Structure::load`] |
+//! | load a file of a restrainer alone | [`RestrainerFile::load`] |
 //!
 //! # Where things are
 //!
@@ -63,7 +64,7 @@ pub use kind::{AnyStudy, Kind};
 pub use sections::output::Output;
 pub use sections::record_source::{DEFAULT_SYNTHETIC_PAIRS, DEFAULT_SYNTHETIC_SEED, RecordSource};
 pub use sections::selection::{CRITERIA, Criterion, Range, RecordSelection};
-pub use structure::Structure;
+pub use structure::{ColumnShape, RestrainerFile, Structure};
 pub use study::Study;
 pub use uniform_risk::{
     Bootstrap, Branch, Consistency, Contour, Conversion, CurveFile, CurveKind, Hazard, MeasurePlan, Oscillator,

@@ -1,10 +1,15 @@
 //! A structure file: a rocking structure as TOML, checked as a study is.
 //!
-//! Which keys belong to which kind is told in [`uplift_structure::description`].
+//! Which keys belong to which kind is told in [`uplift_structure::description`], and those of its table `[restrainer]`
+//! in [`uplift_statics::description`]. A restrained frame gives `tendon_stiffness_n_m` and `tendon_anchorage`, a linear
+//! restrainer, or that table: then the equivalent oscillator gets the stiffness with which it has the displacement
+//! capacity of the exact law, and the same file serves statics, design and risk. `column_shape` and `f_cd_pa` are of
+//! the columns' section.
 
 use std::path::{Path, PathBuf};
 
 use uplift_plausible::UPLIFT_DISPLACEMENT;
+use uplift_statics::{Parts, RestrainedColumns, Restrainer, StaticsError, TendonPath};
 use uplift_structure::{
     Anchorage, EquivalentSystem, Kind, Reference, RotatingBlock, StructureDescription, StructureError,
 };
@@ -13,13 +18,29 @@ use crate::error::StudyError;
 use crate::reading::findings::refused;
 use crate::reading::other_file::Wanted;
 use crate::reading::text::{parse_table, read_text};
-use crate::reading::{Field, Finding, Findings, Origin, Rule, Section, Table};
+use crate::reading::{Field, Finding, Findings, Origin, Rule, Section, Table, Value};
 use crate::warning::Warning;
+use restrainer::ReadRestrainer;
+pub use restrainer::RestrainerFile;
+
+mod restrainer;
 
 /// What a number must be is judged by the description.
 const ANY: Rule = Rule::Is { holds: |_| true, words: "finite" };
+const POSITIVE: Rule = Rule::Is { holds: |value| value > 0.0, words: "above 0" };
 const REFERENCES: [(&str, Reference); 2] = [("top", Reference::Top), ("centre", Reference::Centre)];
+const SHAPES: [(&str, ColumnShape); 2] = [("cylinder", ColumnShape::Cylinder), ("rectangle", ColumnShape::Rectangle)];
 const ANCHORAGES: [(&str, Anchorage); 2] = [("foundation", Anchorage::Foundation), ("column", Anchorage::Column)];
+
+/// Section of a column whose width is given.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ColumnShape {
+    /// A circle of that diameter.
+    Cylinder,
+    /// A square.
+    #[default]
+    Rectangle,
+}
 
 /// A structure with the oscillator that it is equivalent to.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,6 +53,12 @@ pub struct Structure {
     pub system: EquivalentSystem,
     /// The solitary block that rotates exactly as the structure; none for one with tendons or curved ends.
     pub block: Option<RotatingBlock>,
+    /// Columns and restrainers, by exact statics; none for a point mass, a body of any shape and curved ends.
+    pub columns: Option<RestrainedColumns>,
+    /// Section of the columns; a square if the file does not say.
+    pub column_shape: ColumnShape,
+    /// Design strength of the columns' concrete, Pa.
+    pub f_cd_pa: Option<f64>,
     /// What is allowed but probably not meant.
     pub warnings: Vec<Warning>,
 }
@@ -49,25 +76,29 @@ impl Structure {
             return Err(StudyError::unreadable(file, reason));
         }
         let findings = Findings::default();
-        let description = read(Section::root(&document, &findings));
+        let read = read(Section::root(&document, &findings));
         let mut findings = findings.into_vec();
-        if let Some(description) = description {
-            match resolve(&description) {
-                Ok((system, block)) if findings.is_empty() => {
-                    let warnings = description.unlikely().iter().map(Warning::unlikely).collect();
-                    return Ok(Self { file: file.to_owned(), description, system, block, warnings });
-                }
+        if let Some(read) = read {
+            match read.resolve(file) {
+                Ok(structure) if findings.is_empty() => return Ok(structure),
                 Ok(_) => {}
                 Err(mistakes) => {
-                    let judged = mistakes
-                        .iter()
-                        .filter_map(|mistake| finding(mistake, &document, &findings))
-                        .collect::<Vec<_>>();
+                    let judged =
+                        mistakes.iter().filter_map(|mistake| mistake.finding(&document, &findings)).collect::<Vec<_>>();
                     findings.extend(judged);
                 }
             }
         }
         Err(refused(file, text, findings, &[]))
+    }
+
+    /// Whether `file` is TOML of a structure, right or wrong, by the kind that it says.
+    pub fn is_written_in(file: &Path) -> bool {
+        let document = read_text(file, Wanted::Structure).and_then(|text| parse_table(file, &text));
+        document.is_ok_and(|document| {
+            let kind = document.get("kind").map(|entry| &entry.node.value);
+            Kind::ALL.iter().any(|known| matches!(kind, Some(Value::Text(kind)) if kind == known.name()))
+        })
     }
 
     /// Name for people: that of the file.
@@ -76,16 +107,157 @@ impl Structure {
     }
 }
 
-fn resolve(
-    description: &StructureDescription,
-) -> Result<(EquivalentSystem, Option<RotatingBlock>), Vec<StructureError>> {
-    let system = description.resolve()?;
-    let block = description.rotating_block().map_err(|mistake| vec![mistake])?;
-    Ok((system, block))
+/// A mistake of the description, or of its restrainer.
+enum Mistake {
+    Structure(StructureError),
+    Restrainer(StaticsError),
+}
+
+impl Mistake {
+    /// The mistake with its place; none where its cause is among those `found`.
+    fn finding(&self, document: &Table, found: &[Finding]) -> Option<Finding> {
+        let table = |of: &Table, key: &str| of.get(key).and_then(|entry| entry.node.table()).cloned();
+        let restrainer = || table(document, "restrainer");
+        let (keys, message, places) = match self {
+            Self::Structure(mistake) => (mistake.keys(), mistake.to_string(), vec![(String::new(), document.clone())]),
+            Self::Restrainer(mistake) => {
+                let stopper = restrainer().and_then(|within| table(&within, "stopper"));
+                let mut places = Vec::new();
+                // a key of the stopper may have the name of one of the restrainer: then it is the stopper's gap or rods
+                places.extend(stopper.map(|within| ("restrainer.stopper.".to_owned(), within)));
+                places.extend(restrainer().map(|within| ("restrainer.".to_owned(), within)));
+                places.push((String::new(), document.clone()));
+                (mistake.keys(), mistake.to_string(), places)
+            }
+        };
+        let told = |key: &&str| {
+            places.iter().any(|(path, _)| found.iter().any(|finding| finding.key == format!("{path}{key}")))
+        };
+        if keys.iter().any(told) {
+            return None;
+        }
+        let place = keys.first().and_then(|key| places.iter().find_map(|(_, within)| within.get(key)));
+        let header = matches!(self, Self::Restrainer(_)).then(|| document.get("restrainer")).flatten();
+        let origin = place
+            .map(|entry| entry.node.origin.clone())
+            .or(header.map(|entry| entry.key_origin.clone()))
+            .unwrap_or(Origin::Study);
+        Some(Finding { key: String::new(), origin, message, help: None })
+    }
+}
+
+/// Everything that a file says, before it is judged.
+struct ReadStructure {
+    description: StructureDescription,
+    restrainer: Option<ReadRestrainer>,
+    column_shape: ColumnShape,
+    f_cd_pa: Option<f64>,
+}
+
+impl ReadStructure {
+    fn resolve(mut self, file: &Path) -> Result<Structure, Vec<Mistake>> {
+        let mut mistakes = Vec::new();
+        let held = self.restrainer.as_ref().and_then(|restrainer| restrainer.description).map(|of| of.resolve());
+        let held = match held.transpose() {
+            Ok(held) => held.flatten(),
+            Err(found) => {
+                mistakes.extend(found.into_iter().map(Mistake::Restrainer));
+                None
+            }
+        };
+        let mut columns = None;
+        if self.restrainer.is_some() {
+            // a stiffness that passes until the law has one
+            self.description.tendon_stiffness_n_m = Some(0.0);
+            self.description.tendon_anchorage = Some(match held.as_ref().map(|(_, path)| path) {
+                Some(TendonPath::Foundation) => Anchorage::Foundation,
+                _ => Anchorage::Column,
+            });
+            match held.and_then(|held| self.restrained(held)).transpose() {
+                Ok(Some((held, stiffness_n_m))) => {
+                    columns = Some(held);
+                    self.description.tendon_stiffness_n_m = Some(stiffness_n_m);
+                }
+                Ok(None) => {}
+                Err(mistake) => mistakes.push(Mistake::Restrainer(mistake)),
+            }
+        }
+        let system = self.description.resolve();
+        let block = self.description.rotating_block();
+        let (system, block) = match (system, block) {
+            (Ok(system), Ok(block)) if mistakes.is_empty() => (system, block),
+            (system, block) => {
+                let found = system.err().or(block.err().map(|mistake| vec![mistake]));
+                mistakes.extend(found.into_iter().flatten().map(Mistake::Structure));
+                return Err(mistakes);
+            }
+        };
+        let columns = match columns {
+            None => self.linearly_restrained().map_err(|mistake| vec![Mistake::Restrainer(mistake)])?,
+            columns => columns,
+        };
+        Ok(Structure {
+            file: file.to_owned(),
+            warnings: self.description.unlikely().iter().map(Warning::unlikely).collect(),
+            description: self.description,
+            system,
+            block,
+            columns,
+            column_shape: self.column_shape,
+            f_cd_pa: self.f_cd_pa,
+        })
+    }
+
+    /// The columns with their restrainer, and the stiffness of the equivalent linear one; none where the columns
+    /// themselves are not yet right.
+    fn restrained(
+        &self,
+        (restrainer, path): (Restrainer, TendonPath),
+    ) -> Option<Result<(RestrainedColumns, f64), StaticsError>> {
+        let free = self.free_columns()?;
+        let held = free.and_then(|free| free.with_restrainer(restrainer, path));
+        Some(held.and_then(|held| {
+            let stiffness_n_m = held.equivalent_stiffness_n_m()?;
+            Ok((held, stiffness_n_m))
+        }))
+    }
+
+    /// Columns of a free frame, of one with a linear restrainer, or the one column that a block is; none for what has
+    /// no columns.
+    fn linearly_restrained(&self) -> Result<Option<RestrainedColumns>, StaticsError> {
+        let Some(free) = self.free_columns().transpose()? else { return Ok(None) };
+        match (self.description.tendon_stiffness_n_m, self.description.tendon_anchorage) {
+            (Some(stiffness_n_m), Some(anchorage)) => {
+                let path = match anchorage {
+                    Anchorage::Foundation => TendonPath::Foundation,
+                    Anchorage::Column => TendonPath::Column,
+                };
+                free.with_restrainer(Restrainer::new(Parts::linear(stiffness_n_m))?, path).map(Some)
+            }
+            _ => Ok(Some(free)),
+        }
+    }
+
+    /// The columns without restrainers: `P` is the share of the deck's weight. A block is one column that carries
+    /// nothing. None for another structure, and where a number is missing.
+    fn free_columns(&self) -> Option<Result<RestrainedColumns, StaticsError>> {
+        let of = &self.description;
+        let gravity_m_s2 = of.gravity_m_s2.unwrap_or(uplift_oscillator::STANDARD_GRAVITY_M_S2);
+        let geometry = of.geometry().ok()?;
+        let (columns, deck_kg, column_kg) = match of.kind {
+            Kind::Block if of.displacement_of != Some(Reference::Centre) => (1, 0.0, of.mass_kg?),
+            Kind::Frame | Kind::RestrainedFrame => {
+                (of.columns.filter(|&columns| columns > 0)?, of.deck_mass_kg?, of.column_mass_kg?)
+            }
+            _ => return None,
+        };
+        let top_load_n = deck_kg * gravity_m_s2 / f64::from(columns);
+        Some(RestrainedColumns::new(geometry, columns, top_load_n, column_kg * gravity_m_s2))
+    }
 }
 
 /// Reads every key; none where the kind is missing or unknown. A value of the wrong type counts as not given.
-fn read(mut root: Section<'_>) -> Option<StructureDescription> {
+fn read(mut root: Section<'_>) -> Option<ReadStructure> {
     let kinds = Kind::ALL.map(|kind| (kind.name(), kind));
     let kind = if let Some(field) = root.field("kind") {
         field.choice(&kinds)
@@ -126,18 +298,9 @@ fn read(mut root: Section<'_>) -> Option<StructureDescription> {
         displacement_of: root.field("displacement_of").and_then(|field| field.choice(&REFERENCES)),
         tendon_anchorage: root.field("tendon_anchorage").and_then(|field| field.choice(&ANCHORAGES)),
     };
+    let restrainer = restrainer::read(&mut root, &description);
+    let column_shape = root.choice_or("column_shape", &SHAPES, ColumnShape::default()).unwrap_or_default();
+    let f_cd_pa = root.field("f_cd_pa").and_then(|field| field.number("Pa", POSITIVE));
     root.finish();
-    kind.map(|_| description)
-}
-
-/// A mistake of the description with its place; none where its cause is among those `found`.
-fn finding(mistake: &StructureError, document: &Table, found: &[Finding]) -> Option<Finding> {
-    let keys = mistake.keys();
-    let wrong = |key: &&str| found.iter().any(|finding| finding.key == **key);
-    if keys.iter().any(wrong) {
-        return None;
-    }
-    let origin =
-        keys.first().and_then(|key| document.get(key)).map_or(Origin::Study, |entry| entry.node.origin.clone());
-    Some(Finding { key: String::new(), origin, message: mistake.to_string(), help: None })
+    kind.map(|_| ReadStructure { description, restrainer, column_shape, f_cd_pa })
 }

@@ -8,6 +8,7 @@ mod mistakes;
 mod overriding;
 mod reference;
 mod resolving;
+mod restrainers;
 mod written;
 
 use std::fs;

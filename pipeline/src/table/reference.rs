@@ -26,9 +26,17 @@ impl ReferenceTable {
     /// # Errors
     /// A file that cannot be read, or is not CSV with a header row.
     pub fn read(path: &Path) -> Result<Self, UpliftError> {
-        let name = path.display().to_string();
-        let fail = |reason: String| UpliftError::input(format!("reference {name}: {reason}"));
-        let bytes = read_file(path, LARGEST_BYTES).map_err(|error| UpliftError::input(format!("reference {error}")))?;
+        Self::read_as("reference", path)
+    }
+
+    /// The same of another table that a user brings, `what` in messages.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    pub(crate) fn read_as(what: &str, path: &Path) -> Result<Self, UpliftError> {
+        let name = format!("{what} {}", path.display());
+        let fail = |reason: String| UpliftError::input(format!("{name}: {reason}"));
+        let bytes = read_file(path, LARGEST_BYTES).map_err(|error| UpliftError::input(format!("{what} {error}")))?;
         let frame = text_table::parse(&bytes, &[]).map_err(fail)?;
         Ok(Self { name, frame })
     }
@@ -60,6 +68,6 @@ impl ReferenceTable {
 
     /// What is wrong with the table.
     pub fn fail(&self, reason: impl std::fmt::Display) -> UpliftError {
-        UpliftError::input(format!("reference {}: {reason}", self.name))
+        UpliftError::input(format!("{}: {reason}", self.name))
     }
 }

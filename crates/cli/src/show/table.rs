@@ -1,5 +1,6 @@
 //! The tables of a result, ours beside a reference.
 
+mod columns;
 mod design;
 
 use std::io::Write;
@@ -17,6 +18,7 @@ pub(crate) fn print_table(report: &TableReport, terminal: &Terminal) -> Result<(
     match &report.rows {
         TableRows::Coefficients(coefficients) => print_coefficients(&mut out, coefficients),
         TableRows::Design(designs) => design::print_design(&mut out, designs),
+        TableRows::Columns(columns) => columns::print_columns(&mut out, columns),
     }?;
     // a quiet terminal gets what was asked for alone
     if terminal.is_quiet() { Ok(()) } else { print_alarms(&mut out, &report.alarms) }

@@ -17,7 +17,7 @@ const AROUND: f64 = 64.0;
 const TILT: f64 = 0.35;
 
 /// The drawing; empty for a description without a geometry, which is no structure.
-pub(super) fn drawing(description: &StructureDescription) -> String {
+pub(crate) fn drawing(description: &StructureDescription) -> String {
     let Ok(geometry) = description.geometry() else { return String::new() };
     let scene = Scene::of(description, &geometry);
     let mut svg = Svg { text: String::new(), scene: &scene };

@@ -62,9 +62,10 @@ impl Wanted {
         let is_study = kind.is_some_and(|kind| Kind::ALL.iter().any(|known| known.key() == kind))
             || kind.is_none() && ["sites", "records", "pgv", "pga", "risk"].iter().any(|key| table.get(key).is_some());
         match self {
-            Self::Study if is_structure => {
-                Some(self.refuse("a structure", "`uplift design` and `overturning` take it, with --urs RESULT"))
-            }
+            Self::Study if is_structure => Some(self.refuse(
+                "a structure",
+                "`uplift design` and `overturning` take it, with --urs RESULT, and `pushover` without",
+            )),
             Self::Structure if is_study => Some(self.refuse(
                 "a study",
                 "`uplift run` takes it; a structure is a file such as configs/structures/pier.toml",

@@ -1,12 +1,12 @@
 //! From `STUDY|RESULT` to a result: the one that is there if it is the study's, else the study is run.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use uplift::RunOptions;
 use uplift::result::is_hdf5;
 use uplift::result_of;
-use uplift_study::{Bootstrap, Study};
+use uplift_study::{Bootstrap, Structure, Study};
 
 use super::force::ForceArgument;
 use super::study::command_line;
@@ -37,6 +37,11 @@ impl ResultArguments {
     /// Whether files that are there give way.
     pub(crate) fn force(&self) -> bool {
         self.overwriting.force
+    }
+
+    /// The file, where it is of a structure.
+    pub(crate) fn structure(&self) -> Option<&Path> {
+        Some(self.input.as_path()).filter(|file| Structure::is_written_in(file))
     }
 
     /// The result; a study without one is run.

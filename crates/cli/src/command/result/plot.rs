@@ -1,9 +1,12 @@
-//! `uplift plot`: the figures of a result as files.
+//! `uplift plot`: the figures of a result, or of a structure's columns, as files.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
-use uplift_report::{PlotOptions, plot as plot_result};
+use uplift::outputs::beside;
+use uplift::pushover::{PushoverOptions, pushover};
+use uplift::study::Structure;
+use uplift_report::{PlotOptions, plot as plot_result, plot_columns};
 
 use crate::command::arguments::{FigureArguments, ResultArguments, require_folder};
 use crate::error::CommandError;
@@ -28,6 +31,9 @@ pub(crate) fn plot(arguments: &PlotArguments, terminal: &Terminal) -> Result<(),
     if let Some(folder) = &arguments.output {
         require_folder(folder, "figures")?;
     }
+    if let Some(file) = arguments.result.structure() {
+        return plot_structure(file, arguments, terminal);
+    }
     let options = PlotOptions {
         result: arguments.result.find(terminal)?.path,
         folder: arguments.output.clone(),
@@ -36,4 +42,16 @@ pub(crate) fn plot(arguments: &PlotArguments, terminal: &Terminal) -> Result<(),
         force: arguments.result.force(),
     };
     print_files(&plot_result(&options, terminal)?.files, terminal)
+}
+
+/// The figures of a structure's columns, into `results` where no folder is named: its own place may be read-only.
+fn plot_structure(file: &Path, arguments: &PlotArguments, terminal: &Terminal) -> Result<(), CommandError> {
+    let structure = Structure::load(file)?;
+    let named_after = || beside(&Path::new("results").join(structure.name()).with_extension("h5"), "figures");
+    let folder = arguments.output.clone().unwrap_or_else(named_after);
+    let options = PushoverOptions { linear: true, ..PushoverOptions::default() };
+    let report = pushover(&structure, &options, terminal)?;
+    let (only, figures) = (arguments.only.as_deref(), arguments.figures.options());
+    let files = plot_columns(&structure, &report, &folder, only, figures, arguments.result.force())?;
+    print_files(&files, terminal)
 }

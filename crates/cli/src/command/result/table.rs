@@ -13,14 +13,15 @@ use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
 pub(crate) struct TableArguments {
-    /// Result file of `uplift run`
+    /// Result file of `uplift run`, or a structure file with columns
     result: PathBuf,
     /// Table to compare with
     #[arg(
         long,
         value_name = "FILE.csv",
         help = "Table to compare with: CSV with the columns site, poe_50y (or poe), c0_m, c1, c2_m, rmse_m; for \
-                displacement spectra record_set, scaling, quantity, value and, for oscillators, rule (ED, EE)"
+                displacement spectra record_set, scaling, quantity, value and, for oscillators, rule (ED, EE); for a \
+                structure quantity, value"
     )]
     reference: Option<PathBuf>,
     /// Which intensity measure, with the warnings of it alone; not for displacement spectra [default: pgv, with every

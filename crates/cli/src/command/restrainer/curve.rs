@@ -1,0 +1,53 @@
+//! `uplift restrainer curve`: force over elongation.
+
+#![allow(clippy::doc_markdown)] // what --help prints has no backticks
+
+use std::path::PathBuf;
+
+use clap::Args;
+use uplift::restrainer::{RestrainerCurveOptions, curve as compute};
+use uplift::study::RestrainerFile;
+use uplift_report::{check_figure_file, plot_restrainer};
+
+use crate::command::arguments::{ForceArgument, number};
+use crate::error::CommandError;
+use crate::show::{print_json, print_restrainer_curve};
+use crate::terminal::Terminal;
+
+#[derive(Debug, Args)]
+pub(super) struct CurveArguments {
+    /// A file with the table [restrainer]: a structure file, or one of that table alone
+    restrainer: PathBuf,
+    /// Stretch it up to this elongation, m [default: to flat springs or the yield of the tendon]
+    #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = number)]
+    to_m: Option<f64>,
+    /// Rows, evenly spaced from 0
+    #[arg(long, value_name = "N", default_value_t = RestrainerCurveOptions::default().rows)]
+    rows: u32,
+    /// Write the rows to this CSV file
+    #[arg(short, long, value_name = "FILE.csv")]
+    output: Option<PathBuf>,
+    /// Draw springs and restrainer as SVG or PNG
+    #[arg(long, value_name = "FILE.svg|png")]
+    plot: Option<PathBuf>,
+    /// Print everything as JSON
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    overwriting: ForceArgument,
+}
+
+pub(super) fn curve(arguments: &CurveArguments, terminal: &Terminal) -> Result<(), CommandError> {
+    let force = arguments.overwriting.force;
+    if let Some(figure) = &arguments.plot {
+        check_figure_file(figure, &[&arguments.restrainer], force)?;
+    }
+    let options =
+        RestrainerCurveOptions { to_m: arguments.to_m, rows: arguments.rows, table: arguments.output.clone(), force };
+    let mut report = compute(&RestrainerFile::load(&arguments.restrainer)?, &options, terminal)?;
+    if let Some(figure) = &arguments.plot {
+        plot_restrainer(&report, figure)?;
+        report.files.push(figure.clone());
+    }
+    if arguments.json { print_json(&report) } else { print_restrainer_curve(&report, terminal) }
+}

@@ -1,0 +1,189 @@
+//! A pushover and a protocol in lines and tables.
+
+use std::io::Write;
+
+use uplift::pushover::{MeasuredCurve, ProtocolReport, PushoverReport, SideOfLoop};
+use uplift::text::table;
+use uplift_statics::{Capacity, Event, PushoverState};
+
+use super::{print_files, shown_path};
+use crate::error::CommandError;
+use crate::terminal::{Terminal, output};
+
+/// Cycles that are told, the largest.
+const CYCLES: usize = 6;
+
+/// The structure, how far it goes, what happens on the way, and the rows.
+pub(crate) fn print_pushover(report: &PushoverReport, terminal: &Terminal) -> Result<(), CommandError> {
+    let mut out = output();
+    head(&mut out, report)?;
+    let rows: Vec<Vec<String>> = report.events.iter().map(event_cells).collect();
+    writeln!(out, "\n{}", table(&["event", "u, m", "drift, %", "F, kN", "T, kN", "springs, mm"], &rows))?;
+    let mut header = vec!["u, m", "drift, %", "F, kN", "T, kN", "springs, mm", "N, kN", "M, kN m", "V, kN", "M base"];
+    let names: Vec<String> =
+        report.linear.iter().map(|curve| format!("F lin {:.0}", 1e-3 * curve.stiffness_n_m)).collect();
+    header.extend(names.iter().map(String::as_str));
+    let rows: Vec<Vec<String>> = report
+        .rows
+        .iter()
+        .enumerate()
+        .map(|(index, row)| {
+            let mut cells = state_cells(row);
+            cells.extend(report.linear.iter().map(|curve| kilo(curve.rows[index].force_n)));
+            cells
+        })
+        .collect();
+    writeln!(out, "\n{}", table(&header, &rows))?;
+    for curve in &report.linear {
+        let capacity = curve.capacity_m.map_or("none".to_owned(), |capacity_m| format!("{capacity_m:.4} m"));
+        let (k, share) = (kilo(curve.stiffness_n_m), curve.share_of_critical);
+        writeln!(out, "linear, {k} kN/m ({share:.3} of the critical stiffness): capacity {capacity}")?;
+    }
+    if let Some(cyclic) = &report.cyclic {
+        writeln!(
+            out,
+            "protocol   {} sets up to {:.2} %, {:.1} h: F up to {} kN, T up to {} kN, {:.1} J dissipated by stoppers",
+            cyclic.amplitudes.len(),
+            100.0 * cyclic.amplitudes.last().copied().unwrap_or_default(),
+            cyclic.duration_s / 3600.0,
+            kilo(cyclic.largest_force_n),
+            kilo(cyclic.largest_tendon_n),
+            cyclic.dissipated_j
+        )?;
+    }
+    if let Some(measured) = &report.measured {
+        print_measured(&mut out, measured)?;
+    }
+    for warning in &report.warnings {
+        writeln!(out, "warning    {warning}")?;
+    }
+    drop(out);
+    print_files(&report.files, terminal)
+}
+
+fn head(out: &mut impl Write, report: &PushoverReport) -> Result<(), CommandError> {
+    let PushoverReport { name, columns, width_m, height_m, slenderness_rad, .. } = report;
+    writeln!(out, "structure  {name} ({})", shown_path(&report.file).display())?;
+    writeln!(
+        out,
+        "           {columns} column{} of {width_m} m x {height_m} m, slenderness {slenderness_rad:.4} rad",
+        if *columns == 1 { "" } else { "s" }
+    )?;
+    let (load, weight) = (kilo(report.top_load_n), kilo(report.column_weight_n));
+    write!(out, "           each carries {load} kN and weighs {weight} kN")?;
+    match report.axial_load_ratio {
+        Some(ratio) => writeln!(out, ": {:.1} % of its strength", 100.0 * ratio)?,
+        None => writeln!(out)?,
+    }
+    match report.anchorage {
+        Some(anchorage) => writeln!(out, "           {} restrained, anchorage {anchorage}", report.restrained)?,
+        None => writeln!(out, "           no restrainers")?,
+    }
+    writeln!(out, "force at uplift             {} kN", kilo(report.uplift_force_n))?;
+    let capacity = &report.capacity;
+    writeln!(out, "displacement capacity       {}", capacity_words(capacity.exact.as_ref()))?;
+    if let Some(without) = &capacity.exact_without_stoppers {
+        writeln!(out, "  without stoppers          {}", capacity_words(Some(without)))?;
+    }
+    let linear = capacity.linear_m.map_or("none: the force does not fall".to_owned(), |m| format!("{m:.4} m"));
+    let (k, critical) = (kilo(capacity.linear_stiffness_n_m), kilo(capacity.critical_stiffness_n_m));
+    writeln!(out, "  linear                    {linear}, with {k} kN/m; critical {critical} kN/m")?;
+    if report.restrained > 0 {
+        let stiffness = kilo(capacity.equivalent_stiffness_n_m);
+        writeln!(out, "stiffness of the equivalent oscillator's tendons {stiffness} kN/m")?;
+    }
+    Ok(())
+}
+
+fn capacity_words(capacity: Option<&Capacity>) -> String {
+    let Some(capacity) = capacity else {
+        return "none: the force does not vanish before the springs are flat".to_owned();
+    };
+    let restrainer = capacity.secant_n_m.map(|secant_n_m| format!(", restrainer {} kN/m", kilo(secant_n_m)));
+    let springs = capacity.spring_m.map(|spring_m| format!(", springs pressed by {:.2} mm", 1e3 * spring_m));
+    format!("{:.4} m{}{}", capacity.displacement_m, restrainer.unwrap_or_default(), springs.unwrap_or_default())
+}
+
+fn kilo(value: f64) -> String {
+    let value = 1e-3 * value;
+    if value.abs() < 1000.0 { format!("{value:.3}") } else { format!("{value:.1}") }
+}
+
+fn millimetres(value: Option<f64>) -> String {
+    value.map_or("-".to_owned(), |value| format!("{:.2}", 1e3 * value))
+}
+
+fn event_cells(event: &Event) -> Vec<String> {
+    let state = &event.state;
+    vec![
+        event.event.words().to_owned(),
+        format!("{:.4}", state.displacement_m),
+        format!("{:.2}", 100.0 * state.drift),
+        kilo(state.force_n),
+        kilo(state.tendon_n),
+        millimetres(state.spring_m),
+    ]
+}
+
+fn state_cells(state: &PushoverState) -> Vec<String> {
+    let sections = &state.sections;
+    vec![
+        format!("{:.4}", state.displacement_m),
+        format!("{:.2}", 100.0 * state.drift),
+        kilo(state.force_n),
+        kilo(state.tendon_n),
+        millimetres(state.spring_m),
+        kilo(sections.top_axial_n),
+        kilo(sections.top_moment_n_m),
+        kilo(sections.top_shear_n),
+        kilo(sections.base_moment_n_m),
+    ]
+}
+
+fn print_measured(out: &mut impl Write, measured: &MeasuredCurve) -> Result<(), CommandError> {
+    writeln!(out, "\nmeasured   {}, {} points", shown_path(&measured.file).display(), measured.points)?;
+    let slope = |slope: Option<f64>| slope.map_or("-".to_owned(), kilo);
+    let side = |name: &str, side: &SideOfLoop| {
+        vec![
+            name.to_owned(),
+            kilo(side.peak_n),
+            format!("{:.2}", 100.0 * side.drift_at_peak),
+            slope(side.slope_n_m),
+            slope(side.computed_slope_n_m),
+        ]
+    };
+    let rows = vec![side("+", &measured.positive), side("-", &measured.negative)];
+    let header = ["side", "peak, kN", "at drift, %", "slope 3-15 %, kN/m", "computed"];
+    writeln!(out, "{}", table(&header, &rows))?;
+    let mut cycles: Vec<_> = measured.cycles.iter().enumerate().collect();
+    cycles.sort_by(|left, right| right.1.largest_m.total_cmp(&left.1.largest_m));
+    let rows: Vec<Vec<String>> = cycles
+        .iter()
+        .take(CYCLES)
+        .map(|(index, cycle)| {
+            vec![
+                format!("{}", index + 1),
+                format!("{:.4}", cycle.largest_m),
+                format!("{:.4}", cycle.least_m),
+                format!("{:.1}", cycle.dissipated_j),
+                cycle.equivalent_damping.map_or("-".to_owned(), |damping| format!("{:.2}", 100.0 * damping)),
+            ]
+        })
+        .collect();
+    if !rows.is_empty() {
+        let header = ["cycle", "u max, m", "u min, m", "loop, J", "equivalent damping, %"];
+        writeln!(out, "{}", table(&header, &rows))?;
+    }
+    Ok(())
+}
+
+/// Amplitudes and duration.
+pub(crate) fn print_protocol(report: &ProtocolReport, terminal: &Terminal) -> Result<(), CommandError> {
+    let mut out = output();
+    let row = |(index, amplitude): (usize, &f64)| vec![format!("{}", index + 1), format!("{:.3}", 100.0 * amplitude)];
+    let rows: Vec<Vec<String>> = report.amplitudes.iter().enumerate().map(row).collect();
+    writeln!(out, "{}", table(&["set", "amplitude, %"], &rows))?;
+    writeln!(out, "duration {:.0} s, {:.1} h", report.duration_s, report.duration_s / 3600.0)?;
+    drop(out);
+    print_files(&report.files, terminal)
+}

@@ -1,0 +1,10 @@
+//! What the crate promises.
+
+mod cyclic;
+mod discs;
+mod energy;
+mod hand_solutions;
+mod misuse;
+mod printed;
+mod reference_cases;
+mod selection;

@@ -1,0 +1,89 @@
+//! Pushovers and protocols as tables.
+
+use std::path::Path;
+
+use polars::prelude::Column;
+use uplift_statics::{CyclicState, ProtocolPoint, PushoverState};
+
+use super::run::PushoverReport;
+use crate::error::UpliftError;
+use crate::result::write_table;
+
+/// A column of every pushover.
+pub(super) const PUSHOVER_COLUMN: &str = "top_moment_n_m";
+/// A column of every protocol.
+pub(super) const PROTOCOL_COLUMN: &str = "drift";
+
+/// Writes the rows, or the history of the protocol where there is one.
+pub(super) fn write(report: &PushoverReport, file: &Path) -> Result<(), UpliftError> {
+    let columns = match &report.cyclic {
+        Some(cyclic) => cyclic_columns(&cyclic.states),
+        None => pushover_columns(report),
+    };
+    write_table(file, &provenance(&format!("pushover of {}", report.name)), columns)
+}
+
+/// Writes the history of a protocol.
+pub(super) fn write_protocol(history: &[ProtocolPoint], file: &Path) -> Result<(), UpliftError> {
+    write_table(file, &provenance("loading protocol"), protocol_columns(history))
+}
+
+fn provenance(what: &str) -> String {
+    format!("{}; {what}", crate::outputs::mark())
+}
+
+fn pushover_columns(report: &PushoverReport) -> Vec<Column> {
+    let column = |name: &str, value: fn(&PushoverState) -> f64| {
+        Column::new(name.into(), report.rows.iter().map(value).collect::<Vec<f64>>())
+    };
+    let spring: Vec<Option<f64>> = report.rows.iter().map(|row| row.spring_m).collect();
+    let mut columns = vec![
+        column("displacement_m", |row| row.displacement_m),
+        column("drift", |row| row.drift),
+        column("rotation_rad", |row| row.rotation_rad),
+        column("force_n", |row| row.force_n),
+        column("elongation_m", |row| row.elongation_m),
+        column("tendon_n", |row| row.tendon_n),
+        Column::new("spring_m".into(), spring),
+        column("top_axial_n", |row| row.sections.top_axial_n),
+        column("top_shear_n", |row| row.sections.top_shear_n),
+        column(PUSHOVER_COLUMN, |row| row.sections.top_moment_n_m),
+        column("base_axial_n", |row| row.sections.base_axial_n),
+        column("base_moment_n_m", |row| row.sections.base_moment_n_m),
+        column("energy_j", |row| row.energy_j),
+    ];
+    for curve in &report.linear {
+        let forces: Vec<f64> = curve.rows.iter().map(|row| row.force_n).collect();
+        columns.push(Column::new(format!("linear_force_n_of_{:.0}_n_m", curve.stiffness_n_m).into(), forces));
+    }
+    columns
+}
+
+fn cyclic_columns(states: &[CyclicState]) -> Vec<Column> {
+    let mut columns = protocol_columns(&states.iter().map(|state| state.point).collect::<Vec<_>>());
+    let optional = |name: &str, value: fn(&CyclicState) -> Option<f64>| {
+        Column::new(name.into(), states.iter().map(value).collect::<Vec<Option<f64>>>())
+    };
+    columns.extend([
+        optional("displacement_m", |state| Some(state.displacement_m)),
+        optional("force_n", |state| state.force_n),
+        optional("tendon_n", |state| Some(state.tendon_n)),
+        optional("spring_m", |state| state.spring_m),
+    ]);
+    columns
+}
+
+fn protocol_columns(points: &[ProtocolPoint]) -> Vec<Column> {
+    let column = |name: &str, value: fn(&ProtocolPoint) -> f64| {
+        Column::new(name.into(), points.iter().map(value).collect::<Vec<f64>>())
+    };
+    let count = |name: &str, value: fn(&ProtocolPoint) -> u32| {
+        Column::new(name.into(), points.iter().map(value).collect::<Vec<u32>>())
+    };
+    vec![
+        column("time_s", |point| point.time_s),
+        column(PROTOCOL_COLUMN, |point| point.drift),
+        count("set", |point| point.set),
+        count("cycle", |point| point.cycle),
+    ]
+}

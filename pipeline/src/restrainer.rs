@@ -1,0 +1,10 @@
+//! Restrainers: their force over the elongation, and stacks out of a catalogue (Sections 5.3.3 and 6.3.3).
+
+mod catalogue;
+mod curve;
+mod design;
+
+pub use curve::{CurveRow, RestrainerCurve, RestrainerCurveOptions, StackReport, ThresholdRow, curve};
+pub use design::{
+    DesignTarget, RestrainerDesign, RestrainerDesignOptions, StopperOptions, StopperReport, TargetReport, design,
+};
