@@ -3,6 +3,8 @@
 //! Every disc × number in series × number in parallel is put behind the tendon and into the columns, and computed
 //! exactly. What meets the target and the limits is kept and ranked.
 
+use uplift_plausible::{DISC_DIAMETER, DISC_HEIGHT};
+
 use crate::columns::RestrainedColumns;
 use crate::disc::{DiscDimensions, DiscSpring};
 use crate::error::{StaticsError, positive, require};
@@ -37,13 +39,22 @@ impl CatalogueDisc {
     /// A disc of spring steel by its dimensions, with mass and price where they are known.
     ///
     /// # Errors
-    /// Those of the disc; mass and price must be finite and not negative.
+    /// Those of the disc, and dimensions that no disc has; mass and price must be finite and not negative.
     pub fn new(
         name: String,
         dimensions: DiscDimensions,
         mass_kg: Option<f64>,
         price: Option<f64>,
     ) -> Result<Self, StaticsError> {
+        // a list in metres that was taken for millimetres, and the other way round
+        for (key, value, range) in [
+            ("outer_diameter_m", dimensions.outer_diameter_m, DISC_DIAMETER),
+            ("inner_diameter_m", dimensions.inner_diameter_m, DISC_DIAMETER),
+            ("thickness_m", dimensions.thickness_m, DISC_HEIGHT),
+            ("cone_height_m", dimensions.cone_height_m, DISC_HEIGHT),
+        ] {
+            range.check(key, value).map_err(StaticsError::Implausible)?;
+        }
         let disc = DiscSpring::new(dimensions)?;
         let DiscDimensions { outer_diameter_m: outer, inner_diameter_m: inner, thickness_m, .. } = dimensions;
         let ring_kg = 0.25 * std::f64::consts::PI * (outer * outer - inner * inner) * thickness_m * STEEL_DENSITY_KG_M3;

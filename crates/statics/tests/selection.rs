@@ -120,6 +120,20 @@ fn targets_that_cannot_be() {
     refused(Target::ZeroStiffness { at_m: 9.0 }, &limits, "beyond the column's reach");
 }
 
+/// A list in metres read as one in millimetres.
+#[test]
+fn discs_of_another_unit() {
+    let dimensions = DiscDimensions {
+        outer_diameter_m: 0.125e-3,
+        inner_diameter_m: 0.061e-3,
+        thickness_m: 0.006e-3,
+        cone_height_m: 0.0036e-3,
+        reduced_thickness_m: None,
+    };
+    let message = CatalogueDisc::new("tiny".to_owned(), dimensions, None, None).unwrap_err().to_string();
+    assert!(message.contains("`outer_diameter_m` is 1.25e-4 m: it must be from 0.001 to 3 m"), "{message}");
+}
+
 /// Section 6.3.4: rods of 54 kN are well below what the tendon of 238.5 kN leaves behind springs of 31 kN.
 #[test]
 fn a_stopper_that_protects_the_tendon() {
