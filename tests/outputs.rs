@@ -3,6 +3,8 @@
 
 use std::path::Path;
 
+use uplift_labelled::LabelledWriter;
+
 use crate::common::{SMALL_STUDY, SmallStudy};
 
 /// A study with a result, `r.h5`, and two records.
@@ -300,6 +302,21 @@ fn no_page_is_made_of_a_damaged_result() {
     // it is replaced, and kept for whoever wants to save something of it
     study.uplift(&["run", "study.toml", "-o", "r.h5"]).ok();
     assert_eq!(names(&study.path().join("r.earlier/damaged")), ["r.h5"]);
+}
+
+// A result of a program whose layout is another: it cannot be read here, and is kept whole.
+#[test]
+fn a_result_of_another_layout_is_kept_by_its_number() {
+    let study = study();
+    let path = study.path().join("r.h5");
+    let mut writer = LabelledWriter::create(&path).unwrap();
+    writer.attribute("/", "layout", 7_i64).unwrap();
+    writer.finish().unwrap();
+    let theirs = std::fs::read(&path).unwrap();
+    study.uplift(&["table", "r.h5"]).fails(4, &["layout 7"]);
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q", "--force"]).ok();
+    assert_eq!(std::fs::read(study.path().join("r.earlier/layout-7/r.h5")).unwrap(), theirs);
+    study.uplift(&["verify", "r.h5"]).ok();
 }
 
 #[cfg(unix)]
