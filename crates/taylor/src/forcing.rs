@@ -62,6 +62,31 @@ impl Forcing {
         self
     }
 
+    /// The sum of two.
+    #[must_use]
+    pub fn plus(mut self, other: &Self) -> Self {
+        for (own, other) in self.c.iter_mut().zip(other.coefficients()) {
+            *own += other;
+        }
+        self.len = self.len.max(other.len);
+        self
+    }
+
+    /// The product of two, up to the highest power that a forcing has.
+    #[must_use]
+    pub fn product(&self, other: &Self) -> Self {
+        let mut product = Self::default();
+        for k in 0..(self.len + other.len).saturating_sub(1).min(ORDER + 1) {
+            product.push((0..=k).map(|j| self.c[j] * other.c[k - j]).sum());
+        }
+        product
+    }
+
+    /// Whether it is zero throughout.
+    pub fn is_zero(&self) -> bool {
+        self.coefficients().iter().all(|c| *c == 0.0)
+    }
+
     /// Σ |cₖ|: no value on the step is larger.
     pub fn bound(&self) -> f64 {
         self.coefficients().iter().map(|c| c.abs()).sum()

@@ -33,3 +33,15 @@ pub fn stretch(c: &mut [f64], ratio: f64) {
         power *= ratio;
     }
 }
+
+/// `Σ aⱼ bₖ₋ⱼ`, j from 0 to k: the coefficient of the product of two series.
+#[inline]
+pub fn product(a: &[f64], b: &[f64], k: usize) -> f64 {
+    a[..=k].iter().zip(b[..=k].iter().rev()).map(|(a, b)| a * b).sum()
+}
+
+/// The same without the terms of `a₀` and `b₀`, which an implicit recurrence has on its other side.
+#[inline]
+pub fn inner_product(a: &[f64], b: &[f64], k: usize) -> f64 {
+    if k < 2 { 0.0 } else { product(&a[1..k], &b[1..k], k - 2) }
+}

@@ -1,0 +1,455 @@
+//! A step of the motion as Taylor series, whose coefficients follow from a recurrence.
+//!
+//! In units of `μ R²` (see [`crate::frame`]), with `ψ = α − θ`, the ground's acceleration in units of g, `A` along the lean
+//! and `Z` upwards, and `p² = g/(R M)`,
+//!
+//! `ω̇ = −p² [(1 + Z) sin ψ + A cos ψ] − T Δ'/(μ R² M) + ½ J' φ̇²/M`
+//!
+//! (Eq. 6.3 and, with the corrections of `docs/errata.md`, Eq. 6.6). A wobbling frame has besides `φ̇ = L/J` and
+//! `L̇ = (g/R) U_s (A_x sin φ − A_y cos φ)`, `A = A_x cos φ + A_y sin φ`: with the momentum `L` in place of `φ̇` the term
+//! `J' ω φ̇` of Eq. 6.7 needs not be carried, and the invariant of free motion is not lost to rounding.
+//!
+//! Sine and versine of `θ`, sine and cosine of `θ/2` and of `φ` come from their derivatives, quotients and the spring's
+//! deformation from implicit recurrences: all are products of series. The series goes on until two terms running of
+//! every unknown are below half a rounding of its largest, or, at the highest order, the step is shortened until they
+//! are. Near the apex a step is limited beforehand, since there the coefficients would exceed what a number holds.
+//!
+//! # Source
+//! E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, Section I.8 (recursive Taylor
+//! coefficients).
+
+use uplift_statics::RestrainedColumns;
+use uplift_taylor::{DEGREE, Forcing, LEAST_ORDER, ORDER, TRUNCATION, inner_product, product, stretch, value};
+
+use crate::branch::{Branch, Form, Law};
+
+/// Coefficients of one function.
+pub(crate) type Coefficients = [f64; DEGREE + 1];
+
+/// What the recurrence needs of the frame.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Constants {
+    pub(crate) sin_alpha: f64,
+    pub(crate) cos_alpha: f64,
+    /// `p²`, 1/s².
+    pub(crate) p_squared: f64,
+    /// `g/R`, 1/s².
+    pub(crate) fall: f64,
+    /// `M`.
+    pub(crate) tilt_inertia: f64,
+    /// Restrained columns over all columns over `μ R²`, 1/(kg m²).
+    pub(crate) held: f64,
+    /// `J = j₁ (1 − cos θ) + j₂ sin θ (1 − cos θ) + j₃ (1 − cos θ)²`.
+    pub(crate) turning: [f64; 3],
+    /// `J' = k₀ sin θ + k₁ (1 − cos θ) + k₂ sin θ (1 − cos θ) + k₃ (1 − cos θ)²`.
+    pub(crate) turning_slope: [f64; 4],
+}
+
+/// Shaking on a step, in units of g.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Shaken {
+    /// Horizontal: along and across the lean in a plane, x and y otherwise.
+    pub(crate) horizontal: [Forcing; 2],
+    pub(crate) vertical: Forcing,
+}
+
+impl Shaken {
+    /// No shaking.
+    pub(crate) fn none() -> Self {
+        Self { horizontal: [Forcing::none(); 2], vertical: Forcing::none() }
+    }
+
+    /// The same on a step `ratio` times as long.
+    pub(crate) fn stretched(&self, ratio: f64) -> Self {
+        Self { horizontal: self.horizontal.map(|c| c.stretched(ratio)), vertical: self.vertical.stretched(ratio) }
+    }
+}
+
+/// Turning of the lean at the begin of a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Turning {
+    /// `φ`, rad.
+    pub(crate) direction: f64,
+    /// `L = J φ̇`, 1/s.
+    pub(crate) momentum: f64,
+}
+
+/// The motion on a step, in powers of s from 0 to 1.
+#[derive(Debug, Clone)]
+pub(crate) struct Step {
+    /// Length of the step, at most what was asked, s.
+    pub(crate) length_s: f64,
+    order: usize,
+    x: Coefficients,
+    v: Coefficients,
+    sine: Coefficients,
+    versine: Coefficients,
+    direction: Coefficients,
+    momentum: Coefficients,
+    turning: Coefficients,
+    sin_direction: Coefficients,
+    cos_direction: Coefficients,
+}
+
+impl Step {
+    /// The motion from the rotation `x` and velocity `v`, of a frame that wobbles with `turning` or rocks in a plane,
+    /// on a branch of its restrainers. With `balanced` the moments at the begin cancel: it uplifts there.
+    #[allow(clippy::too_many_arguments)]
+    pub(crate) fn expand(
+        constants: &Constants,
+        (x, v): (f64, f64),
+        turning: Option<Turning>,
+        shaken: &Shaken,
+        held: Option<(&Branch, &RestrainedColumns)>,
+        step_s: f64,
+        balanced: bool,
+    ) -> Self {
+        let h = step_s;
+        let zero = [0.0; DEGREE + 1];
+        let mut step = Self {
+            length_s: step_s,
+            order: 0,
+            x: zero,
+            v: zero,
+            sine: zero,
+            versine: zero,
+            direction: zero,
+            momentum: zero,
+            turning: zero,
+            sin_direction: zero,
+            cos_direction: zero,
+        };
+        (step.x[0], step.v[0]) = (x, v);
+        let (half_sin, half_cos) = (0.5 * x).sin_cos();
+        (step.sine[0], step.versine[0]) = (2.0 * half_sin * half_cos, 2.0 * half_sin * half_sin);
+        let mut strands = held.map(|(branch, columns)| Strands::begin(branch, columns, x, [half_sin, half_cos]));
+        let mut wobble = turning.map(|turning| {
+            (step.direction[0], step.momentum[0]) = (turning.direction, turning.momentum);
+            (step.sin_direction[0], step.cos_direction[0]) = turning.direction.sin_cos();
+            Wobble::new()
+        });
+        let (mut sin_psi, mut cos_psi) = (zero, zero);
+        let vertical = shaken.vertical.coefficients();
+        let is_level = shaken.vertical.is_zero();
+        let along = shaken.horizontal[0].coefficients();
+        let mut largest = [v.abs(), step.momentum[0].abs(), 0.0_f64];
+        for k in 0..ORDER {
+            let factor = h / (k + 1) as f64;
+            let whole = f64::from(u8::from(k == 0)) - step.versine[k];
+            sin_psi[k] = constants.sin_alpha * whole - constants.cos_alpha * step.sine[k];
+            cos_psi[k] = constants.cos_alpha * whole + constants.sin_alpha * step.sine[k];
+            let mut moment = sin_psi[k];
+            if !is_level {
+                moment += short_product(vertical, &sin_psi, k);
+            }
+            let mut outward = 0.0;
+            match &mut wobble {
+                None => moment += short_product(along, &cos_psi, k),
+                Some(wobble) => {
+                    let towards = wobble.order(constants, &mut step, shaken, k);
+                    wobble.pushes[k] = towards;
+                    moment += product(&cos_psi, &wobble.pushes, k);
+                    outward = wobble.centrifugal(k);
+                    step.momentum[k + 1] = factor * constants.fall * product(&wobble.travel, &wobble.across, k);
+                    step.direction[k + 1] = factor * step.turning[k];
+                    step.sin_direction[k + 1] = factor * product(&step.cos_direction, &step.turning, k);
+                    step.cos_direction[k + 1] = -factor * product(&step.sin_direction, &step.turning, k);
+                }
+            }
+            let held = strands.as_mut().map_or(0.0, |strands| strands.moment(&step.sine, &step.versine, k));
+            let inward = (held * constants.held - outward) / constants.tilt_inertia;
+            step.v[k + 1] = if balanced && k == 0 { 0.0 } else { -factor * (constants.p_squared * moment + inward) };
+            let lost = product(&step.versine, &step.v, k);
+            step.versine[k + 1] = factor * product(&step.sine, &step.v, k);
+            step.sine[k + 1] = factor * (step.v[k] - lost);
+            if let Some(strands) = &mut strands {
+                strands.extend(&step.v, factor, k);
+            }
+            step.x[k + 1] = factor * step.v[k];
+            step.order = k + 1;
+            largest[0] = largest[0].max(step.v[k + 1].abs());
+            largest[1] = largest[1].max(step.momentum[k + 1].abs());
+            largest[2] = largest[2].max(step.turning[k].abs());
+            if step.order >= LEAST_ORDER
+                && step.tails().iter().zip(largest).all(|(tail, most)| *tail <= TRUNCATION * most)
+            {
+                break;
+            }
+        }
+        step.x[step.order + 1] = h / (step.order + 1) as f64 * step.v[step.order];
+        while let Some(ratio) = step.excess() {
+            step.shorten(ratio);
+        }
+        step
+    }
+
+    /// The largest of the last two terms of velocity, momentum and turning.
+    fn tails(&self) -> [f64; 3] {
+        let n = self.order;
+        let last = |c: &Coefficients, n: usize| c[n].abs().max(c[n - 1].abs());
+        [last(&self.v, n), last(&self.momentum, n), last(&self.turning, n - 1)]
+    }
+
+    /// By what to shorten the step if the last two terms are not negligible beside the largest.
+    fn excess(&self) -> Option<f64> {
+        let size = |c: &Coefficients| c[..=self.order].iter().fold(0.0_f64, |largest, c| largest.max(c.abs()));
+        let sizes = [size(&self.v), size(&self.momentum), size(&self.turning)];
+        let ratio = |(tail, size): (f64, f64)| {
+            let allowed = TRUNCATION * size;
+            if tail > allowed { 0.9 * (allowed / tail).powf(1.0 / self.order as f64) } else { 1.0 }
+        };
+        let least = self.tails().into_iter().zip(sizes).map(ratio).fold(1.0, f64::min);
+        (least < 1.0).then_some(least)
+    }
+
+    fn shorten(&mut self, ratio: f64) {
+        self.length_s *= ratio;
+        for c in [
+            &mut self.x,
+            &mut self.v,
+            &mut self.sine,
+            &mut self.versine,
+            &mut self.direction,
+            &mut self.momentum,
+            &mut self.turning,
+            &mut self.sin_direction,
+            &mut self.cos_direction,
+        ] {
+            stretch(c, ratio);
+        }
+    }
+
+    /// Whether its coefficients are numbers: on far too long a step they grow beyond all.
+    pub(crate) fn is_finite(&self) -> bool {
+        let last = [self.v[self.order], self.momentum[self.order], self.turning[self.order - 1]];
+        self.length_s > 0.0 && last.iter().all(|c| c.is_finite())
+    }
+
+    /// Coefficients of the rotation.
+    pub(crate) fn x(&self) -> &[f64] {
+        &self.x[..self.order + 2]
+    }
+
+    /// Coefficients of the velocity.
+    pub(crate) fn v(&self) -> &[f64] {
+        &self.v[..=self.order]
+    }
+
+    /// Rotation and velocity at s.
+    pub(crate) fn at(&self, s: f64) -> (f64, f64) {
+        (value(self.x(), s), value(self.v(), s))
+    }
+
+    /// Acceleration at s, rad/s².
+    pub(crate) fn acceleration(&self, s: f64) -> f64 {
+        slope(self.v(), s) / self.length_s
+    }
+
+    /// Direction of the lean and its momentum at s.
+    pub(crate) fn turning_at(&self, s: f64) -> Turning {
+        Turning {
+            direction: value(&self.direction[..=self.order], s),
+            momentum: value(&self.momentum[..=self.order], s),
+        }
+    }
+
+    /// `φ̇` and `φ̈` at s, rad/s and rad/s².
+    pub(crate) fn turning_rate(&self, s: f64) -> (f64, f64) {
+        let c = &self.turning[..self.order];
+        (value(c, s), slope(c, s) / self.length_s)
+    }
+
+    /// Coefficients of `U_x/2R` and `U_y/2R`.
+    pub(crate) fn travel(&self, constants: &Constants) -> [Coefficients; 2] {
+        let mut radial = [0.0; DEGREE + 1];
+        for (k, radial) in radial.iter_mut().enumerate().take(self.order + 1) {
+            *radial = constants.cos_alpha * self.sine[k] + constants.sin_alpha * self.versine[k];
+        }
+        [&self.cos_direction, &self.sin_direction].map(|direction| {
+            let mut travel = [0.0; DEGREE + 1];
+            for (k, travel) in travel.iter_mut().enumerate().take(self.order + 1) {
+                *travel = product(&radial, direction, k);
+            }
+            travel
+        })
+    }
+
+    /// Terms of [`travel`](Self::travel).
+    pub(crate) fn terms(&self) -> usize {
+        self.order + 1
+    }
+}
+
+/// Derivative of a series by s.
+fn slope(c: &[f64], s: f64) -> f64 {
+    c.iter().enumerate().skip(1).rev().fold(0.0, |sum, (k, c)| sum * s + k as f64 * c)
+}
+
+/// `Σ aⱼ bₖ₋ⱼ` where `a` may be short.
+fn short_product(a: &[f64], b: &[f64], k: usize) -> f64 {
+    a.iter().zip(b[..=k].iter().rev()).map(|(a, b)| a * b).sum()
+}
+
+/// What turning needs beside the unknowns.
+struct Wobble {
+    sine_versine: Coefficients,
+    versine_squared: Coefficients,
+    inertia: Coefficients,
+    slope: Coefficients,
+    turning_squared: Coefficients,
+    /// `A_x cos φ + A_y sin φ`.
+    pushes: Coefficients,
+    /// `A_x sin φ − A_y cos φ`.
+    across: Coefficients,
+    travel: Coefficients,
+}
+
+impl Wobble {
+    fn new() -> Self {
+        let zero = [0.0; DEGREE + 1];
+        Self {
+            sine_versine: zero,
+            versine_squared: zero,
+            inertia: zero,
+            slope: zero,
+            turning_squared: zero,
+            pushes: zero,
+            across: zero,
+            travel: zero,
+        }
+    }
+
+    /// The coefficients of order `k`; gives that of the acceleration along the lean.
+    fn order(&mut self, constants: &Constants, step: &mut Step, shaken: &Shaken, k: usize) -> f64 {
+        let (sine, versine) = (&step.sine, &step.versine);
+        self.sine_versine[k] = product(sine, versine, k);
+        self.versine_squared[k] = product(versine, versine, k);
+        let (sw, ww) = (self.sine_versine[k], self.versine_squared[k]);
+        let [j1, j2, j3] = constants.turning;
+        let [k0, k1, k2, k3] = constants.turning_slope;
+        self.inertia[k] = j1 * versine[k] + j2 * sw + j3 * ww;
+        self.slope[k] = k0 * sine[k] + k1 * versine[k] + k2 * sw + k3 * ww;
+        let known = if k == 0 { 0.0 } else { product(&self.inertia[1..], &step.turning, k - 1) };
+        step.turning[k] = (step.momentum[k] - known) / self.inertia[0];
+        self.turning_squared[k] = product(&step.turning, &step.turning, k);
+        self.travel[k] = constants.cos_alpha * sine[k] + constants.sin_alpha * versine[k];
+        let [x, y] = [shaken.horizontal[0].coefficients(), shaken.horizontal[1].coefficients()];
+        let (sin, cos) = (&step.sin_direction, &step.cos_direction);
+        self.across[k] = short_product(x, sin, k) - short_product(y, cos, k);
+        short_product(x, cos, k) + short_product(y, sin, k)
+    }
+
+    /// Coefficient of `½ J' φ̇²`.
+    fn centrifugal(&self, k: usize) -> f64 {
+        0.5 * product(&self.slope, &self.turning_squared, k)
+    }
+}
+
+/// Series of a restrainer's moment `T Δ'`.
+struct Strands {
+    form: Form,
+    law: Law,
+    half_sine: Coefficients,
+    half_cosine: Coefficients,
+    /// `Δ`, or `ρ` of a chord.
+    length: Coefficients,
+    rate: Coefficients,
+    deformation: Coefficients,
+    deformation_squared: Coefficients,
+    tension: Coefficients,
+    /// `Δ` at the begin, m.
+    elongation_m: f64,
+}
+
+impl Strands {
+    fn begin(branch: &Branch, columns: &RestrainedColumns, x: f64, [half_sin, half_cos]: [f64; 2]) -> Self {
+        let zero = [0.0; DEGREE + 1];
+        let mut strands = Self {
+            form: branch.form,
+            law: branch.law,
+            half_sine: zero,
+            half_cosine: zero,
+            length: zero,
+            rate: zero,
+            deformation: zero,
+            deformation_squared: zero,
+            tension: zero,
+            elongation_m: 0.0,
+        };
+        if branch.law == Law::Loose {
+            return strands;
+        }
+        (strands.half_sine[0], strands.half_cosine[0]) = (half_sin, half_cos);
+        strands.elongation_m = columns.elongation(x).elongation_m;
+        if let Form::Chord { rest_m, .. } = branch.form {
+            strands.length[0] = strands.elongation_m + rest_m;
+        }
+        if let (Law::Cubic { .. }, Some(restrainer)) = (branch.law, columns.restrainer()) {
+            let elongation_m = restrainer.limit_m().map_or(strands.elongation_m, |m| m.min(strands.elongation_m));
+            let state = restrainer.at(elongation_m).ok();
+            strands.deformation[0] = state.and_then(|state| state.deformation_m).unwrap_or(strands.elongation_m);
+        }
+        strands
+    }
+
+    /// Coefficient `k` of `T Δ'`, N m.
+    fn moment(&mut self, sine: &Coefficients, versine: &Coefficients, k: usize) -> f64 {
+        match (self.law, self.form) {
+            (Law::Loose, _) => return 0.0,
+            (Law::Linear { constant_n, stiffness_n_m }, Form::Axis { lever_m }) => {
+                return lever_m * (stiffness_n_m * lever_m * sine[k] + constant_n * self.half_cosine[k]);
+            }
+            (_, Form::Axis { lever_m }) => {
+                self.length[k] = 2.0 * lever_m * self.half_sine[k];
+                self.rate[k] = lever_m * self.half_cosine[k];
+            }
+            (_, Form::Chord { sine_m2, versine_m2, .. }) => {
+                if k > 0 {
+                    let square = sine_m2 * sine[k] + versine_m2 * versine[k];
+                    self.length[k] = 0.5 * (square - inner_product(&self.length, &self.length, k)) / self.length[0];
+                }
+                let cosine = f64::from(u8::from(k == 0)) - versine[k];
+                let known = if k == 0 { 0.0 } else { product(&self.length[1..], &self.rate, k - 1) };
+                self.rate[k] = (0.5 * (sine_m2 * cosine + versine_m2 * sine[k]) - known) / self.length[0];
+            }
+        }
+        let elongation_m = if k == 0 { self.elongation_m } else { self.length[k] };
+        self.tension[k] = self.pull(elongation_m, k);
+        product(&self.tension, &self.rate, k)
+    }
+
+    /// Coefficient `k` of `T`, N, from that of `Δ`.
+    fn pull(&mut self, elongation_m: f64, k: usize) -> f64 {
+        match self.law {
+            Law::Loose => 0.0,
+            Law::Linear { constant_n, stiffness_n_m } => {
+                stiffness_n_m * elongation_m + if k == 0 { constant_n } else { 0.0 }
+            }
+            Law::Cubic { coefficients: [c0, c1, c2, c3], flexibility_m_n } => {
+                let first = self.deformation[0];
+                if k == 0 {
+                    self.deformation_squared[0] = first * first;
+                    return c0 + first * (c1 + first * (c2 + first * c3));
+                }
+                // d² and d³ without their terms of dₖ, which are 2d₀ dₖ and 3d₀² dₖ
+                let square = inner_product(&self.deformation, &self.deformation, k);
+                let cube = first * square + inner_product(&self.deformation_squared, &self.deformation, k);
+                let known = c2 * square + c3 * cube;
+                let stiffness = c1 + first * (2.0 * c2 + first * 3.0 * c3);
+                let deformation = (elongation_m - flexibility_m_n * known) / (1.0 + flexibility_m_n * stiffness);
+                self.deformation[k] = deformation;
+                self.deformation_squared[k] = 2.0 * first * deformation + square;
+                stiffness * deformation + known
+            }
+        }
+    }
+
+    /// The half angle's sine and cosine to one order more.
+    fn extend(&mut self, v: &Coefficients, factor: f64, k: usize) {
+        if self.law == Law::Loose || matches!(self.form, Form::Chord { .. }) {
+            return;
+        }
+        self.half_sine[k + 1] = 0.5 * factor * product(&self.half_cosine, v, k);
+        self.half_cosine[k + 1] = -0.5 * factor * product(&self.half_sine, v, k);
+    }
+}
