@@ -19,9 +19,15 @@
 //! coefficients).
 
 use uplift_statics::RestrainedColumns;
-use uplift_taylor::{DEGREE, Forcing, LEAST_ORDER, ORDER, TRUNCATION, inner_product, product, stretch, value};
+use uplift_taylor::{DEGREE, Forcing, LEAST_ORDER, ORDER, TRUNCATION, product, stretch, value};
 
-use crate::branch::{Branch, Form, Law};
+mod strands;
+mod wobble;
+
+use strands::Strands;
+use wobble::Wobble;
+
+use crate::branch::Branch;
 
 /// Coefficients of one function.
 pub(crate) type Coefficients = [f64; DEGREE + 1];
@@ -288,168 +294,4 @@ fn slope(c: &[f64], s: f64) -> f64 {
 /// `Σ aⱼ bₖ₋ⱼ` where `a` may be short.
 fn short_product(a: &[f64], b: &[f64], k: usize) -> f64 {
     a.iter().zip(b[..=k].iter().rev()).map(|(a, b)| a * b).sum()
-}
-
-/// What turning needs beside the unknowns.
-struct Wobble {
-    sine_versine: Coefficients,
-    versine_squared: Coefficients,
-    inertia: Coefficients,
-    slope: Coefficients,
-    turning_squared: Coefficients,
-    /// `A_x cos φ + A_y sin φ`.
-    pushes: Coefficients,
-    /// `A_x sin φ − A_y cos φ`.
-    across: Coefficients,
-    travel: Coefficients,
-}
-
-impl Wobble {
-    fn new() -> Self {
-        let zero = [0.0; DEGREE + 1];
-        Self {
-            sine_versine: zero,
-            versine_squared: zero,
-            inertia: zero,
-            slope: zero,
-            turning_squared: zero,
-            pushes: zero,
-            across: zero,
-            travel: zero,
-        }
-    }
-
-    /// The coefficients of order `k`; gives that of the acceleration along the lean.
-    fn order(&mut self, constants: &Constants, step: &mut Step, shaken: &Shaken, k: usize) -> f64 {
-        let (sine, versine) = (&step.sine, &step.versine);
-        self.sine_versine[k] = product(sine, versine, k);
-        self.versine_squared[k] = product(versine, versine, k);
-        let (sw, ww) = (self.sine_versine[k], self.versine_squared[k]);
-        let [j1, j2, j3] = constants.turning;
-        let [k0, k1, k2, k3] = constants.turning_slope;
-        self.inertia[k] = j1 * versine[k] + j2 * sw + j3 * ww;
-        self.slope[k] = k0 * sine[k] + k1 * versine[k] + k2 * sw + k3 * ww;
-        let known = if k == 0 { 0.0 } else { product(&self.inertia[1..], &step.turning, k - 1) };
-        step.turning[k] = (step.momentum[k] - known) / self.inertia[0];
-        self.turning_squared[k] = product(&step.turning, &step.turning, k);
-        self.travel[k] = constants.cos_alpha * sine[k] + constants.sin_alpha * versine[k];
-        let [x, y] = [shaken.horizontal[0].coefficients(), shaken.horizontal[1].coefficients()];
-        let (sin, cos) = (&step.sin_direction, &step.cos_direction);
-        self.across[k] = short_product(x, sin, k) - short_product(y, cos, k);
-        short_product(x, cos, k) + short_product(y, sin, k)
-    }
-
-    /// Coefficient of `½ J' φ̇²`.
-    fn centrifugal(&self, k: usize) -> f64 {
-        0.5 * product(&self.slope, &self.turning_squared, k)
-    }
-}
-
-/// Series of a restrainer's moment `T Δ'`.
-struct Strands {
-    form: Form,
-    law: Law,
-    half_sine: Coefficients,
-    half_cosine: Coefficients,
-    /// `Δ`, or `ρ` of a chord.
-    length: Coefficients,
-    rate: Coefficients,
-    deformation: Coefficients,
-    deformation_squared: Coefficients,
-    tension: Coefficients,
-    /// `Δ` at the begin, m.
-    elongation_m: f64,
-}
-
-impl Strands {
-    fn begin(branch: &Branch, columns: &RestrainedColumns, x: f64, [half_sin, half_cos]: [f64; 2]) -> Self {
-        let zero = [0.0; DEGREE + 1];
-        let mut strands = Self {
-            form: branch.form,
-            law: branch.law,
-            half_sine: zero,
-            half_cosine: zero,
-            length: zero,
-            rate: zero,
-            deformation: zero,
-            deformation_squared: zero,
-            tension: zero,
-            elongation_m: 0.0,
-        };
-        if branch.law == Law::Loose {
-            return strands;
-        }
-        (strands.half_sine[0], strands.half_cosine[0]) = (half_sin, half_cos);
-        strands.elongation_m = columns.elongation(x).elongation_m;
-        if let Form::Chord { rest_m, .. } = branch.form {
-            strands.length[0] = strands.elongation_m + rest_m;
-        }
-        if let (Law::Cubic { .. }, Some(restrainer)) = (branch.law, columns.restrainer()) {
-            let elongation_m = restrainer.limit_m().map_or(strands.elongation_m, |m| m.min(strands.elongation_m));
-            let state = restrainer.at(elongation_m).ok();
-            strands.deformation[0] = state.and_then(|state| state.deformation_m).unwrap_or(strands.elongation_m);
-        }
-        strands
-    }
-
-    /// Coefficient `k` of `T Δ'`, N m.
-    fn moment(&mut self, sine: &Coefficients, versine: &Coefficients, k: usize) -> f64 {
-        match (self.law, self.form) {
-            (Law::Loose, _) => return 0.0,
-            (Law::Linear { constant_n, stiffness_n_m }, Form::Axis { lever_m }) => {
-                return lever_m * (stiffness_n_m * lever_m * sine[k] + constant_n * self.half_cosine[k]);
-            }
-            (_, Form::Axis { lever_m }) => {
-                self.length[k] = 2.0 * lever_m * self.half_sine[k];
-                self.rate[k] = lever_m * self.half_cosine[k];
-            }
-            (_, Form::Chord { sine_m2, versine_m2, .. }) => {
-                if k > 0 {
-                    let square = sine_m2 * sine[k] + versine_m2 * versine[k];
-                    self.length[k] = 0.5 * (square - inner_product(&self.length, &self.length, k)) / self.length[0];
-                }
-                let cosine = f64::from(u8::from(k == 0)) - versine[k];
-                let known = if k == 0 { 0.0 } else { product(&self.length[1..], &self.rate, k - 1) };
-                self.rate[k] = (0.5 * (sine_m2 * cosine + versine_m2 * sine[k]) - known) / self.length[0];
-            }
-        }
-        let elongation_m = if k == 0 { self.elongation_m } else { self.length[k] };
-        self.tension[k] = self.pull(elongation_m, k);
-        product(&self.tension, &self.rate, k)
-    }
-
-    /// Coefficient `k` of `T`, N, from that of `Δ`.
-    fn pull(&mut self, elongation_m: f64, k: usize) -> f64 {
-        match self.law {
-            Law::Loose => 0.0,
-            Law::Linear { constant_n, stiffness_n_m } => {
-                stiffness_n_m * elongation_m + if k == 0 { constant_n } else { 0.0 }
-            }
-            Law::Cubic { coefficients: [c0, c1, c2, c3], flexibility_m_n } => {
-                let first = self.deformation[0];
-                if k == 0 {
-                    self.deformation_squared[0] = first * first;
-                    return c0 + first * (c1 + first * (c2 + first * c3));
-                }
-                // d² and d³ without their terms of dₖ, which are 2d₀ dₖ and 3d₀² dₖ
-                let square = inner_product(&self.deformation, &self.deformation, k);
-                let cube = first * square + inner_product(&self.deformation_squared, &self.deformation, k);
-                let known = c2 * square + c3 * cube;
-                let stiffness = c1 + first * (2.0 * c2 + first * 3.0 * c3);
-                let deformation = (elongation_m - flexibility_m_n * known) / (1.0 + flexibility_m_n * stiffness);
-                self.deformation[k] = deformation;
-                self.deformation_squared[k] = 2.0 * first * deformation + square;
-                stiffness * deformation + known
-            }
-        }
-    }
-
-    /// The half angle's sine and cosine to one order more.
-    fn extend(&mut self, v: &Coefficients, factor: f64, k: usize) {
-        if self.law == Law::Loose || matches!(self.form, Form::Chord { .. }) {
-            return;
-        }
-        self.half_sine[k + 1] = 0.5 * factor * product(&self.half_cosine, v, k);
-        self.half_cosine[k + 1] = -0.5 * factor * product(&self.half_sine, v, k);
-    }
 }
