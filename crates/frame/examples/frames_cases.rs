@@ -12,6 +12,8 @@
 //! | `statics` | columns with a restrainer as in a structure file, expected `scalars` and `points` |
 //! | `discs` | a disc spring, expected forces at deflections |
 //! | `planar`, `wobbling` | a frame, its restrainer, the ground's motion and the start; expected peaks and end |
+//! | `validation` | `measured` and `computed` peaks; expected statistics |
+//! | `shake_table` | a pair of records; expected factor and PGA for 0.335 m/s in a scale of 1:5 |
 //!
 //! Records that cases name are looked for below the folder of the environment variable `UPLIFT_RECORDS`. A case may
 //! have its own tolerance; else it is 1e-9, relative, and 1e-12 for discs. Each line of output is

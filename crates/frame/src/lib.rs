@@ -7,6 +7,7 @@
 //! | [`pulse`] | sine, cosine, half sine and Ricker pulses |
 //! | [`response`] | peaks, events, survival; the motion in time |
 //! | [`history`] | rows of a motion in time |
+//! | [`shake_table`] | records in the scale of a model, at a level of PGV (Section 6.4) |
 //!
 //! # What is computed
 //! In a plane Eq. 6.3 as it stands with any restrainer of `uplift-statics`, an impact at `θ = 0` (Eq. 6.5); in space
@@ -58,6 +59,7 @@ pub mod peaks;
 pub mod pulse;
 pub mod response;
 mod series;
+pub mod shake_table;
 mod uplift;
 
 pub use error::FrameError;
@@ -69,3 +71,4 @@ pub use pulse::{Pulse, PulseShape};
 pub use response::{
     FrameEvent, FrameResponse, FrameState, Model, Options, Start, Until, respond, respond_with_history,
 };
+pub use shake_table::{TableLevel, srss};

@@ -7,6 +7,7 @@ mod limits;
 mod misuse;
 mod reference_cases;
 mod restrainers;
+mod shake_table;
 mod symmetry;
 
 use uplift_frame::{ColumnShape, GroundMotion, Pulse, PulseShape, RockingFrame, Shaking};

@@ -28,6 +28,12 @@ fn every_motion_without_records() {
     check(include_str!("data/motion_cases.json"), 300);
 }
 
+/// Four pairs of samples, with ties and collapses, by scipy 1.17.
+#[test]
+fn every_pair_of_samples() {
+    check(include_str!("data/validation_cases.json"), 80);
+}
+
 #[test]
 fn every_case_of_a_file_from_outside() {
     match std::env::var_os("UPLIFT_FRAMES_CASES") {

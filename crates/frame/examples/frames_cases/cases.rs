@@ -10,7 +10,9 @@ mod discs;
 mod motions;
 mod records;
 mod restrainer;
+mod shake_table;
 mod statics;
+mod validation;
 
 /// What became of a case.
 pub(crate) struct Verdict {
@@ -34,6 +36,10 @@ struct File {
     planar: Vec<Value>,
     #[serde(default)]
     wobbling: Vec<Value>,
+    #[serde(default)]
+    validation: Vec<Value>,
+    #[serde(default)]
+    shake_table: Vec<Value>,
 }
 
 /// How a case is checked.
@@ -45,17 +51,23 @@ type Check = fn(&Value, &mut Comparison) -> Result<(), String>;
 /// The file is no JSON, or not an object with lists of cases.
 pub(crate) fn verdicts(text: &str) -> Result<Vec<Verdict>, serde_json::Error> {
     let file: File = serde_json::from_str(text)?;
-    let kinds: [(&[Value], Check); 4] = [
+    let kinds: [(&[Value], Check); 6] = [
         (&file.statics, statics::statics_case),
         (&file.discs, discs::disc_case),
         (&file.planar, motions::planar_case),
         (&file.wobbling, motions::wobbling_case),
+        (&file.validation, validation::validation_case),
+        (&file.shake_table, shake_table::shake_table_case),
     ];
     Ok(kinds.into_iter().flat_map(|(cases, check)| cases.iter().map(move |case| verdict(case, check))).collect())
 }
 
 fn verdict(case: &Value, check: Check) -> Verdict {
-    let id = case.get("id").and_then(Value::as_str).unwrap_or("(no id)").to_owned();
+    let id = match (case.get("id").and_then(Value::as_str), case.get("exc_id")) {
+        (Some(id), _) => id.to_owned(),
+        (None, Some(excitation)) => format!("excitation {excitation}"),
+        (None, None) => "(no id)".to_owned(),
+    };
     let mut comparison = Comparison::default();
     if let Err(message) = check(case, &mut comparison) {
         comparison.differences.push(format!("cannot be computed: {message}"));

@@ -35,7 +35,7 @@ struct Case {
     #[serde(default)]
     restitution: Option<f64>,
     #[serde(default)]
-    rest_amplitude_rad: f64,
+    rest_amplitude_rad: Option<f64>,
     #[serde(default)]
     start_rotation_rad: Option<f64>,
     duration_s: f64,
@@ -51,7 +51,8 @@ struct Frame {
     columns: u32,
     #[serde(default)]
     restrained: Option<u32>,
-    column_shape: ColumnShape,
+    #[serde(default)]
+    column_shape: Option<ColumnShape>,
     gravity_m_s2: f64,
 }
 
@@ -110,8 +111,8 @@ pub(crate) fn wobbling_case(case: &Value, comparison: &mut Comparison) -> Result
 fn motion_case(case: &Value, listed: Model, comparison: &mut Comparison) -> Result<(), String> {
     let case: Case = serde_json::from_value(case.clone()).map_err(|error| error.to_string())?;
     let model = case.model.unwrap_or(listed);
-    let frame = frame(&case)?;
-    let component = |name: &str| case.input.get(name).filter(|value| !value.is_null()).map(component).transpose();
+    let frame = frame(&case, model)?;
+    let component = |name: &str| case.input.get(name).filter(|value| is_something(value)).map(component).transpose();
     let (x, y, z) = (component("x")?, component("y")?, component("z")?);
     let ground = GroundMotion {
         x: x.as_ref().map(Component::shaking),
@@ -122,7 +123,7 @@ fn motion_case(case: &Value, listed: Model, comparison: &mut Comparison) -> Resu
         start: start(&case.start)?,
         until: Until::Time(case.duration_s),
         restitution: case.restitution,
-        rest_amplitude_rad: Some(case.rest_amplitude_rad),
+        rest_amplitude_rad: Some(case.rest_amplitude_rad.unwrap_or(0.0)),
         start_rotation_rad: case.start_rotation_rad.unwrap_or(Options::default().start_rotation_rad),
     };
     let found = respond(&frame, &ground, model, &options).map_err(|error| error.to_string())?;
@@ -143,19 +144,30 @@ fn motion_case(case: &Value, listed: Model, comparison: &mut Comparison) -> Resu
     Ok(())
 }
 
-fn frame(case: &Case) -> Result<RockingFrame, String> {
+fn frame(case: &Case, model: Model) -> Result<RockingFrame, String> {
     let of = &case.frame;
+    let shape = if model == Model::Planar { ColumnShape::Rectangle } else { ColumnShape::Cylinder };
     let geometry = Geometry::from_width_and_height(2.0 * of.half_width_m, 2.0 * of.half_height_m)
         .map_err(|error| error.to_string())?;
-    let frame =
-        RockingFrame::new(geometry, of.columns, of.column_mass_kg, of.deck_mass_kg, of.column_shape, of.gravity_m_s2)
-            .map_err(|error| error.to_string())?;
+    let frame = RockingFrame::new(
+        geometry,
+        of.columns,
+        of.column_mass_kg,
+        of.deck_mass_kg,
+        of.column_shape.unwrap_or(shape),
+        of.gravity_m_s2,
+    )
+    .map_err(|error| error.to_string())?;
     let Some((restrainer, path)) = restrainer(&case.restrainer)? else { return Ok(frame) };
     let held = frame.with_restrainer(restrainer, path).map_err(|error| error.to_string())?;
     match of.restrained {
         Some(restrained) => held.with_restrained(restrained).map_err(|error| error.to_string()),
         None => Ok(held),
     }
+}
+
+fn is_something(input: &Value) -> bool {
+    !input.is_null() && input.get("kind").and_then(Value::as_str) != Some("none")
 }
 
 fn component(input: &Value) -> Result<Component, String> {
