@@ -113,6 +113,24 @@ pub(crate) enum Piece {
 }
 
 impl Piece {
+    /// Values at the begin and the end of a segment of `length_s`, between which all others lie; of a pulse none.
+    pub(crate) fn ends(&self, length_s: f64) -> Option<[f64; 2]> {
+        match self {
+            Self::Zero => Some([0.0; 2]),
+            Self::Linear(begin, slope) => Some([*begin, begin + slope * length_s]),
+            Self::Pulse(..) => None,
+        }
+    }
+
+    /// At an offset (s) in the segment.
+    pub(crate) fn value(&self, offset_s: f64) -> f64 {
+        match self {
+            Self::Zero => 0.0,
+            Self::Linear(begin, slope) => begin + slope * offset_s,
+            Self::Pulse(..) => self.taylor(offset_s, 0.0).value(0.0),
+        }
+    }
+
     /// In powers of `(time − offset)/step` from an offset (s) in the segment on.
     pub(crate) fn taylor(&self, offset_s: f64, step_s: f64) -> Forcing {
         match self {

@@ -15,7 +15,7 @@ use crate::escape::Free;
 use crate::frame::RockingFrame;
 use crate::history::{Moment, Observer};
 use crate::peaks::Peaks;
-use crate::series::{Constants, Shaken, Step, Turning};
+use crate::series::{Constants, Expansion, Shaken, Turning};
 use crate::uplift::{Uplift, uplift_in_plane, uplift_in_space};
 
 /// Impacts in one segment after which a frame that cannot be shown to come to rest is taken to be.
@@ -171,6 +171,12 @@ impl<O: Observer> Motion<O> {
         self.frame.gravity_m_s2()
     }
 
+    /// Whether a frame at rest stays so while horizontal acceleration is no larger, and vertical no more downwards, than
+    /// these bounds in units of g.
+    pub(crate) fn stays_at_rest(&self, horizontal: f64, downwards: f64) -> bool {
+        downwards < 1.0 && horizontal < self.tangent * (1.0 - downwards) + self.prestress
+    }
+
     fn momentum(&self) -> f64 {
         match self.lean {
             Lean::Plane { .. } => 0.0,
@@ -192,6 +198,7 @@ impl<O: Observer> Motion<O> {
         start_s: f64,
         length_s: f64,
         until_peak: bool,
+        expansion: &mut Expansion,
         shaking: impl Fn(f64, f64) -> [Forcing; 3],
     ) -> Flow<()> {
         self.check_weight(start_s, length_s, &shaking(0.0, length_s)[2])?;
@@ -235,7 +242,8 @@ impl<O: Observer> Motion<O> {
                     step_s = rebound_s;
                 }
             }
-            let step = self.expand(&shaken, step_s, at_threshold);
+            self.expand(expansion, &shaken, step_s, at_threshold);
+            let step = expansion.step();
             if self.resting {
                 if let Lean::Plane { .. } = self.lean
                     && leading_sign(step.x().iter()) <= 0.0
@@ -257,7 +265,10 @@ impl<O: Observer> Motion<O> {
             let begin = offset;
             offset = if step.length_s >= length_s - begin { length_s } else { begin + step.length_s };
             let time_s = |s: f64| start_s + (begin + s * step.length_s);
-            let cut = match self.step(&step, &shaken.stretched(step.length_s / step_s), time_s, until_peak)? {
+            if step.length_s < step_s {
+                shaken = shaken.stretched(step.length_s / step_s);
+            }
+            let cut = match self.step(step, &shaken, time_s, until_peak)? {
                 ControlFlow::Break(ending) => return Ok(ControlFlow::Break(ending)),
                 ControlFlow::Continue(cut) => cut,
             };
@@ -337,23 +348,23 @@ impl<O: Observer> Motion<O> {
         versine * (j1 + j2 * sine + j3 * versine)
     }
 
-    fn expand(&self, shaken: &Shaken, step_s: f64, balanced: bool) -> Step {
+    fn expand(&self, expansion: &mut Expansion, shaken: &Shaken, step_s: f64, balanced: bool) {
         let turning = match self.lean {
             Lean::Plane { .. } => None,
             Lean::Space(turning) => Some(turning),
         };
         let held = self.branches.get(self.branch).map(|branch| (branch, self.frame.columns()));
         let balanced = balanced && turning.is_none();
-        let expand = |shaken: &Shaken, step_s: f64| {
-            Step::expand(&self.constants, (self.x, self.v), turning, shaken, held, step_s, balanced)
+        let mut expand = |shaken: &Shaken, step_s: f64| {
+            expansion.expand(&self.constants, (self.x, self.v), turning, shaken, held, step_s, balanced);
+            expansion.step().is_finite()
         };
-        let mut step = expand(shaken, step_s);
         let mut ratio = 1.0;
-        while !step.is_finite() && ratio > 1e-12 {
+        let mut is_finite = expand(shaken, step_s);
+        while !is_finite && ratio > 1e-12 {
             ratio *= 1e-3;
-            step = expand(&shaken.stretched(ratio), ratio * step_s);
+            is_finite = expand(&shaken.stretched(ratio), ratio * step_s);
         }
-        step
     }
 
     /// Whether the frame rests from here on.

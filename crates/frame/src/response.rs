@@ -13,7 +13,7 @@ use crate::ground::{GroundMotion, Piece};
 use crate::history::{History, Moment, Observer, Unobserved};
 use crate::motion::{Ending, LONGEST_STEP, Lean, Motion, Rules};
 use crate::peaks::Peak;
-use crate::series::Turning;
+use crate::series::{Expansion, Turning};
 
 /// Longest motion computed, in units of 1/p.
 const LONGEST_MOTION: f64 = 1e7;
@@ -299,28 +299,31 @@ fn follow<O: Observer>(
     let gravity = motion.gravity_m_s2();
     let taylor = |pieces: &[Piece; 3], offset: f64, step: f64| pieces.map(|piece| piece.taylor(offset, step));
     let knots = ground.knots_s();
+    let mut expansion = Expansion::new();
     let mut now_s = 0.0;
     for ends in knots.windows(2) {
         let (begin_s, end_s) = (ends[0], ends[1].min(last_s));
         if end_s <= begin_s {
             break;
         }
+        let length_s = end_s - begin_s;
         let pieces = ground.between(begin_s, ends[1], gravity);
-        let components = taylor(&pieces, 0.0, end_s - begin_s);
         if now_s == 0.0 {
-            motion.observe_sample(0.0, &components);
+            motion.observe_sample(0.0, &taylor(&pieces, 0.0, length_s));
         }
         if motion.resting {
-            motion.follow_ground(&components, 0.0, begin_s);
+            motion.follow_ground(pieces.map(|piece| piece.value(0.0)), begin_s);
         }
-        let shaking = |offset, step| taylor(&pieces, offset, step);
-        if let ControlFlow::Break(ending) = motion.advance(begin_s, end_s - begin_s, false, shaking)? {
-            return Ok(Some(ending));
+        if !stays_at_rest(motion, &pieces, length_s) {
+            let shaking = |offset, step| taylor(&pieces, offset, step);
+            if let ControlFlow::Break(ending) = motion.advance(begin_s, length_s, false, &mut expansion, shaking)? {
+                return Ok(Some(ending));
+            }
         }
         if motion.resting {
-            motion.follow_ground(&components, 1.0, end_s);
+            motion.follow_ground(pieces.map(|piece| piece.value(length_s)), end_s);
         }
-        motion.observe_sample(end_s, &taylor(&pieces, end_s - begin_s, 1.0));
+        motion.observe_sample(end_s, &taylor(&pieces, length_s, 1.0));
         now_s = end_s;
     }
     let still = [Forcing::none(); 3];
@@ -335,12 +338,23 @@ fn follow<O: Observer>(
         }
         let length_s = step_s.min(last_s - now_s);
         let until_peak = until == Until::FirstFreePeak;
-        if let ControlFlow::Break(ending) = motion.advance(now_s, length_s, until_peak, |_, _| still)? {
+        let advanced = motion.advance(now_s, length_s, until_peak, &mut expansion, |_, _| still)?;
+        if let ControlFlow::Break(ending) = advanced {
             return Ok(Some(ending));
         }
         motion.observe_sample(now_s + length_s, &still);
         steps += 1.0;
     }
+}
+
+/// Whether a frame at rest surely stays so on a segment of straight pieces.
+fn stays_at_rest<O: Observer>(motion: &Motion<O>, pieces: &[Piece; 3], length_s: f64) -> bool {
+    if !motion.resting {
+        return false;
+    }
+    let [Some(x), Some(y), Some(z)] = pieces.map(|piece| piece.ends(length_s)) else { return false };
+    let size = |ends: [f64; 2]| ends[0].abs().max(ends[1].abs());
+    motion.stays_at_rest(size(x).hypot(size(y)), -z[0].min(z[1]))
 }
 
 fn report<O: Observer>(frame: &RockingFrame, motion: Motion<O>, overturned: bool) -> (FrameResponse, O) {

@@ -97,23 +97,19 @@ pub(crate) struct Step {
     cos_direction: Coefficients,
 }
 
-impl Step {
-    /// The motion from the rotation `x` and velocity `v`, of a frame that wobbles with `turning` or rocks in a plane,
-    /// on a branch of its restrainers. With `balanced` the moments at the begin cancel: it uplifts there.
-    #[allow(clippy::too_many_arguments)]
-    pub(crate) fn expand(
-        constants: &Constants,
-        (x, v): (f64, f64),
-        turning: Option<Turning>,
-        shaken: &Shaken,
-        held: Option<(&Branch, &RestrainedColumns)>,
-        step_s: f64,
-        balanced: bool,
-    ) -> Self {
-        let h = step_s;
+/// What a step is expanded in, kept from step to step: to clear and to move it would cost as much as to fill it.
+#[derive(Debug)]
+pub(crate) struct Expansion {
+    step: Step,
+    wobble: Wobble,
+    strands: Strands,
+}
+
+impl Expansion {
+    pub(crate) fn new() -> Self {
         let zero = [0.0; DEGREE + 1];
-        let mut step = Self {
-            length_s: step_s,
+        let step = Step {
+            length_s: 0.0,
             order: 0,
             x: zero,
             v: zero,
@@ -125,15 +121,41 @@ impl Step {
             sin_direction: zero,
             cos_direction: zero,
         };
+        Self { step, wobble: Wobble::new(), strands: Strands::new() }
+    }
+
+    /// The step that was expanded last.
+    pub(crate) fn step(&self) -> &Step {
+        &self.step
+    }
+
+    /// The motion from the rotation `x` and velocity `v`, of a frame that wobbles with `turning` or rocks in a plane,
+    /// on a branch of its restrainers. With `balanced` the moments at the begin cancel: it uplifts there.
+    #[allow(clippy::too_many_arguments)]
+    pub(crate) fn expand(
+        &mut self,
+        constants: &Constants,
+        (x, v): (f64, f64),
+        turning: Option<Turning>,
+        shaken: &Shaken,
+        held: Option<(&Branch, &RestrainedColumns)>,
+        step_s: f64,
+        balanced: bool,
+    ) {
+        let h = step_s;
+        let zero = [0.0; DEGREE + 1];
+        let Self { step, wobble, strands } = self;
+        step.length_s = step_s;
         (step.x[0], step.v[0]) = (x, v);
         let (half_sin, half_cos) = (0.5 * x).sin_cos();
         (step.sine[0], step.versine[0]) = (2.0 * half_sin * half_cos, 2.0 * half_sin * half_sin);
-        let mut strands = held.map(|(branch, columns)| Strands::begin(branch, columns, x, [half_sin, half_cos]));
-        let mut wobble = turning.map(|turning| {
+        if let Some((branch, columns)) = held {
+            strands.begin(branch, columns, x, [half_sin, half_cos]);
+        }
+        if let Some(turning) = turning {
             (step.direction[0], step.momentum[0]) = (turning.direction, turning.momentum);
             (step.sin_direction[0], step.cos_direction[0]) = turning.direction.sin_cos();
-            Wobble::new()
-        });
+        }
         let (mut sin_psi, mut cos_psi) = (zero, zero);
         let vertical = shaken.vertical.coefficients();
         let is_level = shaken.vertical.is_zero();
@@ -149,26 +171,24 @@ impl Step {
                 moment += short_product(vertical, &sin_psi, k);
             }
             let mut outward = 0.0;
-            match &mut wobble {
-                None => moment += short_product(along, &cos_psi, k),
-                Some(wobble) => {
-                    let towards = wobble.order(constants, &mut step, shaken, k);
-                    wobble.pushes[k] = towards;
-                    moment += product(&cos_psi, &wobble.pushes, k);
-                    outward = wobble.centrifugal(k);
-                    step.momentum[k + 1] = factor * constants.fall * product(&wobble.travel, &wobble.across, k);
-                    step.direction[k + 1] = factor * step.turning[k];
-                    step.sin_direction[k + 1] = factor * product(&step.cos_direction, &step.turning, k);
-                    step.cos_direction[k + 1] = -factor * product(&step.sin_direction, &step.turning, k);
-                }
+            if turning.is_some() {
+                wobble.order(constants, step, shaken, k);
+                moment += product(&cos_psi, &wobble.pushes, k);
+                outward = wobble.centrifugal(k);
+                step.momentum[k + 1] = factor * constants.fall * product(&wobble.travel, &wobble.across, k);
+                step.direction[k + 1] = factor * step.turning[k];
+                step.sin_direction[k + 1] = factor * product(&step.cos_direction, &step.turning, k);
+                step.cos_direction[k + 1] = -factor * product(&step.sin_direction, &step.turning, k);
+            } else {
+                moment += short_product(along, &cos_psi, k);
             }
-            let held = strands.as_mut().map_or(0.0, |strands| strands.moment(&step.sine, &step.versine, k));
-            let inward = (held * constants.held - outward) / constants.tilt_inertia;
+            let pull = if held.is_some() { strands.moment(&step.sine, &step.versine, k) } else { 0.0 };
+            let inward = (pull * constants.held - outward) / constants.tilt_inertia;
             step.v[k + 1] = if balanced && k == 0 { 0.0 } else { -factor * (constants.p_squared * moment + inward) };
             let lost = product(&step.versine, &step.v, k);
             step.versine[k + 1] = factor * product(&step.sine, &step.v, k);
             step.sine[k + 1] = factor * (step.v[k] - lost);
-            if let Some(strands) = &mut strands {
+            if held.is_some() {
                 strands.extend(&step.v, factor, k);
             }
             step.x[k + 1] = factor * step.v[k];
@@ -186,9 +206,10 @@ impl Step {
         while let Some(ratio) = step.excess() {
             step.shorten(ratio);
         }
-        step
     }
+}
 
+impl Step {
     /// The largest of the last two terms of velocity, momentum and turning.
     fn tails(&self) -> [f64; 3] {
         let n = self.order;

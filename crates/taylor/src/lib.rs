@@ -37,7 +37,17 @@ pub fn stretch(c: &mut [f64], ratio: f64) {
 /// `Σ aⱼ bₖ₋ⱼ`, j from 0 to k: the coefficient of the product of two series.
 #[inline]
 pub fn product(a: &[f64], b: &[f64], k: usize) -> f64 {
-    a[..=k].iter().zip(b[..=k].iter().rev()).map(|(a, b)| a * b).sum()
+    let (a, b) = (&a[..=k], &b[..=k]);
+    // two sums, so that one addition need not wait for the other
+    let (pairs, last) = a.as_chunks::<2>();
+    let (turned_last, turned) = b.as_rchunks::<2>();
+    let mut sums = [0.0; 2];
+    for (a, b) in pairs.iter().zip(turned.iter().rev()) {
+        sums[0] += a[0] * b[1];
+        sums[1] += a[1] * b[0];
+    }
+    let rest: f64 = last.iter().zip(turned_last).map(|(a, b)| a * b).sum();
+    sums[0] + sums[1] + rest
 }
 
 /// The same without the terms of `a₀` and `b₀`, which an implicit recurrence has on its other side.

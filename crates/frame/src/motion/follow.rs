@@ -7,7 +7,7 @@ use uplift_taylor::{DEGREE, Forcing, leading_sign, sign_changes, value};
 use super::step::first_reach;
 use super::{Lean, Motion};
 use crate::history::{HistoryRow, Moment, Observer};
-use crate::series::{Shaken, Step};
+use crate::series::{Expansion, Shaken, Step};
 
 impl<O: Observer> Motion<O> {
     /// Tells of the events that the step passes for the first time.
@@ -144,13 +144,13 @@ impl<O: Observer> Motion<O> {
         }
     }
 
-    /// A frame at rest moves with the ground, as long as that does not lift it.
-    pub(crate) fn follow_ground(&mut self, components: &[Forcing; 3], s: f64, time_s: f64) {
-        let ground = self.ground(&self.shaken(*components), s);
-        let threshold = self.tangent * (1.0 + components[2].value(s)) + self.prestress;
-        if ground[0].hypot(ground[1]) > threshold * self.frame.gravity_m_s2() {
+    /// A frame at rest moves with the ground, whose acceleration is given in units of g, as long as that does not lift
+    /// it.
+    pub(crate) fn follow_ground(&mut self, [x, y, z]: [f64; 3], time_s: f64) {
+        if x.hypot(y) > self.tangent * (1.0 + z) + self.prestress {
             return;
         }
+        let ground = [x, y].map(|component| self.frame.gravity_m_s2() * component);
         self.raise_deck([0.0; 2], ground, time_s);
     }
 
@@ -171,7 +171,9 @@ impl<O: Observer> Motion<O> {
         let mut own = [0.0; 2];
         if !self.resting && self.x > 0.0 {
             let still = shaken.stretched(0.0);
-            let step = self.expand(&still, 1e-9 / self.p, false);
+            let mut expansion = Expansion::new();
+            self.expand(&mut expansion, &still, 1e-9 / self.p, false);
+            let step = expansion.step();
             let (a, rate) = (step.acceleration(0.0), step.turning_rate(0.0));
             own = self.deck_acceleration(self.x, self.v, a, rate, direction);
         }

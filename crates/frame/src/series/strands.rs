@@ -7,6 +7,7 @@ use super::Coefficients;
 use crate::branch::{Branch, Form, Law};
 
 /// Series of a restrainer's moment `T Δ'`.
+#[derive(Debug)]
 pub(super) struct Strands {
     form: Form,
     law: Law,
@@ -23,11 +24,11 @@ pub(super) struct Strands {
 }
 
 impl Strands {
-    pub(super) fn begin(branch: &Branch, columns: &RestrainedColumns, x: f64, [half_sin, half_cos]: [f64; 2]) -> Self {
+    pub(super) fn new() -> Self {
         let zero = [0.0; DEGREE + 1];
-        let mut strands = Self {
-            form: branch.form,
-            law: branch.law,
+        Self {
+            form: Form::Axis { lever_m: 0.0 },
+            law: Law::Loose,
             half_sine: zero,
             half_cosine: zero,
             length: zero,
@@ -36,21 +37,31 @@ impl Strands {
             deformation_squared: zero,
             tension: zero,
             elongation_m: 0.0,
-        };
-        if branch.law == Law::Loose {
-            return strands;
         }
-        (strands.half_sine[0], strands.half_cosine[0]) = (half_sin, half_cos);
-        strands.elongation_m = columns.elongation(x).elongation_m;
+    }
+
+    /// The first coefficients at the rotation `x`, of whose half the sine and cosine are given.
+    pub(super) fn begin(
+        &mut self,
+        branch: &Branch,
+        columns: &RestrainedColumns,
+        x: f64,
+        [half_sin, half_cos]: [f64; 2],
+    ) {
+        (self.form, self.law) = (branch.form, branch.law);
+        (self.half_sine[0], self.half_cosine[0]) = (half_sin, half_cos);
+        if let (Law::Loose, _) | (Law::Linear { .. }, Form::Axis { .. }) = (branch.law, branch.form) {
+            return;
+        }
+        self.elongation_m = columns.elongation(x).elongation_m;
         if let Form::Chord { rest_m, .. } = branch.form {
-            strands.length[0] = strands.elongation_m + rest_m;
+            self.length[0] = self.elongation_m + rest_m;
         }
         if let (Law::Cubic { .. }, Some(restrainer)) = (branch.law, columns.restrainer()) {
-            let elongation_m = restrainer.limit_m().map_or(strands.elongation_m, |m| m.min(strands.elongation_m));
+            let elongation_m = restrainer.limit_m().map_or(self.elongation_m, |m| m.min(self.elongation_m));
             let state = restrainer.at(elongation_m).ok();
-            strands.deformation[0] = state.and_then(|state| state.deformation_m).unwrap_or(strands.elongation_m);
+            self.deformation[0] = state.and_then(|state| state.deformation_m).unwrap_or(self.elongation_m);
         }
-        strands
     }
 
     /// Coefficient `k` of `T Δ'`, N m.
@@ -58,7 +69,8 @@ impl Strands {
         match (self.law, self.form) {
             (Law::Loose, _) => return 0.0,
             (Law::Linear { constant_n, stiffness_n_m }, Form::Axis { lever_m }) => {
-                return lever_m * (stiffness_n_m * lever_m * sine[k] + constant_n * self.half_cosine[k]);
+                let constant = if constant_n == 0.0 { 0.0 } else { constant_n * self.half_cosine[k] };
+                return lever_m * (stiffness_n_m * lever_m * sine[k] + constant);
             }
             (_, Form::Axis { lever_m }) => {
                 self.length[k] = 2.0 * lever_m * self.half_sine[k];
@@ -107,7 +119,12 @@ impl Strands {
 
     /// The half angle's sine and cosine to one order more.
     pub(super) fn extend(&mut self, v: &Coefficients, factor: f64, k: usize) {
-        if self.law == Law::Loose || matches!(self.form, Form::Chord { .. }) {
+        let is_needed = match (self.law, self.form) {
+            (Law::Loose, _) | (_, Form::Chord { .. }) => false,
+            (Law::Linear { constant_n, .. }, Form::Axis { .. }) => constant_n != 0.0,
+            (Law::Cubic { .. }, Form::Axis { .. }) => true,
+        };
+        if !is_needed {
             return;
         }
         self.half_sine[k + 1] = 0.5 * factor * product(&self.half_cosine, v, k);

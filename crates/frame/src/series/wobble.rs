@@ -5,6 +5,7 @@ use uplift_taylor::{DEGREE, product};
 use super::{Coefficients, Constants, Shaken, Step, short_product};
 
 /// What turning needs beside the unknowns.
+#[derive(Debug)]
 pub(super) struct Wobble {
     sine_versine: Coefficients,
     versine_squared: Coefficients,
@@ -33,8 +34,8 @@ impl Wobble {
         }
     }
 
-    /// The coefficients of order `k`; gives that of the acceleration along the lean.
-    pub(super) fn order(&mut self, constants: &Constants, step: &mut Step, shaken: &Shaken, k: usize) -> f64 {
+    /// The coefficients of order `k`.
+    pub(super) fn order(&mut self, constants: &Constants, step: &mut Step, shaken: &Shaken, k: usize) {
         let (sine, versine) = (&step.sine, &step.versine);
         self.sine_versine[k] = product(sine, versine, k);
         self.versine_squared[k] = product(versine, versine, k);
@@ -50,7 +51,7 @@ impl Wobble {
         let [x, y] = [shaken.horizontal[0].coefficients(), shaken.horizontal[1].coefficients()];
         let (sin, cos) = (&step.sin_direction, &step.cos_direction);
         self.across[k] = short_product(x, sin, k) - short_product(y, cos, k);
-        short_product(x, cos, k) + short_product(y, sin, k)
+        self.pushes[k] = short_product(x, cos, k) + short_product(y, sin, k);
     }
 
     /// Coefficient of `½ J' φ̇²`.
