@@ -84,6 +84,7 @@ bench:
 	cargo bench --locked -p uplift-ida --bench chapter_4
 	cargo bench --locked -p uplift-bootstrap --bench resampling
 	cargo bench --locked -p uplift-block --bench block
+	cargo bench --locked -p uplift-frame --bench frame
 	cargo bench --locked -p uplift-consistency --bench repair
 
 # Every reader of files from outside against what libFuzzer makes of the samples, TIME seconds each (docs/testing.md);

@@ -1,10 +1,10 @@
 //! What shakes the block: a record, or a pulse.
 
 use uplift_motion::Accelerogram;
+use uplift_taylor::Forcing;
 
 use crate::error::{BlockError, within};
 use crate::ricker::RickerPulse;
-use crate::series::Forcing;
 
 /// Ground acceleration, smooth on segments of equal length, zero before the first and after the last.
 #[derive(Debug, Clone, Copy)]

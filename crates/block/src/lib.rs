@@ -42,7 +42,6 @@ mod error;
 pub mod excitation;
 mod motion;
 pub mod observer;
-mod polynomial;
 pub mod response;
 mod rest;
 pub mod ricker;

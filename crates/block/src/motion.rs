@@ -2,11 +2,12 @@
 
 use std::ops::ControlFlow;
 
+use uplift_taylor::{DEGREE, Forcing, Rebound, first_sign_change, first_zero, leading_sign, sign_changes, value};
+
 use crate::block::{LYING_RAD, RockingBlock};
 use crate::observer::{HistoryRow, Moment, Observer};
-use crate::polynomial::{first_sign_change, leading_sign, sign_changes, value};
-use crate::rest::{Rebound, RestRule};
-use crate::series::{Forcing, Series};
+use crate::rest::RestRule;
+use crate::series::Series;
 
 /// Impacts in one segment after which a block that cannot be shown to come to rest is taken to be.
 ///
@@ -172,7 +173,7 @@ impl<'a, O: Observer> Motion<'a, O> {
         until_peak: bool,
     ) -> ControlFlow<Ending, Option<f64>> {
         let was_rising = self.v >= 0.0;
-        let touch = first_touch(series.x());
+        let touch = first_zero(series.x());
         let end = touch.unwrap_or(1.0);
 
         let reach: f64 = series.x().iter().map(|x| x.abs()).sum();
@@ -270,18 +271,9 @@ fn first_uplift(forcing: &Forcing, tangent: f64) -> Option<(f64, f64)> {
     }
 }
 
-/// First s in (0, 1) at which a rotation that begins at or above zero falls to zero. The zero it may
-/// begin at is divided out.
-fn first_touch(x: &[f64]) -> Option<f64> {
-    let lead = x.iter().position(|x| *x != 0.0)?;
-    let x = &x[lead..];
-    let rest: f64 = x[1..].iter().map(|x| x.abs()).sum();
-    if x[0] > rest { None } else { first_sign_change(x) }
-}
-
 /// First s in (0, 1) at which the rotation passes [`LYING_RAD`].
 fn first_lying(x: &[f64]) -> Option<f64> {
-    let mut above = [0.0; crate::polynomial::DEGREE + 1];
+    let mut above = [0.0; DEGREE + 1];
     above[..x.len()].copy_from_slice(x);
     above[0] -= LYING_RAD;
     if above[0] >= 0.0 { Some(0.0) } else { first_sign_change(&above[..x.len()]) }

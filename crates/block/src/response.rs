@@ -2,13 +2,14 @@
 
 use std::ops::ControlFlow;
 
+use uplift_taylor::Forcing;
+
 use crate::block::{LYING_RAD, RockingBlock};
 use crate::error::{BlockError, within};
 use crate::excitation::Excitation;
 use crate::motion::{Ending, LONGEST_STEP, Motion};
 use crate::observer::{History, Moment, Observer, Unobserved};
 use crate::rest::RestRule;
-use crate::series::Forcing;
 
 /// Longest motion computed, in units of 1/p.
 const LONGEST_MOTION: f64 = 1e7;

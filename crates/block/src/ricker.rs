@@ -1,9 +1,9 @@
 //! Ricker wavelets: ground acceleration as the second or third derivative of a Gaussian.
 
 use uplift_motion::Accelerogram;
+use uplift_taylor::{Forcing, ORDER};
 
 use crate::error::{BlockError, within};
-use crate::series::{Forcing, ORDER};
 
 /// Which derivative of the Gaussian the ground acceleration is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

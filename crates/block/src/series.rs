@@ -18,80 +18,7 @@
 //! E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, Section I.8 (recursive
 //! Taylor coefficients).
 
-use crate::polynomial::{DEGREE, value};
-
-/// Highest power in the series of the velocity; the rotation has one more.
-pub(crate) const ORDER: usize = DEGREE - 1;
-
-/// Terms below this part of the largest are left out.
-const TRUNCATION: f64 = 0.5 * f64::EPSILON;
-
-/// Lowest order accepted: an odd or even series has every other term zero.
-const LEAST_ORDER: usize = 4;
-
-/// Ground acceleration on a step, in powers of s.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Forcing {
-    c: [f64; ORDER + 1],
-    len: usize,
-}
-
-impl Default for Forcing {
-    fn default() -> Self {
-        Self { c: [0.0; ORDER + 1], len: 0 }
-    }
-}
-
-impl Forcing {
-    /// No shaking.
-    pub(crate) fn none() -> Self {
-        Self { len: 1, ..Self::default() }
-    }
-
-    /// Appends the next coefficient; one beyond [`ORDER`] is left out.
-    pub(crate) fn push(&mut self, coefficient: f64) {
-        if let Some(place) = self.c.get_mut(self.len) {
-            *place = coefficient;
-            self.len += 1;
-        }
-    }
-
-    pub(crate) fn coefficients(&self) -> &[f64] {
-        &self.c[..self.len]
-    }
-
-    pub(crate) fn value(&self, s: f64) -> f64 {
-        value(self.coefficients(), s)
-    }
-
-    /// Every coefficient times `factor`.
-    pub(crate) fn times(mut self, factor: f64) -> Self {
-        self.c[..self.len].iter_mut().for_each(|c| *c *= factor);
-        self
-    }
-
-    /// The same acceleration in powers of s/`ratio`: on a step `ratio` times as long.
-    pub(crate) fn stretched(mut self, ratio: f64) -> Self {
-        stretch(&mut self.c[..self.len], ratio);
-        self
-    }
-
-    /// The same with another value at the begin of the step.
-    pub(crate) fn beginning_at(mut self, value: f64) -> Self {
-        self.c[0] = value;
-        self
-    }
-
-    /// Σ |cₖ|: no value on the step is larger.
-    pub(crate) fn bound(&self) -> f64 {
-        self.coefficients().iter().map(|c| c.abs()).sum()
-    }
-
-    /// Σ k |cₖ|: no derivative by s on the step is larger.
-    pub(crate) fn slope_bound(&self) -> f64 {
-        self.coefficients().iter().enumerate().map(|(k, c)| k as f64 * c.abs()).sum()
-    }
-}
+use uplift_taylor::{DEGREE, Forcing, LEAST_ORDER, ORDER, TRUNCATION, stretch, value};
 
 /// The motion on a step, in powers of s from 0 to 1.
 #[derive(Debug, Clone)]
@@ -174,14 +101,6 @@ impl Series {
     /// Rotation and velocity at s.
     pub(crate) fn at(&self, s: f64) -> (f64, f64) {
         (value(self.x(), s), value(self.v(), s))
-    }
-}
-
-fn stretch(c: &mut [f64], ratio: f64) {
-    let mut power = 1.0;
-    for c in c {
-        *c *= power;
-        power *= ratio;
     }
 }
 

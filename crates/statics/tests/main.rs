@@ -6,5 +6,4 @@ mod energy;
 mod hand_solutions;
 mod misuse;
 mod printed;
-mod reference_cases;
 mod selection;

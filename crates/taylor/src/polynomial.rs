@@ -7,18 +7,19 @@
 use std::ops::ControlFlow;
 
 /// Largest degree.
-pub(crate) const DEGREE: usize = 25;
+pub const DEGREE: usize = 25;
 
 /// Halvings of the interval before two roots are one touch.
 const DEPTH: u32 = 48;
 
 /// Σ cₖ sᵏ.
-pub(crate) fn value(c: &[f64], s: f64) -> f64 {
+#[inline]
+pub fn value(c: &[f64], s: f64) -> f64 {
     c.iter().rev().fold(0.0, |sum, c| sum * s + c)
 }
 
-/// The first sign change in (0, 1).
-pub(crate) fn first_sign_change(c: &[f64]) -> Option<f64> {
+/// The first sign change in (0, 1) of the polynomial of coefficients `c`, lowest power first.
+pub fn first_sign_change(c: &[f64]) -> Option<f64> {
     let mut first = None;
     let _ = sign_changes(c, &mut |s| {
         first = Some(s);
@@ -29,7 +30,7 @@ pub(crate) fn first_sign_change(c: &[f64]) -> Option<f64> {
 
 /// Calls `visit` with every sign change in (0, 1), ascending, until it breaks. A zero at an end of
 /// the interval does not count.
-pub(crate) fn sign_changes(c: &[f64], visit: &mut impl FnMut(f64) -> ControlFlow<()>) -> ControlFlow<()> {
+pub fn sign_changes(c: &[f64], visit: &mut impl FnMut(f64) -> ControlFlow<()>) -> ControlFlow<()> {
     if c.len() < 2 {
         return ControlFlow::Continue(());
     }
@@ -98,8 +99,17 @@ fn variations(b: &[f64]) -> usize {
     count
 }
 
+/// First s in (0, 1) at which a function that begins at zero or above it falls to zero. The zero that it may begin at
+/// is divided out, and a function that cannot reach zero is not searched.
+pub fn first_zero(c: &[f64]) -> Option<f64> {
+    let lead = c.iter().position(|c| *c != 0.0)?;
+    let c = &c[lead..];
+    let rest: f64 = c[1..].iter().map(|c| c.abs()).sum();
+    if c[0] > rest { None } else { first_sign_change(c) }
+}
+
 /// Sign of the first that is not zero; 0 if all are.
-pub(crate) fn leading_sign<'a>(mut c: impl Iterator<Item = &'a f64>) -> f64 {
+pub fn leading_sign<'a>(mut c: impl Iterator<Item = &'a f64>) -> f64 {
     c.find(|c| **c != 0.0).map_or(0.0, |c| c.signum())
 }
 

@@ -1,5 +1,4 @@
 //! Independently computed cases, and whatever file of such cases `UPLIFT_FRAMES_CASES` names.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use cases::verdicts;
 
@@ -21,6 +20,18 @@ fn check(text: &str, least: usize) {
 #[test]
 fn every_case_of_the_project() {
     check(include_str!("data/statics_cases.json"), 800);
+}
+
+/// 12 planar and 12 wobbling frames, free and under pulses, computed with 113 bits.
+#[test]
+fn every_motion_without_records() {
+    check(include_str!("data/motion_cases.json"), 300);
+}
+
+/// Four pairs of samples, with ties and collapses, by scipy 1.17.
+#[test]
+fn every_pair_of_samples() {
+    check(include_str!("data/validation_cases.json"), 80);
 }
 
 #[test]

@@ -1,0 +1,421 @@
+//! The motion itself: rest, uplift, rocking or wobbling, impacts or passages by the apex, segment by segment of the
+//! shaking.
+
+use std::ops::ControlFlow;
+
+use uplift_statics::EventKind;
+use uplift_taylor::{Forcing, Rebound, first_zero, leading_sign};
+
+mod follow;
+mod step;
+
+use crate::branch::{Branch, branches};
+use crate::error::FrameError;
+use crate::escape::Free;
+use crate::frame::RockingFrame;
+use crate::history::{Moment, Observer};
+use crate::peaks::Peaks;
+use crate::series::{Constants, Expansion, Shaken, Turning};
+use crate::uplift::{Uplift, uplift_in_plane, uplift_in_space};
+
+/// Impacts in one segment after which a frame that cannot be shown to come to rest is taken to be.
+const MOST_IMPACTS: u32 = 100_000;
+
+/// Steps in one segment after which a wobbling frame is given up.
+const MOST_STEPS: u64 = 2_000_000;
+
+/// Longest step in units of 1/p.
+pub(crate) const LONGEST_STEP: f64 = 0.5;
+
+/// Longest step towards the apex as a part of the radius of convergence there: order 20 or so.
+const APEX_STEP: f64 = 0.15;
+
+/// Why the motion ends before the shaking, or before the time asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Ending {
+    /// The frame does not come back.
+    Overturned,
+    /// The largest rotation of free motion is known.
+    PeakPassed,
+}
+
+/// How the columns lean.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Lean {
+    /// In a plane of the direction given, to one side (1) or the other (−1) of it.
+    Plane { direction: [f64; 2], side: f64 },
+    /// In any direction.
+    Space(Turning),
+}
+
+/// What decides about rest and impacts.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Rules {
+    pub(crate) restitution: f64,
+    pub(crate) rest_amplitude_rad: f64,
+    pub(crate) start_rotation_rad: f64,
+}
+
+/// A result of a step, or the end of the motion.
+type Flow<T> = Result<ControlFlow<Ending, T>, FrameError>;
+
+/// State of a frame in motion.
+#[derive(Debug)]
+pub(crate) struct Motion<O> {
+    /// The frame with the law that its restrainers have by now.
+    frame: RockingFrame,
+    constants: Constants,
+    p: f64,
+    tangent: f64,
+    prestress: f64,
+    /// `κ = √(c/M)`, `J → c θ²`.
+    kappa: f64,
+    rules: Rules,
+    branches: Vec<Branch>,
+    branch: usize,
+    stop_rad: f64,
+    pub(crate) lean: Lean,
+    pub(crate) x: f64,
+    pub(crate) v: f64,
+    pub(crate) resting: bool,
+    pub(crate) peaks: Peaks,
+    pub(crate) uplift_s: Option<f64>,
+    pub(crate) impacts: u64,
+    pub(crate) rests: u64,
+    pub(crate) was_cut: bool,
+    /// Events to come, the next last, with their rotations.
+    watched: Vec<(f64, EventKind)>,
+    pub(crate) events: Vec<(EventKind, f64)>,
+    pub(crate) observer: O,
+}
+
+impl<O: Observer> Motion<O> {
+    /// A frame at rest.
+    pub(crate) fn new(frame: &RockingFrame, lean: Lean, rules: Rules, observer: O) -> Self {
+        let geometry = frame.geometry();
+        let (sin, cos) = geometry.slenderness_rad().sin_cos();
+        let inertia = frame.inertia();
+        let columns = frame.columns();
+        let share = f64::from(columns.restrained()) / f64::from(columns.columns());
+        let constants = Constants {
+            sin_alpha: sin,
+            cos_alpha: cos,
+            p_squared: frame.frequency_parameter_rad_s().powi(2),
+            fall: frame.gravity_m_s2() / geometry.size_m(),
+            tilt_inertia: inertia.tilt,
+            held: share / (frame.mass_kg() * geometry.size_m().powi(2)),
+            turning: [
+                2.0 * (inertia.deck * cos * cos + inertia.diameter),
+                2.0 * inertia.deck * sin * cos,
+                inertia.deck * (sin * sin - cos * cos) - inertia.diameter + inertia.axis,
+            ],
+            turning_slope: [
+                2.0 * (inertia.deck * cos * cos + inertia.diameter),
+                6.0 * inertia.deck * sin * cos,
+                2.0 * (inertia.deck * (sin * sin - cos * cos) - inertia.diameter + inertia.axis),
+                -4.0 * inertia.deck * sin * cos,
+            ],
+        };
+        let mut watched: Vec<(f64, EventKind)> = columns
+            .events()
+            .into_iter()
+            .filter(|event| !matches!(event.event, EventKind::Uplift))
+            .map(|event| (event.state.rotation_rad, event.event))
+            .collect();
+        watched.reverse();
+        let stops = columns.restrainer().is_some_and(|restrainer| restrainer.limit_m().is_some());
+        Self {
+            p: frame.frequency_parameter_rad_s(),
+            tangent: sin / cos,
+            prestress: frame.prestress_ratio(),
+            kappa: ((inertia.deck * cos * cos + inertia.diameter) / inertia.tilt).sqrt(),
+            rules,
+            branches: branches(frame),
+            branch: 0,
+            stop_rad: if stops { columns.last_rotation_rad() } else { f64::INFINITY },
+            frame: frame.clone(),
+            constants,
+            lean,
+            x: 0.0,
+            v: 0.0,
+            resting: true,
+            peaks: Peaks::default(),
+            uplift_s: None,
+            impacts: 0,
+            rests: 0,
+            was_cut: false,
+            watched,
+            events: Vec::new(),
+            observer,
+        }
+    }
+
+    /// Tilts the frame and lets it go with a velocity (rad/s).
+    pub(crate) fn release(&mut self, rotation_rad: f64, velocity_rad_s: f64) {
+        (self.x, self.v) = (rotation_rad, velocity_rad_s);
+        self.resting = rotation_rad == 0.0 && velocity_rad_s == 0.0;
+        self.branch = self.branch_at(rotation_rad, velocity_rad_s);
+        self.raise_peaks(rotation_rad, 0.0, 0.0, None);
+        while let Some((_, event)) = self.watched.pop_if(|(rad, _)| *rad <= rotation_rad) {
+            self.events.push((event, 0.0));
+        }
+    }
+
+    /// The branch that holds at a rotation, towards the velocity where one begins there.
+    fn branch_at(&self, x: f64, v: f64) -> usize {
+        let holds = |branch: &Branch| branch.from_rad < x || (branch.from_rad == x && (v > 0.0 || x == 0.0));
+        self.branches.iter().rposition(holds).unwrap_or(0)
+    }
+
+    pub(crate) fn gravity_m_s2(&self) -> f64 {
+        self.frame.gravity_m_s2()
+    }
+
+    /// Whether a frame at rest stays so while horizontal acceleration is no larger, and vertical no more downwards,
+    /// than these bounds in units of g.
+    pub(crate) fn stays_at_rest(&self, horizontal: f64, downwards: f64) -> bool {
+        downwards < 1.0 && horizontal < self.tangent * (1.0 - downwards) + self.prestress
+    }
+
+    fn momentum(&self) -> f64 {
+        match self.lean {
+            Lean::Plane { .. } => 0.0,
+            Lean::Space(turning) => turning.momentum,
+        }
+    }
+
+    /// The largest rotation of free motion from now on, rad; none if the frame overturns.
+    pub(crate) fn largest_rotation_to_come(&self) -> Option<f64> {
+        let (momentum, restitution) = (self.momentum(), self.rules.restitution);
+        self.frame.largest_rotation_to_come(Free { rotation: self.x, velocity: self.v, momentum, restitution })
+    }
+
+    /// Moves through a segment of `length_s` that begins at `start_s`; `shaking` gives the components x, y, z in units
+    /// of g from an offset in the segment on, in powers of (time − offset)/step. With `until_peak` it ends early, when
+    /// `θ` has passed a maximum.
+    pub(crate) fn advance(
+        &mut self,
+        start_s: f64,
+        length_s: f64,
+        until_peak: bool,
+        expansion: &mut Expansion,
+        shaking: impl Fn(f64, f64) -> [Forcing; 3],
+    ) -> Flow<()> {
+        self.check_weight(start_s, length_s, &shaking(0.0, length_s)[2])?;
+        let impacts_before = self.impacts;
+        let (mut offset, mut steps) = (0.0, 0_u64);
+        let mut just_uplifted = false;
+        while offset < length_s {
+            let mut at_threshold = false;
+            if self.resting {
+                let remaining = length_s - offset;
+                let Some(s) = self.find_uplift(&shaking(offset, remaining)) else { break };
+                at_threshold = s > 0.0;
+                offset += s * remaining;
+                if offset >= length_s {
+                    break; // at the very end: the next segment finds it
+                }
+                self.branch = 0;
+                just_uplifted = true;
+            }
+            steps += 1;
+            if steps > MOST_STEPS {
+                return Err(FrameError::Rattles { time_s: start_s + offset, rotation_rad: self.x, steps });
+            }
+
+            let mut step_s = (length_s - offset).min(LONGEST_STEP / self.p).min(self.apex_step_s());
+            let mut shaken = self.shaken(shaking(offset, step_s));
+            if !just_uplifted && self.rests(&shaken, step_s) {
+                self.come_to_rest(start_s + offset);
+                continue;
+            }
+            if let Lean::Plane { .. } = self.lean
+                && self.x == 0.0
+                && self.v > 0.0
+            {
+                // a rebound is over in 2v over the acceleration that draws it down, if that stays
+                let [along, lift] = [&shaken.horizontal[0], &shaken.vertical].map(|forcing| forcing.value(0.0));
+                let down = self.p * self.p * self.constants.cos_alpha * (self.tangent * (1.0 + lift) + along);
+                let rebound_s = 2.5 * self.v / down;
+                if down > 0.0 && rebound_s < step_s {
+                    shaken = shaken.stretched(rebound_s / step_s);
+                    step_s = rebound_s;
+                }
+            }
+            self.expand(expansion, &shaken, step_s, at_threshold);
+            let step = expansion.step();
+            if self.resting {
+                if let Lean::Plane { .. } = self.lean
+                    && leading_sign(step.x().iter()) <= 0.0
+                {
+                    // shaking above the threshold by a rounding only
+                    offset += 1e-9 * length_s;
+                    continue;
+                }
+                self.resting = false;
+                self.uplift_s.get_or_insert(start_s + offset);
+                self.observe(start_s + offset, Moment::Uplift, &shaken);
+            } else if leading_sign(step.x().iter()) <= 0.0 {
+                self.come_to_rest(start_s + offset);
+                offset += 1e-9 * length_s;
+                continue;
+            }
+            just_uplifted = false;
+
+            let begin = offset;
+            offset = if step.length_s >= length_s - begin { length_s } else { begin + step.length_s };
+            let time_s = |s: f64| start_s + (begin + s * step.length_s);
+            if step.length_s < step_s {
+                shaken = shaken.stretched(step.length_s / step_s);
+            }
+            let cut = match self.step(step, &shaken, time_s, until_peak)? {
+                ControlFlow::Break(ending) => return Ok(ControlFlow::Break(ending)),
+                ControlFlow::Continue(cut) => cut,
+            };
+            if let Some(s) = cut {
+                offset = begin + s * step.length_s;
+                if self.impacts - impacts_before >= u64::from(MOST_IMPACTS) && !self.resting {
+                    self.was_cut = true;
+                    self.come_to_rest(start_s + offset);
+                    break;
+                }
+            }
+            if let Some(passing_s) = self.pass_apex() {
+                offset += passing_s;
+            }
+        }
+        Ok(ControlFlow::Continue(()))
+    }
+
+    /// Refuses ground that falls away under the frame.
+    fn check_weight(&self, start_s: f64, length_s: f64, vertical: &Forcing) -> Result<(), FrameError> {
+        if vertical.bound() < 1.0 {
+            return Ok(());
+        }
+        let weight = vertical.beginning_at(1.0 + vertical.value(0.0));
+        let lifted = if weight.value(0.0) <= 0.0 { Some(0.0) } else { first_zero(weight.coefficients()) };
+        let Some(s) = lifted else { return Ok(()) };
+        let acceleration_m_s2 = self.frame.gravity_m_s2() * vertical.value(s);
+        Err(FrameError::Airborne { time_s: start_s + s * length_s, acceleration_m_s2 })
+    }
+
+    /// First s in [0, 1) at which the frame uplifts: sets it upon its corners there.
+    fn find_uplift(&mut self, [x, y, z]: &[Forcing; 3]) -> Option<f64> {
+        let threshold = z.times(self.tangent).plus(&Forcing::none().beginning_at(self.tangent + self.prestress));
+        (self.x, self.v) = (0.0, 0.0);
+        match &mut self.lean {
+            Lean::Plane { direction, side } => {
+                let along = x.times(direction[0]).plus(&y.times(direction[1]));
+                let Uplift { s, towards } = uplift_in_plane(&along, &threshold)?;
+                *side = towards[0];
+                Some(s)
+            }
+            Lean::Space(turning) => {
+                let Uplift { s, towards } = uplift_in_space([x, y], &threshold)?;
+                *turning = Turning { direction: towards[1].atan2(towards[0]), momentum: 0.0 };
+                self.x = self.rules.start_rotation_rad;
+                Some(s)
+            }
+        }
+    }
+
+    /// The shaking as the recurrence takes it.
+    fn shaken(&self, [x, y, z]: [Forcing; 3]) -> Shaken {
+        let horizontal = match self.lean {
+            Lean::Plane { direction, side } => {
+                [x.times(side * direction[0]).plus(&y.times(side * direction[1])), Forcing::none()]
+            }
+            Lean::Space(_) => [x, y],
+        };
+        Shaken { horizontal, vertical: z }
+    }
+
+    /// Part of the radius of convergence near the apex, s.
+    fn apex_step_s(&self) -> f64 {
+        match self.lean {
+            Lean::Plane { .. } => f64::INFINITY,
+            Lean::Space(turning) => {
+                let across = self.kappa * self.x * turning.momentum / self.turning_inertia();
+                APEX_STEP * self.x / self.v.hypot(across)
+            }
+        }
+    }
+
+    fn turning_inertia(&self) -> f64 {
+        let half = (0.5 * self.x).sin();
+        let (sine, versine) = (self.x.sin(), 2.0 * half * half);
+        let [j1, j2, j3] = self.constants.turning;
+        versine * (j1 + j2 * sine + j3 * versine)
+    }
+
+    fn expand(&self, expansion: &mut Expansion, shaken: &Shaken, step_s: f64, balanced: bool) {
+        let turning = match self.lean {
+            Lean::Plane { .. } => None,
+            Lean::Space(turning) => Some(turning),
+        };
+        let held = self.branches.get(self.branch).map(|branch| (branch, self.frame.columns()));
+        let balanced = balanced && turning.is_none();
+        let mut expand = |shaken: &Shaken, step_s: f64| {
+            expansion.expand(&self.constants, (self.x, self.v), turning, shaken, held, step_s, balanced);
+            expansion.step().is_finite()
+        };
+        let mut ratio = 1.0;
+        let mut is_finite = expand(shaken, step_s);
+        while !is_finite && ratio > 1e-12 {
+            ratio *= 1e-3;
+            is_finite = expand(&shaken.stretched(ratio), ratio * step_s);
+        }
+    }
+
+    /// Whether the frame rests from here on.
+    fn rests(&self, shaken: &Shaken, step_s: f64) -> bool {
+        let lift = shaken.vertical.value(0.0);
+        if self.rules.rest_amplitude_rad > 0.0 {
+            let amplitude = self.rules.rest_amplitude_rad;
+            if self.x > 1.1 * amplitude {
+                return false;
+            }
+            let [x, y] = [&shaken.horizontal[0], &shaken.horizontal[1]].map(|forcing| forcing.value(0.0));
+            let turning = match self.momentum() {
+                0.0 => 0.0,
+                momentum => 0.5 * momentum * momentum / self.turning_inertia(),
+            };
+            let energy = 0.5 * self.constants.tilt_inertia * self.v * self.v + turning + self.frame.potential(self.x);
+            return x.hypot(y) <= self.tangent * (1.0 + lift) + self.prestress
+                && energy < self.constants.fall * self.constants.sin_alpha * amplitude;
+        }
+        let Lean::Plane { .. } = self.lean else { return false };
+        let rebound = Rebound {
+            p_squared: self.p * self.p,
+            tangent: self.tangent,
+            cosine: self.constants.cos_alpha,
+            restitution: self.rules.restitution,
+            velocity: self.v,
+            peak: self.peaks.rotation.value,
+        };
+        self.x == 0.0 && self.v > 0.0 && rebound.is_over_within(step_s, &shaken.horizontal[0], &shaken.vertical)
+    }
+
+    pub(crate) fn overturn(&mut self, time_s: f64) -> Ending {
+        self.peaks.rotation.raise(f64::INFINITY, time_s);
+        self.observe(time_s, Moment::Overturned, &Shaken::none());
+        Ending::Overturned
+    }
+
+    fn come_to_rest(&mut self, time_s: f64) {
+        (self.x, self.v, self.resting) = (0.0, 0.0, true);
+        if let Lean::Space(turning) = &mut self.lean {
+            turning.momentum = 0.0;
+        }
+        self.rests += 1;
+        self.observe(time_s, Moment::Rest, &Shaken::none());
+    }
+
+    /// `φ̇`, rad/s.
+    pub(crate) fn turning_rad_s(&self) -> f64 {
+        match self.momentum() {
+            0.0 => 0.0,
+            momentum => momentum / self.turning_inertia(),
+        }
+    }
+}

@@ -1,0 +1,319 @@
+//! A step of the motion as Taylor series, whose coefficients follow from a recurrence.
+//!
+//! In units of `μ R²` (see [`crate::frame`]), with `ψ = α − θ`, the ground's acceleration in units of g, `A` along the
+//! lean and `Z` upwards, and `p² = g/(R M)`,
+//!
+//! `ω̇ = −p² [(1 + Z) sin ψ + A cos ψ] − T Δ'/(μ R² M) + ½ J' φ̇²/M`
+//!
+//! (Eq. 6.3 and, with the corrections of `docs/errata.md`, Eq. 6.6). A wobbling frame has besides `φ̇ = L/J` and
+//! `L̇ = (g/R) U_s (A_x sin φ − A_y cos φ)`, `A = A_x cos φ + A_y sin φ`: with the momentum `L` in place of `φ̇` the
+//! term
+//! `J' ω φ̇` of Eq. 6.7 needs not be carried, and the invariant of free motion is not lost to rounding.
+//!
+//! Sine and versine of `θ`, sine and cosine of `θ/2` and of `φ` come from their derivatives, quotients and the spring's
+//! deformation from implicit recurrences: all are products of series. The series goes on until two terms running of
+//! every unknown are below half a rounding of its largest, or, at the highest order, the step is shortened until they
+//! are. Near the apex a step is limited beforehand, since there the coefficients would exceed what a number holds.
+//!
+//! # Source
+//! E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, Section I.8 (recursive Taylor
+//! coefficients).
+
+use uplift_statics::RestrainedColumns;
+use uplift_taylor::{DEGREE, Forcing, LEAST_ORDER, ORDER, TRUNCATION, product, stretch, value};
+
+mod strands;
+mod wobble;
+
+use strands::Strands;
+use wobble::Wobble;
+
+use crate::branch::Branch;
+
+/// Coefficients of one function.
+pub(crate) type Coefficients = [f64; DEGREE + 1];
+
+/// What the recurrence needs of the frame.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Constants {
+    pub(crate) sin_alpha: f64,
+    pub(crate) cos_alpha: f64,
+    /// `p²`, 1/s².
+    pub(crate) p_squared: f64,
+    /// `g/R`, 1/s².
+    pub(crate) fall: f64,
+    /// `M`.
+    pub(crate) tilt_inertia: f64,
+    /// Restrained columns over all columns over `μ R²`, 1/(kg m²).
+    pub(crate) held: f64,
+    /// `J = j₁ (1 − cos θ) + j₂ sin θ (1 − cos θ) + j₃ (1 − cos θ)²`.
+    pub(crate) turning: [f64; 3],
+    /// `J' = k₀ sin θ + k₁ (1 − cos θ) + k₂ sin θ (1 − cos θ) + k₃ (1 − cos θ)²`.
+    pub(crate) turning_slope: [f64; 4],
+}
+
+/// Shaking on a step, in units of g.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Shaken {
+    /// Horizontal: along and across the lean in a plane, x and y otherwise.
+    pub(crate) horizontal: [Forcing; 2],
+    pub(crate) vertical: Forcing,
+}
+
+impl Shaken {
+    /// No shaking.
+    pub(crate) fn none() -> Self {
+        Self { horizontal: [Forcing::none(); 2], vertical: Forcing::none() }
+    }
+
+    /// The same on a step `ratio` times as long.
+    pub(crate) fn stretched(&self, ratio: f64) -> Self {
+        Self { horizontal: self.horizontal.map(|c| c.stretched(ratio)), vertical: self.vertical.stretched(ratio) }
+    }
+}
+
+/// Turning of the lean at the begin of a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Turning {
+    /// `φ`, rad.
+    pub(crate) direction: f64,
+    /// `L = J φ̇`, 1/s.
+    pub(crate) momentum: f64,
+}
+
+/// The motion on a step, in powers of s from 0 to 1.
+#[derive(Debug, Clone)]
+pub(crate) struct Step {
+    /// Length of the step, at most what was asked, s.
+    pub(crate) length_s: f64,
+    order: usize,
+    x: Coefficients,
+    v: Coefficients,
+    sine: Coefficients,
+    versine: Coefficients,
+    direction: Coefficients,
+    momentum: Coefficients,
+    turning: Coefficients,
+    sin_direction: Coefficients,
+    cos_direction: Coefficients,
+}
+
+/// What a step is expanded in, kept from step to step: to clear and to move it would cost as much as to fill it.
+#[derive(Debug)]
+pub(crate) struct Expansion {
+    step: Step,
+    wobble: Wobble,
+    strands: Strands,
+}
+
+impl Expansion {
+    pub(crate) fn new() -> Self {
+        let zero = [0.0; DEGREE + 1];
+        let step = Step {
+            length_s: 0.0,
+            order: 0,
+            x: zero,
+            v: zero,
+            sine: zero,
+            versine: zero,
+            direction: zero,
+            momentum: zero,
+            turning: zero,
+            sin_direction: zero,
+            cos_direction: zero,
+        };
+        Self { step, wobble: Wobble::new(), strands: Strands::new() }
+    }
+
+    /// The step that was expanded last.
+    pub(crate) fn step(&self) -> &Step {
+        &self.step
+    }
+
+    /// The motion from the rotation `x` and velocity `v`, of a frame that wobbles with `turning` or rocks in a plane,
+    /// on a branch of its restrainers. With `balanced` the moments at the begin cancel: it uplifts there.
+    #[allow(clippy::too_many_arguments)]
+    pub(crate) fn expand(
+        &mut self,
+        constants: &Constants,
+        (x, v): (f64, f64),
+        turning: Option<Turning>,
+        shaken: &Shaken,
+        held: Option<(&Branch, &RestrainedColumns)>,
+        step_s: f64,
+        balanced: bool,
+    ) {
+        let h = step_s;
+        let zero = [0.0; DEGREE + 1];
+        let Self { step, wobble, strands } = self;
+        step.length_s = step_s;
+        (step.x[0], step.v[0]) = (x, v);
+        let (half_sin, half_cos) = (0.5 * x).sin_cos();
+        (step.sine[0], step.versine[0]) = (2.0 * half_sin * half_cos, 2.0 * half_sin * half_sin);
+        if let Some((branch, columns)) = held {
+            strands.begin(branch, columns, x, [half_sin, half_cos]);
+        }
+        if let Some(turning) = turning {
+            (step.direction[0], step.momentum[0]) = (turning.direction, turning.momentum);
+            (step.sin_direction[0], step.cos_direction[0]) = turning.direction.sin_cos();
+        }
+        let (mut sin_psi, mut cos_psi) = (zero, zero);
+        let vertical = shaken.vertical.coefficients();
+        let is_level = shaken.vertical.is_zero();
+        let along = shaken.horizontal[0].coefficients();
+        let mut largest = [v.abs(), step.momentum[0].abs(), 0.0_f64];
+        for k in 0..ORDER {
+            let factor = h / (k + 1) as f64;
+            let whole = f64::from(u8::from(k == 0)) - step.versine[k];
+            sin_psi[k] = constants.sin_alpha * whole - constants.cos_alpha * step.sine[k];
+            cos_psi[k] = constants.cos_alpha * whole + constants.sin_alpha * step.sine[k];
+            let mut moment = sin_psi[k];
+            if !is_level {
+                moment += short_product(vertical, &sin_psi, k);
+            }
+            let mut outward = 0.0;
+            if turning.is_some() {
+                wobble.order(constants, step, shaken, k);
+                moment += product(&cos_psi, &wobble.pushes, k);
+                outward = wobble.centrifugal(k);
+                step.momentum[k + 1] = factor * constants.fall * product(&wobble.travel, &wobble.across, k);
+                step.direction[k + 1] = factor * step.turning[k];
+                step.sin_direction[k + 1] = factor * product(&step.cos_direction, &step.turning, k);
+                step.cos_direction[k + 1] = -factor * product(&step.sin_direction, &step.turning, k);
+            } else {
+                moment += short_product(along, &cos_psi, k);
+            }
+            let pull = if held.is_some() { strands.moment(&step.sine, &step.versine, k) } else { 0.0 };
+            let inward = (pull * constants.held - outward) / constants.tilt_inertia;
+            step.v[k + 1] = if balanced && k == 0 { 0.0 } else { -factor * (constants.p_squared * moment + inward) };
+            let lost = product(&step.versine, &step.v, k);
+            step.versine[k + 1] = factor * product(&step.sine, &step.v, k);
+            step.sine[k + 1] = factor * (step.v[k] - lost);
+            if held.is_some() {
+                strands.extend(&step.v, factor, k);
+            }
+            step.x[k + 1] = factor * step.v[k];
+            step.order = k + 1;
+            largest[0] = largest[0].max(step.v[k + 1].abs());
+            largest[1] = largest[1].max(step.momentum[k + 1].abs());
+            largest[2] = largest[2].max(step.turning[k].abs());
+            if step.order >= LEAST_ORDER
+                && step.tails().iter().zip(largest).all(|(tail, most)| *tail <= TRUNCATION * most)
+            {
+                break;
+            }
+        }
+        step.x[step.order + 1] = h / (step.order + 1) as f64 * step.v[step.order];
+        while let Some(ratio) = step.excess() {
+            step.shorten(ratio);
+        }
+    }
+}
+
+impl Step {
+    /// The largest of the last two terms of velocity, momentum and turning.
+    fn tails(&self) -> [f64; 3] {
+        let n = self.order;
+        let last = |c: &Coefficients, n: usize| c[n].abs().max(c[n - 1].abs());
+        [last(&self.v, n), last(&self.momentum, n), last(&self.turning, n - 1)]
+    }
+
+    /// By what to shorten the step if the last two terms are not negligible beside the largest.
+    fn excess(&self) -> Option<f64> {
+        let size = |c: &Coefficients| c[..=self.order].iter().fold(0.0_f64, |largest, c| largest.max(c.abs()));
+        let sizes = [size(&self.v), size(&self.momentum), size(&self.turning)];
+        let ratio = |(tail, size): (f64, f64)| {
+            let allowed = TRUNCATION * size;
+            if tail > allowed { 0.9 * (allowed / tail).powf(1.0 / self.order as f64) } else { 1.0 }
+        };
+        let least = self.tails().into_iter().zip(sizes).map(ratio).fold(1.0, f64::min);
+        (least < 1.0).then_some(least)
+    }
+
+    fn shorten(&mut self, ratio: f64) {
+        self.length_s *= ratio;
+        for c in [
+            &mut self.x,
+            &mut self.v,
+            &mut self.sine,
+            &mut self.versine,
+            &mut self.direction,
+            &mut self.momentum,
+            &mut self.turning,
+            &mut self.sin_direction,
+            &mut self.cos_direction,
+        ] {
+            stretch(c, ratio);
+        }
+    }
+
+    /// Whether its coefficients are numbers: on far too long a step they grow beyond all.
+    pub(crate) fn is_finite(&self) -> bool {
+        let last = [self.v[self.order], self.momentum[self.order], self.turning[self.order - 1]];
+        self.length_s > 0.0 && last.iter().all(|c| c.is_finite())
+    }
+
+    /// Coefficients of the rotation.
+    pub(crate) fn x(&self) -> &[f64] {
+        &self.x[..self.order + 2]
+    }
+
+    /// Coefficients of the velocity.
+    pub(crate) fn v(&self) -> &[f64] {
+        &self.v[..=self.order]
+    }
+
+    /// Rotation and velocity at s.
+    pub(crate) fn at(&self, s: f64) -> (f64, f64) {
+        (value(self.x(), s), value(self.v(), s))
+    }
+
+    /// Acceleration at s, rad/s².
+    pub(crate) fn acceleration(&self, s: f64) -> f64 {
+        slope(self.v(), s) / self.length_s
+    }
+
+    /// Direction of the lean and its momentum at s.
+    pub(crate) fn turning_at(&self, s: f64) -> Turning {
+        Turning {
+            direction: value(&self.direction[..=self.order], s),
+            momentum: value(&self.momentum[..=self.order], s),
+        }
+    }
+
+    /// `φ̇` and `φ̈` at s, rad/s and rad/s².
+    pub(crate) fn turning_rate(&self, s: f64) -> (f64, f64) {
+        let c = &self.turning[..self.order];
+        (value(c, s), slope(c, s) / self.length_s)
+    }
+
+    /// Coefficients of `U_x/2R` and `U_y/2R`.
+    pub(crate) fn travel(&self, constants: &Constants) -> [Coefficients; 2] {
+        let mut radial = [0.0; DEGREE + 1];
+        for (k, radial) in radial.iter_mut().enumerate().take(self.order + 1) {
+            *radial = constants.cos_alpha * self.sine[k] + constants.sin_alpha * self.versine[k];
+        }
+        [&self.cos_direction, &self.sin_direction].map(|direction| {
+            let mut travel = [0.0; DEGREE + 1];
+            for (k, travel) in travel.iter_mut().enumerate().take(self.order + 1) {
+                *travel = product(&radial, direction, k);
+            }
+            travel
+        })
+    }
+
+    /// Terms of [`travel`](Self::travel).
+    pub(crate) fn terms(&self) -> usize {
+        self.order + 1
+    }
+}
+
+/// Derivative of a series by s.
+fn slope(c: &[f64], s: f64) -> f64 {
+    c.iter().enumerate().skip(1).rev().fold(0.0, |sum, (k, c)| sum * s + k as f64 * c)
+}
+
+/// `Σ aⱼ bₖ₋ⱼ` where `a` may be short.
+fn short_product(a: &[f64], b: &[f64], k: usize) -> f64 {
+    a.iter().zip(b[..=k].iter().rev()).map(|(a, b)| a * b).sum()
+}
