@@ -1,9 +1,9 @@
 //! The frame: its columns, its deck, what holds them, and its inertia.
 //!
-//! Everything is per column and divided by `μ R²` with `μ = m_c + 2 m_b/N`: with `γ = m_b/(N m_c)` that is `(1 + 2γ)
-//! m_c`, and a deck on columns without mass is no special case. In these units the inertia about a corner is
-//! `M = (i m_c + 4 m_b/N)/μ`, `i = 4/3` for rectangular columns (Eq. 6.3) and `(15 + cos²α)/12` for cylinders (Eq.
-//! 6.6), the potential of the weights `(g/R) [cos(α − θ) − cos α]`, and that of a wobbling frame's turning
+//! Everything is per column and divided by `μ R²` with `μ = m_c + 2 m_b/N`, which is `(1 + 2γ) m_c` with
+//! `γ = m_b/(N m_c)`, so that a deck on columns without mass is no special case. In these units the inertia about a
+//! corner is `M = (i m_c + 4 m_b/N)/μ`, `i = 4/3` for rectangular columns (Eq. 6.3) and `(15 + cos²α)/12` for cylinders
+//! (Eq. 6.6), the potential of the weights `(g/R) [cos(α − θ) − cos α]`, and that of a wobbling frame's turning
 //! `J(θ) = e U_s² + i_d sin²θ + i_a (1 − cos θ)²`, `e = (m_c + 4 m_b/N)/μ`, `i_d = (sin²α/4 + cos²α/3) m_c/μ`,
 //! `i_a = ½ sin²α m_c/μ`, `U_s = sin θ cos α + (1 − cos θ) sin α = u/2R`.
 

@@ -127,21 +127,18 @@ impl Piece {
         match self {
             Self::Zero => 0.0,
             Self::Linear(begin, slope) => begin + slope * offset_s,
-            Self::Pulse(..) => self.taylor(offset_s, 0.0).value(0.0),
+            Self::Pulse(pulse, begin_s, factor) => factor * pulse.taylor(begin_s + offset_s, 0.0).value(0.0),
         }
     }
 
     /// In powers of `(time − offset)/step` from an offset (s) in the segment on.
-    pub(crate) fn taylor(&self, offset_s: f64, step_s: f64) -> Forcing {
+    pub(crate) fn write(&self, offset_s: f64, step_s: f64, forcing: &mut Forcing) {
         match self {
-            Self::Zero => Forcing::none(),
-            Self::Linear(begin, slope) => {
-                let mut forcing = Forcing::default();
-                forcing.push(begin + slope * offset_s);
-                forcing.push(slope * step_s);
-                forcing
+            Self::Zero => forcing.set_none(),
+            Self::Linear(begin, slope) => forcing.set_line(begin + slope * offset_s, slope * step_s),
+            Self::Pulse(pulse, begin_s, factor) => {
+                *forcing = pulse.taylor(begin_s + offset_s, step_s).times(*factor);
             }
-            Self::Pulse(pulse, begin_s, factor) => pulse.taylor(begin_s + offset_s, step_s).times(*factor),
         }
     }
 }
@@ -162,9 +159,9 @@ impl Shaking<'_> {
                 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // time runs from 0 to the end
                 let index = (middle_s / record.dt_s()) as usize;
                 let (Some(begin), Some(end)) = (samples.get(index), samples.get(index + 1)) else { return Piece::Zero };
-                let slope = (end - begin) / record.dt_s();
+                let slope = (end - begin) / (record.dt_s() * gravity_m_s2);
                 let since_s = begin_s - index as f64 * record.dt_s();
-                Piece::Linear((begin + slope * since_s) / gravity_m_s2, slope / gravity_m_s2)
+                Piece::Linear(begin / gravity_m_s2 + slope * since_s, slope)
             }
             Self::Pulse(pulse) if middle_s > pulse.start_s() && middle_s < pulse.end_s() => {
                 Piece::Pulse(*pulse, begin_s, 1.0 / gravity_m_s2)
@@ -202,9 +199,7 @@ mod tests {
         let ground = GroundMotion::pair(&x, &y);
         assert_eq!(ground.knots_s(), [0.0, 0.01, 0.02, 0.03, 0.04]);
         assert!(ground.line().is_none());
-        let at = |begin: f64, end: f64, offset: f64| {
-            ground.between(begin, end, 1.0).map(|piece| piece.taylor(offset, 0.0).value(0.0))
-        };
+        let at = |begin: f64, end: f64, offset: f64| ground.between(begin, end, 1.0).map(|piece| piece.value(offset));
         let close = |found: [f64; 3], expected: [f64; 3]| {
             found.iter().zip(expected).all(|(found, expected)| (found - expected).abs() < 1e-12)
         };

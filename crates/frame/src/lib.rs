@@ -1,5 +1,4 @@
-//! The restrained rocking frame of Chapter 6 of Reggiani Manzo's dissertation: planar, and wobbling in three
-//! dimensions.
+//! The restrained rocking frame of Chapter 6 of Reggiani Manzo's dissertation: planar, and wobbling in space.
 //!
 //! | module | what is in it |
 //! |---|---|

@@ -190,7 +190,7 @@ impl<O: Observer> Motion<O> {
         self.frame.largest_rotation_to_come(Free { rotation: self.x, velocity: self.v, momentum, restitution })
     }
 
-    /// Moves through a segment of `length_s` that begins at `start_s`; `shaking` gives the components x, y, z in units
+    /// Moves through a segment of `length_s` that begins at `start_s`; `shaking` writes the components x, y, z in units
     /// of g from an offset in the segment on, in powers of (time − offset)/step. With `until_peak` it ends early, when
     /// `θ` has passed a maximum.
     pub(crate) fn advance(
@@ -199,9 +199,11 @@ impl<O: Observer> Motion<O> {
         length_s: f64,
         until_peak: bool,
         expansion: &mut Expansion,
-        shaking: impl Fn(f64, f64) -> [Forcing; 3],
+        shaking: impl Fn(f64, f64, &mut Shaken),
     ) -> Flow<()> {
-        self.check_weight(start_s, length_s, &shaking(0.0, length_s)[2])?;
+        let mut shaken = Shaken::none();
+        shaking(0.0, length_s, &mut shaken);
+        self.check_weight(start_s, length_s, &shaken.vertical)?;
         let impacts_before = self.impacts;
         let (mut offset, mut steps) = (0.0, 0_u64);
         let mut just_uplifted = false;
@@ -209,7 +211,8 @@ impl<O: Observer> Motion<O> {
             let mut at_threshold = false;
             if self.resting {
                 let remaining = length_s - offset;
-                let Some(s) = self.find_uplift(&shaking(offset, remaining)) else { break };
+                shaking(offset, remaining, &mut shaken);
+                let Some(s) = self.find_uplift(&shaken) else { break };
                 at_threshold = s > 0.0;
                 offset += s * remaining;
                 if offset >= length_s {
@@ -224,7 +227,8 @@ impl<O: Observer> Motion<O> {
             }
 
             let mut step_s = (length_s - offset).min(LONGEST_STEP / self.p).min(self.apex_step_s());
-            let mut shaken = self.shaken(shaking(offset, step_s));
+            shaking(offset, step_s, &mut shaken);
+            self.lean_into(&mut shaken);
             if !just_uplifted && self.rests(&shaken, step_s) {
                 self.come_to_rest(start_s + offset);
                 continue;
@@ -238,7 +242,7 @@ impl<O: Observer> Motion<O> {
                 let down = self.p * self.p * self.constants.cos_alpha * (self.tangent * (1.0 + lift) + along);
                 let rebound_s = 2.5 * self.v / down;
                 if down > 0.0 && rebound_s < step_s {
-                    shaken = shaken.stretched(rebound_s / step_s);
+                    shaken.stretch(rebound_s / step_s);
                     step_s = rebound_s;
                 }
             }
@@ -266,7 +270,7 @@ impl<O: Observer> Motion<O> {
             offset = if step.length_s >= length_s - begin { length_s } else { begin + step.length_s };
             let time_s = |s: f64| start_s + (begin + s * step.length_s);
             if step.length_s < step_s {
-                shaken = shaken.stretched(step.length_s / step_s);
+                shaken.stretch(step.length_s / step_s);
             }
             let cut = match self.step(step, &shaken, time_s, until_peak)? {
                 ControlFlow::Break(ending) => return Ok(ControlFlow::Break(ending)),
@@ -300,7 +304,8 @@ impl<O: Observer> Motion<O> {
     }
 
     /// First s in [0, 1) at which the frame uplifts: sets it upon its corners there.
-    fn find_uplift(&mut self, [x, y, z]: &[Forcing; 3]) -> Option<f64> {
+    fn find_uplift(&mut self, shaken: &Shaken) -> Option<f64> {
+        let Shaken { horizontal: [x, y], vertical: z } = shaken;
         let threshold = z.times(self.tangent).plus(&Forcing::none().beginning_at(self.tangent + self.prestress));
         (self.x, self.v) = (0.0, 0.0);
         match &mut self.lean {
@@ -319,15 +324,13 @@ impl<O: Observer> Motion<O> {
         }
     }
 
-    /// The shaking as the recurrence takes it.
-    fn shaken(&self, [x, y, z]: [Forcing; 3]) -> Shaken {
-        let horizontal = match self.lean {
-            Lean::Plane { direction, side } => {
-                [x.times(side * direction[0]).plus(&y.times(side * direction[1])), Forcing::none()]
-            }
-            Lean::Space(_) => [x, y],
-        };
-        Shaken { horizontal, vertical: z }
+    /// Turns horizontal components x and y into those along and across the lean, where that keeps its plane.
+    fn lean_into(&self, shaken: &mut Shaken) {
+        if let Lean::Plane { direction, side } = self.lean {
+            let [x, y] = &mut shaken.horizontal;
+            x.combine(side * direction[0], y, side * direction[1]);
+            y.set_none();
+        }
     }
 
     /// Part of the radius of convergence near the apex, s.

@@ -33,8 +33,7 @@ pub struct Pulse {
 const PIECES_PER_PERIOD: u32 = 16;
 
 impl Pulse {
-    /// From its shape, its amplitude (m/s²; the sign turns it over), its period (s) and the time at which it begins
-    /// (s).
+    /// From its shape, its amplitude (m/s²; the sign turns it over), its period (s) and when it begins (s).
     ///
     /// # Errors
     /// The amplitude must be within ±1e6 m/s², the period between 1e-6 and 1e6 s, the start between 0 and 1e6 s.

@@ -4,7 +4,6 @@ use std::ops::ControlFlow;
 
 use uplift_statics::EventKind;
 use uplift_statics::tilt::travel_m;
-use uplift_taylor::Forcing;
 
 use crate::error::{FrameError, within};
 use crate::escape::LYING_RAD;
@@ -13,7 +12,7 @@ use crate::ground::{GroundMotion, Piece};
 use crate::history::{History, Moment, Observer, Unobserved};
 use crate::motion::{Ending, LONGEST_STEP, Lean, Motion, Rules};
 use crate::peaks::Peak;
-use crate::series::{Expansion, Turning};
+use crate::series::{Expansion, Shaken, Turning};
 
 /// Longest motion computed, in units of 1/p.
 const LONGEST_MOTION: f64 = 1e7;
@@ -297,7 +296,16 @@ fn follow<O: Observer>(
         Until::Time(time_s) => time_s,
     };
     let gravity = motion.gravity_m_s2();
-    let taylor = |pieces: &[Piece; 3], offset: f64, step: f64| pieces.map(|piece| piece.taylor(offset, step));
+    let write = |[x, y, z]: &[Piece; 3], offset: f64, step: f64, shaken: &mut Shaken| {
+        x.write(offset, step, &mut shaken.horizontal[0]);
+        y.write(offset, step, &mut shaken.horizontal[1]);
+        z.write(offset, step, &mut shaken.vertical);
+    };
+    let at = |pieces: &[Piece; 3], offset: f64| {
+        let mut shaken = Shaken::none();
+        write(pieces, offset, 1.0, &mut shaken);
+        shaken
+    };
     let knots = ground.knots_s();
     let mut expansion = Expansion::new();
     let mut now_s = 0.0;
@@ -308,14 +316,14 @@ fn follow<O: Observer>(
         }
         let length_s = end_s - begin_s;
         let pieces = ground.between(begin_s, ends[1], gravity);
-        if now_s == 0.0 {
-            motion.observe_sample(0.0, &taylor(&pieces, 0.0, length_s));
+        if now_s == 0.0 && O::KEEPS {
+            motion.observe_sample(0.0, at(&pieces, 0.0));
         }
         if motion.resting {
             motion.follow_ground(pieces.map(|piece| piece.value(0.0)), begin_s);
         }
         if !stays_at_rest(motion, &pieces, length_s) {
-            let shaking = |offset, step| taylor(&pieces, offset, step);
+            let shaking = |offset: f64, step: f64, shaken: &mut Shaken| write(&pieces, offset, step, shaken);
             if let ControlFlow::Break(ending) = motion.advance(begin_s, length_s, false, &mut expansion, shaking)? {
                 return Ok(Some(ending));
             }
@@ -323,10 +331,11 @@ fn follow<O: Observer>(
         if motion.resting {
             motion.follow_ground(pieces.map(|piece| piece.value(length_s)), end_s);
         }
-        motion.observe_sample(end_s, &taylor(&pieces, length_s, 1.0));
+        if O::KEEPS {
+            motion.observe_sample(end_s, at(&pieces, length_s));
+        }
         now_s = end_s;
     }
-    let still = [Forcing::none(); 3];
     if until == Until::FirstFreePeak && !motion.resting && motion.largest_rotation_to_come().is_none() {
         return Ok(Some(motion.overturn(now_s)));
     }
@@ -338,11 +347,13 @@ fn follow<O: Observer>(
         }
         let length_s = step_s.min(last_s - now_s);
         let until_peak = until == Until::FirstFreePeak;
-        let advanced = motion.advance(now_s, length_s, until_peak, &mut expansion, |_, _| still)?;
+        let advanced = motion.advance(now_s, length_s, until_peak, &mut expansion, |_, _, _| {})?;
         if let ControlFlow::Break(ending) = advanced {
             return Ok(Some(ending));
         }
-        motion.observe_sample(now_s + length_s, &still);
+        if O::KEEPS {
+            motion.observe_sample(now_s + length_s, Shaken::none());
+        }
         steps += 1.0;
     }
 }

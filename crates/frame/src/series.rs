@@ -7,8 +7,7 @@
 //!
 //! (Eq. 6.3 and, with the corrections of `docs/errata.md`, Eq. 6.6). A wobbling frame has besides `φ̇ = L/J` and
 //! `L̇ = (g/R) U_s (A_x sin φ − A_y cos φ)`, `A = A_x cos φ + A_y sin φ`: with the momentum `L` in place of `φ̇` the
-//! term
-//! `J' ω φ̇` of Eq. 6.7 needs not be carried, and the invariant of free motion is not lost to rounding.
+//! term `J' ω φ̇` of Eq. 6.7 needs not be carried, and the invariant of free motion is not lost to rounding.
 //!
 //! Sine and versine of `θ`, sine and cosine of `θ/2` and of `φ` come from their derivatives, quotients and the spring's
 //! deformation from implicit recurrences: all are products of series. The series goes on until two terms running of
@@ -20,7 +19,7 @@
 //! coefficients).
 
 use uplift_statics::RestrainedColumns;
-use uplift_taylor::{DEGREE, Forcing, LEAST_ORDER, ORDER, TRUNCATION, product, stretch, value};
+use uplift_taylor::{DEGREE, Forcing, LEAST_ORDER, ORDER, TRUNCATION, product, products, stretch, value};
 
 mod strands;
 mod wobble;
@@ -64,6 +63,13 @@ impl Shaken {
     /// No shaking.
     pub(crate) fn none() -> Self {
         Self { horizontal: [Forcing::none(); 2], vertical: Forcing::none() }
+    }
+
+    /// Stretches it to a step `ratio` times as long.
+    pub(crate) fn stretch(&mut self, ratio: f64) {
+        self.horizontal[0].stretch(ratio);
+        self.horizontal[1].stretch(ratio);
+        self.vertical.stretch(ratio);
     }
 
     /// The same on a step `ratio` times as long.
@@ -174,20 +180,30 @@ impl Expansion {
             let mut outward = 0.0;
             if turning.is_some() {
                 wobble.order(constants, step, shaken, k);
-                moment += product(&cos_psi, &wobble.pushes, k);
-                outward = wobble.centrifugal(k);
-                step.momentum[k + 1] = factor * constants.fall * product(&wobble.travel, &wobble.across, k);
+                let [push, across, centrifugal, sin_change, cos_change] = products(
+                    [
+                        (&cos_psi, &wobble.pushes),
+                        (&wobble.travel, &wobble.across),
+                        (&wobble.slope, &wobble.turning_squared),
+                        (&step.cos_direction, &step.turning),
+                        (&step.sin_direction, &step.turning),
+                    ],
+                    k,
+                );
+                moment += push;
+                outward = 0.5 * centrifugal;
+                step.momentum[k + 1] = factor * constants.fall * across;
                 step.direction[k + 1] = factor * step.turning[k];
-                step.sin_direction[k + 1] = factor * product(&step.cos_direction, &step.turning, k);
-                step.cos_direction[k + 1] = -factor * product(&step.sin_direction, &step.turning, k);
+                step.sin_direction[k + 1] = factor * sin_change;
+                step.cos_direction[k + 1] = -factor * cos_change;
             } else {
                 moment += short_product(along, &cos_psi, k);
             }
             let pull = if held.is_some() { strands.moment(&step.sine, &step.versine, k) } else { 0.0 };
             let inward = (pull * constants.held - outward) / constants.tilt_inertia;
             step.v[k + 1] = if balanced && k == 0 { 0.0 } else { -factor * (constants.p_squared * moment + inward) };
-            let lost = product(&step.versine, &step.v, k);
-            step.versine[k + 1] = factor * product(&step.sine, &step.v, k);
+            let [lost, rise] = products([(&step.versine, &step.v), (&step.sine, &step.v)], k);
+            step.versine[k + 1] = factor * rise;
             step.sine[k + 1] = factor * (step.v[k] - lost);
             if held.is_some() {
                 strands.extend(&step.v, factor, k);
@@ -271,6 +287,16 @@ impl Step {
     /// Acceleration at s, rad/s².
     pub(crate) fn acceleration(&self, s: f64) -> f64 {
         slope(self.v(), s) / self.length_s
+    }
+
+    /// `sin θ` and `1 − cos θ` at s.
+    pub(crate) fn tilt_at(&self, s: f64) -> (f64, f64) {
+        (value(&self.sine[..=self.order], s), value(&self.versine[..=self.order], s))
+    }
+
+    /// `cos φ` and `sin φ` at s.
+    pub(crate) fn direction_vector(&self, s: f64) -> [f64; 2] {
+        [value(&self.cos_direction[..=self.order], s), value(&self.sin_direction[..=self.order], s)]
     }
 
     /// Direction of the lean and its momentum at s.

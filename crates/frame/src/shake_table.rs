@@ -32,8 +32,7 @@ impl TableLevel {
         Ok(Self { length_scale, pgv_m_s })
     }
 
-    /// Factor of accelerations for components of the peak velocities `pgv_m_s` (m/s) as recorded; none where both are
-    /// 0.
+    /// Factor of accelerations for components of these peak velocities (m/s) as recorded; none where both are 0.
     pub fn factor(&self, pgv_m_s: [f64; 2]) -> Option<f64> {
         let recorded = srss(pgv_m_s[0], pgv_m_s[1]);
         (recorded > 0.0).then(|| self.pgv_m_s * self.length_scale.sqrt() / recorded)

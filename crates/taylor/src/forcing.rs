@@ -23,6 +23,32 @@ impl Forcing {
         Self { len: 1, ..Self::default() }
     }
 
+    /// Makes it a straight line from `begin` to `begin + change`.
+    pub fn set_line(&mut self, begin: f64, change: f64) {
+        [self.c[0], self.c[1]] = [begin, change];
+        self.len = 2;
+    }
+
+    /// Makes it no shaking.
+    pub fn set_none(&mut self) {
+        self.c[0] = 0.0;
+        self.len = 1;
+    }
+
+    /// Makes it `factor` times itself and `other_factor` times `other`.
+    pub fn combine(&mut self, factor: f64, other: &Self, other_factor: f64) {
+        self.c[self.len..other.len.max(self.len)].fill(0.0);
+        self.len = self.len.max(other.len);
+        for (k, own) in self.c[..self.len].iter_mut().enumerate() {
+            *own = factor * *own + if k < other.len { other_factor * other.c[k] } else { 0.0 };
+        }
+    }
+
+    /// Stretches it in place: [`stretched`](Self::stretched).
+    pub fn stretch(&mut self, ratio: f64) {
+        stretch(&mut self.c[..self.len], ratio);
+    }
+
     /// Appends the next coefficient; one beyond [`ORDER`] is left out.
     pub fn push(&mut self, coefficient: f64) {
         if let Some(place) = self.c.get_mut(self.len) {
@@ -51,13 +77,14 @@ impl Forcing {
     /// The same acceleration in powers of s/`ratio`: on a step `ratio` times as long.
     #[must_use]
     pub fn stretched(mut self, ratio: f64) -> Self {
-        stretch(&mut self.c[..self.len], ratio);
+        self.stretch(ratio);
         self
     }
 
     /// The same with another value at the begin of the step.
     #[must_use]
     pub fn beginning_at(mut self, value: f64) -> Self {
+        self.len = self.len.max(1);
         self.c[0] = value;
         self
     }
@@ -65,10 +92,7 @@ impl Forcing {
     /// The sum of two.
     #[must_use]
     pub fn plus(mut self, other: &Self) -> Self {
-        for (own, other) in self.c.iter_mut().zip(other.coefficients()) {
-            *own += other;
-        }
-        self.len = self.len.max(other.len);
+        self.combine(1.0, other, 1.0);
         self
     }
 
@@ -76,8 +100,12 @@ impl Forcing {
     #[must_use]
     pub fn product(&self, other: &Self) -> Self {
         let mut product = Self::default();
-        for k in 0..(self.len + other.len).saturating_sub(1).min(ORDER + 1) {
-            product.push((0..=k).map(|j| self.c[j] * other.c[k - j]).sum());
+        if self.len == 0 || other.len == 0 {
+            return product;
+        }
+        for k in 0..(self.len + other.len - 1).min(ORDER + 1) {
+            let from = k.saturating_sub(other.len - 1);
+            product.push((from..=k.min(self.len - 1)).map(|j| self.c[j] * other.c[k - j]).sum());
         }
         product
     }

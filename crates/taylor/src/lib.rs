@@ -37,17 +37,23 @@ pub fn stretch(c: &mut [f64], ratio: f64) {
 /// `Σ aⱼ bₖ₋ⱼ`, j from 0 to k: the coefficient of the product of two series.
 #[inline]
 pub fn product(a: &[f64], b: &[f64], k: usize) -> f64 {
-    let (a, b) = (&a[..=k], &b[..=k]);
-    // two sums, so that one addition need not wait for the other
-    let (pairs, last) = a.as_chunks::<2>();
-    let (turned_last, turned) = b.as_rchunks::<2>();
-    let mut sums = [0.0; 2];
-    for (a, b) in pairs.iter().zip(turned.iter().rev()) {
-        sums[0] += a[0] * b[1];
-        sums[1] += a[1] * b[0];
+    a[..=k].iter().zip(b[..=k].iter().rev()).map(|(a, b)| a * b).sum()
+}
+
+/// The coefficients `k` of several products at once, so that no addition waits for another's.
+///
+/// # Panics
+/// Never for `k` up to [`DEGREE`].
+#[inline]
+pub fn products<const N: usize>(pairs: [(&[f64; DEGREE + 1], &[f64; DEGREE + 1]); N], k: usize) -> [f64; N] {
+    assert!(k <= DEGREE);
+    let mut sums = [0.0; N];
+    for j in 0..=k {
+        for (sum, (a, b)) in sums.iter_mut().zip(pairs) {
+            *sum += a[j] * b[k - j];
+        }
     }
-    let rest: f64 = last.iter().zip(turned_last).map(|(a, b)| a * b).sum();
-    sums[0] + sums[1] + rest
+    sums
 }
 
 /// The same without the terms of `a₀` and `b₀`, which an implicit recurrence has on its other side.

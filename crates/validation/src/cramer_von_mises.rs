@@ -1,14 +1,14 @@
 //! The two-sample test of Cramér and von Mises: the squared distance of two empirical distributions.
 //!
-//! `T = U/(n m N) − (4 n m − 1)/(6 N)`, `N = n + m`, with `U = n Σ (rᵢ − i)² + m Σ (sⱼ − j)²` of the ranks `r`, `s` of
-//! the two samples among all, midranks where values are equal.
+//! `T = U/(n m N) − (4 n m − 1)/(6 N)`, `N = n + m`, with `U = n Σ (rᵢ − i)² + m Σ (sⱼ − j)²` of the ranks `r`, `s`
+//! of the two samples among all, midranks where values are equal.
 //!
 //! p is exact, over all orders, for samples of at most 20 values without ties, else by the limit distribution with the
 //! first two moments of `T`.
 //!
 //! # Source
-//! T. W. Anderson (1962), "On the distribution of the two-sample Cramér–von Mises criterion"; S. Csörgő and J. J.
-//! Faraway (1996), "The exact and asymptotic distributions of Cramér–von Mises statistics", Eq. 1.3.
+//! T. W. Anderson (1962), "On the distribution of the two-sample Cramér–von Mises criterion"; S. Csörgő and
+//! J. J. Faraway (1996), "The exact and asymptotic distributions of Cramér–von Mises statistics", Eq. 1.3.
 
 use std::collections::BTreeMap;
 
@@ -133,8 +133,8 @@ fn limit_cdf(x: f64) -> f64 {
     sum
 }
 
-/// `e^q K_ν(q) = ∫ exp(−q (cosh t − 1)) cosh νt dt` from 0 to ∞, by the trapezoidal rule, which converges faster than
-/// any power of its step for such an integrand.
+/// `e^q K_ν(q) = ∫ exp(−q (cosh t − 1)) cosh νt dt` from 0 to ∞, by the trapezoidal rule, which converges faster
+/// than any power of its step for such an integrand.
 fn scaled_bessel_k(order: f64, q: f64) -> f64 {
     let step = 1.0 / 64.0;
     let mut sum = 0.5;

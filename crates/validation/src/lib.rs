@@ -1,5 +1,4 @@
-//! Whether computed peaks are distributed as measured ones (Section 6.8 of Reggiani Manzo's dissertation, and beyond
-//! it).
+//! Whether computed peaks are distributed as measured ones (Section 6.8 of Reggiani Manzo's dissertation, and beyond).
 //!
 //! | module | what is in it |
 //! |---|---|

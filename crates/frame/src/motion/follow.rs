@@ -2,12 +2,12 @@
 
 use std::ops::ControlFlow;
 
-use uplift_taylor::{DEGREE, Forcing, leading_sign, sign_changes, value};
+use uplift_taylor::{DEGREE, leading_sign, sign_changes, value};
 
 use super::step::first_reach;
 use super::{Lean, Motion};
 use crate::history::{HistoryRow, Moment, Observer};
-use crate::series::{Expansion, Shaken, Step};
+use crate::series::{Constants, Expansion, Shaken, Step};
 
 impl<O: Observer> Motion<O> {
     /// Tells of the events that the step passes for the first time.
@@ -106,32 +106,42 @@ impl<O: Observer> Motion<O> {
 
     /// Total acceleration of deck and base shear at s of a step.
     pub(super) fn follow_deck(&mut self, step: &Step, shaken: &Shaken, s: f64, time_s: f64) {
-        let (x, v) = step.at(s);
-        let (turning, change) = step.turning_rate(s);
-        let direction = self.direction_at(Some(step), s);
-        let own = self.deck_acceleration(x, v, step.acceleration(s), (turning, change), direction);
+        let own = self.deck_acceleration(step, s);
         let ground = self.ground(shaken, s);
         self.raise_deck(own, ground, time_s);
     }
 
     fn raise_deck(&mut self, own: [f64; 2], ground: [f64; 2], time_s: f64) {
-        self.peaks.deck.raise((own[0] + ground[0]).hypot(own[1] + ground[1]), time_s);
+        let length = |[x, y]: [f64; 2]| (x * x + y * y).sqrt();
+        self.peaks.deck.raise(length([own[0] + ground[0], own[1] + ground[1]]), time_s);
         let deck_kg = self.frame.deck_mass_kg();
         let columns_kg = f64::from(self.frame.columns().columns()) * self.frame.column_mass_kg();
         // the middle of a column travels half as far as the deck
         let force = [0, 1].map(|i| deck_kg * (own[i] + ground[i]) + columns_kg * (0.5 * own[i] + ground[i]));
-        self.peaks.reaction.raise(force[0].hypot(force[1]), time_s);
+        self.peaks.reaction.raise(length(force), time_s);
     }
 
-    /// Acceleration of the deck relative to the ground in x and y, m/s².
-    fn deck_acceleration(&self, x: f64, v: f64, a: f64, (turning, change): (f64, f64), direction: f64) -> [f64; 2] {
+    /// Acceleration of the deck relative to the ground in x and y at s of a step, m/s².
+    fn deck_acceleration(&self, step: &Step, s: f64) -> [f64; 2] {
+        let Constants { sin_alpha, cos_alpha, .. } = self.constants;
         let diagonal_m = 2.0 * self.frame.geometry().size_m();
-        let (sin, cos) = (self.frame.geometry().slenderness_rad() - x).sin_cos();
-        let (travel, slope, curvature) = (diagonal_m * self.travel_at(x), diagonal_m * cos, diagonal_m * sin);
-        let radial = curvature * v * v + slope * a - travel * turning * turning;
-        let across = travel * change + 2.0 * slope * v * turning;
-        let (sin, cos) = direction.sin_cos();
-        [radial * cos - across * sin, radial * sin + across * cos]
+        let (sine, versine) = step.tilt_at(s);
+        let (v, a) = (step.at(s).1, step.acceleration(s));
+        // U, dU/dθ and d²U/dθ²
+        let travel = diagonal_m * (cos_alpha * sine + sin_alpha * versine);
+        let slope = diagonal_m * (cos_alpha * (1.0 - versine) + sin_alpha * sine);
+        let curvature = diagonal_m * (sin_alpha * (1.0 - versine) - cos_alpha * sine);
+        let radial = curvature * v * v + slope * a;
+        match self.lean {
+            Lean::Plane { direction, side } => direction.map(|component| side * radial * component),
+            Lean::Space(_) => {
+                let (turning, change) = step.turning_rate(s);
+                let radial = radial - travel * turning * turning;
+                let across = travel * change + 2.0 * slope * v * turning;
+                let [cos, sin] = step.direction_vector(s);
+                [radial * cos - across * sin, radial * sin + across * cos]
+            }
+        }
     }
 
     /// Ground acceleration in x and y at s, m/s².
@@ -154,12 +164,10 @@ impl<O: Observer> Motion<O> {
         self.raise_deck([0.0; 2], ground, time_s);
     }
 
-    /// Tells the observer of the present state under the shaking `components`.
-    pub(crate) fn observe_sample(&mut self, time_s: f64, components: &[Forcing; 3]) {
-        if O::KEEPS {
-            let shaken = self.shaken(*components);
-            self.observe(time_s, Moment::Sample, &shaken);
-        }
+    /// Tells the observer of the present state under shaking of components x, y and z.
+    pub(crate) fn observe_sample(&mut self, time_s: f64, mut shaken: Shaken) {
+        self.lean_into(&mut shaken);
+        self.observe(time_s, Moment::Sample, &shaken);
     }
 
     pub(super) fn observe(&mut self, time_s: f64, moment: Moment, shaken: &Shaken) {
@@ -173,9 +181,7 @@ impl<O: Observer> Motion<O> {
             let still = shaken.stretched(0.0);
             let mut expansion = Expansion::new();
             self.expand(&mut expansion, &still, 1e-9 / self.p, false);
-            let step = expansion.step();
-            let (a, rate) = (step.acceleration(0.0), step.turning_rate(0.0));
-            own = self.deck_acceleration(self.x, self.v, a, rate, direction);
+            own = self.deck_acceleration(expansion.step(), 0.0);
         }
         let columns = self.frame.columns();
         let held = columns.restrainer().and_then(|law| law.at(columns.elongation(self.x).elongation_m).ok());

@@ -1,6 +1,6 @@
 //! What the turning of the lean adds to the recurrence.
 
-use uplift_taylor::{DEGREE, product};
+use uplift_taylor::{DEGREE, product, products};
 
 use super::{Coefficients, Constants, Shaken, Step, short_product};
 
@@ -10,8 +10,8 @@ pub(super) struct Wobble {
     sine_versine: Coefficients,
     versine_squared: Coefficients,
     inertia: Coefficients,
-    slope: Coefficients,
-    turning_squared: Coefficients,
+    pub(super) slope: Coefficients,
+    pub(super) turning_squared: Coefficients,
     /// `A_x cos φ + A_y sin φ`.
     pub(super) pushes: Coefficients,
     /// `A_x sin φ − A_y cos φ`.
@@ -37,8 +37,7 @@ impl Wobble {
     /// The coefficients of order `k`.
     pub(super) fn order(&mut self, constants: &Constants, step: &mut Step, shaken: &Shaken, k: usize) {
         let (sine, versine) = (&step.sine, &step.versine);
-        self.sine_versine[k] = product(sine, versine, k);
-        self.versine_squared[k] = product(versine, versine, k);
+        [self.sine_versine[k], self.versine_squared[k]] = products([(sine, versine), (versine, versine)], k);
         let (sw, ww) = (self.sine_versine[k], self.versine_squared[k]);
         let [j1, j2, j3] = constants.turning;
         let [k0, k1, k2, k3] = constants.turning_slope;
@@ -52,10 +51,5 @@ impl Wobble {
         let (sin, cos) = (&step.sin_direction, &step.cos_direction);
         self.across[k] = short_product(x, sin, k) - short_product(y, cos, k);
         self.pushes[k] = short_product(x, cos, k) + short_product(y, sin, k);
-    }
-
-    /// Coefficient of `½ J' φ̇²`.
-    pub(super) fn centrifugal(&self, k: usize) -> f64 {
-        0.5 * product(&self.slope, &self.turning_squared, k)
     }
 }
