@@ -13,6 +13,7 @@
 //! | `discs` | a disc spring, expected forces at deflections |
 //! | `planar`, `wobbling` | a frame, its restrainer, the ground's motion and the start; expected peaks and end |
 //! | `validation` | `measured` and `computed` peaks; expected statistics |
+//! | `cases` | a frame by R, α and γ, in kN, m and Mg, that wobbles freely: shaken ones are left out |
 //! | `shake_table` | a pair of records; expected factor and PGA for 0.335 m/s in a scale of 1:5 |
 //!
 //! Records that cases name are looked for below the folder of the environment variable `UPLIFT_RECORDS`. A case may

@@ -28,6 +28,12 @@ fn every_motion_without_records() {
     check(include_str!("data/motion_cases.json"), 300);
 }
 
+/// One frame that wobbles and one that falls, by another method (Radau).
+#[test]
+fn every_free_frame_of_another_source() {
+    check(include_str!("data/free_wobbling_cases.json"), 8);
+}
+
 /// Four pairs of samples, with ties and collapses, by scipy 1.17.
 #[test]
 fn every_pair_of_samples() {

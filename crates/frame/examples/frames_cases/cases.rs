@@ -7,6 +7,7 @@ use comparison::Comparison;
 
 mod comparison;
 mod discs;
+mod free_wobbling;
 mod motions;
 mod records;
 mod restrainer;
@@ -40,6 +41,9 @@ struct File {
     validation: Vec<Value>,
     #[serde(default)]
     shake_table: Vec<Value>,
+    /// Frames that wobble, those that nothing shakes.
+    #[serde(default)]
+    cases: Vec<Value>,
 }
 
 /// How a case is checked.
@@ -51,13 +55,15 @@ type Check = fn(&Value, &mut Comparison) -> Result<(), String>;
 /// The file is no JSON, or not an object with lists of cases.
 pub(crate) fn verdicts(text: &str) -> Result<Vec<Verdict>, serde_json::Error> {
     let file: File = serde_json::from_str(text)?;
-    let kinds: [(&[Value], Check); 6] = [
+    let free: Vec<Value> = file.cases.iter().filter(|case| free_wobbling::is_free(case)).cloned().collect();
+    let kinds: [(&[Value], Check); 7] = [
         (&file.statics, statics::statics_case),
         (&file.discs, discs::disc_case),
         (&file.planar, motions::planar_case),
         (&file.wobbling, motions::wobbling_case),
         (&file.validation, validation::validation_case),
         (&file.shake_table, shake_table::shake_table_case),
+        (&free, free_wobbling::free_case),
     ];
     Ok(kinds.into_iter().flat_map(|(cases, check)| cases.iter().map(move |case| verdict(case, check))).collect())
 }
