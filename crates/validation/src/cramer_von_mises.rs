@@ -111,6 +111,10 @@ fn limit_p(n: f64, m: f64, statistic: f64) -> f64 {
     let mean = (1.0 + 1.0 / total) / 6.0;
     let variance = (total + 1.0) * (4.0 * product * total - 3.0 * (n * n + m * m) - 2.0 * product)
         / (45.0 * total * total * 4.0 * product);
+    // of one value each the statistic is the same whatever they are
+    if variance <= 0.0 {
+        return 1.0;
+    }
     let reduced = 1.0 / 6.0 + (statistic - mean) / (45.0 * variance).sqrt();
     // below, the distribution is 0 to the last digit
     if reduced < 0.003 { 1.0 } else { (1.0 - limit_cdf(reduced)).clamp(0.0, 1.0) }

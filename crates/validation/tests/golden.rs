@@ -222,6 +222,18 @@ fn power_of_the_tests_of_the_dissertation() {
     assert!(detectable_factor((2, 2), 0.0, 0.1, few).is_err());
 }
 
+/// The smallest samples have a p of every test: 1, since nothing can be told from two values.
+#[test]
+fn one_value_each() {
+    let (one, other) = (sample(&[0.01]), sample(&[7.5]));
+    let found = CramerVonMises::of(&one, &other);
+    assert_eq!((found.p, found.p_limit), (1.0, 1.0));
+    let found = KolmogorovSmirnov::of(&one, &other);
+    assert_eq!((found.distance, found.p_exact), (1.0, 1.0));
+    assert_eq!(AndersonDarling::of(&one, &other), AndersonDarling { midrank: 0.0, right: 0.0 });
+    assert_eq!(MannWhitney::of(&one, &other).p, 1.0);
+}
+
 proptest! {
     /// Monotone maps change no rank statistic, and exchanged samples change no p.
     #[test]
@@ -237,6 +249,11 @@ proptest! {
         prop_assert!((found.p_exact - swapped.p_exact).abs() < 1e-12);
         prop_assert_eq!(CramerVonMises::of(&one, &other), CramerVonMises::of(&mapped, &mapped_other));
         let exact = CramerVonMises::of(&one, &other);
+        let darling = AndersonDarling::of(&one, &other);
+        prop_assert!(darling.midrank.is_finite() && darling.right.is_finite());
+        for p in [exact.p_limit, found.p_kolmogorov, found.p_kstest2, MannWhitney::of(&one, &other).p] {
+            prop_assert!((0.0..=1.0).contains(&p), "{p}");
+        }
         prop_assert!(exact.p >= 0.0 && exact.p <= 1.0 && found.p_exact > 0.0 && found.p_exact <= 1.0);
         let u = MannWhitney::of(&one, &other).statistic + MannWhitney::of(&other, &one).statistic;
         prop_assert!((u - (a.len() * b.len()) as f64).abs() < 1e-9);
