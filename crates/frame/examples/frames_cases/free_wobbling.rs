@@ -80,7 +80,10 @@ pub(crate) fn free_case(case: &Value, comparison: &mut Comparison) -> Result<(),
     if of.expected["y_end"].is_array() {
         let mut least = as_others;
         least["expected"] = json!({
-            "status": "ok", "theta_min_rad": of.expected["theta_min"], "suggested_rel_tol": SAMPLED, "end_abs_tol": 1e-8,
+            "status": "ok",
+            "theta_min_rad": of.expected["theta_min"],
+            "suggested_rel_tol": SAMPLED,
+            "end_abs_tol": 1e-8,
         });
         wobbling_case(&least, comparison)?;
     }
