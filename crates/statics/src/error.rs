@@ -212,8 +212,8 @@ impl StaticsError {
             Self::OutOfRange { key, .. }
             | Self::Missing { key, .. }
             | Self::MissingForPath { key, .. }
-            | Self::Foreign { key, .. } => std::slice::from_ref(key),
-            Self::Twice { key, .. } => std::slice::from_ref(key),
+            | Self::Foreign { key, .. }
+            | Self::Twice { key, .. } => std::slice::from_ref(key),
             Self::Implausible(Implausible { name, .. }) => std::slice::from_ref(name),
             Self::Hole { .. } => &["inner_diameter_m", "outer_diameter_m"],
             Self::FreeHeight { .. } => &["free_height_m", "thickness_m"],
