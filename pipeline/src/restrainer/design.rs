@@ -217,13 +217,7 @@ pub fn design(
     };
     let at_demand = match told.demand_m {
         None => Vec::new(),
-        Some(demand_m) => stacks
-            .iter()
-            .map(|stack| {
-                let state = with(stack)?.at_displacement(demand_m)?;
-                Ok(AtDemand { tendon_n: state.tendon_n, spring_m: state.spring_m.unwrap_or(0.0) })
-            })
-            .collect::<Result<Vec<_>, UpliftError>>()?,
+        Some(demand_m) => stacks.iter().map(|stack| at_demand(&with(stack)?, demand_m)).collect::<Result<_, _>>()?,
     };
     let (duct_gap_m, tendon_length_m) = match limits.path {
         TendonPath::Shifted { duct_gap_m, tendon_length_m } => (duct_gap_m, tendon_length_m),
@@ -261,6 +255,12 @@ pub fn design(
         tolerances,
         files,
     })
+}
+
+/// Columns with a stack in them at the demand (m).
+fn at_demand(held: &uplift_statics::RestrainedColumns, demand_m: f64) -> Result<AtDemand, UpliftError> {
+    let state = held.at_displacement(demand_m)?;
+    Ok(AtDemand { tendon_n: state.tendon_n, spring_m: state.spring_m.unwrap_or(0.0) })
 }
 
 /// What a stack is called: packets in alternate sense, discs in each where there are several, the disc.
