@@ -76,7 +76,7 @@ impl Output {
         Self { path: path.into(), kind, result: None }
     }
 
-    /// The same, of which the file says that it is of the result at `result`.
+    /// The same, of which the file says that it is of the result, or the structure, at `result`.
     #[must_use]
     pub fn of(mut self, result: &Path) -> Self {
         // a name with other characters may stand there in other words
@@ -328,7 +328,7 @@ fn workbook_properties(path: &Path) -> Option<Vec<u8>> {
 
 /// Whether a head says that its file is of this result, and not of one whose name merely ends or begins alike.
 fn names_result(head: &[u8], result: &str) -> bool {
-    ["; ", "result ", "/", "\\"].iter().any(|before| {
+    ["; ", "result ", "structure ", "/", "\\"].iter().any(|before| {
         let words = [before.as_bytes(), result.as_bytes()].concat();
         let ends = |at: usize| match head.get(at + words.len()) {
             // in a PNG a checksum follows, which may look like anything

@@ -8,4 +8,4 @@ mod tables;
 pub use measured::{MeasuredCurve, SideOfLoop};
 pub use protocol::{CyclicReport, ProtocolOptions, ProtocolReport, protocol};
 pub use run::{CapacityReport, LinearCurve, PushoverOptions, PushoverReport, pushover};
-pub(crate) use run::{anchorage_word, pushed};
+pub(crate) use run::{anchorage_word, axial_load_ratio, capacity, pushed};

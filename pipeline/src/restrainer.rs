@@ -6,5 +6,6 @@ mod design;
 
 pub use curve::{CurveRow, RestrainerCurve, RestrainerCurveOptions, StackReport, ThresholdRow, curve};
 pub use design::{
-    DesignTarget, RestrainerDesign, RestrainerDesignOptions, StopperOptions, StopperReport, TargetReport, design,
+    AtDemand, DesignTarget, RestrainerDesign, RestrainerDesignOptions, StopperOptions, StopperReport, TargetReport,
+    design, stack_name,
 };

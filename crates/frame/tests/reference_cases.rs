@@ -66,3 +66,41 @@ fn a_wrong_number_is_found() {
     assert!(found[2].contains("`stiffness_n_m` is missing"), "{found:#?}");
     assert!(found[3].starts_with("point 0 force_n: 8373.58"), "{found:#?}");
 }
+
+/// Where the force crosses zero the tolerance is a share of the largest force of the case, 1e-9 of 1375 N.
+#[test]
+fn a_force_near_zero() {
+    let differences = |at_neutral_n: f64| {
+        let case = serde_json::json!({
+            "id": "s", "half_width_m": 0.1, "half_height_m": 0.8, "top_load_n": 10e3, "column_weight_n": 2e3,
+            "columns": 1, "restrainer": {"kind": "none"},
+            "points": [{"u_m": 0.0, "force_n": 1375.0}, {"u_m": 0.2, "force_n": at_neutral_n}],
+        });
+        verdicts(&serde_json::json!({ "statics": [case] }).to_string()).unwrap()[0].differences.clone()
+    };
+    assert!(differences(1e-7).is_empty(), "{:?}", differences(1e-7));
+    assert_eq!(differences(1e-5).len(), 1);
+}
+
+/// `contact_flats` says what the reduced thickness beside it says, and nothing else.
+#[test]
+fn contact_flats_of_a_case() {
+    let differences = |more: serde_json::Value| {
+        let mut restrainer = serde_json::json!({
+            "kind": "disc-springs", "outer_diameter_m": 0.2, "inner_diameter_m": 0.092, "thickness_m": 0.01,
+            "cone_height_m": 0.0056, "springs": 11, "tendon_stiffness_n_m": 12_117e3,
+        });
+        restrainer.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
+        let case = serde_json::json!({
+            "id": "s", "half_width_m": 0.1289, "half_height_m": 0.725, "top_load_n": 52.2e3, "column_weight_n": 1890.0,
+            "columns": 1, "restrainer": restrainer, "points": [{"u_m": 0.0, "drift": 0.0}],
+        });
+        verdicts(&serde_json::json!({ "statics": [case] }).to_string()).unwrap()[0].differences.join("; ")
+    };
+    let given = differences(serde_json::json!({"contact_flats": true, "reduced_thickness_m": 0.0095}));
+    assert_eq!(given, "");
+    assert_eq!(differences(serde_json::json!({"contact_flats": false})), "");
+    assert!(differences(serde_json::json!({"contact_flats": true})).contains("give reduced_thickness_m"));
+    let both = differences(serde_json::json!({"contact_flats": false, "reduced_thickness_m": 0.0095}));
+    assert!(both.contains("contact_flats is false"), "{both}");
+}

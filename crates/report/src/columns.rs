@@ -40,7 +40,8 @@ pub fn plot_protocol(report: &ProtocolReport, file: &Path) -> Result<(), UpliftE
     write_figure_file(&protocol_figure(report), file)
 }
 
-/// Draws every figure of a structure's columns into `folder`, and its elevation (Fig. 6.3); the files written.
+/// Draws every figure of a structure's columns into `folder`, and its elevation (as Fig. 5.4a and 6.3); the files
+/// written.
 ///
 /// # Errors
 /// A figure that it does not have; a folder that cannot be written, or where the figures would replace something else.

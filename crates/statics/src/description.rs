@@ -312,17 +312,15 @@ impl RestrainerDescription {
 
     /// The path of the tendon; whether it goes with a column is judged with the column.
     fn path(&self) -> Result<TendonPath, StaticsError> {
-        let missing = |key, advice| StaticsError::Missing { key, kind: self.kind.name(), advice };
+        let missing = |key, advice| StaticsError::MissingForPath { key, advice };
         match self.anchorage.unwrap_or_default() {
             TendonAnchorage::Column => Ok(TendonPath::Column),
             TendonAnchorage::Foundation => Ok(TendonPath::Foundation),
             TendonAnchorage::Shifted => Ok(TendonPath::Shifted {
-                duct_gap_m: self.duct_gap_m.ok_or_else(|| {
-                    missing("duct_gap_m", "with anchorage \"shifted\" give half of what the duct is wider, in m")
-                })?,
-                tendon_length_m: self
-                    .tendon_length_m
-                    .ok_or_else(|| missing("tendon_length_m", "with anchorage \"shifted\" give it in m"))?,
+                duct_gap_m: self
+                    .duct_gap_m
+                    .ok_or_else(|| missing("duct_gap_m", "give half of what the duct is wider, in m"))?,
+                tendon_length_m: self.tendon_length_m.ok_or_else(|| missing("tendon_length_m", "give it in m"))?,
             }),
         }
     }

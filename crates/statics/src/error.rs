@@ -22,6 +22,14 @@ pub enum StaticsError {
     /// A number of a description is beyond what any restrainer has.
     #[error("`{}`{}", .0.name, .0.to_string().trim_start_matches(.0.name))]
     Implausible(Implausible),
+    /// A description lacks a quantity that a tendon which moves in its duct needs.
+    #[error("`{key}` is missing: anchorage \"shifted\" needs it; {advice}")]
+    MissingForPath {
+        /// Name of the quantity.
+        key: &'static str,
+        /// What to give.
+        advice: &'static str,
+    },
     /// A description lacks a quantity that its kind of restrainer needs.
     #[error("`{key}` is missing: a restrainer of kind \"{kind}\" needs it; {advice}")]
     Missing {
@@ -201,10 +209,11 @@ impl StaticsError {
     /// Keys of a description whose values are at fault, the one to change first before the others; empty where none is.
     pub fn keys(&self) -> &[&'static str] {
         match self {
-            Self::OutOfRange { key, .. } | Self::Missing { key, .. } | Self::Foreign { key, .. } => {
-                std::slice::from_ref(key)
-            }
-            Self::Twice { key, .. } => std::slice::from_ref(key),
+            Self::OutOfRange { key, .. }
+            | Self::Missing { key, .. }
+            | Self::MissingForPath { key, .. }
+            | Self::Foreign { key, .. }
+            | Self::Twice { key, .. } => std::slice::from_ref(key),
             Self::Implausible(Implausible { name, .. }) => std::slice::from_ref(name),
             Self::Hole { .. } => &["inner_diameter_m", "outer_diameter_m"],
             Self::FreeHeight { .. } => &["free_height_m", "thickness_m"],

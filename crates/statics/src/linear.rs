@@ -41,7 +41,8 @@ pub struct LinearState {
     pub top_axial_n: f64,
     /// Moment at the top, `N b`, N m (Eq. 5.6).
     pub top_moment_n_m: f64,
-    /// Shear at the top, `F/N + P u/2h`, N (Eq. 5.7).
+    /// Shear at the top of a restrained column, `F₁ + P u/2h` with `F₁` what it takes of the force, `F/N` where all are
+    /// restrained, N (Eq. 5.7).
     pub top_shear_n: f64,
     /// Moment at the base, N m.
     pub base_moment_n_m: f64,
@@ -141,7 +142,15 @@ impl LinearLaw {
         (1.0 - free_m / capacity_m).max(0.0) * self.critical_stiffness_n_m()
     }
 
-    /// Everything at a displacement (m).
+    /// What a restrained column takes of the force, N.
+    fn share_n(&self, displacement_m: f64) -> f64 {
+        let held_n = 0.5 * self.openings * self.prestress_n;
+        let uplift_n = (self.weight_n + held_n) * 2.0 * self.half_width_m / self.height_m;
+        let restored_n = 0.5 * self.openings.powi(2) * self.stiffness_n_m * self.slenderness_rad * self.half_width_m;
+        uplift_n + (restored_n - self.weight_n) * displacement_m / self.height_m
+    }
+
+    /// Everything at a displacement (m); sections are those of a restrained column.
     pub fn at(&self, displacement_m: f64) -> LinearState {
         let force_n = self.uplift_force_n() + self.stiffness_n_m() * displacement_m;
         let tendon_n =
@@ -154,7 +163,7 @@ impl LinearLaw {
             tendon_n,
             top_axial_n,
             top_moment_n_m: top_axial_n * self.half_width_m,
-            top_shear_n: force_n / self.columns + self.top_load_n * displacement_m / self.height_m,
+            top_shear_n: self.share_n(displacement_m) + self.top_load_n * displacement_m / self.height_m,
             base_moment_n_m: (self.base_load_n + through_base_n) * self.half_width_m,
         }
     }

@@ -46,6 +46,16 @@ pub struct CyclicState {
     pub tendon_n: f64,
     /// Deformation of its springs, m.
     pub spring_m: Option<f64>,
+    /// Energy that yielding stoppers of all restrainers have dissipated so far, J: what they yield at, times how far
+    /// they have stretched plastically.
+    pub dissipated_j: f64,
+}
+
+impl Default for LoadingProtocol {
+    /// That of Figure 5.11: 18 sets of two cycles from 0.36 %, each 1.25 times the one before, at 1.38e-4/s.
+    fn default() -> Self {
+        Self { first_drift: 0.0036, ratio: 1.25, sets: 18, cycles: 2, rate_per_s: 1.38e-4 }
+    }
 }
 
 impl LoadingProtocol {
@@ -126,6 +136,8 @@ impl RestrainedColumns {
     pub fn under(&self, history: &[ProtocolPoint]) -> Result<Vec<CyclicState>, StaticsError> {
         let mut columns = self.clone();
         let mut largest_m = 0.0_f64;
+        let mut dissipated_j = 0.0;
+        let stoppers = self.restrainer().and_then(|held| held.parts().stopper);
         let mut states = Vec::with_capacity(history.len());
         for point in history {
             let displacement_m = point.drift * self.geometry().height_m();
@@ -136,6 +148,7 @@ impl RestrainedColumns {
                 && spring_m > yields_m.max(largest_m)
             {
                 largest_m = spring_m;
+                dissipated_j = f64::from(self.restrained()) * stoppers.map_or(0.0, |rods| rods.dissipated_j(largest_m));
                 // the law is that of the first loading up to here, and that of the stretched rods from here on
                 let held = self.restrainer().map(|held: &Restrainer| held.after_yielding(largest_m)).transpose()?;
                 if let Some(held) = held {
@@ -150,6 +163,7 @@ impl RestrainedColumns {
                 force_n: (displacement_m != 0.0).then_some(sign * state.force_n),
                 tendon_n: state.tendon_n,
                 spring_m: state.spring_m,
+                dissipated_j,
             });
         }
         Ok(states)

@@ -201,7 +201,8 @@ pub struct Candidate {
     pub restrainer: Restrainer,
 }
 
-/// The stacks out of `catalogue` that give `columns` what is asked for, the first by `ranking` first. The columns'
+/// The stacks out of `catalogue` that give `columns` what is asked for, the first by `ranking` first; of those for a
+/// stiffness the ones without a displacement capacity last. The columns'
 /// own restrainers, if any, are replaced.
 ///
 /// # Errors
@@ -224,7 +225,11 @@ pub fn select(
             }
         }
     }
-    found.sort_by(|left, right| rank(left, ranking).total_cmp(&rank(right, ranking)));
+    // where a force is to vanish, stacks that are flat before it does come last
+    let by_stiffness = matches!(target, Target::Stiffness { .. });
+    let ends = |candidate: &Candidate| by_stiffness && candidate.capacity_m.is_none();
+    found
+        .sort_by(|left, right| ends(left).cmp(&ends(right)).then(rank(left, ranking).total_cmp(&rank(right, ranking))));
     Ok(found)
 }
 

@@ -15,6 +15,8 @@ const STIFFNESS_SHARE: f64 = 0.05;
 pub struct Imperfections {
     /// Elongation that a loose nut lets pass, m.
     pub slack_m: f64,
+    /// Prestress that is more than meant, N.
+    pub prestress_n: f64,
     /// Distance by which a tendon moves in its duct, m.
     pub duct_gap_m: f64,
     /// Length of the tendon, m.
@@ -33,15 +35,16 @@ pub struct Tolerance {
 }
 
 impl RestrainedColumns {
-    /// Displacement capacities with one imperfection each: springs 5 % stiffer and softer, slack, a tendon that shifts
-    /// in its duct, and one tendon less. Nothing without a restrainer.
+    /// Displacement capacities with one imperfection each: springs 5 % stiffer and softer, slack, more prestress, a
+    /// tendon that shifts in its duct, and one tendon less. Nothing without a restrainer.
     ///
     /// # Errors
-    /// The slack must be finite and positive, gap and length go with the column.
+    /// Slack and prestress must be finite and positive, gap and length go with the column.
     pub fn tolerances(&self, imperfections: &Imperfections) -> Result<Vec<Tolerance>, StaticsError> {
         let Some(restrainer) = self.restrainer() else { return Ok(Vec::new()) };
-        let Imperfections { slack_m, duct_gap_m, tendon_length_m } = *imperfections;
+        let Imperfections { slack_m, prestress_n, duct_gap_m, tendon_length_m } = *imperfections;
         positive("slack_m", slack_m, "m")?;
+        positive("prestress_n", prestress_n, "N")?;
         let parts = *restrainer.parts();
         let with = |parts: Parts| Ok::<_, StaticsError>(self.clone().with_law(Restrainer::new(parts)?));
         let scaled = |factor: f64| match parts.spring {
@@ -67,6 +70,10 @@ impl RestrainedColumns {
         // prestress is what takes the slack up: without it the nut is loose
         let slack = with(Parts { slack_m: parts.slack_m + slack_m, prestress_n: 0.0, ..parts })?;
         found.push(tolerance(format!("a nut loosened by {:.1} mm", 1e3 * slack_m), &slack));
+        // one that would press the springs flat is no slip of a wrench
+        if let Ok(tight) = with(Parts { slack_m: 0.0, prestress_n: parts.prestress_n + prestress_n, ..parts }) {
+            found.push(tolerance(format!("a prestress of {:.1} kN more", 1e-3 * prestress_n), &tight));
+        }
         if self.path() == TendonPath::Column && duct_gap_m > 0.0 {
             let path = TendonPath::Shifted { duct_gap_m, tendon_length_m };
             let shifted = self.clone().with_restrainer(restrainer.clone(), path)?.with_restrained(self.restrained())?;

@@ -14,6 +14,7 @@ use crate::hand_solutions::{column, stack};
 #[test]
 fn the_protocol_of_figure_5_11() {
     let protocol = LoadingProtocol::new(0.0036, 1.25, 18, 2, 1.38e-4).unwrap();
+    assert_eq!(protocol, LoadingProtocol::default());
     let amplitudes = protocol.amplitudes();
     assert_eq!(amplitudes.len(), 18);
     assert!((amplitudes[16] - 0.128).abs() < 5e-4 && (amplitudes[17] - 0.1599).abs() < 5e-5, "{amplitudes:?}");
@@ -56,14 +57,20 @@ fn stoppers_dissipate_once() {
                 0.5 * (pair[0].force_n.unwrap() + pair[1].force_n.unwrap()) * way
             })
             .sum();
-        (energy, states.iter().filter_map(|state| state.spring_m).fold(0.0, f64::max))
+        let largest_m = states.iter().filter_map(|state| state.spring_m).fold(0.0, f64::max);
+        (energy, states.last().unwrap().dissipated_j, largest_m)
     };
-    let (elastic_j, _) = work_j(None);
-    let (yielding_j, largest_m) = work_j(stopper);
+    let (elastic_j, none_j, _) = work_j(None);
+    let (yielding_j, told_j, largest_m) = work_j(stopper);
     assert!(elastic_j.abs() < 1.0, "{elastic_j}");
+    assert_eq!(none_j, 0.0);
     let plastic_m = largest_m - 0.005 - 4e3 / 4e7;
     let by_hand_j = 2.0 * 4e3 * plastic_m;
     assert!(plastic_m > 0.005 && (yielding_j / by_hand_j - 1.0).abs() < 0.01, "{yielding_j} {by_hand_j}");
+    assert!((told_j / by_hand_j - 1.0).abs() < 1e-12, "{told_j} {by_hand_j}");
+    // one that never yields, and one that never engages
+    let never = |gap_m, yield_n| work_j(Some(Stopper { gap_m, stiffness_n_m: 4e7, yield_n })).1;
+    assert_eq!([never(0.005, None), never(0.5, Some(4e3))], [0.0, 0.0]);
 }
 
 /// The ellipse of a viscous damper of force `c` beside a spring `k`: area `π u c`, damping `c/(2 k u)`.

@@ -81,7 +81,10 @@ fn keys_that_lack_or_mean_nothing_are_told_together() {
     ] {
         assert!(found.iter().any(|message| message.contains(words)), "{words}: {found:#?}");
     }
-    refused(json!({"anchorage": "shifted", "duct_gap_m": 0.008}), "`tendon_length_m` is missing");
+    refused(
+        json!({"anchorage": "shifted", "duct_gap_m": 0.008}),
+        "`tendon_length_m` is missing: anchorage \"shifted\" needs",
+    );
     let none: RestrainerDescription = serde_json::from_value(json!({"kind": "none"})).unwrap();
     assert_eq!(none.resolve().unwrap(), None);
     assert!(serde_json::from_value::<RestrainerDescription>(json!({"kind": "linear", "stifness": 1.0})).is_err());

@@ -46,6 +46,9 @@ fn the_stack_of_the_column() {
     let ours: Vec<_> = found.iter().filter(|stack| stack.disc == "200/92/10" && stack.parallel == 1).collect();
     // lightest first: 11 discs, 7 % above the target, then 12 to 14 down to 10 % below
     assert_eq!(ours.iter().map(|stack| stack.springs).collect::<Vec<_>>(), [11, 12, 13, 14]);
+    // whatever is flat before the force vanishes stands behind what has a capacity
+    let last = found.iter().rposition(|stack| stack.capacity_m.is_some()).unwrap();
+    assert!(found[..=last].iter().all(|stack| stack.capacity_m.is_some()), "{found:#?}");
     assert!((ours[0].miss - 0.0742).abs() < 0.01 && ours[0].capacity_m.unwrap() > 0.5156, "{:?}", ours[0]);
     // asked for the capacity itself, 11 is the softest of these discs that has it
     let target = Target::Capacity { capacity_m: 0.5156 };

@@ -21,6 +21,9 @@ const DISPLACEMENTS: [(&str, f64, bool); 4] = [
 /// Columns that give the force, with what makes newtons of them.
 const FORCES: [(&str, f64); 2] = [("force_n", 1.0), ("force_kn", 1e3)];
 
+/// Drift ratio beyond which a displacement is taken for one in another unit: columns that lean so far lie.
+const LARGEST_DRIFT: f64 = 2.0;
+
 /// A measured curve beside the computed one.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MeasuredCurve {
@@ -57,9 +60,16 @@ impl MeasuredCurve {
     /// Reads a table with a column of the displacement and one of the force.
     ///
     /// # Errors
-    /// A file that is no such table; cells that are no numbers; fewer than three rows.
+    /// A file that is no such table, or has two columns of one quantity; cells that are no numbers; fewer than three
+    /// rows; displacements in another unit than their column says.
     pub(super) fn read(file: &Path, columns: &RestrainedColumns) -> Result<Self, UpliftError> {
         let table = ReferenceTable::read_as("measured", file)?;
+        let all = |names: &[&'static str]| names.iter().copied().filter(|name| table.has(name)).collect::<Vec<_>>();
+        for names in [all(&DISPLACEMENTS.map(|(name, ..)| name)), all(&FORCES.map(|(name, _)| name))] {
+            if names.len() > 1 {
+                return Err(table.fail(format!("it has the columns {}: leave one", names.join(" and "))));
+            }
+        }
         let (x, to_m, by_height) = *DISPLACEMENTS.iter().find(|(name, ..)| table.has(name)).ok_or_else(|| {
             let names = DISPLACEMENTS.map(|(name, ..)| name).join(", ");
             table.fail(format!("it has no column of displacement: name one of its columns {names}"))
@@ -73,6 +83,17 @@ impl MeasuredCurve {
         let points = (0..table.rows())
             .map(|row| Ok((to_m * table.number::<f64>(x, row)?, to_n * table.number::<f64>(y, row)?)))
             .collect::<Result<Vec<_>, UpliftError>>()?;
+        if let Some((row, (at_m, _))) =
+            points.iter().enumerate().find(|(_, (at_m, _))| at_m.abs() > LARGEST_DRIFT * height_m)
+        {
+            return Err(table.fail(format!(
+                "row {}, {x}: {} is {:.0} times the height of the columns: is it in the unit of its column? Lengths \
+                 are displacement_m or displacement_mm, ratios drift or drift_percent",
+                row + 1,
+                table.text(x, row),
+                at_m.abs() / height_m
+            )));
+        }
         let measured = MeasuredLoop::new(points).map_err(|error| table.fail(error))?;
         let (from, to) = SLOPE_DRIFTS;
         let computed_slope_n_m = columns.slope_between_drifts_n_m(from, to).ok();

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use uplift_statics::{CyclicState, LoadingProtocol, MeasuredLoop, ProtocolPoint, RestrainedColumns};
+use uplift_statics::{CyclicState, LoadingProtocol, ProtocolPoint, RestrainedColumns};
 
 use super::tables;
 use crate::error::UpliftError;
@@ -57,7 +57,7 @@ pub fn protocol(options: &ProtocolOptions, events: &dyn Events) -> Result<Protoc
     };
     if let Some(table) = &options.table {
         events.writing_into(table.parent().unwrap_or(Path::new("")));
-        tables::write_protocol(&report.history, table)?;
+        tables::write_protocol(&options.protocol, &report.history, table)?;
         report.files.push(table.clone());
     }
     Ok(report)
@@ -74,7 +74,7 @@ pub struct CyclicReport {
     pub largest_force_n: f64,
     /// Largest force of a restrainer, N.
     pub largest_tendon_n: f64,
-    /// Energy that yielding stoppers dissipate, all cycles together, J; 0 but for rounding without them.
+    /// Energy that yielding stoppers dissipate, all cycles together, J; 0 where none yields.
     pub dissipated_j: f64,
     /// The history.
     #[serde(skip)]
@@ -85,15 +85,12 @@ impl CyclicReport {
     pub(super) fn of(columns: &RestrainedColumns, protocol: LoadingProtocol) -> Result<Self, UpliftError> {
         let states = columns.under(&protocol.history(PARTS)?)?;
         let largest = |value: fn(&CyclicState) -> f64| states.iter().map(value).fold(0.0, f64::max);
-        let moved = states.iter().filter_map(|state| Some((state.displacement_m, state.force_n?)));
-        // through rest the force jumps from one side to the other: the steps to and from it cancel in pairs
-        let work_j = MeasuredLoop::new(moved.collect())?.work_j;
         Ok(Self {
             amplitudes: protocol.amplitudes(),
             duration_s: protocol.duration_s(),
             largest_force_n: largest(|state| state.force_n.map_or(0.0, f64::abs)),
             largest_tendon_n: largest(|state| state.tendon_n),
-            dissipated_j: work_j,
+            dissipated_j: states.last().map_or(0.0, |state| state.dissipated_j),
             states,
         })
     }

@@ -148,10 +148,10 @@ pub fn pushover(
     events: &dyn Events,
 ) -> Result<PushoverReport, UpliftError> {
     if let Some(table) = &options.table {
-        let column = if options.protocol.is_some() { tables::PROTOCOL_COLUMN } else { tables::PUSHOVER_COLUMN };
+        let column = if options.protocol.is_some() { tables::CYCLIC_COLUMN } else { tables::PUSHOVER_COLUMN };
         let inputs: Vec<&Path> =
             [Some(&structure.file), options.measured.as_ref()].into_iter().flatten().map(PathBuf::as_path).collect();
-        outputs::check(&[Output::new(table, OutputKind::Table(column))], &inputs, options.force)?;
+        outputs::check(&[Output::new(table, OutputKind::Table(column)).of(&structure.file)], &inputs, options.force)?;
     }
     if !(2..=MOST_ROWS).contains(&options.rows) {
         return Err(UpliftError::Usage(format!("{} rows: give from 2 to {MOST_ROWS}", options.rows)));
@@ -184,7 +184,7 @@ pub fn pushover(
         top_load_n: columns.top_load_n(),
         column_weight_n: columns.column_weight_n(),
         anchorage: columns.restrainer().map(|_| anchorage_word(columns.path())),
-        axial_load_ratio: structure.f_cd_pa.map(|f_cd_pa| columns.top_load_n() / (area_m2(structure) * f_cd_pa)),
+        axial_load_ratio: axial_load_ratio(structure, &columns),
         uplift_force_n: columns.uplift_force_n(),
         warnings: warnings(&columns, to_m),
         capacity,
@@ -227,7 +227,11 @@ pub(crate) fn pushed(structure: &Structure, lost: u32) -> Result<RestrainedColum
     }
 }
 
-fn capacity(columns: &RestrainedColumns) -> Result<CapacityReport, UpliftError> {
+/// How far columns can go.
+///
+/// # Errors
+/// None that the columns themselves did not have.
+pub(crate) fn capacity(columns: &RestrainedColumns) -> Result<CapacityReport, UpliftError> {
     let exact = columns.capacity();
     let stoppers = columns.restrainer().is_some_and(|held| held.parts().stopper.is_some());
     let exact_without_stoppers = if stoppers { columns.without_stoppers()?.capacity() } else { None };
@@ -283,6 +287,11 @@ pub(crate) fn anchorage_word(path: TendonPath) -> &'static str {
         TendonPath::Foundation => "foundation",
         TendonPath::Shifted { .. } => "shifted",
     }
+}
+
+/// Load on a column over the strength of its section; none where the structure does not give its strength.
+pub(crate) fn axial_load_ratio(structure: &Structure, columns: &RestrainedColumns) -> Option<f64> {
+    structure.f_cd_pa.map(|f_cd_pa| columns.top_load_n() / (area_m2(structure) * f_cd_pa))
 }
 
 /// Area of a column's section, m².

@@ -3,16 +3,18 @@
 use std::path::Path;
 
 use polars::prelude::Column;
-use uplift_statics::{CyclicState, ProtocolPoint, PushoverState};
+use uplift_statics::{CyclicState, LoadingProtocol, ProtocolPoint, PushoverState};
 
 use super::run::PushoverReport;
 use crate::error::UpliftError;
 use crate::result::write_table;
 
-/// A column of every pushover.
+/// A column of every pushover, and of no other table.
 pub(super) const PUSHOVER_COLUMN: &str = "top_moment_n_m";
-/// A column of every protocol.
-pub(super) const PROTOCOL_COLUMN: &str = "drift";
+/// A column of every protocol, and of no other table.
+pub(super) const PROTOCOL_COLUMN: &str = "amplitude_drift";
+/// A column of every pushover through a protocol, and of no other table.
+pub(super) const CYCLIC_COLUMN: &str = "dissipated_j";
 
 /// Writes the rows, or the history of the protocol where there is one.
 pub(super) fn write(report: &PushoverReport, file: &Path) -> Result<(), UpliftError> {
@@ -20,12 +22,20 @@ pub(super) fn write(report: &PushoverReport, file: &Path) -> Result<(), UpliftEr
         Some(cyclic) => cyclic_columns(&cyclic.states),
         None => pushover_columns(report),
     };
-    write_table(file, &provenance(&format!("pushover of {}", report.name)), columns)
+    let what = if report.cyclic.is_some() { "pushover through a protocol" } else { "pushover" };
+    write_table(file, &provenance(&format!("{what}, structure {}", report.file.display())), columns)
 }
 
 /// Writes the history of a protocol.
-pub(super) fn write_protocol(history: &[ProtocolPoint], file: &Path) -> Result<(), UpliftError> {
-    write_table(file, &provenance("loading protocol"), protocol_columns(history))
+pub(super) fn write_protocol(
+    protocol: &LoadingProtocol,
+    history: &[ProtocolPoint],
+    file: &Path,
+) -> Result<(), UpliftError> {
+    let amplitudes: Vec<f64> = history.iter().map(|point| protocol.amplitude(point.set)).collect();
+    let mut columns = protocol_columns(history);
+    columns.push(Column::new(PROTOCOL_COLUMN.into(), amplitudes));
+    write_table(file, &provenance("loading protocol"), columns)
 }
 
 fn provenance(what: &str) -> String {
@@ -69,6 +79,7 @@ fn cyclic_columns(states: &[CyclicState]) -> Vec<Column> {
         optional("force_n", |state| state.force_n),
         optional("tendon_n", |state| Some(state.tendon_n)),
         optional("spring_m", |state| state.spring_m),
+        optional(CYCLIC_COLUMN, |state| Some(state.dissipated_j)),
     ]);
     columns
 }
@@ -82,7 +93,7 @@ fn protocol_columns(points: &[ProtocolPoint]) -> Vec<Column> {
     };
     vec![
         column("time_s", |point| point.time_s),
-        column(PROTOCOL_COLUMN, |point| point.drift),
+        column("drift", |point| point.drift),
         count("set", |point| point.set),
         count("cycle", |point| point.cycle),
     ]

@@ -82,7 +82,11 @@ impl Shaking {
     /// Refuses a place for the history where something else is; else the record.
     pub(super) fn read(&self) -> Result<Accelerogram, UpliftError> {
         if let Some(file) = &self.history_file {
-            outputs::check(&[Output::new(file, OutputKind::Table("time_s"))], &[&self.record], self.force)?;
+            outputs::check(
+                &[Output::new(file, OutputKind::Table("ground_acceleration_m_s2"))],
+                &[&self.record],
+                self.force,
+            )?;
         }
         let options = ReadOptions {
             dt_s: self.dt_s,

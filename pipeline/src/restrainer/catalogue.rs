@@ -10,6 +10,9 @@ use crate::table::ReferenceTable;
 /// Most discs; no maker has more.
 const MOST_DISCS: usize = 100_000;
 
+/// How far cone height, free height and thickness may be from going together, m: what rounding leaves of each.
+const ROUNDING_M: f64 = 0.06e-3;
+
 /// Reads discs: `outer_diameter_mm`, `inner_diameter_mm`, `thickness_mm`, `cone_height_mm` or `free_height_mm`; where
 /// they are known `reduced_thickness_mm`, `mass_kg`, `price` and a `name`.
 ///
@@ -51,6 +54,18 @@ fn disc(table: &ReferenceTable, row: usize) -> Result<CatalogueDisc, UpliftError
     let thickness_m = length_m("thickness_mm")?;
     let cone_height_m =
         if given("cone_height_mm") { length_m("cone_height_mm")? } else { length_m("free_height_mm")? - thickness_m };
+    if given("cone_height_mm") && given("free_height_mm") {
+        let free_height_m = length_m("free_height_mm")?;
+        if !((free_height_m - thickness_m - cone_height_m).abs() <= ROUNDING_M) {
+            return Err(table.fail(format!(
+                "row {}: free_height_mm {} is not thickness_mm {} and cone_height_mm {} together",
+                row + 1,
+                table.text("free_height_mm", row),
+                table.text("thickness_mm", row),
+                table.text("cone_height_mm", row)
+            )));
+        }
+    }
     let dimensions = DiscDimensions {
         outer_diameter_m: length_m("outer_diameter_mm")?,
         inner_diameter_m: length_m("inner_diameter_mm")?,

@@ -13,8 +13,8 @@ use crate::outputs::{self, Output, OutputKind};
 use crate::pushover::anchorage_word;
 use crate::result::write_table;
 
-/// A column of every curve.
-const CURVE_COLUMN: &str = "elongation_m";
+/// A column of every curve, and of no other table.
+const CURVE_COLUMN: &str = "spring_secant_n_m";
 /// Most rows of a table; more is a slip.
 const MOST_ROWS: u32 = 100_000;
 
@@ -127,7 +127,7 @@ pub fn curve(
     events: &dyn Events,
 ) -> Result<RestrainerCurve, UpliftError> {
     if let Some(table) = &options.table {
-        let output = Output::new(table, OutputKind::Table(CURVE_COLUMN));
+        let output = Output::new(table, OutputKind::Table(CURVE_COLUMN)).of(&of.file);
         outputs::check(&[output], &[&of.file], options.force)?;
     }
     if !(2..=MOST_ROWS).contains(&options.rows) {
@@ -222,13 +222,14 @@ fn write(report: &RestrainerCurve, file: &Path) -> Result<(), UpliftError> {
         Column::new(name.into(), report.rows.iter().map(value).collect::<Vec<Option<f64>>>())
     };
     let columns = vec![
-        column(CURVE_COLUMN, |row| Some(row.elongation_m)),
+        column("elongation_m", |row| Some(row.elongation_m)),
         column("force_n", |row| Some(row.force_n)),
         column("secant_n_m", |row| row.secant_n_m),
         column("stiffness_n_m", |row| Some(row.stiffness_n_m)),
         column("spring_m", |row| row.spring_m),
-        column("spring_secant_n_m", |row| row.spring_secant_n_m),
+        column(CURVE_COLUMN, |row| row.spring_secant_n_m),
         column("energy_j", |row| Some(row.energy_j)),
     ];
-    write_table(file, &format!("{}; restrainer {}", outputs::mark(), report.name), columns)
+    let line = format!("{}; restrainer, structure {}", outputs::mark(), report.file.display());
+    write_table(file, &line, columns)
 }

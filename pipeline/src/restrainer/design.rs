@@ -17,10 +17,12 @@ use crate::pushover::pushed;
 use crate::result::write_table;
 use crate::structure::{DesignOptions, design as design_by_spectrum};
 
-/// A column of every list of stacks.
-const STACK_COLUMN: &str = "springs";
+/// A column of every list of stacks, and of no other table.
+const STACK_COLUMN: &str = "tendon_utilisation";
 /// Slack of which the effect is told, m.
 const SLACK_M: f64 = 0.002;
+/// Prestress of which the effect is told, as a share of the load on a column: that of column J, 2 kN of 52.2 kN.
+const PRESTRESS_SHARE: f64 = 0.04;
 /// Gap of a duct of which the effect is told where the structure has none, m: the specimen's of Chapter 6.
 const DUCT_GAP_M: f64 = 0.0087;
 
@@ -68,6 +70,9 @@ pub struct RestrainerDesignOptions {
     pub ranking: Ranking,
     /// A stopper to be sized for each.
     pub stopper: Option<StopperOptions>,
+    /// The stack whose tolerances are told, as it is called in the list, `6 x 2 x 160/82/10`; the first where none is
+    /// given.
+    pub tolerances_of: Option<String>,
     /// Most stacks that are told.
     pub most: usize,
     /// Where all of them are written, CSV.
@@ -85,10 +90,21 @@ pub struct TargetReport {
     pub stiffness_n_m: f64,
     /// Displacement capacity asked for, m.
     pub capacity_m: Option<f64>,
+    /// Displacement that the spectrum demands, m; none where the target is no spectrum's.
+    pub demand_m: Option<f64>,
     /// Travel at which the stiffness counts, m.
     pub at_m: f64,
     /// Stiffness at which the linear force neither falls nor rises, N/m.
     pub critical_stiffness_n_m: f64,
+}
+
+/// A stack at the demand of a spectrum.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct AtDemand {
+    /// Force of the tendon, N.
+    pub tendon_n: f64,
+    /// Deformation of the springs, m.
+    pub spring_m: f64,
 }
 
 /// A stopper for a stack.
@@ -121,9 +137,13 @@ pub struct RestrainerDesign {
     pub found: usize,
     /// The first of them.
     pub stacks: Vec<Candidate>,
+    /// Each of these at the demand; none where the target is no spectrum's.
+    pub at_demand: Vec<AtDemand>,
     /// A stopper for each of these; none was asked for where there is none.
     pub stoppers: Vec<StopperReport>,
-    /// What imperfections do to the first.
+    /// The stack that the tolerances are of, as [`stack_name`] calls it.
+    pub tolerances_of: String,
+    /// What imperfections do to it.
     pub tolerances: Vec<Tolerance>,
     /// The files written.
     pub files: Vec<PathBuf>,
@@ -141,7 +161,7 @@ pub fn design(
     events: &dyn Events,
 ) -> Result<RestrainerDesign, UpliftError> {
     if let Some(table) = &options.table {
-        let output = Output::new(table, OutputKind::Table(STACK_COLUMN));
+        let output = Output::new(table, OutputKind::Table(STACK_COLUMN)).of(&structure.file);
         outputs::check(&[output], &[&structure.file, &options.catalogue], options.force)?;
     }
     let columns = pushed(structure, 0)?;
@@ -195,6 +215,10 @@ pub fn design(
             })
             .collect::<Result<Vec<_>, UpliftError>>()?,
     };
+    let at_demand = match told.demand_m {
+        None => Vec::new(),
+        Some(demand_m) => stacks.iter().map(|stack| at_demand(&with(stack)?, demand_m)).collect::<Result<_, _>>()?,
+    };
     let (duct_gap_m, tendon_length_m) = match limits.path {
         TendonPath::Shifted { duct_gap_m, tendon_length_m } => (duct_gap_m, tendon_length_m),
         TendonPath::Column | TendonPath::Foundation => {
@@ -202,8 +226,15 @@ pub fn design(
             (DUCT_GAP_M.min(0.2 * columns.geometry().half_width_m()), 1.5 * columns.geometry().height_m())
         }
     };
-    let imperfections = Imperfections { slack_m: SLACK_M, duct_gap_m, tendon_length_m };
-    let tolerances = with(&stacks[0])?.tolerances(&imperfections)?;
+    let imperfections = Imperfections {
+        slack_m: SLACK_M,
+        prestress_n: PRESTRESS_SHARE * columns.top_load_n(),
+        duct_gap_m,
+        tendon_length_m,
+    };
+    let wanted = named(&all, options.tolerances_of.as_deref())?;
+    let tolerances_of = stack_name(wanted);
+    let tolerances = with(wanted)?.tolerances(&imperfections)?;
     let mut files = Vec::new();
     if let Some(table) = &options.table {
         events.writing_into(table.parent().unwrap_or(Path::new("")));
@@ -218,9 +249,36 @@ pub fn design(
         target: told,
         found: all.len(),
         stacks,
+        at_demand,
         stoppers,
+        tolerances_of,
         tolerances,
         files,
+    })
+}
+
+/// Columns with a stack in them at the demand (m).
+fn at_demand(held: &uplift_statics::RestrainedColumns, demand_m: f64) -> Result<AtDemand, UpliftError> {
+    let state = held.at_displacement(demand_m)?;
+    Ok(AtDemand { tendon_n: state.tendon_n, spring_m: state.spring_m.unwrap_or(0.0) })
+}
+
+/// What a stack is called: packets in alternate sense, discs in each where there are several, the disc.
+pub fn stack_name(stack: &Candidate) -> String {
+    let parallel = if stack.parallel > 1 { format!("{} x ", stack.parallel) } else { String::new() };
+    format!("{} x {parallel}{}", stack.springs, stack.disc)
+}
+
+/// The stack of this name, whatever its spaces; the first where none is given.
+fn named<'a>(stacks: &'a [Candidate], name: Option<&str>) -> Result<&'a Candidate, UpliftError> {
+    let Some(name) = name else { return Ok(&stacks[0]) };
+    let plain = |name: &str| name.split_whitespace().collect::<String>();
+    stacks.iter().find(|stack| plain(&stack_name(stack)) == plain(name)).ok_or_else(|| {
+        UpliftError::Usage(format!(
+            "{name:?} is none of the {} stacks that meet the target: name one as they are listed, e.g. \"{}\"",
+            stacks.len(),
+            stack_name(&stacks[0])
+        ))
     })
 }
 
@@ -238,6 +296,7 @@ fn target_of(
         words,
         stiffness_n_m,
         capacity_m,
+        demand_m: None,
         at_m: capacity_m.unwrap_or(at_m),
         critical_stiffness_n_m,
     };
@@ -281,7 +340,8 @@ fn target_of(
                 "a capacity of {required_m:.4} m: {} times the demand at {}, {:.4} in {} years, by {}",
                 design.safety_factor, found.site, found.poe, found.years, found.im
             );
-            capacity(words, required_m)
+            let (target, told) = capacity(words, required_m)?;
+            Ok((target, TargetReport { demand_m: Some(required_m / design.safety_factor), ..told }))
         }
         DesignTarget::ZeroStiffness => {
             let words = format!("a force that stays up to {at_m:.4} m");
@@ -330,17 +390,21 @@ fn none_found(
         ..*limits
     };
     let nearest = select(columns, discs, target, &loose, Ranking::Target).ok().and_then(|all| all.into_iter().next());
+    let snapping = discs.iter().filter(|disc| disc.disc.snaps_through()).count();
     let advice = match nearest {
+        None if snapping == discs.len() => {
+            "every disc snaps through (h0/t from 1.414 on), and behind a tendon has no unique state: take discs of \
+             less cone height"
+                .to_owned()
+        }
         None => {
             "no stack of these discs comes near it: take other discs, or allow more in a row with --springs".to_owned()
         }
         Some(near) => format!(
-            "the nearest without limits is {} x {}{}, {:+.1} % of the target, pressed by {:.0} % of its stroke, {:.0} \
+            "the nearest without limits is {}, {:+.1} % of the target, pressed by {:.0} % of its stroke, {:.0} \
              kN, {:.3} m long: allow it by --tolerance, --stroke, --tendon-factor, --largest-diameter-m, \
              --least-inner-diameter-m, --largest-length-m or --largest-force-n, or take other discs",
-            near.springs,
-            if near.parallel > 1 { format!("{} x ", near.parallel) } else { String::new() },
-            near.disc,
+            stack_name(&near),
             100.0 * near.miss,
             100.0 * near.stroke_share,
             1e-3 * near.tendon_n,
@@ -356,7 +420,7 @@ fn write(stacks: &[Candidate], structure: &Structure, file: &Path) -> Result<(),
     };
     let columns = vec![
         Column::new("disc".into(), stacks.iter().map(|stack| stack.disc.clone()).collect::<Vec<String>>()),
-        Column::new(STACK_COLUMN.into(), stacks.iter().map(|stack| stack.springs).collect::<Vec<u32>>()),
+        Column::new("springs".into(), stacks.iter().map(|stack| stack.springs).collect::<Vec<u32>>()),
         Column::new("parallel".into(), stacks.iter().map(|stack| stack.parallel).collect::<Vec<u32>>()),
         column("miss", |stack| Some(stack.miss)),
         column("secant_n_m", |stack| Some(stack.secant_n_m)),
@@ -364,12 +428,13 @@ fn write(stacks: &[Candidate], structure: &Structure, file: &Path) -> Result<(),
         column("tendon_n", |stack| Some(stack.tendon_n)),
         column("spring_m", |stack| Some(stack.spring_m)),
         column("stroke_share", |stack| Some(stack.stroke_share)),
-        column("tendon_utilisation", |stack| stack.tendon_utilisation),
+        column(STACK_COLUMN, |stack| stack.tendon_utilisation),
         column("capacity_m", |stack| stack.capacity_m),
         column("linear_capacity_m", |stack| stack.linear_capacity_m),
         column("length_m", |stack| Some(stack.length_m)),
         column("mass_kg", |stack| Some(stack.mass_kg)),
         column("price", |stack| stack.price),
     ];
-    write_table(file, &format!("{}; restrainers for {}", outputs::mark(), structure.name()), columns)
+    let line = format!("{}; stacks of springs, structure {}", outputs::mark(), structure.file.display());
+    write_table(file, &line, columns)
 }

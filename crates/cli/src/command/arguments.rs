@@ -16,6 +16,6 @@ pub(crate) use force::ForceArgument;
 pub(crate) use number::number;
 pub(crate) use probability::{number_or_per_cent, probability};
 pub(crate) use result::ResultArguments;
-pub(crate) use risk::RiskArguments;
+pub(crate) use risk::{OneRiskArguments, RiskArguments};
 pub(crate) use structure::StructureArguments;
 pub(crate) use study::{StudyArguments, run_options, shard};

@@ -40,15 +40,18 @@ pub(crate) fn print_pushover(report: &PushoverReport, terminal: &Terminal) -> Re
         writeln!(out, "linear, {k} kN/m ({share:.3} of the critical stiffness): capacity {capacity}")?;
     }
     if let Some(cyclic) = &report.cyclic {
+        let stoppers = match cyclic.dissipated_j {
+            dissipated_j if dissipated_j > 0.0 => format!(", {dissipated_j:.1} J dissipated by stoppers"),
+            _ => String::new(),
+        };
         writeln!(
             out,
-            "protocol   {} sets up to {:.2} %, {:.1} h: F up to {} kN, T up to {} kN, {:.1} J dissipated by stoppers",
+            "protocol   {} sets up to {:.2} %, {:.1} h: F up to {} kN, T up to {} kN{stoppers}",
             cyclic.amplitudes.len(),
             100.0 * cyclic.amplitudes.last().copied().unwrap_or_default(),
             cyclic.duration_s / 3600.0,
             kilo(cyclic.largest_force_n),
-            kilo(cyclic.largest_tendon_n),
-            cyclic.dissipated_j
+            kilo(cyclic.largest_tendon_n)
         )?;
     }
     if let Some(measured) = &report.measured {
@@ -106,7 +109,9 @@ fn capacity_words(capacity: Option<&Capacity>) -> String {
 
 fn kilo(value: f64) -> String {
     let value = 1e-3 * value;
-    if value.abs() < 1000.0 { format!("{value:.3}") } else { format!("{value:.1}") }
+    let words = if value.abs() < 1000.0 { format!("{value:.3}") } else { format!("{value:.1}") };
+    // at a neutral point rounding alone says which sign
+    if words == "-0.000" { "0.000".to_owned() } else { words }
 }
 
 fn millimetres(value: Option<f64>) -> String {

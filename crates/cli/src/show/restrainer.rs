@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use uplift::restrainer::{RestrainerCurve, RestrainerDesign};
+use uplift::restrainer::{RestrainerCurve, RestrainerDesign, stack_name};
 use uplift::text::table;
 use uplift_statics::Candidate;
 
@@ -107,6 +107,16 @@ pub(crate) fn print_restrainer_design(report: &RestrainerDesign, terminal: &Term
     if shown < found {
         writeln!(out, "{} more: --most {found} shows them, -o FILE.csv writes them", found - shown)?;
     }
+    if let Some(demand_m) = target.demand_m {
+        let rows: Vec<Vec<String>> = report
+            .stacks
+            .iter()
+            .zip(&report.at_demand)
+            .map(|(stack, state)| vec![stack_name(stack), kilo(state.tendon_n), format!("{:.2}", 1e3 * state.spring_m)])
+            .collect();
+        let title = format!("at the demand, {demand_m:.4} m");
+        writeln!(out, "\n{}", table(&[&title, "T, kN", "springs, mm"], &rows))?;
+    }
     if !report.stoppers.is_empty() {
         let rows: Vec<Vec<String>> = report
             .stacks
@@ -114,7 +124,7 @@ pub(crate) fn print_restrainer_design(report: &RestrainerDesign, terminal: &Term
             .zip(&report.stoppers)
             .map(|(stack, stopper)| {
                 vec![
-                    name(stack),
+                    stack_name(stack),
                     stopper.engages_at_m.map_or("-".to_owned(), |at_m| format!("{at_m:.4}")),
                     kilo(stopper.engages_at_n),
                     stopper.most_yield_n.map_or("none".to_owned(), kilo),
@@ -134,23 +144,16 @@ pub(crate) fn print_restrainer_design(report: &RestrainerDesign, terminal: &Term
             ]
         })
         .collect();
-    if let Some(first) = report.stacks.first() {
-        let title = format!("{} with", name(first));
-        writeln!(out, "\n{}", table(&[&title, "u_cap, m", "change, %"], &rows))?;
-    }
+    let title = format!("{} with", report.tolerances_of);
+    writeln!(out, "\n{}", table(&[&title, "u_cap, m", "change, %"], &rows))?;
     drop(out);
     print_files(&report.files, terminal)
-}
-
-fn name(stack: &Candidate) -> String {
-    let parallel = if stack.parallel > 1 { format!("{} x ", stack.parallel) } else { String::new() };
-    format!("{} x {parallel}{}", stack.springs, stack.disc)
 }
 
 fn cells(stack: &Candidate) -> Vec<String> {
     let metres = |value: Option<f64>| value.map_or("none".to_owned(), |value| format!("{value:.4}"));
     vec![
-        name(stack),
+        stack_name(stack),
         format!("{:+.1}", 100.0 * stack.miss),
         format!("{:.0}", 1e-3 * stack.secant_n_m),
         format!("{:.4}", stack.at_m),

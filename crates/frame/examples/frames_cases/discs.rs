@@ -4,6 +4,7 @@ use serde_json::Value;
 use uplift_statics::{RestrainerDescription, TendonAnchorage};
 
 use super::comparison::{Comparison, number};
+use super::restrainer::contact_flats;
 
 /// Relative tolerance of a disc's force: a polynomial.
 const TOLERANCE: f64 = 1e-12;
@@ -16,6 +17,7 @@ pub(crate) fn disc_case(case: &Value, comparison: &mut Comparison) -> Result<(),
     comparison.tolerance = number(whole, "tolerance").unwrap_or(TOLERANCE);
     let mut keys = whole.clone();
     keys.retain(|key, value| !value.is_null() && !OF_THE_CASE.contains(&key.as_str()));
+    contact_flats(&mut keys)?;
     let series = keys.remove("springs").and_then(|springs| springs.as_u64()).unwrap_or(1);
     keys.insert("kind".to_owned(), "disc-springs".into());
     let description: RestrainerDescription =

@@ -41,6 +41,11 @@ pub(crate) fn statics_case(case: &Value, comparison: &mut Comparison) -> Result<
             None => comparison.unknown(name),
         }
     }
+    // where a quantity crosses zero, rounding is that of the larger terms that cancel
+    let largest = |name: &str| {
+        let sizes = case.points.iter().filter_map(|point| Some(number(point, name)?.abs()));
+        sizes.fold(0.0, f64::max)
+    };
     for (index, point) in case.points.iter().enumerate() {
         let state = match (number(point, "u_m"), number(point, "theta_rad")) {
             (Some(u_m), _) => columns.at_displacement(u_m),
@@ -50,7 +55,10 @@ pub(crate) fn statics_case(case: &Value, comparison: &mut Comparison) -> Result<
         let state = state.map_err(|error| format!("point {index}: {error}"))?;
         for (name, expected) in point {
             match quantity(&columns, &state, name) {
-                Ok(ours) => comparison.compare(&format!("point {index} {name}"), ours, expected),
+                Ok(ours) => {
+                    let (absolute, relative) = (comparison.tolerance * largest(name), comparison.tolerance);
+                    comparison.within(&format!("point {index} {name}"), ours, expected, absolute, relative);
+                }
                 Err(Unknown) => comparison.unknown(&format!("point {index} {name}")),
             }
         }

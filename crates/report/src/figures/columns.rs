@@ -4,14 +4,21 @@ use uplift::UpliftError;
 use uplift::pushover::{ProtocolReport, PushoverReport};
 use uplift::restrainer::RestrainerCurve;
 use uplift_plot::{Axis, Figure, Marks, Panel, Series, Tone};
-use uplift_statics::{LinearLaw, Parts, RestrainedColumns, Restrainer, Spring, TendonPath, tilt};
+use uplift_statics::{
+    LinearLaw, LoadingProtocol, Parts, ProtocolPoint, RestrainedColumns, Restrainer, Spring, StaticsError, TendonPath,
+    tilt,
+};
 
 /// Points on a computed line.
 const POINTS: u32 = 240;
-/// Shares of the critical stiffness that Figures 5.4 and 6.4 have a line for.
+/// Shares of the critical stiffness that Figure 5.4 has a line for.
 const SHARES: [f64; 6] = [0.0, 0.25, 0.5, 0.75, 1.0, 1.25];
+/// Shares of the critical stiffness at the column that Figure 6.4a has two lines for: in the foundation the second is
+/// critical.
+const ANCHORED_SHARES: [f64; 3] = [0.125, 0.25, 0.375];
 const DISPLACEMENT: &str = "displacement u, m";
 const FORCE: &str = "force F, kN";
+const FORCE_OVER_WEIGHT: &str = "force over weight F/(N W)";
 
 fn figure(id: &str, title: String, caption: impl Into<String>, panels: Vec<Panel>) -> Figure {
     let columns = panels.len().min(2);
@@ -70,13 +77,29 @@ pub fn pushover_figure(report: &PushoverReport) -> Figure {
         .filter(|(at_m, _)| *at_m <= to_m)
         .collect();
     series.push(Series { name: "events".to_owned(), points: events, tone: Tone::Distinct(0), marks: Marks::Only });
-    let panel = Panel::lines("", Axis::linear(DISPLACEMENT), Axis::linear(FORCE), series);
-    figure(
-        "pushover",
-        format!("Pushover of {}", report.name),
-        "Force over displacement of the deck: the exact law with its events (dots), and what is laid over it.",
-        vec![panel],
-    )
+    let mut panels = vec![Panel::lines("", Axis::linear(DISPLACEMENT), Axis::linear(FORCE), series)];
+    let mut caption =
+        "Force over displacement of the deck: the exact law with its events (dots), and what is laid over it."
+            .to_owned();
+    if !report.linear.is_empty() {
+        panels.push(over_weight(report, to_m));
+        caption += " The exact and the linearised laws also over the weight, as in Fig. 5.4b.";
+    }
+    figure("pushover", format!("Pushover of {}", report.name), caption, panels)
+}
+
+/// `F/(N W)` of the exact law and of linear ones.
+fn over_weight(report: &PushoverReport, to_m: f64) -> Panel {
+    let columns = &report.pushed;
+    let weight_n = f64::from(columns.columns()) * columns.weight_n();
+    let exact = line(columns, to_m, |state| state.force_n / weight_n);
+    let mut series = vec![Series::line("exact", exact, Tone::Distinct(0))];
+    for (index, curve) in report.linear.iter().enumerate() {
+        let points = curve.rows.iter().map(|row| (row.displacement_m, row.force_n / weight_n)).collect();
+        let name = format!("linear, {:.0} kN/m", kilo(curve.stiffness_n_m));
+        series.push(Series::line(name, points, Tone::Distinct(index + 1)));
+    }
+    Panel::lines("", Axis::linear(DISPLACEMENT), Axis::linear(FORCE_OVER_WEIGHT), series)
 }
 
 /// Springs, and springs with their tendon (Figures 5.9 and 6.8).
@@ -105,7 +128,11 @@ fn restrainer_figure_of(name: &str, restrainer: &Restrainer, to_m: f64) -> Figur
 
 /// A loading protocol over time (Figure 5.11).
 pub fn protocol_figure(report: &ProtocolReport) -> Figure {
-    let points = report.history.iter().map(|point| (point.time_s / 3600.0, 100.0 * point.drift)).collect();
+    protocol_figure_of(&report.history)
+}
+
+fn protocol_figure_of(history: &[ProtocolPoint]) -> Figure {
+    let points = history.iter().map(|point| (point.time_s / 3600.0, 100.0 * point.drift)).collect();
     let series = vec![Series::line("drift", points, Tone::Distinct(0))];
     figure(
         "protocol",
@@ -115,15 +142,23 @@ pub fn protocol_figure(report: &ProtocolReport) -> Figure {
     )
 }
 
-/// Every figure of a structure's columns: its pushover, linear restrainers of several stiffnesses (Fig. 5.4, 6.4), the
-/// moment at the base by anchorage (Fig. 6.4), sections, the restrainer (Fig. 5.9, 6.8) and the path of its tendon
-/// (Fig. 6.9, A2.1).
+/// Every figure of a structure's columns: its pushover, linear restrainers of several stiffnesses (Fig. 5.4) and in
+/// both anchorages (Fig. 6.4a), the moment at the base by anchorage (Fig. 6.4b, c), sections, the protocol of Fig.
+/// 5.11, the restrainer (Fig. 5.9, 6.8) and the path of its tendon (Fig. 6.9, A2.1).
 ///
 /// # Errors
 /// Columns that cannot be restrained otherwise: none that could be pushed.
 pub fn column_figures(report: &PushoverReport) -> Result<Vec<Figure>, UpliftError> {
     let columns = &report.pushed;
-    let mut figures = vec![pushover_figure(report), stiffnesses(columns)?, base_moments(columns)?, sections(report)];
+    let history = LoadingProtocol::default().history(1)?;
+    let mut figures = vec![
+        pushover_figure(report),
+        stiffnesses(columns)?,
+        anchorages(columns)?,
+        base_moments(columns)?,
+        sections(report),
+        protocol_figure_of(&history),
+    ];
     if let Some(restrainer) = columns.restrainer() {
         let to_m = report.rows.last().map_or(0.0, |row| row.elongation_m);
         let flat_m = restrainer.elongation_at_m(uplift_statics::Threshold::SpringsFlat).unwrap_or(f64::INFINITY);
@@ -133,7 +168,7 @@ pub fn column_figures(report: &PushoverReport) -> Result<Vec<Figure>, UpliftErro
     Ok(figures)
 }
 
-/// `F/(N W)` over `u/2b` for linear restrainers of several stiffnesses: exact and linearised (Fig. 5.4b, 6.4a).
+/// `F/(N W)` over `u/2b` for linear restrainers of several stiffnesses: exact and linearised (Fig. 5.4b).
 fn stiffnesses(columns: &RestrainedColumns) -> Result<Figure, UpliftError> {
     let free = columns.clone().with_restrained(0)?;
     let (geometry, weight_n) = (columns.geometry(), f64::from(columns.columns()) * columns.weight_n());
@@ -154,14 +189,49 @@ fn stiffnesses(columns: &RestrainedColumns) -> Result<Figure, UpliftError> {
             Tone::Distinct(index),
         ));
     }
-    let panel = |title: &str, series| {
-        Panel::lines(title, Axis::linear(DISPLACEMENT), Axis::linear("force over weight F/(N W)"), series)
-    };
+    let panel =
+        |title: &str, series| Panel::lines(title, Axis::linear(DISPLACEMENT), Axis::linear(FORCE_OVER_WEIGHT), series);
     Ok(figure(
         "stiffnesses",
         "Force over displacement for linear restrainers".to_owned(),
         "Force over displacement for linear restrainers of several shares of the critical stiffness: linearised as in \
-         Fig. 5.4b and 6.4a, and exact.",
+         Fig. 5.4b, and exact.",
+        vec![panel("linearised", linear), panel("exact", exact)],
+    ))
+}
+
+/// `F/(N W)` over the displacement for the same linear restrainers anchored at the column and in the foundation (Fig.
+/// 6.4a): linearised and exact.
+fn anchorages(columns: &RestrainedColumns) -> Result<Figure, UpliftError> {
+    let free = columns.clone().with_restrained(0)?;
+    let weight_n = f64::from(columns.columns()) * columns.weight_n();
+    let to_m = 5.0 * columns.geometry().width_m();
+    let held = |stiffness_n_m: f64, path| -> Result<RestrainedColumns, StaticsError> {
+        free.clone().with_restrainer(Restrainer::new(Parts::linear(stiffness_n_m))?, path)
+    };
+    let critical_n_m = held(0.0, TendonPath::Column)?.linear(0.0)?.critical_stiffness_n_m();
+    let (mut exact, mut linear) = (Vec::new(), Vec::new());
+    for (index, share) in ANCHORED_SHARES.into_iter().enumerate() {
+        let stiffness_n_m = share * critical_n_m;
+        for (place, path, tone) in [
+            ("column", TendonPath::Column, Tone::Distinct(index)),
+            ("foundation", TendonPath::Foundation, Tone::Thin(index)),
+        ] {
+            let name = format!("{place}, {:.0} kN/m", kilo(stiffness_n_m));
+            let columns = held(stiffness_n_m, path)?;
+            let law = columns.linear(stiffness_n_m)?;
+            let points = linear_line(&law, to_m, |state| state.force_n / weight_n);
+            linear.push(Series::line(name.clone(), points, tone));
+            exact.push(Series::line(name, line(&columns, to_m, |state| state.force_n / weight_n), tone));
+        }
+    }
+    let panel =
+        |title: &str, series| Panel::lines(title, Axis::linear(DISPLACEMENT), Axis::linear(FORCE_OVER_WEIGHT), series);
+    Ok(figure(
+        "anchorages",
+        "Force over displacement by anchorage".to_owned(),
+        "Force over displacement for the same linear restrainers anchored at the column (bold) and in the foundation \
+         (thin, Fig. 6.4a), where each is as stiff as four: linearised, and exact.",
         vec![panel("linearised", linear), panel("exact", exact)],
     ))
 }

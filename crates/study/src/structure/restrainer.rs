@@ -49,8 +49,14 @@ impl RestrainerFile {
         let mut root = Section::root(&document, &findings);
         let section = root.section("restrainer");
         if !section.is_present() && root.field("restrainer").is_none() {
-            let help = "write [restrainer] and its kind: \"linear\", \"tendon\" or \"disc-springs\"";
-            root.mistake("restrainer", "the file has no restrainer", help);
+            if root.field("tendon_stiffness_n_m").is_some() {
+                let help = "to see its line, write [restrainer], kind = \"linear\" and stiffness_n_m in their place";
+                let found = "the file has no table [restrainer]: its tendons are told by `tendon_stiffness_n_m`";
+                root.mistake("tendon_stiffness_n_m", found, help);
+            } else {
+                let help = "write [restrainer] and its kind: \"linear\", \"tendon\" or \"disc-springs\"";
+                root.mistake("restrainer", "the file has no restrainer", help);
+            }
         }
         let description = read_section(section);
         let mut findings = findings.into_vec();

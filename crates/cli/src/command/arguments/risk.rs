@@ -37,3 +37,32 @@ impl RiskArguments {
         AskedRisk { targets, years: self.years }
     }
 }
+
+/// One risk of the spectra, any: computed from the stripes of the result, without a new run.
+#[derive(Debug, Args)]
+pub(crate) struct OneRiskArguments {
+    /// Probability of exceedance, any, 0.1 or 10%, from the stripes of the result [default: the only one of its study]
+    #[arg(
+        long, value_name = "P", allow_negative_numbers = true, value_parser = number_or_per_cent,
+        conflicts_with = "return_period"
+    )]
+    poe: Option<f64>,
+    /// Return period in years, in place of a probability
+    #[arg(long, value_name = "YEARS", allow_negative_numbers = true, value_parser = number)]
+    return_period: Option<f64>,
+    /// Years that the probability refers to [default: those of the study]
+    #[arg(long, value_name = "YEARS", allow_negative_numbers = true, value_parser = number)]
+    years: Option<f64>,
+}
+
+impl OneRiskArguments {
+    /// What is asked for.
+    pub(crate) fn asked(&self) -> AskedRisk {
+        let several = RiskArguments {
+            poe: self.poe.into_iter().collect(),
+            return_period: self.return_period.into_iter().collect(),
+            years: self.years,
+        };
+        several.asked()
+    }
+}

@@ -11,7 +11,7 @@ use uplift::study::Structure;
 use uplift_motion::IntensityMeasure;
 use uplift_statics::{Limits, Ranking, Tendon};
 
-use crate::command::arguments::{ForceArgument, RiskArguments, number};
+use crate::command::arguments::{ForceArgument, OneRiskArguments, number};
 use crate::error::CommandError;
 use crate::show::{print_json, print_restrainer_design};
 use crate::terminal::Terminal;
@@ -57,7 +57,7 @@ pub(super) struct DesignArguments {
     #[arg(long, requires = "urs", help_heading = SPECTRUM)]
     site: Option<String>,
     #[command(flatten, next_help_heading = "By a spectrum")]
-    risk: RiskArguments,
+    risk: OneRiskArguments,
     /// Intensity measure of the spectrum: pgv or pga [default: pgv if the result has it]
     #[arg(long, requires = "urs", help_heading = SPECTRUM)]
     measure: Option<IntensityMeasure>,
@@ -87,6 +87,9 @@ pub(super) struct DesignArguments {
     /// Most stacks that are printed
     #[arg(long, value_name = "N", default_value_t = 12, help_heading = OUTPUT)]
     most: usize,
+    /// Tell what imperfections do to this stack, as the list calls it, e.g. "6 x 2 x 160/82/10" [default: the first]
+    #[arg(long, value_name = "STACK", help_heading = OUTPUT)]
+    tolerances_of: Option<String>,
     /// Write every stack to this CSV file
     #[arg(short, long, value_name = "FILE.csv", help_heading = OUTPUT)]
     output: Option<PathBuf>,
@@ -214,6 +217,7 @@ pub(super) fn design(arguments: &DesignArguments, terminal: &Terminal) -> Result
             By::Price => Ranking::Price,
         },
         stopper: stopper.map(|(gap_m, stiffness_n_m)| StopperOptions { gap_m, stiffness_n_m }),
+        tolerances_of: arguments.tolerances_of.clone(),
         most: arguments.most,
         table: arguments.output.clone(),
         force: arguments.overwriting.force,

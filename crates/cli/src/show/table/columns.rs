@@ -7,18 +7,27 @@ use uplift::text::table;
 
 use crate::error::CommandError;
 
-/// A row for each quantity; what the reference has and nobody computes stands below.
+/// A row for each quantity, and one for each further number that the reference has for it.
 pub(super) fn print_columns(out: &mut impl Write, report: &ColumnsTable) -> Result<(), CommandError> {
     let mut header = vec!["quantity", "ours"];
     if report.compared {
         header.extend(["| reference", "| difference, %"]);
     }
+    let told = report.rows.iter().any(|row| row.source.is_some() || row.stiffness_n_m.is_some());
+    if told {
+        header.push("| of the reference");
+    }
     let cells = |row: &ColumnsRow| {
         let mut cells = vec![row.quantity.clone(), row.value.map_or("none".to_owned(), number)];
         if report.compared {
             cells.push(format!("| {}", row.reference.map_or("-".to_owned(), number)));
-            let difference = row.value.zip(row.reference).map(|(ours, theirs)| 100.0 * (ours / theirs - 1.0));
-            cells.push(format!("| {}", difference.map_or("-".to_owned(), |share| format!("{share:+.2}"))));
+            let difference = row.difference().map(|share| format!("{:+.2}", 100.0 * share));
+            cells.push(format!("| {}", difference.unwrap_or("-".to_owned())));
+        }
+        if told {
+            let held = row.stiffness_n_m.map(|stiffness| format!("linear, {:.0} kN/m", 1e-3 * stiffness));
+            let words: Vec<String> = row.source.iter().cloned().chain(held).collect();
+            cells.push(format!("| {}", words.join("; ")));
         }
         cells
     };
