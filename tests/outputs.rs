@@ -310,6 +310,7 @@ fn a_result_of_another_layout_is_kept_by_its_number() {
     let study = study();
     let path = study.path().join("r.h5");
     let mut writer = LabelledWriter::create(&path).unwrap();
+    writer.attribute("/", "program", "uplift").unwrap();
     writer.attribute("/", "layout", 7_i64).unwrap();
     writer.finish().unwrap();
     let theirs = std::fs::read(&path).unwrap();

@@ -128,11 +128,19 @@ impl Declaration {
 pub(crate) fn same_measure(a: &str, b: &str) -> bool {
     let plain = |text: &str| text.to_ascii_lowercase().replace([' ', '_'], "");
     let (a, b) = (plain(a), plain(b));
-    let period_s = |text: &str| -> Option<f64> { text.strip_prefix("sa(")?.strip_suffix(')')?.parse().ok() };
+    // `SA(1.0)`, or `sa_1s` and `sa_0p5s` as a study calls it
+    let period_s = |text: &str| -> Option<f64> {
+        let engine = text.strip_prefix("sa(").and_then(|rest| rest.strip_suffix(')')).map(str::to_owned);
+        let study = || Some(text.strip_prefix("sa")?.strip_suffix('s')?.replacen('p', ".", 1));
+        engine.or_else(study)?.parse().ok()
+    };
+    // a column `sa_g` is of whatever period the file is taken for
+    let any_period = |text: &str| text == "sa" || text == "psa";
     let average = |text: &str| text == "avgsa" || text.starts_with("avgsa(");
     let unsaid = |text: &str| text == "avgsa";
     a == b
-        || period_s(&a).is_some_and(|period| period_s(&b) == Some(period))
+        || period_s(&a).is_some_and(|period| period_s(&b) == Some(period) || any_period(&b))
+        || any_period(&a) && period_s(&b).is_some()
         || average(&a) && average(&b) && (unsaid(&a) || unsaid(&b))
 }
 
@@ -215,11 +223,22 @@ mod tests {
         // Without a measure or a key it is prose.
         assert_eq!(comment("averaged over models, geometric mean, rock"), named(None, None));
         assert_eq!(comment("component: see the report"), named(None, None));
-        for (one, other) in [("SA(1)", "sa(1.00)"), ("AvgSA", "AvgSA(0.2-2.0)"), ("PGV", "pgv")] {
+        for (one, other) in [
+            ("SA(1)", "sa(1.00)"),
+            ("SA(0.5)", "sa_0p5s"),
+            ("sa", "SA(2.0)"),
+            ("AvgSA", "AvgSA(0.2-2.0)"),
+            ("PGV", "pgv"),
+        ] {
             assert!(same_measure(one, other) && same_measure(other, one), "{one} {other}");
         }
-        for (one, other) in [("SA(1)", "SA(2)"), ("AvgSA(0.2-2.0)", "AvgSA(0.1-1.0)"), ("SA(1)", "AvgSA"), ("SA", "SI")]
-        {
+        for (one, other) in [
+            ("SA(1)", "SA(2)"),
+            ("AvgSA(0.2-2.0)", "AvgSA(0.1-1.0)"),
+            ("SA(1)", "AvgSA"),
+            ("SA", "SI"),
+            ("SA(1)", "sa_2s"),
+        ] {
             assert!(!same_measure(one, other), "{one} {other}");
         }
         assert_eq!(comment("imt: PGA; units: m/s2"), named(Some("PGA"), Some("m/s2")));

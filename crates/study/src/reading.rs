@@ -30,3 +30,4 @@ pub(crate) use findings::{Finding, Findings};
 pub(crate) use paths::Paths;
 pub(crate) use rule::{PROBABILITY, Rule, ZERO_TO_ONE, quantity};
 pub(crate) use section::Section;
+pub(crate) use suggestion::MEASURES;

@@ -165,6 +165,20 @@ impl UniformRiskStudy {
     }
 }
 
+/// Whether a site has a curve of the measure that the consistency is asked against; else a mistake.
+fn compared_somewhere(root: &Section<'_>, consistency: &Consistency, sites: Option<&[Site]>) -> bool {
+    let (Some(against), Some(sites)) = (consistency.against, sites) else { return true };
+    if sites.is_empty() || sites.iter().any(|site| site.curve(against).is_some()) {
+        return true;
+    }
+    root.mistake(
+        "consistency.against",
+        format!("no site has a curve of {}", against.label()),
+        format!("add {} = \"path of the curve\" to a site, or name another measure", against.key()),
+    );
+    false
+}
+
 /// Reads the whole study but for its `kind`; none where something is wrong.
 pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<UniformRiskStudy> {
     let title = top::title(&mut root);
@@ -182,6 +196,7 @@ pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<UniformRiskSt
     let regression = regression::read(root.section("regression"));
     let bootstrap = bootstrap::read(root.section("bootstrap"));
     let consistency = consistency::read(root.section("consistency"));
+    let consistency = consistency.filter(|of| compared_somewhere(&root, of, sites.as_deref()));
     let inputs = (records.iter().filter_map(|records| records.source.manifest()))
         .chain(sites.iter().flatten().flat_map(|site| site.curves.iter().flat_map(CurveFile::files)))
         .chain(site_table.iter().flatten().flat_map(SiteTable::files));

@@ -81,7 +81,7 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Vec<Alarm> {
                 Severity::Note,
                 1.0,
                 format!("no fit: {reason}"),
-                "use the ordinates themselves, or raise regression.strength_above",
+                "use the ordinates themselves, lower regression.strength_above, or give more strengths.values",
             ));
             continue;
         };

@@ -64,6 +64,14 @@ pub fn consistency(
         file.spectra()?.measures.into_iter().map(|spectra| (spectra.measure, spectra.u_m)).collect();
     let mut report = ConsistencyReport::of(&question, &findings, &plain_m, &repairs);
     report.earthquakes = earthquakes(&question, &report.rows, &shaken);
+    for ((_, path), (site, _)) in options.disaggregations.iter().zip(&shaken) {
+        if !report.earthquakes.iter().any(|row| row.site == question.sites[*site]) {
+            events.note(&format!(
+                "{}: of no measure and probability by which the result has spectra, so nothing is shown of it",
+                path.display()
+            ));
+        }
+    }
     let path = consistency_path(&stored.path);
     write_table(&path, &line(&stored, "hazard consistency"), columns(&report))?;
     report.result = Some(stored.path.clone());

@@ -62,7 +62,11 @@ pub fn efficiency(
     let mut up_to_m = vec![None; stored.strengths.len()];
     if let Some(own) = stored.measures.first() {
         let studied: BTreeSet<IntensityMeasure> = stored.measures.iter().map(|own| own.measure).collect();
-        // no factor changes a duration: it is among what the residuals are held against
+        for measure in options.measures.iter().filter(|measure| !measure.can_be_scaled_to()) {
+            events.note(&format!(
+                "{measure} is not ranked: no factor changes it; durations are among what the residuals are held against"
+            ));
+        }
         let wanted = options.measures.iter().copied().filter(|measure| measure.can_be_scaled_to());
         let wanted: BTreeSet<IntensityMeasure> = wanted.chain(studied.iter().copied()).collect();
         let known = intensities(&file, &wanted, events)?;

@@ -28,6 +28,13 @@ pub(crate) fn print_consistency(report: &ConsistencyReport, terminal: &Terminal)
         writeln!(out, "\ncaution: {warning}")?;
     }
     if !terminal.is_quiet() {
+        let is_repaired = |row: &ConsistencyRow| row.repair.as_ref().is_some_and(|repair| repair.failed.is_none());
+        if report.rows.iter().any(is_repaired) {
+            writeln!(
+                out,
+                "\nThe spectra of these weights: uplift table, report and export show them beside the plain ones"
+            )?;
+        }
         if let Some(result) = &report.result {
             writeln!(out, "\nAll of it: /consistency in {}", shown_path(result).display())?;
         }

@@ -126,7 +126,7 @@ pub(super) fn fits(source: &FigureSource) -> Option<Figure> {
         let title = spectra.sites[site].clone();
         Panel::lines(title, Axis::linear(STRENGTH), Axis::log(DISPLACEMENT), series)
     };
-    let caption = "Spectra by PGV (dots) and the exponential c_{0} exp(c_{1} η) + c_{2} fitted to them (lines; \
+    let caption = "Spectra (dots) and the exponential c_{0} exp(c_{1} η) + c_{2} fitted to them (lines; \
                    Eq. 4.11, Fig. 4.11, Table 4.2).";
     Some(source.figure("fits", "Fitted spectra", caption, source.sites().map(panel).collect()))
 }

@@ -2,7 +2,9 @@
 
 use std::ops::RangeInclusive;
 
-use super::suggestion::{did_you_mean, measure_by_its_key, other_unit};
+use uplift_motion::IntensityMeasure;
+
+use super::suggestion::{MEASURES, did_you_mean, measure_by_its_key, other_unit};
 use super::{Field, Finding, Findings, LARGEST_INTEGER, Origin, Rule, Table};
 
 /// A table being read. It learns its keys as they are asked for; [`Section::finish`] reports the others.
@@ -96,7 +98,8 @@ impl<'a> Section<'a> {
                 continue;
             }
             let what = if entry.node.is_sections() { "section" } else { "key" };
-            let help = did_you_mean_key(&entry.key, &self.known).unwrap_or_else(|| {
+            let measures = self.path == MEASURES || self.known.contains(&IntensityMeasure::Pgv.key());
+            let help = did_you_mean_key(&entry.key, &self.known, measures, self.path.is_empty()).unwrap_or_else(|| {
                 let place = if self.path.is_empty() { "the file".to_owned() } else { format!("`{}`", self.path) };
                 format!("{place} has {}", self.known.join(", "))
             });
@@ -118,6 +121,9 @@ impl<'a> Section<'a> {
     }
 }
 
-fn did_you_mean_key(key: &str, known: &[&str]) -> Option<String> {
-    other_unit(key, known).or_else(|| measure_by_its_key(key, known)).or_else(|| did_you_mean(key, known))
+/// What an unknown key was meant to be; `measures` tells whether keys here are the names of measures, `is_top` whether
+/// it stands before all sections.
+fn did_you_mean_key(key: &str, known: &[&str], measures: bool, is_top: bool) -> Option<String> {
+    let measure = || measures.then(|| measure_by_its_key(key, is_top)).flatten();
+    other_unit(key, known).or_else(measure).or_else(|| did_you_mean(key, known))
 }

@@ -39,16 +39,25 @@ pub(crate) fn did_you_mean(word: &str, known: &[&str]) -> Option<String> {
         .map(|(_, candidate)| format!("did you mean `{candidate}`?"))
 }
 
-/// What to do where `key` is another spelling of an intensity measure, among `known` keys of measures.
-pub(crate) fn measure_by_its_key(key: &str, known: &[&str]) -> Option<String> {
+/// The section of the measures that Chapter 4 has not.
+pub(crate) const MEASURES: &str = "measures";
+
+/// What to do where `key` is another spelling of an intensity measure, or looks like one; `is_top` tells whether it
+/// stands before all sections, where only those of Chapter 4 do.
+pub(crate) fn measure_by_its_key(key: &str, is_top: bool) -> Option<String> {
+    let plain = key.to_lowercase();
     let is_spectral = ["sa", "avgsa"].iter().any(|name| {
-        let rest = key.to_lowercase();
-        rest.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with(['_', '(']))
+        let rest = plain.strip_prefix(name);
+        rest.is_some_and(|rest| {
+            rest.is_empty() || rest.starts_with(|c: char| c == '_' || c == '(' || c.is_ascii_digit())
+        })
     });
     match key.parse::<IntensityMeasure>() {
-        _ if !known.contains(&IntensityMeasure::Pgv.key()) => None,
+        Ok(measure) if is_top => Some(format!("head the section with [{MEASURES}.{}]", measure.key())),
         Ok(measure) if measure.key() != key => Some(format!("write {} as `{}`", measure.label(), measure.key())),
-        Err(_) if is_spectral => Some(format!("measures are {}", IntensityMeasure::ACCEPTED)),
+        Err(_) if is_spectral => {
+            Some(format!("measures are {}; periods are from 0.01 to 20 s", IntensityMeasure::ACCEPTED))
+        }
         _ => None,
     }
 }

@@ -20,7 +20,7 @@ pub(super) const KEYS: SectionKeys = SectionKeys {
         Key {
             names: &["component"],
             meaning: "definition of the curves whose files do not say it",
-            default: "taken as that of the records, with a note",
+            default: "taken as the geometric mean, with a note; needed for records measured in another way",
             range: DEFINITIONS_IN_WORDS,
         },
         Key {

@@ -8,7 +8,7 @@ use uplift_plausible::{CUMULATIVE_LEVEL, DISPLACEMENT_LEVEL, PGA_LEVEL, PGV_LEVE
 use super::lower_levels::levels_key;
 use crate::grid::{Grid, GridRule};
 use crate::keys::{Key, SectionKeys};
-use crate::reading::{Rule, Section};
+use crate::reading::{MEASURES, Rule, Section};
 
 pub(super) const PGV_KEYS: SectionKeys = SectionKeys {
     section: "pgv",
@@ -28,9 +28,6 @@ pub(super) const PGA_KEYS: SectionKeys = SectionKeys {
         range: "1e-7 to 1000; at least 2",
     }],
 };
-
-/// The section of the measures that Chapter 4 has not, each under its own name.
-const FURTHER: &str = "measures";
 
 /// The keys of any of them, shown with one.
 pub(super) const FURTHER_KEYS: SectionKeys = SectionKeys {
@@ -125,7 +122,7 @@ pub(super) fn section_of(measure: IntensityMeasure) -> String {
     if IntensityMeasure::OF_CHAPTER_4.contains(&measure) {
         measure.key().to_owned()
     } else {
-        format!("{FURTHER}.{}", measure.key())
+        format!("{MEASURES}.{}", measure.key())
     }
 }
 
@@ -156,7 +153,7 @@ pub(super) fn write<S: Serializer>(plans: &[MeasurePlan], serializer: S) -> Resu
     let is_own = |plan: &&MeasurePlan| IntensityMeasure::OF_CHAPTER_4.contains(&plan.measure);
     let (own, further): (Vec<&MeasurePlan>, Vec<&MeasurePlan>) = plans.iter().partition(is_own);
     let own = own.into_iter().map(|plan| (plan.measure.key(), Part::Measure(Levels(plan))));
-    let further = (!further.is_empty()).then_some((FURTHER, Part::Further(further)));
+    let further = (!further.is_empty()).then_some((MEASURES, Part::Further(further)));
     serializer.collect_map(own.chain(further))
 }
 
@@ -208,13 +205,13 @@ fn sections<'a>(root: &mut Section<'a>) -> Vec<(IntensityMeasure, Section<'a>)> 
             sections.push((measure, root.section(measure.key())));
         }
     }
-    let mut further = root.section(FURTHER);
+    let mut further = root.section(MEASURES);
     for measure in named(&further) {
         if IntensityMeasure::OF_CHAPTER_4.contains(&measure) {
             let key = measure.key();
             // asked for only where it is there: it has no place here
             if let Some(field) = further.keys().any(|there| there == key).then(|| further.field(key)).flatten() {
-                field.mistake(format!("[{FURTHER}.{key}] is [{key}]"), format!("head the section with [{key}]"));
+                field.mistake(format!("[{MEASURES}.{key}] is [{key}]"), format!("head the section with [{key}]"));
             }
             continue;
         }
@@ -237,7 +234,7 @@ pub(super) fn cannot_be_scaled_to(measure: IntensityMeasure) -> String {
 /// Which measures the document has sections of.
 pub(super) fn switched_on(root: &mut Section<'_>) -> Vec<IntensityMeasure> {
     // mistakes are told when they are read
-    let further = named(&root.section(FURTHER));
+    let further = named(&root.section(MEASURES));
     let own = IntensityMeasure::OF_CHAPTER_4.into_iter().filter(|measure| root.field(measure.key()).is_some());
     let further = further.into_iter().filter(|measure| !IntensityMeasure::OF_CHAPTER_4.contains(measure));
     own.chain(further).collect()
@@ -246,6 +243,10 @@ pub(super) fn switched_on(root: &mut Section<'_>) -> Vec<IntensityMeasure> {
 /// Reads the sections of the measures.
 pub(super) fn read(root: &mut Section<'_>) -> Option<Vec<MeasurePlan>> {
     let sections = sections(root);
+    // what is not understood there is told by itself
+    if sections.is_empty() && root.section(MEASURES).keys().next().is_some() {
+        return None;
+    }
     if sections.is_empty() {
         root.mistake(
             "",

@@ -58,7 +58,7 @@ pub(super) struct DesignArguments {
     site: Option<String>,
     #[command(flatten, next_help_heading = "By a spectrum")]
     risk: OneRiskArguments,
-    /// Intensity measure of the spectrum: pgv or pga [default: pgv if the result has it]
+    /// Intensity measure of the spectrum: pgv, pga or any other [default: pgv if the result has it]
     #[arg(long, requires = "urs", help_heading = SPECTRUM)]
     measure: Option<IntensityMeasure>,
     /// Safety factor on the demand (Eq. 3.15)

@@ -25,7 +25,7 @@ pub(crate) struct DesignArguments {
     site: Option<String>,
     #[command(flatten)]
     risk: RiskArguments,
-    /// Intensity measure of the spectrum: pgv or pga [default: pgv if the result has it]
+    /// Intensity measure of the spectrum: pgv, pga or any other [default: pgv if the result has it]
     #[arg(long)]
     measure: Option<IntensityMeasure>,
     /// Design by the repaired spectrum, of records weighted so that they bring the site's hazard, and weigh the

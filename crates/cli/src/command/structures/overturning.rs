@@ -23,7 +23,7 @@ pub(crate) struct OverturningArguments {
     /// Site of the result [default: all]
     #[arg(long)]
     site: Option<String>,
-    /// Intensity measure: pgv or pga [default: all of the result]
+    /// Intensity measure: pgv, pga or any other [default: all of the result]
     #[arg(long)]
     measure: Option<IntensityMeasure>,
     /// One coefficient of restitution for both models, in place of the structure's, the study's (oscillator) and that
