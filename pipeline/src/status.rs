@@ -4,7 +4,6 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use uplift_motion::IntensityMeasure;
 use uplift_study::Study;
 
 use crate::bootstrap::{finished_strengths, part_path};
@@ -208,10 +207,7 @@ impl ResultContent {
                 Self::Displacement { structure, analyses, sets, has_design: designed }
             }
             Overview::UniformRisk { analyses, sites, added } => {
-                let label = |key: &str| {
-                    key.parse().map_or_else(|_| key.to_owned(), |measure: IntensityMeasure| measure.label().to_owned())
-                };
-                let analyses = analyses.into_iter().map(|(measure, count)| (label(measure), count)).collect();
+                let analyses = analyses.into_iter().map(|(measure, count)| (measure.to_owned(), count)).collect();
                 Self::UniformRisk { analyses, sites, added: added.into_iter().map(str::to_owned).collect() }
             }
         }

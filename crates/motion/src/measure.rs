@@ -56,6 +56,11 @@ impl IntensityMeasure {
     pub const WITHOUT_PERIOD: [Self; 8] =
         [Self::Pgv, Self::Pga, Self::Pgd, Self::Cav, Self::Arias, Self::SpectrumIntensity, Self::D575, Self::D595];
 
+    /// Whether it is one of [`OF_CHAPTER_4`](Self::OF_CHAPTER_4).
+    pub fn is_of_chapter_4(self) -> bool {
+        Self::OF_CHAPTER_4.contains(&self)
+    }
+
     /// The power of the scale factor with which the measure grows: 1 for what is linear in the acceleration, 2 for the
     /// Arias intensity, 0 for durations.
     pub fn power(self) -> u8 {

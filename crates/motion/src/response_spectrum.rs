@@ -8,6 +8,7 @@
 //! N. C. Nigam and P. C. Jennings, "Calculation of response spectra from strong-motion earthquake records", Bull.
 //! Seism. Soc. Am. 59 (1969) 909–922: the recurrence, whose coefficients are taken from the series here.
 
+use std::convert::Infallible;
 use std::f64::consts::TAU;
 
 use crate::accelerogram::Accelerogram;
@@ -57,8 +58,9 @@ impl Accelerogram {
     /// Geometric mean of the spectral acceleration \[m/s²\] at [`AVERAGED_PERIODS`] periods at equal steps from
     /// `from_s` to `to_s` \[s\].
     pub fn average_spectral_acceleration_m_s2(&self, from_s: f64, to_s: f64) -> f64 {
-        let ordinate = |period_s| Ok::<_, MotionError>(self.spectral_acceleration_m_s2(period_s));
-        average([from_s, to_s], ordinate).unwrap_or(f64::NAN)
+        let ordinate = |period_s| Ok::<_, Infallible>(self.spectral_acceleration_m_s2(period_s));
+        let Ok(average_m_s2) = average([from_s, to_s], ordinate);
+        average_m_s2
     }
 
     /// Housner's spectrum intensity \[m\]: the integral of the pseudo-velocity SA T/2π over the periods from 0.1 to
@@ -69,8 +71,9 @@ impl Accelerogram {
     /// G. W. Housner, "Spectrum intensities of strong-motion earthquakes", Proc. Symp. on Earthquake and Blast Effects
     /// on Structures, Los Angeles, 1952; here with a damping of 5 %.
     pub fn spectrum_intensity_m(&self) -> f64 {
-        let ordinate = |period_s| Ok::<_, MotionError>(self.spectral_acceleration_m_s2(period_s));
-        spectrum_intensity_m(ordinate).unwrap_or(f64::NAN)
+        let ordinate = |period_s| Ok::<_, Infallible>(self.spectral_acceleration_m_s2(period_s));
+        let Ok(intensity_m) = spectrum_intensity_m(ordinate);
+        intensity_m
     }
 }
 

@@ -150,9 +150,8 @@ impl UniformRiskStudy {
         let analysed = self.measures.iter().map(|plan| plan.measure);
         let of_sites = self.sites.iter().flat_map(|site| site.curves.iter().map(|curve| curve.measure));
         let of_table = self.site_table.iter().flat_map(|table| table.exports.iter().map(|(measure, _)| *measure));
-        let known = |measure: &IntensityMeasure| !IntensityMeasure::OF_CHAPTER_4.contains(measure);
-        let all: BTreeSet<IntensityMeasure> = analysed.chain(of_sites).chain(of_table).filter(known).collect();
-        all.into_iter().collect()
+        let all: BTreeSet<IntensityMeasure> = analysed.chain(of_sites).chain(of_table).collect();
+        all.into_iter().filter(|measure| !measure.is_of_chapter_4()).collect()
     }
 
     /// The study as TOML, complete and loadable; the warnings are left out, since loading finds them again.
@@ -187,8 +186,7 @@ pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<UniformRiskSt
     let records = records::read(root.section("records"), paths);
     let oscillator = oscillator::read(root.section("oscillator"));
     let strengths = strengths::read(root.section("strengths"));
-    let switched_on = measures::switched_on(&mut root);
-    let measures = measures::read(&mut root);
+    let (switched_on, measures) = measures::read(&mut root);
     let risk = risk::read(root.section("risk"));
     let hazard = hazard::read(root.section("hazard"));
     let sites = sites::read(root.field("sites"), &switched_on, paths);

@@ -95,7 +95,7 @@ pub fn efficiency(
             up_to_m = reaching.up_to_m;
         }
     }
-    write_efficiency(&addition, &stored, &covariates, &measures)?;
+    write_efficiency(&addition, (&stored, &file.efficiency()?), &covariates, &measures)?;
     Ok(EfficiencyReport::new(&stored, &covariates, &measures, up_to_m))
 }
 

@@ -11,15 +11,15 @@ use super::report::rank;
 use crate::error::UpliftError;
 use crate::outputs::beside;
 use crate::result::layout::{axis, efficiency, sufficiency};
-use crate::result::{Addition, StoredStripes, line, sign, write_table};
+use crate::result::{Addition, StoredEfficiency, StoredStripes, line, sign, write_table};
 use crate::text::finite;
-use uplift_labelled::{LabelledError, LabelledReader, LabelledWriter};
+use uplift_labelled::{LabelledError, LabelledWriter};
 
-/// The groups and axes that a new look replaces.
-fn replaced(stored: &StoredStripes) -> Result<Vec<String>, UpliftError> {
-    let axes = LabelledReader::open(&stored.path)?.children("/axes")?;
-    let of_levels = axes.iter().filter(|axis| axis.ends_with(axis::COMMON_LEVEL)).map(|axis| axis::path(axis));
-    Ok([efficiency::ROOT, sufficiency::ROOT].map(str::to_owned).into_iter().chain(of_levels).collect())
+/// The groups that a new look replaces, with the axes of the measures that were told of others' runs.
+fn replaced(earlier: &[StoredEfficiency]) -> Vec<String> {
+    let told = earlier.iter().filter(|of| of.scaled_to != of.measure);
+    let axes = told.map(|of| axis::path(&axis::common_level(of.measure)));
+    [efficiency::ROOT, sufficiency::ROOT].map(str::to_owned).into_iter().chain(axes).collect()
 }
 
 /// The table beside the result file.
@@ -27,17 +27,17 @@ pub(super) fn efficiency_path(result: &Path) -> PathBuf {
     beside(result, "measures.csv")
 }
 
-/// Write efficiency and sufficiency into the result file, in place of earlier ones, and into a table beside it.
+/// Write efficiency and sufficiency into the result file, in place of the `earlier` ones, and into a table beside it.
 ///
 /// # Errors
 /// Whatever keeps the files from being written; the result file is then as it was.
 pub(super) fn write_efficiency(
     addition: &Addition,
-    stored: &StoredStripes,
+    (stored, earlier): (&StoredStripes, &[StoredEfficiency]),
     covariates: &[Covariate],
     measures: &[MeasureEfficiency],
 ) -> Result<(), UpliftError> {
-    addition.write(stored, &replaced(stored)?, |writer| add(writer, covariates, measures))?;
+    addition.write(stored, &replaced(earlier), |writer| add(writer, covariates, measures))?;
     write_table(
         &efficiency_path(&stored.path),
         &line(stored, "efficiency and sufficiency"),

@@ -55,10 +55,15 @@ impl ResultFile {
             // results of earlier versions have no others
             let said = self.reader.attribute_text(&efficiency::group(measure), "scaled_to").ok();
             let scaled_to = said.and_then(|key| key.parse().ok()).unwrap_or(measure);
+            let reaching = efficiency::reaching(measure);
             Ok(StoredEfficiency {
                 measure,
                 scaled_to,
-                reaching: over_strengths(&efficiency::reaching(measure)).unwrap_or(vec![f64::NAN; strengths.1]),
+                reaching: if self.reader.exists(&reaching) {
+                    over_strengths(&reaching)?
+                } else {
+                    vec![f64::NAN; strengths.1]
+                },
                 rocking: over_strengths(&efficiency::rocking(measure))?,
                 undefined: over_strengths(&efficiency::undefined(measure))?,
                 initiation: over_strengths(&efficiency::initiation(measure))?,

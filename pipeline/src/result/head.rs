@@ -51,7 +51,7 @@ pub struct Head {
 pub enum Overview {
     /// Uniform risk spectra.
     UniformRisk {
-        /// Nonlinear time histories by each measure, which goes by its key.
+        /// Nonlinear time histories by each measure, which goes by its label.
         analyses: Vec<(&'static str, u64)>,
         /// Names of the sites.
         sites: Vec<String>,
@@ -140,7 +140,7 @@ impl ResultFile {
         let mut measures = self.measures_in(ida::ROOT);
         measures.sort_by_key(|measure| measure.key());
         for measure in measures {
-            analyses.push((measure.key(), reader.attribute_u64(&ida::group(measure), "analyses")?));
+            analyses.push((measure.label(), reader.attribute_u64(&ida::group(measure), "analyses")?));
         }
         let sites = reader.exists(&axis::path(axis::SITE)).then(|| reader.axis_text(axis::SITE)).transpose()?;
         let added = [(bootstrap::ROOT, "bootstrap"), (influence::ROOT, "influence"), (efficiency::ROOT, "measures")];

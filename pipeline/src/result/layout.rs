@@ -411,12 +411,9 @@ pub mod axis {
         format!("{}_level", measure.key())
     }
 
-    /// What the names of axes end with whose levels every record is brought to, of a measure that it is not scaled to.
-    pub const COMMON_LEVEL: &str = "_common_level";
-
     /// Levels of a measure that every record is brought to, though it is scaled to another.
     pub fn common_level(measure: IntensityMeasure) -> String {
-        format!("{}{COMMON_LEVEL}", measure.key())
+        format!("{}_common_level", measure.key())
     }
 
     /// Levels from which the bins of a measure reach up.

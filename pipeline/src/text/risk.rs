@@ -45,15 +45,14 @@ pub fn risk_in_words(poe: f64, years: f64) -> String {
 
 /// Several risks, parted by `between`: `2 %, 10 % in 50 years`, or `475 years, 2 % in 50 years`.
 pub fn risks_in_words(poes: &[f64], years: f64, between: &str) -> String {
-    if poes.iter().any(|&poe| asked_return_period(poe, years).is_some()) {
-        let name = |&poe: &f64| {
-            let probability = || format!("{} in {years} years", per_cent(poe));
-            asked_return_period(poe, years).map_or_else(probability, |period| format!("{period} years"))
-        };
-        return poes.iter().map(name).collect::<Vec<_>>().join(between);
+    let is_probability = |poe: f64| asked_return_period(poe, years).is_none();
+    let behind = format!(" in {years} years");
+    // behind all of them at once where none is a return period
+    if poes.iter().all(|&poe| is_probability(poe)) {
+        return poes.iter().map(|&poe| risk_name(poe, years)).collect::<Vec<_>>().join(between) + &behind;
     }
-    let all: Vec<String> = poes.iter().map(|&poe| per_cent(poe)).collect();
-    format!("{} in {years} years", all.join(between))
+    let name = |&poe: &f64| risk_name(poe, years) + if is_probability(poe) { &behind } else { "" };
+    poes.iter().map(name).collect::<Vec<_>>().join(between)
 }
 
 /// What the names of several risks are ([`risk_name`]), for the foot of their table: `probabilities in 50 years`; none

@@ -119,11 +119,8 @@ const ACCELERATIONS: &[&str] = &["0.001", "0.0025:0.0025:0.0225", "0.025:0.005:0
 
 /// The section of a measure: its own where it is of Chapter 4.
 pub(super) fn section_of(measure: IntensityMeasure) -> String {
-    if IntensityMeasure::OF_CHAPTER_4.contains(&measure) {
-        measure.key().to_owned()
-    } else {
-        format!("{MEASURES}.{}", measure.key())
-    }
+    let key = measure.key();
+    if measure.is_of_chapter_4() { key.to_owned() } else { format!("{MEASURES}.{key}") }
 }
 
 /// The sections of the measures, as a study file has them.
@@ -150,8 +147,8 @@ pub(super) fn write<S: Serializer>(plans: &[MeasurePlan], serializer: S) -> Resu
             }
         }
     }
-    let is_own = |plan: &&MeasurePlan| IntensityMeasure::OF_CHAPTER_4.contains(&plan.measure);
-    let (own, further): (Vec<&MeasurePlan>, Vec<&MeasurePlan>) = plans.iter().partition(is_own);
+    let (own, further): (Vec<&MeasurePlan>, Vec<&MeasurePlan>) =
+        plans.iter().partition(|plan| plan.measure.is_of_chapter_4());
     let own = own.into_iter().map(|plan| (plan.measure.key(), Part::Measure(Levels(plan))));
     let further = (!further.is_empty()).then_some((MEASURES, Part::Further(further)));
     serializer.collect_map(own.chain(further))
@@ -190,7 +187,7 @@ pub fn levels_within(measure: IntensityMeasure, least: f64, most: f64) -> Option
 pub(super) fn named(section: &Section<'_>) -> Vec<IntensityMeasure> {
     let further = section.keys().filter_map(|key| {
         let measure: IntensityMeasure = key.parse().ok()?;
-        (measure.key() == key && !IntensityMeasure::OF_CHAPTER_4.contains(&measure)).then_some(measure)
+        (measure.key() == key && !measure.is_of_chapter_4()).then_some(measure)
     });
     let mut named: Vec<IntensityMeasure> = IntensityMeasure::OF_CHAPTER_4.into_iter().chain(further).collect();
     named.sort_unstable();
@@ -207,7 +204,7 @@ fn sections<'a>(root: &mut Section<'a>) -> Vec<(IntensityMeasure, Section<'a>)> 
     }
     let mut further = root.section(MEASURES);
     for measure in named(&further) {
-        if IntensityMeasure::OF_CHAPTER_4.contains(&measure) {
+        if measure.is_of_chapter_4() {
             let key = measure.key();
             // asked for only where it is there: it has no place here
             if let Some(field) = further.keys().any(|there| there == key).then(|| further.field(key)).flatten() {
@@ -231,30 +228,21 @@ pub(super) fn cannot_be_scaled_to(measure: IntensityMeasure) -> String {
     format!("no factor changes the {} of a record, so none can be scaled to a level of it", measure.long_name())
 }
 
-/// Which measures the document has sections of.
-pub(super) fn switched_on(root: &mut Section<'_>) -> Vec<IntensityMeasure> {
-    // mistakes are told when they are read
-    let further = named(&root.section(MEASURES));
-    let own = IntensityMeasure::OF_CHAPTER_4.into_iter().filter(|measure| root.field(measure.key()).is_some());
-    let further = further.into_iter().filter(|measure| !IntensityMeasure::OF_CHAPTER_4.contains(measure));
-    own.chain(further).collect()
-}
-
-/// Reads the sections of the measures.
-pub(super) fn read(root: &mut Section<'_>) -> Option<Vec<MeasurePlan>> {
+/// Reads the sections of the measures: which the document has, and their plans where nothing is wrong with them.
+pub(super) fn read(root: &mut Section<'_>) -> (Vec<IntensityMeasure>, Option<Vec<MeasurePlan>>) {
     let sections = sections(root);
-    // what is not understood there is told by itself
-    if sections.is_empty() && root.section(MEASURES).keys().next().is_some() {
-        return None;
-    }
     if sections.is_empty() {
-        root.mistake(
-            "",
-            "the study has no intensity measure",
-            "add a section [pgv], a section [pga], or both; it may be empty; or [measures.sa_1s] and the like",
-        );
-        return None;
+        // what is not understood among the further ones is told by itself
+        if root.section(MEASURES).keys().next().is_none() {
+            root.mistake(
+                "",
+                "the study has no intensity measure",
+                "add a section [pgv], a section [pga], or both; it may be empty; or [measures.sa_1s] and the like",
+            );
+        }
+        return (Vec::new(), None);
     }
+    let switched_on = sections.iter().map(|(measure, _)| *measure).collect();
     let mut plans = Some(Vec::new());
     for (measure, mut section) in sections {
         let keys = MeasureKeys::of(measure);
@@ -266,5 +254,5 @@ pub(super) fn read(root: &mut Section<'_>) -> Option<Vec<MeasurePlan>> {
             _ => plans = None,
         }
     }
-    plans
+    (switched_on, plans)
 }
