@@ -15,7 +15,7 @@ pub(crate) mod text_table;
 pub use file_options::FileOptions;
 pub use hazard::{BranchHazard, HazardInput, OtherHazard, SiteHazard, read_hazard, read_other_hazard};
 pub(crate) use made::made_pairs;
-pub(crate) use record_set::read_measured;
 pub use record_set::{Record, RecordSet, read_records};
+pub(crate) use record_set::{read_measured, read_with_pairs};
 pub use record_sets::{NamedSet, RecordSets, SetRecord, read_record_sets};
 pub use site_table::{BatchSite, ListedSite, SiteCurves, SiteExport, SiteList, read_site_list};
