@@ -60,8 +60,8 @@ fn is_result_of(study: &UniformRiskStudy, path: &Path) -> Result<bool, UpliftErr
     Ok(is_of_records(&file, study, &records.records).unwrap_or(false))
 }
 
-/// What the study asks of the consistency is in the result as it was run, and bands and repaired spectra are made of it:
-/// other keys are another run, of the same peaks. Not `repair`, which adds to the file.
+/// What the study asks of the consistency is in the result as it was run, and bands and repaired spectra are made of
+/// it: other keys are another run, of the same peaks. Not `repair`, which adds to the file.
 fn refuse_other_question(study: &UniformRiskStudy, path: &Path) -> Result<(), UpliftError> {
     let kept = ResultFile::open(path)?.stored_study()?.consistency;
     let differing = study.consistency.differing_keys(&kept);

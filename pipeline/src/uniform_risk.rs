@@ -36,3 +36,4 @@ pub(crate) use stripes::stripes_of;
 pub use stripes::{Stripes, plan_stripes, systems};
 pub(crate) use work::{Inputs, motion_keys, run_shard};
 pub use write::write_result;
+pub(crate) use write_hazard::write_branch_spectra;
