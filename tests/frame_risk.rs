@@ -63,7 +63,8 @@ fn peak(row: &std::collections::BTreeMap<String, String>, column: &str) -> f64 {
     row[column].parse().unwrap()
 }
 
-/// Every wobbling peak is that of `uplift response` under the same pair and factor, every oscillator's that of `design`.
+/// Every wobbling peak is that of `uplift response` under the same pair and factor, every oscillator's that of
+/// `design`.
 #[test]
 fn the_stripes_are_single_runs_and_the_proxies_those_of_a_design() {
     let study = study(STUDY);
@@ -161,8 +162,8 @@ fn records_of_one_pair_are_one_motion() {
     assert_eq!(report["demands"][0]["demand_m"]["value"], of_pairs["demands"][0]["demand_m"]["value"]);
 }
 
-/// A constant acceleration overturns every such frame above tan α g and lifts none below: the risk is a sum by hand. One
-/// file for both components is one motion along a line, and said so.
+/// A constant acceleration overturns every such frame above tan α g and lifts none below: the risk is a sum by hand.
+/// One file for both components is one motion along a line, and said so.
 #[test]
 fn a_case_known_by_hand() {
     let study = SmallStudy::with(

@@ -2,8 +2,8 @@
 //!
 //! The deck's own motion gives them: with `m_d = m_b/N` the share of its mass, `a_r` its total acceleration in the
 //! direction of the lean and `a_z` upwards, a column carries `P = m_d (g + a_z)` and is pushed by `F₁ = −m_d a_r`. The
-//! sections are those of a column at rest under these ([`RestrainedColumns`](uplift_statics::RestrainedColumns)); at the
-//! base the column's own mass comes in, whose middle rises half as fast as the deck.
+//! sections are those of a column at rest under these ([`RestrainedColumns`](uplift_statics::RestrainedColumns)); at
+//! the base the column's own mass comes in, whose middle rises half as fast as the deck.
 
 use uplift_statics::{Sections, TendonPath};
 
@@ -12,9 +12,9 @@ use crate::history::HistoryRow;
 
 impl RockingFrame {
     /// Sections of a column (of a restrained one, where there is one) at a moment of a motion of this frame under the
-    /// vertical ground acceleration `ground_z_m_s2`: `N = P cos θ − F₁ sin θ + T`, `V = F₁ cos θ + P sin θ` in the plane
-    /// of the lean and `M = N b` at the top; `N` and `M = N b` at the base. None of a frame that stands upright: its
-    /// sections are closed, and their moment is not `N b`.
+    /// vertical ground acceleration `ground_z_m_s2`: `N = P cos θ − F₁ sin θ + T`, `V = F₁ cos θ + P sin θ` in the
+    /// plane of the lean and `M = N b` at the top; `N` and `M = N b` at the base. None of a frame that stands upright:
+    /// its sections are closed, and their moment is not `N b`.
     ///
     /// # Source
     /// Reggiani Manzo, Section 6.2 and Eq. 5.5 to 5.7, with the forces of the motion in place of the static ones.

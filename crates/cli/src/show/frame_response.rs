@@ -54,9 +54,8 @@ fn print_run(out: &mut impl Write, report: &FrameResponseReport, run: &FrameRun)
     } else if let (Some(uplift_s), Some(peak_s)) = (run.time_of_uplift_s, run.time_of_peak_s) {
         writeln!(
             out,
-            "response  under {under}: the deck moves {:.6} m, a drift of {:.3} %, at {peak_s:.4} s; rotation {:.6} rad; first \
-             uplift at \
-             {uplift_s:.4} s",
+            "response  under {under}: the deck moves {:.6} m, a drift of {:.3} %, at {peak_s:.4} s; rotation {:.6} \
+             rad; first uplift at {uplift_s:.4} s",
             run.peak_displacement_m,
             100.0 * run.peak_drift,
             run.peak_rotation_rad

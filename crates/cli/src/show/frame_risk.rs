@@ -129,7 +129,8 @@ fn print_events(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), Co
     if let (Some(theta), Some(beta), Some(per_year)) = (found.theta, found.beta, found.lognormal_per_year) {
         writeln!(
             out,
-            "Collapse fragility: lognormal, median {theta:.4} {}, dispersion {beta:.4}; with it {per_year:.3e} per year",
+            "Collapse fragility: lognormal, median {theta:.4} {}, dispersion {beta:.4}; with it {per_year:.3e} per \
+             year",
             report.unit
         )?;
     }

@@ -151,8 +151,8 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
 
-    /// Two records, levels 1 and 2 with rates 1 and 1/2 a year and all beyond the last: a record's peaks are 1 and 2, the
-    /// other's 2 and infinite. Above 1 m lie ½·¼ + … by hand: see the sums.
+    /// Two records, levels 1 and 2 with rates 1 and 1/2 a year and all beyond the last: one record's peaks are 1 and 2
+    /// m, the other's 2 m and infinite.
     #[test]
     fn a_case_by_hand() {
         let weights = StripeWeights::new(&[1.0, 0.5], None).unwrap();
