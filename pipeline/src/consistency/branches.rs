@@ -1,5 +1,5 @@
-//! Weighted hazard curves of a site: each branch of one measure is repaired by that of the other, where both measures have
-//! the same branches.
+//! Weighted hazard curves of a site: each branch of one measure is repaired by that of the other, where both measures
+//! have the same branches.
 
 use std::collections::BTreeMap;
 

@@ -199,9 +199,19 @@ impl Question {
     /// The measure that a set scaled to `scaled_to` is asked about: the one that the study names, else the first with a
     /// curve, PGV before PGA; none where no site has a curve of another.
     pub(crate) fn other(&self, scaled_to: IntensityMeasure) -> Option<IntensityMeasure> {
-        let is_other = |measure: &IntensityMeasure| *measure != scaled_to && self.curves.contains_key(measure);
+        let measures: Vec<IntensityMeasure> = self.curves.keys().copied().collect();
+        self.other_among(&measures, scaled_to)
+    }
+
+    /// The same where hazard is known of `measures`, in their order.
+    pub(crate) fn other_among(
+        &self,
+        measures: &[IntensityMeasure],
+        scaled_to: IntensityMeasure,
+    ) -> Option<IntensityMeasure> {
+        let is_other = |measure: &IntensityMeasure| *measure != scaled_to && measures.contains(measure);
         let named = self.settings.against.filter(is_other);
-        named.or_else(|| self.curves.keys().copied().find(|measure| is_other(measure)))
+        named.or_else(|| measures.iter().copied().find(is_other))
     }
 
     /// Whether any site has curves of two measures.
@@ -211,7 +221,7 @@ impl Question {
     }
 
     /// The records with the measure that they are scaled to and the other one.
-    pub(super) fn set(&self, scaled_to: IntensityMeasure, other: IntensityMeasure) -> Result<ScaledSet, UpliftError> {
+    pub(crate) fn set(&self, scaled_to: IntensityMeasure, other: IntensityMeasure) -> Result<ScaledSet, UpliftError> {
         let row = |record: &AskedRecord| SetRecord {
             scaled_to: record.intensity(scaled_to),
             other: record.intensity(other),

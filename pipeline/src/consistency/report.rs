@@ -257,6 +257,14 @@ fn targets(question: &Question, diagnosis: &Diagnosis) -> Vec<TargetRow> {
     question.poes.iter().zip(&diagnosis.targets).map(of).collect()
 }
 
+impl Question {
+    /// Why there is no repair; none where there is one, or none was asked for.
+    pub(crate) fn no_repair(&self, finding: &Finding) -> Option<String> {
+        let reason = finding.repair.as_ref()?.as_ref().err()?;
+        Some(said(self, finding, |words| reason.sentence(words)))
+    }
+}
+
 /// What `say` makes of the words of a finding.
 fn said(question: &Question, finding: &Finding, say: impl Fn(&Words<'_>) -> String) -> String {
     let levels = question.analyses.iter().find(|(measure, _)| *measure == finding.scaled_to);
