@@ -40,12 +40,7 @@ pub fn inferred_limits(
     targets_per_year: &[f64],
     (sizes, confidence): (&[usize], f64),
 ) -> Result<Vec<InferredLimits>, RiskError> {
-    let records = units.iter().map(Vec::len).sum();
-    let fits = |what, found, expected| {
-        if found == expected { Ok(()) } else { Err(RiskError::Count { what, found, expected }) }
-    };
-    fits("records of the units", records, demand.record_count())?;
-    fits("stripe weights", weights.level_count(), demand.level_count())?;
+    check(demand, weights, units)?;
     if let Some(&rate) = targets_per_year.iter().find(|target| !target.is_finite() || **target <= 0.0) {
         return Err(RiskError::Target { rate });
     }
@@ -87,6 +82,35 @@ pub fn inferred_limits(
         prediction_m: prediction.limits_m(),
     };
     Ok(searches.iter().map(limits).collect())
+}
+
+/// Limits of the rate at which `threshold_m` is exceeded, 1/yr, by all records there could be: the interval that
+/// [`inferred_limits`] inverts. NaN of a single unit; both 0 where no run exceeds it, which says nothing of others.
+///
+/// # Errors
+/// As [`inferred_limits`].
+pub fn inferred_rate(
+    demand: &PooledDemand,
+    weights: &StripeWeights,
+    units: &[Vec<usize>],
+    (threshold_m, confidence): (f64, f64),
+) -> Result<[f64; 2], RiskError> {
+    check(demand, weights, units)?;
+    let per_year = weights.per_year();
+    let mut rates = UnitRates::new(units);
+    for (_, record, level) in demand.falling_runs().take_while(|run| run.0 > threshold_m) {
+        rates.add(record, per_year[level]);
+    }
+    Ok(rates.mean().interval(&StudentQuantiles::new(confidence, units.len())))
+}
+
+/// Whether these belong together.
+fn check(demand: &PooledDemand, weights: &StripeWeights, units: &[Vec<usize>]) -> Result<(), RiskError> {
+    let fits = |what, found, expected| {
+        if found == expected { Ok(()) } else { Err(RiskError::Count { what, found, expected }) }
+    };
+    fits("records of the units", units.iter().map(Vec::len).sum(), demand.record_count())?;
+    fits("stripe weights", weights.level_count(), demand.level_count())
 }
 
 /// The deviate of so many units over its quantile: within −1 and 1 where the target may be the truth.

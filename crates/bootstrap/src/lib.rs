@@ -7,7 +7,7 @@
 //! - [`Interval`], [`Band`]: confidence intervals of an ordinate, by percentiles or bias-corrected and
 //!   accelerated (BCa).
 //! - [`inferred_limits`]: the band of the spectrum of all records there could be, and that of another set's, without
-//!   resampling; [`SkewedMean`]: the same of a rate.
+//!   resampling; [`inferred_rate`]: the same of the rate at which something is exceeded.
 //! - [`simultaneous_bands`]: a band that holds whole spectra.
 //! - [`error_of_median`], [`range_of_interval`]: the two figures of Table 4.1 (Eq. 4.9, 4.10).
 //! - [`leave_one_out`]: the ordinates without each record, for influence and for BCa.
@@ -35,7 +35,7 @@ mod weighted_replicates;
 
 pub use accuracy::{error_of_median, range_of_interval};
 pub use error::BootstrapError;
-pub use inferred::{InferredLimits, inferred_limits};
+pub use inferred::{InferredLimits, inferred_limits, inferred_rate};
 pub use interval::{Band, Interval};
 pub use jackknife::{acceleration, leave_one_out, without_each};
 pub use plan::ResamplingPlan;

@@ -3,7 +3,7 @@
 
 use proptest::prelude::*;
 use statrs::distribution::{ContinuousCDF, Normal};
-use uplift_bootstrap::{InferredLimits, ResamplingPlan, SkewedMean, StudentQuantiles, inferred_limits};
+use uplift_bootstrap::{InferredLimits, ResamplingPlan, SkewedMean, StudentQuantiles, inferred_limits, inferred_rate};
 use uplift_fragility::Stripes;
 use uplift_risk::{PooledDemand, RecordSample, RiskCurve, StripeWeights};
 
@@ -100,6 +100,20 @@ fn more_confidence_and_another_set_are_wider_and_hold_the_ordinate() {
     // a single unit says nothing of others
     let one = inferred_limits(&demand, &weights(), &[(0..60).collect()], &[0.02], (&[1], 0.9)).unwrap()[0];
     assert!(one.truth_m[0].is_nan() && one.prediction_m[1].is_nan());
+}
+
+// The band of an ordinate and that of a rate are one another's inverse.
+#[test]
+fn the_rates_at_the_limits_reach_the_target() {
+    let demand = pooled(&(1..=120).map(|i| 0.01 * f64::from(i * 37 % 120 + 1)).collect::<Vec<_>>());
+    let units: Vec<Vec<usize>> = (0..30).map(|record| vec![record]).collect();
+    let target = 0.03;
+    let [lower_m, upper_m] = inferred_limits(&demand, &weights(), &units, &[target], (&[30], 0.9)).unwrap()[0].truth_m;
+    let rate = |threshold_m: f64| inferred_rate(&demand, &weights(), &units, (threshold_m, 0.9)).unwrap();
+    let hair = 1e-9;
+    assert!(rate(lower_m)[0] <= target && rate(lower_m - hair)[0] > target, "{lower_m}: {:?}", rate(lower_m));
+    assert!(rate(upper_m - hair)[1] >= target && rate(upper_m)[1] < target, "{upper_m}: {:?}", rate(upper_m));
+    assert_eq!(rate(f64::MAX), [0.0; 2]);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! How often the bands of `uplift bootstrap` hold what they are bands of, by simulation with a known truth:
 //!
 //! ```sh
-//! uplift run configs/europe.toml -o population.h5 --set records.synthetic.pairs=400 --set 'strengths.values=[0.1, 0.4]'
+//! uplift run configs/europe.toml -o population.h5 --set records.synthetic.pairs=400 --set 'strengths.values=[0.1]'
 //! cargo run --workspace --example coverage population.h5 400
 //! ```
 //!
