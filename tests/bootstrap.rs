@@ -5,6 +5,8 @@ use uplift_labelled::LabelledReader;
 
 use crate::common::{self, SmallStudy, array, real_records, repository, same_bits};
 
+/// The limits beyond the set, from the lowest to the highest, around the spectrum.
+const INFERRED: [&str; 4] = ["prediction_lower_m", "truth_lower_m", "truth_upper_m", "prediction_upper_m"];
 const BANDS: [&str; 3] = ["u05_m", "u50_m", "u95_m"];
 
 fn rows(json: &str) -> Vec<Value> {
@@ -60,10 +62,30 @@ fn a_study_becomes_bands() {
             assert!((row["e_median"].as_f64().unwrap() - expected).abs() < 1e-9 * (1.0 + expected), "{row}");
         }
     }
+    // the bands of the truth and of another set lie around the spectrum, and do not hang on the draws
+    for im in ["pgv", "pga"] {
+        let inferred = || INFERRED.map(|name| array(&result, &format!("/bootstrap/{im}/{name}")));
+        let [low, lower, upper, high] = inferred();
+        let spectra = array(&result, &format!("/urs/{im}/u_m"));
+        // sizes 2 and 4, of 4 records
+        for (place, spectrum_m) in spectra.into_iter().enumerate() {
+            let at = (place / 10 * 2 + 1) * 10 + place % 10;
+            let order = [0.0, low[at], lower[at], spectrum_m, upper[at], high[at]];
+            assert!(order.is_sorted(), "{im} {place}: {order:?}");
+        }
+        let before = inferred();
+        study.uplift(&["bootstrap", "study.toml", "--sizes", "2,4", "--replicates", "20", "--seed", "9", "-q"]).ok();
+        assert!(before.iter().zip(&inferred()).all(|(before, after)| same_bits(before, after)));
+    }
+    let [lower, upper] = [0, 1].map(|limit| rows[1]["inferred"]["truth"][limit].as_f64().unwrap());
+    assert!(rows[1]["sample_size"] == 4 && lower < 0.0 && upper > 0.0, "{}", rows[1]);
+    study.uplift(&arguments).ok();
     let table = std::fs::read_to_string(study.path().join("results/study.table-4-1.csv")).unwrap();
     assert!(table.lines().next().unwrap().ends_with("sample_size,e_median_pct,r_90ci_pct"), "{table}");
     let bands = std::fs::read_to_string(study.path().join("results/study.bands.csv")).unwrap();
-    assert_eq!(bands.lines().next().unwrap(), "site,im,poe,years,sample_size,strength,u05_m,u50_m,u95_m");
+    let columns = "site,im,poe,years,sample_size,strength,u05_m,u50_m,u95_m";
+    let inferred = "truth_lower_m,truth_upper_m,prediction_lower_m,prediction_upper_m";
+    assert_eq!(bands.lines().next().unwrap(), format!("{columns},{inferred}"));
     assert_eq!(bands.lines().count(), 1 + 24 * 10);
     // what the run wrote is still there
     assert!(LabelledReader::open(&result).unwrap().exists("/risk/pgv/maf_per_year"));
@@ -80,7 +102,7 @@ fn same_bits_on_any_number_of_threads_and_from_a_kept_plan() {
     study.uplift(&[&["bootstrap", "b.h5", "--threads", "3"], &options[..]].concat()).ok();
     let kept = ["bootstrap", "c.h5", "--plan", "a.h5", "--simultaneous", "--interval", "bca", "-q"];
     study.uplift(&kept).ok();
-    for name in BANDS.iter().chain(&["simultaneous_lower_m", "simultaneous_upper_m"]) {
+    for name in BANDS.iter().chain(&INFERRED).chain(&["simultaneous_lower_m", "simultaneous_upper_m"]) {
         for im in ["pgv", "pga"] {
             let name = format!("/bootstrap/{im}/{name}");
             let [a, b, c] = ["a.h5", "b.h5", "c.h5"].map(|file| array(&study.path().join(file), &name));

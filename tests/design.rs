@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use serde_json::Value;
+use uplift_bootstrap::{SkewedMean, StudentQuantiles};
 use uplift_motion::{Accelerogram, ReadOptions, read_path};
 use uplift_oscillator::{Excitation, FreeVibration, Oscillator, PostUplift, respond};
 
@@ -141,11 +142,25 @@ fn every_number_by_hand() {
         assert_eq!(exact["analyses"], (1 + 2 * 11 + 3 * 8) * 5 * 7);
         is_around(exact, &["zero_stiffness_demand_of_spectrum_m", "zero_stiffness_demand_m", "demand_m"]);
         assert_eq!(exact["overturns"], u.is_infinite());
+        let [lower, upper] = [0, 1].map(|limit| exact["bands"]["demand_by_record_m"][limit].as_f64());
+        let [lower, upper] = [lower, upper].map(|limit_m| limit_m.unwrap_or(f64::INFINITY));
+        assert!(0.0 < lower && lower <= u * (1.0 + 1e-6) && u <= upper * (1.0 + 1e-6), "{lower} {u} {upper}");
         for (event, threshold_m) in [("beyond_capacity", 0.8), ("overturning", f64::MAX)] {
             let per_year = rate(&nsbe, threshold_m);
             assert!(per_year > 0.0);
             close(&exact[event]["per_year"], per_year, 1e-9);
             close(&exact[event]["probability"], -(-50.0 * per_year).exp_m1(), 1e-9);
+            // the rates of single records, of which theirs is the mean
+            let of_records = nsbe.iter().map(|peaks_m| rate(std::slice::from_ref(peaks_m), threshold_m) - per_year);
+            let deviations: Vec<f64> = of_records.collect();
+            let moment = |power: i32| deviations.iter().map(|deviation| deviation.powi(power)).sum::<f64>() / 5.0;
+            let mean = SkewedMean::new(per_year, [2, 3, 4].map(moment), 5);
+            let expected = mean.interval(&StudentQuantiles::new(0.9, 5));
+            let bands = &exact["bands"][format!("{event}_per_year")];
+            for (limit, expected) in expected.into_iter().enumerate() {
+                close(&bands["by_record"][limit], expected, 1e-6);
+            }
+            assert!(bands["by_earthquake"].is_null(), "synthetic pairs share no earthquake");
         }
         // Eq. 3.11 and 3.15 with z, written out
         assert!(z > UPLIFT_M, "{z}");

@@ -5,6 +5,7 @@ mod bands;
 mod checkpoint;
 mod compute;
 mod draws;
+mod inferred;
 mod job;
 mod needs;
 mod reference;

@@ -27,7 +27,7 @@ mod target;
 
 pub use asked::{AskedRisk, RiskTargets};
 pub(crate) use bands::BandMethod;
-pub use bands::{MeasureBands, StoredBands, StoredRepairedBands, StoredSpectraBands};
+pub use bands::{InferredBands, MeasureBands, StoredBands, StoredRepairedBands, StoredSpectraBands, WidestInferred};
 pub use consistency::StoredConsistency;
 pub(crate) use design::{BOUNDS, bounds, rule_names};
 pub use design::{DesignRow, RULES, StoredDesign, StoredDesigned};

@@ -1,5 +1,6 @@
 //! A structure under the records and the hazard of a result: its design by the spectrum, its own risk, its overturning.
 
+mod certainty;
 mod choice;
 mod collapse;
 mod demand;
@@ -16,6 +17,7 @@ mod sweep;
 mod tables;
 mod weights;
 
+pub use certainty::{DemandBands, RateBands};
 pub use demand::{DemandNoise, DemandRounding, ExactDemand, RuleRanges};
 pub use design::{DesignOptions, DesignReport, design, design_shard};
 pub use frame_risk::{

@@ -6,6 +6,8 @@
 //! - [`weighted_replicates`]: the same where the records of each replicate are weighed anew.
 //! - [`Interval`], [`Band`]: confidence intervals of an ordinate, by percentiles or bias-corrected and
 //!   accelerated (BCa).
+//! - [`inferred_limits`]: the band of the spectrum of all records there could be, and that of another set's, without
+//!   resampling; [`inferred_rate`]: the same of the rate at which something is exceeded.
 //! - [`simultaneous_bands`]: a band that holds whole spectra.
 //! - [`error_of_median`], [`range_of_interval`]: the two figures of Table 4.1 (Eq. 4.9, 4.10).
 //! - [`leave_one_out`]: the ordinates without each record, for influence and for BCa.
@@ -19,22 +21,27 @@
 
 mod accuracy;
 mod error;
+mod inferred;
 mod interval;
 mod jackknife;
 mod plan;
 mod replicates;
 mod simultaneous;
+mod skewed_mean;
 mod unit;
+mod unit_rates;
 mod weighted;
 mod weighted_replicates;
 
 pub use accuracy::{error_of_median, range_of_interval};
 pub use error::BootstrapError;
+pub use inferred::{InferredLimits, inferred_limits, inferred_rate};
 pub use interval::{Band, Interval};
 pub use jackknife::{acceleration, leave_one_out, without_each};
 pub use plan::ResamplingPlan;
 pub use replicates::Replicates;
 pub use simultaneous::simultaneous_bands;
+pub use skewed_mean::{SkewedMean, StudentQuantiles};
 pub use unit::{Unit, units};
 pub use weighted::weighted_quantile;
 pub use weighted_replicates::{left_out, weighted_replicates};

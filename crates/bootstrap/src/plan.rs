@@ -127,6 +127,11 @@ impl ResamplingPlan {
         if self.events.is_some() { Unit::Event } else { Unit::Record }
     }
 
+    /// The records of each unit that is drawn, `[unit]`, by their positions: one each, or those of an earthquake.
+    pub fn units(&self) -> Vec<Vec<usize>> {
+        self.events.clone().unwrap_or_else(|| (0..self.record_count).map(|record| vec![record]).collect())
+    }
+
     /// How many units there are to draw from: records, or earthquakes.
     pub fn unit_count(&self) -> usize {
         self.events.as_ref().map_or(self.record_count, Vec::len)

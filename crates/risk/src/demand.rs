@@ -75,6 +75,12 @@ impl PooledDemand {
         &self.edp_m
     }
 
+    /// Every run with a demand above zero, by falling demand: demand, m, record and level by their positions.
+    pub fn falling_runs(&self) -> impl Iterator<Item = (f64, usize, usize)> {
+        let runs = self.edp_m.iter().zip(&self.runs);
+        runs.map(|(&edp_m, run)| (edp_m, usize::from(run.record), usize::from(run.level)))
+    }
+
     /// The runs in the order of [`PooledDemand::edp_m`].
     pub(crate) fn runs(&self) -> &[Run] {
         &self.runs
@@ -121,8 +127,8 @@ mod tests {
         let edp = [0.0, 0.2, inf, 0.1, 0.0, 0.3];
         let pool = PooledDemand::new(&Stripes::new(&levels, &edp).unwrap()).unwrap();
         assert_eq!(pool.edp_m(), [inf, 0.3, 0.2, 0.1]);
-        let runs: Vec<_> = pool.runs().iter().map(|run| (run.record, run.level)).collect();
-        assert_eq!(runs, [(0, 2), (1, 2), (0, 1), (1, 0)]);
+        let runs: Vec<_> = pool.falling_runs().collect();
+        assert_eq!(runs, [(inf, 0, 2), (0.3, 1, 2), (0.2, 0, 1), (0.1, 1, 0)]);
         assert_eq!((pool.exceeding(0.2), pool.exceeding(0.0), pool.exceeding(9.0)), (2, 4, 1));
         assert_eq!(pool.records_at_last_level(4).collect::<Vec<_>>(), [0, 1]);
         assert_eq!(pool.records_at_first_level(3).count(), 0);

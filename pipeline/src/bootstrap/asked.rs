@@ -46,5 +46,5 @@ fn stored_bands(bands: Bands) -> MeasureBands {
     };
     let repaired =
         bands.repaired.map(|RepairedBands { bands, failed }| StoredRepairedBands { bands: stored(bands), failed });
-    MeasureBands { measure: bands.measure, plain: stored(bands.plain), repaired }
+    MeasureBands { measure: bands.measure, plain: stored(bands.plain), inferred: Some(bands.inferred), repaired }
 }

@@ -10,7 +10,7 @@ use uplift_risk::{PooledDemand, StripeWeights};
 
 use crate::array::Array;
 use crate::error::UpliftError;
-use crate::result::{StoredMeasure, StoredStripes};
+use crate::result::{InferredBands, StoredMeasure, StoredStripes};
 
 /// What kind of bands.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -73,6 +73,8 @@ pub struct Bands {
     pub measure: IntensityMeasure,
     /// Those of the spectra of records that count alike.
     pub plain: SpectraBands,
+    /// Those of the spectra of all records there could be, and of another set.
+    pub inferred: InferredBands,
     /// Bands over records and hazard together, for the sites with branches.
     pub joint: Vec<JointBands>,
     /// Those of the repaired spectra, where the result has some.
@@ -199,7 +201,7 @@ pub(super) fn gather_bands(
     measure: &StoredMeasure,
     plan: &ResamplingPlan,
     settings: &BandSettings,
-    strengths: &[&StrengthBands],
+    (strengths, inferred): (&[&StrengthBands], InferredBands),
 ) -> Bands {
     let (sites, poes, sizes) = (stored.sites.len(), stored.poes.len(), plan.sizes().len());
     let shape = [sites, poes, sizes, strengths.len()];
@@ -243,7 +245,7 @@ pub(super) fn gather_bands(
     let band = |[site, poe, size, strength]: [usize; 4]| strengths[strength].bands[cell(site, poe, size)];
     let mut plain = SpectraBands::of(&Array::from_fn(shape, band), &measure.exact_m, first);
     plain.simultaneous_m = simultaneous_m;
-    Bands { measure: measure.measure, plain, joint, repaired: None }
+    Bands { measure: measure.measure, plain, inferred, joint, repaired: None }
 }
 
 impl SpectraBands {

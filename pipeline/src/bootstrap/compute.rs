@@ -9,6 +9,7 @@ use uplift_risk::PooledDemand;
 
 use super::bands::{BandSettings, Bands, StrengthBands, bands_of_strength, gather_bands};
 use super::checkpoint::{Checkpoint, Expected, Finished};
+use super::inferred::inferred_bands;
 use super::repaired::{SiteBands, SiteShape, bands_of_site, gather_repaired};
 use crate::consistency::Reweighing;
 use crate::error::UpliftError;
@@ -57,11 +58,13 @@ pub(super) fn compute(
     // the result may not be writable, on a disk that has filled up for instance
     Keeper { checkpoint, kept: start }.keep_now_and_then(&finished)?;
     let Source { stored, plan, settings, .. } = source;
-    let of_measure = |measure: &StoredMeasure| {
+    let of_measure = |measure: &StoredMeasure| -> Result<Bands, UpliftError> {
         let key = measure.measure.key();
         let own: Vec<&StrengthBands> =
             finished.strengths.range((key, 0)..=(key, usize::MAX)).map(|(_, bands)| bands).collect();
-        let mut bands = gather_bands(stored, measure, plan, settings, &own);
+        let inferred =
+            inferred_bands(stored, measure, plan, settings.confidence).map_err(|error| error.in_file(&stored.path))?;
+        let mut bands = gather_bands(stored, measure, plan, settings, (&own, inferred));
         bands.repaired = source.reweighing.map(|_| {
             let own: Vec<Option<&SiteBands>> =
                 (0..stored.sites.len()).map(|site| finished.sites.get(&(key, site))).collect();
@@ -72,9 +75,9 @@ pub(super) fn compute(
                 settings.simultaneous,
             )
         });
-        bands
+        Ok(bands)
     };
-    Ok(stored.measures.iter().map(of_measure).collect())
+    stored.measures.iter().map(of_measure).collect()
 }
 
 /// Finishes the bands of plain spectra, a strength after the other.

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::bands::{BandSettings, Bands, SpectraBands};
 use super::reference::ReferenceRow;
-use crate::result::StoredStripes;
+use crate::result::{StoredStripes, WidestInferred};
 
 /// What a bootstrap tells.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -32,6 +32,9 @@ pub struct BootstrapReport {
     /// Years that they refer to.
     #[serde(skip)]
     pub years: f64,
+    /// Records of the result.
+    #[serde(skip)]
+    pub records: usize,
     /// Records in a sample.
     #[serde(skip)]
     pub sizes: Vec<u32>,
@@ -65,6 +68,9 @@ pub struct BootstrapRow {
     pub e_median: Option<f64>,
     /// Range of the interval (Eq. 4.10), per cent.
     pub r_90ci: Option<f64>,
+    /// The bands of the spectrum of all records there could be and of that of another set of this size; none where an
+    /// ordinate is censored or all are 0.
+    pub inferred: Option<WidestInferred>,
     /// The same of the repaired spectrum; none where there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub repaired: Option<RepairedFigures>,
@@ -105,7 +111,7 @@ impl BootstrapReport {
         reference: Vec<ReferenceRow>,
     ) -> Self {
         let mut rows = Vec::new();
-        for bands in &bands {
+        for (bands, measure) in bands.iter().zip(&stored.measures) {
             let percent = |share: Option<f64>| share.map(|share| 100.0 * share);
             for (at @ [site, poe, size], error) in bands.plain.error_of_median.blocks() {
                 let repaired = bands.repaired.as_ref().filter(|own| !own.failed[[site, size]].is_nan());
@@ -116,6 +122,7 @@ impl BootstrapReport {
                     sample_size: sizes[size],
                     e_median: percent(error[0]),
                     r_90ci: percent(bands.plain.range_of_interval[at]),
+                    inferred: bands.inferred.widest((&stored.strengths, measure.exact_m.block([site, poe])), at),
                     repaired: repaired.map(|own| RepairedFigures {
                         e_median: percent(own.bands.error_of_median[at]),
                         r_90ci: percent(own.bands.range_of_interval[at]),
@@ -132,6 +139,7 @@ impl BootstrapReport {
             sites: stored.sites,
             poes: stored.poes,
             years: stored.years,
+            records: stored.records.len(),
             sizes,
             strengths: stored.strengths,
             uplift_displacement_m: stored.uplift_displacement_m,

@@ -83,6 +83,15 @@ fn add_bands(writer: &mut LabelledWriter, file: &BandsFile<'_>) -> Result<(), La
         let measure = bands.measure;
         let path = |name: &str| band(measure, name);
         add_spectra_bands(writer, &path, &bands.plain, settings.confidence)?;
+        for (name, values, of) in [
+            (bootstrap::TRUTH, &bands.inferred.truth_m, "limit of the spectrum of all records there could be"),
+            (bootstrap::PREDICTION, &bands.inferred.prediction_m, "limit of the spectrum of another set of records"),
+        ] {
+            let dims = [axis::SITE, axis::POE, axis::SAMPLE_SIZE, axis::STRENGTH];
+            for (name, values) in name.into_iter().zip(values) {
+                writer.array_f64(&path(name), &dims, values.values(), "m", of)?;
+            }
+        }
         for joint in &bands.joint {
             let path = |name: &str| joint_band(measure, &stored.sites[joint.site], name);
             for (name, values) in [(&lower, &joint.lower_m), (&median, &joint.median_m), (&upper, &joint.upper_m)] {
@@ -170,10 +179,26 @@ fn bands_table(file: &BandsFile<'_>) -> Vec<Column> {
     ];
     let plain: Vec<&SpectraBands> = file.bands.iter().map(|bands| &bands.plain).collect();
     columns.extend(limit_columns("", &plain, file.settings.confidence));
+    columns.extend(inferred_columns(file.bands));
     let repaired: Vec<&SpectraBands> =
         file.bands.iter().filter_map(|bands| bands.repaired.as_ref().map(|repaired| &repaired.bands)).collect();
     columns.extend(limit_columns("_consistent", &repaired, file.settings.confidence));
     columns
+}
+
+/// The limits beyond the set of all measures.
+fn inferred_columns(bands: &[Bands]) -> impl Iterator<Item = Column> {
+    let limits: [fn(&Bands) -> &Array<4>; 4] = [
+        |bands| &bands.inferred.truth_m[0],
+        |bands| &bands.inferred.truth_m[1],
+        |bands| &bands.inferred.prediction_m[0],
+        |bands| &bands.inferred.prediction_m[1],
+    ];
+    let names = bootstrap::TRUTH.into_iter().chain(bootstrap::PREDICTION);
+    names.zip(limits).map(|(name, limit)| {
+        let values: Vec<f64> = bands.iter().flat_map(|bands| limit(bands).values()).copied().collect();
+        Column::new(name.into(), values)
+    })
 }
 
 /// The limits of all measures, their names with `suffix` before the unit; none of no bands.

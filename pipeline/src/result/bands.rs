@@ -1,5 +1,6 @@
 //! The confidence bands of a result, and the draws that they were made of.
 
+use serde::Serialize;
 use uplift_bootstrap::{Interval, ResamplingPlan, Unit};
 use uplift_motion::IntensityMeasure;
 
@@ -29,6 +30,8 @@ pub struct MeasureBands {
     pub measure: IntensityMeasure,
     /// Those of the spectra of records that count alike.
     pub plain: StoredSpectraBands,
+    /// Those of the spectra of all records there could be, and of another set; none in results of before.
+    pub inferred: Option<InferredBands>,
     /// Those of the repaired spectra; none where the result had none at the time.
     pub repaired: Option<StoredRepairedBands>,
 }
@@ -42,6 +45,43 @@ pub struct StoredSpectraBands {
     pub error_of_median: Array<3>,
     /// Widths of the interval `[site, poe, size]`, % (Eq. 4.10); NaN where an ordinate is censored or 0.
     pub range_of_interval: Array<3>,
+}
+
+/// What the records of a set say beyond it; limits are `[site, poe, size, strength]`, m, lower before upper.
+#[derive(Debug, Clone, PartialEq)]
+pub struct InferredBands {
+    /// Limits of the spectra of all records there could be.
+    pub truth_m: [Array<4>; 2],
+    /// Limits of the spectra of another set of as many records.
+    pub prediction_m: [Array<4>; 2],
+}
+
+/// The bands beyond the set where the one of the truth is widest in metres, over the ordinate there.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct WidestInferred {
+    /// The strength.
+    pub strength: f64,
+    /// Limits of the ordinate of all records there could be, less the ordinate, over it, per cent.
+    pub truth: [f64; 2],
+    /// The same of the ordinate of another set.
+    pub prediction: [f64; 2],
+}
+
+impl InferredBands {
+    /// Where the band of the truth is widest, at the positions `[site, poe, size]`; none where an ordinate is censored
+    /// or all are 0. `strengths` and `spectrum_m` are over the strengths; those of 0, where nothing rocks, are left
+    /// out.
+    pub fn widest(&self, (strengths, spectrum_m): (&[f64], &[f64]), at: [usize; 3]) -> Option<WidestInferred> {
+        let [truth, prediction] = [&self.truth_m, &self.prediction_m].map(|of| of.each_ref().map(|own| own.block(at)));
+        let rocking = (0..strengths.len()).filter(|&place| strengths[place] > 0.0 && spectrum_m[place] > 0.0);
+        let width = |place: usize| truth[1][place] - truth[0][place];
+        let widest = rocking.max_by(|&a, &b| width(a).total_cmp(&width(b)))?;
+        let per_cent =
+            |limits: [&[f64]; 2]| limits.map(|limit| 100.0 * (limit[widest] - spectrum_m[widest]) / spectrum_m[widest]);
+        let found =
+            WidestInferred { strength: strengths[widest], truth: per_cent(truth), prediction: per_cent(prediction) };
+        found.truth.iter().chain(&found.prediction).all(|limit| limit.is_finite()).then_some(found)
+    }
 }
 
 /// The bands of repaired spectra; NaN at sites without repair.
@@ -65,6 +105,11 @@ pub(crate) struct BandMethod {
 }
 
 impl StoredBands {
+    /// Position of the samples with as many records as a set of `records`; the largest where there are none.
+    pub fn of_set(&self, records: usize) -> usize {
+        self.sizes.iter().position(|&size| size as usize == records).unwrap_or_else(|| self.largest())
+    }
+
     /// Names of lower limit, median and upper limit: `u05_m`, `u50_m`, `u95_m`.
     pub fn limit_names(&self) -> [String; 3] {
         limit_names(self.confidence)
@@ -141,7 +186,17 @@ impl ResultFile {
             } else {
                 None
             };
-            measures.push(MeasureBands { measure, plain, repaired });
+            let limits = |names: [&str; 2]| -> Result<[Array<4>; 2], UpliftError> {
+                let [lower, upper] = names.map(|name| self.array(&band(measure, name), [site, poe, size, strength]));
+                Ok([lower?, upper?])
+            };
+            let inferred = if self.reader.exists(&band(measure, bootstrap::TRUTH[0])) {
+                let (truth_m, prediction_m) = (limits(bootstrap::TRUTH)?, limits(bootstrap::PREDICTION)?);
+                Some(InferredBands { truth_m, prediction_m })
+            } else {
+                None
+            };
+            measures.push(MeasureBands { measure, plain, inferred, repaired });
         }
         Ok(Some(StoredBands { sizes, unit: self.drawn_unit()?, confidence, measures }))
     }

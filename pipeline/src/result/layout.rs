@@ -96,6 +96,10 @@ pub mod bootstrap {
     pub const ROOT: &str = "/bootstrap";
     /// Limits of the band of whole spectra.
     pub const SIMULTANEOUS: [&str; 2] = ["simultaneous_lower_m", "simultaneous_upper_m"];
+    /// Limits of the band of the spectrum of all records there could be.
+    pub const TRUTH: [&str; 2] = ["truth_lower_m", "truth_upper_m"];
+    /// Limits of the band of the spectrum of another set of as many records.
+    pub const PREDICTION: [&str; 2] = ["prediction_lower_m", "prediction_upper_m"];
     /// Error of the median (Eq. 4.9).
     pub const E_MEDIAN: &str = "e_median";
     /// Range of the interval (Eq. 4.10).
@@ -103,7 +107,8 @@ pub mod bootstrap {
     /// Share of the replicates whose weights fail, of repaired spectra.
     pub const FAILED: &str = "failed";
     /// The arrays of a measure but for the limits.
-    pub const ARRAYS: &[&str] = &[SIMULTANEOUS[0], SIMULTANEOUS[1], E_MEDIAN, R_90CI, FAILED];
+    pub const ARRAYS: &[&str] =
+        &[SIMULTANEOUS[0], SIMULTANEOUS[1], TRUTH[0], TRUTH[1], PREDICTION[0], PREDICTION[1], E_MEDIAN, R_90CI, FAILED];
 
     /// The group of a measure.
     pub fn group(measure: IntensityMeasure) -> String {

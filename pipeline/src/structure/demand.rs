@@ -7,6 +7,7 @@ use uplift_risk::Ordinate;
 use uplift_spectra::Noisy;
 use uplift_structure::{EquivalentSystem, Rule, relative_error};
 
+use super::certainty::{DemandBands, Scatter, demand_bands};
 use super::risk::{EventRisk, OVERTURNING_M, demand_of, risk_of_exceeding};
 use super::sweep::{OF_STUDY, OWN, Sweep, ZERO_STIFFNESS};
 use super::weights::SiteWeights;
@@ -38,6 +39,8 @@ pub struct ExactDemand {
     pub beyond_capacity: Option<EventRisk>,
     /// It overturns.
     pub overturning: EventRisk,
+    /// How sure these are, as the records tell them; none with repaired weights, and of a single record.
+    pub bands: Option<DemandBands>,
     /// What a small change of the strength makes of it.
     #[serde(rename = "within_one_percent_of_strength")]
     pub noise: DemandNoise,
@@ -118,6 +121,7 @@ pub(super) fn exact_demand(
     (stripes, weights): (&Stripes, &SiteWeights<'_>),
     (system, sweep): (&EquivalentSystem, &Sweep),
     (target_per_year, years): (f64, f64),
+    scatter: &Scatter,
 ) -> Result<ExactDemand, UpliftError> {
     let factor = system.participation();
     let ordinate = |oscillator: usize| -> Result<Ordinate, UpliftError> {
@@ -186,7 +190,12 @@ pub(super) fn exact_demand(
         Some(RuleRanges { equal_displacement, equal_energy })
     };
     let demand = ordinate(OWN)?;
+    let bands = match weights {
+        SiteWeights::Alike(weights) => demand_bands(&own, weights, scatter, (target_per_year, factor, capacity_m))?,
+        SiteWeights::Repaired(_) => None,
+    };
     Ok(ExactDemand {
+        bands,
         analyses: stripes.analyses,
         zero_stiffness_demand_of_spectrum_m: ordinate(OF_STUDY)?.displacement_m,
         zero_stiffness_demand_m: ordinate(ZERO_STIFFNESS)?.displacement_m,

@@ -15,6 +15,7 @@ use uplift_oscillator::PostUplift;
 use uplift_plausible::SAFETY_FACTOR;
 use uplift_study::Structure;
 
+use super::certainty::Scatter;
 use super::choice::{measure_index, records, site_index};
 use super::demand::{ExactDemand, exact_demand};
 use super::report::StructureReport;
@@ -174,7 +175,8 @@ pub fn design(
                 checkpoint = Some(left);
                 let stripes = analysed.into_iter().map(|analysed| Stripes::of(&measure.plan, analysed));
                 let own = (&structure.system, &shaken.sweep);
-                let exact = |stripes: Stripes| exact_demand((&stripes, &weights), own, (target_per_year, years));
+                let (scatter, rate) = (Scatter::of(&file)?, (target_per_year, years));
+                let exact = |stripes: Stripes| exact_demand((&stripes, &weights), own, rate, &scatter);
                 stripes.map(exact).next().transpose()?
             }
             Err(reason) => {

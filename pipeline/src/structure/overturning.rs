@@ -4,18 +4,19 @@
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use uplift_fragility::LognormalFit;
+use uplift_fragility::{LognormalFit, Stripes};
 use uplift_ida::{Shard, System};
 use uplift_motion::IntensityMeasure;
-use uplift_risk::{RunWeights, StripeWeights};
+use uplift_risk::{PooledDemand, RunWeights, StripeWeights};
 use uplift_spectra::{NUDGES, Noisy, nudges};
 use uplift_study::{Structure, UniformRiskStudy};
 
+use super::certainty::{RateBands, Scatter, rate_bands};
 use super::choice::{measure_index, records, site_index};
 use super::collapse::{Collapse, collapse};
 use super::models::models;
 use super::report::StructureReport;
-use super::risk::EventRisk;
+use super::risk::{EventRisk, OVERTURNING_M};
 use super::tables::{risk_path, write_tables};
 use crate::alarms::{Alarm, OwnRisk, Scope, alarms_of_inputs, of_own_risks, of_structure, ranked};
 use crate::analysis::{Beside, LabelledPlan, ShardReport, Work};
@@ -131,6 +132,8 @@ pub struct SiteRisk {
     /// From the counts, with no curve fitted.
     #[serde(flatten)]
     pub risk: EventRisk,
+    /// How sure that is, as the records tell it; none where no run shows it, and of a single record.
+    pub bands: Option<RateBands>,
     /// From the counts with repaired weights, by which the records bring the site's hazard; none where the result has
     /// none.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -179,6 +182,7 @@ pub fn overturning(
     let (analysed, checkpoint) = beside.results(shaken.work(&measures, &models, &asked)?, &options.shards, events)?;
     let Shaken { study, set, .. } = &shaken;
     let reweighing = Reweighing::of_result(&file)?;
+    let scatter = Scatter::of(&file)?;
     let mut analysed = analysed.into_iter();
     let mut found: Vec<(&SpectraOfResult, Vec<Collapses>)> = Vec::new();
     for measure in measures {
@@ -187,17 +191,20 @@ pub fn overturning(
             sites.iter().map(|&site| (&measure.weights[site], of_repair(site))).collect();
         let of_models = models.iter().zip(analysed.by_ref()).map(|((model, _), analysed)| {
             let levels = &measure.plan.levels;
-            let at_nudge = |nudge: usize| {
+            let peaks_m_at = |nudge: usize| -> Vec<f64> {
                 let first = nudge * levels.len();
                 let of_level = |scale| analysed.peaks.over_motions_m(0, scale);
                 let peaks_m: Vec<Vec<f64>> = (first..first + levels.len()).map(of_level).collect();
                 let records = 0..analysed.peaks.axes().motions;
-                let peaks_m: Vec<f64> =
-                    records.flat_map(|record| peaks_m.iter().map(move |of_level| of_level[record])).collect();
-                collapse(levels, &peaks_m, &weights, study.risk.years, model.can_overturn())
+                records.flat_map(|record| peaks_m.iter().map(move |of_level| of_level[record])).collect()
             };
+            let at_nudge =
+                |nudge: usize| collapse(levels, &peaks_m_at(nudge), &weights, study.risk.years, model.can_overturn());
             let rounded = (1..=NUDGES).map(at_nudge).collect::<Result<_, _>>()?;
-            Ok::<_, UpliftError>(Collapses { own: at_nudge(0)?, rounded })
+            let demand = PooledDemand::new(&Stripes::new(levels, &peaks_m_at(0))?)?;
+            let of_site = |(stripes, _): &(&StripeWeights, _)| rate_bands(&demand, stripes, &scatter, OVERTURNING_M);
+            let bands = weights.iter().map(of_site).collect::<Result<_, _>>()?;
+            Ok::<_, UpliftError>(Collapses { own: at_nudge(0)?, rounded, bands })
         });
         found.push((measure, of_models.collect::<Result<_, _>>()?));
     }
@@ -325,6 +332,8 @@ fn check_table(structure: &Structure, result: &Path, options: &OverturningOption
 struct Collapses {
     own: Collapse,
     rounded: Vec<Collapse>,
+    /// How sure its risks are, `[site]`.
+    bands: Vec<Option<RateBands>>,
 }
 
 /// What the numbers rest on.
@@ -393,7 +402,7 @@ impl ModelReport {
 
 impl CollapseReport {
     fn of<'a>(
-        Collapses { own, rounded }: &Collapses,
+        Collapses { own, rounded, bands }: &Collapses,
         measure: IntensityMeasure,
         model: &'static str,
         records: u32,
@@ -407,6 +416,7 @@ impl CollapseReport {
         let site = |(index, site): (usize, &str)| SiteRisk {
             site: site.to_owned(),
             risk: own.risks[index],
+            bands: bands[index],
             repaired: own.repaired[index],
             lognormal_per_year: own.fitted.as_ref().map(|fitted| fitted[index].per_year),
             per_year_rounding: around(&|found| found.risks[index].per_year),

@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use uplift::bootstrap::{BootstrapReport, Initiation, MANY_FAILED};
+use uplift::bootstrap::{BootstrapReport, BootstrapRow, Initiation, MANY_FAILED};
 use uplift::text::{per_cent, risk_in_words, risk_name, table};
 
 use super::shown_path;
@@ -18,6 +18,7 @@ pub(crate) fn print_bootstrap(report: &BootstrapReport, terminal: &Terminal) -> 
         print_figures(out, report, poe, rarest)?;
     }
     print_repaired(out, report)?;
+    print_inferred(out, report)?;
     if !terminal.is_quiet() {
         print_reading(out, report)?;
     }
@@ -126,47 +127,81 @@ fn print_repaired(out: &mut impl Write, report: &BootstrapReport) -> Result<(), 
     Ok(())
 }
 
+/// What the records say beyond themselves: for the rarest probability, samples of their own number.
+fn print_inferred(out: &mut impl Write, report: &BootstrapReport) -> Result<(), CommandError> {
+    let own = u32::try_from(report.records).unwrap_or(u32::MAX);
+    let size = if report.sizes.contains(&own) { Some(own) } else { report.sizes.iter().copied().max() };
+    let rarest = report.poes.iter().copied().min_by(f64::total_cmp);
+    let (Some(size), Some(poe)) = (size, rarest) else { return Ok(()) };
+    let limits = |[lower, upper]: [f64; 2]| [format!("{lower:+.0}"), format!("{upper:+.0}")];
+    let rows: Vec<Vec<String>> = report
+        .rows
+        .iter()
+        .filter(|row| row.sample_size == size && row.poe.total_cmp(&poe).is_eq())
+        .map(|row| {
+            let mut shown = vec![row.site.clone(), row.im.to_owned()];
+            let Some(found) = row.inferred else {
+                shown.extend(["-"; 5].map(str::to_owned));
+                return shown;
+            };
+            shown.push(format!("{:.3}", found.strength));
+            shown.extend(limits(found.truth).into_iter().chain(limits(found.prediction)));
+            shown
+        })
+        .collect();
+    writeln!(
+        out,
+        "\nBeyond these records, {}: where the spectrum of all records like these lies, and that of another set of \
+         {size}, each with {} confidence; limits in per cent from the ordinate, at the strength where the first are \
+         widest in metres",
+        risk_in_words(poe, report.years),
+        per_cent(report.confidence)
+    )?;
+    let header = ["site", "im", "strength", "truth from", "to", "another set from", "to"];
+    writeln!(out, "{}", table(&header, &rows))?;
+    Ok(())
+}
+
 /// What the figures mean, in sentences.
 fn print_reading(out: &mut impl Write, report: &BootstrapReport) -> Result<(), CommandError> {
     let sizes = &report.sizes;
     writeln!(
         out,
-        "\nIn words, at the strength where the interval is widest in metres, in {} of the resamples (where \
-         displacements are small, at higher strengths, the interval may be many times as wide in per cent: see the \
-         bands):",
+        "\nIn words, at the strength where the band of the truth is widest in metres, with {} confidence (where \
+         displacements are small, at higher strengths, it may be many times as wide in per cent: see the bands):",
         per_cent(report.confidence)
     )?;
     for bands in &report.bands {
-        for (poe, &probability) in report.poes.iter().enumerate() {
-            let widths = |size: usize| -> Vec<f64> {
-                (0..report.sites.len()).filter_map(|site| bands.plain.range_of_interval[[site, poe, size]]).collect()
-            };
-            let parts: Vec<String> = sizes
-                .iter()
-                .enumerate()
-                .map(|(index, size)| {
-                    let mut widths = widths(index);
-                    widths.sort_by(f64::total_cmp);
-                    match (widths.first(), widths.last()) {
-                        (Some(least), Some(most)) => {
-                            let (least, most) = (format!("{:.0}", 50.0 * least), format!("{:.0}", 50.0 * most));
-                            let range = if least == most { most } else { format!("{least} to {most}") };
-                            format!("{size} records, within ±{range} %")
-                        }
-                        _ => format!("{size} records, not at all (overturning, or no displacement)"),
-                    }
-                })
-                .collect();
+        let label = bands.measure.label();
+        for &probability in &report.poes {
+            let parts: Vec<String> = sizes.iter().map(|&size| known_from(report, (label, probability), size)).collect();
             writeln!(
                 out,
-                "  {}, {}: the spectrum is known from {}",
-                bands.measure.label(),
+                "  {label}, {}: the spectrum is known from {}",
                 risk_in_words(probability, report.years),
                 parts.join("; ")
             )?;
         }
     }
     Ok(())
+}
+
+/// How well so many records know the spectra by a measure at a probability, over all sites.
+fn known_from(report: &BootstrapReport, (im, poe): (&str, f64), size: u32) -> String {
+    let is_asked = |row: &&BootstrapRow| row.im == im && row.sample_size == size && row.poe.total_cmp(&poe).is_eq();
+    let found: Vec<[f64; 2]> =
+        report.rows.iter().filter(is_asked).filter_map(|row| Some(row.inferred?.truth)).collect();
+    let range = |limit: usize| {
+        let mut limits: Vec<f64> = found.iter().map(|limits| limits[limit]).collect();
+        limits.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+        let (least, most) = (limits.first()?, limits.last()?);
+        let (least, most) = (format!("{least:+.0}"), format!("{most:+.0}"));
+        Some(if least == most { most } else { format!("{least} to {most}") })
+    };
+    match (range(0), range(1)) {
+        (Some(lower), Some(upper)) => format!("{size} records, within {lower} % and {upper} %"),
+        _ => format!("{size} records, not at all (overturning, or no displacement)"),
+    }
 }
 
 /// Records and hazard together, for the sites with branches.

@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use uplift::structure::{DemandRounding, DesignReport, ExactDemand, RuleOutcome};
+use uplift::structure::{DemandBands, DemandRounding, DesignReport, ExactDemand, RateBands, RuleOutcome};
 use uplift::text::{risk_in_words, table};
 use uplift_spectra::Noisy;
 use uplift_structure::Rule;
@@ -200,6 +200,9 @@ fn print_risk(out: &mut impl Write, report: &DesignReport, exact: &ExactDemand) 
     let in_years = format!("in {} years", report.years);
     let header = ["the structure itself", "per year", &in_years, "return period, years"];
     writeln!(out, "\n{}", table(&header, &rows))?;
+    if let Some(bands) = &exact.bands {
+        print_bands(out, bands)?;
+    }
     if exact.overturns {
         writeln!(
             out,
@@ -207,6 +210,30 @@ fn print_risk(out: &mut impl Write, report: &DesignReport, exact: &ExactDemand) 
              meets it.",
             report.target_per_year
         )?;
+    }
+    Ok(())
+}
+
+/// How sure demand and risks are, a sentence each.
+fn print_bands(out: &mut impl Write, bands: &DemandBands) -> Result<(), CommandError> {
+    writeln!(out, "\nWith 90 % confidence, by all records like these {} (docs/method.md, section 9):", bands.records)?;
+    let limits = |[lower, upper]: [f64; 2], shown: fn(f64) -> String| format!("{} to {}", shown(lower), shown(upper));
+    let of = |what: &str, [own, by_event]: [Option<[f64; 2]>; 2], shown: fn(f64) -> String, unit: &str| {
+        let own = own?;
+        let by_event = by_event.zip(bands.earthquakes).map_or_else(String::new, |(by_event, count)| {
+            format!("; if their {count} earthquakes were others, {}", limits(by_event, shown))
+        });
+        Some(format!("  {what} {}{unit}{by_event}", limits(own, shown)))
+    };
+    let rate_of = |of: Option<RateBands>| [of.map(|of| of.by_record), of.and_then(|of| of.by_earthquake)];
+    let demand = [Some(bands.demand_by_record_m), bands.demand_by_earthquake_m];
+    let told = [
+        of("demand on the structure", demand, metres, " m"),
+        of("u > capacity", rate_of(bands.beyond_capacity_per_year), rate, " per year"),
+        of("overturning", rate_of(bands.overturning_per_year), rate, " per year"),
+    ];
+    for line in told.into_iter().flatten() {
+        writeln!(out, "{line}")?;
     }
     Ok(())
 }

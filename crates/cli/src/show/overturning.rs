@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use uplift::structure::{CollapseReport, OverturningReport};
+use uplift::structure::{CollapseReport, OverturningReport, SiteRisk};
 use uplift::text::{share, table};
 use uplift_spectra::Noisy;
 
@@ -116,6 +116,7 @@ fn print_risk(out: &mut impl Write, report: &OverturningReport) -> Result<(), Co
                 row.push(of_site.repaired.map_or_else(|| "-".to_owned(), |risk| risk_cells(&risk)[0].clone()));
             }
             row.extend([
+                of_site.bands.map_or_else(|| "-".to_owned(), |bands| limits(bands.by_record)),
                 or_dash(of_site.lognormal_per_year_rounding, rate),
                 percent(of_site.risk.lower_tail_share),
                 percent(of_site.risk.upper_tail_share),
@@ -131,14 +132,30 @@ fn print_risk(out: &mut impl Write, report: &OverturningReport) -> Result<(), Co
     } else {
         ""
     };
-    header.extend(["lognormal", "below", "above"]);
+    header.extend(["90 % band", "lognormal", "below", "above"]);
     writeln!(
         out,
-        "\nRisk of overturning: from the counted shares{weighted}; with the lognormal curve in their place; and what \
-         of the first comes from below and\nabove the analysed levels\n{}",
+        "\nRisk of overturning: from the counted shares{weighted}, with a 90 % band (docs/method.md, section 9); \
+         with the lognormal curve in\ntheir place; and what of the first comes from below and above the \
+         analysed levels\n{}",
         table(&header, &rows)
     )?;
+    let by_earthquake = |found: &CollapseReport| -> Vec<String> {
+        let of_site = |site: &SiteRisk| {
+            let band = site.bands?.by_earthquake?;
+            Some(format!("   {}, {}, {}: {} per year", site.site, found.im, found.model, limits(band)))
+        };
+        found.sites.iter().filter_map(of_site).collect()
+    };
+    let by_earthquake: Vec<String> = report.overturning.iter().flat_map(by_earthquake).collect();
+    if !by_earthquake.is_empty() {
+        writeln!(out, "The band if the earthquakes of these records were others:\n{}", by_earthquake.join("\n"))?;
+    }
     Ok(())
+}
+
+fn limits([lower, upper]: [f64; 2]) -> String {
+    format!("{} to {}", rate(lower), rate(upper))
 }
 
 /// What asterisks mean, and from where to where rounding moves counts and frequencies; nothing where there are none.

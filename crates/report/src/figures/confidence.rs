@@ -11,9 +11,19 @@ use uplift_plot::{Axis, Band, Figure, Panel, Series, Tone};
 type Limits = [Array<4>; 3];
 
 impl FigureSource {
-    /// The bands of the plain spectra by `measure`.
-    pub(super) fn bands_of(&self, measure: IntensityMeasure) -> Option<&Limits> {
-        Some(&self.bands.as_ref()?.of(measure)?.plain.limits_m)
+    /// The band of the plain spectrum by `measure` at a site and probability, by position: of the truth, and in results
+    /// of before between percentiles.
+    pub(super) fn band_of_set(&self, measure: IntensityMeasure, [site, poe]: [usize; 2], tone: Tone) -> Option<Band> {
+        let stored = self.bands.as_ref()?;
+        let own = stored.of(measure)?;
+        let [lower_m, upper_m] = match (&own.inferred, &own.plain.limits_m) {
+            (Some(inferred), _) => inferred.truth_m.each_ref(),
+            (None, [lower_m, _, upper_m]) => [lower_m, upper_m],
+        }
+        .map(|limit_m| limit_m.block([site, poe, stored.of_set(self.stored.records.len())]));
+        let limits = self.stored.strengths.iter().zip(lower_m.iter().zip(upper_m));
+        let points = limits.map(|(&eta, (&low, &high))| (eta, low, high)).collect();
+        Some(Band { name: String::new(), points, tone })
     }
 
     /// Band and median of one site, probability and size, by position.

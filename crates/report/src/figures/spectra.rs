@@ -60,21 +60,25 @@ pub(super) fn spectra(source: &FigureSource) -> Vec<Figure> {
                 let mut series: Vec<Series> = spectra.poes.iter().enumerate().map(line).collect();
                 series.extend(repaired(source, of_measure.measure, site));
                 let title = spectra.sites[site].clone();
-                let bands = (0..spectra.poes.len()).filter_map(|poe| {
-                    let at = [site, poe, source.bands.as_ref()?.largest()];
-                    Some(source.band(source.bands_of(of_measure.measure)?, at, "", Tone::Distinct(poe)).0)
-                });
-                let bands = bands.collect();
+                let poes = 0..spectra.poes.len();
+                let bands = poes
+                    .filter_map(|poe| source.band_of_set(of_measure.measure, [site, poe], Tone::Distinct(poe)))
+                    .collect();
                 Panel { bands, ..Panel::lines(title, Axis::linear(STRENGTH), Axis::log(DISPLACEMENT), series) }
             };
-            let banded = source.bands.as_ref().filter(|bands| bands.of(of_measure.measure).is_some());
-            let banded = banded.map_or_else(String::new, |bands| {
-                format!(
-                    " Areas: {} of the spectra of {}, {} records in a sample.",
-                    per_cent(bands.confidence),
-                    bands.drawn_words(),
-                    bands.sizes[bands.largest()]
-                )
+            let banded = source.bands.as_ref().and_then(|bands| Some((bands, bands.of(of_measure.measure)?)));
+            let banded = banded.map_or_else(String::new, |(bands, own)| {
+                let confidence = per_cent(bands.confidence);
+                let size = bands.sizes[bands.of_set(source.stored.records.len())];
+                if own.inferred.is_some() {
+                    format!(
+                        " Areas: where the spectrum of all records like these lies, as {size} of them tell it with \
+                         {confidence} confidence."
+                    )
+                } else {
+                    let drawn = bands.drawn_words();
+                    format!(" Areas: {confidence} of the spectra of {drawn}, {size} records in a sample.")
+                }
             });
             let is_thin = |panel: &Panel| panel.series.iter().any(|line| matches!(line.tone, Tone::Thin(_)));
             let panels: Vec<Panel> = source.sites().map(panel).collect();

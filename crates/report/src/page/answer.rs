@@ -56,10 +56,10 @@ pub(super) fn answer(source: &FigureSource) -> Option<Answer> {
         },
         band: None,
     };
-    let case = |site: usize, strength: usize, u_m: f64, limits_m: Option<&[Array<4>; 3]>| {
-        let size = bands.map_or(0, |(stored, _)| stored.largest());
+    let case = |site: usize, strength: usize, u_m: f64, limits_m: Option<[&Array<4>; 2]>| {
+        let size = bands.map_or(0, |(stored, _)| stored.of_set(source.stored.records.len()));
         let band = limits_m.map(|limits_m| {
-            let [lower, _, upper] = limits_m.each_ref().map(|limit_m| limit_m[[site, poe, size, strength]]);
+            let [lower, upper] = limits_m.map(|limit_m| limit_m[[site, poe, size, strength]]);
             if upper.is_finite() {
                 format!("{} to {} m", significant(lower), significant(upper))
             } else {
@@ -68,8 +68,11 @@ pub(super) fn answer(source: &FigureSource) -> Option<Answer> {
         });
         Case { band: band.filter(|_| u_m.is_finite()), ..without_band(strength, u_m) }
     };
-    let plain_m = bands.map(|(_, bands)| &bands.plain.limits_m);
-    let repaired_m = bands.and_then(|(_, bands)| Some(&bands.repaired.as_ref()?.bands.limits_m));
+    let plain_m = bands.map(|(_, bands)| match &bands.inferred {
+        Some(inferred) => inferred.truth_m.each_ref(),
+        None => outer(&bands.plain.limits_m),
+    });
+    let repaired_m = bands.and_then(|(_, bands)| Some(outer(&bands.repaired.as_ref()?.bands.limits_m)));
     let repaired = |site: usize| -> Vec<Case> {
         let Some(u_m) = source.repaired(of.measure, site) else { return Vec::new() };
         shown.iter().map(|&strength| case(site, strength, u_m[[site, poe, strength]], repaired_m)).collect()
@@ -86,6 +89,11 @@ pub(super) fn answer(source: &FigureSource) -> Option<Answer> {
         sites: source.sites().map(site).collect(),
         others: spectra.sites.len() - source.sites().len(),
     })
+}
+
+/// Both limits, without the median.
+fn outer([lower_m, _, upper_m]: &[Array<4>; 3]) -> [&Array<4>; 2] {
+    [lower_m, upper_m]
 }
 
 /// A number as it is spoken: two digits that say something.

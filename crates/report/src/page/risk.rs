@@ -239,8 +239,17 @@ fn coefficients(spectra: &StoredSpectra) -> Table {
 
 fn confidence(stored: &StoredSpectra, bands: &StoredBands) -> Table {
     let number = |value: f64, digits: usize| if value.is_nan() { "-".to_owned() } else { format!("{value:.digits$}") };
+    let beyond = |of_measure: &MeasureBands, at @ [site, poe, _]: [usize; 3]| -> [String; 2] {
+        let found = || {
+            let of = stored.measures.iter().find(|own| own.measure == of_measure.measure)?;
+            let spectrum = (stored.strengths.as_slice(), of.u_m.block([site, poe]));
+            let found = of_measure.inferred.as_ref()?.widest(spectrum, at)?;
+            Some([found.truth, found.prediction].map(|[lower, upper]| format!("{lower:+.0} to {upper:+.0}")))
+        };
+        found().unwrap_or_else(|| ["-", "-"].map(str::to_owned))
+    };
     let rows = |of_measure: &MeasureBands| -> Vec<Vec<String>> {
-        let row = |at: [usize; 3], measure: String, own: &StoredSpectraBands| {
+        let row = |at: [usize; 3], measure: String, own: &StoredSpectraBands, [truth, another]: [String; 2]| {
             let [site, poe, size] = at;
             vec![
                 stored.sites[site].clone(),
@@ -249,14 +258,16 @@ fn confidence(stored: &StoredSpectra, bands: &StoredBands) -> Table {
                 bands.sizes[size].to_string(),
                 number(own.error_of_median[at], 1),
                 number(own.range_of_interval[at], 0),
+                truth,
+                another,
             ]
         };
         let label = of_measure.measure.label();
         let mut rows = Vec::new();
         for (at @ [site, _, size], _) in of_measure.plain.error_of_median.blocks::<3>() {
-            rows.push(row(at, label.to_owned(), &of_measure.plain));
+            rows.push(row(at, label.to_owned(), &of_measure.plain, beyond(of_measure, at)));
             if let Some(own) = of_measure.repaired.as_ref().filter(|own| !own.failed[[site, size]].is_nan()) {
-                rows.push(row(at, spectrum_words(label, true), &own.bands));
+                rows.push(row(at, spectrum_words(label, true), &own.bands, ["-", "-"].map(str::to_owned)));
             }
         }
         rows
@@ -266,13 +277,18 @@ fn confidence(stored: &StoredSpectra, bands: &StoredBands) -> Table {
         title: "How sure the spectra are (Table 4.1)".to_owned(),
         note: format!(
             "Error of the median and width of the {} interval over {}, at the strength where each is largest (Eq. 4.9, \
-             4.10).{}",
+             4.10). Truth: where the spectrum of all records like these lies, and another set: where that of another \
+             set of as many lies, each with {} confidence, from the ordinate at the strength where the first is widest \
+             in metres.{}",
             per_cent(bands.confidence),
             bands.drawn_words(),
+            per_cent(bands.confidence),
             if bands.measures.iter().any(|of| of.repaired.is_some()) { REPAIRED_BANDS } else { "" }
         ),
         group: String::new(),
-        header: ["site", "measure", "probability", "records", "e_{median}, %", "r, %"].map(str::to_owned).to_vec(),
+        header: ["site", "measure", "probability", "records", "e_{median}, %", "r, %", "truth, %", "another set, %"]
+            .map(str::to_owned)
+            .to_vec(),
         text_columns: 3,
         rows: bands.measures.iter().flat_map(rows).collect(),
     }

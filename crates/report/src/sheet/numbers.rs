@@ -31,7 +31,12 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
         }
         (Some(exact), _) => {
             let demand = exact.rounding.demand_m.marked(significant);
-            say(format!("{of}, it must survive {demand} m{capacity}."), None);
+            let band = exact.bands.as_ref().map_or_else(String::new, |bands| {
+                // the wider of the two, where both are known
+                let [lower_m, upper_m] = bands.demand_by_earthquake_m.unwrap_or(bands.demand_by_record_m);
+                format!(" (90 % band {} to {} m)", significant(lower_m), significant(upper_m))
+            });
+            say(format!("{of}, it must survive {demand} m{band}{capacity}."), None);
         }
         (None, Some(spectrum)) => {
             let demand = significant(spectrum.zero_stiffness_demand_m);

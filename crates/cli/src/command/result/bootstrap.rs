@@ -45,7 +45,11 @@ pub(crate) struct BootstrapArguments {
     )]
     reference: Option<PathBuf>,
     /// Print the rows as JSON
-    #[arg(long, help = "Print the rows as JSON: site, im, poe, sample_size, e_median and r_90ci in per cent")]
+    #[arg(
+        long,
+        help = "Print the rows as JSON: site, im, poe, sample_size, e_median and r_90ci in per cent, inferred: \
+                limits of the truth and of another set, per cent from the ordinate"
+    )]
     json: bool,
 }
 

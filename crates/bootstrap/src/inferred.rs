@@ -1,0 +1,145 @@
+//! What a set of records says of the spectrum of all records there could be, and of that of another set.
+
+use uplift_risk::{PooledDemand, RiskError, StripeWeights};
+
+use crate::skewed_mean::{SkewedMean, StudentQuantiles};
+use crate::unit_rates::UnitRates;
+
+/// Limits of an ordinate beyond the set that it was computed with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct InferredLimits {
+    /// Lower and upper limit of the ordinate of all records there could be, m.
+    pub truth_m: [f64; 2],
+    /// Lower and upper limit of the ordinate of another set of as many units, m.
+    pub prediction_m: [f64; 2],
+}
+
+/// Limits of exact ordinates at one site, `[target, size]`; NaN of a single unit.
+///
+/// A displacement c belongs to the band of a target rate λ* where λ(c), a mean over the units, does not differ from λ*
+/// by more than chance allows ([`SkewedMean`]): the interval of a quantile by inverting that of its probability
+/// (Woodruff, 1952). The band runs from the least to the largest such displacement. No resampling takes part, and no
+/// transformation of the displacement changes the band.
+///
+/// - `units`: the records of each unit, `[unit]`, by their positions; each record in one of them.
+/// - `targets_per_year`: target rates λ*, 1/yr.
+/// - `sizes`: units in a sample. For as many as the set has, the first band is that of the truth; for others it is
+///   about what it would be with so many units like these. The second one is of another set of so many units.
+/// - `confidence`: how often the band is to hold what it is of, between 0 and 1.
+///
+/// # Errors
+/// Demand and weights with different numbers of levels or units of other records; a target that is not positive and
+/// finite.
+///
+/// # Source
+/// R. S. Woodruff, J. Am. Stat. Assoc. 47 (1952), 635–646.
+pub fn inferred_limits(
+    demand: &PooledDemand,
+    weights: &StripeWeights,
+    units: &[Vec<usize>],
+    targets_per_year: &[f64],
+    (sizes, confidence): (&[usize], f64),
+) -> Result<Vec<InferredLimits>, RiskError> {
+    check(demand, weights, units)?;
+    if let Some(&rate) = targets_per_year.iter().find(|target| !target.is_finite() || **target <= 0.0) {
+        return Err(RiskError::Target { rate });
+    }
+    let none = InferredLimits { truth_m: [f64::NAN; 2], prediction_m: [f64::NAN; 2] };
+    if units.len() < 2 {
+        return Ok(vec![none; targets_per_year.len() * sizes.len()]);
+    }
+    let most = sizes.iter().copied().max().unwrap_or(1).max(units.len());
+    let quantiles = StudentQuantiles::new(confidence, most);
+    // [target, size] of truth and prediction
+    let mut searches = vec![[Search::default(); 2]; targets_per_year.len() * sizes.len()];
+    let per_year = weights.per_year();
+    let mut rates = UnitRates::new(units);
+    let mut above_m = f64::INFINITY;
+    let mut look = |rates: &UnitRates, from_m: f64, to_m: f64| {
+        let mean = rates.mean();
+        let of_set = quantiles.at(mean.degrees_of_freedom(units.len()));
+        for (target, row) in targets_per_year.iter().zip(searches.chunks_exact_mut(sizes.len().max(1))) {
+            let deviate = mean.deviate(*target, units.len());
+            for (&size, [truth, prediction]) in sizes.iter().zip(row) {
+                truth.see(deviate_of(&mean, *target, size, &quantiles), from_m, to_m);
+                // its own scatter is added to that of the set
+                let wider = (1.0 + units.len() as f64 / size as f64).sqrt();
+                prediction.see(deviate / (of_set * wider), from_m, to_m);
+            }
+        }
+    };
+    let mut runs = demand.falling_runs().peekable();
+    while let Some(&(edp_m, ..)) = runs.peek() {
+        look(&rates, edp_m, above_m);
+        while let Some((_, record, level)) = runs.next_if(|run| run.0 == edp_m) {
+            rates.add(record, per_year[level]);
+        }
+        above_m = edp_m;
+    }
+    look(&rates, 0.0, above_m);
+    let limits = |[truth, prediction]: &[Search; 2]| InferredLimits {
+        truth_m: truth.limits_m(),
+        prediction_m: prediction.limits_m(),
+    };
+    Ok(searches.iter().map(limits).collect())
+}
+
+/// Limits of the rate at which `threshold_m` is exceeded, 1/yr, by all records there could be: the interval that
+/// [`inferred_limits`] inverts. NaN of a single unit; both 0 where no run exceeds it, which says nothing of others.
+///
+/// # Errors
+/// As [`inferred_limits`].
+pub fn inferred_rate(
+    demand: &PooledDemand,
+    weights: &StripeWeights,
+    units: &[Vec<usize>],
+    (threshold_m, confidence): (f64, f64),
+) -> Result<[f64; 2], RiskError> {
+    check(demand, weights, units)?;
+    let per_year = weights.per_year();
+    let mut rates = UnitRates::new(units);
+    for (_, record, level) in demand.falling_runs().take_while(|run| run.0 > threshold_m) {
+        rates.add(record, per_year[level]);
+    }
+    Ok(rates.mean().interval(&StudentQuantiles::new(confidence, units.len())))
+}
+
+/// Whether these belong together.
+fn check(demand: &PooledDemand, weights: &StripeWeights, units: &[Vec<usize>]) -> Result<(), RiskError> {
+    let fits = |what, found, expected| {
+        if found == expected { Ok(()) } else { Err(RiskError::Count { what, found, expected }) }
+    };
+    fits("records of the units", units.iter().map(Vec::len).sum(), demand.record_count())?;
+    fits("stripe weights", weights.level_count(), demand.level_count())
+}
+
+/// The deviate of so many units over its quantile: within −1 and 1 where the target may be the truth.
+fn deviate_of(mean: &SkewedMean, target: f64, size: usize, quantiles: &StudentQuantiles) -> f64 {
+    mean.deviate(target, size) / quantiles.at(mean.degrees_of_freedom(size))
+}
+
+/// The displacements of a band, while they are gone through from above.
+#[derive(Debug, Clone, Copy, Default)]
+struct Search {
+    /// Least and largest displacement that belong to it, m.
+    found_m: Option<[f64; 2]>,
+    /// Where the deviate leaps over the whole band.
+    leap_m: f64,
+    was_beyond: bool,
+}
+
+impl Search {
+    /// All displacements from `from_m` to `to_m` have this `deviate`, over its quantile.
+    fn see(&mut self, deviate: f64, from_m: f64, to_m: f64) {
+        if deviate.abs() <= 1.0 {
+            let upper_m = self.found_m.map_or(to_m, |found| found[1]);
+            self.found_m = Some([from_m, upper_m]);
+        } else if deviate > 1.0 && !self.was_beyond {
+            (self.leap_m, self.was_beyond) = (to_m, true);
+        }
+    }
+
+    fn limits_m(&self) -> [f64; 2] {
+        self.found_m.unwrap_or([self.leap_m; 2])
+    }
+}

@@ -1,0 +1,40 @@
+//! What the records say of the spectra of all records there could be, and of those of another set.
+
+use rayon::prelude::*;
+use uplift_bootstrap::{InferredLimits, ResamplingPlan, inferred_limits};
+
+use crate::array::Array;
+use crate::error::UpliftError;
+use crate::result::{InferredBands, StoredMeasure, StoredStripes};
+
+/// The bands of the spectra of one measure, from all its records, drawn one by one or with their earthquakes as `plan`
+/// has it.
+///
+/// # Errors
+/// Numbers that do not fit together, in a file that was changed.
+pub(super) fn inferred_bands(
+    stored: &StoredStripes,
+    measure: &StoredMeasure,
+    plan: &ResamplingPlan,
+    confidence: f64,
+) -> Result<InferredBands, UpliftError> {
+    let units = plan.units();
+    let sizes: Vec<usize> = plan.sizes().iter().map(|&size| plan.units_drawn(size) as usize).collect();
+    let targets = &stored.targets_per_year;
+    // [strength][site][poe, size]
+    let of_strength = |strength: usize| -> Result<Vec<Vec<InferredLimits>>, UpliftError> {
+        let demand = measure.demand(strength)?;
+        let of_site = |weights| inferred_limits(&demand, weights, &units, targets, (&sizes, confidence));
+        Ok(measure.weights.iter().map(of_site).collect::<Result<_, _>>()?)
+    };
+    let strengths: Vec<Vec<Vec<InferredLimits>>> =
+        (0..stored.strengths.len()).into_par_iter().map(of_strength).collect::<Result<_, UpliftError>>()?;
+    let shape = [stored.sites.len(), stored.poes.len(), sizes.len(), strengths.len()];
+    let limits = |limit: fn(&InferredLimits) -> f64| {
+        Array::from_fn(shape, |[site, poe, size, strength]| limit(&strengths[strength][site][poe * sizes.len() + size]))
+    };
+    Ok(InferredBands {
+        truth_m: [limits(|own| own.truth_m[0]), limits(|own| own.truth_m[1])],
+        prediction_m: [limits(|own| own.prediction_m[0]), limits(|own| own.prediction_m[1])],
+    })
+}
