@@ -30,7 +30,8 @@ pub struct ScaledMotion<'a> {
     pub id: &'a str,
     /// The component that shakes the planar model.
     pub accelerogram: &'a Accelerogram,
-    /// Its scale factors, as many as every other motion of the plan has.
+    /// Its scale factors, as many as every other motion of the plan has; NaN where it is not run
+    /// ([`Plan::selected`]).
     pub scales: Vec<f64>,
 }
 
@@ -40,6 +41,8 @@ pub struct Plan<'a> {
     motions: Vec<ScaledMotion<'a>>,
     systems: &'a [System],
     with_free_peak: bool,
+    /// Whether a factor may be NaN: no run.
+    with_gaps: bool,
 }
 
 impl<'a> Plan<'a> {
@@ -75,7 +78,8 @@ impl<'a> Plan<'a> {
             }
             Ok(ScaledMotion { id, accelerogram, scales: levels.iter().map(|level| level / intensity).collect() })
         };
-        Self::checked("records", records.into_iter().map(scaled).collect::<Result<_, _>>()?, systems, with_free_peak)
+        let motions = records.into_iter().map(scaled).collect::<Result<_, _>>()?;
+        Self::checked("records", motions, systems, (with_free_peak, false))
     }
 
     /// Plan motions with given scale factors.
@@ -90,14 +94,27 @@ impl<'a> Plan<'a> {
         systems: &'a [System],
         with_free_peak: bool,
     ) -> Result<Self, IdaError> {
-        Self::checked("motions", motions, systems, with_free_peak)
+        Self::checked("motions", motions, systems, (with_free_peak, false))
+    }
+
+    /// Plan motions that are not all run at every scale: a factor of NaN stands for no run. Its peak comes out as NaN,
+    /// without impacts.
+    ///
+    /// # Errors
+    /// As [`scaled`](Self::scaled); a motion without any run.
+    pub fn selected(
+        motions: Vec<ScaledMotion<'a>>,
+        systems: &'a [System],
+        with_free_peak: bool,
+    ) -> Result<Self, IdaError> {
+        Self::checked("motions", motions, systems, (with_free_peak, true))
     }
 
     fn checked(
         called: &'static str,
         motions: Vec<ScaledMotion<'a>>,
         systems: &'a [System],
-        with_free_peak: bool,
+        (with_free_peak, with_gaps): (bool, bool),
     ) -> Result<Self, IdaError> {
         // whoever asks for other instructions than there are is told, before anything is computed
         InstructionSet::chosen().map_err(IdaError::Instructions)?;
@@ -112,18 +129,22 @@ impl<'a> Plan<'a> {
             if motion.scales.len() != expected {
                 return Err(IdaError::Scales { motion: named(), count: motion.scales.len(), expected });
             }
-            if let Some((index, &value)) = motion.scales.iter().enumerate().find(|(_, scale)| !scale.is_finite()) {
+            if with_gaps && motion.runs() == 0 {
+                return Err(IdaError::NoRun { motion: named() });
+            }
+            let refused = |scale: f64| !(scale.is_finite() || with_gaps && scale.is_nan());
+            if let Some((index, &value)) = motion.scales.iter().enumerate().find(|(_, scale)| refused(**scale)) {
                 return Err(IdaError::Scale { motion: named(), index, value });
             }
             motion.excitation()?;
             let peak_m_s2 = motion.accelerogram.pga_m_s2();
-            let implausible = |scale: f64| !(scale.abs() <= MOST_SCALE && (scale * peak_m_s2).abs() <= MOST_PEAK_M_S2);
+            let implausible = |scale: f64| scale.abs() > MOST_SCALE || (scale * peak_m_s2).abs() > MOST_PEAK_M_S2;
             if let Some((index, &value)) = motion.scales.iter().enumerate().find(|(_, scale)| implausible(**scale)) {
                 let peak_m_s2 = (value * peak_m_s2).abs();
                 return Err(IdaError::Implausible { motion: named(), index, value, peak_m_s2 });
             }
         }
-        Ok(Self { motions, systems, with_free_peak })
+        Ok(Self { motions, systems, with_free_peak, with_gaps })
     }
 
     /// This plan with every scale factor multiplied by each of `factors`: all of them by the first, then all by the
@@ -136,7 +157,7 @@ impl<'a> Plan<'a> {
             let by = |factor: &f64| motion.scales.iter().map(|scale| scale * factor).collect::<Vec<_>>();
             motion.scales = factors.iter().flat_map(by).collect();
         }
-        Self::checked("motions", self.motions, self.systems, self.with_free_peak)
+        Self::checked("motions", self.motions, self.systems, (self.with_free_peak, self.with_gaps))
     }
 
     /// Lengths of the axes of its result.
@@ -147,7 +168,8 @@ impl<'a> Plan<'a> {
 
     /// Number of nonlinear time histories in the plan.
     pub fn analyses(&self) -> u64 {
-        self.axes().cells() as u64
+        let of_a_system: usize = self.motions.iter().map(ScaledMotion::runs).sum();
+        (of_a_system * self.systems.len()) as u64
     }
 
     /// The motions, the first axis of the result.
@@ -167,6 +189,11 @@ impl<'a> Plan<'a> {
 }
 
 impl<'a> ScaledMotion<'a> {
+    /// At how many of its scales it is run.
+    pub fn runs(&self) -> usize {
+        self.scales.iter().filter(|scale| !scale.is_nan()).count()
+    }
+
     pub(crate) fn excitation(&self) -> Result<Excitation<'a>, IdaError> {
         Excitation::new(self.accelerogram.dt_s(), self.accelerogram.acceleration_m_s2())
             .map_err(|source| IdaError::Oscillator { motion: self.id.to_owned(), source })
@@ -189,6 +216,7 @@ mod tests {
             Plan::scaled(vec![motion], &systems, true).map(|plan| plan.analyses())
         };
         assert!(plan(&strong, 100.0).is_ok() && plan(&strong, -1e7).is_ok() && plan(&quiet, 1e7).is_ok());
+        assert!(matches!(plan(&strong, f64::NAN).unwrap_err(), IdaError::Scale { index: 1, .. }));
         for (record, scale) in [(&quiet, 1e29), (&strong, 1e308), (&strong, -5e7)] {
             let error = plan(record, scale).unwrap_err();
             assert!(matches!(error, IdaError::Implausible { index: 1, .. }), "{error}");
