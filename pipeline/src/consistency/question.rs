@@ -7,8 +7,9 @@ use uplift_hazard::{Extrapolation, HazardCurve};
 use uplift_motion::{Component, IntensityMeasure};
 use uplift_study::{Consistency, UniformRiskStudy};
 
+use super::branches::{AskedBranch, AskedBranches};
 use crate::error::UpliftError;
-use crate::inputs::{OtherHazard, RecordSet, SiteHazard};
+use crate::inputs::{BranchHazard, OtherHazard, RecordSet, SiteHazard};
 use crate::result::ResultFile;
 
 /// A record as far as consistency asks.
@@ -66,6 +67,8 @@ pub(crate) struct Question {
     pub(crate) is_at_level: bool,
     /// The hazard of every measure that a site has a curve of, `[measure][site]`.
     curves: BTreeMap<IntensityMeasure, Vec<Option<HazardCurve>>>,
+    /// Weighted alternatives to them.
+    pub(super) branches: AskedBranches,
 }
 
 impl Question {
@@ -85,6 +88,17 @@ impl Question {
         {
             if let Some(site) = sites.iter().position(|site| site == name) {
                 curves.entry(measure).or_insert_with(|| vec![None; sites.len()])[site] = Some(curve.clone());
+            }
+        }
+        let mut branches = AskedBranches::new();
+        for (site, of) in hazard.iter().flat_map(|sites| sites.iter().enumerate()) {
+            if !of.branches.is_empty() {
+                let asked = |branch: &BranchHazard| AskedBranch {
+                    name: branch.name.clone(),
+                    weight: branch.weight,
+                    curve: branch.input.curve.clone(),
+                };
+                branches.insert((of.measure, site), of.branches.iter().map(asked).collect());
             }
         }
         let rows = records.records.iter().map(|record| RawRecord {
@@ -108,6 +122,7 @@ impl Question {
             is_at_level: study.records.at_level.is_some(),
             analyses: study.measures.iter().map(|plan| (plan.measure, plan.levels.to_vec())).collect(),
             curves,
+            branches,
         })
     }
 
@@ -130,6 +145,16 @@ impl Question {
             let of_sites = of_sites?;
             if of_sites.iter().any(Option::is_some) {
                 curves.insert(measure, of_sites);
+            }
+        }
+        let mut branches = AskedBranches::new();
+        for (measure, _) in &analyses {
+            for (site, name) in axes.sites.iter().enumerate() {
+                let own = file.branches(name, *measure)?;
+                if !own.is_empty() {
+                    let asked = |(name, weight, curve)| AskedBranch { name, weight, curve };
+                    branches.insert((*measure, site), own.into_iter().map(asked).collect());
+                }
             }
         }
         let rows = (0..stored.ids.len()).map(|record| RawRecord {
@@ -155,6 +180,7 @@ impl Question {
             events,
             analyses,
             curves,
+            branches,
         })
     }
 
