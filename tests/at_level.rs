@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use uplift_hazard::{Extrapolation, HazardCurve};
+use uplift_labelled::LabelledReader;
 use uplift_risk::StripeWeights;
 
 use crate::common::{SmallStudy, array, repository, same_bits};
@@ -30,15 +31,16 @@ fn study() -> SmallStudy {
 /// The names of the records of the plain result `plain.h5`, which this makes.
 fn plain(study: &SmallStudy) -> Vec<String> {
     study.uplift(&["run", "study.toml", "-o", "plain.h5", "-q"]).ok();
-    let reader = uplift_labelled::LabelledReader::open(&study.path().join("plain.h5")).unwrap();
-    reader.axis_text("/axes/record").unwrap()
+    let reader = LabelledReader::open(&study.path().join("plain.h5")).unwrap();
+    reader.axis_text("record").unwrap()
 }
 
 /// Runs the study with the table `rows` into `sets.h5`.
 fn run(study: &SmallStudy, rows: &str) -> String {
     study.write("sets.csv", rows);
     let arguments = ["run", "study.toml", "--set", "records.at_level=sets.csv", "-o", "sets.h5", "--force"];
-    study.uplift(&arguments).ok().stderr
+    let finished = study.uplift(&arguments).ok();
+    finished.stderr + &finished.stdout
 }
 
 #[test]
@@ -93,7 +95,9 @@ fn some(records: &[String], pgv: &[f64]) -> (String, Vec<f64>) {
     }
     for row in shares.chunks_exact_mut(records.len()) {
         let sum: f64 = row.iter().sum();
-        row.iter_mut().for_each(|share| *share /= sum);
+        for share in row {
+            *share /= sum;
+        }
     }
     (rows, shares)
 }
@@ -111,7 +115,12 @@ fn every_level_has_its_own_records_and_these_their_factors_and_weights() {
     {
         assert!(said.contains(words), "{words}: {said}");
     }
-    assert_eq!(array(&at("sets.h5"), "/ida/pgv/share"), shares);
+    let stored = array(&at("sets.h5"), "/ida/pgv/share");
+    // divided by the sum in another order of roundings
+    assert!(
+        stored.len() == shares.len() && stored.iter().zip(&shares).all(|(a, b)| (a - b).abs() <= 2e-16),
+        "{stored:?}"
+    );
 
     // runs of the same factor are those of the plain study, and there are no others
     let (plain, found) = (array(&at("plain.h5"), "/ida/pgv/edp_m"), array(&at("sets.h5"), "/ida/pgv/edp_m"));
@@ -124,9 +133,9 @@ fn every_level_has_its_own_records_and_these_their_factors_and_weights() {
             continue;
         }
         analyses += 1;
-        assert!(found.to_bits() == plain.to_bits() || level == 3 && found > plain, "{record} {level}");
+        assert_eq!(found.to_bits() == plain.to_bits(), level != 3, "{record} {level}");
     }
-    let reader = uplift_labelled::LabelledReader::open(&at("sets.h5")).unwrap();
+    let reader = LabelledReader::open(&at("sets.h5")).unwrap();
     assert_eq!(reader.attribute_u64("/ida/pgv", "analyses").unwrap(), analyses);
 
     // the risk is Σ w Σ p over the runs that exceed, computed here from the file's own demands
@@ -135,7 +144,7 @@ fn every_level_has_its_own_records_and_these_their_factors_and_weights() {
     let hazard = HazardCurve::new("PGV", "cm/s", "test", curve, rates).unwrap();
     let weights = StripeWeights::from_hazard(&hazard, &LEVELS, Extrapolation::Refuse).unwrap().per_year();
     let maf = array(&at("sets.h5"), "/risk/pgv/maf_per_year");
-    let thresholds = array(&at("sets.h5"), "/axes/threshold");
+    let thresholds = reader.axis_f64("threshold").unwrap();
     for strength in 0..strengths {
         for (index, threshold) in thresholds.iter().enumerate() {
             let mut rate = 0.0;
@@ -171,10 +180,10 @@ fn shards_threads_and_earlier_results_change_no_bit() {
     // and the other way
     study.uplift(&["run", "study.toml", "-o", "over.h5", "--force", "-q"]).ok();
     assert!(same_bits(&of("plain.h5"), &of("over.h5")));
-    for shard in ["1/2", "2/2"] {
-        study.uplift(&[&["run", "study.toml", "-o", "joined.h5", "--shard", shard], &set[..]].concat()).ok();
+    for (shard, file) in [("1/2", "first"), ("2/2", "second")] {
+        study.uplift(&[&["run", "study.toml", "-o", file, "--shard", shard], &set[..]].concat()).ok();
     }
-    study.uplift(&[&["merge", "study.toml", "-o", "joined.h5"], &set[..]].concat()).ok();
+    study.uplift(&[&["merge", "study.toml", "first", "second", "-o", "joined.h5"], &set[..]].concat()).ok();
     assert!(same("joined.h5"));
 }
 
@@ -200,7 +209,7 @@ fn what_can_be_asked_is_answered_and_the_rest_refused_in_words() {
     study.uplift(&others).ok();
     let spectra = array(&at("others.h5"), "/urs/pgv/u_m");
     assert_eq!(without.len(), spectra.len() * records.len());
-    let strengths = array(&at("others.h5"), "/axes/strength").len();
+    let strengths = LabelledReader::open(&at("others.h5")).unwrap().axis_f64("strength").unwrap().len();
     // [poe, record, strength] and [poe, strength]
     for (of_poe, spectrum) in without.chunks_exact(records.len() * strengths).zip(spectra.chunks_exact(strengths)) {
         assert!(same_bits(&of_poe[..strengths], spectrum));

@@ -61,7 +61,7 @@ impl<'a> Stripes<'a> {
     ///
     /// - `record_count`, `record_stride`: as in [`Stripes::strided`].
     /// - `shares`: how much each record counts at each level, `[level, record]` row-major; at each level they add up to
-    ///   1. A record with a share of 0 does not belong to the level: its demand there counts nowhere, and may be NaN.
+    ///   one. A record with a share of 0 does not belong to the level: its demand there counts nowhere, and may be NaN.
     ///   None where every record belongs to every level and counts alike.
     ///
     /// # Errors

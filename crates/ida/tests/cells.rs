@@ -173,10 +173,10 @@ fn a_motion_is_run_where_it_has_a_factor() {
     let plan = case.plan();
     let whole = analyse(&plan, &Unwatched).unwrap();
     let mut motions = plan.motions().to_vec();
-    let is_run = |motion: usize, scale: usize| (motion + scale) % 3 != 0;
+    let is_run = |motion: usize, scale: usize| !(motion + scale).is_multiple_of(3);
     for (motion, scaled) in motions.iter_mut().enumerate() {
         for (scale, factor) in scaled.scales.iter_mut().enumerate().filter(|(scale, _)| !is_run(motion, *scale)) {
-            *factor = if scale % 2 == 0 { f64::NAN } else { -f64::NAN };
+            *factor = if scale.is_multiple_of(2) { f64::NAN } else { -f64::NAN };
         }
     }
     assert!(Plan::scaled(motions.clone(), plan.systems(), plan.with_free_peak()).is_err());

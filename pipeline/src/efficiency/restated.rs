@@ -169,6 +169,7 @@ mod tests {
                     measure: IntensityMeasure::Pgv,
                     levels: levels.clone(),
                     edp_m,
+                    shares: None,
                     weights: Vec::new(),
                     branches: Vec::new(),
                     exact_m: Array::from_fn([0, 0, 1], |_| 0.0),

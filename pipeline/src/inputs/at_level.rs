@@ -238,10 +238,14 @@ impl Table {
                 && (factor - expected).abs() > rounding + FACTOR_TOLERANCE * expected
             {
                 let (unit, label) = (plan.measure.unit(), plan.measure.label());
-                apart.push(((factor / expected).ln().abs(), format!(
-                    "row {}: {} by {factor}, where {} {unit} over its {label} of {intensity:.6} {unit} make {expected:.4}",
-                    row.number, row.record, levels[level]
-                )));
+                apart.push((
+                    (factor / expected).ln().abs(),
+                    format!(
+                        "row {}: {} by {factor}, where {} {unit} over its {label} of {intensity:.6} {unit} make \
+                     {expected:.4}",
+                        row.number, row.record, levels[level]
+                    ),
+                ));
             }
         }
         if !mistakes.is_empty() {
@@ -286,7 +290,8 @@ impl Table {
         (!apart.is_empty()).then(|| {
             format!(
                 "{}: {} of {} factors do not bring their record to the level by more than their decimals round, {}{}: \
-                 the record is run with the factor of the table; is {} there that of the study, of the same components?",
+                 the record is run with the factor of the table; is {} there that of the study, of the same \
+                 components?",
                 self.name,
                 apart.len(),
                 self.rows.len(),
@@ -308,7 +313,9 @@ fn shares(weights: &mut [f64], records: usize) -> Option<Vec<f64>> {
         // weights near the largest numbers would add up to infinity
         let largest = row.iter().copied().fold(0.0, f64::max);
         let sum: f64 = row.iter().map(|weight| weight / largest).sum();
-        row.iter_mut().for_each(|weight| *weight = *weight / largest / sum);
+        for weight in row {
+            *weight = *weight / largest / sum;
+        }
     }
     Some(weights.to_vec())
 }
