@@ -9,6 +9,7 @@ mod common;
 mod alarms;
 mod archives;
 mod asked;
+mod at_level;
 mod block_response;
 mod bootstrap;
 mod consistency;

@@ -1,5 +1,6 @@
 //! Records and hazard curves, read and checked before anything is computed.
 
+mod at_level;
 mod cache;
 mod file_options;
 mod hazard;
@@ -12,6 +13,7 @@ pub mod selection;
 mod site_table;
 pub(crate) mod text_table;
 
+pub use at_level::AtLevel;
 pub use file_options::FileOptions;
 pub use hazard::{BranchHazard, HazardInput, OtherHazard, SiteHazard, read_hazard, read_other_hazard};
 pub(crate) use made::made_pairs;

@@ -69,10 +69,11 @@ pub fn uplift_levels(stripes: &Stripes<'_>, uplift_displacement_m: f64) -> Vec<f
 /// records, `[record]`.
 ///
 /// Only stripes count whose median exceeds `median_above_m` and in which every demand has a logarithm; empty where
-/// there is none such. A record is one observation, however many levels it was scaled to.
+/// there is none such. A record is one observation, however many levels it was scaled to; NaN where it belongs to none
+/// of these stripes.
 pub fn mean_residuals(stripes: &Stripes<'_>, median_above_m: f64) -> Vec<f64> {
     let mut sums = vec![0.0; stripes.record_count()];
-    let mut levels = 0;
+    let mut levels = vec![0; stripes.record_count()];
     for level in 0..stripes.level_count() {
         let scatter = Dispersion::of(stripes, level);
         if scatter.zeros + scatter.overturned > 0 || scatter.median_m <= median_above_m {
@@ -80,12 +81,16 @@ pub fn mean_residuals(stripes: &Stripes<'_>, median_above_m: f64) -> Vec<f64> {
         }
         let logarithms: Vec<f64> = stripes.stripe(level).map(f64::ln).collect();
         let mean = logarithms.iter().sum::<f64>() / logarithms.len() as f64;
-        for (sum, logarithm) in sums.iter_mut().zip(&logarithms) {
-            *sum += logarithm - mean;
+        let of_level = (0..stripes.record_count()).filter(|&record| stripes.belongs(record, level));
+        for (record, logarithm) in of_level.zip(&logarithms) {
+            sums[record] += logarithm - mean;
+            levels[record] += 1;
         }
-        levels += 1;
     }
-    if levels == 0 { Vec::new() } else { sums.into_iter().map(|sum| sum / f64::from(levels)).collect() }
+    if levels.iter().all(|&count| count == 0) {
+        return Vec::new();
+    }
+    sums.into_iter().zip(levels).map(|(sum, count)| sum / f64::from(count)).collect()
 }
 
 /// Standard deviation with n − 1 degrees of freedom; NaN of fewer than two values.

@@ -23,20 +23,35 @@ pub fn exceedance_counts(stripes: &Stripes, threshold_m: f64) -> Result<Vec<u32>
     check_threshold(threshold_m)?;
     let mut counts = vec![0; stripes.level_count()];
     for record in 0..stripes.record_count() {
-        for (count, &edp) in counts.iter_mut().zip(stripes.record(record)) {
-            *count += u32::from(edp > threshold_m);
+        for (level, (count, &edp)) in counts.iter_mut().zip(stripes.record(record)).enumerate() {
+            *count += u32::from(stripes.belongs(record, level) && edp > threshold_m);
         }
     }
     Ok(counts)
 }
 
-/// Empirical fragility for one threshold, `[level]`, Eq. 4.7: P(EDP > c | IM = level) = count(EDP > c) / N.
+/// Empirical fragility for one threshold, `[level]`, Eq. 4.7: P(EDP > c | IM = level) = count(EDP > c) / N; the sum of
+/// the [shares](Stripes::shares) of these records where they do not count alike.
 ///
 /// # Errors
 /// A threshold that is negative or not finite.
 pub fn exceedance_probabilities(stripes: &Stripes, threshold_m: f64) -> Result<Vec<f64>, FragilityError> {
     let records = stripes.record_count() as f64;
     let counts = exceedance_counts(stripes, threshold_m)?;
+    if let Some(shares) = stripes.shares() {
+        let of_level = |(level, shares): (usize, &[f64])| -> f64 {
+            let exceeds = |record: usize| stripes.record(record)[level] > threshold_m;
+            // rounded shares may add up to a hair more than 1
+            shares
+                .iter()
+                .enumerate()
+                .filter(|(record, _)| exceeds(*record))
+                .map(|(_, share)| share)
+                .sum::<f64>()
+                .min(1.0)
+        };
+        return Ok(shares.chunks_exact(stripes.record_count()).enumerate().map(of_level).collect());
+    }
     Ok(counts.into_iter().map(|count| f64::from(count) / records).collect())
 }
 
@@ -45,6 +60,8 @@ pub fn exceedance_probabilities(stripes: &Stripes, threshold_m: f64) -> Result<V
 pub struct EmpiricalFragility {
     /// `[level, record]`, ascending within each level.
     sorted_m: Vec<f64>,
+    /// The shares in the same order; none where all records count alike.
+    shares: Option<Vec<f64>>,
     record_count: usize,
 }
 
@@ -53,13 +70,26 @@ impl EmpiricalFragility {
     pub fn new(stripes: &Stripes) -> Self {
         let record_count = stripes.record_count();
         let mut sorted_m = Vec::with_capacity(record_count * stripes.level_count());
+        if let Some(shares) = stripes.shares() {
+            let mut in_order = Vec::with_capacity(shares.len());
+            for (level, shares) in shares.chunks_exact(record_count).enumerate() {
+                // a demand that does not count stands among the smallest, without a share
+                let demand = |record| if stripes.belongs(record, level) { stripes.record(record)[level] } else { 0.0 };
+                let mut stripe: Vec<(f64, f64)> =
+                    shares.iter().enumerate().map(|(record, &share)| (demand(record), share)).collect();
+                stripe.sort_by(|a, b| a.0.total_cmp(&b.0));
+                sorted_m.extend(stripe.iter().map(|run| run.0));
+                in_order.extend(stripe.iter().map(|run| run.1));
+            }
+            return Self { sorted_m, shares: Some(in_order), record_count };
+        }
         for level in 0..stripes.level_count() {
             sorted_m.extend(stripes.stripe(level));
         }
         for stripe in sorted_m.chunks_exact_mut(record_count) {
             stripe.sort_unstable_by(f64::total_cmp);
         }
-        Self { sorted_m, record_count }
+        Self { sorted_m, shares: None, record_count }
     }
 
     /// Fragility for one threshold, `[level]` (Eq. 4.7).
@@ -86,9 +116,15 @@ impl EmpiricalFragility {
     }
 
     fn row(&self, threshold_m: f64) -> impl Iterator<Item = f64> {
-        self.sorted_m.chunks_exact(self.record_count).map(move |stripe| {
+        self.sorted_m.chunks_exact(self.record_count).enumerate().map(move |(level, stripe)| {
             let below = stripe.partition_point(|&edp| edp <= threshold_m);
-            (self.record_count - below) as f64 / self.record_count as f64
+            match &self.shares {
+                Some(shares) => {
+                    let of_level = &shares[level * self.record_count..][..self.record_count];
+                    of_level[below..].iter().sum::<f64>().min(1.0)
+                }
+                None => (self.record_count - below) as f64 / self.record_count as f64,
+            }
         })
     }
 }
@@ -112,6 +148,21 @@ mod tests {
         for bad in [-0.1, f64::NAN, inf] {
             assert!(exceedance_counts(&stripes, bad).is_err());
             assert!(EmpiricalFragility::new(&stripes).probabilities(bad).is_err());
+        }
+    }
+
+    #[test]
+    fn records_count_by_their_shares() {
+        let edp = [0.1, f64::NAN, 0.2, 0.4, 9.0, 0.3];
+        let shares = [0.25, 0.75, 0.0, 0.0, 0.5, 0.5];
+        let stripes = Stripes::with_shares(&[1.0, 2.0], &edp, (3, 2), Some(&shares)).unwrap();
+        let sorted = EmpiricalFragility::new(&stripes);
+        for (threshold_m, counts, expected) in
+            [(0.0, [2, 2], [1.0, 1.0]), (0.15, [1, 2], [0.75, 1.0]), (0.35, [0, 1], [0.0, 0.5])]
+        {
+            assert_eq!(exceedance_counts(&stripes, threshold_m).unwrap(), counts);
+            assert_eq!(exceedance_probabilities(&stripes, threshold_m).unwrap(), expected);
+            assert_eq!(sorted.probabilities(threshold_m).unwrap(), expected);
         }
     }
 

@@ -49,6 +49,26 @@ pub enum FragilityError {
         /// The offending demand, m.
         value: f64,
     },
+    /// The shares of the records are not those of records × levels.
+    #[error(
+        "{found} shares of {records} records at {levels} levels: give the array [level, record] in row-major order"
+    )]
+    Shares {
+        /// Number of shares given.
+        found: usize,
+        /// Number of levels.
+        levels: usize,
+        /// Number of records.
+        records: usize,
+    },
+    /// The shares of the records at a level are not those of a whole.
+    #[error("level {level}: shares of the records add up to {sum}: none may be negative, and all together must be 1")]
+    ShareSum {
+        /// Position of the level, counted from 0.
+        level: usize,
+        /// What they add up to.
+        sum: f64,
+    },
     /// A threshold is negative or not finite.
     #[error("threshold {value} m: a displacement threshold must be finite and zero or positive")]
     Threshold {

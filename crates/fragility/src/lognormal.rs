@@ -58,13 +58,14 @@ pub struct StripeCount {
 /// A threshold that is negative or not finite.
 pub fn stripe_counts(stripes: &Stripes, threshold_m: f64) -> Result<Vec<StripeCount>, FragilityError> {
     // `Stripes` holds no more records than a `u32` counts.
-    let trials = u32::try_from(stripes.record_count()).unwrap_or(u32::MAX);
+    let trials = |level: usize| u32::try_from(stripes.stripe(level).count()).unwrap_or(u32::MAX);
     let counts = exceedance_counts(stripes, threshold_m)?;
     Ok(stripes
         .levels()
         .iter()
         .zip(counts)
-        .map(|(&level, exceedances)| StripeCount { level, exceedances, trials })
+        .enumerate()
+        .map(|(index, (&level, exceedances))| StripeCount { level, exceedances, trials: trials(index) })
         .collect())
 }
 

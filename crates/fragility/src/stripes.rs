@@ -4,14 +4,19 @@ use crate::FragilityError;
 
 /// Peak displacements of ONE oscillator under every record scaled to every stripe level: a checked view, not a copy.
 ///
-/// A demand is finite and zero or positive, or +∞ where the structure overturned; never NaN.
+/// A demand is finite and zero or positive, or +∞ where the structure overturned; never NaN, but where
+/// [shares](Stripes::with_shares) say that the record does not belong to the level.
 #[derive(Debug, Clone, Copy)]
 pub struct Stripes<'a> {
     levels: &'a [f64],
     edp_m: &'a [f64],
     record_count: usize,
     record_stride: usize,
+    shares: Option<&'a [f64]>,
 }
+
+/// By how much the shares at a level may miss 1, for the rounding of whoever divided them by their sum.
+const SUM_TOLERANCE: f64 = 1e-9;
 
 impl<'a> Stripes<'a> {
     /// Views a whole array.
@@ -49,6 +54,25 @@ impl<'a> Stripes<'a> {
         record_count: usize,
         record_stride: usize,
     ) -> Result<Self, FragilityError> {
+        Self::with_shares(levels, edp_m, (record_count, record_stride), None)
+    }
+
+    /// The same where each level has records of its own, which need not count alike.
+    ///
+    /// - `record_count`, `record_stride`: as in [`Stripes::strided`].
+    /// - `shares`: how much each record counts at each level, `[level, record]` row-major; at each level they add up to
+    ///   one. A record with a share of 0 does not belong to the level: its demand there counts nowhere, and may be NaN.
+    ///   None where every record belongs to every level and counts alike.
+    ///
+    /// # Errors
+    /// As [`Stripes::strided`]; shares of another number, or of a level at which they do not add up to 1 or one of them
+    /// is negative or NaN.
+    pub fn with_shares(
+        levels: &'a [f64],
+        edp_m: &'a [f64],
+        (record_count, record_stride): (usize, usize),
+        shares: Option<&'a [f64]>,
+    ) -> Result<Self, FragilityError> {
         if levels.is_empty() || record_count == 0 {
             return Err(FragilityError::Empty { levels: levels.len(), records: record_count });
         }
@@ -65,10 +89,13 @@ impl<'a> Stripes<'a> {
             });
         }
         check_levels(levels)?;
-        let stripes = Self { levels, edp_m, record_count, record_stride };
+        if let Some(shares) = shares {
+            check_shares(shares, levels.len(), record_count)?;
+        }
+        let stripes = Self { levels, edp_m, record_count, record_stride, shares };
         for record in 0..record_count {
             for (level, &value) in stripes.record(record).iter().enumerate() {
-                if value.is_nan() || value < 0.0 {
+                if stripes.belongs(record, level) && (value.is_nan() || value < 0.0) {
                     return Err(FragilityError::Demand { record, level, value });
                 }
             }
@@ -91,6 +118,19 @@ impl<'a> Stripes<'a> {
         self.levels.len()
     }
 
+    /// How much each record counts at each level, `[level, record]`; none where all count alike.
+    pub fn shares(&self) -> Option<&'a [f64]> {
+        self.shares
+    }
+
+    /// Whether a record belongs to a level.
+    ///
+    /// # Panics
+    /// If an index is out of range, which is a bug of the caller.
+    pub fn belongs(&self, record: usize, level: usize) -> bool {
+        self.shares.is_none_or(|shares| shares[level * self.record_count + record] > 0.0)
+    }
+
     /// Demands of one record over all levels, m, `[level]`: its IDA curve.
     ///
     /// # Panics
@@ -108,8 +148,22 @@ impl<'a> Stripes<'a> {
     pub fn stripe(&self, level: usize) -> impl Iterator<Item = f64> + 'a {
         assert!(level < self.levels.len(), "level {level} of {}", self.levels.len());
         let stripes = *self;
-        (0..self.record_count).map(move |record| stripes.record(record)[level])
+        let of_level = (0..self.record_count).filter(move |&record| stripes.belongs(record, level));
+        of_level.map(move |record| stripes.record(record)[level])
     }
+}
+
+fn check_shares(shares: &[f64], levels: usize, records: usize) -> Result<(), FragilityError> {
+    if shares.len() != levels * records {
+        return Err(FragilityError::Shares { found: shares.len(), levels, records });
+    }
+    for (level, row) in shares.chunks_exact(records).enumerate() {
+        let sum: f64 = row.iter().sum();
+        if !(row.iter().all(|&share| share >= 0.0) && (sum - 1.0).abs() <= SUM_TOLERANCE) {
+            return Err(FragilityError::ShareSum { level, sum });
+        }
+    }
+    Ok(())
 }
 
 /// Positive, finite, strictly increasing.
@@ -144,6 +198,25 @@ mod tests {
         assert!(matches!(nan, FragilityError::Demand { record: 1, level: 1, .. }));
         assert!(matches!(bad(&levels, &[0.0, -1e-9]), FragilityError::Demand { record: 0, level: 1, .. }));
         assert!(Stripes::new(&levels, &[0.0, f64::INFINITY]).is_ok());
+    }
+
+    #[test]
+    fn a_demand_counts_where_its_record_has_a_share() {
+        let levels = [1.0, 2.0];
+        let edp = [0.1, f64::NAN, 0.2, 0.4, f64::NAN, 0.3];
+        let shares = [0.25, 0.75, 0.0, 0.0, 0.5, 0.5];
+        let with = |shares: &'static [f64]| Stripes::with_shares(&levels, &edp, (3, 2), Some(shares));
+        let stripes = Stripes::with_shares(&levels, &edp, (3, 2), Some(&shares)).unwrap();
+        assert_eq!(stripes.stripe(0).collect::<Vec<_>>(), [0.1, 0.2]);
+        assert_eq!(stripes.stripe(1).collect::<Vec<_>>(), [0.4, 0.3]);
+        assert!(!stripes.belongs(2, 0) && stripes.belongs(2, 1));
+        // the second record belongs to the first level here, and so does its NaN to the first record's second
+        let nan = with(&[0.25, 0.75, 0.0, 0.5, 0.5, 0.0]).unwrap_err();
+        assert!(matches!(nan, FragilityError::Demand { record: 0, level: 1, .. }), "{nan}");
+        assert!(matches!(with(&[1.0, 0.0, 0.0]).unwrap_err(), FragilityError::Shares { found: 3, .. }));
+        let none = with(&[0.25, 0.75, 0.0, 0.0, 0.0, 0.0]).unwrap_err();
+        assert!(matches!(none, FragilityError::ShareSum { level: 1, .. }), "{none}");
+        assert!(with(&[1.5, -0.5, 0.0, 0.0, 0.5, 0.5]).is_err());
     }
 
     #[test]

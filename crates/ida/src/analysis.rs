@@ -58,12 +58,12 @@ pub fn complete(
                 return Ok(());
             }
             let (motion, system) = axes.of_row(row);
+            let of_motion = &plan.motions()[motion];
             let missing: Vec<usize> = (0..axes.scales).filter(|scale| !known[*scale]).collect();
             if missing.is_empty() {
-                watch.finished(axes.scales as u64);
+                watch.finished(of_motion.runs() as u64);
                 return Ok(());
             }
-            let of_motion = &plan.motions()[motion];
             let scales: Vec<f64> = missing.iter().map(|scale| of_motion.scales[*scale]).collect();
             let peaks = match (&plan.systems()[system], &ground_motions[motion]) {
                 (System::Oscillator(oscillator), Some(ground_motion)) => {
@@ -91,7 +91,7 @@ pub fn complete(
             keep(&AnalysisRow { motion, system, displacement_m, impacts });
             // what is run one by one is told one by one
             let told = if plan.systems()[system].is_swept() { 0 } else { missing.len() };
-            watch.finished((axes.scales - told) as u64);
+            watch.finished((of_motion.runs() - told) as u64);
             Ok(())
         },
     )?;

@@ -1,5 +1,7 @@
 //! What is known of the result of a plan before and after a part of the work.
 
+use std::ops::Range;
+
 use crate::peaks::{Axes, Peaks};
 use crate::plan::Plan;
 
@@ -17,12 +19,18 @@ pub struct Cells {
 }
 
 impl Cells {
-    /// The result of `plan`, of which nothing is known.
+    /// The result of `plan`, of which nothing is known but where there is no run: there the peak is NaN.
     pub fn unknown(plan: &Plan<'_>) -> Self {
         let axes = plan.axes();
         let total = axes.cells();
         let peaks = Peaks { axes, displacement_m: vec![0.0; total], impacts: vec![0; total] };
-        Self { peaks, known: vec![false; total] }
+        let mut cells = Self { peaks, known: vec![false; total] };
+        for (motion, scaled) in plan.motions().iter().enumerate() {
+            for (scale, _) in scaled.scales.iter().enumerate().filter(|(_, factor)| factor.is_nan()) {
+                (0..axes.systems).for_each(|system| cells.set([motion, system, scale], f64::NAN, 0));
+            }
+        }
+        cells
     }
 
     /// Lengths of the axes.
@@ -57,17 +65,23 @@ impl Cells {
         true
     }
 
-    /// Number of cells known of the row of a motion and system.
+    /// Number of runs known of the row of a motion and system.
     ///
     /// # Panics
     /// If an index is out of range, which is a bug of the caller.
     pub fn known_in_row(&self, motion: usize, system: usize) -> usize {
-        self.known[self.peaks.axes.cells_of(motion, system)].iter().filter(|known| **known).count()
+        self.known_runs(self.peaks.axes.cells_of(motion, system))
     }
 
-    /// Number of cells known.
+    /// Number of runs known.
     pub fn count(&self) -> u64 {
-        self.known.iter().filter(|known| **known).count() as u64
+        self.known_runs(0..self.known.len()) as u64
+    }
+
+    /// Number of runs known among `cells`: what is NaN is no run.
+    fn known_runs(&self, cells: Range<usize>) -> usize {
+        let known = self.known[cells.clone()].iter().zip(&self.peaks.displacement_m[cells]);
+        known.filter(|(known, displacement_m)| **known && !displacement_m.is_nan()).count()
     }
 
     /// Whether the whole row of a motion and system is known.
@@ -75,7 +89,7 @@ impl Cells {
     /// # Panics
     /// If an index is out of range, which is a bug of the caller.
     pub fn is_row_known(&self, motion: usize, system: usize) -> bool {
-        self.known_in_row(motion, system) == self.peaks.axes.scales
+        self.known[self.peaks.axes.cells_of(motion, system)].iter().all(|known| *known)
     }
 
     /// The result, once every cell is known.
@@ -91,7 +105,7 @@ pub struct AnalysisRow<'a> {
     pub motion: usize,
     /// Index of the system.
     pub system: usize,
-    /// Peak displacements over the scales, m; `+∞` where overturned.
+    /// Peak displacements over the scales, m; `+∞` where overturned, NaN where there is no run.
     pub displacement_m: &'a [f64],
     /// Impacts over the scales.
     pub impacts: &'a [u32],

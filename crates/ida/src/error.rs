@@ -45,6 +45,12 @@ pub enum IdaError {
         /// How many the first has.
         expected: usize,
     },
+    /// A motion that is run at no scale.
+    #[error("record {motion}: is run at no scale: leave it out")]
+    NoRun {
+        /// The motion.
+        motion: String,
+    },
     /// A scale factor that is not a finite number.
     #[error("record {motion}: its scale factor {index} is {value}: it must be finite")]
     Scale {

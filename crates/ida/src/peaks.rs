@@ -69,7 +69,7 @@ impl Peaks {
         self.axes
     }
 
-    /// Peak displacements, m, row-major; `+∞` where the system overturned.
+    /// Peak displacements, m, row-major; `+∞` where the system overturned, NaN where there is no run.
     pub fn displacement_m(&self) -> &[f64] {
         &self.displacement_m
     }

@@ -30,7 +30,8 @@ pub struct ScaledMotion<'a> {
     pub id: &'a str,
     /// The component that shakes the planar model.
     pub accelerogram: &'a Accelerogram,
-    /// Its scale factors, as many as every other motion of the plan has.
+    /// Its scale factors, as many as every other motion of the plan has; NaN where it is not run
+    /// ([`Plan::selected`]).
     pub scales: Vec<f64>,
 }
 
@@ -42,6 +43,8 @@ pub struct Plan<'a> {
     with_free_peak: bool,
     /// As many as motions, or none.
     across: Vec<&'a Accelerogram>,
+    /// Whether a factor may be NaN: no run.
+    with_gaps: bool,
 }
 
 impl<'a> Plan<'a> {
@@ -77,7 +80,8 @@ impl<'a> Plan<'a> {
             }
             Ok(ScaledMotion { id, accelerogram, scales: levels.iter().map(|level| level / intensity).collect() })
         };
-        Self::checked("records", records.into_iter().map(scaled).collect::<Result<_, _>>()?, systems, with_free_peak)
+        let motions = records.into_iter().map(scaled).collect::<Result<_, _>>()?;
+        Self::checked("records", motions, systems, (with_free_peak, false))
     }
 
     /// Plan motions with given scale factors.
@@ -92,14 +96,27 @@ impl<'a> Plan<'a> {
         systems: &'a [System],
         with_free_peak: bool,
     ) -> Result<Self, IdaError> {
-        Self::checked("motions", motions, systems, with_free_peak)
+        Self::checked("motions", motions, systems, (with_free_peak, false))
+    }
+
+    /// Plan motions that are not all run at every scale: a factor of NaN stands for no run. Its peak comes out as NaN,
+    /// without impacts.
+    ///
+    /// # Errors
+    /// As [`scaled`](Self::scaled); a motion without any run.
+    pub fn selected(
+        motions: Vec<ScaledMotion<'a>>,
+        systems: &'a [System],
+        with_free_peak: bool,
+    ) -> Result<Self, IdaError> {
+        Self::checked("motions", motions, systems, (with_free_peak, true))
     }
 
     fn checked(
         called: &'static str,
         motions: Vec<ScaledMotion<'a>>,
         systems: &'a [System],
-        with_free_peak: bool,
+        (with_free_peak, with_gaps): (bool, bool),
     ) -> Result<Self, IdaError> {
         // whoever asks for other instructions than there are is told, before anything is computed
         InstructionSet::chosen().map_err(IdaError::Instructions)?;
@@ -114,13 +131,17 @@ impl<'a> Plan<'a> {
             if motion.scales.len() != expected {
                 return Err(IdaError::Scales { motion: named(), count: motion.scales.len(), expected });
             }
-            if let Some((index, &value)) = motion.scales.iter().enumerate().find(|(_, scale)| !scale.is_finite()) {
+            if with_gaps && motion.runs() == 0 {
+                return Err(IdaError::NoRun { motion: named() });
+            }
+            let refused = |scale: f64| !(scale.is_finite() || with_gaps && scale.is_nan());
+            if let Some((index, &value)) = motion.scales.iter().enumerate().find(|(_, scale)| refused(**scale)) {
                 return Err(IdaError::Scale { motion: named(), index, value });
             }
             motion.excitation()?;
             motion.check_peaks(motion.accelerogram)?;
         }
-        Ok(Self { motions, systems, with_free_peak, across: Vec::new() })
+        Ok(Self { motions, systems, with_free_peak, across: Vec::new(), with_gaps })
     }
 
     /// This plan with the second horizontal component of every motion, scaled by the same factors: what shakes a
@@ -155,7 +176,8 @@ impl<'a> Plan<'a> {
             motion.scales = factors.iter().flat_map(by).collect();
         }
         let across = self.across;
-        Ok(Self { across, ..Self::checked("motions", self.motions, self.systems, self.with_free_peak)? })
+        let marks = (self.with_free_peak, self.with_gaps);
+        Ok(Self { across, ..Self::checked("motions", self.motions, self.systems, marks)? })
     }
 
     /// Lengths of the axes of its result.
@@ -166,7 +188,8 @@ impl<'a> Plan<'a> {
 
     /// Number of nonlinear time histories in the plan.
     pub fn analyses(&self) -> u64 {
-        self.axes().cells() as u64
+        let of_a_system: usize = self.motions.iter().map(ScaledMotion::runs).sum();
+        (of_a_system * self.systems.len()) as u64
     }
 
     /// The motions, the first axis of the result.
@@ -189,7 +212,7 @@ impl<'a> ScaledMotion<'a> {
     /// Refuses scale factors that make noise of a `component`, or a motion that no ground has.
     fn check_peaks(&self, component: &Accelerogram) -> Result<(), IdaError> {
         let peak_m_s2 = component.pga_m_s2();
-        let implausible = |scale: f64| !(scale.abs() <= MOST_SCALE && (scale * peak_m_s2).abs() <= MOST_PEAK_M_S2);
+        let implausible = |scale: f64| scale.abs() > MOST_SCALE || (scale * peak_m_s2).abs() > MOST_PEAK_M_S2;
         match self.scales.iter().enumerate().find(|(_, scale)| implausible(**scale)) {
             Some((index, &value)) => {
                 let peak_m_s2 = (value * peak_m_s2).abs();
@@ -197,6 +220,11 @@ impl<'a> ScaledMotion<'a> {
             }
             None => Ok(()),
         }
+    }
+
+    /// At how many of its scales it is run.
+    pub fn runs(&self) -> usize {
+        self.scales.iter().filter(|scale| !scale.is_nan()).count()
     }
 
     pub(crate) fn excitation(&self) -> Result<Excitation<'a>, IdaError> {
@@ -221,6 +249,7 @@ mod tests {
             Plan::scaled(vec![motion], &systems, true).map(|plan| plan.analyses())
         };
         assert!(plan(&strong, 100.0).is_ok() && plan(&strong, -1e7).is_ok() && plan(&quiet, 1e7).is_ok());
+        assert!(matches!(plan(&strong, f64::NAN).unwrap_err(), IdaError::Scale { index: 1, .. }));
         for (record, scale) in [(&quiet, 1e29), (&strong, 1e308), (&strong, -5e7)] {
             let error = plan(record, scale).unwrap_err();
             assert!(matches!(error, IdaError::Implausible { index: 1, .. }), "{error}");

@@ -2,11 +2,13 @@
 #![allow(clippy::unwrap_used)]
 
 use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use proptest::prelude::*;
 use uplift_block::RockingBlock;
 use uplift_ida::{
-    AnalysisRow, Cells, NUMERICS, Peaks, Plan, Shard, StripeRecord, System, Unwatched, analyse, complete, estimate,
+    AnalysisRow, Cells, IdaError, NUMERICS, Peaks, Plan, Shard, StripeRecord, System, Unwatched, Watch, analyse,
+    complete, estimate,
 };
 use uplift_motion::Accelerogram;
 use uplift_oscillator::{Oscillator, PostUplift};
@@ -161,6 +163,56 @@ fn shards_make_the_whole() {
             }
         }
         assert_eq!(bits(&joined.complete().unwrap()), bits(&whole), "{count} shards");
+    }
+}
+
+// What has no run is not computed, and does not touch what has: not one after the other, not in shards, not resumed.
+#[test]
+fn a_motion_is_run_where_it_has_a_factor() {
+    let case = Case::of_both_kinds();
+    let plan = case.plan();
+    let whole = analyse(&plan, &Unwatched).unwrap();
+    let mut motions = plan.motions().to_vec();
+    let is_run = |motion: usize, scale: usize| !(motion + scale).is_multiple_of(3);
+    for (motion, scaled) in motions.iter_mut().enumerate() {
+        for (scale, factor) in scaled.scales.iter_mut().enumerate().filter(|(scale, _)| !is_run(motion, *scale)) {
+            *factor = if scale.is_multiple_of(2) { f64::NAN } else { -f64::NAN };
+        }
+    }
+    assert!(Plan::scaled(motions.clone(), plan.systems(), plan.with_free_peak()).is_err());
+    let gaps = Plan::selected(motions.clone(), plan.systems(), plan.with_free_peak()).unwrap();
+    let axes = gaps.axes();
+    let cells = (0..axes.motions).flat_map(|motion| (0..axes.scales).map(move |scale| (motion, scale)));
+    let runs = cells.clone().filter(|(motion, scale)| is_run(*motion, *scale)).count() * axes.systems;
+    assert_eq!(gaps.analyses(), runs as u64);
+    let unknown = Cells::unknown(&gaps);
+    assert_eq!((unknown.count(), unknown.known_in_row(0, 0), unknown.is_row_known(0, 0)), (0, 0, false));
+
+    let finished = AtomicU64::new(0);
+    let found = complete(&gaps, unknown, Shard::WHOLE, &Counting(&finished), &|_| {}).unwrap();
+    assert_eq!((finished.into_inner(), found.count()), (runs as u64, runs as u64));
+    let found = found.complete().unwrap();
+    for ((motion, scale), system) in cells.flat_map(|cell| (0..axes.systems).map(move |system| (cell, system))) {
+        let cell = axes.cell([motion, system, scale]);
+        let (peak, impacts) = (found.displacement_m()[cell], found.impacts()[cell]);
+        if is_run(motion, scale) {
+            assert_eq!(peak.to_bits(), whole.displacement_m()[cell].to_bits());
+            assert_eq!(impacts, whole.impacts()[cell]);
+        } else {
+            assert!(peak.is_nan() && impacts == 0);
+        }
+    }
+    assert!(estimate(&gaps, std::time::Duration::ZERO).seconds_one_thread > 0.0);
+    motions[0].scales.fill(f64::NAN);
+    let error = Plan::selected(motions, plan.systems(), true).unwrap_err();
+    assert!(matches!(error, IdaError::NoRun { .. }), "{error}");
+}
+
+struct Counting<'a>(&'a AtomicU64);
+
+impl Watch for Counting<'_> {
+    fn finished(&self, analyses: u64) {
+        self.0.fetch_add(analyses, Ordering::Relaxed);
     }
 }
 

@@ -1,5 +1,7 @@
 //! λ(c): the mean annual frequency of exceeding a displacement, one oscillator at one site.
 
+use std::borrow::Cow;
+
 use uplift_fragility::check_threshold;
 
 use crate::fixed_point::{MAX_RATE_PER_YEAR, quanta, rate_per_year};
@@ -13,8 +15,9 @@ use crate::{
 /// differently.
 ///
 /// λ(c) = Σ w(level) m(record)/n, or Σ w(level) p(level, record), over the runs with EDP > c: a right-continuous step
-/// function that falls at the demands. It is a view: nothing is computed before it is asked for.
-#[derive(Debug, Clone, Copy)]
+/// function that falls at the demands. It is a view: nothing is computed before it is asked for, but for the weights of
+/// runs whose levels have [records of their own](uplift_fragility::Stripes::with_shares).
+#[derive(Debug, Clone)]
 pub struct RiskCurve<'a> {
     demand: &'a PooledDemand,
     weights: &'a StripeWeights,
@@ -24,38 +27,47 @@ pub struct RiskCurve<'a> {
 }
 
 /// How much each record counts.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 enum Counting<'a> {
     /// Once.
     Once,
     /// As often as it was drawn.
     Drawn(&'a RecordSample),
     /// By its share at the level.
-    Shared(&'a RunWeights),
+    Shared(Cow<'a, RunWeights>),
 }
 
 impl<'a> RiskCurve<'a> {
-    /// Every record once.
+    /// Every record once, or by the shares of the demand where it has some.
     ///
     /// # Errors
     /// Demand and weights with different numbers of levels.
     pub fn new(demand: &'a PooledDemand, weights: &'a StripeWeights) -> Result<Self, RiskError> {
         check_count("stripe weights", weights.level_count(), demand.level_count())?;
+        if let Some(shares) = demand.shares() {
+            return Self::shared(demand, weights, shares);
+        }
         // At most 65 535 records.
         let size = u32::try_from(demand.record_count()).unwrap_or(u32::MAX);
         Ok(Self { demand, weights, counting: Counting::Once, size })
     }
 
-    /// Each record as often as the sample has it.
+    /// Each record as often as the sample has it; where the demand has shares, these times as often, so that those of a
+    /// level add up to 1 again.
     ///
     /// # Errors
-    /// Demand and weights with different numbers of levels, demand and sample with different numbers of records.
+    /// Demand and weights with different numbers of levels, demand and sample with different numbers of records; a
+    /// level none of whose records is in the sample.
     pub fn resampled(
         demand: &'a PooledDemand,
         weights: &'a StripeWeights,
         sample: &'a RecordSample,
     ) -> Result<Self, RiskError> {
         check_count("multiplicities of records", sample.multiplicities().len(), demand.record_count())?;
+        if let Some(shares) = demand.shares() {
+            check_count("stripe weights", weights.level_count(), demand.level_count())?;
+            return Self::shared(demand, weights, &sample.weigh(shares)?);
+        }
         let curve = Self::new(demand, weights)?;
         Ok(Self { counting: Counting::Drawn(sample), size: sample.size(), ..curve })
     }
@@ -63,11 +75,24 @@ impl<'a> RiskCurve<'a> {
     /// Each record by its share at each level.
     ///
     /// # Errors
-    /// Demand and weights with different numbers of levels or records.
+    /// Demand and weights with different numbers of levels or records; a weight of a record at a level that it does not
+    /// belong to.
     pub fn weighted(demand: &'a PooledDemand, weights: &'a RunWeights) -> Result<Self, RiskError> {
-        check_count("records with shares", weights.record_count(), demand.record_count())?;
-        let curve = Self::new(demand, weights.stripes())?;
-        Ok(Self { counting: Counting::Shared(weights), size: 1, ..curve })
+        let records = weights.record_count();
+        check_count("records with shares", records, demand.record_count())?;
+        check_count("stripe weights", weights.stripes().level_count(), demand.level_count())?;
+        if let Some(own) = demand.shares() {
+            let no_run = weights.shares().iter().zip(own).position(|(&share, &own)| share > 0.0 && own == 0.0);
+            if let Some(cell) = no_run {
+                return Err(RiskError::NoRun { level: cell / records, record: cell % records });
+            }
+        }
+        Ok(Self { demand, weights: weights.stripes(), counting: Counting::Shared(Cow::Borrowed(weights)), size: 1 })
+    }
+
+    fn shared(demand: &'a PooledDemand, weights: &'a StripeWeights, shares: &[f64]) -> Result<Self, RiskError> {
+        let counting = Counting::Shared(Cow::Owned(RunWeights::new(weights, shares)?));
+        Ok(Self { demand, weights, counting, size: 1 })
     }
 
     /// λ(c): mean annual frequency of exceeding `threshold_m`, 1/yr.
@@ -186,7 +211,7 @@ impl<'a> RiskCurve<'a> {
     /// How much a record counts at a level: a whole number but for shares, so that counts are added exactly.
     fn count(&self, level: u16, record: u16) -> f64 {
         let record = usize::from(record);
-        match self.counting {
+        match &self.counting {
             Counting::Once => 1.0,
             Counting::Drawn(sample) => f64::from(sample.multiplicities()[record]),
             Counting::Shared(weights) => weights.shares()[usize::from(level) * weights.record_count() + record],
@@ -206,7 +231,7 @@ impl<'a> RiskCurve<'a> {
     fn sum(&self, from: usize, to: usize) -> u128 {
         let weights = self.weights.quanta();
         let runs = &self.demand.runs()[from..to];
-        match self.counting {
+        match &self.counting {
             Counting::Once => runs.iter().map(|run| weights[usize::from(run.level)]).sum(),
             Counting::Shared(shared) => {
                 let (units, records) = (shared.units(), shared.record_count());

@@ -13,7 +13,8 @@ pub(crate) struct Run {
 
 /// All runs of one oscillator, sorted once by falling demand; shared by all sites, probabilities and resamples.
 ///
-/// Runs without displacement are left out: they exceed no threshold.
+/// Runs without displacement are left out: they exceed no threshold; and so are records at levels that they do not
+/// [belong to](Stripes::with_shares).
 #[derive(Debug, Clone, PartialEq)]
 pub struct PooledDemand {
     /// Demands, m, falling; all above 0, overturned ones (+∞) first.
@@ -25,6 +26,8 @@ pub struct PooledDemand {
     last_level: Vec<u32>,
     record_count: u16,
     level_count: u16,
+    /// `[level, record]`; none where all records count alike.
+    shares: Option<Vec<f64>>,
 }
 
 impl PooledDemand {
@@ -38,7 +41,9 @@ impl PooledDemand {
         let mut pool: Vec<(f64, Run)> = Vec::with_capacity(stripes.record_count() * stripes.level_count());
         for record in 0..record_count {
             let row = stripes.record(usize::from(record));
-            pool.extend((0..level_count).zip(row).filter(|&(_, &edp)| edp > 0.0).map(|(level, &edp)| {
+            let counts = |level: u16| stripes.belongs(usize::from(record), usize::from(level));
+            let own = (0..level_count).zip(row).filter(|&(level, &edp)| edp > 0.0 && counts(level));
+            pool.extend(own.map(|(level, &edp)| {
                 let run = Run { record, level };
                 (edp, run)
             }));
@@ -57,6 +62,24 @@ impl PooledDemand {
             runs: pool.iter().map(|&(_, run)| run).collect(),
             record_count,
             level_count,
+            shares: stripes.shares().map(<[f64]>::to_vec),
+        })
+    }
+
+    /// How much each record counts at each level, `[level, record]`; none where all count alike.
+    pub fn shares(&self) -> Option<&[f64]> {
+        self.shares.as_deref()
+    }
+
+    /// To how many records that count alike those at `level` amount, 1/Σp².
+    ///
+    /// # Panics
+    /// If `level` is out of range, which is a bug of the caller.
+    pub fn effective_records(&self, level: usize) -> f64 {
+        let records = self.record_count();
+        self.shares.as_ref().map_or(records as f64, |shares| {
+            let of_level = &shares[level * records..(level + 1) * records];
+            1.0 / of_level.iter().map(|share| share * share).sum::<f64>()
         })
     }
 

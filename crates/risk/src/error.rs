@@ -76,6 +76,23 @@ pub enum RiskError {
         /// What they add up to.
         sum: f64,
     },
+    /// None of the records of a level is in a sample.
+    #[error(
+        "level {level}: none of its records is in the sample, so nothing is known there: let more records be drawn, or \
+         give the level more of them"
+    )]
+    EmptyLevel {
+        /// Position of the level, counted from 0.
+        level: usize,
+    },
+    /// Weights ask for a record at a level that it does not belong to.
+    #[error("level {level}, record {record}: has a weight, and does not belong to the level")]
+    NoRun {
+        /// Position of the level, counted from 0.
+        level: usize,
+        /// Position of the record, counted from 0.
+        record: usize,
+    },
     /// A sample of records is empty or too large.
     #[error("record sample: {size} draws: between 1 and {MAX_SAMPLE_SIZE} are possible")]
     SampleSize {

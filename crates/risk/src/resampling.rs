@@ -38,6 +38,10 @@ impl<'a> ResamplingTable<'a> {
     /// Demand and weights with different numbers of levels.
     pub fn new(demand: &'a PooledDemand, weights: &'a StripeWeights) -> Result<Self, RiskError> {
         RiskCurve::new(demand, weights)?;
+        if demand.shares().is_some() {
+            // what a record weighs depends on the others of its level in the sample: the exact curve does it all
+            return Ok(Self { demand, weights, before: Vec::new(), per_year: Vec::new(), row: 0, error: 0.0 });
+        }
         let row = demand.record_count().next_multiple_of(LANES);
         let quanta = weights.quanta();
         let mut sums = vec![0_u128; demand.record_count()];
@@ -60,7 +64,8 @@ impl<'a> ResamplingTable<'a> {
     /// - `ordinates_m`: receives the ordinates, `[target]`.
     ///
     /// # Errors
-    /// A sample of another number of records; a target that is not positive and finite.
+    /// A sample of another number of records, or one that leaves a level with records of its own without any; a target
+    /// that is not positive and finite.
     ///
     /// # Panics
     /// Unless there is space for one ordinate a target, which is a bug of the caller.
@@ -73,6 +78,12 @@ impl<'a> ResamplingTable<'a> {
         assert_eq!(targets_per_year.len(), ordinates_m.len(), "one ordinate a target");
         // the exact curve also refuses what does not fit
         let exact = RiskCurve::resampled(self.demand, self.weights, sample)?;
+        if self.demand.shares().is_some() {
+            for (ordinate_m, ordinate) in ordinates_m.iter_mut().zip(exact.exact_ordinates(targets_per_year)?) {
+                *ordinate_m = ordinate.displacement_m;
+            }
+            return Ok(());
+        }
         for (&target, ordinate_m) in targets_per_year.iter().zip(ordinates_m) {
             if !target.is_finite() || target <= 0.0 {
                 return Err(RiskError::Target { rate: target });

@@ -35,6 +35,24 @@ impl RecordSample {
         &self.multiplicities
     }
 
+    /// The shares of the sample's records where one counts by `shares` at each level, `[level, record]`: as often as it
+    /// was drawn, so that those of a level add up to 1 again.
+    ///
+    /// # Errors
+    /// A level none of whose records was drawn.
+    pub(crate) fn weigh(&self, shares: &[f64]) -> Result<Vec<f64>, RiskError> {
+        let mut weighed = Vec::with_capacity(shares.len());
+        for (level, row) in shares.chunks_exact(self.multiplicities.len()).enumerate() {
+            let drawn = row.iter().zip(&self.multiplicities).map(|(share, &count)| share * f64::from(count));
+            let sum: f64 = drawn.clone().sum();
+            if sum <= 0.0 {
+                return Err(RiskError::EmptyLevel { level });
+            }
+            weighed.extend(drawn.map(|share| share / sum));
+        }
+        Ok(weighed)
+    }
+
     pub(crate) fn lanes(&self) -> &[f64] {
         &self.lanes
     }

@@ -4,8 +4,8 @@
 use proptest::prelude::*;
 use uplift_fragility::Stripes;
 use uplift_risk::{
-    OrdinateFlag, PooledDemand, REPLICATES_AT_ONCE, RecordSample, ReplicateWeights, RiskCurve, RiskError, RunWeights,
-    StripeWeights,
+    OrdinateFlag, PooledDemand, REPLICATES_AT_ONCE, RecordSample, ReplicateWeights, ResamplingTable, RiskCurve,
+    RiskError, RunWeights, StripeWeights,
 };
 
 const LEVELS: [f64; 3] = [1.0, 2.0, 4.0];
@@ -147,6 +147,78 @@ proptest! {
             let alone = RiskCurve::weighted(&pool, &weights).unwrap().exact_ordinates(&targets).unwrap();
             let alone: Vec<f64> = alone.iter().map(|ordinate| ordinate.displacement_m).collect();
             prop_assert_eq!(&found[replicate * targets.len()..][..targets.len()], &alone[..]);
+        }
+    }
+}
+
+const NONE: f64 = f64::NAN;
+
+/// Record 1 belongs to the first two levels only, record 2 to the last alone.
+fn a_set_a_level() -> (PooledDemand, Vec<f64>) {
+    let edp = [0.1, 0.2, 0.3, 0.2, 0.4, NONE, NONE, NONE, 0.8];
+    let shares = vec![0.5, 0.5, 0.0, 0.25, 0.75, 0.0, 0.5, 0.0, 0.5];
+    let demand = PooledDemand::new(&Stripes::with_shares(&LEVELS, &edp, (3, 3), Some(&shares)).unwrap()).unwrap();
+    (demand, shares)
+}
+
+#[test]
+fn levels_with_records_of_their_own_by_hand() {
+    let (demand, shares) = a_set_a_level();
+    let stripes = stripes();
+    let curve = RiskCurve::new(&demand, &stripes).unwrap();
+    // weights 0.375, 0.1875, 0.1875: above 0.3 ¾ of the second level and ½ of the third
+    for (threshold, rate) in [(0.3, 0.75 * 0.1875 + 0.5 * 0.1875), (0.15, 0.5 * 0.375 + 0.1875 + 0.1875), (0.8, 0.0)] {
+        assert_eq!(curve.mean_annual_frequency(threshold).unwrap(), rate, "at {threshold}");
+    }
+    assert_eq!(curve.exceedance_probabilities(0.3).unwrap(), [0.0, 0.75, 0.5]);
+    assert!((demand.effective_records(1) - 1.6).abs() < 1e-12);
+    // without record 0: record 1 alone counts at the first two levels, record 2 at the last
+    let without = RecordSample::new(vec![0, 1, 1]).unwrap();
+    let curve = RiskCurve::resampled(&demand, &stripes, &without).unwrap();
+    assert_eq!(curve.exceedance_probabilities(0.3).unwrap(), [0.0, 1.0, 1.0]);
+    let table = ResamplingTable::new(&demand, &stripes).unwrap();
+    let mut found = [NONE; 2];
+    table.ordinates(&without, &[0.2, 0.5], &mut found).unwrap();
+    assert_eq!(found, [0.4, 0.2]);
+    // record 1 drawn thrice: its share grows where it counts, and nowhere else
+    let thrice = RecordSample::new(vec![1, 3, 1]).unwrap();
+    let curve = RiskCurve::resampled(&demand, &stripes, &thrice).unwrap();
+    assert_eq!(curve.exceedance_probabilities(0.15).unwrap(), [0.75, 1.0, 1.0]);
+    assert_eq!(curve.exceedance_probabilities(0.3).unwrap(), [0.0, 0.9, 0.5]);
+    // nobody is left at the last level
+    let empty = RecordSample::new(vec![0, 2, 0]).unwrap();
+    assert_eq!(RiskCurve::resampled(&demand, &stripes, &empty).unwrap_err(), RiskError::EmptyLevel { level: 2 });
+    assert_eq!(table.ordinates(&empty, &[0.2, 0.5], &mut found).unwrap_err(), RiskError::EmptyLevel { level: 2 });
+    // weights of a run that is none
+    let even = RunWeights::new(&stripes, &[1.0 / 3.0; 9]).unwrap();
+    assert_eq!(RiskCurve::weighted(&demand, &even).unwrap_err(), RiskError::NoRun { level: 0, record: 2 });
+    let own = RunWeights::new(&stripes, &shares).unwrap();
+    let weighted = RiskCurve::weighted(&demand, &own).unwrap().exact_ordinate(0.2).unwrap();
+    assert_eq!(weighted, RiskCurve::new(&demand, &stripes).unwrap().exact_ordinate(0.2).unwrap());
+}
+
+proptest! {
+    /// A set that has every record at every level, and all alike, is the plain one; drawn samples of it too.
+    #[test]
+    fn even_shares_are_none(
+        case in case(), draws in prop::collection::vec(0..4_u32, 9), target in 1e-5..1.0_f64,
+    ) {
+        let (plain, stripes) = (case.pool(), case.stripes());
+        let even = vec![1.0 / case.records as f64; case.records * case.levels.len()];
+        let shape = (case.records, case.levels.len());
+        let with = Stripes::with_shares(&case.levels, &case.edp_m, shape, Some(&even)).unwrap();
+        let with = PooledDemand::new(&with).unwrap();
+        let mut draws = draws[..case.records].to_vec();
+        draws[0] += 1;
+        let sample = RecordSample::new(draws).unwrap();
+        let all =
+            [&plain, &with].map(|demand| RiskCurve::new(demand, &stripes).unwrap().exact_ordinate(target).unwrap());
+        let drawn = [&plain, &with]
+            .map(|demand| RiskCurve::resampled(demand, &stripes, &sample).unwrap().exact_ordinate(target).unwrap());
+        for [plain, with] in [all, drawn] {
+            prop_assert_eq!((plain.displacement_m, plain.flag), (with.displacement_m, with.flag));
+            prop_assert!((plain.lower_tail_share - with.lower_tail_share).abs() < 1e-12);
+            prop_assert!((plain.upper_tail_share - with.upper_tail_share).abs() < 1e-12);
         }
     }
 }

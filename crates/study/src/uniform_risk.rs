@@ -178,6 +178,19 @@ fn compared_somewhere(root: &Section<'_>, consistency: &Consistency, sites: Opti
     false
 }
 
+/// Whether the levels that `records` name are those of one measure; else a mistake.
+fn is_of_one_measure(root: &Section<'_>, records: Option<&Records>, measures: &[MeasurePlan]) -> bool {
+    if measures.len() == 1 || records.is_none_or(|records| records.at_level.is_none()) {
+        return true;
+    }
+    root.mistake(
+        "records.at_level",
+        format!("the table has levels of one measure, and the study has {}", measures.len()),
+        "leave one of them in the study: a study each for the sets of the others",
+    );
+    false
+}
+
 /// Reads the whole study but for its `kind`; none where something is wrong.
 pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<UniformRiskStudy> {
     let title = top::title(&mut root);
@@ -195,7 +208,16 @@ pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<UniformRiskSt
     let bootstrap = bootstrap::read(root.section("bootstrap"));
     let consistency = consistency::read(root.section("consistency"));
     let consistency = consistency.filter(|of| compared_somewhere(&root, of, sites.as_deref()));
-    let inputs = (records.iter().filter_map(|records| records.source.manifest()))
+    let by_one = measures.as_deref().is_none_or(|measures| is_of_one_measure(&root, records.as_ref(), measures));
+    let repaired = consistency.as_ref().is_some_and(|of| of.repair != Repair::None);
+    if repaired && records.as_ref().is_some_and(|records| records.at_level.is_some()) {
+        root.mistake(
+            "consistency.repair",
+            "records of their own at each level are not weighed anew: they were selected for the level",
+            "leave records.at_level or the repair out",
+        );
+    }
+    let inputs = (records.iter().flat_map(Records::files))
         .chain(sites.iter().flatten().flat_map(|site| site.curves.iter().flat_map(CurveFile::files)))
         .chain(site_table.iter().flatten().flat_map(SiteTable::files));
     let output = output::read(root.section("output"), paths, inputs);
@@ -206,6 +228,9 @@ pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<UniformRiskSt
         stiffness::check(&root, system, oscillator.post_uplift);
     }
     root.finish();
+    if !by_one {
+        return None;
+    }
     let mut study = UniformRiskStudy {
         title: title?,
         seed: seed?,

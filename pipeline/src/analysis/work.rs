@@ -80,7 +80,8 @@ impl<'a> Work<'a> {
 
     /// What carrying it out takes: its peaks and impacts, held and written.
     pub(crate) fn needs(&self) -> Needs {
-        let held = self.analyses().saturating_mul(13);
+        let cells: u64 = self.plans.iter().map(|labelled| labelled.plan.axes().cells() as u64).sum();
+        let held = cells.saturating_mul(13);
         let samples = |labelled: &LabelledPlan<'_>| -> u64 {
             labelled.plan.motions().iter().map(|motion| motion.accelerogram.len() as u64).sum()
         };
@@ -139,7 +140,7 @@ impl<'a> Work<'a> {
                 })
                 .collect();
             let keep = |row: &AnalysisRow<'_>| {
-                let new = row.displacement_m.len() - in_row[plan.axes().row(row.motion, row.system)];
+                let new = plan.motions()[row.motion].runs() - in_row[plan.axes().row(row.motion, row.system)];
                 finished.fetch_add(new as u64, Ordering::Relaxed);
             };
             let start = Instant::now();
@@ -200,7 +201,7 @@ fn known(labelled: &LabelledPlan<'_>, keys: &RowKeys, checkpoint: &Checkpoint) -
     let axes = labelled.plan.axes();
     let in_row = |(row, key): (usize, &RowKey)| {
         if checkpoint.rows().contains(*key) {
-            return axes.scales as u64;
+            return labelled.plan.motions()[axes.of_row(row).0].runs() as u64;
         }
         let (motion, system) = axes.of_row(row);
         labelled.known.as_ref().map_or(0, |cells| cells.known_in_row(motion, system) as u64)

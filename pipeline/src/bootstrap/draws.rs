@@ -29,7 +29,9 @@ pub(super) fn draws(
     let records = stored.records.len();
     let sizes = options.sizes.clone().or_else(|| study.sizes.clone()).unwrap_or_else(|| {
         let all = u32::try_from(records).unwrap_or(u32::MAX);
-        SIZES.into_iter().filter(|&size| size < all).chain([all]).collect()
+        // a smaller sample may leave a level with records of its own without any
+        let of_levels = stored.measures.iter().any(|measure| measure.shares.is_some());
+        SIZES.into_iter().filter(|&size| size < all && !of_levels).chain([all]).collect()
     });
     let replicates = options.replicates.unwrap_or(study.replicates);
     let seed = options.seed.unwrap_or(stored.seed);

@@ -62,6 +62,9 @@ pub(crate) struct Question {
     pub(crate) events: Vec<String>,
     /// The measures that the records are scaled to, with their levels.
     pub(crate) analyses: Vec<(IntensityMeasure, Vec<f64>)>,
+    /// Whether each level has records of its own: these are not `level/intensity` times the record, and what they bring
+    /// of another measure is not asked.
+    pub(crate) is_at_level: bool,
     /// The hazard of every measure that a site has a curve of, `[measure][site]`.
     curves: BTreeMap<IntensityMeasure, Vec<Option<HazardCurve>>>,
     /// Weighted alternatives to them.
@@ -116,6 +119,7 @@ impl Question {
             sites,
             records,
             events,
+            is_at_level: study.records.at_level.is_some(),
             analyses: study.measures.iter().map(|plan| (plan.measure, plan.levels.to_vec())).collect(),
             curves,
             branches,
@@ -165,6 +169,7 @@ impl Question {
         });
         let (records, events) = asked_records(rows, study.records.component);
         Ok(Self {
+            is_at_level: study.records.at_level.is_some(),
             settings: study.consistency,
             extrapolation: study.risk.extrapolate,
             targets_per_year: targets(&axes.poes, axes.years)?,
@@ -197,7 +202,7 @@ impl Question {
     }
 
     /// The measure that a set scaled to `scaled_to` is asked about: the one that the study names, else the first with a
-    /// curve, PGV before PGA; none where no site has a curve of another.
+    /// curve, PGV before PGA; none where no site has a curve of another, or each level has records of its own.
     pub(crate) fn other(&self, scaled_to: IntensityMeasure) -> Option<IntensityMeasure> {
         let measures: Vec<IntensityMeasure> = self.curves.keys().copied().collect();
         self.other_among(&measures, scaled_to)
@@ -209,13 +214,19 @@ impl Question {
         measures: &[IntensityMeasure],
         scaled_to: IntensityMeasure,
     ) -> Option<IntensityMeasure> {
+        if self.is_at_level {
+            return None;
+        }
         let is_other = |measure: &IntensityMeasure| *measure != scaled_to && measures.contains(measure);
         let named = self.settings.against.filter(is_other);
         named.or_else(|| measures.iter().copied().find(is_other))
     }
 
-    /// Whether any site has curves of two measures.
+    /// Whether any site has curves of two measures, of a set that is the same at all levels.
     pub(crate) fn can_be_asked(&self) -> bool {
+        if self.is_at_level {
+            return false;
+        }
         let has_both = |site: usize| self.curves.values().filter(|curves| curves[site].is_some()).count() > 1;
         (0..self.sites.len()).any(has_both)
     }

@@ -48,6 +48,7 @@ pub fn efficiency(
     events: &dyn Events,
 ) -> Result<EfficiencyReport, UpliftError> {
     let (addition, file) = Addition::begin(result, events)?;
+    file.refuse_records_at_level("how a measure ranks is asked of records that rise through the levels")?;
     let stored = file.stripes()?;
     let table = Output::new(efficiency_path(&stored.path), OutputKind::Table("dispersion_rocking"));
     outputs::check(&[table], &[result], options.force)?;

@@ -75,8 +75,15 @@ pub(super) fn restated(
     };
     let uplift_levels = (0..strengths).map(of_strength).collect::<Result<_, UpliftError>>()?;
     let exact_m = Array::from_fn([0, 0, strengths], |_| f64::NAN);
-    let stripes =
-        StoredMeasure { measure: to.measure, levels, edp_m, weights: Vec::new(), branches: Vec::new(), exact_m };
+    let stripes = StoredMeasure {
+        measure: to.measure,
+        levels,
+        edp_m,
+        shares: None,
+        weights: Vec::new(),
+        branches: Vec::new(),
+        exact_m,
+    };
     Ok(Some(Restated { stripes, uplift_levels }))
 }
 
@@ -162,6 +169,7 @@ mod tests {
                     measure: IntensityMeasure::Pgv,
                     levels: levels.clone(),
                     edp_m,
+                    shares: None,
                     weights: Vec::new(),
                     branches: Vec::new(),
                     exact_m: Array::from_fn([0, 0, 1], |_| 0.0),

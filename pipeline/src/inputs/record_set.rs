@@ -1,6 +1,6 @@
 //! The record set of a study: which ground motions shake the oscillators, and with what intensity.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use rayon::prelude::*;
@@ -9,13 +9,13 @@ use uplift_motion::synthetic::SyntheticSetOptions;
 use uplift_motion::{Accelerogram, Combination, Component, Horizontal, IntensityMeasure, MotionError, RecordPair};
 
 use super::pairs::{self, CheckedPair};
-use super::{cache, manifest, selection};
+use super::{AtLevel, at_level, cache, manifest, selection};
 use crate::checksum::checksum;
 use crate::error::UpliftError;
 use crate::events::{Events, Silent};
 use crate::import::unusual_peak;
 use crate::machine::{Needs, PROGRAM_BYTES};
-use uplift_study::{RecordSource, UniformRiskStudy};
+use uplift_study::{RecordSource, Site, UniformRiskStudy};
 
 /// One analysis record: a component of a pair with the intensity of the pair.
 #[derive(Debug, Clone)]
@@ -63,6 +63,8 @@ pub struct RecordSet {
     pub synthetic: bool,
     /// The records, in the order of the result file.
     pub records: Vec<Record>,
+    /// Which of them is run at which level; none where every record is, scaled to it.
+    pub at_level: Option<AtLevel>,
     /// What is allowed but probably not meant.
     pub notes: Vec<String>,
 }
@@ -109,6 +111,11 @@ fn read_set(
     kept: Option<&mut Vec<RecordPair>>,
     events: &dyn Events,
 ) -> Result<RecordSet, UpliftError> {
+    let table = match (&study.records.at_level, study.measures.first()) {
+        (Some(path), Some(plan)) => Some((at_level::read(path, plan.measure).map_err(UpliftError::Inputs)?, plan)),
+        _ => None,
+    };
+    let named = table.as_ref().map(|(table, _)| table.names());
     let (pairs, source, synthetic) = match &study.records.source {
         RecordSource::Synthetic { pairs, seed } => {
             (synthetic_pairs((*pairs, *seed), events)?, format!("seed {seed}"), true)
@@ -116,10 +123,12 @@ fn read_set(
         RecordSource::Manifest { manifest, tag } => {
             let name = manifest.file_name().unwrap_or(manifest.as_os_str()).to_string_lossy();
             let tag_note = tag.as_ref().map_or_else(String::new, |tag| format!(", tag {tag}"));
-            (manifest_pairs(manifest, tag.as_deref(), study)?, format!("{name}{tag_note}"), false)
+            (manifest_pairs((manifest, tag.as_deref()), named.as_ref(), study)?, format!("{name}{tag_note}"), false)
         }
     };
     let synthetic = synthetic || pairs.iter().any(is_made);
+    let is_named = |pair: &CheckedPair| named.as_ref().is_none_or(|named| named.contains(pair.0.id.as_str()));
+    let pairs: Vec<CheckedPair> = pairs.into_iter().filter(is_named).collect();
     let (mut pairs, mut notes) =
         selection::select(pairs, &study.records.select, study.records.intensity, study.gravity_m_s2)?;
     pairs.truncate(first_of(study));
@@ -130,9 +139,30 @@ fn read_set(
     let noun = if pairs.len() == 1 { "pair" } else { "pairs" };
     let chosen = &study.records.select;
     let chosen = if chosen.is_empty() { String::new() } else { format!(", {chosen}") };
-    let description =
+    let mut description =
         format!("{} {kind} {noun} ({source}{chosen}), component {}", pairs.len(), study.records.component);
-    Ok(RecordSet { description, synthetic, records: analysis_records(pairs, study, further, kept)?, notes })
+    let mut records = analysis_records(pairs, study, further, kept)?;
+    let mut at_level = None;
+    if let Some((table, plan)) = &table {
+        let (own, found, told) = table.of_records(records, plan).map_err(UpliftError::Inputs)?;
+        records = own;
+        notes.extend(told);
+        notes.extend(not_asked(study));
+        let levels = plan.levels.len();
+        description = format!("{description}, a set for each of {levels} levels ({})", found.words(levels));
+        at_level = Some(found);
+    }
+    Ok(RecordSet { description, synthetic, records, at_level, notes })
+}
+
+/// What a set for each level leaves open, where a site has curves of other measures.
+fn not_asked(study: &UniformRiskStudy) -> Option<String> {
+    let has_several = |site: &Site| site.curves.len() > 1;
+    study.sites.iter().any(has_several).then(|| {
+        "whether the records bring the hazard of the sites' other measures is not asked of levels with records of \
+         their own (docs/method.md, section 3.1)"
+            .to_owned()
+    })
 }
 
 /// Whether the program made the pair itself: it stays synthetic, whichever way it comes back.
@@ -219,12 +249,13 @@ pub(super) fn synthetic_pairs((pairs, seed): (u64, u64), events: &dyn Events) ->
 }
 
 fn manifest_pairs(
-    manifest: &Path,
-    tag: Option<&str>,
+    (manifest, tag): (&Path, Option<&str>),
+    named: Option<&BTreeSet<&str>>,
     study: &UniformRiskStudy,
 ) -> Result<Vec<CheckedPair>, UpliftError> {
     let mut rows = manifest::read(manifest, tag).map_err(UpliftError::Inputs)?;
     // nothing is read in vain
+    rows.retain(|row| named.is_none_or(|named| named.contains(row.id.as_str())));
     if study.records.select.is_empty() {
         rows.truncate(first_of(study));
     }

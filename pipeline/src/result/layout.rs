@@ -65,7 +65,7 @@ pub fn intensity(measure: IntensityMeasure) -> String {
 
 by_measure! {
     /// Peak displacements of all runs.
-    ida: edp_m = "edp_m", impacts = "impacts",
+    ida: edp_m = "edp_m", impacts = "impacts", factor = "factor", share = "share",
 }
 
 by_measure! {

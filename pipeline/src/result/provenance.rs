@@ -49,6 +49,7 @@ impl Provenance {
     ) -> Self {
         let mut input_checksums: BTreeMap<String, String> =
             records.records.iter().map(|record| (format!("record {}", record.id), record.checksum.clone())).collect();
+        input_checksums.extend(records.at_level.iter().map(|of| ("records of levels".to_owned(), of.checksum.clone())));
         for curve in hazard.iter().flatten() {
             let name = format!("hazard {} {}", curve.site, curve.measure.label());
             for branch in &curve.branches {

@@ -54,8 +54,10 @@ pub struct StoredMeasure {
     pub measure: IntensityMeasure,
     /// Its levels, cm/s or g.
     pub levels: Vec<f64>,
-    /// Peak displacements `[record, strength, level]`, m.
+    /// Peak displacements `[record, strength, level]`, m; NaN where a record does not belong to a level.
     pub edp_m: Array<3>,
+    /// How much each record counts `[level, record]`; none where all count alike.
+    pub shares: Option<Vec<f64>>,
     /// What each stripe weighs at each site.
     pub weights: Vec<StripeWeights>,
     /// Weighted alternatives of each site, `[site]` of (weight, what each stripe weighs); none where it has no
@@ -119,7 +121,7 @@ impl StoredMeasure {
     pub fn stripes(&self, strength: usize) -> Result<Stripes<'_>, UpliftError> {
         let [records, strengths, levels] = self.edp_m.shape();
         let edp_m = &self.edp_m.values()[strength * levels..];
-        Ok(Stripes::strided(&self.levels, edp_m, records, strengths * levels)?)
+        Ok(Stripes::with_shares(&self.levels, edp_m, (records, strengths * levels), self.shares.as_deref())?)
     }
 
     /// All demands of one strength, pooled.
@@ -184,6 +186,13 @@ impl ResultFile {
             (level.as_str(), levels.len()),
         ];
         let edp_m = self.array(&ida::edp_m(measure), lengths)?;
+        let share = ida::share(measure);
+        let shares = if self.reader.exists(&share) {
+            let lengths = [(level.as_str(), levels.len()), (axis::RECORD, axes.records.len())];
+            Some(self.array(&share, lengths)?.into_values())
+        } else {
+            None
+        };
         let (mut weights, mut branches) = (Vec::new(), Vec::new());
         for site in &axes.sites {
             let curves = self.curves(site, measure)?;
@@ -193,7 +202,7 @@ impl ResultFile {
             branches.push(of_site.collect::<Result<Vec<_>, UpliftError>>()?);
         }
         let exact_m = Array::from_fn([axes.sites.len(), axes.poes.len(), axes.strengths.len()], |_| 0.0);
-        let mut measure = StoredMeasure { measure, levels, edp_m, weights, branches, exact_m };
+        let mut measure = StoredMeasure { measure, levels, edp_m, shares, weights, branches, exact_m };
         measure.exact_m = exact_ordinates(&measure, targets_per_year).map_err(|error| error.in_file(&self.path))?;
         Ok(measure)
     }

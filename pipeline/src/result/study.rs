@@ -113,6 +113,20 @@ impl ResultFile {
             }
         }
     }
+
+    /// Refuses a result each of whose levels has records of its own, of which `question` has no answer.
+    ///
+    /// # Errors
+    /// That it is one; a file that is damaged or of another kind.
+    pub(crate) fn refuse_records_at_level(&self, question: &str) -> Result<(), UpliftError> {
+        if self.stored_study()?.records.at_level.is_none() {
+            return Ok(());
+        }
+        Err(self.fail(format!(
+            "its levels have records of their own (records.at_level), and {question}: ask a result whose records are \
+             the same at every level"
+        )))
+    }
 }
 
 impl StudyOfResult {
@@ -144,6 +158,11 @@ impl StudyOfResult {
 
     /// The records, if the result was made from them.
     fn same_as_before(&self, set: RecordSet) -> Result<RecordSet, String> {
+        if self.study.records.at_level.is_some() {
+            return Err("its levels have records of their own (records.at_level), selected for the level of the \
+                         spectrum and not for another system"
+                .to_owned());
+        }
         let made_from = &self.made_from;
         if set.records.len() != made_from.ids.len() {
             let (found, made) = (set.records.len(), made_from.ids.len());

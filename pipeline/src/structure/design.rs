@@ -173,7 +173,7 @@ pub fn design(
                 let (analysed, left) =
                     beside.results(shaken.work(&source, measure, &asked)?, &options.shards, events)?;
                 checkpoint = Some(left);
-                let stripes = analysed.into_iter().map(|analysed| Stripes::of(&measure.plan, analysed));
+                let stripes = analysed.into_iter().map(|analysed| Stripes::of(&measure.plan, &shaken.set, analysed));
                 let own = (&structure.system, &shaken.sweep);
                 let (scatter, rate) = (Scatter::of(&file)?, (target_per_year, years));
                 let exact = |stripes: Stripes| exact_demand((&stripes, &weights), own, rate, &scatter);

@@ -161,6 +161,7 @@ pub fn overturning(
 ) -> Result<OverturningReport, UpliftError> {
     check_table(structure, result, options)?;
     let file = ResultFile::open(result)?;
+    file.refuse_records_at_level("overturning is counted among the same records at every level")?;
     let source = file.study(options.manifest.as_deref())?;
     let sites = match &options.site {
         Some(site) => vec![site_index(&source, Some(site))?],

@@ -49,6 +49,9 @@ impl EarlierStripes {
         if !reader.exists(&group) || reader.attribute_text(&group, "oscillator_key")? != oscillator_key(study) {
             return Ok(());
         }
+        if reader.exists(&ida::factor(measure.measure)) {
+            return Ok(()); // its factors are not those of the levels
+        }
         let stored_motions = reader.array_text(records::MOTION_SHA256)?.values;
         let intensities = reader.array_f64(&intensity(measure.measure))?.values;
         let positions = |values: &[f64]| -> HashMap<u64, usize> {

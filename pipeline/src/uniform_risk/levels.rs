@@ -59,7 +59,8 @@ struct Trial<'a> {
     reading: Reading,
 }
 
-/// Tries the levels of `measure`; none where there is no hazard curve to try them by, or the records are too many.
+/// Tries the levels of `measure`; none where there is no hazard curve to try them by, the records are too many, or each
+/// level has records of its own.
 ///
 /// # Errors
 /// A record that cannot be scaled.
@@ -69,6 +70,10 @@ pub(super) fn check_levels(
     (records, systems): (&RecordSet, &[System]),
     hazard: &[SiteHazard],
 ) -> Result<Option<LevelCheck>, UpliftError> {
+    if records.at_level.is_some() {
+        // nobody knows the records of levels that are not there
+        return Ok(None);
+    }
     let first = measure.levels[0];
     // below the foot of any curve a level would be refused
     let curves = hazard.iter().flat_map(|site| {

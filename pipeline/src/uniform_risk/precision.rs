@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 use uplift_bootstrap::{Band, BootstrapError, Replicates, ResamplingPlan, units};
 use uplift_fragility::quantile;
-use uplift_risk::PooledDemand;
+use uplift_risk::{PooledDemand, RiskError};
 use uplift_study::UniformRiskStudy;
 
 use super::{Stripes, pooled_demand};
@@ -89,12 +89,12 @@ pub(crate) fn precision(
         all.sort_by(f64::total_cmp);
         Ok(all)
     };
-    let by_record = widths(&ResamplingPlan::draw(records, &[size], REPLICATES, study.seed)?)?;
+    let by_record = of_whole_levels(widths(&ResamplingPlan::draw(records, &[size], REPLICATES, study.seed)?))?;
     let [Some(&least), Some(&most)] = [by_record.first(), by_record.last()] else { return Ok(None) };
     let counts: Vec<usize> = units(&event_of).iter().map(Vec::len).collect();
     let is_shared = question.shares_earthquakes();
     let by_event = if is_shared && counts.len() > 1 {
-        widths(&ResamplingPlan::draw_events(&event_of, &[size], REPLICATES, study.seed)?)?
+        of_whole_levels(widths(&ResamplingPlan::draw_events(&event_of, &[size], REPLICATES, study.seed)?))?
     } else {
         Vec::new()
     };
@@ -110,6 +110,14 @@ pub(crate) fn precision(
         half_width_by_event: (!by_event.is_empty()).then(|| quantile(&by_event, 0.5)),
         records_for_half: TIMES_FOR_HALF * records,
     }))
+}
+
+/// What is known of samples; nothing where one has no record of a level that has records of its own.
+fn of_whole_levels(widths: Result<Vec<f64>, UpliftError>) -> Result<Vec<f64>, UpliftError> {
+    match widths {
+        Err(UpliftError::Bootstrap(BootstrapError::Risk(RiskError::EmptyLevel { .. }))) => Ok(Vec::new()),
+        widths => widths,
+    }
 }
 
 /// Half of the interval over the median; none where an ordinate is censored or 0.

@@ -43,8 +43,12 @@ pub(crate) fn run(
     checkpoint.path().into_iter().for_each(|path| events.resumes_from(path));
     let analysed = work.results(&checkpoint, events)?;
     checkpoint.release_rows();
-    let stripes: Vec<Stripes> =
-        study.measures.iter().zip(analysed).map(|(measure, analysed)| Stripes::of(measure, analysed)).collect();
+    let stripes: Vec<Stripes> = study
+        .measures
+        .iter()
+        .zip(analysed)
+        .map(|(measure, analysed)| Stripes::of(measure, records, analysed))
+        .collect();
     let mut spectra = Vec::new();
     for (stripes, hazard) in stripes.iter().zip(&hazard) {
         spectra.push(uniform_risk_spectra(study, stripes, hazard)?);

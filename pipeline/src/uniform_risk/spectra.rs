@@ -65,7 +65,8 @@ impl Reading {
 pub(crate) fn pooled_demand(stripes: &Stripes, strength: usize) -> Result<PooledDemand, UpliftError> {
     let Axes { motions: records, systems: strengths, scales: levels } = stripes.peaks.axes();
     let edp_m = &stripes.peaks.displacement_m()[strength * levels..];
-    Ok(PooledDemand::new(&Stripe::strided(&stripes.levels, edp_m, records, strengths * levels)?)?)
+    let shares = stripes.at_level.as_ref().and_then(|at_level| at_level.shares.as_deref());
+    Ok(PooledDemand::new(&Stripe::with_shares(&stripes.levels, edp_m, (records, strengths * levels), shares)?)?)
 }
 
 /// One strength.

@@ -1,12 +1,12 @@
 //! The stripes of one intensity measure: records × strengths × levels.
 
-use uplift_ida::{Peaks, Plan, StripeRecord, System};
+use uplift_ida::{Peaks, Plan, ScaledMotion, StripeRecord, System};
 use uplift_motion::IntensityMeasure;
 use uplift_oscillator::Oscillator;
 
 use crate::analysis::Analysed;
 use crate::error::UpliftError;
-use crate::inputs::RecordSet;
+use crate::inputs::{AtLevel, RecordSet};
 use uplift_study::{MeasurePlan, UniformRiskStudy};
 
 /// The analysed stripes of one measure.
@@ -16,8 +16,10 @@ pub struct Stripes {
     pub measure: IntensityMeasure,
     /// Its levels, cm/s or g.
     pub levels: Vec<f64>,
-    /// Peaks over `[record, strength, level]`.
+    /// Peaks over `[record, strength, level]`; NaN where a record does not belong to a level.
     pub peaks: Peaks,
+    /// Which record is run at which level; none where every record is, scaled to it.
+    pub at_level: Option<AtLevel>,
     /// Nonlinear time histories.
     pub analyses: u64,
     /// Those of them that were not known from an earlier run.
@@ -27,10 +29,11 @@ pub struct Stripes {
 }
 
 impl Stripes {
-    /// The stripes of `measure`, analysed.
-    pub fn of(measure: &MeasurePlan, analysed: Analysed) -> Self {
+    /// The stripes of `measure`, analysed with the records of `set`.
+    pub fn of(measure: &MeasurePlan, set: &RecordSet, analysed: Analysed) -> Self {
         let Analysed { peaks, analyses, computed, seconds } = analysed;
-        Self { measure: measure.measure, levels: measure.levels.to_vec(), peaks, analyses, computed, seconds }
+        let (levels, at_level) = (measure.levels.to_vec(), set.at_level.clone());
+        Self { measure: measure.measure, levels, peaks, at_level, analyses, computed, seconds }
     }
 }
 
@@ -64,6 +67,14 @@ pub fn plan_stripes<'a>(
     set: &'a RecordSet,
     systems: &'a [System],
 ) -> Result<Plan<'a>, UpliftError> {
+    if let Some(at_level) = &set.at_level {
+        let motions = set.records.iter().enumerate().map(|(index, record)| ScaledMotion {
+            id: &record.id,
+            accelerogram: &record.accelerogram,
+            scales: at_level.factors_of(index, measure.levels.len()).to_vec(),
+        });
+        return Ok(Plan::selected(motions.collect(), systems, study.oscillator.free_vibration)?);
+    }
     let amplitude = |value: f64| measure.measure.amplitude(value);
     let records = set.records.iter().map(|record| StripeRecord {
         id: &record.id,

@@ -44,14 +44,16 @@ impl Inputs {
         let mut plans = Vec::new();
         for measure in &study.measures {
             let plan = plan_stripes(study, measure, &self.records, &self.systems)?;
-            let known = earlier.as_ref().map(|earlier| {
+            // another factor is another run, and an earlier result is looked at by levels alone
+            let known = earlier.as_ref().filter(|_| self.records.at_level.is_none()).map(|earlier| {
                 let mut cells = Cells::unknown(&plan);
                 earlier.fill(study, measure, &self.records, &self.motions, &mut cells);
                 cells
             });
             let label = measure.measure.label().to_owned();
+            let own = if self.records.at_level.is_some() { " (records of their own)" } else { "" };
             let text = format!(
-                "{} records x {} strengths x {} levels = {} analyses",
+                "{} records x {} strengths x {} levels{own} = {} analyses",
                 self.records.records.len(),
                 study.strengths.len(),
                 measure.levels.len(),

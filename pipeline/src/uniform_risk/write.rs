@@ -10,7 +10,7 @@ use super::write_hazard::{write_branches, write_hazard, write_other_hazard};
 use crate::checkpoint::{motion_key, oscillator_key};
 use crate::consistency::Keep;
 use crate::error::UpliftError;
-use crate::inputs::Record;
+use crate::inputs::{AtLevel, Record};
 use crate::result::layout::{URS_PRECISION, axis, ida, intensity, records as layout, regression, risk, urs};
 use crate::result::{Origin, flag_number};
 use uplift_labelled::{LabelledError, LabelledWriter};
@@ -142,9 +142,23 @@ fn write_measure(
 ) -> Result<(), LabelledError> {
     let stripes = &outcome.stripes[index];
     let (group, dims) = (ida::group(measure), [axis::RECORD, axis::STRENGTH, &axis::level(measure)]);
-    let long_name = "peak displacement, infinite where overturned";
+    let long_name = if stripes.at_level.is_some() {
+        "peak displacement, infinite where overturned, NaN where the record does not belong to the level"
+    } else {
+        "peak displacement, infinite where overturned"
+    };
     writer.array_f64(&ida::edp_m(measure), &dims, stripes.peaks.displacement_m(), "m", long_name)?;
     writer.array_u32(&ida::impacts(measure), &dims, stripes.peaks.impacts(), "1", "number of impacts")?;
+    if let Some(AtLevel { factors, shares, .. }) = &stripes.at_level {
+        let level = axis::level(measure);
+        let dims = [axis::RECORD, &level];
+        let long_name = "scale factor of the record, NaN where it does not belong to the level";
+        writer.array_f64(&ida::factor(measure), &dims, factors, "1", long_name)?;
+        if let Some(shares) = shares {
+            let long_name = "how much the record counts at the level, 0 where it does not belong to it";
+            writer.array_f64(&ida::share(measure), &[&level, axis::RECORD], shares, "1", long_name)?;
+        }
+    }
     writer.attribute(&group, "oscillator_key", oscillator_key(outcome.study).as_str())?;
     writer.attribute(&group, "analyses", stripes.analyses)?;
     writer.attribute(&group, "seconds", stripes.seconds)?;

@@ -36,7 +36,9 @@ pub(super) fn ida_curves(source: &FigureSource) -> Result<Option<Figure>, Uplift
     for measure in &stored.measures {
         let stripes = measure.stripes(strength).map_err(|error| source.fail(&error))?;
         let curve = |record: usize| -> Vec<(f64, f64)> {
-            stripes.record(record).iter().copied().zip(measure.levels.iter().copied()).collect()
+            let points = stripes.record(record).iter().copied().zip(measure.levels.iter().copied());
+            // there is no point where a record does not belong to a level
+            points.enumerate().filter(|(level, _)| stripes.belongs(record, *level)).map(|(_, point)| point).collect()
         };
         let mut series: Vec<Series> =
             (0..stripes.record_count()).map(|record| Series::line("", curve(record), Tone::Faint)).collect();

@@ -55,7 +55,8 @@ fn europe_spells_out_the_defaults() {
 #[test]
 fn commented_keys_of_europe_are_keys() {
     let text = fs::read_to_string(folder().join("europe.toml")).unwrap();
-    let uncommented = ["manifest =", "tag =", "first =", "capacity_m =", "post_uplift_stiffness_per_s2 =", "file ="];
+    let uncommented =
+        ["manifest =", "tag =", "first =", "at_level =", "capacity_m =", "post_uplift_stiffness_per_s2 =", "file ="];
     let mut text = text;
     for key in uncommented {
         let marked = format!("\n# {key}");

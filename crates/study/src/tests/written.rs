@@ -17,6 +17,8 @@ const BRANCHES: &str = "[pgv]\n[output]\nfile = \"x.h5\"\n[[sites]]\nname = \"a\
     branches = [{ file = \"pgv.csv\", weight = 0.25 }, { name = \"B\", file = \"pga.csv\", weight = 0.75 }]\n\
     [sites.pga]\nfile = \"pga.csv\"\nunit = \"cm/s2\"\n[site_table]\npgv = \"pgv.csv\"\n";
 
+const SETS: &str = "[pgv]\n[records]\nat_level = \"pgv.csv\"\n[output]\nfile = \"x.h5\"";
+
 /// The text of a study, and what it is of.
 fn written(study: &str) -> (String, AnyStudy) {
     let folder = Folder::new(study);
@@ -26,7 +28,7 @@ fn written(study: &str) -> (String, AnyStudy) {
 
 fn studies() -> Vec<(String, AnyStudy)> {
     let complete = resolving::COMPLETE.replace("../pgv.csv", "./pgv.csv");
-    let studies = [&complete, RISING, BRANCHES, displacement::COMPLETE, BLOCKS, BARE_BLOCKS, BARE_OSCILLATORS];
+    let studies = [&complete, RISING, BRANCHES, displacement::COMPLETE, BLOCKS, BARE_BLOCKS, BARE_OSCILLATORS, SETS];
     studies.iter().map(|study| written(study)).collect()
 }
 

@@ -1,6 +1,6 @@
 //! The section `[records]`: the ground motions.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde::{Serialize, Serializer};
 use uplift_motion::{Combination, Component};
@@ -41,6 +41,13 @@ pub(super) const KEYS: SectionKeys = SectionKeys {
             default: "all",
             range: "1 or more; at most `pairs` of a synthetic set",
         },
+        Key {
+            names: &["at_level"],
+            meaning: "a set of records for each level: table (CSV) of levels, records, their factors and weights \
+                      ([records of their own](method.md#31-levels-with-records-of-their-own))",
+            default: "every record at every level",
+            range: "existing file; with one measure; without `first` and `[records.select]`",
+        },
     ],
 };
 
@@ -60,6 +67,15 @@ pub struct Records {
     pub select: RecordSelection,
     /// Use only so many of these records, the first; all if none.
     pub first: Option<u64>,
+    /// Table of the records of each level; every record at every level if none.
+    pub at_level: Option<PathBuf>,
+}
+
+impl Records {
+    /// Files that are read.
+    pub(super) fn files(&self) -> impl Iterator<Item = &Path> {
+        self.source.manifest().into_iter().chain(self.at_level.as_deref())
+    }
 }
 
 /// As the section of a study file.
@@ -75,6 +91,8 @@ impl Serialize for Records {
             intensity: &'static str,
             #[serde(skip_serializing_if = "Option::is_none")]
             first: Option<u64>,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            at_level: Option<&'a Path>,
             #[serde(skip_serializing_if = "RecordSelection::is_empty")]
             select: &'a RecordSelection,
             #[serde(skip_serializing_if = "Option::is_none")]
@@ -86,6 +104,7 @@ impl Serialize for Records {
             component: self.component.to_string(),
             intensity: self.intensity.key(),
             first: self.first,
+            at_level: self.at_level.as_deref(),
             select: &self.select,
             synthetic: self.source.synthetic(),
         };
@@ -103,6 +122,16 @@ pub(super) fn read(mut section: Section<'_>, paths: &Paths) -> Option<Records> {
     let select = selection::read(section.section("select"));
     let first_field = section.field("first");
     let first = optional(first_field.as_ref(), |field| field.integer(1, LARGEST_INTEGER));
+    let at_level_field = section.field("at_level");
+    let at_level = optional(at_level_field.as_ref(), |field| paths.input(field));
+    if let (Some(field), Some(select)) = (&at_level_field, &select)
+        && (first_field.is_some() || !select.is_empty())
+    {
+        field.mistake(
+            "the table says which records are used, and `first` or `[records.select]` as well",
+            "leave these out, or the rows of the table that they are to leave out",
+        );
+    }
     let synthetic = record_source::synthetic(section.section("synthetic"));
     // a manifest goes before: so one `--set records.manifest=…` turns a study of synthetic records into one of real
     // ones
@@ -118,5 +147,12 @@ pub(super) fn read(mut section: Section<'_>, paths: &Paths) -> Option<Records> {
         synthetic.map(RecordSource::from)
     };
     section.finish();
-    Some(Records { source: source?, component: component?, intensity: intensity?, select: select?, first: first? })
+    Some(Records {
+        source: source?,
+        component: component?,
+        intensity: intensity?,
+        select: select?,
+        first: first?,
+        at_level: at_level?,
+    })
 }
