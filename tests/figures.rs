@@ -27,6 +27,7 @@ mod table_4_1;
 mod table_4_2;
 mod two_solvers;
 mod uplift_and_impacts;
+mod validation;
 mod worked_pier;
 
 use std::path::Path;

@@ -47,3 +47,4 @@ mod structure_resume;
 mod table_4_2;
 mod texts;
 mod torture_files;
+mod validate;

@@ -14,7 +14,8 @@
 //!    and add their arrays to it.
 //! 5. From a spectrum to a structure: [`structure::design`] and [`structure::overturning`].
 //! 6. Pushed rather than shaken: [`pushover::pushover`], [`restrainer::curve`], [`restrainer::design`].
-//! 7. For others: [`export::export`] here; figures and the page are made by the crate `uplift_report`.
+//! 7. Computed peaks beside measured ones: [`validate::validate`].
+//! 8. For others: [`export::export`] here; figures and the page are made by the crate `uplift_report`.
 //!
 //! ```no_run
 //! use std::path::Path;
@@ -60,6 +61,7 @@
 //! | [`table`](mod@table), [`export`] | a result beside a reference, and for other programs |
 //! | [`response`], [`pulses`] | one record through one oscillator; rocking spectra under wavelets |
 //! | [`pushover`](mod@pushover), [`restrainer`] | columns under a static force; restrainers, stacks of a catalogue |
+//! | [`validate`](mod@validate) | whether computed peaks are distributed as measured ones |
 //! | [`outputs`] | files that a job is asked to write: what may give way to them |
 //! | [`text`] | numbers in words |
 
@@ -98,6 +100,7 @@ pub mod structure;
 pub mod table;
 pub mod text;
 pub mod uniform_risk;
+pub mod validate;
 pub mod verify;
 
 pub use array::{Array, ShapeError};

@@ -9,7 +9,7 @@ const BEGIN: &str = "<!-- figure: ";
 const END: &str = "<!-- end -->";
 
 /// The sources, by which names begin; those that `make test` leaves out are slow.
-const SOURCES: [&str; 26] = [
+const SOURCES: [&str; 27] = [
     "base-widths",
     "conditioning",
     "consistency",
@@ -35,6 +35,7 @@ const SOURCES: [&str; 26] = [
     "tables-2",
     "tables-3",
     "two-solvers",
+    "validation",
     "worked",
 ];
 

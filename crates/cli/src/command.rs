@@ -12,6 +12,7 @@ mod restrainer;
 mod result;
 mod structures;
 mod study;
+mod validate;
 
 use clap::{Parser, Subcommand};
 
@@ -80,6 +81,8 @@ enum Command {
     Protocol(protocol::ProtocolArguments),
     /// Restrainers of tendons and disc springs: their force, and stacks out of a catalogue
     Restrainer(Box<restrainer::RestrainerArguments>),
+    /// Whether computed peaks are distributed as measured ones: tests, power, bands, by class and level (Section 6.8)
+    Validate(validate::ValidateArguments),
     /// Bring record files: import a folder, list, show, choose, synthesize
     Records(records::RecordsArguments),
     /// Bring hazard curves: take them from the exports of engines, show, draw
@@ -129,6 +132,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         Command::Pushover(arguments) => pushover::pushover(arguments, &terminal),
         Command::Protocol(arguments) => protocol::protocol(arguments, &terminal),
         Command::Restrainer(arguments) => restrainer::restrainer(arguments, &terminal),
+        Command::Validate(arguments) => validate::validate(arguments, &terminal),
         Command::Records(arguments) => records::records(arguments, &terminal),
         Command::Hazard(arguments) => hazard::hazard(arguments, &terminal),
         Command::Plot(arguments) => plot::plot(arguments, &terminal),

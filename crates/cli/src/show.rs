@@ -21,6 +21,7 @@ mod status;
 mod structure;
 mod table;
 mod uniform_risk;
+mod validate;
 mod verify;
 
 pub(crate) use bootstrap::print_bootstrap;
@@ -40,6 +41,7 @@ pub(crate) use restrainer::{print_restrainer_curve, print_restrainer_design};
 pub(crate) use run::{print_run, print_shard};
 pub(crate) use status::print_status;
 pub(crate) use table::print_table;
+pub(crate) use validate::print_validation;
 pub(crate) use verify::print_verified;
 
 use std::io::Write;

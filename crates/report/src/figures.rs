@@ -16,6 +16,7 @@ mod pulses;
 mod spectra;
 mod tails;
 mod together;
+mod validation;
 
 pub use columns::{column_figures, protocol_figure, pushover_figure, restrainer_figure};
 pub use displacement::{Extent, displacement_figures};
@@ -24,6 +25,7 @@ pub use overturning::overturning_figure;
 pub use pulses::pulse_figures;
 pub use spectra::hazard_figure;
 pub(crate) use together::together;
+pub use validation::{distributions_figure, pairs_figure};
 
 use std::path::Path;
 

@@ -46,6 +46,11 @@ impl ReferenceTable {
         self.frame.height()
     }
 
+    /// Names of its columns.
+    pub(crate) fn columns(&self) -> Vec<String> {
+        self.frame.get_column_names().iter().map(ToString::to_string).collect()
+    }
+
     /// Whether there is such a column.
     pub fn has(&self, column: &str) -> bool {
         self.frame.get_column_index(column).is_some()
