@@ -41,6 +41,7 @@ mod result_file;
 mod resume;
 mod rounding;
 mod run;
+mod shake_table;
 mod site_table;
 mod spreadsheets;
 mod structure_resume;

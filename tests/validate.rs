@@ -48,8 +48,8 @@ fn table_6_2() {
     assert_eq!(evidence[2], "medium-weak");
 }
 
-const MEASURED: &str = "exc_id,level,u_mm\n1,low,10\n2,low,20\n3,low,40\n4,low,\n5,low,33\n1,high,>80\n2,high,overturned\n\
-                        3,high,60\n";
+const MEASURED: &str = "exc_id,level,u_mm\n1,low,10\n2,low,20\n3,low,40\n4,low,\n5,low,33\n1,high,>80\n\
+                        2,high,overturned\n3,high,60\n";
 const COMPUTED: &str = "u_m,exc_id,class,level\n0.012,1,NF,low\n0.018,2,FF,low\n0.044,3,FF,low\n0.05,4,FF,low\n0.07,1,\
                         NF,high\ninf,2,FF,high\n0.085,3,FF,high\n0.01,9,FF,high\n";
 

@@ -18,4 +18,5 @@ pub(crate) use made::made_pairs;
 pub(crate) use record_set::read_measured;
 pub use record_set::{Record, RecordSet, read_records};
 pub use record_sets::{NamedSet, RecordSets, SetRecord, read_record_sets};
+pub(crate) use record_sets::{is_numbered, read_sets};
 pub use site_table::{BatchSite, ListedSite, SiteCurves, SiteExport, SiteList, read_site_list};

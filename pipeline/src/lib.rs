@@ -48,6 +48,7 @@
 //! | [`events`] | what a job tells while it works, and how it is stopped |
 //! | [`uniform_risk`] | studies of uniform risk: stripes, spectra, coefficients |
 //! | [`displacement`] | studies of displacement spectra of record sets |
+//! | [`mod@shake_table`] | studies of a shaking table: its tests, and what a frame does in them |
 //! | [`bootstrap`], [`influence`], [`efficiency`] | how sure a spectrum is, and what carries it |
 //! | [`mod@consistency`] | whether the records bring the hazard of the other measure, and weights by which they do |
 //! | [`structure`] | a structure under the records and hazard of a result |
@@ -94,6 +95,7 @@ pub mod restrainer;
 pub mod result;
 mod result_of;
 pub mod run;
+pub mod shake_table;
 pub mod shard;
 pub mod status;
 pub mod structure;

@@ -17,6 +17,7 @@ mod records;
 mod response;
 mod restrainer;
 mod run;
+mod shake_table;
 mod status;
 mod structure;
 mod table;

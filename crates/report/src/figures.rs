@@ -13,6 +13,7 @@ mod history;
 mod influence;
 mod overturning;
 mod pulses;
+mod shake_table;
 mod spectra;
 mod tails;
 mod together;
@@ -23,6 +24,7 @@ pub use displacement::{Extent, displacement_figures};
 pub use history::{block_history_figure, history_figure};
 pub use overturning::overturning_figure;
 pub use pulses::pulse_figures;
+pub use shake_table::shake_table_figures;
 pub use spectra::hazard_figure;
 pub(crate) use together::together;
 pub use validation::{distributions_figure, pairs_figure};
@@ -47,6 +49,7 @@ pub fn result_figures(path: &Path) -> Result<Vec<Figure>, UpliftError> {
     match file.kind() {
         Kind::UniformRisk => Ok(FigureSource::read(&file)?.figures()?.into_all()),
         Kind::Displacement => displacement_figures(&file, &file.displacements()?, Extent::All),
+        Kind::ShakeTable => Ok(shake_table_figures(&file.shake_table()?)),
     }
 }
 

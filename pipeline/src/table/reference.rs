@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use polars::prelude::DataFrame;
+use polars::prelude::{Column, DataFrame, DataType};
 
 use uplift_atomic_file::read_file;
 
@@ -38,6 +38,20 @@ impl ReferenceTable {
         let fail = |reason: String| UpliftError::input(format!("{name}: {reason}"));
         let bytes = read_file(path, LARGEST_BYTES).map_err(|error| UpliftError::input(format!("{what} {error}")))?;
         let frame = text_table::parse(&bytes, &[]).map_err(fail)?;
+        Ok(Self { name, frame })
+    }
+
+    /// The table of these `columns`, every cell as text; `name` in messages.
+    ///
+    /// # Errors
+    /// Columns that make no table.
+    pub(crate) fn of(name: String, columns: Vec<Column>) -> Result<Self, UpliftError> {
+        let frame = columns
+            .into_iter()
+            .map(|column| column.cast(&DataType::String))
+            .collect::<Result<Vec<_>, _>>()
+            .and_then(DataFrame::new_infer_height)
+            .map_err(|error| UpliftError::input(format!("{name}: {error}")))?;
         Ok(Self { name, frame })
     }
 

@@ -3,6 +3,8 @@
 use std::path::Path;
 
 use crate::error::UpliftError;
+use crate::result::{ResultFile, is_hdf5};
+use crate::shake_table::columns;
 use crate::table::ReferenceTable;
 
 /// Units that a column's name may end in, by quantity, with what makes SI units of them.
@@ -83,7 +85,7 @@ impl Peaks {
         keys: &[String],
         groups: &[String],
     ) -> Result<Self, UpliftError> {
-        let table = ReferenceTable::read_as(what, file)?;
+        let table = table(what, file)?;
         let (column, factor) = column_of(&table, value)?;
         let missing = |names: &[String]| names.iter().filter(|name| !table.has(name)).cloned().collect::<Vec<_>>();
         let (mut rows, mut mistakes) = (Vec::new(), Vec::new());
@@ -116,6 +118,15 @@ impl Peaks {
         let name = format!("{what} {}", file.display());
         Ok(Self { name, column, missing_keys: missing(keys), missing_groups: missing(groups), rows })
     }
+}
+
+/// A table of a user, or the tests of a result.
+fn table(what: &str, file: &Path) -> Result<ReferenceTable, UpliftError> {
+    if !is_hdf5(file) {
+        return ReferenceTable::read_as(what, file);
+    }
+    let tests = ResultFile::open(file)?.shake_table()?;
+    ReferenceTable::of(format!("{what} {}", file.display()), columns(&tests))
 }
 
 /// The unit in the name of a quantity, in words: `u_m` is in m; a name without one is a pure number.

@@ -307,8 +307,8 @@ fn notes(options: &ValidateOptions, groups: &[GroupReport], unmatched: &Unmatche
     }
     if groups.iter().any(|group| group.measured_collapses + group.computed_collapses > 0) {
         notes.push(
-            "collapses are infinite in ranks, medians and distributions; bias, dispersion and Pearson's correlation are \
-             of pairs of which both are finite and above 0"
+            "collapses are infinite in ranks, medians and distributions; bias, dispersion and Pearson's correlation \
+             are of pairs of which both are finite and above 0"
                 .to_owned(),
         );
     }

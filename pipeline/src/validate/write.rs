@@ -101,9 +101,12 @@ fn of_pairs(group: &GroupReport, of: fn(&Bands) -> Option<Quantiles>) -> Option<
     group.pair_bands.as_ref().and_then(of)
 }
 
+/// Its name at the end of a column, and its value.
+type Quantile = (&'static str, fn(Quantiles) -> f64);
+
 /// 5, 50 and 95 % of a statistic.
 fn band(groups: &[GroupReport], name: &str, of: &dyn Fn(&GroupReport) -> Option<Quantiles>) -> Vec<Column> {
-    let quantiles: [(&str, fn(Quantiles) -> f64); 3] = [("q05", |q| q.q05), ("q50", |q| q.q50), ("q95", |q| q.q95)];
+    let quantiles: [Quantile; 3] = [("q05", |q| q.q05), ("q50", |q| q.q50), ("q95", |q| q.q95)];
     let columns = quantiles.map(|(which, value)| {
         let cells = groups.iter().map(|group| of(group).map(value)).collect::<Vec<Option<f64>>>();
         Column::new(format!("{name}_{which}").into(), cells)

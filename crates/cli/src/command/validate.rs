@@ -20,9 +20,9 @@ use crate::terminal::Terminal;
                   none.\nWhat the tests ask, and what \"small or none\" does not mean: docs/validation.md"
 )]
 pub(super) struct ValidateArguments {
-    /// Table of measured peaks: CSV with a header row
+    /// Table of measured peaks: CSV with a header row; or the result of a shaking table
     measured: PathBuf,
-    /// Table of computed peaks: CSV with a header row
+    /// Table of computed peaks: CSV with a header row; or the result of a shaking table
     computed: PathBuf,
     /// Column of the peaks with its unit; either table may have it in another, as u_mm
     #[arg(long, value_name = "COLUMN", default_value = "u_m")]

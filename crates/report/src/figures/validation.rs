@@ -68,24 +68,9 @@ fn label(report: &ValidateReport) -> String {
 }
 
 fn distributions(report: &ValidateReport, group: &GroupReport) -> Panel {
-    let largest = group
-        .samples
-        .iter()
-        .flat_map(|sample| sample.sorted())
-        .copied()
-        .filter(|value| value.is_finite())
-        .fold(0.0, f64::max);
+    let largest =
+        group.samples.iter().flat_map(Sample::sorted).copied().filter(|value| value.is_finite()).fold(0.0, f64::max);
     let end = if largest > 0.0 { 1.05 * largest } else { 1.0 };
-    let stairs = |sample: &Sample| {
-        let mut points = vec![(0.0, 0.0)];
-        for &value in sample.sorted().iter().filter(|value| value.is_finite()) {
-            let before = points.last().map_or(0.0, |(_, share)| *share);
-            points.extend([(value, before), (value, sample.cdf(value))]);
-        }
-        let last = points.last().map_or(0.0, |(_, share)| *share);
-        points.push((end, last));
-        points
-    };
     let [measured, computed] = &group.samples;
     let ends = group.band.iter().skip(1).map(|(value, ..)| *value).chain([end]);
     let band = group.band.iter().zip(ends).flat_map(|(&(at, low, high), to)| [(at, low, high), (to, low, high)]);
@@ -96,11 +81,24 @@ fn distributions(report: &ValidateReport, group: &GroupReport) -> Panel {
             Axis::linear(label(report)).between(0.0, end),
             Axis::linear("share of the motions").between(0.0, 1.0),
             vec![
-                Series::line("measured", stairs(measured), Tone::Distinct(0)),
-                Series::line("computed", stairs(computed), Tone::Distinct(1)),
+                Series::line("measured", stairs(measured, end), Tone::Distinct(0)),
+                Series::line("computed", stairs(computed, end), Tone::Distinct(1)),
             ],
         )
     }
+}
+
+/// The steps of an empirical distribution from 0 to `end`.
+pub(super) fn stairs(sample: &Sample, end: f64) -> Vec<(f64, f64)> {
+    let mut points = vec![(0.0, 0.0)];
+    let mut share = 0.0;
+    for &value in sample.sorted().iter().filter(|value| value.is_finite()) {
+        points.push((value, share));
+        share = sample.cdf(value);
+        points.push((value, share));
+    }
+    points.push((end, share));
+    points
 }
 
 fn pairs(report: &ValidateReport, group: &GroupReport) -> Panel {
