@@ -247,3 +247,22 @@ fn the_earthquakes_of_the_hazard_stand_beside_those_of_the_records() {
     run("Montreux=r.urs.csv", &[]).fails(4, &["first line"]);
     run("Montreux=missing.csv", &[]).fails(4, &["missing.csv"]);
 }
+
+#[test]
+fn other_keys_of_the_section_are_another_run() {
+    let study = study(BOTH, "pgv pga", "");
+    study.uplift(&["run", "study.toml"]).ok();
+    let other = ["--set", "consistency.smoothness=0.1"];
+    let asked = |arguments: &[&str]| study.uplift(&[arguments, &other].concat());
+    for command in ["consistency", "bootstrap", "influence"] {
+        asked(&[command, "study.toml", "-q"]).fails(2, &["other values of consistency.smoothness: run the study"]);
+    }
+    // as the message says
+    asked(&["run", "study.toml", "-q"]).ok();
+    asked(&["consistency", "study.toml", "-q"]).ok();
+    // a repair that the study asks for is added
+    let weights = ["consistency", "study.toml", "--set", "consistency.repair=\"weights\"", "--json", "-q"];
+    let repaired = json(&study.uplift(&[&weights[..], &other].concat()).ok());
+    assert!(row(&repaired, "Montreux", "PGA")["repair"]["failed"].is_null(), "{repaired}");
+    assert!(row(&repaired, "Montreux", "PGA")["repair"]["max"].is_number(), "{repaired}");
+}

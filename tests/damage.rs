@@ -118,7 +118,7 @@ fn flip_bits(flips: usize) {
 
 #[test]
 fn no_reader_is_deceived_by_a_flipped_bit() {
-    flip_bits(24);
+    flip_bits(10);
 }
 
 #[test]

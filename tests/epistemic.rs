@@ -3,7 +3,7 @@
 
 use uplift_labelled::LabelledReader;
 
-use crate::common::SmallStudy;
+use crate::common::{SmallStudy, repository};
 
 const HEAD: &str = r#"seed = 3
 [records]
@@ -100,4 +100,70 @@ fn mistakes_in_branches_are_all_said() {
     study.write("short.csv", "iml,maf\n2,0.1\n20,0.01\n");
     site("{ file = \"a.csv\", weight = 0.5 }, { file = \"short.csv\", weight = 0.5 }")
         .fails(4, &["short.csv", "outside"]);
+}
+
+/// 105 synthetic pairs at a site whose hazard is that of Montreux or that of Athens, by both measures.
+fn two_measures(pgv: &str, pga: &str, more: &str) -> SmallStudy {
+    let hazard = repository().join("hazard").display().to_string();
+    let curves = |measure: &str, names: &str| {
+        let of = |(name, place, weight): (&str, &str, f64)| {
+            format!("{{ name = \"{name}\", file = '{hazard}/{place}/{measure}.csv', weight = {weight} }}")
+        };
+        let mut names = names.split(' ');
+        let [first, second] = [names.next().unwrap(), names.next().unwrap()];
+        format!("{measure}.branches = [{}, {}]\n", of((first, "montreux", 0.3)), of((second, "athens", 0.7)))
+    };
+    let curve = |measure: &str, names: &str| match names {
+        place @ ("montreux" | "athens") => format!("{measure} = '{hazard}/{place}/{measure}.csv'\n"),
+        names => curves(measure, names),
+    };
+    SmallStudy::with(&format!(
+        "[strengths]\nvalues = [0.1, 0.2, 0.4]\n[pgv]\nlevels_cm_s = [\"1:0.5:20\", \"25:5:200\"]\n[pga]\n[risk]\n\
+         maf_surface = false\n[hazard]\nconversions = [{{ from = \"GMRotI50\", to = \"geometric mean\", pgv = 1.0, \
+         pga = 1.0 }}]\n[[sites]]\nname = \"Here\"\n{}{}[consistency]\nrepair = \"weights\"\n{more}",
+        curve("pgv", pgv),
+        curve("pga", pga)
+    ))
+}
+
+#[test]
+fn every_branch_is_repaired_by_its_own_pair_of_curves() {
+    let both = two_measures("north south", "north south", "");
+    let printed = both.uplift(&["run", "study.toml", "-o", "r.h5"]).ok().stdout;
+    let measures = ["pgv", "pga"];
+    let of = |name: &str| measures.map(|measure| array(&both, "r.h5", &format!("/consistency/{measure}/{name}")));
+    let branches = of("branches/Here/u_m");
+    for (index, place) in ["montreux", "athens"].into_iter().enumerate() {
+        let alone = two_measures(place, place, "");
+        alone.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+        for (measure, branches) in measures.iter().zip(&branches) {
+            let expected = array(&alone, "r.h5", &format!("/consistency/{measure}/u_m"));
+            assert_eq!(branches[index * expected.len()..][..expected.len()], expected, "{place} by {measure}");
+            assert_ne!(expected, array(&alone, "r.h5", &format!("/urs/{measure}/u_m")));
+        }
+    }
+    for (mean, branches) in of("branches/Here/mean_m").iter().zip(&branches) {
+        let (north, south) = branches.split_at(mean.len());
+        for (mean, (north, south)) in mean.iter().zip(north.iter().zip(south)) {
+            assert!((mean - (0.3 * north + 0.7 * south)).abs() <= 1e-14 * mean);
+        }
+    }
+    assert!(!printed.contains("repaired by their mean only"), "{printed}");
+    // the same, asked of the result of a plain run
+    both.uplift(&["run", "study.toml", "-o", "plain.h5", "--set", "consistency.repair=\"none\"", "-q"]).ok();
+    both.uplift(&["consistency", "plain.h5", "--repair", "-q"]).ok();
+    for name in ["branches/Here/u_m", "branches/Here/u50_m"] {
+        let later = measures.map(|measure| array(&both, "plain.h5", &format!("/consistency/{measure}/{name}")));
+        assert_eq!(later, of(name));
+    }
+}
+
+#[test]
+fn branches_that_are_not_the_same_are_repaired_by_their_mean_and_it_is_said() {
+    let apart = two_measures("north south", "north elsewhere", "");
+    apart.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    let told = apart.uplift(&["consistency", "r.h5", "-q"]).ok().stdout;
+    assert!(told.contains("Here by PGV: its weighted hazard curves are repaired by their mean only"), "{told}");
+    let file = LabelledReader::open(&apart.path().join("r.h5")).unwrap();
+    assert!(file.exists("/consistency/pgv/u_m") && !file.exists("/consistency/pgv/branches"));
 }

@@ -120,6 +120,63 @@ fn spectra_are_to_the_bit_those_of_the_same_curves_as_sites() {
     }
 }
 
+#[test]
+fn every_site_is_repaired_as_one_of_the_sites_is() {
+    let both = ["alpha", "delta"]
+        .map(|name| format!("[[sites]]\nname = \"{name}\"\npgv = \"{name}/pgv.csv\"\npga = \"{name}/pga.csv\"\n"));
+    let study = many(&format!(
+        "[records.synthetic]\npairs = 40\n[strengths]\nvalues = [0.05, 0.1, 0.2, 0.4]\n\
+         [pgv]\nlevels_cm_s = [0.5, 1, 2, 4, 8, 15, 30, 60, 120]\n\
+         [pga]\nlevels_g = [0.01, 0.02, 0.04, 0.08, 0.15, 0.3, 0.6, 1.2]\n\
+         [risk]\npoe = [0.1, 0.5]\nmaf_surface = false\n[regression]\nstrength_above = 0\n\
+         [site_table]\npgv = \"pgv-export.csv\"\npga = \"pga-export.csv\"\n{}[consistency]\nrepair = \"weights\"\n",
+        both.concat()
+    ));
+    // of PGA such that the records come near it at some sites, and nowhere near at one
+    let with = |factor: f64| -> Vec<Site> {
+        let of = |&(name, lon, lat, k0): &Site| (name, lon, lat, if name == "gamma" { 4e-3 * k0 } else { factor * k0 });
+        SITES.iter().map(of).collect()
+    };
+    study.write("pga-export.csv", &openquake("PGA", &PGA_LEVELS, &with(1.6e-4)));
+    for name in ["alpha", "delta"] {
+        study.uplift(&["hazard", "import", "pgv-export.csv", "pga-export.csv", "-o", name, "--name", name]).ok();
+    }
+    let told = study.uplift(&["run", "study.toml", "-o", "r.h5", "--set", "risk.extrapolate=loglog"]).ok().stdout;
+    let file = LabelledReader::open(&study.path().join("r.h5")).unwrap();
+    let spectra = rows(&read(study.path(), "r.sites.csv"), &["u_m", "u_consistent_m"]);
+    let coefficients = read(study.path(), "r.sites.coefficients.csv");
+    let columns = ["bias", "verdict", "least_effective", "c0_consistent_m", "no_repair"];
+    let coefficients = rows(&coefficients, &columns);
+    for (measure, label) in [("pgv", "PGV"), ("pga", "PGA")] {
+        let array = |name: &str| file.array_f64(&format!("/consistency/{measure}/{name}")).unwrap().values;
+        let other = if measure == "pgv" { "pga" } else { "pgv" };
+        let (u_m, bias, c0) = (array("u_m"), array(&format!("{other}_bias")), array("regression/c0_m"));
+        for (site, name) in ["alpha", "delta"].into_iter().enumerate() {
+            for (poe, key) in ["0.1", "0.5"].into_iter().enumerate() {
+                let ours = &spectra[&format!("{name} {label} {key}")];
+                for (strength, row) in ours.iter().enumerate() {
+                    let expected = u_m[(site * 2 + poe) * 4 + strength];
+                    assert_eq!(row[1].parse::<f64>().unwrap().to_bits(), expected.to_bits(), "{name} {label} {key}");
+                }
+                assert!(ours.iter().any(|row| row[0] != row[1]), "{ours:?}");
+                let row = &coefficients[&format!("{name} {label} {key}")][0];
+                assert_eq!(row[0].parse::<f64>().unwrap().to_bits(), bias[site].to_bits());
+                assert_eq!(row[3].parse::<f64>().unwrap().to_bits(), c0[site * 2 + poe].to_bits());
+                assert!(row[2].parse::<f64>().unwrap() > 1.0 && !row[1].is_empty() && row[4].is_empty(), "{row:?}");
+            }
+        }
+    }
+    // no hazard, and a hazard that no weights of these records bring
+    assert_eq!(coefficients["sea PGV 0.1"][0][4], "no hazard of PGA");
+    assert!(coefficients["gamma PGV 0.1"][0][4].len() > 20, "{:?}", coefficients["gamma PGV 0.1"]);
+    assert!(spectra["gamma PGV 0.1"].iter().all(|row| !row[0].is_empty() && row[1].is_empty()));
+    assert!(told.contains("2 of 5 sites have no repaired spectrum: the column `no_repair` says why"), "{told}");
+    let map: Value = serde_json::from_str(&read(study.path(), "r.sites.geojson")).unwrap();
+    let alpha = map["features"].as_array().unwrap().iter().find(|site| site["properties"]["name"] == "alpha").unwrap();
+    let on_map = alpha["properties"]["pgv_10pct_50yr_consistent_u_m_at_0.2"].as_f64().unwrap();
+    assert_eq!(on_map.to_bits(), spectra["alpha PGV 0.1"][2][1].parse::<f64>().unwrap().to_bits());
+}
+
 /// The three files without the provenance, which holds the time: of tables it stands beside them.
 fn files(at: &Path, result: &str) -> [String; 3] {
     ["sites.csv", "sites.coefficients.csv", "sites.geojson"].map(|extension| {

@@ -5,6 +5,7 @@
 //! |---|---|
 //! | `answer` | all of it for a run |
 //! | `question` | what is asked of: records, stripes and the hazard of every measure, from a run or from a result |
+//! | `branches` | the same for weighted hazard curves |
 //! | `finding` | the answer for one set of stripes at one site, with the repair |
 //! | `earthquakes` | those of the site's hazard, beside those of the records |
 //! | `spectra` | the spectra of repaired weights |
@@ -16,6 +17,7 @@
 
 mod answer;
 mod asked;
+mod branches;
 mod earthquakes;
 mod finding;
 mod job;
@@ -27,6 +29,7 @@ mod write;
 
 pub(crate) use answer::Answer;
 pub(crate) use asked::consistency_of_asked;
+pub(crate) use branches::BranchFindings;
 pub use earthquakes::EarthquakeRow;
 pub use finding::Finding;
 pub use job::{ConsistencyOptions, consistency};

@@ -23,6 +23,7 @@ pub fn result_of(study: &UniformRiskStudy, options: &RunOptions, events: &dyn Ev
     let path = options.result_file(&study.output.file);
     let of_kind = AnyStudy::UniformRisk(Box::new(study.clone()));
     if path.exists() && is_result_of(study, path)? {
+        refuse_other_question(study, path)?;
         events.remark("result", &format!("{} is that of the study", path.display()));
     } else if let Some(reason) = replaces_another(&of_kind, options)? {
         let name = path.display();
@@ -57,6 +58,22 @@ fn is_result_of(study: &UniformRiskStudy, path: &Path) -> Result<bool, UpliftErr
         return Ok(false);
     }
     Ok(is_of_records(&file, study, &records.records).unwrap_or(false))
+}
+
+/// What the study asks of the consistency is in the result as it was run, and bands and repaired spectra are made of
+/// it: other keys are another run, of the same peaks. Not `repair`, which adds to the file.
+fn refuse_other_question(study: &UniformRiskStudy, path: &Path) -> Result<(), UpliftError> {
+    let kept = ResultFile::open(path)?.stored_study()?.consistency;
+    let differing = study.consistency.differing_keys(&kept);
+    if differing.is_empty() {
+        return Ok(());
+    }
+    Err(UpliftError::Usage(format!(
+        "{} was run with other values of consistency.{}: run the study with these first (uplift run with the same \
+         --set; its peaks are taken from there, seconds), or give the result in place of the study to take it as it is",
+        path.display(),
+        differing.join(", consistency.")
+    )))
 }
 
 /// What a manifest says of its files counts too: the motions themselves, what they are scaled by, what is known of

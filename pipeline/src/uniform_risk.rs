@@ -35,3 +35,4 @@ pub use spectra::{Spectra, uniform_risk_spectra};
 pub use stripes::{Stripes, plan_stripes, systems};
 pub(crate) use work::{Inputs, motion_keys, run_shard};
 pub use write::write_result;
+pub(crate) use write_hazard::write_branch_spectra;

@@ -105,6 +105,7 @@ fn listed(names: impl IntoIterator<Item = String>) -> String {
 
 /// Tables 3.2 to 3.7.
 #[test]
+#[ignore = "minutes: make doc-figures"]
 fn designs_of_chapter_3_that_hold_the_printed_ones() {
     let least = ["strengths.values=0.1", "oscillator.capacity_m=[inf]", "oscillator.uplift_displacement_m=0.0005"];
     let Some(rows) = rows("configs/chapter-3.toml", &least, CHAPTER_3) else { return };

@@ -42,9 +42,10 @@ impl Answer {
     ) -> Result<Self, UpliftError> {
         let mut answer = Self::of_plan(study, records, hazard)?;
         if study.consistency.repair == Repair::Weights && !answer.findings.is_empty() {
+            let branches = answer.question.findings_of_branches()?;
             for stripes in stripes {
                 let demand = |strength| pooled_demand(stripes, strength);
-                answer.repairs.push(repaired_spectra(study, stripes.measure, &answer.findings, demand)?);
+                answer.repairs.push(repaired_spectra(study, stripes.measure, (&answer.findings, &branches), demand)?);
             }
         }
         Ok(answer)

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use uplift_consistency::{
     ConsistencyError, Diagnosis, NoRepair, RateRange, RecordSet, RepairOptions, Repaired, ScaledAnalysis,
 };
+use uplift_hazard::HazardCurve;
 use uplift_motion::IntensityMeasure;
 
 use super::Question;
@@ -59,7 +60,26 @@ impl Question {
         set: &RecordSet,
         repair: bool,
     ) -> Result<Option<Finding>, UpliftError> {
-        let Some(analysis) = self.analysis(site, (scaled_to, levels), other, set)? else { return Ok(None) };
+        let (Some(own), Some(compared)) = (self.curve(scaled_to, site), self.curve(other, site)) else {
+            return Ok(None);
+        };
+        self.finding_of(site, (scaled_to, levels), other, set, (own, compared), repair).map(Some)
+    }
+
+    /// The answer for a set scaled to `levels`, with the curves of both measures.
+    ///
+    /// # Errors
+    /// As [`findings`](Self::findings).
+    pub(crate) fn finding_of(
+        &self,
+        site: usize,
+        (scaled_to, levels): (IntensityMeasure, &[f64]),
+        other: IntensityMeasure,
+        set: &RecordSet,
+        (own, compared): (&HazardCurve, &HazardCurve),
+        repair: bool,
+    ) -> Result<Finding, UpliftError> {
+        let analysis = ScaledAnalysis::new(set, levels, own, compared, &self.targets_per_year, self.extrapolation)?;
         let options = RepairOptions {
             smoothness: self.settings.smoothness,
             least_effective: self.settings.least_effective as f64,
@@ -72,7 +92,7 @@ impl Question {
             Some(Err(ConsistencyError::NoRepair(reason))) => Some(Err(reason)),
             Some(Err(error)) => return Err(error.into()),
         };
-        Ok(Some(Finding { site, scaled_to, other, range: *analysis.range(), diagnosis, repair }))
+        Ok(Finding { site, scaled_to, other, range: *analysis.range(), diagnosis, repair })
     }
 
     /// A set scaled to `levels` at a site, with the hazard of both measures; none where the site has not both.

@@ -88,8 +88,9 @@ pub(super) fn repairs_of(
 ) -> Result<Vec<Repairs>, UpliftError> {
     let mut study = file.stored_study()?;
     (study.risk.poe, study.risk.years) = (question.poes.clone(), question.years);
+    let branches = question.findings_of_branches()?;
     let of_measure = |measure: &StoredMeasure| {
-        repaired_spectra(&study, measure.measure, findings, |strength| measure.demand(strength))
+        repaired_spectra(&study, measure.measure, (findings, &branches), |strength| measure.demand(strength))
     };
     stored.measures.iter().map(of_measure).collect()
 }

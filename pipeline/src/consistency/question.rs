@@ -7,8 +7,9 @@ use uplift_hazard::{Extrapolation, HazardCurve};
 use uplift_motion::{Component, IntensityMeasure};
 use uplift_study::{Consistency, UniformRiskStudy};
 
+use super::branches::{AskedBranch, AskedBranches};
 use crate::error::UpliftError;
-use crate::inputs::{OtherHazard, RecordSet, SiteHazard};
+use crate::inputs::{BranchHazard, OtherHazard, RecordSet, SiteHazard};
 use crate::result::ResultFile;
 
 /// A record as far as consistency asks.
@@ -63,6 +64,8 @@ pub(crate) struct Question {
     pub(crate) analyses: Vec<(IntensityMeasure, Vec<f64>)>,
     /// The hazard of every measure that a site has a curve of, `[measure][site]`.
     curves: BTreeMap<IntensityMeasure, Vec<Option<HazardCurve>>>,
+    /// Weighted alternatives to them.
+    pub(super) branches: AskedBranches,
 }
 
 impl Question {
@@ -82,6 +85,17 @@ impl Question {
         {
             if let Some(site) = sites.iter().position(|site| site == name) {
                 curves.entry(measure).or_insert_with(|| vec![None; sites.len()])[site] = Some(curve.clone());
+            }
+        }
+        let mut branches = AskedBranches::new();
+        for (site, of) in hazard.iter().flat_map(|sites| sites.iter().enumerate()) {
+            if !of.branches.is_empty() {
+                let asked = |branch: &BranchHazard| AskedBranch {
+                    name: branch.name.clone(),
+                    weight: branch.weight,
+                    curve: branch.input.curve.clone(),
+                };
+                branches.insert((of.measure, site), of.branches.iter().map(asked).collect());
             }
         }
         let rows = records.records.iter().map(|record| RawRecord {
@@ -104,6 +118,7 @@ impl Question {
             events,
             analyses: study.measures.iter().map(|plan| (plan.measure, plan.levels.to_vec())).collect(),
             curves,
+            branches,
         })
     }
 
@@ -128,6 +143,16 @@ impl Question {
                 curves.insert(measure, of_sites);
             }
         }
+        let mut branches = AskedBranches::new();
+        for (measure, _) in &analyses {
+            for (site, name) in axes.sites.iter().enumerate() {
+                let own = file.branches(name, *measure)?;
+                if !own.is_empty() {
+                    let asked = |(name, weight, curve)| AskedBranch { name, weight, curve };
+                    branches.insert((*measure, site), own.into_iter().map(asked).collect());
+                }
+            }
+        }
         let rows = (0..stored.ids.len()).map(|record| RawRecord {
             id: stored.ids[record].clone(),
             event: stored.event[record].clone(),
@@ -150,6 +175,7 @@ impl Question {
             events,
             analyses,
             curves,
+            branches,
         })
     }
 
@@ -173,9 +199,19 @@ impl Question {
     /// The measure that a set scaled to `scaled_to` is asked about: the one that the study names, else the first with a
     /// curve, PGV before PGA; none where no site has a curve of another.
     pub(crate) fn other(&self, scaled_to: IntensityMeasure) -> Option<IntensityMeasure> {
-        let is_other = |measure: &IntensityMeasure| *measure != scaled_to && self.curves.contains_key(measure);
+        let measures: Vec<IntensityMeasure> = self.curves.keys().copied().collect();
+        self.other_among(&measures, scaled_to)
+    }
+
+    /// The same where hazard is known of `measures`, in their order.
+    pub(crate) fn other_among(
+        &self,
+        measures: &[IntensityMeasure],
+        scaled_to: IntensityMeasure,
+    ) -> Option<IntensityMeasure> {
+        let is_other = |measure: &IntensityMeasure| *measure != scaled_to && measures.contains(measure);
         let named = self.settings.against.filter(is_other);
-        named.or_else(|| self.curves.keys().copied().find(|measure| is_other(measure)))
+        named.or_else(|| measures.iter().copied().find(is_other))
     }
 
     /// Whether any site has curves of two measures.
@@ -185,7 +221,7 @@ impl Question {
     }
 
     /// The records with the measure that they are scaled to and the other one.
-    pub(super) fn set(&self, scaled_to: IntensityMeasure, other: IntensityMeasure) -> Result<ScaledSet, UpliftError> {
+    pub(crate) fn set(&self, scaled_to: IntensityMeasure, other: IntensityMeasure) -> Result<ScaledSet, UpliftError> {
         let row = |record: &AskedRecord| SetRecord {
             scaled_to: record.intensity(scaled_to),
             other: record.intensity(other),

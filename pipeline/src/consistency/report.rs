@@ -162,7 +162,11 @@ impl ConsistencyReport {
             rows: findings.iter().map(|finding| row(question, finding)).collect(),
             two_sided: two_sided(question, findings),
             agreement: agreement(question, plain_m, repairs),
-            warnings: findings.iter().flat_map(|finding| warnings(question, finding)).collect(),
+            warnings: findings
+                .iter()
+                .flat_map(|finding| warnings(question, finding))
+                .chain(branch_warnings(question, repairs))
+                .collect(),
             note,
             unasked: unasked(question, findings),
             records: question.records.len(),
@@ -253,6 +257,14 @@ fn targets(question: &Question, diagnosis: &Diagnosis) -> Vec<TargetRow> {
     question.poes.iter().zip(&diagnosis.targets).map(of).collect()
 }
 
+impl Question {
+    /// Why there is no repair; none where there is one, or none was asked for.
+    pub(crate) fn no_repair(&self, finding: &Finding) -> Option<String> {
+        let reason = finding.repair.as_ref()?.as_ref().err()?;
+        Some(said(self, finding, |words| reason.sentence(words)))
+    }
+}
+
 /// What `say` makes of the words of a finding.
 fn said(question: &Question, finding: &Finding, say: impl Fn(&Words<'_>) -> String) -> String {
     let levels = question.analyses.iter().find(|(measure, _)| *measure == finding.scaled_to);
@@ -285,6 +297,30 @@ fn warnings(question: &Question, finding: &Finding) -> Vec<String> {
         }
     };
     sentences.into_iter().map(|sentence| format!("{subject}: {sentence}")).collect()
+}
+
+/// What to know of repaired spectra of weighted hazard curves.
+fn branch_warnings(question: &Question, repairs: &[Repairs]) -> Vec<String> {
+    let mut sentences = if repairs.is_empty() { Vec::new() } else { question.branches_apart() };
+    for repairs in repairs {
+        for own in &repairs.branches {
+            let failed: Vec<&str> = (own.names.iter().enumerate())
+                .filter(|(branch, _)| own.spectra_m.block([*branch]).iter().all(|u_m| u_m.is_nan()))
+                .map(|(_, name)| name.as_str())
+                .collect();
+            if !failed.is_empty() {
+                sentences.push(format!(
+                    "{} by {}: no repaired spectrum of {} of {} weighted hazard curves ({}), so none of their mean",
+                    question.sites[own.site],
+                    repairs.measure.label(),
+                    failed.len(),
+                    own.names.len(),
+                    failed.join(", ")
+                ));
+            }
+        }
+    }
+    sentences
 }
 
 fn two_sided(question: &Question, findings: &[Finding]) -> Vec<TwoSidedRow> {

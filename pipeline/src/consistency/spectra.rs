@@ -6,10 +6,10 @@ use uplift_regression::ExponentialFit;
 use uplift_risk::{Ordinate, PooledDemand, RiskCurve, RunWeights};
 use uplift_study::UniformRiskStudy;
 
-use super::Finding;
+use super::{BranchFindings, Finding};
 use crate::array::Array;
 use crate::error::UpliftError;
-use crate::uniform_risk::{Reading, fit_ordinates};
+use crate::uniform_risk::{BranchSpectra, Reading, fit_ordinates};
 
 /// The repaired spectra of one measure.
 #[derive(Debug, Clone)]
@@ -20,23 +20,29 @@ pub(crate) struct Repairs {
     pub(crate) ordinates: Array<3, Option<Ordinate>>,
     /// Fits of Eq. 4.11 `[site, poe]`, or why there is none.
     pub(crate) fits: Array<2, Result<ExponentialFit, String>>,
+    /// Spectra of weighted hazard curves, each repaired by itself; NaN where one could not be.
+    pub(crate) branches: Vec<BranchSpectra>,
 }
 
-/// The spectra of the weights in `findings` of the analysis by `measure`, read as `study` says; `demand` pools that of
-/// a strength.
+/// The spectra of the weights in `findings`, and of those of `branches`, of the analysis by `measure`, read as `study`
+/// says; `demand` pools that of a strength.
 ///
 /// # Errors
 /// Demands that are not demands, in a file that was changed.
 pub(crate) fn repaired_spectra(
     study: &UniformRiskStudy,
     measure: IntensityMeasure,
-    findings: &[Finding],
+    (findings, branches): (&[Finding], &[BranchFindings]),
     demand: impl Fn(usize) -> Result<PooledDemand, UpliftError> + Sync,
 ) -> Result<Repairs, UpliftError> {
     let reading = Reading::of(study)?;
     let (sites, targets, strengths) = (study.sites.len(), reading.targets.len(), study.strengths.len());
     let of_site = |site: usize| findings.iter().find(|own| own.site == site && own.scaled_to == measure);
-    let weights: Vec<Option<&RunWeights>> = (0..sites).map(|site| Some(&of_site(site)?.repaired()?.weights)).collect();
+    let of_sites = (0..sites).map(|site| Some(&of_site(site)?.repaired()?.weights));
+    let branches: Vec<&BranchFindings> = branches.iter().filter(|own| own.scaled_to == measure).collect();
+    let of_branches = branches.iter().flat_map(|own| own.findings.iter().map(|own| Some(&own.repaired()?.weights)));
+    // sites first, then the branches one after the other
+    let weights: Vec<Option<&RunWeights>> = of_sites.chain(of_branches).collect();
     let of_strength = |strength: usize| -> Result<Vec<Option<Vec<Ordinate>>>, UpliftError> {
         let demand = demand(strength)?;
         let read = |weights: &RunWeights| Ok(reading.ordinates(&RiskCurve::weighted(&demand, weights)?)?);
@@ -52,5 +58,15 @@ pub(crate) fn repaired_spectra(
         let u_m = u_m.ok_or_else(|| "the set could not be repaired".to_owned())?;
         fit_ordinates(&study.strengths, &u_m, study.regression.strength_above)
     });
-    Ok(Repairs { measure, ordinates, fits })
+    let mut first = sites;
+    let mut spectra_of = |own: &&BranchFindings| {
+        let begin = first;
+        first += own.findings.len();
+        let spectra_m = Array::from_fn([own.findings.len(), targets, strengths], |[branch, poe, strength]| {
+            by_strength[strength][begin + branch].as_ref().map_or(f64::NAN, |of| of[poe].displacement_m)
+        });
+        BranchSpectra::of(own.site, own.names.clone(), own.weights.clone(), spectra_m)
+    };
+    let branches = branches.iter().map(&mut spectra_of).collect();
+    Ok(Repairs { measure, ordinates, fits, branches })
 }

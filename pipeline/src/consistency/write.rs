@@ -1,5 +1,6 @@
 //! Consistency in the result file, and as a table beside it.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
@@ -13,6 +14,7 @@ use super::{ConsistencyReport, Finding, Question, Repairs};
 use crate::outputs::beside;
 use crate::result::layout::{axis, consistency as layout};
 use crate::result::{flag_number, sign};
+use crate::uniform_risk::write_branch_spectra;
 
 /// Flag of an ordinate that does not exist, since the set could not be repaired.
 const NO_REPAIR: u8 = 3;
@@ -87,6 +89,25 @@ impl Table<'_> {
         if let Some(repairs) = repairs {
             self.weights(keep)?;
             self.spectra(repairs)?;
+            self.branches(repairs)?;
+        }
+        Ok(())
+    }
+
+    /// The spectra of weighted hazard curves, each repaired by itself.
+    fn branches(&mut self, repairs: &Repairs) -> Result<(), LabelledError> {
+        let mut axes = BTreeSet::new();
+        // as the plain spectra of the branches name them, whether repaired or not
+        let of_site = |site: usize| {
+            let has_branches = self.question.branches.contains_key(&(self.measure, site));
+            has_branches.then(|| axis::branch(&self.question.sites[site], self.measure, &mut axes))
+        };
+        let axes: Vec<Option<String>> = (0..self.question.sites.len()).map(of_site).collect();
+        for branches in &repairs.branches {
+            let site = &self.question.sites[branches.site];
+            let Some(axis) = &axes[branches.site] else { continue };
+            let path = |name: &str| layout::branches(self.measure, site, name);
+            write_branch_spectra(self.writer, branches, axis, path)?;
         }
         Ok(())
     }

@@ -65,15 +65,30 @@ impl ResultFile {
         self.measures().into_iter().map(of).collect()
     }
 
-    /// The curves of one site and measure.
-    pub(super) fn curves(&self, site: &str, measure: IntensityMeasure) -> Result<StoredCurves, UpliftError> {
-        let branches = (0..)
+    /// The weighted curves of a site, each with its name and weight; none where it has but one curve.
+    pub(crate) fn branches(
+        &self,
+        site: &str,
+        measure: IntensityMeasure,
+    ) -> Result<Vec<(String, f64, HazardCurve)>, UpliftError> {
+        let of_group = |group: String| {
+            let (name, weight) =
+                (self.reader.attribute_text(&group, "name")?, self.reader.attribute_f64(&group, "weight")?);
+            Ok((name, weight, self.curve(&group, measure)?))
+        };
+        (0..)
             .map(|index| hazard::branch(site, measure, index))
             .take_while(|group| self.reader.exists(group))
-            .map(|group| Ok((self.reader.attribute_f64(&group, "weight")?, self.curve(&group, measure)?)));
+            .map(of_group)
+            .collect()
+    }
+
+    /// The curves of one site and measure.
+    pub(super) fn curves(&self, site: &str, measure: IntensityMeasure) -> Result<StoredCurves, UpliftError> {
+        let branches = self.branches(site, measure)?;
         Ok(StoredCurves {
             curve: self.curve(&hazard::group(site, measure), measure)?,
-            branches: branches.collect::<Result<_, UpliftError>>()?,
+            branches: branches.into_iter().map(|(_, weight, curve)| (weight, curve)).collect(),
         })
     }
 

@@ -161,6 +161,11 @@ pub mod consistency {
         format!("{}/{name}", group(measure))
     }
 
+    /// An array of the repaired spectra of the weighted hazard curves of a site.
+    pub fn branches(measure: IntensityMeasure, site: &str, name: &str) -> String {
+        format!("{}/branches/{site}/{name}", group(measure))
+    }
+
     /// The other measure whose levels at the site are in the array `name`; none for any other array.
     pub(crate) fn other_of_site(name: &str) -> Option<IntensityMeasure> {
         name.strip_suffix("_site")?.parse().ok()
@@ -513,6 +518,7 @@ mod tests {
             ("`/consistency/pgv/", consistency::ARRAYS),
             ("`/sufficiency/pgv/<covariate>/", sufficiency::ARRAYS),
             ("`/epistemic/pgv/<site>/", epistemic::ARRAYS),
+            ("`/consistency/pgv/branches/<site>/", &epistemic::ARRAYS[1..]),
             ("`/hazard/<site>/pgv/", &["maf_per_year"]),
             ("`/spectra/", spectra::ARRAYS),
             ("`/sets/<set>/", set::ARRAYS),

@@ -28,10 +28,14 @@ pub struct BranchSpectra {
 }
 
 impl BranchSpectra {
-    /// Mean and fractiles of `spectra_m`, ordinates `[branch, poe, strength]`, m.
+    /// Those of `branches`, with ordinates `spectra_m` `[branch, poe, strength]`, m.
     pub(super) fn new(site: usize, branches: &[BranchHazard], spectra_m: Array<3>) -> Self {
-        let weights: Vec<f64> = branches.iter().map(|branch| branch.weight).collect();
         let names = branches.iter().map(|branch| branch.name.clone()).collect();
+        Self::of(site, names, branches.iter().map(|branch| branch.weight).collect(), spectra_m)
+    }
+
+    /// Mean and fractiles of `spectra_m`, ordinates `[branch, poe, strength]`, m; NaN where a branch has none.
+    pub(crate) fn of(site: usize, names: Vec<String>, weights: Vec<f64>, spectra_m: Array<3>) -> Self {
         let total: f64 = weights.iter().sum();
         let [_, poes, strengths] = spectra_m.shape();
         let pairs = |[poe, strength]: [usize; 2]| -> Vec<(f64, f64)> {
@@ -44,7 +48,11 @@ impl BranchSpectra {
             pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
             pairs
         });
-        let fractiles_m = FRACTILES.map(|probability| sorted.map(|pairs| weighted_quantile(pairs, probability)));
+        let fractile = |pairs: &Vec<(f64, f64)>, probability| {
+            let is_whole = pairs.iter().all(|(u_m, _)| !u_m.is_nan());
+            if is_whole { weighted_quantile(pairs, probability) } else { f64::NAN }
+        };
+        let fractiles_m = FRACTILES.map(|probability| sorted.map(|pairs| fractile(pairs, probability)));
         Self { site, names, weights, spectra_m, mean_m, fractiles_m }
     }
 }

@@ -66,7 +66,8 @@ pub(crate) fn run(
     provenance.input_checksums.extend(site_list.iter().flat_map(|list| list.checksums.clone()));
     let mut provenance = provenance.of_result(path, &study.to_toml()?);
     let line = provenance.line(&study.title, &records.description);
-    let mut sites = site_table::compute(study, site_list.as_ref(), &stripes, path, &line, events)?;
+    let mut sites =
+        site_table::compute(study, site_list.as_ref(), (&stripes, consistency.question()), path, &line, events)?;
     warnings.append(&mut sites.warnings);
     provenance.wall_time_s = place.start.elapsed().as_secs_f64();
     let outcome = Outcome {

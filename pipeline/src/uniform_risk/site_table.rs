@@ -1,23 +1,28 @@
 //! The part of `uplift run` that many sites take: read before the analyses, computed and written after them.
 
+mod consistent;
 mod files;
+mod repair;
 mod spectra;
 
 pub use files::{SiteTableFiles, SiteTableLayout, SiteText, site_table_paths};
+pub use repair::{SiteConsistency, SiteRepair};
 pub use spectra::{SiteRisk, SiteSpectra};
 
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
+use uplift_hazard::HazardCurve;
 use uplift_ida::Watch;
 use uplift_risk::OrdinateFlag;
 
 use super::Stripes;
 use crate::UpliftError;
+use crate::consistency::Question;
 use crate::events::{Events, Progress};
 use crate::inputs::{BatchSite, SiteCurves, SiteList, read_site_list};
 use crate::text::{risk_name, thousands};
-use uplift_study::UniformRiskStudy;
+use uplift_study::{Repair, UniformRiskStudy};
 
 /// Bytes of text, about, that are in memory at a time.
 const BATCH_BYTES: usize = 16 << 20;
@@ -58,10 +63,10 @@ pub fn read(study: &UniformRiskStudy, events: &dyn Events) -> Result<Option<Site
 ///
 /// # Errors
 /// Files that cannot be read or written; [`UpliftError::Interrupted`] where `events` say so.
-pub fn compute(
+pub(crate) fn compute(
     study: &UniformRiskStudy,
     list: Option<&SiteList>,
-    stripes: &[Stripes],
+    (stripes, question): (&[Stripes], &Question),
     path: &Path,
     line: &str,
     events: &dyn Events,
@@ -69,6 +74,8 @@ pub fn compute(
     let Some(list) = list else { return Ok(SiteOutput::default()) };
     let risks =
         list.exports.iter().map(|export| SiteRisk::new(study, &stripes[export.plan])).collect::<Result<Vec<_>, _>>()?;
+    let is_repaired = study.consistency.repair == Repair::Weights;
+    let repair = is_repaired.then(|| SiteRepair::new(question, list)).transpose()?;
     let mut files = SiteTableFiles::create(path, study, list, line)?;
     let mut tally = Tally::new(study, list);
     let mut curves = SiteCurves::open(list)?;
@@ -82,7 +89,7 @@ pub fn compute(
             return Err(UpliftError::Interrupted);
         }
         // the next sites are read while these are computed
-        let of_site = |site: &BatchSite| spectra_of(study, list, &risks, &files, site);
+        let of_site = |site: &BatchSite| spectra_of(study, list, (&risks, repair.as_ref()), &files, site);
         let (done, next): (Vec<(SiteText, SiteFindings)>, _) =
             rayon::join(|| batch.par_iter().map(of_site).collect(), || curves.next_batch(most));
         for (text, findings) in &done {
@@ -97,13 +104,19 @@ pub fn compute(
 }
 
 /// What deserves a warning, for each export and probability.
-type SiteFindings = Vec<Vec<[bool; FINDINGS]>>;
+struct SiteFindings {
+    /// `[export][poe]`.
+    spectra: Vec<Vec<[bool; FINDINGS]>>,
+    /// `[export]`, whether there is no repaired spectrum where one was asked for.
+    unrepaired: Vec<bool>,
+}
+
 const FINDINGS: usize = 4;
 
 fn spectra_of(
     study: &UniformRiskStudy,
     list: &SiteList,
-    risks: &[SiteRisk<'_>],
+    (risks, repair): (&[SiteRisk<'_>], Option<&SiteRepair<'_>>),
     files: &SiteTableFiles,
     site: &BatchSite,
 ) -> (SiteText, SiteFindings) {
@@ -114,8 +127,17 @@ fn spectra_of(
             risk.spectra(&export.weights(study, curve)?)
         })
         .collect();
-    let findings = spectra.iter().map(|spectra| spectra.as_ref().map_or(Vec::new(), |spectra| found(study, spectra)));
-    (files.layout().text(&list.sites[site.site], &spectra), findings.collect())
+    let curves: Vec<Option<&HazardCurve>> = site.curves.iter().map(|curve| curve.as_ref().as_ref().ok()).collect();
+    let consistency: Option<Vec<SiteConsistency>> = repair
+        .map(|repair| risks.iter().enumerate().map(|(export, risk)| repair.of_site(export, risk, &curves)).collect());
+    let findings = SiteFindings {
+        spectra: spectra
+            .iter()
+            .map(|spectra| spectra.as_ref().map_or(Vec::new(), |spectra| found(study, spectra)))
+            .collect(),
+        unrepaired: consistency.iter().flatten().map(|consistency| consistency.spectra.is_err()).collect(),
+    };
+    (files.layout().text(&list.sites[site.site], &spectra, consistency.as_deref()), findings)
 }
 
 fn found(study: &UniformRiskStudy, spectra: &SiteSpectra) -> Vec<[bool; FINDINGS]> {
@@ -138,15 +160,21 @@ fn found(study: &UniformRiskStudy, spectra: &SiteSpectra) -> Vec<[bool; FINDINGS
 struct Tally {
     /// `[export][poe]`.
     counts: Vec<Vec<[u64; FINDINGS]>>,
+    /// `[export]`.
+    unrepaired: Vec<u64>,
 }
 
 impl Tally {
     fn new(study: &UniformRiskStudy, list: &SiteList) -> Self {
-        Self { counts: vec![vec![[0; FINDINGS]; study.risk.poe.len()]; list.exports.len()] }
+        Self {
+            counts: vec![vec![[0; FINDINGS]; study.risk.poe.len()]; list.exports.len()],
+            unrepaired: vec![0; list.exports.len()],
+        }
     }
 
     fn add(&mut self, findings: &SiteFindings) {
-        for (counts, findings) in self.counts.iter_mut().zip(findings) {
+        self.unrepaired.iter_mut().zip(&findings.unrepaired).for_each(|(count, &own)| *count += u64::from(own));
+        for (counts, findings) in self.counts.iter_mut().zip(&findings.spectra) {
             for (counts, findings) in counts.iter_mut().zip(findings) {
                 counts.iter_mut().zip(findings).for_each(|(count, &found)| *count += u64::from(found));
             }
@@ -162,6 +190,13 @@ impl Tally {
         ];
         let all = thousands(list.sites.len() as u64);
         let mut warnings = Vec::new();
+        for (export, &count) in list.exports.iter().zip(&self.unrepaired).filter(|(_, count)| **count > 0) {
+            warnings.push(format!(
+                "site table, {}: {} of {all} sites have no repaired spectrum: the column `no_repair` says why",
+                export.measure.label(),
+                thousands(count)
+            ));
+        }
         for (export, counts) in list.exports.iter().zip(&self.counts) {
             for (&poe, counts) in study.risk.poe.iter().zip(counts) {
                 for (&count, words) in counts.iter().zip(WORDS).filter(|(count, _)| **count > 0) {

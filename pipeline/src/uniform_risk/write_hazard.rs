@@ -6,7 +6,7 @@ use std::path::Path;
 use uplift_hazard::HazardCurve;
 use uplift_labelled::{LabelledError, LabelledWriter};
 
-use super::{FRACTILES, Outcome, Spectra};
+use super::{BranchSpectra, FRACTILES, Outcome, Spectra};
 use crate::inputs::{HazardInput, OtherHazard, SiteHazard};
 use crate::result::layout::{axis, epistemic, hazard as layout, percentile_name};
 
@@ -72,17 +72,28 @@ pub(super) fn write_branches(
         writer.axis_text(&axis, &branches.names, "branch of the hazard")?;
         let path = |name: &str| epistemic::array(spectra.measure, site, name);
         writer.array_f64(&path("weight"), &[&axis], &branches.weights, "1", "weight of the branch")?;
-        let dims = [axis.as_str(), axis::POE, axis::STRENGTH];
-        let long_name = "uniform risk displacement by the branch";
-        writer.array_f64(&path("u_m"), &dims, branches.spectra_m.values(), "m", long_name)?;
-        let dims = [axis::POE, axis::STRENGTH];
-        let long_name = "weighted mean over the branches";
-        writer.array_f64(&path("mean_m"), &dims, branches.mean_m.values(), "m", long_name)?;
-        for (fractile, values) in FRACTILES.iter().zip(&branches.fractiles_m) {
-            let percent = (100.0 * fractile).round();
-            let long_name = format!("{percent} % fractile over the branches");
-            writer.array_f64(&path(&percentile_name(percent)), &dims, values.values(), "m", &long_name)?;
-        }
+        write_branch_spectra(writer, branches, &axis, path)?;
+    }
+    Ok(())
+}
+
+/// Write spectra of branches along `branch_axis`, their mean and their fractiles, each at the `path` of its name.
+pub(crate) fn write_branch_spectra(
+    writer: &mut LabelledWriter,
+    branches: &BranchSpectra,
+    branch_axis: &str,
+    path: impl Fn(&str) -> String,
+) -> Result<(), LabelledError> {
+    let dims = [branch_axis, axis::POE, axis::STRENGTH];
+    let long_name = "uniform risk displacement by the branch";
+    writer.array_f64(&path("u_m"), &dims, branches.spectra_m.values(), "m", long_name)?;
+    let dims = [axis::POE, axis::STRENGTH];
+    let long_name = "weighted mean over the branches";
+    writer.array_f64(&path("mean_m"), &dims, branches.mean_m.values(), "m", long_name)?;
+    for (fractile, values) in FRACTILES.iter().zip(&branches.fractiles_m) {
+        let percent = (100.0 * fractile).round();
+        let long_name = format!("{percent} % fractile over the branches");
+        writer.array_f64(&path(&percentile_name(percent)), &dims, values.values(), "m", &long_name)?;
     }
     Ok(())
 }

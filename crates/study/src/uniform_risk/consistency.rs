@@ -113,6 +113,17 @@ impl Consistency {
     pub(super) fn is_default(&self) -> bool {
         *self == Self::default()
     }
+
+    /// The keys besides `repair` whose values differ from those of `other`.
+    pub fn differing_keys(&self, other: &Self) -> Vec<&'static str> {
+        let keys = [
+            ("against", self.against == other.against),
+            ("smoothness", self.smoothness.to_bits() == other.smoothness.to_bits()),
+            ("least_effective", self.least_effective == other.least_effective),
+            ("scale_factors", self.scale_factors.map(f64::to_bits) == other.scale_factors.map(f64::to_bits)),
+        ];
+        keys.into_iter().filter(|(_, same)| !same).map(|(key, _)| key).collect()
+    }
 }
 
 /// Reads the section.

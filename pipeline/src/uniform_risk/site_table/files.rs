@@ -10,13 +10,15 @@ use uplift_atomic_file::{AtomicFile, io_error};
 use uplift_regression::ExponentialFit;
 use uplift_risk::Ordinate;
 
+use super::consistent;
+use super::repair::SiteConsistency;
 use super::spectra::SiteSpectra;
 use crate::error::UpliftError;
 use crate::inputs::{ListedSite, SiteList};
 use crate::outputs::beside;
 use crate::result::{flag_word, neutral, write_metadata};
 use crate::text::nearest;
-use uplift_study::UniformRiskStudy;
+use uplift_study::{Repair, UniformRiskStudy};
 
 /// Strengths of which the map shows ordinates, unless the study names some.
 const SHOWN_ON_MAP: [f64; 3] = [0.1, 0.2, 0.4];
@@ -57,6 +59,8 @@ pub struct SiteTableLayout {
     measures: Vec<MeasureNames>,
     /// Names of the cells carried along, as keys of JSON.
     carried: Vec<String>,
+    /// Whether there are repaired spectra beside the plain ones.
+    is_repaired: bool,
 }
 
 /// The names of one measure.
@@ -95,10 +99,7 @@ impl SiteTableFiles {
         let paths = site_table_paths(result);
         let [spectra, coefficients, map] = &paths;
         let mut files = [GrowingFile::create(spectra)?, GrowingFile::create(coefficients)?, GrowingFile::create(map)?];
-        let columns = [
-            SPECTRA.map(str::to_owned).to_vec(),
-            COEFFICIENTS.iter().map(|&name| name.to_owned()).chain(carried_columns(&list.carried)).collect(),
-        ];
+        let columns = [layout.spectra_columns(), layout.coefficient_columns(&list.carried)];
         for (file, names) in files.iter_mut().zip(&columns) {
             let cells: Vec<String> = names.iter().map(|name| cell(name)).collect();
             file.write(&format!("{}\n", cells.join(",")))?;
@@ -174,10 +175,22 @@ impl SiteTableLayout {
                 .map(|export| measure_names(export.measure.key(), export.measure.label()))
                 .collect(),
             carried: Vec::new(),
+            is_repaired: study.consistency.repair == Repair::Weights,
         };
         let mut taken = layout.property_names();
         layout.carried = distinct(&list.carried, &mut taken).iter().map(|name| json_text(name)).collect();
         layout
+    }
+
+    fn spectra_columns(&self) -> Vec<String> {
+        SPECTRA.into_iter().chain(self.is_repaired.then_some(consistent::SPECTRA)).map(str::to_owned).collect()
+    }
+
+    fn coefficient_columns(&self, carried: &[String]) -> Vec<String> {
+        let repaired = consistent::COEFFICIENTS.into_iter().filter(|_| self.is_repaired);
+        let own: Vec<String> = COEFFICIENTS.into_iter().chain(repaired).map(str::to_owned).collect();
+        let carried = distinct(carried, &mut own.iter().cloned().collect());
+        own.into_iter().chain(carried).collect()
     }
 
     /// The properties of a feature but for cells carried along.
@@ -186,12 +199,20 @@ impl SiteTableLayout {
         for names_of_poe in self.measures.iter().flat_map(|measure| &measure.poes) {
             let endings = names_of_poe.ordinates.iter().map(String::as_str).chain(["_c0_m", "_c1", "_c2_m", "_rmse_m"]);
             names.extend(endings.map(|ending| format!("{}{ending}", names_of_poe.key)));
+            let repaired = names_of_poe.ordinates.iter().filter(|_| self.is_repaired);
+            names.extend(repaired.map(|ending| format!("{}_consistent{ending}", names_of_poe.key)));
         }
         names
     }
 
-    /// A site with its spectra in each export, or why it has none.
-    pub fn text(&self, site: &ListedSite, spectra: &[Result<SiteSpectra, String>]) -> SiteText {
+    /// A site with its spectra in each export, or why it has none, and with what consistency says of each where the
+    /// study asks for a repair.
+    pub fn text(
+        &self,
+        site: &ListedSite,
+        spectra: &[Result<SiteSpectra, String>],
+        consistency: Option<&[SiteConsistency]>,
+    ) -> SiteText {
         let mut text = SiteText { spectra: String::new(), coefficients: String::new(), feature: String::new() };
         let place = format!("{},{:?},{:?}", cell(&site.name), site.longitude_deg, site.latitude_deg);
         let mut tail = String::new();
@@ -202,7 +223,8 @@ impl SiteTableLayout {
         }
         let mut problems: Vec<String> = Vec::new();
         let mut properties = String::new();
-        for (names, spectra) in self.measures.iter().zip(spectra) {
+        for (export, (names, spectra)) in self.measures.iter().zip(spectra).enumerate() {
+            let consistency = consistency.map(|of_exports| &of_exports[export]);
             if let Err(reason) = spectra {
                 problems.push(format!("{}: {reason}", names.label));
             }
@@ -211,7 +233,8 @@ impl SiteTableLayout {
                 let spectrum = spectra.ok().and_then(|spectra| spectra.ordinates.chunks(self.strengths.len()).nth(row));
                 let fit = spectra.map(|spectra| spectra.fits[row].as_ref());
                 let head = format!("{place},{},{:?},{:?}", names.label, poe.poe, self.years);
-                self.spectrum_rows(&mut text.spectra, &head, spectrum.unwrap_or_default());
+                let repaired = consistency.and_then(|own| consistent::spectrum(own, row, self.strengths.len()));
+                self.spectrum_rows(&mut text.spectra, &head, spectrum.unwrap_or_default(), repaired);
                 let (fit, problem) = match fit {
                     Err(reason) => (None, reason.clone()),
                     Ok(Err(reason)) => (None, format!("no fit: {reason}")),
@@ -221,11 +244,17 @@ impl SiteTableLayout {
                 if !problem.is_empty() && spectrum.is_some() {
                     problems.push(format!("{}: {problem}", poe.key));
                 }
-                let _ = writeln!(text.coefficients, "{head},{},{}{tail}", coefficient_cells(fit), cell(&problem));
+                let own = coefficient_cells(fit);
+                let of_repair = consistency.map(|own| consistent::coefficient_cells(own, row)).unwrap_or_default();
+                let _ = writeln!(text.coefficients, "{head},{own},{}{of_repair}{tail}", cell(&problem));
                 for (&strength, ending) in self.on_map.iter().zip(&poe.ordinates) {
                     let u_m =
                         spectrum.and_then(|spectrum| spectrum.get(strength)).map(|ordinate| ordinate.displacement_m);
                     let _ = write!(properties, ",\"{}{ending}\":{}", poe.key, json_number(u_m));
+                }
+                if self.is_repaired {
+                    let shown = self.on_map.iter().copied().zip(poe.ordinates.iter().map(String::as_str));
+                    properties += &consistent::properties(repaired, &poe.key, shown);
                 }
                 for (ending, value) in COEFFICIENTS_ON_MAP {
                     let _ = write!(properties, ",\"{}{ending}\":{}", poe.key, json_number(fit.map(value)));
@@ -244,10 +273,15 @@ impl SiteTableLayout {
         text
     }
 
-    fn spectrum_rows(&self, rows: &mut String, head: &str, spectrum: &[Ordinate]) {
+    fn spectrum_rows(&self, rows: &mut String, head: &str, spectrum: &[Ordinate], repaired: Option<&[Ordinate]>) {
         for &index in self.in_table.iter().filter(|&&index| index < spectrum.len()) {
             let Ordinate { displacement_m, flag, .. } = spectrum[index];
-            let _ = writeln!(rows, "{head},{:?},{displacement_m:?},{}", self.strengths[index], flag_word(flag));
+            let _ = write!(rows, "{head},{:?},{displacement_m:?},{}", self.strengths[index], flag_word(flag));
+            if self.is_repaired {
+                let u_m = repaired.map_or(f64::NAN, |repaired| repaired[index].displacement_m);
+                let _ = write!(rows, ",{}", number(u_m));
+            }
+            rows.push('\n');
         }
     }
 }
@@ -278,12 +312,12 @@ fn coefficient_cells(fit: Option<&ExponentialFit>) -> String {
 }
 
 /// A number of a table; nothing where it is not known.
-fn number(value: f64) -> String {
+pub(super) fn number(value: f64) -> String {
     if value.is_nan() { String::new() } else { format!("{value:?}") }
 }
 
 /// A cell of a table, in quotes where its content could be taken for the table's structure.
-fn cell(text: &str) -> String {
+pub(super) fn cell(text: &str) -> String {
     let text = neutral(text);
     let quoted = text.contains([',', '"', '\n', '\r']) || text.starts_with('#');
     if quoted { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.into_owned() }
@@ -294,7 +328,7 @@ fn json_text(text: &str) -> String {
 }
 
 /// A number of JSON, which has neither infinity nor NaN.
-fn json_number(value: Option<f64>) -> String {
+pub(super) fn json_number(value: Option<f64>) -> String {
     value.filter(|value| value.is_finite()).map_or_else(|| "null".to_owned(), |value| format!("{value:?}"))
 }
 
@@ -314,10 +348,6 @@ fn strength_labels(strengths: impl Iterator<Item = f64>) -> Vec<String> {
     let labels: Vec<String> = strengths.iter().map(short).collect();
     let distinct: BTreeSet<&String> = labels.iter().collect();
     if distinct.len() == labels.len() { labels } else { strengths.iter().map(ToString::to_string).collect() }
-}
-
-fn carried_columns(names: &[String]) -> Vec<String> {
-    distinct(names, &mut COEFFICIENTS.iter().map(|&name| name.to_owned()).collect())
 }
 
 /// Names that no other has: `table_` goes before those that are taken.
@@ -388,6 +418,7 @@ mod tests {
         assert_eq!(strength_labels([0.1, 1.0 / 3.0].into_iter()), ["0.1", "0.3333"]);
         assert_eq!(strength_labels([0.1, 0.100_001].into_iter()), ["0.1", "0.100001"]);
         let names = ["vs30", "problem", "vs30"].map(str::to_owned);
-        assert_eq!(carried_columns(&names), ["vs30", "table_problem", "table_vs30"]);
+        let mut taken = COEFFICIENTS.map(str::to_owned).into();
+        assert_eq!(distinct(&names, &mut taken), ["vs30", "table_problem", "table_vs30"]);
     }
 }

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 use uplift_regression::ExponentialFit;
-use uplift_risk::{Ordinate, PooledDemand, RiskCurve, StripeWeights};
+use uplift_risk::{Ordinate, PooledDemand, RiskCurve, RiskError, RunWeights, StripeWeights};
 
 use crate::error::UpliftError;
 use crate::uniform_risk::Stripes;
@@ -56,9 +56,24 @@ impl<'a> SiteRisk<'a> {
     /// # Errors
     /// Weights of another number of levels.
     pub fn spectra(&self, weights: &StripeWeights) -> Result<SiteSpectra, String> {
+        self.of_curves(|demand| RiskCurve::new(demand, weights))
+    }
+
+    /// The spectra of runs that weigh `weights`, those of a repair.
+    ///
+    /// # Errors
+    /// Weights of another number of runs.
+    pub fn weighted_spectra(&self, weights: &RunWeights) -> Result<SiteSpectra, String> {
+        self.of_curves(|demand| RiskCurve::weighted(demand, weights))
+    }
+
+    fn of_curves<'d>(
+        &'d self,
+        curve: impl Fn(&'d PooledDemand) -> Result<RiskCurve<'d>, RiskError>,
+    ) -> Result<SiteSpectra, String> {
         let mut by_strength = Vec::with_capacity(self.demands.len());
         for demand in &self.demands {
-            let curve = RiskCurve::new(demand, weights).map_err(|error| error.to_string())?;
+            let curve = curve(demand).map_err(|error| error.to_string())?;
             by_strength.push(self.reading.ordinates(&curve).map_err(|error| error.to_string())?);
         }
         let poes = self.reading.targets.len();

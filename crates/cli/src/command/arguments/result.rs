@@ -6,7 +6,7 @@ use clap::Args;
 use uplift::RunOptions;
 use uplift::result::is_hdf5;
 use uplift::result_of;
-use uplift_study::{Bootstrap, Structure, Study};
+use uplift_study::{Bootstrap, Repair, Structure, Study};
 
 use super::force::ForceArgument;
 use super::study::command_line;
@@ -31,6 +31,8 @@ pub(crate) struct FoundResult {
     pub(crate) path: PathBuf,
     /// What the study file, if one was given, says about the bootstrap.
     pub(crate) bootstrap: Option<Bootstrap>,
+    /// Whether the study file, if one was given, asks for a repair.
+    pub(crate) repair: bool,
 }
 
 impl ResultArguments {
@@ -52,7 +54,7 @@ impl ResultArguments {
                     "--set changes a study, and a result was given: give the study file instead".to_owned(),
                 ));
             }
-            return Ok(FoundResult { path: self.input.clone(), bootstrap: None });
+            return Ok(FoundResult { path: self.input.clone(), bootstrap: None, repair: false });
         }
         let study = Study::load(&self.input, &self.overrides)?;
         let options = RunOptions {
@@ -63,6 +65,7 @@ impl ResultArguments {
             force: self.force(),
         };
         let path = result_of(&study, &options, terminal)?;
-        Ok(FoundResult { path, bootstrap: Some(study.bootstrap.clone()) })
+        let repair = study.consistency.repair == Repair::Weights;
+        Ok(FoundResult { path, bootstrap: Some(study.bootstrap.clone()), repair })
     }
 }

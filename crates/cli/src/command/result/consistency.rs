@@ -69,7 +69,7 @@ impl Required {
 pub(crate) fn consistency(arguments: &ConsistencyArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let found = arguments.result.find(terminal)?;
     let options = ConsistencyOptions {
-        repair: arguments.repair,
+        repair: arguments.repair || found.repair,
         keep_weights: arguments.keep_weights,
         disaggregations: arguments.disaggregations.clone(),
         force: arguments.result.force(),
