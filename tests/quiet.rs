@@ -79,7 +79,7 @@ fn nothing_but_what_was_asked_for() {
         "records list again.csv",
         "records show again.csv SYN001",
         "records select again.csv --pga-g 0: -o chosen.csv",
-        "validate one.csv one.csv --replicates 10 -o rows.csv --plot h.svg --force",
+        "validate one.csv one.csv --replicates 10 -o validated.csv --plot validated.svg",
         "pushover block.toml -o rows.csv --plot h.svg",
         "protocol --sets 2 -o sets.csv",
         "restrainer curve column-j.toml -o curve.csv",
@@ -97,7 +97,8 @@ fn nothing_but_what_was_asked_for() {
             assert!(is(&ANSWER), "{arguments}");
             assert!(!run.stdout.is_empty(), "{arguments}");
             // no list of the files that were written beside the answer
-            for file in ["h.csv", "h.svg", "b.csv", "o.svg", "o.csv", "rows.csv", "pulses/", "s.bootstrap"] {
+            for file in ["h.csv", "h.svg", "b.csv", "o.svg", "o.csv", "rows.csv", "validated", "pulses/", "s.bootstrap"]
+            {
                 assert!(!run.stdout.contains(file), "{arguments}\n{}", run.stdout);
             }
         }

@@ -31,7 +31,7 @@ pub struct TableOptions {
     pub result: PathBuf,
     /// CSV table to compare with: for uniform risk spectra with the columns `site`, `poe_50y` (or `poe`), `c0_m`, `c1`,
     /// `c2_m`, `rmse_m`; for displacement spectra `record_set`, `scaling`, `quantity`, `value` and, for oscillators,
-    /// `rule`.
+    /// `rule`; for a shaking table `level` and `exc_id` in the order of the tests.
     pub reference: Option<PathBuf>,
     /// By which intensity measures; not of displacement spectra.
     pub measure: TableMeasure,

@@ -48,8 +48,8 @@ pub(crate) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Run a study: uniform risk spectra with their coefficients, or displacement spectra of record sets; one result
-    /// file
+    /// Run a study: uniform risk spectra with their coefficients, displacement spectra of record sets, or the tests of
+    /// a shaking table; one result file
     Run(run::RunArguments),
     /// Join the shards of a run into its result
     Merge(merge::MergeArguments),
@@ -93,8 +93,8 @@ enum Command {
     Report(report::ReportArguments),
     /// Write spectra, bands and coefficients of a result as an Excel workbook, CSV, JSON or a MATLAB file
     Export(export::ExportArguments),
-    /// Print the coefficients of a result (Table 4.2), or its design example (Tables 2.1-2.3, 3.2-3.7), beside a
-    /// reference if one is given; or what the columns of a structure have (Table 5.1, Section 6.3)
+    /// Print the coefficients of a result (Table 4.2), its design example (Tables 2.1-2.3, 3.2-3.7) or its tests (Table
+    /// A1.1), beside a reference if one is given; or what the columns of a structure have (Table 5.1, Section 6.3)
     Table(table::TableArguments),
     /// Write the pages of the manual and the completions of the shells
     #[command(hide = true)]

@@ -202,7 +202,7 @@ mod tests {
             ("0", Some(PeakValue::Finite(0.0))),
             ("inf", Some(PeakValue::Overturned)),
             ("Overturned", Some(PeakValue::Overturned)),
-            ("> 350", Some(PeakValue::Above(0.35))),
+            ("> 350", Some(PeakValue::Above(1e-3 * 350.0))),
             ("", None),
             ("NaN", None),
         ] {

@@ -72,7 +72,7 @@ fn mistakes_are_all_told_at_once() {
         "tags are given set by set",
         "the level has no velocity",
         "another level LOW",
-        "in m/s, not in cm/s",
+        "the value is 10000 m/s",
         "rest_amplitude_rad",
         "model.kind: unknown key",
     ] {
