@@ -79,12 +79,13 @@ notices:
 	.ci/check-dependencies notices > target/THIRD-PARTY-NOTICES.txt
 	@echo target/THIRD-PARTY-NOTICES.txt
 
-bench:
+bench: python
 	cargo bench --locked -p uplift-oscillator --bench solvers
 	cargo bench --locked -p uplift-ida --bench chapter_4
 	cargo bench --locked -p uplift-bootstrap --bench resampling
 	cargo bench --locked -p uplift-block --bench block
 	cargo bench --locked -p uplift-frame --bench frame
+	.venv/bin/python crates/frame/benches/dop853.py
 	cargo bench --locked -p uplift-consistency --bench repair
 
 # Every reader of files from outside against what libFuzzer makes of the samples, TIME seconds each (docs/testing.md);

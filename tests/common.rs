@@ -289,6 +289,43 @@ pub fn real_records() -> Option<PathBuf> {
     None
 }
 
+/// A folder with the structures and references of the repository in their places.
+pub fn with_structures() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for place in ["configs/structures", "tests/reference"] {
+        std::fs::create_dir_all(folder.path().join(place)).unwrap();
+        for entry in std::fs::read_dir(repository().join(place)).unwrap() {
+            let file = entry.unwrap();
+            std::fs::copy(file.path(), folder.path().join(place).join(file.file_name())).unwrap();
+        }
+    }
+    folder
+}
+
+/// Holds the `count` blocks of a document that begin with `$ uplift` against what these commands print in the folder
+/// `at`; `UPDATE_DOCS=1` writes it.
+pub fn hold_console(at: &Path, document: &str, count: usize) {
+    let path = repository().join(document);
+    let text = std::fs::read_to_string(&path).unwrap();
+    let mut blocks: Vec<String> = text.split("\n```\n").map(str::to_owned).collect();
+    let mut held = 0;
+    for block in &mut blocks {
+        let Some(told) = block.strip_prefix("$ uplift ") else { continue };
+        let (command, output) = told.split_once('\n').unwrap_or((told, ""));
+        let arguments: Vec<&str> = command.split(' ').collect();
+        let printed = uplift(at, &arguments).ok().stdout;
+        if std::env::var_os("UPDATE_DOCS").is_none() {
+            assert_eq!(printed, format!("{output}\n"), "{document}: {command}");
+        }
+        *block = format!("$ uplift {command}\n{}", printed.trim_end());
+        held += 1;
+    }
+    assert_eq!(held, count, "{document}");
+    if std::env::var_os("UPDATE_DOCS").is_some() {
+        std::fs::write(path, blocks.join("\n```\n")).unwrap();
+    }
+}
+
 /// The numbers of an array of a result.
 pub fn array(path: &Path, name: &str) -> Vec<f64> {
     LabelledReader::open(path).unwrap().array_f64(name).unwrap().values

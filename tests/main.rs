@@ -21,6 +21,8 @@ mod epistemic;
 mod exports;
 mod figures;
 mod first_hour;
+mod frame_response;
+mod frame_risk;
 mod hazard;
 mod instructions;
 mod levels;

@@ -471,25 +471,8 @@ fn what_is_typed_wrong() {
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
 #[test]
 fn the_documentation_shows_what_is_printed() {
-    let folder = tempfile::tempdir().unwrap();
-    for place in ["configs/structures", "tests/reference"] {
-        std::fs::create_dir_all(folder.path().join(place)).unwrap();
-        for entry in std::fs::read_dir(repository().join(place)).unwrap() {
-            let file = entry.unwrap();
-            std::fs::copy(file.path(), folder.path().join(place).join(file.file_name())).unwrap();
-        }
-    }
+    let folder = crate::common::with_structures();
     let quick = repository().join("configs/quick.toml");
     uplift(folder.path(), &["run", quick.to_str().unwrap(), "-q"]).ok();
-    let text = std::fs::read_to_string(repository().join("docs/restrained-columns.md")).unwrap();
-    let blocks: Vec<(&str, &str)> = text
-        .split("\n```\n")
-        .filter_map(|block| block.strip_prefix("$ uplift "))
-        .map(|block| block.split_once('\n').unwrap())
-        .collect();
-    assert_eq!(blocks.len(), 3);
-    for (command, output) in blocks {
-        let arguments: Vec<&str> = command.split(' ').collect();
-        assert_eq!(uplift(folder.path(), &arguments).ok().stdout, format!("{output}\n"), "{command}");
-    }
+    crate::common::hold_console(folder.path(), "docs/restrained-columns.md", 3);
 }

@@ -4,7 +4,7 @@ use crate::common::{Finished, SmallStudy, repository};
 use crate::hazard::{SITES, openquake};
 
 /// Commands whose answer is printed, and those that are told to write files; by their first words.
-const ANSWER: [&str; 22] = [
+const ANSWER: [&str; 23] = [
     "status",
     "verify",
     "check",
@@ -16,6 +16,7 @@ const ANSWER: [&str; 22] = [
     "measures",
     "design",
     "overturning",
+    "risk",
     "table",
     "pushover",
     "protocol",
@@ -63,6 +64,7 @@ fn nothing_but_what_was_asked_for() {
         "check study.toml",
         "response one.txt --strength 0.2 --unit g --dt-s 0.01 --history h.csv --plot h.svg",
         "response one.txt --block --size-m 2 --slenderness 0.2 --unit g --dt-s 0.01 --history b.csv",
+        "response --structure block.toml --h1 one.txt --unit g --dt-s 0.01 --history f.csv",
         "pulse -o pulses --frequencies 1:1:3 --accelerations 1:1:3 --half-widths 1:1:3 --sizes-m 1,2 --shape symmetric",
         "bootstrap s.h5",
         "consistency s.h5",
@@ -70,6 +72,7 @@ fn nothing_but_what_was_asked_for() {
         "measures s.h5",
         &format!("design {structure}"),
         &format!("overturning {structure} --plot o.svg -o o.csv"),
+        &format!("risk {structure} --plot k.svg -o k.csv"),
         "plot s.h5 --only urs",
         "report s.h5",
         "export s.h5 --csv --json --mat",
@@ -97,8 +100,19 @@ fn nothing_but_what_was_asked_for() {
             assert!(is(&ANSWER), "{arguments}");
             assert!(!run.stdout.is_empty(), "{arguments}");
             // no list of the files that were written beside the answer
-            for file in ["h.csv", "h.svg", "b.csv", "o.svg", "o.csv", "rows.csv", "validated", "pulses/", "s.bootstrap"]
-            {
+            for file in [
+                "h.csv",
+                "h.svg",
+                "b.csv",
+                "o.svg",
+                "o.csv",
+                "k.svg",
+                "k.csv",
+                "rows.csv",
+                "validated",
+                "pulses/",
+                "s.bootstrap",
+            ] {
                 assert!(!run.stdout.contains(file), "{arguments}\n{}", run.stdout);
             }
         }

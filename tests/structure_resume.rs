@@ -1,4 +1,5 @@
-//! Design and overturning that are stopped, cut into shards and gone on with: the answer is that of an undisturbed run.
+//! Design, overturning and risk that are stopped, cut into shards and gone on with: the answer is that of an
+//! undisturbed run.
 
 use std::path::Path;
 
@@ -16,7 +17,7 @@ name = "Here"
 pgv = "here-pgv.csv"
 "#;
 const BLOCK: &str = "kind = \"block\"\nwidth_m = 0.8\nheight_m = 4\nmass_kg = 1000\n";
-const JOBS: [&str; 2] = ["design", "overturning"];
+const JOBS: [&str; 3] = ["design", "overturning", "risk"];
 
 fn study() -> SmallStudy {
     let study = SmallStudy::with(STUDY);

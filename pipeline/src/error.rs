@@ -8,6 +8,7 @@ use uplift_block::BlockError;
 use uplift_bootstrap::BootstrapError;
 use uplift_consistency::ConsistencyError;
 use uplift_fragility::FragilityError;
+use uplift_frame::FrameError;
 use uplift_hazard::HazardError;
 use uplift_ida::IdaError;
 use uplift_labelled::LabelledError;
@@ -103,6 +104,9 @@ pub enum UpliftError {
     /// A hazard curve cannot be read or used.
     #[error(transparent)]
     Hazard(#[from] HazardError),
+    /// A frame that cannot be shaken so.
+    #[error(transparent)]
+    Frame(#[from] FrameError),
     /// An oscillator or its excitation that cannot be.
     #[error(transparent)]
     Oscillator(#[from] OscillatorError),

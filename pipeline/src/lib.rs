@@ -12,7 +12,8 @@
 //! 3. [`result::ResultFile`] opens that file, and returns what is in it as plain values with named axes.
 //! 4. How sure it is: [`bootstrap::bootstrap`], [`influence::influence`], [`efficiency::efficiency`] ask the result,
 //!    and add their arrays to it.
-//! 5. From a spectrum to a structure: [`structure::design`] and [`structure::overturning`].
+//! 5. From a spectrum to a structure: [`structure::design`] and [`structure::overturning`]; the risk of a frame itself:
+//!    [`structure::frame_risk`].
 //! 6. Pushed rather than shaken: [`pushover::pushover`], [`restrainer::curve`], [`restrainer::design`].
 //! 7. Computed peaks beside measured ones: [`validate::validate`].
 //! 8. For others: [`export::export`] here; figures and the page are made by the crate `uplift_report`.
@@ -60,7 +61,7 @@
 //! | [`status`], [`verify`] | how far a run is, and whether a result is as it was written |
 //! | [`mod@alarms`] | what to know before the numbers of a result are used |
 //! | [`table`](mod@table), [`export`] | a result beside a reference, and for other programs |
-//! | [`response`], [`pulses`] | one record through one oscillator; rocking spectra under wavelets |
+//! | [`response`], [`pulses`] | one record through one oscillator, block or frame; rocking spectra under wavelets |
 //! | [`pushover`](mod@pushover), [`restrainer`] | columns under a static force; restrainers, stacks of a catalogue |
 //! | [`validate`](mod@validate) | whether computed peaks are distributed as measured ones |
 //! | [`outputs`] | files that a job is asked to write: what may give way to them |

@@ -1,6 +1,9 @@
-//! One record through one oscillator, or one rigid block: its peak, its impacts and, where asked for, its time history.
+//! One record through one oscillator or one rigid block, or a pair through a frame: peaks, impacts and, where asked
+//! for, the time history.
 
 mod block;
+mod frame;
+mod frame_history;
 mod history;
 mod shaking;
 
@@ -16,6 +19,8 @@ use uplift_plausible::{
 };
 
 pub use block::{BlockHistory, BlockResponseOptions, BlockResponseReport, block_response};
+pub use frame::{ComponentFile, FrameResponseOptions, FrameResponseReport, FrameRun, ShakenComponent, frame_response};
+pub use frame_history::{FrameHistory, FrameHistoryRow};
 pub use history::{HistoryRow, ResponseHistory};
 pub use shaking::{ShakenBy, Shaking};
 

@@ -4,10 +4,12 @@ mod choice;
 mod collapse;
 mod demand;
 mod design;
+mod frame_risk;
 mod models;
 mod overturning;
 mod report;
 mod risk;
+mod rocking_frame;
 mod rules;
 mod spectrum;
 mod sweep;
@@ -16,11 +18,16 @@ mod weights;
 
 pub use demand::{DemandNoise, DemandRounding, ExactDemand, RuleRanges};
 pub use design::{DesignOptions, DesignReport, design, design_shard};
+pub use frame_risk::{
+    Banded, DirectionEffect, EventReport, FrameOverturning, FrameRiskOptions, FrameRiskReport, ModelDemand, RiskPoint,
+    StateAtDemand, frame_risk, frame_risk_shard,
+};
 pub use overturning::{
     CollapseReport, ModelReport, OverturningOptions, OverturningReport, SiteRisk, overturning, overturning_shard,
 };
 pub use report::StructureReport;
 pub use risk::EventRisk;
 pub(crate) use risk::{BOUND_CONFIDENCE, share_at_most};
+pub(crate) use rocking_frame::{TORSION, model_of, rocking_frame};
 pub use rules::{RuleCheck, RuleOutcome};
 pub use spectrum::SpectrumDemand;

@@ -21,7 +21,7 @@ use uplift_oscillator::InstructionSet;
 use crate::error::CommandError;
 use crate::terminal::Terminal;
 use result::{bootstrap, consistency, export, influence, measures, plot, report, status, table, verify};
-use structures::{design, overturning};
+use structures::{design, overturning, risk};
 use study::{check, merge, run};
 
 /// Uniform risk spectra for rocking structures.
@@ -59,7 +59,7 @@ enum Command {
     Verify(verify::VerifyArguments),
     /// Check a study and its input data, and say what it would cost
     Check(check::CheckArguments),
-    /// Shake one oscillator, or one rigid block, with one record
+    /// Shake one oscillator or one rigid block with one record, or a rocking frame with its components
     Response(response::ResponseArguments),
     /// Rocking spectra of a rigid block under Ricker wavelets: figures and tables (Figures 2.2 to 2.7)
     Pulse(pulse::PulseArguments),
@@ -75,6 +75,8 @@ enum Command {
     Design(design::DesignArguments),
     /// How often a structure overturns: collapse fragility and risk, by oscillator and rigid block
     Overturning(overturning::OverturningArguments),
+    /// The risk of a rocking frame itself, wobbling under both components, beside what its proxies say (Chapter 6)
+    Risk(risk::FrameRiskArguments),
     /// Push columns sideways: force, restrainer, sections and events over the displacement (Chapters 5 and 6)
     Pushover(pushover::PushoverArguments),
     /// Cyclic loading protocols: amplitudes that grow from set to set (Figure 5.11)
@@ -129,6 +131,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         Command::Measures(arguments) => measures::measures(arguments, &terminal),
         Command::Design(arguments) => design::design(arguments, &terminal),
         Command::Overturning(arguments) => overturning::overturning(arguments, &terminal),
+        Command::Risk(arguments) => risk::risk(arguments, &terminal),
         Command::Pushover(arguments) => pushover::pushover(arguments, &terminal),
         Command::Protocol(arguments) => protocol::protocol(arguments, &terminal),
         Command::Restrainer(arguments) => restrainer::restrainer(arguments, &terminal),

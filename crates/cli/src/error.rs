@@ -42,6 +42,7 @@ impl CommandError {
                 | UpliftError::Oscillator(_)
                 | UpliftError::Blocks(_)
                 | UpliftError::Statics(_)
+                | UpliftError::Frame(_)
                 | UpliftError::Implausible(_)
                 | UpliftError::Motion(MotionError::SyntheticOption { .. } | MotionError::SyntheticCandidates { .. }),
             ) => 2,

@@ -37,6 +37,25 @@ fn everything(shape: ColumnShape) -> RockingFrame {
     frame(shape, 1.0).with_restrainer(Restrainer::new(parts).unwrap(), path).unwrap()
 }
 
+/// Leaves the frame of lengths times `scale` with its pair and its displacement to `dop853.py`.
+fn leave(title: &str, scale: f64, [x, y]: [&Accelerogram; 2], displacement_m: f64) {
+    let case = serde_json::json!({
+        "title": title,
+        "width_m": 0.197 * scale,
+        "height_m": 1.45 * scale,
+        "columns": 4,
+        "column_mass_kg": 124.4 * scale.powi(3),
+        "deck_mass_kg": 9435.0 * scale.powi(3),
+        "stiffness_n_m": 1720e3 * scale * scale,
+        "gravity_m_s2": 9.81,
+        "dt_s": x.dt_s(),
+        "x_m_s2": x.acceleration_m_s2(),
+        "y_m_s2": y.acceleration_m_s2(),
+        "displacement_m": displacement_m,
+    });
+    std::fs::write(concat!(env!("CARGO_TARGET_TMPDIR"), "/frame_bench.json"), case.to_string()).unwrap();
+}
+
 /// A pair of synthetic records, or of real ones: `UPLIFT_PAIR` names two files, separated by a comma.
 fn pair() -> (String, [Accelerogram; 2]) {
     if let Ok(files) = std::env::var("UPLIFT_PAIR") {
@@ -63,6 +82,9 @@ fn records(criterion: &mut Criterion) {
                 x.dt_s(),
                 found.displacement.value
             );
+            if what == "wobbling, linear" {
+                leave(&title, scale, [&x, &y], found.displacement.value);
+            }
             group.bench_function(title, |bencher| {
                 bencher.iter(|| respond(black_box(frame), &ground, model, &Options::default()).unwrap());
             });

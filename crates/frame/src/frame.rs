@@ -146,6 +146,34 @@ impl RockingFrame {
         }
     }
 
+    /// All that its motion depends on, as numbers: frames of the same numbers move alike, to the bit.
+    pub fn identity(&self) -> Vec<f64> {
+        let shape = match self.shape {
+            ColumnShape::Rectangle => 0.0,
+            ColumnShape::Cylinder => 1.0,
+        };
+        let geometry = self.geometry();
+        let mut numbers = vec![
+            geometry.size_m(),
+            geometry.slenderness_rad(),
+            f64::from(self.columns.columns()),
+            self.column_mass_kg,
+            self.deck_mass_kg,
+            shape,
+            self.gravity_m_s2,
+        ];
+        if let Some(restrainer) = self.columns.restrainer() {
+            numbers.push(f64::from(self.columns.restrained()));
+            numbers.extend(match self.columns.path() {
+                TendonPath::Column => vec![0.0],
+                TendonPath::Foundation => vec![1.0],
+                TendonPath::Shifted { duct_gap_m, tendon_length_m } => vec![2.0, duct_gap_m, tendon_length_m],
+            });
+            numbers.extend(restrainer.parts().identity());
+        }
+        numbers
+    }
+
     /// Frequency parameter `p = √(g/(R M))`, rad/s: of a frame without restrainers, the rate at which it falls.
     pub fn frequency_parameter_rad_s(&self) -> f64 {
         (self.gravity_m_s2 / (self.geometry().size_m() * self.inertia().tilt)).sqrt()

@@ -43,6 +43,8 @@ pub struct HistoryRow {
     pub deck_acceleration_x_m_s2: f64,
     /// The same in y, m/s².
     pub deck_acceleration_y_m_s2: f64,
+    /// The same upwards, gravity not counted, m/s².
+    pub deck_acceleration_z_m_s2: f64,
     /// What happens.
     pub moment: Moment,
 }

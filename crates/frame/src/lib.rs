@@ -7,6 +7,7 @@
 //! | [`pulse`] | sine, cosine, half sine and Ricker pulses |
 //! | [`response`] | peaks, events, survival; the motion in time |
 //! | [`history`] | rows of a motion in time |
+//! | [`sections`] | forces on the ends of a column at such a row |
 //! | [`shake_table`] | records in the scale of a model, at a level of PGV (Section 6.4) |
 //!
 //! # What is computed
@@ -58,6 +59,7 @@ mod motion;
 pub mod peaks;
 pub mod pulse;
 pub mod response;
+pub mod sections;
 mod series;
 pub mod shake_table;
 mod uplift;

@@ -2,6 +2,8 @@
 
 use rayon::prelude::*;
 use uplift_block::{FreeRocking, RockingBlock, respond};
+use uplift_frame::{Model, Options, Until};
+use uplift_motion::{Accelerogram, MotionError};
 use uplift_oscillator::{GroundMotion, Oscillator, Peak, Sweep};
 
 use crate::cells::{AnalysisRow, Cells};
@@ -9,7 +11,7 @@ use crate::error::IdaError;
 use crate::peaks::Peaks;
 use crate::plan::{Plan, ScaledMotion};
 use crate::shard::Shard;
-use crate::system::System;
+use crate::system::{ShakenFrame, System};
 use crate::watch::Watch;
 
 /// Carry out `plan` on the threads of the current rayon pool.
@@ -72,7 +74,8 @@ pub fn complete(
                         if watch.cancelled() {
                             return Err(IdaError::Cancelled);
                         }
-                        let peak = single(one_by_one, of_motion, *scale, plan.with_free_peak())?;
+                        let peak =
+                            single(one_by_one, (of_motion, plan.across_of(motion)), *scale, plan.with_free_peak())?;
                         watch.finished(1);
                         Ok(peak)
                     };
@@ -129,7 +132,7 @@ pub(crate) fn swept(
 /// The peak of any system at one scale factor.
 pub(crate) fn single(
     system: &System,
-    motion: &ScaledMotion<'_>,
+    (motion, across): (&ScaledMotion<'_>, Option<&Accelerogram>),
     scale: f64,
     with_free_peak: bool,
 ) -> Result<Peak, IdaError> {
@@ -139,8 +142,31 @@ pub(crate) fn single(
             Ok(Sweep::new(oscillator, &ground_motion, with_free_peak).peak(scale))
         }
         System::Block(block) => rocked(block, motion, scale, with_free_peak),
-        // a frame: its equations integrated under the scaled motion
+        System::Frame(shaken) => wobbled(shaken, (motion, across), scale, with_free_peak),
     }
+}
+
+/// Without the free motion after the record, what is lost when it ends stands.
+fn wobbled(
+    shaken: &ShakenFrame,
+    (motion, across): (&ScaledMotion<'_>, Option<&Accelerogram>),
+    scale: f64,
+    with_free_peak: bool,
+) -> Result<Peak, IdaError> {
+    let scaled = |component: &Accelerogram| {
+        let named = |source: MotionError| IdaError::Motion { motion: motion.id.to_owned(), source: source.into() };
+        component.scaled(scale).map_err(named)
+    };
+    let x = scaled(motion.accelerogram)?;
+    let y = across.filter(|_| shaken.model == Model::Wobbling).map(scaled).transpose()?;
+    let component = uplift_frame::Shaking::Record;
+    let ground = uplift_frame::GroundMotion { x: Some(component(&x)), y: y.as_ref().map(component), z: None };
+    let until = if with_free_peak { Until::FirstFreePeak } else { Until::Time(ground.duration_s()) };
+    let options = Options { until, restitution: Some(shaken.restitution), ..Options::default() };
+    let response = uplift_frame::respond(&shaken.frame, &ground, shaken.model, &options)
+        .map_err(|source| IdaError::Frame { motion: motion.id.to_owned(), scale, source: source.into() })?;
+    let impacts = u32::try_from(response.impacts).unwrap_or(u32::MAX);
+    Ok(Peak { displacement_m: response.displacement.value, impacts })
 }
 
 fn rocked(block: &RockingBlock, motion: &ScaledMotion<'_>, scale: f64, with_free_peak: bool) -> Result<Peak, IdaError> {

@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 use uplift_block::BlockError;
+use uplift_frame::FrameError;
 use uplift_motion::MotionError;
 use uplift_oscillator::OscillatorError;
 
@@ -100,6 +101,24 @@ pub enum IdaError {
         motion: String,
         /// What is wrong.
         source: Box<BlockError>,
+    },
+    /// The response of a frame to a motion is not computed.
+    #[error("record {motion}, scale factor {scale}: {source}")]
+    Frame {
+        /// The motion.
+        motion: String,
+        /// Its scale factor.
+        scale: f64,
+        /// What is wrong.
+        source: Box<FrameError>,
+    },
+    /// Second components for other motions than there are.
+    #[error("{count} second components for {expected} motions: each motion needs its own")]
+    Across {
+        /// How many there are.
+        count: usize,
+        /// How many motions there are.
+        expected: usize,
     },
     /// A motion that cannot be multiplied so.
     #[error("record {motion}: {source}")]

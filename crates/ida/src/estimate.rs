@@ -34,6 +34,7 @@ pub fn estimate(plan: &Plan<'_>, budget: Duration) -> Estimate {
     let mut timed = 0;
     while timed < axes.rows() && (timed < LEAST_ROWS || start.elapsed() < budget) {
         let (motion, system) = axes.of_row(spread(timed, axes.rows(), STEPS[0]));
+        let across = plan.across_of(motion);
         let motion = &plan.motions()[motion];
         match &plan.systems()[system] {
             System::Oscillator(oscillator) => {
@@ -43,10 +44,10 @@ pub fn estimate(plan: &Plan<'_>, budget: Duration) -> Estimate {
                 std::hint::black_box(swept(oscillator, &ground, plan.with_free_peak(), &motion.scales));
                 spent += begin.elapsed();
             }
-            one_by_one @ System::Block(_) => {
+            one_by_one @ (System::Block(_) | System::Frame(_)) => {
                 let begin = Instant::now();
                 let scale = motion.scales[spread(timed, axes.scales, STEPS[1])];
-                if std::hint::black_box(single(one_by_one, motion, scale, plan.with_free_peak())).is_err() {
+                if std::hint::black_box(single(one_by_one, (motion, across), scale, plan.with_free_peak())).is_err() {
                     break;
                 }
                 spent += begin.elapsed() * u32::try_from(axes.scales).unwrap_or(u32::MAX);

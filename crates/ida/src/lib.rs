@@ -3,7 +3,7 @@
 //!
 //! | module | what is in it |
 //! |---|---|
-//! | [`system`] | what is shaken: an oscillator, a rigid block |
+//! | [`system`] | what is shaken: an oscillator, a rigid block, a frame |
 //! | [`plan`] | motions with their scale factors, and systems, checked |
 //! | [`analysis`] | the plan carried out on all cores |
 //! | [`cells`] | what is known of the result already, and rows as they are finished |
@@ -32,5 +32,5 @@ pub use estimate::{Estimate, estimate};
 pub use peaks::{Axes, Peaks};
 pub use plan::{Plan, ScaledMotion, StripeRecord};
 pub use shard::Shard;
-pub use system::System;
+pub use system::{ShakenFrame, System};
 pub use watch::{Unwatched, Watch};

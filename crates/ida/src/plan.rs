@@ -40,6 +40,8 @@ pub struct Plan<'a> {
     motions: Vec<ScaledMotion<'a>>,
     systems: &'a [System],
     with_free_peak: bool,
+    /// As many as motions, or none.
+    across: Vec<&'a Accelerogram>,
 }
 
 impl<'a> Plan<'a> {
@@ -116,14 +118,30 @@ impl<'a> Plan<'a> {
                 return Err(IdaError::Scale { motion: named(), index, value });
             }
             motion.excitation()?;
-            let peak_m_s2 = motion.accelerogram.pga_m_s2();
-            let implausible = |scale: f64| !(scale.abs() <= MOST_SCALE && (scale * peak_m_s2).abs() <= MOST_PEAK_M_S2);
-            if let Some((index, &value)) = motion.scales.iter().enumerate().find(|(_, scale)| implausible(**scale)) {
-                let peak_m_s2 = (value * peak_m_s2).abs();
-                return Err(IdaError::Implausible { motion: named(), index, value, peak_m_s2 });
-            }
+            motion.check_peaks(motion.accelerogram)?;
         }
-        Ok(Self { motions, systems, with_free_peak })
+        Ok(Self { motions, systems, with_free_peak, across: Vec::new() })
+    }
+
+    /// This plan with the second horizontal component of every motion, scaled by the same factors: what shakes a
+    /// wobbling frame beside the first. All else never feels it.
+    ///
+    /// # Errors
+    /// Another number of components than of motions; a scaled one that no ground has.
+    pub fn across(mut self, across: Vec<&'a Accelerogram>) -> Result<Self, IdaError> {
+        if across.len() != self.motions.len() {
+            return Err(IdaError::Across { count: across.len(), expected: self.motions.len() });
+        }
+        for (motion, second) in self.motions.iter().zip(&across) {
+            motion.check_peaks(second)?;
+        }
+        self.across = across;
+        Ok(self)
+    }
+
+    /// The second horizontal component of a motion; none where the plan has none.
+    pub(crate) fn across_of(&self, motion: usize) -> Option<&'a Accelerogram> {
+        self.across.get(motion).copied()
     }
 
     /// This plan with every scale factor multiplied by each of `factors`: all of them by the first, then all by the
@@ -136,7 +154,8 @@ impl<'a> Plan<'a> {
             let by = |factor: &f64| motion.scales.iter().map(|scale| scale * factor).collect::<Vec<_>>();
             motion.scales = factors.iter().flat_map(by).collect();
         }
-        Self::checked("motions", self.motions, self.systems, self.with_free_peak)
+        let across = self.across;
+        Ok(Self { across, ..Self::checked("motions", self.motions, self.systems, self.with_free_peak)? })
     }
 
     /// Lengths of the axes of its result.
@@ -167,6 +186,19 @@ impl<'a> Plan<'a> {
 }
 
 impl<'a> ScaledMotion<'a> {
+    /// Refuses scale factors that make noise of a `component`, or a motion that no ground has.
+    fn check_peaks(&self, component: &Accelerogram) -> Result<(), IdaError> {
+        let peak_m_s2 = component.pga_m_s2();
+        let implausible = |scale: f64| !(scale.abs() <= MOST_SCALE && (scale * peak_m_s2).abs() <= MOST_PEAK_M_S2);
+        match self.scales.iter().enumerate().find(|(_, scale)| implausible(**scale)) {
+            Some((index, &value)) => {
+                let peak_m_s2 = (value * peak_m_s2).abs();
+                Err(IdaError::Implausible { motion: self.id.to_owned(), index, value, peak_m_s2 })
+            }
+            None => Ok(()),
+        }
+    }
+
     pub(crate) fn excitation(&self) -> Result<Excitation<'a>, IdaError> {
         Excitation::new(self.accelerogram.dt_s(), self.accelerogram.acceleration_m_s2())
             .map_err(|source| IdaError::Oscillator { motion: self.id.to_owned(), source })

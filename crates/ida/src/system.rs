@@ -3,13 +3,14 @@
 use std::fmt;
 
 use uplift_block::RockingBlock;
+use uplift_frame::{Model, RockingFrame};
 use uplift_oscillator::{Oscillator, PostUplift};
 
 /// A system of any kind.
 ///
-/// Another kind (a frame whose equations are integrated in time, say, at a thousand times the cost of an oscillator) is
-/// a variant here, with its numbers in [`identity`](Self::identity), its peak at one scale factor beside the block's in
-/// [`analysis`](crate::analysis), and `false` from [`is_swept`](Self::is_swept).
+/// Another kind is a variant here, with its numbers in [`identity`](Self::identity), its peak at one scale factor
+/// beside the block's in [`analysis`](crate::analysis), and `false` from [`is_swept`](Self::is_swept) where its runs
+/// are followed one by one.
 #[derive(Debug, Clone, PartialEq)]
 pub enum System {
     /// An uplifting oscillator (Eq. 3.1–3.3).
@@ -17,6 +18,21 @@ pub enum System {
     /// A rigid rocking block (Eq. 2.1–2.3) with its full nonlinear motion; its displacement is that of its top (Eq.
     /// 2.10).
     Block(RockingBlock),
+    /// A restrained rocking frame (Eq. 6.3 to 6.7); its displacement is the travel of its deck.
+    Frame(Box<ShakenFrame>),
+}
+
+/// A frame, and how it is modelled.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ShakenFrame {
+    /// The frame.
+    pub frame: RockingFrame,
+    /// In the plane of the motion's component, or wobbling under both components ([`Plan::across`]).
+    ///
+    /// [`Plan::across`]: crate::Plan::across
+    pub model: Model,
+    /// Velocity after over before an impact.
+    pub restitution: f64,
 }
 
 impl System {
@@ -25,6 +41,10 @@ impl System {
         match self {
             Self::Oscillator(_) => "oscillator",
             Self::Block(_) => "block",
+            Self::Frame(shaken) => match shaken.model {
+                Model::Planar => "planar frame",
+                Model::Wobbling => "wobbling frame",
+            },
         }
     }
 
@@ -32,7 +52,7 @@ impl System {
     pub fn can_overturn(&self) -> bool {
         match self {
             Self::Oscillator(oscillator) => matches!(oscillator.post_uplift(), PostUplift::Negative { .. }),
-            Self::Block(_) => true,
+            Self::Block(_) | Self::Frame(_) => true,
         }
     }
 
@@ -41,6 +61,7 @@ impl System {
         match self {
             Self::Oscillator(oscillator) => oscillator.restitution(),
             Self::Block(block) => block.restitution(),
+            Self::Frame(shaken) => shaken.restitution,
         }
     }
 
@@ -49,7 +70,7 @@ impl System {
     pub fn is_swept(&self) -> bool {
         match self {
             Self::Oscillator(_) => true,
-            Self::Block(_) => false,
+            Self::Block(_) | Self::Frame(_) => false,
         }
     }
 
@@ -76,6 +97,15 @@ impl System {
             Self::Block(block) => {
                 vec![1.0, block.size_m(), block.slenderness_rad(), block.restitution(), block.gravity_m_s2()]
             }
+            Self::Frame(shaken) => {
+                let model = match shaken.model {
+                    Model::Planar => 0.0,
+                    Model::Wobbling => 1.0,
+                };
+                let mut numbers = vec![2.0, model, shaken.restitution];
+                numbers.extend(shaken.frame.identity());
+                numbers
+            }
         }
     }
 }
@@ -92,6 +122,16 @@ impl fmt::Display for System {
             ),
             Self::Block(block) => {
                 write!(formatter, "block of size {} m, slenderness {} rad", block.size_m(), block.slenderness_rad())
+            }
+            Self::Frame(shaken) => {
+                let column = shaken.frame.geometry();
+                let (count, size_m) = (shaken.frame.columns().columns(), column.size_m());
+                let slenderness = column.slenderness_rad();
+                write!(
+                    formatter,
+                    "{} of {count} columns of size {size_m} m, slenderness {slenderness} rad",
+                    self.kind()
+                )
             }
         }
     }

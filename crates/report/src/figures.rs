@@ -9,6 +9,8 @@ mod consistency;
 mod demand;
 mod displacement;
 mod efficiency;
+mod frame;
+mod frame_risk;
 mod history;
 mod influence;
 mod overturning;
@@ -21,6 +23,8 @@ mod validation;
 
 pub use columns::{column_figures, protocol_figure, pushover_figure, restrainer_figure};
 pub use displacement::{Extent, displacement_figures};
+pub use frame::frame_figure;
+pub use frame_risk::frame_risk_figure;
 pub use history::{block_history_figure, history_figure};
 pub use overturning::overturning_figure;
 pub use pulses::pulse_figures;

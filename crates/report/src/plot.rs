@@ -8,14 +8,14 @@ use uplift::events::Events;
 use uplift::hazard_curves::{CurveOptions, read as read_curves};
 use uplift::outputs::{self, Output, beside, provide_folder};
 use uplift::pulses::{PULSE_FIGURES, PulseReport};
-use uplift::response::{BlockResponseReport, ResponseReport, ShakenBy};
+use uplift::response::{BlockResponseReport, FrameResponseReport, ResponseReport, ShakenBy};
 use uplift::result::ResultFile;
-use uplift::structure::OverturningReport;
+use uplift::structure::{FrameRiskReport, OverturningReport};
 use uplift::validate::ValidateReport;
 
 use crate::figures::{
-    block_history_figure, distributions_figure, hazard_figure, history_figure, overturning_figure, pairs_figure,
-    pulse_figures, result_figures,
+    block_history_figure, distributions_figure, frame_figure, frame_risk_figure, hazard_figure, history_figure,
+    overturning_figure, pairs_figure, pulse_figures, result_figures,
 };
 use crate::files::{FigureOptions, check_figure_file, write_figure_file};
 
@@ -121,6 +121,17 @@ pub fn plot_block_response(report: &BlockResponseReport, file: &Path) -> Result<
     write_figure_file(&block_history_figure(&title, history, *slenderness_rad), file)
 }
 
+/// Draws the response of a frame to `file`, .svg or .png: the path of its deck in plan, drifts, forces.
+///
+/// # Errors
+/// As [`plot_response`].
+pub fn plot_frame_response(report: &FrameResponseReport, file: &Path) -> Result<(), UpliftError> {
+    if report.runs.iter().any(|run| run.history.is_none()) {
+        return Err(no_history());
+    }
+    write_figure_file(&frame_figure(report), file)
+}
+
 fn no_history() -> UpliftError {
     UpliftError::Usage("the response was computed without its time history: ask for it".to_owned())
 }
@@ -159,6 +170,14 @@ pub fn plot_validation_pairs(report: &ValidateReport, file: &Path) -> Result<(),
         ));
     }
     write_figure_file(&pairs_figure(report), file)
+}
+
+/// Draws the risk of a frame beside its proxies as `file`, whose ending tells the format.
+///
+/// # Errors
+/// As [`write_figure_file`].
+pub fn plot_frame_risk(report: &FrameRiskReport, file: &Path) -> Result<(), UpliftError> {
+    write_figure_file(&frame_risk_figure(report), file)
 }
 
 /// Which hazard curves are drawn, and where.

@@ -124,4 +124,25 @@ impl Parts {
     pub fn of(spring: Spring) -> Self {
         Self { spring, stopper: None, tendon: None, prestress_n: 0.0, slack_m: 0.0, when_flat: WhenFlat::default() }
     }
+
+    /// All that its force depends on, as numbers; −1 stands for what is not there.
+    pub fn identity(&self) -> Vec<f64> {
+        let mut numbers = match self.spring {
+            Spring::Rigid => vec![0.0],
+            Spring::Linear { stiffness_n_m } => vec![1.0, stiffness_n_m],
+            Spring::Discs(stack) => {
+                let [c1, c2, c3] = stack.law().coefficients();
+                vec![2.0, stack.flat_deformation_m(), c1, c2, c3]
+            }
+        };
+        let stopper = self.stopper.map(|of| [of.gap_m, of.stiffness_n_m, of.yield_n.unwrap_or(-1.0)]);
+        numbers.extend(stopper.unwrap_or([-1.0; 3]));
+        numbers.push(self.tendon.map_or(-1.0, |tendon| tendon.stiffness_n_m));
+        numbers.extend([self.prestress_n, self.slack_m]);
+        numbers.push(match self.when_flat {
+            WhenFlat::Tendon => 0.0,
+            WhenFlat::Stop => 1.0,
+        });
+        numbers
+    }
 }

@@ -12,7 +12,7 @@ use crate::checksum::checksum;
 pub type CheckedPair = (RecordPair, [String; 2]);
 
 /// Key in the metadata of a pair: by how many seconds its components begin apart, where their files say so.
-pub(super) const START_APART: &str = "start_apart_s";
+pub(crate) const START_APART: &str = "start_apart_s";
 
 /// Reads the pairs of `rows`, in their order; values in g are converted with `gravity_m_s2`.
 ///

@@ -6,7 +6,7 @@ use std::path::Path;
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 use uplift_motion::synthetic::SyntheticSetOptions;
-use uplift_motion::{Accelerogram, Combination, Component, Horizontal, IntensityMeasure, MotionError};
+use uplift_motion::{Accelerogram, Combination, Component, Horizontal, IntensityMeasure, MotionError, RecordPair};
 
 use super::pairs::{self, CheckedPair};
 use super::{cache, manifest, selection};
@@ -85,6 +85,30 @@ pub(crate) fn read_measured(
     further: &[IntensityMeasure],
     events: &dyn Events,
 ) -> Result<RecordSet, UpliftError> {
+    read_set(study, further, None, events)
+}
+
+/// The same with the pairs that the records are components of, in their order: one or two records each, as
+/// `records.component` says.
+///
+/// # Errors
+/// As [`read_records`].
+pub(crate) fn read_with_pairs(
+    study: &UniformRiskStudy,
+    further: &[IntensityMeasure],
+    events: &dyn Events,
+) -> Result<(RecordSet, Vec<RecordPair>), UpliftError> {
+    let mut pairs = Vec::new();
+    let set = read_set(study, further, Some(&mut pairs), events)?;
+    Ok((set, pairs))
+}
+
+fn read_set(
+    study: &UniformRiskStudy,
+    further: &[IntensityMeasure],
+    kept: Option<&mut Vec<RecordPair>>,
+    events: &dyn Events,
+) -> Result<RecordSet, UpliftError> {
     let (pairs, source, synthetic) = match &study.records.source {
         RecordSource::Synthetic { pairs, seed } => {
             (synthetic_pairs((*pairs, *seed), events)?, format!("seed {seed}"), true)
@@ -108,7 +132,7 @@ pub(crate) fn read_measured(
     let chosen = if chosen.is_empty() { String::new() } else { format!(", {chosen}") };
     let description =
         format!("{} {kind} {noun} ({source}{chosen}), component {}", pairs.len(), study.records.component);
-    Ok(RecordSet { description, synthetic, records: analysis_records(pairs, study, further)?, notes })
+    Ok(RecordSet { description, synthetic, records: analysis_records(pairs, study, further, kept)?, notes })
 }
 
 /// Whether the program made the pair itself: it stays synthetic, whichever way it comes back.
@@ -212,11 +236,12 @@ fn first_of(study: &UniformRiskStudy) -> usize {
     study.records.first.map_or(usize::MAX, |first| usize::try_from(first).unwrap_or(usize::MAX))
 }
 
-/// The components that a study analyses, each with the intensities of its pair.
+/// The components that a study analyses, each with the intensities of its pair; the pairs themselves go to `kept`.
 fn analysis_records(
     pairs: Vec<CheckedPair>,
     study: &UniformRiskStudy,
     further: &[IntensityMeasure],
+    mut kept: Option<&mut Vec<RecordPair>>,
 ) -> Result<Vec<Record>, UpliftError> {
     let component = study.records.component;
     let mut records = Vec::new();
@@ -270,6 +295,9 @@ fn analysis_records(
                 metadata: pair.metadata.clone(),
                 checksum: if which == Horizontal::H1 { sum1.clone() } else { sum2.clone() },
             });
+        }
+        if let Some(kept) = &mut kept {
+            kept.push(pair);
         }
     }
     if mistakes.is_empty() { Ok(records) } else { Err(UpliftError::Inputs(mistakes)) }

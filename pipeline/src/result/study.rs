@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use uplift_hazard::rate_from_probability;
-use uplift_motion::IntensityMeasure;
+use uplift_motion::{IntensityMeasure, RecordPair};
 use uplift_risk::StripeWeights;
 
 use super::asked::{AskedRisk, RiskTargets};
@@ -16,7 +16,7 @@ use crate::array::Array;
 use crate::checkpoint::motion_key;
 use crate::error::UpliftError;
 use crate::events::Silent;
-use crate::inputs::{RecordSet, read_measured};
+use crate::inputs::{RecordSet, read_measured, read_with_pairs};
 use uplift_study::{AnyStudy, MeasurePlan, Study, UniformRiskStudy};
 
 /// A result with its study.
@@ -127,7 +127,21 @@ impl StudyOfResult {
     /// # Errors
     /// As [`records`](Self::records).
     pub(crate) fn records_measured(&self, further: &[IntensityMeasure]) -> Result<RecordSet, String> {
-        let set = read_measured(&self.study, further, &Silent).map_err(|error| error.to_string())?;
+        self.same_as_before(read_measured(&self.study, further, &Silent).map_err(|error| error.to_string())?)
+    }
+
+    /// The same with the pairs that they are components of.
+    ///
+    /// # Errors
+    /// As [`records`](Self::records).
+    pub(crate) fn records_and_pairs(&self) -> Result<(RecordSet, Vec<RecordPair>), String> {
+        let further = self.study.further_measures();
+        let (set, pairs) = read_with_pairs(&self.study, &further, &Silent).map_err(|error| error.to_string())?;
+        Ok((self.same_as_before(set)?, pairs))
+    }
+
+    /// The records, if the result was made from them.
+    fn same_as_before(&self, set: RecordSet) -> Result<RecordSet, String> {
         let made_from = &self.made_from;
         if set.records.len() != made_from.ids.len() {
             let (found, made) = (set.records.len(), made_from.ids.len());

@@ -378,7 +378,7 @@ fn own_risks(
 impl ModelReport {
     fn of(model: &System, restitution_from: &'static str) -> Self {
         let block = match model {
-            System::Oscillator(_) => None,
+            System::Oscillator(_) | System::Frame(_) => None,
             System::Block(block) => Some(block),
         };
         Self {

@@ -70,6 +70,20 @@ pub fn plan_stripes<'a>(
         accelerogram: &record.accelerogram,
         intensity: amplitude(record.intensity(measure.measure)),
     });
-    let levels: Vec<f64> = measure.levels.iter().map(|&level| amplitude(level)).collect();
-    Ok(Plan::stripes(records.collect(), systems, &levels, study.oscillator.free_vibration)?)
+    stripes_of(measure, records.collect(), systems, study.oscillator.free_vibration)
+}
+
+/// The plan of the stripes of `measure` of other motions than the records of a study, with the intensities that their
+/// amplitudes are scaled by.
+///
+/// # Errors
+/// A motion that cannot be scaled.
+pub(crate) fn stripes_of<'a>(
+    measure: &MeasurePlan,
+    motions: Vec<StripeRecord<'a>>,
+    systems: &'a [System],
+    with_free_peak: bool,
+) -> Result<Plan<'a>, UpliftError> {
+    let levels: Vec<f64> = measure.levels.iter().map(|&level| measure.measure.amplitude(level)).collect();
+    Ok(Plan::stripes(motions, systems, &levels, with_free_peak)?)
 }

@@ -3,6 +3,7 @@
 mod figures;
 mod folder;
 mod force;
+mod model;
 mod number;
 mod probability;
 mod result;
@@ -13,6 +14,7 @@ mod study;
 pub(crate) use figures::FigureArguments;
 pub(crate) use folder::require_folder;
 pub(crate) use force::ForceArgument;
+pub(crate) use model::model;
 pub(crate) use number::number;
 pub(crate) use probability::{number_or_per_cent, probability};
 pub(crate) use result::ResultArguments;

@@ -1,27 +1,33 @@
-//! `uplift response`: one record through one oscillator or one rigid block.
+//! `uplift response`: one record through one oscillator or one rigid block, or components of one through a frame.
 
 use std::path::PathBuf;
 
 use clap::Args;
-use uplift::response::{BlockResponseOptions, ResponseOptions, Shaking, block_response, response as respond};
+use uplift::response::{
+    BlockResponseOptions, ComponentFile, FrameResponseOptions, ResponseOptions, Shaking, block_response,
+    frame_response, response as respond,
+};
+use uplift::study::Structure;
+use uplift_frame::Model;
 use uplift_motion::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
-use uplift_report::{check_figure_file, plot_block_response, plot_response};
+use uplift_report::{check_figure_file, plot_block_response, plot_frame_response, plot_response};
 
-use super::arguments::{ForceArgument, number};
+use super::arguments::{ForceArgument, model, number};
 use crate::error::CommandError;
-use crate::show::{print_block_response, print_json, print_response};
+use crate::show::{print_block_response, print_frame_response, print_json, print_response};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
 pub(super) struct ResponseArguments {
     /// Record: PEER AT2, or text with one column (acceleration) or two (time, acceleration)
-    record: PathBuf,
+    #[arg(required_unless_present = "structure", conflicts_with = "structure")]
+    record: Option<PathBuf>,
     /// Strength of the oscillator: uplift force over weight
     #[arg(
         long,
         value_name = "ETA",
-        required_unless_present = "block",
-        conflicts_with = "block",
+        required_unless_present_any = ["block", "structure"],
+        conflicts_with_all = ["block", "structure"],
         allow_negative_numbers = true,
         value_parser = number,
     )]
@@ -34,31 +40,38 @@ pub(super) struct ResponseArguments {
         long,
         default_value_t = 0.0005,
         value_name = "M",
-        conflicts_with = "block",
+        conflicts_with_all = ["block", "structure"],
         allow_negative_numbers = true,
         value_parser = number
     )]
     uplift_displacement_m: f64,
     /// Displacement where the restoring force vanishes, m: a negative-stiffness system that can overturn
     #[arg(
-        long, value_name = "M", conflicts_with_all = ["post_uplift_stiffness_per_s2", "block"],
+        long, value_name = "M", conflicts_with_all = ["post_uplift_stiffness_per_s2", "block", "structure"],
         allow_negative_numbers = true,
         value_parser = number,
     )]
     capacity_m: Option<f64>,
     /// Stiffness after uplift over the mass, 1/s2: a system of positive post-uplift stiffness
-    #[arg(long, value_name = "K", conflicts_with = "block", allow_negative_numbers = true, value_parser = number)]
+    #[arg(
+        long, value_name = "K", conflicts_with_all = ["block", "structure"], allow_negative_numbers = true,
+        value_parser = number,
+    )]
     post_uplift_stiffness_per_s2: Option<f64>,
-    /// Coefficient of restitution at impact [default: 0.95; of a block Housner's, Eq. 2.3]
+    /// Coefficient of restitution at impact [default: 0.95; of a block Housner's, Eq. 2.3; of a planar frame that of
+    /// its file, else of momentum, Eq. 6.5]
     #[arg(long, value_name = "R", allow_negative_numbers = true, value_parser = number)]
     restitution: Option<f64>,
     #[command(flatten)]
     block: BlockArguments,
-    /// Acceleration of gravity, m/s2
+    #[command(flatten)]
+    frame: FrameArguments,
+    /// Acceleration of gravity, m/s2; of a frame that of its file
     #[arg(
         long,
         default_value_t = STANDARD_GRAVITY_M_S2,
         value_name = "G",
+        conflicts_with = "structure",
         allow_negative_numbers = true,
         value_parser = number
     )]
@@ -69,11 +82,11 @@ pub(super) struct ResponseArguments {
     /// Unit of a text record: g, m/s2, cm/s2 or gal
     #[arg(long)]
     unit: Option<AccelerationUnit>,
-    /// Which component of a file with several, counted from 1
-    #[arg(long, value_name = "N")]
-    channel: Option<usize>,
+    /// Which component of a file with several, counted from 1; of a frame one for each of --h1, --h2 and --v given
+    #[arg(long, value_name = "N[,N…]", value_delimiter = ',')]
+    channel: Vec<usize>,
     /// Follow the free vibration after the record for so many seconds; without it an oscillator is followed to the end
-    /// of the record, a block to its first peak after it
+    /// of the record, a block or a frame to its first peak after it
     #[arg(long, default_value_t = 0.0, value_name = "S", allow_negative_numbers = true, value_parser = number)]
     free_vibration_s: f64,
     /// Print the response as JSON
@@ -82,7 +95,8 @@ pub(super) struct ResponseArguments {
     /// Write the time history, with uplifts and impacts in their places, to this CSV file
     #[arg(long, value_name = "FILE.csv")]
     history: Option<PathBuf>,
-    /// Draw the time history, its impacts marked, as SVG or PNG
+    /// Draw the time history, its impacts marked, as SVG or PNG; of a frame the path of its deck in plan, drift, base
+    /// shear and tendons
     #[arg(long, value_name = "FILE.svg|png")]
     plot: Option<PathBuf>,
     #[command(flatten)]
@@ -110,11 +124,40 @@ struct BlockArguments {
     slenderness: Option<f64>,
 }
 
+/// A rocking frame (Chapter 6).
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Rocking frame (Chapter 6)")]
+struct FrameArguments {
+    /// Shake the frame of this structure file (TOML), for instance configs/structures/shake-table.toml
+    #[arg(long, value_name = "FRAME.toml", conflicts_with = "block")]
+    structure: Option<PathBuf>,
+    /// First horizontal component
+    #[arg(long, value_name = "FILE", requires = "structure")]
+    h1: Option<PathBuf>,
+    /// Second horizontal component, which begins with the first
+    #[arg(long, value_name = "FILE", requires = "structure")]
+    h2: Option<PathBuf>,
+    /// Vertical component, upwards positive
+    #[arg(long, value_name = "FILE", requires = "structure")]
+    v: Option<PathBuf>,
+    /// planar: in the plane of each horizontal component in turn; wobbling: in space, under both [default: by the
+    /// `column_shape` of the structure, wobbling for cylinders]
+    #[arg(long, value_name = "MODEL", requires = "structure", value_parser = model)]
+    model: Option<Model>,
+    /// The frame rests where its energy is below that of this rotation and the ground does not lift it, rad [default:
+    /// 1e-5 wobbling, 0 planar]
+    #[arg(long, value_name = "RAD", requires = "structure", allow_negative_numbers = true, value_parser = number)]
+    rest_amplitude_rad: Option<f64>,
+    /// Tilt with which a wobbling frame leaves the ground, rad [default: 1e-12]
+    #[arg(long, value_name = "RAD", requires = "structure", allow_negative_numbers = true, value_parser = number)]
+    start_rotation_rad: Option<f64>,
+}
+
 impl ResponseArguments {
     fn shaking(&self) -> Shaking {
         Shaking {
-            record: self.record.clone(),
-            channel: self.channel,
+            record: self.record.clone().unwrap_or_default(),
+            channel: self.channel.first().copied(),
             dt_s: self.dt_s,
             unit: self.unit,
             scale: self.scale,
@@ -149,12 +192,58 @@ impl ResponseArguments {
             restitution: self.restitution,
         }
     }
+
+    /// Files that are read.
+    fn inputs(&self) -> Vec<&PathBuf> {
+        let FrameArguments { structure, h1, h2, v, .. } = &self.frame;
+        [&self.record, structure, h1, h2, v].into_iter().flatten().collect()
+    }
+
+    fn of_frame(&self) -> Result<FrameResponseOptions, CommandError> {
+        let FrameArguments { h1, h2, v, .. } = &self.frame;
+        let given = [h1, h2, v].into_iter().flatten().count();
+        if !(self.channel.is_empty() || self.channel.len() == given) {
+            return Err(CommandError::Usage(format!(
+                "--channel has {} numbers, and {given} components are given: one for each",
+                self.channel.len()
+            )));
+        }
+        let mut channels = self.channel.iter().copied();
+        let [h1, h2, vertical] = [h1, h2, v]
+            .map(|file| file.as_ref().map(|record| ComponentFile { record: record.clone(), channel: channels.next() }));
+        Ok(FrameResponseOptions {
+            h1,
+            h2,
+            vertical,
+            dt_s: self.dt_s,
+            unit: self.unit,
+            scale: Some(self.scale),
+            free_vibration_s: self.free_vibration_s,
+            model: self.frame.model,
+            restitution: self.restitution,
+            rest_amplitude_rad: self.frame.rest_amplitude_rad,
+            start_rotation_rad: self.frame.start_rotation_rad,
+            history: self.plot.is_some(),
+            history_file: self.history.clone(),
+            force: self.overwriting.force,
+        })
+    }
 }
 
 pub(super) fn response(arguments: &ResponseArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let figure = arguments.plot.as_deref();
     if let Some(figure) = figure {
-        check_figure_file(figure, &[&arguments.record], arguments.overwriting.force)?;
+        check_figure_file(figure, &arguments.inputs(), arguments.overwriting.force)?;
+    }
+    if let Some(file) = &arguments.frame.structure {
+        let report = frame_response(&Structure::load(file)?, &arguments.of_frame()?)?;
+        if let Some(figure) = figure {
+            plot_frame_response(&report, figure)?;
+        }
+        return if arguments.json { print_json(&report) } else { print_frame_response(&report, figure, terminal) };
+    }
+    if arguments.channel.len() > 1 {
+        return Err(CommandError::Usage("--channel has several numbers: one record has one component".to_owned()));
     }
     if let Some(strength) = arguments.strength {
         let report = respond(&arguments.oscillator(strength))?;

@@ -77,7 +77,7 @@ pub(crate) fn print_block_response(
     print_files(report.history_file.as_deref(), figure, terminal)
 }
 
-fn print_record(shaken_by: &ShakenBy) -> Result<(), CommandError> {
+pub(super) fn print_record(shaken_by: &ShakenBy) -> Result<(), CommandError> {
     let mut out = output();
     let ShakenBy { samples, dt_s, scale, pga_g, pgv_cm_s, pgd_m, .. } = shaken_by;
     let record = shaken_by.record.display();
@@ -85,7 +85,11 @@ fn print_record(shaken_by: &ShakenBy) -> Result<(), CommandError> {
     Ok(writeln!(out, "          PGA {pga_g:.4} g, PGV {pgv_cm_s:.3} cm/s, PGD {pgd_m:.5} m")?)
 }
 
-fn print_files(history: Option<&Path>, figure: Option<&Path>, terminal: &Terminal) -> Result<(), CommandError> {
+pub(super) fn print_files(
+    history: Option<&Path>,
+    figure: Option<&Path>,
+    terminal: &Terminal,
+) -> Result<(), CommandError> {
     if !terminal.is_quiet() {
         for (name, file) in [("history", history), ("figure", figure)] {
             if let Some(file) = file {

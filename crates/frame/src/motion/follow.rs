@@ -144,6 +144,12 @@ impl<O: Observer> Motion<O> {
         }
     }
 
+    /// Upward acceleration of the deck relative to the ground at the beginning of a step, m/s².
+    fn rise_acceleration(&self, step: &Step) -> f64 {
+        let angle = self.frame.geometry().slenderness_rad() - self.x;
+        2.0 * self.frame.geometry().size_m() * (angle.sin() * step.acceleration(0.0) - angle.cos() * self.v * self.v)
+    }
+
     /// Ground acceleration in x and y at s, m/s².
     fn ground(&self, shaken: &Shaken, s: f64) -> [f64; 2] {
         let gravity = self.frame.gravity_m_s2();
@@ -176,12 +182,13 @@ impl<O: Observer> Motion<O> {
         }
         let direction = self.direction_at(None, 0.0);
         let ground = self.ground(shaken, 0.0);
-        let mut own = [0.0; 2];
+        let (mut own, mut rising) = ([0.0; 2], 0.0);
         if !self.resting && self.x > 0.0 {
             let still = shaken.stretched(0.0);
             let mut expansion = Expansion::new();
             self.expand(&mut expansion, &still, 1e-9 / self.p, false);
             own = self.deck_acceleration(expansion.step(), 0.0);
+            rising = self.rise_acceleration(expansion.step());
         }
         let columns = self.frame.columns();
         let held = columns.restrainer().and_then(|law| law.at(columns.elongation(self.x).elongation_m).ok());
@@ -202,6 +209,7 @@ impl<O: Observer> Motion<O> {
             spring_m: held.and_then(|held| held.deformation_m).unwrap_or(0.0),
             deck_acceleration_x_m_s2: own[0] + ground[0],
             deck_acceleration_y_m_s2: own[1] + ground[1],
+            deck_acceleration_z_m_s2: rising + self.frame.gravity_m_s2() * shaken.vertical.value(0.0),
             moment,
         });
     }

@@ -1,0 +1,78 @@
+//! `uplift risk`: the risk of a frame itself, beside what its proxies say.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use uplift::structure::{FrameRiskOptions, frame_risk as run, frame_risk_shard};
+use uplift_frame::Model;
+use uplift_motion::IntensityMeasure;
+use uplift_report::{check_figure_file, plot_frame_risk};
+
+use crate::command::arguments::{ForceArgument, RiskArguments, StructureArguments, model};
+use crate::error::CommandError;
+use crate::show::{print_frame_risk, print_json, print_shard};
+use crate::terminal::Terminal;
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Frames to start from: configs/structures/shake-table.toml, frame.toml. Method and a worked example: \
+                  docs/frames.md"
+)]
+pub(crate) struct FrameRiskArguments {
+    #[command(flatten)]
+    structure: StructureArguments,
+    /// Site of the result [default: its only one]
+    #[arg(long)]
+    site: Option<String>,
+    #[command(flatten)]
+    risk: RiskArguments,
+    /// Intensity measure: pgv, pga or any other [default: pgv if the result has it]
+    #[arg(long)]
+    measure: Option<IntensityMeasure>,
+    /// Model of the frame: wobbling, under both components, or planar [default: by the `column_shape` of the
+    /// structure, wobbling for cylinders]
+    #[arg(long, value_name = "MODEL", value_parser = model)]
+    model: Option<Model>,
+    /// Print everything as JSON
+    #[arg(long)]
+    json: bool,
+    /// Draw the risk curves of frame and proxies, and the collapse fragility, as SVG or PNG
+    #[arg(long, value_name = "FILE.svg|png")]
+    plot: Option<PathBuf>,
+    /// Write the peak of every record, level and model to this CSV file, and what they come to at each level to one
+    /// that ends in .levels.csv beside it
+    #[arg(long, short, value_name = "FILE.csv")]
+    output: Option<PathBuf>,
+    #[command(flatten)]
+    overwriting: ForceArgument,
+}
+
+pub(crate) fn risk(arguments: &FrameRiskArguments, terminal: &Terminal) -> Result<(), CommandError> {
+    if let Some(figure) = &arguments.plot {
+        check_figure_file(figure, &arguments.structure.inputs(), arguments.overwriting.force)?;
+    }
+    let StructureArguments { urs, manifest, shard, shards, .. } = &arguments.structure;
+    let options = FrameRiskOptions {
+        manifest: manifest.clone(),
+        site: arguments.site.clone(),
+        risk: arguments.risk.asked(),
+        measure: arguments.measure,
+        model: arguments.model,
+        table: arguments.output.clone(),
+        shards: shards.clone(),
+        force: arguments.overwriting.force,
+    };
+    let structure = arguments.structure.load()?;
+    if let Some(shard) = shard {
+        return print_shard(&frame_risk_shard(&structure, urs, &options, *shard, terminal)?, terminal);
+    }
+    let report = run(&structure, urs, &options, terminal)?;
+    if let Some(figure) = &arguments.plot {
+        plot_frame_risk(&report, figure)?;
+    }
+    if arguments.json { print_json(&report) } else { print_frame_risk(&report) }?;
+    for file in arguments.plot.iter().chain(&report.files) {
+        terminal.say(&file.display().to_string());
+    }
+    Ok(())
+}

@@ -1,0 +1,157 @@
+//! The risk of a frame as an engineer reads it.
+
+use std::io::Write;
+
+use uplift::structure::{Banded, FrameRiskReport, ModelDemand};
+use uplift::text::{risk_in_words, table};
+
+use super::alarms::print_alarms;
+use super::shown_path;
+use super::structure::{lines, risk_cells, short};
+use crate::error::CommandError;
+use crate::terminal::output;
+
+/// A displacement; infinite where the structure overturns.
+fn metres(value_m: f64) -> String {
+    if value_m.is_infinite() { "overturns".to_owned() } else { format!("{value_m:.4}") }
+}
+
+fn per_cent(value: f64) -> String {
+    if value.is_infinite() { "too safe".to_owned() } else { format!("{:+.1} %", 100.0 * value) }
+}
+
+fn band(of: &Banded, shown: fn(f64) -> String) -> String {
+    format!("{} to {}", shown(of.lower), shown(of.upper))
+}
+
+/// The risk: demands, what they mean for the restrainers, events, overturning, directions.
+pub(crate) fn print_frame_risk(report: &FrameRiskReport) -> Result<(), CommandError> {
+    let out = &mut output();
+    for line in lines(&report.structure) {
+        writeln!(out, "{line}")?;
+    }
+    writeln!(
+        out,
+        "           restitution in a plane   {:.4} ({})",
+        report.planar_restitution, report.planar_restitution_from
+    )?;
+    writeln!(
+        out,
+        "demand     {} by {}, {}: {:.4e} per year",
+        report.site,
+        report.im,
+        risk_in_words(report.poe, report.years),
+        report.target_per_year
+    )?;
+    writeln!(out, "           {}, {}", shown_path(&report.result).display(), report.record_set)?;
+    for note in &report.notes {
+        writeln!(out, "note       {note}")?;
+    }
+    print_demands(out, report)?;
+    print_state(out, report)?;
+    print_events(out, report)?;
+    print_direction(out, report)?;
+    print_alarms(out, &report.alarms)
+}
+
+fn print_demands(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), CommandError> {
+    let is_repaired = report.demands.iter().any(|demand| demand.repaired_m.is_some());
+    let row = |demand: &ModelDemand| {
+        let mut row = vec![demand.model.to_owned(), metres(demand.demand_m.value), band(&demand.demand_m, metres)];
+        row.extend(match &demand.error {
+            Some(error) => [per_cent(error.value), band(error, per_cent)],
+            None => ["-".to_owned(), "-".to_owned()],
+        });
+        if is_repaired {
+            row.push(demand.repaired_m.map_or_else(|| "-".to_owned(), metres));
+        }
+        row
+    };
+    let rows: Vec<Vec<String>> = report.demands.iter().map(row).collect();
+    let confidence = format!("{:.0} % band", 100.0 * report.confidence);
+    let mut header = vec!["model", "demand, m", &confidence, "error", "its band"];
+    if is_repaired {
+        header.push("repaired, m");
+    }
+    writeln!(
+        out,
+        "\nDemand in the displacement of the deck: the frame itself first, then what its proxies say and by how much \
+         they miss it;\nbands of {} resamples of the records, the same for frame and proxy\n{}",
+        report.replicates,
+        table(&header, &rows)
+    )?;
+    Ok(())
+}
+
+fn print_state(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), CommandError> {
+    let Some(at) = &report.at_demand else {
+        return Ok(writeln!(
+            out,
+            "\nAt that demand the frame has overturned, or is beyond the law of its restrainers."
+        )?);
+    };
+    let mut words = vec![format!("drift {:.2} %", 100.0 * at.drift), format!("rotation {:.4} rad", at.rotation_rad)];
+    if let Some(tendon_n) = at.tendon_n {
+        let of_yield =
+            at.tendon_over_yield.map_or_else(String::new, |of| format!(", {:.0} % of its yield", 100.0 * of));
+        words.push(format!("tendon {} kN{of_yield}", short(1e-3 * tendon_n)));
+    }
+    if let Some(spring_m) = at.spring_m {
+        let of_flat = at.spring_over_flat.map_or_else(String::new, |of| format!(", {:.0} % of flat", 100.0 * of));
+        words.push(format!("springs {} mm{of_flat}", short(1e3 * spring_m)));
+    }
+    words.push(format!("moment at the top of a column {} kN m", short(1e-3 * at.top_moment_n_m)));
+    Ok(writeln!(out, "\nAt the demand on the frame: {}", words.join("; "))?)
+}
+
+fn print_events(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), CommandError> {
+    let is_repaired = report.overturning.repaired.is_some();
+    let mut rows = Vec::new();
+    let of_events = report.events.iter().map(|event| {
+        (event.event.words().to_owned(), format!("{:.4}", event.displacement_m), event.risk, event.repaired)
+    });
+    let found = &report.overturning;
+    let overturned = ("overturning".to_owned(), "-".to_owned(), found.risk, found.repaired);
+    for (what, displacement, risk, repaired) in of_events.chain([overturned]) {
+        let mut row = vec![what, displacement];
+        row.extend(risk_cells(&risk));
+        if is_repaired {
+            row.push(repaired.map_or_else(|| "-".to_owned(), |risk| risk_cells(&risk)[0].clone()));
+        }
+        rows.push(row);
+    }
+    let in_years = format!("in {} years", report.years);
+    let mut header = vec!["event", "beyond, m", "per year", &in_years, "return period"];
+    if is_repaired {
+        header.push("repaired");
+    }
+    writeln!(out, "\nHow often what happens to the frame\n{}", table(&header, &rows))?;
+    if let (Some(theta), Some(beta), Some(per_year)) = (found.theta, found.beta, found.lognormal_per_year) {
+        writeln!(
+            out,
+            "Collapse fragility: lognormal, median {theta:.4} {}, dispersion {beta:.4}; with it {per_year:.3e} per \
+             year",
+            report.unit
+        )?;
+    }
+    Ok(())
+}
+
+fn print_direction(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), CommandError> {
+    let Some(of) = &report.direction else { return Ok(()) };
+    let [low, median, high] = of.ratio;
+    let shown = |ratio: f64| if ratio.is_infinite() { "infinite".to_owned() } else { format!("{ratio:.3}") };
+    writeln!(
+        out,
+        "\nWobbling over the larger planar peak of the two components, {} runs: median {}, 16 to 84 % {} to {}; \
+         overturned: {} both,\n{} wobbling alone, {} in a plane alone",
+        of.runs,
+        shown(median),
+        shown(low),
+        shown(high),
+        of.both_overturn,
+        of.wobbling_overturns,
+        of.planar_overturns
+    )?;
+    Ok(())
+}

@@ -1,0 +1,242 @@
+//! `uplift risk`: the risk of a frame itself, beside what its proxies say.
+
+use serde_json::Value;
+
+use crate::common::{SmallStudy, array, hold_console, repository, uplift, with_structures};
+
+const STUDY: &str = r#"title = "frames"
+[records]
+manifest = "manifest.csv"
+[strengths]
+values = [0.05, 0.1, 0.15, 0.2, 0.3]
+[pgv]
+levels_cm_s = [1, 3, 10, 20, 40, 80, 160]
+[[sites]]
+name = "Here"
+pgv = "here-pgv.csv"
+[[sites]]
+name = "There"
+pgv = { file = "there-pgv.csv", unit = "m/s", kind = "poe", years = 50 }
+"#;
+/// Restrained, tan α = 1/8, with a stopper.
+const FRAME: &str = "kind = \"restrained-frame\"\ncolumns = 3\nwidth_m = 1\nheight_m = 8\ncolumn_mass_kg = 15e3\n\
+                     deck_mass_kg = 400e3\ncolumn_shape = \"cylinder\"\nrestitution = 0.9\n[restrainer]\n\
+                     kind = \"linear\"\nstiffness_n_m = 2e6\ntendon_stiffness_n_m = 4e7\ntendon_yield_n = 5e5\n\
+                     [restrainer.stopper]\ngap_m = 0.03\nstiffness_n_m = 1e7\n";
+
+fn study(text: &str) -> SmallStudy {
+    let study = SmallStudy::with(text);
+    study.uplift(&["records", "synthesize", "-o", "downloads", "--count", "5", "-q"]).ok();
+    study.uplift(&["records", "import", "downloads", "-o", "manifest.csv", "-q"]).ok();
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    study.write("frame.toml", FRAME);
+    study
+}
+
+fn json(study: &SmallStudy, more: &[&str]) -> Value {
+    let run = study.uplift(&[more, &["--urs", "r.h5", "--json", "-q"]].concat()).ok();
+    serde_json::from_str(&run.stdout).unwrap()
+}
+
+/// The row of a model.
+fn row<'a>(report: &'a Value, model: &str) -> &'a Value {
+    report["demands"].as_array().unwrap().iter().find(|row| row["model"] == model).unwrap()
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or(f64::INFINITY)
+}
+
+/// Rows of a CSV by their header.
+fn rows(study: &SmallStudy, name: &str) -> Vec<std::collections::BTreeMap<String, String>> {
+    let text = std::fs::read_to_string(study.path().join(name)).unwrap();
+    let mut lines = text
+        .lines()
+        .filter(|line| !line.starts_with('#'))
+        .map(|line| line.split(',').map(str::to_owned).collect::<Vec<String>>());
+    let header = lines.next().unwrap();
+    lines.map(|cells| header.iter().cloned().zip(cells).collect()).collect()
+}
+
+/// A peak of a table; the word for infinity is the table's.
+fn peak(row: &std::collections::BTreeMap<String, String>, column: &str) -> f64 {
+    row[column].parse().unwrap()
+}
+
+/// Every wobbling peak is that of `uplift response` under the same pair and factor, every oscillator's that of
+/// `design`.
+#[test]
+fn the_stripes_are_single_runs_and_the_proxies_those_of_a_design() {
+    let study = study(STUDY);
+    let ask = ["risk", "frame.toml", "--site", "here"];
+    let report = json(&study, &[&ask[..], &["-o", "peaks.csv"]].concat());
+    let models: Vec<&str> =
+        report["demands"].as_array().unwrap().iter().map(|row| row["model"].as_str().unwrap()).collect();
+    assert_eq!(models[..3], ["wobbling frame", "planar frame", "equivalent oscillator"]);
+    let peaks = rows(&study, "peaks.csv");
+    assert_eq!(peaks.len(), 5 * 7);
+    let pgv_cm_s = array(&study.path().join("r.h5"), "/records/pgv_cm_s");
+    let manifest = rows(&study, "manifest.csv");
+    let (mut rocked, mut overturned) = (0, 0);
+    for (index, row) in peaks.iter().enumerate() {
+        let (pair, level) = (&manifest[index / 7], peak(row, "level"));
+        assert_eq!(pair["record_id"], row["record"]);
+        let scale = (level / pgv_cm_s[index / 7]).to_string();
+        let shaken = |more: &[&str]| -> Value {
+            let ask = ["response", "--structure", "frame.toml", "--scale", &scale, "--json"];
+            serde_json::from_str(&study.uplift(&[&ask[..], more].concat()).ok().stdout).unwrap()
+        };
+        let wobbling = shaken(&["--h1", &pair["file_h1"], "--h2", &pair["file_h2"]]);
+        let single = number(&wobbling["runs"][0]["peak_displacement_m"]);
+        assert_eq!(single, peak(row, "wobbling_frame_m"), "{index}");
+        let planar = shaken(&["--h1", &pair["file_h1"], "--model", "planar"]);
+        assert_eq!(number(&planar["runs"][0]["peak_displacement_m"]), peak(row, "planar_frame_m"), "{index}");
+        rocked += usize::from(single > 0.0 && single.is_finite());
+        overturned += usize::from(single.is_infinite());
+    }
+    assert!(rocked > 5 && overturned > 0, "{rocked} {overturned}");
+    let designed = json(&study, &["design", "frame.toml", "--site", "Here"]);
+    let own = number(&designed["exact"]["demand_m"]);
+    let found = row(&report, "equivalent oscillator");
+    assert_eq!(number(&found["demand_m"]["value"]), own);
+    let frame_m = number(&report["demands"][0]["demand_m"]["value"]);
+    assert!((number(&found["error"]["value"]) - (own / frame_m - 1.0)).abs() < 1e-12);
+    for outcome in designed["rules"].as_array().unwrap() {
+        let model = format!("spectrum, {}", outcome["rule"].as_str().unwrap().replace('-', " "));
+        let demand = &row(&report, &model)["demand_m"]["value"];
+        assert_eq!(number(demand), number(&outcome["from_spectrum"]["demand_m"]), "{model}");
+    }
+    // what stands at each level is that of the peaks
+    let levels = rows(&study, "peaks.levels.csv");
+    let counted: usize = levels
+        .iter()
+        .filter(|row| row["model"] == "wobbling frame")
+        .map(|row| row["overturned"].parse::<usize>().unwrap())
+        .sum();
+    assert_eq!(counted, overturned);
+}
+
+/// Events happen as often as their displacements are exceeded, the state is that of a pushover at the demand.
+#[test]
+fn events_and_state_are_those_of_the_displacement() {
+    let study = study(STUDY);
+    let report = json(&study, &["risk", "frame.toml", "--site", "Here", "--return-period", "2475"]);
+    let events = report["events"].as_array().unwrap();
+    let of =
+        |name: &str| events.iter().find(|event| event["event"] == name).unwrap_or_else(|| panic!("{name}: {events:?}"));
+    let rates = ["uplift", "stopper-engages", "tendon-yields"].map(|name| number(&of(name)["per_year"]));
+    assert!(rates[0] > rates[1] && rates[1] >= rates[2] && rates[2] > 0.0, "{rates:?}");
+    assert!(number(&report["overturning"]["per_year"]) <= rates[2]);
+    let at = &report["at_demand"];
+    let demand_m = number(&report["demands"][0]["demand_m"]["value"]);
+    assert_eq!(number(&at["displacement_m"]), demand_m);
+    let pushed: Value = serde_json::from_str(
+        &study.uplift(&["pushover", "frame.toml", "--to-m", &demand_m.to_string(), "--json"]).ok().stdout,
+    )
+    .unwrap();
+    let last = pushed["rows"].as_array().unwrap().last().unwrap().clone();
+    for key in ["drift", "rotation_rad", "tendon_n", "spring_m", "top_moment_n_m"] {
+        assert!((number(&at[key]) / number(&last[key]) - 1.0).abs() < 1e-12, "{key}");
+    }
+    assert!((number(&at["tendon_over_yield"]) - number(&at["tendon_n"]) / 5e5).abs() < 1e-12);
+    let band = &report["demands"][0]["demand_m"];
+    assert!(number(&band["lower"]) <= demand_m && demand_m <= number(&band["upper"]));
+    assert!(report["direction"]["runs"].as_u64().unwrap() > 5);
+}
+
+/// Both components as records are one pair: the frame wobbles alike under both, and the answer is that of the pairs.
+#[test]
+fn records_of_one_pair_are_one_motion() {
+    let study = study(&STUDY.replace("[records]\n", "[records]\ncomponent = \"both\"\n"));
+    let report = json(&study, &["risk", "frame.toml", "--site", "Here", "-o", "peaks.csv"]);
+    assert_eq!(report["records"], 10);
+    let peaks = rows(&study, "peaks.csv");
+    for cell in 0..7 {
+        assert_eq!(peaks[cell]["wobbling_frame_m"], peaks[7 + cell]["wobbling_frame_m"]);
+    }
+    let apart = (0..7).filter(|cell| peaks[*cell]["planar_frame_m"] != peaks[7 + cell]["planar_frame_m"]).count();
+    assert!(apart > 0);
+    // of pairs, at a study of h1: the same frame under the same hazard
+    let single = self::study(STUDY);
+    let of_pairs = json(&single, &["risk", "frame.toml", "--site", "Here"]);
+    assert_eq!(report["demands"][0]["demand_m"]["value"], of_pairs["demands"][0]["demand_m"]["value"]);
+}
+
+/// A constant acceleration overturns every such frame above tan α g and lifts none below: the risk is a sum by hand.
+/// One file for both components is one motion along a line, and said so.
+#[test]
+fn a_case_known_by_hand() {
+    let study = SmallStudy::with(
+        "title = \"steps\"\n[records]\nmanifest = \"manifest.csv\"\n[strengths]\nvalues = [0.1, 0.2]\n[pga]\n\
+         levels_g = [0.05, 0.12, 0.3, 0.8]\n[[sites]]\nname = \"Here\"\npga = \"pga.csv\"\n",
+    );
+    study.write("step.txt", &(0..1500).map(|_| "1\n").collect::<String>());
+    let jerk: String = (0..1500).map(|sample| if sample == 2 { "1\n" } else { "0\n" }).collect();
+    study.write("jerk.txt", &jerk);
+    let row = |id: &str, file: &str| format!("{id},{file},{file},0.01,m/s2\n");
+    let lines = [row("A", "step.txt"), row("B", "jerk.txt"), row("C", "step.txt")].concat();
+    study.write("manifest.csv", &format!("record_id,file_h1,file_h2,dt_s,unit\n{lines}"));
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    // both components alike: √2 a along the diagonal, so tan α is 0.2 √2 for the threshold to stay where it was
+    let width_m = 4.0 * 0.2 * 2.0_f64.sqrt();
+    let text =
+        FRAME.replace("width_m = 1\n", &format!("width_m = {width_m}\n")).replace("height_m = 8", "height_m = 4");
+    let free = text.split("[restrainer]").next().unwrap().replace("restrained-frame", "frame");
+    study.write("free.toml", &free);
+    let run = study.uplift(&["risk", "free.toml", "--urs", "r.h5"]).ok();
+    assert!(run.stdout.contains("3 of 3 pairs have the same motion as both components"), "{}", run.stdout);
+    assert!(run.stdout.contains("A, B, C") && run.stdout.contains("torsion is outside the model"), "{}", run.stdout);
+    let report = json(&study, &["risk", "free.toml"]);
+    assert_eq!(report["overturning"]["overturned"], serde_json::json!([0, 0, 2, 2]));
+    let rate = |level: f64| 1e-4 * level.powf(-2.2);
+    let share = 2.0 / 3.0;
+    let expected = 0.5 * share * (rate(0.12) - rate(0.3)) + share * (rate(0.3) - rate(0.8)) + share * rate(0.8);
+    let found = number(&report["overturning"]["per_year"]);
+    assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
+    assert_eq!(report["direction"]["wobbling_overturns"], 0);
+    assert!(report["alarms"].to_string().contains("outside the analysed levels"));
+}
+
+#[test]
+fn repaired_weights_stand_beside_the_plain_ones() {
+    let study = SmallStudy::repaired();
+    study.write("frame.toml", FRAME);
+    let athens = json(&study, &["risk", "frame.toml", "--site", "Athens &lt; 1", "--measure", "pgv"]);
+    let row = &athens["demands"][0];
+    assert!(number(&row["repaired_m"]) > 0.0 && row["repaired_m"] != row["demand_m"]["value"], "{row}");
+    assert!(!athens["overturning"]["repaired"].is_null());
+    let montreux = json(&study, &["risk", "frame.toml", "--site", "Montreux", "--measure", "pgv"]);
+    assert!(montreux["demands"][0]["repaired_m"].is_null() && montreux["overturning"]["repaired"].is_null());
+}
+
+#[test]
+fn what_is_typed_wrong_is_told_and_figures_are_drawn() {
+    let study = study(STUDY);
+    let square = FRAME.replace("cylinder", "rectangle");
+    study.write("square.toml", &square);
+    let ask = |structure: &str, more: &[&str]| study.uplift(&[&["risk", structure, "--urs", "r.h5"], more].concat());
+    ask("square.toml", &["--site", "Here", "--model", "wobbling"]).fails(2, &["rectangular section"]);
+    let planar = ask("square.toml", &["--site", "Here", "--plot", "r.svg"]).ok();
+    assert!(planar.stdout.contains("do not wobble") && !planar.stdout.contains("torsion"), "{}", planar.stdout);
+    assert!(planar.stdout.contains("planar frame") && !planar.stdout.contains("wobbling frame"));
+    assert!(std::fs::read_to_string(study.path().join("r.svg")).unwrap().contains("displacement of the deck, m"));
+    ask("frame.toml", &[]).fails(2, &["--site", "Here, There"]);
+    ask("frame.toml", &["--site", "Here", "-o", "manifest.csv"]).fails(2, &["manifest.csv"]);
+    ask("frame.toml", &["--site", "Here", "--plot", "frame.toml"]).fails(2, &["frame.toml"]);
+    study.write("mass.toml", "kind = \"point-mass\"\nmass_kg = 1\nwidth_m = 1\ncentre_height_m = 4\n");
+    ask("mass.toml", &["--site", "Here"]).fails(2, &["point-mass", "restrained-frame"]);
+    std::fs::remove_dir_all(study.path().join("downloads")).unwrap();
+    ask("frame.toml", &["--site", "Here"]).fails(4, &["--manifest"]);
+}
+
+/// The blocks of docs/frames.md that begin with `$ uplift`.
+// Last digits belong to a machine's mathematical functions.
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+#[test]
+fn the_documentation_shows_what_is_printed() {
+    let folder = with_structures();
+    let quick = repository().join("configs/quick.toml");
+    uplift(folder.path(), &["run", quick.to_str().unwrap(), "-q"]).ok();
+    uplift(folder.path(), &["records", "synthesize", "-o", "downloads", "--count", "1", "-q"]).ok();
+    hold_console(folder.path(), "docs/frames.md", 2);
+}
