@@ -4,7 +4,7 @@ use crate::common::{Finished, SmallStudy, repository};
 use crate::hazard::{SITES, openquake};
 
 /// Commands whose answer is printed, and those that are told to write files; by their first words.
-const ANSWER: [&str; 22] = [
+const ANSWER: [&str; 23] = [
     "status",
     "verify",
     "check",
@@ -27,6 +27,7 @@ const ANSWER: [&str; 22] = [
     "records select",
     "hazard import",
     "hazard show",
+    "validate",
 ];
 const FILES: [&str; 8] =
     ["run", "merge", "plot", "report", "export", "records import", "records synthesize", "hazard plot"];
@@ -45,6 +46,7 @@ fn nothing_but_what_was_asked_for() {
         std::fs::copy(repository().join("configs/structures").join(name), study.path().join(name)).unwrap();
     }
     std::fs::write(study.path().join("one.txt"), "0\n0.1\n0.4\n-0.3\n0\n").unwrap();
+    study.write("one.csv", "u_m\n0.1\n0.2\n0.4\n");
     study.write("export.csv", &openquake("mean", 1.0, &SITES));
     let quiet = |arguments: &str| -> Finished {
         let words: Vec<&str> = arguments.split(' ').chain(["-q"]).collect();
@@ -80,6 +82,7 @@ fn nothing_but_what_was_asked_for() {
         "records list again.csv",
         "records show again.csv SYN001",
         "records select again.csv --pga-g 0: -o chosen.csv",
+        "validate one.csv one.csv --replicates 10 -o validated.csv --plot validated.svg",
         "pushover block.toml -o rows.csv --plot h.svg",
         "protocol --sets 2 -o sets.csv",
         "restrainer curve column-j.toml -o curve.csv",
@@ -97,9 +100,19 @@ fn nothing_but_what_was_asked_for() {
             assert!(is(&ANSWER), "{arguments}");
             assert!(!run.stdout.is_empty(), "{arguments}");
             // no list of the files that were written beside the answer
-            for file in
-                ["h.csv", "h.svg", "b.csv", "o.svg", "o.csv", "k.svg", "k.csv", "rows.csv", "pulses/", "s.bootstrap"]
-            {
+            for file in [
+                "h.csv",
+                "h.svg",
+                "b.csv",
+                "o.svg",
+                "o.csv",
+                "k.svg",
+                "k.csv",
+                "rows.csv",
+                "validated",
+                "pulses/",
+                "s.bootstrap",
+            ] {
                 assert!(!run.stdout.contains(file), "{arguments}\n{}", run.stdout);
             }
         }

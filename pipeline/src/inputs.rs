@@ -20,4 +20,5 @@ pub(crate) use made::made_pairs;
 pub use record_set::{Record, RecordSet, read_records};
 pub(crate) use record_set::{read_measured, read_with_pairs};
 pub use record_sets::{NamedSet, RecordSets, SetRecord, read_record_sets};
+pub(crate) use record_sets::{is_numbered, read_sets};
 pub use site_table::{BatchSite, ListedSite, SiteCurves, SiteExport, SiteList, read_site_list};

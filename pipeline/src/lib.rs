@@ -15,7 +15,8 @@
 //! 5. From a spectrum to a structure: [`structure::design`] and [`structure::overturning`]; the risk of a frame itself:
 //!    [`structure::frame_risk`].
 //! 6. Pushed rather than shaken: [`pushover::pushover`], [`restrainer::curve`], [`restrainer::design`].
-//! 7. For others: [`export::export`] here; figures and the page are made by the crate `uplift_report`.
+//! 7. Computed peaks beside measured ones: [`validate::validate`].
+//! 8. For others: [`export::export`] here; figures and the page are made by the crate `uplift_report`.
 //!
 //! ```no_run
 //! use std::path::Path;
@@ -48,6 +49,7 @@
 //! | [`events`] | what a job tells while it works, and how it is stopped |
 //! | [`uniform_risk`] | studies of uniform risk: stripes, spectra, coefficients |
 //! | [`displacement`] | studies of displacement spectra of record sets |
+//! | [`mod@shake_table`] | studies of a shaking table: its tests, and what a frame does in them |
 //! | [`bootstrap`], [`influence`], [`efficiency`] | how sure a spectrum is, and what carries it |
 //! | [`mod@consistency`] | whether the records bring the hazard of the other measure, and weights by which they do |
 //! | [`structure`] | a structure under the records and hazard of a result |
@@ -61,6 +63,7 @@
 //! | [`table`](mod@table), [`export`] | a result beside a reference, and for other programs |
 //! | [`response`], [`pulses`] | one record through one oscillator, block or frame; rocking spectra under wavelets |
 //! | [`pushover`](mod@pushover), [`restrainer`] | columns under a static force; restrainers, stacks of a catalogue |
+//! | [`validate`](mod@validate) | whether computed peaks are distributed as measured ones |
 //! | [`outputs`] | files that a job is asked to write: what may give way to them |
 //! | [`text`] | numbers in words |
 
@@ -93,12 +96,14 @@ pub mod restrainer;
 pub mod result;
 mod result_of;
 pub mod run;
+pub mod shake_table;
 pub mod shard;
 pub mod status;
 pub mod structure;
 pub mod table;
 pub mod text;
 pub mod uniform_risk;
+pub mod validate;
 pub mod verify;
 
 pub use array::{Array, ShapeError};

@@ -8,7 +8,7 @@ use crate::events::Events;
 pub use crate::frame::PlanHead;
 use crate::frame::RunOptions;
 use crate::run::{check_outputs, replaced};
-use crate::{displacement, uniform_risk};
+use crate::{displacement, shake_table, uniform_risk};
 
 /// What a study costs, by its kind.
 #[derive(Debug, Clone, Serialize)]
@@ -18,14 +18,17 @@ pub enum Plan {
     UniformRisk(Box<uniform_risk::Plan>),
     /// A study of displacement spectra.
     Displacement(Box<displacement::Plan>),
+    /// A study of a shaking table.
+    ShakeTable(Box<shake_table::Plan>),
 }
 
 impl Plan {
-    /// What both kinds tell.
+    /// What every kind tells.
     pub fn head(&self) -> &PlanHead {
         match self {
             Self::UniformRisk(plan) => &plan.head,
             Self::Displacement(plan) => &plan.head,
+            Self::ShakeTable(plan) => &plan.head,
         }
     }
 }
@@ -42,12 +45,14 @@ pub fn plan(study: &AnyStudy, options: &RunOptions, events: &dyn Events) -> Resu
     let mut plan = match study {
         AnyStudy::UniformRisk(study) => Plan::UniformRisk(Box::new(uniform_risk::plan(study, study_file, events)?)),
         AnyStudy::Displacement(study) => Plan::Displacement(Box::new(displacement::plan(study, study_file, events)?)),
+        AnyStudy::ShakeTable(study) => Plan::ShakeTable(Box::new(shake_table::plan(study, study_file, events)?)),
     };
     // a study is looked at more often than it is run
     if let Some(reason) = replaced(study, options)? {
         match &mut plan {
             Plan::UniformRisk(plan) => plan.head.notes.push(reason),
             Plan::Displacement(plan) => plan.head.notes.push(reason),
+            Plan::ShakeTable(plan) => plan.head.notes.push(reason),
         }
     }
     Ok(plan)

@@ -1,6 +1,6 @@
 //! A study carried out, of whichever kind: the frame that all kinds share.
 //!
-//! A kind has a folder of its own, [`uniform_risk`] or [`displacement`], with
+//! A kind has a folder of its own, [`uniform_risk`], [`displacement`] or [`shake_table`], with
 //! the same files in it: `plan` (what it costs), `run` (from the inputs to the result file), `report` (what a run
 //! tells).
 
@@ -19,7 +19,7 @@ use crate::inputs::manifest;
 use crate::lock::ResultLock;
 use crate::outputs;
 use crate::result::{check_place, replaces_another};
-use crate::{displacement, uniform_risk};
+use crate::{displacement, shake_table, uniform_risk};
 
 /// What a run tells, by the kind of its study.
 #[derive(Debug, Clone, Serialize)]
@@ -29,14 +29,17 @@ pub enum RunReport {
     UniformRisk(uniform_risk::RunReport),
     /// Of a study of displacement spectra.
     Displacement(displacement::RunReport),
+    /// Of a study of a shaking table.
+    ShakeTable(shake_table::RunReport),
 }
 
 impl RunReport {
-    /// What both kinds tell.
+    /// What every kind tells.
     pub fn head(&self) -> &RunHead {
         match self {
             Self::UniformRisk(report) => &report.head,
             Self::Displacement(report) => &report.head,
+            Self::ShakeTable(report) => &report.head,
         }
     }
 }
@@ -60,6 +63,7 @@ pub(crate) fn check_outputs(study: &AnyStudy, options: &RunOptions) -> Result<()
     let tables = match study {
         AnyStudy::UniformRisk(study) => uniform_risk::tables(study, path),
         AnyStudy::Displacement(study) => displacement::tables(study, path),
+        AnyStudy::ShakeTable(study) => shake_table::tables(study, path),
     };
     let mut inputs = vec![options.study_file.clone()];
     inputs.extend(study.inputs().into_iter().map(Path::to_owned));
@@ -105,5 +109,6 @@ pub fn run_with(
     match study {
         AnyStudy::UniformRisk(study) => uniform_risk::run(study, &place, known, events).map(RunReport::UniformRisk),
         AnyStudy::Displacement(study) => displacement::run(study, &place, known, events).map(RunReport::Displacement),
+        AnyStudy::ShakeTable(study) => shake_table::run(study, &place, events).map(RunReport::ShakeTable),
     }
 }

@@ -32,6 +32,7 @@ pub fn run_shard(
     match study {
         AnyStudy::UniformRisk(study) => uniform_risk::run_shard(study, (path, shard), earlier, events),
         AnyStudy::Displacement(study) => displacement::run_shard(study, (path, shard), events),
+        AnyStudy::ShakeTable(_) => Err(not_cut()),
     }
 }
 
@@ -47,7 +48,7 @@ pub fn check_inputs(study: &AnyStudy, options: &RunOptions, events: &dyn Events)
             read_hazard(study)?;
             site_table::read(study, events)?;
         }
-        AnyStudy::Displacement(_) => {}
+        AnyStudy::Displacement(_) | AnyStudy::ShakeTable(_) => {}
     }
     Ok(())
 }
@@ -75,7 +76,15 @@ pub fn merge(
             displacement::needs(study, &inputs.records, &sets.motions).with_rows_of(shards).require(result, events)?;
             join(shards, &sets.work(study)?)?
         }
+        AnyStudy::ShakeTable(_) => return Err(not_cut()),
     };
     events.remark("merged", &format!("{} analysis rows of {} shards", known.len(), shards.len()));
     run_with(study, options, known, events)
+}
+
+/// The tests of a shaking table take seconds.
+fn not_cut() -> UpliftError {
+    UpliftError::Usage(
+        "the tests of a shaking table take seconds, and are not cut into shards: run the study".to_owned(),
+    )
 }

@@ -86,6 +86,17 @@ pub enum ResultContent {
         /// Whether there is a design example.
         has_design: bool,
     },
+    /// The tests of a shaking table.
+    ShakeTable {
+        /// The structure file.
+        structure: String,
+        /// Tests.
+        analyses: u64,
+        /// Names of the levels.
+        levels: Vec<String>,
+        /// Excitations.
+        excitations: usize,
+    },
 }
 
 /// A file of finished rows of the analysis.
@@ -205,6 +216,9 @@ impl ResultContent {
         match overview {
             Overview::Displacement { structure, analyses, sets, designed } => {
                 Self::Displacement { structure, analyses, sets, has_design: designed }
+            }
+            Overview::ShakeTable { structure, analyses, levels, excitations } => {
+                Self::ShakeTable { structure, analyses, levels, excitations }
             }
             Overview::UniformRisk { analyses, sites, added } => {
                 let analyses = analyses.into_iter().map(|(measure, count)| (measure.to_owned(), count)).collect();

@@ -5,6 +5,7 @@ mod coefficients;
 mod columns;
 mod design;
 mod reference;
+mod tests_of_table;
 
 use std::path::PathBuf;
 
@@ -16,6 +17,7 @@ pub use coefficients::{COMPARED_ABOVE, COMPARED_FROM_M, CoefficientRow, Coeffici
 pub use columns::{ColumnsRow, ColumnsTable};
 pub use design::{DesignTable, DesignTableRow};
 pub use reference::ReferenceTable;
+pub use tests_of_table::{Agreement, TestRow, TestsTable};
 
 use crate::alarms::{Alarm, alarms, alarms_by};
 use crate::error::UpliftError;
@@ -29,7 +31,7 @@ pub struct TableOptions {
     pub result: PathBuf,
     /// CSV table to compare with: for uniform risk spectra with the columns `site`, `poe_50y` (or `poe`), `c0_m`, `c1`,
     /// `c2_m`, `rmse_m`; for displacement spectra `record_set`, `scaling`, `quantity`, `value` and, for oscillators,
-    /// `rule`.
+    /// `rule`; for a shaking table `level` and `exc_id` in the order of the tests.
     pub reference: Option<PathBuf>,
     /// By which intensity measures; not of displacement spectra.
     pub measure: TableMeasure,
@@ -80,6 +82,8 @@ pub enum TableRows {
     Design(DesignTable),
     /// Of the columns of a structure.
     Columns(ColumnsTable),
+    /// Of a shaking table.
+    Tests(TestsTable),
 }
 
 /// Reads the table of a result, or what the columns of a structure have, and what a reference says beside each row.
@@ -95,6 +99,7 @@ pub fn table(options: &TableOptions, events: &dyn Events) -> Result<TableReport,
     let rows = match file.kind() {
         Kind::UniformRisk => coefficients::read(options, &file, events).map(TableRows::Coefficients),
         Kind::Displacement => design::read(options, &file, events).map(TableRows::Design),
+        Kind::ShakeTable => tests_of_table::read(options, &file).map(TableRows::Tests),
     }?;
     file.tell_made_of_another(events)?;
     // bands tell which measures disagree, at whatever risk

@@ -9,7 +9,7 @@ const BEGIN: &str = "<!-- figure: ";
 const END: &str = "<!-- end -->";
 
 /// The sources, by which names begin; those that `make test` leaves out are slow.
-const SOURCES: [&str; 26] = [
+const SOURCES: [&str; 29] = [
     "base-widths",
     "conditioning",
     "consistency",
@@ -30,11 +30,14 @@ const SOURCES: [&str; 26] = [
     "rounding",
     "rounding-missed",
     "rounding-ordinates",
+    "shake-table",
     "table-4-1",
     "table-4-2",
     "tables-2",
     "tables-3",
     "two-solvers",
+    "validation",
+    "validation-example",
     "worked",
 ];
 

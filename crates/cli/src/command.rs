@@ -12,6 +12,7 @@ mod restrainer;
 mod result;
 mod structures;
 mod study;
+mod validate;
 
 use clap::{Parser, Subcommand};
 
@@ -47,8 +48,8 @@ pub(crate) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Run a study: uniform risk spectra with their coefficients, or displacement spectra of record sets; one result
-    /// file
+    /// Run a study: uniform risk spectra with their coefficients, displacement spectra of record sets, or the tests of
+    /// a shaking table; one result file
     Run(run::RunArguments),
     /// Join the shards of a run into its result
     Merge(merge::MergeArguments),
@@ -82,6 +83,8 @@ enum Command {
     Protocol(protocol::ProtocolArguments),
     /// Restrainers of tendons and disc springs: their force, and stacks out of a catalogue
     Restrainer(Box<restrainer::RestrainerArguments>),
+    /// Whether computed peaks are distributed as measured ones: tests, power, bands, by class and level (Section 6.8)
+    Validate(validate::ValidateArguments),
     /// Bring record files: import a folder, list, show, choose, synthesize
     Records(records::RecordsArguments),
     /// Bring hazard curves: take them from the exports of engines, show, draw
@@ -92,8 +95,8 @@ enum Command {
     Report(report::ReportArguments),
     /// Write spectra, bands and coefficients of a result as an Excel workbook, CSV, JSON or a MATLAB file
     Export(export::ExportArguments),
-    /// Print the coefficients of a result (Table 4.2), or its design example (Tables 2.1-2.3, 3.2-3.7), beside a
-    /// reference if one is given; or what the columns of a structure have (Table 5.1, Section 6.3)
+    /// Print the coefficients of a result (Table 4.2), its design example (Tables 2.1-2.3, 3.2-3.7) or its tests (Table
+    /// A1.1), beside a reference if one is given; or what the columns of a structure have (Table 5.1, Section 6.3)
     Table(table::TableArguments),
     /// Write the pages of the manual and the completions of the shells
     #[command(hide = true)]
@@ -132,6 +135,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         Command::Pushover(arguments) => pushover::pushover(arguments, &terminal),
         Command::Protocol(arguments) => protocol::protocol(arguments, &terminal),
         Command::Restrainer(arguments) => restrainer::restrainer(arguments, &terminal),
+        Command::Validate(arguments) => validate::validate(arguments, &terminal),
         Command::Records(arguments) => records::records(arguments, &terminal),
         Command::Hazard(arguments) => hazard::hazard(arguments, &terminal),
         Command::Plot(arguments) => plot::plot(arguments, &terminal),

@@ -19,10 +19,12 @@ mod records;
 mod response;
 mod restrainer;
 mod run;
+mod shake_table;
 mod status;
 mod structure;
 mod table;
 mod uniform_risk;
+mod validate;
 mod verify;
 
 pub(crate) use bootstrap::print_bootstrap;
@@ -44,6 +46,7 @@ pub(crate) use restrainer::{print_restrainer_curve, print_restrainer_design};
 pub(crate) use run::{print_run, print_shard};
 pub(crate) use status::print_status;
 pub(crate) use table::print_table;
+pub(crate) use validate::print_validation;
 pub(crate) use verify::print_verified;
 
 use std::io::Write;

@@ -27,7 +27,8 @@ fn lines(text: &'static str) -> impl Iterator<Item = Vec<&'static str>> {
 /// Both horizontal components of each record sequence number of a manifest.
 fn records(folder: &Path) -> BTreeMap<String, [Accelerogram; 2]> {
     let manifest = std::fs::read_to_string(folder.join("manifest.csv")).unwrap();
-    let wanted: Vec<&str> = lines(include_str!("data/excitations.csv")).map(|row| row[2]).collect();
+    let wanted: Vec<&str> =
+        lines(include_str!("../../../configs/shake-table/excitations.csv")).map(|row| row[2]).collect();
     let read = |file: &str| read_path(&folder.join(file), &ReadOptions::default()).unwrap();
     let mut found = BTreeMap::new();
     for line in manifest.lines().skip(1) {
@@ -49,11 +50,11 @@ fn the_predicted_order_is_that_of_the_tests() {
     };
     let (records, frame) = (records(Path::new(&folder)), specimen());
     let mut printed: BTreeMap<(&str, &str), f64> = BTreeMap::new();
-    for (place, row) in lines(include_str!("data/test_order.csv")).enumerate() {
+    for (place, row) in lines(include_str!("../../../tests/reference/table_a1_1.csv")).enumerate() {
         printed.entry((row[0], row[1])).or_insert(place as f64);
     }
     let (mut order, mut predicted) = (Vec::new(), Vec::new());
-    for row in lines(include_str!("data/excitations.csv")) {
+    for row in lines(include_str!("../../../configs/shake-table/excitations.csv")) {
         let Some([x, y]) = records.get(row[2]) else { continue };
         for (level, pgv_m_s) in [("low", 0.1675), ("high", 0.335)] {
             let Some(place) = printed.get(&(level, row[0])) else { continue };

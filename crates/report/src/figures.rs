@@ -15,9 +15,11 @@ mod history;
 mod influence;
 mod overturning;
 mod pulses;
+mod shake_table;
 mod spectra;
 mod tails;
 mod together;
+mod validation;
 
 pub use columns::{column_figures, protocol_figure, pushover_figure, restrainer_figure};
 pub use displacement::{Extent, displacement_figures};
@@ -26,8 +28,10 @@ pub use frame_risk::frame_risk_figure;
 pub use history::{block_history_figure, history_figure};
 pub use overturning::overturning_figure;
 pub use pulses::pulse_figures;
+pub use shake_table::shake_table_figures;
 pub use spectra::hazard_figure;
 pub(crate) use together::together;
+pub use validation::{distributions_figure, pairs_figure};
 
 use std::path::Path;
 
@@ -49,6 +53,7 @@ pub fn result_figures(path: &Path) -> Result<Vec<Figure>, UpliftError> {
     match file.kind() {
         Kind::UniformRisk => Ok(FigureSource::read(&file)?.figures()?.into_all()),
         Kind::Displacement => displacement_figures(&file, &file.displacements()?, Extent::All),
+        Kind::ShakeTable => Ok(shake_table_figures(&file.shake_table()?)),
     }
 }
 

@@ -10,6 +10,7 @@ mod differences;
 mod displacement;
 mod drawn;
 mod risk;
+mod shake_table;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -189,6 +190,7 @@ fn read(path: &Path, result: &ResultFile) -> Result<Read, UpliftError> {
     let content = match result.kind() {
         Kind::UniformRisk => risk::content(result)?,
         Kind::Displacement => displacement::content(result)?,
+        Kind::ShakeTable => shake_table::content(result)?,
     };
     let file = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     Ok(Read { head: result.head()?, alarms: alarms(result)?, mark: result.name_and_digest()?, file, content })

@@ -1,4 +1,4 @@
-//! Figures of results, curves, pulses, responses and overturnings, written.
+//! Figures of results, curves, pulses, responses, overturnings and validations, written.
 
 use std::path::{Path, PathBuf};
 
@@ -11,10 +11,11 @@ use uplift::pulses::{PULSE_FIGURES, PulseReport};
 use uplift::response::{BlockResponseReport, FrameResponseReport, ResponseReport, ShakenBy};
 use uplift::result::ResultFile;
 use uplift::structure::{FrameRiskReport, OverturningReport};
+use uplift::validate::ValidateReport;
 
 use crate::figures::{
-    block_history_figure, frame_figure, frame_risk_figure, hazard_figure, history_figure, overturning_figure,
-    pulse_figures, result_figures,
+    block_history_figure, distributions_figure, frame_figure, frame_risk_figure, hazard_figure, history_figure,
+    overturning_figure, pairs_figure, pulse_figures, result_figures,
 };
 use crate::files::{FigureOptions, check_figure_file, write_figure_file};
 
@@ -146,6 +147,29 @@ fn shaken(by: &ShakenBy) -> String {
 /// As [`write_figure_file`].
 pub fn plot_overturning(report: &OverturningReport, file: &Path) -> Result<(), UpliftError> {
     write_figure_file(&overturning_figure(report), file)
+}
+
+/// Draws the distributions of measured and computed peaks to `file`, .svg or .png.
+///
+/// # Errors
+/// A file that cannot be written.
+pub fn plot_validation(report: &ValidateReport, file: &Path) -> Result<(), UpliftError> {
+    write_figure_file(&distributions_figure(report), file)
+}
+
+/// Draws computed over measured peaks, motion by motion, to `file`, .svg or .png.
+///
+/// # Errors
+/// Peaks that are no pairs; a file that cannot be written.
+pub fn plot_validation_pairs(report: &ValidateReport, file: &Path) -> Result<(), UpliftError> {
+    if report.key.is_empty() {
+        return Err(UpliftError::Usage(
+            "computed over measured peaks are drawn of pairs: name by --key the column that says which rows are of the \
+             same motion"
+                .to_owned(),
+        ));
+    }
+    write_figure_file(&pairs_figure(report), file)
 }
 
 /// Draws the risk of a frame beside its proxies as `file`, whose ending tells the format.

@@ -37,6 +37,7 @@ pub use design::{DesignPlan, Designed};
 pub use oscillators::OscillatorFamily;
 pub use record_sets::SetPlan;
 pub use records::SetRecords;
+pub(crate) use records::{KEYS as RECORDS_KEYS, read as read_records};
 pub use scaling::{ScaledTo, ScalingPlan};
 pub use structures::Structures;
 
@@ -105,7 +106,7 @@ impl DisplacementStudy {
 pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<DisplacementStudy> {
     let title = top::title(&mut root);
     let gravity = top::gravity(&mut root);
-    let records = records::read(root.section("records"), paths);
+    let records = records::read(root.section("records"), paths, records::SETS_HAVE_TAGS);
     let record_sets = record_sets::read(root.field("record_sets"));
     let scaling = scaling::read(root.section("scaling"));
     let percentiles = spectrum::read(root.section("spectrum"));

@@ -6,6 +6,7 @@ use crate::displacement::{self, DisplacementStudy};
 use crate::keys::SectionKeys;
 use crate::reading::{Paths, Section};
 use crate::sections::output::Output;
+use crate::shake_table::{self, ShakeTableStudy};
 use crate::uniform_risk::{self, CurveFile, SiteTable, UniformRiskStudy};
 use crate::warning::Warning;
 
@@ -16,17 +17,20 @@ pub enum Kind {
     UniformRisk,
     /// Displacement spectra of record sets (Chapters 2 and 3).
     Displacement,
+    /// The tests of a shaking table (Chapter 6).
+    ShakeTable,
 }
 
 impl Kind {
     /// Every kind.
-    pub const ALL: [Self; 2] = [Self::UniformRisk, Self::Displacement];
+    pub const ALL: [Self; 3] = [Self::UniformRisk, Self::Displacement, Self::ShakeTable];
 
     /// Its word: the value of the key `kind` of a study file, and of the attribute `kind` of a result.
     pub const fn key(self) -> &'static str {
         match self {
             Self::UniformRisk => "uniform risk spectra",
             Self::Displacement => "displacement spectra",
+            Self::ShakeTable => "shake table",
         }
     }
 
@@ -35,6 +39,7 @@ impl Kind {
         match self {
             Self::UniformRisk => &uniform_risk::KEYS,
             Self::Displacement => &displacement::KEYS,
+            Self::ShakeTable => &shake_table::KEYS,
         }
     }
 
@@ -51,6 +56,8 @@ pub enum AnyStudy {
     UniformRisk(Box<UniformRiskStudy>),
     /// Of displacement spectra.
     Displacement(Box<DisplacementStudy>),
+    /// Of a shaking table.
+    ShakeTable(Box<ShakeTableStudy>),
 }
 
 impl AnyStudy {
@@ -59,6 +66,7 @@ impl AnyStudy {
         match Kind::read(&mut root)? {
             Kind::UniformRisk => uniform_risk::read(root, paths).map(|study| Self::UniformRisk(Box::new(study))),
             Kind::Displacement => displacement::read(root, paths).map(|study| Self::Displacement(Box::new(study))),
+            Kind::ShakeTable => shake_table::read(root, paths).map(|study| Self::ShakeTable(Box::new(study))),
         }
     }
 
@@ -67,6 +75,7 @@ impl AnyStudy {
         match self {
             Self::UniformRisk(_) => Kind::UniformRisk,
             Self::Displacement(_) => Kind::Displacement,
+            Self::ShakeTable(_) => Kind::ShakeTable,
         }
     }
 
@@ -75,6 +84,7 @@ impl AnyStudy {
         match self {
             Self::UniformRisk(study) => &study.title,
             Self::Displacement(study) => &study.title,
+            Self::ShakeTable(study) => &study.title,
         }
     }
 
@@ -83,10 +93,11 @@ impl AnyStudy {
         match self {
             Self::UniformRisk(study) => &study.output,
             Self::Displacement(study) => &study.output,
+            Self::ShakeTable(study) => &study.output,
         }
     }
 
-    /// The files that it names to be read: manifest, hazard curves, tables and exports of sites.
+    /// The files that it names to be read: manifest, hazard curves, tables and exports of sites, a structure.
     pub fn inputs(&self) -> Vec<&Path> {
         match self {
             Self::UniformRisk(study) => {
@@ -95,6 +106,10 @@ impl AnyStudy {
                 study.records.source.manifest().into_iter().chain(curves).chain(of_sites).collect()
             }
             Self::Displacement(study) => study.records.manifest().into_iter().collect(),
+            Self::ShakeTable(study) => {
+                let tables = study.excitations.as_deref().into_iter().chain(study.records.manifest());
+                tables.chain([study.structure.as_path()]).collect()
+            }
         }
     }
 
@@ -103,6 +118,7 @@ impl AnyStudy {
         match self {
             Self::UniformRisk(study) => &study.warnings,
             Self::Displacement(study) => &study.warnings,
+            Self::ShakeTable(study) => &study.warnings,
         }
     }
 
@@ -115,6 +131,7 @@ impl AnyStudy {
         match self {
             Self::UniformRisk(study) => study.to_toml(),
             Self::Displacement(study) => study.to_toml(),
+            Self::ShakeTable(study) => study.to_toml(),
         }
     }
 }

@@ -28,8 +28,8 @@
 //! # Where things are
 //!
 //! A section of a study file is one module: its resolved type, the reading with its rules and defaults, the writing and
-//! the documentation of its keys. `sections` has those of every kind, `uniform_risk` and `displacement` those of their
-//! kind; `reading` is what all of them read with, `grid` the notation of grids.
+//! the documentation of its keys. `sections` has those of every kind, `uniform_risk`, `displacement` and `shake_table`
+//! those of their kind; `reading` is what all of them read with, `grid` the notation of grids.
 //!
 //! **A new key** is a field of the section's type, a line of its `read` and one of its `KEYS`; tests say when one is
 //! missing. Then `UPDATE_DOCS=1 cargo test -p uplift-study` writes the tables of the documentation.
@@ -45,6 +45,7 @@ mod keys;
 mod kind;
 mod reading;
 mod sections;
+mod shake_table;
 mod structure;
 mod study;
 mod uniform_risk;
@@ -64,6 +65,7 @@ pub use kind::{AnyStudy, Kind};
 pub use sections::output::Output;
 pub use sections::record_source::{DEFAULT_SYNTHETIC_PAIRS, DEFAULT_SYNTHETIC_SEED, RecordSource};
 pub use sections::selection::{CRITERIA, Criterion, Range, RecordSelection};
+pub use shake_table::{FrameModel, LevelPlan, ShakeTableStudy};
 pub use structure::{ColumnShape, RestrainerFile, Structure};
 pub use study::Study;
 pub use uniform_risk::{

@@ -87,7 +87,7 @@ impl Study {
         let paths = self.checked_paths()?;
         self.checked(overrides, &paths, |mut root, paths| match Kind::read(&mut root)? {
             Kind::UniformRisk => uniform_risk::read(root, paths),
-            other @ Kind::Displacement => {
+            other @ (Kind::Displacement | Kind::ShakeTable) => {
                 if let Some(field) = root.field("kind") {
                     field.mistake(
                         format!("this study is of {}, and has no {}", other.key(), Kind::UniformRisk.key()),

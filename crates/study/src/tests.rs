@@ -9,6 +9,7 @@ mod overriding;
 mod reference;
 mod resolving;
 mod restrainers;
+mod shake_table;
 mod written;
 
 use std::fs;
@@ -47,7 +48,7 @@ impl Folder {
         let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
         match Study::load_any(&self.path("study.toml"), &overrides)? {
             AnyStudy::Displacement(study) => Ok(*study),
-            AnyStudy::UniformRisk(_) => panic!("a study of uniform risk"),
+            other => panic!("a study of {}", other.kind().key()),
         }
     }
 

@@ -40,7 +40,7 @@ pub mod resampling;
 pub mod sample;
 
 pub use anderson_darling::AndersonDarling;
-pub use band::{dkw_half_width, greenwood_band};
+pub use band::{BandRule, bootstrap_band, dkw_half_width, greenwood_band};
 pub use cramer_von_mises::CramerVonMises;
 pub use distance::{energy_distance, wasserstein_distance};
 pub use error::ValidationError;

@@ -5,9 +5,9 @@
 
 use proptest::prelude::*;
 use uplift_validation::{
-    AndersonDarling, Collapses, CramerVonMises, Evidence, KolmogorovSmirnov, MannWhitney, Pairs, Resampling, Sample,
-    bands, detectable_factor, dkw_half_width, energy_distance, greenwood_band, holm_adjusted, kstest2_p,
-    median_ratio_band, permutation_p, wasserstein_distance,
+    AndersonDarling, BandRule, Collapses, CramerVonMises, Evidence, KolmogorovSmirnov, MannWhitney, Pairs, Resampling,
+    Sample, bands, bootstrap_band, detectable_factor, dkw_half_width, energy_distance, greenwood_band, holm_adjusted,
+    kstest2_p, median_ratio_band, permutation_p, wasserstein_distance,
 };
 
 const INF: f64 = f64::INFINITY;
@@ -170,6 +170,14 @@ fn bands_by_hand() {
     close(high, 5.0 / 12.0 + half);
     assert_eq!(greenwood_band(&sample(&twelve), 0.5), [0.0, 0.0]);
     close(dkw_half_width(24), (40.0_f64.ln() / 48.0).sqrt());
+    assert_eq!(BandRule::Greenwood.at(&sample(&twelve), 5.0), [low, high]);
+    let [low, high] = BandRule::Dkw.at(&sample(&twelve), 5.0);
+    close(low, 5.0 / 12.0 - dkw_half_width(12));
+    close(high, 5.0 / 12.0 + dkw_half_width(12));
+    assert_eq!(BandRule::Dkw.at(&sample(&twelve), 0.5)[0], 0.0);
+    // scipy.stats.binom.ppf([0.025, 0.975], 12, 5/12) = 2, 8
+    assert_eq!(bootstrap_band(&sample(&twelve), 5.0), [2.0 / 12.0, 8.0 / 12.0]);
+    assert_eq!([0.5, 12.0].map(|x| BandRule::Bootstrap.at(&sample(&twelve), x)), [[0.0; 2], [1.0; 2]]);
     let holm = holm_adjusted(&[0.01, 0.04, 0.03, 0.5]);
     for (ours, expected) in holm.iter().zip([0.04, 0.09, 0.09, 0.5]) {
         close(*ours, expected);

@@ -12,7 +12,7 @@ use super::record_set::{alike, is_made, synthetic_pairs};
 use super::selection;
 use crate::error::UpliftError;
 use crate::events::Events;
-use uplift_study::{DisplacementStudy, RecordSource, SetPlan};
+use uplift_study::{DisplacementStudy, RecordSource, SetPlan, SetRecords};
 
 /// Name of the set where a study names none.
 const ALL_RECORDS: &str = "all records";
@@ -93,9 +93,23 @@ impl RecordSets {
 /// Everything that is wrong with the manifest, the sets or the record files, at once; [`UpliftError::Interrupted`]
 /// where `events` say so while synthetic ones are made.
 pub fn read_record_sets(study: &DisplacementStudy, events: &dyn Events) -> Result<RecordSets, UpliftError> {
-    let (pairs, chosen, source, mut notes) = match &study.records.source {
+    read_sets(&study.records, &study.record_sets, study.gravity_m_s2, events)
+}
+
+/// The same of `records` in sets by these `plans`; in one where there are none.
+///
+/// # Errors
+/// As [`read_record_sets`].
+pub(crate) fn read_sets(
+    records: &SetRecords,
+    plans: &[SetPlan],
+    gravity_m_s2: f64,
+    events: &dyn Events,
+) -> Result<RecordSets, UpliftError> {
+    let most = most(records);
+    let (pairs, chosen, source, mut notes) = match &records.source {
         &RecordSource::Synthetic { pairs, seed } => {
-            let named = study.record_sets.len();
+            let named = plans.len();
             let unused = (named > 0).then(|| {
                 format!(
                     "no manifest, so the {named} record sets of the study are not used: all synthetic records are \
@@ -108,14 +122,14 @@ pub fn read_record_sets(study: &DisplacementStudy, events: &dyn Events) -> Resul
             (pairs, vec![plan], format!("seed {seed}"), Vec::from_iter(unused))
         }
         RecordSource::Manifest { manifest, .. } => {
-            let RowsOfSets { rows, chosen, notes } = rows_of_sets(manifest, study)?;
+            let RowsOfSets { rows, chosen, notes } = rows_of_sets(manifest, records, plans)?;
             let name = manifest.file_name().unwrap_or(manifest.as_os_str()).to_string_lossy().into_owned();
-            (pairs::read(rows, study.gravity_m_s2).map_err(UpliftError::Inputs)?, chosen, name, notes)
+            (pairs::read(rows, gravity_m_s2).map_err(UpliftError::Inputs)?, chosen, name, notes)
         }
     };
-    let synthetic = study.records.manifest().is_none() || pairs.iter().any(is_made);
-    let select = &study.records.select;
-    let (pairs, lacking) = selection::select(pairs, select, Combination::GeometricMean, study.gravity_m_s2)?;
+    let synthetic = records.manifest().is_none() || pairs.iter().any(is_made);
+    let select = &records.select;
+    let (pairs, lacking) = selection::select(pairs, select, Combination::GeometricMean, gravity_m_s2)?;
     notes.extend(lacking);
     notes.extend(alike(&pairs));
 
@@ -124,8 +138,7 @@ pub fn read_record_sets(study: &DisplacementStudy, events: &dyn Events) -> Resul
     let mut mistakes = Vec::new();
     let mut sets = Vec::new();
     for Chosen { name, tag, ids } in chosen {
-        let members: Vec<usize> =
-            ids.iter().filter_map(|id| position.get(id.as_str()).copied()).take(most(study)).collect();
+        let members: Vec<usize> = ids.iter().filter_map(|id| position.get(id.as_str()).copied()).take(most).collect();
         if members.is_empty() {
             let selected = if select.is_empty() { String::new() } else { format!(" with {select}") };
             mistakes.push(format!("record set {name:?} has no record{selected}: widen it, or leave the set out"));
@@ -161,8 +174,8 @@ struct Chosen {
 }
 
 /// Records of each set at most.
-fn most(study: &DisplacementStudy) -> usize {
-    study.records.first.map_or(usize::MAX, |first| usize::try_from(first).unwrap_or(usize::MAX))
+fn most(records: &SetRecords) -> usize {
+    records.first.map_or(usize::MAX, |first| usize::try_from(first).unwrap_or(usize::MAX))
 }
 
 /// The rows of a manifest that are in a set, each once; the sets; and notes.
@@ -172,9 +185,9 @@ struct RowsOfSets {
     notes: Vec<String>,
 }
 
-fn rows_of_sets(path: &Path, study: &DisplacementStudy) -> Result<RowsOfSets, UpliftError> {
+fn rows_of_sets(path: &Path, records: &SetRecords, plans: &[SetPlan]) -> Result<RowsOfSets, UpliftError> {
     let everything = [SetPlan { name: ALL_RECORDS.to_owned(), tag: None, leave_out: Vec::new() }];
-    let plans = if study.record_sets.is_empty() { &everything[..] } else { &study.record_sets };
+    let plans = if plans.is_empty() { &everything[..] } else { plans };
     let mut rows: Vec<Row> = Vec::new();
     let mut known = BTreeSet::new();
     let (mut chosen, mut notes, mut mistakes) = (Vec::new(), Vec::new(), Vec::new());
@@ -193,8 +206,8 @@ fn rows_of_sets(path: &Path, study: &DisplacementStudy) -> Result<RowsOfSets, Up
                 notes.push(format!("record set {:?}: {left_out}, which is left out, is not in it", plan.name));
             }
         }
-        if study.records.select.is_empty() {
-            of_set.truncate(most(study)); // nothing is read in vain
+        if records.select.is_empty() {
+            of_set.truncate(most(records)); // nothing is read in vain
         }
         chosen.push(Chosen {
             name: plan.name.clone(),
@@ -208,8 +221,17 @@ fn rows_of_sets(path: &Path, study: &DisplacementStudy) -> Result<RowsOfSets, Up
 
 /// Whether the row has this identifier or record sequence number.
 fn is_called(row: &Row, name: &str) -> bool {
+    has_name(&row.id, &row.metadata, name)
+}
+
+/// The same of a record that was read.
+pub(crate) fn is_numbered(record: &SetRecord, name: &str) -> bool {
+    has_name(&record.pair.id, &record.pair.metadata, name)
+}
+
+fn has_name(id: &str, metadata: &BTreeMap<String, String>, name: &str) -> bool {
     let number = |text: &str| text.strip_prefix("RSN").unwrap_or(text).parse::<u64>().ok();
-    let of_id = row.id.split('_').next().filter(|word| word.starts_with("RSN")).and_then(number);
-    let of_row = row.metadata.get("rsn").and_then(|text| number(text)).or(of_id);
-    row.id == name || (of_row.is_some() && of_row == number(name))
+    let of_id = id.split('_').next().filter(|word| word.starts_with("RSN")).and_then(number);
+    let of_row = metadata.get("rsn").and_then(|text| number(text)).or(of_id);
+    id == name || (of_row.is_some() && of_row == number(name))
 }

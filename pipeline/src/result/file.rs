@@ -47,6 +47,8 @@ use crate::error::UpliftError;
 /// | [`displacements`](Self::displacements) | the spectra |
 /// | [`motions`](Self::motions) | every peak displacement of a set |
 /// | [`design`](Self::design) | the design example |
+/// | **of a shaking table** | |
+/// | [`shake_table`](Self::shake_table) | every test |
 pub struct ResultFile {
     pub(super) path: PathBuf,
     pub(super) reader: LabelledReader,
@@ -159,6 +161,13 @@ impl ResultFile {
                 "holds displacement spectra of record sets, and this command wants uniform risk spectra: `uplift \
                  table`, `plot`, `report`, `status` and `verify` take it, tables lie beside it as CSV, and \
                  docs/displacement-spectra.md says how other programs read it"
+            }
+            Kind::ShakeTable => {
+                "holds the tests of a shaking table: `uplift table`, `plot`, `report`, `validate`, `status` and \
+                 `verify` take it, and its tests lie beside it as CSV"
+            }
+            Kind::UniformRisk if wanted == Kind::ShakeTable => {
+                "holds uniform risk spectra, and the tests of a shaking table are wanted"
             }
             Kind::UniformRisk => "holds uniform risk spectra, and displacement spectra of record sets are wanted",
         }))

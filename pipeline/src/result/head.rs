@@ -8,7 +8,7 @@ use uplift_study::Kind;
 
 use super::digest::UNSAID_NUMERICS;
 use super::file::ResultFile;
-use super::layout::{axis, bootstrap, design, efficiency, ida, influence, set, spectra};
+use super::layout::{axis, bootstrap, design, efficiency, ida, influence, set, shake_table, spectra};
 use crate::error::UpliftError;
 
 /// Where the numbers of a result come from: what results of every kind say at their root.
@@ -68,6 +68,17 @@ pub enum Overview {
         sets: Vec<(String, u64)>,
         /// Whether there is a design example.
         designed: bool,
+    },
+    /// The tests of a shaking table.
+    ShakeTable {
+        /// The structure file.
+        structure: String,
+        /// Tests.
+        analyses: u64,
+        /// Names of the levels.
+        levels: Vec<String>,
+        /// Excitations.
+        excitations: usize,
     },
 }
 
@@ -133,6 +144,14 @@ impl ResultFile {
                 analyses: reader.attribute_u64(spectra::GROUP, "analyses")?,
                 sets: sets.into_iter().map(|(records, name)| (name, records)).collect(),
                 designed: reader.exists(design::GROUP),
+            });
+        }
+        if self.kind() == Kind::ShakeTable {
+            return Ok(Overview::ShakeTable {
+                structure: reader.attribute_text(shake_table::GROUP, "structure")?,
+                analyses: reader.attribute_u64(shake_table::GROUP, "analyses")?,
+                levels: reader.axis_text(axis::LEVEL)?,
+                excitations: reader.axis_text(axis::EXCITATION)?.len(),
             });
         }
         let mut analyses = Vec::new();

@@ -268,6 +268,16 @@ in_group! {
     spectra: U_M = "u_m", U_M_ROUNDING = "u_m_rounding", OVERTURNED = "overturned", CRITICAL = "critical",
 }
 
+in_group! {
+    /// The tests of a shaking table.
+    shake_table:
+    PGV_SRSS_M_S = "pgv_srss_m_s", CLASS = "class", RECORD = "record", RSN = "rsn",
+    RECORDED_PGV_M_S = "recorded_pgv_m_s", ORDER = "order", FACTOR = "factor", PGA_SRSS_M_S2 = "pga_srss_m_s2",
+    U_M = "u_m", U_X_M = "u_x_m", U_Y_M = "u_y_m", DRIFT = "drift", TENDON_N = "tendon_n", SPRING_M = "spring_m",
+    BASE_SHEAR_N = "base_shear_n", BASE_REACTION_N = "base_reaction_n",
+    DECK_ACCELERATION_M_S2 = "deck_acceleration_m_s2",
+}
+
 /// The motions of a set of records.
 pub mod set {
     /// The group of all sets.
@@ -366,6 +376,8 @@ pub mod axis {
         BOUND,
         RATE,
         KNOT,
+        LEVEL,
+        EXCITATION,
     ];
     /// Ground motions.
     pub const RECORD: &str = "record";
@@ -410,6 +422,10 @@ pub mod axis {
     pub const RATE: &str = "rate_number";
     /// Knots of the exponent of weights.
     pub const KNOT: &str = "knot_number";
+    /// Levels of shaking of a table.
+    pub const LEVEL: &str = "level";
+    /// What a table plays.
+    pub const EXCITATION: &str = "excitation";
 
     /// The path of an axis.
     pub fn path(name: &str) -> String {
@@ -494,7 +510,7 @@ mod tests {
         let documented = |group: &str, name: &str| {
             page.lines().any(|line| line.contains(group) && line.contains(&format!("{name}`")))
         };
-        let groups: [(&str, &[&str]); 17] = [
+        let groups: [(&str, &[&str]); 18] = [
             ("`/records/", records::ARRAYS),
             ("`/ida/pgv/", ida::ARRAYS),
             ("`/risk/pgv/", risk::ARRAYS),
@@ -512,6 +528,7 @@ mod tests {
             ("`/spectra/", spectra::ARRAYS),
             ("`/sets/<set>/", set::ARRAYS),
             ("`/design/", design::ARRAYS),
+            ("`/shake_table/", shake_table::ARRAYS),
         ];
         for (group, arrays) in groups {
             for name in arrays {

@@ -104,9 +104,7 @@ impl ResultFile {
     pub(crate) fn stored_study(&self) -> Result<UniformRiskStudy, UpliftError> {
         match Study::stored(&self.reader.attribute_text("/", "study_toml")?) {
             Ok(AnyStudy::UniformRisk(study)) => Ok(*study),
-            Ok(AnyStudy::Displacement(study)) => {
-                Err(self.fail(format!("the study {} has no uniform risk spectra", study.title)))
-            }
+            Ok(other) => Err(self.fail(format!("the study {} has no uniform risk spectra", other.title()))),
             Err(error) => {
                 let mistakes: Vec<String> = error.mistakes().iter().map(ToString::to_string).collect();
                 Err(self.fail(format!("the study in the file cannot be read: {}", mistakes.join("; "))))

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use polars::prelude::DataFrame;
+use polars::prelude::{Column, DataFrame, DataType};
 
 use uplift_atomic_file::read_file;
 
@@ -41,9 +41,28 @@ impl ReferenceTable {
         Ok(Self { name, frame })
     }
 
+    /// The table of these `columns`, every cell as text; `name` in messages.
+    ///
+    /// # Errors
+    /// Columns that make no table.
+    pub(crate) fn of(name: String, columns: Vec<Column>) -> Result<Self, UpliftError> {
+        let frame = columns
+            .into_iter()
+            .map(|column| column.cast(&DataType::String))
+            .collect::<Result<Vec<_>, _>>()
+            .and_then(DataFrame::new_infer_height)
+            .map_err(|error| UpliftError::input(format!("{name}: {error}")))?;
+        Ok(Self { name, frame })
+    }
+
     /// Number of rows.
     pub fn rows(&self) -> usize {
         self.frame.height()
+    }
+
+    /// Names of its columns.
+    pub(crate) fn columns(&self) -> Vec<String> {
+        self.frame.get_column_names().iter().map(ToString::to_string).collect()
     }
 
     /// Whether there is such a column.

@@ -47,6 +47,9 @@ pub(crate) fn print_plan(plan: &Plan, study: &AnyStudy, terminal: &Terminal) -> 
                 writeln!(out, "hazard    {line}")?;
             }
         }
+        Plan::ShakeTable(plan) => {
+            writeln!(out, "tests     {} excitations at {} levels", plan.excitations, plan.levels)?;
+        }
         Plan::Displacement(_) => {}
     }
     writeln!(out, "time      about {} on {} threads", duration(head.seconds), head.threads)?;

@@ -6,7 +6,7 @@ use uplift::analysis::ShardReport;
 use uplift::run::{RunHead, RunReport};
 
 use super::alarms::print_alarms;
-use super::{displacement, shown_path, uniform_risk};
+use super::{displacement, shake_table, shown_path, uniform_risk};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
@@ -19,12 +19,14 @@ pub(crate) fn print_run(report: &RunReport, terminal: &Terminal) -> Result<(), C
     match report {
         RunReport::UniformRisk(report) => uniform_risk::print_spectra(&mut out, report)?,
         RunReport::Displacement(report) => displacement::print_spectra(&mut out, report)?,
+        RunReport::ShakeTable(report) => shake_table::print_tests(&mut out, &report.table)?,
     }
     print_end(&mut out, report.head())?;
     let result = report.head().files.first().map(|file| shown_path(file).display());
     let next = match report {
         RunReport::UniformRisk(report) if !report.spectra.is_empty() => "Coefficients (Table 4.2)",
         RunReport::Displacement(report) if report.has_design => "Design example",
+        RunReport::ShakeTable(_) => "Every test, in the order of its response",
         RunReport::UniformRisk(_) | RunReport::Displacement(_) => return Ok(()),
     };
     if let Some(result) = result {

@@ -55,6 +55,9 @@ fn print_result(out: &mut impl Write, result: &ResultStatus) -> Result<(), Comma
                 writeln!(out, "  design   uplift table {file}")?;
             }
         }
+        ResultContent::ShakeTable { structure, analyses, levels, excitations } => {
+            writeln!(out, "  tests    {analyses} of {structure}: {excitations} excitations at {}", levels.join(", "))?;
+        }
         ResultContent::UniformRisk { analyses, sites, added } => {
             for (measure, analyses) in analyses {
                 writeln!(out, "  {measure:<8} {analyses} analyses")?;

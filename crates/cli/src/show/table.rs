@@ -9,6 +9,7 @@ use uplift::table::{COMPARED_ABOVE, COMPARED_FROM_M, CoefficientRow, Coefficient
 use uplift::text::{kind_of_risks, risk_name, spectrum_words, table};
 
 use super::alarms::print_alarms;
+use super::shake_table;
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
@@ -19,6 +20,7 @@ pub(crate) fn print_table(report: &TableReport, terminal: &Terminal) -> Result<(
         TableRows::Coefficients(coefficients) => print_coefficients(&mut out, coefficients),
         TableRows::Design(designs) => design::print_design(&mut out, designs),
         TableRows::Columns(columns) => columns::print_columns(&mut out, columns),
+        TableRows::Tests(tests) => shake_table::print_order(&mut out, tests),
     }?;
     // a quiet terminal gets what was asked for alone
     if terminal.is_quiet() { Ok(()) } else { print_alarms(&mut out, &report.alarms) }

@@ -9,7 +9,7 @@ use crate::reading::{LARGEST_INTEGER, Paths, Section, optional};
 use crate::sections::record_source::{self, NO_TAG, RecordSource, Synthetic};
 use crate::sections::selection::{self, RecordSelection};
 
-pub(super) const KEYS: SectionKeys = SectionKeys {
+pub(crate) const KEYS: SectionKeys = SectionKeys {
     section: "records",
     keys: &[
         Key {
@@ -32,6 +32,10 @@ pub(super) const KEYS: SectionKeys = SectionKeys {
         },
     ],
 };
+
+/// What to do about a tag where there are sets.
+pub(super) const SETS_HAVE_TAGS: &str =
+    "write a section [[record_sets]] with a name and this tag; or one for each of several sets";
 
 /// Which ground motions there are to choose from.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,8 +79,8 @@ impl Serialize for SetRecords {
     }
 }
 
-/// Reads the section.
-pub(super) fn read(mut section: Section<'_>, paths: &Paths) -> Option<SetRecords> {
+/// Reads the section; `instead_of_tag` is what to do where a tag is given.
+pub(crate) fn read(mut section: Section<'_>, paths: &Paths, instead_of_tag: &str) -> Option<SetRecords> {
     let manifest_field = section.field("manifest");
     let tag_field = section.field("tag");
     let first_field = section.field("first");
@@ -84,11 +88,7 @@ pub(super) fn read(mut section: Section<'_>, paths: &Paths) -> Option<SetRecords
     let synthetic = record_source::synthetic(section.section("synthetic"));
     section.finish();
     if let Some(field) = tag_field {
-        let help = if manifest_field.is_some() {
-            "write a section [[record_sets]] with a name and this tag; or one for each of several sets"
-        } else {
-            NO_TAG
-        };
+        let help = if manifest_field.is_some() { instead_of_tag } else { NO_TAG };
         field.mistake("tags are given set by set", help);
     }
     let first = optional(first_field.as_ref(), |field| field.integer(1, LARGEST_INTEGER));

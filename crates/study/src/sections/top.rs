@@ -9,7 +9,7 @@ pub(crate) const KIND: Key = Key {
     names: &["kind"],
     meaning: "what the study is of",
     default: "`\"uniform risk spectra\"`",
-    range: "that, or `\"displacement spectra\"`",
+    range: "that, `\"displacement spectra\"` or `\"shake table\"`",
 };
 pub(crate) const TITLE: Key =
     Key { names: &["title"], meaning: "free text, carried into the results", default: "empty", range: "" };

@@ -28,7 +28,7 @@ fn all_load() {
         assert_eq!(format!("{stem}.toml"), name);
         names.push(name);
     }
-    assert_eq!(names.len(), 11);
+    assert_eq!(names.len(), 12);
 }
 
 /// Of the six sites, what is set out in full in `europe.toml` is the default.

@@ -19,7 +19,7 @@ fn config(name: &str) -> DisplacementStudy {
     let path: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../configs").join(name);
     match Study::load_any(&path, &[]).unwrap() {
         AnyStudy::Displacement(study) => *study,
-        AnyStudy::UniformRisk(_) => panic!("{name} is a study of uniform risk"),
+        other => panic!("{name} is a study of {}", other.kind().key()),
     }
 }
 
@@ -175,7 +175,11 @@ fn commented_keys_are_keys() {
 fn one_by_one() {
     for (study, expected) in [
         ("kind = \"displacement\"", "kind: unknown kind: the text \"displacement\""),
-        ("kind = 3", "kind: expected one of \"uniform risk spectra\", \"displacement spectra\", found the number 3"),
+        (
+            "kind = 3",
+            "kind: expected one of \"uniform risk spectra\", \"displacement spectra\", \"shake table\", found the \
+             number 3",
+        ),
         ("kind = \"displacement spectra\"", "the study has nothing to shake"),
         (
             "kind = \"displacement spectra\"\n[block]\n[oscillator]",

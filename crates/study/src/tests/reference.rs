@@ -7,11 +7,14 @@ use std::{env, fs};
 
 use super::super::reading::{Findings, Paths, Section, Table};
 use super::super::{AnyStudy, Key, Kind, SectionKeys};
-use super::{displacement, resolving};
+use super::{displacement, resolving, shake_table};
 
 /// The page of each kind. Keys of any kind may stand in the first one.
-const PAGES: [(&str, Kind); 2] =
-    [("study-file.md", Kind::UniformRisk), ("displacement-spectra.md", Kind::Displacement)];
+const PAGES: [(&str, Kind); 3] = [
+    ("study-file.md", Kind::UniformRisk),
+    ("displacement-spectra.md", Kind::Displacement),
+    ("shake-table.md", Kind::ShakeTable),
+];
 
 /// What stands before a table: the sections whose keys it has.
 const MARK: (&str, &str) = ("<!-- keys: ", " -->");
@@ -115,9 +118,11 @@ fn every_key_is_in_the_reference_and_no_other() {
         branches = [{ file = \"a\", weight = 0.5 }, { file = \"b\", weight = 0.5 }]\n[sites.sa_1s]\n\
         branches = [{ file = \"a\", weight = 0.5 }, { file = \"b\", weight = 0.5 }]\n";
     const BLOCKS: &str = "kind = \"displacement spectra\"\n[block]\n[design]";
-    for (kind, studies) in
-        [(Kind::UniformRisk, [resolving::COMPLETE, CURVES]), (Kind::Displacement, [displacement::COMPLETE, BLOCKS])]
-    {
+    for (kind, studies) in [
+        (Kind::UniformRisk, [resolving::COMPLETE, CURVES]),
+        (Kind::Displacement, [displacement::COMPLETE, BLOCKS]),
+        (Kind::ShakeTable, [shake_table::COMPLETE, shake_table::BARE]),
+    ] {
         let mut known = BTreeSet::new();
         for section in kind.keys() {
             for name in section.keys.iter().flat_map(|key| key.names) {
@@ -135,7 +140,7 @@ fn every_key_is_in_the_reference_and_no_other() {
                 .is_some_and(|(grid, part)| known.contains(grid) && ["start", "stop", "count"].contains(&part))
         };
         // asked for only to say where it belongs
-        let elsewhere = |key: &str| kind == Kind::Displacement && key == "records.tag";
+        let elsewhere = |key: &str| kind != Kind::UniformRisk && key == "records.tag";
         let told = |key: &str| is_section(key) || of_a_grid(key) || elsewhere(key);
         let unknown: Vec<_> = asked.difference(&known).filter(|key| !told(key)).collect();
         assert!(unknown.is_empty(), "read, but not in the reference of {}: {unknown:?}", kind.key());
@@ -161,7 +166,7 @@ fn the_reference_says_the_ranges_that_are_asked_for() {
         ("width_m", plausible::LENGTH),
         ("endless_height_m", plausible::LENGTH),
     ];
-    let sections = [Kind::UniformRisk, Kind::Displacement].into_iter().flat_map(Kind::keys);
+    let sections = Kind::ALL.into_iter().flat_map(Kind::keys);
     let keys: Vec<&Key> = sections.flat_map(|section| section.keys).collect();
     for (name, range) in known {
         let said = range.to_string();

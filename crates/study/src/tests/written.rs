@@ -3,7 +3,7 @@
 
 use super::super::{AnyStudy, Kind, Study};
 use super::Folder;
-use super::{displacement, resolving};
+use super::{displacement, resolving, shake_table};
 
 const BLOCKS: &str = "kind = \"displacement spectra\"\n[block]\nrestitution = 0.9\nheight_m = [2, \"4:1/2:5\"]\n\
     [records.synthetic]\npairs = 3\nseed = 0\n[design]\n[output]\nfile = \"x.h5\"";
@@ -29,6 +29,7 @@ fn written(study: &str) -> (String, AnyStudy) {
 fn studies() -> Vec<(String, AnyStudy)> {
     let complete = resolving::COMPLETE.replace("../pgv.csv", "./pgv.csv");
     let studies = [&complete, RISING, BRANCHES, displacement::COMPLETE, BLOCKS, BARE_BLOCKS, BARE_OSCILLATORS, SETS];
+    let studies = [&studies[..], &[shake_table::COMPLETE, shake_table::BARE]].concat();
     studies.iter().map(|study| written(study)).collect()
 }
 

@@ -21,7 +21,7 @@ pub(crate) struct TableArguments {
         value_name = "FILE.csv",
         help = "Table to compare with: CSV with the columns site, poe_50y (or poe), c0_m, c1, c2_m, rmse_m; for \
                 displacement spectra record_set, scaling, quantity, value and, for oscillators, rule (ED, EE); for a \
-                structure quantity, value"
+                shaking table level, exc_id in the order of the tests; for a structure quantity, value"
     )]
     reference: Option<PathBuf>,
     /// Which intensity measure, with the warnings of it alone; not for displacement spectra [default: pgv, with every

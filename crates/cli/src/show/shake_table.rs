@@ -1,0 +1,96 @@
+//! The tests of a shaking table.
+
+use std::io::Write;
+
+use uplift::result::ShakeTable;
+use uplift::table::TestsTable;
+use uplift::text::table;
+use uplift_validation::Sample;
+
+use crate::error::CommandError;
+
+/// What stands for the displacement of a frame that overturns.
+const OVERTURNS: &str = "overturns";
+
+/// Medians and fractiles of each class at each level.
+pub(super) fn print_tests(out: &mut impl Write, found: &ShakeTable) -> Result<(), CommandError> {
+    writeln!(
+        out,
+        "\nPeak displacement U of the deck of {}, m; {} excitations{}",
+        found.structure,
+        found.excitations.len(),
+        if found.synthetic { " (synthetic records)" } else { "" }
+    )?;
+    let classes = found.classes();
+    let mut rows = Vec::new();
+    for (index, level) in found.levels.iter().enumerate() {
+        let all = (classes.len() != 1).then_some(None);
+        for class in all.into_iter().chain(classes.iter().copied().map(Some)) {
+            let of_class = found.of_level(index).filter(|(one, _)| class.is_none_or(|class| one.class == class));
+            let (mut u_m, mut still) = (Vec::new(), 0);
+            for (_, test) in of_class {
+                u_m.push(test.u_m);
+                still += usize::from(test.u_m == 0.0);
+            }
+            let Ok(sample) = Sample::new(u_m) else { continue };
+            let mut cells = vec![level.name.clone(), class.unwrap_or("all").to_owned(), sample.len().to_string()];
+            cells.extend([0.16, 0.5, 0.84].map(|share| metres(fractile(&sample, share))));
+            cells.extend([still.to_string(), sample.collapses().to_string()]);
+            rows.push(cells);
+        }
+    }
+    let header = ["level", "class", "tests", "16 %", "50 %", "84 %", "never uplift", "overturn"];
+    Ok(writeln!(out, "{}", table(&header, &rows))?)
+}
+
+/// Every test in the order of its response, beside a printed order.
+pub(super) fn print_order(out: &mut impl Write, found: &TestsTable) -> Result<(), CommandError> {
+    writeln!(out, "records: {}; structure: {}", found.record_set, found.structure)?;
+    let mut header = vec!["order", "level", "excitation", "class", "U, m", "drift, %", "T, kN", "base shear, kN"];
+    header.extend(found.agreement.is_some().then_some("| printed"));
+    let rows: Vec<Vec<String>> = found
+        .rows
+        .iter()
+        .map(|row| {
+            let mut cells = vec![row.order.to_string(), row.level.clone(), row.exc_id.clone(), row.class.clone()];
+            let or = |value: Option<f64>, none: &str, factor: f64, decimals: usize| {
+                value.map_or_else(|| none.to_owned(), |value| format!("{:.decimals$}", factor * value))
+            };
+            cells.push(or(row.u_m, OVERTURNS, 1.0, 4));
+            cells.extend([or(row.drift, "-", 100.0, 2), or(row.tendon_n, "-", 1e-3, 2)]);
+            cells.push(or(row.base_shear_n, "-", 1e-3, 2));
+            if found.agreement.is_some() {
+                cells.push(row.reference.map_or_else(|| "| -".to_owned(), |place| format!("| {place}")));
+            }
+            cells
+        })
+        .collect();
+    writeln!(out, "{}", table(&header, &rows))?;
+    if let Some(agreement) = &found.agreement {
+        let shown = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.3}"));
+        let levels: Vec<String> = agreement
+            .by_level
+            .iter()
+            .map(|(name, tests, found)| format!("{name} {} of {tests}", shown(*found)))
+            .collect();
+        writeln!(
+            out,
+            "both orders: Spearman {} of {} tests ({}); {} tests of the reference are not among these",
+            shown(agreement.spearman),
+            agreement.tests,
+            levels.join(", "),
+            agreement.reference_only
+        )?;
+    }
+    Ok(())
+}
+
+/// The smallest value that at least this share of the tests does not exceed.
+fn fractile(sample: &Sample, share: f64) -> f64 {
+    let values = sample.sorted();
+    values.iter().copied().find(|value| sample.cdf(*value) >= share).unwrap_or(f64::INFINITY)
+}
+
+fn metres(value: f64) -> String {
+    if value.is_infinite() { OVERTURNS.to_owned() } else { format!("{value:.4}") }
+}

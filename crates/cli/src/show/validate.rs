@@ -1,0 +1,180 @@
+//! A validation in lines and tables.
+
+use std::io::Write;
+
+use uplift::text::{share, table};
+use uplift::validate::{GroupReport, PRule, ValidateReport};
+use uplift_validation::{Pairs, Quantiles};
+
+use super::{print_files, shown_path};
+use crate::error::CommandError;
+use crate::terminal::{Terminal, output};
+
+/// Of what is not defined.
+const NONE: &str = "-";
+
+/// What is compared, the tests, the sizes of differences, the other distances, and what to know.
+pub(crate) fn print_validation(report: &ValidateReport, terminal: &Terminal) -> Result<(), CommandError> {
+    let mut out = output();
+    writeln!(out, "measured   {}", shown_path(&report.measured).display())?;
+    writeln!(out, "computed   {}", shown_path(&report.computed).display())?;
+    let joined = if report.key.is_empty() {
+        "two samples, not joined".to_owned()
+    } else {
+        format!("pairs by {}", report.key.join(", "))
+    };
+    writeln!(out, "peaks      {}, {joined}; - is not defined, above all with collapses", report.value)?;
+    print_tests(&mut out, report)?;
+    print_sizes(&mut out, report)?;
+    print_distances(&mut out, report)?;
+    for note in &report.notes {
+        writeln!(out, "note       {note}")?;
+    }
+    drop(out);
+    print_files(&report.files, terminal)
+}
+
+fn print_tests(out: &mut impl Write, report: &ValidateReport) -> Result<(), CommandError> {
+    let sees = format!("sees at {}", report.significance);
+    let mut header =
+        vec!["Kolmogorov-Smirnov", "n", "D", "p exact", "Kolmogorov", "kstest2", "Holm", "evidence", sees.as_str()];
+    let permuted = report.groups.iter().any(|group| group.p_permutation.is_some());
+    let at_limits = report.groups.iter().any(|group| group.censored.is_some());
+    header.extend(permuted.then_some("p swaps"));
+    header.extend(at_limits.then_some("D at limits"));
+    let rows: Vec<Vec<String>> = report
+        .groups
+        .iter()
+        .map(|group| {
+            let test = &group.kolmogorov_smirnov;
+            let sizes = if group.measured == group.computed {
+                group.measured.to_string()
+            } else {
+                format!("{}, {}", group.measured, group.computed)
+            };
+            let factor =
+                group.detectable_factor.map_or_else(|| NONE.to_owned(), |factor| format!("a factor of {factor:.2}"));
+            let ties = if test.has_ties { "=" } else { "" };
+            let mut cells = vec![ValidateReport::name(group), sizes, digits(test.distance)];
+            cells.push(format!("{}{ties}", digits(test.p_exact)));
+            cells.extend([test.p_kolmogorov, test.p_kstest2, group.p_holm].map(digits));
+            cells.extend([group.evidence.words().to_owned(), factor]);
+            cells.extend(permuted.then(|| or_dash(group.p_permutation)));
+            cells.extend(at_limits.then(|| or_dash(group.censored.map(|censored| censored.ks_distance_at_limits))));
+            cells
+        })
+        .collect();
+    writeln!(out, "\n{}", table(&header, &rows))?;
+    let rule = match report.p_rule {
+        PRule::Exact => "the exact p",
+        PRule::Kolmogorov => "Kolmogorov's p",
+        PRule::Kstest2 => "kstest2's p",
+    };
+    writeln!(
+        out,
+        "evidence   against equal distributions, by {rule} (Table 6.1); \"sees\": the factor between the medians that \
+         the test finds with 80 %"
+    )?;
+    if report.groups.iter().any(|group| group.kolmogorov_smirnov.has_ties) {
+        writeln!(out, "=          equal peaks: this p is too large rather than too small")?;
+    }
+    Ok(())
+}
+
+fn print_sizes(out: &mut impl Write, report: &ValidateReport) -> Result<(), CommandError> {
+    let (measured, computed) = (format!("measured, {}", report.unit), format!("computed, {}", report.unit));
+    let mut header =
+        vec!["medians and pairs", measured.trim_end_matches(", "), computed.trim_end_matches(", "), "e50", "error"];
+    header.push("5 to 95 %");
+    let are_pairs = !report.key.is_empty();
+    if are_pairs {
+        header.extend(["bias", "5 to 95 %", "dispersion", "5 to 95 %", "Pearson", "Spearman", "in 1.5", "in 2"]);
+    }
+    let rows: Vec<Vec<String>> = report
+        .groups
+        .iter()
+        .map(|group| {
+            let mut cells = vec![ValidateReport::name(group)];
+            cells.extend([group.median_measured, group.median_computed].map(or_dash));
+            cells.extend([group.e50.map(share), group.median_error.map(signed)].map(|cell| cell.unwrap_or(dash())));
+            cells.push(band(group.median_error_band, signed));
+            if let Some(pairs) = &group.pairs {
+                cells.extend(pair_cells(group, pairs));
+            }
+            cells
+        })
+        .collect();
+    writeln!(out, "\n{}", table(&header, &rows))?;
+    if are_pairs {
+        writeln!(
+            out,
+            "bias       mean of ln(computed/measured), dispersion their standard deviation; \"in 2\": pairs within a \
+             factor of 2"
+        )?;
+    }
+    Ok(())
+}
+
+fn pair_cells(group: &GroupReport, pairs: &Pairs) -> Vec<String> {
+    let bands = group.pair_bands;
+    let number = |value: f64| format!("{value:.3}");
+    vec![
+        pairs.log_bias.map_or_else(dash, number),
+        band(bands.and_then(|bands| bands.log_bias), number),
+        pairs.log_dispersion.map_or_else(dash, number),
+        band(bands.and_then(|bands| bands.log_dispersion), number),
+        pairs.pearson.map_or_else(dash, number),
+        pairs.spearman.map_or_else(dash, number),
+        share(pairs.within_1_5),
+        share(pairs.within_2),
+    ]
+}
+
+fn print_distances(out: &mut impl Write, report: &ValidateReport) -> Result<(), CommandError> {
+    let wasserstein = format!("Wasserstein, {}", report.unit);
+    let mut header = vec!["other tests", "AD midrank", "AD right", "CvM", "p", "Mann-Whitney U", "p"];
+    header.extend([wasserstein.trim_end_matches(", "), "energy", "collapses measured", "computed"]);
+    let are_pairs = !report.key.is_empty();
+    if are_pairs {
+        header.extend(["both", "one"]);
+    }
+    let rows: Vec<Vec<String>> = report
+        .groups
+        .iter()
+        .map(|group| {
+            let (darling, mises, whitney) = (&group.anderson_darling, &group.cramer_von_mises, &group.mann_whitney);
+            let mut cells = vec![ValidateReport::name(group)];
+            cells.extend([darling.midrank, darling.right, mises.statistic, mises.p].map(digits));
+            cells.extend([format!("{}", whitney.statistic), digits(whitney.p)]);
+            cells.extend([group.wasserstein, group.energy].map(or_dash));
+            cells.extend([group.measured_collapses, group.computed_collapses].map(|count| count.to_string()));
+            if let Some(pairs) = &group.pairs {
+                let counts = pairs.collapses;
+                cells.extend([counts.both, counts.measured_only + counts.computed_only].map(|count| count.to_string()));
+            }
+            cells
+        })
+        .collect();
+    Ok(writeln!(out, "\n{}", table(&header, &rows))?)
+}
+
+fn dash() -> String {
+    NONE.to_owned()
+}
+
+/// Three significant digits or so.
+fn digits(value: f64) -> String {
+    if value != 0.0 && value.abs() < 1e-3 { format!("{value:.1e}") } else { format!("{value:.3}") }
+}
+
+fn or_dash(value: Option<f64>) -> String {
+    value.map_or_else(dash, |value| format!("{value:.4}"))
+}
+
+fn signed(value: f64) -> String {
+    if value.is_finite() { format!("{:+.0} %", 100.0 * value) } else { "∞".to_owned() }
+}
+
+fn band(band: Option<Quantiles>, shown: impl Fn(f64) -> String) -> String {
+    band.map_or_else(dash, |band| format!("{} … {}", shown(band.q05), shown(band.q95)))
+}

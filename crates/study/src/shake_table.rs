@@ -1,0 +1,149 @@
+//! A study of a shaking table: which tests a frame would go through, and what it would do (Sections 6.4 and 6.8).
+//!
+//! | module | section |
+//! |---|---|
+//! | `levels` | `[[levels]]` |
+//! | `model` | `[model]` |
+//!
+//! `[records]`, `[records.select]`, `[records.synthetic]` and `[output]` are as in other kinds.
+
+mod levels;
+mod model;
+
+use std::path::PathBuf;
+
+use serde::Serialize;
+
+use crate::displacement::{RECORDS_KEYS, SetRecords, read_records};
+use crate::keys::{Key, SectionKeys};
+use crate::reading::{Paths, Rule, Section, optional};
+use crate::sections::output::{self, Output};
+use crate::sections::{record_source, selection, top};
+use crate::warning::Warning;
+
+pub use levels::LevelPlan;
+pub use model::FrameModel;
+
+/// Prototype over model: as `uplift-frame` takes it.
+const LENGTH_SCALE: Rule = Rule::Is { holds: |value| (1e-3..=1e3).contains(&value), words: "from 0.001 to 1000" };
+
+/// What to do about a tag.
+const TABLE_OF_EXCITATIONS: &str = "name the records in a table: excitations = \"excitations.csv\"";
+
+/// The reference of every key.
+pub(crate) const KEYS: [SectionKeys; 7] = [
+    SectionKeys {
+        section: "",
+        keys: &[
+            top::KIND,
+            top::TITLE,
+            top::GRAVITY,
+            Key {
+                names: &["structure"],
+                meaning: "the frame that stands on the table: a structure file with columns and a deck",
+                default: "needed",
+                range: "kind `frame` or `restrained-frame`, `column_shape = \"cylinder\"`",
+            },
+            Key {
+                names: &["excitations"],
+                meaning: "table (CSV) of the records that are played: `exc_id`, `class`, and `rsn` or `record_id`",
+                default: "every record, of the class `all`",
+                range: "those that are not among the records are told",
+            },
+            Key {
+                names: &["length_scale"],
+                meaning: "lengths of the prototype over those of the model: time runs faster by its square root",
+                default: "1",
+                range: "0.001 to 1000",
+            },
+        ],
+    },
+    RECORDS_KEYS,
+    selection::KEYS,
+    record_source::SYNTHETIC_KEYS,
+    levels::KEYS,
+    model::KEYS,
+    output::KEYS,
+];
+
+/// A study of a shaking table with every default filled in, every path found and every unit checked.
+///
+/// It is serialised as a study file that loads to an equal value, wherever it is stored.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(tag = "kind", rename = "shake table")]
+pub struct ShakeTableStudy {
+    /// Free text.
+    pub title: String,
+    /// Acceleration of gravity of records in g \[m/s²\].
+    pub gravity_m_s2: f64,
+    /// The structure file.
+    pub structure: PathBuf,
+    /// The table of excitations; every record where there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub excitations: Option<PathBuf>,
+    /// Lengths of the prototype over those of the model.
+    pub length_scale: f64,
+    /// Which ground motions there are to choose from.
+    pub records: SetRecords,
+    /// The levels of shaking; at least one.
+    pub levels: Vec<LevelPlan>,
+    /// What the model leaves to choose.
+    pub model: FrameModel,
+    /// What is written where.
+    pub output: Output,
+    /// What is allowed but probably not meant.
+    #[serde(skip)]
+    pub warnings: Vec<Warning>,
+}
+
+impl ShakeTableStudy {
+    /// The study as TOML, complete and loadable.
+    ///
+    /// # Errors
+    ///
+    /// Where TOML cannot hold a value; a study that was loaded has none such.
+    pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
+        toml::to_string(self)
+    }
+}
+
+/// Reads the whole study but for its `kind`; none where something is wrong.
+pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<ShakeTableStudy> {
+    let title = top::title(&mut root);
+    let gravity = top::gravity(&mut root);
+    let structure = if let Some(field) = root.field("structure") {
+        paths.input(&field)
+    } else {
+        root.mistake(
+            "structure",
+            "which structure stands on the table?",
+            "add structure = \"frame.toml\", a structure file with columns and a deck",
+        );
+        None
+    };
+    let excitations = optional(root.field("excitations").as_ref(), |field| paths.input(field));
+    let length_scale = root.number_or("length_scale", "", LENGTH_SCALE, 1.0);
+    let records = read_records(root.section("records"), paths, TABLE_OF_EXCITATIONS);
+    let levels = levels::read(&mut root);
+    let model = model::read(root.section("model"));
+    let manifest = records.as_ref().and_then(SetRecords::manifest);
+    let inputs = manifest.into_iter().chain(structure.as_deref());
+    let inputs = inputs.chain(excitations.as_ref().and_then(Option::as_deref));
+    let output = output::read(root.section("output"), paths, inputs);
+    root.finish();
+    let mut study = ShakeTableStudy {
+        title: title?,
+        gravity_m_s2: gravity?,
+        structure: structure?,
+        excitations: excitations?,
+        length_scale: length_scale?,
+        records: records?,
+        levels: levels?,
+        model: model?,
+        output: output?,
+        warnings: Vec::new(),
+    };
+    let gravity = uplift_plausible::USUAL_GRAVITY.unlikely("gravity_m_s2", study.gravity_m_s2);
+    study.warnings = gravity.iter().map(Warning::unlikely).collect();
+    Some(study)
+}

@@ -1,0 +1,77 @@
+//! The sections `[[levels]]`: how strongly the table shakes.
+
+use serde::Serialize;
+
+use crate::keys::{Key, SectionKeys};
+use crate::reading::{Field, Rule, Section, Value};
+use crate::sections::name;
+
+pub(super) const KEYS: SectionKeys = SectionKeys {
+    section: "levels",
+    keys: &[
+        Key { names: &["name"], meaning: "name of the level", default: "needed", range: "each once" },
+        Key {
+            names: &["pgv_srss_m_s"],
+            meaning: "$\\sqrt{PGV_x^2 + PGV_y^2}$ of both components on the table, m/s (Eq. 6.9); not the geometric \
+                      mean of other studies",
+            default: "needed",
+            range: "1e-6 to 1000",
+        },
+    ],
+};
+
+/// As `uplift-frame` takes it.
+const LEVEL: Rule = Rule::Is {
+    holds: |value| (1e-6..=1e3).contains(&value),
+    words: "from 1e-6 to 1000 m/s (in m/s, not in cm/s: the dissertation has 0.1675 and 0.335)",
+};
+/// Most levels in one study.
+const MOST_LEVELS: usize = 100;
+
+/// A level of shaking.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LevelPlan {
+    /// Its name, of no other level.
+    pub name: String,
+    /// Root of the sum of squares of both peak velocities on the table \[m/s\] (Eq. 6.9).
+    pub pgv_srss_m_s: f64,
+}
+
+/// Reads the sections.
+pub(super) fn read(root: &mut Section<'_>) -> Option<Vec<LevelPlan>> {
+    let Some(field) = root.field("levels") else {
+        root.mistake(
+            "levels",
+            "how strongly does the table shake?",
+            "add a section [[levels]] with name = \"high\" and pgv_srss_m_s = 0.335; or several",
+        );
+        return None;
+    };
+    let Value::List(_) = field.node.value else {
+        return field.wrong_type("a list of sections", "head each level with [[levels]], in double brackets");
+    };
+    let items = field.items();
+    if items.is_empty() || items.len() > MOST_LEVELS {
+        field.mistake(format!("there are {} levels", items.len()), format!("give from 1 to {MOST_LEVELS}"));
+        return None;
+    }
+    let mut names = Vec::new();
+    let levels: Vec<Option<LevelPlan>> = items.iter().map(|item| level(item, &mut names)).collect();
+    levels.into_iter().collect()
+}
+
+fn level(item: &Field<'_>, names: &mut Vec<String>) -> Option<LevelPlan> {
+    let mut section = item.section();
+    if !section.is_present() {
+        return None;
+    }
+    let name = name::read(&mut section, "level", "high", names);
+    let pgv = if let Some(field) = section.field("pgv_srss_m_s") {
+        field.number("m/s", LEVEL)
+    } else {
+        section.mistake("pgv_srss_m_s", "the level has no velocity", "add pgv_srss_m_s = 0.335, in m/s");
+        None
+    };
+    section.finish();
+    Some(LevelPlan { name: name?, pgv_srss_m_s: pgv? })
+}

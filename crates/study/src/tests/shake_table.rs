@@ -1,0 +1,83 @@
+//! Studies of a shaking table.
+
+use std::fs;
+
+use super::super::{AnyStudy, ShakeTableStudy, Study, StudyError};
+use super::Folder;
+
+pub(super) const COMPLETE: &str = r#"kind = "shake table"
+title = "table"
+gravity_m_s2 = 9.81
+structure = "pgv.csv"
+excitations = "pga.csv"
+length_scale = 5
+[records]
+manifest = "manifest.csv"
+first = 3
+[records.select]
+magnitude = "6.5:"
+[[levels]]
+name = "low"
+pgv_srss_m_s = 0.1675
+[[levels]]
+name = "high"
+pgv_srss_m_s = 0.335
+[model]
+rest_amplitude_rad = 1e-4
+start_rotation_rad = 1e-9
+[output]
+file = "x.h5"
+csv = false
+"#;
+
+pub(super) const BARE: &str = "kind = \"shake table\"\nstructure = \"pgv.csv\"\n[[levels]]\nname = \"a\"\n\
+    pgv_srss_m_s = 1\n[records.synthetic]\npairs = 3\n[output]\nfile = \"x.h5\"";
+
+fn load(folder: &Folder) -> Result<ShakeTableStudy, StudyError> {
+    match Study::load_any(&folder.path("study.toml"), &[])? {
+        AnyStudy::ShakeTable(study) => Ok(*study),
+        other => panic!("a study of {}", other.kind().key()),
+    }
+}
+
+fn texts(error: &StudyError) -> String {
+    error.mistakes().iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn a_complete_study_is_read_and_written_as_it_is() {
+    for text in [COMPLETE, BARE] {
+        let folder = Folder::new(text);
+        let study = load(&folder).unwrap();
+        fs::write(folder.path("study.toml"), study.to_toml().unwrap()).unwrap();
+        assert_eq!(load(&folder).unwrap(), study);
+    }
+    let study = load(&Folder::new(COMPLETE)).unwrap();
+    assert_eq!((study.length_scale, study.levels[1].pgv_srss_m_s), (5.0, 0.335));
+    let bare = load(&Folder::new(BARE)).unwrap();
+    assert_eq!((bare.length_scale, bare.excitations), (1.0, None));
+    assert_eq!((bare.model.rest_amplitude_rad, bare.model.start_rotation_rad), (1e-5, 1e-12));
+}
+
+#[test]
+fn mistakes_are_all_told_at_once() {
+    let folder = Folder::new(
+        "kind = \"shake table\"\nlength_scale = 0\n[records]\ntag = \"nf\"\n[[levels]]\nname = \"low\"\n[[levels]]\n\
+         name = \"LOW\"\npgv_srss_m_s = 1e4\n[model]\nrest_amplitude_rad = 1\nkind = 2\n",
+    );
+    let told = texts(&load(&folder).unwrap_err());
+    for words in [
+        "which structure stands on the table",
+        "length_scale",
+        "tags are given set by set",
+        "the level has no velocity",
+        "another level LOW",
+        "the value is 10000 m/s",
+        "rest_amplitude_rad",
+        "model.kind: unknown key",
+    ] {
+        assert!(told.contains(words), "{words:?} is not in:\n{told}");
+    }
+    let empty = texts(&load(&Folder::new("kind = \"shake table\"\nstructure = \"pgv.csv\"")).unwrap_err());
+    assert!(empty.contains("how strongly does the table shake"), "{empty}");
+}

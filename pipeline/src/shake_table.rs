@@ -1,0 +1,21 @@
+//! Studies of a shaking table: which tests a frame would go through, and what it would do (Sections 6.4 and 6.8).
+
+mod csv;
+mod excitations;
+mod inputs;
+mod plan;
+mod report;
+mod run;
+mod tests_of_table;
+mod write;
+
+pub use crate::result::{Excitation, ShakeTable, TableLevel, TableTest};
+pub(crate) use csv::{columns, tables};
+pub use csv::{shake_table_csv_path, write_shake_table_csv};
+pub(crate) use inputs::Inputs;
+pub use plan::Plan;
+pub(crate) use plan::plan;
+pub use report::RunReport;
+pub(crate) use run::run;
+pub(crate) use tests_of_table::carry_out;
+pub use write::{ShakeTableOutcome, write_shake_table};

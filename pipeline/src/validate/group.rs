@@ -1,0 +1,249 @@
+//! Every statistic of one group of peaks.
+
+use serde::Serialize;
+use uplift_validation::{
+    AndersonDarling, BandRule, Bands, CramerVonMises, Evidence, KolmogorovSmirnov, MannWhitney, Pairs, Quantiles,
+    Resampling, Sample, ValidationError, bands, detectable_factor, energy_distance, median_ratio_band, permutation_p,
+    wasserstein_distance,
+};
+
+use super::join::Peers;
+use super::peaks::PeakValue;
+use super::run::{PRule, ValidateOptions};
+
+/// Replicates of the power: its standard error is then below 1 %.
+const POWER_REPLICATES: u32 = 2000;
+
+/// Peaks of which only a limit is known.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Censored {
+    /// Measured ones.
+    pub measured: usize,
+    /// Computed ones.
+    pub computed: usize,
+    /// Distance of the distributions if each were at its limit: with that of the statistics, which have them above all
+    /// values, the ends between which it lies for most.
+    pub ks_distance_at_limits: f64,
+}
+
+/// A group of peaks, measured beside computed. None stands for what is not defined, above all a mean with collapses; an
+/// infinite median is none too.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct GroupReport {
+    /// The value of each column that is grouped by; none for all of them.
+    pub of: Vec<Option<String>>,
+    /// Measured peaks.
+    pub measured: usize,
+    /// Computed peaks.
+    pub computed: usize,
+    /// Distance of the distributions, p by three rules.
+    pub kolmogorov_smirnov: KolmogorovSmirnov,
+    /// The p of the rule that was asked for.
+    pub p: f64,
+    /// What it says, by Table 6.1.
+    pub evidence: Evidence,
+    /// That p adjusted for all groups (Holm).
+    pub p_holm: f64,
+    /// p by swaps within pairs; none unless asked for.
+    pub p_permutation: Option<f64>,
+    /// Factor between the medians that the test would find with 80 % at the significance asked for, for samples of
+    /// these sizes and this dispersion; none where it would find none up to 100, or the peaks do not vary.
+    pub detectable_factor: Option<f64>,
+    /// Dispersion that this is for: standard deviation of the logarithms of finite peaks about the mean of their kind.
+    pub dispersion: Option<f64>,
+    /// Weighted squared distance, standardised.
+    pub anderson_darling: AndersonDarling,
+    /// Squared distance.
+    pub cramer_von_mises: CramerVonMises,
+    /// Whether one kind tends to be larger.
+    pub mann_whitney: MannWhitney,
+    /// Mean distance of the distributions, in the unit of the peaks.
+    pub wasserstein: Option<f64>,
+    /// Energy distance, in the square root of that unit.
+    pub energy: Option<f64>,
+    /// Median of the measured peaks.
+    pub median_measured: Option<f64>,
+    /// Median of the computed peaks.
+    pub median_computed: Option<f64>,
+    /// Error of the median as Table 6.2 prints it, without its sign.
+    pub e50: Option<f64>,
+    /// The same with its sign, `u50,computed/u50,measured − 1`.
+    pub median_error: Option<f64>,
+    /// Its band over resampled motions.
+    pub median_error_band: Option<Quantiles>,
+    /// Motion by motion: bias, dispersion, correlation, collapses; none where there are no pairs.
+    pub pairs: Option<Pairs>,
+    /// Bands of bias and dispersion; none where there are no pairs.
+    pub pair_bands: Option<Bands>,
+    /// Collapses among the measured peaks.
+    pub measured_collapses: usize,
+    /// Collapses among the computed peaks.
+    pub computed_collapses: usize,
+    /// Peaks above a limit; none without such.
+    pub censored: Option<Censored>,
+    /// Both distributions.
+    #[serde(skip)]
+    pub samples: [Sample; 2],
+    /// Measured and computed peak of each motion; empty where there are no pairs.
+    #[serde(skip)]
+    pub values: Vec<(f64, f64)>,
+    /// Band of the measured distribution at each of its values: value, lower, upper.
+    #[serde(skip)]
+    pub band: Vec<(f64, f64, f64)>,
+}
+
+impl GroupReport {
+    /// Of peers; Holm's p is that of one group.
+    pub(super) fn of(
+        of: Vec<Option<String>>,
+        peers: &Peers,
+        are_pairs: bool,
+        options: &ValidateOptions,
+    ) -> Result<Self, ValidationError> {
+        let values = [&peers.measured, &peers.computed]
+            .map(|peaks| peaks.iter().map(|peak| peak.ranked()).collect::<Vec<f64>>());
+        let [measured, computed] = [Sample::new(values[0].clone())?, Sample::new(values[1].clone())?];
+        let resampling = Resampling { replicates: options.replicates, seed: options.seed };
+        let test = KolmogorovSmirnov::of(&measured, &computed);
+        let p = match options.p_rule {
+            PRule::Exact => test.p_exact,
+            PRule::Kolmogorov => test.p_kolmogorov,
+            PRule::Kstest2 => test.p_kstest2,
+        };
+        let dispersion = dispersion(&values);
+        let power = Resampling { replicates: POWER_REPLICATES, seed: options.seed };
+        let detectable = dispersion
+            .map(|wide| detectable_factor((measured.len(), computed.len()), wide, options.significance, power))
+            .transpose()?
+            .flatten();
+        let pair_bands = are_pairs.then(|| bands(&values[0], &values[1], resampling)).transpose()?;
+        let median_error_band = match pair_bands {
+            Some(bands) => bands.median_ratio,
+            None => median_ratio_band(&measured, &computed, resampling),
+        };
+        let swaps = options.permutation && are_pairs;
+        let p_permutation = swaps.then(|| permutation_p(&values[0], &values[1], resampling)).transpose()?;
+        let (median_measured, median_computed) = (finite(measured.median()), finite(computed.median()));
+        let median_error = median_measured.zip(median_computed).and_then(|(m, c)| finite(c / m - 1.0));
+        let collapses = |peaks: &[PeakValue]| peaks.iter().filter(|peak| matches!(peak, PeakValue::Overturned)).count();
+        let at = distinct_finite(&measured);
+        Ok(Self {
+            of,
+            measured: measured.len(),
+            computed: computed.len(),
+            p,
+            evidence: Evidence::of(p),
+            p_holm: p,
+            p_permutation,
+            detectable_factor: detectable,
+            dispersion,
+            anderson_darling: AndersonDarling::of(&measured, &computed),
+            cramer_von_mises: CramerVonMises::of(&measured, &computed),
+            mann_whitney: MannWhitney::of(&measured, &computed),
+            wasserstein: wasserstein_distance(&measured, &computed),
+            energy: energy_distance(&measured, &computed),
+            median_measured,
+            median_computed,
+            e50: median_error.map(f64::abs),
+            median_error,
+            median_error_band,
+            pairs: are_pairs.then(|| pairs(peers, &values)).transpose()?,
+            pair_bands,
+            measured_collapses: collapses(&peers.measured),
+            computed_collapses: collapses(&peers.computed),
+            censored: censored(peers)?,
+            band: band(&measured, &at, options.band),
+            kolmogorov_smirnov: test,
+            values: if are_pairs { values[0].iter().copied().zip(values[1].iter().copied()).collect() } else { vec![] },
+            samples: [measured, computed],
+        })
+    }
+}
+
+fn finite(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value)
+}
+
+/// Statistics of pairs. A peak above a limit is no collapse, and agrees with none whatever the other is.
+fn pairs(peers: &Peers, values: &[Vec<f64>; 2]) -> Result<Pairs, ValidationError> {
+    let ranked = Pairs::of(&values[0], &values[1])?;
+    let limits =
+        [&peers.measured, &peers.computed].map(|peaks| peaks.iter().map(|peak| peak.at_limit()).collect::<Vec<f64>>());
+    let collapses = Pairs::of(&limits[0], &limits[1])?.collapses;
+    let both_infinite = values[0].iter().zip(&values[1]).filter(|(m, c)| m.is_infinite() && c.is_infinite()).count();
+    let taken_for_agreeing = (both_infinite - collapses.both) as f64 / values[0].len() as f64;
+    Ok(Pairs {
+        within_1_5: ranked.within_1_5 - taken_for_agreeing,
+        within_2: ranked.within_2 - taken_for_agreeing,
+        collapses,
+        ..ranked
+    })
+}
+
+fn censored(peers: &Peers) -> Result<Option<Censored>, ValidationError> {
+    let count = |peaks: &[PeakValue]| peaks.iter().filter(|peak| matches!(peak, PeakValue::Above(_))).count();
+    let (measured, computed) = (count(&peers.measured), count(&peers.computed));
+    if measured + computed == 0 {
+        return Ok(None);
+    }
+    let at_limits = |peaks: &[PeakValue]| Sample::new(peaks.iter().map(|peak| peak.at_limit()).collect());
+    let distance = KolmogorovSmirnov::distance_of(&at_limits(&peers.measured)?, &at_limits(&peers.computed)?);
+    Ok(Some(Censored { measured, computed, ks_distance_at_limits: distance }))
+}
+
+/// Standard deviation of the logarithms about the mean of their kind; none of fewer than two degrees of freedom, or
+/// where nothing varies.
+fn dispersion(values: &[Vec<f64>; 2]) -> Option<f64> {
+    let logarithms = values.each_ref().map(|kind| {
+        kind.iter().filter(|value| value.is_finite() && **value > 0.0).map(|value| value.ln()).collect::<Vec<f64>>()
+    });
+    let squares = |kind: &Vec<f64>| {
+        let mean = kind.iter().sum::<f64>() / kind.len() as f64;
+        kind.iter().map(|value| (value - mean).powi(2)).sum::<f64>()
+    };
+    let used = logarithms.iter().filter(|kind| !kind.is_empty());
+    let freedom = used.clone().map(|kind| kind.len() - 1).sum::<usize>();
+    let total: f64 = used.map(squares).sum();
+    (freedom >= 2 && total > 0.0).then(|| (total / freedom as f64).sqrt())
+}
+
+fn distinct_finite(sample: &Sample) -> Vec<f64> {
+    let mut values: Vec<f64> = sample.sorted().iter().copied().filter(|value| value.is_finite()).collect();
+    values.dedup();
+    values
+}
+
+fn band(measured: &Sample, at: &[f64], rule: BandRule) -> Vec<(f64, f64, f64)> {
+    at.iter()
+        .map(|&x| {
+            let [low, high] = rule.at(measured, x);
+            (x, low, high)
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn a_limit_is_no_collapse() {
+        use PeakValue::{Above, Finite, Overturned};
+        let peers = Peers {
+            measured: vec![Finite(0.1), Above(0.3), Overturned, Above(0.3)],
+            computed: vec![Finite(0.12), Overturned, Overturned, Finite(0.31)],
+        };
+        let report = GroupReport::of(Vec::new(), &peers, true, &ValidateOptions::default()).unwrap();
+        let pairs = report.pairs.unwrap();
+        assert_eq!((pairs.collapses.both, pairs.collapses.computed_only, pairs.collapses.none), (1, 1, 2));
+        assert_eq!((report.measured_collapses, report.computed_collapses), (1, 2));
+        // 0.12 beside 0.1, and the collapse of both
+        assert!((pairs.within_1_5 - 0.5).abs() < 1e-15, "{}", pairs.within_1_5);
+        assert_eq!((pairs.finite, report.wasserstein, report.median_measured), (1, None, None));
+        let censored = report.censored.unwrap();
+        assert_eq!((censored.measured, censored.computed), (2, 0));
+        // at the limits: F(0.3) = 3/4 beside G(0.3) = 1/4; above all values: F(0.31) = 1/4 beside 2/4
+        assert_eq!((censored.ks_distance_at_limits, report.kolmogorov_smirnov.distance), (0.5, 0.25));
+    }
+}
