@@ -45,5 +45,6 @@ mod site_table;
 mod spreadsheets;
 mod structure_resume;
 mod table_4_2;
+mod target;
 mod texts;
 mod torture_files;

@@ -12,7 +12,7 @@
 //! 3. [`result::ResultFile`] opens that file, and returns what is in it as plain values with named axes.
 //! 4. How sure it is: [`bootstrap::bootstrap`], [`influence::influence`], [`efficiency::efficiency`] ask the result,
 //!    and add their arrays to it.
-//! 5. From a spectrum to a structure: [`structure::design`] and [`structure::overturning`].
+//! 5. From a spectrum to a structure: [`structure::design`], [`structure::overturning`] and [`structure::target`].
 //! 6. Pushed rather than shaken: [`pushover::pushover`], [`restrainer::curve`], [`restrainer::design`].
 //! 7. For others: [`export::export`] here; figures and the page are made by the crate `uplift_report`.
 //!

@@ -1,4 +1,5 @@
-//! A structure under the records and the hazard of a result: its design by the spectrum, its own risk, its overturning.
+//! A structure under the records and the hazard of a result: its design by the spectrum, its own risk, its overturning,
+//! and what it must be for a target risk.
 
 mod choice;
 mod collapse;
@@ -12,6 +13,7 @@ mod rules;
 mod spectrum;
 mod sweep;
 mod tables;
+mod target;
 mod weights;
 
 pub use demand::{DemandNoise, DemandRounding, ExactDemand, RuleRanges};
@@ -24,3 +26,7 @@ pub use risk::EventRisk;
 pub(crate) use risk::{BOUND_CONFIDENCE, share_at_most};
 pub use rules::{RuleCheck, RuleOutcome};
 pub use spectrum::SpectrumDemand;
+pub use target::{
+    Crossing, FoundSystem, GenericTarget, LevelShare, TargetBand, TargetEvent, TargetFrequency, TargetOptions,
+    TargetReport, TriedValue, target,
+};

@@ -20,7 +20,7 @@ use uplift_oscillator::InstructionSet;
 use crate::error::CommandError;
 use crate::terminal::Terminal;
 use result::{bootstrap, consistency, export, influence, measures, plot, report, status, table, verify};
-use structures::{design, overturning};
+use structures::{design, overturning, target};
 use study::{check, merge, run};
 
 /// Uniform risk spectra for rocking structures.
@@ -74,6 +74,8 @@ enum Command {
     Design(design::DesignArguments),
     /// How often a structure overturns: collapse fragility and risk, by oscillator and rigid block
     Overturning(overturning::OverturningArguments),
+    /// Find the least strength, size, width, capacity or tendon stiffness for a target risk
+    Target(Box<target::TargetArguments>),
     /// Push columns sideways: force, restrainer, sections and events over the displacement (Chapters 5 and 6)
     Pushover(pushover::PushoverArguments),
     /// Cyclic loading protocols: amplitudes that grow from set to set (Figure 5.11)
@@ -126,6 +128,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         Command::Measures(arguments) => measures::measures(arguments, &terminal),
         Command::Design(arguments) => design::design(arguments, &terminal),
         Command::Overturning(arguments) => overturning::overturning(arguments, &terminal),
+        Command::Target(arguments) => target::target(arguments, &terminal),
         Command::Pushover(arguments) => pushover::pushover(arguments, &terminal),
         Command::Protocol(arguments) => protocol::protocol(arguments, &terminal),
         Command::Restrainer(arguments) => restrainer::restrainer(arguments, &terminal),

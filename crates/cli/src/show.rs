@@ -20,6 +20,7 @@ mod run;
 mod status;
 mod structure;
 mod table;
+mod target;
 mod uniform_risk;
 mod verify;
 
@@ -40,6 +41,7 @@ pub(crate) use restrainer::{print_restrainer_curve, print_restrainer_design};
 pub(crate) use run::{print_run, print_shard};
 pub(crate) use status::print_status;
 pub(crate) use table::print_table;
+pub(crate) use target::print_target;
 pub(crate) use verify::print_verified;
 
 use std::io::Write;

@@ -64,12 +64,25 @@ pub fn plan_stripes<'a>(
     set: &'a RecordSet,
     systems: &'a [System],
 ) -> Result<Plan<'a>, UpliftError> {
-    let amplitude = |value: f64| measure.measure.amplitude(value);
+    plan_levels(study, (measure.measure, &measure.levels), set, systems)
+}
+
+/// The plan of stripes at any `levels` of a measure, in its unit, ascending.
+///
+/// # Errors
+/// As [`plan_stripes`].
+pub(crate) fn plan_levels<'a>(
+    study: &UniformRiskStudy,
+    (measure, levels): (IntensityMeasure, &[f64]),
+    set: &'a RecordSet,
+    systems: &'a [System],
+) -> Result<Plan<'a>, UpliftError> {
+    let amplitude = |value: f64| measure.amplitude(value);
     let records = set.records.iter().map(|record| StripeRecord {
         id: &record.id,
         accelerogram: &record.accelerogram,
-        intensity: amplitude(record.intensity(measure.measure)),
+        intensity: amplitude(record.intensity(measure)),
     });
-    let levels: Vec<f64> = measure.levels.iter().map(|&level| amplitude(level)).collect();
+    let levels: Vec<f64> = levels.iter().map(|&level| amplitude(level)).collect();
     Ok(Plan::stripes(records.collect(), systems, &levels, study.oscillator.free_vibration)?)
 }

@@ -2,3 +2,4 @@
 
 pub(super) mod design;
 pub(super) mod overturning;
+pub(super) mod target;
