@@ -44,6 +44,7 @@ mod run;
 mod site_table;
 mod spreadsheets;
 mod structure_resume;
+mod sweep;
 mod table_4_2;
 mod target;
 mod texts;

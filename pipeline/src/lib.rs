@@ -49,6 +49,7 @@
 //! | [`displacement`] | studies of displacement spectra of record sets |
 //! | [`bootstrap`], [`influence`], [`efficiency`] | how sure a spectrum is, and what carries it |
 //! | [`mod@consistency`] | whether the records bring the hazard of the other measure, and weights by which they do |
+//! | [`mod@sweep`] | variants of a study run and compared |
 //! | [`structure`] | a structure under the records and hazard of a result |
 //! | [`result`](mod@result) | the HDF5 file and the tables beside it, written and read |
 //! | [`analysis`], [`checkpoint`] | plans carried out whole or in shards; their finished rows outlive a stop |
@@ -95,6 +96,7 @@ pub mod run;
 pub mod shard;
 pub mod status;
 pub mod structure;
+pub mod sweep;
 pub mod table;
 pub mod text;
 pub mod uniform_risk;

@@ -21,7 +21,7 @@ use crate::error::CommandError;
 use crate::terminal::Terminal;
 use result::{bootstrap, consistency, export, influence, measures, plot, report, status, table, verify};
 use structures::{design, overturning, target};
-use study::{check, merge, run};
+use study::{check, merge, run, sweep};
 
 /// Uniform risk spectra for rocking structures.
 ///
@@ -58,6 +58,8 @@ enum Command {
     Verify(verify::VerifyArguments),
     /// Check a study and its input data, and say what it would cost
     Check(check::CheckArguments),
+    /// Run variants of a study, each an ordinary result, and compare them
+    Sweep(sweep::SweepArguments),
     /// Shake one oscillator, or one rigid block, with one record
     Response(response::ResponseArguments),
     /// Rocking spectra of a rigid block under Ricker wavelets: figures and tables (Figures 2.2 to 2.7)
@@ -120,6 +122,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         Command::Status(arguments) => status::status(arguments),
         Command::Verify(arguments) => verify::verify(arguments, &terminal),
         Command::Check(arguments) => check::check(arguments, &terminal),
+        Command::Sweep(arguments) => sweep::sweep(arguments, &terminal),
         Command::Response(arguments) => response::response(arguments, &terminal),
         Command::Pulse(arguments) => pulse::pulse(arguments, &terminal),
         Command::Bootstrap(arguments) => bootstrap::bootstrap(arguments, &terminal),

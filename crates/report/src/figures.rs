@@ -14,6 +14,7 @@ mod influence;
 mod overturning;
 mod pulses;
 mod spectra;
+mod sweep;
 mod tails;
 mod together;
 
@@ -23,6 +24,7 @@ pub use history::{block_history_figure, history_figure};
 pub use overturning::overturning_figure;
 pub use pulses::pulse_figures;
 pub use spectra::hazard_figure;
+pub use sweep::sweep_figure;
 pub(crate) use together::together;
 
 use std::path::Path;

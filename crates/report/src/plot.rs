@@ -11,9 +11,11 @@ use uplift::pulses::{PULSE_FIGURES, PulseReport};
 use uplift::response::{BlockResponseReport, ResponseReport, ShakenBy};
 use uplift::result::ResultFile;
 use uplift::structure::OverturningReport;
+use uplift::sweep::SweepReport;
 
 use crate::figures::{
     block_history_figure, hazard_figure, history_figure, overturning_figure, pulse_figures, result_figures,
+    sweep_figure,
 };
 use crate::files::{FigureOptions, check_figure_file, write_figure_file};
 
@@ -134,6 +136,14 @@ fn shaken(by: &ShakenBy) -> String {
 /// As [`write_figure_file`].
 pub fn plot_overturning(report: &OverturningReport, file: &Path) -> Result<(), UpliftError> {
     write_figure_file(&overturning_figure(report), file)
+}
+
+/// Draws the spectra of all variants of a study as `file`, whose ending tells the format.
+///
+/// # Errors
+/// As [`write_figure_file`].
+pub fn plot_sweep(report: &SweepReport, file: &Path) -> Result<(), UpliftError> {
+    write_figure_file(&sweep_figure(report), file)
 }
 
 /// Which hazard curves are drawn, and where.

@@ -31,22 +31,22 @@ impl Inputs {
         Ok(Self { systems: systems(study)?, motions: motion_keys(&records), records })
     }
 
-    /// The stripes of every measure, but for what is known of them from a result at `earlier`.
+    /// The stripes of every measure, but for what is known of them from results at `earlier`.
     ///
     /// # Errors
     /// A record that cannot be scaled.
-    pub(crate) fn work<'a>(
-        &'a self,
-        study: &'a UniformRiskStudy,
-        earlier: Option<&Path>,
-    ) -> Result<Work<'a>, UpliftError> {
-        let earlier = earlier.and_then(EarlierStripes::open);
+    pub(crate) fn work<'a>(&'a self, study: &'a UniformRiskStudy, earlier: &[&Path]) -> Result<Work<'a>, UpliftError> {
+        let earlier: Vec<EarlierStripes> = earlier.iter().filter_map(|path| EarlierStripes::open(path)).collect();
         let mut plans = Vec::new();
         for measure in &study.measures {
             let plan = plan_stripes(study, measure, &self.records, &self.systems)?;
-            let known = earlier.as_ref().map(|earlier| {
+            let known = (!earlier.is_empty()).then(|| {
                 let mut cells = Cells::unknown(&plan);
-                earlier.fill(study, measure, &self.records, &self.motions, &mut cells);
+                for earlier in &earlier {
+                    if cells.count() < plan.analyses() {
+                        earlier.fill(study, measure, &self.records, &self.motions, &mut cells);
+                    }
+                }
                 cells
             });
             let label = measure.measure.label().to_owned();
@@ -81,5 +81,5 @@ pub(crate) fn run_shard(
     let inputs = Inputs::read(study, events)?;
     events.remark("records", &inputs.records.description);
     needs(study, &inputs.records, None).of_shard(shard).with_rows_of(&[path]).require(path, events)?;
-    carry_out_shard(inputs.work(study, earlier)?, (path, shard), events, &|_| Ok(()))
+    carry_out_shard(inputs.work(study, &earlier.into_iter().collect::<Vec<_>>())?, (path, shard), events, &|_| Ok(()))
 }

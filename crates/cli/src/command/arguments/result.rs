@@ -61,6 +61,7 @@ impl ResultArguments {
             command: command_line(),
             overrides: self.overrides.clone(),
             force: self.force(),
+            ..RunOptions::default()
         };
         let path = result_of(&study, &options, terminal)?;
         Ok(FoundResult { path, bootstrap: Some(study.bootstrap.clone()) })
