@@ -71,7 +71,8 @@ mod tests {
         {
             assert!((normal_quantile(p) - x).abs() < 1e-13 * x.abs(), "{p} {}", normal_quantile(p));
         }
-        assert_eq!(normal_quantile(0.5), 0.0);
+        // Φ rounds to a half on all of these
+        assert!(normal_quantile(0.5).abs() < 2.0 * f64::EPSILON);
         assert_eq!([normal_quantile(0.0), normal_quantile(1.0)], [f64::NEG_INFINITY, f64::INFINITY]);
     }
 

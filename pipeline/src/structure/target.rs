@@ -346,8 +346,8 @@ impl Words<'_> {
         let least = tried.iter().find(|(_, attempt)| attempt.meets(self.target_per_year));
         let least = least.map_or_else(String::new, |(value, _)| format!(" from {} on", self.value(*value)));
         vec![format!(
-            "the frequency crosses the target {} times, for it does not fall all the way: it is met here and there{least}, \
-             and everywhere above the value told ({})",
+            "the frequency crosses the target {} times, for it does not fall all the way: it is met here and \
+             there{least}, and everywhere above the value told ({})",
             found.len(),
             self.crossings(found)
         )]

@@ -104,10 +104,10 @@ impl<'a> Trials<'a> {
         let levels = &self.measure.plan.levels;
         let measure = self.measure.measure();
         Err(UpliftError::Usage(format!(
-            "the target of {target_per_year:.3e} per year is below what these stripes can tell at {site}: motions above \
-             their last level, {} {}, come {:.1e} times a year, and what none of {} records does there may still happen \
-             up to {bound:.1e} times a year: let {} of the study reach further up and run it again, take more records, \
-             or give a target above that",
+            "the target of {target_per_year:.3e} per year is below what these stripes can tell at {site}: motions \
+             above their last level, {} {}, come {:.1e} times a year, and what none of {} records does there may still \
+             happen up to {bound:.1e} times a year: let {} of the study reach further up and run it again, take more \
+             records, or give a target above that",
             levels[levels.len() - 1],
             measure.unit(),
             self.weights.stripes().upper_tail_per_year(),
