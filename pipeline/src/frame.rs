@@ -24,6 +24,9 @@ pub struct RunOptions {
     pub overrides: Vec<String>,
     /// Whether whatever is at the places of the result and its tables gives way.
     pub force: bool,
+    /// Further results of which stripes are taken, where they are of the same motion, intensity, oscillator, strength
+    /// and level.
+    pub earlier: Vec<PathBuf>,
 }
 
 impl RunOptions {

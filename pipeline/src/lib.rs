@@ -12,8 +12,8 @@
 //! 3. [`result::ResultFile`] opens that file, and returns what is in it as plain values with named axes.
 //! 4. How sure it is: [`bootstrap::bootstrap`], [`influence::influence`], [`efficiency::efficiency`] ask the result,
 //!    and add their arrays to it.
-//! 5. From a spectrum to a structure: [`structure::design`] and [`structure::overturning`]; the risk of a frame itself:
-//!    [`structure::frame_risk`].
+//! 5. From a spectrum to a structure: [`structure::design`], [`structure::overturning`] and [`structure::target`]; the
+//!    risk of a frame itself: [`structure::frame_risk`].
 //! 6. Pushed rather than shaken: [`pushover::pushover`], [`restrainer::curve`], [`restrainer::design`].
 //! 7. Computed peaks beside measured ones: [`validate::validate`].
 //! 8. For others: [`export::export`] here; figures and the page are made by the crate `uplift_report`.
@@ -52,6 +52,7 @@
 //! | [`mod@shake_table`] | studies of a shaking table: its tests, and what a frame does in them |
 //! | [`bootstrap`], [`influence`], [`efficiency`] | how sure a spectrum is, and what carries it |
 //! | [`mod@consistency`] | whether the records bring the hazard of the other measure, and weights by which they do |
+//! | [`mod@sweep`] | variants of a study run and compared |
 //! | [`structure`] | a structure under the records and hazard of a result |
 //! | [`result`](mod@result) | the HDF5 file and the tables beside it, written and read |
 //! | [`analysis`], [`checkpoint`] | plans carried out whole or in shards; their finished rows outlive a stop |
@@ -100,6 +101,7 @@ pub mod shake_table;
 pub mod shard;
 pub mod status;
 pub mod structure;
+pub mod sweep;
 pub mod table;
 pub mod text;
 pub mod uniform_risk;

@@ -68,7 +68,7 @@ pub fn merge(
         AnyStudy::UniformRisk(study) => {
             let inputs = uniform_risk::Inputs::read(study, events)?;
             uniform_risk::needs(study, &inputs.records, None).with_rows_of(shards).require(result, events)?;
-            join(shards, &inputs.work(study, None)?)?
+            join(shards, &inputs.work(study, &[])?)?
         }
         AnyStudy::Displacement(study) => {
             let inputs = displacement::Inputs::read(study, events)?;

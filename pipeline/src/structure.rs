@@ -1,4 +1,5 @@
-//! A structure under the records and the hazard of a result: its design by the spectrum, its own risk, its overturning.
+//! A structure under the records and the hazard of a result: its design by the spectrum, its own risk, its overturning,
+//! and what it must be for a target risk.
 
 mod certainty;
 mod choice;
@@ -15,6 +16,7 @@ mod rules;
 mod spectrum;
 mod sweep;
 mod tables;
+mod target;
 mod weights;
 
 pub use certainty::{DemandBands, RateBands};
@@ -33,3 +35,7 @@ pub(crate) use risk::{BOUND_CONFIDENCE, share_at_most};
 pub(crate) use rocking_frame::{TORSION, model_of, rocking_frame};
 pub use rules::{RuleCheck, RuleOutcome};
 pub use spectrum::SpectrumDemand;
+pub use target::{
+    Crossing, FoundSystem, GenericTarget, LevelShare, TargetBand, TargetEvent, TargetFrequency, TargetOptions,
+    TargetReport, TriedValue, target,
+};

@@ -32,8 +32,8 @@ pub use report::{BranchReport, CoefficientsReport, MeasureReport, RunReport, Spe
 pub(crate) use run::run;
 pub(crate) use spectra::{Reading, pooled_demand};
 pub use spectra::{Spectra, uniform_risk_spectra};
-pub(crate) use stripes::stripes_of;
 pub use stripes::{Stripes, plan_stripes, systems};
+pub(crate) use stripes::{plan_levels, stripes_of};
 pub(crate) use work::{Inputs, motion_keys, run_shard};
 pub use write::write_result;
 pub(crate) use write_hazard::write_branch_spectra;

@@ -21,8 +21,8 @@ use uplift_oscillator::InstructionSet;
 use crate::error::CommandError;
 use crate::terminal::Terminal;
 use result::{bootstrap, consistency, export, influence, measures, plot, report, status, table, verify};
-use structures::{design, overturning, risk};
-use study::{check, merge, run};
+use structures::{design, overturning, risk, target};
+use study::{check, merge, run, sweep};
 
 /// Uniform risk spectra for rocking structures.
 ///
@@ -59,6 +59,8 @@ enum Command {
     Verify(verify::VerifyArguments),
     /// Check a study and its input data, and say what it would cost
     Check(check::CheckArguments),
+    /// Run variants of a study, each an ordinary result, and compare them
+    Sweep(sweep::SweepArguments),
     /// Shake one oscillator or one rigid block with one record, or a rocking frame with its components
     Response(response::ResponseArguments),
     /// Rocking spectra of a rigid block under Ricker wavelets: figures and tables (Figures 2.2 to 2.7)
@@ -77,6 +79,8 @@ enum Command {
     Overturning(overturning::OverturningArguments),
     /// The risk of a rocking frame itself, wobbling under both components, beside what its proxies say (Chapter 6)
     Risk(risk::FrameRiskArguments),
+    /// Find the least strength, size, width, capacity or tendon stiffness for a target risk
+    Target(Box<target::TargetArguments>),
     /// Push columns sideways: force, restrainer, sections and events over the displacement (Chapters 5 and 6)
     Pushover(pushover::PushoverArguments),
     /// Cyclic loading protocols: amplitudes that grow from set to set (Figure 5.11)
@@ -123,6 +127,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         Command::Status(arguments) => status::status(arguments),
         Command::Verify(arguments) => verify::verify(arguments, &terminal),
         Command::Check(arguments) => check::check(arguments, &terminal),
+        Command::Sweep(arguments) => sweep::sweep(arguments, &terminal),
         Command::Response(arguments) => response::response(arguments, &terminal),
         Command::Pulse(arguments) => pulse::pulse(arguments, &terminal),
         Command::Bootstrap(arguments) => bootstrap::bootstrap(arguments, &terminal),
@@ -132,6 +137,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         Command::Design(arguments) => design::design(arguments, &terminal),
         Command::Overturning(arguments) => overturning::overturning(arguments, &terminal),
         Command::Risk(arguments) => risk::risk(arguments, &terminal),
+        Command::Target(arguments) => target::target(arguments, &terminal),
         Command::Pushover(arguments) => pushover::pushover(arguments, &terminal),
         Command::Protocol(arguments) => protocol::protocol(arguments, &terminal),
         Command::Restrainer(arguments) => restrainer::restrainer(arguments, &terminal),

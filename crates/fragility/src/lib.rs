@@ -37,6 +37,6 @@ pub use dispersion::{Dispersion, mean_residuals, standard_deviation, uplift_leve
 pub use empirical::{EmpiricalFragility, check_threshold, exceedance_counts, exceedance_probabilities};
 pub use error::FragilityError;
 pub use lognormal::{LognormalFit, LognormalFragility, StripeCount, fit_lognormal, stripe_counts};
-pub use normal::{ln_normal_cdf, normal_cdf};
+pub use normal::{ln_normal_cdf, normal_cdf, normal_quantile};
 pub use quantile::quantile;
 pub use stripes::Stripes;

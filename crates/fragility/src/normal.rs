@@ -26,6 +26,26 @@ pub fn ln_normal_cdf(x: f64) -> f64 {
     }
 }
 
+/// The quantile Φ⁻¹(p) of the standard normal distribution: where [`normal_cdf`] has p, found by halving; infinite at 0
+/// and 1.
+pub fn normal_quantile(probability: f64) -> f64 {
+    if probability > 0.5 {
+        // the upper tail has no digits to lose where the lower one is searched
+        return -normal_quantile(1.0 - probability);
+    }
+    let (mut low, mut high) = (-40.0, 0.0);
+    if probability <= 0.0 {
+        return f64::NEG_INFINITY;
+    }
+    loop {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            return high;
+        }
+        if normal_cdf(middle) < probability { low = middle } else { high = middle }
+    }
+}
+
 /// φ(x)/Φ(x): the slope of ln Φ.
 pub(crate) fn ln_normal_cdf_slope(x: f64) -> f64 {
     if x > FAR_TAIL { (-0.5 * x * x).exp() / (2.0 * PI).sqrt() / normal_cdf(x) } else { -x / far_tail_series(x) }
@@ -42,6 +62,18 @@ mod tests {
 
     fn close(a: f64, b: f64, relative: f64) {
         assert!((a - b).abs() <= relative * b.abs(), "{a} against {b}");
+    }
+
+    #[test]
+    fn quantiles_are_the_inverse() {
+        // Φ⁻¹(0.1), Φ⁻¹(0.975) and Φ⁻¹(1e-10) as tabulated
+        for (p, x) in [(0.1, -1.281_551_565_544_600_4), (0.975, 1.959_963_984_540_054), (1e-10, -6.361_340_902_404_056)]
+        {
+            assert!((normal_quantile(p) - x).abs() < 1e-13 * x.abs(), "{p} {}", normal_quantile(p));
+        }
+        // Φ rounds to a half on all of these
+        assert!(normal_quantile(0.5).abs() < 2.0 * f64::EPSILON);
+        assert_eq!([normal_quantile(0.0), normal_quantile(1.0)], [f64::NEG_INFINITY, f64::INFINITY]);
     }
 
     #[test]

@@ -17,6 +17,7 @@ mod overturning;
 mod pulses;
 mod shake_table;
 mod spectra;
+mod sweep;
 mod tails;
 mod together;
 mod validation;
@@ -30,6 +31,7 @@ pub use overturning::overturning_figure;
 pub use pulses::pulse_figures;
 pub use shake_table::shake_table_figures;
 pub use spectra::hazard_figure;
+pub use sweep::sweep_figure;
 pub(crate) use together::together;
 pub use validation::{distributions_figure, pairs_figure};
 

@@ -11,11 +11,12 @@ use uplift::pulses::{PULSE_FIGURES, PulseReport};
 use uplift::response::{BlockResponseReport, FrameResponseReport, ResponseReport, ShakenBy};
 use uplift::result::ResultFile;
 use uplift::structure::{FrameRiskReport, OverturningReport};
+use uplift::sweep::SweepReport;
 use uplift::validate::ValidateReport;
 
 use crate::figures::{
     block_history_figure, distributions_figure, frame_figure, frame_risk_figure, hazard_figure, history_figure,
-    overturning_figure, pairs_figure, pulse_figures, result_figures,
+    overturning_figure, pairs_figure, pulse_figures, result_figures, sweep_figure,
 };
 use crate::files::{FigureOptions, check_figure_file, write_figure_file};
 
@@ -178,6 +179,14 @@ pub fn plot_validation_pairs(report: &ValidateReport, file: &Path) -> Result<(),
 /// As [`write_figure_file`].
 pub fn plot_frame_risk(report: &FrameRiskReport, file: &Path) -> Result<(), UpliftError> {
     write_figure_file(&frame_risk_figure(report), file)
+}
+
+/// Draws the spectra of all variants of a study as `file`, whose ending tells the format.
+///
+/// # Errors
+/// As [`write_figure_file`].
+pub fn plot_sweep(report: &SweepReport, file: &Path) -> Result<(), UpliftError> {
+    write_figure_file(&sweep_figure(report), file)
 }
 
 /// Which hazard curves are drawn, and where.

@@ -105,6 +105,17 @@ pub enum RiskError {
         /// The offending rate, 1/yr.
         rate: f64,
     },
+    /// A target rate that no fragility exceeds on this hazard curve.
+    #[error(
+        "target rate {target} per year: the hazard curve begins at {most} per year, and nothing fails more often than \
+         the ground moves: give a rarer target"
+    )]
+    AboveHazard {
+        /// The offending rate, 1/yr.
+        target: f64,
+        /// Rate of the curve's first abscissa, 1/yr.
+        most: f64,
+    },
     /// A grid of thresholds does not start at 0 or does not rise.
     #[error(
         "threshold {index} is {value} m: thresholds must be finite, start at 0 and increase strictly; \

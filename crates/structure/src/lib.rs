@@ -74,6 +74,7 @@ pub mod geometry;
 pub mod rigid;
 pub mod rule;
 pub mod slenderness;
+pub mod variation;
 mod warning;
 
 pub use block::{Block, Body, PointMass, Reference};
@@ -87,4 +88,5 @@ pub use geometry::Geometry;
 pub use rigid::RotatingBlock;
 pub use rule::{Capacity, Demand, Rule, relative_error};
 pub use slenderness::{SlendernessDesign, SpectrumPoint, design_slenderness};
+pub use variation::Quantity;
 pub use warning::Warning;

@@ -6,3 +6,4 @@ mod rigid_body;
 mod rotating_block;
 mod rules;
 mod table_3_1;
+mod variation;

@@ -126,7 +126,7 @@ impl ResultFile {
     }
 
     /// Whether the records are synthetic.
-    pub(super) fn is_synthetic(&self) -> Result<bool, UpliftError> {
+    pub(crate) fn is_synthetic(&self) -> Result<bool, UpliftError> {
         Ok(self.reader.attribute_i64("/", "synthetic")? == 1)
     }
 

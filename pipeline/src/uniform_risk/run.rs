@@ -1,5 +1,7 @@
 //! A study of uniform risk, from its inputs to the result file.
 
+use std::path::{Path, PathBuf};
+
 use uplift_ida::Shard;
 use uplift_study::UniformRiskStudy;
 
@@ -36,7 +38,8 @@ pub(crate) fn run(
     events.remark("records", &records.description);
 
     needs(study, records, site_list.as_ref()).with_rows_of(&[checkpoint_path(path)]).require(path, events)?;
-    let work = inputs.work(study, Some(path))?;
+    let earlier: Vec<&Path> = std::iter::once(path).chain(place.options.earlier.iter().map(PathBuf::as_path)).collect();
+    let work = inputs.work(study, &earlier)?;
     let total = work.analyses();
     let mut checkpoint = Checkpoint::open(&checkpoint_path(path), &work.head(Shard::WHOLE))?;
     checkpoint.extend(known);

@@ -75,26 +75,39 @@ pub fn plan_stripes<'a>(
         });
         return Ok(Plan::selected(motions.collect(), systems, study.oscillator.free_vibration)?);
     }
-    let amplitude = |value: f64| measure.measure.amplitude(value);
+    plan_levels(study, (measure.measure, &measure.levels), set, systems)
+}
+
+/// The plan of stripes at any `levels` of a measure, in its unit, ascending; of a set that is the same at all of them.
+///
+/// # Errors
+/// As [`plan_stripes`].
+pub(crate) fn plan_levels<'a>(
+    study: &UniformRiskStudy,
+    (measure, levels): (IntensityMeasure, &[f64]),
+    set: &'a RecordSet,
+    systems: &'a [System],
+) -> Result<Plan<'a>, UpliftError> {
+    let amplitude = |value: f64| measure.amplitude(value);
     let records = set.records.iter().map(|record| StripeRecord {
         id: &record.id,
         accelerogram: &record.accelerogram,
-        intensity: amplitude(record.intensity(measure.measure)),
+        intensity: amplitude(record.intensity(measure)),
     });
-    stripes_of(measure, records.collect(), systems, study.oscillator.free_vibration)
+    stripes_of((measure, levels), records.collect(), systems, study.oscillator.free_vibration)
 }
 
-/// The plan of the stripes of `measure` of other motions than the records of a study, with the intensities that their
-/// amplitudes are scaled by.
+/// The plan of the stripes at `levels` of a measure of other motions than the records of a study, with the intensities
+/// that their amplitudes are scaled by.
 ///
 /// # Errors
 /// A motion that cannot be scaled.
 pub(crate) fn stripes_of<'a>(
-    measure: &MeasurePlan,
+    (measure, levels): (IntensityMeasure, &[f64]),
     motions: Vec<StripeRecord<'a>>,
     systems: &'a [System],
     with_free_peak: bool,
 ) -> Result<Plan<'a>, UpliftError> {
-    let levels: Vec<f64> = measure.levels.iter().map(|&level| measure.measure.amplitude(level)).collect();
+    let levels: Vec<f64> = levels.iter().map(|&level| measure.amplitude(level)).collect();
     Ok(Plan::stripes(motions, systems, &levels, with_free_peak)?)
 }

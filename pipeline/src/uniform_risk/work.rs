@@ -31,23 +31,24 @@ impl Inputs {
         Ok(Self { systems: systems(study)?, motions: motion_keys(&records), records })
     }
 
-    /// The stripes of every measure, but for what is known of them from a result at `earlier`.
+    /// The stripes of every measure, but for what is known of them from results at `earlier`.
     ///
     /// # Errors
     /// A record that cannot be scaled.
-    pub(crate) fn work<'a>(
-        &'a self,
-        study: &'a UniformRiskStudy,
-        earlier: Option<&Path>,
-    ) -> Result<Work<'a>, UpliftError> {
-        let earlier = earlier.and_then(EarlierStripes::open);
+    pub(crate) fn work<'a>(&'a self, study: &'a UniformRiskStudy, earlier: &[&Path]) -> Result<Work<'a>, UpliftError> {
+        let earlier: Vec<EarlierStripes> = earlier.iter().filter_map(|path| EarlierStripes::open(path)).collect();
         let mut plans = Vec::new();
         for measure in &study.measures {
             let plan = plan_stripes(study, measure, &self.records, &self.systems)?;
             // another factor is another run, and an earlier result is looked at by levels alone
-            let known = earlier.as_ref().filter(|_| self.records.at_level.is_none()).map(|earlier| {
+            let is_known = !earlier.is_empty() && self.records.at_level.is_none();
+            let known = is_known.then(|| {
                 let mut cells = Cells::unknown(&plan);
-                earlier.fill(study, measure, &self.records, &self.motions, &mut cells);
+                for earlier in &earlier {
+                    if cells.count() < plan.analyses() {
+                        earlier.fill(study, measure, &self.records, &self.motions, &mut cells);
+                    }
+                }
                 cells
             });
             let label = measure.measure.label().to_owned();
@@ -83,5 +84,5 @@ pub(crate) fn run_shard(
     let inputs = Inputs::read(study, events)?;
     events.remark("records", &inputs.records.description);
     needs(study, &inputs.records, None).of_shard(shard).with_rows_of(&[path]).require(path, events)?;
-    carry_out_shard(inputs.work(study, earlier)?, (path, shard), events, &|_| Ok(()))
+    carry_out_shard(inputs.work(study, &earlier.into_iter().collect::<Vec<_>>())?, (path, shard), events, &|_| Ok(()))
 }

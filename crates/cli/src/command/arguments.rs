@@ -20,4 +20,4 @@ pub(crate) use probability::{number_or_per_cent, probability};
 pub(crate) use result::ResultArguments;
 pub(crate) use risk::{OneRiskArguments, RiskArguments};
 pub(crate) use structure::StructureArguments;
-pub(crate) use study::{StudyArguments, run_options, shard};
+pub(crate) use study::{StudyArguments, command_line, run_options, shard};

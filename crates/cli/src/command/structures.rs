@@ -3,3 +3,4 @@
 pub(super) mod design;
 pub(super) mod overturning;
 pub(super) mod risk;
+pub(super) mod target;

@@ -3,3 +3,4 @@
 pub(super) mod check;
 pub(super) mod merge;
 pub(super) mod run;
+pub(super) mod sweep;

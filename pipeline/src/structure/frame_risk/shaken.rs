@@ -113,7 +113,7 @@ impl Shaken {
                 intensity: amplitude(index),
             };
             let records = self.pairs.iter().enumerate().map(record).collect();
-            let stripes = stripes_of(plan, records, &self.wobbling, true)?;
+            let stripes = stripes_of((plan.measure, &plan.levels), records, &self.wobbling, true)?;
             let stripes = stripes.across(self.pairs.iter().map(|pair| &pair.h2).collect())?;
             plans.push(labelled(stripes, "pairs", &self.keys[0]));
         }
@@ -122,7 +122,11 @@ impl Shaken {
             [&pair.h1, &pair.h2].map(|accelerogram| StripeRecord { id: &pair.id, accelerogram, intensity })
         };
         let components = self.pairs.iter().enumerate().flat_map(of_pair).collect();
-        plans.push(labelled(stripes_of(plan, components, &self.planar, true)?, "components", &self.keys[1]));
+        plans.push(labelled(
+            stripes_of((plan.measure, &plan.levels), components, &self.planar, true)?,
+            "components",
+            &self.keys[1],
+        ));
         let oscillators = plan_stripes(&self.study, plan, &self.set, &self.oscillators)?;
         plans.push(labelled(oscillators, "records", &self.keys[2]));
         Ok(Work::new(title, plans))

@@ -63,6 +63,7 @@ impl ResultArguments {
             command: command_line(),
             overrides: self.overrides.clone(),
             force: self.force(),
+            ..RunOptions::default()
         };
         let path = result_of(&study, &options, terminal)?;
         let repair = study.consistency.repair == Repair::Weights;

@@ -29,14 +29,21 @@ impl StudyArguments {
 }
 
 /// What was typed, for the result.
-pub(super) fn command_line() -> String {
+pub(crate) fn command_line() -> String {
     std::env::args().collect::<Vec<_>>().join(" ")
 }
 
 /// The options of a run that was typed.
 pub(crate) fn run_options(study: &StudyArguments, output: Option<PathBuf>, force: bool) -> RunOptions {
     let overrides = study.overrides.clone();
-    RunOptions { study_file: study.study.clone(), output, command: command_line(), overrides, force }
+    RunOptions {
+        study_file: study.study.clone(),
+        output,
+        command: command_line(),
+        overrides,
+        force,
+        ..RunOptions::default()
+    }
 }
 
 /// Reads `1/8`.

@@ -1,0 +1,145 @@
+//! `uplift target`: the least strength, size, width, capacity or tendon stiffness for a target risk.
+
+use std::path::PathBuf;
+
+use clap::builder::PossibleValuesParser;
+use clap::{ArgGroup, Args};
+use uplift::structure::{TargetEvent, TargetFrequency, TargetOptions, target as run};
+use uplift_motion::IntensityMeasure;
+use uplift_structure::Quantity;
+use uplift_study::Structure;
+
+use crate::command::arguments::{ForceArgument, number, number_or_per_cent};
+use crate::error::CommandError;
+use crate::show::{print_json, print_target};
+use crate::terminal::Terminal;
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Structures to start from: configs/structures/*.toml. Method and a worked example: docs/design.md",
+    group = ArgGroup::new("frequency").required(true).args(["overturning", "per_year", "poe", "return_period"])
+)]
+pub(crate) struct TargetArguments {
+    /// Structure file (TOML), for instance configs/structures/frame.toml
+    structure: PathBuf,
+    /// Result file of `uplift run`: the records and hazard that the structure meets
+    #[arg(long, value_name = "RESULT")]
+    urs: PathBuf,
+    /// Manifest of the records, where it is no longer where the study says
+    #[arg(long, value_name = "CSV")]
+    manifest: Option<PathBuf>,
+    /// Site of the result [default: its only one]
+    #[arg(long)]
+    site: Option<String>,
+    /// Intensity measure: pgv, pga or any other [default: pgv if the result has it]
+    #[arg(long)]
+    measure: Option<IntensityMeasure>,
+    /// What is varied, all else kept
+    #[arg(long, value_parser = PossibleValuesParser::new(Quantity::ALL.map(Quantity::key)))]
+    vary: String,
+    /// Overturning may happen so often a year, for instance 2e-4
+    #[arg(
+        long, value_name = "PER_YEAR", allow_negative_numbers = true, value_parser = number, conflicts_with = "exceed"
+    )]
+    overturning: Option<f64>,
+    /// In place of overturning: a displacement in m that must not be exceeded, or `capacity`, the structure's own
+    #[arg(long, value_name = "M|capacity", allow_negative_numbers = true)]
+    exceed: Option<String>,
+    /// Mean annual frequency that is allowed
+    #[arg(long, value_name = "PER_YEAR", allow_negative_numbers = true, value_parser = number)]
+    per_year: Option<f64>,
+    /// Probability that is allowed, 0.01 or 1%, in --years
+    #[arg(long, value_name = "P", allow_negative_numbers = true, value_parser = number_or_per_cent)]
+    poe: Option<f64>,
+    /// Return period that is asked for, years
+    #[arg(long, value_name = "YEARS", allow_negative_numbers = true, value_parser = number)]
+    return_period: Option<f64>,
+    /// Years that the probability refers to [default: those of the study]
+    #[arg(long, value_name = "YEARS", allow_negative_numbers = true, value_parser = number, requires = "poe")]
+    years: Option<f64>,
+    /// Least value tried, in SI units [default: a quarter of the structure's own]
+    #[arg(long, value_name = "VALUE", allow_negative_numbers = true, value_parser = number)]
+    from: Option<f64>,
+    /// Largest value tried [default: four times the structure's own]
+    #[arg(long, value_name = "VALUE", allow_negative_numbers = true, value_parser = number)]
+    to: Option<f64>,
+    /// How near the values that meet and miss the target must lie, as a share of the value
+    #[arg(
+        long, value_name = "SHARE", allow_negative_numbers = true, value_parser = number, default_value_t = 0.005
+    )]
+    tolerance: f64,
+    /// Return periods, years, at whose levels the structure that was found is looked at
+    #[arg(
+        long,
+        value_name = "YEARS[,…]",
+        value_delimiter = ',',
+        allow_negative_numbers = true,
+        value_parser = number,
+        default_values_t = [475.0, 2475.0]
+    )]
+    at: Vec<f64>,
+    /// Beside it, the level that a generic lognormal fragility of this dispersion asks for: the risk-targeted motion
+    #[arg(long, value_name = "BETA", allow_negative_numbers = true, value_parser = number)]
+    generic_dispersion: Option<f64>,
+    /// Probability of that fragility at the level to design for
+    #[arg(
+        long,
+        value_name = "P",
+        allow_negative_numbers = true,
+        value_parser = number_or_per_cent,
+        default_value_t = 0.1,
+        requires = "generic_dispersion"
+    )]
+    generic_probability: f64,
+    /// Print everything as JSON
+    #[arg(long)]
+    json: bool,
+    /// Write all values tried, with their risks, to this CSV file
+    #[arg(long, short, value_name = "FILE.csv")]
+    output: Option<PathBuf>,
+    #[command(flatten)]
+    overwriting: ForceArgument,
+}
+
+impl TargetArguments {
+    fn options(&self) -> Result<TargetOptions, CommandError> {
+        let event = match self.exceed.as_deref() {
+            None => TargetEvent::Overturning,
+            Some("capacity") => TargetEvent::BeyondCapacity,
+            Some(text) => TargetEvent::Beyond(
+                number(text)
+                    .map_err(|error| CommandError::Usage(format!("--exceed {text}: {error}, or `capacity`")))?,
+            ),
+        };
+        let frequency = match (self.overturning.or(self.per_year), self.poe, self.return_period) {
+            (Some(per_year), ..) => TargetFrequency::PerYear(per_year),
+            (None, Some(poe), _) => TargetFrequency::Probability(poe, self.years),
+            (None, None, years) => TargetFrequency::ReturnPeriod(years.unwrap_or_default()),
+        };
+        let quantity = Quantity::ALL.into_iter().find(|quantity| quantity.key() == self.vary);
+        let quantity = quantity.ok_or_else(|| CommandError::Usage(format!("--vary {}", self.vary)))?;
+        Ok(TargetOptions {
+            manifest: self.manifest.clone(),
+            site: self.site.clone(),
+            measure: self.measure,
+            from: self.from,
+            to: self.to,
+            tolerance: self.tolerance,
+            return_periods: self.at.clone(),
+            generic: self.generic_dispersion.map(|dispersion| (dispersion, self.generic_probability)),
+            table: self.output.clone(),
+            force: self.overwriting.force,
+            ..TargetOptions::new(quantity, event, frequency)
+        })
+    }
+}
+
+pub(crate) fn target(arguments: &TargetArguments, terminal: &Terminal) -> Result<(), CommandError> {
+    let options = arguments.options()?;
+    let report = run(&Structure::load(&arguments.structure)?, &arguments.urs, &options, terminal)?;
+    if arguments.json { print_json(&report) } else { print_target(&report) }?;
+    for file in &report.files {
+        terminal.say(&file.display().to_string());
+    }
+    Ok(())
+}

@@ -1,0 +1,56 @@
+//! Variants of a study side by side.
+
+use std::io::Write;
+
+use uplift::sweep::{SweepReport, VariantReport};
+use uplift::text::{metres, nearest, risk_in_words, table};
+
+use super::shown_path;
+use crate::error::CommandError;
+use crate::terminal::output;
+
+/// Strengths shown.
+const SHOWN_STRENGTHS: [f64; 3] = [0.1, 0.2, 0.4];
+
+/// The displacements of every variant at a few strengths, by each measure at the first site, for the rarest risk.
+pub(crate) fn print_sweep(report: &SweepReport) -> Result<(), CommandError> {
+    let out = &mut output();
+    let Some(first) = report.variants.first() else { return Ok(()) };
+    let site = first.spectra.first().map_or_else(String::new, |spectrum| spectrum.site.clone());
+    let mut measures: Vec<&'static str> =
+        report.variants.iter().flat_map(|of| of.spectra.iter().map(|of| of.im)).collect();
+    measures.sort_unstable();
+    measures.dedup();
+    let synthetic = if first.synthetic { " (synthetic records)" } else { "" };
+    for im in measures {
+        let mut header: Vec<&str> = report.keys.iter().map(String::as_str).collect();
+        header.extend(["risk", "strength", "m", "strength", "m", "strength", "m"]);
+        let rows: Vec<Vec<String>> = report.variants.iter().map(|variant| row(variant, im, &site)).collect();
+        writeln!(
+            out,
+            "\nUniform risk spectra by {im} at {site}: displacement in m{synthetic}\n{}",
+            table(&header, &rows)
+        )?;
+    }
+    writeln!(out, "\nAll spectra of all variants: {}", shown_path(&report.table).display())?;
+    Ok(())
+}
+
+/// One variant: its values, and its displacements at the strengths nearest to those shown.
+fn row(variant: &VariantReport, im: &str, site: &str) -> Vec<String> {
+    let mut cells: Vec<String> =
+        variant.values.iter().map(|value| value.clone().unwrap_or_else(|| "as it stands".to_owned())).collect();
+    let own = variant.spectra.iter().filter(|spectrum| spectrum.im == im && spectrum.site == site);
+    let rarest = own.min_by(|a, b| a.poe.total_cmp(&b.poe));
+    cells.push(rarest.map_or_else(|| "-".to_owned(), |spectrum| risk_in_words(spectrum.poe, variant.years)));
+    let shown = nearest(&variant.strengths, &SHOWN_STRENGTHS);
+    for place in 0..SHOWN_STRENGTHS.len() {
+        match (rarest, shown.get(place)) {
+            (Some(spectrum), Some(&at)) => {
+                cells.extend([format!("{:.3}", variant.strengths[at]), metres(spectrum.u_m[at])]);
+            }
+            _ => cells.extend(["-".to_owned(), "-".to_owned()]),
+        }
+    }
+    cells
+}

@@ -1,0 +1,143 @@
+//! A target risk as an engineer reads it.
+
+use std::io::Write;
+
+use uplift::structure::{TargetBand, TargetReport};
+use uplift::text::{per_cent, table};
+
+use super::alarms::print_alarms;
+use super::shown_path;
+use super::structure::{lines, risk_cells, short};
+use crate::error::CommandError;
+use crate::terminal::output;
+
+/// The value that was found, how sure it is, and what stands beside it.
+pub(crate) fn print_target(report: &TargetReport) -> Result<(), CommandError> {
+    let out = &mut output();
+    for line in lines(&report.structure) {
+        writeln!(out, "{line}")?;
+    }
+    writeln!(out, "records    {}, {}", shown_path(&report.result).display(), report.record_set)?;
+    let TargetReport { event, site, im, quantity, target_per_year, value, .. } = report;
+    let unit = |text: String| format!("{text} {}", report.quantity_unit).trim_end().to_owned();
+    writeln!(
+        out,
+        "target     {event} at most {target_per_year:.3e} per year at {site} by {im}: once in {:.0} years",
+        1.0 / target_per_year
+    )?;
+    for note in &report.notes {
+        writeln!(out, "note       {note}")?;
+    }
+    let own = report.own_value.map_or_else(String::new, |own| format!("; the structure has {}", unit(short(own))));
+    writeln!(out, "\nThe least {quantity} that meets it: {}{own}", unit(short(*value)))?;
+    writeln!(
+        out,
+        "  missed at {}, and met at everything tried from {} on",
+        unit(short(report.missed_at)),
+        short(*value)
+    )?;
+    let [per_year, probability, return_period] = risk_cells(&report.risk);
+    writeln!(
+        out,
+        "  frequency there      {per_year} per year ({probability} in {} years, once in {return_period})",
+        report.years
+    )?;
+    let noise = &report.per_year_within_one_percent;
+    writeln!(out, "  within 1 % of it     {:.3e} to {:.3e} per year", noise.lowest, noise.highest)?;
+    print_band(out, report, &report.band)?;
+    let found = &report.found;
+    let capacity = found.capacity_m.map_or_else(|| "none".to_owned(), |capacity_m| format!("{capacity_m:.4} m"));
+    writeln!(
+        out,
+        "  the structure there  strength {:.4}, strength of the spectrum {:.4}, displacement capacity {capacity}",
+        found.strength, found.spectral_strength
+    )?;
+    print_crossings(out, report)?;
+    print_beside(out, report)?;
+    print_alarms(out, &report.alarms)
+}
+
+fn print_band(out: &mut impl Write, report: &TargetReport, band: &TargetBand) -> Result<(), CommandError> {
+    let [lower, median, upper] = band.value.map(|value| {
+        if value.is_finite() {
+            format!("{} {}", short(value), report.quantity_unit).trim_end().to_owned()
+        } else {
+            "beyond the range".to_owned()
+        }
+    });
+    let drawn = if band.unit == "event" { "earthquakes" } else { "records" };
+    writeln!(
+        out,
+        "  other {drawn:<13}  {lower} to {upper}, median {median} ({} of {} resamples)",
+        per_cent(band.confidence),
+        band.replicates
+    )?;
+    let [lower, _, upper] = band.per_year;
+    writeln!(out, "                       {lower:.3e} to {upper:.3e} per year at the value found")?;
+    for (share, where_to) in [(band.below_share, "below"), (band.beyond_share, "above")] {
+        if share > 0.0 {
+            writeln!(out, "                       {} of the resamples lie {where_to} the range", per_cent(share))?;
+        }
+    }
+    Ok(())
+}
+
+fn print_crossings(out: &mut impl Write, report: &TargetReport) -> Result<(), CommandError> {
+    if report.crossings.len() < 2 {
+        return Ok(());
+    }
+    let row = |crossing: &uplift::structure::Crossing| {
+        let becomes = if crossing.becomes_met { "met" } else { "missed" };
+        vec![becomes.to_owned(), short(crossing.from), short(crossing.to)]
+    };
+    let rows: Vec<Vec<String>> = report.crossings.iter().map(row).collect();
+    let header = format!("{} from", report.quantity);
+    writeln!(out, "\nCrossings of the target, upwards\n{}", table(&["becomes", &header, "to"], &rows))?;
+    Ok(())
+}
+
+fn print_beside(out: &mut impl Write, report: &TargetReport) -> Result<(), CommandError> {
+    if !report.at_return_periods.is_empty() {
+        let rows: Vec<Vec<String>> = report
+            .at_return_periods
+            .iter()
+            .map(|at| {
+                vec![
+                    format!("{:.0} years", at.return_period_years),
+                    short(at.level),
+                    format!("{} of {}", at.count, at.records),
+                    per_cent(at.probability),
+                ]
+            })
+            .collect();
+        let level = format!("{}, {}", report.im, report.im_unit);
+        writeln!(
+            out,
+            "\nProbability of {} given the level of a return period, for the structure that was found\n{}",
+            report.event,
+            table(&["return period", &level, "records", "probability"], &rows)
+        )?;
+    }
+    let Some(generic) = &report.generic else { return Ok(()) };
+    writeln!(
+        out,
+        "\nA generic lognormal fragility of dispersion {} and {} at the level to design for has the target risk where \
+         that level is\n{} {} (median {}; {} of the risk from above the hazard curve)",
+        generic.dispersion,
+        per_cent(generic.probability),
+        short(generic.level),
+        report.im_unit,
+        short(generic.median),
+        per_cent(generic.upper_tail_share)
+    )?;
+    if let (Some(level), Some(coefficient)) = (generic.uniform_hazard_level, generic.risk_coefficient) {
+        writeln!(
+            out,
+            "risk coefficient {coefficient:.4}: over {} {} of the {:.0}-year return period",
+            short(level),
+            report.im_unit,
+            generic.return_period_years
+        )?;
+    }
+    Ok(())
+}

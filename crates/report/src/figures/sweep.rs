@@ -1,0 +1,54 @@
+//! The spectra of variants of a study over each other.
+
+use uplift::sweep::{SweepReport, VariantReport, VariantSpectrum};
+use uplift::text::risk_in_words;
+use uplift_plot::{Axis, Figure, Panel, Series, Tone};
+
+use super::{DISPLACEMENT, STRENGTH};
+
+/// Lines that a colour of its own tells apart; more are a ramp.
+const TOLD_APART: usize = 7;
+
+/// A panel for each measure and site: the spectra of all variants for the rarest risk of each.
+pub fn sweep_figure(report: &SweepReport) -> Figure {
+    let mut places: Vec<(&'static str, &str)> = Vec::new();
+    for spectrum in report.variants.iter().flat_map(|variant| &variant.spectra) {
+        if !places.contains(&(spectrum.im, &spectrum.site)) {
+            places.push((spectrum.im, &spectrum.site));
+        }
+    }
+    let of = report.variants.len();
+    let panel = |&(im, site): &(&str, &str)| {
+        let line = |(step, variant): (usize, &VariantReport)| {
+            let spectrum = rarest(variant, im, site)?;
+            let points = variant.strengths.iter().copied().zip(spectrum.u_m.iter().copied()).collect();
+            let tone = if of <= TOLD_APART { Tone::Distinct(step) } else { Tone::Shade { step, of } };
+            Some(Series::sampled(&variant.name, points, tone))
+        };
+        let series = report.variants.iter().enumerate().filter_map(line).collect();
+        Panel::lines(format!("{site}, {im}"), Axis::linear(STRENGTH), Axis::log(DISPLACEMENT), series)
+    };
+    let panels: Vec<Panel> = places.iter().map(panel).collect();
+    let risk = report.variants.first().and_then(|variant| {
+        let spectrum = variant.spectra.iter().min_by(|a, b| a.poe.total_cmp(&b.poe))?;
+        Some(risk_in_words(spectrum.poe, variant.years))
+    });
+    let synthetic = report.variants.iter().any(|variant| variant.synthetic);
+    Figure {
+        id: "comparison".to_owned(),
+        title: format!("Variants of {}", report.title),
+        caption: format!(
+            "Uniform risk spectra of every variant of the study, for the rarest risk of each ({} in the first).",
+            risk.unwrap_or_default()
+        ),
+        remark: if synthetic { "synthetic records: not for design" } else { "" }.to_owned(),
+        columns: panels.len().min(2),
+        panels,
+    }
+}
+
+/// The spectrum of a variant by a measure at a site for its smallest probability.
+fn rarest<'a>(variant: &'a VariantReport, im: &str, site: &str) -> Option<&'a VariantSpectrum> {
+    let own = variant.spectra.iter().filter(|spectrum| spectrum.im == im && spectrum.site == site);
+    own.min_by(|a, b| a.poe.total_cmp(&b.poe))
+}

@@ -1,0 +1,378 @@
+//! The least strength, size, width, capacity or tendon stiffness with which a structure meets a target risk.
+//!
+//! The risk of each value that is tried is that of the structure's own oscillator under the records and the hazard of a
+//! result, from exact stripes. Counts of records step, and a chaotic system may step back: every crossing of the target
+//! is followed, and the value that is told is the one from which on all that was tried meets it.
+
+mod band;
+mod beside;
+mod request;
+mod search;
+mod table;
+mod trial;
+
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+use uplift_ida::System;
+use uplift_spectra::{NoiseSweep, Noisy};
+use uplift_structure::EquivalentSystem;
+use uplift_study::Structure;
+
+pub use band::TargetBand;
+pub use beside::{GenericTarget, LevelShare};
+pub use request::{TargetEvent, TargetFrequency, TargetOptions};
+pub use search::Crossing;
+
+use super::choice::{measure_index, site_index};
+use super::report::StructureReport;
+use super::risk::EventRisk;
+use super::weights::SiteWeights;
+use crate::alarms::{Alarm, OwnRisk, Scope, alarms_of_inputs, of_own_risks, of_structure, ranked};
+use crate::error::UpliftError;
+use crate::events::Events;
+use crate::outputs::{self, Output, OutputKind};
+use crate::result::ResultFile;
+use search::{MOST_CROSSINGS, crossings, search, spread};
+use trial::Trials;
+
+/// Values tried before the search narrows, over the range.
+const VALUES: usize = 33;
+/// How far the range reaches below and above the structure's own value, where it is not given.
+const REACH: f64 = 4.0;
+/// Half the width of the sweep that shows the noise, relative to the value, and its points.
+const NOISE: (f64, usize) = (0.01, 11);
+
+/// What a search for a target risk tells.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TargetReport {
+    /// The structure as its file has it, with the restitution of its oscillator.
+    pub structure: StructureReport,
+    /// The result file.
+    pub result: PathBuf,
+    /// Where its records come from, in a line.
+    pub record_set: String,
+    /// Whether they are synthetic.
+    pub synthetic: bool,
+    /// The site.
+    pub site: String,
+    /// `PGV` or `PGA`.
+    pub im: &'static str,
+    /// Unit of its levels.
+    pub im_unit: &'static str,
+    /// What is varied: `width`.
+    pub quantity: &'static str,
+    /// Its unit.
+    pub quantity_unit: &'static str,
+    /// Its value in the structure file; none of what the structure does not have.
+    pub own_value: Option<f64>,
+    /// What must not happen more often: `overturning`, or which displacement is exceeded.
+    pub event: String,
+    /// How often it may happen, 1/yr.
+    pub target_per_year: f64,
+    /// Years that probabilities refer to.
+    pub years: f64,
+    /// The least value from which on everything tried meets the target.
+    pub value: f64,
+    /// The largest value tried that misses it.
+    pub missed_at: f64,
+    /// The least value tried that meets it; below [`value`](Self::value) where the risk does not fall all the way.
+    pub least_met: f64,
+    /// The risk at the value.
+    pub risk: EventRisk,
+    /// The structure at the value.
+    pub found: FoundSystem,
+    /// The frequency within one per cent of the value, 1/yr: the noise of a chaotic system.
+    pub per_year_within_one_percent: Noisy,
+    /// What other records would have given.
+    pub band: TargetBand,
+    /// Every place where the frequency crosses the target, ascending.
+    pub crossings: Vec<Crossing>,
+    /// What happens at levels of given return periods, for the structure at the value.
+    pub at_return_periods: Vec<LevelShare>,
+    /// The level that a generic fragility asks for; none where none was given.
+    pub generic: Option<GenericTarget>,
+    /// Everything that was tried, ascending.
+    pub tried: Vec<TriedValue>,
+    /// Nonlinear time histories of the search.
+    pub analyses: u64,
+    /// What to know of the search.
+    pub notes: Vec<String>,
+    /// What to know before using the numbers, the worst first.
+    pub alarms: Vec<Alarm>,
+    /// What was written.
+    #[serde(skip)]
+    pub files: Vec<PathBuf>,
+}
+
+/// The equivalent oscillator at the value that was found.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct FoundSystem {
+    /// Uplift strength `f_up/(m g)`.
+    pub strength: f64,
+    /// Strength at which a spectrum is read.
+    pub spectral_strength: f64,
+    /// Force at uplift, N.
+    pub uplift_force_n: f64,
+    /// Displacement capacity, m; none for a structure that has none.
+    pub capacity_m: Option<f64>,
+    /// Stiffness after uplift, N/m.
+    pub post_uplift_stiffness_n_m: f64,
+}
+
+/// One value that was tried.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct TriedValue {
+    /// The value.
+    pub value: f64,
+    /// The risk at it.
+    #[serde(flatten)]
+    pub risk: EventRisk,
+    /// Whether it meets the target.
+    pub is_met: bool,
+}
+
+/// A value that was analysed.
+#[derive(Debug, Clone)]
+struct Attempt {
+    system: EquivalentSystem,
+    oscillator: System,
+    risk: EventRisk,
+    /// What each record contributes: the sum of its weights where it happens, 1/yr; their mean is the frequency.
+    record_per_year: Vec<f64>,
+}
+
+impl Attempt {
+    fn meets(&self, target_per_year: f64) -> bool {
+        self.risk.per_year <= target_per_year
+    }
+}
+
+/// Searches the least value of a quantity of `structure` with which it meets a target risk under the records and the
+/// hazard of the result at `result`.
+///
+/// # Errors
+/// Numbers that are no target, range or tolerance, all at once; a target below what the stripes can tell; a target that
+/// is met or missed at every value of the range, or missed at its upper end; a quantity that the structure does not
+/// have; a file that is missing, damaged, no result, or without sites; a site or measure that the result does not have;
+/// records that cannot be read; a table that would replace something else; [`UpliftError::Paused`] where `events` say
+/// so, [`UpliftError::Interrupted`] where no checkpoint can be written beside the result.
+pub fn target(
+    structure: &Structure,
+    result: &Path,
+    options: &TargetOptions,
+    events: &dyn Events,
+) -> Result<TargetReport, UpliftError> {
+    let mistakes = options.mistakes();
+    if !mistakes.is_empty() {
+        return Err(UpliftError::Implausible(mistakes));
+    }
+    check_table(structure, result, options)?;
+    let file = ResultFile::open(result)?;
+    let source = file.study(options.manifest.as_deref())?;
+    let site = site_index(&source, options.site.as_deref())?;
+    let measure = &source.measures[measure_index(&source, options.measure)?];
+    let curve = file.mean_curve(&source.sites[site], measure.measure())?;
+    let years = options.frequency.years().unwrap_or(source.study.risk.years);
+    let target_per_year = options.frequency.per_year(years)?;
+    let (range, own_value) = range(structure, options)?;
+    let weights = SiteWeights::Alike(&measure.weights[site]);
+    let mut trials = Trials::of(structure, &source, (measure, weights), (options, years), events)?;
+    trials.refuse_untellable(&source.sites[site], target_per_year)?;
+
+    let meets = |attempt: &Attempt| attempt.meets(target_per_year);
+    let tried = search(spread(range, VALUES), options.tolerance, |values| trials.attempt(values), meets)?;
+    let words = Words { options, target_per_year };
+    let place = words.first_of_met(&tried)?;
+    let (value, found) = (tried[place].0, &tried[place].1);
+    let crossings = crossings(&tried, meets);
+    let mut notes = words.notes(&crossings, &tried);
+    let neighbours: Vec<f64> = NoiseSweep::new(NOISE.0, NOISE.1)?.factors().iter().map(|by| by * value).collect();
+    let noise: Vec<f64> = trials.attempt(&neighbours)?.iter().map(|attempt| attempt.risk.per_year).collect();
+    let noise = Noisy::of(&noise);
+    if noise.highest > target_per_year {
+        notes.push(format!(
+            "within 1 % of the value the frequency goes from {:.3e} to {:.3e} per year: choose the value with a margin",
+            noise.lowest, noise.highest
+        ));
+    }
+    let at_return_periods = trials.at_return_periods(found, curve.as_ref(), &mut notes)?;
+    let generic = curve.as_ref().map(|curve| beside::generic_target(curve, target_per_year, options)).transpose()?;
+    let records = trials.record_count();
+    let levels = &measure.plan.levels;
+    let own = OwnRisk {
+        subject: format!("{}, {}, {}", options.event.words(), source.sites[site], measure.measure().label()),
+        risk: found.risk,
+        measure: measure.measure(),
+        levels: (levels[0], levels[levels.len() - 1]),
+        records,
+        effective_records: records as f64,
+    };
+    let scope = Scope { site: Some(site), measure: Some(measure.measure()), ..Scope::default() };
+    let mut alarms = alarms_of_inputs(&file, &scope)?;
+    alarms.extend(of_structure(structure));
+    alarms.extend(of_own_risks(&[own]));
+    let mut report = TargetReport {
+        structure: StructureReport::of(structure, Some(trials.restitution())),
+        site: source.sites[site].clone(),
+        im: measure.measure().label(),
+        im_unit: measure.measure().unit(),
+        quantity: options.quantity.key(),
+        quantity_unit: options.quantity.unit(),
+        own_value,
+        event: options.event.words(),
+        target_per_year,
+        years,
+        value,
+        missed_at: tried[place - 1].0,
+        least_met: tried.iter().find(|(_, attempt)| meets(attempt)).map_or(value, |(value, _)| *value),
+        risk: found.risk,
+        found: FoundSystem::of(&found.system),
+        per_year_within_one_percent: noise,
+        band: band::band(&tried, (place, target_per_year), &source.study, &file.event_of()?)?,
+        crossings,
+        at_return_periods,
+        generic: generic.flatten(),
+        tried: tried
+            .iter()
+            .map(|(value, attempt)| TriedValue { value: *value, risk: attempt.risk, is_met: meets(attempt) })
+            .collect(),
+        analyses: trials.analyses(),
+        notes,
+        alarms: ranked(alarms),
+        files: Vec::new(),
+        result: source.path.clone(),
+        record_set: source.record_set.clone(),
+        synthetic: source.synthetic,
+    };
+    if let Some(path) = &options.table {
+        table::write(path, &report)?;
+        report.files = vec![path.clone()];
+    }
+    trials.finish();
+    Ok(report)
+}
+
+/// The range of the search, and the value that the structure has.
+fn range(structure: &Structure, options: &TargetOptions) -> Result<([f64; 2], Option<f64>), UpliftError> {
+    let of_structure = |mistakes: Vec<uplift_structure::StructureError>| {
+        let words: Vec<String> = mistakes.iter().map(ToString::to_string).collect();
+        UpliftError::Usage(format!("--vary {}: {}", options.quantity.key(), words.join("; ")))
+    };
+    let own = options.quantity.value(&structure.description).map_err(of_structure)?;
+    let around = |factor: f64| own.filter(|own| *own > 0.0).map(|own| own * factor);
+    let end = |given: Option<f64>, factor: f64, option: &str| {
+        given.or(around(factor)).ok_or_else(|| {
+            UpliftError::Usage(format!(
+                "{option}: the structure has no {} above 0 to start from: give both --from and --to",
+                options.quantity.key()
+            ))
+        })
+    };
+    let range = [end(options.from, 1.0 / REACH, "--from")?, end(options.to, REACH, "--to")?];
+    if range[0] >= range[1] {
+        let [from, to] = range;
+        return Err(UpliftError::Usage(format!("--from {from} is not below --to {to}: give a range that rises")));
+    }
+    Ok((range, own))
+}
+
+/// A name that would lose something, before anything is computed.
+fn check_table(structure: &Structure, result: &Path, options: &TargetOptions) -> Result<(), UpliftError> {
+    let Some(path) = &options.table else { return Ok(()) };
+    let inputs: Vec<&Path> =
+        [structure.file.as_path(), result].into_iter().chain(options.manifest.as_deref()).collect();
+    outputs::check(&[Output::new(path, OutputKind::Table(table::FIRST_COLUMN)).of(result)], &inputs, options.force)
+}
+
+impl FoundSystem {
+    fn of(system: &EquivalentSystem) -> Self {
+        Self {
+            strength: system.strength(),
+            spectral_strength: system.spectral_strength(),
+            uplift_force_n: system.uplift_force_n(),
+            capacity_m: system.capacity().ok().map(|capacity| capacity.capacity_m()).filter(|m| m.is_finite()),
+            post_uplift_stiffness_n_m: system.post_uplift_stiffness_n_m(),
+        }
+    }
+}
+
+/// What is to be said of the values that were tried.
+struct Words<'a> {
+    options: &'a TargetOptions,
+    target_per_year: f64,
+}
+
+impl Words<'_> {
+    /// Position of the least value from which on all meet the target.
+    fn first_of_met(&self, tried: &[(f64, Attempt)]) -> Result<usize, UpliftError> {
+        let Self { options, target_per_year } = self;
+        let (key, event) = (options.quantity.key(), options.event.words());
+        let at = |(value, attempt): &(f64, Attempt)| format!("{:.3e} at {}", attempt.risk.per_year, self.value(*value));
+        let ends = || match (tried.first(), tried.last()) {
+            (Some(first), Some(last)) => format!("{} and {}", at(first), at(last)),
+            _ => String::new(),
+        };
+        let missed = tried.iter().rposition(|(_, attempt)| !attempt.meets(*target_per_year));
+        match missed {
+            None => Err(UpliftError::Usage(format!(
+                "the target is met at every {key} of the range: {event} has {} per year, and {target_per_year:.3e} is \
+                 allowed: give a lower --from, or a rarer target",
+                ends()
+            ))),
+            Some(last) if last + 1 < tried.len() => Ok(last + 1),
+            Some(_) => {
+                let found = crossings(tried, |attempt| attempt.meets(*target_per_year));
+                if found.is_empty() {
+                    return Err(UpliftError::Usage(format!(
+                        "the target is missed at every {key} of the range: {event} has {} per year, and \
+                         {target_per_year:.3e} is allowed: give a higher --to, or vary something else",
+                        ends()
+                    )));
+                }
+                Err(UpliftError::Usage(format!(
+                    "the target is met in between and missed at the largest {key}: {}; a larger one is not safer \
+                     here: choose --to below the last of these crossings",
+                    self.crossings(&found)
+                )))
+            }
+        }
+    }
+
+    fn notes(&self, found: &[Crossing], tried: &[(f64, Attempt)]) -> Vec<String> {
+        if found.len() < 2 {
+            return Vec::new();
+        }
+        let least = tried.iter().find(|(_, attempt)| attempt.meets(self.target_per_year));
+        let least = least.map_or_else(String::new, |(value, _)| format!(" from {} on", self.value(*value)));
+        vec![format!(
+            "the frequency crosses the target {} times, for it does not fall all the way: it is met here and \
+             there{least}, and everywhere above the value told ({})",
+            found.len(),
+            self.crossings(found)
+        )]
+    }
+
+    fn value(&self, value: f64) -> String {
+        // six digits, and no more of a stiffness than of a width
+        let rounded = format!("{value:.5e}").parse::<f64>().unwrap_or(value);
+        format!("{rounded} {}", self.options.quantity.unit()).trim_end().to_owned()
+    }
+
+    fn crossings(&self, found: &[Crossing]) -> String {
+        let words: Vec<String> = found
+            .iter()
+            .take(MOST_CROSSINGS)
+            .map(|crossing| {
+                let becomes = if crossing.becomes_met { "met" } else { "missed" };
+                format!("{becomes} from {} on", self.value(crossing.to))
+            })
+            .collect();
+        let more = if found.len() > MOST_CROSSINGS {
+            format!(", and {} more", found.len() - MOST_CROSSINGS)
+        } else {
+            String::new()
+        };
+        format!("{}{more}", words.join(", "))
+    }
+}

@@ -1,0 +1,99 @@
+//! How sure a found value is: the search repeated for resampled records, on the stripes that were analysed.
+
+use serde::Serialize;
+use uplift_bootstrap::{BootstrapError, ResamplingPlan, Unit};
+use uplift_fragility::quantile;
+use uplift_risk::RecordSample;
+use uplift_study::UniformRiskStudy;
+
+use super::Attempt;
+use crate::error::UpliftError;
+
+/// What other records would have given, drawn from these with replacement (Section 4.5).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct TargetBand {
+    /// Share of the replicates between the limits.
+    pub confidence: f64,
+    /// How many replicates there are.
+    pub replicates: usize,
+    /// What was drawn: `record` or `event`.
+    pub unit: &'static str,
+    /// Lower limit, median and upper limit of the value, in its unit; infinite beyond the values searched.
+    pub value: [f64; 3],
+    /// The same of the frequency at the value that was found, 1/yr.
+    pub per_year: [f64; 3],
+    /// Share of the replicates whose value lies below all that were analysed, so that it is counted as the smallest.
+    pub below_share: f64,
+    /// Share of the replicates that miss the target at the largest value.
+    pub beyond_share: f64,
+}
+
+/// The band of the value from which on `tried`, ascending, meet `target_per_year`; `found` is its position.
+///
+/// # Errors
+/// Draws of the study that cannot be.
+pub(super) fn band(
+    tried: &[(f64, Attempt)],
+    (found, target_per_year): (usize, f64),
+    study: &UniformRiskStudy,
+    event_of: &[usize],
+) -> Result<TargetBand, UpliftError> {
+    let settings = &study.bootstrap;
+    let replicates = usize::try_from(settings.replicates).unwrap_or(usize::MAX);
+    let size = u32::try_from(event_of.len()).unwrap_or(u32::MAX);
+    let draw = |unit| match unit {
+        Unit::Record => ResamplingPlan::draw(event_of.len(), &[size], replicates, study.seed),
+        Unit::Event => ResamplingPlan::draw_events(event_of, &[size], replicates, study.seed),
+    };
+    let plan = match draw(settings.unit) {
+        // a single earthquake: nothing else can be drawn than its records
+        Err(BootstrapError::OneEvent) => draw(Unit::Record)?,
+        plan => plan?,
+    };
+    let mut values = Vec::with_capacity(replicates);
+    let mut rates = Vec::with_capacity(replicates);
+    let (mut below, mut beyond) = (0, 0);
+    for sample in plan.samples() {
+        let rate = |place: usize| resampled_per_year(&tried[place].1.record_per_year, sample);
+        let value = match (0..tried.len()).rev().find(|&place| rate(place) > target_per_year) {
+            None => {
+                below += 1;
+                tried[0].0
+            }
+            Some(last) if last + 1 == tried.len() => {
+                beyond += 1;
+                f64::INFINITY
+            }
+            Some(missed) => {
+                let (from, to) = (tried[missed].0, tried[missed + 1].0);
+                let [high, low] = [rate(missed), rate(missed + 1)];
+                // straight in logarithms; where nothing is left of the frequency, the value that was analysed
+                let share = if low > 0.0 { (high / target_per_year).ln() / (high / low).ln() } else { 1.0 };
+                from * (to / from).powf(share)
+            }
+        };
+        values.push(value);
+        rates.push(rate(found));
+    }
+    let count = values.len().max(1) as f64;
+    let tail = 0.5 * (1.0 - settings.confidence);
+    let limits = |mut all: Vec<f64>| {
+        all.sort_by(f64::total_cmp);
+        [tail, 0.5, 1.0 - tail].map(|level| quantile(&all, level))
+    };
+    Ok(TargetBand {
+        confidence: settings.confidence,
+        replicates: values.len(),
+        unit: plan.unit().key(),
+        value: limits(values),
+        per_year: limits(rates),
+        below_share: f64::from(below) / count,
+        beyond_share: f64::from(beyond) / count,
+    })
+}
+
+/// The frequency for a sample of the records, from what each contributes, 1/yr.
+fn resampled_per_year(record_per_year: &[f64], sample: &RecordSample) -> f64 {
+    let drawn = sample.multiplicities().iter().zip(record_per_year);
+    drawn.map(|(&times, per_year)| f64::from(times) * per_year).sum::<f64>() / f64::from(sample.size())
+}

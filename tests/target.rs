@@ -1,0 +1,178 @@
+//! `uplift target`: the least of a quantity for a target risk, the inverse of `uplift overturning`.
+
+use serde_json::Value;
+
+use crate::common::SmallStudy;
+
+const STUDY: &str = "title = \"small\"\n[records.synthetic]\npairs = 20\n[strengths]\nvalues = [0.05, 0.1]\n\
+    [pga]\nlevels_g = [0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 0.8, 1.2, 2]\n[bootstrap]\nreplicates = 200\n[[sites]]\n\
+    name = \"Here\"\npga = \"pga.csv\"\n";
+
+fn frame(width_m: f64) -> String {
+    format!(
+        "kind = \"frame\"\ncolumns = 4\nwidth_m = {width_m}\nheight_m = 4\ncolumn_mass_kg = 1000\ndeck_mass_kg = 9000\n"
+    )
+}
+
+fn study() -> SmallStudy {
+    let study = SmallStudy::with(STUDY);
+    study.write("frame.toml", &frame(0.6));
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    study
+}
+
+fn json(study: &SmallStudy, more: &[&str]) -> Value {
+    let run = study.uplift(&[&["target", "frame.toml", "--urs", "r.h5", "--json", "-q"], more].concat()).ok();
+    serde_json::from_str(&run.stdout).unwrap()
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value}"))
+}
+
+#[test]
+fn target_and_risk_are_inverses() {
+    let study = study();
+    let overturning_per_year = |width_m: f64| {
+        study.write("other.toml", &frame(width_m));
+        let run = study.uplift(&["overturning", "other.toml", "--urs", "r.h5", "--json", "-q"]).ok();
+        let found: Value = serde_json::from_str(&run.stdout).unwrap();
+        number(&found["overturning"][0]["sites"][0]["per_year"])
+    };
+    let found = json(&study, &["--overturning", "2e-3", "--vary", "width", "--tolerance", "1e-3"]);
+    let (value, missed_at) = (number(&found["value"]), number(&found["missed_at"]));
+    assert!(missed_at < value && value <= missed_at * (1.0 + 1e-3), "{found}");
+    // the risk at the value, to the bit, meets the target; that a thousandth below does not
+    assert_eq!(overturning_per_year(value).to_bits(), number(&found["risk"]["per_year"]).to_bits());
+    assert!(overturning_per_year(value) <= 2e-3 && overturning_per_year(missed_at) > 2e-3);
+    // everything above that was tried meets it, and each risk is that of `uplift overturning`
+    let tried = found["tried"].as_array().unwrap();
+    assert!(tried.iter().all(|tried| number(&tried["value"]) < value || tried["is_met"] == true));
+    for place in [0, tried.len() - 1] {
+        let per_year = overturning_per_year(number(&tried[place]["value"]));
+        assert_eq!(per_year.to_bits(), number(&tried[place]["per_year"]).to_bits());
+    }
+    // asked for as a probability it is the same
+    let poe = format!("{}", -(-50.0_f64 * 2e-3).exp_m1());
+    let same = json(&study, &["--poe", &poe, "--years", "50", "--vary", "width", "--tolerance", "1e-3"]);
+    assert_eq!(same["value"], found["value"]);
+    let band: Vec<f64> = found["band"]["value"].as_array().unwrap().iter().map(number).collect();
+    assert!(band[0] < band[2] && band[0] <= value && value <= band[2], "{band:?} {value}");
+    let at = found["at_return_periods"].as_array().unwrap();
+    assert!(number(&at[0]["probability"]) <= number(&at[1]["probability"]) && at[1]["records"] == 20, "{found}");
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_answer() {
+    let study = study();
+    let ask = ["target", "frame.toml", "--urs", "r.h5", "--overturning", "5e-4", "--vary", "size", "--json", "-q"];
+    let one = study.uplift(&[&ask[..], &["--threads", "1"]].concat()).ok().stdout;
+    assert_eq!(study.uplift(&[&ask[..], &["--threads", "3"]].concat()).ok().stdout, one);
+}
+
+// A ground that sets off for good with an acceleration a overturns whatever is weaker than a/g, but for what it stores
+// on its way to uplift: √(u_up/u_cap) of the strength, 0.1 % here. From levels of 0.12 to 0.3 g on, two of three do it.
+#[test]
+fn a_strength_known_by_hand() {
+    let folder = SmallStudy::with(
+        "title = \"steps\"\n[records]\nmanifest = \"manifest.csv\"\n[strengths]\nvalues = [0.1, 0.2]\n[pga]\n\
+         levels_g = [0.05, 0.12, 0.3, 0.8]\n[[sites]]\nname = \"Here\"\npga = \"pga.csv\"\n",
+    );
+    let samples =
+        |jerk: bool| -> String { (0..1500).map(|sample| if !jerk || sample == 2 { "1\n" } else { "0\n" }).collect() };
+    folder.write("step.txt", &samples(false));
+    folder.write("jerk.txt", &samples(true));
+    let row = |id: &str, file: &str| format!("{id},{file},{file},0.01,m/s2\n");
+    let rows = [row("A", "step.txt"), row("B", "jerk.txt"), row("C", "step.txt")].concat();
+    folder.write("manifest.csv", &format!("record_id,file_h1,file_h2,dt_s,unit\n{rows}"));
+    folder.write(
+        "mast.toml",
+        "kind = \"point-mass\"\nwidth_m = 1\ncentre_height_m = 2.5\nmass_kg = 1\nuplift_displacement_m = 1e-6\n",
+    );
+    folder.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    let rate = |level: f64| 1e-4 * f64::powf(level, -2.2);
+    // with 0.3 g and 0.8 g that overturn, and with 0.8 g alone
+    let [many, few] = [
+        (0.5 * (rate(0.12) - rate(0.3)) + rate(0.3)) * 2.0 / 3.0,
+        (0.5 * (rate(0.3) - rate(0.8)) + rate(0.8)) * 2.0 / 3.0,
+    ];
+    let target = format!("{}", 0.5 * (many + few));
+    let ask = ["target", "mast.toml", "--urs", "r.h5", "--vary", "strength", "--tolerance", "1e-4"];
+    let run = folder.uplift(&[&ask[..], &["--overturning", &target, "--json", "-q"]].concat()).ok();
+    let found: Value = serde_json::from_str(&run.stdout).unwrap();
+    assert!((number(&found["value"]) / 0.3 - 1.0).abs() < 3e-3, "{found}");
+    assert!((number(&found["risk"]["per_year"]) / few - 1.0).abs() < 1e-9, "{found}");
+    assert_eq!(found["crossings"].as_array().unwrap().len(), 1);
+}
+
+#[test]
+fn what_cannot_be_found_is_said() {
+    let study = study();
+    let ask = |more: &[&str]| study.uplift(&[&["target", "frame.toml", "--urs", "r.h5"], more].concat());
+    ask(&["--overturning", "1e-9", "--vary", "width"]).fails(2, &["below what these stripes can tell", "pga.levels_g"]);
+    ask(&["--overturning", "10", "--vary", "width"]).fails(2, &["met at every width", "--from"]);
+    ask(&["--overturning", "2e-3", "--vary", "width", "--to", "0.2"]).fails(2, &["missed at every width", "--to"]);
+    ask(&["--overturning", "2e-3", "--vary", "tendon-stiffness"]).fails(2, &["means nothing for kind \"frame\""]);
+    ask(&["--vary", "width"]).fails(2, &["--overturning"]);
+    ask(&["--overturning", "-1", "--vary", "width", "--tolerance", "7"]).fails(2, &["2 things to mend", "--tolerance"]);
+    ask(&["--per-year", "1e-3", "--exceed", "x", "--vary", "width"]).fails(2, &["--exceed x", "`capacity`"]);
+    ask(&["--overturning", "2e-3", "--vary", "width", "--site", "Nowhere"]).fails(2, &["the result has Here"]);
+}
+
+#[test]
+fn capacity_is_exceeded_more_often_than_the_frame_overturns() {
+    let study = study();
+    let value = |more: &[&str]| number(&json(&study, more)["value"]);
+    let capacity = value(&["--exceed", "capacity", "--per-year", "2e-3", "--vary", "width"]);
+    let overturning = value(&["--overturning", "2e-3", "--vary", "width"]);
+    assert!(capacity >= overturning, "{capacity} {overturning}");
+    // beyond so many metres: the width that it takes is that at which the frequency of so many is the target
+    let beyond = json(&study, &["--exceed", "0.3", "--per-year", "2e-3", "--vary", "width"]);
+    assert!(number(&beyond["risk"]["per_year"]) <= 2e-3);
+}
+
+#[test]
+fn stripes_are_kept_until_the_answer_is_there() {
+    let study = study();
+    let ask = ["target", "frame.toml", "--urs", "r.h5", "--overturning", "2e-3", "--vary", "width", "--json"];
+    let whole = study.uplift(&ask).ok().stdout;
+    let checkpoint = study.path().join("r.h5.target-frame.part");
+    assert!(!checkpoint.exists());
+    // where no checkpoint can be written it goes on without
+    std::fs::create_dir(&checkpoint).unwrap();
+    let done = study.uplift(&ask).ok();
+    assert!(done.stderr.contains("no checkpoint") && done.stdout == whole, "{}", done.stderr);
+    std::fs::remove_dir(&checkpoint).unwrap();
+    // the table has a row for every value tried, and replaces nothing of another kind
+    study.write("mine.csv", "a,b\n1,2\n");
+    study.uplift(&[&ask[..], &["-o", "mine.csv"]].concat()).fails(2, &["mine.csv is there already"]);
+    study.uplift(&[&ask[..], &["-o", "tried.csv", "-q"]].concat()).ok();
+    let table = std::fs::read_to_string(study.path().join("tried.csv")).unwrap();
+    let found: Value = serde_json::from_str(&whole).unwrap();
+    assert_eq!(table.lines().count(), 1 + found["tried"].as_array().unwrap().len());
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_leaves_a_checkpoint() {
+    let study = study();
+    study.uplift(&["records", "synthesize", "-o", "many", "--count", "60", "-q"]).ok();
+    study.uplift(&["records", "import", "many", "-o", "many.csv", "-q"]).ok();
+    study.write(
+        "many.toml",
+        &STUDY.replace("[records.synthetic]\npairs = 20\n", "[records]\nmanifest = \"many.csv\"\n"),
+    );
+    study.uplift(&["run", "many.toml", "-o", "m.h5", "-q"]).ok();
+    let ask = ["target", "frame.toml", "--urs", "m.h5", "--overturning", "2e-3", "--vary", "width", "--json"];
+    let mut running = study.start(&[&ask[..], &["--threads", "1"]].concat());
+    let checkpoint = study.path().join("m.h5.target-frame.part");
+    running.wait_until("rows are in the checkpoint", || {
+        std::fs::metadata(&checkpoint).is_ok_and(|file| file.len() > 20_000)
+    });
+    running.interrupt();
+    running.end().fails(5, &["are in the checkpoint", "m.h5.target-frame.part"]);
+    let resumed = study.uplift(&ask).ok();
+    assert!(resumed.stderr.contains("analyses from before"), "{}", resumed.stderr);
+    assert!(!checkpoint.exists());
+    assert_eq!(resumed.stdout, study.uplift(&ask).ok().stdout);
+}
