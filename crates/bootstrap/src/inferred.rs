@@ -2,6 +2,7 @@
 
 use uplift_risk::{PooledDemand, RiskError, StripeWeights};
 
+use crate::shared_rates::SharedRates;
 use crate::skewed_mean::{SkewedMean, StudentQuantiles};
 use crate::unit_rates::UnitRates;
 
@@ -53,9 +54,9 @@ pub fn inferred_limits(
     // [target, size] of truth and prediction
     let mut searches = vec![[Search::default(); 2]; targets_per_year.len() * sizes.len()];
     let per_year = weights.per_year();
-    let mut rates = UnitRates::new(units);
+    let mut rates = Rates::of(demand, units);
     let mut above_m = f64::INFINITY;
-    let mut look = |rates: &UnitRates, from_m: f64, to_m: f64| {
+    let mut look = |rates: &Rates, from_m: f64, to_m: f64| {
         let mean = rates.mean();
         let of_set = quantiles.at(mean.degrees_of_freedom(units.len()));
         for (target, row) in targets_per_year.iter().zip(searches.chunks_exact_mut(sizes.len().max(1))) {
@@ -72,7 +73,7 @@ pub fn inferred_limits(
     while let Some(&(edp_m, ..)) = runs.peek() {
         look(&rates, edp_m, above_m);
         while let Some((_, record, level)) = runs.next_if(|run| run.0 == edp_m) {
-            rates.add(record, per_year[level]);
+            rates.add(record, level, per_year[level]);
         }
         above_m = edp_m;
     }
@@ -97,11 +98,42 @@ pub fn inferred_rate(
 ) -> Result<[f64; 2], RiskError> {
     check(demand, weights, units)?;
     let per_year = weights.per_year();
-    let mut rates = UnitRates::new(units);
+    let mut rates = Rates::of(demand, units);
     for (_, record, level) in demand.falling_runs().take_while(|run| run.0 > threshold_m) {
-        rates.add(record, per_year[level]);
+        rates.add(record, level, per_year[level]);
     }
     Ok(rates.mean().interval(&StudentQuantiles::new(confidence, units.len())))
+}
+
+/// The rate of the runs gone through, with the scatter of its units.
+enum Rates {
+    /// Of records that are all run at every level.
+    Alike(UnitRates),
+    /// Of levels with records of their own.
+    Shared(SharedRates),
+}
+
+impl Rates {
+    fn of(demand: &PooledDemand, units: &[Vec<usize>]) -> Self {
+        match demand.shares() {
+            None => Self::Alike(UnitRates::new(units)),
+            Some(shares) => Self::Shared(SharedRates::new(units, shares)),
+        }
+    }
+
+    fn add(&mut self, record: usize, level: usize, per_year: f64) {
+        match self {
+            Self::Alike(rates) => rates.add(record, per_year),
+            Self::Shared(rates) => rates.add(record, level, per_year),
+        }
+    }
+
+    fn mean(&self) -> SkewedMean {
+        match self {
+            Self::Alike(rates) => rates.mean(),
+            Self::Shared(rates) => rates.mean(),
+        }
+    }
 }
 
 /// Whether these belong together.

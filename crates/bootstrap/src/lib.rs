@@ -26,6 +26,7 @@ mod interval;
 mod jackknife;
 mod plan;
 mod replicates;
+mod shared_rates;
 mod simultaneous;
 mod skewed_mean;
 mod unit;

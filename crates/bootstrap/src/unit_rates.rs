@@ -21,19 +21,12 @@ pub(crate) struct UnitRates {
 impl UnitRates {
     /// Of the records of each unit, `[unit]`; nothing is exceeded yet.
     pub(crate) fn new(units: &[Vec<usize>]) -> Self {
-        let count = units.iter().map(Vec::len).sum();
-        let mut unit_of = vec![0; count];
-        for (unit, records) in units.iter().enumerate() {
-            for &record in records {
-                unit_of[record] = unit;
-            }
-        }
         let records: Vec<f64> = units.iter().map(|records| records.len() as f64).collect();
         let mut sums = [[0.0; 5]; 5];
         for (power, sum) in (0_i32..).zip(&mut sums[0]) {
             *sum = records.iter().map(|n| n.powi(power)).sum();
         }
-        Self { unit_of, rates: vec![0.0; records.len()], records, sums }
+        Self { unit_of: unit_of(units), rates: vec![0.0; records.len()], records, sums }
     }
 
     /// How many units.
@@ -78,6 +71,17 @@ impl UnitRates {
             [power(2, &[1.0, 2.0, 1.0]), power(3, &[1.0, 3.0, 3.0, 1.0]), power(4, &[1.0, 4.0, 6.0, 4.0, 1.0])];
         SkewedMean::new(mean, moments, self.count())
     }
+}
+
+/// The unit of each record, of the records of each unit.
+pub(crate) fn unit_of(units: &[Vec<usize>]) -> Vec<usize> {
+    let mut unit_of = vec![0; units.iter().map(Vec::len).sum()];
+    for (unit, records) in units.iter().enumerate() {
+        for &record in records {
+            unit_of[record] = unit;
+        }
+    }
+    unit_of
 }
 
 #[cfg(test)]

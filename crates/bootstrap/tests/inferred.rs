@@ -124,13 +124,18 @@ fn what_does_not_belong_together_is_refused() {
     assert!(of(&[vec![0], vec![1]], -0.1).is_err());
 }
 
+fn many_levels() -> (Vec<f64>, StripeWeights) {
+    let levels: Vec<f64> = (0..24).map(|level| 1.35_f64.powi(level)).collect();
+    let rates: Vec<f64> = levels.iter().map(|level| 0.5 * level.powf(-1.6)).collect();
+    let weights = StripeWeights::new(&rates, Some(1.0)).unwrap();
+    (levels, weights)
+}
+
 // 600 sets of 40 from a lognormal population, of which the truth is known: nine bands of ten are to hold it, with a
 // standard deviation of 7.3 sets. The percentile band does in 84 % or so.
 #[test]
 fn nine_bands_of_ten_hold_the_truth_and_another_set() {
-    let levels: Vec<f64> = (0..24).map(|level| 1.35_f64.powi(level)).collect();
-    let rates: Vec<f64> = levels.iter().map(|level| 0.5 * level.powf(-1.6)).collect();
-    let weights = StripeWeights::new(&rates, Some(1.0)).unwrap();
+    let (levels, weights) = many_levels();
     let pooled = |edp_m: &[f64]| PooledDemand::new(&Stripes::new(&levels, edp_m).unwrap()).unwrap();
     let records = 2000_u16;
     // factors exp(0.6 z) at the quantiles of the normal distribution
@@ -162,4 +167,56 @@ fn nine_bands_of_ten_hold_the_truth_and_another_set() {
     }
     assert!((522..=558).contains(&held), "{held} of 600 hold the truth");
     assert!((522..=558).contains(&predicted), "{predicted} of 600 hold the ordinate of the next set");
+}
+
+proptest! {
+    #[test]
+    fn shares_that_are_alike_change_nothing(edp_m in demands(), target in 0.002..0.2) {
+        let count = edp_m.len() / LEVELS.len();
+        let shares = vec![1.0 / count as f64; edp_m.len()];
+        let stripes = Stripes::with_shares(&LEVELS, &edp_m, (count, LEVELS.len()), Some(&shares)).unwrap();
+        let units: Vec<Vec<usize>> = (0..count).map(|record| vec![record]).collect();
+        let of = |demand: &PooledDemand| inferred_limits(demand, &weights(), &units, &[target], (&[7], 0.9)).unwrap();
+        prop_assert_eq!(of(&PooledDemand::new(&stripes).unwrap()), of(&pooled(&edp_m)));
+    }
+}
+
+// 600 times 20 records for each of 24 levels, drawn for each level anew.
+#[test]
+fn nine_of_ten_bands_hold_the_truth_where_each_level_has_records_of_its_own() {
+    let (levels, weights) = many_levels();
+    let normal = Normal::standard();
+    let (population, of_level, sets, target) = (2000_u16, 20_usize, 600_usize, 0.002);
+    let factor = |record: u32| (0.6 * normal.inverse_cdf((f64::from(record) + 0.5) / f64::from(population))).exp();
+    let peak_m = |level: usize, record: u32| 1e-3 * factor(record) * levels[level].powf(1.4);
+    let all: Vec<f64> = (0..u32::from(population))
+        .flat_map(|record| (0..levels.len()).map(move |level| (level, record)))
+        .map(|(level, record)| peak_m(level, record))
+        .collect();
+    let all = PooledDemand::new(&Stripes::new(&levels, &all).unwrap()).unwrap();
+    let truth_m = RiskCurve::new(&all, &weights).unwrap().exact_ordinate(target).unwrap().displacement_m;
+    // as many draws of one level as there are sets and levels
+    let drawn = ResamplingPlan::draw(usize::from(population), &[20], sets * levels.len(), 2).unwrap();
+    let records = of_level * levels.len();
+    let units: Vec<Vec<usize>> = (0..records).map(|record| vec![record]).collect();
+    let holds = |set: &[RecordSample]| {
+        let mut edp_m = vec![f64::NAN; records * levels.len()];
+        let mut shares = vec![0.0; records * levels.len()];
+        for (level, sample) in set.iter().enumerate() {
+            let times = (0_u32..).zip(sample.multiplicities());
+            let drawn = times.flat_map(|(record, &times)| (0..times).map(move |_| record));
+            for (place, record) in drawn.enumerate() {
+                let own = level * of_level + place;
+                edp_m[own * levels.len() + level] = peak_m(level, record);
+                shares[level * records + own] = 1.0 / of_level as f64;
+            }
+        }
+        let stripes = Stripes::with_shares(&levels, &edp_m, (records, levels.len()), Some(&shares)).unwrap();
+        let demand = PooledDemand::new(&stripes).unwrap();
+        let [lower_m, upper_m] =
+            inferred_limits(&demand, &weights, &units, &[target], (&[records], 0.9)).unwrap()[0].truth_m;
+        lower_m <= truth_m && truth_m <= upper_m
+    };
+    let held = drawn.samples().chunks(levels.len()).filter(|set| holds(set)).count();
+    assert!((522..=558).contains(&held), "{held} of {sets} hold the truth");
 }
