@@ -17,11 +17,13 @@ from scipy.io import loadmat
 result, table, text, matlab, book = sys.argv[1:]
 measures = ("pgv", "pga")
 limits = ("u05", "u50", "u95")
+beyond = ("truth_lower", "truth_upper", "prediction_lower", "prediction_upper")
 flags = ("regular", "no exceedance", "censored")
 with h5py.File(result) as file:
     u_m = {im: file[f"/urs/{im}/u_m"][()] for im in measures}
     flag = {im: file[f"/urs/{im}/flag"][()] for im in measures}
-    bands = {(im, name): file[f"/bootstrap/{im}/{name}_m"][()] for im in measures for name in limits}
+    bands = {(im, name): file[f"/bootstrap/{im}/{name}_m"][()] for im in measures
+             for name in limits + beyond}
     e_median = {im: file[f"/bootstrap/{im}/e_median"][()] for im in measures}
     coefficients = {im: {name: file[f"/regression/{im}/{name}"][()] for name in ("c0_m", "c1", "c2_m", "rmse_m")}
                     for im in measures}
@@ -37,7 +39,7 @@ shape = (len(sites), len(poe), len(strength))
 
 # a table is nothing but a table, whatever its sites are called
 tidy = pd.read_csv(table)
-names = [f"{name}_n{size}_m" for size in sizes for name in limits]
+names = [f"{name}_n{size}_m" for of in (limits, beyond) for size in sizes for name in of]
 assert list(tidy.columns) == ["site", "im", "poe", "years", "strength", "u_m", "fit_m", "return_period_years", "flag",
                               "lower_tail_share", "upper_tail_share", *names]
 for im in measures:
@@ -45,7 +47,7 @@ for im in measures:
     assert np.array_equal(own.u_m.to_numpy().reshape(shape), u_m[im])
     assert list(own.flag) == [flags[number] for number in flag[im].ravel()]
     for index, size in enumerate(sizes):
-        for name in limits:
+        for name in limits + beyond:
             values = own[f"{name}_n{size}_m"].to_numpy().reshape(shape)
             assert np.array_equal(values, bands[im, name][:, :, index])
 assert np.allclose(np.sort(tidy.return_period_years.unique()), np.sort(period), rtol=1e-12)
@@ -66,6 +68,9 @@ assert first["flag"] == [flags[number] for number in flag["pgv"][0, 0]]
 assert [band["sample_size"] for band in first["bands"]] == list(sizes)
 lower = bands["pgv", "u05"][0, 0, -1]
 assert first["bands"][-1]["lower_m"] == [value if np.isfinite(value) else None for value in lower]
+for name in beyond:
+    values = bands["pgv", name][0, 0, -1]
+    assert first["bands"][-1][f"{name}_m"] == [value if np.isfinite(value) else None for value in values]
 
 file = loadmat(matlab)
 assert [str(name[0]) for name in file["site"][:, 0]] == sites
@@ -79,7 +84,7 @@ assert np.array_equal(file["sample_size"][:, 0], sizes)
 for im in measures:
     assert np.array_equal(file[f"u_{im}_m"], u_m[im].transpose(2, 1, 0))
     assert np.array_equal(file[f"flag_{im}"], flag[im].transpose(2, 1, 0))
-    for name in limits:
+    for name in limits + beyond:
         assert np.array_equal(file[f"{name}_{im}_m"], bands[im, name].transpose(3, 2, 1, 0))
     assert np.array_equal(file[f"e_median_{im}_pct"], e_median[im].transpose(2, 1, 0), equal_nan=True)
     assert np.array_equal(file[f"consistency_bias_{im}"][:, 0], bias[im], equal_nan=True)
@@ -120,6 +125,8 @@ for im in measures:
             assert spectra[found[0]] == list(u_m[im][i, j])
             for index, size in enumerate(sizes):
                 for word, name in zip(("5 %", "median", "95 %"), limits):
+                    assert band[(*found[0], size, word)] == list(bands[im, name][i, j, index])
+                for word, name in zip(("truth, lower", "truth, upper", "another set, lower", "another set, upper"), beyond):
                     assert band[(*found[0], size, word)] == list(bands[im, name][i, j, index])
 rows = list(workbook["Flags and tails"].iter_rows(values_only=True))
 heads = [tuple(row[column] for row in rows[:3]) + (rows[4][column],) for column in range(1, len(rows[0]))]

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use super::Export;
 use super::added::Influence;
 use super::consistency::ConsistencyOf;
-use super::source::{BandOf, Row};
+use super::source::{BandOf, INFERRED, Row};
 use crate::influence::RecordInfluence;
 use crate::result::{Fit, StoredEfficiency, StoredTrend, flag_word};
 use crate::text::finite;
@@ -144,6 +144,9 @@ fn band(band: &BandOf<'_>) -> Value {
         "e_median_pct": finite(band.error_of_median_pct),
         "r_90ci_pct": finite(band.range_of_interval_pct),
     });
+    for (name, limits_m) in INFERRED.iter().zip(band.inferred_m.iter().flatten()) {
+        said[format!("{name}_m")] = numbers(limits_m).into();
+    }
     if let Some(share) = band.failed_share {
         said["failed_share"] = finite(share).into();
     }

@@ -4,9 +4,10 @@ mod level_5;
 
 use super::Export;
 use super::added::Influence;
+use super::source::INFERRED;
 use crate::alarms::Alarm;
 use crate::error::UpliftError;
-use crate::result::{Fit, StoredSpectra, StoredSpectraBands, flag_number};
+use crate::result::{Fit, InferredBands, StoredSpectra, StoredSpectraBands, flag_number};
 use level_5::{MatFile, Shape};
 
 /// A coefficient of a spectrum.
@@ -145,6 +146,9 @@ impl Export {
                 add(&key, &own.bands);
                 let shape = Shape(vec![sizes.len(), sites.len()]);
                 file.numbers(&format!("failed_{key}"), &shape, own.failed.values());
+            }
+            for (name, limits) in INFERRED.iter().zip(of.inferred.iter().flat_map(InferredBands::limits_m)) {
+                file.numbers(&format!("{name}_{key}_m"), &spectra, limits.values());
             }
         }
     }

@@ -10,8 +10,8 @@ use crate::alarms::{Alarm, alarms};
 use crate::array::Array;
 use crate::error::UpliftError;
 use crate::result::{
-    Head, MeasureBands, ResultFile, Spectrum, StoredBands, StoredConsistency, StoredHazard, StoredRepairedBands,
-    StoredSpectra, StoredSpectraBands,
+    Head, InferredBands, MeasureBands, ResultFile, Spectrum, StoredBands, StoredConsistency, StoredHazard,
+    StoredRepairedBands, StoredSpectra, StoredSpectraBands,
 };
 
 /// The spectra, bands and coefficients of a result, and where they come from.
@@ -110,14 +110,16 @@ impl Export {
     /// The bands of a spectrum, by size of the sample: the number of records and lower limit, median and upper limit
     /// over the strengths, m.
     pub(super) fn bands_of(&self, row: &Row<'_>) -> Vec<BandOf<'_>> {
-        self.bands_of_measure(row).map(|of| self.by_size(&of.plain, None, row.at)).unwrap_or_default()
+        self.bands_of_measure(row)
+            .map(|of| self.by_size(&of.plain, (of.inferred.as_ref(), None), row.at))
+            .unwrap_or_default()
     }
 
     /// The same of the repaired spectrum; none where it has none.
     pub(super) fn repaired_bands_of(&self, row: &Row<'_>) -> Vec<BandOf<'_>> {
         let is_whole = |of: &&StoredRepairedBands| of.failed.block([row.at[0]]).iter().all(|share| !share.is_nan());
         let repaired = self.bands_of_measure(row).and_then(|of| of.repaired.as_ref()).filter(is_whole);
-        repaired.map(|of| self.by_size(&of.bands, Some(&of.failed), row.at)).unwrap_or_default()
+        repaired.map(|of| self.by_size(&of.bands, (None, Some(&of.failed)), row.at)).unwrap_or_default()
     }
 
     /// Those of the plain spectrum, then those of the repaired one, with what the weights of their records are.
@@ -133,17 +135,23 @@ impl Export {
     fn by_size<'a>(
         &self,
         of: &'a StoredSpectraBands,
-        failed: Option<&Array<2>>,
+        (inferred, failed): (Option<&'a InferredBands>, Option<&Array<2>>),
         [site, poe]: [usize; 2],
     ) -> Vec<BandOf<'a>> {
         let of_size = |(size, &records): (usize, &u32)| BandOf {
             records,
             limits_m: of.limits_m.each_ref().map(|limits| limits.block([site, poe, size])),
+            inferred_m: inferred.map(|of| of.limits_m().map(|limits| limits.block([site, poe, size]))),
             error_of_median_pct: of.error_of_median[[site, poe, size]],
             range_of_interval_pct: of.range_of_interval[[site, poe, size]],
             failed_share: failed.map(|failed| failed[[site, size]]),
         };
         self.bands.iter().flat_map(|bands| bands.sizes.iter().enumerate()).map(of_size).collect()
+    }
+
+    /// Whether there are bands beyond the set.
+    pub(super) fn has_inferred_bands(&self) -> bool {
+        self.bands.iter().flat_map(|bands| &bands.measures).any(|of| of.inferred.is_some())
     }
 
     /// Whether there are bands of repaired spectra.
@@ -152,12 +160,18 @@ impl Export {
     }
 }
 
+/// Names of the limits beyond the set in columns and keys.
+pub(super) const INFERRED: [&str; 4] = ["truth_lower", "truth_upper", "prediction_lower", "prediction_upper"];
+
 /// The band of a spectrum for one size of the sample.
 pub(super) struct BandOf<'a> {
     /// Records in a sample.
     pub(super) records: u32,
     /// Lower limit, median and upper limit over the strengths, m.
     pub(super) limits_m: [&'a [f64]; 3],
+    /// Limits of the spectra of all records there could be, and of another set, as [`INFERRED`] names them, m; none of
+    /// repaired spectra, and in results of before.
+    pub(super) inferred_m: Option<[&'a [f64]; 4]>,
     /// Error of the median (Eq. 4.9), %; NaN where there is none.
     pub(super) error_of_median_pct: f64,
     /// Width of the interval (Eq. 4.10), %; NaN where there is none.

@@ -4,13 +4,13 @@ use polars::prelude::Column;
 
 use super::Export;
 use super::added::SHARES;
-use super::source::Row;
+use super::source::{INFERRED, Row};
 use crate::result::flag_word;
 use crate::text::finite;
 
 impl Export {
     /// A row for each ordinate: its fit beside it, its return period and flag, and the limits of its bands for each
-    /// size of the sample, `u05_n20_m` for 20 records.
+    /// size of the sample, `u05_n20_m` for 20 records; last the bands of all records there could be and of another set.
     pub fn columns(&self) -> Vec<Column> {
         let (mut site, mut im, mut flag) = (Vec::new(), Vec::new(), Vec::new());
         let (mut lower, mut upper) = (Vec::new(), Vec::new());
@@ -26,6 +26,8 @@ impl Export {
         } else {
             Vec::new()
         };
+        let inferred_names = self.inferred_names();
+        let mut inferred_limits: Vec<Vec<f64>> = vec![Vec::new(); inferred_names.len()];
         let mut repaired_limits: Vec<Vec<Option<f64>>> = vec![Vec::new(); repaired_names.len()];
         for row in self.rows() {
             let curve = row.spectrum.fit.curve();
@@ -53,6 +55,10 @@ impl Export {
             for (column, values) in limits.iter_mut().zip(of_row) {
                 column.extend_from_slice(values);
             }
+            let of_row = bands.iter().flat_map(|band| band.inferred_m.into_iter().flatten());
+            for (column, values) in inferred_limits.iter_mut().zip(of_row) {
+                column.extend_from_slice(values);
+            }
             let repaired = self.repaired_bands_of(&row);
             let of_row: Vec<&[f64]> = repaired.iter().flat_map(|band| band.limits_m).collect();
             for (place, column) in repaired_limits.iter_mut().enumerate() {
@@ -78,6 +84,8 @@ impl Export {
         columns.extend(added.into_columns());
         let repaired = repaired_names.into_iter().zip(repaired_limits);
         columns.extend(repaired.map(|(name, values)| Column::new(name.into(), values)));
+        let inferred = inferred_names.into_iter().zip(inferred_limits);
+        columns.extend(inferred.map(|(name, values)| Column::new(name.into(), values)));
         columns
     }
 
@@ -90,6 +98,12 @@ impl Export {
             limits.each_ref().map(|limit| format!("{}_n{size}_m", limit.trim_end_matches("_m")))
         };
         bands.sizes.iter().flat_map(of_size).collect()
+    }
+
+    /// The same of the bands beyond the set, `truth_lower_n20_m`.
+    fn inferred_names(&self) -> Vec<String> {
+        let sizes = self.bands.iter().filter(|_| self.has_inferred_bands()).flat_map(|bands| &bands.sizes);
+        sizes.flat_map(|size| INFERRED.map(|limit| format!("{limit}_n{size}_m"))).collect()
     }
 }
 

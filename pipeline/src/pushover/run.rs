@@ -15,9 +15,6 @@ use crate::error::UpliftError;
 use crate::events::Events;
 use crate::outputs::{self, Output, OutputKind};
 
-/// Most rows of a table; more is a slip.
-const MOST_ROWS: u32 = 100_000;
-
 /// What is asked of a pushover.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PushoverOptions {
@@ -153,9 +150,7 @@ pub fn pushover(
             [Some(&structure.file), options.measured.as_ref()].into_iter().flatten().map(PathBuf::as_path).collect();
         outputs::check(&[Output::new(table, OutputKind::Table(column)).of(&structure.file)], &inputs, options.force)?;
     }
-    if !(2..=MOST_ROWS).contains(&options.rows) {
-        return Err(UpliftError::Usage(format!("{} rows: give from 2 to {MOST_ROWS}", options.rows)));
-    }
+    tables::check_rows(options.rows)?;
     let columns = pushed(structure, options.lost)?;
     let capacity = capacity(&columns)?;
     let to_m = match options.to_m {

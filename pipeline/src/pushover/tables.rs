@@ -16,6 +16,20 @@ pub(super) const PROTOCOL_COLUMN: &str = "amplitude_drift";
 /// A column of every pushover through a protocol, and of no other table.
 pub(super) const CYCLIC_COLUMN: &str = "dissipated_j";
 
+/// Most rows of a table; more is a slip.
+const MOST_ROWS: u32 = 100_000;
+
+/// Refuses a number of rows that makes no curve.
+///
+/// # Errors
+/// That number.
+pub(crate) fn check_rows(rows: u32) -> Result<(), UpliftError> {
+    if (2..=MOST_ROWS).contains(&rows) {
+        return Ok(());
+    }
+    Err(UpliftError::Usage(format!("{rows} rows: give from 2 to {MOST_ROWS}")))
+}
+
 /// Writes the rows, or the history of the protocol where there is one.
 pub(super) fn write(report: &PushoverReport, file: &Path) -> Result<(), UpliftError> {
     let columns = match &report.cyclic {

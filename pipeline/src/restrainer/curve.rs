@@ -10,13 +10,11 @@ use uplift_study::RestrainerFile;
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::outputs::{self, Output, OutputKind};
-use crate::pushover::anchorage_word;
+use crate::pushover::{anchorage_word, check_rows};
 use crate::result::write_table;
 
 /// A column of every curve, and of no other table.
 const CURVE_COLUMN: &str = "spring_secant_n_m";
-/// Most rows of a table; more is a slip.
-const MOST_ROWS: u32 = 100_000;
 
 /// What is asked of a curve.
 #[derive(Debug, Clone, PartialEq)]
@@ -130,9 +128,7 @@ pub fn curve(
         let output = Output::new(table, OutputKind::Table(CURVE_COLUMN)).of(&of.file);
         outputs::check(&[output], &[&of.file], options.force)?;
     }
-    if !(2..=MOST_ROWS).contains(&options.rows) {
-        return Err(UpliftError::Usage(format!("{} rows: give from 2 to {MOST_ROWS}", options.rows)));
-    }
+    check_rows(options.rows)?;
     let restrainer = &of.restrainer;
     let to_m = options.to_m.unwrap_or_else(|| reach_m(restrainer));
     if !(to_m > 0.0 && to_m.is_finite()) {

@@ -68,6 +68,12 @@ pub struct WidestInferred {
 }
 
 impl InferredBands {
+    /// Those of all records, then those of another set, each the lower one before the upper one.
+    pub(crate) fn limits_m(&self) -> [&Array<4>; 4] {
+        let [[a, b], [c, d]] = [&self.truth_m, &self.prediction_m].map(|of| of.each_ref());
+        [a, b, c, d]
+    }
+
     /// Where the band of the truth is widest, at the positions `[site, poe, size]`; none where an ordinate is censored
     /// or all are 0. `strengths` and `spectrum_m` are over the strengths; those of 0, where nothing rocks, are left
     /// out.

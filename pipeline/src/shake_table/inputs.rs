@@ -4,8 +4,7 @@ use std::collections::BTreeMap;
 
 use uplift_atomic_file::read_file;
 use uplift_frame::{ColumnShape, RockingFrame, srss};
-use uplift_oscillator::STANDARD_GRAVITY_M_S2;
-use uplift_study::{ColumnShape as Section, ShakeTableStudy, Structure};
+use uplift_study::{ShakeTableStudy, Structure};
 
 use super::excitations::{Chosen, all, of_table};
 use crate::checksum::checksum;
@@ -13,6 +12,7 @@ use crate::error::UpliftError;
 use crate::events::Events;
 use crate::inputs::{RecordSets, SetRecord, read_sets};
 use crate::result::Excitation;
+use crate::structure::rocking_frame;
 
 /// The most that a structure file has.
 const LARGEST_BYTES: u64 = 1 << 20;
@@ -86,29 +86,20 @@ fn of_record(record: &SetRecord) -> [(String, String); 2] {
 fn frame(structure: &Structure) -> Result<RockingFrame, UpliftError> {
     let fail = |reason: String| UpliftError::input(format!("{}: {reason}", structure.file.display()));
     let of = &structure.description;
-    let (Some(columns), Some(column_kg), Some(deck_kg)) = (&structure.columns, of.column_mass_kg, of.deck_mass_kg)
-    else {
+    if of.deck_mass_kg.is_none() || structure.columns.is_none() {
         return Err(fail(format!(
             "a frame stands on a shaking table, with columns and a deck: kind \"{}\" has none; give a frame or a \
              restrained-frame",
             of.kind.name()
         )));
-    };
-    if structure.column_shape != Section::Cylinder {
+    }
+    let frame = rocking_frame(structure)?;
+    if frame.shape() == ColumnShape::Rectangle {
         return Err(fail(
             "the columns of a frame that is shaken in two directions wobble on their rims: write column_shape = \
              \"cylinder\" if they are round"
                 .to_owned(),
         ));
     }
-    let gravity_m_s2 = of.gravity_m_s2.unwrap_or(STANDARD_GRAVITY_M_S2);
-    let (geometry, count) = (*columns.geometry(), columns.columns());
-    let free = RockingFrame::new(geometry, count, column_kg, deck_kg, ColumnShape::Cylinder, gravity_m_s2);
-    let held = free.and_then(|free| match columns.restrainer() {
-        Some(restrainer) => {
-            free.with_restrainer(restrainer.clone(), columns.path())?.with_restrained(columns.restrained())
-        }
-        None => Ok(free),
-    });
-    held.map_err(|error| fail(error.to_string()))
+    Ok(frame)
 }

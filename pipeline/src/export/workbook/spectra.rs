@@ -61,10 +61,12 @@ impl Export {
         let below = self.heads(sheet, &headings)?;
         let [lower, upper] = self.bands.as_ref().map(crate::result::StoredBands::level_names).unwrap_or_default();
         let names = [lower.as_str(), "median", upper.as_str()];
+        let beyond = ["truth, lower", "truth, upper", "another set, lower", "another set, upper"];
         let mut column = 1;
         for row in self.rows() {
             for (weights, band) in self.all_bands_of(&row) {
-                for (name, values) in names.iter().zip(band.limits_m) {
+                let inferred = beyond.iter().zip(band.inferred_m.into_iter().flatten());
+                for (name, values) in names.iter().zip(band.limits_m).chain(inferred) {
                     head_of(sheet, column, &row)?;
                     if has_repaired {
                         sheet.heading((below - 4, column), weights, false)?;
