@@ -51,6 +51,11 @@ impl Demand {
         self.strengths.unwrap_or(1)
     }
 
+    /// Records.
+    pub(crate) fn records(&self) -> usize {
+        self.records
+    }
+
     /// Levels of the stripes, ascending.
     pub(crate) fn levels(&self) -> &[f64] {
         &self.levels
@@ -59,6 +64,11 @@ impl Demand {
     /// The axis of strengths in front of others, where there is one.
     pub(crate) fn shape_with(&self, others: &[usize]) -> Vec<usize> {
         self.strengths.iter().chain(others).copied().collect()
+    }
+
+    /// The axis of strengths behind others, where there is one.
+    pub(crate) fn shape_after(&self, others: &[usize]) -> Vec<usize> {
+        others.iter().copied().chain(self.strengths).collect()
     }
 
     /// The stripes of one oscillator.

@@ -15,12 +15,15 @@
 //! | `ida` | records, strengths and levels |
 //! | `hazard`, `export` | hazard curves, and files of many |
 //! | `demand` | displacements that are handed over, as stripes |
+//! | `sites` | the hazard of sites, met by demands |
 //! | `risk` | fragility, risk curves, uniform risk spectra |
+//! | `bootstrap` | confidence bands |
 //! | `regression` | Eq. 4.11 |
 
 // pyo3 hands Python's objects over by value
 #![allow(clippy::needless_pass_by_value)]
 
+mod bootstrap;
 mod cores;
 mod demand;
 mod errors;
@@ -34,6 +37,7 @@ mod regression;
 mod respond;
 mod response;
 mod risk;
+mod sites;
 
 use pyo3::prelude::*;
 
@@ -48,6 +52,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<hazard::HazardCurve>()?;
     module.add_class::<export::ExportedCurve>()?;
     module.add_class::<risk::Spectra>()?;
+    module.add_class::<bootstrap::Bands>()?;
     module.add_class::<regression::Fit>()?;
     module.add_function(wrap_pyfunction!(record::read_record, module)?)?;
     module.add_function(wrap_pyfunction!(record::read_records, module)?)?;
@@ -57,5 +62,6 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(risk::fragility, module)?)?;
     module.add_function(wrap_pyfunction!(risk::risk_curve, module)?)?;
     module.add_function(wrap_pyfunction!(risk::urs, module)?)?;
+    module.add_function(wrap_pyfunction!(bootstrap::bootstrap, module)?)?;
     module.add_function(wrap_pyfunction!(regression::fit, module)?)
 }

@@ -1,19 +1,17 @@
 //! Fragility, risk curves, uniform risk spectra.
 
 use numpy::PyArrayDyn;
-use pyo3::exceptions::{PyKeyboardInterrupt, PyTypeError, PyValueError};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use rayon::prelude::*;
 use uplift_fragility::{EmpiricalFragility, check_threshold};
-use uplift_hazard::{Extrapolation, rate_from_probability};
-use uplift_ida::Watch;
-use uplift_risk::{Ordinate, OrdinateFlag, PooledDemand, RiskCurve, RiskError, StripeWeights, ThresholdGrid};
+use uplift_hazard::rate_from_probability;
+use uplift_risk::{Ordinate, OrdinateFlag, PooledDemand, RiskCurve, StripeWeights, ThresholdGrid};
 
-use crate::cores::on_all_cores;
 use crate::demand::Demand;
 use crate::errors::refused;
 use crate::floats::{array, count, floats, room};
-use crate::hazard::{HazardCurve, extrapolation};
+use crate::hazard::extrapolation;
+use crate::sites::Sites;
 
 /// Empirical fragility: the share of the records that exceed thresholds, level by level (Eq. 4.7).
 ///
@@ -134,8 +132,8 @@ pub(crate) fn risk_curve<'py>(
     let grid = ThresholdGrid::new(ascending).map_err(refused)?;
     let place = |threshold: &f64| grid.thresholds_m().partition_point(|of_grid| of_grid < threshold);
     let places: Vec<usize> = thresholds.iter().map(place).collect();
-    let row = |curve: &RiskCurve<'_>| {
-        let of_grid = curve.mean_annual_frequencies(&grid);
+    let row = |demand: &PooledDemand, weights: &StripeWeights| {
+        let of_grid = RiskCurve::new(demand, weights).map_err(refused)?.mean_annual_frequencies(&grid);
         Ok(places.iter().map(|place| of_grid[*place]).collect::<Vec<_>>())
     };
     let mut rates = room(total)?;
@@ -207,7 +205,35 @@ pub(crate) fn urs(
 ) -> PyResult<Spectra> {
     let demand = Demand::new(edp_m, levels)?;
     let sites = Sites::new(hazard, demand.levels(), extrapolation(extrapolate)?, gravity_m_s2)?;
-    let (poe, of_poe) = match poe {
+    let (targets, of_poe) = targets(poe, years)?;
+    let grid = ThresholdGrid::default();
+    let is_exact = match contour {
+        "exact" => true,
+        "grid" => false,
+        _ => return Err(PyValueError::new_err(format!("contour is {contour:?}: it must be \"exact\" or \"grid\""))),
+    };
+    let ordinates = |demand: &PooledDemand, weights: &StripeWeights| {
+        let curve = RiskCurve::new(demand, weights).map_err(refused)?;
+        let ordinates: Result<Vec<_>, _> = if is_exact {
+            curve.exact_ordinates(&targets)
+        } else {
+            targets.iter().map(|target| curve.grid_ordinate(&grid, *target)).collect()
+        };
+        ordinates.map_err(refused)
+    };
+    let shape = sites.shape_with(&demand.shape_after(&of_poe));
+    let mut all = room(count(&shape)?)?;
+    for site in sites.of_each(py, &demand, ordinates)? {
+        // strengths vary fastest in a spectrum
+        all.extend((0..targets.len()).flat_map(|target| site.iter().map(move |of_strength| of_strength[target])));
+    }
+    Spectra::new(py, &shape, &all)
+}
+
+/// Target rates, 1/yr, of probabilities in `years`, and the shape in which these are given; those of the studies where
+/// they are not.
+pub(crate) fn targets(poe: Option<&Bound<'_, PyAny>>, years: f64) -> PyResult<(Vec<f64>, Vec<usize>)> {
+    let (poe, shape) = match poe {
         None => (vec![0.02, 0.10, 0.50], vec![3]),
         Some(given) => {
             let given = floats("poe", given)?;
@@ -216,28 +242,7 @@ pub(crate) fn urs(
         }
     };
     let rate = |poe: &f64| rate_from_probability(*poe, years).map_err(refused);
-    let targets = poe.iter().map(rate).collect::<PyResult<Vec<_>>>()?;
-    let grid = ThresholdGrid::default();
-    let is_exact = match contour {
-        "exact" => true,
-        "grid" => false,
-        _ => return Err(PyValueError::new_err(format!("contour is {contour:?}: it must be \"exact\" or \"grid\""))),
-    };
-    let ordinates = |curve: &RiskCurve<'_>| -> Result<Vec<Ordinate>, RiskError> {
-        if is_exact {
-            curve.exact_ordinates(&targets)
-        } else {
-            targets.iter().map(|target| curve.grid_ordinate(&grid, *target)).collect()
-        }
-    };
-    let of_each: Vec<usize> = of_poe.iter().copied().chain(demand.shape_with(&[])).collect();
-    let shape = sites.shape_with(&of_each);
-    let mut all = room(count(&shape)?)?;
-    for site in sites.of_each(py, &demand, ordinates)? {
-        // strengths vary fastest in a spectrum
-        all.extend((0..targets.len()).flat_map(|target| site.iter().map(move |of_strength| of_strength[target])));
-    }
-    Spectra::new(py, &shape, &all)
+    Ok((poe.iter().map(rate).collect::<PyResult<_>>()?, shape))
 }
 
 /// Uniform risk spectra, in the axes site, probability and strength; without those of which there is only one thing
@@ -282,70 +287,5 @@ impl Spectra {
 impl Spectra {
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
         Ok(format!("<Spectra of the shape {}>", self.u_m.bind(py).getattr("shape")?))
-    }
-}
-
-/// What the hazard of each site makes of each level.
-struct Sites {
-    weights: Vec<StripeWeights>,
-    /// Whether several were asked for, so that the result has an axis of them.
-    is_sequence: bool,
-}
-
-impl Sites {
-    fn new(
-        hazard: &Bound<'_, PyAny>,
-        levels: &[f64],
-        extrapolation: Extrapolation,
-        gravity_m_s2: f64,
-    ) -> PyResult<Self> {
-        let weights = |curve: &Bound<'_, HazardCurve>| {
-            let curve = curve.get().curve.in_field_units(gravity_m_s2).map_err(refused)?;
-            StripeWeights::from_hazard(&curve, levels, extrapolation).map_err(refused)
-        };
-        if let Ok(curve) = hazard.cast::<HazardCurve>() {
-            return Ok(Self { weights: vec![weights(curve)?], is_sequence: false });
-        }
-        let no_curve = || PyTypeError::new_err("hazard must be a HazardCurve, or a sequence of them");
-        let site = |curve: PyResult<Bound<'_, PyAny>>| match curve?.cast::<HazardCurve>() {
-            Ok(curve) => weights(curve),
-            Err(_) => Err(no_curve()),
-        };
-        let curves = hazard.try_iter().map_err(|_| no_curve())?;
-        Ok(Self { weights: curves.map(site).collect::<PyResult<_>>()?, is_sequence: true })
-    }
-
-    fn shape_with(&self, others: &[usize]) -> Vec<usize> {
-        self.is_sequence.then_some(self.weights.len()).iter().chain(others).copied().collect()
-    }
-
-    /// What `of_curve` makes of the risk curve of each site and oscillator, `[site][strength]`: each oscillator is
-    /// sorted once and serves every site.
-    fn of_each<T: Send>(
-        &self,
-        py: Python<'_>,
-        demand: &Demand,
-        of_curve: impl Fn(&RiskCurve<'_>) -> Result<Vec<T>, RiskError> + Sync,
-    ) -> PyResult<Vec<Vec<Vec<T>>>> {
-        let mut sites: Vec<Vec<Vec<T>>> = self.weights.iter().map(|_| Vec::new()).collect();
-        let by_strength = on_all_cores(py, |interruption| {
-            let of_strength = |system: usize| {
-                let pooled: PooledDemand = demand.pooled(system)?;
-                let of_site = |weights: &StripeWeights| {
-                    if interruption.cancelled() {
-                        return Err(PyKeyboardInterrupt::new_err(()));
-                    }
-                    RiskCurve::new(&pooled, weights).and_then(|curve| of_curve(&curve)).map_err(refused)
-                };
-                self.weights.iter().map(of_site).collect::<PyResult<Vec<_>>>()
-            };
-            (0..demand.systems()).into_par_iter().map(of_strength).collect::<PyResult<Vec<_>>>()
-        })?;
-        for of_sites in by_strength {
-            for (site, of_strength) in sites.iter_mut().zip(of_sites) {
-                site.push(of_strength);
-            }
-        }
-        Ok(sites)
     }
 }

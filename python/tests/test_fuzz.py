@@ -85,6 +85,8 @@ def test_risk(edp_m, levels, given_too):
     if spectra is not None:
         assert not np.isnan(spectra.u_m).any()
     answers(uplift.fit, edp_m, levels)
+    bands = answers(uplift.bootstrap, edp_m, levels, [HAZARD], given_too, sizes=[1, 3], replicates=4, interval="bca")
+    assert (bands is None) == (spectra is None)
 
 
 @given(ANYTHING, ANYTHING, st.one_of(st.none(), st.text()))

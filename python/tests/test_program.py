@@ -17,6 +17,8 @@ values = [0.02, 0.05, "0.1:0.1:0.6"]
 levels_cm_s = [1, 5, 10, 20, 40, 80]
 [risk]
 thresholds_m = [0, 0.001, 0.01, 0.1]
+[bootstrap]
+confidence = 0.8
 [[sites]]
 name = "Near"
 pgv = "near.csv"
@@ -84,6 +86,27 @@ def test_spectra_from_records_to_coefficients(folder):
                 found = uplift.fit(strengths, spectra.u_m[site, poe])
                 for name in ("c0_m", "c1", "c2_m", "rmse_m", "rmse_plain_m", "max_abs_residual_m", "points"):
                     assert getattr(found, name) == of(f"regression/pgv/{name}")[site, poe], name
+
+
+@pytest.mark.parametrize("interval", ["percentile", "bca"])
+def test_bands(folder, program, interval):
+    result = folder / f"{interval}.h5"
+    result.write_bytes((folder / "study.h5").read_bytes())
+    options = ["--sizes=3,4", "--replicates=200", "--seed=7"]
+    program(folder, "bootstrap", result, *options, f"--interval={interval}")
+    with h5py.File(result) as file:
+        of = lambda name: file[name][()]
+        sites = [
+            uplift.HazardCurve.read(folder / "near.csv"),
+            uplift.HazardCurve.read(folder / "far.csv", measure="pgv", unit="m/s", years=50),
+        ]
+        bands = uplift.bootstrap(
+            of("ida/pgv/edp_m"), of("axes/pgv_level"), sites,
+            sizes=[3, 4], replicates=200, confidence=0.8, interval=interval, seed=7,
+        )  # fmt: skip
+        for ours, name in (("lower_m", "u10_m"), ("median_m", "u50_m"), ("upper_m", "u90_m")):
+            np.testing.assert_array_equal(getattr(bands, ours), of(f"bootstrap/pgv/{name}"), strict=True)
+        assert (bands.lower_m < bands.upper_m).any()
 
 
 @pytest.mark.parametrize("measure", ["arias", "sa_0p5s"])

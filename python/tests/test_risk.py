@@ -126,6 +126,27 @@ def test_spectra_by_hand():
     assert abs(grid - spectra.u_m[0, 0]) <= 0.001
 
 
+def test_bands_of_records_that_are_alike_have_no_width():
+    bands = uplift.bootstrap(EDP[[0, 0, 0]], LEVELS, HAZARD, poe=0.99, replicates=20)
+    assert bands.sample_size == [3] and bands.median_m.shape == (1,)
+    assert bands.lower_m == bands.median_m == bands.upper_m == uplift.urs(EDP[[0, 0, 0]], LEVELS, HAZARD, poe=0.99).u_m
+    many = np.tile(EDP[:, None, :], (15, 2, 1))
+    sizes = uplift.bootstrap(many, LEVELS, [HAZARD], replicates=5)
+    assert sizes.sample_size == [20, 30] and sizes.lower_m.shape == (1, 3, 2, 2)
+    for options in (
+        {"sizes": []},
+        {"sizes": [0]},
+        {"sizes": [2, 2]},
+        {"replicates": 0},
+        {"replicates": 2**32 - 1},
+        {"confidence": 1},
+        {"confidence": np.nan},
+        {"interval": "normal"},
+    ):
+        with pytest.raises(ValueError):
+            uplift.bootstrap(EDP, LEVELS, HAZARD, **options)
+
+
 def test_arrays_that_do_not_fit_together():
     for edp, levels, words in [
         (EDP, [1, 2], "with 2 levels"),

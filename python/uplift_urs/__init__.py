@@ -10,6 +10,7 @@ program ``uplift``, to the bit.
 """
 
 from ._native import (
+    Bands,
     ExportedCurve,
     Fit,
     HazardCurve,
@@ -19,6 +20,7 @@ from ._native import (
     Responses,
     Spectra,
     __version__,
+    bootstrap,
     fit,
     fragility,
     ida,
@@ -31,6 +33,7 @@ from ._native import (
 )
 
 __all__ = [
+    "Bands",
     "ExportedCurve",
     "Fit",
     "HazardCurve",
@@ -40,6 +43,7 @@ __all__ = [
     "Responses",
     "Spectra",
     "__version__",
+    "bootstrap",
     "fit",
     "fragility",
     "ida",

@@ -1,6 +1,6 @@
 """Types of the extension; units and shapes are in the docstrings, which ``help()`` shows."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from os import PathLike
 from typing import ClassVar, Literal, final, overload
 
@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
+    "Bands",
     "ExportedCurve",
     "Fit",
     "HazardCurve",
@@ -17,6 +18,7 @@ __all__ = [
     "Responses",
     "Spectra",
     "__version__",
+    "bootstrap",
     "fit",
     "fragility",
     "ida",
@@ -287,6 +289,32 @@ def urs(
     extrapolate: _Extrapolate = "refuse",
     gravity_m_s2: float = 9.80665,
 ) -> Spectra: ...
+@final
+class Bands:
+    @property
+    def lower_m(self) -> _Floats: ...
+    @property
+    def median_m(self) -> _Floats: ...
+    @property
+    def upper_m(self) -> _Floats: ...
+    @property
+    def sample_size(self) -> list[int]: ...
+
+def bootstrap(
+    edp_m: ArrayLike,
+    levels: ArrayLike,
+    hazard: HazardCurve | Iterable[HazardCurve],
+    poe: ArrayLike = (0.02, 0.1, 0.5),
+    years: float = 50.0,
+    *,
+    sizes: Sequence[int] | None = None,
+    replicates: int = 1000,
+    confidence: float = 0.9,
+    interval: Literal["percentile", "bca"] = "percentile",
+    seed: int = 1,
+    extrapolate: _Extrapolate = "refuse",
+    gravity_m_s2: float = 9.80665,
+) -> Bands: ...
 @final
 class Fit:
     @property
