@@ -34,6 +34,8 @@ __version__: str
 
 _Path = str | PathLike[str]
 _Floats = NDArray[np.float64]
+# what has an axis at least
+_Many = NDArray[np.floating | np.integer] | Sequence[float] | Sequence[Sequence[float]]
 _RecordFormat = Literal["at2", "esm", "knet", "cosmos", "csmip", "columns"]
 _Extrapolate = Literal["refuse", "loglog"]
 _Intensity = Literal["geometric-mean", "rotd50", "rotd100"]
@@ -163,6 +165,36 @@ def respond(
     gravity_m_s2: float = 9.80665,
     history: bool = False,
 ) -> Response: ...
+@overload
+def respond(
+    record: Record,
+    strength: _Many,
+    *,
+    uplift_displacement_m: ArrayLike = 0.0005,
+    restitution: ArrayLike = 0.95,
+    capacity_m: ArrayLike | None = None,
+    post_uplift_stiffness_per_s2: ArrayLike | None = None,
+    scale: ArrayLike = 1.0,
+    free_vibration: bool = True,
+    free_vibration_s: float | None = None,
+    gravity_m_s2: float = 9.80665,
+    history: Literal[False] = False,
+) -> Responses: ...
+@overload
+def respond(
+    record: Record,
+    strength: ArrayLike,
+    *,
+    uplift_displacement_m: ArrayLike = 0.0005,
+    restitution: ArrayLike = 0.95,
+    capacity_m: ArrayLike | None = None,
+    post_uplift_stiffness_per_s2: ArrayLike | None = None,
+    scale: _Many,
+    free_vibration: bool = True,
+    free_vibration_s: float | None = None,
+    gravity_m_s2: float = 9.80665,
+    history: Literal[False] = False,
+) -> Responses: ...
 @overload
 def respond(
     record: Record,
