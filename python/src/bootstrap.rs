@@ -64,7 +64,8 @@ const MOST_DRAWN: u64 = 1_000_000_000;
 ///
 /// Notes
 /// -----
-/// N. Reggiani Manzo, dissertation, Section 4.5; B. Efron and R. J. Tibshirani, An Introduction to the Bootstrap (1993).
+/// N. Reggiani Manzo, dissertation, Section 4.5; B. Efron and R. J. Tibshirani, An Introduction to the Bootstrap
+/// (1993).
 #[pyfunction]
 #[pyo3(signature = (
     edp_m, levels, hazard, poe = None, years = 50.0, *, sizes = None, replicates = 1000, confidence = 0.9,
