@@ -16,7 +16,7 @@ export PATH := $(TOOLS):$(PATH)
 
 UPLIFT := target/release/uplift
 
-.PHONY: run build install test test-cluster torture doc-figures lint docs python sbom notices bench fuzz clean
+.PHONY: run build install wheel test test-cluster torture doc-figures lint docs python sbom notices bench fuzz clean
 
 run: build
 	$(UPLIFT) run $(STUDY) $(SET) -o $(OUTPUT)
@@ -45,6 +45,10 @@ doc-figures:
 test: lint docs python
 	cargo test --locked --workspace
 
+# The Python package: its wheel in python/dist, installed into a fresh environment and tested there (docs/python.md).
+wheel:
+	.ci/build-wheel
+
 # The engines of docs/cluster for real: Slurm, MPI, HyperQueue, as far as they can be had here. Apart from `test`: the
 # first build with MPI takes as long as that of the whole program.
 test-cluster: build
@@ -59,6 +63,7 @@ lint:
 	.ci/check-paths
 	.ci/check-dependencies
 	cargo fmt --all --check
+	cargo fmt --manifest-path python/Cargo.toml --check
 	cargo clippy --locked --workspace --all-targets -- -D warnings
 
 docs:
@@ -105,4 +110,4 @@ fuzz/%:
 
 clean:
 	cargo clean
-	rm -rf .venv .tools results crates/*/fuzz/target
+	rm -rf .venv .tools results crates/*/fuzz/target python/target python/dist

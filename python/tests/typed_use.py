@@ -1,0 +1,21 @@
+"""What mypy makes of the package in strict mode (.ci/build-wheel); it is not run."""
+
+from pathlib import Path
+from typing import assert_type
+
+import numpy as np
+from numpy.typing import NDArray
+
+import uplift_urs as uplift
+
+record = uplift.read_record(Path("SYN001_H1.AT2"))
+assert_type(uplift.respond(record, 0.2), uplift.Response)
+assert_type(uplift.respond(record, 0.2, scale=2, capacity_m=0.3, history=True), uplift.Response)
+assert_type(uplift.respond(record, [0.1, 0.2]), uplift.Responses)
+assert_type(uplift.respond(record, 0.1, scale=np.linspace(1, 2, 3)), uplift.Responses)
+assert_type(uplift.respond(record, [[0.1], [0.2]], scale=[1, 2]).overturned, NDArray[np.bool_])
+edp_m = uplift.ida([record, (record, record)], [0.1], [5, 10], "pga")
+assert_type(edp_m, NDArray[np.float64])
+curve = uplift.HazardCurve([1, 10], (0.1, 0.01))
+assert_type(uplift.urs(edp_m, [5, 10], [curve]).flag, NDArray[np.uint8])
+assert_type(uplift.fit([0.1, 0.2, 0.3, 0.4], edp_m[0, 0]).c0_m, float)
