@@ -19,7 +19,8 @@ pub struct InferredLimits {
 ///
 /// A displacement c belongs to the band of a target rate λ* where λ(c), a mean over the units, does not differ from λ*
 /// by more than chance allows ([`SkewedMean`]): the interval of a quantile by inverting that of its probability
-/// (Woodruff, 1952). The band runs from the least to the largest such displacement. No resampling takes part, and no
+/// (Woodruff, 1952). The band runs from the largest such displacement down to where λ(c) first differs too much: λ(c)
+/// rises as c falls, and what single motions at frequent levels add to its scatter further down brings nothing back. No resampling takes part, and no
 /// transformation of the displacement changes the band.
 ///
 /// - `units`: the records of each unit, `[unit]`, by their positions; each record in one of them.
@@ -155,7 +156,7 @@ fn deviate_of(mean: &SkewedMean, target: f64, size: usize, quantiles: &StudentQu
 struct Search {
     /// Least and largest displacement that belong to it, m.
     found_m: Option<[f64; 2]>,
-    /// Where the deviate leaps over the whole band.
+    /// Where the deviate leaves the band, or leaps over the whole of it.
     leap_m: f64,
     was_beyond: bool,
 }
@@ -163,10 +164,13 @@ struct Search {
 impl Search {
     /// All displacements from `from_m` to `to_m` have this `deviate`, over its quantile.
     fn see(&mut self, deviate: f64, from_m: f64, to_m: f64) {
+        if self.was_beyond {
+            return;
+        }
         if deviate.abs() <= 1.0 {
             let upper_m = self.found_m.map_or(to_m, |found| found[1]);
             self.found_m = Some([from_m, upper_m]);
-        } else if deviate > 1.0 && !self.was_beyond {
+        } else if deviate > 1.0 {
             (self.leap_m, self.was_beyond) = (to_m, true);
         }
     }

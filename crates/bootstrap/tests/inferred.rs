@@ -46,10 +46,11 @@ fn plain_limits(edp_m: &[f64], units: &[Vec<usize>], target: f64, (size, confide
     };
     let limits = |which: usize| {
         let found: Vec<f64> = places.iter().map(|&c_m| deviates(c_m)[which]).collect();
-        // λ is the same from a place to the next
-        let within: Vec<usize> = (0..places.len()).filter(|&at| found[at].abs() <= 1.0).collect();
+        // λ is the same from a place to the next; it is too large from the first such place downwards
         let next = |at: usize| places.get(at + 1).copied().unwrap_or(f64::INFINITY);
         let leap = (0..places.len()).rev().find(|&at| found[at] > 1.0);
+        let least = leap.map_or(0, |leap| leap + 1);
+        let within: Vec<usize> = (least..places.len()).filter(|&at| found[at].abs() <= 1.0).collect();
         let none_m = leap.map_or(0.0, next);
         let lower_m = within.first().map_or(none_m, |&first| places[first]);
         [lower_m, within.last().map_or(none_m, |&last| next(last))]

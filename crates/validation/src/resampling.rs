@@ -137,7 +137,8 @@ fn quantile_of_sorted(sorted: &[f64], share: f64) -> f64 {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // within the values
     let (below, part) = (place as usize, place.fract());
     let low = sorted[below];
-    if part == 0.0 { low } else { low + part * (sorted[below + 1] - low) }
+    // between two infinite values there is nothing but these
+    if part == 0.0 || sorted[below + 1] <= low { low } else { low + part * (sorted[below + 1] - low) }
 }
 
 /// The random numbers of one replicate.
@@ -163,5 +164,18 @@ impl Stream {
     /// Uniform on (0, 1).
     pub(crate) fn uniform(&mut self) -> f64 {
         ((self.0.next_u64() >> 11) as f64 + 0.5) / (1_u64 << 53) as f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantiles_among_infinite_values_are_values() {
+        let inf = f64::INFINITY;
+        let values = [1.0, 2.0, inf, inf];
+        assert_eq!([0.0, 0.25, 0.5, 0.9].map(|share| quantile_of_sorted(&values, share)), [1.0, 1.75, inf, inf]);
+        assert_eq!(quantile_of_sorted(&[-inf, -inf, 0.0], 0.25), -inf);
     }
 }

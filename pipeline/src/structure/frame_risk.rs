@@ -158,6 +158,7 @@ pub fn frame_risk(
 ) -> Result<FrameRiskReport, UpliftError> {
     check_table(structure, result, options)?;
     let file = ResultFile::open(result)?.at(&options.risk)?;
+    file.refuse_records_at_level("a frame is shaken by the same records at every level")?;
     let source = file.study(options.manifest.as_deref())?;
     let site = site_index(&source, options.site.as_deref())?;
     let measure = &source.measures[measure_index(&source, options.measure)?];

@@ -180,7 +180,8 @@ fn peak(cell: &str, factor: f64) -> Result<Option<PeakValue>, String> {
         }
     };
     match cell.to_ascii_lowercase().as_str() {
-        "" | "nan" | "na" | "-" => Ok(None),
+        // a NaN of C's printf has a sign
+        "" | "nan" | "-nan" | "+nan" | "na" | "-" => Ok(None),
         "overturned" => Ok(Some(PeakValue::Overturned)),
         _ => match cell.strip_prefix('>').map(number).transpose()? {
             Some(limit) if limit.is_finite() => Ok(Some(PeakValue::Above(limit))),
@@ -205,6 +206,7 @@ mod tests {
             ("> 350", Some(PeakValue::Above(1e-3 * 350.0))),
             ("", None),
             ("NaN", None),
+            ("-nan", None),
         ] {
             assert_eq!(peak(cell, 1e-3), Ok(expected), "{cell}");
         }
