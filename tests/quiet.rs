@@ -4,7 +4,7 @@ use crate::common::{Finished, SmallStudy, repository};
 use crate::hazard::{SITES, openquake};
 
 /// Commands whose answer is printed, and those that are told to write files; by their first words.
-const ANSWER: [&str; 24] = [
+const ANSWER: [&str; 26] = [
     "status",
     "verify",
     "check",
@@ -17,6 +17,8 @@ const ANSWER: [&str; 24] = [
     "design",
     "overturning",
     "risk",
+    "target",
+    "sweep",
     "table",
     "pushover",
     "protocol",
@@ -76,6 +78,8 @@ fn nothing_but_what_was_asked_for() {
         &format!("design {structure}"),
         &format!("overturning {structure} --plot o.svg -o o.csv"),
         &format!("risk {structure} --plot k.svg -o k.csv"),
+        &format!("target {structure} --vary size --from 0.1 --to 2 --overturning 2e-4 -o t.csv"),
+        "sweep study.toml --over oscillator.restitution=0.9,0.95 -o variants",
         "plot s.h5 --only urs",
         "report s.h5",
         "export s.h5 --csv --json --mat",
@@ -112,6 +116,8 @@ fn nothing_but_what_was_asked_for() {
                 "o.csv",
                 "k.svg",
                 "k.csv",
+                "t.csv",
+                "variants",
                 "rows.csv",
                 "validated",
                 "pulses/",

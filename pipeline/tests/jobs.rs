@@ -182,7 +182,7 @@ fn a_bootstrap_reports_what_it_writes() {
     // programs get the rows alone
     let json = serde_json::to_value(&report).unwrap();
     assert_eq!(json.as_array().unwrap().len(), 24);
-    assert_eq!(json[0].as_object().unwrap().len(), 6);
+    assert_eq!(json[0].as_object().unwrap().len(), 7);
 }
 
 #[test]

@@ -17,7 +17,7 @@ use crate::checkpoint::motion_key;
 use crate::error::UpliftError;
 use crate::events::Silent;
 use crate::inputs::{RecordSet, read_measured, read_with_pairs};
-use uplift_study::{AnyStudy, MeasurePlan, Study, UniformRiskStudy};
+use uplift_study::{AnyStudy, Kind, MeasurePlan, Study, UniformRiskStudy};
 
 /// A result with its study.
 #[derive(Debug, Clone)]
@@ -102,9 +102,10 @@ impl ResultFile {
 
     /// The study; its records and curves need not be there any more.
     pub(crate) fn stored_study(&self) -> Result<UniformRiskStudy, UpliftError> {
+        self.require(Kind::UniformRisk)?;
         match Study::stored(&self.reader.attribute_text("/", "study_toml")?) {
             Ok(AnyStudy::UniformRisk(study)) => Ok(*study),
-            Ok(other) => Err(self.fail(format!("the study {} has no uniform risk spectra", other.title()))),
+            Ok(other) => Err(self.damaged(format!("its study {} is of another kind", other.title()))),
             Err(error) => {
                 let mistakes: Vec<String> = error.mistakes().iter().map(ToString::to_string).collect();
                 Err(self.fail(format!("the study in the file cannot be read: {}", mistakes.join("; "))))

@@ -1,5 +1,6 @@
 //! Variants of a study side by side.
 
+use std::collections::BTreeSet;
 use std::io::Write;
 
 use uplift::sweep::{SweepReport, VariantReport};
@@ -7,32 +8,39 @@ use uplift::text::{metres, nearest, risk_in_words, table};
 
 use super::shown_path;
 use crate::error::CommandError;
-use crate::terminal::output;
+use crate::terminal::{Terminal, output};
 
 /// Strengths shown.
 const SHOWN_STRENGTHS: [f64; 3] = [0.1, 0.2, 0.4];
 
-/// The displacements of every variant at a few strengths, by each measure at the first site, for the rarest risk.
-pub(crate) fn print_sweep(report: &SweepReport) -> Result<(), CommandError> {
+/// The displacements of every variant at a few strengths, by each measure and site, for the rarest risk.
+pub(crate) fn print_sweep(report: &SweepReport, terminal: &Terminal) -> Result<(), CommandError> {
     let out = &mut output();
     let Some(first) = report.variants.first() else { return Ok(()) };
-    let site = first.spectra.first().map_or_else(String::new, |spectrum| spectrum.site.clone());
-    let mut measures: Vec<&'static str> =
-        report.variants.iter().flat_map(|of| of.spectra.iter().map(|of| of.im)).collect();
-    measures.sort_unstable();
-    measures.dedup();
-    let synthetic = if first.synthetic { " (synthetic records)" } else { "" };
-    for im in measures {
-        let mut header: Vec<&str> = report.keys.iter().map(String::as_str).collect();
-        header.extend(["risk", "strength", "m", "strength", "m", "strength", "m"]);
-        let rows: Vec<Vec<String>> = report.variants.iter().map(|variant| row(variant, im, &site)).collect();
-        writeln!(
-            out,
-            "\nUniform risk spectra by {im} at {site}: displacement in m{synthetic}\n{}",
-            table(&header, &rows)
-        )?;
+    let spectra = || report.variants.iter().flat_map(|variant| &variant.spectra);
+    let measures: BTreeSet<&str> = spectra().map(|spectrum| spectrum.im).collect();
+    let mut sites: Vec<&str> = Vec::new();
+    for spectrum in spectra() {
+        if !sites.contains(&spectrum.site.as_str()) {
+            sites.push(&spectrum.site);
+        }
     }
-    writeln!(out, "\nAll spectra of all variants: {}", shown_path(&report.table).display())?;
+    let synthetic = if first.synthetic { " (synthetic records)" } else { "" };
+    let mut header: Vec<&str> = report.keys.iter().map(String::as_str).collect();
+    header.extend(["risk", "strength", "m", "strength", "m", "strength", "m"]);
+    for im in measures {
+        for site in &sites {
+            let rows: Vec<Vec<String>> = report.variants.iter().map(|variant| row(variant, im, site)).collect();
+            writeln!(
+                out,
+                "\nUniform risk spectra by {im} at {site}: displacement in m{synthetic}\n{}",
+                table(&header, &rows)
+            )?;
+        }
+    }
+    if !terminal.is_quiet() {
+        writeln!(out, "\nAll spectra of all variants: {}", shown_path(&report.table).display())?;
+    }
     Ok(())
 }
 

@@ -60,7 +60,7 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: &Terminal) -> Result<(
     check_figure_file(&figure, &[&arguments.study], options.force)?;
     let report = run(&options, terminal)?;
     plot_sweep(&report, &figure)?;
-    if arguments.json { print_json(&report) } else { print_sweep(&report) }?;
+    if arguments.json { print_json(&report) } else { print_sweep(&report, terminal) }?;
     for file in report.variants.iter().map(|variant| &variant.result).chain([&report.table, &figure]) {
         terminal.say(&file.display().to_string());
     }
