@@ -8,9 +8,9 @@ use uplift_risk::StripeWeights;
 
 use crate::common::{SmallStudy, array, repository, same_bits};
 
-const LEVELS: [f64; 5] = [1.0, 3.0, 10.0, 30.0, 100.0];
+pub const LEVELS: [f64; 5] = [1.0, 3.0, 10.0, 30.0, 100.0];
 
-const STUDY: &str = r#"title = "sets"
+pub const STUDY: &str = r#"title = "sets"
 [records.synthetic]
 pairs = 6
 [strengths]
@@ -36,7 +36,7 @@ fn plain(study: &SmallStudy) -> Vec<String> {
 }
 
 /// Runs the study with the table `rows` into `sets.h5`.
-fn run(study: &SmallStudy, rows: &str) -> String {
+pub fn run(study: &SmallStudy, rows: &str) -> String {
     study.write("sets.csv", rows);
     let arguments = ["run", "study.toml", "--set", "records.at_level=sets.csv", "-o", "sets.h5", "--force"];
     let finished = study.uplift(&arguments).ok();

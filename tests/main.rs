@@ -44,6 +44,7 @@ mod result_file;
 mod resume;
 mod rounding;
 mod run;
+mod selections;
 mod shake_table;
 mod site_table;
 mod spreadsheets;

@@ -19,6 +19,7 @@ use polars::prelude::Column;
 use serde::Serialize;
 
 pub use measured::PairMeasures;
+pub(crate) use name::sequence_number;
 pub use remarks::Remarks;
 pub use warnings::Warning;
 pub use warnings::of_pair as warnings_of_pair;

@@ -1,6 +1,6 @@
 //! Records and hazard curves, read and checked before anything is computed.
 
-mod at_level;
+pub(crate) mod at_level;
 mod cache;
 mod file_options;
 mod hazard;

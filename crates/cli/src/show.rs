@@ -42,7 +42,7 @@ pub(crate) use overturning::print_overturning;
 pub(crate) use plan::print_plan;
 pub(crate) use pulse::print_pulses;
 pub(crate) use pushover::{print_protocol, print_pushover};
-pub(crate) use records::{print_record, print_records, print_selection};
+pub(crate) use records::{print_at_level, print_record, print_records, print_selection};
 pub(crate) use response::{print_block_response, print_response};
 pub(crate) use restrainer::{print_restrainer_curve, print_restrainer_design};
 pub(crate) use run::{print_run, print_shard};

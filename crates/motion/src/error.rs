@@ -282,6 +282,16 @@ pub enum MotionError {
         #[source]
         reason: Box<MotionError>,
     },
+    /// A file of selected records cannot be used.
+    #[error("{name}{}: {reason}", line.map_or_else(String::new, |line| format!(", line {line}")))]
+    Selection {
+        /// The file.
+        name: String,
+        /// The line; none where it is the file as a whole.
+        line: Option<usize>,
+        /// What is wrong with it, and what to do.
+        reason: String,
+    },
     /// An option of the synthetic record set is out of its range.
     #[error("synthetic record set: {option} is {value}; it must be {allowed}")]
     SyntheticOption {

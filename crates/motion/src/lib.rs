@@ -10,6 +10,7 @@
 //!   with what the file says about it ([`RecordingDescription`]);
 //! - [`read_path`], [`read_auto`], [`read_at2`], [`read_columns`]: one accelerogram;
 //! - [`classify_pulse`]: whether a pair is pulse-like, with the period and orientation of its pulse;
+//! - [`read_selection`]: the records that a tool of record selection chose for a level;
 //! - [`synthetic`]: record pairs from a stochastic model, for studies without real records.
 //!
 //! Inside, everything is in m and s. Measures of a pair are in the units of the field: cm/s for
@@ -27,6 +28,7 @@ mod read;
 mod recording;
 mod response_spectrum;
 mod rotation;
+mod selection;
 pub mod synthetic;
 mod unit;
 mod write;
@@ -42,5 +44,9 @@ pub use read::columns::read_columns;
 pub use read::{ReadOptions, read_auto, read_path, read_record, read_record_file, record_bytes};
 pub use recording::{Orientation, RecordFile, RecordFormat, Recording, RecordingDescription};
 pub use response_spectrum::AVERAGED_PERIODS;
+pub use selection::{
+    SelectedComponent, SelectedName, SelectedRecord, SelectedSet, SelectionTool, ezgm_selection_from, read_selection,
+    selection_from,
+};
 pub use unit::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
 pub use write::at2_text;

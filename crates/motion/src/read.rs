@@ -183,22 +183,27 @@ fn unpacked<'a>(bytes: &'a [u8], name: &str) -> Result<Cow<'a, [u8]>, MotionErro
 ///
 /// [`MotionError::Unreadable`], and [`MotionError::TooLarge`] above 64 MiB.
 pub fn record_bytes(path: &Path) -> Result<Vec<u8>, MotionError> {
+    bytes_of(path, LARGEST_FILE_BYTES)
+}
+
+/// The bytes of a file of at most `limit_bytes`.
+pub(crate) fn bytes_of(path: &Path, limit_bytes: u64) -> Result<Vec<u8>, MotionError> {
     let unreadable = |reason| MotionError::Unreadable { path: path.to_owned(), reason };
     // a pipe would be waited for, and a device read for ever
     if !std::fs::metadata(path).map_err(unreadable)?.is_file() {
         return Err(unreadable(io::Error::other("it is no file, but a folder, a device or a pipe")));
     }
     let mut bytes = Vec::new();
-    File::open(path).and_then(|file| file.take(LARGEST_FILE_BYTES + 1).read_to_end(&mut bytes)).map_err(unreadable)?;
-    if bytes.len() as u64 > LARGEST_FILE_BYTES {
-        return Err(MotionError::TooLarge { name: path.display().to_string(), limit_bytes: LARGEST_FILE_BYTES });
+    File::open(path).and_then(|file| file.take(limit_bytes + 1).read_to_end(&mut bytes)).map_err(unreadable)?;
+    if bytes.len() as u64 > limit_bytes {
+        return Err(MotionError::TooLarge { name: path.display().to_string(), limit_bytes });
     }
     Ok(bytes)
 }
 
 /// Text of a file: UTF-8 with or without byte order mark, else Latin-1, in which every byte is a
 /// character. An end-of-file mark of DOS is dropped.
-fn decode(bytes: &[u8]) -> Cow<'_, str> {
+pub(crate) fn decode(bytes: &[u8]) -> Cow<'_, str> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let bytes = bytes.strip_suffix(b"\x1a").unwrap_or(bytes);
     match std::str::from_utf8(bytes) {

@@ -5,3 +5,4 @@ mod formats_esm_knet;
 mod golden;
 mod pulse;
 mod readers;
+mod selection;

@@ -66,7 +66,7 @@ impl AtLevel {
 }
 
 /// The column of record names, as a manifest has it.
-const RECORD: &str = "record_id";
+pub(crate) const RECORD: &str = "record_id";
 /// The most that a table has.
 const LARGEST_BYTES: u64 = 64 << 20;
 /// How far a level of the table may be from that of the study, relative: both may have been rounded to so many digits.
@@ -103,6 +103,14 @@ pub(super) struct Table {
 pub(super) fn read(path: &Path, measure: IntensityMeasure) -> Result<Table, Vec<String>> {
     let bytes = read_file(path, LARGEST_BYTES).map_err(|error| vec![format!("records.at_level {error}")])?;
     read_bytes(&bytes, path, measure)
+}
+
+/// Refuses what a study would refuse by itself in a table with these `bytes` that is to lie at `path`.
+///
+/// # Errors
+/// As [`read`].
+pub(crate) fn check_bytes(bytes: &[u8], path: &Path, measure: IntensityMeasure) -> Result<(), Vec<String>> {
+    read_bytes(bytes, path, measure).map(drop)
 }
 
 fn read_bytes(bytes: &[u8], path: &Path, measure: IntensityMeasure) -> Result<Table, Vec<String>> {
@@ -170,7 +178,7 @@ fn read_bytes(bytes: &[u8], path: &Path, measure: IntensityMeasure) -> Result<Ta
 }
 
 /// The column of the levels of `measure`: `pgv_cm_s`, `sa_1s_g`.
-fn level_column(measure: IntensityMeasure) -> String {
+pub(crate) fn level_column(measure: IntensityMeasure) -> String {
     format!("{}_{}", measure.key(), measure.unit_key())
 }
 
@@ -320,12 +328,13 @@ fn shares(weights: &mut [f64], records: usize) -> Option<Vec<f64>> {
     Some(weights.to_vec())
 }
 
-fn count(number: usize, noun: &str) -> String {
+/// `1 record`, `2 records`.
+pub(crate) fn count(number: usize, noun: &str) -> String {
     if number == 1 { format!("1 {noun}") } else { format!("{number} {noun}s") }
 }
 
 /// The first of some names.
-fn list<S: AsRef<str>>(names: &[S]) -> String {
+pub(crate) fn list<S: AsRef<str>>(names: &[S]) -> String {
     let shown: Vec<&str> = names.iter().take(SHOWN).map(AsRef::as_ref).collect();
     let more = names.len() - shown.len();
     if more > 0 { format!("{} and {more} more", shown.join(", ")) } else { shown.join(", ") }

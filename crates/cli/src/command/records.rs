@@ -1,5 +1,6 @@
 //! `uplift records`: record files, looked at, imported and chosen.
 
+mod at_level;
 mod import;
 mod list;
 mod select;
@@ -34,6 +35,8 @@ enum RecordsCommand {
     Show(show::ShowArguments),
     /// Choose records of a manifest: the lines for a study, and a manifest of those chosen
     Select(select::SelectArguments),
+    /// Make a table of sets at each level (records.at_level) of what tools of record selection write
+    AtLevel(at_level::AtLevelArguments),
     /// Make synthetic records of a scenario
     Synthesize(synthesize::SynthesizeArguments),
 }
@@ -44,6 +47,7 @@ pub(super) fn records(arguments: &RecordsArguments, terminal: &Terminal) -> Resu
         RecordsCommand::List(arguments) => list::list(arguments, terminal),
         RecordsCommand::Show(arguments) => show::show(arguments),
         RecordsCommand::Select(arguments) => select::select(arguments, terminal),
+        RecordsCommand::AtLevel(arguments) => at_level::at_level(arguments, terminal),
         RecordsCommand::Synthesize(arguments) => synthesize::synthesize(arguments, terminal),
     }
 }

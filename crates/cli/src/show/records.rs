@@ -2,7 +2,9 @@
 
 use std::io::Write;
 
-use uplift::records::{ComponentReport, ListReport, ListedRecord, RecordReport, SelectReport, ShowReport};
+use uplift::records::{
+    AtLevelReport, ComponentReport, ListReport, ListedRecord, RecordReport, SelectReport, ShowReport,
+};
 use uplift::text::table;
 
 use crate::error::CommandError;
@@ -40,6 +42,25 @@ pub(crate) fn print_selection(report: &SelectReport, terminal: &Terminal) -> Res
     if let Some(manifest) = &report.manifest {
         terminal.say(&format!("{chosen} records: {}", manifest.display()));
     }
+    Ok(())
+}
+
+/// The lines of a study that runs records at their levels, and what the table has.
+pub(crate) fn print_at_level(report: &AtLevelReport, terminal: &Terminal) -> Result<(), CommandError> {
+    let AtLevelReport { measure, unit, records, levels, .. } = report;
+    write!(
+        output(),
+        "# {records} records at {} levels of {measure}; for a study:\n{}",
+        levels.len(),
+        report.study_lines
+    )?;
+    for set in levels {
+        terminal.say(&format!("{} {unit}: {} records, {} by {}", set.level, set.records, set.file.display(), set.tool));
+    }
+    for note in &report.notes {
+        terminal.say(note);
+    }
+    terminal.say(&format!("the table: {}", report.table.display()));
     Ok(())
 }
 

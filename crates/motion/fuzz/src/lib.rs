@@ -4,8 +4,8 @@ use std::io::Write as _;
 
 use flate2::{Compression, write::GzEncoder};
 use uplift_motion::{
-    AccelerationUnit, MotionError, Orientation, ReadOptions, RecordFile, RecordFormat, RecordingDescription,
-    read_record,
+    AccelerationUnit, IntensityMeasure, MotionError, Orientation, ReadOptions, RecordFile, RecordFormat,
+    RecordingDescription, SelectedComponent, SelectedSet, ezgm_selection_from, read_record, selection_from,
 };
 
 const NAME: &str = "the file";
@@ -33,6 +33,35 @@ pub fn read_any(bytes: &[u8]) {
         packed.write_all(bytes).expect("a vector takes everything");
         let packed = packed.finish().expect("a vector takes everything");
         assert_eq!(read(None, &packed).expect("what is read plain is read packed"), plain);
+    }
+}
+
+/// Reads `bytes` as a selection of records, and as the two lists of EzGM with an empty line between them.
+pub fn read_selection(bytes: &[u8]) {
+    for measure in IntensityMeasure::WITHOUT_PERIOD {
+        check_selection(&selection_from(bytes, NAME, measure), bytes);
+    }
+    let middle = bytes.windows(2).position(|pair| pair == b"\n\n").map_or(bytes.len(), |at| at + 1);
+    let lists = [&bytes[..middle], bytes.get(middle + 1..).unwrap_or_default()];
+    check_selection(&ezgm_selection_from(lists, [NAME; 2], SelectedComponent::Pair), bytes);
+}
+
+fn check_selection(result: &Result<SelectedSet, MotionError>, bytes: &[u8]) {
+    match result {
+        Ok(set) => {
+            assert!(!set.records.is_empty() && set.records.len() <= bytes.len());
+            assert!(set.level.is_none_or(|level| level.is_finite() && level > 0.0), "{:?}", set.level);
+            for record in &set.records {
+                let factor: f64 = record.factor.parse().expect("a factor is a number");
+                assert!(factor.is_finite() && factor > 0.0, "factor {factor}");
+                assert!(record.name.to_string().len() < 1000 && record.position > 0);
+            }
+        }
+        Err(error) => {
+            let message = error.to_string();
+            assert!(message.contains(NAME), "no file in: {message}");
+            assert!(message.len() < 1000, "{} bytes of message", message.len());
+        }
     }
 }
 
