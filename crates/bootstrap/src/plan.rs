@@ -13,6 +13,12 @@ const RECORDS: &[u8; 24] = b"uplift bootstrap records";
 /// The same for draws of earthquakes.
 const EVENTS: &[u8; 24] = b"uplift bootstrap  events";
 
+/// The same for samples that are drawn anew.
+const ANEW: &[u8; 24] = b"uplift bootstrap    anew";
+
+/// How often a sample is drawn anew, at most.
+const MOST_DRAWS: u32 = 1000;
+
 /// Largest sample size.
 const LARGEST_SIZE: u32 = 100_000;
 
@@ -75,6 +81,33 @@ impl ResamplingPlan {
             (Stream::new(EVENTS, seed, size, replicate), events_of(size, events.len(), records))
         })?;
         Ok(Self { record_count: records, replicates, sizes: sizes.to_vec(), samples, events: Some(events) })
+    }
+
+    /// The same with every sample that `is_whole` refuses, given how often it draws each record, drawn anew until it is
+    /// taken, from a stream of its own; and how many these are. One that is refused 1000 times stays as it is.
+    ///
+    /// # Errors
+    /// None is known: the samples are those of a plan.
+    pub fn drawn_anew(mut self, seed: u64, is_whole: impl Fn(&[u32]) -> bool) -> Result<(Self, usize), BootstrapError> {
+        let units = self.units();
+        let count = u32::try_from(units.len()).unwrap_or(u32::MAX);
+        let mut refused = 0;
+        for index in 0..self.samples.len() {
+            if is_whole(self.samples[index].multiplicities()) {
+                continue;
+            }
+            refused += 1;
+            let size = self.sizes[index / self.replicates];
+            let mut stream = Stream::new(ANEW, seed, size, index % self.replicates);
+            for _ in 0..MOST_DRAWS {
+                let drawn = stream.sample(&units, (count, self.units_drawn(size)), self.record_count);
+                if is_whole(&drawn) {
+                    self.samples[index] = RecordSample::new(drawn)?;
+                    break;
+                }
+            }
+        }
+        Ok((self, refused))
     }
 
     /// A plan that was stored.
@@ -200,13 +233,7 @@ fn draw(
     for &size in sizes {
         for replicate in 0..replicates {
             let (mut stream, drawn) = stream(size, replicate);
-            let mut multiplicities = vec![0; record_count];
-            for _ in 0..drawn {
-                for &record in &units[stream.below(count) as usize] {
-                    multiplicities[record] += 1;
-                }
-            }
-            samples.push(RecordSample::new(multiplicities)?);
+            samples.push(RecordSample::new(stream.sample(units, (count, drawn), record_count))?);
         }
     }
     Ok(samples)
@@ -235,6 +262,17 @@ impl Stream {
         let mut generator = ChaCha8Rng::from_seed(bytes);
         generator.set_stream((u64::from(size) << 32) | replicate as u64);
         Self(generator)
+    }
+
+    /// How often each record is drawn with so many of the `count` units.
+    fn sample(&mut self, units: &[Vec<usize>], (count, drawn): (u32, u32), record_count: usize) -> Vec<u32> {
+        let mut multiplicities = vec![0; record_count];
+        for _ in 0..drawn {
+            for &record in &units[self.below(count) as usize] {
+                multiplicities[record] += 1;
+            }
+        }
+        multiplicities
     }
 
     /// Uniform on `0..bound`, without bias: the high half of a product, where its low half does not fall into the

@@ -46,8 +46,35 @@ pub(super) fn draws(
         BootstrapError::OneEvent => UpliftError::Usage(format!("--unit event: {error}")),
         error => UpliftError::Usage(format!("--sizes: {error}")),
     })?;
+    let plan = without_empty_levels(plan, stored, seed, events)?;
     let unit = if plan.unit() == Unit::Event { ", earthquakes with all their records" } else { "" };
     Ok((plan, format!("seed {seed}{unit}")))
+}
+
+/// Where levels have records of their own: samples that would leave one without any are drawn anew.
+fn without_empty_levels(
+    plan: ResamplingPlan,
+    stored: &StoredStripes,
+    seed: u64,
+    events: &dyn Events,
+) -> Result<ResamplingPlan, UpliftError> {
+    let shares: Vec<&[f64]> = stored.measures.iter().filter_map(|measure| measure.shares.as_deref()).collect();
+    if shares.is_empty() {
+        return Ok(plan);
+    }
+    let is_whole = |drawn: &[u32]| {
+        let has_some = |level: &[f64]| level.iter().zip(drawn).any(|(&share, &times)| share > 0.0 && times > 0);
+        shares.iter().all(|shares| shares.chunks_exact(drawn.len()).all(has_some))
+    };
+    let (plan, refused) = plan.drawn_anew(seed, is_whole)?;
+    if refused > 0 {
+        events.note(&format!(
+            "{refused} of {} samples left a level without any of its records and were drawn anew: the percentile bands \
+             are narrower for it (docs/method.md, section 3.1)",
+            plan.samples().len()
+        ));
+    }
+    Ok(plan)
 }
 
 /// Records in a sample for each record of the set, at most: the band of a hundred times as many is a tenth as wide, and

@@ -189,6 +189,11 @@ impl Question {
         self.records.iter().map(AskedRecord::earthquake).collect()
     }
 
+    /// The pair of each record, `[record]`, as a number that its components share.
+    pub(crate) fn pair_of(&self) -> Vec<usize> {
+        self.records.iter().map(|record| record.pair).collect()
+    }
+
     /// Whether two pairs are known to be of one earthquake.
     pub(crate) fn shares_earthquakes(&self) -> bool {
         let mut pair_of = BTreeMap::new();

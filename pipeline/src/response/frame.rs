@@ -289,6 +289,13 @@ fn notes(model: Model, components: &[ShakenComponent]) -> Vec<String> {
                 .to_owned(),
         );
     }
+    if model == Model::Wobbling && components.iter().filter(|component| component.component != "v").count() == 1 {
+        notes.push(
+            "one horizontal component is given: the frame moves along one line and, in this model, without the loss \
+             at impacts that --model planar has; give --h1 and --h2 for motion in plan"
+                .to_owned(),
+        );
+    }
     let of = |component: &ShakenComponent| (component.shaken_by.samples, component.shaken_by.dt_s.to_bits());
     if components.windows(2).any(|pair| of(&pair[0]) != of(&pair[1])) {
         notes.push("the components differ in length or time step: they are taken to begin together".to_owned());

@@ -247,6 +247,14 @@ impl ResultFile {
         Ok(Question::of_result(self)?.event_of())
     }
 
+    /// The pair of each record, `[record]`, as a number that its components share.
+    ///
+    /// # Errors
+    /// A file that is damaged, or of another kind.
+    pub(crate) fn pair_of(&self) -> Result<Vec<usize>, UpliftError> {
+        Ok(Question::of_result(self)?.pair_of())
+    }
+
     /// Whether two pairs are known to be of one earthquake.
     ///
     /// # Errors

@@ -146,7 +146,10 @@ impl ResultFile {
     pub(super) fn axes_with_sites(&self) -> Result<RiskAxes, UpliftError> {
         let axes = self.axes()?;
         if axes.sites.is_empty() {
-            return Err(self.fail("the study has no sites, and so no spectra: add [[sites]] and run it again"));
+            return Err(self.fail(
+                "the study has no [[sites]], and so no spectra here (those of a table of sites are in the CSV beside): \
+                 add [[sites]] and run it again",
+            ));
         }
         Ok(axes)
     }

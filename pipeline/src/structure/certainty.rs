@@ -11,7 +11,8 @@ use crate::result::ResultFile;
 /// How often a band is to hold the number of all records there could be.
 pub(super) const CONFIDENCE: f64 = 0.9;
 
-/// What scatters: the records of each unit, which are records one by one, or earthquakes with all of theirs.
+/// What scatters: the records of each unit, which are pairs with their analysed components, or earthquakes with all of
+/// theirs.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Scatter {
     pub(super) records: Vec<Vec<usize>>,
@@ -26,7 +27,8 @@ impl Scatter {
     /// A file that is damaged.
     pub(super) fn of(file: &ResultFile) -> Result<Self, UpliftError> {
         let event_of = file.event_of()?;
-        let records = (0..event_of.len()).map(|record| vec![record]).collect();
+        // two components of a pair are not independent
+        let records = uplift_bootstrap::units(&file.pair_of()?);
         let earthquakes = file.shares_earthquakes()?.then(|| uplift_bootstrap::units(&event_of));
         Ok(Self { records, earthquakes })
     }
@@ -45,7 +47,7 @@ pub struct RateBands {
 /// 90 % bands of the demand on a structure and of its risks, by all records like those at hand.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct DemandBands {
-    /// Records.
+    /// Records; pairs where both components are analysed.
     pub records: usize,
     /// Their earthquakes; none where no two pairs are known to share one.
     pub earthquakes: Option<usize>,

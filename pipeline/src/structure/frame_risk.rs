@@ -193,10 +193,15 @@ pub fn frame_risk(
     let demand_m = own.demand_m;
     let rows = rows(&question, own, &demands, (structure, &design))?;
     let years = source.study.risk.years;
-    let overturning = collapse(levels, own_m, &[(weights, repaired)], years, true)?;
+    let runs_m = shaken.once_a_run(&demands);
+    let mut overturning = collapse(levels, &runs_m, &[(weights, None)], years, true)?;
+    if repaired.is_some() {
+        // the weights of a repair are of records
+        overturning.repaired = collapse(levels, own_m, &[(weights, repaired)], years, true)?.repaired;
+    }
     let mut alarms = alarms_of_inputs(&file, &Scope { measure: Some(measure.measure()), ..Scope::default() })?;
     alarms.extend(of_structure(structure));
-    alarms.extend(of_own_risks(&own_risks(&overturning, measure, (&source.sites[site], shaken.set.records.len()))));
+    alarms.extend(of_own_risks(&own_risks(&overturning, measure, (&source.sites[site], runs_m.len() / levels.len()))));
     let mut report = FrameRiskReport {
         structure: StructureReport::of(structure, None),
         site: source.sites[site].clone(),
@@ -212,7 +217,7 @@ pub fn frame_risk(
         replicates: plan.replicates(),
         confidence: settings.confidence,
         at_demand: StateAtDemand::of(&shaken.frame, demand_m),
-        events: edps::events(&shaken.frame, (levels, own_m), (weights, repaired), years)?,
+        events: edps::events(&shaken.frame, levels, (weights, &runs_m), (repaired, own_m), years)?,
         direction: demands.wobbling_m.is_some().then(|| DirectionEffect::of(&demands.directions_m)),
         notes: notes(&shaken, &demands, &source, &overturning),
         demands: rows,

@@ -169,6 +169,7 @@ pub fn target(
     }
     check_table(structure, result, options)?;
     let file = ResultFile::open(result)?;
+    file.refuse_records_at_level("a target is looked for with the same records at every level")?;
     let source = file.study(options.manifest.as_deref())?;
     let site = site_index(&source, options.site.as_deref())?;
     let measure = &source.measures[measure_index(&source, options.measure)?];
@@ -196,6 +197,7 @@ pub fn target(
             noise.lowest, noise.highest
         ));
     }
+    notes.extend(assumptions(structure, &file, trials.restitution()));
     let at_return_periods = trials.at_return_periods(found, curve.as_ref(), &mut notes)?;
     let generic = curve.as_ref().map(|curve| beside::generic_target(curve, target_per_year, options)).transpose()?;
     let records = trials.record_count();
@@ -375,4 +377,24 @@ impl Words<'_> {
         };
         format!("{}{more}", words.join(", "))
     }
+}
+
+/// What is taken for granted of the structure and of the records.
+fn assumptions(structure: &Structure, file: &ResultFile, restitution: f64) -> Vec<String> {
+    let mut notes = Vec::new();
+    if structure.description.restitution.is_none() {
+        notes.push(format!(
+            "every value has the restitution of the study, {restitution}: what is made more slender loses less at an \
+             impact, and its risk is larger; write the restitution of the structure that was found into its file, and \
+             look at its full motion with uplift overturning"
+        ));
+    }
+    if file.has_repair() {
+        notes.push(
+            "the records count alike here: the result has weights by which they bring the site's hazard, and uplift \
+             overturning and uplift design --repaired use them"
+                .to_owned(),
+        );
+    }
+    notes
 }

@@ -246,7 +246,8 @@ fn groups(joined: &Joined, by: &[String]) -> Result<Vec<Vec<Option<String>>>, Up
                 values.push(&row[place]);
             }
         }
-        let all = (place == 0).then_some(None);
+        // of one value alone, all is that value: a group twice would count twice in Holm's p
+        let all = (place == 0 && values.len() > 1).then_some(None);
         let choices: Vec<Option<String>> = all.into_iter().chain(values.into_iter().cloned().map(Some)).collect();
         combinations = combinations
             .iter()

@@ -68,7 +68,7 @@ fn print_band(out: &mut impl Write, report: &TargetReport, band: &TargetBand) ->
     let drawn = if band.unit == "event" { "earthquakes" } else { "records" };
     writeln!(
         out,
-        "  other {drawn:<13}  {lower} to {upper}, median {median} ({} of {} resamples)",
+        "  resampled {drawn:<9}  {lower} to {upper}, median {median} ({} of {} resamples)",
         per_cent(band.confidence),
         band.replicates
     )?;

@@ -70,17 +70,21 @@ impl StateAtDemand {
     }
 }
 
-/// How often each event of the frame happens: its peaks are `peaks_m` over `[record, level]`.
+/// How often each event of the frame happens: its peaks are `runs_m` over `[run, level]`, and `records_m` over
+/// `[record, level]`, which the weights of a repair are of.
 pub(super) fn events(
     frame: &RockingFrame,
-    (levels, peaks_m): (&[f64], &[f64]),
-    (weights, repaired): (&StripeWeights, Option<&RunWeights>),
+    levels: &[f64],
+    (weights, runs_m): (&StripeWeights, &[f64]),
+    (repaired, records_m): (Option<&RunWeights>, &[f64]),
     years: f64,
 ) -> Result<Vec<EventReport>, UpliftError> {
-    let pool = PooledDemand::new(&Stripe::new(levels, peaks_m)?)?;
+    let pooled = |peaks_m| Ok::<_, UpliftError>(PooledDemand::new(&Stripe::new(levels, peaks_m)?)?);
+    let (runs, records) = (pooled(runs_m)?, pooled(records_m)?);
     let risk = |weights: SiteWeights<'_>, threshold_m: f64| {
+        let pool = if matches!(weights, SiteWeights::Repaired(_)) { &records } else { &runs };
         Ok::<_, UpliftError>(
-            risk_of_exceeding(&pool, &weights, threshold_m, years)?.bounded(&weights, pool.record_count()),
+            risk_of_exceeding(pool, &weights, threshold_m, years)?.bounded(&weights, pool.record_count()),
         )
     };
     let of = |event: &uplift_statics::Event| {

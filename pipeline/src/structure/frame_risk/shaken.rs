@@ -84,6 +84,14 @@ impl Shaken {
         })
     }
 
+    /// Peaks of the frame itself, m, `[run, level]`: of a wobbling frame one run a pair, whichever components of it are
+    /// records.
+    pub(super) fn once_a_run(&self, demands: &Demands) -> Vec<f64> {
+        let Some(wobbling_m) = &demands.wobbling_m else { return demands.planar_m.clone() };
+        let levels = wobbling_m.len() / self.set.records.len().max(1);
+        wobbling_m.chunks_exact(levels.max(1)).step_by(self.per_pair()).flatten().copied().collect()
+    }
+
     /// Pairs that move along one line, so that a second component is missing.
     pub(super) fn without_second(&self) -> Vec<&str> {
         self.pairs.iter().filter(|pair| pair.h1 == pair.h2).map(|pair| pair.id.as_str()).collect()
