@@ -50,8 +50,7 @@ fn nothing_but_what_was_asked_for() {
     }
     std::fs::write(study.path().join("one.txt"), "0\n0.1\n0.4\n-0.3\n0\n").unwrap();
     study.write("one.csv", "u_m\n0.1\n0.2\n0.4\n");
-    study.write("GMR_H1_names.txt", "SYN001_H1.AT2\n");
-    study.write("GMR_sf_used.txt", "1.50000\n");
+    study.write("selected.txt", "num source recID scale_factor\n1 - SYN001 1.50\n");
     study.write("export.csv", &openquake("mean", 1.0, &SITES));
     let quiet = |arguments: &str| -> Finished {
         let words: Vec<&str> = arguments.split(' ').chain(["-q"]).collect();
@@ -89,7 +88,7 @@ fn nothing_but_what_was_asked_for() {
         "records list again.csv",
         "records show again.csv SYN001",
         "records select again.csv --pga-g 0: -o chosen.csv",
-        "records at-level GMR_H1_names.txt --manifest again.csv --measure pgv --level 10 -o levels.csv",
+        "records at-level selected.txt --manifest again.csv --measure pgv --level 10 -o levels.csv",
         "validate one.csv one.csv --replicates 10 -o validated.csv --plot validated.svg",
         "pushover block.toml -o rows.csv --plot h.svg",
         "protocol --sets 2 -o sets.csv",

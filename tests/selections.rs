@@ -27,7 +27,7 @@ fn downloaded() -> (SmallStudy, Vec<f64>) {
 /// The records of a level, counted from one, with their factors.
 fn chosen(level: usize, pgv: &[f64]) -> Vec<(usize, String)> {
     let of = |record: usize| (record, format!("{:.4}", LEVELS[level] / pgv[record - 1]));
-    (1..=pgv.len()).filter(|record| (record + level) % 3 > 0).map(of).collect()
+    (1..=pgv.len()).filter(|record| !(record + level).is_multiple_of(3)).map(of).collect()
 }
 
 /// The selections of all levels as each tool writes them, with the file that the command takes.

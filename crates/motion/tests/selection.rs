@@ -22,7 +22,7 @@ fn read(bytes: &[u8]) -> Result<SelectedSet, MotionError> {
     selection_from(bytes, "the file", sa(1.0))
 }
 
-/// EzGM's lists, which one sample holds with an empty line between them.
+/// `EzGM`'s lists, which one sample holds with an empty line between them.
 fn ezgm(bytes: &[u8]) -> Result<SelectedSet, MotionError> {
     let middle = bytes.windows(2).position(|pair| pair == b"\n\n").unwrap_or(bytes.len());
     let factors = bytes.get(middle + 2..).unwrap_or_default();

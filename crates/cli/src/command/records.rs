@@ -35,7 +35,7 @@ enum RecordsCommand {
     Show(show::ShowArguments),
     /// Choose records of a manifest: the lines for a study, and a manifest of those chosen
     Select(select::SelectArguments),
-    /// Make a table of sets at each level (records.at_level) of what tools of record selection write
+    /// Make a table of sets at each level, for a study, of what tools of record selection write
     AtLevel(at_level::AtLevelArguments),
     /// Make synthetic records of a scenario
     Synthesize(synthesize::SynthesizeArguments),

@@ -36,7 +36,7 @@ pub fn read_any(bytes: &[u8]) {
     }
 }
 
-/// Reads `bytes` as a selection of records, and as the two lists of EzGM with an empty line between them.
+/// Reads `bytes` as a selection of records, and as the two lists of `EzGM` with an empty line between them.
 pub fn read_selection(bytes: &[u8]) {
     for measure in IntensityMeasure::WITHOUT_PERIOD {
         check_selection(&selection_from(bytes, NAME, measure), bytes);

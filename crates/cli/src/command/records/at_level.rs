@@ -13,15 +13,24 @@ use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
 pub(super) struct AtLevelArguments {
-    /// What the tool wrote, a file a level: haselREC's ..._summary_selection.txt, CS_Selection's Output_File.dat, EzGM's
-    /// GMR_H1_names.txt or GMR_names.txt (GMR_sf_used.txt lies beside it), Djura's records_....json
-    #[arg(required = true, value_name = "FILE")]
+    /// What the tool wrote, a file a level
+    #[arg(
+        required = true,
+        value_name = "FILE",
+        help = "What the tool wrote, a file a level: haselREC's ..._summary_selection.txt, CS_Selection's \
+                Output_File.dat, EzGM's GMR_H1_names.txt or GMR_names.txt (GMR_sf_used.txt lies beside it), Djura's \
+                records_....json"
+    )]
     selections: Vec<PathBuf>,
     /// Manifest of a record set (CSV) that has the records, as `uplift records import` writes it
     #[arg(long, value_name = "SET")]
     manifest: PathBuf,
-    /// The measure that they were selected for: pgv, pga, sa_1s (SA at 0.5 s is sa_0p5s), ...
-    #[arg(long, value_name = "MEASURE")]
+    /// The measure that they were selected for
+    #[arg(
+        long,
+        value_name = "MEASURE",
+        help = "The measure that they were selected for: pgv, pga, sa_1s (SA at 0.5 s is sa_0p5s), ..."
+    )]
     measure: IntensityMeasure,
     /// The level of each file, in their order, in cm/s or g; haselREC and Djura write it themselves
     #[arg(long = "level", value_name = "LEVEL,...", value_delimiter = ',', value_parser = number)]
