@@ -126,7 +126,8 @@ for im in measures:
             for index, size in enumerate(sizes):
                 for word, name in zip(("5 %", "median", "95 %"), limits):
                     assert band[(*found[0], size, word)] == list(bands[im, name][i, j, index])
-                for word, name in zip(("truth, lower", "truth, upper", "another set, lower", "another set, upper"), beyond):
+                words = ("truth, lower", "truth, upper", "another set, lower", "another set, upper")
+                for word, name in zip(words, beyond):
                     assert band[(*found[0], size, word)] == list(bands[im, name][i, j, index])
 rows = list(workbook["Flags and tails"].iter_rows(values_only=True))
 heads = [tuple(row[column] for row in rows[:3]) + (rows[4][column],) for column in range(1, len(rows[0]))]

@@ -20,8 +20,8 @@ pub struct InferredLimits {
 /// A displacement c belongs to the band of a target rate λ* where λ(c), a mean over the units, does not differ from λ*
 /// by more than chance allows ([`SkewedMean`]): the interval of a quantile by inverting that of its probability
 /// (Woodruff, 1952). The band runs from the largest such displacement down to where λ(c) first differs too much: λ(c)
-/// rises as c falls, and what single motions at frequent levels add to its scatter further down brings nothing back. No resampling takes part, and no
-/// transformation of the displacement changes the band.
+/// rises as c falls, and what single motions at frequent levels add to its scatter further down brings nothing back. No
+/// resampling takes part, and no transformation of the displacement changes the band.
 ///
 /// - `units`: the records of each unit, `[unit]`, by their positions; each record in one of them.
 /// - `targets_per_year`: target rates λ*, 1/yr.

@@ -70,7 +70,7 @@ pub struct WidestInferred {
 impl InferredBands {
     /// Those of all records, then those of another set, each the lower one before the upper one.
     pub(crate) fn limits_m(&self) -> [&Array<4>; 4] {
-        let [[a, b], [c, d]] = [&self.truth_m, &self.prediction_m].map(|of| of.each_ref());
+        let [[a, b], [c, d]] = [&self.truth_m, &self.prediction_m].map(<[Array<4>; 2]>::each_ref);
         [a, b, c, d]
     }
 
