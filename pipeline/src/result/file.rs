@@ -147,7 +147,7 @@ impl ResultFile {
         let axes = self.axes()?;
         if axes.sites.is_empty() {
             return Err(self.fail(
-                "the study has no [[sites]], and so no spectra here (those of a table of sites are in the CSV beside): \
+                "the study has no sites, and so no spectra here (those of a table of sites are in the CSV beside it): \
                  add [[sites]] and run it again",
             ));
         }
