@@ -178,6 +178,30 @@ fn earthquakes_are_drawn_with_all_their_records() {
     study.uplift(&["bootstrap", "o.h5", "--unit", "event"]).fails(2, &["all records are of one earthquake"]);
 }
 
+// A pair of twins knows no more than one of them: the bands are those of one component.
+#[test]
+fn components_of_a_pair_scatter_together() {
+    let study = SmallStudy::new();
+    study.uplift(&["records", "synthesize", "--count", "6", "-o", "set", "-q"]).ok();
+    for record in 1..=6 {
+        let [first, second] = ["H1", "H2"].map(|which| study.path().join(format!("set/SYN00{record}_{which}.AT2")));
+        std::fs::copy(first, second).unwrap();
+    }
+    let bands_of = |component: &str, size: &str| {
+        let result = format!("{component}.h5");
+        let component = format!("records.component={component}");
+        let set = ["--set", "records.manifest=set/manifest.csv", "--set", "records.first=6", "--set", &component];
+        study.uplift(&[&["run", "study.toml", "-o", &result, "-q"][..], &set].concat()).ok();
+        study.uplift(&["bootstrap", &result, "-q", "--sizes", size, "--replicates", "50"]).ok();
+        ["u05_m", "truth_lower_m", "truth_upper_m", "prediction_lower_m", "prediction_upper_m"]
+            .map(|name| array(&study.path().join(&result), &format!("/bootstrap/pgv/{name}")))
+    };
+    let ([drawn, one @ ..], [drawn_alone, both @ ..]) = (bands_of("h1", "6"), bands_of("both", "12"));
+    assert!(one.iter().zip(&both).all(|(one, both)| same_bits(one, both)), "{one:?}\n{both:?}");
+    assert!(one.iter().flatten().all(|limit| !limit.is_nan()));
+    assert!(!same_bits(&drawn, &drawn_alone), "components are drawn one by one");
+}
+
 /// The number in "12 of 100 strengths are kept".
 fn kept_strengths(said: &str) -> usize {
     let words: Vec<&str> = said.split_whitespace().collect();

@@ -109,7 +109,7 @@ fn from_any_checkpoint_it_ends_with_the_same_bits() {
         // the only shard of one has all rows, and is what the checkpoint of a run would be at its end
         study.uplift(&["run", "study.toml", "--shard", "1/1", "-o", "all", "-q"]).ok();
         let rows = std::fs::read(study.path().join("all")).unwrap();
-        for share in 0..=8 {
+        for share in [0, 1, 4, 7, 8] {
             study.write_bytes("r.h5.part", &rows[..rows.len() * share / 8]);
             let threads = ["1", "3"][share % 2];
             let done = study.uplift(&["run", "study.toml", "-o", "r.h5", "--threads", threads]).ok();
@@ -124,7 +124,7 @@ fn from_any_checkpoint_it_ends_with_the_same_bits() {
 #[test]
 fn an_interrupted_run_says_so_and_goes_on() {
     // a study of some seconds of work on one thread
-    let text = OSCILLATORS.replace("pairs = 3", "pairs = 30").replace("0.1:0.1:0.3", "0.1:0.002:0.5");
+    let text = OSCILLATORS.replace("pairs = 3", "pairs = 30").replace("0.1:0.1:0.3", "0.1:0.004:0.5");
     let study = SmallStudy::with(&text);
     let mut child = command(study.path())
         .args(["run", "study.toml", "-o", "r.h5", "--threads", "1"])

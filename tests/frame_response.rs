@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use crate::common::{Finished, uplift};
+use crate::common::{Finished, repository, uplift};
 
 /// A frame of three columns without restrainers, cylinders.
 const FREE: &str = "kind = \"frame\"\ncolumns = 3\nwidth_m = 0.2\nheight_m = 1.6\ncolumn_mass_kg = 200\n\
@@ -207,4 +207,37 @@ fn what_is_typed_wrong_is_told() {
     shaken(at, "held.toml", &["--h1", "a.txt", "--gravity-m-s2", "9"]).fails(2, &["--gravity-m-s2"]);
     shaken(at, "held.toml", &["--v", "up.txt", "--h1", "up.txt", "--scale", "30"]).fails(2, &["leave the ground"]);
     uplift(at, &["response", "a.txt", "--h1", "b.txt"]).fails(2, &["--structure"]);
+}
+
+/// What is allowed but hardly meant is said, and what would have no effect is refused.
+#[test]
+fn slips_of_files_and_units() {
+    let folder = folder();
+    let notes =
+        |more: &[&str]| json(shaken(folder.path(), "held.toml", &[more, &["--json"]].concat()))["notes"].to_string();
+    let twice = notes(&["--h1", "a.txt", "--h2", "a.txt"]);
+    assert!(twice.contains("h1 and h2 are the same motion: is one of them a mistake?"), "{twice}");
+    let pair = notes(&["--h1", "a.txt", "--h2", "b.txt"]);
+    assert!(!pair.contains("the same motion") && !pair.contains("close by the upright"), "{pair}");
+    // a real frame under a record passes through a hundredth of its largest rotation
+    uplift(folder.path(), &["records", "synthesize", "-o", "d", "--count", "1", "-q"]).ok();
+    let prototype = repository().join("configs/structures/prototype.toml").display().to_string();
+    let ask = ["response", "--structure", &prototype, "--h1", "d/SYN001_H1.AT2", "--h2", "d/SYN001_H2.AT2", "--json"];
+    let record = json(uplift(folder.path(), &ask));
+    let (run, notes) = (&record["runs"][0], record["notes"].to_string());
+    assert!(number(run, "least_rotation_rad") < 0.01 * run["peak_rotation_rad"].as_f64().unwrap_or(f64::INFINITY));
+    assert!(notes.contains("passes close by the upright") && notes.contains("base shear"), "{notes}");
+    // a file that says its step and unit takes no other
+    let lines: Vec<String> = (0..200).map(|sample| format!("{:.5}", 0.2 * (0.05 * f64::from(sample)).sin())).collect();
+    let head = "PEER NGA\nSome Event, 1/2/1999, A Station, 90\nACCELERATION TIME SERIES IN UNITS OF G\n\
+                NPTS=   200, DT=   .0100 SEC\n";
+    std::fs::write(folder.path().join("a.AT2"), format!("{head}{}\n", lines.join(" "))).unwrap();
+    shaken(folder.path(), "held.toml", &["--h1", "a.AT2"]).fails(2, &["--dt-s and --unit", "a.AT2 (at2)", "its own"]);
+    // beside one that does not, they are for that one
+    shaken(folder.path(), "held.toml", &["--h1", "a.AT2", "--h2", "b.txt"]).ok();
+    for system in [&["--strength", "0.1"][..], &["--block", "--width-m", "0.2", "--height-m", "1.6"]] {
+        let ask = |more: &[&str]| uplift(folder.path(), &[&["response", "a.AT2"], system, more].concat());
+        ask(&["--unit", "g"]).fails(2, &["--unit of a record that says its own"]);
+        ask(&[]).ok();
+    }
 }

@@ -397,11 +397,12 @@ fn what_is_typed_wrong() {
         study.uplift(arguments).fails(code, words);
     };
     refused(&["pushover", "absent.toml"], 3, &["absent.toml"]);
-    refused(&["pushover", &column, "--to-m", "9"], 2, &["beyond the column's reach"]);
+    refused(&["pushover", &column, "--to-m", "9"], 2, &["a displacement of 9 m is beyond the column's reach"]);
     refused(&["pushover", &column, "--rows", "1"], 2, &["give from 2"]);
     refused(&["pushover", &column, "--stiffness-n-m=-3"], 2, &["`stiffness_n_m` is -3 N/m"]);
     refused(&["pushover", "study.toml"], 3, &["it is a study, and a structure is wanted"]);
     refused(&["protocol", "--first", "0"], 2, &["`first` is 0: it must be finite and positive"]);
+    refused(&["protocol", "--first", "0.36"], 2, &["`last amplitude` is 15.", "a ratio, not per cent"]);
     refused(&["protocol", "--parts", "4000000000"], 2, &["a million points"]);
     study.write(
         "body.toml",
@@ -409,7 +410,12 @@ fn what_is_typed_wrong() {
     );
     refused(&["pushover", "body.toml"], 2, &["kind \"body\" has none"]);
     refused(&["restrainer", "curve", "body.toml"], 3, &["the file has no restrainer"]);
-    refused(&["restrainer", "curve", &column, "--to-m", "0"], 2, &["an elongation of 0 m"]);
+    refused(
+        &["restrainer", "curve", &column, "--to-m", "0"],
+        2,
+        &["the elongation is 0 m: it must be from 1e-6 to 10 m"],
+    );
+    refused(&["restrainer", "curve", &column, "--to-m", "100"], 2, &["the elongation is 100 m", "in m, not in mm"]);
     let text = std::fs::read_to_string(&column).unwrap();
     study.write("stop.toml", &text.replace("anchorage = \"column\"", "anchorage = \"column\"\nwhen_flat = \"stop\""));
     refused(&["pushover", "stop.toml", "--to-m", "0.9"], 2, &["springs are flat, met at a displacement of"]);

@@ -125,6 +125,7 @@ fn a_folder_of_downloads_becomes_a_manifest() {
         ("dt_h1_s", "0.01"),
         ("points_h1", "3000"),
         ("direction_h2", "90"),
+        ("file_v", "RSN12_EVENT_STA-UP.AT2"),
         ("pulse_like", "no"),
     ] {
         assert_eq!(first[column], value, "{column}");

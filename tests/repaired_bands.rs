@@ -63,7 +63,7 @@ fn a_replicate_is_weighed_by_weights_of_its_own() {
         for (size, sample) in plan.samples().iter().enumerate() {
             let drawn = sample.multiplicities();
             let fit = solver.solve(drawn, &of_set.exponents, &mut scratch).unwrap();
-            let mut shares = analysis.even_shares();
+            let mut shares = analysis.own_shares();
             solver.shares(drawn, &fit.exponents, &mut scratch, &mut shares).unwrap();
             let weights = RunWeights::new(analysis.stripes(), &shares).unwrap();
             for strength in 0..2 {

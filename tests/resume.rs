@@ -100,7 +100,7 @@ fn killed(times: u32) {
 
 #[test]
 fn killed_at_any_moment_it_goes_on_and_ends_with_the_same_bits() {
-    killed(60);
+    killed(30);
 }
 
 #[test]

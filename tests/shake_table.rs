@@ -1,14 +1,23 @@
 //! Studies of a shaking table: the order of Table A1.1, one test by hand, what takes a result, what is typed wrong.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use serde_json::Value;
 use uplift_labelled::LabelledReader;
 
-use crate::common::{SmallStudy, real_records, repository, uplift};
+use crate::common::{SmallStudy, python, real_records, repository, uplift};
 
-/// How far our order of the tests agrees with the printed one; none without real records.
-pub fn order_of_chapter_6() -> Option<Value> {
+/// The tests of Chapter 6 under the real records, a row each as `t.tests.csv` has it by its header; none without them.
+pub fn tests_of_chapter_6() -> Option<Vec<BTreeMap<String, String>>> {
+    let folder = run_chapter_6()?;
+    let text = std::fs::read_to_string(folder.path().join("real.tests.csv")).unwrap();
+    let mut lines = text.lines().map(|line| line.split(',').map(str::to_owned).collect::<Vec<String>>());
+    let header = lines.next().unwrap();
+    Some(lines.map(|cells| header.iter().cloned().zip(cells).collect()).collect())
+}
+
+fn run_chapter_6() -> Option<tempfile::TempDir> {
     let manifest = format!("records.manifest={}", real_records()?.join("manifest.csv").display());
     let place = |name: &str| repository().join(name).display().to_string();
     let excitations = format!("excitations={}", place("configs/shake-table/excitations.csv"));
@@ -16,7 +25,13 @@ pub fn order_of_chapter_6() -> Option<Value> {
     let study = place("configs/shake-table.toml");
     let arguments = ["run", &study, "-o", "real.h5", "--set", &manifest, "--set", &excitations, "-q"];
     uplift(folder.path(), &arguments).ok();
-    let printed = place("tests/reference/table_a1_1.csv");
+    Some(folder)
+}
+
+/// How far our order of the tests agrees with the printed one; none without real records.
+pub fn order_of_chapter_6() -> Option<Value> {
+    let folder = run_chapter_6()?;
+    let printed = repository().join("tests/reference/table_a1_1.csv").display().to_string();
     let table = uplift(folder.path(), &["table", "real.h5", "--reference", &printed, "--json"]).ok().stdout;
     Some(serde_json::from_str::<Value>(&table).unwrap()["rows"]["agreement"].clone())
 }
@@ -144,9 +159,40 @@ fn what_takes_a_result() {
         assert_eq!(group["kolmogorov_smirnov"]["distance"], 0.0, "{group}");
         assert_eq!(group["pairs"]["within_1_5"], 1.0);
     }
+    exported(&study);
     study.uplift(&["bootstrap", "t.h5"]).fails(4, &["holds the tests of a shaking table"]);
     study.uplift(&["run", "table.toml", "--shard", "1/2", "-o", "1.part"]).fails(2, &["take seconds"]);
     study.uplift(&["table", "t.h5", "--reference", "t.tests.csv"]).ok();
+}
+
+/// The tests in every format of other programs.
+fn exported(study: &SmallStudy) {
+    let own = std::fs::read_to_string(study.path().join("t.tests.csv")).unwrap();
+    study.uplift(&["export", "t.h5", "--csv", "--json", "--mat", "--xlsx"]).ok();
+    assert_eq!(std::fs::read_to_string(study.path().join("t.tests.csv")).unwrap(), own);
+    let json: Value = serde_json::from_str(&std::fs::read_to_string(study.path().join("t.json")).unwrap()).unwrap();
+    let u_m = array(study, "t.h5", "u_m");
+    let tests = json["shake_table"]["tests"].as_array().unwrap();
+    assert_eq!((tests.len(), json["order"].as_array().unwrap().len()), (8, 8));
+    for (test, u_m) in tests.iter().zip(&u_m) {
+        assert_eq!(test["u_m"].as_f64().unwrap_or(f64::INFINITY).to_bits(), u_m.to_bits());
+    }
+    let read = "import scipy.io, sys; of = scipy.io.loadmat('t.mat'); print(of['u_m'].shape, of['u_m'][1, 1], \
+                of['pgv_srss_m_s'][1, 0], of['exc_id'][1, 0][0])";
+    if let Some(python) = python() {
+        let done = std::process::Command::new(python).current_dir(study.path()).args(["-c", read]).output().unwrap();
+        let told = String::from_utf8(done.stdout).unwrap();
+        // the second excitation at the second level
+        assert_eq!(told.trim(), format!("(4, 2) {:?} 0.6 SYN002", u_m[5]), "{}", String::from_utf8_lossy(&done.stderr));
+    }
+    let sheets = "import openpyxl; of = openpyxl.load_workbook('t.xlsx')['Tests']; print(of.max_row, of['A2'].value)";
+    if let Some(python) = python() {
+        let done = std::process::Command::new(python).current_dir(study.path()).args(["-c", sheets]).output().unwrap();
+        let told = String::from_utf8(done.stdout).unwrap();
+        let order = json["order"][0].to_string();
+        assert_eq!(told.trim(), format!("9 {order}"), "{}", String::from_utf8_lossy(&done.stderr));
+    }
+    study.uplift(&["export", "t.h5", "--csv", "--poe", "0.02"]).fails(2, &["have no risk"]);
 }
 
 /// Excitations by a table; structures that cannot stand there.

@@ -34,11 +34,34 @@ fn every_variant_is_the_result_of_its_own_run() {
     }
     // the table has a row an ordinate: 2 measures, 2 sites, the study's probabilities, and 1 or 2 strengths
     let table = std::fs::read_to_string(study.path().join("s/comparison.csv")).unwrap();
-    let rows = variants
+    let rows: usize = variants
         .iter()
-        .map(|variant| variant["strengths"].as_array().unwrap().len() * variant["spectra"].as_array().unwrap().len());
-    assert_eq!(table.lines().count(), 1 + rows.sum::<usize>());
-    assert!(table.starts_with("variant,oscillator.restitution,strengths.values,site,im,poe,years,strength,u_m\n"));
+        .map(|variant| variant["strengths"].as_array().unwrap().len() * variant["spectra"].as_array().unwrap().len())
+        .sum();
+    assert_eq!(table.lines().count(), 1 + rows);
+    let columns = "variant,oscillator.restitution,strengths.values,site,im,poe,years,strength,u_m,over_first,flag,\
+                   lower_tail_share,upper_tail_share,cautions\n";
+    assert!(table.starts_with(columns), "{table}");
+    let said = table.lines().nth(1).unwrap();
+    assert!(said.contains(",regular,") && said.contains("synthetic-records"), "{said}");
+    // every ordinate over that of the first variant, which has the strength of 0.1 alone
+    let (mut compared, mut first) = (0, std::collections::BTreeMap::new());
+    for (row, line) in table.lines().skip(1).enumerate() {
+        let site = if line.contains(",Here,") { ",Here," } else { ",There," };
+        let cells: Vec<&str> = line.split_once(site).unwrap().1.split(',').collect();
+        // measure, probability, years, strength
+        let key = (site, cells[..4].to_vec());
+        let u_m: f64 = cells[4].parse().unwrap();
+        if row < 12 {
+            first.insert(key.clone(), u_m);
+        }
+        match first.get(&key).map(|first| u_m / first).filter(|ratio| !ratio.is_nan()) {
+            Some(expected) => assert!((cells[5].parse::<f64>().unwrap() / expected - 1.0).abs() < 1e-12, "{line}"),
+            None => assert_eq!(cells[5], "", "{line}"),
+        }
+        compared += usize::from(!cells[5].is_empty());
+    }
+    assert!(compared > 12 && compared < rows, "{compared}");
     let figure = std::fs::read_to_string(study.path().join("s/comparison.svg")).unwrap();
     assert!(figure.contains("restitution-0.85_values-0.1"));
 }
@@ -73,8 +96,26 @@ fn a_table_of_cases_names_its_results() {
     assert_eq!(found["variants"][1]["values"], serde_json::json!([null, "0.7"]));
     assert!(study.path().join("s/lossy.h5").exists());
     study.write("bad.csv", "name,records.first\na/b,2\nx,3\nx,4\n");
-    let bad = ["sweep", "study.toml", "--cases", "bad.csv"];
-    study.uplift(&bad).fails(4, &["a/b", "\"x\" is given twice"]);
+    let bad = ["sweep", "study.toml", "--cases", "bad.csv", "-o", "bad"];
+    study.uplift(&bad).fails(4, &["a/b", "row 3: name \"x\" is given twice"]);
+    // each mistake by its row and column, in our words
+    for (table, code, words) in [
+        ("name,records.first\nx,3\nX,4\n", 4, &["row 2: name \"X\" is given twice, capitals apart"][..]),
+        ("name,records.first\nx,2\ny,3,4\n", 4, &["line 3: it has 3 cells, and the header has 2 columns"]),
+        ("name\n\"a\n", 4, &["line 2: a quote (\") is opened and not closed"]),
+        ("", 4, &["it is empty"]),
+        ("risk.years,risk.years\n1,2\n", 4, &["column risk.years is given twice"]),
+        (
+            "records.frist,oscillator.restitution\n2,0.9\n,1.5\n",
+            2,
+            &["bad.csv, row 1, column records.frist", "bad.csv, row 2, column oscillator.restitution"],
+        ),
+        ("records.first,seed\n2,\n3,\n,\n2,\n", 2, &["first-2", "are the same study: leave one of them out"]),
+    ] {
+        study.write("bad.csv", table);
+        study.uplift(&bad).fails(code, words);
+    }
+    assert!(!study.path().join("bad").exists());
 }
 
 #[test]
@@ -102,6 +143,47 @@ fn all_mistakes_of_all_variants_are_told_before_anything_is_computed() {
 }
 
 #[test]
+fn variants_that_compare_nothing_are_refused_in_words() {
+    let study = SmallStudy::new();
+    let refused = |over: &[&str], words: &str| {
+        let over = over.iter().flat_map(|over| ["--over", over]).collect::<Vec<_>>();
+        study.uplift(&[&["sweep", "study.toml", "-o", "s"][..], &over].concat()).fails(2, &[words]);
+    };
+    refused(&["seed=1,2"], "spectra are the same for all its values");
+    refused(&["output.file=\"a.h5\",\"b.h5\""], "lie in its folder (-o)");
+    refused(&["oscillator.restitution=0.9,0.90"], "are the same study");
+    refused(&["oscillator.restitution=0.8,0.9", "sites=[]"], "the study names none");
+    assert!(!study.path().join("s").exists());
+    // components that a seed draws differ
+    let drawn = ["sweep", "study.toml", "-o", "s", "-q", "--set", "records.component=random", "--over", "seed=1,2"];
+    study.uplift(&drawn).ok();
+}
+
+#[test]
+fn repaired_spectra_are_compared_too() {
+    let study = SmallStudy::repaired();
+    let found = json(&study, &["--over", "oscillator.restitution=0.85,0.95", "--force"]);
+    for variant in found["variants"].as_array().unwrap() {
+        let own = study.path().join(variant["result"].as_str().unwrap());
+        let repaired: Vec<f64> = variant["spectra"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .flat_map(|spectrum| spectrum["repaired_m"].as_array().unwrap())
+            .map(|u_m| u_m.as_f64().unwrap_or(f64::NAN))
+            .collect();
+        let stored = ["pgv", "pga"].map(|key| array(&own, &format!("/consistency/{key}/u_m"))).concat();
+        assert_eq!(repaired.len(), stored.len());
+        let same = |(a, b): (&f64, &f64)| a.to_bits() == b.to_bits() || !b.is_finite();
+        assert!(repaired.iter().zip(&stored).all(same) && stored.iter().any(|u_m| u_m.is_finite()));
+    }
+    let table = std::fs::read_to_string(study.path().join("s/comparison.csv")).unwrap();
+    assert!(table.lines().next().unwrap().contains(",u_m,over_first,u_consistent_m,flag,"), "{table}");
+    let figure = std::fs::read_to_string(study.path().join("s/comparison.svg")).unwrap();
+    assert!(figure.contains(", repaired"));
+}
+
+#[test]
 fn nothing_of_others_is_replaced() {
     let study = SmallStudy::new();
     let ask = ["sweep", "study.toml", "-o", "s", "--over", "oscillator.restitution=0.85,0.95", "-q"];
@@ -113,4 +195,11 @@ fn nothing_of_others_is_replaced() {
     study.uplift(&ask).fails(4, &["restitution-0.95", "is not an HDF5 file"]);
     assert!(!study.path().join("s/restitution-0.85.h5").exists());
     study.uplift(&[&ask[..], &["--force"]].concat()).ok();
+    // the comparison of other variants stays, and that of the same ones is made again
+    study.uplift(&ask).ok();
+    let other = ["sweep", "study.toml", "-o", "s", "--over", "oscillator.restitution=0.7,0.8", "-q"];
+    let kept = std::fs::read(study.path().join("s/comparison.csv")).unwrap();
+    study.uplift(&other).fails(2, &["comparison.csv compares other variants", "--force"]);
+    assert_eq!(std::fs::read(study.path().join("s/comparison.csv")).unwrap(), kept);
+    study.uplift(&[&other[..], &["--force"]].concat()).ok();
 }

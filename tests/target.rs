@@ -176,3 +176,30 @@ fn ctrl_c_leaves_a_checkpoint() {
     assert!(!checkpoint.exists());
     assert_eq!(resumed.stdout, study.uplift(&ask).ok().stdout);
 }
+
+#[test]
+fn a_refusal_leaves_nothing_behind_and_says_what_is_probably_mistaken() {
+    let study = study();
+    // columns of a kilogram
+    study.write("frame.toml", &frame(40.0).replace("column_mass_kg = 1000", "column_mass_kg = 1"));
+    let ask =
+        |more: &[&str]| study.uplift(&[&["target", "frame.toml", "--urs", "r.h5", "--vary", "width"], more].concat());
+    let told = ask(&["--overturning", "2e-3", "--from", "40", "--to", "60"])
+        .fails(2, &["met at every width", "less than", "mistake? ", "column_mass_kg over the square of the width"]);
+    assert!(!told.stderr.contains("0.000e0"), "{}", told.stderr);
+    ask(&["--overturning", "2e-3", "--to", "0.2", "--from", "0.1"]).fails(2, &["missed at every width"]);
+    let left = std::fs::read_dir(study.path()).unwrap().map(|file| file.unwrap().file_name().into_string().unwrap());
+    let left: Vec<String> = left.filter(|name| name.contains(".part")).collect();
+    assert!(left.is_empty(), "{left:?}");
+}
+
+#[test]
+fn what_the_result_was_made_from_is_never_replaced() {
+    let study = study();
+    let curve = std::fs::read(study.path().join("pga.csv")).unwrap();
+    for (command, more) in [("target", &["--vary", "width", "--overturning", "2e-3"][..]), ("overturning", &[])] {
+        let ask = [&[command, "frame.toml", "--urs", "r.h5", "-o", "pga.csv", "--force"], more].concat();
+        study.uplift(&ask).fails(2, &["pga.csv would overwrite an input"]);
+    }
+    assert_eq!(std::fs::read(study.path().join("pga.csv")).unwrap(), curve);
+}

@@ -93,6 +93,10 @@ fn pairs_by_key() {
     close(&high["kolmogorov_smirnov"]["distance"], 1.0 / 3.0);
     close(&high["censored"]["ks_distance_at_limits"], 1.0 / 3.0);
     assert_eq!(high["wasserstein"], Value::Null);
+    // 60, >80, ∞: above 80, and no error of it
+    assert_eq!((&high["median_measured"], &high["median_measured_above"]), (&Value::Null, &Value::from(0.08)));
+    close(&high["median_computed"], 0.085);
+    assert_eq!((&high["median_error"], &high["median_error_band"]), (&Value::Null, &Value::Null));
     assert_eq!(high["pairs"]["collapses"]["both"], 1);
     // the collapse of both agrees, 85 beside 60 lies within 1.5; >80 beside 70 agrees with nothing
     close(&high["pairs"]["within_1_5"], 2.0 / 3.0);
@@ -110,6 +114,8 @@ fn pairs_by_key() {
         "p swaps",
         "pairs by exc_id",
         "FF, low",
+        ">0.0800",
+        "known to be above that with them at their limits",
     ] {
         assert!(told.contains(words), "{words} is not in\n{told}");
     }
@@ -196,6 +202,9 @@ fn mistakes() {
     run(&["good.csv", "good.csv", "--key", "motion"]).fails(4, &["no column motion, which --key names"]);
     study.write("other.csv", "exc_id,u_m\n77,0.1\n");
     run(&["good.csv", "other.csv", "--key", "exc_id,level"]).fails(4, &["no column level"]);
+    study.write("blank.csv", "exc_id,level,u_m\n1,low,\n2,low,nan\n");
+    run(&["blank.csv", "good.csv", "--by", "level"])
+        .fails(4, &["measured blank.csv: no row has a value in its column u_m"]);
     study.write("low.csv", "exc_id,level,u_m\n77,low,0.1\n");
     run(&["low.csv", "good.csv", "--by", "level"]).fails(4, &["no row in common", "77, low", "1, low"]);
     run(&["good.csv", "good.csv", "--by", "level", "--significance", "10", "--replicates", "0"])

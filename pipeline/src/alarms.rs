@@ -35,6 +35,7 @@ use crate::result::{Kind, ResultFile};
 pub(crate) use evidence::{Evidence, Scope};
 pub use fit::{FitReach, reach_of_fit};
 pub(crate) use hazard::{look_like_probabilities, what_of_probabilities};
+pub(crate) use inputs::OF_FAR_FACTORS;
 pub(crate) use numbers::of_numbers;
 pub(crate) use structure::{OwnRisk, of_own_demand, of_own_risks, of_safety_factor, of_structure};
 

@@ -20,6 +20,7 @@ use uplift_spectra::SpectraError;
 use uplift_statics::StaticsError;
 use uplift_structure::StructureError;
 use uplift_study::StudyError;
+use uplift_uncertainty::UncertaintyError;
 
 use crate::text::one_line;
 
@@ -94,6 +95,9 @@ pub enum UpliftError {
     /// Resamples that cannot be drawn.
     #[error(transparent)]
     Bootstrap(#[from] BootstrapError),
+    /// Structures that cannot be drawn.
+    #[error(transparent)]
+    Uncertainty(#[from] UncertaintyError),
     /// A displacement spectrum that cannot be computed; one that was told to stop is
     /// [`Interrupted`](Self::Interrupted).
     #[error(transparent)]

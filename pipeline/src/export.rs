@@ -1,21 +1,25 @@
-//! Spectra, bands and coefficients for other programs: a tidy table, JSON, a MATLAB file, a workbook.
+//! Spectra, bands and coefficients, or the tests of a shaking table, for other programs: a tidy table, JSON, a MATLAB
+//! file, a workbook.
 
 mod added;
 mod consistency;
 mod json;
 mod matlab;
+mod shake_table;
 mod source;
 mod table;
 mod workbook;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::outputs::{self, Output, OutputKind, beside};
-use crate::result::{AskedRisk, ResultFile, write_atomically, write_table};
+use crate::result::{AskedRisk, Kind, ResultFile, write_atomically, write_table};
+use crate::shake_table::TESTS_COLUMN;
+use shake_table::TestsExport;
 pub use source::Export;
 
 /// Formats of other programs.
@@ -32,9 +36,10 @@ pub enum ExportFormat {
 }
 
 impl ExportFormat {
-    /// How the files end that are named after the result.
-    pub fn extension(self) -> &'static str {
+    /// How the files end that are named after a result of this kind.
+    pub fn extension(self, of: Kind) -> &'static str {
         match self {
+            Self::Csv if of == Kind::ShakeTable => "tests.csv",
             Self::Csv => "spectra.csv",
             Self::Json => "json",
             Self::Matlab => "mat",
@@ -42,8 +47,9 @@ impl ExportFormat {
         }
     }
 
-    fn kind(self) -> OutputKind {
+    fn kind(self, of: Kind) -> OutputKind {
         match self {
+            Self::Csv if of == Kind::ShakeTable => OutputKind::Table(TESTS_COLUMN),
             Self::Csv => OutputKind::Table("fit_m"),
             Self::Json => OutputKind::Json,
             Self::Matlab => OutputKind::Matlab,
@@ -83,29 +89,58 @@ pub fn export(options: &ExportOptions, events: &dyn Events) -> Result<ExportRepo
     if options.formats.is_empty() || (options.output.is_some() && options.formats.len() > 1) {
         return Err(UpliftError::Usage("say --csv, --json, --mat or --xlsx; -o goes with one of them".to_owned()));
     }
-    let file =
-        |format: &ExportFormat| options.output.clone().unwrap_or_else(|| beside(&options.result, format.extension()));
-    let output = |format| Output::new(file(format), format.kind()).of(&options.result);
+    let result = ResultFile::open(&options.result)?;
+    let kind = result.kind();
+    let file = |format: &ExportFormat| {
+        options.output.clone().unwrap_or_else(|| beside(&options.result, format.extension(kind)))
+    };
+    let output = |format: &ExportFormat| Output::new(file(format), format.kind(kind)).of(&options.result);
     let outputs: Vec<Output> = options.formats.iter().map(output).collect();
-    let result = ResultFile::open(&options.result)?.at(&options.risk)?;
+    if kind == Kind::ShakeTable {
+        if options.risk != AskedRisk::default() {
+            return Err(UpliftError::Usage(
+                "the tests of a shaking table have no risk: leave --poe and the like out".into(),
+            ));
+        }
+        outputs::check(&outputs, &[&options.result], options.force)?;
+        let export = TestsExport::of(&result)?;
+        return write_each(&options.formats, file, events, |format, file| match format {
+            ExportFormat::Csv => write_table(file, &export.provenance, export.columns()),
+            ExportFormat::Json => write_atomically(file, format!("{:#}\n", export.json()).as_bytes()),
+            ExportFormat::Matlab => write_atomically(file, &export.matlab()?),
+            ExportFormat::Workbook => write_atomically(file, &export.workbook()?),
+        });
+    }
+    let result = result.at(&options.risk)?;
     outputs::check(&outputs, &[&options.result], options.force)?;
     let result = result.resampled(events)?;
     let export = Export::of(&result)?;
+    let report = write_each(&options.formats, file, events, |format, file| match format {
+        ExportFormat::Csv => write_table(file, export.provenance(), export.columns()),
+        ExportFormat::Json => write_atomically(file, format!("{:#}\n", export.json()).as_bytes()),
+        ExportFormat::Matlab => write_atomically(file, &export.matlab()?),
+        ExportFormat::Workbook => write_atomically(file, &export.workbook()?),
+    })?;
+    // after what was written anew
+    result.tell_made_of_another(events)?;
+    Ok(report)
+}
+
+/// Writes each of the `formats` to its file, unless `events` stop it before.
+fn write_each(
+    formats: &[ExportFormat],
+    file: impl Fn(&ExportFormat) -> PathBuf,
+    events: &dyn Events,
+    write: impl Fn(&ExportFormat, &Path) -> Result<(), UpliftError>,
+) -> Result<ExportReport, UpliftError> {
     let mut files = Vec::new();
-    for format in &options.formats {
+    for format in formats {
         if events.cancelled() {
             return Err(UpliftError::Interrupted);
         }
         let file = file(format);
-        match format {
-            ExportFormat::Csv => write_table(&file, export.provenance(), export.columns())?,
-            ExportFormat::Json => write_atomically(&file, format!("{:#}\n", export.json()).as_bytes())?,
-            ExportFormat::Matlab => write_atomically(&file, &export.matlab()?)?,
-            ExportFormat::Workbook => write_atomically(&file, &export.workbook()?)?,
-        }
+        write(format, &file)?;
         files.push(file);
     }
-    // after what was written anew
-    result.tell_made_of_another(events)?;
     Ok(ExportReport { files })
 }

@@ -12,6 +12,7 @@ mod record_sets;
 pub mod selection;
 mod site_table;
 pub(crate) mod text_table;
+mod third_component;
 
 pub use at_level::AtLevel;
 pub use file_options::FileOptions;
@@ -22,3 +23,4 @@ pub(crate) use record_set::{read_measured, read_with_pairs};
 pub use record_sets::{NamedSet, RecordSets, SetRecord, read_record_sets};
 pub(crate) use record_sets::{is_numbered, read_sets};
 pub use site_table::{BatchSite, ListedSite, SiteCurves, SiteExport, SiteList, read_site_list};
+pub use third_component::Vertical;

@@ -11,7 +11,6 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 use uplift_ida::{IdaError, System};
-use uplift_motion::Accelerogram;
 use uplift_oscillator::{Excitation, FreeVibration, Oscillator, PostUplift, respond, respond_with_history};
 use uplift_plausible::{
     CAPACITY, POST_UPLIFT_STIFFNESS, RESTITUTION, STRENGTH, UPLIFT_DISPLACEMENT, USUAL_CAPACITY, USUAL_RESTITUTION,
@@ -162,7 +161,9 @@ pub fn response(options: &ResponseOptions) -> Result<ResponseReport, UpliftError
     let shaking = &options.shaking;
     let motion = shaking.read()?;
     let excitation = Excitation::new(motion.dt_s(), motion.acceleration_m_s2())?.scaled(shaking.scale)?;
-    refuse_endless(&oscillator, &motion, shaking.free_vibration_s)?;
+    oscillator
+        .check_run_length(motion.duration_s() + shaking.free_vibration_s, motion.dt_s())
+        .map_err(|error| UpliftError::Usage(error.to_string()))?;
     let (result, history) = if shaking.wants_history() {
         let (result, history) = respond_with_history(&oscillator, &excitation, after);
         (result, Some(ResponseHistory::of(&history, &excitation)))
@@ -200,22 +201,4 @@ pub fn response(options: &ResponseOptions) -> Result<ResponseReport, UpliftError
         history.write(file, &report)?;
     }
     Ok(report)
-}
-
-/// Steps of a run, at most: some seconds, and a time history of a gigabyte.
-const MOST_STEPS: f64 = 1e7;
-
-/// Refuses a motion of more steps than that: its samples, and the half cycles of the stiffest branch.
-fn refuse_endless(oscillator: &Oscillator, motion: &Accelerogram, free_s: f64) -> Result<(), UpliftError> {
-    let duration_s = motion.duration_s() + free_s;
-    let half_cycles = oscillator.highest_frequency_rad_s() * duration_s / std::f64::consts::PI;
-    let steps = duration_s / motion.dt_s() + half_cycles;
-    if steps <= MOST_STEPS {
-        return Ok(());
-    }
-    Err(UpliftError::Usage(format!(
-        "{duration_s} s of motion are {steps:.1e} steps of {} s and half cycles of the oscillator: {MOST_STEPS:e} are \
-         computed at most; follow the free vibration for a shorter time, or give a softer system",
-        motion.dt_s()
-    )))
 }

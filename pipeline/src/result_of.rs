@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use uplift_study::{AnyStudy, UniformRiskStudy};
 
-use crate::checkpoint::{motion_key, oscillator_key};
+use crate::checkpoint::oscillator_key;
 use crate::error::UpliftError;
 use crate::events::{Events, Silent};
 use crate::frame::RunOptions;
@@ -80,7 +80,7 @@ fn refuse_other_question(study: &UniformRiskStudy, path: &Path) -> Result<(), Up
 /// them.
 fn is_of_records(file: &ResultFile, study: &UniformRiskStudy, records: &[Record]) -> Result<bool, UpliftError> {
     let kept = file.records()?;
-    let motions: Vec<String> = records.iter().map(|record| motion_key(&record.accelerogram)).collect();
+    let motions: Vec<String> = records.iter().map(Record::motion_key).collect();
     let same = |kept: &[f64], own: &dyn Fn(&Record) -> f64| {
         kept.iter().map(|value| value.to_bits()).eq(records.iter().map(|record| own(record).to_bits()))
     };

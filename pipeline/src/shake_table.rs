@@ -10,7 +10,7 @@ mod tests_of_table;
 mod write;
 
 pub use crate::result::{Excitation, ShakeTable, TableLevel, TableTest};
-pub(crate) use csv::{columns, tables};
+pub(crate) use csv::{COLUMN as TESTS_COLUMN, columns, tables};
 pub use csv::{shake_table_csv_path, write_shake_table_csv};
 pub(crate) use inputs::Inputs;
 pub use plan::Plan;

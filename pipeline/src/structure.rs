@@ -7,6 +7,7 @@ mod collapse;
 mod demand;
 mod design;
 mod frame_risk;
+mod inputs;
 mod models;
 mod overturning;
 mod report;
@@ -17,6 +18,7 @@ mod spectrum;
 mod sweep;
 mod tables;
 mod target;
+mod uncertain;
 mod weights;
 
 pub use certainty::{DemandBands, RateBands};
@@ -38,4 +40,8 @@ pub use spectrum::SpectrumDemand;
 pub use target::{
     Crossing, FoundSystem, GenericTarget, LevelShare, TargetBand, TargetEvent, TargetFrequency, TargetOptions,
     TargetReport, TriedValue, target,
+};
+pub use uncertain::{
+    AleatoryResult, EpistemicResult, QuantityReport, Spread, UncertainFinding, UncertainResult, UncertaintyReport,
+    VarianceShare,
 };

@@ -11,14 +11,17 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
+use sha2::{Digest, Sha256};
+use uplift_labelled::hexadecimal;
 use uplift_study::{AnyStudy, Study, StudyError, UniformRiskStudy};
 
+use crate::alarms::{Alarm, Severity, alarms};
 use crate::checkpoint::oscillator_key;
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::frame::RunOptions;
 use crate::outputs::{self, Output, OutputKind};
-use crate::result::ResultFile;
+use crate::result::{ResultFile, flag_word};
 use crate::result_of::result_of;
 use crate::shard::check_inputs;
 use crate::uniform_risk::Inputs;
@@ -78,6 +81,8 @@ pub struct VariantReport {
     pub strengths: Vec<f64>,
     /// Its spectra.
     pub spectra: Vec<VariantSpectrum>,
+    /// What is to be seen to before its numbers are used, the worst first.
+    pub alarms: Vec<Alarm>,
 }
 
 /// A uniform risk spectrum of a variant.
@@ -91,6 +96,14 @@ pub struct VariantSpectrum {
     pub poe: f64,
     /// Displacements over the strengths of the variant, m; infinite where censored.
     pub u_m: Vec<f64>,
+    /// What kind of ordinate each is: `regular`, `no exceedance`, `censored`.
+    pub flags: Vec<&'static str>,
+    /// Share of the risk of each that comes from below the first stripe, 0 to 1.
+    pub lower_tail_share: Vec<f64>,
+    /// Share of the risk of each that comes from above the last stripe, 0 to 1.
+    pub upper_tail_share: Vec<f64>,
+    /// The same displacements by weights that bring the hazard of the other measure, m; none without a repair.
+    pub repaired_m: Option<Vec<f64>>,
 }
 
 /// A variant that is ready to be run.
@@ -127,6 +140,8 @@ pub fn sweep(options: &SweepOptions, events: &dyn Events) -> Result<SweepReport,
         .chain(ready.iter().filter_map(|variant| variant.options.output.as_deref()))
         .collect();
     outputs::check(&[Output::new(&table, OutputKind::Table(table::FIRST_COLUMN))], &inputs, options.force)?;
+    let digest = digest(&ready)?;
+    check_comparison(&table, &digest, options.force)?;
     check(&ready, events)?;
     outputs::provide_folder(&folder)?;
     let keys = variants::keys(&options.variants);
@@ -144,8 +159,28 @@ pub fn sweep(options: &SweepOptions, events: &dyn Events) -> Result<SweepReport,
     }
     let report =
         SweepReport { study: options.study_file.clone(), title: study.title, folder, keys, variants: reports, table };
-    table::write(&report)?;
+    table::write(&report, &digest)?;
     Ok(report)
+}
+
+/// By what a comparison is known again: a hash of the names and studies of its variants.
+fn digest(ready: &[Ready]) -> Result<String, UpliftError> {
+    let mut all = Sha256::new();
+    for variant in ready {
+        all.update(format!("{}\n{}\n", variant.name, variant.study.to_toml()?));
+    }
+    Ok(hexadecimal(&all.finalize()))
+}
+
+/// Refuses to replace the comparison of other variants, which may be all that is left of them.
+fn check_comparison(table: &Path, digest: &str, force: bool) -> Result<(), UpliftError> {
+    if force || !table.exists() || outputs::is_of_digest(table, digest) {
+        return Ok(());
+    }
+    Err(UpliftError::Usage(format!(
+        "{} compares other variants, or those of another study: give another folder (-o), or --force to replace it",
+        table.display()
+    )))
 }
 
 /// Every variant as a study with the place of its result, or all mistakes of all of them.
@@ -157,7 +192,15 @@ fn ready(options: &SweepOptions, folder: &Path) -> Result<Vec<Ready>, UpliftErro
         )));
     }
     let names = variants::names(&options.variants);
-    let (mut ready, mut mistakes) = (Vec::new(), Vec::new());
+    let (mut ready, mut mistakes): (Vec<Ready>, Vec<String>) = (Vec::new(), Vec::new());
+    let keys = variants::keys(&options.variants);
+    if keys.iter().any(|key| key == "output.file") {
+        mistakes.push(
+            "output.file: the results of a sweep lie in its folder (-o) and are named after their variants: leave the \
+             key out"
+                .to_owned(),
+        );
+    }
     for (variant, name) in options.variants.iter().zip(names) {
         let overrides: Vec<String> = options.overrides.iter().cloned().chain(variant.overrides()).collect();
         match Study::load(&options.study_file, &overrides) {
@@ -176,7 +219,7 @@ fn ready(options: &SweepOptions, folder: &Path) -> Result<Vec<Ready>, UpliftErro
             Err(error) => {
                 for mistake in error.mistakes() {
                     let help = mistake.help.as_ref().map_or_else(String::new, |help| format!(": {help}"));
-                    let said = format!("{mistake}{help}");
+                    let said = variant.mistake(format!("{mistake}{help}"));
                     // the same value stands in many variants
                     if !mistakes.contains(&said) {
                         mistakes.push(said);
@@ -185,11 +228,41 @@ fn ready(options: &SweepOptions, folder: &Path) -> Result<Vec<Ready>, UpliftErro
             }
         }
     }
+    mistakes.extend(senseless(&ready, &keys));
     if mistakes.is_empty() {
         return Ok(ready);
     }
     let lines: Vec<String> = mistakes.iter().map(|mistake| format!("  - {mistake}")).collect();
     Err(UpliftError::Usage(format!("{} thing(s) to mend in the variants:\n{}", mistakes.len(), lines.join("\n"))))
+}
+
+/// What would compare nothing: studies without spectra, and spectra that cannot differ.
+fn senseless(ready: &[Ready], keys: &[String]) -> Vec<String> {
+    let mut mistakes = Vec::new();
+    if let Some(empty) = ready.iter().find(|variant| variant.study.sites.is_empty()) {
+        mistakes.push(format!(
+            "{}: spectra are compared at the sites of [[sites]], and the study names none: name those of its site \
+             table that are to be compared",
+            empty.name
+        ));
+    }
+    if keys.iter().any(|key| key == "seed") && !ready.iter().any(|of| of.study.records.component.is_drawn()) {
+        mistakes.push(
+            "seed: it draws the samples of a bootstrap, and components or azimuths where records.component says so: \
+             the spectra are the same for all its values; records.synthetic.seed makes other records"
+                .to_owned(),
+        );
+        return mistakes;
+    }
+    let mut known: HashMap<String, &str> = HashMap::new();
+    for Ready { name, study, .. } in ready {
+        // a study that was loaded can be written
+        let Ok(text) = study.to_toml() else { continue };
+        if let Some(other) = known.insert(text, name) {
+            mistakes.push(format!("{other} and {name} are the same study: leave one of them out"));
+        }
+    }
+    mistakes
 }
 
 /// Records, hazard and places of all variants looked at before the first is computed; all that is wrong at once.
@@ -217,19 +290,33 @@ impl VariantReport {
         let file = ResultFile::open(&result)?;
         let axes = file.axes()?;
         let spectra = file.spectra()?;
+        let consistency = file.consistency()?;
+        let repaired = |row: &crate::result::Spectrum<'_>| {
+            let of = consistency.iter().find(|of| of.scaled_to == row.measure)?;
+            let site = axes.sites.iter().position(|site| site == row.site)?;
+            let poe = axes.poes.iter().position(|poe| poe.to_bits() == row.poe.to_bits())?;
+            Some(of.u_m.as_ref()?.block([site, poe]).to_vec())
+        };
         let row = |row: crate::result::Spectrum<'_>| VariantSpectrum {
             site: row.site.to_owned(),
             im: row.measure.label(),
             poe: row.poe,
             u_m: row.u_m.to_vec(),
+            flags: row.flags.iter().map(|flag| flag_word(*flag)).collect(),
+            lower_tail_share: row.lower_tail_share.to_vec(),
+            upper_tail_share: row.upper_tail_share.to_vec(),
+            repaired_m: repaired(&row),
         };
+        let mut alarms = alarms(&file)?;
+        alarms.retain(|alarm| alarm.severity != Severity::Note);
         Ok(Self {
+            alarms,
             name,
             values: keys.iter().map(|key| asked.value(key).map(str::to_owned)).collect(),
             synthetic: file.is_synthetic()?,
             years: axes.years,
-            strengths: axes.strengths,
             spectra: spectra.rows().map(row).collect(),
+            strengths: axes.strengths,
             result,
         })
     }

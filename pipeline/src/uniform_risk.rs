@@ -33,7 +33,7 @@ pub(crate) use run::run;
 pub(crate) use spectra::{Reading, pooled_demand};
 pub use spectra::{Spectra, uniform_risk_spectra};
 pub use stripes::{Stripes, plan_stripes, systems};
-pub(crate) use stripes::{plan_levels, stripes_of};
+pub(crate) use stripes::{plan_levels, seen, shaken_upwards, stripes_of};
 pub(crate) use work::{Inputs, motion_keys, run_shard};
 pub use write::write_result;
 pub(crate) use write_hazard::write_branch_spectra;

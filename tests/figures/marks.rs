@@ -9,7 +9,7 @@ const BEGIN: &str = "<!-- figure: ";
 const END: &str = "<!-- end -->";
 
 /// The sources, by which names begin; those that `make test` leaves out are slow.
-const SOURCES: [&str; 29] = [
+const SOURCES: [&str; 30] = [
     "base-widths",
     "conditioning",
     "consistency",
@@ -31,6 +31,7 @@ const SOURCES: [&str; 29] = [
     "rounding-missed",
     "rounding-ordinates",
     "shake-table",
+    "shake-table-pga",
     "table-4-1",
     "table-4-2",
     "tables-2",

@@ -48,6 +48,9 @@ pub enum BootstrapError {
     /// Records of a single earthquake, which are to be drawn with their earthquakes.
     #[error("all records are of one earthquake: there is no other choice of earthquakes to draw")]
     OneEvent,
+    /// Records of a single pair, which are to be drawn with their pairs.
+    #[error("all records are of one pair: there is no other choice of pairs to draw")]
+    OnePair,
     /// Demand and hazard that do not belong together.
     #[error(transparent)]
     Risk(#[from] RiskError),

@@ -43,6 +43,6 @@ pub use plan::ResamplingPlan;
 pub use replicates::Replicates;
 pub use simultaneous::simultaneous_bands;
 pub use skewed_mean::{SkewedMean, StudentQuantiles};
-pub use unit::{Unit, units};
+pub use unit::{Unit, units, units_in_sample};
 pub use weighted::weighted_quantile;
 pub use weighted_replicates::{left_out, weighted_replicates};

@@ -4,7 +4,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use uplift_risk::RecordSample;
 
-use crate::unit::units;
+use crate::unit::{units, units_in_sample};
 use crate::weighted_replicates::without;
 use crate::{BootstrapError, Unit, left_out};
 
@@ -12,6 +12,9 @@ use crate::{BootstrapError, Unit, left_out};
 const RECORDS: &[u8; 24] = b"uplift bootstrap records";
 /// The same for draws of earthquakes.
 const EVENTS: &[u8; 24] = b"uplift bootstrap  events";
+
+/// The same for draws of pairs.
+const PAIRS: &[u8; 24] = b"uplift bootstrap   pairs";
 
 /// The same for samples that are drawn anew.
 const ANEW: &[u8; 24] = b"uplift bootstrap    anew";
@@ -34,8 +37,8 @@ pub struct ResamplingPlan {
     sizes: Vec<u32>,
     /// `[size, replicate]`.
     samples: Vec<RecordSample>,
-    /// The records of each earthquake; none where records are drawn one by one.
-    events: Option<Vec<Vec<usize>>>,
+    /// What is drawn with all its records, and these of each; none where records are drawn one by one.
+    groups: Option<(Unit, Vec<Vec<usize>>)>,
 }
 
 impl ResamplingPlan {
@@ -53,7 +56,7 @@ impl ResamplingPlan {
         let samples = draw(&records, record_count, (sizes, replicates), |size, replicate| {
             (Stream::new(RECORDS, seed, size, replicate), size)
         })?;
-        Ok(Self { record_count, replicates, sizes: sizes.to_vec(), samples, events: None })
+        Ok(Self { record_count, replicates, sizes: sizes.to_vec(), samples, groups: None })
     }
 
     /// Draws earthquakes with all their records.
@@ -71,16 +74,41 @@ impl ResamplingPlan {
         replicates: usize,
         seed: u64,
     ) -> Result<Self, BootstrapError> {
-        check(event_of.len(), sizes, replicates)?;
-        let events = units(event_of);
-        if events.len() < 2 {
-            return Err(BootstrapError::OneEvent);
+        Self::draw_groups((Unit::Event, event_of, EVENTS), sizes, replicates, seed)
+            .transpose()
+            .unwrap_or(Err(BootstrapError::OneEvent))
+    }
+
+    /// Draws pairs with all their records, as [`draw_events`](Self::draw_events) draws earthquakes.
+    ///
+    /// - `pair_of`: the pair of each record, `[record]`: any numbers, alike for the records of one.
+    ///
+    /// # Errors
+    /// As [`ResamplingPlan::draw`]; a single pair, of which no other choice can be drawn.
+    pub fn draw_pairs(pair_of: &[usize], sizes: &[u32], replicates: usize, seed: u64) -> Result<Self, BootstrapError> {
+        Self::draw_groups((Unit::Pair, pair_of, PAIRS), sizes, replicates, seed)
+            .transpose()
+            .unwrap_or(Err(BootstrapError::OnePair))
+    }
+
+    /// Draws groups of records; none where there is but one.
+    fn draw_groups(
+        (unit, group_of, domain): (Unit, &[usize], &[u8; 24]),
+        sizes: &[u32],
+        replicates: usize,
+        seed: u64,
+    ) -> Result<Option<Self>, BootstrapError> {
+        let records = group_of.len();
+        check(records, sizes, replicates)?;
+        let groups = units(group_of);
+        if groups.len() < 2 {
+            return Ok(None);
         }
-        let records = event_of.len();
-        let samples = draw(&events, records, (sizes, replicates), |size, replicate| {
-            (Stream::new(EVENTS, seed, size, replicate), events_of(size, events.len(), records))
+        let samples = draw(&groups, records, (sizes, replicates), |size, replicate| {
+            (Stream::new(domain, seed, size, replicate), units_in_sample(size, groups.len(), records))
         })?;
-        Ok(Self { record_count: records, replicates, sizes: sizes.to_vec(), samples, events: Some(events) })
+        let groups = Some((unit, groups));
+        Ok(Some(Self { record_count: records, replicates, sizes: sizes.to_vec(), samples, groups }))
     }
 
     /// The same with every sample that `is_whole` refuses, given how often it draws each record, drawn anew until it is
@@ -113,7 +141,7 @@ impl ResamplingPlan {
     /// A plan that was stored.
     ///
     /// - `multiplicities`: how often each record was drawn, `[size, replicate, record]`.
-    /// - `event_of`: the earthquake of each record, where they were drawn with all their records.
+    /// - `group_of`: the earthquake or pair of each record, where these were drawn with all their records.
     ///
     /// # Errors
     /// As [`ResamplingPlan::draw`]; another number of multiplicities; a replicate that does not draw as many
@@ -123,9 +151,9 @@ impl ResamplingPlan {
         sizes: &[u32],
         replicates: usize,
         multiplicities: &[u32],
-        event_of: Option<&[usize]>,
+        group_of: Option<(Unit, &[usize])>,
     ) -> Result<Self, BootstrapError> {
-        let events = event_of.map(units);
+        let groups = group_of.map(|(unit, group_of)| (unit, units(group_of)));
         check(record_count, sizes, replicates)?;
         let expected = sizes.len() * replicates * record_count;
         if multiplicities.len() != expected {
@@ -137,13 +165,13 @@ impl ResamplingPlan {
             .map(|(index, row)| {
                 let size = sizes[index / replicates];
                 let found: u64 = row.iter().map(|&count| u64::from(count)).sum();
-                let is_drawn = match &events {
+                let is_drawn = match &groups {
                     None => found == u64::from(size),
-                    Some(events) => {
-                        let is_whole = |event: &Vec<usize>| event.iter().all(|&record| row[record] == row[event[0]]);
-                        let drawn: u64 = events.iter().map(|event| u64::from(row[event[0]])).sum();
-                        let expected = events_of(size, events.len(), record_count);
-                        events.iter().all(is_whole) && drawn == u64::from(expected)
+                    Some((_, groups)) => {
+                        let is_whole = |group: &Vec<usize>| group.iter().all(|&record| row[record] == row[group[0]]);
+                        let drawn: u64 = groups.iter().map(|group| u64::from(row[group[0]])).sum();
+                        let expected = units_in_sample(size, groups.len(), record_count);
+                        groups.iter().all(is_whole) && drawn == u64::from(expected)
                     }
                 };
                 if !is_drawn {
@@ -152,30 +180,37 @@ impl ResamplingPlan {
                 Ok(RecordSample::new(row.to_vec())?)
             })
             .collect::<Result<_, BootstrapError>>()?;
-        Ok(Self { record_count, replicates, sizes: sizes.to_vec(), samples, events })
+        Ok(Self { record_count, replicates, sizes: sizes.to_vec(), samples, groups })
     }
 
     /// What was drawn.
     pub fn unit(&self) -> Unit {
-        if self.events.is_some() { Unit::Event } else { Unit::Record }
+        self.groups.as_ref().map_or(Unit::Record, |(unit, _)| *unit)
     }
 
-    /// The records of each unit that is drawn, `[unit]`, by their positions: one each, or those of an earthquake.
+    /// The records of each earthquake or pair, `[group]`; none where records are drawn one by one.
+    fn groups(&self) -> Option<&[Vec<usize>]> {
+        self.groups.as_ref().map(|(_, groups)| groups.as_slice())
+    }
+
+    /// The records of each unit that is drawn, `[unit]`, by their positions: one each, or those of an earthquake or
+    /// pair.
     pub fn units(&self) -> Vec<Vec<usize>> {
-        self.events.clone().unwrap_or_else(|| (0..self.record_count).map(|record| vec![record]).collect())
+        let each = || (0..self.record_count).map(|record| vec![record]).collect();
+        self.groups().map_or_else(each, <[_]>::to_vec)
     }
 
-    /// How many units there are to draw from: records, or earthquakes.
+    /// How many units there are to draw from: records, pairs or earthquakes.
     pub fn unit_count(&self) -> usize {
-        self.events.as_ref().map_or(self.record_count, Vec::len)
+        self.groups().map_or(self.record_count, <[_]>::len)
     }
 
-    /// How many units a sample of `size` records has: itself, or as many earthquakes as have so many records on
-    /// average.
+    /// How many units a sample of `size` records has: itself, or as many earthquakes or pairs as have so many records
+    /// on average.
     pub fn units_drawn(&self, size: u32) -> u32 {
-        match &self.events {
+        match self.groups() {
             None => size,
-            Some(events) => events_of(size, events.len(), self.record_count),
+            Some(groups) => units_in_sample(size, groups.len(), self.record_count),
         }
     }
 
@@ -184,8 +219,8 @@ impl ResamplingPlan {
     /// # Errors
     /// More than 2²⁴ records.
     pub fn left_out(&self) -> Result<Vec<RecordSample>, BootstrapError> {
-        let Some(events) = &self.events else { return Ok(left_out(self.record_count)?) };
-        events.iter().map(|event| Ok(without(self.record_count, event)?)).collect()
+        let Some(groups) = self.groups() else { return Ok(left_out(self.record_count)?) };
+        groups.iter().map(|group| Ok(without(self.record_count, group)?)).collect()
     }
 
     /// Records drawn from.
@@ -213,12 +248,6 @@ impl ResamplingPlan {
     pub fn multiplicities(&self) -> Vec<u32> {
         self.samples.iter().flat_map(|sample| sample.multiplicities().iter().copied()).collect()
     }
-}
-
-/// The earthquakes of a sample of `size` records, where `events` of them have so many `records`.
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most the size, and not negative")]
-fn events_of(size: u32, events: usize, records: usize) -> u32 {
-    ((f64::from(size) * events as f64 / records as f64).round() as u32).max(1)
 }
 
 /// Samples of units, `[size, replicate]`; `stream` says from which numbers, and how many units are drawn.
@@ -360,7 +389,9 @@ mod tests {
         // as often each: 2400 draws of 3, with a standard deviation of 23
         let of_last: u32 = plan.samples()[800..].iter().map(|sample| sample.multiplicities()[2]).sum();
         assert!(of_last.abs_diff(800) < 100, "{of_last}");
-        let stored = |counts: &[u32]| ResamplingPlan::from_multiplicities(7, &[7, 2, 14], 400, counts, Some(&event_of));
+        let stored = |counts: &[u32]| {
+            ResamplingPlan::from_multiplicities(7, &[7, 2, 14], 400, counts, Some((Unit::Event, &event_of)))
+        };
         let mut counts = plan.multiplicities();
         assert_eq!(stored(&counts), Ok(plan.clone()));
         counts[0] += 1;
@@ -369,6 +400,22 @@ mod tests {
             plan.left_out().unwrap().iter().map(|sample| sample.multiplicities().to_vec()).collect();
         assert_eq!(without, [[0, 0, 1, 0, 1, 1, 0], [1, 1, 0, 1, 1, 1, 1], [1, 1, 1, 1, 0, 0, 1]]);
         assert_eq!(ResamplingPlan::draw_events(&[1, 1], &[2], 5, 1), Err(BootstrapError::OneEvent));
+    }
+
+    #[test]
+    fn pairs_are_drawn_with_all_their_records_from_a_stream_of_their_own() {
+        let pair_of = [0, 0, 0, 1, 1, 1, 2, 2, 2];
+        let plan = ResamplingPlan::draw_pairs(&pair_of, &[9, 3], 40, 1).unwrap();
+        assert_eq!((plan.unit(), plan.unit_count(), plan.units_drawn(3)), (Unit::Pair, 3, 1));
+        for sample in plan.samples() {
+            assert!(sample.multiplicities().chunks(3).all(|pair| pair.iter().all(|&times| times == pair[0])));
+        }
+        let events = ResamplingPlan::draw_events(&pair_of, &[9, 3], 40, 1).unwrap();
+        assert_ne!(events.multiplicities(), plan.multiplicities());
+        let stored = (Unit::Pair, &pair_of[..]);
+        let again = ResamplingPlan::from_multiplicities(9, &[9, 3], 40, &plan.multiplicities(), Some(stored));
+        assert_eq!(again, Ok(plan));
+        assert_eq!(ResamplingPlan::draw_pairs(&[1, 1], &[2], 5, 1), Err(BootstrapError::OnePair));
     }
 
     #[test]

@@ -19,7 +19,7 @@ use clap::{Parser, Subcommand};
 use uplift_oscillator::InstructionSet;
 
 use crate::error::CommandError;
-use crate::terminal::Terminal;
+use crate::terminal::{Form, Terminal};
 use result::{bootstrap, consistency, export, influence, measures, plot, report, status, table, verify};
 use structures::{design, overturning, risk, target};
 use study::{check, merge, run, sweep};
@@ -41,7 +41,10 @@ pub(crate) struct Arguments {
     threads: Option<u16>,
     /// Only what was asked for, and errors: no progress, no remarks, no summary of files that are written
     #[arg(long, short, global = true)]
-    quiet: bool,
+    pub(crate) quiet: bool,
+    /// How progress, remarks and errors are told on standard error: text for people, or a line of JSON for each event
+    #[arg(long, global = true, value_name = "FORM", value_enum, default_value = "text")]
+    pub(crate) progress: Form,
     #[command(subcommand)]
     command: Command,
 }
@@ -111,7 +114,7 @@ enum Command {
 ///
 /// # Errors
 /// Whatever the user should know; see [`CommandError::exit_code`].
-pub(crate) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
+pub(crate) fn execute(arguments: &Arguments, terminal: &Terminal) -> Result<(), CommandError> {
     if let Some(threads) = arguments.threads {
         rayon::ThreadPoolBuilder::new()
             .num_threads(usize::from(threads))
@@ -120,34 +123,33 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     }
     // a word that is none is told by every command, whether it computes or not
     InstructionSet::chosen().map_err(|error| CommandError::Usage(error.to_string()))?;
-    let terminal = Terminal::new(arguments.quiet);
     match &arguments.command {
-        Command::Run(arguments) => run::run(arguments, &terminal),
-        Command::Merge(arguments) => merge::merge(arguments, &terminal),
+        Command::Run(arguments) => run::run(arguments, terminal),
+        Command::Merge(arguments) => merge::merge(arguments, terminal),
         Command::Status(arguments) => status::status(arguments),
-        Command::Verify(arguments) => verify::verify(arguments, &terminal),
-        Command::Check(arguments) => check::check(arguments, &terminal),
-        Command::Sweep(arguments) => sweep::sweep(arguments, &terminal),
-        Command::Response(arguments) => response::response(arguments, &terminal),
-        Command::Pulse(arguments) => pulse::pulse(arguments, &terminal),
-        Command::Bootstrap(arguments) => bootstrap::bootstrap(arguments, &terminal),
-        Command::Consistency(arguments) => consistency::consistency(arguments, &terminal),
-        Command::Influence(arguments) => influence::influence(arguments, &terminal),
-        Command::Measures(arguments) => measures::measures(arguments, &terminal),
-        Command::Design(arguments) => design::design(arguments, &terminal),
-        Command::Overturning(arguments) => overturning::overturning(arguments, &terminal),
-        Command::Risk(arguments) => risk::risk(arguments, &terminal),
-        Command::Target(arguments) => target::target(arguments, &terminal),
-        Command::Pushover(arguments) => pushover::pushover(arguments, &terminal),
-        Command::Protocol(arguments) => protocol::protocol(arguments, &terminal),
-        Command::Restrainer(arguments) => restrainer::restrainer(arguments, &terminal),
-        Command::Validate(arguments) => validate::validate(arguments, &terminal),
-        Command::Records(arguments) => records::records(arguments, &terminal),
-        Command::Hazard(arguments) => hazard::hazard(arguments, &terminal),
-        Command::Plot(arguments) => plot::plot(arguments, &terminal),
-        Command::Report(arguments) => report::report(arguments, &terminal),
-        Command::Export(arguments) => export::export(arguments, &terminal),
-        Command::Table(arguments) => table::table(arguments, &terminal),
+        Command::Verify(arguments) => verify::verify(arguments, terminal),
+        Command::Check(arguments) => check::check(arguments, terminal),
+        Command::Sweep(arguments) => sweep::sweep(arguments, terminal),
+        Command::Response(arguments) => response::response(arguments, terminal),
+        Command::Pulse(arguments) => pulse::pulse(arguments, terminal),
+        Command::Bootstrap(arguments) => bootstrap::bootstrap(arguments, terminal),
+        Command::Consistency(arguments) => consistency::consistency(arguments, terminal),
+        Command::Influence(arguments) => influence::influence(arguments, terminal),
+        Command::Measures(arguments) => measures::measures(arguments, terminal),
+        Command::Design(arguments) => design::design(arguments, terminal),
+        Command::Overturning(arguments) => overturning::overturning(arguments, terminal),
+        Command::Risk(arguments) => risk::risk(arguments, terminal),
+        Command::Target(arguments) => target::target(arguments, terminal),
+        Command::Pushover(arguments) => pushover::pushover(arguments, terminal),
+        Command::Protocol(arguments) => protocol::protocol(arguments, terminal),
+        Command::Restrainer(arguments) => restrainer::restrainer(arguments, terminal),
+        Command::Validate(arguments) => validate::validate(arguments, terminal),
+        Command::Records(arguments) => records::records(arguments, terminal),
+        Command::Hazard(arguments) => hazard::hazard(arguments, terminal),
+        Command::Plot(arguments) => plot::plot(arguments, terminal),
+        Command::Report(arguments) => report::report(arguments, terminal),
+        Command::Export(arguments) => export::export(arguments, terminal),
+        Command::Table(arguments) => table::table(arguments, terminal),
         Command::Manual(arguments) => manual::manual(arguments),
     }
 }

@@ -11,6 +11,7 @@ mod show;
 mod terminal;
 
 use command::Arguments;
+use terminal::Terminal;
 
 /// A panic is a bug of the program; everything a user can cause is an error with a message.
 const EXIT_BUG: i32 = 1;
@@ -34,10 +35,12 @@ fn main() -> ExitCode {
         );
         end_at_once();
     }));
-    match command::execute(&Arguments::parse()) {
+    let arguments = Arguments::parse();
+    let terminal = Terminal::new(arguments.quiet, arguments.progress);
+    match command::execute(&arguments, &terminal) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            terminal::tell_error(&error);
+            terminal.tell_error(&error);
             ExitCode::from(error.exit_code())
         }
     }

@@ -25,6 +25,7 @@ mod structure;
 mod sweep;
 mod table;
 mod target;
+mod uncertainty;
 mod uniform_risk;
 mod validate;
 mod verify;
@@ -57,24 +58,14 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use uplift::text::is_obeyed;
 
 use crate::error::CommandError;
-use crate::terminal::{Terminal, output};
+use crate::terminal::{Terminal, output, visible_json};
 
 /// A report for programs.
 pub(crate) fn print_json(report: &impl Serialize) -> Result<(), CommandError> {
     let value = serde_json::to_value(report).map_err(|error| CommandError::input(error.to_string()))?;
-    // what is spelt out in a text of JSON is spelt as JSON does
-    let mut text = String::new();
-    for letter in format!("{value:#}").chars() {
-        if is_obeyed(letter) && letter != '\n' {
-            text.extend(format!("\\u{:04x}", u32::from(letter)).chars());
-        } else {
-            text.push(letter);
-        }
-    }
-    Ok(writeln!(output(), "{text}")?)
+    Ok(writeln!(output(), "{}", visible_json(&format!("{value:#}")))?)
 }
 
 /// Files that were written; a quiet terminal shows none.

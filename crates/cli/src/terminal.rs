@@ -1,5 +1,6 @@
 //! The terminal as jobs see it: remarks on standard error, a progress bar or plain lines, Ctrl-C.
 
+mod events;
 mod progress;
 mod visible;
 
@@ -10,24 +11,36 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError, RwLock};
 use std::time::Duration;
 
+use clap::ValueEnum;
 use miette::{GraphicalReportHandler, GraphicalTheme};
 use uplift::UpliftError;
 use uplift::events::{Events, Phase};
 use uplift::text::{one_line, visible};
 
 use crate::error::CommandError;
+use events::Event;
 use progress::Progress;
-pub(crate) use visible::{error_output, output};
+pub(crate) use visible::{error_output, output, visible_json};
 
 /// What the shell sees of an interruption.
-const EXIT_INTERRUPTED: i32 = 5;
+const EXIT_INTERRUPTED: u8 = 5;
 /// How long an interrupted program may take to come to a good end by itself.
 const GRACE: Duration = Duration::from_millis(800);
+
+/// How people or programs are told what a command does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Form {
+    /// Lines and a bar, for people
+    Text,
+    /// A line of JSON for each event, for programs
+    Json,
+}
 
 /// Where the user sits. Where nobody listens any more, a closed pipe or a full disk, what is said is lost, and the work
 /// goes on.
 pub(crate) struct Terminal {
     quiet: bool,
+    form: Form,
     stop: Arc<AtomicBool>,
     /// What is said where an interruption cannot wait for the work in hand.
     interruption_message: Arc<Mutex<String>>,
@@ -36,25 +49,30 @@ pub(crate) struct Terminal {
 
 impl Terminal {
     /// A terminal that hears Ctrl-C and SIGTERM from now on; a quiet one tells results and errors only.
-    pub(crate) fn new(quiet: bool) -> Self {
+    pub(crate) fn new(quiet: bool, form: Form) -> Self {
         let stop = Arc::new(AtomicBool::new(false));
         let interruption_message = Arc::new(Mutex::new(UpliftError::Interrupted.to_string()));
         let terminal = Self {
             quiet,
+            form,
             stop: stop.clone(),
             interruption_message: interruption_message.clone(),
             progress: RwLock::new(None),
         };
         let interrupted = move || {
             if stop.swap(true, Ordering::Relaxed) {
-                std::process::exit(EXIT_INTERRUPTED); // asked twice
+                std::process::exit(EXIT_INTERRUPTED.into()); // asked twice
             }
             let interruption_message = interruption_message.clone();
             std::thread::spawn(move || {
                 std::thread::sleep(GRACE);
                 // what is being written now is written to a file of its own, and an earlier file is as it was
-                tell(&format!("uplift: {}", interruption_message.lock().unwrap_or_else(PoisonError::into_inner)));
-                std::process::exit(EXIT_INTERRUPTED);
+                let message = interruption_message.lock().unwrap_or_else(PoisonError::into_inner).clone();
+                match form {
+                    Form::Text => tell(&format!("uplift: {message}")),
+                    Form::Json => Event::interrupted(EXIT_INTERRUPTED, message).tell(),
+                }
+                std::process::exit(EXIT_INTERRUPTED.into());
             });
         };
         #[cfg(unix)]
@@ -74,6 +92,7 @@ impl Terminal {
     pub(crate) fn with_quiet(&self, quiet: bool) -> Self {
         Self {
             quiet: self.quiet || quiet,
+            form: self.form,
             stop: self.stop.clone(),
             interruption_message: self.interruption_message.clone(),
             progress: RwLock::new(None),
@@ -87,8 +106,24 @@ impl Terminal {
 
     /// A line on standard error, unless it was asked for quiet.
     pub(crate) fn say(&self, text: &str) {
-        if !self.quiet {
-            tell(text);
+        self.tell_unless_quiet(&Event::Line { text }, text);
+    }
+
+    /// Tells an error; a study's mistakes with their lines and carets.
+    pub(crate) fn tell_error(&self, error: &CommandError) {
+        match (error, self.form) {
+            (CommandError::OutputClosed, _) => {}
+            (_, Form::Text) => tell_error(error),
+            (_, Form::Json) => Event::of_error(error).tell(),
+        }
+    }
+
+    /// The event for a program, or the text for a person.
+    fn tell_unless_quiet(&self, event: &Event<'_>, text: &str) {
+        match self.form {
+            _ if self.quiet => {}
+            Form::Text => tell(text),
+            Form::Json => event.tell(),
         }
     }
 }
@@ -103,15 +138,15 @@ fn on_termination(interrupted: impl Fn() + Send + 'static) {
 
 impl Events for Terminal {
     fn remark(&self, topic: &str, text: &str) {
-        self.say(&format!("{topic:<8} {}", one_line(text)));
+        self.tell_unless_quiet(&Event::Remark { topic, text }, &format!("{topic:<8} {}", one_line(text)));
     }
 
     fn note(&self, text: &str) {
-        self.say(&format!("note: {}", one_line(text)));
+        self.tell_unless_quiet(&Event::Note { text }, &format!("note: {}", one_line(text)));
     }
 
     fn begin(&self, phase: Phase<'_>) {
-        let progress = (!self.quiet).then(|| Progress::new(phase));
+        let progress = (!self.quiet).then(|| Progress::new(phase, self.form));
         *self.progress.write().unwrap_or_else(PoisonError::into_inner) = progress;
     }
 
@@ -128,6 +163,9 @@ impl Events for Terminal {
     }
 
     fn resumes_from(&self, checkpoint: &Path) {
+        if self.form == Form::Json && !self.quiet {
+            Event::Checkpoint { path: &checkpoint.to_string_lossy() }.tell();
+        }
         self.set_interruption_message(format!(
             "interrupted: all that is finished is in the checkpoint {}. Run the same command to go on from there",
             checkpoint.display()
@@ -151,10 +189,9 @@ pub(crate) fn tell(text: &str) {
     let _ = writeln!(error_output(), "{text}");
 }
 
-/// Tells an error; a study's mistakes with their lines and carets.
-pub(crate) fn tell_error(error: &CommandError) {
+/// An error in words.
+fn tell_error(error: &CommandError) {
     match error {
-        CommandError::OutputClosed => {}
         CommandError::Uplift(UpliftError::Study(error)) => {
             let rendered = |theme| {
                 let mut text = String::new();

@@ -28,7 +28,7 @@ fn benchmarks(criterion: &mut Criterion) {
     let solver = Solver::new(&analysis, 0.05).unwrap();
     let mut scratch = Scratch::default();
     let of_set = solver.solve(&set.once(), &[0.0; KNOTS], &mut scratch).unwrap();
-    let mut shares = analysis.even_shares();
+    let mut shares = analysis.own_shares();
 
     let mut group = criterion.benchmark_group("repair");
     group.throughput(Throughput::Elements(100));

@@ -8,7 +8,8 @@ use crate::{ConsistencyError, RateRange, RecordSet};
 
 /// The set scaled to the stripes of x at a site, and what hazard of y it implies.
 ///
-/// Record j at stripe i brings `y_ij = x_i q_j`; a run is one record at one stripe.
+/// Record j at stripe i brings `y_ij = x_i q_j`; a run is one record at one stripe. Where the stripes have records of
+/// their own ([`RecordSet::at_level`]), q is that of the record with its factor there.
 #[derive(Debug, Clone)]
 pub struct ScaledAnalysis<'a> {
     set: &'a RecordSet,
@@ -46,7 +47,7 @@ impl<'a> ScaledAnalysis<'a> {
     /// # Errors
     /// Levels that do not rise; a stripe outside the curve of x under [`Extrapolation::Refuse`]; a record whose y at a
     /// stripe is no number any more; no target, or one that is not positive and finite; more than 65 535 records or
-    /// levels.
+    /// levels; records of other levels.
     pub fn new(
         set: &'a RecordSet,
         levels: &[f64],
@@ -56,17 +57,22 @@ impl<'a> ScaledAnalysis<'a> {
         extrapolation: Extrapolation,
     ) -> Result<Self, ConsistencyError> {
         let stripes = StripeWeights::from_hazard(scaled_to, levels, extrapolation)?;
-        let (first, last) = (levels.first().copied().unwrap_or(1.0), levels.last().copied().unwrap_or(1.0));
-        for (record, &ratio) in set.ratios().iter().enumerate() {
-            for value in [set.brought(first, ratio), set.brought(last, ratio)] {
-                if !value.is_normal() {
+        if let Some(sets) = set.level_sets().filter(|sets| sets.level_count() != levels.len()) {
+            let (found, expected) = (sets.level_count(), levels.len());
+            return Err(ConsistencyError::Count { what: "levels with records of their own", found, expected });
+        }
+        let mut brought = Vec::with_capacity(set.len() * levels.len());
+        for record in 0..set.len() {
+            for (stripe, &level) in levels.iter().enumerate() {
+                let value = set.brought(level, set.ratios_at(stripe)[record]);
+                if set.belongs(stripe, record) && !value.is_normal() {
                     return Err(ConsistencyError::Intensity { record, what: "other intensity at a stripe", value });
                 }
+                brought.push(value);
             }
         }
-        let brought: Vec<f64> =
-            set.ratios().iter().flat_map(|ratio| levels.iter().map(move |&level| set.brought(level, *ratio))).collect();
-        let brought = PooledDemand::new(&Stripes::new(levels, &brought)?)?;
+        let runs = Stripes::with_shares(levels, &brought, (set.len(), levels.len()), set.shares())?;
+        let brought = PooledDemand::new(&runs)?;
         let range = RateRange::new(targets_per_year, &stripes, other)?;
         let target = |&rate_per_year: &f64| {
             let beyond = if rate_per_year > scaled_to.first().maf { scaled_to.first() } else { scaled_to.last() };
@@ -114,13 +120,14 @@ impl<'a> ScaledAnalysis<'a> {
         self.range.contains(self.stripes.rates_per_year()[level])
     }
 
-    /// The shares of records that count alike, 1/N, `[level, record]`.
-    pub fn even_shares(&self) -> Vec<f64> {
-        vec![1.0 / self.set.len() as f64; self.levels.len() * self.set.len()]
+    /// The shares of the records as they are, `[level, record]`: those of their level, else 1/N.
+    pub fn own_shares(&self) -> Vec<f64> {
+        let even = || vec![1.0 / self.set.len() as f64; self.levels.len() * self.set.len()];
+        self.set.shares().map_or_else(even, <[f64]>::to_vec)
     }
 
     /// The implied hazard `λ̂_y(c) = Σ w_i Σ_j p_ij 1[y_ij > c]`, with y in place of a displacement: of records that
-    /// count alike, or with `weights`.
+    /// count as they are, or with `weights`.
     ///
     /// # Errors
     /// Weights of another number of levels or records.

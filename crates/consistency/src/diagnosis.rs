@@ -58,7 +58,7 @@ impl Diagnosis {
 impl ScaledAnalysis<'_> {
     /// Diagnoses the analysis.
     ///
-    /// - `weights`: weights of a repair; none for records that count alike.
+    /// - `weights`: weights of a repair; none for records as they are, alike or with the shares of their level.
     /// - `scale_factor_limits`: scale factors outside these, lower and upper, are counted; nothing is left out.
     ///
     /// # Errors
@@ -69,23 +69,23 @@ impl ScaledAnalysis<'_> {
         scale_factor_limits: [f64; 2],
     ) -> Result<Diagnosis, ConsistencyError> {
         let implied = self.implied(weights)?;
-        let even;
+        let own;
         let shares = if let Some(weights) = weights {
             weights.shares()
         } else {
-            even = self.even_shares();
-            &even
+            own = self.own_shares();
+            &own
         };
         let of_level = |level: usize| &shares[level * self.set().len()..][..self.set().len()];
         let stripes: Vec<StripeStatistics> =
-            (0..self.levels().len()).map(|level| StripeStatistics::of(self.set(), of_level(level))).collect();
+            (0..self.levels().len()).map(|level| StripeStatistics::of(self.set(), level, of_level(level))).collect();
         let targets = self
             .targets()
             .iter()
             .map(|target| {
                 let implied_level = implied.exact_ordinate(target.rate_per_year)?.displacement_m;
                 let often = |level: f64| implied.mean_annual_frequency(level).map(|rate| rate / target.rate_per_year);
-                let shares = of_level(target.stripe);
+                let (shares, reached) = (of_level(target.stripe), (target.level, target.stripe));
                 Ok(TargetDiagnosis {
                     rate_per_year: target.rate_per_year,
                     site_level: target.site_level,
@@ -93,7 +93,7 @@ impl ScaledAnalysis<'_> {
                     ratio: target.site_level.map(|site_level| implied_level / site_level),
                     times_as_often: target.site_level.map(often).transpose()?,
                     stripe: target.stripe,
-                    scale_factors: ScaleFactors::of(self.set(), target.level, shares, scale_factor_limits),
+                    scale_factors: ScaleFactors::of(self.set(), reached, shares, scale_factor_limits),
                     medians: Medians::of(self.set(), shares),
                 })
             })

@@ -5,7 +5,8 @@
 //! way round. The hazard of y that it implies, `λ̂_y(c) = Σ w_i Σ_j p_ij 1[y_ij > c]`, should be the
 //! site's.
 //!
-//! - [`RecordSet`]: the records with both measures: the same for every site.
+//! - [`RecordSet`]: the records with both measures: the same for every site; with [`LevelSets`] where each level has
+//!   records of its own.
 //! - [`ScaledAnalysis`]: the set, its stripes and the hazard of both measures at a site;
 //!   [`ScaledAnalysis::diagnose`] measures the deviation, [`ScaledAnalysis::repair`] weighs the records anew.
 //! - [`Diagnosis`]: [`Deviation`] and [`Verdict`], effective records, scale factors.
@@ -47,11 +48,12 @@ mod deviation;
 mod diagnosis;
 mod error;
 mod exponent;
+mod level_sets;
 mod no_repair;
-mod quantile;
 mod range;
 mod reach;
 mod repair;
+mod scratch;
 mod set;
 mod solver;
 mod stripe;
@@ -64,12 +66,14 @@ pub use deviation::{DEVIATION_RATES, Deviation, TwoSided, Verdict};
 pub use diagnosis::{Diagnosis, LeastEffective, TargetDiagnosis};
 pub use error::ConsistencyError;
 pub use exponent::{Exponents, KNOTS};
+pub use level_sets::LevelSets;
 pub use no_repair::NoRepair;
 pub use range::{HighLimit, LowLimit, RateRange};
 pub use reach::Reach;
 pub use repair::{RepairOptions, Repaired};
+pub use scratch::Scratch;
 pub use set::{Powers, RecordSet, Seismology, SetRecord};
-pub use solver::{DEFAULT_SMOOTHNESS, FIT_RATES, Fit, Scratch, Solver};
+pub use solver::{DEFAULT_SMOOTHNESS, FIT_RATES, Fit, Solver};
 pub use stripe::{Medians, ScaleFactors, StripeStatistics};
 pub use warning::Warning;
 pub use words::Words;

@@ -68,8 +68,9 @@ impl NoRepair {
                 format!("the weights run away (exponent {largest:.0}), so that few records are left: add {missing}")
             }
             Self::NotReached { largest_residual } => format!(
-                "the best weights still miss the rates of the site's {y} by up to {:.0} %: add {lower} and {higher}",
-                100.0 * largest_residual.exp_m1()
+                "the best weights still miss the rates of the site's {y} by up to {:.0} %: add {lower} and {higher}{}",
+                100.0 * largest_residual.exp_m1(),
+                if words.has_level_sets { ", or more records at each level" } else { "" }
             ),
             Self::TooFew(least) => format!(
                 "the weights leave {:.1} effective records at the stripe {}, fewer than 5: choose records whose \
@@ -115,6 +116,9 @@ mod tests {
                 let sentence = reason.sentence(words);
                 assert!(parts.iter().all(|part| sentence.contains(part)), "{sentence}");
             }
+            let of_levels = Words { has_level_sets: true, ..*words };
+            let missed = NoRepair::NotReached { largest_residual: 0.2 }.sentence(&of_levels);
+            assert!(missed.ends_with("records of higher PGA/PGV, or more records at each level"), "{missed}");
         });
     }
 }

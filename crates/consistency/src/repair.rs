@@ -2,7 +2,8 @@
 
 use uplift_risk::RunWeights;
 
-use crate::solver::{DEFAULT_SMOOTHNESS, Fit, Scratch, Solver};
+use crate::scratch::Scratch;
+use crate::solver::{DEFAULT_SMOOTHNESS, Fit, Solver};
 use crate::{ConsistencyError, Diagnosis, NoRepair, ScaledAnalysis, Warning};
 
 /// Fewer effective records than this are no repair.
@@ -61,7 +62,7 @@ impl ScaledAnalysis<'_> {
         if !fit.is_reached() {
             return none(NoRepair::NotReached { largest_residual: fit.largest_residual() });
         }
-        let mut shares = self.even_shares();
+        let mut shares = self.own_shares();
         solver.shares(&once, &fit.exponents, &mut scratch, &mut shares)?;
         let weights = RunWeights::new(self.stripes(), &shares)?;
         let diagnosis = self.diagnose(Some(&weights), options.scale_factor_limits)?;

@@ -7,9 +7,13 @@
 //!
 //! What does not depend on exponents or multiplicities is worked out once: the basis of g at each run, and how many
 //! records, by falling q, exceed each compared level at each stripe. At any stripe y falls in the order of q, so that
-//! the runs above a level are the first ones.
+//! the runs above a level are the first ones. The order is the same at all stripes but where these have records of
+//! their own, which count by `m_j` times their share there.
 
 use crate::exponent::{Exponents, KNOTS, Knots};
+use crate::scratch::{Scratch, check};
+use uplift_risk::RiskError;
+
 use crate::{ConsistencyError, NoRepair, Reach, ScaledAnalysis};
 
 /// Rates at which the implied hazard is fitted to the site's.
@@ -43,7 +47,7 @@ pub struct Solver<'a> {
     site_levels: [f64; FIT_RATES],
     /// `w_i`, 1/yr, `[level]`.
     stripe_weights: Vec<f64>,
-    /// Contributions to g, `[level, rank]`; a rank is a record's place by falling q.
+    /// Contributions to g, `[level, rank]`; a rank is a record's place by falling q among those of the level.
     basis: Vec<[f64; KNOTS]>,
     /// How many ranks have `y_ij > y_n`, `[level]`.
     above: Vec<[usize; FIT_RATES]>,
@@ -75,17 +79,6 @@ impl Fit {
     pub fn is_reached(&self) -> bool {
         self.largest_residual() <= LARGEST_RESIDUAL && !self.has_run_away()
     }
-}
-
-/// Room for the numbers of one solve, used again by the next: one a thread.
-#[derive(Debug, Clone, Default)]
-pub struct Scratch {
-    /// The drawn records: rank, record and multiplicity, by falling q.
-    drawn: Vec<(usize, usize, f64)>,
-    /// How many of the drawn records have a lower rank, `[rank + 1]`.
-    drawn_before: Vec<usize>,
-    /// Exponents, then exponentials, of one stripe, in the order of `drawn`.
-    values: Vec<f64>,
 }
 
 /// Residuals with their derivatives by the exponents, and the sum of squares.
@@ -122,12 +115,12 @@ impl<'a> Solver<'a> {
         let (set, records) = (analysis.set(), analysis.set().len());
         let mut basis = Vec::with_capacity(analysis.levels().len() * records);
         let mut above = Vec::with_capacity(analysis.levels().len());
-        for &level in analysis.levels() {
-            let brought = |record: usize| set.brought(level, set.ratios()[record]);
-            basis.extend(set.order().iter().map(|&record| knots.basis(brought(record).ln())));
-            above.push(
-                site_levels.map(|site_level| set.order().partition_point(|&record| brought(record) > site_level)),
-            );
+        for (stripe, &level) in analysis.levels().iter().enumerate() {
+            let (ratios, order) = (set.ratios_at(stripe), set.order(stripe));
+            let brought = |record: usize| set.brought(level, ratios[record]);
+            basis.extend(order.iter().map(|&record| knots.basis(brought(record).ln())));
+            basis.resize((stripe + 1) * records, [0.0; KNOTS]);
+            above.push(site_levels.map(|site_level| order.partition_point(|&record| brought(record) > site_level)));
         }
         let stripe_weights = analysis.stripes().per_year();
         Ok(Self { analysis, smoothness, knot_levels, rates, site_levels, stripe_weights, basis, above })
@@ -155,19 +148,25 @@ impl<'a> Solver<'a> {
     /// # Errors
     /// Another number of multiplicities than of records; no record drawn.
     pub fn reach(&self, multiplicities: &[u32]) -> Result<Reach, ConsistencyError> {
-        self.check(multiplicities)?;
+        check(self.analysis.set(), multiplicities)?;
         let set = self.analysis.set();
-        let drawn =
-            || set.order().iter().filter(|&&record| multiplicities[record] > 0).map(|&record| set.ratios()[record]);
-        let (largest, smallest) = (drawn().next().unwrap_or(0.0), drawn().next_back().unwrap_or(0.0));
+        // the largest and the smallest y that a record brings, [level]
+        let mut extremes = Vec::with_capacity(self.analysis.levels().len());
+        for (stripe, &level) in self.analysis.levels().iter().enumerate() {
+            let ratios = set.ratios_at(stripe);
+            let mut drawn = set.order(stripe).iter().filter(|&&record| multiplicities[record] > 0);
+            let Some(&first) = drawn.next() else { return Err(RiskError::EmptyLevel { level: stripe }.into()) };
+            let last = drawn.next_back().copied().unwrap_or(first);
+            extremes.push([first, last].map(|record| set.brought(level, ratios[record])));
+        }
         let mut reach = Reach { set_above: 0, set_below: 0 };
         for (&rate, &site_level) in self.rates.iter().zip(&self.site_levels) {
-            let rate_of = |ratio: f64| -> f64 {
-                let levels = self.analysis.levels().iter().zip(&self.stripe_weights);
-                levels.filter(|(level, _)| set.brought(**level, ratio) > site_level).map(|(_, weight)| weight).sum()
+            let rate_of = |side: usize| -> f64 {
+                let levels = extremes.iter().zip(&self.stripe_weights);
+                levels.filter(|(brought, _)| brought[side] > site_level).map(|(_, weight)| weight).sum()
             };
-            reach.set_above += usize::from(rate_of(smallest) > rate);
-            reach.set_below += usize::from(rate_of(largest) < rate);
+            reach.set_above += usize::from(rate_of(1) > rate);
+            reach.set_below += usize::from(rate_of(0) < rate);
         }
         Ok(reach)
     }
@@ -187,7 +186,7 @@ impl<'a> Solver<'a> {
         start: &Exponents,
         scratch: &mut Scratch,
     ) -> Result<Fit, ConsistencyError> {
-        self.draw(multiplicities, scratch)?;
+        scratch.draw(self.analysis.set(), multiplicities)?;
         let mut exponents = *start;
         let mut residuals = self.residuals(&exponents, scratch);
         let (mut damping, mut iterations) = (0.01, 0);
@@ -231,7 +230,7 @@ impl<'a> Solver<'a> {
         scratch: &mut Scratch,
         shares: &mut [f64],
     ) -> Result<(), ConsistencyError> {
-        self.draw(multiplicities, scratch)?;
+        scratch.draw(self.analysis.set(), multiplicities)?;
         let records = self.analysis.set().len();
         if shares.len() != self.basis.len() {
             return Err(ConsistencyError::Count { what: "shares", found: shares.len(), expected: self.basis.len() });
@@ -239,54 +238,29 @@ impl<'a> Solver<'a> {
         shares.fill(0.0);
         for (level, row) in shares.chunks_exact_mut(records).enumerate() {
             self.exponentials(level, exponents, scratch);
-            let total: f64 = scratch.values.iter().sum();
-            for (&(_, record, _), value) in scratch.drawn.iter().zip(&scratch.values) {
-                row[record] = value / total;
+            let (drawn, values) = scratch.of_level(self.analysis.set(), level);
+            let total: f64 = values.iter().sum();
+            for (&(_, record, _), value) in drawn.records.iter().zip(values) {
+                row[record] = *value / total;
             }
         }
-        Ok(())
-    }
-
-    fn check(&self, multiplicities: &[u32]) -> Result<(), ConsistencyError> {
-        let expected = self.analysis.set().len();
-        if multiplicities.len() != expected {
-            return Err(ConsistencyError::Count { what: "multiplicities", found: multiplicities.len(), expected });
-        }
-        if multiplicities.iter().all(|&count| count == 0) {
-            return Err(ConsistencyError::NothingDrawn);
-        }
-        Ok(())
-    }
-
-    /// Puts the drawn records side by side, by falling q.
-    fn draw(&self, multiplicities: &[u32], scratch: &mut Scratch) -> Result<(), ConsistencyError> {
-        self.check(multiplicities)?;
-        scratch.drawn.clear();
-        scratch.drawn_before.clear();
-        for (rank, &record) in self.analysis.set().order().iter().enumerate() {
-            scratch.drawn_before.push(scratch.drawn.len());
-            if multiplicities[record] > 0 {
-                scratch.drawn.push((rank, record, f64::from(multiplicities[record])));
-            }
-        }
-        scratch.drawn_before.push(scratch.drawn.len());
         Ok(())
     }
 
     /// `m_j exp(g(ln y_ij))` of the drawn records at a stripe, over the largest exponential.
     fn exponentials(&self, level: usize, exponents: &Exponents, scratch: &mut Scratch) {
         let basis = &self.basis[level * self.analysis.set().len()..];
-        let Scratch { drawn, values, .. } = scratch;
+        let (drawn, values) = scratch.of_level(self.analysis.set(), level);
         values.clear();
         let mut largest = f64::NEG_INFINITY;
-        for &(rank, ..) in drawn.iter() {
+        for &(rank, ..) in &drawn.records {
             let basis = &basis[rank];
             let value = (0..KNOTS).map(|k| exponents[k] * basis[k]).sum();
             largest = largest.max(value);
             values.push(value);
         }
-        for (value, (.., multiplicity)) in values.iter_mut().zip(drawn.iter()) {
-            *value = multiplicity * (*value - largest).exp();
+        for (value, (.., count)) in values.iter_mut().zip(&drawn.records) {
+            *value = count * (*value - largest).exp();
         }
     }
 
@@ -299,12 +273,13 @@ impl<'a> Solver<'a> {
         for (level, (&weight, above)) in self.stripe_weights.iter().zip(&self.above).enumerate() {
             self.exponentials(level, exponents, scratch);
             let basis = &self.basis[level * records..];
+            let (drawn, values) = scratch.of_level(self.analysis.set(), level);
             // Σ m e and Σ m e B over the first ranks, kept where each level ends
             let (mut sum, mut moments) = (0.0, [0.0; KNOTS]);
             let (mut sums, mut all_moments) = ([0.0; FIT_RATES], [[0.0; KNOTS]; FIT_RATES]);
             let mut from = 0;
             let mut add = |to: usize, sum: &mut f64, moments: &mut [f64; KNOTS]| {
-                for (&(rank, ..), &value) in scratch.drawn[from..to].iter().zip(&scratch.values[from..to]) {
+                for (&(rank, ..), &value) in drawn.records[from..to].iter().zip(&values[from..to]) {
                     *sum += value;
                     for (moment, basis) in moments.iter_mut().zip(&basis[rank]) {
                         *moment += value * basis;
@@ -313,10 +288,10 @@ impl<'a> Solver<'a> {
                 from = to;
             };
             for n in (0..FIT_RATES).rev() {
-                add(scratch.drawn_before[above[n]], &mut sum, &mut moments);
+                add(drawn.before[above[n]], &mut sum, &mut moments);
                 (sums[n], all_moments[n]) = (sum, moments);
             }
-            add(scratch.drawn.len(), &mut sum, &mut moments);
+            add(drawn.records.len(), &mut sum, &mut moments);
             let factor = weight / sum;
             let mean = moments.map(|moment| moment / sum);
             for n in 0..FIT_RATES {

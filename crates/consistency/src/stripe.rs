@@ -1,6 +1,7 @@
 //! What the shares of the records make of the set at one stripe.
 
-use crate::quantile::weighted_quantile;
+use uplift_fragility::weighted_quantile;
+
 use crate::{RecordSet, SetRecord};
 
 /// The set at one stripe, under the shares of its records there.
@@ -12,7 +13,8 @@ pub struct StripeStatistics {
     pub sd_ln_ratio: f64,
     /// Effective records 1/Σ p², the shares of both components of a pair added first.
     pub effective_records: f64,
-    /// Effective earthquakes, 1/Σ over the events of their squared shares; none unless every event is known.
+    /// Effective earthquakes, 1/Σ over the events of their squared shares; none unless the event of every record of the
+    /// stripe is known.
     pub effective_events: Option<f64>,
     /// The largest share of a pair.
     pub largest_record_share: f64,
@@ -23,9 +25,9 @@ pub struct StripeStatistics {
 }
 
 impl StripeStatistics {
-    /// Of a stripe with the shares p of the records, `[record]`.
-    pub(crate) fn of(set: &RecordSet, shares: &[f64]) -> Self {
-        let ln_ratios = || set.ratios().iter().map(|ratio| ratio.ln()).zip(shares);
+    /// Of the stripe at `level` with the shares p of the records, `[record]`.
+    pub(crate) fn of(set: &RecordSet, level: usize, shares: &[f64]) -> Self {
+        let ln_ratios = || set.ratios_at(level).iter().map(|ratio| ratio.ln()).zip(shares);
         let mean_ln_ratio: f64 = ln_ratios().map(|(ln_ratio, share)| share * ln_ratio).sum();
         let variance: f64 = ln_ratios().map(|(ln_ratio, share)| share * (ln_ratio - mean_ln_ratio).powi(2)).sum();
         let (pairs, events) = (set.by_pair(shares), set.by_event(shares));
@@ -34,7 +36,7 @@ impl StripeStatistics {
             mean_ln_ratio,
             sd_ln_ratio: variance.sqrt(),
             effective_records: effective(&pairs),
-            effective_events: set.knows_all_events().then(|| effective(&events)),
+            effective_events: set.knows_events_at(level).then(|| effective(&events)),
             largest_record_share,
             largest_record: set.record_of_pair(pair),
             largest_event: largest(&events).map(|(event, share)| (set.event_number(event), share)),
@@ -65,10 +67,11 @@ pub struct ScaleFactors {
 }
 
 impl ScaleFactors {
-    /// To `level`, with the shares p of the records; `limits` are the lower and the upper one.
-    pub(crate) fn of(set: &RecordSet, level: f64, shares: &[f64], limits: [f64; 2]) -> Self {
+    /// To `level`, with the shares p of the records at the nearest `stripe`; `limits` are the lower and the upper one.
+    pub(crate) fn of(set: &RecordSet, (level, stripe): (f64, usize), shares: &[f64], limits: [f64; 2]) -> Self {
+        let factor = |record| set.scale_factor(level, stripe, record);
         let mut factors: Vec<(f64, f64)> =
-            set.records().iter().zip(shares).map(|(record, &share)| (set.scale_factor(level, record), share)).collect();
+            shares.iter().enumerate().map(|(record, &share)| (factor(record), share)).collect();
         factors.sort_by(|a, b| a.0.total_cmp(&b.0));
         let outside = |[lower, upper]: [f64; 2]| -> f64 {
             factors.iter().filter(|(factor, _)| !(lower..=upper).contains(factor)).map(|(_, share)| share).sum()
@@ -136,14 +139,14 @@ mod tests {
 
     #[test]
     fn statistics_by_hand() {
-        let statistics = StripeStatistics::of(&set(), &[0.25, 0.25, 0.25, 0.25]);
+        let statistics = StripeStatistics::of(&set(), 0, &[0.25, 0.25, 0.25, 0.25]);
         assert!((statistics.mean_ln_ratio - 0.5).abs() < 1e-15 && (statistics.sd_ln_ratio - 0.5).abs() < 1e-15);
         // pairs ½, ¼, ¼; events ¾, ¼
         assert!((statistics.effective_records - 1.0 / 0.375).abs() < 1e-14);
         assert!((statistics.effective_events.unwrap() - 1.0 / 0.625).abs() < 1e-14);
         assert_eq!((statistics.largest_record, statistics.largest_record_share), (0, 0.5));
         assert_eq!(statistics.largest_event, Some((5, 0.75)));
-        let alone = StripeStatistics::of(&set(), &[0.0, 0.0, 0.0, 1.0]);
+        let alone = StripeStatistics::of(&set(), 0, &[0.0, 0.0, 0.0, 1.0]);
         assert_eq!((alone.effective_records, alone.largest_record, alone.largest_event), (1.0, 3, Some((8, 1.0))));
     }
 
@@ -151,7 +154,7 @@ mod tests {
     fn scale_factors_and_medians_by_hand() {
         let shares = [0.25, 0.25, 0.25, 0.25];
         // 4/40, 4/4, 4/2 twice: positions 0.15, 1.5 and 2.85
-        let factors = ScaleFactors::of(&set(), 4.0, &shares, [0.5, 1.5]);
+        let factors = ScaleFactors::of(&set(), (4.0, 0), &shares, [0.5, 1.5]);
         for (found, expected) in factors.percentiles.into_iter().zip([0.235, 1.5, 2.0]) {
             assert!((found - expected).abs() < 1e-12, "{found} {expected}");
         }

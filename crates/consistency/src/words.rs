@@ -13,6 +13,8 @@ pub struct Words<'a> {
     pub other: &'a str,
     /// Stripe levels of x, `[level]`.
     pub levels: &'a [f64],
+    /// Whether each has records of its own.
+    pub has_level_sets: bool,
     /// The name of a record, by its position.
     pub record: &'a dyn Fn(usize) -> String,
     /// The name of an earthquake, by the caller's number.
@@ -43,6 +45,7 @@ pub(crate) fn with_words(test: impl Fn(&Words<'_>)) {
         scaled_to_unit: "cm/s",
         other: "PGA",
         levels: &[1.0, 2.5, 40.0],
+        has_level_sets: false,
         record: &|record| format!("RSN{record}"),
         event: &|event| format!("event {event}"),
         target: &|target| ["2 % in 50 years", "10 % in 50 years"][target].to_owned(),

@@ -4,6 +4,7 @@
 mod common;
 mod expected;
 mod golden;
+mod level_sets;
 mod properties;
 mod real_records;
 mod synthetic_records;

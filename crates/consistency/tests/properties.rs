@@ -57,7 +57,7 @@ fn sets() -> impl Strategy<Value = (Vec<f64>, Vec<f64>)> {
 fn solved(solver: &Solver<'_>, multiplicities: &[u32]) -> ([f64; KNOTS], Vec<f64>) {
     let mut scratch = Scratch::default();
     let fit = solver.solve(multiplicities, &[0.0; KNOTS], &mut scratch).unwrap();
-    let mut shares = solver.analysis().even_shares();
+    let mut shares = solver.analysis().own_shares();
     solver.shares(multiplicities, &fit.exponents, &mut scratch, &mut shares).unwrap();
     (fit.exponents, shares)
 }
@@ -81,9 +81,9 @@ proptest! {
         let (x, y) = (hazard("PGV", "cm/s", 1.0, 1.0), hazard("other", "1", 1.0, 1.0));
         let analysis = analysis(&set, &x, &y);
         let solver = Solver::new(&analysis, 0.05).unwrap();
-        let mut shares = analysis.even_shares();
+        let mut shares = analysis.own_shares();
         solver.shares(&set.once(), &exponents, &mut Scratch::default(), &mut shares).unwrap();
-        assert_close(&shares, &analysis.even_shares(), 1e-15)?;
+        assert_close(&shares, &analysis.own_shares(), 1e-15)?;
     }
 
     #[test]

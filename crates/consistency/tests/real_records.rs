@@ -210,7 +210,7 @@ fn a_resample_of_the_set() {
     for (found, expected) in again.exponents.iter().zip(fit.exponents) {
         assert!((found - expected).abs() < 1e-5, "{again:?} {fit:?}");
     }
-    let mut shares = analysis.even_shares();
+    let mut shares = analysis.own_shares();
     solver.shares(&multiplicities, &fit.exponents, &mut scratch, &mut shares).unwrap();
     let weights = RunWeights::new(analysis.stripes(), &shares).unwrap();
     let after = analysis.diagnose(Some(&weights), [0.2, 5.0]).unwrap();

@@ -38,5 +38,5 @@ pub use empirical::{EmpiricalFragility, check_threshold, exceedance_counts, exce
 pub use error::FragilityError;
 pub use lognormal::{LognormalFit, LognormalFragility, StripeCount, fit_lognormal, stripe_counts};
 pub use normal::{ln_normal_cdf, normal_cdf, normal_quantile};
-pub use quantile::quantile;
+pub use quantile::{quantile, weighted_quantile};
 pub use stripes::Stripes;

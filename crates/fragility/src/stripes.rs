@@ -141,6 +141,17 @@ impl<'a> Stripes<'a> {
         &self.edp_m[start..start + self.levels.len()]
     }
 
+    /// Demands of the records of one level, m, each with how much it counts there: 1 where all count alike.
+    ///
+    /// # Panics
+    /// If `level` is not below [`Stripes::level_count`].
+    pub fn weighted_stripe(&self, level: usize) -> impl Iterator<Item = (f64, f64)> + 'a {
+        let (stripes, records) = (*self, self.record_count);
+        let share = move |record: usize| stripes.shares.map_or(1.0, |shares| shares[level * records + record]);
+        let of_level = (0..records).filter(move |&record| stripes.belongs(record, level));
+        self.stripe(level).zip(of_level.map(share))
+    }
+
     /// Demands of all records at one level, m: a horizontal stripe.
     ///
     /// # Panics
@@ -209,6 +220,7 @@ mod tests {
         let stripes = Stripes::with_shares(&levels, &edp, (3, 2), Some(&shares)).unwrap();
         assert_eq!(stripes.stripe(0).collect::<Vec<_>>(), [0.1, 0.2]);
         assert_eq!(stripes.stripe(1).collect::<Vec<_>>(), [0.4, 0.3]);
+        assert_eq!(stripes.weighted_stripe(0).collect::<Vec<_>>(), [(0.1, 0.25), (0.2, 0.75)]);
         assert!(!stripes.belongs(2, 0) && stripes.belongs(2, 1));
         // the second record belongs to the first level here, and so does its NaN to the first record's second
         let nan = with(&[0.25, 0.75, 0.0, 0.5, 0.5, 0.0]).unwrap_err();

@@ -74,6 +74,16 @@ impl RockingFrame {
         Ok(Self { columns, column_mass_kg, deck_mass_kg, shape, gravity_m_s2 })
     }
 
+    /// The rigid rectangular block of size `R` (m) and slenderness `α` (rad): one column that carries no deck. Its mass
+    /// is of no influence.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new); the size must be finite and above zero.
+    pub fn block(size_m: f64, slenderness_rad: f64, gravity_m_s2: f64) -> Result<Self, FrameError> {
+        let column = Geometry::from_slenderness_and_size(slenderness_rad, size_m)?;
+        Self::new(column, 1, 1.0, 0.0, ColumnShape::Rectangle, gravity_m_s2)
+    }
+
     /// The same with a restrainer in every column.
     ///
     /// # Errors

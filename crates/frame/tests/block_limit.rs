@@ -23,7 +23,7 @@ fn every_reference_case_of_the_block() {
         let samples = file["records"][case["record"].as_str().unwrap()].as_array().unwrap();
         let samples = samples.iter().map(|a| a.as_f64().unwrap()).collect();
         let record = Accelerogram::new(number(case, "dt"), samples).unwrap();
-        let frame = frame(number(case, "alpha"), number(case, "R"), 0.0, number(case, "g"));
+        let frame = RockingFrame::block(number(case, "R"), number(case, "alpha"), number(case, "g")).unwrap();
         let expected = &case["expected"];
         let found = respond(&frame, &GroundMotion::along_x(&record), Model::Planar, &Options::default()).unwrap();
         assert_eq!(found.overturned, expected["overturned"].as_bool().unwrap(), "{}", case["id"]);

@@ -2,14 +2,14 @@
 
 use rayon::prelude::*;
 use uplift_block::{FreeRocking, RockingBlock, respond};
-use uplift_frame::{Model, Options, Until};
+use uplift_frame::{Model, Options, RockingFrame, Until};
 use uplift_motion::{Accelerogram, MotionError};
 use uplift_oscillator::{GroundMotion, Oscillator, Peak, Sweep};
 
 use crate::cells::{AnalysisRow, Cells};
 use crate::error::IdaError;
 use crate::peaks::Peaks;
-use crate::plan::{Plan, ScaledMotion};
+use crate::plan::{Ground, Plan};
 use crate::shard::Shard;
 use crate::system::{ShakenFrame, System};
 use crate::watch::Watch;
@@ -58,65 +58,89 @@ pub fn complete(
                 return Ok(());
             }
             let (motion, system) = axes.of_row(row);
-            let of_motion = &plan.motions()[motion];
+            let (of_motion, shaken) = (&plan.motions()[motion], plan.system(motion, system));
             let missing: Vec<usize> = (0..axes.scales).filter(|scale| !known[*scale]).collect();
             if missing.is_empty() {
-                watch.finished(of_motion.runs() as u64);
+                watch.finished(plan.histories_of(motion) as u64);
                 return Ok(());
             }
             let scales: Vec<f64> = missing.iter().map(|scale| of_motion.scales[*scale]).collect();
-            let peaks = match (&plan.systems()[system], &ground_motions[motion]) {
-                (System::Oscillator(oscillator), Some(ground_motion)) => {
-                    swept(oscillator, ground_motion, plan.with_free_peak(), &scales)
+            let grounds: Vec<Ground<'_>> = plan.grounds_of(motion).collect();
+            // of every azimuth the peak at every scale
+            let peaks: Vec<Vec<Peak>> = match (shaken, &ground_motions[motion]) {
+                (System::Oscillator(oscillator), Some(of_azimuths)) => {
+                    let from = |ground| swept(oscillator, ground, plan.with_free_peak(), &scales);
+                    of_azimuths.iter().map(from).collect()
                 }
                 (one_by_one, _) => {
-                    let run = |scale: &f64| {
+                    let run = |ground: &Ground<'_>, scale: f64| {
                         if watch.cancelled() {
                             return Err(IdaError::Cancelled);
                         }
-                        let peak =
-                            single(one_by_one, (of_motion, plan.across_of(motion)), *scale, plan.with_free_peak())?;
+                        let peak = single(one_by_one, ground, scale, plan.with_free_peak())?;
                         watch.finished(1);
                         Ok(peak)
                     };
-                    scales.par_iter().map(run).collect::<Result<Vec<_>, _>>()?
+                    let from = |ground| scales.par_iter().map(|scale| run(ground, *scale)).collect();
+                    grounds.par_iter().map(from).collect::<Result<_, _>>()?
                 }
             };
-            for (scale, peak) in missing.iter().zip(&peaks) {
-                check_number(&plan.systems()[system], of_motion, of_motion.scales[*scale], peak)?;
+            for (place, scale) in missing.iter().enumerate() {
+                let from_all: Vec<Peak> = peaks.iter().map(|of_azimuth| of_azimuth[place]).collect();
+                for peak in &from_all {
+                    check_number(shaken, (of_motion.id, of_motion.scales[*scale]), peak)?;
+                }
+                let peak = match plan.other_azimuths_of(motion) {
+                    Some((_, percentile)) => of_azimuths(from_all, percentile),
+                    None => from_all[0],
+                };
                 displacement_m[*scale] = peak.displacement_m;
                 impacts[*scale] = peak.impacts;
             }
             known.fill(true);
             keep(&AnalysisRow { motion, system, displacement_m, impacts });
             // what is run one by one is told one by one
-            let told = if plan.systems()[system].is_swept() { 0 } else { missing.len() };
-            watch.finished((of_motion.runs() - told) as u64);
+            let told = if shaken.is_swept() { 0 } else { missing.len() * grounds.len() };
+            watch.finished((plan.histories_of(motion) - told) as u64);
             Ok(())
         },
     )?;
     Ok(cells)
 }
 
+/// The smallest of `peaks`, one an azimuth, that `percentile` per cent of them do not exceed; what overturned is the
+/// largest.
+fn of_azimuths(mut peaks: Vec<Peak>, percentile: u8) -> Peak {
+    peaks.sort_by(|one, other| one.displacement_m.total_cmp(&other.displacement_m));
+    let at_most = (peaks.len() * usize::from(percentile)).div_ceil(100);
+    peaks[at_most.saturating_sub(1)]
+}
+
 /// Whether a peak is one: NaN never is, and `+∞` only of a system that can overturn.
-fn check_number(system: &System, motion: &ScaledMotion<'_>, scale: f64, peak: &Peak) -> Result<(), IdaError> {
+fn check_number(system: &System, (motion, scale): (&str, f64), peak: &Peak) -> Result<(), IdaError> {
     let displacement_m = peak.displacement_m;
     if displacement_m.is_finite() || (displacement_m == f64::INFINITY && system.can_overturn()) {
         return Ok(());
     }
-    Err(IdaError::NotFinite { motion: motion.id.to_owned(), scale, system: system.to_string(), displacement_m })
+    Err(IdaError::NotFinite { motion: motion.to_owned(), scale, system: system.to_string(), displacement_m })
 }
 
-/// What oscillators share under each motion, made ready only where a row of one is missing.
-fn ground_motions<'a>(plan: &Plan<'a>, cells: &Cells, shard: Shard) -> Result<Vec<Option<GroundMotion<'a>>>, IdaError> {
+/// What oscillators share under each motion, one an azimuth, made ready only where a row of one is missing.
+fn ground_motions<'a>(
+    plan: &Plan<'a>,
+    cells: &Cells,
+    shard: Shard,
+) -> Result<Vec<Option<Vec<GroundMotion<'a>>>>, IdaError> {
     let axes = plan.axes();
-    let of_motion = |(motion, scaled): (usize, &ScaledMotion<'a>)| {
-        let missing = |(system, shaken): (usize, &System)| {
-            shaken.is_swept() && shard.contains(axes.row(motion, system)) && !cells.is_row_known(motion, system)
+    let of_motion = |motion: usize| {
+        let missing = |system: usize| {
+            let is_swept = plan.system(motion, system).is_swept();
+            is_swept && shard.contains(axes.row(motion, system)) && !cells.is_row_known(motion, system)
         };
-        plan.systems().iter().enumerate().any(missing).then(|| scaled.excitation().map(GroundMotion::new)).transpose()
+        let ready = |ground: Ground<'a>| ground.excitation().map(GroundMotion::new);
+        (0..axes.systems).any(missing).then(|| plan.grounds_of(motion).map(ready).collect()).transpose()
     };
-    plan.motions().par_iter().enumerate().map(of_motion).collect()
+    (0..axes.motions).into_par_iter().map(of_motion).collect()
 }
 
 /// Peaks of an oscillator at all `scales` together.
@@ -130,73 +154,69 @@ pub(crate) fn swept(
 }
 
 /// The peak of any system at one scale factor.
-pub(crate) fn single(
-    system: &System,
-    (motion, across): (&ScaledMotion<'_>, Option<&Accelerogram>),
-    scale: f64,
-    with_free_peak: bool,
-) -> Result<Peak, IdaError> {
+pub(crate) fn single(system: &System, ground: &Ground<'_>, scale: f64, with_free_peak: bool) -> Result<Peak, IdaError> {
     match system {
         System::Oscillator(oscillator) => {
-            let ground_motion = GroundMotion::new(motion.excitation()?);
+            let ground_motion = GroundMotion::new(ground.excitation()?);
             Ok(Sweep::new(oscillator, &ground_motion, with_free_peak).peak(scale))
         }
-        System::Block(block) => rocked(block, motion, scale, with_free_peak),
-        System::Frame(shaken) => wobbled(shaken, (motion, across), scale, with_free_peak),
+        System::Block(block) if ground.upwards.is_some() => {
+            // the block is the frame of one column without a deck, and the frame's solver knows the vertical motion
+            let (size_m, slenderness_rad) = (block.size_m(), block.slenderness_rad());
+            let frame = RockingFrame::block(size_m, slenderness_rad, block.gravity_m_s2())
+                .map_err(|source| IdaError::Frame { motion: ground.id.to_owned(), scale, source: source.into() })?;
+            let restitution = block.restitution();
+            wobbled(&ShakenFrame { frame, model: Model::Planar, restitution }, ground, scale, with_free_peak)
+        }
+        System::Block(block) => rocked(block, ground, scale, with_free_peak),
+        System::Frame(shaken) => wobbled(shaken, ground, scale, with_free_peak),
     }
 }
 
 /// Without the free motion after the record, what is lost when it ends stands.
-fn wobbled(
-    shaken: &ShakenFrame,
-    (motion, across): (&ScaledMotion<'_>, Option<&Accelerogram>),
-    scale: f64,
-    with_free_peak: bool,
-) -> Result<Peak, IdaError> {
-    let scaled = |component: &Accelerogram| {
-        let named = |source: MotionError| IdaError::Motion { motion: motion.id.to_owned(), source: source.into() };
-        component.scaled(scale).map_err(named)
-    };
-    let x = scaled(motion.accelerogram)?;
-    let y = across.filter(|_| shaken.model == Model::Wobbling).map(scaled).transpose()?;
+fn wobbled(shaken: &ShakenFrame, ground: &Ground<'_>, scale: f64, with_free_peak: bool) -> Result<Peak, IdaError> {
+    let named = |source: MotionError| IdaError::Motion { motion: ground.id.to_owned(), source: source.into() };
+    let scaled = |component: &Accelerogram| component.scaled(scale).map_err(named);
+    let x = scaled(ground.along)?;
+    let y = ground.across.filter(|_| shaken.model == Model::Wobbling).map(scaled).transpose()?;
+    let z = ground.upwards.map(scaled).transpose()?;
     let component = uplift_frame::Shaking::Record;
-    let ground = uplift_frame::GroundMotion { x: Some(component(&x)), y: y.as_ref().map(component), z: None };
-    let until = if with_free_peak { Until::FirstFreePeak } else { Until::Time(ground.duration_s()) };
+    let shaking = uplift_frame::GroundMotion {
+        x: Some(component(&x)),
+        y: y.as_ref().map(component),
+        z: z.as_ref().map(component),
+    };
+    let until = if with_free_peak { Until::FirstFreePeak } else { Until::Time(shaking.duration_s()) };
     let options = Options { until, restitution: Some(shaken.restitution), ..Options::default() };
-    let response = uplift_frame::respond(&shaken.frame, &ground, shaken.model, &options)
-        .map_err(|source| IdaError::Frame { motion: motion.id.to_owned(), scale, source: source.into() })?;
+    let response = uplift_frame::respond(&shaken.frame, &shaking, shaken.model, &options)
+        .map_err(|source| IdaError::Frame { motion: ground.id.to_owned(), scale, source: source.into() })?;
     let impacts = u32::try_from(response.impacts).unwrap_or(u32::MAX);
     Ok(Peak { displacement_m: response.displacement.value, impacts })
 }
 
-fn rocked(block: &RockingBlock, motion: &ScaledMotion<'_>, scale: f64, with_free_peak: bool) -> Result<Peak, IdaError> {
+fn rocked(block: &RockingBlock, ground: &Ground<'_>, scale: f64, with_free_peak: bool) -> Result<Peak, IdaError> {
     let free = if with_free_peak { FreeRocking::FirstPeak } else { FreeRocking::Lasting { duration_s: 0.0 } };
-    let named = || motion.id.to_owned();
-    let ground = motion
-        .accelerogram
-        .scaled(scale)
-        .map_err(|source| IdaError::Motion { motion: named(), source: source.into() })?;
+    let named = || ground.id.to_owned();
+    let motion =
+        ground.along.scaled(scale).map_err(|source| IdaError::Motion { motion: named(), source: source.into() })?;
     let response =
-        respond(block, &ground, free).map_err(|source| IdaError::Block { motion: named(), source: source.into() })?;
+        respond(block, &motion, free).map_err(|source| IdaError::Block { motion: named(), source: source.into() })?;
     Ok(Peak { displacement_m: response.displacement_m, impacts: u32::try_from(response.impacts).unwrap_or(u32::MAX) })
 }
 
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
-    use uplift_motion::Accelerogram;
     use uplift_oscillator::PostUplift;
 
     use super::*;
 
     #[test]
     fn a_peak_that_is_no_number_is_an_error_and_an_overturning_is_an_answer() {
-        let accelerogram = Accelerogram::new(0.01, vec![0.0, 1.0]).unwrap();
-        let motion = ScaledMotion { id: "RSN1 h1", accelerogram: &accelerogram, scales: vec![2.5] };
         let system = |post_uplift| System::Oscillator(Oscillator::new(0.3, 9.81, 0.0005, 0.95, post_uplift).unwrap());
         let [constant, falls] = [PostUplift::Zero, PostUplift::Negative { capacity_m: 0.4 }].map(system);
         let check = |system: &System, displacement_m: f64| {
-            check_number(system, &motion, 2.5, &Peak { displacement_m, impacts: 0 })
+            check_number(system, ("RSN1 h1", 2.5), &Peak { displacement_m, impacts: 0 })
         };
         assert!(check(&constant, 0.1).is_ok() && check(&falls, f64::INFINITY).is_ok());
         for (system, displacement_m) in
@@ -205,5 +225,17 @@ mod tests {
             let error = check(system, displacement_m).unwrap_err().to_string();
             assert!(error.contains("RSN1 h1") && error.contains("2.5") && error.contains("strength 0.3"), "{error}");
         }
+    }
+
+    #[test]
+    fn a_percentile_is_a_peak_that_was_computed_and_what_overturns_is_the_largest() {
+        let peaks = |values: &[f64]| values.iter().map(|&displacement_m| Peak { displacement_m, impacts: 0 }).collect();
+        let of = |values: &[f64], percentile| of_azimuths(peaks(values), percentile).displacement_m;
+        let four = [0.3, f64::INFINITY, 0.1, 0.2];
+        assert_eq!(
+            [0, 25, 26, 50, 75, 76, 100].map(|percentile| of(&four, percentile)),
+            [0.1, 0.1, 0.2, 0.2, 0.3, f64::INFINITY, f64::INFINITY]
+        );
+        assert_eq!([0, 50, 100].map(|percentile| of(&[0.7], percentile)), [0.7; 3]);
     }
 }

@@ -16,6 +16,8 @@ pub struct Cells {
     pub(crate) peaks: Peaks,
     /// As the cells of the result.
     pub(crate) known: Vec<bool>,
+    /// Time histories behind each peak.
+    histories_per_peak: usize,
 }
 
 impl Cells {
@@ -24,7 +26,8 @@ impl Cells {
         let axes = plan.axes();
         let total = axes.cells();
         let peaks = Peaks { axes, displacement_m: vec![0.0; total], impacts: vec![0; total] };
-        let mut cells = Self { peaks, known: vec![false; total] };
+        let histories_per_peak = plan.histories_per_peak();
+        let mut cells = Self { peaks, known: vec![false; total], histories_per_peak };
         for (motion, scaled) in plan.motions().iter().enumerate() {
             for (scale, _) in scaled.scales.iter().enumerate().filter(|(_, factor)| factor.is_nan()) {
                 (0..axes.systems).for_each(|system| cells.set([motion, system, scale], f64::NAN, 0));
@@ -65,7 +68,7 @@ impl Cells {
         true
     }
 
-    /// Number of runs known of the row of a motion and system.
+    /// Number of time histories known of the row of a motion and system.
     ///
     /// # Panics
     /// If an index is out of range, which is a bug of the caller.
@@ -73,15 +76,15 @@ impl Cells {
         self.known_runs(self.peaks.axes.cells_of(motion, system))
     }
 
-    /// Number of runs known.
+    /// Number of time histories known.
     pub fn count(&self) -> u64 {
         self.known_runs(0..self.known.len()) as u64
     }
 
-    /// Number of runs known among `cells`: what is NaN is no run.
+    /// Number of time histories known among `cells`: what is NaN is no run.
     fn known_runs(&self, cells: Range<usize>) -> usize {
         let known = self.known[cells.clone()].iter().zip(&self.peaks.displacement_m[cells]);
-        known.filter(|(known, displacement_m)| **known && !displacement_m.is_nan()).count()
+        known.filter(|(known, displacement_m)| **known && !displacement_m.is_nan()).count() * self.histories_per_peak
     }
 
     /// Whether the whole row of a motion and system is known.

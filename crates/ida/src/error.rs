@@ -118,13 +118,45 @@ pub enum IdaError {
         /// What is wrong.
         source: Box<FrameError>,
     },
-    /// Second components for other motions than there are.
-    #[error("{count} second components for {expected} motions: each motion needs its own")]
-    Across {
+    /// Components for other motions than there are.
+    #[error("{count} {what} for {expected} motions: each motion needs its own")]
+    Beside {
+        /// What they are.
+        what: &'static str,
         /// How many there are.
         count: usize,
         /// How many motions there are.
         expected: usize,
+    },
+    /// Motions under which blocks and frames would leave the ground.
+    #[error(
+        "{} records have a vertical acceleration that, scaled, is as much as gravity downwards: columns and blocks \
+         leave the ground then, which no model here describes; end the levels below these scale factors, or leave the \
+         records or their vertical motion out: {}{}",
+        falling.len(),
+        falling.iter().take(10).cloned().collect::<Vec<_>>().join(", "),
+        if falling.len() > 10 { ", …" } else { "" }
+    )]
+    Falls {
+        /// Each with the first scale factor at which it does.
+        falling: Vec<String>,
+    },
+    /// Azimuths that no percentile can be taken of.
+    #[error(
+        "percentile {percentile} of azimuths: it must be from 0 to 100, every motion must be seen from as many \
+         azimuths, and a model that feels both components has no azimuth"
+    )]
+    Azimuths {
+        /// The percentile.
+        percentile: u8,
+    },
+    /// Systems that cannot be shared out among the motions.
+    #[error("{systems} systems for {motions} motions: each motion needs as many of its own")]
+    OwnSystems {
+        /// How many systems there are.
+        systems: usize,
+        /// How many motions there are.
+        motions: usize,
     },
     /// A motion that cannot be multiplied so.
     #[error("record {motion}: {source}")]

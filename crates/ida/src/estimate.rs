@@ -34,24 +34,25 @@ pub fn estimate(plan: &Plan<'_>, budget: Duration) -> Estimate {
     let mut timed = 0;
     while timed < axes.rows() && (timed < LEAST_ROWS || start.elapsed() < budget) {
         let (motion, system) = axes.of_row(spread(timed, axes.rows(), STEPS[0]));
-        let across = plan.across_of(motion);
-        let motion = &plan.motions()[motion];
-        let scales: Vec<f64> = motion.scales.iter().copied().filter(|scale| !scale.is_nan()).collect();
-        match &plan.systems()[system] {
+        // one azimuth stands for all
+        let Some(ground) = plan.grounds_of(motion).next() else { break };
+        let azimuths = u32::try_from(plan.histories_per_peak()).unwrap_or(u32::MAX);
+        let scales: Vec<f64> = plan.motions()[motion].scales.iter().copied().filter(|scale| !scale.is_nan()).collect();
+        match plan.system(motion, system) {
             System::Oscillator(oscillator) => {
                 // made ready once a motion, not once a row
-                let Ok(ground) = motion.excitation().map(GroundMotion::new) else { break };
+                let Ok(ground) = ground.excitation().map(GroundMotion::new) else { break };
                 let begin = Instant::now();
                 std::hint::black_box(swept(oscillator, &ground, plan.with_free_peak(), &scales));
-                spent += begin.elapsed();
+                spent += begin.elapsed() * azimuths;
             }
             one_by_one @ (System::Block(_) | System::Frame(_)) => {
                 let begin = Instant::now();
                 let scale = scales[spread(timed, scales.len(), STEPS[1])];
-                if std::hint::black_box(single(one_by_one, (motion, across), scale, plan.with_free_peak())).is_err() {
+                if std::hint::black_box(single(one_by_one, &ground, scale, plan.with_free_peak())).is_err() {
                     break;
                 }
-                spent += begin.elapsed() * u32::try_from(scales.len()).unwrap_or(u32::MAX);
+                spent += begin.elapsed() * azimuths * u32::try_from(scales.len()).unwrap_or(u32::MAX);
             }
         }
         timed += 1;

@@ -43,8 +43,31 @@ pub struct Plan<'a> {
     with_free_peak: bool,
     /// As many as motions, or none.
     across: Vec<&'a Accelerogram>,
+    /// As many as motions, or none.
+    upwards: Vec<&'a Accelerogram>,
+    azimuths: Option<Azimuths<'a>>,
     /// Whether a factor may be NaN: no run.
     with_gaps: bool,
+    /// Whether every motion shakes systems of its own.
+    with_own_systems: bool,
+}
+
+/// The motions of a plan as they are seen from more than one azimuth.
+#[derive(Debug, Clone)]
+struct Azimuths<'a> {
+    /// From all azimuths but the first, which is that of the motion itself; `[motion]`, as many of each.
+    others: Vec<&'a [Accelerogram]>,
+    percentile: u8,
+}
+
+/// What shakes a system in one run: along the plane of a planar model, across it and upwards.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Ground<'a> {
+    /// Of the motion.
+    pub(crate) id: &'a str,
+    pub(crate) along: &'a Accelerogram,
+    pub(crate) across: Option<&'a Accelerogram>,
+    pub(crate) upwards: Option<&'a Accelerogram>,
 }
 
 impl<'a> Plan<'a> {
@@ -138,10 +161,40 @@ impl<'a> Plan<'a> {
             if let Some((index, &value)) = motion.scales.iter().enumerate().find(|(_, scale)| refused(**scale)) {
                 return Err(IdaError::Scale { motion: named(), index, value });
             }
-            motion.excitation()?;
+            motion.excitation_of(motion.accelerogram)?;
             motion.check_peaks(motion.accelerogram)?;
         }
-        Ok(Self { motions, systems, with_free_peak, across: Vec::new(), with_gaps })
+        Ok(Self {
+            motions,
+            systems,
+            with_free_peak,
+            across: Vec::new(),
+            upwards: Vec::new(),
+            azimuths: None,
+            with_gaps,
+            with_own_systems: false,
+        })
+    }
+
+    /// This plan with systems of its own for every motion, as many for each: the first so many are those of the first
+    /// motion, and so on.
+    ///
+    /// # Errors
+    /// A number of systems that is no multiple of that of motions.
+    pub fn with_own_systems(self) -> Result<Self, IdaError> {
+        let (systems, motions) = (self.systems.len(), self.motions.len());
+        if systems % motions != 0 {
+            return Err(IdaError::OwnSystems { systems, motions });
+        }
+        Ok(Self { with_own_systems: true, ..self })
+    }
+
+    /// The system at a position of the second axis of the result, under a motion.
+    ///
+    /// # Panics
+    /// If an index is out of range, which is a bug of the caller.
+    pub fn system(&self, motion: usize, system: usize) -> &'a System {
+        if self.with_own_systems { &self.systems[motion * self.axes().systems + system] } else { &self.systems[system] }
     }
 
     /// This plan with the second horizontal component of every motion, scaled by the same factors: what shakes a
@@ -150,9 +203,7 @@ impl<'a> Plan<'a> {
     /// # Errors
     /// Another number of components than of motions; a scaled one that no ground has.
     pub fn across(mut self, across: Vec<&'a Accelerogram>) -> Result<Self, IdaError> {
-        if across.len() != self.motions.len() {
-            return Err(IdaError::Across { count: across.len(), expected: self.motions.len() });
-        }
+        self.check_beside("second components", across.len())?;
         for (motion, second) in self.motions.iter().zip(&across) {
             motion.check_peaks(second)?;
         }
@@ -160,9 +211,92 @@ impl<'a> Plan<'a> {
         Ok(self)
     }
 
-    /// The second horizontal component of a motion; none where the plan has none.
-    pub(crate) fn across_of(&self, motion: usize) -> Option<&'a Accelerogram> {
-        self.across.get(motion).copied()
+    /// This plan with the vertical component of every motion, upwards positive, scaled by the same factors: blocks and
+    /// frames feel it, oscillators never do.
+    ///
+    /// # Errors
+    /// Another number of components than of motions; motions whose ground falls as fast as gravity at some scale, all
+    /// of them at once: what leaves the ground is in no model.
+    pub fn upwards(mut self, upwards: Vec<&'a Accelerogram>) -> Result<Self, IdaError> {
+        self.check_beside("vertical components", upwards.len())?;
+        let gravity_m_s2 = self.systems.iter().filter_map(System::gravity_m_s2).fold(f64::INFINITY, f64::min);
+        let falls = |(motion, vertical): (&ScaledMotion<'_>, &&Accelerogram)| {
+            let (least, most) = vertical
+                .acceleration_m_s2()
+                .iter()
+                .fold((0.0, 0.0), |(least, most): (f64, f64), a| (least.min(*a), most.max(*a)));
+            let first = motion.scales.iter().position(|scale| (scale * least).min(scale * most) <= -gravity_m_s2)?;
+            Some(format!("{} by {:.4} (scale factor {first})", motion.id, motion.scales[first]))
+        };
+        let mut falling: Vec<String> = self.motions.iter().zip(&upwards).filter_map(falls).collect();
+        // both components of a pair are told once
+        falling.dedup();
+        if !falling.is_empty() {
+            return Err(IdaError::Falls { falling });
+        }
+        self.upwards = upwards;
+        Ok(self)
+    }
+
+    /// This plan with every motion as it is seen from other azimuths too: a peak is a percentile of the peaks from all,
+    /// the smallest that `percentile` per cent of them do not exceed, what overturns being the largest. It is for
+    /// models in the plane.
+    ///
+    /// # Errors
+    /// Another number of motions, or of azimuths from one motion to the next; a second component; a percentile above
+    /// 100; a scaled motion that no ground has.
+    pub fn from_azimuths(mut self, others: Vec<&'a [Accelerogram]>, percentile: u8) -> Result<Self, IdaError> {
+        self.check_beside("motions of other azimuths", others.len())?;
+        let count = others.first().map_or(0, |first| first.len());
+        if !self.across.is_empty() || percentile > 100 || others.iter().any(|of_motion| of_motion.len() != count) {
+            return Err(IdaError::Azimuths { percentile });
+        }
+        for (motion, others) in self.motions.iter().zip(&others) {
+            for other in *others {
+                motion.check_peaks(other)?;
+                motion.excitation_of(other)?;
+            }
+        }
+        self.azimuths = Some(Azimuths { others, percentile });
+        Ok(self)
+    }
+
+    fn check_beside(&self, what: &'static str, count: usize) -> Result<(), IdaError> {
+        let expected = self.motions.len();
+        if count == expected { Ok(()) } else { Err(IdaError::Beside { what, count, expected }) }
+    }
+
+    /// The vertical component of a motion; none where the plan has none.
+    pub fn upwards_of(&self, motion: usize) -> Option<&'a Accelerogram> {
+        self.upwards.get(motion).copied()
+    }
+
+    /// A motion as it is seen from the other azimuths, and the percentile that is taken; none where there is one
+    /// azimuth.
+    pub fn other_azimuths_of(&self, motion: usize) -> Option<(&'a [Accelerogram], u8)> {
+        self.azimuths.as_ref().map(|azimuths| (azimuths.others[motion], azimuths.percentile))
+    }
+
+    /// Time histories behind each peak: azimuths of a percentile, else 1.
+    pub fn histories_per_peak(&self) -> usize {
+        self.other_azimuths_of(0).map_or(1, |(others, _)| 1 + others.len())
+    }
+
+    /// Time histories of a motion for each system.
+    pub fn histories_of(&self, motion: usize) -> usize {
+        self.motions[motion].runs() * self.histories_per_peak()
+    }
+
+    /// What shakes a system under a motion: one ground an azimuth.
+    pub(crate) fn grounds_of(&self, motion: usize) -> impl Iterator<Item = Ground<'a>> + '_ {
+        let of_motion = &self.motions[motion];
+        let others = self.other_azimuths_of(motion).map_or(&[][..], |(others, _)| others);
+        std::iter::once(of_motion.accelerogram).chain(others).map(move |along| Ground {
+            id: of_motion.id,
+            along,
+            across: self.across.get(motion).copied(),
+            upwards: self.upwards_of(motion),
+        })
     }
 
     /// This plan with every scale factor multiplied by each of `factors`: all of them by the first, then all by the
@@ -175,21 +309,34 @@ impl<'a> Plan<'a> {
             let by = |factor: &f64| motion.scales.iter().map(|scale| scale * factor).collect::<Vec<_>>();
             motion.scales = factors.iter().flat_map(by).collect();
         }
-        let across = self.across;
+        let (across, upwards, azimuths) = (self.across, self.upwards, self.azimuths);
+        let with_own_systems = self.with_own_systems;
         let marks = (self.with_free_peak, self.with_gaps);
-        Ok(Self { across, ..Self::checked("motions", self.motions, self.systems, marks)? })
+        let plan = Self::checked("motions", self.motions, self.systems, marks)?;
+        let mut plan = Self { with_own_systems, ..plan };
+        if !across.is_empty() {
+            plan = plan.across(across)?;
+        }
+        if !upwards.is_empty() {
+            plan = plan.upwards(upwards)?;
+        }
+        match azimuths {
+            Some(Azimuths { others, percentile }) => plan.from_azimuths(others, percentile),
+            None => Ok(plan),
+        }
     }
 
     /// Lengths of the axes of its result.
     pub fn axes(&self) -> Axes {
         let scales = self.motions.first().map_or(0, |motion| motion.scales.len());
-        Axes { motions: self.motions.len(), systems: self.systems.len(), scales }
+        let (motions, all) = (self.motions.len(), self.systems.len());
+        Axes { motions, systems: if self.with_own_systems { all / motions } else { all }, scales }
     }
 
     /// Number of nonlinear time histories in the plan.
     pub fn analyses(&self) -> u64 {
-        let of_a_system: usize = self.motions.iter().map(ScaledMotion::runs).sum();
-        (of_a_system * self.systems.len()) as u64
+        let of_a_system: usize = (0..self.motions.len()).map(|motion| self.histories_of(motion)).sum();
+        (of_a_system * self.axes().systems) as u64
     }
 
     /// The motions, the first axis of the result.
@@ -197,7 +344,7 @@ impl<'a> Plan<'a> {
         &self.motions
     }
 
-    /// The systems, the second axis of the result.
+    /// All systems: the second axis of the result, unless every motion has [its own](Self::with_own_systems).
     pub fn systems(&self) -> &'a [System] {
         self.systems
     }
@@ -227,8 +374,18 @@ impl<'a> ScaledMotion<'a> {
         self.scales.iter().filter(|scale| !scale.is_nan()).count()
     }
 
+    fn excitation_of<'b>(&self, component: &'b Accelerogram) -> Result<Excitation<'b>, IdaError>
+    where
+        'a: 'b,
+    {
+        Ground { id: self.id, along: component, across: None, upwards: None }.excitation()
+    }
+}
+
+impl<'a> Ground<'a> {
+    /// As an oscillator feels it.
     pub(crate) fn excitation(&self) -> Result<Excitation<'a>, IdaError> {
-        Excitation::new(self.accelerogram.dt_s(), self.accelerogram.acceleration_m_s2())
+        Excitation::new(self.along.dt_s(), self.along.acceleration_m_s2())
             .map_err(|source| IdaError::Oscillator { motion: self.id.to_owned(), source })
     }
 }

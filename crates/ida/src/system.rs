@@ -74,6 +74,15 @@ impl System {
         }
     }
 
+    /// Acceleration of gravity on what a vertical motion shakes, m/s²; none of an oscillator, which feels none.
+    pub fn gravity_m_s2(&self) -> Option<f64> {
+        match self {
+            Self::Oscillator(_) => None,
+            Self::Block(block) => Some(block.gravity_m_s2()),
+            Self::Frame(shaken) => Some(shaken.frame.gravity_m_s2()),
+        }
+    }
+
     /// All that its motion depends on but the ground's: a number for the kind, then the parameters. Systems of the same
     /// identity have the same peaks, to the bit.
     pub fn identity(&self) -> Vec<f64> {

@@ -208,6 +208,34 @@ fn a_motion_is_run_where_it_has_a_factor() {
     assert!(matches!(error, IdaError::NoRun { .. }), "{error}");
 }
 
+// Systems of its own under every motion: each peak is that of the same motion and system among all of them.
+#[test]
+fn every_motion_shakes_its_own_systems() {
+    let case = Case::of_both_kinds();
+    let plan = case.plan();
+    let whole = analyse(&plan, &Unwatched).unwrap();
+    let of_all = plan.axes();
+    // two systems a motion, by their positions among all
+    let own = |motion: usize, place: usize| (3 * motion + 2 * place) % of_all.systems;
+    let places = (0..of_all.motions).flat_map(|motion| [own(motion, 0), own(motion, 1)]);
+    let systems: Vec<System> = places.map(|system| plan.systems()[system].clone()).collect();
+    let apart = || Plan::scaled(plan.motions().to_vec(), &systems, plan.with_free_peak()).unwrap();
+    let apart_plan = apart().with_own_systems().unwrap();
+    let axes = apart_plan.axes();
+    assert_eq!((axes.motions, axes.systems), (of_all.motions, 2));
+    assert_eq!(apart_plan.analyses(), (2 * of_all.motions * of_all.scales) as u64);
+    let found = analyse(&apart_plan, &Unwatched).unwrap();
+    for (motion, place) in (0..axes.motions).flat_map(|motion| [(motion, 0), (motion, 1)]) {
+        assert_eq!(apart_plan.system(motion, place), &plan.systems()[own(motion, place)]);
+        assert_eq!(found.row_m(motion, place), whole.row_m(motion, own(motion, place)));
+    }
+    assert!(estimate(&apart_plan, std::time::Duration::ZERO).seconds_one_thread > 0.0);
+    let twice = apart().multiplied(&[1.0, 1.0]).unwrap().with_own_systems().unwrap();
+    assert_eq!(twice.multiplied(&[1.0]).unwrap().axes().systems, 2);
+    let odd = Plan::scaled(plan.motions().to_vec(), &systems[1..], true).unwrap().with_own_systems();
+    assert!(matches!(odd.unwrap_err(), IdaError::OwnSystems { .. }));
+}
+
 struct Counting<'a>(&'a AtomicU64);
 
 impl Watch for Counting<'_> {

@@ -94,7 +94,7 @@ fn a_second_component_is_one_of_each_motion() {
     let (pairs, frame) = (pairs(), frame(None, TendonPath::Column));
     let systems = [system(&frame, Model::Wobbling, 1.0)];
     let lacking = plan(&pairs, &systems, true).across(vec![&pairs[0][1]]).unwrap_err();
-    assert!(matches!(lacking, IdaError::Across { count: 1, expected: 3 }), "{lacking}");
+    assert!(matches!(lacking, IdaError::Beside { count: 1, expected: 3, .. }), "{lacking}");
     let huge = Accelerogram::new(0.01, vec![0.0, 1e7, 0.0]).unwrap();
     let implausible = plan(&pairs, &systems, true).across(vec![&huge; 3]).unwrap_err();
     assert!(matches!(implausible, IdaError::Implausible { .. }), "{implausible}");

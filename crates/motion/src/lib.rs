@@ -3,7 +3,7 @@
 //! - [`Accelerogram`]: uniformly sampled ground acceleration, with its peaks (PGA, PGV, PGD),
 //!   Arias intensity and significant durations;
 //! - [`RecordPair`]: the two horizontal components of a ground motion, and [`Component`], the
-//!   choice of those that a planar model receives;
+//!   choice of those, or of azimuths, that a planar model receives;
 //! - [`IntensityMeasure`]: PGV and PGA of a pair as geometric means (Eq. 4.5, 4.6) or in another
 //!   [`Combination`], spectral accelerations and others, and the [`scale_factor`] to a level;
 //! - [`read_record_file`], [`read_record`]: every component of a record file of any [`RecordFormat`],
@@ -19,6 +19,7 @@
 mod accelerogram;
 mod arias;
 mod combination;
+mod component;
 mod error;
 mod measure;
 mod pair;
@@ -35,9 +36,10 @@ mod write;
 
 pub use accelerogram::Accelerogram;
 pub use combination::{Combination, Peaks};
+pub use component::{Component, Direction, Drawn, Rotation};
 pub use error::MotionError;
 pub use measure::{IntensityMeasure, Period, geometric_mean, scale_factor};
-pub use pair::{Component, Horizontal, RecordPair};
+pub use pair::{Horizontal, RecordPair};
 pub use pulse::{PulseClassification, classify_pulse, may_be_pulse_like};
 pub use read::at2::{At2Header, At2Record, read_at2};
 pub use read::columns::read_columns;

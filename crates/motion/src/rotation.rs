@@ -40,6 +40,25 @@ pub(crate) fn common_time_step_s(pair: &RecordPair) -> Result<f64, MotionError> 
     if h1_s == h2_s { Ok(h1_s) } else { Err(MotionError::UnequalTimeSteps { h1_s, h2_s }) }
 }
 
+/// The motion as it is seen from an azimuth θ (degrees from h1 towards h2), h1 cos θ + h2 sin θ; at 0° and 90° the
+/// very components.
+///
+/// # Errors
+///
+/// [`MotionError::UnequalTimeSteps`]; no motion where a sum of both components is not finite.
+pub(crate) fn turned(pair: &RecordPair, azimuth_deg: f64) -> Result<Accelerogram, MotionError> {
+    let dt_s = common_time_step_s(pair)?;
+    if azimuth_deg == 0.0 {
+        return Ok(pair.h1.clone());
+    }
+    if azimuth_deg == 90.0 {
+        return Ok(pair.h2.clone());
+    }
+    let (sin, cos) = azimuth_deg.to_radians().sin_cos();
+    let points = together([&pair.h1, &pair.h2].map(Accelerogram::acceleration_m_s2), [0.0; 2]);
+    Accelerogram::new(dt_s, points.iter().map(|[x, y]| x * cos + y * sin).collect())
+}
+
 /// What `value` is of the motion in every direction.
 ///
 /// # Errors

@@ -49,6 +49,21 @@ pub enum OscillatorError {
         /// Displacement at uplift, m.
         uplift_displacement_m: f64,
     },
+    /// A run that would take for ever, or a history that no memory holds.
+    #[error(
+        "{duration_s} s of motion are {steps:.1e} steps of {dt_s} s and half cycles of the oscillator: {most:e} are \
+         computed at most; follow the free vibration for a shorter time, or give a softer system"
+    )]
+    TooManySteps {
+        /// Duration of the run, s.
+        duration_s: f64,
+        /// Time step of the motion, s.
+        dt_s: f64,
+        /// Samples and half cycles.
+        steps: f64,
+        /// The most that are computed.
+        most: f64,
+    },
     /// An acceleration history needs at least two samples.
     #[error("the acceleration history has {samples} samples: at least 2 are needed")]
     TooFewSamples {

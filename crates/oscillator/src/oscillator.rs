@@ -48,6 +48,9 @@ pub struct Oscillator {
 /// its root.
 const STIFFEST_PER_S2: f64 = 1e10;
 
+/// Steps of a run, at most: some seconds, and a time history of a gigabyte.
+const MOST_STEPS: f64 = 1e7;
+
 fn require(
     holds: bool,
     name: &'static str,
@@ -165,6 +168,20 @@ impl Oscillator {
     pub fn highest_frequency_rad_s(&self) -> f64 {
         let [attached, uplifted] = [self.attached(), self.uplifted()].map(|branch| branch.stiffness_per_s2.abs());
         attached.max(uplifted).sqrt()
+    }
+
+    /// Refuses a run of more than 1e7 steps: samples `dt_s` (s) apart for `duration_s`, free vibration included, and
+    /// half cycles of the stiffer branch.
+    ///
+    /// # Errors
+    /// [`OscillatorError::TooManySteps`].
+    pub fn check_run_length(&self, duration_s: f64, dt_s: f64) -> Result<(), OscillatorError> {
+        let half_cycles = self.highest_frequency_rad_s() * duration_s / std::f64::consts::PI;
+        let steps = duration_s / dt_s + half_cycles;
+        if steps <= MOST_STEPS {
+            return Ok(());
+        }
+        Err(OscillatorError::TooManySteps { duration_s, dt_s, steps, most: MOST_STEPS })
     }
 
     /// True where no force ever acts on the mass: strength zero and no stiffness after uplift.

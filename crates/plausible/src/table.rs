@@ -58,6 +58,12 @@ pub const YOUNG_MODULUS: Range = range(1e6, 1e13, "Pa", "in Pa, not in MPa or GP
 /// Area of a tendon.
 pub const TENDON_AREA: Range = range(1e-8, 10.0, "m2", "in m2, not in mm2: a strand of 150 mm2 has 150e-6");
 
+/// Design strength of concrete under compression.
+pub const CONCRETE_STRENGTH: Range = range(1e5, 1e9, "Pa", "in Pa, not in MPa: 20 MPa are 20e6");
+
+/// Elongation of a restrainer.
+pub const ELONGATION: Range = range(1e-6, 10.0, "m", "in m, not in mm");
+
 /// Force of a tendon, or of the rods beside its springs.
 pub const TENDON_FORCE: Range = range(0.0, 1e12, "N", "in N: a strand of 150 mm2 yields at some 2.4e5");
 
@@ -162,6 +168,8 @@ mod tests {
             (DISC_HEIGHT, &[5e-5, 0.05]),
             (YOUNG_MODULUS, &[1e8, 2.1e11]),
             (TENDON_AREA, &[1e-6, 0.5]),
+            (CONCRETE_STRENGTH, &[1e6, 1.5e8]),
+            (ELONGATION, &[1e-5, 2.0]),
         ] {
             for &value in values {
                 assert!(range.contains(value), "{value} {range}");
@@ -187,6 +195,8 @@ mod tests {
             (YOUNG_MODULUS, 206e3),
             (TENDON_AREA, 150.0),
             (SPRING_GAP, 15.0),
+            (CONCRETE_STRENGTH, 20.0),
+            (ELONGATION, 50.0),
         ] {
             assert!(!range.contains(value), "{value} {range}");
         }

@@ -57,6 +57,11 @@ pub const USUAL_SAFETY_FACTOR: Range = usual(1.0, 10.0, "", "Section 3.4.5 has 2
 pub const USUAL_TOP_PGV: Range =
     usual(5.0, 1000.0, "cm/s", "300 is the most that was recorded; was the level meant in m/s or mm/s?");
 
+/// Level of PGV of a shaking table, of both components together: a third of it and less for small models, tables stop
+/// at some m/s.
+pub const USUAL_TABLE_PGV: Range =
+    usual(0.005, 5.0, "m/s", "0.1675 and 0.335 in the dissertation; was it meant in cm/s or mm/s?");
+
 /// The highest level of PGA that records are scaled to.
 pub const USUAL_TOP_PGA: Range =
     usual(0.05, 10.0, "g", "4 is the most that was recorded; was the level meant in m/s2 or cm/s2?");

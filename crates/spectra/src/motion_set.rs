@@ -23,6 +23,8 @@ pub struct Motion<'a> {
     pub id: String,
     /// The component.
     pub accelerogram: &'a Accelerogram,
+    /// The vertical component of its record, upwards positive, where that shakes blocks too.
+    pub vertical: Option<&'a Accelerogram>,
     /// Its own peak ground acceleration, g.
     pub pga_g: f64,
     /// Its own peak ground velocity, cm/s.
@@ -82,6 +84,7 @@ impl<'a> MotionSet<'a> {
                 motions.push(Motion {
                     id,
                     accelerogram: record.components[which],
+                    vertical: None,
                     pga_g: own_pga_g[which],
                     pgv_cm_s: own_pgv_cm_s[which],
                     record_pga_g,
@@ -95,6 +98,17 @@ impl<'a> MotionSet<'a> {
             return Err(SpectraError::EmptySet { set: name.to_owned() });
         }
         Ok(Self { name: name.to_owned(), motions, median_pga_g: median(pga_g), median_pgv_cm_s: median(pgv_cm_s) })
+    }
+
+    /// The same with the vertical component of every record, in their order: it takes the factor of each motion.
+    #[must_use]
+    pub fn upwards(mut self, verticals: impl IntoIterator<Item = &'a Accelerogram>) -> Self {
+        for (motions, vertical) in self.motions.chunks_mut(2).zip(verticals) {
+            for motion in motions {
+                motion.vertical = Some(vertical);
+            }
+        }
+        self
     }
 
     /// Name of the set.
@@ -141,7 +155,7 @@ impl<'a> MotionSet<'a> {
     /// * `with_free_peak` — whether the first peak of the free motion after a record counts
     ///
     /// # Errors
-    /// No system, no scaling, a factor that is not finite.
+    /// No system, no scaling, a factor that is not finite; a vertical component that falls as fast as gravity.
     pub fn plan<'b>(
         &'b self,
         scalings: &[Scaling],
@@ -154,7 +168,9 @@ impl<'a> MotionSet<'a> {
             accelerogram: motion.accelerogram,
             scales: factors.iter().map(|of_scaling| of_scaling[place]).collect(),
         };
-        Plan::scaled(self.motions.iter().enumerate().map(scaled).collect(), systems, with_free_peak)
+        let plan = Plan::scaled(self.motions.iter().enumerate().map(scaled).collect(), systems, with_free_peak)?;
+        let verticals: Vec<&Accelerogram> = self.motions.iter().filter_map(|motion| motion.vertical).collect();
+        if verticals.is_empty() { Ok(plan) } else { plan.upwards(verticals) }
     }
 }
 

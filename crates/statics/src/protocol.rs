@@ -63,8 +63,8 @@ impl LoadingProtocol {
     /// of drift (1/s).
     ///
     /// # Errors
-    /// Amplitude, factor and rate must be finite and positive; there must be a set and a cycle, and at most a million
-    /// points of history.
+    /// Amplitude, factor and rate must be finite and positive, the last amplitude at most 1; there must be a set and a
+    /// cycle, and at most a million points of history.
     pub fn new(first_drift: f64, ratio: f64, sets: u32, cycles: u32, rate_per_s: f64) -> Result<Self, StaticsError> {
         positive("first", first_drift, "")?;
         positive("ratio", ratio, "")?;
@@ -74,8 +74,15 @@ impl LoadingProtocol {
         let turns = u64::from(sets) * u64::from(cycles) * 4;
         require(turns <= MOST_POINTS, "cycles", f64::from(cycles), "", "fewer: a million turns are no protocol")?;
         let protocol = Self { first_drift, ratio, sets, cycles, rate_per_s };
+        // a ratio of 1 is a column that lies at 45 degrees
         let last = protocol.amplitude(sets);
-        require(last.is_finite(), "ratio", ratio, "", "one whose last amplitude is finite")?;
+        require(
+            last <= 1.0,
+            "last amplitude",
+            last,
+            "",
+            "at most 1: drift is a ratio, not per cent, or of fewer sets",
+        )?;
         Ok(protocol)
     }
 

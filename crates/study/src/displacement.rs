@@ -125,6 +125,14 @@ pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<DisplacementS
             stiffness::check(&root, (*strength, gravity, *next, family.restitution), steepest);
         }
     }
+    if let (Some(Structures::Oscillators(_)), Some(true)) = (&structures, records.as_ref().map(|found| found.vertical))
+    {
+        root.mistake(
+            "records.vertical",
+            "oscillators do not feel the vertical motion",
+            "leave it out, or shake blocks: a section [block] in place of [oscillator]",
+        );
+    }
     root.finish();
     let mut study = DisplacementStudy {
         title: title?,

@@ -97,13 +97,14 @@ impl AnyStudy {
         }
     }
 
-    /// The files that it names to be read: manifest, hazard curves, tables and exports of sites, a structure.
+    /// The files that it names to be read: manifest, records of levels, hazard curves, tables and exports of sites, a
+    /// structure.
     pub fn inputs(&self) -> Vec<&Path> {
         match self {
             Self::UniformRisk(study) => {
                 let curves = study.sites.iter().flat_map(|site| site.curves.iter().flat_map(CurveFile::files));
                 let of_sites = study.site_table.iter().flat_map(SiteTable::files);
-                study.records.source.manifest().into_iter().chain(curves).chain(of_sites).collect()
+                study.records.files().chain(curves).chain(of_sites).collect()
             }
             Self::Displacement(study) => study.records.manifest().into_iter().collect(),
             Self::ShakeTable(study) => {

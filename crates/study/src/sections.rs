@@ -9,6 +9,7 @@
 //! | `stiffness` | what the keys of `[oscillator]` make together |
 //! | `name` | the name of a site or record set |
 //! | `output` | `[output]` |
+//! | `uncertainty` | `[uncertainty]`: what of a structure is not known exactly |
 
 pub(crate) mod name;
 pub(crate) mod output;
@@ -17,3 +18,4 @@ pub(crate) mod selection;
 pub(crate) mod stiffness;
 pub(crate) mod strengths;
 pub(crate) mod top;
+pub(crate) mod uncertainty;

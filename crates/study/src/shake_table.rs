@@ -144,6 +144,9 @@ pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<ShakeTableStu
         warnings: Vec::new(),
     };
     let gravity = uplift_plausible::USUAL_GRAVITY.unlikely("gravity_m_s2", study.gravity_m_s2);
-    study.warnings = gravity.iter().map(Warning::unlikely).collect();
+    let of_level =
+        |level: &LevelPlan| uplift_plausible::USUAL_TABLE_PGV.unlikely("pgv_srss_m_s of a level", level.pgv_srss_m_s);
+    let levels: Vec<_> = study.levels.iter().filter_map(of_level).collect();
+    study.warnings = gravity.iter().chain(&levels).map(Warning::unlikely).collect();
     Some(study)
 }

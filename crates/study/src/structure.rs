@@ -4,14 +4,15 @@
 //! in [`uplift_statics::description`]. A restrained frame gives `tendon_stiffness_n_m` and `tendon_anchorage`, a linear
 //! restrainer, or that table: then the equivalent oscillator gets the stiffness with which it has the displacement
 //! capacity of the exact law, and the same file serves statics, design and risk. `column_shape` and `f_cd_pa` are of
-//! the columns' section.
+//! the columns' section. A table `[uncertainty]` says what of the equivalent oscillator is not known exactly.
 
 use std::path::{Path, PathBuf};
 
-use uplift_plausible::UPLIFT_DISPLACEMENT;
+use uplift_plausible::{CONCRETE_STRENGTH, UPLIFT_DISPLACEMENT};
 use uplift_statics::{Parts, RestrainedColumns, Restrainer, StaticsError, TendonPath};
 use uplift_structure::{
     Anchorage, EquivalentSystem, Kind, Reference, RotatingBlock, StructureDescription, StructureError,
+    UncertainQuantity,
 };
 
 use crate::error::StudyError;
@@ -19,15 +20,16 @@ use crate::reading::findings::refused;
 use crate::reading::other_file::Wanted;
 use crate::reading::text::{parse_table, read_text};
 use crate::reading::{Field, Finding, Findings, Origin, Rule, Section, Table, Value};
+use crate::sections::uncertainty::{self, Described, Uncertainty};
 use crate::warning::Warning;
 use restrainer::ReadRestrainer;
 pub use restrainer::RestrainerFile;
 
 mod restrainer;
+mod rocking;
 
 /// What a number must be is judged by the description.
 const ANY: Rule = Rule::Is { holds: |_| true, words: "finite" };
-const POSITIVE: Rule = Rule::Is { holds: |value| value > 0.0, words: "above 0" };
 const REFERENCES: [(&str, Reference); 2] = [("top", Reference::Top), ("centre", Reference::Centre)];
 const SHAPES: [(&str, ColumnShape); 2] = [("cylinder", ColumnShape::Cylinder), ("rectangle", ColumnShape::Rectangle)];
 const ANCHORAGES: [(&str, Anchorage); 2] = [("foundation", Anchorage::Foundation), ("column", Anchorage::Column)];
@@ -59,6 +61,8 @@ pub struct Structure {
     pub column_shape: ColumnShape,
     /// Design strength of the columns' concrete, Pa.
     pub f_cd_pa: Option<f64>,
+    /// What of the equivalent oscillator is not known exactly; none where all of it is.
+    pub uncertainty: Option<Uncertainty>,
     /// What is allowed but probably not meant.
     pub warnings: Vec<Warning>,
 }
@@ -70,7 +74,14 @@ impl Structure {
     /// [`StudyError`] with every mistake of the file; those of TOML syntax come alone, and one that takes several
     /// correct quantities to see, such as a capacity below the uplift displacement, is found once those are mended.
     pub fn load(file: &Path) -> Result<Self, StudyError> {
-        let text = read_text(file, Wanted::Structure)?;
+        Self::parse(file, read_text(file, Wanted::Structure)?)
+    }
+
+    /// Parses the `text` of a structure file whose name is, or would be, `file`.
+    ///
+    /// # Errors
+    /// As [`load`](Self::load).
+    pub fn parse(file: &Path, text: String) -> Result<Self, StudyError> {
         let document = parse_table(file, &text)?;
         if let Some(reason) = Wanted::Structure.refusal_of_table(&document) {
             return Err(StudyError::unreadable(file, reason));
@@ -78,9 +89,12 @@ impl Structure {
         let findings = Findings::default();
         let read = read(Section::root(&document, &findings));
         let mut findings = findings.into_vec();
-        if let Some(read) = read {
-            match read.resolve(file) {
-                Ok(structure) if findings.is_empty() => return Ok(structure),
+        let resolved = read.map(|read| read.resolve(file));
+        let (uncertainty, of_uncertainty) = read_uncertainty(&document, resolved.as_ref());
+        findings.extend(of_uncertainty);
+        if let Some(resolved) = resolved {
+            match resolved {
+                Ok(structure) if findings.is_empty() => return Ok(Self { uncertainty, ..structure }),
                 Ok(_) => {}
                 Err(mistakes) => {
                     let judged =
@@ -205,6 +219,7 @@ impl ReadStructure {
             columns,
             column_shape: self.column_shape,
             f_cd_pa: self.f_cd_pa,
+            uncertainty: None,
         })
     }
 
@@ -300,7 +315,33 @@ fn read(mut root: Section<'_>) -> Option<ReadStructure> {
     };
     let restrainer = restrainer::read(&mut root, &description);
     let column_shape = root.choice_or("column_shape", &SHAPES, ColumnShape::default()).unwrap_or_default();
-    let f_cd_pa = root.field("f_cd_pa").and_then(|field| field.number("Pa", POSITIVE));
+    let f_cd_pa = root.field("f_cd_pa").and_then(|field| field.number("Pa", Rule::Within(CONCRETE_STRENGTH)));
+    // it is read when the structure is known, whose values are its means
+    root.section("uncertainty");
     root.finish();
     kind.map(|_| ReadStructure { description, restrainer, column_shape, f_cd_pa })
+}
+
+/// Reads `[uncertainty]`, and what is wrong with it; the means that are not given are those of the structure.
+fn read_uncertainty(
+    document: &Table,
+    resolved: Option<&Result<Structure, Vec<Mistake>>>,
+) -> (Option<Uncertainty>, Vec<Finding>) {
+    let described = |quantity: UncertainQuantity| {
+        let Some(Ok(structure)) = resolved else { return Described::Mistaken };
+        match quantity.value(&structure.system, structure.description.restitution) {
+            Some(value) => Described::As(value),
+            None if quantity == UncertainQuantity::Capacity => {
+                Described::Impossible("the force of this structure does not fall after uplift: it has no capacity")
+            }
+            None => Described::Open,
+        }
+    };
+    let findings = Findings::default();
+    let table = document.get("uncertainty").filter(|entry| entry.node.table().is_some());
+    let read = table.and_then(|_| {
+        let section = Section::root(document, &findings).section("uncertainty");
+        uncertainty::read(section, &described)
+    });
+    (read, findings.into_vec())
 }

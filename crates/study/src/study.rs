@@ -8,7 +8,7 @@ use crate::reading::findings::refused;
 use crate::reading::letters::refuse_null_characters;
 use crate::reading::other_file::Wanted;
 use crate::reading::paths::tidy;
-use crate::reading::text::{parse_table, read_text};
+use crate::reading::text::{STANDARD_INPUT, input_text, parse_table, read_text};
 use crate::reading::{Findings, Paths, Section, Table, overrides};
 use crate::uniform_risk::{self, UniformRiskStudy};
 
@@ -34,13 +34,16 @@ impl Study {
         Self::read(file)?.resolve(overrides)
     }
 
-    /// As [`load`](Self::load), for a study of any kind.
+    /// As [`load`](Self::load), for a study of any kind; the file `-` is standard input, and paths in it start from
+    /// the current directory.
     ///
     /// # Errors
     ///
     /// As [`load`](Self::load).
     pub fn load_any(file: &Path, overrides: &[String]) -> Result<AnyStudy, StudyError> {
-        Self::read(file)?.resolve_any(overrides)
+        let study =
+            if file == Path::new(STANDARD_INPUT) { Self::parse(file, input_text()?)? } else { Self::read(file)? };
+        study.resolve_any(overrides)
     }
 
     /// The study of a result, from the text that [`AnyStudy::to_toml`] made of it.

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod configs;
+mod directions;
 mod displacement;
 mod grids;
 mod mistakes;
@@ -10,6 +11,7 @@ mod reference;
 mod resolving;
 mod restrainers;
 mod shake_table;
+mod uncertainty;
 mod written;
 
 use std::fs;

@@ -24,6 +24,7 @@ mod oscillator;
 mod records;
 mod regression;
 mod risk;
+mod rotation;
 mod site_table;
 mod sites;
 mod warnings;
@@ -31,7 +32,8 @@ mod warnings;
 use std::collections::BTreeSet;
 
 use serde::Serialize;
-use uplift_motion::IntensityMeasure;
+use uplift_bootstrap::Unit;
+use uplift_motion::{Component, IntensityMeasure, Rotation};
 
 use crate::grid::Grid;
 use crate::keys::{Key, SectionKeys};
@@ -56,9 +58,10 @@ pub use site_table::SiteTable;
 pub use sites::Site;
 
 /// The reference of every key.
-pub(crate) const KEYS: [SectionKeys; 24] = [
+pub(crate) const KEYS: [SectionKeys; 25] = [
     TOP,
     records::KEYS,
+    rotation::KEYS,
     selection::KEYS,
     record_source::SYNTHETIC_KEYS,
     oscillator::KEYS,
@@ -90,7 +93,7 @@ const TOP: SectionKeys = SectionKeys {
         top::TITLE,
         Key {
             names: &["seed"],
-            meaning: "seed of what is drawn at random: the component where it is `\"random\"`",
+            meaning: "seed of what is drawn at random: the component where it is `\"random\"`, the azimuth of a pair",
             default: "1",
             range: "0 to 2⁶³ − 1",
         },
@@ -154,6 +157,16 @@ impl UniformRiskStudy {
         all.into_iter().filter(|measure| !measure.is_of_chapter_4()).collect()
     }
 
+    /// What the bootstrap draws where `asked` is asked for, else what the study says: records of the azimuths of a pair
+    /// are never drawn apart.
+    pub fn drawn_unit(&self, asked: Option<Unit>) -> Unit {
+        let each = matches!(self.records.component, Component::Rotated(Rotation::Each { .. }));
+        match asked.unwrap_or(self.bootstrap.unit) {
+            Unit::Record if each => Unit::Pair,
+            unit => unit,
+        }
+    }
+
     /// The study as TOML, complete and loadable; the warnings are left out, since loading finds them again.
     ///
     /// # Errors
@@ -209,14 +222,6 @@ pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<UniformRiskSt
     let consistency = consistency::read(root.section("consistency"));
     let consistency = consistency.filter(|of| compared_somewhere(&root, of, sites.as_deref()));
     let by_one = measures.as_deref().is_none_or(|measures| is_of_one_measure(&root, records.as_ref(), measures));
-    let repaired = consistency.as_ref().is_some_and(|of| of.repair != Repair::None);
-    if repaired && records.as_ref().is_some_and(|records| records.at_level.is_some()) {
-        root.mistake(
-            "consistency.repair",
-            "records of their own at each level are not weighed anew: they were selected for the level",
-            "leave records.at_level or the repair out",
-        );
-    }
     let inputs = (records.iter().flat_map(Records::files))
         .chain(sites.iter().flatten().flat_map(|site| site.curves.iter().flat_map(CurveFile::files)))
         .chain(site_table.iter().flatten().flat_map(SiteTable::files));

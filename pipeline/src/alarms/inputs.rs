@@ -1,10 +1,12 @@
 //! What a result rests on: its study, its records, and what was noticed when they were read.
 
+use uplift_motion::IntensityMeasure;
 use uplift_study::{AnyStudy, Study, Warning};
 
 use super::{Alarm, Severity};
 use crate::error::UpliftError;
 use crate::frame::FEW_RECORDS;
+use crate::inputs::at_level::{far_factors, relative_factors};
 use crate::result::{Kind, ResultFile};
 
 pub(super) fn of_result(file: &ResultFile) -> Result<Vec<Alarm>, UpliftError> {
@@ -24,7 +26,12 @@ pub(super) fn of_result(file: &ResultFile) -> Result<Vec<Alarm>, UpliftError> {
         ));
     }
     if file.kind() == Kind::UniformRisk {
-        alarms.extend(few(file.axes()?.records.len()));
+        let sets = sets_of_levels(file)?;
+        alarms.extend(sets.iter().filter_map(far));
+        alarms.extend(sets.iter().find_map(few_at_level));
+        if sets.is_empty() {
+            alarms.extend(few(file.axes()?.records.len()));
+        }
     }
     let noticed = head.warnings.iter().filter(|line| !line.is_empty());
     alarms.extend(noticed.map(|line| Alarm::of_one(Severity::Note, "inputs", "inputs", line.clone(), "")));
@@ -43,6 +50,64 @@ pub(super) fn of_warning(subject: &str, warning: &Warning) -> Alarm {
     Alarm::of_one(severity, kind, subject, warning.what.clone(), &warning.what_to_do)
 }
 
+/// The records of each level of a measure, where these are its own.
+struct Sets {
+    measure: IntensityMeasure,
+    levels: Vec<f64>,
+    names: Vec<String>,
+    /// Factors over level/intensity `[level, record]`, NaN where a record does not belong to a level.
+    relative: Vec<f64>,
+    /// `[level, record]`; none where all count alike.
+    shares: Option<Vec<f64>>,
+}
+
+fn sets_of_levels(file: &ResultFile) -> Result<Vec<Sets>, UpliftError> {
+    let mut sets = Vec::new();
+    for (measure, levels) in file.levels()? {
+        let stored = file.records()?;
+        if let Some(own) = file.sets_of_levels(stored.ids.len(), measure, levels.len())? {
+            let intensities = stored.intensities(measure).unwrap_or_default();
+            let relative = relative_factors(&own.factors, measure, &levels, intensities);
+            sets.push(Sets { measure, levels, names: stored.ids, relative, shares: own.shares });
+        }
+    }
+    Ok(sets)
+}
+
+/// What to do about factors that no definition of the measure explains.
+pub(crate) const OF_FAR_FACTORS: &str = "is the unit of the table's levels, of its factors or of the record files \
+                                         another one? correct it, or leave it if it is meant: records.at_level";
+
+fn far(sets: &Sets) -> Option<Alarm> {
+    let what = far_factors(&sets.relative, &sets.names, (sets.measure, &sets.levels))?;
+    Some(Alarm::of_one(Severity::Mistake, "factors-at-level", "records", what, OF_FAR_FACTORS))
+}
+
+/// Where the level with the fewest records has few that count.
+fn few_at_level(sets: &Sets) -> Option<Alarm> {
+    let records = sets.names.len();
+    let counts = |(level, row): (usize, &[f64])| {
+        let effective = 1.0 / row.iter().map(|share| share * share).sum::<f64>();
+        (level, row.iter().filter(|share| **share > 0.0).count(), effective)
+    };
+    let even = vec![1.0 / records as f64; records];
+    let rows: Vec<&[f64]> = sets.shares.as_deref().map_or(vec![&even[..]], |shares| shares.chunks(records).collect());
+    let (level, count, effective) = rows.into_iter().enumerate().map(counts).min_by(|a, b| a.2.total_cmp(&b.2))?;
+    let place = format!("{} {} {}", sets.measure.label(), sets.levels[level], sets.measure.unit());
+    (effective < FEW_RECORDS as f64 - 0.05).then(|| {
+        Alarm::of_one(
+            Severity::Caution,
+            "few-records",
+            &place,
+            format!(
+                "its {count} records count as {effective:.1}, the fewest of all levels: below about {FEW_RECORDS} \
+                 spectra depend strongly on the choice of records"
+            ),
+            "select more for the level (records.at_level); uplift bootstrap shows how much",
+        )
+    })
+}
+
 fn few(records: usize) -> Option<Alarm> {
     (records < FEW_RECORDS).then(|| {
         Alarm::of_one(
@@ -58,6 +123,26 @@ fn few(records: usize) -> Option<Alarm> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_level_with_the_fewest_records_that_count_is_named() {
+        let even = |count: usize| vec![1.0 / count as f64; count];
+        let mut sets = Sets {
+            measure: IntensityMeasure::Pgv,
+            levels: vec![1.0, 10.0],
+            names: (0..60).map(|record| format!("R{record}")).collect(),
+            relative: vec![1.0; 120],
+            shares: None,
+        };
+        assert_eq!((few_at_level(&sets), far(&sets)), (None, None));
+        sets.shares = Some([even(60), even(20), vec![0.0; 40]].concat());
+        let few = few_at_level(&sets).map(|alarm| alarm.to_string()).unwrap_or_default();
+        assert!(few.starts_with("PGV 10 cm/s: its 20 records count as 20.0"), "{few}");
+        sets.relative[3] = 400.0;
+        assert!(
+            far(&sets).is_some_and(|alarm| alarm.severity == Severity::Mistake && alarm.what.contains("R3 at 1 cm/s"))
+        );
+    }
 
     #[test]
     fn forty_records_are_no_longer_few() {

@@ -110,7 +110,11 @@ fn side<'a>(spectra: &'a MeasureSpectra, bands: Option<&'a StoredBands>, [site, 
     let band = || {
         let bands = bands?;
         let size = (0..bands.sizes.len()).max_by_key(|&size| bands.sizes[size])?;
-        let [lower, _, upper] = &bands.of(spectra.measure)?.plain.limits_m;
+        let of_measure = bands.of(spectra.measure)?;
+        let [lower, _, upper] = &of_measure.plain.limits_m;
+        // what all records there could be have; in results made before it was known, what resamples have
+        let [lower, upper] =
+            of_measure.inferred.as_ref().map_or([lower, upper], |own| [&own.truth_m[0], &own.truth_m[1]]);
         let of = |limit: &'a Array<4>| limit.block([site, poe, size]);
         Some([of(lower), of(upper)])
     };

@@ -83,7 +83,8 @@ impl<'a> Work<'a> {
         let cells: u64 = self.plans.iter().map(|labelled| labelled.plan.axes().cells() as u64).sum();
         let held = cells.saturating_mul(13);
         let samples = |labelled: &LabelledPlan<'_>| -> u64 {
-            labelled.plan.motions().iter().map(|motion| motion.accelerogram.len() as u64).sum()
+            let samples: u64 = labelled.plan.motions().iter().map(|motion| motion.accelerogram.len() as u64).sum();
+            samples * labelled.plan.histories_per_peak() as u64
         };
         let samples = self.plans.iter().map(samples).max().unwrap_or_default();
         let memory_bytes = held.saturating_add(PROGRAM_BYTES).saturating_add(64 * samples);
@@ -140,7 +141,7 @@ impl<'a> Work<'a> {
                 })
                 .collect();
             let keep = |row: &AnalysisRow<'_>| {
-                let new = plan.motions()[row.motion].runs() - in_row[plan.axes().row(row.motion, row.system)];
+                let new = plan.histories_of(row.motion) - in_row[plan.axes().row(row.motion, row.system)];
                 finished.fetch_add(new as u64, Ordering::Relaxed);
             };
             let start = Instant::now();
@@ -201,7 +202,7 @@ fn known(labelled: &LabelledPlan<'_>, keys: &RowKeys, checkpoint: &Checkpoint) -
     let axes = labelled.plan.axes();
     let in_row = |(row, key): (usize, &RowKey)| {
         if checkpoint.rows().contains(*key) {
-            return labelled.plan.motions()[axes.of_row(row).0].runs() as u64;
+            return labelled.plan.histories_of(axes.of_row(row).0) as u64;
         }
         let (motion, system) = axes.of_row(row);
         labelled.known.as_ref().map_or(0, |cells| cells.known_in_row(motion, system) as u64)

@@ -31,7 +31,8 @@ impl ResultFile {
         let stored = self.stripes()?;
         // where the bootstrap made bands of repaired spectra as well
         let reweighing = if self.has_repaired_bands() { Reweighing::of_result(&self)? } else { None };
-        let source = Source { stored: &stored, reweighing: reweighing.as_ref(), plan: &plan, settings: &settings };
+        let (reweighing, pair_of) = (reweighing.as_ref(), &self.pair_of()?);
+        let source = Source { stored: &stored, reweighing, plan: &plan, pair_of, settings: &settings };
         let measures = compute(&source, None, events)?.into_iter().map(stored_bands).collect();
         Ok(self.with_bands(StoredBands { sizes: plan.sizes().to_vec(), unit: plan.unit(), confidence, measures }))
     }

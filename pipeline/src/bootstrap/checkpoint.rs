@@ -57,7 +57,8 @@ pub(crate) fn finished_strengths(part: &Path) -> Option<u64> {
 impl Checkpoint {
     /// The checkpoint of this very bootstrap: its fingerprint covers all numbers that the bands depend on.
     pub(super) fn of(source: &Source<'_>) -> Self {
-        let Source { stored, reweighing, plan, settings } = source;
+        // pairs are of the bands of the truth, which are not kept
+        let Source { stored, reweighing, plan, settings, pair_of: _ } = source;
         let mut hash = Sha256::new();
         let mut add = |values: &[f64]| {
             hash.update((values.len() as u64).to_le_bytes());
@@ -70,6 +71,9 @@ impl Checkpoint {
         for measure in &stored.measures {
             add(&measure.levels);
             add(measure.edp_m.values());
+            if let Some(shares) = &measure.shares {
+                add(shares);
+            }
             for weights in measure.weights.iter().chain(measure.branches.iter().flatten().map(|(_, weights)| weights)) {
                 add(&weights.per_year());
             }

@@ -29,6 +29,8 @@ pub(super) struct Source<'a> {
     pub(super) reweighing: Option<&'a Reweighing>,
     /// The draws.
     pub(super) plan: &'a ResamplingPlan,
+    /// The pair of each record, `[record]`.
+    pub(super) pair_of: &'a [usize],
     /// What kind of bands.
     pub(super) settings: &'a BandSettings,
 }
@@ -57,13 +59,13 @@ pub(super) fn compute(
     repaired_bands(source, &mut finished, &mut keeper, events)?;
     // the result may not be writable, on a disk that has filled up for instance
     Keeper { checkpoint, kept: start }.keep_now_and_then(&finished)?;
-    let Source { stored, plan, settings, .. } = source;
+    let Source { stored, plan, pair_of, settings, .. } = source;
     let of_measure = |measure: &StoredMeasure| -> Result<Bands, UpliftError> {
         let key = measure.measure.key();
         let own: Vec<&StrengthBands> =
             finished.strengths.range((key, 0)..=(key, usize::MAX)).map(|(_, bands)| bands).collect();
-        let inferred =
-            inferred_bands(stored, measure, plan, settings.confidence).map_err(|error| error.in_file(&stored.path))?;
+        let inferred = inferred_bands(stored, measure, (plan, pair_of), settings.confidence)
+            .map_err(|error| error.in_file(&stored.path))?;
         let mut bands = gather_bands(stored, measure, plan, settings, (&own, inferred));
         bands.repaired = source.reweighing.map(|_| {
             let own: Vec<Option<&SiteBands>> =

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use uplift_bootstrap::{BootstrapError, ResamplingPlan, Unit};
+use uplift_motion::{Component, Rotation};
 use uplift_study::Bootstrap;
 
 use super::BootstrapOptions;
@@ -27,27 +28,41 @@ pub(super) fn draws(
         return Ok((kept_draws(path, stored)?, format!("draws of {}", path.display())));
     }
     let records = stored.records.len();
+    let own = file.stored_study()?;
+    let unit = own.drawn_unit(Some(options.unit.unwrap_or(study.unit)));
+    // samples of so many pairs, where each of their azimuths is a record
+    let of_a_pair = match own.records.component {
+        Component::Rotated(Rotation::Each { azimuths }) => u32::from(azimuths),
+        _ => 1,
+    };
     let sizes = options.sizes.clone().or_else(|| study.sizes.clone()).unwrap_or_else(|| {
         let all = u32::try_from(records).unwrap_or(u32::MAX);
         // a smaller sample may leave a level with records of its own without any
         let of_levels = stored.measures.iter().any(|measure| measure.shares.is_some());
-        SIZES.into_iter().filter(|&size| size < all && !of_levels).chain([all]).collect()
+        SIZES.map(|size| size * of_a_pair).into_iter().filter(|&size| size < all && !of_levels).chain([all]).collect()
     });
     let replicates = options.replicates.unwrap_or(study.replicates);
     let seed = options.seed.unwrap_or(stored.seed);
     refuse_endless(&sizes, replicates, records)?;
     needs(stored, sizes.len(), replicates, (settings, is_repaired)).require(&stored.path, events)?;
     let count = usize::try_from(replicates).unwrap_or(usize::MAX);
-    let plan = match options.unit.unwrap_or(study.unit) {
+    let plan = match unit {
         Unit::Record => ResamplingPlan::draw(records, &sizes, count, seed),
+        Unit::Pair => ResamplingPlan::draw_pairs(&file.pair_of()?, &sizes, count, seed),
         Unit::Event => ResamplingPlan::draw_events(&file.event_of()?, &sizes, count, seed),
     };
     let plan = plan.map_err(|error| match error {
-        BootstrapError::OneEvent => UpliftError::Usage(format!("--unit event: {error}")),
+        BootstrapError::OneEvent | BootstrapError::OnePair => {
+            UpliftError::Usage(format!("--unit {}: {error}", unit.key()))
+        }
         error => UpliftError::Usage(format!("--sizes: {error}")),
     })?;
     let plan = without_empty_levels(plan, stored, seed, events)?;
-    let unit = if plan.unit() == Unit::Event { ", earthquakes with all their records" } else { "" };
+    let unit = match plan.unit() {
+        Unit::Record => "",
+        Unit::Pair => ", pairs with all their records",
+        Unit::Event => ", earthquakes with all their records",
+    };
     Ok((plan, format!("seed {seed}{unit}")))
 }
 
@@ -129,17 +144,18 @@ pub(super) fn announce(
             plan.record_count()
         ),
     );
-    if plan.unit() == Unit::Event {
+    if plan.unit() != Unit::Record {
+        let groups = if plan.unit() == Unit::Pair { "pairs" } else { "earthquakes" };
         let drawn: Vec<String> = plan.sizes().iter().map(|&size| plan.units_drawn(size).to_string()).collect();
         events.remark(
             "",
             &format!(
-                "with their earthquakes, {} of {}: a sample has so many records on average",
+                "with their {groups}, {} of {}: a sample has so many records on average",
                 drawn.join(", "),
                 plan.unit_count()
             ),
         );
-        if !file.shares_earthquakes()? {
+        if plan.unit() == Unit::Event && !file.shares_earthquakes()? {
             events.note(
                 "no two pairs are known to share an earthquake: the band is that of pairs drawn one by one (column \
                  event of the manifest)",

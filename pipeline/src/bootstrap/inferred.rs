@@ -1,25 +1,31 @@
 //! What the records say of the spectra of all records there could be, and of those of another set.
 
 use rayon::prelude::*;
-use uplift_bootstrap::{InferredLimits, ResamplingPlan, inferred_limits};
+use uplift_bootstrap::{InferredLimits, ResamplingPlan, Unit, inferred_limits, units, units_in_sample};
 
 use crate::array::Array;
 use crate::error::UpliftError;
 use crate::result::{InferredBands, StoredMeasure, StoredStripes};
 
-/// The bands of the spectra of one measure, from all its records, drawn one by one or with their earthquakes as `plan`
+/// The bands of the spectra of one measure, from all its records, pair by pair or earthquake by earthquake as `plan`
 /// has it.
+///
+/// - `pair_of`: the pair of each record, `[record]`: two components of a pair are not independent, and scatter as one.
 ///
 /// # Errors
 /// Numbers that do not fit together, in a file that was changed.
 pub(super) fn inferred_bands(
     stored: &StoredStripes,
     measure: &StoredMeasure,
-    plan: &ResamplingPlan,
+    (plan, pair_of): (&ResamplingPlan, &[usize]),
     confidence: f64,
 ) -> Result<InferredBands, UpliftError> {
-    let units = plan.units();
-    let sizes: Vec<usize> = plan.sizes().iter().map(|&size| plan.units_drawn(size) as usize).collect();
+    let units = match plan.unit() {
+        Unit::Record => units(pair_of),
+        Unit::Pair | Unit::Event => plan.units(),
+    };
+    let sizes: Vec<usize> =
+        plan.sizes().iter().map(|&size| units_in_sample(size, units.len(), pair_of.len()) as usize).collect();
     let targets = &stored.targets_per_year;
     // [strength][site][poe, size]
     let of_strength = |strength: usize| -> Result<Vec<Vec<InferredLimits>>, UpliftError> {

@@ -73,7 +73,8 @@ pub fn bootstrap(
     announce((&file, &stored), &plan, events)?;
 
     let start = Instant::now();
-    let source = Source { stored: &stored, reweighing: reweighing.as_ref(), plan: &plan, settings: &settings };
+    let (reweighing, pair_of) = (reweighing.as_ref(), &file.pair_of()?);
+    let source = Source { stored: &stored, reweighing, plan: &plan, pair_of, settings: &settings };
     let checkpoint = Checkpoint::of(&source);
     let bands = compute(&source, Some(&checkpoint), events)?;
     events.remark("", &format!("{:.1} s", start.elapsed().as_secs_f64()));

@@ -58,17 +58,26 @@ impl RowKeys {
     pub fn of(plan: &Plan<'_>, motions: &[String]) -> Self {
         let axes = plan.axes();
         assert_eq!(motions.len(), axes.motions, "keys of motions");
-        let systems: Vec<Vec<u8>> = plan.systems().iter().map(|system| bytes(&system.identity())).collect();
         let mut keys = Vec::with_capacity(axes.rows());
-        for (motion, key) in plan.motions().iter().zip(motions) {
+        for (index, (motion, key)) in plan.motions().iter().zip(motions).enumerate() {
             let mut of_motion = Sha256::new();
             of_motion.update(NUMERICS.to_le_bytes());
             of_motion.update(u32::from(plan.with_free_peak()).to_le_bytes());
             of_motion.update(key);
             of_motion.update(bytes(&motion.scales));
-            for system in &systems {
+            if let Some((others, percentile)) = plan.other_azimuths_of(index).filter(|(others, _)| !others.is_empty()) {
+                of_motion.update([percentile]);
+                for other in others {
+                    of_motion.update(motion_key(other));
+                }
+            }
+            if let Some(vertical) = plan.upwards_of(index) {
+                of_motion.update(b"vertical");
+                of_motion.update(motion_key(vertical));
+            }
+            for system in 0..axes.systems {
                 let mut hash = of_motion.clone();
-                hash.update(system);
+                hash.update(bytes(&plan.system(index, system).identity()));
                 let mut key = [0; 16];
                 key.copy_from_slice(&hash.finalize()[..16]);
                 keys.push(RowKey(key));
@@ -130,7 +139,22 @@ mod tests {
         seen.extend(keys(&one, &[1.0], &systems, true));
         seen.extend(keys(&one, &[2.0, 1.0], &systems, true));
         seen.extend(keys(&one, &[1.0, 2.0], &systems, false));
-        assert_eq!(seen.len(), 5 * systems.len());
+        // and the other azimuths, their percentile, what shakes it upwards
+        let plan = || {
+            let motions = vec![ScaledMotion { id: "any", accelerogram: &one, scales: vec![1.0, 2.0] }];
+            Plan::scaled(motions, &systems, true).unwrap()
+        };
+        let seen_from = |others: &[Accelerogram], percentile: u8| {
+            RowKeys::of(&plan().from_azimuths(vec![others], percentile).unwrap(), &[motion_key(&one)]).keys
+        };
+        let others = [other.clone()];
+        seen.extend(seen_from(&others, 50));
+        seen.extend(seen_from(&others, 100));
+        seen.extend(seen_from(std::slice::from_ref(&one), 100));
+        seen.extend(RowKeys::of(&plan().upwards(vec![&other]).unwrap(), &[motion_key(&one)]).keys);
+        assert_eq!(seen.len(), 9 * systems.len());
+        // one azimuth is no percentile
+        assert_eq!(seen_from(&[], 100), keys(&one, &[1.0, 2.0], &systems, true));
         // the same row among others
         assert_eq!(keys(&one, &[1.0, 2.0], &systems[2..], true)[0], keys(&one, &[1.0, 2.0], &systems, true)[2]);
     }

@@ -42,7 +42,6 @@ pub fn consistency(
     events: &dyn Events,
 ) -> Result<ConsistencyReport, UpliftError> {
     let (addition, file) = Addition::begin(result, events)?;
-    file.refuse_records_at_level("what they bring of another measure is what they were selected for, level by level")?;
     let question = Question::of_result(&file)?;
     let shaken = disaggregated(&question, &options.disaggregations)?;
     if !question.can_be_asked() {

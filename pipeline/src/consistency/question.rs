@@ -2,13 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use uplift_consistency::{Powers, RecordSet as ScaledSet, Seismology, SetRecord};
+use uplift_consistency::{LevelSets, Powers, RecordSet as ScaledSet, Seismology, SetRecord};
 use uplift_hazard::{Extrapolation, HazardCurve};
 use uplift_motion::{Component, IntensityMeasure};
 use uplift_study::{Consistency, UniformRiskStudy};
 
 use super::branches::{AskedBranch, AskedBranches};
 use crate::error::UpliftError;
+use crate::inputs::at_level::relative_factors;
 use crate::inputs::{BranchHazard, OtherHazard, RecordSet, SiteHazard};
 use crate::result::ResultFile;
 
@@ -62,9 +63,8 @@ pub(crate) struct Question {
     pub(crate) events: Vec<String>,
     /// The measures that the records are scaled to, with their levels.
     pub(crate) analyses: Vec<(IntensityMeasure, Vec<f64>)>,
-    /// Whether each level has records of its own: these are not `level/intensity` times the record, and what they bring
-    /// of another measure is not asked.
-    pub(crate) is_at_level: bool,
+    /// The records of each level, where these are its own; of the one measure that there is then.
+    level_sets: Option<LevelSets>,
     /// The hazard of every measure that a site has a curve of, `[measure][site]`.
     curves: BTreeMap<IntensityMeasure, Vec<Option<HazardCurve>>>,
     /// Weighted alternatives to them.
@@ -109,6 +109,13 @@ impl Question {
             rrup_km: record.number("rrup_km"),
             vs30: record.number("vs30"),
         });
+        let level_sets = match (&records.at_level, study.measures.first()) {
+            (Some(of), Some(plan)) => {
+                let relative = of.relative_factors(&records.records, plan);
+                Some(LevelSets::new(records.records.len(), relative, of.shares.clone())?)
+            }
+            _ => None,
+        };
         let (records, events) = asked_records(rows, study.records.component);
         Ok(Self {
             settings: study.consistency.clone(),
@@ -119,7 +126,7 @@ impl Question {
             sites,
             records,
             events,
-            is_at_level: study.records.at_level.is_some(),
+            level_sets,
             analyses: study.measures.iter().map(|plan| (plan.measure, plan.levels.to_vec())).collect(),
             curves,
             branches,
@@ -167,9 +174,17 @@ impl Question {
             rrup_km: stored.rrup_km[record],
             vs30: stored.vs30[record],
         });
+        let mut level_sets = None;
+        for (measure, levels) in &analyses {
+            if let Some(sets) = file.sets_of_levels(stored.ids.len(), *measure, levels.len())? {
+                let intensities = stored.intensities(*measure).unwrap_or_default();
+                let relative = relative_factors(&sets.factors, *measure, levels, intensities);
+                level_sets = Some(LevelSets::new(stored.ids.len(), relative, sets.shares)?);
+            }
+        }
         let (records, events) = asked_records(rows, study.records.component);
         Ok(Self {
-            is_at_level: study.records.at_level.is_some(),
+            level_sets,
             settings: study.consistency,
             extrapolation: study.risk.extrapolate,
             targets_per_year: targets(&axes.poes, axes.years)?,
@@ -207,7 +222,7 @@ impl Question {
     }
 
     /// The measure that a set scaled to `scaled_to` is asked about: the one that the study names, else the first with a
-    /// curve, PGV before PGA; none where no site has a curve of another, or each level has records of its own.
+    /// curve, PGV before PGA; none where no site has a curve of another.
     pub(crate) fn other(&self, scaled_to: IntensityMeasure) -> Option<IntensityMeasure> {
         let measures: Vec<IntensityMeasure> = self.curves.keys().copied().collect();
         self.other_among(&measures, scaled_to)
@@ -219,21 +234,27 @@ impl Question {
         measures: &[IntensityMeasure],
         scaled_to: IntensityMeasure,
     ) -> Option<IntensityMeasure> {
-        if self.is_at_level {
-            return None;
-        }
         let is_other = |measure: &IntensityMeasure| *measure != scaled_to && measures.contains(measure);
         let named = self.settings.against.filter(is_other);
         named.or_else(|| measures.iter().copied().find(is_other))
     }
 
-    /// Whether any site has curves of two measures, of a set that is the same at all levels.
+    /// Whether any site has curves of two measures.
     pub(crate) fn can_be_asked(&self) -> bool {
-        if self.is_at_level {
-            return false;
-        }
         let has_both = |site: usize| self.curves.values().filter(|curves| curves[site].is_some()).count() > 1;
         (0..self.sites.len()).any(has_both)
+    }
+
+    /// Whether each level has records of its own.
+    pub(super) fn has_level_sets(&self) -> bool {
+        self.level_sets.is_some()
+    }
+
+    /// How many records the stripe at `level` has.
+    pub(super) fn records_at(&self, level: usize) -> usize {
+        let all = self.records.len();
+        let shares = self.level_sets.as_ref().and_then(LevelSets::shares);
+        shares.map_or(all, |shares| shares[level * all..][..all].iter().filter(|share| **share > 0.0).count())
     }
 
     /// The records with the measure that they are scaled to and the other one.
@@ -247,7 +268,11 @@ impl Question {
         };
         let power = |measure: IntensityMeasure| f64::from(measure.power());
         let powers = Powers { scaled_to: power(scaled_to), other: power(other) };
-        Ok(ScaledSet::with_powers(self.records.iter().map(row).collect(), powers)?)
+        let set = ScaledSet::with_powers(self.records.iter().map(row).collect(), powers)?;
+        Ok(match &self.level_sets {
+            Some(own) => set.at_level(own.clone())?,
+            None => set,
+        })
     }
 }
 
@@ -286,7 +311,7 @@ fn asked_records(rows: impl Iterator<Item = RawRecord>, component: Component) ->
     };
     let records = rows
         .map(|row| {
-            let suffix = if component == Component::Both { row.id.rsplit_once(':') } else { None };
+            let suffix = if component.records_per_pair() > 1 { row.id.rsplit_once(':') } else { None };
             let pair = position(&mut pairs, suffix.map_or(row.id.as_str(), |(pair, _)| pair));
             // what the program made is of no earthquake
             let known = !row.event.is_empty() && !row.event.to_lowercase().starts_with("synthetic");

@@ -121,6 +121,8 @@ pub struct RepairRow {
     pub bias: Option<f64>,
     /// Fewest effective records at a stripe in the range.
     pub least_effective: Option<f64>,
+    /// Of how many records of that stripe.
+    pub least_effective_of: Option<usize>,
     /// Steps of the fit.
     pub iterations: Option<u32>,
     /// At each probability, with the weights.
@@ -215,6 +217,7 @@ fn row(question: &Question, finding: &Finding) -> ConsistencyRow {
                 max: None,
                 bias: None,
                 least_effective: None,
+                least_effective_of: None,
                 iterations: None,
                 targets: Vec::new(),
             },
@@ -226,6 +229,10 @@ fn row(question: &Question, finding: &Finding) -> ConsistencyRow {
                     max: deviation.map(|deviation| deviation.max),
                     bias: deviation.map(|deviation| deviation.bias),
                     least_effective: repaired.diagnosis.least_effective.map(|least| least.records),
+                    least_effective_of: repaired
+                        .diagnosis
+                        .least_effective
+                        .map(|least| question.records_at(least.level)),
                     iterations: Some(repaired.fit.iterations),
                     targets: targets(question, &repaired.diagnosis),
                 }
@@ -274,6 +281,7 @@ fn said(question: &Question, finding: &Finding, say: impl Fn(&Words<'_>) -> Stri
         scaled_to_unit: finding.scaled_to.unit(),
         other: finding.other.label(),
         levels: levels.map_or(&[][..], |(_, levels)| levels),
+        has_level_sets: question.has_level_sets(),
         record: &|record| question.records.get(record).map_or_else(String::new, |record| record.id.clone()),
         event: &|event| question.events.get(event).cloned().unwrap_or_default(),
         target: &|target| {

@@ -96,11 +96,7 @@ pub(crate) fn run(
 }
 
 fn checksums(records: &RecordSets) -> BTreeMap<String, String> {
-    let of_record = |record: &crate::inputs::SetRecord| {
-        let [h1, h2] = record.checksums.clone();
-        [(format!("record {} h1", record.pair.id), h1), (format!("record {} h2", record.pair.id), h2)]
-    };
-    records.records.iter().flat_map(of_record).collect()
+    records.records.iter().flat_map(crate::inputs::SetRecord::named_checksums).collect()
 }
 
 fn warnings_of(study: &DisplacementStudy, sets: &[MotionSet<'_>]) -> Vec<String> {

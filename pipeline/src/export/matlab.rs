@@ -1,6 +1,6 @@
 //! A result as a MATLAB file.
 
-mod level_5;
+pub(super) mod level_5;
 
 use super::Export;
 use super::added::Influence;

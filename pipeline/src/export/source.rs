@@ -66,15 +66,7 @@ impl Export {
         }
         let head = file.head()?;
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let provenance = format!(
-            "uplift {} ({}), {}; result {name}; study digest {}; records: {}",
-            head.version,
-            head.commit,
-            head.created,
-            head.study_digest(),
-            head.record_set
-        )
-        .replace(['\n', '\r'], " ");
+        let provenance = provenance_of(&head, &name);
         let return_period = |&poe: &f64| Ok(1.0 / rate_from_probability(poe, spectra.years)?);
         Ok(Self {
             return_periods: spectra.poes.iter().map(return_period).collect::<Result<_, UpliftError>>()?,
@@ -158,6 +150,19 @@ impl Export {
     pub(super) fn has_repaired_bands(&self) -> bool {
         self.bands.iter().flat_map(|bands| &bands.measures).any(|of| of.repaired.is_some())
     }
+}
+
+/// One line: program, time, file, records.
+pub(super) fn provenance_of(head: &Head, file: &str) -> String {
+    format!(
+        "uplift {} ({}), {}; result {file}; study digest {}; records: {}",
+        head.version,
+        head.commit,
+        head.created,
+        head.study_digest(),
+        head.record_set
+    )
+    .replace(['\n', '\r'], " ")
 }
 
 /// Names of the limits beyond the set in columns and keys.

@@ -6,11 +6,13 @@ mod consistency;
 mod sheet;
 mod spectra;
 mod tables;
+mod tests;
 
 use rust_xlsxwriter::{DocProperties, ExcelDateTime, Workbook, XlsxError};
 
 use super::Export;
 use crate::error::UpliftError;
+use crate::result::Head;
 use sheet::{Formats, Sheet, clipped};
 
 /// Most characters of a property that Excel shows.
@@ -27,19 +29,13 @@ impl Export {
                 "{}: has more spectra or bands than Excel has columns (16384): ask for fewer with --poe, or take --csv",
                 self.file
             )),
-            error => UpliftError::input(format!("{}: no workbook can be made: {error}", self.file)),
+            error => no_workbook(&self.file, &error),
         })
     }
 
     fn sheets(&self) -> Result<Vec<u8>, XlsxError> {
         let mut workbook = Workbook::new();
-        let properties = DocProperties::new()
-            .set_title(clipped(&self.head.title, LONGEST_PROPERTY))
-            .set_author("uplift")
-            .set_comment(self.provenance())
-            // the time of the result, since the workbook says nothing else
-            .set_creation_datetime(&ExcelDateTime::parse_from_str(&self.head.created)?);
-        workbook.set_properties(&properties);
+        workbook.set_properties(&properties_of(&self.head, self.provenance())?);
         let formats = Formats::new();
         let mut add = |name: &str, fill: &dyn Fn(&Self, &mut Sheet<'_>) -> Result<(), XlsxError>| {
             let worksheet = workbook.add_worksheet();
@@ -72,4 +68,27 @@ impl Export {
         add("Study", &Self::study_sheet)?;
         workbook.save_to_buffer()
     }
+}
+
+fn no_workbook(file: &str, error: &XlsxError) -> UpliftError {
+    UpliftError::input(format!("{file}: no workbook can be made: {error}"))
+}
+
+/// What the file says of itself.
+fn properties_of(head: &Head, provenance: &str) -> Result<DocProperties, XlsxError> {
+    Ok(DocProperties::new()
+        .set_title(clipped(&head.title, LONGEST_PROPERTY))
+        .set_author("uplift")
+        .set_comment(provenance)
+        // the time of the result, since the workbook says nothing else
+        .set_creation_datetime(&ExcelDateTime::parse_from_str(&head.created)?))
+}
+
+/// A study with every default filled in, a line each.
+fn study_lines(study_toml: &str, sheet: &mut Sheet<'_>) -> Result<(), XlsxError> {
+    sheet.heading((0, 0), "the study, every default filled in (TOML)", true)?;
+    for (index, line) in study_toml.lines().enumerate() {
+        sheet.text((1 + index, 0), line)?;
+    }
+    sheet.finish((1, 0), &[110.0])
 }

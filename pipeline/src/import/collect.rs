@@ -44,6 +44,7 @@ pub(super) struct Component {
 pub(super) struct ImportedPair {
     pub(super) id: String,
     pub(super) components: [Component; 2],
+    pub(super) vertical: Option<Component>,
     pub(super) measures: PairMeasures,
     pub(super) search: Option<Entry>,
     pub(super) warnings: Vec<Warning>,

@@ -16,6 +16,8 @@ pub(super) struct Candidate {
     pub(super) id: String,
     pub(super) rsn: Option<u64>,
     pub(super) components: [Component; 2],
+    /// The third component, where one file of the record is vertical and of the same layout.
+    pub(super) vertical: Option<Component>,
     pub(super) search: Option<Entry>,
 }
 
@@ -25,6 +27,7 @@ struct Group {
     id: String,
     rsn: Option<u64>,
     horizontal: Vec<Component>,
+    vertical: Vec<Component>,
 }
 
 /// Pairs `components`; those without a partner are among the warnings.
@@ -37,15 +40,17 @@ pub(super) fn pairs(components: Vec<Component>, search: &SearchResults, warnings
         let name = name::of(&component.path);
         let (key, id) = key_and_id(&component, &name);
         let orientation = component.description.orientation;
-        let group = groups.entry(key).or_insert_with(|| Group { id, rsn: name.rsn, horizontal: Vec::new() });
+        let group = groups.entry(key).or_insert_with(|| Group { id, rsn: name.rsn, ..Group::default() });
         if orientation.is_none_or(Orientation::is_horizontal) {
             group.horizontal.push(component);
+        } else {
+            group.vertical.push(component);
         }
     }
     let mut ids: BTreeMap<String, usize> = BTreeMap::new();
     let mut candidates = Vec::new();
     for group in groups.into_values() {
-        let Group { id, rsn, horizontal } = group;
+        let Group { id, rsn, horizontal, mut vertical } = group;
         let names = || horizontal.iter().map(told).collect::<Vec<_>>().join(", ");
         match horizontal.len() {
             0 => {} // verticals alone
@@ -69,7 +74,9 @@ pub(super) fn pairs(components: Vec<Component>, search: &SearchResults, warnings
                 *count += 1;
                 let id = if *count == 1 { id } else { format!("{id}-{count}") };
                 if let Ok(components) = <[Component; 2]>::try_from(components) {
-                    candidates.push(Candidate { id, rsn, components, search: entry });
+                    vertical.retain(|own| own.format == components[0].format);
+                    let vertical = if vertical.len() == 1 { vertical.pop() } else { None };
+                    candidates.push(Candidate { id, rsn, components, vertical, search: entry });
                 }
             }
             count => warnings.push(Warning {

@@ -68,7 +68,7 @@ pub(super) fn pair(candidate: Candidate, options: &ImportOptions) -> Result<Impo
         let name = component.path.display().to_string();
         read_auto(&bytes, &name, &options.files.read_options(component.channel)).map_err(|error| error.to_string())
     };
-    let Candidate { id, rsn: _, components, search } = candidate;
+    let Candidate { id, rsn: _, components, vertical, search } = candidate;
     let [first, second] = &components;
     let pair = RecordPair { id, h1: read(first)?, h2: read(second)?, metadata: std::collections::BTreeMap::new() };
     let mut measures = PairMeasures::of(&pair, options.files.gravity_m_s2, options.pulses);
@@ -81,5 +81,5 @@ pub(super) fn pair(candidate: Candidate, options: &ImportOptions) -> Result<Impo
         warnings::of_pair(&pair, [&first.description, &second.description], &measures, options.files.gravity_m_s2);
     let stated_s = search.as_ref().and_then(|entry| entry.d5_95_s);
     warnings.extend(stated_s.and_then(|stated_s| warnings::of_duration(&pair, measures.durations_s[1], stated_s)));
-    Ok(ImportedPair { id: pair.id, components, measures, search, warnings })
+    Ok(ImportedPair { id: pair.id, components, vertical, measures, search, warnings })
 }

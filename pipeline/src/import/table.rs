@@ -5,7 +5,7 @@ use std::path::Path;
 use polars::prelude::Column;
 use uplift_motion::{AccelerationUnit, Orientation, RecordingDescription};
 
-use super::collect::ImportedPair;
+use super::collect::{Component, ImportedPair};
 use crate::inputs::FileOptions;
 use crate::inputs::manifest::relative;
 
@@ -17,13 +17,15 @@ pub(super) fn manifest_columns(pairs: &[ImportedPair], folder: &Path, options: F
     let rows: Vec<Vec<Cell>> = pairs
         .iter()
         .map(|pair| {
-            let parts = [files(pair, folder, options), said(pair), measured(pair), checked(pair)];
+            let parts = [files(pair, folder, options), said(pair), measured(pair), checked(pair), third(pair, folder)];
             parts.into_iter().flatten().collect()
         })
         .collect();
+    let has_third = pairs.iter().any(|pair| pair.vertical.is_some());
     let names = rows.first().into_iter().flatten().map(|(name, _)| *name);
     names
         .enumerate()
+        .filter(|(_, name)| has_third || !THIRD.contains(name))
         .map(|(index, name)| {
             let cells: Vec<&str> = rows.iter().map(|row| row[index].1.as_str()).collect();
             Column::new(name.into(), cells)
@@ -111,6 +113,19 @@ fn checked(pair: &ImportedPair) -> Vec<Cell> {
         ("sha256_h2", other.file_sha256.clone()),
         ("warnings", warnings.join("; ")),
     ]
+}
+
+/// Columns of the third component: only where a pair has one.
+const THIRD: [&str; 3] = ["file_v", "channel_v", "sha256_v"];
+
+fn third(pair: &ImportedPair, folder: &Path) -> Vec<Cell> {
+    let own = |of: &dyn Fn(&Component) -> String| pair.vertical.as_ref().map_or_else(String::new, of);
+    let cells = [
+        own(&|vertical| relative(&vertical.path, folder)),
+        own(&|vertical| text(vertical.channel)),
+        own(&|vertical| vertical.file_sha256.clone()),
+    ];
+    THIRD.into_iter().zip(cells).collect()
 }
 
 /// What is known; a blank cell for what is not.

@@ -1,72 +1,28 @@
 //! Records of their own at each level: the table that `records.at_level` names, one row a record at a level.
 
+mod factors;
+mod sets;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use uplift_atomic_file::read_file;
 use uplift_motion::IntensityMeasure;
-use uplift_study::MeasurePlan;
+use uplift_study::{MeasurePlan, did_you_mean};
 
 use super::record_set::Record;
 use super::text_table;
 use crate::checksum::checksum;
 use crate::result::plain;
-
-/// Which record is run at which level, by what factor, and how much it counts there.
-#[derive(Debug, Clone, PartialEq)]
-pub struct AtLevel {
-    /// Scale factors `[record, level]`; NaN where a record does not belong to a level.
-    pub factors: Vec<f64>,
-    /// How much each record counts `[level, record]`, 0 where it does not belong to the level; none where every record
-    /// belongs to every level and counts alike.
-    pub shares: Option<Vec<f64>>,
-    /// SHA-256 of the table.
-    pub checksum: String,
-}
-
-/// How many records each level has.
-struct Counts {
-    /// Of the level with the fewest, and with the most.
-    records: [usize; 2],
-    /// To how many records that count alike they amount, 1/Σp², at the level where it is fewest, and most.
-    effective: [f64; 2],
-}
-
-impl AtLevel {
-    /// Scale factors of the record at `index`, `[level]`.
-    pub fn factors_of(&self, index: usize, levels: usize) -> &[f64] {
-        &self.factors[index * levels..(index + 1) * levels]
-    }
-
-    /// How many records the levels have, in words: `4 to 12 a level, which count as 3.2 to 12`.
-    pub fn words(&self, levels: usize) -> String {
-        let Counts { records: [fewest, most], effective: [least, largest] } = self.counts(levels);
-        let range = |from: String, to: String| if from == to { from } else { format!("{from} to {to}") };
-        let rounded = |count: f64| format!("{}", (10.0 * count).round() / 10.0);
-        let (count, effective) = (range(fewest.to_string(), most.to_string()), range(rounded(least), rounded(largest)));
-        if count == effective {
-            format!("{count} a level")
-        } else {
-            format!("{count} a level, which count as {effective}")
-        }
-    }
-
-    fn counts(&self, levels: usize) -> Counts {
-        let all = self.factors.len() / levels;
-        let Some(shares) = &self.shares else { return Counts { records: [all; 2], effective: [all as f64; 2] } };
-        let mut counts = Counts { records: [usize::MAX, 0], effective: [f64::INFINITY, 0.0] };
-        for row in shares.chunks_exact(all) {
-            let records = row.iter().filter(|share| **share > 0.0).count();
-            let effective = 1.0 / row.iter().map(|share| share * share).sum::<f64>();
-            counts.records = [counts.records[0].min(records), counts.records[1].max(records)];
-            counts.effective = [counts.effective[0].min(effective), counts.effective[1].max(effective)];
-        }
-        counts
-    }
-}
+pub(crate) use factors::{far_factors, relative_factors};
+pub use sets::AtLevel;
 
 /// The column of record names, as a manifest has it.
 pub(crate) const RECORD: &str = "record_id";
+/// That of scale factors.
+const FACTOR: &str = "factor";
+/// That of weights.
+const WEIGHT: &str = "weight";
 /// The most that a table has.
 const LARGEST_BYTES: u64 = 64 << 20;
 /// How far a level of the table may be from that of the study, relative: both may have been rounded to so many digits.
@@ -93,6 +49,8 @@ struct Row {
 pub(super) struct Table {
     name: String,
     rows: Vec<Row>,
+    /// What deserves a look.
+    notes: Vec<String>,
     checksum: String,
 }
 
@@ -130,12 +88,13 @@ fn read_bytes(bytes: &[u8], path: &Path, measure: IntensityMeasure) -> Result<Ta
             columns.join(", ")
         )]);
     }
+    let notes = other_columns(&name, &columns, &[RECORD, &level_column, FACTOR, WEIGHT])?;
     let position = |wanted: &str| columns.iter().position(|column| *column == wanted);
     let cell = |column: Option<usize>, row: usize| -> Option<&str> {
         Some(plain(table.columns().get(column?)?.str().ok()?.get(row)?.trim()))
     };
     let (record, level) = (position(RECORD), position(&level_column));
-    let (factor, weight) = (position("factor"), position("weight"));
+    let (factor, weight) = (position(FACTOR), position(WEIGHT));
     let (mut rows, mut mistakes) = (Vec::new(), Vec::new());
     let mut seen: BTreeMap<(String, u64), usize> = BTreeMap::new();
     for index in 0..table.height() {
@@ -149,8 +108,8 @@ fn read_bytes(bytes: &[u8], path: &Path, measure: IntensityMeasure) -> Result<Ta
             Some((found?, half_a_unit(text)))
         };
         let level = positive(level, &level_column);
-        let factor = factor.map(|column| positive(Some(column), "factor"));
-        let weight = weight.map_or(Some((1.0, 0.0)), |column| positive(Some(column), "weight"));
+        let factor = factor.map(|column| positive(Some(column), FACTOR));
+        let weight = weight.map_or(Some((1.0, 0.0)), |column| positive(Some(column), WEIGHT));
         let record = cell(record, index).unwrap_or_default();
         if record.is_empty() {
             mistakes.push(format!("{name}, row {number}: {RECORD} is empty: a record of the manifest is needed"));
@@ -174,7 +133,30 @@ fn read_bytes(bytes: &[u8], path: &Path, measure: IntensityMeasure) -> Result<Ta
     if rows.is_empty() && mistakes.is_empty() {
         mistakes.push(format!("{name} names no record"));
     }
-    if mistakes.is_empty() { Ok(Table { name, rows, checksum: checksum(bytes) }) } else { Err(mistakes) }
+    if mistakes.is_empty() { Ok(Table { name, rows, notes, checksum: checksum(bytes) }) } else { Err(mistakes) }
+}
+
+/// What is said of columns beside the `known` ones.
+///
+/// # Errors
+/// One that is probably a known one, misspelt: left out it would change the numbers silently.
+fn other_columns(name: &str, columns: &[&str], known: &[&str]) -> Result<Vec<String>, Vec<String>> {
+    let missing: Vec<&str> = known.iter().copied().filter(|column| !columns.contains(column)).collect();
+    let others: Vec<&str> = columns.iter().copied().filter(|column| !known.contains(column)).collect();
+    let meant = |column: &&str| {
+        // scale_factor, weight_of_record
+        let holds = |known: &&&str| column.to_lowercase().split([' ', '_']).any(|word| word == **known);
+        let held = missing.iter().find(holds).map(|known| format!("did you mean `{known}`?"));
+        let meant = held.or_else(|| did_you_mean(column, &missing))?;
+        Some(format!("{name}: unknown column `{column}`: {meant} Name it so, or leave it out"))
+    };
+    let mistakes: Vec<String> = others.iter().filter_map(meant).collect();
+    if !mistakes.is_empty() {
+        return Err(mistakes);
+    }
+    let told =
+        (!others.is_empty()).then(|| format!("{name}: {} not used: {}", count(others.len(), "column"), list(&others)));
+    Ok(told.into_iter().collect())
 }
 
 /// The column of the levels of `measure`: `pgv_cm_s`, `sa_1s_g`.
@@ -260,7 +242,7 @@ impl Table {
             return Err(mistakes);
         }
         let shares = shares(&mut weights, records.len());
-        let notes = self.told(apart, plan).into_iter().collect();
+        let notes = self.notes.iter().cloned().chain(self.told(apart, plan)).collect();
         Ok((records, AtLevel { factors, shares, checksum: self.checksum.clone() }, notes))
     }
 
@@ -366,6 +348,13 @@ mod tests {
         let missing = table("record,pga_g\nRSN1,10\n").unwrap_err();
         assert!(missing[0].contains("no column record_id, pgv_cm_s") && missing[0].contains("found record, pga_g"));
         assert!(table("record_id,pgv_cm_s\n").unwrap_err()[0].contains("names no record"));
+        for (column, meant) in [("wieght", "weight"), ("Weight", "weight"), ("scale_factor", "factor")] {
+            let misspelt = table(&format!("record_id,pgv_cm_s,{column}\nRSN1,10,1\n")).unwrap_err();
+            let expected = format!("unknown column `{column}`: did you mean `{meant}`?");
+            assert!(misspelt.len() == 1 && misspelt[0].contains(&expected), "{misspelt:?}");
+        }
+        let other = table("record_id,pgv_cm_s,magnitude\nRSN1,10,6.5\n").unwrap();
+        assert_eq!(other.notes, ["sets.csv: 1 column not used: magnitude"]);
         assert!(table("PK\u{3}\u{4}").is_err() && table("").is_err());
     }
 

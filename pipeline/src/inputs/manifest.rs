@@ -17,6 +17,8 @@ pub struct Row {
     pub id: String,
     /// Both horizontal components.
     pub components: [ComponentFile; 2],
+    /// The vertical component, where it is named; it need not be there unless a study asks for it.
+    pub vertical: Option<ComponentFile>,
     /// Time step of text files that do not say it, s.
     pub dt_s: Option<f64>,
     /// Unit of files that do not say it.
@@ -64,7 +66,7 @@ pub fn read(path: &Path, tag: Option<&str>) -> Result<Vec<Row>, Vec<String>> {
 /// The files of the records that the manifest at `path` lists; none where it cannot be read, or is no manifest.
 pub fn record_files(path: &Path) -> Vec<PathBuf> {
     let rows = read(path, None).unwrap_or_default();
-    rows.into_iter().flat_map(|row| row.components.map(|component| component.path)).collect()
+    rows.into_iter().flat_map(|row| row.components.into_iter().chain(row.vertical)).map(|file| file.path).collect()
 }
 
 /// The same of a manifest with these `bytes` that is to lie at `path`.
@@ -134,7 +136,7 @@ pub fn rows_of(path: &Path, ids: &BTreeSet<&str>, folder: &Path) -> Result<Vec<C
     let origin = path.parent().unwrap_or(Path::new(""));
     let text = |column: &Column, row: usize| -> String {
         let cell = plain(column.str().ok().and_then(|cells| cells.get(row)).unwrap_or_default().trim()).to_owned();
-        if column.name().starts_with("file_h") && !cell.is_empty() {
+        if ["file_h1", "file_h2", "file_v"].contains(&column.name().as_str()) && !cell.is_empty() {
             relative(&origin.join(cell), folder)
         } else {
             cell
@@ -209,19 +211,9 @@ fn row(cells: &mut BTreeMap<String, String>, folder: &Path) -> Result<Row, Vec<S
                 PathBuf::new()
             }
         };
-        let key = format!("channel_h{number}");
-        let channel = cells.remove(&key).and_then(|text| match text.parse::<usize>() {
-            Ok(channel) if channel > 0 => Some(channel),
-            _ => {
-                mistakes.push(format!(
-                    "record {id}: {key} is {text:?}: give the number of the component in its file, 1 \
-                                       or above"
-                ));
-                None
-            }
-        });
-        ComponentFile { path, channel, sha256: cells.remove(&format!("sha256_h{number}")) }
+        named(path, &format!("h{number}"), &id, cells, &mut mistakes)
     });
+    let vertical = cells.remove("file_v").map(|text| named(folder.join(text), "v", &id, cells, &mut mistakes));
     let dt_s = cells.get("dt_s").and_then(|text| match text.parse::<f64>() {
         Ok(value) if value.is_finite() && value > 0.0 => Some(value),
         _ => {
@@ -251,8 +243,29 @@ fn row(cells: &mut BTreeMap<String, String>, folder: &Path) -> Result<Row, Vec<S
         text.parse::<RecordFormat>().map_err(|error| mistakes.push(format!("record {id}: {error}"))).ok()
     });
     if mistakes.is_empty() {
-        Ok(Row { id, components, dt_s, unit, format, metadata: std::mem::take(cells) })
+        Ok(Row { id, components, vertical, dt_s, unit, format, metadata: std::mem::take(cells) })
     } else {
         Err(mistakes)
     }
+}
+
+/// The component in the file at `path` with what the other cells of `component`, `h1`, `h2` or `v`, say of it.
+fn named(
+    path: PathBuf,
+    component: &str,
+    id: &str,
+    cells: &mut BTreeMap<String, String>,
+    mistakes: &mut Vec<String>,
+) -> ComponentFile {
+    let key = format!("channel_{component}");
+    let channel = cells.remove(&key).and_then(|text| match text.parse::<usize>() {
+        Ok(channel) if channel > 0 => Some(channel),
+        _ => {
+            mistakes.push(format!(
+                "record {id}: {key} is {text:?}: give the number of the component in its file, 1 or above"
+            ));
+            None
+        }
+    });
+    ComponentFile { path, channel, sha256: cells.remove(&format!("sha256_{component}")) }
 }

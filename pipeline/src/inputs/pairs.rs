@@ -14,6 +14,9 @@ pub type CheckedPair = (RecordPair, [String; 2]);
 /// Key in the metadata of a pair: by how many seconds its components begin apart, where their files say so.
 pub(crate) const START_APART: &str = "start_apart_s";
 
+/// Key in the metadata of a pair: when its first component begins, s, where its file says so.
+pub(super) const START: &str = "start_s";
+
 /// Reads the pairs of `rows`, in their order; values in g are converted with `gravity_m_s2`.
 ///
 /// # Errors
@@ -41,6 +44,9 @@ fn read_row(row: Row, gravity_m_s2: f64) -> Result<CheckedPair, Vec<String>> {
     match (component(&row.components[0]), component(&row.components[1])) {
         (Ok((one, sum1)), Ok((other, sum2))) => {
             let mut metadata = row.metadata;
+            if let Some(start_s) = one.description.start_time_s {
+                metadata.insert(START.to_owned(), start_s.to_string());
+            }
             if let (Some(start_s), Some(other_s)) = (one.description.start_time_s, other.description.start_time_s)
                 && (start_s - other_s).abs() > 0.5 * one.accelerogram.dt_s()
             {

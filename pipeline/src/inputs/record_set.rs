@@ -6,26 +6,34 @@ use std::path::Path;
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 use uplift_motion::synthetic::SyntheticSetOptions;
-use uplift_motion::{Accelerogram, Combination, Component, Horizontal, IntensityMeasure, MotionError, RecordPair};
+use uplift_motion::{
+    Accelerogram, Combination, Component, Direction, Drawn, Horizontal, IntensityMeasure, MotionError, RecordPair,
+};
 
 use super::pairs::{self, CheckedPair};
+use super::third_component::{ThirdComponents, Vertical};
 use super::{AtLevel, at_level, cache, manifest, selection};
+use crate::checkpoint::motion_key;
 use crate::checksum::checksum;
 use crate::error::UpliftError;
 use crate::events::{Events, Silent};
 use crate::import::unusual_peak;
 use crate::machine::{Needs, PROGRAM_BYTES};
-use uplift_study::{RecordSource, Site, UniformRiskStudy};
+use uplift_study::{RecordSource, UniformRiskStudy};
 
-/// One analysis record: a component of a pair with the intensity of the pair.
+/// One analysis record: a component of a pair, or the pair as it is seen from azimuths, with the intensity of the pair.
 #[derive(Debug, Clone)]
 pub struct Record {
-    /// Identifier; where both components of a pair are used, followed by `:h1` or `:h2`.
+    /// Identifier; where a pair makes several records, followed by a colon and the direction, `:h1` or `:30deg`.
     pub id: String,
-    /// The component used.
-    pub component: Horizontal,
-    /// Its acceleration.
+    /// What of the pair it is.
+    pub direction: Direction,
+    /// Its acceleration; of a percentile over azimuths that of the first.
     pub accelerogram: Accelerogram,
+    /// Accelerations from the other azimuths of a percentile.
+    pub other_azimuths: Vec<Accelerogram>,
+    /// The vertical component, where the study asks for it.
+    pub vertical: Option<Vertical>,
     /// PGA of the pair, g, as the study combines its components (Eq. 4.5).
     pub pga_g: f64,
     /// PGV of the pair, cm/s, as the study combines its components (Eq. 4.6).
@@ -39,6 +47,19 @@ pub struct Record {
 }
 
 impl Record {
+    /// SHA-256 of the motion that its peaks are of, hexadecimal; of all motions and the percentile where it is one.
+    pub fn motion_key(&self) -> String {
+        let first = motion_key(&self.accelerogram);
+        match self.direction {
+            Direction::Percentile { percentile, .. } if !self.other_azimuths.is_empty() => {
+                let others = self.other_azimuths.iter().map(motion_key);
+                let keys: Vec<String> = std::iter::once(first).chain(others).collect();
+                checksum(format!("percentile {percentile} of {}", keys.join(" ")).as_bytes())
+            }
+            _ => first,
+        }
+    }
+
     /// A number that the manifest says under `key`; NaN where it says none.
     pub fn number(&self, key: &str) -> f64 {
         self.metadata.get(key).and_then(|text| text.parse().ok()).unwrap_or(f64::NAN)
@@ -116,14 +137,16 @@ fn read_set(
         _ => None,
     };
     let named = table.as_ref().map(|(table, _)| table.names());
-    let (pairs, source, synthetic) = match &study.records.source {
+    let (pairs, third, source, synthetic) = match &study.records.source {
         RecordSource::Synthetic { pairs, seed } => {
-            (synthetic_pairs((*pairs, *seed), events)?, format!("seed {seed}"), true)
+            let none = ThirdComponents::of(&[], study.gravity_m_s2);
+            (synthetic_pairs((*pairs, *seed), events)?, none, format!("seed {seed}"), true)
         }
         RecordSource::Manifest { manifest, tag } => {
             let name = manifest.file_name().unwrap_or(manifest.as_os_str()).to_string_lossy();
             let tag_note = tag.as_ref().map_or_else(String::new, |tag| format!(", tag {tag}"));
-            (manifest_pairs((manifest, tag.as_deref()), named.as_ref(), study)?, format!("{name}{tag_note}"), false)
+            let (pairs, third) = manifest_pairs((manifest, tag.as_deref()), named.as_ref(), study)?;
+            (pairs, third, format!("{name}{tag_note}"), false)
         }
     };
     let synthetic = synthetic || pairs.iter().any(is_made);
@@ -141,28 +164,22 @@ fn read_set(
     let chosen = if chosen.is_empty() { String::new() } else { format!(", {chosen}") };
     let mut description =
         format!("{} {kind} {noun} ({source}{chosen}), component {}", pairs.len(), study.records.component);
-    let mut records = analysis_records(pairs, study, further, kept)?;
+    let mut verticals = None;
+    if study.records.vertical {
+        description.push_str(", with the vertical one");
+        verticals = Some(third.read(&pairs).map_err(UpliftError::Inputs)?);
+    }
+    let mut records = analysis_records((pairs, verticals), study, further, kept)?;
     let mut at_level = None;
     if let Some((table, plan)) = &table {
         let (own, found, told) = table.of_records(records, plan).map_err(UpliftError::Inputs)?;
         records = own;
         notes.extend(told);
-        notes.extend(not_asked(study));
         let levels = plan.levels.len();
         description = format!("{description}, a set for each of {levels} levels ({})", found.words(levels));
         at_level = Some(found);
     }
     Ok(RecordSet { description, synthetic, records, at_level, notes })
-}
-
-/// What a set for each level leaves open, where a site has curves of other measures.
-fn not_asked(study: &UniformRiskStudy) -> Option<String> {
-    let has_several = |site: &Site| site.curves.len() > 1;
-    study.sites.iter().any(has_several).then(|| {
-        "whether the records bring the hazard of the sites' other measures is not asked of levels with records of \
-         their own (docs/method.md, section 3.1)"
-            .to_owned()
-    })
 }
 
 /// Whether the program made the pair itself: it stays synthetic, whichever way it comes back.
@@ -171,20 +188,44 @@ pub(super) fn is_made((pair, _): &CheckedPair) -> bool {
     said("event").starts_with("synthetic") || said("set_tags").split([';', ' ', ',']).any(|word| word == "synthetic")
 }
 
+/// What of a study adds the components of a pair, sample by sample; none where nothing does.
+struct Added {
+    what: &'static str,
+    /// What is wrong where they do not begin together.
+    wrong: String,
+    /// What would not add them.
+    instead: &'static str,
+}
+
+fn added(study: &UniformRiskStudy) -> Option<Added> {
+    let intensity = study.records.intensity;
+    if intensity != Combination::GeometricMean {
+        return Some(Added {
+            what: "a measure over all directions",
+            wrong: intensity.to_string(),
+            instead: "records.intensity = \"geometric-mean\"",
+        });
+    }
+    matches!(study.records.component, Component::Rotated(_)).then(|| Added {
+        what: "what is seen from an azimuth",
+        wrong: "motion from another azimuth".to_owned(),
+        instead: "records.component = \"h1\"",
+    })
+}
+
 /// Records that may not be synchronised, where that matters.
 fn of_unequal_length(pairs: &[CheckedPair], study: &UniformRiskStudy) -> Option<String> {
+    let Added { wrong, .. } = added(study)?;
     let unequal: Vec<&str> =
         pairs.iter().filter(|(pair, _)| pair.h1.len() != pair.h2.len()).map(|(pair, _)| pair.id.as_str()).collect();
-    let matters = study.records.intensity != Combination::GeometricMean && !unequal.is_empty();
-    matters.then(|| {
+    (!unequal.is_empty()).then(|| {
         format!(
-            "{} of {} records have components of different length ({}{}): if these do not begin together, their {} is \
-             wrong",
+            "{} of {} records have components of different length ({}{}): if these do not begin together, their \
+             {wrong} is wrong",
             unequal.len(),
             pairs.len(),
             unequal.iter().take(5).copied().collect::<Vec<_>>().join(", "),
-            if unequal.len() > 5 { ", …" } else { "" },
-            study.records.intensity
+            if unequal.len() > 5 { ", …" } else { "" }
         )
     })
 }
@@ -252,14 +293,15 @@ fn manifest_pairs(
     (manifest, tag): (&Path, Option<&str>),
     named: Option<&BTreeSet<&str>>,
     study: &UniformRiskStudy,
-) -> Result<Vec<CheckedPair>, UpliftError> {
+) -> Result<(Vec<CheckedPair>, ThirdComponents), UpliftError> {
     let mut rows = manifest::read(manifest, tag).map_err(UpliftError::Inputs)?;
     // nothing is read in vain
     rows.retain(|row| named.is_none_or(|named| named.contains(row.id.as_str())));
     if study.records.select.is_empty() {
         rows.truncate(first_of(study));
     }
-    pairs::read(rows, study.gravity_m_s2).map_err(UpliftError::Inputs)
+    let third = ThirdComponents::of(&rows, study.gravity_m_s2);
+    Ok((pairs::read(rows, study.gravity_m_s2).map_err(UpliftError::Inputs)?, third))
 }
 
 /// How many of the selected records are used at most.
@@ -267,9 +309,10 @@ fn first_of(study: &UniformRiskStudy) -> usize {
     study.records.first.map_or(usize::MAX, |first| usize::try_from(first).unwrap_or(usize::MAX))
 }
 
-/// The components that a study analyses, each with the intensities of its pair; the pairs themselves go to `kept`.
+/// The records that a study analyses, each with the intensities of its pair and its vertical component if there are
+/// such; the pairs themselves go to `kept`.
 fn analysis_records(
-    pairs: Vec<CheckedPair>,
+    (pairs, verticals): (Vec<CheckedPair>, Option<Vec<Vertical>>),
     study: &UniformRiskStudy,
     further: &[IntensityMeasure],
     mut kept: Option<&mut Vec<RecordPair>>,
@@ -284,14 +327,15 @@ fn analysis_records(
         further.iter().map(of_pair).collect()
     };
     let measured: Vec<_> = pairs.par_iter().map(further_of).collect();
+    let mut verticals = verticals.map(Vec::into_iter);
     for ((pair, sums), measured) in pairs.into_iter().zip(measured) {
-        if study.records.intensity != Combination::GeometricMean
-            && let Some(apart_s) = pair.metadata.get(pairs::START_APART)
+        let vertical = verticals.as_mut().and_then(Iterator::next);
+        if let (Some(Added { what, instead, .. }), Some(apart_s)) =
+            (added(study), pair.metadata.get(pairs::START_APART))
         {
             mistakes.push(format!(
-                "record {}: its components begin {apart_s} s apart, and a measure over all directions needs them \
-                 together: use records.intensity = \"geometric-mean\", cut them to a common start, or leave the record \
-                 out",
+                "record {}: its components begin {apart_s} s apart, and {what} needs them together: use {instead}, \
+                 cut them to a common start, or leave the record out",
                 pair.id
             ));
             continue;
@@ -313,18 +357,34 @@ fn analysis_records(
             continue;
         }
         let measured = measured?;
-        for (which, accelerogram) in pair.components(component, drawn(study.seed, &pair.id)) {
-            let id = if component == Component::Both { format!("{}:{which}", pair.id) } else { pair.id.clone() };
+        let directions = component.of_pair(drawn(study.seed, &pair.id));
+        for direction in &directions {
+            let id = if directions.len() > 1 { format!("{}:{direction}", pair.id) } else { pair.id.clone() };
+            let mut motions = match pair.along(*direction) {
+                Ok(motions) => motions,
+                Err(error) => {
+                    mistakes.push(format!("record {}: {error}; or use records.component = \"h1\"", pair.id));
+                    break;
+                }
+            };
             let [sum1, sum2] = &sums;
             records.push(Record {
                 id,
-                component: which,
-                accelerogram: accelerogram.clone(),
+                direction: *direction,
+                accelerogram: motions.remove(0),
+                other_azimuths: motions,
+                vertical: vertical.clone(),
                 pga_g,
                 pgv_cm_s,
                 further: measured.clone(),
                 metadata: pair.metadata.clone(),
-                checksum: if which == Horizontal::H1 { sum1.clone() } else { sum2.clone() },
+                checksum: match direction {
+                    Direction::Component(Horizontal::H1) => sum1.clone(),
+                    Direction::Component(Horizontal::H2) => sum2.clone(),
+                    Direction::Azimuth(_) | Direction::Percentile { .. } => {
+                        checksum(format!("{sum1} {sum2}").as_bytes())
+                    }
+                },
             });
         }
         if let Some(kept) = &mut kept {
@@ -334,11 +394,14 @@ fn analysis_records(
     if mistakes.is_empty() { Ok(records) } else { Err(UpliftError::Inputs(mistakes)) }
 }
 
-/// The component that `component = "random"` gives the pair `id`: from the study's seed and its name alone, so that it
-/// depends on neither threads nor the other pairs.
-fn drawn(seed: u64, id: &str) -> Horizontal {
+/// What chance gives the pair `id`: from the study's seed and its name alone, so that it depends on neither threads nor
+/// the other pairs. Azimuths have two decimals, so that a table holds them whole.
+fn drawn(seed: u64, id: &str) -> Drawn {
     let key = Sha256::new().chain_update(seed.to_le_bytes()).chain_update(id).finalize();
-    if key[0] & 1 == 0 { Horizontal::H1 } else { Horizontal::H2 }
+    let horizontal = if key[0] & 1 == 0 { Horizontal::H1 } else { Horizontal::H2 };
+    // of 2⁶⁴ numbers, so that no hundredth of a degree is favoured by more than 1e-15
+    let number = key[1..9].iter().fold(0_u64, |number, byte| number << 8 | u64::from(*byte));
+    Drawn { horizontal, azimuth_deg: (number % 18_000) as f64 / 100.0 }
 }
 
 #[cfg(test)]
@@ -348,10 +411,23 @@ mod tests {
     // A random component must be the same for ever, and fair.
     #[test]
     fn drawn_components_are_pinned_and_fair() {
-        let of = |seed: u64, index: usize| drawn(seed, &format!("SYN{index:03}"));
+        let of = |seed: u64, index: usize| drawn(seed, &format!("SYN{index:03}")).horizontal;
         let first: String = (0..16).map(|index| if of(1, index) == Horizontal::H1 { '1' } else { '2' }).collect();
         assert_eq!(first, "2112221112121221");
         let ones = (0..10_000).filter(|&index| of(7, index) == Horizontal::H1).count();
         assert!((4_800..5_200).contains(&ones), "{ones}");
+    }
+
+    // So must an azimuth.
+    #[test]
+    fn drawn_azimuths_are_pinned_and_even() {
+        let of = |seed: u64, index: usize| drawn(seed, &format!("SYN{index:03}")).azimuth_deg;
+        assert_eq!([0, 1, 2].map(|index| of(1, index)), [1.48, 155.24, 127.33]);
+        let mut in_sextant = [0; 6];
+        for azimuth in (0..12_000).map(|index| of(7, index)) {
+            assert!((0.0..180.0).contains(&azimuth));
+            in_sextant[(0..6).rposition(|sextant| azimuth >= 30.0 * f64::from(sextant)).unwrap_or_default()] += 1;
+        }
+        assert!(in_sextant.iter().all(|count| (1_850..2_150).contains(count)), "{in_sextant:?}");
     }
 }

@@ -7,9 +7,10 @@ use uplift_motion::{Combination, RecordPair};
 use uplift_spectra::{MotionSet, RecordOfSet};
 
 use super::manifest::{self, Row};
-use super::pairs;
+use super::pairs::{self, CheckedPair};
 use super::record_set::{alike, is_made, synthetic_pairs};
 use super::selection;
+use super::third_component::{ThirdComponents, Vertical};
 use crate::error::UpliftError;
 use crate::events::Events;
 use uplift_study::{DisplacementStudy, RecordSource, SetPlan, SetRecords};
@@ -26,9 +27,19 @@ pub struct SetRecord {
     pub pair: RecordPair,
     /// SHA-256 of the file of each component; of the samples of a synthetic one.
     pub checksums: [String; 2],
+    /// The vertical component, where the study asks for it.
+    pub vertical: Option<Vertical>,
 }
 
 impl SetRecord {
+    /// SHA-256 of each component by its name.
+    pub(crate) fn named_checksums(&self) -> Vec<(String, String)> {
+        let [h1, h2] = &self.checksums;
+        let vertical = self.vertical.as_ref().map(|vertical| ("vertical", &vertical.checksum));
+        let named = [("h1", h1), ("h2", h2)].into_iter().chain(vertical);
+        named.map(|(which, checksum)| (format!("record {} {which}", self.pair.id), checksum.clone())).collect()
+    }
+
     /// A number that the manifest says under `key`; NaN where it says none.
     pub fn number(&self, key: &str) -> f64 {
         self.pair.metadata.get(key).and_then(|text| text.parse().ok()).unwrap_or(f64::NAN)
@@ -79,7 +90,10 @@ impl RecordSets {
                 .of(set)
                 .map(|SetRecord { pair, .. }| RecordOfSet { id: &pair.id, components: [&pair.h1, &pair.h2] });
             match MotionSet::new(&set.name, records, gravity_m_s2) {
-                Ok(motions) => sets.push(motions),
+                Ok(motions) => {
+                    let verticals = self.of(set).filter_map(|record| record.vertical.as_ref());
+                    sets.push(motions.upwards(verticals.map(|vertical| &vertical.accelerogram)));
+                }
                 Err(error) => mistakes.push(error.to_string()),
             }
         }
@@ -107,6 +121,7 @@ pub(crate) fn read_sets(
     events: &dyn Events,
 ) -> Result<RecordSets, UpliftError> {
     let most = most(records);
+    let mut third = ThirdComponents::of(&[], gravity_m_s2);
     let (pairs, chosen, source, mut notes) = match &records.source {
         &RecordSource::Synthetic { pairs, seed } => {
             let named = plans.len();
@@ -124,6 +139,7 @@ pub(crate) fn read_sets(
         RecordSource::Manifest { manifest, .. } => {
             let RowsOfSets { rows, chosen, notes } = rows_of_sets(manifest, records, plans)?;
             let name = manifest.file_name().unwrap_or(manifest.as_os_str()).to_string_lossy().into_owned();
+            third = ThirdComponents::of(&rows, gravity_m_s2);
             (pairs::read(rows, gravity_m_s2).map_err(UpliftError::Inputs)?, chosen, name, notes)
         }
     };
@@ -154,15 +170,22 @@ pub(crate) fn read_sets(
     for member in sets.iter_mut().flat_map(|set| &mut set.members) {
         *member = place[member];
     }
-    let records: Vec<SetRecord> = (pairs.into_iter().enumerate())
-        .filter(|(index, _)| used.contains(index))
-        .map(|(_, (pair, checksums))| SetRecord { pair, checksums })
+    let pairs: Vec<CheckedPair> =
+        pairs.into_iter().enumerate().filter(|(index, _)| used.contains(index)).map(|(_, pair)| pair).collect();
+    let with_vertical = records.vertical;
+    let mut verticals = Vec::new().into_iter();
+    if with_vertical {
+        verticals = third.read(&pairs).map_err(UpliftError::Inputs)?.into_iter();
+    }
+    let records: Vec<SetRecord> = (pairs.into_iter())
+        .map(|(pair, checksums)| SetRecord { pair, checksums, vertical: verticals.next() })
         .collect();
     let kind = if synthetic { "synthetic" } else { "recorded" };
     let noun = if records.len() == 1 { "pair" } else { "pairs" };
     let into = if sets.len() == 1 { "one set".to_owned() } else { format!("{} sets", sets.len()) };
     let chosen = if select.is_empty() { String::new() } else { format!(", {select}") };
     let description = format!("{} {kind} {noun} ({source}{chosen}) in {into}, both components", records.len());
+    let description = if with_vertical { format!("{description}, with the vertical one") } else { description };
     Ok(RecordSets { description, synthetic, records, sets, notes })
 }
 

@@ -1,5 +1,7 @@
 //! Tables that users bring: CSV as programs and spreadsheets of every country write it.
 
+mod shape;
+
 use std::io::Cursor;
 
 use polars::prelude::{Column, DataFrame};
@@ -24,6 +26,7 @@ pub(crate) fn parse(bytes: &[u8], texts: &[&str]) -> Result<DataFrame, String> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let header = bytes.split(|&byte| byte == b'\n').find(|line| !line.starts_with(b"#")).unwrap_or_default();
     let separator = separator(header);
+    shape::check(bytes, separator)?;
     let options = CsvParseOptions::default().with_comment_prefix(Some("#")).with_separator(separator);
     let table = CsvReadOptions::default()
         .with_has_header(true)

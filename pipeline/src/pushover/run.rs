@@ -157,6 +157,7 @@ pub fn pushover(
         Some(to_m) => to_m,
         None => reach_m(&columns, &capacity),
     };
+    columns.at_displacement(to_m)?; // a refusal names what was asked for, not the first row beyond the reach
     let place_m = |row: u32| to_m * f64::from(row) / f64::from(options.rows - 1);
     let rows = (0..options.rows).map(|row| columns.at_displacement(place_m(row))).collect::<Result<Vec<_>, _>>()?;
     let own = options.linear.then_some(capacity.linear_stiffness_n_m);

@@ -210,14 +210,19 @@ pub fn frame_response(
     options.check_history(structure)?;
     let given = [(RESTITUTION, "restitution", options.restitution)];
     let (mut components, mut motions, mut alarms) = (Vec::new(), [None, None, None], Vec::new());
+    let mut formats = Vec::new();
     for (component, file) in options.components() {
         let shaking = options.shaking(file, frame.gravity_m_s2());
         shaking.check(&given)?;
         alarms = shaking.alarms(&[(USUAL_RESTITUTION, "--restitution", options.restitution)]);
-        let motion = shaking.read().map_err(|error| error.in_file(&file.record))?;
+        let (motion, format) = shaking.read_told().map_err(|error| error.in_file(&file.record))?;
+        formats.push((file.record.as_path(), format));
         components.push(ShakenComponent { component, shaken_by: shaking.told(&motion) });
         let place = ["h1", "h2", "v"].iter().position(|name| *name == component).unwrap_or_default();
         motions[place] = Some(motion.scaled(shaking.scale)?);
+    }
+    if let Some((_, file)) = options.components().next() {
+        options.shaking(file, frame.gravity_m_s2()).refuse_unused(&formats)?;
     }
     let (restitution, restitution_from) = restitution(structure, &frame, model, options);
     let [h1, h2, vertical] = &motions;
@@ -252,7 +257,7 @@ pub fn frame_response(
         uplift_acceleration_g: frame.uplift_acceleration_m_s2() / frame.gravity_m_s2(),
         restitution,
         restitution_from,
-        notes: notes(model, &components),
+        notes: notes(model, &components, (&motions, &runs)),
         components,
         runs,
         alarms,
@@ -278,9 +283,32 @@ fn restitution(
     }
 }
 
+/// Share of the largest rotation below which a passage is close by the upright.
+const CLOSE_BY: f64 = 0.01;
+
 /// What the model leaves out, and what is assumed of the records.
-fn notes(model: Model, components: &[ShakenComponent]) -> Vec<String> {
+fn notes(
+    model: Model,
+    components: &[ShakenComponent],
+    (motions, runs): (&[Option<Accelerogram>; 3], &[FrameRun]),
+) -> Vec<String> {
     let mut notes = Vec::new();
+    for (one, other) in [(0, 1), (0, 2), (1, 2)] {
+        if motions[one].is_some() && motions[one] == motions[other] {
+            let [one, other] = [one, other].map(|place| ["h1", "h2", "v"][place]);
+            notes.push(format!("{one} and {other} are the same motion: is one of them a mistake?"));
+        }
+    }
+    let passes = |run: &FrameRun| {
+        run.least_rotation_rad.is_some_and(|least_rad| run.overturned || least_rad < CLOSE_BY * run.peak_rotation_rad)
+    };
+    if model == Model::Wobbling && runs.iter().any(passes) {
+        notes.push(
+            "the frame passes close by the upright, where a rigid one turns its direction almost at once: the largest \
+             deck acceleration, base shear and reaction are mostly of such moments, and elastic columns soften them"
+                .to_owned(),
+        );
+    }
     if model == Model::Wobbling {
         notes.push(TORSION.to_owned());
         notes.push(

@@ -1,9 +1,11 @@
 //! What shakes a system, whichever it is: a record, its scale, and what is kept of the motion.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use uplift_motion::{AccelerationUnit, Accelerogram, ReadOptions, STANDARD_GRAVITY_M_S2, read_path};
+use uplift_motion::{
+    AccelerationUnit, Accelerogram, ReadOptions, RecordFormat, STANDARD_GRAVITY_M_S2, read_record_file,
+};
 use uplift_plausible::{FREE_VIBRATION, GRAVITY, Range, SCALE, TIME_STEP, USUAL_GRAVITY};
 
 use crate::alarms::{Alarm, of_numbers};
@@ -79,8 +81,35 @@ impl Shaking {
         self.history || self.history_file.is_some()
     }
 
-    /// Refuses a place for the history where something else is; else the record.
+    /// Refuses a place for the history where something else is, and a time step or unit for a file that says its own;
+    /// else the record.
     pub(super) fn read(&self) -> Result<Accelerogram, UpliftError> {
+        let (motion, format) = self.read_told()?;
+        self.refuse_unused(&[(&self.record, format)])?;
+        Ok(motion)
+    }
+
+    /// Refuses a time step or unit that none of the files takes, since all say their own.
+    pub(super) fn refuse_unused(&self, files: &[(&Path, RecordFormat)]) -> Result<(), UpliftError> {
+        let given: Vec<&str> = [("--dt-s", self.dt_s.is_some()), ("--unit", self.unit.is_some())]
+            .into_iter()
+            .filter_map(|(option, is_given)| is_given.then_some(option))
+            .collect();
+        if given.is_empty() || files.iter().any(|(_, format)| *format == RecordFormat::Columns) {
+            return Ok(());
+        }
+        let told = |(file, format): &(&Path, RecordFormat)| format!("{} ({format})", file.display());
+        let files: Vec<String> = files.iter().map(told).collect();
+        Err(UpliftError::Usage(format!(
+            "{} of a record that says its own, {}: leave it out, or make a text file of the values if the head is \
+             wrong",
+            given.join(" and "),
+            files.join(", ")
+        )))
+    }
+
+    /// The record with the layout of its file.
+    pub(super) fn read_told(&self) -> Result<(Accelerogram, RecordFormat), UpliftError> {
         if let Some(file) = &self.history_file {
             outputs::check(
                 &[Output::new(file, OutputKind::Table("ground_acceleration_m_s2"))],
@@ -95,7 +124,9 @@ impl Shaking {
             channel: self.channel,
             format: None,
         };
-        Ok(read_path(&self.record, &options)?)
+        let file = read_record_file(&self.record, &options)?;
+        let format = file.format;
+        Ok((file.component(&self.record.display().to_string(), self.channel)?.accelerogram, format))
     }
 
     /// What is told of `motion`, the record read.

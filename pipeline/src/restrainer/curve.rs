@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
 use serde::Serialize;
+use uplift_plausible::ELONGATION;
 use uplift_statics::{Restrainer, Spring, Threshold};
 use uplift_study::RestrainerFile;
 
@@ -131,9 +132,7 @@ pub fn curve(
     check_rows(options.rows)?;
     let restrainer = &of.restrainer;
     let to_m = options.to_m.unwrap_or_else(|| reach_m(restrainer));
-    if !(to_m > 0.0 && to_m.is_finite()) {
-        return Err(UpliftError::Usage(format!("an elongation of {to_m} m: give one above 0, in m")));
-    }
+    ELONGATION.check("the elongation", to_m).map_err(|error| UpliftError::Usage(error.to_string()))?;
     let rows = (0..options.rows)
         .map(|row| row_at(restrainer, to_m * f64::from(row) / f64::from(options.rows - 1)))
         .collect::<Result<Vec<_>, _>>()?;

@@ -125,6 +125,7 @@ impl StoredBands {
     pub fn drawn_words(&self) -> &'static str {
         match self.unit {
             Unit::Record => "resampled records",
+            Unit::Pair => "resampled pairs with all their records",
             Unit::Event => "resampled earthquakes with all their records",
         }
     }
@@ -225,8 +226,14 @@ impl ResultFile {
         let replicates = self.reader.axis_u32(axis::REPLICATE)?.len();
         let lengths = [(axis::SAMPLE_SIZE, sizes.len()), (axis::REPLICATE, replicates), (axis::RECORD, records)];
         let counts = self.checked(MULTIPLICITY, self.reader.array_u32(MULTIPLICITY)?, &lengths)?;
-        let event_of = if self.drawn_unit()? == Unit::Event { Some(self.event_of()?) } else { None };
-        ResamplingPlan::from_multiplicities(records, &sizes, replicates, &counts, event_of.as_deref())
+        let unit = self.drawn_unit()?;
+        let group_of = match unit {
+            Unit::Record => None,
+            Unit::Pair => Some(self.pair_of()?),
+            Unit::Event => Some(self.event_of()?),
+        };
+        let group_of = group_of.as_deref().map(|group_of| (unit, group_of));
+        ResamplingPlan::from_multiplicities(records, &sizes, replicates, &counts, group_of)
             .map(Some)
             .map_err(|error| self.fail(error))
     }

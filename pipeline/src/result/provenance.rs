@@ -10,7 +10,7 @@ use crate::alarms::Alarm;
 use crate::checksum::checksum;
 use crate::error::UpliftError;
 use crate::frame::{RunHead, RunOptions};
-use crate::inputs::{OtherHazard, RecordSet, SiteHazard};
+use crate::inputs::{OtherHazard, Record, RecordSet, SiteHazard};
 use uplift_ida::NUMERICS;
 use uplift_labelled::LabelledWriter;
 
@@ -49,6 +49,10 @@ impl Provenance {
     ) -> Self {
         let mut input_checksums: BTreeMap<String, String> =
             records.records.iter().map(|record| (format!("record {}", record.id), record.checksum.clone())).collect();
+        let vertical = |record: &Record| {
+            Some((format!("record {} vertical", record.id), record.vertical.as_ref()?.checksum.clone()))
+        };
+        input_checksums.extend(records.records.iter().filter_map(vertical));
         input_checksums.extend(records.at_level.iter().map(|of| ("records of levels".to_owned(), of.checksum.clone())));
         for curve in hazard.iter().flatten() {
             let name = format!("hazard {} {}", curve.site, curve.measure.label());

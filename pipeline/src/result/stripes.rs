@@ -6,7 +6,7 @@ use uplift_fragility::Stripes;
 use uplift_hazard::{Extrapolation, HazardCurve, rate_from_probability};
 use uplift_motion::IntensityMeasure;
 use uplift_risk::{PooledDemand, RiskCurve, StripeWeights};
-use uplift_study::Bootstrap;
+use uplift_study::{Bootstrap, MeasurePlan};
 
 use super::RiskAxes;
 use super::file::ResultFile;
@@ -68,6 +68,14 @@ pub struct StoredMeasure {
     /// always read exactly, so that only like is compared with like. The spectra themselves are
     /// [`ResultFile::spectra`].
     pub exact_m: Array<3>,
+}
+
+/// Levels with records of their own.
+pub(crate) struct SetsOfLevels {
+    /// Scale factors `[record, level]`, NaN where a record does not belong to a level.
+    pub(crate) factors: Vec<f64>,
+    /// How much each record counts `[level, record]`; none where all count alike.
+    pub(crate) shares: Option<Vec<f64>>,
 }
 
 impl StoredStripes {
@@ -186,13 +194,7 @@ impl ResultFile {
             (level.as_str(), levels.len()),
         ];
         let edp_m = self.array(&ida::edp_m(measure), lengths)?;
-        let share = ida::share(measure);
-        let shares = if self.reader.exists(&share) {
-            let lengths = [(level.as_str(), levels.len()), (axis::RECORD, axes.records.len())];
-            Some(self.array(&share, lengths)?.into_values())
-        } else {
-            None
-        };
+        let shares = self.shares_of_levels(axes.records.len(), measure, levels.len())?;
         let (mut weights, mut branches) = (Vec::new(), Vec::new());
         for site in &axes.sites {
             let curves = self.curves(site, measure)?;
@@ -205,6 +207,51 @@ impl ResultFile {
         let mut measure = StoredMeasure { measure, levels, edp_m, shares, weights, branches, exact_m };
         measure.exact_m = exact_ordinates(&measure, targets_per_year).map_err(|error| error.in_file(&self.path))?;
         Ok(measure)
+    }
+
+    /// What the stripes of a measure weigh by each of the weighted curves of a site; none where it has but one.
+    ///
+    /// # Errors
+    /// A file that is damaged; levels outside a curve.
+    pub(crate) fn branch_weights(
+        &self,
+        site: &str,
+        plan: &MeasurePlan,
+        extrapolation: Extrapolation,
+    ) -> Result<Vec<(f64, StripeWeights)>, UpliftError> {
+        let weigh = |curve: &HazardCurve| self.weigh(site, curve, &plan.levels, extrapolation);
+        let branches = self.branches(site, plan.measure)?;
+        branches.iter().map(|(_, weight, curve)| Ok((*weight, weigh(curve)?))).collect()
+    }
+
+    /// The records of each level; none where they are the same at all of them.
+    ///
+    /// # Errors
+    /// A file that is damaged.
+    pub(crate) fn sets_of_levels(
+        &self,
+        records: usize,
+        measure: IntensityMeasure,
+        levels: usize,
+    ) -> Result<Option<SetsOfLevels>, UpliftError> {
+        let (path, level) = (ida::factor(measure), axis::level(measure));
+        if !self.reader.exists(&path) {
+            return Ok(None);
+        }
+        let factors = self.array(&path, [(axis::RECORD, records), (level.as_str(), levels)])?.into_values();
+        Ok(Some(SetsOfLevels { factors, shares: self.shares_of_levels(records, measure, levels)? }))
+    }
+
+    /// How much each record counts `[level, record]`; none where all count alike.
+    fn shares_of_levels(
+        &self,
+        records: usize,
+        measure: IntensityMeasure,
+        levels: usize,
+    ) -> Result<Option<Vec<f64>>, UpliftError> {
+        let (path, level) = (ida::share(measure), axis::level(measure));
+        let lengths = [(level.as_str(), levels), (axis::RECORD, records)];
+        self.reader.exists(&path).then(|| Ok(self.array(&path, lengths)?.into_values())).transpose()
     }
 
     /// What the stripes at `levels` weigh by the curve of a site.

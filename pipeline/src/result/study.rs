@@ -13,7 +13,6 @@ use super::layout::urs;
 use super::records::StoredRecords;
 use super::stripes::poe_index;
 use crate::array::Array;
-use crate::checkpoint::motion_key;
 use crate::error::UpliftError;
 use crate::events::Silent;
 use crate::inputs::{RecordSet, read_measured, read_with_pairs};
@@ -171,7 +170,7 @@ impl StudyOfResult {
         }
         let other = set.records.iter().enumerate().find(|(index, record)| {
             let same = |a: f64, b: f64| a.to_bits() == b.to_bits();
-            motion_key(&record.accelerogram) != made_from.motion_sha256[*index]
+            record.motion_key() != made_from.motion_sha256[*index]
                 || !same(record.pga_g, made_from.pga_g[*index])
                 || !same(record.pgv_cm_s, made_from.pgv_cm_s[*index])
         });

@@ -11,7 +11,7 @@ use crate::result::{QUANTITIES, ShakeTable, column_of, write_table};
 use uplift_study::ShakeTableStudy;
 
 /// A column of every such table, and of no other.
-const COLUMN: &str = "base_shear_n";
+pub(crate) const COLUMN: &str = "base_shear_n";
 
 /// The table beside the result file `result`.
 pub fn shake_table_csv_path(result: &Path) -> PathBuf {

@@ -42,7 +42,7 @@ impl Inputs {
             None => (all(&records)?, None),
         };
         let mut checksums: BTreeMap<String, String> =
-            chosen.iter().flat_map(|chosen| of_record(&records.records[chosen.record])).collect();
+            chosen.iter().flat_map(|chosen| records.records[chosen.record].named_checksums()).collect();
         let mut file = |name: &str, path| {
             let bytes = read_file(path, LARGEST_BYTES).map_err(|error| UpliftError::input(error.to_string()))?;
             checksums.insert(name.to_owned(), checksum(&bytes));
@@ -75,11 +75,6 @@ impl Inputs {
     pub(super) fn samples(&self) -> u64 {
         self.records.records.iter().map(|record| (record.pair.h1.len() + record.pair.h2.len()) as u64).sum()
     }
-}
-
-fn of_record(record: &SetRecord) -> [(String, String); 2] {
-    let [h1, h2] = record.checksums.clone();
-    [(format!("record {} h1", record.pair.id), h1), (format!("record {} h2", record.pair.id), h2)]
 }
 
 /// The wobbling frame of a structure.

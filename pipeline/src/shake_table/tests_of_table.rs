@@ -1,7 +1,7 @@
 //! Every test: a record in the scale of the model at a level, and the frame under it.
 
 use rayon::prelude::*;
-use uplift_frame::{GroundMotion, Model, Options, TableLevel as Level, respond, srss};
+use uplift_frame::{GroundMotion, Model, Options, Shaking, TableLevel as Level, respond, srss};
 use uplift_ida::Watch;
 use uplift_study::{LevelPlan, ShakeTableStudy};
 
@@ -76,8 +76,10 @@ fn test(study: &ShakeTableStudy, inputs: &Inputs, level: &LevelPlan, record: &Se
         start_rotation_rad: study.model.start_rotation_rad,
         ..Options::default()
     };
-    let found = respond(&inputs.frame, &GroundMotion::pair(&x, &y), Model::Wobbling, &options)
-        .map_err(|error| error.to_string())?;
+    let vertical = record.vertical.as_ref().map(|vertical| level.component(&vertical.accelerogram, factor));
+    let z = vertical.transpose().map_err(|error| error.to_string())?;
+    let ground = GroundMotion { z: z.as_ref().map(Shaking::Record), ..GroundMotion::pair(&x, &y) };
+    let found = respond(&inputs.frame, &ground, Model::Wobbling, &options).map_err(|error| error.to_string())?;
     let u_m = found.displacement.value;
     Ok(TableTest {
         factor,

@@ -6,35 +6,35 @@
 //! risk, over all intensities of a site: the structure's own oscillator is put through the records and the hazard that
 //! the spectrum was made from.
 
+mod own;
+
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use uplift_ida::{Shard, System};
+use uplift_ida::Shard;
 use uplift_motion::IntensityMeasure;
 use uplift_oscillator::PostUplift;
 use uplift_plausible::SAFETY_FACTOR;
 use uplift_study::Structure;
 
-use super::certainty::Scatter;
 use super::choice::{measure_index, records, site_index};
-use super::demand::{ExactDemand, exact_demand};
+use super::demand::ExactDemand;
 use super::report::StructureReport;
 use super::risk::EventRisk;
 use super::rules::{RuleDemands, RuleOutcome, apply_rules};
 use super::spectrum::{SpectrumDemand, read_spectrum};
-use super::sweep::Sweep;
+use super::uncertain::UncertaintyReport;
 use super::weights::SiteWeights;
 use crate::alarms::{
     Alarm, OwnRisk, Scope, alarms_within, of_own_demand, of_own_risks, of_safety_factor, of_structure, ranked,
 };
-use crate::analysis::{Beside, LabelledPlan, ShardReport, Work};
+use crate::analysis::{Beside, ShardReport};
 use crate::consistency::Reweighing;
 use crate::error::UpliftError;
 use crate::events::Events;
-use crate::inputs::RecordSet;
 use crate::result::{AskedRisk, ResultFile, SpectraOfResult, StudyOfResult};
 use crate::text::spectrum_words;
-use crate::uniform_risk::{Stripes, motion_keys, plan_stripes};
+use own::{Own, Question, Shaken};
 
 /// What is asked of a design.
 #[derive(Debug, Clone, PartialEq)]
@@ -102,6 +102,10 @@ pub struct DesignReport {
     pub spectrum: Option<SpectrumDemand>,
     /// What the structure's own analysis says; none where there is none.
     pub exact: Option<ExactDemand>,
+    /// The structure where its quantities are not known exactly; none where its file says that they are, and without
+    /// an analysis of its own.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub uncertainty: Option<UncertaintyReport>,
     /// The rules; none where they do not apply, to positive post-uplift stiffness.
     pub rules: Vec<RuleOutcome>,
     /// How the structure and the study differ, and what could not be done.
@@ -160,33 +164,25 @@ pub fn design(
     if spectrum.is_none() {
         notes.push(beyond_spectrum(structure, &source));
     }
-    let years = source.study.risk.years;
-    let mut checkpoint = None;
-    let exact = if options.spectrum_only {
-        None
-    } else {
+    let mut own = None;
+    if !options.spectrum_only {
         match records(&source, options.manifest.as_deref())? {
             Ok(set) => {
-                let shaken = Shaken::of(structure, &source, set, restitution)?;
-                let asked = name(structure);
-                let beside = Beside { result, name: &asked };
-                let (analysed, left) =
-                    beside.results(shaken.work(&source, measure, &asked)?, &options.shards, events)?;
-                checkpoint = Some(left);
-                let stripes = analysed.into_iter().map(|analysed| Stripes::of(&measure.plan, &shaken.set, analysed));
-                let own = (&structure.system, &shaken.sweep);
-                let (scatter, rate) = (Scatter::of(&file)?, (target_per_year, years));
-                let exact = |stripes: Stripes| exact_demand((&stripes, &weights), own, rate, &scatter);
-                stripes.map(exact).next().transpose()?
+                let question = Question { site, measure, weights: &weights, target_per_year };
+                own = Some(Own::of(structure, (&file, &source), (&question, restitution), (options, set), events)?);
             }
-            Err(reason) => {
-                notes.push(format!(
-                    "the structure itself is not analysed, and what follows is what the spectrum alone says: {reason}"
-                ));
-                None
-            }
+            Err(reason) => notes.push(format!(
+                "the structure itself is not analysed, and what follows is what the spectrum alone says: {reason}"
+            )),
         }
+    }
+    let (exact, uncertainty, checkpoint) = match own {
+        Some(Own { exact, uncertainty, checkpoint }) => (Some(exact), uncertainty, Some(checkpoint)),
+        None => (None, None, None),
     };
+    if structure.uncertainty.is_some() && uncertainty.is_none() {
+        notes.push(without_uncertainty(options, &source));
+    }
     let demands = RuleDemands {
         of_spectrum_m: spectrum.map(|spectrum| spectrum.zero_stiffness_demand_m),
         exact_m: exact.map(|exact| exact.zero_stiffness_demand_m).filter(|demand_m| demand_m.is_finite()),
@@ -228,6 +224,7 @@ pub fn design(
         required_safety_factor: safety_factor,
         spectrum,
         exact,
+        uncertainty,
         rules,
         notes,
         alarms: ranked(alarms),
@@ -250,7 +247,7 @@ pub fn design_shard(
     let measure = &source.measures[measure_index(&source, options.measure)?];
     let restitution = structure.description.restitution.unwrap_or(source.study.oscillator.restitution);
     let set = records(&source, options.manifest.as_deref())?.map_err(UpliftError::input)?;
-    let shaken = Shaken::of(structure, &source, set, restitution)?;
+    let shaken = Shaken::of(structure, &source, set, (restitution, options))?;
     let asked = name(structure);
     Beside { result, name: &asked }.shard(shaken.work(&source, measure, &asked)?, shard, events)
 }
@@ -260,34 +257,16 @@ fn name(structure: &Structure) -> String {
     format!("design {}", structure.file.file_stem().unwrap_or_default().to_string_lossy())
 }
 
-/// The oscillators of a structure, and the records that shake them.
-struct Shaken {
-    set: RecordSet,
-    /// Keys of the records' motions.
-    motions: Vec<String>,
-    sweep: Sweep,
-    systems: Vec<System>,
-}
-
-impl Shaken {
-    fn of(
-        structure: &Structure,
-        source: &StudyOfResult,
-        set: RecordSet,
-        restitution: f64,
-    ) -> Result<Self, UpliftError> {
-        let sweep =
-            Sweep::of(&source.study, &structure.system, restitution).map_err(|error| error.in_file(&structure.file))?;
-        Ok(Self { motions: motion_keys(&set), systems: sweep.systems(), sweep, set })
-    }
-
-    /// Their stripes of one measure.
-    fn work(&self, source: &StudyOfResult, measure: &SpectraOfResult, title: &str) -> Result<Work<'_>, UpliftError> {
-        let plan = plan_stripes(&source.study, &measure.plan, &self.set, &self.systems)?;
-        let label = measure.measure().label().to_owned();
-        let labelled = LabelledPlan { label, remark: None, plan, motions: &self.motions, known: None };
-        Ok(Work::new(title, vec![labelled]))
-    }
+/// Why the structures that it may be are not analysed.
+fn without_uncertainty(options: &DesignOptions, source: &StudyOfResult) -> String {
+    let reason = if options.repaired {
+        "their risk is not computed with repaired weights (leave --repaired out)"
+    } else if source.study.records.at_level.is_some() {
+        "their risk is not computed with records of their own at each level (records.at_level)"
+    } else {
+        "the structure itself is not analysed"
+    };
+    format!("[uncertainty]: all numbers are of the structure as described, and none of those that it may be: {reason}")
 }
 
 /// The repaired spectrum at a site and probability, m, `[strength]`; none where there is none.

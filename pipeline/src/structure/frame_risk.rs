@@ -29,6 +29,7 @@ pub use edps::{EventReport, StateAtDemand};
 use super::choice::{measure_index, site_index};
 use super::collapse::{Collapse, collapse};
 use super::design::{DesignOptions, design};
+use super::inputs::inputs;
 use super::report::StructureReport;
 use super::risk::EventRisk;
 use super::rocking_frame::TORSION;
@@ -219,7 +220,7 @@ pub fn frame_risk(
         at_demand: StateAtDemand::of(&shaken.frame, demand_m),
         events: edps::events(&shaken.frame, levels, (weights, &runs_m), (repaired, own_m), years)?,
         direction: demands.wobbling_m.is_some().then(|| DirectionEffect::of(&demands.directions_m)),
-        notes: notes(&shaken, &demands, &source, &overturning),
+        notes: notes(&shaken, (structure, &demands), &source, &overturning),
         demands: rows,
         overturning: FrameOverturning::of(&overturning),
         alarms: ranked(alarms),
@@ -277,9 +278,9 @@ fn draws(file: &ResultFile, source: &StudyOfResult, shaken: &Shaken) -> Result<R
     let replicates = usize::try_from(settings.replicates).unwrap_or(usize::MAX);
     let drawn_together = match settings.unit {
         Unit::Event => Some(file.event_of()?),
-        // both components of a pair are one wobbling run
-        Unit::Record if shaken.pairs.len() < records && shaken.pairs.len() > 1 => Some(shaken.pair_of()),
-        Unit::Record => None,
+        // all records of a pair are one wobbling run
+        Unit::Record | Unit::Pair if shaken.pairs.len() < records && shaken.pairs.len() > 1 => Some(shaken.pair_of()),
+        Unit::Record | Unit::Pair => None,
     };
     let plan = match drawn_together {
         Some(units) => ResamplingPlan::draw_events(&units, &sizes, replicates, source.study.seed),
@@ -328,8 +329,20 @@ fn rows(
 }
 
 /// What the models leave out, and what is assumed of the records.
-fn notes(shaken: &Shaken, demands: &Demands, source: &StudyOfResult, overturning: &Collapse) -> Vec<String> {
+fn notes(
+    shaken: &Shaken,
+    (structure, demands): (&Structure, &Demands),
+    source: &StudyOfResult,
+    overturning: &Collapse,
+) -> Vec<String> {
     let mut notes = Vec::new();
+    if structure.uncertainty.is_some() {
+        notes.push(
+            "[uncertainty] is of the equivalent oscillator and takes no part here: uplift overturning and uplift \
+             design have its risk with a band"
+                .to_owned(),
+        );
+    }
     if demands.wobbling_m.is_some() {
         notes.push(TORSION.to_owned());
         notes.push("the wobbling model has no loss of energy by impact or friction".to_owned());
@@ -388,8 +401,7 @@ fn own_risks(overturning: &Collapse, measure: &SpectraOfResult, (site, records):
 /// Names that would lose something, before anything is computed.
 fn check_table(structure: &Structure, result: &Path, options: &FrameRiskOptions) -> Result<(), UpliftError> {
     let Some(path) = &options.table else { return Ok(()) };
-    let inputs: Vec<&Path> =
-        [structure.file.as_path(), result].into_iter().chain(options.manifest.as_deref()).collect();
+    let inputs = inputs(structure, result, options.manifest.as_deref());
     let levels = levels_path(path);
     let tables = [(path, tables::PEAKS_COLUMN), (&levels, tables::LEVELS_COLUMN)];
     let tables = tables.map(|(path, column)| Output::new(path, OutputKind::Table(column)).of(result));

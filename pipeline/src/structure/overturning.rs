@@ -1,6 +1,8 @@
 //! How often a structure overturns, by its equivalent oscillator and by the rigid block that rotates as it does
 //! (Section 2.4.3).
 
+mod uncertain;
+
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
@@ -14,10 +16,12 @@ use uplift_study::{Structure, UniformRiskStudy};
 use super::certainty::{RateBands, Scatter, rate_bands};
 use super::choice::{measure_index, records, site_index};
 use super::collapse::{Collapse, collapse};
+use super::inputs::inputs;
 use super::models::models;
 use super::report::StructureReport;
 use super::risk::{EventRisk, OVERTURNING_M};
 use super::tables::{risk_path, write_tables};
+use super::uncertain::{Uncertain, UncertaintyReport};
 use crate::alarms::{Alarm, OwnRisk, Scope, alarms_of_inputs, of_own_risks, of_structure, ranked};
 use crate::analysis::{Beside, LabelledPlan, ShardReport, Work};
 use crate::consistency::Reweighing;
@@ -65,6 +69,9 @@ pub struct OverturningReport {
     pub models: Vec<ModelReport>,
     /// Fragility and risk, one a measure and model, in this order.
     pub overturning: Vec<CollapseReport>,
+    /// The oscillator where its quantities are not known exactly; none where the structure file says that they are.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub uncertainty: Option<UncertaintyReport>,
     /// How the models differ, and what could not be done.
     pub notes: Vec<String>,
     /// What to know before using the numbers, the worst first.
@@ -171,6 +178,7 @@ pub fn overturning(
     let mut notes = Vec::new();
     let models = models(structure, &source, options.restitution, &mut notes)?;
     let shaken = Shaken::of(&source, options.manifest.as_deref())?;
+    let uncertain = uncertain::structures(structure, options.restitution, (&models[OSCILLATOR].0, &shaken.set))?;
     if !source.study.oscillator.free_vibration {
         notes.push(
             "the study ends with its records (free_vibration = false); here what falls after their end counts as \
@@ -180,7 +188,8 @@ pub fn overturning(
     }
     let asked = name(structure);
     let beside = Beside { result, name: &asked };
-    let (analysed, checkpoint) = beside.results(shaken.work(&measures, &models, &asked)?, &options.shards, events)?;
+    let (analysed, checkpoint) =
+        beside.results(shaken.work(&measures, (&models, uncertain.as_ref()), &asked)?, &options.shards, events)?;
     let Shaken { study, set, .. } = &shaken;
     let reweighing = Reweighing::of_result(&file)?;
     let scatter = Scatter::of(&file)?;
@@ -210,6 +219,16 @@ pub fn overturning(
         found.push((measure, of_models.collect::<Result<_, _>>()?));
     }
     notes.extend(notes_on(&models, &found));
+    let uncertainty = match &uncertain {
+        Some(uncertain) => {
+            let places: Vec<(&str, usize)> = sites.iter().map(|&site| (source.sites[site].as_str(), site)).collect();
+            let described = |measure: usize, place: usize| found[measure].1[OSCILLATOR].own.risks[place].per_year;
+            let measures: Vec<&SpectraOfResult> = found.iter().map(|(measure, _)| *measure).collect();
+            let shaken = (study, set, &scatter);
+            Some(uncertain::report(uncertain, &file, (&measures, &places), (analysed, shaken), &described)?)
+        }
+        None => None,
+    };
     let mut alarms = alarms_of_inputs(&file, &Scope { measure: options.measure, ..Scope::default() })?;
     alarms.extend(of_structure(structure));
     let names: Vec<&str> = sites.iter().map(|&site| source.sites[site].as_str()).collect();
@@ -227,6 +246,7 @@ pub fn overturning(
         years: study.risk.years,
         models: models.iter().map(|(model, origin)| ModelReport::of(model, origin)).collect(),
         overturning: found.iter().flat_map(of_measure).collect(),
+        uncertainty,
         notes,
         alarms: ranked(alarms),
         files: Vec::new(),
@@ -257,9 +277,14 @@ pub fn overturning_shard(
     let measures = measures(&source, options.measure)?;
     let models = models(structure, &source, options.restitution, &mut Vec::new())?;
     let shaken = Shaken::of(&source, options.manifest.as_deref())?;
+    let uncertain = uncertain::structures(structure, options.restitution, (&models[OSCILLATOR].0, &shaken.set))?;
     let asked = name(structure);
-    Beside { result, name: &asked }.shard(shaken.work(&measures, &models, &asked)?, shard, events)
+    let work = shaken.work(&measures, (&models, uncertain.as_ref()), &asked)?;
+    Beside { result, name: &asked }.shard(work, shard, events)
 }
+
+/// Place of the equivalent oscillator among the models.
+const OSCILLATOR: usize = 0;
 
 /// What is asked, for the names of files.
 fn name(structure: &Structure) -> String {
@@ -297,11 +322,11 @@ impl Shaken {
     }
 
     /// The stripes of each model by each measure, the models running fastest; those of the scale factors themselves,
-    /// then those of their neighbours.
+    /// then those of their neighbours. After all of them those of the structures that it may be, one a measure.
     fn work<'a>(
         &'a self,
         measures: &[&SpectraOfResult],
-        models: &'a [(System, &'static str)],
+        (models, uncertain): (&'a [(System, &'static str)], Option<&'a Uncertain<'_>>),
         title: &str,
     ) -> Result<Work<'a>, UpliftError> {
         let mut plans = Vec::new();
@@ -314,6 +339,12 @@ impl Shaken {
                 plans.push(LabelledPlan { label, remark: None, plan, motions: &self.motions, known: None });
             }
         }
+        if let Some(uncertain) = uncertain {
+            for measure in measures {
+                let label = measure.measure().label();
+                plans.push(uncertain.plan((label, &self.study), &measure.plan, (&self.set, &self.motions))?);
+            }
+        }
         Ok(Work::new(title, plans))
     }
 }
@@ -321,8 +352,7 @@ impl Shaken {
 /// Names that would lose something, before anything is computed.
 fn check_table(structure: &Structure, result: &Path, options: &OverturningOptions) -> Result<(), UpliftError> {
     let Some(path) = &options.table else { return Ok(()) };
-    let inputs: Vec<&Path> =
-        [structure.file.as_path(), result].into_iter().chain(options.manifest.as_deref()).collect();
+    let inputs = inputs(structure, result, options.manifest.as_deref());
     let risk = risk_path(path);
     let tables = [(path, "im"), (&risk, "site")];
     let tables = tables.map(|(path, column)| Output::new(path, OutputKind::Table(column)).of(result));

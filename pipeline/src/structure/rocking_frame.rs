@@ -1,8 +1,7 @@
 //! The frame of a structure file, ready to be shaken.
 
 use uplift_frame::{Model, RockingFrame};
-use uplift_structure::{Kind, Reference};
-use uplift_study::{ColumnShape, Structure};
+use uplift_study::Structure;
 
 use crate::error::UpliftError;
 
@@ -15,32 +14,14 @@ pub(crate) const TORSION: &str = "torsion is outside the model: the deck does no
 /// # Errors
 /// A structure that has no columns with flat ends; masses or a slenderness that no frame has.
 pub(crate) fn rocking_frame(structure: &Structure) -> Result<RockingFrame, UpliftError> {
-    let of = &structure.description;
-    let masses = match of.kind {
-        Kind::Block if of.displacement_of != Some(Reference::Centre) => of.mass_kg.map(|mass_kg| (mass_kg, 0.0)),
-        Kind::Frame | Kind::RestrainedFrame => of.column_mass_kg.zip(of.deck_mass_kg),
-        _ => None,
-    };
-    let (Some(columns), Some((column_kg, deck_kg))) = (&structure.columns, masses) else {
+    let Some(frame) = structure.rocking_frame() else {
         return Err(UpliftError::Usage(format!(
             "{}: what is shaken is columns with flat ends, and kind \"{}\" has none: it is computed for block, frame \
              and restrained-frame",
             structure.file.display(),
-            of.kind.name()
+            structure.description.kind.name()
         )));
     };
-    let shape = match structure.column_shape {
-        ColumnShape::Rectangle => uplift_frame::ColumnShape::Rectangle,
-        ColumnShape::Cylinder => uplift_frame::ColumnShape::Cylinder,
-    };
-    let gravity_m_s2 = structure.system.conditions().gravity_m_s2();
-    let free = RockingFrame::new(*columns.geometry(), columns.columns(), column_kg, deck_kg, shape, gravity_m_s2);
-    let frame = free.and_then(|free| match columns.restrainer() {
-        Some(restrainer) => {
-            free.with_restrainer(restrainer.clone(), columns.path())?.with_restrained(columns.restrained())
-        }
-        None => Ok(free),
-    });
     frame.map_err(|error| UpliftError::from(error).in_file(&structure.file))
 }
 

@@ -25,10 +25,11 @@ pub use request::{TargetEvent, TargetFrequency, TargetOptions};
 pub use search::Crossing;
 
 use super::choice::{measure_index, site_index};
+use super::inputs::inputs;
 use super::report::StructureReport;
 use super::risk::EventRisk;
 use super::weights::SiteWeights;
-use crate::alarms::{Alarm, OwnRisk, Scope, alarms_of_inputs, of_own_risks, of_structure, ranked};
+use crate::alarms::{Alarm, OwnRisk, Scope, Severity, alarms_of_inputs, of_own_risks, of_structure, ranked};
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::outputs::{self, Output, OutputKind};
@@ -184,7 +185,17 @@ pub fn target(
     let meets = |attempt: &Attempt| attempt.meets(target_per_year);
     let tried = search(spread(range, VALUES), options.tolerance, |values| trials.attempt(values), meets)?;
     let words = Words { options, target_per_year };
-    let place = words.first_of_met(&tried)?;
+    let scope = Scope { site: Some(site), measure: Some(measure.measure()), ..Scope::default() };
+    let mut alarms = alarms_of_inputs(&file, &scope)?;
+    alarms.extend(of_structure(structure));
+    let place = match words.first_of_met(&tried) {
+        Ok(place) => place,
+        Err(reason) => {
+            // that is the answer: nothing is left to go on with
+            trials.finish();
+            return Err(UpliftError::Usage(with_mistakes(reason, &alarms)));
+        }
+    };
     let (value, found) = (tried[place].0, &tried[place].1);
     let crossings = crossings(&tried, meets);
     let mut notes = words.notes(&crossings, &tried);
@@ -210,9 +221,6 @@ pub fn target(
         records,
         effective_records: records as f64,
     };
-    let scope = Scope { site: Some(site), measure: Some(measure.measure()), ..Scope::default() };
-    let mut alarms = alarms_of_inputs(&file, &scope)?;
-    alarms.extend(of_structure(structure));
     alarms.extend(of_own_risks(&[own]));
     let mut report = TargetReport {
         structure: StructureReport::of(structure, Some(trials.restitution())),
@@ -231,7 +239,7 @@ pub fn target(
         risk: found.risk,
         found: FoundSystem::of(&found.system),
         per_year_within_one_percent: noise,
-        band: band::band(&tried, (place, target_per_year), &source.study, &file.event_of()?)?,
+        band: band::band(&tried, (place, target_per_year), &source.study, (&file.pair_of()?, &file.event_of()?))?,
         crossings,
         at_return_periods,
         generic: generic.flatten(),
@@ -282,8 +290,7 @@ fn range(structure: &Structure, options: &TargetOptions) -> Result<([f64; 2], Op
 /// A name that would lose something, before anything is computed.
 fn check_table(structure: &Structure, result: &Path, options: &TargetOptions) -> Result<(), UpliftError> {
     let Some(path) = &options.table else { return Ok(()) };
-    let inputs: Vec<&Path> =
-        [structure.file.as_path(), result].into_iter().chain(options.manifest.as_deref()).collect();
+    let inputs = inputs(structure, result, options.manifest.as_deref());
     outputs::check(&[Output::new(path, OutputKind::Table(table::FIRST_COLUMN)).of(result)], &inputs, options.force)
 }
 
@@ -299,6 +306,13 @@ impl FoundSystem {
     }
 }
 
+/// A refusal with the numbers that are probably mistaken: the reason for it, most likely.
+fn with_mistakes(reason: String, alarms: &[Alarm]) -> String {
+    let mistakes = alarms.iter().filter(|alarm| alarm.severity == Severity::Mistake);
+    let line = |alarm: &Alarm| format!("\n{} {alarm}: {}", alarm.severity.word(), alarm.what_to_do);
+    mistakes.fold(reason, |said, alarm| said + &line(alarm))
+}
+
 /// What is to be said of the values that were tried.
 struct Words<'a> {
     options: &'a TargetOptions,
@@ -307,36 +321,46 @@ struct Words<'a> {
 
 impl Words<'_> {
     /// Position of the least value from which on all meet the target.
-    fn first_of_met(&self, tried: &[(f64, Attempt)]) -> Result<usize, UpliftError> {
+    ///
+    /// # Errors
+    /// Why there is none.
+    fn first_of_met(&self, tried: &[(f64, Attempt)]) -> Result<usize, String> {
         let Self { options, target_per_year } = self;
         let (key, event) = (options.quantity.key(), options.event.words());
-        let at = |(value, attempt): &(f64, Attempt)| format!("{:.3e} at {}", attempt.risk.per_year, self.value(*value));
+        let at = |(value, attempt): &(f64, Attempt)| {
+            let frequency = match attempt.risk {
+                EventRisk { per_year: 0.0, at_most_per_year: Some(bound), .. } => format!("less than {bound:.1e}"),
+                EventRisk { per_year: 0.0, .. } => "none".to_owned(),
+                EventRisk { per_year, .. } => format!("{per_year:.3e}"),
+            };
+            format!("{frequency} at {}", self.value(*value))
+        };
         let ends = || match (tried.first(), tried.last()) {
             (Some(first), Some(last)) => format!("{} and {}", at(first), at(last)),
             _ => String::new(),
         };
         let missed = tried.iter().rposition(|(_, attempt)| !attempt.meets(*target_per_year));
         match missed {
-            None => Err(UpliftError::Usage(format!(
+            None => Err(format!(
                 "the target is met at every {key} of the range: {event} has {} per year, and {target_per_year:.3e} is \
                  allowed: give a lower --from, or a rarer target",
                 ends()
-            ))),
+            )),
             Some(last) if last + 1 < tried.len() => Ok(last + 1),
             Some(_) => {
                 let found = crossings(tried, |attempt| attempt.meets(*target_per_year));
                 if found.is_empty() {
-                    return Err(UpliftError::Usage(format!(
+                    return Err(format!(
                         "the target is missed at every {key} of the range: {event} has {} per year, and \
                          {target_per_year:.3e} is allowed: give a higher --to, or vary something else",
                         ends()
-                    )));
+                    ));
                 }
-                Err(UpliftError::Usage(format!(
+                Err(format!(
                     "the target is met in between and missed at the largest {key}: {}; a larger one is not safer \
                      here: choose --to below the last of these crossings",
                     self.crossings(&found)
-                )))
+                ))
             }
         }
     }
@@ -349,7 +373,7 @@ impl Words<'_> {
         let least = least.map_or_else(String::new, |(value, _)| format!(" from {} on", self.value(*value)));
         vec![format!(
             "the frequency crosses the target {} times, for it does not fall all the way: it is met here and \
-             there{least}, and everywhere above the value told ({})",
+             there{least}, and at every value tried above the one told ({})",
             found.len(),
             self.crossings(found)
         )]
@@ -388,6 +412,20 @@ fn assumptions(structure: &Structure, file: &ResultFile, restitution: f64) -> Ve
              impact, and its risk is larger; write the restitution of the structure that was found into its file, and \
              look at its full motion with uplift overturning"
         ));
+    }
+    if structure.uncertainty.is_some() {
+        notes.push(
+            "[uncertainty] takes no part in the search: every value is of a structure that is known exactly; write \
+             what was found into the file, and ask uplift overturning for its risk with a band"
+                .to_owned(),
+        );
+    }
+    if file.stored_study().is_ok_and(|study| study.records.vertical) {
+        notes.push(
+            "every value is looked for with the equivalent oscillator, which does not feel the vertical components of \
+             the records: uplift risk and uplift overturning shake frames and blocks with them"
+                .to_owned(),
+        );
     }
     if file.has_repair() {
         notes.push(

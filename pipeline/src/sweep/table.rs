@@ -9,10 +9,10 @@ use crate::result::write_table;
 /// The column by which a table of this program is known.
 pub(super) const FIRST_COLUMN: &str = "variant";
 
-/// Writes the table of `report` to its place.
-pub(super) fn write(report: &SweepReport) -> Result<(), UpliftError> {
+/// Writes the table of `report` to its place; `digest` is what it is known by.
+pub(super) fn write(report: &SweepReport, digest: &str) -> Result<(), UpliftError> {
     let line = format!(
-        "uplift {} ({}); {} variants of the study {}",
+        "uplift {} ({}); {} variants of the study {}; study digest {digest}",
         crate::VERSION,
         crate::COMMIT,
         report.variants.len(),
@@ -45,5 +45,42 @@ pub(super) fn write(report: &SweepReport) -> Result<(), UpliftError> {
         // a censored ordinate is inf, as in the tables beside a result
         Column::new("u_m".into(), numbers(&|_, spectrum, at| spectrum.u_m[at])),
     ]);
+    let over: Vec<Option<f64>> =
+        rows.iter().map(|(variant, spectrum, at)| over_first(&report.variants[0], variant, spectrum, *at)).collect();
+    columns.push(Column::new("over_first".into(), over));
+    let repaired = |(_, spectrum, at): &(&VariantReport, &VariantSpectrum, usize)| {
+        Some(spectrum.repaired_m.as_ref()?[*at]).filter(|u_m| !u_m.is_nan())
+    };
+    if rows.iter().any(|row| row.1.repaired_m.is_some()) {
+        columns.push(Column::new("u_consistent_m".into(), rows.iter().map(repaired).collect::<Vec<Option<f64>>>()));
+    }
+    let flags: Vec<&str> = rows.iter().map(|(_, spectrum, at)| spectrum.flags[*at]).collect();
+    columns.extend([
+        Column::new("flag".into(), flags),
+        // zero has no sign in a table
+        Column::new("lower_tail_share".into(), numbers(&|_, spectrum, at| spectrum.lower_tail_share[at] + 0.0)),
+        Column::new("upper_tail_share".into(), numbers(&|_, spectrum, at| spectrum.upper_tail_share[at] + 0.0)),
+        Column::new("cautions".into(), texts(&|variant, _| kinds(variant).join("; "))),
+    ]);
     write_table(&report.table, &line, columns)
+}
+
+/// Kinds of what is to be seen to before the numbers of a variant are used.
+fn kinds(variant: &VariantReport) -> Vec<&'static str> {
+    variant.alarms.iter().map(|alarm| alarm.kind).collect()
+}
+
+/// An ordinate over that of the `first` variant at the same site, measure, risk and strength; none where that variant
+/// has no such ordinate, and of two that are 0 or censored.
+fn over_first(first: &VariantReport, variant: &VariantReport, spectrum: &VariantSpectrum, at: usize) -> Option<f64> {
+    let is_same = |own: &&VariantSpectrum| {
+        own.site == spectrum.site && own.im == spectrum.im && own.poe.to_bits() == spectrum.poe.to_bits()
+    };
+    if first.years.to_bits() != variant.years.to_bits() {
+        return None;
+    }
+    let own = first.spectra.iter().find(is_same)?;
+    let strength = variant.strengths[at].to_bits();
+    let place = first.strengths.iter().position(|value| value.to_bits() == strength)?;
+    Some(spectrum.u_m[at] / own.u_m[place]).filter(|ratio| !ratio.is_nan())
 }

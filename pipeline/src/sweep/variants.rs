@@ -24,12 +24,24 @@ pub struct Variant {
     pub name: Option<String>,
     /// Keys of the study with their values, as `--set` takes them.
     pub changes: Vec<(String, String)>,
+    /// Where it was written: `cases.csv, row 2`; none of a product.
+    pub place: Option<String>,
 }
 
 impl Variant {
     /// As `--set` takes them.
     pub(super) fn overrides(&self) -> impl Iterator<Item = String> + '_ {
         self.changes.iter().map(|(key, value)| format!("{key}={value}"))
+    }
+
+    /// A mistake in one of its values in the words of whoever wrote it: by row and column of a table of cases.
+    pub(super) fn mistake(&self, said: String) -> String {
+        let Some(place) = &self.place else { return said };
+        let of_change = |(key, value): &(String, String)| {
+            let reason = said.strip_prefix(&format!("--set {key}={value}: "))?;
+            Some(format!("{place}, column {key}: {reason}"))
+        };
+        self.changes.iter().find_map(of_change).unwrap_or(said)
     }
 
     /// The value of `key`; none where it is that of the study.
@@ -64,16 +76,21 @@ fn shortened(name: &str) -> String {
     name.chars().take(LONGEST_NAME / 2).collect()
 }
 
-/// Names of all variants, each once: two of the same values in letters that a file name has not are told apart by a
-/// hash of them.
+/// Names of all variants, each once, whatever a file system thinks of capitals: two of the same values in letters that
+/// a file name has not are told apart by a hash of them.
 pub(super) fn names(variants: &[Variant]) -> Vec<String> {
     let own: Vec<String> =
         variants.iter().map(|variant| variant.name.clone().unwrap_or_else(|| variant.name_of_values())).collect();
-    let is_twice = |name: &String| own.iter().filter(|other| *other == name).count() > 1;
+    let is_twice = |name: &String| own.iter().filter(|other| is_same_name(other, name)).count() > 1;
     let name = |(variant, name): (&Variant, &String)| {
         if is_twice(name) { format!("{name}-{}", variant.digest()) } else { name.clone() }
     };
     variants.iter().zip(&own).map(name).collect()
+}
+
+/// Whether two names are one file on some machine.
+fn is_same_name(one: &str, other: &str) -> bool {
+    one.to_lowercase() == other.to_lowercase()
 }
 
 /// All keys that vary, in the order in which they come.
@@ -141,8 +158,16 @@ pub fn cases(path: &Path) -> Result<Vec<Variant>, UpliftError> {
     let fail = |reason: String| UpliftError::input(format!("{}: {reason}", path.display()));
     let table = text_table::parse(&read_file(path, MOST_BYTES)?, &[NAME]).map_err(&fail)?;
     let mut variants = vec![Variant::default(); table.height()];
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    for (row, variant) in variants.iter_mut().enumerate() {
+        variant.place = Some(format!("{name}, row {}", row + 1));
+    }
     for column in table.columns() {
         let key = column.name().trim().to_owned();
+        // so a reader of tables tells them apart
+        if let Some((twice, _)) = key.rsplit_once("_duplicated_") {
+            return Err(fail(format!("column {twice} is given twice")));
+        }
         let cells = column.str().map_err(|error| fail(error.to_string()))?;
         for (variant, cell) in variants.iter_mut().zip(cells.iter()) {
             let Some(cell) = cell.map(str::trim).filter(|cell| !cell.is_empty()) else { continue };
@@ -158,11 +183,14 @@ pub fn cases(path: &Path) -> Result<Vec<Variant>, UpliftError> {
         let Some(name) = &variant.name else { continue };
         let plain = name.chars().all(|letter| letter.is_alphanumeric() || "._-".contains(letter));
         if !plain || name.starts_with('.') || name.chars().count() > LONGEST_NAME {
-            mistakes
-                .push(format!("name {name:?}: letters, digits, points, dashes, and at most {LONGEST_NAME} of them"));
+            mistakes.push(format!(
+                "row {}: name {name:?}: letters, digits, points, dashes, and at most {LONGEST_NAME} of them",
+                place + 1
+            ));
         }
-        if variants[..place].iter().any(|other| other.name == variant.name) {
-            mistakes.push(format!("name {name:?} is given twice"));
+        let own = |other: &Variant| other.name.as_deref().is_some_and(|other| is_same_name(other, name));
+        if variants[..place].iter().any(own) {
+            mistakes.push(format!("row {}: name {name:?} is given twice, capitals apart", place + 1));
         }
     }
     if mistakes.is_empty() { Ok(variants) } else { Err(fail(mistakes.join("; "))) }

@@ -8,13 +8,13 @@ use uplift_study::UniformRiskStudy;
 
 use super::levels::{LevelCheck, check_levels};
 use super::{plan_stripes, site_table, systems};
-use crate::alarms::{look_like_probabilities, what_of_probabilities};
+use crate::alarms::{OF_FAR_FACTORS, look_like_probabilities, what_of_probabilities};
 use crate::analysis::seconds;
 use crate::consistency::{Answer, ConsistencyReport};
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::frame::PlanHead;
-use crate::inputs::{RecordSet, SiteHazard, SiteList, read_hazard, read_other_hazard, read_records};
+use crate::inputs::{AtLevel, Record, RecordSet, SiteHazard, SiteList, read_hazard, read_other_hazard, read_records};
 use crate::machine::{Needs, PROGRAM_BYTES};
 
 /// Time spent on a measure to see how fast this machine is.
@@ -44,6 +44,8 @@ pub(crate) fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Eve
     notes.splice(0..0, study.warnings.iter().map(ToString::to_string));
     notes.extend(suspicious(&hazard));
     notes.extend(records.notes.iter().cloned());
+    let far = |at_level: &AtLevel| at_level.far_factors(&records.records, study.measures.first()?);
+    notes.extend(records.at_level.as_ref().and_then(far).map(|what| format!("{what}: {OF_FAR_FACTORS}")));
 
     let plans = (study.measures.iter())
         .map(|measure| plan_stripes(study, measure, &records, &systems))
@@ -100,7 +102,10 @@ pub(crate) fn needs(study: &UniformRiskStudy, set: &RecordSet, list: Option<&Sit
     let thresholds = if study.risk.maf_surface { count(study.risk.thresholds_m.len()) } else { 0 };
     let surface = product(&[8, measures, sites, strengths, thresholds]);
     let spectra = product(&[40, measures, sites, strengths, count(study.risk.poe.len())]);
-    let samples: u64 = set.records.iter().map(|record| count(record.accelerogram.len())).sum();
+    let samples = |record: &Record| -> u64 {
+        std::iter::once(&record.accelerogram).chain(&record.other_azimuths).map(|motion| count(motion.len())).sum()
+    };
+    let samples: u64 = set.records.iter().map(samples).sum();
     let listed = list.map_or(0, |list| count(list.sites.len()));
     let exports = list.map_or(&[][..], |list| &list.exports[..]);
     let listed_levels = exports.iter().map(|export| levels(export.plan)).sum();

@@ -1,12 +1,12 @@
 //! How well so many records know a spectrum: whether they are enough, in a line.
 //!
-//! A bootstrap of few replicates at a few strengths, small enough for every run; `uplift bootstrap` gives the bands.
+//! Bands of the truth at a few strengths, small enough for every run; `uplift bootstrap` gives those of all.
 
 use rayon::prelude::*;
 use serde::Serialize;
-use uplift_bootstrap::{Band, BootstrapError, Replicates, ResamplingPlan, units};
+use uplift_bootstrap::{Unit, inferred_limits, units};
 use uplift_fragility::quantile;
-use uplift_risk::{PooledDemand, RiskError};
+use uplift_risk::{PooledDemand, RiskCurve, RiskError};
 use uplift_study::UniformRiskStudy;
 
 use super::{Stripes, pooled_demand};
@@ -17,11 +17,7 @@ use crate::text::{nearest, per_cent, risk_in_words};
 
 /// Strengths that are looked at.
 const STRENGTHS: [f64; 3] = [0.1, 0.2, 0.4];
-/// Samples of the records: the half width is then known within a tenth of itself.
-const REPLICATES: usize = 200;
-/// Of more records nothing is said: samples of a bootstrap are no larger.
-const MOST_RECORDS: usize = 100_000;
-/// Share of the samples between the limits.
+/// How often a band is to hold the ordinate of all records there could be.
 const CONFIDENCE: f64 = 0.9;
 /// Bands shrink as one over the root of the records (Section 4.5.1): half as wide takes so many times as many.
 const TIMES_FOR_HALF: usize = 4;
@@ -42,10 +38,10 @@ pub struct Precision {
     pub events: Option<usize>,
     /// To how many earthquakes of equally many records these amount: 1/Σ (share of the records)².
     pub effective_events: Option<f64>,
-    /// Half of the 90 % interval of an ordinate over its median, records drawn one by one: the middle one, the least
-    /// and the most, of the sites and the strengths 0.1, 0.2 and 0.4.
+    /// Half of the 90 % band of the truth over the ordinate, as the records tell it, one by one: the middle one, the
+    /// least and the most, of the sites and the strengths 0.1, 0.2 and 0.4.
     pub half_width: [f64; 3],
-    /// The middle one with earthquakes drawn with all their records.
+    /// The middle one as their earthquakes tell it.
     pub half_width_by_event: Option<f64>,
     /// Records of the same kind that would halve it.
     pub records_for_half: usize,
@@ -65,67 +61,54 @@ pub(crate) fn precision(
     question: &Question,
 ) -> Result<Option<Precision>, UpliftError> {
     let event_of = question.event_of();
+    // two components of a pair are not independent
+    let [pairs, earthquakes] = [units(&question.pair_of()), units(&event_of)];
     let records = event_of.len();
+    // the azimuths of a pair tell no more of other records than the pair does
+    let counted = if study.drawn_unit(Some(Unit::Record)) == Unit::Pair { pairs.len() } else { records };
     let Some(&poe) = study.risk.poe.iter().min_by(|a, b| a.total_cmp(b)) else { return Ok(None) };
     let target = uplift_hazard::rate_from_probability(poe, study.risk.years)?;
-    let size = u32::try_from(records).unwrap_or(u32::MAX);
-    if !(2..=MOST_RECORDS).contains(&records) {
-        return Ok(None);
-    }
     let shown = nearest(&study.strengths, &STRENGTHS);
     let demands: Vec<PooledDemand> =
         shown.into_iter().map(|strength| pooled_demand(stripes, strength)).collect::<Result<_, _>>()?;
-    let widths = |plan: &ResamplingPlan| -> Result<Vec<f64>, UpliftError> {
-        let of_site = |demand: &PooledDemand, site: &SiteHazard| -> Result<Option<f64>, BootstrapError> {
-            let replicates = Replicates::of(demand, &[&site.curve.weights], &[target], plan)?;
-            Ok(half_width(replicates.ordinates_m(0, 0, 0)))
+    let widths = |units: &[Vec<usize>]| -> Result<Vec<f64>, UpliftError> {
+        let of_site = |demand: &PooledDemand, site: &SiteHazard| -> Result<Option<f64>, RiskError> {
+            let weights = &site.curve.weights;
+            let ordinate = RiskCurve::new(demand, weights)?.exact_ordinate(target)?;
+            let limits = inferred_limits(demand, weights, units, &[target], (&[units.len()], CONFIDENCE))?;
+            Ok(limits.first().and_then(|limits| half_width(ordinate.displacement_m, limits.truth_m)))
         };
         let mut all = Vec::new();
         for demand in &demands {
-            let of_sites: Result<Vec<Option<f64>>, BootstrapError> =
+            let of_sites: Result<Vec<Option<f64>>, RiskError> =
                 hazard.par_iter().map(|site| of_site(demand, site)).collect();
             all.extend(of_sites?.into_iter().flatten());
         }
         all.sort_by(f64::total_cmp);
         Ok(all)
     };
-    let by_record = of_whole_levels(widths(&ResamplingPlan::draw(records, &[size], REPLICATES, study.seed)?))?;
+    let by_record = widths(&pairs)?;
     let [Some(&least), Some(&most)] = [by_record.first(), by_record.last()] else { return Ok(None) };
-    let counts: Vec<usize> = units(&event_of).iter().map(Vec::len).collect();
     let is_shared = question.shares_earthquakes();
-    let by_event = if is_shared && counts.len() > 1 {
-        of_whole_levels(widths(&ResamplingPlan::draw_events(&event_of, &[size], REPLICATES, study.seed)?))?
-    } else {
-        Vec::new()
-    };
-    let squares: f64 = counts.iter().map(|&count| (count as f64 / records as f64).powi(2)).sum();
+    let by_event = if is_shared { widths(&earthquakes)? } else { Vec::new() };
+    let squares: f64 = earthquakes.iter().map(|of_event| (of_event.len() as f64 / records as f64).powi(2)).sum();
     Ok(Some(Precision {
         im: stripes.measure.label(),
         poe,
         years: study.risk.years,
-        records,
-        events: is_shared.then_some(counts.len()),
+        records: counted,
+        events: is_shared.then_some(earthquakes.len()),
         effective_events: is_shared.then_some(1.0 / squares),
         half_width: [quantile(&by_record, 0.5), least, most],
         half_width_by_event: (!by_event.is_empty()).then(|| quantile(&by_event, 0.5)),
-        records_for_half: TIMES_FOR_HALF * records,
+        records_for_half: TIMES_FOR_HALF * counted,
     }))
 }
 
-/// What is known of samples; nothing where one has no record of a level that has records of its own.
-fn of_whole_levels(widths: Result<Vec<f64>, UpliftError>) -> Result<Vec<f64>, UpliftError> {
-    match widths {
-        Err(UpliftError::Bootstrap(BootstrapError::Risk(RiskError::EmptyLevel { .. }))) => Ok(Vec::new()),
-        widths => widths,
-    }
-}
-
-/// Half of the interval over the median; none where an ordinate is censored or 0.
-fn half_width(ordinates_m: &[f64]) -> Option<f64> {
-    let mut sorted = ordinates_m.to_vec();
-    sorted.sort_unstable_by(f64::total_cmp);
-    let Band { lower_m, median_m, upper_m } = Band::percentile(&sorted, CONFIDENCE);
-    (median_m > 0.0 && upper_m.is_finite()).then(|| 0.5 * (upper_m - lower_m) / median_m)
+/// Half of the band over the ordinate; none where one of them is censored, the ordinate 0, and of a single unit.
+fn half_width(ordinate_m: f64, [lower_m, upper_m]: [f64; 2]) -> Option<f64> {
+    let width = 0.5 * (upper_m - lower_m) / ordinate_m;
+    (ordinate_m > 0.0 && width.is_finite()).then_some(width)
 }
 
 impl Precision {
@@ -141,7 +124,7 @@ impl Precision {
             .map_or_else(String::new, |width| format!("; ±{} % if earthquakes were others", percent(width)));
         format!(
             "{} records{events} know the spectra of {} by {} within ±{middle} % ({least} to {most} by site and \
-             strength, {} of resamples{by_event}); half of that takes some {}",
+             strength, {} bands of the truth{by_event}); half of that takes some {}",
             self.records,
             risk_in_words(self.poe, self.years),
             self.im,
@@ -157,11 +140,10 @@ mod tests {
 
     #[test]
     fn half_widths_by_hand() {
-        // 1 to 101: 5 % at 6, the median 51, 95 % at 96
-        let ordinates: Vec<f64> = (1..=101).rev().map(f64::from).collect();
-        assert_eq!(half_width(&ordinates), Some(45.0 / 51.0));
-        assert_eq!(half_width(&[0.0; 9]), None);
-        assert_eq!(half_width(&[1.0, 1.0, f64::INFINITY]), None);
+        assert_eq!(half_width(0.2, [0.15, 0.3]), Some(0.5 * 0.15 / 0.2));
+        assert_eq!(half_width(0.2, [0.15, f64::INFINITY]), None);
+        assert_eq!(half_width(0.0, [0.0, 0.1]), None);
+        assert_eq!(half_width(0.2, [f64::NAN; 2]), None);
     }
 
     #[test]
@@ -180,8 +162,8 @@ mod tests {
         assert_eq!(
             precision.words(),
             "105 records of 22 earthquakes, which count as 10, know the spectra of 2 % in 50 years by PGV within ±16 % \
-             (12 to 25 by site and strength, 90 % of resamples; ±24 % if earthquakes were others); half of that takes \
-             some 420"
+             (12 to 25 by site and strength, 90 % bands of the truth; ±24 % if earthquakes were others); half of that \
+             takes some 420"
         );
         (precision.events, precision.effective_events, precision.half_width_by_event) = (None, None, None);
         assert!(precision.words().starts_with("105 records know the spectra of 2 % in 50 years by PGV within"));

@@ -1,7 +1,7 @@
 //! The stripes of one intensity measure: records × strengths × levels.
 
 use uplift_ida::{Peaks, Plan, ScaledMotion, StripeRecord, System};
-use uplift_motion::IntensityMeasure;
+use uplift_motion::{Accelerogram, Direction, IntensityMeasure};
 use uplift_oscillator::Oscillator;
 
 use crate::analysis::Analysed;
@@ -73,7 +73,7 @@ pub fn plan_stripes<'a>(
             accelerogram: &record.accelerogram,
             scales: at_level.factors_of(index, measure.levels.len()).to_vec(),
         });
-        return Ok(Plan::selected(motions.collect(), systems, study.oscillator.free_vibration)?);
+        return seen(Plan::selected(motions.collect(), systems, study.oscillator.free_vibration)?, set);
     }
     plan_levels(study, (measure.measure, &measure.levels), set, systems)
 }
@@ -94,7 +94,33 @@ pub(crate) fn plan_levels<'a>(
         accelerogram: &record.accelerogram,
         intensity: amplitude(record.intensity(measure)),
     });
-    stripes_of((measure, levels), records.collect(), systems, study.oscillator.free_vibration)
+    seen(stripes_of((measure, levels), records.collect(), systems, study.oscillator.free_vibration)?, set)
+}
+
+/// The same `plan` of the records of `set` from all azimuths that these have, and with their vertical components where
+/// a system feels them.
+///
+/// # Errors
+/// Records whose ground falls as fast as gravity.
+pub(crate) fn seen<'a>(plan: Plan<'a>, set: &'a RecordSet) -> Result<Plan<'a>, UpliftError> {
+    let plan = match set.records.first().map(|record| record.direction) {
+        Some(Direction::Percentile { percentile, .. }) => {
+            let others = set.records.iter().map(|record| record.other_azimuths.as_slice());
+            plan.from_azimuths(others.collect(), percentile)?
+        }
+        _ => plan,
+    };
+    let verticals = set.records.iter().filter_map(|record| record.vertical.as_ref());
+    shaken_upwards(plan, verticals.map(|vertical| &vertical.accelerogram).collect())
+}
+
+/// The same `plan` with these vertical components, one a motion or none, where a system feels them.
+///
+/// # Errors
+/// As [`seen`].
+pub(crate) fn shaken_upwards<'a>(plan: Plan<'a>, verticals: Vec<&'a Accelerogram>) -> Result<Plan<'a>, UpliftError> {
+    let feels = plan.systems().iter().any(|system| system.gravity_m_s2().is_some());
+    if feels && !verticals.is_empty() { Ok(plan.upwards(verticals)?) } else { Ok(plan) }
 }
 
 /// The plan of the stripes at `levels` of a measure of other motions than the records of a study, with the intensities

@@ -7,10 +7,9 @@ use uplift_study::UniformRiskStudy;
 
 use super::{EarlierStripes, needs, plan_stripes, systems};
 use crate::analysis::{LabelledPlan, ShardReport, Work, carry_out_shard};
-use crate::checkpoint::motion_key;
 use crate::error::UpliftError;
 use crate::events::Events;
-use crate::inputs::{RecordSet, read_hazard, read_records};
+use crate::inputs::{Record, RecordSet, read_hazard, read_records};
 use crate::text::thousands;
 
 /// What the stripes of a study are made of.
@@ -53,8 +52,12 @@ impl Inputs {
             });
             let label = measure.measure.label().to_owned();
             let own = if self.records.at_level.is_some() { " (records of their own)" } else { "" };
+            let azimuths = match plan.histories_per_peak() {
+                1 => String::new(),
+                azimuths => format!(" x {azimuths} azimuths"),
+            };
             let text = format!(
-                "{} records x {} strengths x {} levels{own} = {} analyses",
+                "{} records x {} strengths x {} levels{own}{azimuths} = {} analyses",
                 self.records.records.len(),
                 study.strengths.len(),
                 measure.levels.len(),
@@ -69,7 +72,7 @@ impl Inputs {
 
 /// Keys of the records' motions.
 pub(crate) fn motion_keys(set: &RecordSet) -> Vec<String> {
-    set.records.iter().map(|record| motion_key(&record.accelerogram)).collect()
+    set.records.iter().map(Record::motion_key).collect()
 }
 
 /// Carries out one shard of the stripes of a study into a file, but for what is known from an `earlier` result.

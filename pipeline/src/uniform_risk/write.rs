@@ -7,7 +7,7 @@ use uplift_risk::Ordinate;
 
 use super::Outcome;
 use super::write_hazard::{write_branches, write_hazard, write_other_hazard};
-use crate::checkpoint::{motion_key, oscillator_key};
+use crate::checkpoint::oscillator_key;
 use crate::consistency::Keep;
 use crate::error::UpliftError;
 use crate::inputs::{AtLevel, Record};
@@ -89,9 +89,9 @@ fn write_records(
     writer.array_f64(layout::MAGNITUDE, dims, &number("magnitude"), "1", "moment magnitude")?;
     writer.array_f64(layout::RRUP_KM, dims, &number("rrup_km"), "km", "closest distance to the rupture")?;
     writer.array_f64(layout::VS30, dims, &number("vs30"), "m/s", "mean shear-wave velocity of the upper 30 m")?;
-    let component: Vec<String> = records.iter().map(|record| record.component.to_string()).collect();
+    let component: Vec<String> = records.iter().map(|record| record.direction.to_string()).collect();
     writer.array_text(layout::COMPONENT, dims, &component, "horizontal component analysed")?;
-    let motions: Vec<String> = records.iter().map(|record| motion_key(&record.accelerogram)).collect();
+    let motions: Vec<String> = records.iter().map(Record::motion_key).collect();
     writer.array_text(layout::MOTION_SHA256, dims, &motions, "SHA-256 of time step and samples in m/s2")?;
     let checksum: Vec<String> = records.iter().map(|record| record.checksum.clone()).collect();
     writer.array_text(layout::CHECKSUM, dims, &checksum, "SHA-256 of the component")?;

@@ -61,10 +61,14 @@ pub struct GroupReport {
     pub wasserstein: Option<f64>,
     /// Energy distance, in the square root of that unit.
     pub energy: Option<f64>,
-    /// Median of the measured peaks.
+    /// Median of the measured peaks; none where it is infinite, or peaks above a limit leave it open.
     pub median_measured: Option<f64>,
-    /// Median of the computed peaks.
+    /// What it is at least, where they leave it open: the median with these peaks at their limits.
+    pub median_measured_above: Option<f64>,
+    /// Median of the computed peaks, as that of the measured ones.
     pub median_computed: Option<f64>,
+    /// What it is at least, where peaks above a limit leave it open.
+    pub median_computed_above: Option<f64>,
     /// Error of the median as Table 6.2 prints it, without its sign.
     pub e50: Option<f64>,
     /// The same with its sign, `u50,computed/u50,measured − 1`.
@@ -121,10 +125,17 @@ impl GroupReport {
             Some(bands) => bands.median_ratio,
             None => median_ratio_band(&measured, &computed, resampling),
         };
+        let pairs = are_pairs.then(|| pairs(peers, &values)).transpose()?;
+        // of what is not defined there is no band
+        let pair_bands = pair_bands.zip(pairs).map(|(bands, pairs)| Bands {
+            log_bias: pairs.log_bias.and(bands.log_bias),
+            log_dispersion: pairs.log_dispersion.and(bands.log_dispersion),
+            ..bands
+        });
         let swaps = options.permutation && are_pairs;
         let p_permutation = swaps.then(|| permutation_p(&values[0], &values[1], resampling)).transpose()?;
-        let (median_measured, median_computed) = (finite(measured.median()), finite(computed.median()));
-        let median_error = median_measured.zip(median_computed).and_then(|(m, c)| finite(c / m - 1.0));
+        let [of_measured, of_computed] = [Median::of(&peers.measured)?, Median::of(&peers.computed)?];
+        let median_error = of_measured.known.zip(of_computed.known).and_then(|(m, c)| finite(c / m - 1.0));
         let collapses = |peaks: &[PeakValue]| peaks.iter().filter(|peak| matches!(peak, PeakValue::Overturned)).count();
         let at = distinct_finite(&measured);
         Ok(Self {
@@ -142,12 +153,14 @@ impl GroupReport {
             mann_whitney: MannWhitney::of(&measured, &computed),
             wasserstein: wasserstein_distance(&measured, &computed),
             energy: energy_distance(&measured, &computed),
-            median_measured,
-            median_computed,
+            median_measured: of_measured.known,
+            median_measured_above: of_measured.above,
+            median_computed: of_computed.known,
+            median_computed_above: of_computed.above,
             e50: median_error.map(f64::abs),
             median_error,
-            median_error_band,
-            pairs: are_pairs.then(|| pairs(peers, &values)).transpose()?,
+            median_error_band: median_error.and(median_error_band),
+            pairs,
             pair_bands,
             measured_collapses: collapses(&peers.measured),
             computed_collapses: collapses(&peers.computed),
@@ -156,6 +169,27 @@ impl GroupReport {
             kolmogorov_smirnov: test,
             values: if are_pairs { values[0].iter().copied().zip(values[1].iter().copied()).collect() } else { vec![] },
             samples: [measured, computed],
+        })
+    }
+}
+
+/// A median, where it is known, or what it is at least.
+struct Median {
+    known: Option<f64>,
+    above: Option<f64>,
+}
+
+impl Median {
+    /// Of peaks of which some may be above a limit only: each is at least its limit, and the median lies between those
+    /// with all of them there and with all of them above every value. Where these agree it is known.
+    fn of(peaks: &[PeakValue]) -> Result<Self, ValidationError> {
+        let median =
+            |place: fn(PeakValue) -> f64| Ok(Sample::new(peaks.iter().map(|peak| place(*peak)).collect())?.median());
+        let (least, most): (f64, f64) = (median(PeakValue::at_limit)?, median(PeakValue::ranked)?);
+        Ok(if least.to_bits() == most.to_bits() {
+            Self { known: finite(least), above: None }
+        } else {
+            Self { known: None, above: finite(least) }
         })
     }
 }
@@ -227,6 +261,26 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
 
+    /// A peak above a limit is at least there: a median that it may move is a bound, and one that it cannot is known.
+    #[test]
+    fn a_median_among_limits_is_a_bound() {
+        use PeakValue::{Above, Finite, Overturned};
+        let of = |peaks: &[PeakValue]| {
+            let found = Median::of(peaks).unwrap();
+            (found.known, found.above)
+        };
+        // the limit lies above the middle
+        assert_eq!(of(&[Finite(0.1), Finite(0.2), Above(0.3)]), (Some(0.2), None));
+        // it is the middle, or below it
+        assert_eq!(of(&[Finite(0.1), Above(0.3), Overturned]), (None, Some(0.3)));
+        assert_eq!(of(&[Finite(0.6), Above(0.5), Finite(0.8)]), (None, Some(0.6)));
+        assert_eq!(of(&[Above(0.05), Finite(0.2), Finite(0.4)]), (None, Some(0.2)));
+        // of an even number, the mean of two
+        assert_eq!(of(&[Finite(0.1), Finite(0.3), Above(0.5), Overturned]), (None, Some(0.4)));
+        assert_eq!(of(&[Finite(0.1), Overturned, Overturned]), (None, None));
+        assert_eq!(of(&[Above(0.1), Overturned, Overturned]), (None, None));
+    }
+
     #[test]
     fn a_limit_is_no_collapse() {
         use PeakValue::{Above, Finite, Overturned};
@@ -241,6 +295,14 @@ mod tests {
         // 0.12 beside 0.1, and the collapse of both
         assert!((pairs.within_1_5 - 0.5).abs() < 1e-15, "{}", pairs.within_1_5);
         assert_eq!((pairs.finite, report.wasserstein, report.median_measured), (1, None, None));
+        // 0.1, 0.3, 0.3 and a collapse: the middle two are limits
+        assert_eq!(
+            (report.median_measured_above, report.median_error, report.median_error_band),
+            (Some(0.3), None, None)
+        );
+        // of one finite pair there is no dispersion, however often it is drawn
+        let bands = report.pair_bands.unwrap();
+        assert!(bands.log_bias.is_some() && pairs.log_dispersion.is_none() && bands.log_dispersion.is_none());
         let censored = report.censored.unwrap();
         assert_eq!((censored.measured, censored.computed), (2, 0));
         // at the limits: F(0.3) = 3/4 beside G(0.3) = 1/4; above all values: F(0.31) = 1/4 beside 2/4

@@ -100,6 +100,14 @@ pub(super) fn by_key(measured: &Peaks, computed: &Peaks) -> Result<(Joined, Unma
             unmatched.computed_only.push(words(&name));
         }
     }
+    let without: Vec<String> = [measured, computed]
+        .into_iter()
+        .filter(|table| table.rows.iter().all(|row| row.value.is_none()))
+        .map(|table| format!("{}: no row has a value in its column {}", table.name, table.column))
+        .collect();
+    if !without.is_empty() {
+        return Err(UpliftError::Inputs(without));
+    }
     if pairs.is_empty() {
         return Err(UpliftError::input(format!(
             "{} and {} have no row in common: the first are {:?} and {:?}",
@@ -162,7 +170,7 @@ pub(super) fn as_samples(measured: &Peaks, computed: &Peaks) -> Result<(Joined, 
             }
         }
         if values.is_empty() {
-            mistakes.push(format!("{}: no row has a value", table.name));
+            mistakes.push(format!("{}: no row has a value in its column {}", table.name, table.column));
         }
         values
     };

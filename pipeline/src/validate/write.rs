@@ -93,6 +93,8 @@ fn columns(report: &ValidateReport) -> Vec<Column> {
         count("measured_above_limit", &|group| Some(group.censored.map_or(0, |censored| censored.measured))),
         count("computed_above_limit", &|group| Some(group.censored.map_or(0, |censored| censored.computed))),
         number("ks_distance_at_limits", &|group| group.censored.map(|censored| censored.ks_distance_at_limits)),
+        number(&with_unit("median_measured_above"), &|group| group.median_measured_above),
+        number(&with_unit("median_computed_above"), &|group| group.median_computed_above),
     ]);
     columns
 }

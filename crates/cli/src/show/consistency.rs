@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use uplift::consistency::{AgreementRow, ConsistencyReport, ConsistencyRow};
+use uplift::consistency::{AgreementRow, ConsistencyReport, ConsistencyRow, RepairRow};
 use uplift::text::{per_cent, risk_name, risks_in_words, table};
 
 use super::shown_path;
@@ -107,8 +107,10 @@ fn print_levels(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), 
                 number(row.max, 2),
             ];
             if repaired {
-                let least = row.repair.as_ref().and_then(|repair| repair.least_effective);
-                cells.push(format!("{} of {}", number(least, 0), report.records));
+                let of = |repair: &RepairRow| Some((repair.least_effective?, repair.least_effective_of?));
+                let least = row.repair.as_ref().and_then(of);
+                let words = |(least, records)| format!("{} of {records}", number(Some(least), 0));
+                cells.push(least.map_or_else(|| format!("- of {}", report.records), words));
             }
             cells.push(row.verdict.unwrap_or("-").to_owned());
             cells

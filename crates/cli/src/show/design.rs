@@ -10,6 +10,7 @@ use uplift_structure::Rule;
 use super::alarms::print_alarms;
 use super::shown_path;
 use super::structure::{lines, risk_cells, short};
+use super::uncertainty::print_uncertainty;
 use crate::error::CommandError;
 use crate::terminal::output;
 
@@ -63,6 +64,9 @@ pub(crate) fn print_design(report: &DesignReport) -> Result<(), CommandError> {
         print_risk(out, report, exact)?;
         print_noise(out, &report.rules, exact)?;
         print_rounding(out, &report.rules, &exact.rounding)?;
+    }
+    if let Some(uncertainty) = &report.uncertainty {
+        print_uncertainty(out, uncertainty)?;
     }
     print_alarms(out, &report.alarms)
 }

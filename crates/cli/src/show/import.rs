@@ -6,7 +6,7 @@ use uplift::import::ImportReport;
 use uplift::text::one_line;
 
 use crate::error::CommandError;
-use crate::terminal::{Terminal, output, tell};
+use crate::terminal::{Terminal, output};
 
 /// Remarks of one kind that are shown.
 const SHOWN: usize = 5;
@@ -17,12 +17,12 @@ pub(crate) fn tell_remarks(report: &ImportReport, terminal: &Terminal) {
     for remarks in &report.remarks {
         let texts = &remarks.texts;
         let more = texts.len().saturating_sub(SHOWN);
-        tell(&format!("{} ({}):", remarks.kind, texts.len()));
+        terminal.say(&format!("{} ({}):", remarks.kind, texts.len()));
         for text in &texts[..texts.len() - more] {
-            tell(&format!("  - {}", one_line(text)));
+            terminal.say(&format!("  - {}", one_line(text)));
         }
         if more > 0 {
-            tell(&format!("  - and {more} more: {}", file.display()));
+            terminal.say(&format!("  - and {more} more: {}", file.display()));
         }
     }
 }

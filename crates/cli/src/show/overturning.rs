@@ -9,6 +9,7 @@ use uplift_spectra::Noisy;
 use super::alarms::print_alarms;
 use super::shown_path;
 use super::structure::{lines, risk_cells};
+use super::uncertainty::print_uncertainty;
 use crate::error::CommandError;
 use crate::terminal::output;
 
@@ -36,6 +37,9 @@ pub(crate) fn print_overturning(report: &OverturningReport) -> Result<(), Comman
     print_fragility(out, report)?;
     print_risk(out, report)?;
     print_rounding(out, report)?;
+    if let Some(uncertainty) = &report.uncertainty {
+        print_uncertainty(out, uncertainty)?;
+    }
     print_alarms(out, &report.alarms)
 }
 

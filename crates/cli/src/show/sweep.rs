@@ -27,7 +27,9 @@ pub(crate) fn print_sweep(report: &SweepReport, terminal: &Terminal) -> Result<(
     }
     let synthetic = if first.synthetic { " (synthetic records)" } else { "" };
     let mut header: Vec<&str> = report.keys.iter().map(String::as_str).collect();
-    header.extend(["risk", "strength", "m", "strength", "m", "strength", "m"]);
+    let is_repaired = spectra().any(|spectrum| spectrum.repaired_m.is_some());
+    let u_m = if is_repaired { "m (repaired)" } else { "m" };
+    header.extend(["risk", "strength", u_m, "strength", u_m, "strength", u_m]);
     for im in measures {
         for site in &sites {
             let rows: Vec<Vec<String>> = report.variants.iter().map(|variant| row(variant, im, site)).collect();
@@ -39,7 +41,28 @@ pub(crate) fn print_sweep(report: &SweepReport, terminal: &Terminal) -> Result<(
         }
     }
     if !terminal.is_quiet() {
+        print_cautions(out, report)?;
         writeln!(out, "\nAll spectra of all variants: {}", shown_path(&report.table).display())?;
+    }
+    Ok(())
+}
+
+/// What is to be seen to before the numbers are used, once for all variants of which it is to be said.
+fn print_cautions(out: &mut impl Write, report: &SweepReport) -> Result<(), CommandError> {
+    let mut said: Vec<(String, Vec<&str>)> = Vec::new();
+    for variant in &report.variants {
+        for alarm in &variant.alarms {
+            let line = format!("{}: {alarm}", alarm.severity.word());
+            match said.iter_mut().find(|(known, _)| *known == line) {
+                Some((_, variants)) => variants.push(&variant.name),
+                None => said.push((line, vec![&variant.name])),
+            }
+        }
+    }
+    for (line, variants) in said {
+        let all = variants.len() == report.variants.len();
+        let of = if all { "all variants".to_owned() } else { variants.join(", ") };
+        writeln!(out, "\n{line} ({of})")?;
     }
     Ok(())
 }
@@ -55,7 +78,12 @@ fn row(variant: &VariantReport, im: &str, site: &str) -> Vec<String> {
     for place in 0..SHOWN_STRENGTHS.len() {
         match (rarest, shown.get(place)) {
             (Some(spectrum), Some(&at)) => {
-                cells.extend([format!("{:.3}", variant.strengths[at]), metres(spectrum.u_m[at])]);
+                let repaired = spectrum.repaired_m.as_ref().map(|repaired_m| match repaired_m[at] {
+                    u_m if u_m.is_nan() => " (none)".to_owned(),
+                    u_m => format!(" ({})", metres(u_m)),
+                });
+                let u_m = metres(spectrum.u_m[at]) + &repaired.unwrap_or_default();
+                cells.extend([format!("{:.3}", variant.strengths[at]), u_m]);
             }
             _ => cells.extend(["-".to_owned(), "-".to_owned()]),
         }

@@ -95,7 +95,10 @@ fn print_sizes(out: &mut impl Write, report: &ValidateReport) -> Result<(), Comm
         .iter()
         .map(|group| {
             let mut cells = vec![ValidateReport::name(group)];
-            cells.extend([group.median_measured, group.median_computed].map(or_dash));
+            cells.extend([
+                median(group.median_measured, group.median_measured_above),
+                median(group.median_computed, group.median_computed_above),
+            ]);
             cells.extend([group.e50.map(share), group.median_error.map(signed)].map(|cell| cell.unwrap_or(dash())));
             cells.push(band(group.median_error_band, signed));
             if let Some(pairs) = &group.pairs {
@@ -117,7 +120,7 @@ fn print_sizes(out: &mut impl Write, report: &ValidateReport) -> Result<(), Comm
 
 fn pair_cells(group: &GroupReport, pairs: &Pairs) -> Vec<String> {
     let bands = group.pair_bands;
-    let number = |value: f64| format!("{value:.3}");
+    let number = |value: f64| without_sign_of_zero(format!("{value:.3}"));
     vec![
         pairs.log_bias.map_or_else(dash, number),
         band(bands.and_then(|bands| bands.log_bias), number),
@@ -167,14 +170,47 @@ fn digits(value: f64) -> String {
     if value != 0.0 && value.abs() < 1e-3 { format!("{value:.1e}") } else { format!("{value:.3}") }
 }
 
+/// A median, or what it is above.
+fn median(known: Option<f64>, above: Option<f64>) -> String {
+    above.map_or_else(|| or_dash(known), |above| format!(">{above:.4}"))
+}
+
+/// What is rounded to nothing has no sign.
+fn without_sign_of_zero(text: String) -> String {
+    match text.strip_prefix('-') {
+        Some(rest) if rest.bytes().all(|byte| !(b'1'..=b'9').contains(&byte)) => rest.to_owned(),
+        _ => text,
+    }
+}
+
 fn or_dash(value: Option<f64>) -> String {
-    value.map_or_else(dash, |value| format!("{value:.4}"))
+    value.map_or_else(dash, |value| without_sign_of_zero(format!("{value:.4}")))
 }
 
 fn signed(value: f64) -> String {
-    if value.is_finite() { format!("{:+.0} %", 100.0 * value) } else { "∞".to_owned() }
+    match format!("{:+.0} %", 100.0 * value) {
+        _ if value.is_infinite() => "∞".to_owned(),
+        zero if zero == "-0 %" => "+0 %".to_owned(),
+        text => text,
+    }
 }
 
 fn band(band: Option<Quantiles>, shown: impl Fn(f64) -> String) -> String {
     band.map_or_else(dash, |band| format!("{} … {}", shown(band.q05), shown(band.q95)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_rounded_to_nothing_has_no_sign_and_a_bound_says_so() {
+        assert_eq!(or_dash(Some(-1e-6)), "0.0000");
+        assert_eq!(or_dash(Some(-0.5)), "-0.5000");
+        assert_eq!([signed(-1e-6), signed(-0.02), signed(f64::INFINITY)], ["+0 %", "-2 %", "∞"]);
+        assert_eq!(
+            [median(None, Some(0.08)), median(Some(0.08), None), median(None, None)],
+            [">0.0800", "0.0800", "-"]
+        );
+    }
 }

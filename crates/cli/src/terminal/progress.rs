@@ -1,4 +1,4 @@
-//! Progress of a phase: a bar on a terminal, plain lines elsewhere.
+//! Progress of a phase: a bar on a terminal, plain lines elsewhere, or events.
 
 use std::io::IsTerminal;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -8,10 +8,13 @@ use indicatif::{ProgressBar, ProgressStyle};
 use uplift::events::Phase;
 use uplift::text::one_line;
 
-use super::tell;
+use super::events::Event;
+use super::{Form, tell};
 
 /// Seconds between the lines that stand in for a bar.
-const LINE_EVERY_S: u64 = 10;
+const LINE_EVERY: Duration = Duration::from_secs(10);
+/// Time between the events that tell of it.
+const EVENT_EVERY: Duration = Duration::from_millis(100);
 
 /// Tells how far a phase is.
 pub(super) struct Progress {
@@ -22,13 +25,18 @@ pub(super) struct Progress {
     start: Instant,
     /// None where there is no terminal to draw one on.
     bar: Option<ProgressBar>,
-    next_line_s: AtomicU64,
+    form: Form,
+    /// Time from the start at which the next line or event is due, ms.
+    next_ms: AtomicU64,
 }
 
 impl Progress {
-    pub(super) fn new(Phase { label, unit, total }: Phase<'_>) -> Self {
+    pub(super) fn new(Phase { label, unit, total }: Phase<'_>, form: Form) -> Self {
         let label = one_line(label).into_owned();
-        let bar = std::io::stderr().is_terminal().then(|| {
+        if form == Form::Json {
+            Event::Begin { label: &label, unit, total }.tell();
+        }
+        let bar = (form == Form::Text && std::io::stderr().is_terminal()).then(|| {
             let bar = ProgressBar::new(total);
             let template = format!(
                 "{{msg}} {{bar:32}} {{percent:>3}} %  {{human_pos}} of {{human_len}} {unit}, {{per_sec}}, {{eta}} left"
@@ -47,7 +55,8 @@ impl Progress {
             done: AtomicU64::new(0),
             start: Instant::now(),
             bar,
-            next_line_s: AtomicU64::new(LINE_EVERY_S),
+            form,
+            next_ms: AtomicU64::new(if form == Form::Json { 0 } else { millis(LINE_EVERY) }),
         }
     }
 
@@ -55,23 +64,30 @@ impl Progress {
         let done = self.done.fetch_add(steps, Ordering::Relaxed) + steps;
         match &self.bar {
             Some(bar) => bar.set_position(done),
-            None => self.line(done),
+            None => self.line_or_event(done),
         }
     }
 
     /// Takes the bar away.
     pub(super) fn close(&self) {
+        if self.form == Form::Json {
+            Event::End { done: self.done.load(Ordering::Relaxed), total: self.total }.tell();
+        }
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
         }
     }
 
-    fn line(&self, done: u64) {
+    fn line_or_event(&self, done: u64) {
         let elapsed = self.start.elapsed();
-        let due = self.next_line_s.load(Ordering::Relaxed);
-        let claimed = elapsed.as_secs() >= due
-            && self.next_line_s.compare_exchange(due, due + LINE_EVERY_S, Ordering::Relaxed, Ordering::Relaxed).is_ok();
-        if claimed && done < self.total {
+        let (now, due) = (millis(elapsed), self.next_ms.load(Ordering::Relaxed));
+        // lines keep to their times, events their distance
+        let next = if self.form == Form::Json { now + millis(EVENT_EVERY) } else { due + millis(LINE_EVERY) };
+        let claimed =
+            now >= due && self.next_ms.compare_exchange(due, next, Ordering::Relaxed, Ordering::Relaxed).is_ok();
+        if claimed && self.form == Form::Json {
+            Event::Advance { done, total: self.total }.tell();
+        } else if claimed && done < self.total {
             let rate = done as f64 / elapsed.as_secs_f64();
             let left_s = (self.total - done) as f64 / rate;
             // of what takes seconds a step, whole numbers say nothing
@@ -85,4 +101,8 @@ impl Progress {
             ));
         }
     }
+}
+
+fn millis(time: Duration) -> u64 {
+    u64::try_from(time.as_millis()).unwrap_or(u64::MAX)
 }

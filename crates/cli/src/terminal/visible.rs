@@ -2,11 +2,24 @@
 
 use std::io::{self, Stderr, StdoutLock, Write};
 
-use uplift::text::visible;
+use uplift::text::{is_obeyed, visible};
 
 /// A stream on which what a terminal would obey is spelt out. Each write holds whole characters, as those of the
 /// formatting macros do.
 pub(crate) struct Visible<W>(W);
+
+/// Text of JSON in which what a terminal would obey is spelt as JSON does.
+pub(crate) fn visible_json(json: &str) -> String {
+    let mut text = String::with_capacity(json.len());
+    for letter in json.chars() {
+        if is_obeyed(letter) && letter != '\n' {
+            text.extend(format!("\\u{:04x}", u32::from(letter)).chars());
+        } else {
+            text.push(letter);
+        }
+    }
+    text
+}
 
 /// Standard output.
 pub(crate) fn output() -> Visible<StdoutLock<'static>> {

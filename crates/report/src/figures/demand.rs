@@ -1,6 +1,6 @@
 //! Demands, fragilities and risk of one oscillator (Figures A2.13, A2.14, 4.3, 4.4).
 
-use uplift_fragility::{exceedance_probabilities, quantile};
+use uplift_fragility::{exceedance_probabilities, quantile, weighted_quantile};
 use uplift_risk::{RiskCurve, ThresholdGrid};
 
 use super::{DISPLACEMENT, FigureSource, STRENGTH};
@@ -49,9 +49,9 @@ pub(super) fn ida_curves(source: &FigureSource) -> Result<Option<Figure>, Uplift
                 .iter()
                 .enumerate()
                 .map(|(level, &im)| {
-                    let mut demands: Vec<f64> = stripes.stripe(level).collect();
-                    demands.sort_by(f64::total_cmp);
-                    (quantile(&demands, probability), im)
+                    let mut demands: Vec<(f64, f64)> = stripes.weighted_stripe(level).collect();
+                    demands.sort_by(|a, b| a.0.total_cmp(&b.0));
+                    (percentile(&demands, stripes.shares().is_some(), probability), im)
                 })
                 .collect();
             series.push(Series::line(name, points, Tone::Distinct([5, 4, 0][index])));
@@ -64,9 +64,23 @@ pub(super) fn ida_curves(source: &FigureSource) -> Result<Option<Figure>, Uplift
         ));
     }
     let title = format!("Incremental dynamic analysis at η = {:.3}", stored.strengths[strength]);
-    let caption = "Peak displacement of every record scaled to every level (grey), of the first record, and \
-                   percentiles over the records at each level (Fig. A2.13, A2.14).";
+    let caption = if stored.measures.iter().any(|measure| measure.shares.is_some()) {
+        "Peak displacement of every record at the levels that it was selected for (grey), of the first record, and \
+         percentiles over the records of each level as they count there: each level has records of its own."
+    } else {
+        "Peak displacement of every record scaled to every level (grey), of the first record, and percentiles over the \
+         records at each level (Fig. A2.13, A2.14)."
+    };
     Ok(Some(source.figure("ida", title, caption, panels)))
+}
+
+/// A percentile of demands in ascending order with how much they count, where this is not alike.
+fn percentile(demands: &[(f64, f64)], is_weighted: bool, probability: f64) -> f64 {
+    if is_weighted {
+        return weighted_quantile(demands, probability);
+    }
+    let demands: Vec<f64> = demands.iter().map(|(demand, _)| *demand).collect();
+    quantile(&demands, probability)
 }
 
 pub(super) fn fragilities(source: &FigureSource) -> Result<Option<Figure>, UpliftError> {
@@ -89,7 +103,12 @@ pub(super) fn fragilities(source: &FigureSource) -> Result<Option<Figure>, Uplif
         ));
     }
     let title = format!("Fragility at η = {:.3}", stored.strengths[strength]);
-    let caption = "Share of the records that exceed a displacement at each level (Eq. 4.7): counted, not fitted.";
+    let caption = if stored.measures.iter().any(|measure| measure.shares.is_some()) {
+        "Share of each level's own records, as they count there, that exceed a displacement (Eq. 4.7): counted, not \
+         fitted."
+    } else {
+        "Share of the records that exceed a displacement at each level (Eq. 4.7): counted, not fitted."
+    };
     Ok(Some(source.figure("fragility", title, caption, panels)))
 }
 

@@ -11,22 +11,27 @@ const TOLD_APART: usize = 7;
 
 /// A panel for each measure and site: the spectra of all variants for the rarest risk of each.
 pub fn sweep_figure(report: &SweepReport) -> Figure {
-    let mut places: Vec<(&'static str, &str)> = Vec::new();
+    let mut places: Vec<(&'static str, &str, bool)> = Vec::new();
     for spectrum in report.variants.iter().flat_map(|variant| &variant.spectra) {
-        if !places.contains(&(spectrum.im, &spectrum.site)) {
-            places.push((spectrum.im, &spectrum.site));
+        for repaired in [false, true] {
+            let place = (spectrum.im, spectrum.site.as_str(), repaired);
+            if (!repaired || spectrum.repaired_m.is_some()) && !places.contains(&place) {
+                places.push(place);
+            }
         }
     }
     let of = report.variants.len();
-    let panel = |&(im, site): &(&str, &str)| {
+    let panel = |&(im, site, repaired): &(&str, &str, bool)| {
         let line = |(step, variant): (usize, &VariantReport)| {
             let spectrum = rarest(variant, im, site)?;
-            let points = variant.strengths.iter().copied().zip(spectrum.u_m.iter().copied()).collect();
+            let u_m = if repaired { spectrum.repaired_m.as_ref()? } else { &spectrum.u_m };
+            let points = variant.strengths.iter().copied().zip(u_m.iter().copied()).collect();
             let tone = if of <= TOLD_APART { Tone::Distinct(step) } else { Tone::Shade { step, of } };
             Some(Series::sampled(&variant.name, points, tone))
         };
         let series = report.variants.iter().enumerate().filter_map(line).collect();
-        Panel::lines(format!("{site}, {im}"), Axis::linear(STRENGTH), Axis::log(DISPLACEMENT), series)
+        let words = if repaired { ", repaired" } else { "" };
+        Panel::lines(format!("{site}, {im}{words}"), Axis::linear(STRENGTH), Axis::log(DISPLACEMENT), series)
     };
     let panels: Vec<Panel> = places.iter().map(panel).collect();
     let risk = report.variants.first().and_then(|variant| {

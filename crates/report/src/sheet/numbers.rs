@@ -68,6 +68,9 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
     if let Some(exact) = &report.exact {
         say(in_words("It overturns", &exact.overturning, &exact.rounding.overturning_per_year, years), None);
     }
+    for result in report.uncertainty.iter().flat_map(|uncertainty| &uncertainty.results) {
+        say(format!("What is not known of the structure, {}.", result.in_words()), None);
+    }
     sentences
 }
 

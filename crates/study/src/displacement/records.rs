@@ -19,6 +19,13 @@ pub(crate) const KEYS: SectionKeys = SectionKeys {
             range: "existing file",
         },
         Key {
+            names: &["vertical"],
+            meaning: "whether the third component of the records (`file_v` of the manifest) shakes blocks and frames \
+                      too, scaled as the horizontal ones",
+            default: "`false`",
+            range: "not for synthetic records",
+        },
+        Key {
             names: &["first"],
             meaning: "use only so many of the records of each set, the first",
             default: "all",
@@ -42,6 +49,8 @@ pub(super) const SETS_HAVE_TAGS: &str =
 pub struct SetRecords {
     /// Where they come from; the tag is that of a set, not of them all.
     pub source: RecordSource,
+    /// Whether the third component shakes what feels it.
+    pub vertical: bool,
     /// Which of them are used, in every set.
     pub select: RecordSelection,
     /// Use only so many of the records of each set, the first; all if none.
@@ -62,6 +71,8 @@ impl Serialize for SetRecords {
         struct Written<'a> {
             #[serde(skip_serializing_if = "Option::is_none")]
             manifest: Option<&'a Path>,
+            #[serde(skip_serializing_if = "std::ops::Not::not")]
+            vertical: bool,
             #[serde(skip_serializing_if = "Option::is_none")]
             first: Option<u64>,
             #[serde(skip_serializing_if = "RecordSelection::is_empty")]
@@ -71,6 +82,7 @@ impl Serialize for SetRecords {
         }
         let written = Written {
             manifest: self.source.manifest(),
+            vertical: self.vertical,
             first: self.first,
             select: &self.select,
             synthetic: self.source.synthetic(),
@@ -83,6 +95,9 @@ impl Serialize for SetRecords {
 pub(crate) fn read(mut section: Section<'_>, paths: &Paths, instead_of_tag: &str) -> Option<SetRecords> {
     let manifest_field = section.field("manifest");
     let tag_field = section.field("tag");
+    let vertical_field = section.field("vertical");
+    let vertical = section.boolean_or("vertical", false);
+    record_source::vertical_is_recorded(vertical_field.as_ref(), vertical, manifest_field.is_some());
     let first_field = section.field("first");
     let select = selection::read(section.section("select"));
     let synthetic = record_source::synthetic(section.section("synthetic"));
@@ -98,5 +113,5 @@ pub(crate) fn read(mut section: Section<'_>, paths: &Paths, instead_of_tag: &str
         record_source::enough(first_field.as_ref(), first, synthetic);
         synthetic.map(RecordSource::from)
     };
-    Some(SetRecords { source: source?, select: select?, first: first? })
+    Some(SetRecords { source: source?, vertical: vertical?, select: select?, first: first? })
 }

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::text::BACKSLASH;
+use super::text::{BACKSLASH, STANDARD_INPUT};
 use super::{Field, Origin};
 
 /// What becomes of the paths in a study.
@@ -104,7 +104,8 @@ impl Paths {
     pub(crate) fn default_output(&self) -> PathBuf {
         match self {
             Self::Checked { study_file, current } => {
-                let mut name = study_file.file_stem().unwrap_or("study".as_ref()).to_owned();
+                let stem = study_file.file_stem().filter(|stem| *stem != STANDARD_INPUT);
+                let mut name = stem.unwrap_or("study".as_ref()).to_owned();
                 name.push(".h5");
                 tidy(&current.join("results").join(name))
             }

@@ -19,7 +19,7 @@ const UNIT_SUFFIXES: [(&str, &str); 12] = [
 ];
 
 /// "did you mean `…`?" with the one of `known` most like `word`, if any is like it.
-pub(crate) fn did_you_mean(word: &str, known: &[&str]) -> Option<String> {
+pub fn did_you_mean(word: &str, known: &[&str]) -> Option<String> {
     // A long word is far from every key, and the distance costs its length squared.
     if word.len() > 100 {
         return None;

@@ -12,9 +12,18 @@ use crate::error::{MOST_LISTED, StudyError, StudyMistake, Unreadable};
 /// Largest study file \[bytes\]; one with 100 000 numbers written out has 2 MB.
 const LARGEST_FILE: u64 = 4 << 20;
 
+/// What stands for standard input in the place of a file; paths in it start from the current directory.
+pub(crate) const STANDARD_INPUT: &str = "-";
+
 /// The text of the file `file`, if it is one that people write and may be what is `wanted`.
 pub(crate) fn read_text(file: &Path, wanted: Wanted) -> Result<String, StudyError> {
     read(file, wanted).map_err(|reason| StudyError::unreadable(file, reason))
+}
+
+/// The text of a study on standard input, under the same conditions.
+pub(crate) fn input_text() -> Result<String, StudyError> {
+    let file = Path::new(STANDARD_INPUT);
+    as_text(io::stdin().lock(), file, Wanted::Study).map_err(|reason| StudyError::unreadable(file, reason))
 }
 
 fn read(file: &Path, wanted: Wanted) -> Result<String, Unreadable> {
@@ -25,8 +34,12 @@ fn read(file: &Path, wanted: Wanted) -> Result<String, Unreadable> {
     if !metadata.is_file() {
         return Err(Unreadable::NotAFile);
     }
+    as_text(fs::File::open(file)?, file, wanted)
+}
+
+fn as_text(source: impl Read, file: &Path, wanted: Wanted) -> Result<String, Unreadable> {
     let mut bytes = Vec::new();
-    fs::File::open(file)?.take(LARGEST_FILE + 1).read_to_end(&mut bytes)?;
+    source.take(LARGEST_FILE + 1).read_to_end(&mut bytes)?;
     if let Some(reason) = wanted.refusal_of_bytes(file, &bytes) {
         return Err(reason);
     }

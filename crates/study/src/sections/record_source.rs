@@ -120,3 +120,13 @@ pub(crate) fn enough(field: Option<&Field<'_>>, first: Option<Option<u64>>, synt
         );
     }
 }
+
+/// Refuses the vertical motion of synthetic records, which have none.
+pub(crate) fn vertical_is_recorded(vertical_field: Option<&Field<'_>>, vertical: Option<bool>, is_recorded: bool) {
+    if let (Some(field), Some(true), false) = (vertical_field, vertical, is_recorded) {
+        field.mistake(
+            "synthetic records have no third component",
+            "give a manifest of records with the column file_v, or leave it out",
+        );
+    }
+}

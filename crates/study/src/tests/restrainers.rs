@@ -100,6 +100,7 @@ fn mistakes_of_structure_and_restrainer_together() {
     one(&format!("{FRAME}{DISCS}").replace("restrained-frame", "frame"), "a restrainer means nothing for kind");
     one(&format!("{FRAME}[restrainer]\nstiffness_n_m = 1e6\n"), "what kind of restrainer is this?");
     one(&format!("f_cd_pa = 0\n{FRAME}{DISCS}"), "f_cd_pa: the value is 0 Pa");
+    one(&format!("f_cd_pa = 20\n{FRAME}{DISCS}"), "f_cd_pa: the value is 20 Pa");
     one(&format!("column_shape = \"round\"\n{FRAME}{DISCS}"), "unknown column_shape");
 }
 

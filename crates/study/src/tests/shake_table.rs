@@ -59,6 +59,16 @@ fn a_complete_study_is_read_and_written_as_it_is() {
     assert_eq!((bare.model.rest_amplitude_rad, bare.model.start_rotation_rad), (1e-5, 1e-12));
 }
 
+/// 21 m/s is no table's: 21 cm/s were meant.
+#[test]
+fn a_level_in_another_unit_is_told() {
+    let warnings = |text: &str| load(&Folder::new(text)).unwrap().warnings;
+    assert_eq!(warnings(COMPLETE), []);
+    let told: Vec<String> = warnings(&COMPLETE.replace("0.335", "21")).iter().map(ToString::to_string).collect();
+    assert_eq!(told.len(), 1);
+    assert!(told[0].contains("pgv_srss_m_s of a level is 21 m/s") && told[0].contains("cm/s"), "{told:?}");
+}
+
 #[test]
 fn mistakes_are_all_told_at_once() {
     let folder = Folder::new(

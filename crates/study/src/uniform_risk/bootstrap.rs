@@ -31,9 +31,9 @@ pub(super) const KEYS: SectionKeys = SectionKeys {
         },
         Key {
             names: &["unit"],
-            meaning: "what is drawn: `\"record\"`, or `\"event\"`: earthquakes with all their records, as many as have \
-                      so many records on average",
-            default: "`\"record\"`",
+            meaning: "what is drawn: `\"record\"`, or with all their records `\"pair\"` or `\"event\"`, earthquakes: \
+                      as many as have so many records on average",
+            default: "`\"record\"`; `\"pair\"` where each azimuth of a pair is a record",
             range: "",
         },
         Key {

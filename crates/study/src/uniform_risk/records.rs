@@ -3,12 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use serde::{Serialize, Serializer};
-use uplift_motion::{Combination, Component};
+use uplift_motion::{Combination, Component, Rotation};
 
 use crate::keys::{Key, SectionKeys};
 use crate::reading::{LARGEST_INTEGER, Paths, Section, optional};
 use crate::sections::record_source::{self, MANIFEST, NO_TAG, RecordSource, Synthetic};
 use crate::sections::selection::{self, RecordSelection};
+use crate::uniform_risk::rotation;
 
 pub(super) const KEYS: SectionKeys = SectionKeys {
     section: "records",
@@ -23,9 +24,9 @@ pub(super) const KEYS: SectionKeys = SectionKeys {
         Key {
             names: &["component"],
             meaning: "component that shakes the planar oscillator; `\"both\"` counts each as a record, `\"random\"` \
-                      draws one for each record",
+                      draws one for each record, `\"rotated\"` turns the pair ([azimuths](#recordsrotation-azimuths))",
             default: "`\"h1\"`",
-            range: "`\"h1\"`, `\"h2\"`, `\"both\"`, `\"random\"`",
+            range: "`\"h1\"`, `\"h2\"`, `\"both\"`, `\"random\"`, `\"rotated\"`",
         },
         Key {
             names: &["intensity"],
@@ -34,6 +35,14 @@ pub(super) const KEYS: SectionKeys = SectionKeys {
                       directions (Boore 2010; the components must be synchronised)",
             default: "`\"geometric-mean\"`",
             range: "",
+        },
+        Key {
+            names: &["vertical"],
+            meaning: "whether the third component of the records (`file_v` of the manifest) shakes blocks and frames \
+                      too, scaled as the pair: in `uplift risk` and `overturning` of the result; \
+                      oscillators do not feel it",
+            default: "`false`",
+            range: "not for synthetic records",
         },
         Key {
             names: &["first"],
@@ -51,8 +60,20 @@ pub(super) const KEYS: SectionKeys = SectionKeys {
     ],
 };
 
-const COMPONENTS: [(&str, Component); 4] =
-    [("h1", Component::H1), ("h2", Component::H2), ("both", Component::Both), ("random", Component::Random)];
+const COMPONENTS: [(&str, Chosen); 5] = [
+    ("h1", Chosen::Component(Component::H1)),
+    ("h2", Chosen::Component(Component::H2)),
+    ("both", Chosen::Component(Component::Both)),
+    ("random", Chosen::Component(Component::Random)),
+    ("rotated", Chosen::Rotated),
+];
+
+/// What `component` says; azimuths are told by a section of their own.
+#[derive(Clone, Copy)]
+enum Chosen {
+    Component(Component),
+    Rotated,
+}
 
 /// Which ground motions are used.
 #[derive(Debug, Clone, PartialEq)]
@@ -63,6 +84,8 @@ pub struct Records {
     pub component: Component,
     /// How the peaks of the two components make the intensity of a pair.
     pub intensity: Combination,
+    /// Whether the third component shakes what feels it.
+    pub vertical: bool,
     /// Which of them are used.
     pub select: RecordSelection,
     /// Use only so many of these records, the first; all if none.
@@ -73,7 +96,7 @@ pub struct Records {
 
 impl Records {
     /// Files that are read.
-    pub(super) fn files(&self) -> impl Iterator<Item = &Path> {
+    pub(crate) fn files(&self) -> impl Iterator<Item = &Path> {
         self.source.manifest().into_iter().chain(self.at_level.as_deref())
     }
 }
@@ -87,8 +110,10 @@ impl Serialize for Records {
             manifest: Option<&'a Path>,
             #[serde(skip_serializing_if = "Option::is_none")]
             tag: Option<&'a str>,
-            component: String,
+            component: &'static str,
             intensity: &'static str,
+            #[serde(skip_serializing_if = "std::ops::Not::not")]
+            vertical: bool,
             #[serde(skip_serializing_if = "Option::is_none")]
             first: Option<u64>,
             #[serde(skip_serializing_if = "Option::is_none")]
@@ -97,16 +122,23 @@ impl Serialize for Records {
             select: &'a RecordSelection,
             #[serde(skip_serializing_if = "Option::is_none")]
             synthetic: Option<Synthetic>,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            rotation: Option<rotation::Written>,
         }
         let written = Written {
             manifest: self.source.manifest(),
             tag: self.source.tag(),
-            component: self.component.to_string(),
+            component: self.component.key(),
             intensity: self.intensity.key(),
+            vertical: self.vertical,
             first: self.first,
             at_level: self.at_level.as_deref(),
             select: &self.select,
             synthetic: self.source.synthetic(),
+            rotation: match self.component {
+                Component::Rotated(rotation) => Some(rotation::Written::from(rotation)),
+                _ => None,
+            },
         };
         written.serialize(serializer)
     }
@@ -116,9 +148,21 @@ impl Serialize for Records {
 pub(super) fn read(mut section: Section<'_>, paths: &Paths) -> Option<Records> {
     let manifest_field = section.field("manifest");
     let tag_field = section.field("tag");
-    let component = section.choice_or("component", &COMPONENTS, Component::H1);
+    let chosen = section.choice_or("component", &COMPONENTS, Chosen::Component(Component::H1));
+    let rotation_section = section.section("rotation");
+    if let (true, Some(Chosen::Component(component))) = (rotation_section.is_present(), chosen) {
+        section.mistake(
+            "rotation",
+            format!("azimuths are given, and component = \"{component}\" has none"),
+            "write component = \"rotated\" in [records], or leave the section out; percentile with azimuths = 1 is h1",
+        );
+    }
+    let rotation = rotation::read(rotation_section);
     let combinations = Combination::ALL.map(|combination| (combination.key(), combination));
     let intensity = section.choice_or("intensity", &combinations, Combination::default());
+    let vertical_field = section.field("vertical");
+    let vertical = section.boolean_or("vertical", false);
+    record_source::vertical_is_recorded(vertical_field.as_ref(), vertical, manifest_field.is_some());
     let select = selection::read(section.section("select"));
     let first_field = section.field("first");
     let first = optional(first_field.as_ref(), |field| field.integer(1, LARGEST_INTEGER));
@@ -130,6 +174,12 @@ pub(super) fn read(mut section: Section<'_>, paths: &Paths) -> Option<Records> {
         field.mistake(
             "the table says which records are used, and `first` or `[records.select]` as well",
             "leave these out, or the rows of the table that they are to leave out",
+        );
+    }
+    if let (Some(field), Some(Chosen::Rotated), Some(Rotation::Each { .. })) = (&at_level_field, chosen, rotation) {
+        field.mistake(
+            "the table names pairs, and each azimuth of a pair is a record of its own",
+            "take one azimuth of each pair (take = \"random\"), or a percentile over them (take = \"percentile\")",
         );
     }
     let synthetic = record_source::synthetic(section.section("synthetic"));
@@ -149,8 +199,12 @@ pub(super) fn read(mut section: Section<'_>, paths: &Paths) -> Option<Records> {
     section.finish();
     Some(Records {
         source: source?,
-        component: component?,
+        component: match chosen? {
+            Chosen::Component(component) => component,
+            Chosen::Rotated => Component::Rotated(rotation?),
+        },
         intensity: intensity?,
+        vertical: vertical?,
         select: select?,
         first: first?,
         at_level: at_level?,

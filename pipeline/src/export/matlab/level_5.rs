@@ -19,17 +19,17 @@ const CHAR_CLASS: u32 = 4;
 const DOUBLE_CLASS: u32 = 6;
 
 /// Lengths of an array's dimensions, the first running fastest.
-pub(super) struct Shape(pub(super) Vec<usize>);
+pub(in crate::export) struct Shape(pub(in crate::export) Vec<usize>);
 
 impl Shape {
     /// A column of `rows`.
-    pub(super) fn column(rows: usize) -> Self {
+    pub(in crate::export) fn column(rows: usize) -> Self {
         Self(vec![rows, 1])
     }
 }
 
 /// A file being put together.
-pub(super) struct MatFile {
+pub(in crate::export) struct MatFile {
     bytes: Vec<u8>,
     /// Where an element was too large for its 32-bit length.
     too_large: Option<String>,
@@ -37,7 +37,7 @@ pub(super) struct MatFile {
 
 impl MatFile {
     /// A file whose first line of text says where it comes from.
-    pub(super) fn new(description: &str) -> Self {
+    pub(in crate::export) fn new(description: &str) -> Self {
         let mut text: Vec<u8> = format!("MATLAB 5.0 MAT-file, {description}")
             .chars()
             .map(|character| if character.is_ascii() && !character.is_ascii_control() { character as u8 } else { b'?' })
@@ -50,7 +50,7 @@ impl MatFile {
     }
 
     /// An array of numbers; as many values as the shape says.
-    pub(super) fn numbers(&mut self, name: &str, shape: &Shape, values: &[f64]) {
+    pub(in crate::export) fn numbers(&mut self, name: &str, shape: &Shape, values: &[f64]) {
         debug_assert_eq!(shape.0.iter().product::<usize>(), values.len(), "{name}");
         let data: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
         let body = array(DOUBLE_CLASS, name, shape, &[element(DOUBLE, &data)]);
@@ -58,20 +58,20 @@ impl MatFile {
     }
 
     /// A text.
-    pub(super) fn text(&mut self, name: &str, text: &str) {
+    pub(in crate::export) fn text(&mut self, name: &str, text: &str) {
         let body = text_array(name, text);
         self.push(name, &body);
     }
 
     /// A cell array of texts, a column.
-    pub(super) fn texts(&mut self, name: &str, texts: &[&str]) {
+    pub(in crate::export) fn texts(&mut self, name: &str, texts: &[&str]) {
         let cells: Vec<Vec<u8>> = texts.iter().map(|text| element(MATRIX, &text_array("", text))).collect();
         let body = array(CELL_CLASS, name, &Shape::column(texts.len()), &cells);
         self.push(name, &body);
     }
 
     /// The whole file.
-    pub(super) fn finish(self) -> Result<Vec<u8>, String> {
+    pub(in crate::export) fn finish(self) -> Result<Vec<u8>, String> {
         match self.too_large {
             Some(name) => {
                 Err(format!("{name} is too large for a MATLAB file of level 5 (4 GiB): read the HDF5 file instead"))

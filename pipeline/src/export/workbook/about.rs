@@ -64,10 +64,6 @@ impl Export {
 
     /// The study with every default filled in, a line each.
     pub(super) fn study_sheet(&self, sheet: &mut Sheet<'_>) -> Result<(), XlsxError> {
-        sheet.heading((0, 0), "the study, every default filled in (TOML)", true)?;
-        for (index, line) in self.head.study_toml.lines().enumerate() {
-            sheet.text((1 + index, 0), line)?;
-        }
-        sheet.finish((1, 0), &[110.0])
+        super::study_lines(&self.head.study_toml, sheet)
     }
 }

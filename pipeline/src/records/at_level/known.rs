@@ -166,6 +166,7 @@ mod tests {
         let row = |&(id, one, other): &(&str, &str, &str)| Row {
             id: id.to_owned(),
             components: [file(one), file(other)],
+            vertical: None,
             dt_s: None,
             unit: None,
             format: None,

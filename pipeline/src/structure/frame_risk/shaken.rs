@@ -2,7 +2,7 @@
 
 use uplift_frame::{ColumnShape, FrameError, Model, RockingFrame};
 use uplift_ida::{Peaks, ShakenFrame, StripeRecord, System};
-use uplift_motion::{Horizontal, RecordPair};
+use uplift_motion::{Accelerogram, Component, Direction, Horizontal, RecordPair};
 use uplift_study::{Structure, UniformRiskStudy};
 
 use super::super::rocking_frame::rocking_frame;
@@ -10,10 +10,10 @@ use super::super::sweep::{OF_STUDY, OWN, Sweep};
 use crate::analysis::{Analysed, LabelledPlan, Work};
 use crate::checkpoint::motion_key;
 use crate::error::UpliftError;
-use crate::inputs::RecordSet;
+use crate::inputs::{Record, RecordSet};
 use crate::result::{SpectraOfResult, StudyOfResult};
 use crate::text::thousands;
-use crate::uniform_risk::{motion_keys, plan_stripes, stripes_of};
+use crate::uniform_risk::{motion_keys, plan_stripes, seen, shaken_upwards, stripes_of};
 
 /// A frame with everything that it is shaken by and compared to.
 pub(super) struct Shaken {
@@ -99,12 +99,23 @@ impl Shaken {
 
     /// Records of a pair.
     fn per_pair(&self) -> usize {
-        self.study.records.component.analyses_per_pair()
+        self.study.records.component.records_per_pair()
     }
 
     /// The pair of every record.
     pub(super) fn pair_of(&self) -> Vec<usize> {
         (0..self.set.records.len()).map(|record| record / self.per_pair()).collect()
+    }
+
+    /// Whether the records of the study are no components of pairs, but pairs seen from azimuths.
+    fn is_rotated(&self) -> bool {
+        matches!(self.study.records.component, Component::Rotated(_))
+    }
+
+    /// The vertical component of every pair, each so `many` times; none where the study does not ask for it.
+    fn verticals(&self, many: usize) -> Vec<&Accelerogram> {
+        let of_pair = self.set.records.iter().step_by(self.per_pair()).filter_map(|record| record.vertical.as_ref());
+        of_pair.flat_map(|vertical| std::iter::repeat_n(&vertical.accelerogram, many)).collect()
     }
 
     /// The stripes of every model by one measure.
@@ -123,18 +134,25 @@ impl Shaken {
             let records = self.pairs.iter().enumerate().map(record).collect();
             let stripes = stripes_of((plan.measure, &plan.levels), records, &self.wobbling, true)?;
             let stripes = stripes.across(self.pairs.iter().map(|pair| &pair.h2).collect())?;
-            plans.push(labelled(stripes, "pairs", &self.keys[0]));
+            plans.push(labelled(shaken_upwards(stripes, self.verticals(1))?, "pairs", &self.keys[0]));
         }
         let of_pair = |(index, pair): (usize, &'a RecordPair)| {
             let intensity = amplitude(index);
             [&pair.h1, &pair.h2].map(|accelerogram| StripeRecord { id: &pair.id, accelerogram, intensity })
         };
         let components = self.pairs.iter().enumerate().flat_map(of_pair).collect();
-        plans.push(labelled(
-            stripes_of((plan.measure, &plan.levels), components, &self.planar, true)?,
-            "components",
-            &self.keys[1],
-        ));
+        let stripes = stripes_of((plan.measure, &plan.levels), components, &self.planar, true)?;
+        plans.push(labelled(shaken_upwards(stripes, self.verticals(2))?, "components", &self.keys[1]));
+        if self.is_rotated() {
+            let record = |record: &'a Record| StripeRecord {
+                id: &record.id,
+                accelerogram: &record.accelerogram,
+                intensity: plan.measure.amplitude(record.intensity(plan.measure)),
+            };
+            let records = self.set.records.iter().map(record).collect();
+            let stripes = stripes_of((plan.measure, &plan.levels), records, &self.planar, true)?;
+            plans.push(labelled(seen(stripes, &self.set)?, "rotated records", &self.keys[2]));
+        }
         let oscillators = plan_stripes(&self.study, plan, &self.set, &self.oscillators)?;
         plans.push(labelled(oscillators, "records", &self.keys[2]));
         Ok(Work::new(title, plans))
@@ -145,7 +163,9 @@ impl Shaken {
         let analyses = analysed.iter().map(|of| of.analyses).sum();
         let mut peaks = analysed.into_iter().map(|of| of.peaks);
         let wobbling = if self.wobbling.is_empty() { None } else { peaks.next() };
-        let (planar, oscillators) = (peaks.next(), peaks.next());
+        let planar = peaks.next();
+        let rotated = if self.is_rotated() { peaks.next() } else { None };
+        let oscillators = peaks.next();
         let levels = planar.as_ref().map_or(0, |peaks| peaks.axes().scales);
         let over_records = |peaks: Option<&Peaks>, system: usize, motion_of: &dyn Fn(usize) -> usize| -> Vec<f64> {
             let Some(peaks) = peaks else { return Vec::new() };
@@ -154,8 +174,8 @@ impl Shaken {
                 .collect()
         };
         let pair = |record: usize| record / self.per_pair();
-        let component =
-            |record: usize| 2 * pair(record) + usize::from(self.set.records[record].component == Horizontal::H2);
+        let is_second = |record: usize| self.set.records[record].direction == Direction::Component(Horizontal::H2);
+        let component = |record: usize| 2 * pair(record) + usize::from(is_second(record));
         let direction = |wobbling: &Peaks, planar: &Peaks, pair: usize, level: usize| {
             let [one, other] = [0, 1].map(|second| planar.at_m([2 * pair + second, 0, level]));
             [wobbling.at_m([pair, 0, level]), one.max(other)]
@@ -165,7 +185,10 @@ impl Shaken {
             cells.map(|(pair, level)| direction(wobbling, planar, pair, level)).collect()
         });
         Demands {
-            planar_m: over_records(planar.as_ref(), 0, &component),
+            planar_m: match &rotated {
+                Some(rotated) => over_records(Some(rotated), 0, &|record| record),
+                None => over_records(planar.as_ref(), 0, &component),
+            },
             zero_stiffness_m: over_records(oscillators.as_ref(), 0, &|record| record),
             oscillator_m: over_records(oscillators.as_ref(), 1, &|record| record),
             directions_m: directions_m.unwrap_or_default(),

@@ -36,18 +36,19 @@ pub(super) fn band(
     tried: &[(f64, Attempt)],
     (found, target_per_year): (usize, f64),
     study: &UniformRiskStudy,
-    event_of: &[usize],
+    (pair_of, event_of): (&[usize], &[usize]),
 ) -> Result<TargetBand, UpliftError> {
     let settings = &study.bootstrap;
     let replicates = usize::try_from(settings.replicates).unwrap_or(usize::MAX);
     let size = u32::try_from(event_of.len()).unwrap_or(u32::MAX);
     let draw = |unit| match unit {
         Unit::Record => ResamplingPlan::draw(event_of.len(), &[size], replicates, study.seed),
+        Unit::Pair => ResamplingPlan::draw_pairs(pair_of, &[size], replicates, study.seed),
         Unit::Event => ResamplingPlan::draw_events(event_of, &[size], replicates, study.seed),
     };
-    let plan = match draw(settings.unit) {
-        // a single earthquake: nothing else can be drawn than its records
-        Err(BootstrapError::OneEvent) => draw(Unit::Record)?,
+    let plan = match draw(study.drawn_unit(None)) {
+        // a single earthquake or pair: nothing else can be drawn than its records
+        Err(BootstrapError::OneEvent | BootstrapError::OnePair) => draw(Unit::Record)?,
         plan => plan?,
     };
     let mut values = Vec::with_capacity(replicates);

@@ -13,7 +13,7 @@ use crate::error::CommandError;
 /// A study file and what is changed of it.
 #[derive(Debug, Args)]
 pub(crate) struct StudyArguments {
-    /// Study file (TOML), for instance configs/europe.toml
+    /// Study file (TOML), for instance configs/europe.toml; - is standard input
     pub(crate) study: PathBuf,
     /// Change a key of the study for this run, for instance --set records.first=20; paths are relative to the current
     /// directory

@@ -27,8 +27,8 @@ pub(crate) struct BootstrapArguments {
     /// How limits are read: percentile or bca (bias-corrected and accelerated)
     #[arg(long, value_parser = ["percentile", "bca"])]
     interval: Option<String>,
-    /// What is drawn: record, or event (earthquakes with all their records)
-    #[arg(long, value_parser = ["record", "event"], conflicts_with = "plan")]
+    /// What is drawn: record, or pair or event (pairs or earthquakes with all their records)
+    #[arg(long, value_parser = ["record", "pair", "event"], conflicts_with = "plan")]
     unit: Option<String>,
     /// Also bands that hold whole spectra
     #[arg(long)]
@@ -63,7 +63,7 @@ pub(crate) fn bootstrap(arguments: &BootstrapArguments, terminal: &Terminal) -> 
         replicates: arguments.replicates,
         seed: arguments.seed,
         interval: interval.map(|word| if word == "bca" { Interval::Bca } else { Interval::Percentile }),
-        unit: arguments.unit.as_deref().map(|word| if word == "event" { Unit::Event } else { Unit::Record }),
+        unit: arguments.unit.as_deref().and_then(|word| Unit::ALL.into_iter().find(|unit| unit.key() == word)),
         simultaneous: arguments.simultaneous,
         plan: arguments.plan.clone(),
         reference: reference.unwrap_or_default(),

@@ -18,7 +18,7 @@ use super::RunArguments;
 use crate::command::arguments::run_options;
 use crate::error::CommandError;
 use crate::show::{print_json, print_run};
-use crate::terminal::{Terminal, tell, tell_error};
+use crate::terminal::Terminal;
 
 /// What the starters of ranks tell them: Open MPI, `PMIx` (Slurm among others), and PMI (MPICH, Intel MPI, Slurm).
 const STARTED_BY: [&str; 3] = ["OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"];
@@ -41,7 +41,7 @@ pub(super) fn run(arguments: &RunArguments, terminal: &Terminal) -> Option<Resul
         // a stop is sent to all ranks, and one says so
         Err(error @ CommandError::Uplift(UpliftError::Paused { .. } | UpliftError::Interrupted)) => {
             if index == 0 {
-                tell_error(&error);
+                terminal.tell_error(&error);
             }
             std::process::exit(error.exit_code().into())
         }
@@ -49,8 +49,8 @@ pub(super) fn run(arguments: &RunArguments, terminal: &Terminal) -> Option<Resul
         Err(error) => {
             terminal.set_interruption_message(format!("rank {index} of {count} has ended the run"));
             let host = ::mpi::environment::processor_name().unwrap_or_default();
-            tell(&format!("uplift: rank {index} of {count} on {host} ends the run:"));
-            tell_error(&error);
+            terminal.say(&format!("uplift: rank {index} of {count} on {host} ends the run:"));
+            terminal.tell_error(&error);
             world.abort(error.exit_code().into())
         }
     }

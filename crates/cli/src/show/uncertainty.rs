@@ -1,0 +1,55 @@
+//! An uncertain structure as an engineer reads it: its risk with a band, and what that owes to what.
+
+use std::io::Write;
+
+use uplift::structure::{QuantityReport, UncertainFinding, UncertaintyReport};
+use uplift::text::{per_cent, table, thousands};
+
+use super::structure::short;
+use crate::error::CommandError;
+
+/// Quantities, answers, and what they owe to what.
+pub(super) fn print_uncertainty(out: &mut impl Write, report: &UncertaintyReport) -> Result<(), CommandError> {
+    let kind = match report.kind {
+        "aleatory" => "aleatory, structures of each record",
+        _ => "epistemic, every structure a branch",
+    };
+    let rows: Vec<Vec<String>> = report.quantities.iter().map(quantity).collect();
+    writeln!(
+        out,
+        "\nWhat is not known of the structure ({kind}): {} structures, {}, seed {}, {} analyses\n{}",
+        thousands(report.structures as u64),
+        report.sampling,
+        report.seed,
+        thousands(report.analyses),
+        table(&["quantity", "distribution", "5 %", "16 %", "50 %", "84 %", "95 %", "correlated with"], &rows)
+    )?;
+    for quantity in report.quantities.iter().filter(|quantity| quantity.cut_off_share > 0.0) {
+        writeln!(
+            out,
+            "{}: {} of the distribution lies where it cannot be, and is cut off",
+            quantity.quantity,
+            per_cent(quantity.cut_off_share)
+        )?;
+    }
+    for result in &report.results {
+        writeln!(out, "{}", result.in_words())?;
+    }
+    if report.results.iter().any(|result| matches!(result.found, UncertainFinding::Epistemic(_))) {
+        writeln!(
+            out,
+            "A share is of the variance: what would stay if all else were known, and alone what would go if only that \
+             were (docs/method.md, section 19)"
+        )?;
+    }
+    Ok(())
+}
+
+fn quantity(of: &QuantityReport) -> Vec<String> {
+    let name = if of.unit.is_empty() { of.name.to_owned() } else { format!("{}, {}", of.name, of.unit) };
+    let correlated = if of.correlated_with.is_empty() { "-".to_owned() } else { of.correlated_with.join(", ") };
+    let mut row = vec![name, of.distribution.to_owned()];
+    row.extend(of.percentiles.map(short));
+    row.push(correlated);
+    row
+}

@@ -1,0 +1,315 @@
+//! The section `[uncertainty]`: quantities of a structure that are not known exactly.
+
+use uplift_structure::UncertainQuantity;
+use uplift_uncertainty::{Distribution, Family, GaussianCopula, RandomVector, Sampling, UncertaintyError};
+
+use crate::reading::{Field, Rule, Section};
+
+/// Samples of a sensitivity analysis, and their range.
+const SAMPLES: (u64, std::ops::RangeInclusive<u64>) = (64, 8..=4096);
+/// Structures that a record draws, and their range.
+const DRAWS: (u64, std::ops::RangeInclusive<u64>) = (10, 1..=100);
+
+const ANY: Rule = Rule::Is { holds: |_| true, words: "finite" };
+const KINDS: [(&str, UncertaintyKind); 2] =
+    [("epistemic", UncertaintyKind::Epistemic), ("aleatory", UncertaintyKind::Aleatory)];
+
+/// What the scatter of a quantity stands for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum UncertaintyKind {
+    /// One structure, of which it is not known which: every structure that it may be has a risk, and these make a band.
+    Epistemic,
+    /// A structure that is another one in every earthquake, or one of many: each record shakes its own, and there is
+    /// one risk.
+    Aleatory,
+}
+
+impl UncertaintyKind {
+    /// Its word.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Epistemic => "epistemic",
+            Self::Aleatory => "aleatory",
+        }
+    }
+}
+
+/// Quantities that are not known exactly, and how they are sampled.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Uncertainty {
+    /// What their scatter stands for.
+    pub kind: UncertaintyKind,
+    /// How they are sampled.
+    pub sampling: Sampling,
+    /// Rows of each of the two samples of an epistemic analysis.
+    pub samples: usize,
+    /// Structures that each record draws in an aleatory one.
+    pub draws: usize,
+    /// Where the random numbers begin.
+    pub seed: u64,
+    /// The quantities, in the order of [`UncertainQuantity::ALL`].
+    pub quantities: Vec<UncertainQuantity>,
+    /// Their distributions, in the same order, and how they go together.
+    pub vector: RandomVector,
+}
+
+/// The value that a quantity has before it is uncertain.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Described {
+    /// This one: the mean where none is given.
+    As(f64),
+    /// Not told: a mean is needed.
+    Open,
+    /// Cannot be told for other mistakes.
+    Mistaken,
+    /// There is none, for this reason.
+    Impossible(&'static str),
+}
+
+/// Reads the section; none where there is none, or where it is wrong.
+pub(crate) fn read(
+    mut section: Section<'_>,
+    described: &dyn Fn(UncertainQuantity) -> Described,
+) -> Option<Uncertainty> {
+    if !section.is_present() {
+        return None;
+    }
+    let kind = section.choice_or("kind", &KINDS, UncertaintyKind::Epistemic);
+    let samplings = Sampling::ALL.map(|sampling| (sampling.key(), sampling));
+    let sampling = section.choice_or("sampling", &samplings, Sampling::default());
+    let samples = section.integer_or("samples", SAMPLES.1, SAMPLES.0);
+    let draws = section.integer_or("draws", DRAWS.1, DRAWS.0);
+    let seed = section.seed_or(1);
+    let (foreign, own) = match kind {
+        Some(UncertaintyKind::Aleatory) => ("samples", "draws, the structures of each record"),
+        _ => ("draws", "samples, the rows of each sample"),
+    };
+    if kind.is_some()
+        && let Some(field) = section.field(foreign)
+    {
+        field.mistake(format!("{foreign} is of the other kind"), format!("leave it out, or give {own}"));
+    }
+    if let (Some(Sampling::Sobol), Some(samples)) = (sampling, samples)
+        && kind != Some(UncertaintyKind::Aleatory)
+        && !samples.is_power_of_two()
+    {
+        let message = format!("{samples} samples by Sobol' points, which are even for powers of two alone");
+        let (below, above) = (samples.next_power_of_two() / 2, samples.next_power_of_two());
+        section.mistake("samples", message, format!("write {below} or {above}, or sampling = \"latin-hypercube\""));
+    }
+    let mut known = Vec::new();
+    let mut is_whole = true;
+    for quantity in UncertainQuantity::ALL {
+        let of_quantity = section.section(quantity.key());
+        if !of_quantity.is_present() {
+            is_whole &= section.field(quantity.key()).is_none();
+            continue;
+        }
+        match read_quantity(of_quantity, quantity, described(quantity)) {
+            Some(distribution) => known.push((quantity, distribution)),
+            None => is_whole = false,
+        }
+    }
+    if known.is_empty() && is_whole {
+        let keys = UncertainQuantity::ALL.map(UncertainQuantity::key).join("], [uncertainty.");
+        section.mistake("", "nothing here is uncertain", format!("give one or more of [uncertainty.{keys}]"));
+        is_whole = false;
+    }
+    let (quantities, distributions): (Vec<_>, Vec<_>) = known.into_iter().unzip();
+    let correlation = section.field("correlation");
+    let pairs = correlation.as_ref().map(|field| read_pairs(field, &quantities));
+    section.finish();
+    let pairs = match pairs {
+        Some(pairs) => pairs?,
+        None => Vec::new(),
+    };
+    if !is_whole {
+        return None;
+    }
+    let copula = match GaussianCopula::new(quantities.len(), &pairs) {
+        Ok(copula) => copula,
+        Err(error) => {
+            let field = correlation?;
+            field.mistake(told(&error, &quantities), "each coefficient is above -1 and below 1; 0 is independent");
+            return None;
+        }
+    };
+    let count = |number: u64| usize::try_from(number).unwrap_or(usize::MAX);
+    Some(Uncertainty {
+        kind: kind?,
+        sampling: sampling?,
+        samples: count(samples?),
+        draws: count(draws?),
+        seed: seed?,
+        quantities,
+        vector: RandomVector::new(distributions, copula).ok()?,
+    })
+}
+
+/// What is wrong with correlations, quantities by their names.
+fn told(error: &UncertaintyError, quantities: &[UncertainQuantity]) -> String {
+    match error {
+        UncertaintyError::Pair { first, second } => {
+            let name = |place: &usize| quantities.get(*place).map_or("?", |quantity| quantity.key());
+            format!("the correlation of {} with {} cannot be, or was given before", name(first), name(second))
+        }
+        other => other.to_string(),
+    }
+}
+
+/// Pairs of quantities, by their positions among the uncertain ones, with the coefficient of each.
+fn read_pairs(field: &Field<'_>, quantities: &[UncertainQuantity]) -> Option<Vec<(usize, usize, f64)>> {
+    let choices = UncertainQuantity::ALL.map(|quantity| (quantity.key(), quantity));
+    let read = |item: Field<'_>| -> Option<(usize, usize, f64)> {
+        let mut section = item.section();
+        if !section.is_present() {
+            return None;
+        }
+        let (between, coefficient) = (section.field("between"), section.field("coefficient"));
+        for (key, field, what) in [
+            ("between", &between, "which two go together: [\"strength\", \"capacity_m\"]"),
+            ("coefficient", &coefficient, "how much: 0.5"),
+        ] {
+            if field.is_none() {
+                section.mistake(key, format!("a correlation needs `{key}`"), what);
+            }
+        }
+        section.finish();
+        let (between, coefficient) = (between?, coefficient?);
+        let holds = |value: f64| value > -1.0 && value < 1.0;
+        let coefficient = coefficient.number("", Rule::Is { holds, words: "above -1 and below 1" });
+        let names = between.items();
+        let [first, second] = &names[..] else {
+            between.mistake(format!("{} quantities", names.len()), "a correlation is between two");
+            return None;
+        };
+        let place = |field: &Field<'_>| {
+            let quantity = field.choice(&choices)?;
+            let place = quantities.iter().position(|known| *known == quantity);
+            if place.is_none() {
+                let help = format!("give [uncertainty.{}], or leave the correlation out", quantity.key());
+                field.mistake(format!("{} is not uncertain", quantity.key()), help);
+            }
+            place
+        };
+        let (first, second) = (place(first), place(second));
+        Some((first?, second?, coefficient?))
+    };
+    let items = field.few_items()?;
+    let count = items.len();
+    let pairs: Vec<_> = items.into_iter().filter_map(read).collect();
+    (pairs.len() == count).then_some(pairs)
+}
+
+/// One quantity: its mean and coefficient of variation, two percentiles, or its limits.
+fn read_quantity(mut section: Section<'_>, quantity: UncertainQuantity, described: Described) -> Option<Distribution> {
+    let unit = quantity.range().unit;
+    let families = Family::ALL.map(|family| (family.key(), family));
+    let family = if let Some(field) = section.field("distribution") {
+        field.choice(&families)
+    } else {
+        let words = Family::ALL.map(Family::key).join("\", \"");
+        section.mistake(
+            "distribution",
+            "how is it distributed?",
+            format!("write distribution = and one of \"{words}\""),
+        );
+        None
+    };
+    let mut number = |key, unit| section.field(key).map(|field| field.number(unit, ANY));
+    let (mean, variation) = (number("mean", unit), number("coefficient_of_variation", ""));
+    let (lower, mode, upper) = (number("lower", unit), number("mode", unit), number("upper", unit));
+    let percentiles = section.field("percentiles").map(|field| read_percentiles(&field, unit));
+    if let Described::Impossible(reason) = described {
+        section.mistake("", reason, "leave it out");
+        section.finish();
+        return None;
+    }
+    let by_limits = lower.is_some() || mode.is_some() || upper.is_some();
+    let by_mean = mean.is_some() || variation.is_some();
+    let ways = usize::from(by_limits) + usize::from(by_mean) + usize::from(percentiles.is_some());
+    if ways != 1 {
+        let message = if ways == 0 { "nothing says how uncertain it is" } else { "its scatter is given twice" };
+        let help = "give coefficient_of_variation (and mean), or percentiles, or lower and upper (and mode)";
+        section.mistake("", message, help);
+        section.finish();
+        return None;
+    }
+    if by_mean && variation.is_none() {
+        let help = "its standard deviation over its mean: 0.1 is 10 %";
+        section.mistake("coefficient_of_variation", "a mean needs a coefficient of variation", help);
+    }
+    if by_limits && !(lower.is_some() && upper.is_some()) {
+        section.mistake("", "one of its limits is missing", "give both lower and upper");
+    }
+    if by_mean && mean.is_none() && described == Described::Open {
+        let help = format!("give mean, or {} of the structure", quantity.key());
+        section.mistake("mean", "its mean is not known", help);
+    }
+    let bounded = matches!(family, Some(Family::Uniform | Family::Triangular));
+    if by_limits && family.is_some() && !bounded {
+        section.mistake("", "only a uniform and a triangular distribution have limits", "give its mean or percentiles");
+    }
+    if mode.is_some() && family == Some(Family::Uniform) {
+        section.mistake("mode", "a uniform distribution has no mode", "leave it out, or write \"triangular\"");
+    }
+    let range = [quantity.range().least, quantity.range().most];
+    let distribution = |family: Family| -> Option<Result<Distribution, UncertaintyError>> {
+        if let Some(percentiles) = percentiles {
+            return Some(Distribution::of_percentiles(family, percentiles?, range));
+        }
+        if by_limits {
+            let limits = [lower??, upper??];
+            return match (family, mode) {
+                (Family::Uniform, None) => Some(Distribution::of_limits(limits, None, range)),
+                (Family::Triangular, mode) => {
+                    let mode = mode.unwrap_or(Some(0.5 * (limits[0] + limits[1])));
+                    Some(Distribution::of_limits(limits, Some(mode?), range))
+                }
+                _ => None,
+            };
+        }
+        let mean = match (mean, described) {
+            (Some(mean), _) => mean?,
+            (None, Described::As(value)) => value,
+            (None, _) => return None,
+        };
+        Some(Distribution::of_mean(family, (mean, variation??), range))
+    };
+    let found = family.and_then(distribution);
+    let found = match found? {
+        Ok(distribution) => Some(distribution),
+        Err(error) => {
+            section.mistake(
+                "",
+                format!("{} cannot be distributed so: {error}", quantity.name()),
+                quantity.range().hint,
+            );
+            None
+        }
+    };
+    section.finish();
+    found
+}
+
+/// Two percentiles, `[[5, 0.08], [95, 0.12]]`.
+fn read_percentiles(field: &Field<'_>, unit: &str) -> Option<[(f64, f64); 2]> {
+    let help = "write two percentages with their values: [[5, 0.08], [95, 0.12]]";
+    let pair = |item: &Field<'_>| {
+        let numbers = item.items();
+        let [percentage, value] = &numbers[..] else {
+            item.mistake("a percentile is a percentage and a value", help);
+            return None;
+        };
+        let holds = |value: f64| value > 0.0 && value < 100.0;
+        let percentage = percentage.number("%", Rule::Is { holds, words: "above 0 and below 100" });
+        Some((percentage?, value.number(unit, ANY)?))
+    };
+    let items = field.items();
+    let [first, second] = &items[..] else {
+        field.mistake(format!("{} percentiles", items.len()), help);
+        return None;
+    };
+    let (first, second) = (pair(first), pair(second));
+    Some([first?, second?])
+}

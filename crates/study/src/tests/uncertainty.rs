@@ -1,0 +1,122 @@
+//! The table `[uncertainty]` of a structure file.
+
+use std::path::Path;
+
+use uplift_structure::UncertainQuantity;
+use uplift_uncertainty::{Family, Sampling};
+
+use crate::{Structure, StudyError, UncertaintyKind};
+
+const BLOCK: &str = "kind = \"block\"\nwidth_m = 0.8\nheight_m = 7.0\nmass_kg = 9000\n";
+
+fn load(text: &str) -> Result<Structure, StudyError> {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("uncertain.toml");
+    std::fs::write(&file, text).unwrap();
+    Structure::load(&file)
+}
+
+fn mistakes(uncertainty: &str) -> Vec<String> {
+    let error = load(&format!("{BLOCK}{uncertainty}")).unwrap_err();
+    error.mistakes().iter().map(ToString::to_string).collect()
+}
+
+#[test]
+fn the_example() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../configs/structures/uncertain-pier.toml");
+    let structure = Structure::load(&file).unwrap();
+    let of = structure.uncertainty.unwrap();
+    assert_eq!(
+        (of.kind, of.sampling, of.samples, of.draws, of.seed),
+        (UncertaintyKind::Epistemic, Sampling::Sobol, 64, 10, 1)
+    );
+    assert_eq!(of.quantities, UncertainQuantity::ALL);
+    let [strength, restitution, uplift, capacity] = of.vector.distributions() else { panic!("{of:?}") };
+    // the median of a lognormal quantity of mean m is m/√(1 + δ²)
+    let median = structure.system.strength() / (1.0 + 0.06_f64 * 0.06).sqrt();
+    assert!((strength.quantile(0.5) / median - 1.0).abs() < 1e-9);
+    assert_eq!(restitution.family(), Some(Family::Triangular));
+    assert!((uplift.quantile(0.95) - 0.012).abs() < 1e-9 && (uplift.quantile(0.5) - 0.006).abs() < 1e-9);
+    assert!((capacity.quantile(0.5) - 1.2 / (1.0 + 0.06_f64 * 0.06).sqrt()).abs() < 1e-9);
+    // in the order of the quantities
+    assert_eq!(of.vector.copula().groups(), [vec![0, 3], vec![1], vec![2]]);
+}
+
+#[test]
+fn a_key_of_the_other_kind_is_told() {
+    for (kind, key) in [("epistemic", "draws"), ("aleatory", "samples")] {
+        let found = mistakes(&format!(
+            "[uncertainty]\nkind = \"{kind}\"\n{key} = 9\n[uncertainty.strength]\ndistribution = \"normal\"\n\
+             coefficient_of_variation = 0.1\n"
+        ));
+        assert_eq!(found, [format!("uncertainty.{key}: {key} is of the other kind")]);
+    }
+}
+
+#[test]
+fn a_structure_without_the_table_is_known() {
+    assert_eq!(load(BLOCK).unwrap().uncertainty, None);
+}
+
+/// All of them at once, beside those of the structure itself.
+#[test]
+fn every_mistake_is_told() {
+    let found = mistakes(
+        "mass_t = 9\n[uncertainty]\nkind = \"random\"\nsamples = 60\n[uncertainty.strength]\n\
+         coefficient_of_variation = 0.1\n[uncertainty.restitution]\ndistribution = \"normal\"\n\
+         coefficient_of_variation = 0.1\n[uncertainty.capacity_m]\ndistribution = \"lognormal\"\nlower = 0.1\n\
+         [uncertainty.uplift_displacement_m]\ndistribution = \"normal\"\nmean = 0.0005\n\
+         coefficient_of_variation = 1.5\n[uncertainty.width_m]\nmean = 1\n",
+    );
+    for what in [
+        "mass_t: unknown key `mass_t`",
+        "uncertainty.kind: unknown kind: the text \"random\"",
+        "uncertainty.samples: 60 samples by Sobol' points, which are even for powers of two alone",
+        "uncertainty.strength.distribution: how is it distributed?",
+        "uncertainty.restitution.mean: its mean is not known",
+        "uncertainty.capacity_m: one of its limits is missing",
+        "uncertainty.capacity_m: only a uniform and a triangular distribution have limits",
+        "uncertainty.uplift_displacement_m: uplift displacement cannot be distributed so: 25 % of it lies outside",
+        "uncertainty.width_m: unknown section `width_m`",
+    ] {
+        assert!(found.iter().any(|told| told.starts_with(what)), "{what}: {found:#?}");
+    }
+    assert_eq!(found.len(), 9, "{found:#?}");
+}
+
+#[test]
+fn what_does_not_go_together_is_refused() {
+    let strength = "[uncertainty.strength]\ndistribution = \"normal\"\ncoefficient_of_variation = 0.1\n";
+    let capacity = "[uncertainty.capacity_m]\ndistribution = \"normal\"\ncoefficient_of_variation = 0.1\n";
+    let pair = |between: &str, coefficient: &str| {
+        format!("{strength}{capacity}[[uncertainty.correlation]]\nbetween = [{between}]\ncoefficient = {coefficient}\n")
+    };
+    for (text, what) in [
+        ("[uncertainty]\n".to_owned(), "nothing here is uncertain"),
+        (format!("{strength}mean = 0.1\npercentiles = [[5, 1], [95, 2]]\n"), "its scatter is given twice"),
+        ("[uncertainty.strength]\ndistribution = \"normal\"\n".to_owned(), "nothing says how uncertain it is"),
+        (pair("\"strength\", \"capacity_m\"", "1.0"), "the value is 1"),
+        (pair("\"strength\", \"strength\"", "0.5"), "the correlation of strength with strength cannot be"),
+        (pair("\"strength\", \"restitution\"", "0.5"), "restitution is not uncertain"),
+        (pair("\"strength\"", "0.5"), "1 quantities"),
+        (
+            "[uncertainty.strength]\ndistribution = \"uniform\"\nlower = 0.1\nmode = 0.2\nupper = 0.3\n".to_owned(),
+            "a uniform distribution has no mode",
+        ),
+        (
+            "[uncertainty.restitution]\ndistribution = \"uniform\"\nlower = 0.9\nupper = 1.1\n".to_owned(),
+            "it reaches from 0.9 to 1.1, and it can be from 0 to 1",
+        ),
+        (
+            "[uncertainty.strength]\ndistribution = \"normal\"\npercentiles = [[95, 0.1], [5, 0.2]]\n".to_owned(),
+            "give two that rise together",
+        ),
+    ] {
+        let found = mistakes(&text);
+        assert!(found.len() == 1 && found[0].contains(what), "{what}: {found:#?}");
+    }
+    let stays = "kind = \"restrained-frame\"\ncolumns = 4\nwidth_m = 0.2\nheight_m = 1.6\ncolumn_mass_kg = 100\n\
+                 deck_mass_kg = 9000\ntendon_stiffness_n_m = 1e8\ntendon_anchorage = \"foundation\"\n";
+    let error = load(&format!("{stays}{capacity}")).unwrap_err();
+    assert!(error.mistakes()[0].to_string().contains("does not fall after uplift"), "{error:?}");
+}

@@ -1,0 +1,3 @@
+//! What the crate promises: sensitivity indices of functions whose indices are known.
+
+mod sensitivity;

@@ -1,0 +1,263 @@
+//! The risk of a structure of which not all is known exactly: by the structures that it may be, drawn inside the
+//! stripes (docs/method.md, section 19).
+
+mod branches;
+mod draws;
+mod report;
+mod words;
+
+use uplift_bootstrap::{BootstrapError, ResamplingPlan};
+use uplift_ida::System;
+use uplift_oscillator::PostUplift;
+use uplift_risk::StripeWeights;
+use uplift_structure::Realization;
+use uplift_study::{MeasurePlan, Structure, Uncertainty, UncertaintyKind, UniformRiskStudy};
+use uplift_uncertainty::unit_cube;
+
+pub use report::{
+    AleatoryResult, EpistemicResult, QuantityReport, Spread, UncertainFinding, UncertainResult, UncertaintyReport,
+    VarianceShare,
+};
+
+use super::certainty::Scatter;
+use super::risk::OVERTURNING_M;
+use crate::analysis::LabelledPlan;
+use crate::error::UpliftError;
+use crate::inputs::RecordSet;
+use crate::result::{ResultFile, SpectraOfResult};
+use crate::text::thousands;
+use crate::uniform_risk::{Stripes, plan_stripes};
+use branches::Branches;
+
+/// Runs of a level, at most: those that a pool of demands holds.
+const MOST_RUNS: usize = u16::MAX as usize;
+
+/// The structures that one may be, as the oscillators that are shaken.
+#[derive(Debug)]
+pub(super) struct Uncertain<'a> {
+    of: &'a Uncertainty,
+    /// Factor Γ from the oscillators to the structure.
+    participation: f64,
+    /// Those of branches, each once; or those of each record, one record after the other.
+    systems: Vec<System>,
+    /// Which of them are branches; none where each record has its own.
+    branches: Option<Branches>,
+}
+
+/// What is asked of the structures.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Event {
+    /// How often they overturn, 1/yr.
+    Overturning,
+    /// How often they exceed the capacity that each of them has, 1/yr.
+    BeyondCapacity,
+    /// The demand of this rate, 1/yr, on the structure, m.
+    Demand(f64),
+}
+
+impl Event {
+    fn words(self) -> &'static str {
+        match self {
+            Self::Overturning => "overturning",
+            Self::BeyondCapacity => "exceeding the capacity",
+            Self::Demand(_) => "demand",
+        }
+    }
+
+    fn unit(self) -> &'static str {
+        match self {
+            Self::Overturning | Self::BeyondCapacity => "1/yr",
+            Self::Demand(_) => "m",
+        }
+    }
+
+    /// What is exceeded, m of the oscillator; none of a demand, and where there is no capacity.
+    fn threshold_m(self, system: &System) -> Option<f64> {
+        match self {
+            Self::Overturning => Some(OVERTURNING_M),
+            Self::BeyondCapacity => capacity_m(system),
+            Self::Demand(_) => None,
+        }
+    }
+}
+
+/// A site, and what is asked there.
+#[derive(Debug)]
+pub(super) struct AskedSite<'a> {
+    pub(super) name: &'a str,
+    /// What each stripe weighs by the mean hazard.
+    pub(super) weights: &'a StripeWeights,
+    /// Weighted alternatives to it; none where there is but one curve.
+    pub(super) branches: Vec<(f64, StripeWeights)>,
+    /// Each with its answer for the structure as described.
+    pub(super) asked: Vec<(Event, f64)>,
+}
+
+impl<'a> AskedSite<'a> {
+    /// A site of a result.
+    ///
+    /// # Errors
+    /// A file that is damaged.
+    pub(super) fn of(
+        file: &ResultFile,
+        (name, site): (&'a str, usize),
+        (measure, study): (&'a SpectraOfResult, &UniformRiskStudy),
+        asked: Vec<(Event, f64)>,
+    ) -> Result<Self, UpliftError> {
+        let branches = file.branch_weights(name, &measure.plan, study.risk.extrapolate)?;
+        Ok(Self { name, weights: &measure.weights[site], branches, asked })
+    }
+}
+
+impl<'a> Uncertain<'a> {
+    /// The structures that `structure` may be, whose impacts keep `restitution` of the velocity where that is known,
+    /// under so many records; none where all of it is known.
+    ///
+    /// # Errors
+    /// A structure that cannot be.
+    pub(super) fn of(structure: &'a Structure, restitution: f64, records: usize) -> Result<Option<Self>, UpliftError> {
+        let Some(of) = &structure.uncertainty else { return Ok(None) };
+        let realize = |point: &[f64]| realized(structure, of, restitution, point);
+        let (systems, branches) = match of.kind {
+            UncertaintyKind::Epistemic => {
+                let (systems, branches) = Branches::of(of, &realize)?;
+                (systems, Some(branches))
+            }
+            UncertaintyKind::Aleatory => {
+                let dimensions = of.quantities.len();
+                let is_known = of.vector.distributions().iter().all(|of| of.constant().is_some());
+                // structures that are all alike are one, with the very bits of the structure as described
+                let draws = if is_known { 1 } else { of.draws };
+                if records * draws > MOST_RUNS {
+                    return Err(UpliftError::input(format!(
+                        "[uncertainty]: {draws} structures of each of {records} records are {}, and a level takes \
+                         {MOST_RUNS}: take fewer draws",
+                        records * draws
+                    ))
+                    .in_file(&structure.file));
+                }
+                let points = unit_cube(of.sampling, (records * draws, dimensions), of.seed)?;
+                (points.chunks_exact(dimensions).map(realize).collect::<Result<_, _>>()?, None)
+            }
+        };
+        Ok(Some(Self { of, participation: structure.system.participation(), systems, branches }))
+    }
+
+    /// The stripes of one measure, with what they cost.
+    ///
+    /// # Errors
+    /// A record that cannot be scaled.
+    pub(super) fn plan<'b>(
+        &'b self,
+        (label, study): (&str, &UniformRiskStudy),
+        measure: &MeasurePlan,
+        (set, motions): (&'b RecordSet, &'b [String]),
+    ) -> Result<LabelledPlan<'b>, UpliftError> {
+        let plan = plan_stripes(study, measure, set, &self.systems)?;
+        let plan = if self.branches.is_none() { plan.with_own_systems()? } else { plan };
+        let axes = plan.axes();
+        let whose = if self.branches.is_none() { "structures of each record" } else { "structures" };
+        let cost = format!(
+            "{label}: {} {whose} x {} records x {} levels, {} analyses",
+            thousands(axes.systems as u64),
+            axes.motions,
+            axes.scales,
+            thousands(plan.analyses())
+        );
+        let remark = Some(("uncertainty".to_owned(), cost));
+        Ok(LabelledPlan { label: format!("{label}, uncertain"), remark, plan, motions, known: None })
+    }
+
+    /// What the stripes of a measure say, `[site, asked]`.
+    ///
+    /// # Errors
+    /// Parts that do not belong together.
+    pub(super) fn results(
+        &self,
+        stripes: &Stripes,
+        sites: &[AskedSite<'_>],
+        scatter: &Scatter,
+    ) -> Result<Vec<UncertainResult>, UpliftError> {
+        let findings = match &self.branches {
+            Some(branches) => branches.findings(self, stripes, sites, scatter)?,
+            None => draws::findings(self, stripes, sites, scatter)?,
+        };
+        let asked = sites.iter().flat_map(|site| site.asked.iter().map(move |asked| (site, asked)));
+        let result = |((site, (event, as_described)), found): ((&AskedSite<'_>, &(Event, f64)), UncertainFinding)| {
+            UncertainResult {
+                site: site.name.to_owned(),
+                im: stripes.measure.label(),
+                of: event.words(),
+                unit: event.unit(),
+                as_described: *as_described,
+                found,
+            }
+        };
+        Ok(asked.zip(findings).map(result).collect())
+    }
+
+    /// What was asked, with its `results`, from so many `analyses`.
+    pub(super) fn report(&self, analyses: u64, results: Vec<UncertainResult>) -> UncertaintyReport {
+        UncertaintyReport {
+            kind: self.of.kind.key(),
+            sampling: self.of.sampling.key(),
+            seed: self.of.seed,
+            structures: self.systems.len(),
+            analyses,
+            quantities: QuantityReport::all(self.of),
+            results,
+        }
+    }
+}
+
+/// Draws of the records, one a row of both samples: earthquakes with all their records where they are known, else
+/// pairs; none of a single one.
+fn resampling(scatter: &Scatter, rows: usize, seed: u64) -> Result<Option<ResamplingPlan>, UpliftError> {
+    let units = scatter.earthquakes.as_ref().unwrap_or(&scatter.records);
+    let records = units.iter().map(Vec::len).sum();
+    let mut unit_of = vec![0; records];
+    for (unit, of_unit) in units.iter().enumerate() {
+        for &record in of_unit {
+            unit_of[record] = unit;
+        }
+    }
+    let size = u32::try_from(records).unwrap_or(u32::MAX);
+    match ResamplingPlan::draw_events(&unit_of, &[size], rows, seed) {
+        Err(BootstrapError::OneEvent) => Ok(None),
+        plan => Ok(Some(plan?)),
+    }
+}
+
+/// The oscillator of the structure at a `point` of the unit cube.
+fn realized(structure: &Structure, of: &Uncertainty, restitution: f64, point: &[f64]) -> Result<System, UpliftError> {
+    let values = of.vector.values(point);
+    let mut realization = Realization::default();
+    for (quantity, value) in of.quantities.iter().zip(&values) {
+        realization.set(*quantity, *value);
+    }
+    let fail = |reason: String| {
+        let told = of.quantities.iter().zip(&values).map(|(quantity, value)| format!("{} {value}", quantity.key()));
+        let told: Vec<String> = told.collect();
+        UpliftError::input(format!(
+            "[uncertainty]: one of the structures that it may be cannot be ({}): {reason}; take less scatter, or \
+             correlate what goes together",
+            told.join(", ")
+        ))
+        .in_file(&structure.file)
+    };
+    let system = structure.system.realized(&realization).map_err(|error| fail(error.to_string()))?;
+    let restitution = realization.restitution.unwrap_or(restitution);
+    system.spectral_oscillator(restitution).map(System::Oscillator).map_err(|error| fail(error.to_string()))
+}
+
+/// The displacement capacity of an oscillator, m; none where its force does not fall.
+fn capacity_m(system: &System) -> Option<f64> {
+    let System::Oscillator(oscillator) = system else { return None };
+    match oscillator.post_uplift() {
+        PostUplift::Negative { capacity_m } => Some(capacity_m),
+        PostUplift::Zero | PostUplift::Positive { .. } => None,
+    }
+}
+
+#[cfg(test)]
+mod tests;

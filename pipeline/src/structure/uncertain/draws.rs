@@ -1,0 +1,75 @@
+//! Structures of each record: what differs from one to the next is part of the fragility, and there is one risk.
+
+use uplift_fragility::Stripes as Stripe;
+use uplift_risk::{PooledDemand, RiskCurve};
+
+use super::report::{AleatoryResult, UncertainFinding};
+use super::{AskedSite, Event, Uncertain};
+use crate::error::UpliftError;
+use crate::structure::certainty::{Scatter, demand_bands, rate_bands};
+use crate::structure::risk::OVERTURNING_M;
+use crate::uniform_risk::Stripes;
+
+/// Between what happens and what does not, where runs are told by 1 and 0.
+const HAPPENS: f64 = 0.5;
+
+/// The answers, `[site, asked]`: every draw of a record counts as a record does.
+///
+/// # Errors
+/// Parts that do not belong together; more than 65,535 structures.
+pub(super) fn findings(
+    uncertain: &Uncertain<'_>,
+    stripes: &Stripes,
+    sites: &[AskedSite<'_>],
+    scatter: &Scatter,
+) -> Result<Vec<UncertainFinding>, UpliftError> {
+    let draws = stripes.peaks.axes().systems;
+    let scatter = drawn(scatter, draws);
+    // the draws of a record lie one after the other, each a row of levels
+    let demands_m = stripes.peaks.displacement_m();
+    let pool = |demands_m: &[f64]| -> Result<PooledDemand, UpliftError> {
+        Ok(PooledDemand::new(&Stripe::new(&stripes.levels, demands_m)?)?)
+    };
+    let demand = pool(demands_m)?;
+    let levels = stripes.levels.len();
+    let beyond: Vec<f64> = (demands_m.chunks_exact(levels).zip(&uncertain.systems))
+        .flat_map(|(row, system)| {
+            let capacity_m = Event::BeyondCapacity.threshold_m(system).unwrap_or(f64::INFINITY);
+            row.iter().map(move |&edp_m| if edp_m > capacity_m { 1.0 } else { 0.0 })
+        })
+        .collect();
+    let beyond = pool(&beyond)?;
+    let rate = |site: &AskedSite<'_>, of: &PooledDemand, threshold_m: f64| -> Result<AleatoryResult, UpliftError> {
+        let bands = rate_bands(of, site.weights, &scatter, threshold_m)?;
+        Ok(AleatoryResult {
+            value: RiskCurve::new(of, site.weights)?.mean_annual_frequency(threshold_m)?,
+            by_record: bands.map(|bands| bands.by_record),
+            by_earthquake: bands.and_then(|bands| bands.by_earthquake),
+        })
+    };
+    let finding = |site: &AskedSite<'_>, event: Event| match event {
+        Event::Overturning => rate(site, &demand, OVERTURNING_M),
+        Event::BeyondCapacity => rate(site, &beyond, HAPPENS),
+        Event::Demand(target_per_year) => {
+            let factor = uncertain.participation;
+            let ordinate = RiskCurve::new(&demand, site.weights)?.exact_ordinate(target_per_year)?;
+            let bands = demand_bands(&demand, site.weights, &scatter, (target_per_year, factor, None))?;
+            Ok(AleatoryResult {
+                value: factor * ordinate.displacement_m,
+                by_record: bands.map(|bands| bands.demand_by_record_m),
+                by_earthquake: bands.and_then(|bands| bands.demand_by_earthquake_m),
+            })
+        }
+    };
+    let asked = sites.iter().flat_map(|site| site.asked.iter().map(move |(event, _)| (site, *event)));
+    asked.map(|(site, event)| Ok(UncertainFinding::Aleatory(finding(site, event)?))).collect()
+}
+
+/// What scatters where each record has so many draws: they go with their record.
+fn drawn(scatter: &Scatter, draws: usize) -> Scatter {
+    let of_units = |units: &Vec<Vec<usize>>| -> Vec<Vec<usize>> {
+        let of_record = |record: &usize| record * draws..(record + 1) * draws;
+        units.iter().map(|unit| unit.iter().flat_map(of_record).collect()).collect()
+    };
+    Scatter { records: of_units(&scatter.records), earthquakes: scatter.earthquakes.as_ref().map(of_units) }
+}
