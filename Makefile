@@ -16,7 +16,8 @@ export PATH := $(TOOLS):$(PATH)
 
 UPLIFT := target/release/uplift
 
-.PHONY: run build install wheel test test-cluster torture doc-figures lint docs python sbom notices bench fuzz clean
+.PHONY: run build install wheel dist test check test-cluster torture doc-figures lint docs python sbom notices bench \
+	fuzz clean
 
 run: build
 	$(UPLIFT) run $(STUDY) $(SET) -o $(OUTPUT)
@@ -41,13 +42,21 @@ install: build
 doc-figures:
 	UPDATE_DOCS=1 cargo test --locked --workspace --test end_to_end figures:: -- --include-ignored
 
-# Formatting, lints, documentation, then every test: crates, the built program, its result file from Python.
-test: lint docs python
+# Every test: crates, the built program, its result file from Python.
+test: python
 	cargo test --locked --workspace
 
-# The Python package: its wheel in python/dist, installed into a fresh environment and tested there (docs/python.md).
-wheel:
-	.ci/build-wheel
+# What CI asks of a change: formatting, lints and documentation besides.
+check: lint docs test
+
+# The Python package: its wheel in python/dist, with the program in it, installed into a fresh environment and tested
+# there (docs/python.md).
+wheel: build
+	.ci/build-wheel $(UPLIFT)
+
+# What a release page holds, in dist: wheel, source distribution, archive of the program, bill of materials, sums.
+dist: wheel
+	.ci/build-distribution $(UPLIFT)
 
 # The engines of docs/cluster for real: Slurm, MPI, HyperQueue, as far as they can be had here. Apart from `test`: the
 # first build with MPI takes as long as that of the whole program.
@@ -110,4 +119,4 @@ fuzz/%:
 
 clean:
 	cargo clean
-	rm -rf .venv .tools results crates/*/fuzz/target python/target python/dist
+	rm -rf .venv .tools results dist crates/*/fuzz/target python/target python/dist python/uplift_urs._native.data

@@ -10,6 +10,7 @@ use pyo3::prelude::*;
 use uplift_hazard::HazardError;
 use uplift_motion::MotionError;
 use uplift_plausible::{Implausible, Range};
+use uplift_study::{Place, StudyError, Unreadable};
 
 /// `ValueError` with the message of a crate.
 pub(crate) fn refused(error: impl Display) -> PyErr {
@@ -32,6 +33,34 @@ pub(crate) fn of_hazard_file(error: HazardError, path: &Path) -> PyErr {
         _ => None,
     };
     unreadable.map_or_else(|| refused(&error), |kind| io::Error::new(kind, error.to_string()).into())
+}
+
+/// What is wrong with a structure: `StudyError` of the package with all mistakes, or `OSError`.
+pub(crate) fn of_study(py: Python<'_>, error: &StudyError) -> PyErr {
+    let StudyError::Unreadable { reason, .. } = error else {
+        return of_mistakes(py, error).unwrap_or_else(|failure| failure);
+    };
+    let kind = match reason {
+        Unreadable::System(system) => system.kind(),
+        Unreadable::Missing => io::ErrorKind::NotFound,
+        Unreadable::NotAFile => io::ErrorKind::IsADirectory,
+        _ => return refused(error),
+    };
+    io::Error::new(kind, error.to_string()).into()
+}
+
+fn of_mistakes(py: Python<'_>, error: &StudyError) -> PyResult<PyErr> {
+    let module = PyModule::import(py, "uplift_urs._program")?;
+    let mistakes = error.mistakes().iter().map(|mistake| {
+        let (line, column) = match &mistake.place {
+            Place::File { line, column, .. } => (Some(*line), Some(*column)),
+            Place::Override(_) | Place::Study => (None, None),
+        };
+        let (message, key, help) = (&mistake.message, &mistake.key, &mistake.help);
+        module.getattr("Mistake")?.call1((message, key, line, column, None::<&str>, help))
+    });
+    let mistakes = mistakes.collect::<PyResult<Vec<_>>>()?;
+    Ok(PyErr::from_value(module.getattr("StudyError")?.call1((error.to_string(), mistakes))?))
 }
 
 /// Refuses numbers that no system, record or person means, all of them at once: the range of each, its name, and the

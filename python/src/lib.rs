@@ -19,25 +19,37 @@
 //! | `risk` | fragility, risk curves, uniform risk spectra |
 //! | `bootstrap` | confidence bands |
 //! | `regression` | Eq. 4.11 |
+//! | `consistency` | the hazard that scaled records bring, and weights |
+//! | `structure`, `design` | structures as their files have them, their statics, the rules of design |
+//! | `overturning` | how often what was analysed overturns |
+//! | `block`, `frame` | the rigid block of Chapter 2, the rocking frame of Chapter 6 |
+//! | `validation` | measured and computed peaks |
 
 // pyo3 hands Python's objects over by value
 #![allow(clippy::needless_pass_by_value)]
 
+mod block;
 mod bootstrap;
+mod consistency;
 mod cores;
 mod demand;
+mod design;
 mod errors;
 mod export;
 mod floats;
+mod frame;
 mod hazard;
 mod ida;
 mod oscillator;
+mod overturning;
 mod record;
 mod regression;
 mod respond;
 mod response;
 mod risk;
 mod sites;
+mod structure;
+mod validation;
 
 use pyo3::prelude::*;
 
@@ -54,6 +66,21 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<risk::Spectra>()?;
     module.add_class::<bootstrap::Bands>()?;
     module.add_class::<regression::Fit>()?;
+    module.add_class::<consistency::Consistency>()?;
+    module.add_class::<structure::Structure>()?;
+    module.add_class::<structure::Pushover>()?;
+    module.add_class::<design::Design>()?;
+    module.add_class::<overturning::Overturning>()?;
+    module.add_class::<block::Block>()?;
+    module.add_class::<block::BlockResponses>()?;
+    module.add_class::<frame::FrameResponse>()?;
+    module.add_class::<frame::FrameHistory>()?;
+    module.add_class::<validation::Validation>()?;
+    module.add_function(wrap_pyfunction!(consistency::consistency, module)?)?;
+    module.add_function(wrap_pyfunction!(design::design, module)?)?;
+    module.add_function(wrap_pyfunction!(overturning::overturning, module)?)?;
+    module.add_function(wrap_pyfunction!(frame::respond_frame, module)?)?;
+    module.add_function(wrap_pyfunction!(validation::validate, module)?)?;
     module.add_function(wrap_pyfunction!(record::read_record, module)?)?;
     module.add_function(wrap_pyfunction!(record::read_records, module)?)?;
     module.add_function(wrap_pyfunction!(respond::respond, module)?)?;

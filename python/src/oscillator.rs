@@ -2,7 +2,6 @@
 
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use uplift_motion::Accelerogram;
 use uplift_oscillator::{Oscillator, PostUplift};
 use uplift_plausible::{CAPACITY, GRAVITY, POST_UPLIFT_STIFFNESS, RESTITUTION, STRENGTH, UPLIFT_DISPLACEMENT};
 
@@ -46,22 +45,4 @@ impl Numbers {
         Oscillator::new(self.strength, self.gravity_m_s2, self.uplift_displacement_m, self.restitution, post_uplift)
             .map_err(refused)
     }
-}
-
-/// Steps of a run, at most, as of `uplift response`: some seconds, and a time history of a gigabyte.
-const MOST_STEPS: f64 = 1e7;
-
-/// Refuses a motion of more steps than that: its samples, and the half cycles of the stiffest branch.
-pub(crate) fn refuse_endless(oscillator: &Oscillator, motion: &Accelerogram, free_s: f64) -> PyResult<()> {
-    let duration_s = motion.duration_s() + free_s;
-    let half_cycles = oscillator.highest_frequency_rad_s() * duration_s / std::f64::consts::PI;
-    let steps = duration_s / motion.dt_s() + half_cycles;
-    if steps <= MOST_STEPS {
-        return Ok(());
-    }
-    Err(PyValueError::new_err(format!(
-        "{duration_s} s of motion are {steps:.1e} steps of {} s and half cycles of the oscillator: {MOST_STEPS:e} are \
-         computed at most; follow the free vibration for a shorter time, or give a softer system",
-        motion.dt_s()
-    )))
 }

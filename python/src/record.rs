@@ -92,6 +92,48 @@ impl Record {
         Ok(Self { accelerogram: Arc::new(accelerogram), name: name.to_owned(), gravity_m_s2, description })
     }
 
+    /// A record from a trace of ObsPy.
+    ///
+    /// Parameters
+    /// ----------
+    /// trace : obspy.Trace, or obspy.Stream of one
+    ///     Ground acceleration: response removed, offset taken away.
+    /// unit : {"g", "m/s2", "cm/s2", "gal"}
+    ///     Unit of its samples.
+    /// gravity_m_s2 : float, default 9.80665
+    ///     What 1 g stands for, m/s².
+    ///
+    /// Returns
+    /// -------
+    /// Record
+    ///     Named by the identifier of the trace.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     For a stream of several traces or none, a trace with gaps, and as `from_array`.
+    /// AttributeError
+    ///     For what is neither.
+    #[classmethod]
+    #[pyo3(signature = (trace, *, unit, gravity_m_s2 = 9.806_65))]
+    fn from_obspy(
+        class: &Bound<'_, PyType>,
+        trace: &Bound<'_, PyAny>,
+        unit: &str,
+        gravity_m_s2: f64,
+    ) -> PyResult<Self> {
+        if trace.hasattr("traces")? {
+            let count = trace.len()?;
+            if count != 1 {
+                let message = format!("the stream has {count} traces: give one of them, stream[0]");
+                return Err(PyValueError::new_err(message));
+            }
+            return Self::from_obspy(class, &trace.get_item(0)?, unit, gravity_m_s2);
+        }
+        let (samples, dt_s) = (trace.getattr("data")?, trace.getattr("stats")?.getattr("delta")?.extract()?);
+        Self::from_array(class, &samples, dt_s, unit, &trace.getattr("id")?.extract::<String>()?, gravity_m_s2)
+    }
+
     /// Ground acceleration, m/s², shape (samples,); a copy.
     #[getter]
     fn acceleration_m_s2<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {

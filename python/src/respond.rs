@@ -14,7 +14,7 @@ use uplift_plausible::{FREE_VIBRATION, SCALE};
 use crate::cores::on_all_cores;
 use crate::errors::{check_plausible, refused};
 use crate::floats::{count, floats, room};
-use crate::oscillator::{Numbers, refuse_endless};
+use crate::oscillator::Numbers;
 use crate::record::Record;
 use crate::response::{History, Response, Responses};
 
@@ -245,7 +245,7 @@ impl Shaken {
         check_plausible(&[(SCALE, "scale", Some(scale.abs()))])?;
         let oscillator = numbers.oscillator()?;
         let free_s = if let FreeVibration::Seconds(seconds) = self.free_vibration { seconds } else { 0.0 };
-        refuse_endless(&oscillator, &self.motion, free_s)?;
+        oscillator.check_run_length(self.motion.duration_s() + free_s, self.motion.dt_s()).map_err(refused)?;
         Ok(Case { oscillator, scale })
     }
 

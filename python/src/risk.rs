@@ -5,7 +5,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use uplift_fragility::{EmpiricalFragility, check_threshold};
 use uplift_hazard::rate_from_probability;
-use uplift_risk::{Ordinate, OrdinateFlag, PooledDemand, RiskCurve, StripeWeights, ThresholdGrid};
+use uplift_risk::{Ordinate, OrdinateFlag, PooledDemand, RiskCurve, RunWeights, StripeWeights, ThresholdGrid};
 
 use crate::demand::Demand;
 use crate::errors::refused;
@@ -160,6 +160,9 @@ pub(crate) fn risk_curve<'py>(
 /// contour : {"exact", "grid"}, default "exact"
 ///     How ordinates are read: the smallest displacement whose annual frequency meets the target, or log-linear between
 ///     the thresholds of the studies, 0 to 3 m.
+/// weights : array_like, shape (levels, records), optional
+///     Share of each record at each level, as `consistency` finds them; each level sums to 1. Without it all count
+///     alike.
 /// extrapolate : {"refuse", "loglog"}, default "refuse"
 ///     What happens to a level outside a hazard curve.
 /// gravity_m_s2 : float, default 9.80665
@@ -187,10 +190,10 @@ pub(crate) fn risk_curve<'py>(
 /// N. Reggiani Manzo, dissertation, Section 4.3.4.
 #[pyfunction]
 #[pyo3(signature = (
-    edp_m, levels, hazard, poe = None, years = 50.0, *, contour = "exact", extrapolate = "refuse",
+    edp_m, levels, hazard, poe = None, years = 50.0, *, contour = "exact", weights = None, extrapolate = "refuse",
     gravity_m_s2 = 9.806_65
 ), text_signature = "(edp_m, levels, hazard, poe=(0.02, 0.1, 0.5), years=50.0, *, contour='exact', \
-extrapolate='refuse', gravity_m_s2=9.80665)")]
+weights=None, extrapolate='refuse', gravity_m_s2=9.80665)")]
 #[expect(clippy::too_many_arguments, reason = "they are Python's, by name")]
 pub(crate) fn urs(
     py: Python<'_>,
@@ -200,6 +203,7 @@ pub(crate) fn urs(
     poe: Option<&Bound<'_, PyAny>>,
     years: f64,
     contour: &str,
+    weights: Option<&Bound<'_, PyAny>>,
     extrapolate: &str,
     gravity_m_s2: f64,
 ) -> PyResult<Spectra> {
@@ -212,8 +216,14 @@ pub(crate) fn urs(
         "grid" => false,
         _ => return Err(PyValueError::new_err(format!("contour is {contour:?}: it must be \"exact\" or \"grid\""))),
     };
+    let shares = weights.map(|given| shares(given, &demand)).transpose()?;
     let ordinates = |demand: &PooledDemand, weights: &StripeWeights| {
-        let curve = RiskCurve::new(demand, weights).map_err(refused)?;
+        let runs = shares.as_ref().map(|shares| RunWeights::new(weights, shares)).transpose().map_err(refused)?;
+        let curve = match &runs {
+            Some(runs) => RiskCurve::weighted(demand, runs),
+            None => RiskCurve::new(demand, weights),
+        };
+        let curve = curve.map_err(refused)?;
         let ordinates: Result<Vec<_>, _> = if is_exact {
             curve.exact_ordinates(&targets)
         } else {
@@ -228,6 +238,16 @@ pub(crate) fn urs(
         all.extend((0..targets.len()).flat_map(|target| site.iter().map(move |of_strength| of_strength[target])));
     }
     Spectra::new(py, &shape, &all)
+}
+
+/// The share of each record at each level, `[level, record]`.
+fn shares(given: &Bound<'_, PyAny>, demand: &Demand) -> PyResult<Vec<f64>> {
+    let (given, wanted) = (floats("weights", given)?, [demand.levels().len(), demand.records()]);
+    if *given.shape() != wanted {
+        let message = format!("weights has the shape {:?}: it must be (levels, records), {wanted:?}", given.shape());
+        return Err(PyValueError::new_err(message));
+    }
+    Ok(given.into_raw_vec_and_offset().0)
 }
 
 /// Target rates, 1/yr, of probabilities in `years`, and the shape in which these are given; those of the studies where

@@ -30,15 +30,18 @@ def record(records):
 
 @pytest.fixture(scope="session")
 def program():
-    """Calls the program: the one that UPLIFT_PROGRAM names, or one that is built in the repository."""
-    built = [REPOSITORY / "target" / profile / "uplift" for profile in ("release", "debug")]
-    named = os.environ.get("UPLIFT_PROGRAM")
-    found = [Path(named)] if named else [path for path in built if path.is_file()]
-    if not found:
-        pytest.skip("skipped: no program uplift: make build, or set UPLIFT_PROGRAM")
+    """Calls the program that the package finds, or one that is built in the repository, which it then takes too."""
+    try:
+        found = uplift.find_program()
+    except FileNotFoundError:
+        built = [REPOSITORY / "target" / profile / "uplift" for profile in ("release", "debug")]
+        found = next((path for path in built if path.is_file()), None)
+        if not found:
+            pytest.skip("skipped: no program uplift: make build, or set UPLIFT_PROGRAM")
+        os.environ["UPLIFT_PROGRAM"] = str(found)
 
     def call(at, *arguments):
-        done = subprocess.run([found[0], *map(str, arguments)], cwd=at, capture_output=True, text=True)
+        done = subprocess.run([found, *map(str, arguments)], cwd=at, capture_output=True, text=True)
         assert done.returncode == 0, done.stderr
         return done.stdout
 

@@ -1,6 +1,7 @@
 """Whatever is handed over: an answer or one of Python's own exceptions, never a panic."""
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as st_numpy
@@ -96,3 +97,68 @@ def test_curves(im, maf, unit):
     answers(HAZARD.im_at_rate, maf, extrapolate="loglog")
     if curve is not None:
         assert (np.diff(curve.maf_per_year) < 0).all()
+
+
+@settings(deadline=None)
+@given(ANYTHING, ANYTHING, ANYTHING, st.booleans())
+def test_consistency(scaled_to, other, levels, repair):
+    pga = uplift.HazardCurve([1e-4, 0.01, 1], [10, 0.1, 1e-4], measure="pga")
+    found = answers(uplift.consistency, scaled_to, other, levels, HAZARD, pga, extrapolate="loglog", repair=repair)
+    if found is not None:
+        assert found.verdict in ("consistent", "off", "inconsistent", None)
+        assert (np.abs(found.weights.sum(axis=1) - 1) < 1e-9).all()
+
+
+@settings(deadline=None)
+@given(NUMBERS, NUMBERS, st.one_of(st.none(), NUMBERS), ANYTHING, NUMBERS)
+def test_blocks(width_m, height_m, restitution, scale, free_vibration_s):
+    block = answers(uplift.Block, width_m=width_m, height_m=height_m, restitution=restitution)
+    if block is not None:
+        # a second at most: long motions are computed, and take as long as they take
+        answers(block.respond, RECORD, scale=scale, free_vibration_s=min(free_vibration_s, 1))
+
+
+VALUES = st.recursive(
+    st.one_of(st.text(), st.integers(), st.floats(), st.booleans()),
+    lambda inner: st.one_of(st.lists(inner, max_size=3), st.dictionaries(st.text(), inner, max_size=3)),
+    max_leaves=6,
+)
+KEYS = st.sampled_from(
+    ["kind", "width_m", "height_m", "mass_kg", "columns", "deck_mass_kg", "column_mass_kg", "slenderness_rad", "size_m",
+     "restitution", "uplift_displacement_m", "restrainer", "tendon_stiffness_n_m", "tendon_anchorage", "gravity_m_s2"]
+)  # fmt: skip
+KINDS = st.sampled_from(["block", "frame", "restrained-frame", "point-mass", "body", "curved-frame", "x"])
+PLAUSIBLE = {
+    "kind": KINDS, "width_m": st.floats(0.1, 5), "height_m": st.floats(1, 20), "columns": st.integers(1, 8),
+    "deck_mass_kg": st.floats(1e3, 1e6), "column_mass_kg": st.floats(1e3, 1e5), "mass_kg": st.floats(1e3, 1e5),
+    "tendon_anchorage": st.sampled_from(["column", "foundation"]), "tendon_stiffness_n_m": st.floats(0, 1e8),
+}  # fmt: skip
+
+
+@settings(deadline=None)
+@given(st.one_of(st.dictionaries(KEYS, VALUES), st.fixed_dictionaries({}, optional=PLAUSIBLE)), ANYTHING, NUMBERS)
+def test_structures(keys, displacement_m, ordinate_m):
+    structure = answers(uplift.structure, **keys)
+    if structure is not None:
+        answers(structure.pushover, displacement_m)
+        answers(uplift.design, structure, ordinate_m)
+        answers(structure.restoring_force_n, displacement_m)
+        answers(uplift.respond_frame, structure, RECORD, scale=ordinate_m)
+
+
+@settings(deadline=None)
+@given(st.one_of(FLOATS, ANYTHING), st.one_of(st.just([0.5, 1.0, 2.0]), ANYTHING), ANYTHING)
+def test_overturning_and_validation(edp_m, levels, given_too):
+    answers(uplift.overturning, edp_m, levels, HAZARD)
+    answers(uplift.validate, edp_m, given_too)
+
+
+@given(st.dictionaries(st.text(), VALUES))
+def test_studies_are_toml(study):
+    text = answers(uplift._toml.document, study)
+    if text is not None:
+        tomllib = pytest.importorskip("tomllib")
+        read = tomllib.loads(text)
+        assert set(read) == set(study)
+        for key, value in study.items():
+            assert repr(read[key]) == repr(value)

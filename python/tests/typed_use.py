@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import assert_type
 
 import numpy as np
+import xarray
 from numpy.typing import NDArray
 
 import uplift_urs as uplift
@@ -19,3 +20,12 @@ assert_type(edp_m, NDArray[np.float64])
 curve = uplift.HazardCurve([1, 10], (0.1, 0.01))
 assert_type(uplift.urs(edp_m, [5, 10], [curve]).flag, NDArray[np.uint8])
 assert_type(uplift.fit([0.1, 0.2, 0.3, 0.4], edp_m[0, 0]).c0_m, float)
+pier = uplift.structure(kind="frame", columns=4)
+assert_type(pier, uplift.Structure)
+assert_type(uplift.design(pier, 0.1).demand_m, float)
+assert_type(uplift.respond_frame(pier, record).events, list[tuple[str, float]])
+assert_type(uplift.Block(width_m=1, height_m=4).respond(record, scale=[1, 2]).overturned, NDArray[np.bool_])
+result = uplift.run({"pgv": {}}, output=Path("r.h5"), progress=lambda event: event.done < 10)
+assert_type(result, uplift.Result)
+assert_type(result.urs, xarray.Dataset)
+assert_type(result.plot("urs").svg, str)

@@ -1,0 +1,397 @@
+"""Results: files that ``uplift run`` wrote, and what the program makes of them."""
+
+from __future__ import annotations
+
+import html
+import json
+import os
+import tempfile
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+from ._figure import Figure
+from ._groups import Arrays, attributes, columns, dataset, open_file, optional, read_group
+from ._program import Progress, StudyError, call
+
+if TYPE_CHECKING:
+    import pandas
+    import polars
+    from xarray import Dataset
+
+_PathLike = str | os.PathLike[str]
+# what adds a group that is not there
+_ADDED_BY = {
+    "bootstrap": "compute_bootstrap()",
+    "influence": "compute_influence()",
+    "disaggregation": "compute_influence()",
+    "efficiency": "compute_measures()",
+    "sufficiency": "compute_measures()",
+    "risk": "risk.maf_surface = true in the study",
+    "consistency": "hazard curves of both PGV and PGA",
+}
+
+
+def open_result(path: _PathLike, measure: str | None = None) -> Result:
+    """Opens a result file.
+
+    Arrays are read when they are looked at; the file is not kept open. That every byte is as it was written is looked
+    at by `Result.verify`.
+
+    Parameters
+    ----------
+    path : str or os.PathLike
+        A file that ``uplift run`` wrote.
+    measure : str, optional
+        The intensity measure that `Result.urs` and the like are of, "pga"; without it "pgv", or the first there is.
+
+    Returns
+    -------
+    Result
+
+    Raises
+    ------
+    OSError
+        For a file that is not there or is no HDF5 file.
+    ValueError
+        For a file of another program, or a measure that it does not have.
+    ImportError
+        If h5py is not installed.
+    """
+    return Result(path, measure)
+
+
+class Result:
+    """A result file, seen by one of its intensity measures.
+
+    The groups of the file are `xarray.Dataset`, or `Arrays` where xarray is not installed; names, units and attributes
+    are those of the file (docs/hdf5-layout.md). A group that the file does not have is a `ValueError` that says what
+    adds it.
+
+    Attributes
+    ----------
+    path : pathlib.Path
+    attributes : dict
+        Of the file: "title", "version", "record_set", "synthetic", "study_toml", "warnings", ...
+    measures : list of str
+        Intensity measures that the records were scaled to.
+    measure : str
+        The one that `urs`, `ida` and so on are of.
+    sites : list of str
+    summary : dict or None
+        What `run` told of it, with its "alarms"; none for a file that was opened.
+    """
+
+    def __init__(self, path: _PathLike, measure: str | None = None, *, summary: dict[str, Any] | None = None) -> None:
+        self.path = Path(path).absolute()
+        self.summary = summary
+        with open_file(self.path) as file:
+            self.attributes = attributes(file)
+            if self.attributes.get("program") != "uplift":
+                raise ValueError(f"{self.path}: is not a result of uplift")
+            self.measures = list(file.get("ida", ()))
+            sites = file.get("axes/site")
+            self.sites = [] if sites is None else list(sites.asstr()[()])
+        if measure is not None and measure not in self.measures:
+            raise ValueError(f"measure is {measure!r}: the result has {', '.join(self.measures) or 'none'}")
+        self.measure = measure or ("pgv" if "pgv" in self.measures else next(iter(self.measures), ""))
+
+    def of(self, measure: str) -> Result:
+        """The same result, seen by another intensity measure: ``result.of("pga").urs``."""
+        return Result(self.path, measure, summary=self.summary)
+
+    def __getitem__(self, group: str) -> Dataset:
+        """Any group by its place in the file, ``result["epistemic/pgv/Athens"]``."""
+        return dataset(self._arrays(group))  # type: ignore[return-value]
+
+    @cached_property
+    def groups(self) -> list[str]:
+        """Places of all groups that have arrays."""
+        found: list[str] = []
+        with open_file(self.path) as file:
+            file.visititems(lambda name, item: found.append(name) if hasattr(item, "keys") else None)
+            # those that hold more than groups
+            return [group for group in found if any(not hasattr(item, "keys") for item in file[group].values())]
+
+    @property
+    def records(self) -> Dataset:
+        """The ground motions."""
+        return self["records"]
+
+    @property
+    def ida(self) -> Dataset:
+        """Peak displacements ``edp_m`` of all runs, with their impacts."""
+        return self._of_measure("ida")
+
+    @property
+    def risk(self) -> Dataset:
+        """Annual frequencies of exceedance, ``maf_per_year``."""
+        return self._of_measure("risk")
+
+    @property
+    def urs(self) -> Dataset:
+        """Uniform risk spectra ``u_m``, with flags and tails."""
+        return self._of_measure("urs")
+
+    @property
+    def regression(self) -> Dataset:
+        """Coefficients of Eq. 4.11."""
+        return self._of_measure("regression")
+
+    @property
+    def bootstrap(self) -> Dataset:
+        """Confidence bands, after `compute_bootstrap`."""
+        return self._of_measure("bootstrap")
+
+    @property
+    def influence(self) -> Dataset:
+        """Spectra without each record, after `compute_influence`."""
+        return self._of_measure("influence")
+
+    @property
+    def disaggregation(self) -> Dataset:
+        """Which intensities the risk comes from, after `compute_influence`."""
+        return self._of_measure("disaggregation")
+
+    @property
+    def efficiency(self) -> Dataset:
+        """How well the measure tells the demand, after `compute_measures`."""
+        return self._of_measure("efficiency")
+
+    @property
+    def consistency(self) -> Dataset:
+        """Whether the records bring the hazard of the other measure; repaired spectra after `compute_consistency`."""
+        return self._of_measure("consistency")
+
+    @property
+    def hazard(self) -> dict[str, Dataset]:
+        """Hazard curves as used, by site."""
+        return {site: self[f"hazard/{site}/{self.measure}"] for site in self.sites}
+
+    @property
+    def sufficiency(self) -> dict[str, Dataset]:
+        """Trends of the residuals, by covariate, after `compute_measures`."""
+        with open_file(self.path) as file:
+            covariates = list(file.get(f"sufficiency/{self.measure}", ()))
+        if not covariates:
+            raise self._missing(f"sufficiency/{self.measure}")
+        return {name: self[f"sufficiency/{self.measure}/{name}"] for name in covariates}
+
+    @property
+    def spectra(self) -> Dataset:
+        """Percentiles of a study of displacement spectra."""
+        return self["spectra"]
+
+    @property
+    def design(self) -> Dataset:
+        """The design example of a study of displacement spectra."""
+        return self["design"]
+
+    @property
+    def shake_table(self) -> Dataset:
+        """The tests of a study of a shaking table."""
+        return self["shake_table"]
+
+    def to_pandas(self, group: str = "urs") -> pandas.DataFrame:
+        """A group as a table: a row for each combination of its axes.
+
+        Parameters
+        ----------
+        group : str
+            "urs", "regression", "bootstrap", ..., of this measure; or its place in the file, "records".
+        """
+        frame: pandas.DataFrame = optional("pandas", "pandas").DataFrame(self._columns(group))
+        return frame
+
+    def to_polars(self, group: str = "urs") -> polars.DataFrame:
+        """The same as a frame of polars."""
+        frame: polars.DataFrame = optional("polars", "polars").DataFrame(self._columns(group))
+        return frame
+
+    def plot(self, name: str = "urs", *, width: Literal["single", "double"] = "double") -> Figure:
+        """A figure of the program, for a notebook or a file.
+
+        Parameters
+        ----------
+        name : str
+            "urs", "ida", "fragility", "consistency", ...: as the files of ``uplift plot`` are named.
+        width : {"single", "double"}
+            That of a journal's column or page.
+        """
+        found = self.figures(name, width=width)
+        for wanted in (name, f"{name}-{self.measure}"):
+            if wanted in found:
+                return found[wanted]
+        if len(found) == 1:
+            return next(iter(found.values()))
+        raise StudyError(f"{name!r} is the name of {len(found)} figures: give one of {', '.join(found)}")
+
+    def figures(self, name: str = "", *, width: Literal["single", "double"] = "double") -> dict[str, Figure]:
+        """All figures of the program whose names contain this, by name."""
+        with tempfile.TemporaryDirectory() as folder:
+            only = ["--only", name] if name else []
+            call(["plot", self.path, "-o", folder, "--width", width, *only])
+            return {file.stem: Figure(file.read_text(encoding="utf-8")) for file in sorted(Path(folder).glob("*.svg"))}
+
+    def export(
+        self,
+        *formats: Literal["csv", "json", "mat", "xlsx"],
+        output: _PathLike | None = None,
+        poe: Sequence[float] | None = None,
+        return_period: Sequence[float] | None = None,
+        years: float | None = None,
+        force: bool = False,
+    ) -> None:
+        """Writes spectra, bands and coefficients: ``result.export("xlsx", return_period=[475, 2475])``.
+
+        Parameters
+        ----------
+        *formats : {"csv", "json", "mat", "xlsx"}
+        output : str or os.PathLike, optional
+            The file, if one format is asked for; without it beside the result.
+        poe, return_period, years
+            Any probabilities, or return periods in years; without them those of the study.
+        force : bool
+            Whether a file that the program did not write may be replaced.
+        """
+        options = {"output": output, "poe": poe, "return_period": return_period, "years": years, "force": force}
+        call(["export", self.path, *(f"--{name}" for name in formats), *_options(options)])
+
+    def report(self, output: _PathLike | None = None, *, force: bool = False) -> None:
+        """Writes one page with everything; without `output` beside the result, with the ending .html."""
+        call(["report", self.path, *_options({"output": output, "force": force})])
+
+    def verify(self) -> None:
+        """Looks whether every byte is as it was written; a `ValueError` where one is not."""
+        call(["verify", self.path])
+
+    def compute_bootstrap(
+        self,
+        *,
+        sizes: Sequence[int] | None = None,
+        replicates: int | None = None,
+        seed: int | None = None,
+        interval: Literal["percentile", "bca"] | None = None,
+        unit: Literal["record", "event"] | None = None,
+        simultaneous: bool = False,
+        force: bool = False,
+        progress: Progress | None = None,
+    ) -> list[dict[str, Any]]:
+        """Adds confidence bands to the file, as ``uplift bootstrap`` does; what is left out is the study's.
+
+        Returns
+        -------
+        list of dict
+            The rows of Table 4.1; the bands are in `bootstrap`.
+        """
+        options = {
+            "sizes": sizes,
+            "replicates": replicates,
+            "seed": seed,
+            "interval": interval,
+            "unit": unit,
+            "simultaneous": simultaneous,
+            "force": force,
+        }
+        return self._compute("bootstrap", options, progress)
+
+    def compute_consistency(
+        self,
+        *,
+        repair: bool = False,
+        keep_weights: bool = False,
+        force: bool = False,
+        progress: Progress | None = None,
+    ) -> list[dict[str, Any]]:
+        """Holds the records against the hazard of the other measure, as ``uplift consistency`` does.
+
+        Parameters
+        ----------
+        repair : bool
+            Whether weights are sought by which they agree; `consistency` has the spectra of these.
+        keep_weights : bool
+            Whether the weight of every run is kept.
+
+        Returns
+        -------
+        list of dict
+            The rows that the command prints.
+        """
+        options = {"repair": repair, "keep_weights": keep_weights, "force": force}
+        return self._compute("consistency", options, progress)
+
+    def compute_influence(self, *, force: bool = False, progress: Progress | None = None) -> list[dict[str, Any]]:
+        """Adds which records and which intensities carry the spectra, as ``uplift influence`` does."""
+        return self._compute("influence", {"force": force}, progress)
+
+    def compute_measures(self, *, force: bool = False, progress: Progress | None = None) -> list[dict[str, Any]]:
+        """Adds how efficient and sufficient the intensity measures are, as ``uplift measures`` does."""
+        return self._compute("measures", {"force": force}, progress)
+
+    def __repr__(self) -> str:
+        title = self.attributes.get("title") or self.path.name
+        return f"<Result: {title}; {self.attributes.get('record_set', '')}; by {', '.join(self.measures) or 'none'}>"
+
+    def _repr_html_(self) -> str:
+        rows = {
+            "file": self.path,
+            "title": self.attributes.get("title"),
+            "records": self.attributes.get("record_set"),
+            "measures": ", ".join(self.measures),
+            "sites": ", ".join(self.sites),
+            "groups": ", ".join(self.groups),
+            "warnings": self.attributes.get("warnings"),
+            "program": f"{self.attributes.get('version')} ({self.attributes.get('commit')})",
+            "created": self.attributes.get("created"),
+        }
+        left = "style='text-align:left'"
+        cells = (
+            f"<tr><th {left}>{name}</th><td {left}>{html.escape(str(value))}</td></tr>"
+            for name, value in rows.items()
+            if value
+        )
+        return f"<table>{''.join(cells)}</table>"
+
+    def _arrays(self, place: str) -> Arrays:
+        with open_file(self.path) as file:
+            group = file.get(place)
+            if not hasattr(group, "items"):
+                raise self._missing(place)
+            return read_group(self.path, group)
+
+    def _missing(self, place: str) -> ValueError:
+        added_by = _ADDED_BY.get(place.strip("/").split("/")[0])
+        remedy = f"{added_by} adds it" if added_by else "groups tells what it has"
+        return ValueError(f"{self.path}: has no {place}: {remedy}")
+
+    def _place(self, group: str) -> str:
+        return group if "/" in group or group in ("records", "spectra", "design", "shake_table") else self._own(group)
+
+    def _own(self, group: str) -> str:
+        return f"{group}/{self.measure}"
+
+    def _of_measure(self, group: str) -> Dataset:
+        return self[self._own(group)]
+
+    def _columns(self, group: str) -> dict[str, Any]:
+        return columns(self._arrays(self._place(group)))
+
+    def _compute(self, command: str, options: Mapping[str, Any], progress: Progress | None) -> list[dict[str, Any]]:
+        told = call([command, self.path, "--json", *_options(options)], progress=progress)
+        self.__dict__.pop("groups", None)
+        rows: list[dict[str, Any]] = json.loads(told)
+        return rows
+
+
+def _options(options: Mapping[str, Any]) -> list[str]:
+    """Options of the command line; what is None or False is left out."""
+    found = []
+    for name, value in options.items():
+        option = f"--{name.replace('_', '-')}"
+        if value is True:
+            found.append(option)
+        elif value is not None and value is not False:
+            many = hasattr(value, "__iter__") and not isinstance(value, (str, os.PathLike))
+            found.append(f"{option}={','.join(map(str, value)) if many else value}")
+    return found

@@ -1,0 +1,102 @@
+"""Studies: run by the program, so that the numbers are its own."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from typing import Any
+
+from . import _toml
+from ._groups import optional
+from ._program import Progress, call
+from ._result import Result
+
+
+def run(
+    study: str | os.PathLike[str] | Mapping[str, Any],
+    *,
+    output: str | os.PathLike[str] | None = None,
+    progress: Progress | None = None,
+    threads: int | None = None,
+    force: bool = False,
+    **overrides: Any,
+) -> Result:
+    """Runs a study, as ``uplift run`` does: same bits, same file, same checkpoint.
+
+    Parameters
+    ----------
+    study : str, os.PathLike or mapping
+        A study file, whose paths start from its folder; or what would stand in one, ``{"pgv": {}, "records": {...}}``,
+        whose paths start from the current folder.
+    output : str or os.PathLike, optional
+        The result file; without it the study's, which is results/<study>.h5 where it names none.
+    progress : callable, optional
+        Called with every `Event`; what it returns stops the run if it is False. What is finished then is kept, and the
+        same call goes on from there; so it is with Ctrl-C.
+    threads : int, optional
+        Without it all cores; the numbers do not depend on it.
+    force : bool
+        Whether the result of another study may be replaced.
+    **overrides
+        Keys of the study that change: ``records={"first": 20}``, or dotted, ``**{"records.first": 20}``.
+
+    Returns
+    -------
+    Result
+        With its `summary`.
+
+    Raises
+    ------
+    StudyError
+        A `ValueError`: for a study with mistakes or data that cannot be used; all of them, in `mistakes`.
+    OSError
+        For a file that cannot be read or written, or no program.
+    Cancelled
+        A `RuntimeError`: if `progress` returned False.
+    KeyboardInterrupt
+        For Ctrl-C, with what is kept.
+    ImportError
+        If h5py is not installed.
+    """
+    optional("h5py", "results")  # before anything is computed
+    arguments, text = _arguments(study, overrides)
+    options = [*(["-o", os.fspath(output)] if output is not None else []), *(["--force"] if force else [])]
+    options += [f"--threads={threads}"] if threads is not None else []
+    summary = json.loads(call(["run", "--json", *options, *arguments], progress=progress, text=text))
+    return Result(summary["files"][0], summary=summary)
+
+
+def check(study: str | os.PathLike[str] | Mapping[str, Any], **overrides: Any) -> dict[str, Any]:
+    """Checks a study and its input data, and says what it would cost, as ``uplift check`` does.
+
+    Parameters
+    ----------
+    study, **overrides
+        As of `run`.
+
+    Returns
+    -------
+    dict
+        What the program would do.
+
+    Raises
+    ------
+    StudyError, OSError
+        As of `run`.
+    """
+    arguments, text = _arguments(study, overrides)
+    plan: dict[str, Any] = json.loads(call(["check", "--json", *arguments], text=text))
+    return plan
+
+
+def _arguments(
+    study: str | os.PathLike[str] | Mapping[str, Any], overrides: Mapping[str, Any]
+) -> tuple[list[str], str]:
+    """The arguments that name a study, and what stands on standard input."""
+    changes = [f"--set={change}" for change in _toml.overrides(overrides)]
+    if isinstance(study, Mapping):
+        return [*changes, "-"], _toml.document(study)
+    name = os.fspath(study)
+    # a file of this name, where the program would read its standard input
+    return [*changes, "--", os.path.join(os.curdir, name) if name == "-" else name], ""
