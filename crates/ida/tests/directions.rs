@@ -126,14 +126,16 @@ fn vertical_motion_takes_the_factor_and_shakes_blocks_and_frames_alone() {
     assert!((2..4).any(|system| shaken.at_m([0, system, 1]) != plain.at_m([0, system, 1])));
 }
 
-/// Ground that falls with gravity is refused, with every record and the first factor at which it does.
+/// Ground that falls with gravity is refused, with every record, a pair once, and the first factor at which it does.
 #[test]
 fn ground_that_falls_away_is_refused_at_once() {
     let (motions, systems, vertical) = ([noise(3.0, 1), noise(3.0, 2)], systems(), noise(2.6, 9));
-    let error = plan(&motions, &systems).upwards(vec![&vertical, &vertical]).unwrap_err();
+    let named = ["pair", "pair", "other"].into_iter().zip([&motions[0], &motions[1], &motions[0]]);
+    let scaled = |(id, accelerogram)| ScaledMotion { id, accelerogram, scales: SCALES.to_vec() };
+    let of_pair = Plan::scaled(named.map(scaled).collect(), &systems, true).unwrap();
+    let error = of_pair.upwards(vec![&vertical; 3]).unwrap_err();
     let IdaError::Falls { falling } = &error else { panic!("{error}") };
-    assert_eq!(falling.len(), 2);
-    assert!(falling[0].contains("noise by 4.0000 (scale factor 2)"), "{falling:?}");
+    assert_eq!(falling, &["pair by 4.0000 (scale factor 2)", "other by 4.0000 (scale factor 2)"]);
     // nothing that feels it is shaken
     assert!(plan(&motions, &systems[..2]).upwards(vec![&vertical, &vertical]).is_ok());
     let error = plan(&motions, &systems).from_azimuths(vec![&motions, &[]], 50).unwrap_err();
