@@ -119,6 +119,45 @@ fn tests_by_hand() {
     assert_eq!(bits("t.h5"), bits("one.h5"));
 }
 
+/// A stiff oscillator moves with the ground, so that both spectra begin at the peaks that the tests have; an oscillator
+/// of the table has twice its period under the record itself, and under the code's spectrum.
+#[test]
+fn spectra_of_what_is_played() {
+    let study = small();
+    let spectra = "[spectra]\nperiods_s = [0.001, 0.3, 1, 2.5]\n[spectra.design]\nground_acceleration_g = 0.16\n";
+    study.write("table.toml", &format!("{STUDY}{spectra}"));
+    study.uplift(&["run", "table.toml", "-o", "t.h5", "-q"]).ok();
+    let recorded = array(&study, "t.h5", "spectral_acceleration_m_s2");
+    let [factor, pga_srss] = ["factor", "pga_srss_m_s2"].map(|name| array(&study, "t.h5", name));
+    assert_eq!((recorded.len(), factor.len()), (4 * 2 * 4, 8));
+    for (test, (factor, pga_srss)) in factor.iter().zip(&pga_srss).enumerate() {
+        let excitation = &recorded[8 * (test % 4)..][..8];
+        // where the ground's slope changes, the oscillator overshoots by less than that change over ω: 1/(ω dt) of the
+        // peak at most, with a period of 0.002 s and steps of 0.01 s under the record
+        let stiff = factor * excitation[0].hypot(excitation[4]);
+        assert!((stiff / pga_srss - 1.0).abs() < 0.032, "{stiff} {pga_srss}");
+    }
+    // the records by themselves, at twice the periods
+    let overrides = ["--set", "length_scale=1", "--set", "spectra.periods_s=[0.002, 0.6, 2, 5]"];
+    study.uplift(&[&["run", "table.toml", "-o", "one.h5", "-q"][..], &overrides].concat()).ok();
+    for (scaled, itself) in recorded.iter().zip(array(&study, "one.h5", "spectral_acceleration_m_s2")) {
+        assert!((scaled / itself - 1.0).abs() < 1e-12, "{scaled} {itself}");
+    }
+    let ground_m_s2 = 0.16 * 9.80665;
+    let design = array(&study, "t.h5", "design_spectrum_m_s2");
+    // ground type C, S = 1.15: the corners 0.2, 0.6 and 2 s are 0.1, 0.3 and 1 s on the table; nothing beyond 4 s
+    for (found, expected) in design.iter().zip([1.015, 2.5, 0.75]) {
+        assert!((found / (1.15 * ground_m_s2 * expected) - 1.0).abs() < 1e-12, "{design:?}");
+    }
+    assert!(design[3].is_nan());
+    study.uplift(&["export", "t.h5", "--json", "-q"]).ok();
+    let json: Value = serde_json::from_str(&std::fs::read_to_string(study.path().join("t.json")).unwrap()).unwrap();
+    assert_eq!(json["spectra"]["periods_s"].as_array().unwrap().len(), 4);
+    study.uplift(&["plot", "t.h5", "-o", "figures"]).ok();
+    let figure = std::fs::read_to_string(study.path().join("figures/shake-table-spectra.svg")).unwrap();
+    assert!(figure.contains("Eurocode 8") && figure.contains("median"));
+}
+
 /// Every command that takes a result.
 #[test]
 fn what_takes_a_result() {
@@ -133,7 +172,7 @@ fn what_takes_a_result() {
     assert!(told.contains("8 of frame.toml: 4 excitations at low, high"), "{told}");
     study.uplift(&["verify", "t.h5"]).ok();
     study.uplift(&["plot", "t.h5", "-o", "figures"]).ok();
-    for name in ["shake-table-cdf", "shake-table-drift", "shake-table-shear"] {
+    for name in ["shake-table-cdf", "shake-table-drift", "shake-table-shear", "shake-table-spectra"] {
         assert!(study.path().join("figures").join(format!("{name}.svg")).is_file(), "{name}");
     }
     study.uplift(&["report", "t.h5"]).ok();

@@ -44,7 +44,7 @@ pub use influence::StoredInfluence;
 pub(crate) use provenance::Origin;
 pub use provenance::Provenance;
 pub use records::StoredRecords;
-pub use shake_table::{Excitation, ShakeTable, TableLevel, TableTest};
+pub use shake_table::{DIRECTIONS, Excitation, ShakeTable, TableLevel, TableSpectra, TableTest};
 pub(crate) use shake_table::{QUANTITIES, column_of};
 pub use spectra::{Fit, MeasureSpectra, Spectrum, StoredSpectra};
 pub(crate) use spectra::{flag_number, flag_word};

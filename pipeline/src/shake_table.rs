@@ -6,10 +6,11 @@ mod inputs;
 mod plan;
 mod report;
 mod run;
+mod spectra;
 mod tests_of_table;
 mod write;
 
-pub use crate::result::{Excitation, ShakeTable, TableLevel, TableTest};
+pub use crate::result::{Excitation, ShakeTable, TableLevel, TableSpectra, TableTest};
 pub(crate) use csv::{COLUMN as TESTS_COLUMN, columns, tables};
 pub use csv::{shake_table_csv_path, write_shake_table_csv};
 pub(crate) use inputs::Inputs;

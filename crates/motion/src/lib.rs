@@ -9,6 +9,7 @@
 //! - [`read_record_file`], [`read_record`]: every component of a record file of any [`RecordFormat`],
 //!   with what the file says about it ([`RecordingDescription`]);
 //! - [`read_path`], [`read_auto`], [`read_at2`], [`read_columns`]: one accelerogram;
+//! - [`ElasticSpectrum`]: the elastic response spectrum of Eurocode 8;
 //! - [`classify_pulse`]: whether a pair is pulse-like, with the period and orientation of its pulse;
 //! - [`read_selection`]: the records that a tool of record selection chose for a level;
 //! - [`synthetic`]: record pairs from a stochastic model, for studies without real records.
@@ -20,6 +21,7 @@ mod accelerogram;
 mod arias;
 mod combination;
 mod component;
+mod elastic_spectrum;
 mod error;
 mod measure;
 mod pair;
@@ -37,6 +39,7 @@ mod write;
 pub use accelerogram::Accelerogram;
 pub use combination::{Combination, Peaks};
 pub use component::{Component, Direction, Drawn, Rotation};
+pub use elastic_spectrum::{ElasticSpectrum, GroundType, SpectrumShape};
 pub use error::MotionError;
 pub use measure::{IntensityMeasure, Period, geometric_mean, scale_factor};
 pub use pair::{Horizontal, RecordPair};

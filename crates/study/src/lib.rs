@@ -67,7 +67,7 @@ pub use sections::output::Output;
 pub use sections::record_source::{DEFAULT_SYNTHETIC_PAIRS, DEFAULT_SYNTHETIC_SEED, RecordSource};
 pub use sections::selection::{CRITERIA, Criterion, Range, RecordSelection};
 pub use sections::uncertainty::{Uncertainty, UncertaintyKind};
-pub use shake_table::{FrameModel, LevelPlan, ShakeTableStudy};
+pub use shake_table::{DesignSpectrumPlan, FrameModel, LevelPlan, ShakeTableStudy, SpectraPlan};
 pub use structure::{ColumnShape, RestrainerFile, Structure};
 pub use study::Study;
 pub use uniform_risk::{

@@ -4,11 +4,13 @@
 //! |---|---|
 //! | `levels` | `[[levels]]` |
 //! | `model` | `[model]` |
+//! | `spectra` | `[spectra]` |
 //!
 //! `[records]`, `[records.select]`, `[records.synthetic]` and `[output]` are as in other kinds.
 
 mod levels;
 mod model;
+mod spectra;
 
 use std::path::PathBuf;
 
@@ -23,6 +25,7 @@ use crate::warning::Warning;
 
 pub use levels::LevelPlan;
 pub use model::FrameModel;
+pub use spectra::{DesignSpectrumPlan, SpectraPlan};
 
 /// Prototype over model: as `uplift-frame` takes it.
 const LENGTH_SCALE: Rule = Rule::Is { holds: |value| (1e-3..=1e3).contains(&value), words: "from 0.001 to 1000" };
@@ -31,7 +34,7 @@ const LENGTH_SCALE: Rule = Rule::Is { holds: |value| (1e-3..=1e3).contains(&valu
 const TABLE_OF_EXCITATIONS: &str = "name the records in a table: excitations = \"excitations.csv\"";
 
 /// The reference of every key.
-pub(crate) const KEYS: [SectionKeys; 7] = [
+pub(crate) const KEYS: [SectionKeys; 9] = [
     SectionKeys {
         section: "",
         keys: &[
@@ -63,6 +66,8 @@ pub(crate) const KEYS: [SectionKeys; 7] = [
     record_source::SYNTHETIC_KEYS,
     levels::KEYS,
     model::KEYS,
+    spectra::KEYS,
+    spectra::DESIGN_KEYS,
     output::KEYS,
 ];
 
@@ -89,6 +94,8 @@ pub struct ShakeTableStudy {
     pub levels: Vec<LevelPlan>,
     /// What the model leaves to choose.
     pub model: FrameModel,
+    /// Of what response spectra are drawn.
+    pub spectra: SpectraPlan,
     /// What is written where.
     pub output: Output,
     /// What is allowed but probably not meant.
@@ -126,6 +133,7 @@ pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<ShakeTableStu
     let records = read_records(root.section("records"), paths, TABLE_OF_EXCITATIONS);
     let levels = levels::read(&mut root);
     let model = model::read(root.section("model"));
+    let spectra = spectra::read(root.section("spectra"));
     let manifest = records.as_ref().and_then(SetRecords::manifest);
     let inputs = manifest.into_iter().chain(structure.as_deref());
     let inputs = inputs.chain(excitations.as_ref().and_then(Option::as_deref));
@@ -140,6 +148,7 @@ pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<ShakeTableStu
         records: records?,
         levels: levels?,
         model: model?,
+        spectra: spectra?,
         output: output?,
         warnings: Vec::new(),
     };

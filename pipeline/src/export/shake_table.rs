@@ -7,7 +7,8 @@ use super::matlab::level_5::{MatFile, Shape};
 use super::source::provenance_of;
 use crate::alarms::{Alarm, alarms};
 use crate::error::UpliftError;
-use crate::result::{Head, QUANTITIES, ResultFile, ShakeTable, column_of};
+use crate::result::layout::shake_table as layout;
+use crate::result::{DIRECTIONS, Head, QUANTITIES, ResultFile, ShakeTable, column_of};
 use crate::shake_table::columns;
 
 /// The tests of a result, and where they come from.
@@ -49,10 +50,12 @@ impl TestsExport {
             "alarms": self.alarms,
             "shake_table": self.table,
             "order": self.table.order(),
+            "spectra": self.table.spectra,
         })
     }
 
-    /// A MATLAB file: `u_m` and every other quantity of a test are excitation × level.
+    /// A MATLAB file: `u_m` and every other quantity of a test are excitation × level, spectra are period × direction ×
+    /// excitation.
     ///
     /// # Errors
     /// A result that is too large for the format.
@@ -76,6 +79,15 @@ impl TestsExport {
         }
         let order: Vec<f64> = self.table.order().into_iter().map(f64::from).collect();
         file.numbers("order", &shape, &order);
+        if let Some(spectra) = &self.table.spectra {
+            let count = spectra.periods_s.len();
+            file.numbers("period_s", &Shape::column(count), &spectra.periods_s);
+            let shape = Shape(vec![count, DIRECTIONS.len(), excitations.len()]);
+            file.numbers(column_of(layout::SPECTRAL_ACCELERATION_M_S2), &shape, &spectra.recorded_m_s2);
+            if let Some(design_m_s2) = &spectra.design_m_s2 {
+                file.numbers(column_of(layout::DESIGN_SPECTRUM_M_S2), &Shape::column(count), design_m_s2);
+            }
+        }
         file.finish().map_err(UpliftError::input)
     }
 }

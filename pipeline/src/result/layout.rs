@@ -276,6 +276,7 @@ in_group! {
     U_M = "u_m", U_X_M = "u_x_m", U_Y_M = "u_y_m", DRIFT = "drift", TENDON_N = "tendon_n", SPRING_M = "spring_m",
     BASE_SHEAR_N = "base_shear_n", BASE_REACTION_N = "base_reaction_n",
     DECK_ACCELERATION_M_S2 = "deck_acceleration_m_s2",
+    SPECTRAL_ACCELERATION_M_S2 = "spectral_acceleration_m_s2", DESIGN_SPECTRUM_M_S2 = "design_spectrum_m_s2",
 }
 
 /// The motions of a set of records.
@@ -378,6 +379,8 @@ pub mod axis {
         KNOT,
         LEVEL,
         EXCITATION,
+        DIRECTION,
+        PERIOD,
     ];
     /// Ground motions.
     pub const RECORD: &str = "record";
@@ -426,6 +429,10 @@ pub mod axis {
     pub const LEVEL: &str = "level";
     /// What a table plays.
     pub const EXCITATION: &str = "excitation";
+    /// Horizontal components of what a table plays.
+    pub const DIRECTION: &str = "direction";
+    /// Natural periods.
+    pub const PERIOD: &str = "period";
 
     /// The path of an axis.
     pub fn path(name: &str) -> String {

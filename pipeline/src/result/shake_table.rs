@@ -24,7 +24,34 @@ pub struct ShakeTable {
     pub excitations: Vec<Excitation>,
     /// Every excitation at every level, `[level, excitation]`.
     pub tests: Vec<TableTest>,
+    /// What the table plays as response spectra; none in a result of a version that had none.
+    #[serde(skip)]
+    pub spectra: Option<TableSpectra>,
 }
+
+/// Response spectra of what the table plays, 5 % damped (Fig. 6.12).
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TableSpectra {
+    /// Natural periods in the time of the table, s.
+    pub periods_s: Vec<f64>,
+    /// Of each component in the time of the table with the accelerations as recorded, m/s²,
+    /// `[excitation, direction, period]`: times the factor of a test it is the spectrum on the table.
+    pub recorded_m_s2: Vec<f64>,
+    /// The code's in the time of the table, m/s², NaN beyond its longest period; none where none was asked for.
+    pub design_m_s2: Option<Vec<f64>>,
+}
+
+impl TableSpectra {
+    /// The spectrum of an excitation's component as recorded, m/s².
+    pub fn recorded(&self, excitation: usize, direction: usize) -> &[f64] {
+        let count = self.periods_s.len();
+        let first = (excitation * DIRECTIONS.len() + direction) * count;
+        &self.recorded_m_s2[first..first + count]
+    }
+}
+
+/// The horizontal components of what a table plays.
+pub const DIRECTIONS: [&str; 2] = ["x", "y"];
 
 /// A level of shaking.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -179,6 +206,23 @@ impl ResultFile {
                 })
                 .collect(),
             tests,
+            spectra: self.table_spectra(excitation)?,
         })
+    }
+
+    /// The spectra of what a table plays; none in a result of a version that had none.
+    fn table_spectra(&self, excitation: (&str, usize)) -> Result<Option<TableSpectra>, UpliftError> {
+        let reader = &self.reader;
+        if !reader.exists(layout::SPECTRAL_ACCELERATION_M_S2) {
+            return Ok(None);
+        }
+        let periods_s = reader.axis_f64(axis::PERIOD)?;
+        let period = (axis::PERIOD, periods_s.len());
+        let numbers = |path: &str, axes: &[(&str, usize)]| self.checked(path, reader.array_f64(path)?, axes);
+        let axes = [excitation, (axis::DIRECTION, DIRECTIONS.len()), period];
+        let recorded_m_s2 = numbers(layout::SPECTRAL_ACCELERATION_M_S2, &axes)?;
+        let design = layout::DESIGN_SPECTRUM_M_S2;
+        let design_m_s2 = reader.exists(design).then(|| numbers(design, &[period])).transpose()?;
+        Ok(Some(TableSpectra { periods_s, recorded_m_s2, design_m_s2 }))
     }
 }

@@ -12,6 +12,8 @@ use crate::events::Events;
 use crate::frame::PlanHead;
 use crate::machine::{Needs, PROGRAM_BYTES};
 
+/// Bytes of an ordinate of the spectrum of an excitation: two components.
+const ORDINATE_BYTES: u64 = 16;
 /// Bytes of a test in the result and in the table beside it.
 const TEST_BYTES: u64 = 400;
 
@@ -57,9 +59,11 @@ pub(crate) fn plan(study: &ShakeTableStudy, study_file: &Path, events: &dyn Even
 /// What a run takes: records with their integrals, 64 bytes a sample, and some hundred bytes a test.
 pub(super) fn needs(study: &ShakeTableStudy, inputs: &Inputs) -> Needs {
     let tests = (study.levels.len() * inputs.records.records.len()) as u64;
+    let ordinates = (study.spectra.periods_s.len() * inputs.records.records.len()) as u64;
+    let result_bytes = TEST_BYTES * tests + ORDINATE_BYTES * ordinates;
     Needs {
-        memory_bytes: PROGRAM_BYTES + 64 * inputs.samples() + TEST_BYTES * tests,
-        disk_bytes: TEST_BYTES * tests + 1_000_000,
+        memory_bytes: PROGRAM_BYTES + 64 * inputs.samples() + result_bytes,
+        disk_bytes: result_bytes + 1_000_000,
         disk_least_bytes: 0,
     }
 }

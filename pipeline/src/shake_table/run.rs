@@ -6,6 +6,7 @@ use uplift_study::{Kind, ShakeTableStudy};
 
 use super::plan::needs;
 use super::report::RunReport;
+use super::spectra::spectra;
 use super::{Inputs, ShakeTableOutcome, carry_out, write_shake_table, write_shake_table_csv};
 use crate::alarms::alarms;
 use crate::error::UpliftError;
@@ -25,7 +26,8 @@ pub(crate) fn run(study: &ShakeTableStudy, place: &Place<'_>, events: &dyn Event
     events.remark("records", &inputs.records.description);
     needs(study, &inputs).require(path, events)?;
     let begin = Instant::now();
-    let table = carry_out(study, &inputs, events)?;
+    let mut table = carry_out(study, &inputs, events)?;
+    table.spectra = Some(spectra(study, &inputs, events)?);
     let seconds = begin.elapsed().as_secs_f64();
     let mut warnings = inputs.notes.clone();
     warnings.push(TORSION.to_owned());

@@ -62,6 +62,7 @@ pub(crate) fn carry_out(
             .collect(),
         excitations: played.into_iter().map(|(excitation, _)| excitation).collect(),
         tests,
+        spectra: None,
     })
 }
 

@@ -7,7 +7,7 @@ use uplift_study::{Kind, ShakeTableStudy};
 
 use crate::error::UpliftError;
 use crate::result::layout::{axis, shake_table as layout};
-use crate::result::{Excitation, Origin, Provenance, QUANTITIES, ShakeTable};
+use crate::result::{DIRECTIONS, Excitation, Origin, Provenance, QUANTITIES, ShakeTable, TableSpectra};
 
 /// All that a study of a shaking table computed.
 #[derive(Debug)]
@@ -65,10 +65,26 @@ pub fn write_shake_table(path: &Path, outcome: &ShakeTableOutcome<'_>) -> Result
         let values: Vec<f64> = table.tests.iter().map(|test| *place(&mut test.clone())).collect();
         writer.array_f64(array, dims, &values, unit, long_name)?;
     }
+    table.spectra.iter().try_for_each(|spectra| write_spectra(&mut writer, spectra))?;
     writer.attribute(layout::GROUP, "structure", table.structure.as_str())?;
     writer.attribute(layout::GROUP, "length_scale", table.length_scale)?;
     writer.attribute(layout::GROUP, "analyses", table.tests.len() as u64)?;
     writer.attribute(layout::GROUP, "seconds", outcome.seconds)?;
     writer.finish()?;
+    Ok(())
+}
+
+fn write_spectra(writer: &mut LabelledWriter, spectra: &TableSpectra) -> Result<(), UpliftError> {
+    writer.axis_text(axis::DIRECTION, &DIRECTIONS.map(str::to_owned), "horizontal component")?;
+    writer.axis_f64(axis::PERIOD, &spectra.periods_s, "s", "natural period in the time of the table")?;
+    let dims = &[axis::EXCITATION, axis::DIRECTION, axis::PERIOD];
+    let long_name = "spectral acceleration at 5 % damping of the component in the time of the table, accelerations as \
+                     recorded: times factor it is that on the table";
+    writer.array_f64(layout::SPECTRAL_ACCELERATION_M_S2, dims, &spectra.recorded_m_s2, "m/s2", long_name)?;
+    if let Some(design_m_s2) = &spectra.design_m_s2 {
+        let long_name =
+            "elastic response spectrum of EN 1998-1 in the time of the table, NaN beyond its longest period";
+        writer.array_f64(layout::DESIGN_SPECTRUM_M_S2, &[axis::PERIOD], design_m_s2, "m/s2", long_name)?;
+    }
     Ok(())
 }

@@ -1,6 +1,7 @@
 //! The tests of a shaking table: distributions by class, and drifts test by test.
 
-use uplift::result::ShakeTable;
+use uplift::result::{DIRECTIONS, ShakeTable};
+use uplift_fragility::quantile;
 use uplift_plot::{Axis, Figure, Marks, Panel, Series, Tone};
 use uplift_validation::Sample;
 
@@ -8,7 +9,7 @@ use super::validation::stairs;
 
 /// Every figure of the tests.
 pub fn shake_table_figures(table: &ShakeTable) -> Vec<Figure> {
-    vec![distributions(table), drifts(table), shears(table)]
+    [distributions(table), drifts(table), shears(table)].into_iter().chain(spectra(table)).collect()
 }
 
 /// Empirical distributions of U by class, a panel a level (Fig. 6.18, the computed lines).
@@ -83,6 +84,43 @@ fn shears(table: &ShakeTable) -> Figure {
         "Largest base shear of the deck over the largest drift of each test; both need not be at the same time.",
         vec![Panel::lines("", x, y, series.collect())],
     )
+}
+
+/// Response spectra of what the table plays, a panel a class, level and component (Fig. 6.12); none without motions.
+fn spectra(table: &ShakeTable) -> Option<Figure> {
+    let spectra = table.spectra.as_ref()?;
+    let classes = table.classes();
+    let line = |ordinates_m_s2: &[f64], factor: f64| -> Vec<(f64, f64)> {
+        let of = |(period_s, ordinate_m_s2): (&f64, &f64)| (*period_s, factor * ordinate_m_s2);
+        spectra.periods_s.iter().zip(ordinates_m_s2).map(of).collect()
+    };
+    let panel = |class: &str, level: usize, direction: usize| {
+        let tests = table.of_level(level).enumerate().filter(|(_, (one, _))| one.class == class);
+        let motions: Vec<Vec<(f64, f64)>> =
+            tests.map(|(place, (_, test))| line(spectra.recorded(place, direction), test.factor)).collect();
+        let median = spectra.periods_s.iter().enumerate().map(|(period, period_s)| {
+            let mut ordinates_m_s2: Vec<f64> = motions.iter().map(|motion| motion[period].1).collect();
+            ordinates_m_s2.sort_by(f64::total_cmp);
+            (*period_s, quantile(&ordinates_m_s2, 0.5))
+        });
+        let median = Series::line("median", median.collect(), Tone::Distinct(0));
+        let motions = motions.into_iter().map(|motion| Series::line("", motion, Tone::Faint));
+        let design = spectra.design_m_s2.as_ref().map(|ordinates_m_s2| line(ordinates_m_s2, 1.0));
+        let design = design.map(|points| Series::line("Eurocode 8, elastic", points, Tone::Distinct(1)));
+        let title = format!("{class}, {}, {}", table.levels[level].name, DIRECTIONS[direction]);
+        let (x, y) = (Axis::linear("period on the table, s"), Axis::linear("spectral acceleration, m/s²"));
+        Panel::lines(title, x, y, motions.chain([median]).chain(design).collect())
+    };
+    let panels = classes.iter().flat_map(|class| {
+        (0..table.levels.len()).flat_map(move |level| (0..DIRECTIONS.len()).map(move |of| (*class, level, of)))
+    });
+    Some(figure(
+        table,
+        "shake-table-spectra",
+        "Response spectra of the motions",
+        "Spectral acceleration of the motions on the table at 5 % damping, by class, level and component (Fig. 6.12).",
+        panels.map(|(class, level, direction)| panel(class, level, direction)).collect(),
+    ))
 }
 
 fn figure(table: &ShakeTable, id: &str, title: &str, caption: &str, panels: Vec<Panel>) -> Figure {

@@ -25,6 +25,12 @@ pgv_srss_m_s = 0.335
 [model]
 rest_amplitude_rad = 1e-4
 start_rotation_rad = 1e-9
+[spectra]
+periods_s = ["0.1:0.1:0.5", 2]
+[spectra.design]
+ground_acceleration_g = 0.16
+ground = "D"
+shape = "type2"
 [output]
 file = "x.h5"
 csv = false
@@ -56,6 +62,10 @@ fn a_complete_study_is_read_and_written_as_it_is() {
     assert_eq!((study.length_scale, study.levels[1].pgv_srss_m_s), (5.0, 0.335));
     let bare = load(&Folder::new(BARE)).unwrap();
     assert_eq!((bare.length_scale, bare.excitations), (1.0, None));
+    assert_eq!((bare.spectra.periods_s.len(), bare.spectra.design), (46, None));
+    let design = study.spectra.design.unwrap().spectrum(study.gravity_m_s2);
+    // plateau of ground type D, type 2: 1.8 times 2.5
+    assert!((design.acceleration_m_s2(0.2).unwrap() / (0.16 * 9.81 * 4.5) - 1.0).abs() < 1e-15);
     assert_eq!((bare.model.rest_amplitude_rad, bare.model.start_rotation_rad), (1e-5, 1e-12));
 }
 
@@ -73,7 +83,8 @@ fn a_level_in_another_unit_is_told() {
 fn mistakes_are_all_told_at_once() {
     let folder = Folder::new(
         "kind = \"shake table\"\nlength_scale = 0\n[records]\ntag = \"nf\"\n[[levels]]\nname = \"low\"\n[[levels]]\n\
-         name = \"LOW\"\npgv_srss_m_s = 1e4\n[model]\nrest_amplitude_rad = 1\nkind = 2\n",
+         name = \"LOW\"\npgv_srss_m_s = 1e4\n[model]\nrest_amplitude_rad = 1\nkind = 2\n\
+         [spectra]\nperiods_s = [0.5, 0.1]\n[spectra.design]\nground = \"F\"\n",
     );
     let told = texts(&load(&folder).unwrap_err());
     for words in [
@@ -85,6 +96,9 @@ fn mistakes_are_all_told_at_once() {
         "the value is 10000 m/s",
         "rest_amplitude_rad",
         "model.kind: unknown key",
+        "a grid must increase",
+        "the design spectrum has no ground acceleration",
+        "unknown ground: the text \"F\"",
     ] {
         assert!(told.contains(words), "{words:?} is not in:\n{told}");
     }
