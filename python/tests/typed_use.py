@@ -1,7 +1,7 @@
 """What mypy makes of the package in strict mode (.ci/build-wheel); it is not run."""
 
 from pathlib import Path
-from typing import assert_type
+from typing import Any, assert_type
 
 import numpy as np
 import xarray
@@ -29,3 +29,6 @@ result = uplift.run({"pgv": {}}, output=Path("r.h5"), progress=lambda event: eve
 assert_type(result, uplift.Result)
 assert_type(result.urs, xarray.Dataset)
 assert_type(result.plot("urs").svg, str)
+assert_type(result.compute_target(Path("pier.toml"), "size", overturning=2e-4), dict[str, Any])
+variants = uplift.sweep("study.toml", {"oscillator.restitution": [0.85, 0.95]})
+assert_type(variants["restitution-0.85"].urs, xarray.Dataset)

@@ -55,6 +55,7 @@ from ._program import Cancelled, Event, Mistake, StudyError, UpliftWarning, find
 from ._result import Result, open_result
 from ._structures import structure
 from ._studies import check, run
+from ._sweep import Sweep, sweep
 
 __all__ = [
     "Arrays",
@@ -82,6 +83,7 @@ __all__ = [
     "Spectra",
     "Structure",
     "StudyError",
+    "Sweep",
     "UpliftWarning",
     "Validation",
     "__version__",
@@ -103,6 +105,7 @@ __all__ = [
     "risk_curve",
     "run",
     "structure",
+    "sweep",
     "urs",
     "validate",
 ]

@@ -11,6 +11,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
+from ._commands import StructureCommands, command_options
 from ._figure import Figure
 from ._groups import Arrays, attributes, columns, dataset, open_file, optional, read_group
 from ._program import Progress, StudyError, call
@@ -62,7 +63,7 @@ def open_result(path: _PathLike, measure: str | None = None) -> Result:
     return Result(path, measure)
 
 
-class Result:
+class Result(StructureCommands):
     """A result file, seen by one of its intensity measures.
 
     The groups of the file are `xarray.Dataset`, or `Arrays` where xarray is not installed; names, units and attributes
@@ -256,11 +257,11 @@ class Result:
             Whether a file that the program did not write may be replaced.
         """
         options = {"output": output, "poe": poe, "return_period": return_period, "years": years, "force": force}
-        call(["export", self.path, *(f"--{name}" for name in formats), *_options(options)])
+        call(["export", self.path, *(f"--{name}" for name in formats), *command_options(options)])
 
     def report(self, output: _PathLike | None = None, *, force: bool = False) -> None:
         """Writes one page with everything; without `output` beside the result, with the ending .html."""
-        call(["report", self.path, *_options({"output": output, "force": force})])
+        call(["report", self.path, *command_options({"output": output, "force": force})])
 
     def verify(self) -> None:
         """Looks whether every byte is as it was written; a `ValueError` where one is not."""
@@ -378,20 +379,7 @@ class Result:
         return columns(self._arrays(self._place(group)))
 
     def _compute(self, command: str, options: Mapping[str, Any], progress: Progress | None) -> list[dict[str, Any]]:
-        told = call([command, self.path, "--json", *_options(options)], progress=progress)
+        told = call([command, self.path, "--json", *command_options(options)], progress=progress)
         self.__dict__.pop("groups", None)
         rows: list[dict[str, Any]] = json.loads(told)
         return rows
-
-
-def _options(options: Mapping[str, Any]) -> list[str]:
-    """Options of the command line; what is None or False is left out."""
-    found = []
-    for name, value in options.items():
-        option = f"--{name.replace('_', '-')}"
-        if value is True:
-            found.append(option)
-        elif value is not None and value is not False:
-            many = hasattr(value, "__iter__") and not isinstance(value, (str, os.PathLike))
-            found.append(f"{option}={','.join(map(str, value)) if many else value}")
-    return found

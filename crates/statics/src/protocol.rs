@@ -81,7 +81,7 @@ impl LoadingProtocol {
             "last amplitude",
             last,
             "",
-            "at most 1: drift is a ratio, not per cent, or of fewer sets",
+            "at most 1: take a smaller first amplitude (a drift ratio, not per cent), a smaller ratio or fewer sets",
         )?;
         Ok(protocol)
     }

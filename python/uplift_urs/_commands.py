@@ -1,0 +1,275 @@
+"""What the program says of structures under the records and the hazard of a result."""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, Literal
+
+from . import _toml
+from ._program import Progress, call
+
+_PathLike = str | os.PathLike[str]
+#: A structure file, or its keys; files that the keys name are then to be named with their whole path.
+StructureLike = _PathLike | Mapping[str, Any]
+
+
+class StructureCommands:
+    """The commands that ask a result of a structure; each returns what ``--json`` prints.
+
+    They compute the structure's own stripes under the result's records, which the program keeps beside the result, so
+    that the next question is answered from them.
+    """
+
+    path: Path
+
+    def compute_design(
+        self,
+        structure: StructureLike,
+        *,
+        site: str | None = None,
+        measure: str | None = None,
+        poe: Sequence[float] | None = None,
+        return_period: Sequence[float] | None = None,
+        years: float | None = None,
+        repaired: bool = False,
+        safety_factor: float | None = None,
+        spectrum_only: bool = False,
+        manifest: _PathLike | None = None,
+        report: _PathLike | None = None,
+        force: bool = False,
+        threads: int | None = None,
+        progress: Progress | None = None,
+    ) -> dict[str, Any]:
+        """Designs a structure by the spectrum, and tests it by its own risk, as ``uplift design`` does.
+
+        Parameters
+        ----------
+        structure : str, os.PathLike or mapping
+            A structure file, or its keys.
+        site, measure : str, optional
+            Without them the only site, and PGV if the result has it.
+        poe, return_period : sequence of float, optional
+            Any probabilities of exceedance in `years`, or return periods in years; without them those of the study.
+        repaired : bool
+            Whether the repaired spectrum is read, after ``compute_consistency(repair=True)``.
+        safety_factor : float, optional
+            FS of Eq. 3.15; 2.5 without it.
+        spectrum_only : bool
+            Whether the structure itself is not analysed.
+        manifest : str or os.PathLike, optional
+            The records' manifest, where it is no longer where the study says.
+        report : str or os.PathLike, optional
+            A page to hand over (HTML), which is replaced with `force` only.
+
+        Returns
+        -------
+        dict
+            Demands in m, rates in 1/yr, with "notes" and "alarms".
+
+        Raises
+        ------
+        StudyError, OSError, Cancelled
+            As of `run`.
+        """
+        options = {
+            "site": site,
+            "measure": measure,
+            "poe": poe,
+            "return_period": return_period,
+            "years": years,
+            "repaired": repaired,
+            "safety_factor": safety_factor,
+            "spectrum_only": spectrum_only,
+            "manifest": manifest,
+            "report": report,
+            "force": force,
+            "threads": threads,
+        }
+        return self._of_structure("design", structure, options, progress)
+
+    def compute_overturning(
+        self,
+        structure: StructureLike,
+        *,
+        site: str | None = None,
+        measure: str | None = None,
+        restitution: float | None = None,
+        manifest: _PathLike | None = None,
+        threads: int | None = None,
+        progress: Progress | None = None,
+    ) -> dict[str, Any]:
+        """Says how often a structure overturns, by oscillator and rigid block, as ``uplift overturning`` does.
+
+        Parameters
+        ----------
+        structure : str, os.PathLike or mapping
+        site, measure : str, optional
+            Without them all of the result.
+        restitution : float, optional
+            One for both models, in place of their own.
+        manifest
+            As of `compute_design`.
+
+        Returns
+        -------
+        dict
+            Frequencies in 1/yr with their bands.
+        """
+        options = {
+            "site": site,
+            "measure": measure,
+            "restitution": restitution,
+            "manifest": manifest,
+            "threads": threads,
+        }
+        return self._of_structure("overturning", structure, options, progress)
+
+    def compute_target(
+        self,
+        structure: StructureLike,
+        vary: Literal["strength", "size", "width", "capacity", "tendon-stiffness"],
+        *,
+        overturning: float | None = None,
+        exceed: float | Literal["capacity"] | None = None,
+        per_year: float | None = None,
+        poe: float | None = None,
+        return_period: float | None = None,
+        years: float | None = None,
+        between: tuple[float | None, float | None] = (None, None),
+        tolerance: float | None = None,
+        at: Sequence[float] | None = None,
+        generic_dispersion: float | None = None,
+        generic_probability: float | None = None,
+        site: str | None = None,
+        measure: str | None = None,
+        manifest: _PathLike | None = None,
+        threads: int | None = None,
+        progress: Progress | None = None,
+    ) -> dict[str, Any]:
+        """Finds the least value of a quantity that meets a target risk, as ``uplift target`` does.
+
+        Parameters
+        ----------
+        structure : str, os.PathLike or mapping
+        vary : {"strength", "size", "width", "capacity", "tendon-stiffness"}
+            All else is kept.
+        overturning : float, optional
+            Overturning may happen so often a year.
+        exceed : float or "capacity", optional
+            In place of it a displacement in m, or the structure's own capacity, that may be exceeded as rarely as one
+            of these says: `per_year` (1/yr), `poe` in `years`, `return_period` (years).
+        between : tuple of float
+            Least and largest value tried, in SI units; without them a quarter and four times the structure's own.
+        tolerance : float, optional
+            How near the values that meet and miss the target must lie, as a share; 0.005 without it.
+        at : sequence of float, optional
+            Return periods, years, at whose levels the structure that was found is looked at.
+        generic_dispersion, generic_probability : float, optional
+            A generic lognormal fragility beside it: the risk-targeted motion.
+        site, measure, manifest
+            As of `compute_design`.
+
+        Returns
+        -------
+        dict
+            "value" and its "band", every crossing, what was tried.
+        """
+        options = {
+            "vary": vary,
+            "overturning": overturning,
+            "exceed": exceed,
+            "per_year": per_year,
+            "poe": poe,
+            "return_period": return_period,
+            "years": years,
+            "from": between[0],
+            "to": between[1],
+            "tolerance": tolerance,
+            "at": at,
+            "generic_dispersion": generic_dispersion,
+            "generic_probability": generic_probability,
+            "site": site,
+            "measure": measure,
+            "manifest": manifest,
+            "threads": threads,
+        }
+        return self._of_structure("target", structure, options, progress)
+
+    def compute_risk(
+        self,
+        structure: StructureLike,
+        *,
+        site: str | None = None,
+        measure: str | None = None,
+        model: Literal["wobbling", "planar"] | None = None,
+        poe: Sequence[float] | None = None,
+        return_period: Sequence[float] | None = None,
+        years: float | None = None,
+        manifest: _PathLike | None = None,
+        threads: int | None = None,
+        progress: Progress | None = None,
+    ) -> dict[str, Any]:
+        """The risk of a rocking frame itself beside what its proxies say, as ``uplift risk`` does (Chapter 6).
+
+        Parameters
+        ----------
+        structure : str, os.PathLike or mapping
+            With columns and a deck.
+        model : {"wobbling", "planar"}, optional
+            Without it by the shape of the columns.
+        site, measure, poe, return_period, years, manifest
+            As of `compute_design`.
+
+        Returns
+        -------
+        dict
+            Demands of every model with their bands, in m; frequencies of events, in 1/yr.
+        """
+        options = {
+            "site": site,
+            "measure": measure,
+            "model": model,
+            "poe": poe,
+            "return_period": return_period,
+            "years": years,
+            "manifest": manifest,
+            "threads": threads,
+        }
+        return self._of_structure("risk", structure, options, progress)
+
+    def _of_structure(
+        self, command: str, structure: StructureLike, options: Mapping[str, Any], progress: Progress | None
+    ) -> dict[str, Any]:
+        with _structure_file(structure) as file:
+            arguments = [command, "--json", f"--urs={self.path}", *command_options(options), "--", file]
+            told: dict[str, Any] = json.loads(call(arguments, progress=progress))
+        return told
+
+
+@contextmanager
+def _structure_file(structure: StructureLike) -> Iterator[str]:
+    if not isinstance(structure, Mapping):
+        yield os.fspath(structure)
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder, "structure.toml")
+        file.write_text(_toml.document(structure), encoding="utf-8")
+        yield os.fspath(file)
+
+
+def command_options(options: Mapping[str, Any]) -> list[str]:
+    """Options of the command line; what is None or False is left out."""
+    found = []
+    for name, value in options.items():
+        option = f"--{name.replace('_', '-')}"
+        if value is True:
+            found.append(option)
+        elif value is not None and value is not False:
+            many = hasattr(value, "__iter__") and not isinstance(value, (str, os.PathLike))
+            found.append(f"{option}={','.join(map(str, value)) if many else value}")
+    return found
