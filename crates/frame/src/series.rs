@@ -179,23 +179,13 @@ impl Expansion {
             }
             let mut outward = 0.0;
             if turning.is_some() {
-                wobble.order(constants, step, shaken, k);
-                let [push, across, centrifugal, sin_change, cos_change] = products(
-                    [
-                        (&cos_psi, &wobble.pushes),
-                        (&wobble.travel, &wobble.across),
-                        (&wobble.slope, &wobble.turning_squared),
-                        (&step.cos_direction, &step.turning),
-                        (&step.sin_direction, &step.turning),
-                    ],
-                    k,
-                );
-                moment += push;
-                outward = 0.5 * centrifugal;
-                step.momentum[k + 1] = factor * constants.fall * across;
+                let change = wobble.order(constants, step, shaken, cos_psi[k], k);
+                moment += change.push;
+                outward = 0.5 * change.centrifugal;
+                step.momentum[k + 1] = factor * constants.fall * change.across;
                 step.direction[k + 1] = factor * step.turning[k];
-                step.sin_direction[k + 1] = factor * sin_change;
-                step.cos_direction[k + 1] = -factor * cos_change;
+                step.sin_direction[k + 1] = factor * change.sin;
+                step.cos_direction[k + 1] = -factor * change.cos;
             } else {
                 moment += short_product(along, &cos_psi, k);
             }
@@ -281,7 +271,7 @@ impl Step {
 
     /// Rotation and velocity at s.
     pub(crate) fn at(&self, s: f64) -> (f64, f64) {
-        (value(self.x(), s), value(self.v(), s))
+        (value_at(self.x(), s), value_at(self.v(), s))
     }
 
     /// Acceleration at s, rad/s².
@@ -291,12 +281,12 @@ impl Step {
 
     /// `sin θ` and `1 − cos θ` at s.
     pub(crate) fn tilt_at(&self, s: f64) -> (f64, f64) {
-        (value(&self.sine[..=self.order], s), value(&self.versine[..=self.order], s))
+        (value_at(&self.sine[..=self.order], s), value_at(&self.versine[..=self.order], s))
     }
 
     /// `cos φ` and `sin φ` at s.
     pub(crate) fn direction_vector(&self, s: f64) -> [f64; 2] {
-        [value(&self.cos_direction[..=self.order], s), value(&self.sin_direction[..=self.order], s)]
+        [value_at(&self.cos_direction[..=self.order], s), value_at(&self.sin_direction[..=self.order], s)]
     }
 
     /// Direction of the lean and its momentum at s.
@@ -310,7 +300,7 @@ impl Step {
     /// `φ̇` and `φ̈` at s, rad/s and rad/s².
     pub(crate) fn turning_rate(&self, s: f64) -> (f64, f64) {
         let c = &self.turning[..self.order];
-        (value(c, s), slope(c, s) / self.length_s)
+        (value_at(c, s), slope(c, s) / self.length_s)
     }
 
     /// Coefficients of `U_x/2R` and `U_y/2R`.
@@ -334,8 +324,16 @@ impl Step {
     }
 }
 
+/// A series at s, at whose begin there is nothing to sum: every step is looked at there.
+fn value_at(c: &[f64], s: f64) -> f64 {
+    if s == 0.0 { c[0] } else { value(c, s) }
+}
+
 /// Derivative of a series by s.
 fn slope(c: &[f64], s: f64) -> f64 {
+    if s == 0.0 {
+        return c[1];
+    }
     c.iter().enumerate().skip(1).rev().fold(0.0, |sum, (k, c)| sum * s + k as f64 * c)
 }
 

@@ -48,9 +48,27 @@ pub fn product(a: &[f64], b: &[f64], k: usize) -> f64 {
 pub fn products<const N: usize>(pairs: [(&[f64; DEGREE + 1], &[f64; DEGREE + 1]); N], k: usize) -> [f64; N] {
     assert!(k <= DEGREE);
     let mut sums = [0.0; N];
-    for j in 0..=k {
+    // two ranges that exclude their ends: that they stay within the arrays is seen at compile time
+    let terms = k + 1;
+    for (j, i) in (0..terms).zip((0..terms).rev()) {
         for (sum, (a, b)) in sums.iter_mut().zip(pairs) {
-            *sum += a[j] * b[k - j];
+            *sum += a[j] * b[i];
+        }
+    }
+    sums
+}
+
+/// The coefficients `k` of the products of `a` and `b`, which hold their coefficients `[order][lane]`, lane by lane.
+/// The sums are those of [`products`]; vectors of the processor add them.
+///
+/// # Panics
+/// If `a` or `b` has not `k + 1` orders.
+#[inline]
+pub fn products_by_lane<const N: usize>(a: &[[f64; N]], b: &[[f64; N]], k: usize) -> [f64; N] {
+    let mut sums = [0.0; N];
+    for (a, b) in a[..=k].iter().zip(b[..=k].iter().rev()) {
+        for ((sum, a), b) in sums.iter_mut().zip(a).zip(b) {
+            *sum += a * b;
         }
     }
     sums
