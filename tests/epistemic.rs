@@ -103,7 +103,7 @@ fn mistakes_in_branches_are_all_said() {
 }
 
 /// 105 synthetic pairs at a site whose hazard is that of Montreux or that of Athens, by both measures.
-fn two_measures(pgv: &str, pga: &str, more: &str) -> SmallStudy {
+pub(crate) fn two_measures(pgv: &str, pga: &str, more: &str) -> SmallStudy {
     let hazard = repository().join("hazard").display().to_string();
     let curves = |measure: &str, names: &str| {
         let of = |(name, place, weight): (&str, &str, f64)| {

@@ -28,6 +28,7 @@ mod frame_response;
 mod frame_risk;
 mod hazard;
 mod instructions;
+mod joint_bands;
 mod levels;
 mod limits;
 mod measures;

@@ -7,15 +7,17 @@ mod compute;
 mod draws;
 mod inferred;
 mod job;
+mod joint;
 mod needs;
 mod reference;
 mod repaired;
 mod report;
 mod write;
 
-pub use bands::{Bands, JointBands, RepairedBands, SpectraBands};
+pub use bands::{Bands, RepairedBands, SpectraBands};
 pub(crate) use checkpoint::{finished_strengths, part_path};
 pub use job::{BootstrapOptions, bootstrap};
+pub use joint::JointBands;
 pub use reference::{ReferenceRow, read_reference};
 pub use repaired::MANY_FAILED;
 pub use report::{BootstrapReport, BootstrapRow, Initiation, RepairedFigures};

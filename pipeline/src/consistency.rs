@@ -35,6 +35,6 @@ pub use finding::Finding;
 pub use job::{ConsistencyOptions, consistency};
 pub(crate) use question::Question;
 pub use report::{AgreementRow, ConsistencyReport, ConsistencyRow, RepairRow, TargetRow, TwoSidedRow};
-pub(crate) use reweighing::Reweighing;
+pub(crate) use reweighing::{RepairedAnalysis, Reweighed, ReweighedBranch, Reweighing};
 pub(crate) use spectra::Repairs;
 pub(crate) use write::Keep;

@@ -28,7 +28,9 @@ mod target;
 
 pub use asked::{AskedRisk, RiskTargets};
 pub(crate) use bands::BandMethod;
-pub use bands::{InferredBands, MeasureBands, StoredBands, StoredRepairedBands, StoredSpectraBands, WidestInferred};
+pub use bands::{
+    InferredBands, MeasureBands, StoredBands, StoredJointBands, StoredRepairedBands, StoredSpectraBands, WidestInferred,
+};
 pub use consistency::StoredConsistency;
 pub(crate) use design::{BOUNDS, bounds, rule_names};
 pub use design::{DesignRow, RULES, StoredDesign, StoredDesigned};

@@ -34,21 +34,27 @@ pub(super) fn failing_samples(evidence: &Evidence, scope: &Scope) -> Option<Alar
     let mut cases = Vec::new();
     for bands in &stored.measures {
         let Some(repaired) = &bands.repaired else { continue };
+        let records = stored.sizes[stored.largest()];
+        let of_joint = repaired.bands.joint.as_ref().and_then(|joint| joint.failed.as_ref());
+        let kinds = [
+            (Some(&repaired.failed), format!("the site's hazard to {{}} of the samples of {records} records")),
+            (of_joint, format!("the hazard to {{}} of the pairs of a sample of {records} records and a hazard curve")),
+        ];
         for (site, name) in evidence.spectra.sites.iter().enumerate() {
-            let share = repaired.failed[[site, stored.largest()]];
-            if scope.holds(site, bands.measure) && share > MANY_FAILED {
-                cases.push(Case {
-                    severity: Severity::Caution,
-                    badness: share,
-                    subject: format!("{name} by {}", bands.measure.label()),
-                    what: format!(
-                        "no weights bring the site's hazard to {:.0} % of the samples of {} records: their \
-                         spectra are repaired in part only, and so is the band",
-                        100.0 * share,
-                        stored.sizes[stored.largest()]
-                    ),
-                    what_to_do: "take more records, or records of another kind (uplift consistency)".to_owned(),
-                });
+            for (failed, what) in &kinds {
+                let share = failed.map_or(0.0, |failed| failed[[site, stored.largest()]]);
+                if scope.holds(site, bands.measure) && share > MANY_FAILED {
+                    cases.push(Case {
+                        severity: Severity::Caution,
+                        badness: share,
+                        subject: format!("{name} by {}", bands.measure.label()),
+                        what: format!(
+                            "no weights bring {}: their spectra are repaired in part only, and so is the band",
+                            what.replace("{}", &format!("{:.0} %", 100.0 * share))
+                        ),
+                        what_to_do: "take more records, or records of another kind (uplift consistency)".to_owned(),
+                    });
+                }
             }
         }
     }

@@ -6,7 +6,9 @@ use super::write::percent;
 use crate::consistency::Reweighing;
 use crate::error::UpliftError;
 use crate::events::Events;
-use crate::result::{BandMethod, MeasureBands, ResultFile, StoredBands, StoredRepairedBands, StoredSpectraBands};
+use crate::result::{
+    BandMethod, MeasureBands, ResultFile, StoredBands, StoredJointBands, StoredRepairedBands, StoredSpectraBands,
+};
 
 impl ResultFile {
     /// The same result with bands at the risks that it was asked for ([`at`](Self::at)), made of the draws of its
@@ -44,6 +46,11 @@ fn stored_bands(bands: Bands) -> MeasureBands {
         error_of_median: percent(&bands.error_of_median),
         range_of_interval: percent(&bands.range_of_interval),
         limits_m: [bands.lower_m, bands.median_m, bands.upper_m],
+        joint: bands.joint.map(|joint| StoredJointBands {
+            range_of_interval: percent(&joint.range_of_interval),
+            limits_m: joint.limits_m,
+            failed: joint.failed,
+        }),
     };
     let repaired =
         bands.repaired.map(|RepairedBands { bands, failed }| StoredRepairedBands { bands: stored(bands), failed });

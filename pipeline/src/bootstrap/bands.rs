@@ -1,13 +1,11 @@
 //! Confidence bands of the spectra: the bootstrap over records (Section 4.5).
 
 use rayon::prelude::*;
-use uplift_bootstrap::{
-    Band, BootstrapError, Interval, Replicates, ResamplingPlan, acceleration, simultaneous_bands, weighted_quantile,
-    without_each,
-};
+use uplift_bootstrap::{Band, Interval, Replicates, ResamplingPlan, acceleration, simultaneous_bands, without_each};
 use uplift_motion::IntensityMeasure;
-use uplift_risk::{PooledDemand, StripeWeights};
+use uplift_risk::StripeWeights;
 
+use super::joint::{JointBands, joint_bands};
 use crate::array::Array;
 use crate::error::UpliftError;
 use crate::result::{InferredBands, StoredMeasure, StoredStripes};
@@ -75,8 +73,6 @@ pub struct Bands {
     pub plain: SpectraBands,
     /// Those of the spectra of all records there could be, and of another set.
     pub inferred: InferredBands,
-    /// Bands over records and hazard together, for the sites with branches.
-    pub joint: Vec<JointBands>,
     /// Those of the repaired spectra, where the result has some.
     pub repaired: Option<RepairedBands>,
 }
@@ -96,6 +92,8 @@ pub struct SpectraBands {
     pub error_of_median: Array<3, Option<f64>>,
     /// Width of the interval `[site, poe, size]` (Eq. 4.10); none where an ordinate is censored or 0.
     pub range_of_interval: Array<3, Option<f64>>,
+    /// Bands over records and hazard together; none where no site has weighted hazard curves.
+    pub joint: Option<JointBands>,
 }
 
 /// Bands of repaired spectra; NaN at sites without repair.
@@ -105,21 +103,6 @@ pub struct RepairedBands {
     pub bands: SpectraBands,
     /// Share of the samples whose weights do not bring the site's hazard `[site, size]`.
     pub failed: Array<2>,
-}
-
-/// The bands of one site over records and weighted hazard curves together.
-#[derive(Debug, Clone, PartialEq)]
-pub struct JointBands {
-    /// Position of the site.
-    pub site: usize,
-    /// Lower limits `[poe, size, strength]`, m.
-    pub lower_m: Array<3>,
-    /// Medians `[poe, size, strength]`, m.
-    pub median_m: Array<3>,
-    /// Upper limits `[poe, size, strength]`, m.
-    pub upper_m: Array<3>,
-    /// Width of the interval `[poe, size]` (Eq. 4.10).
-    pub range_of_interval: Array<2, Option<f64>>,
 }
 
 /// The bands of the strength at `index`.
@@ -161,38 +144,9 @@ pub(super) fn bands_of_strength(
         }
     }
     for branches in measure.branches.iter().filter(|branches| !branches.is_empty()) {
-        done.bands.extend(joint_bands(&demand, branches, targets, plan, settings)?);
+        done.bands.extend(joint_bands(&demand, branches, targets, plan, settings.confidence)?);
     }
     Ok(done)
-}
-
-/// The bands of one strength and site over `[poe, size]`, of all pairs of a replicate and a branch: a replicate counts
-/// as much in every branch, and a branch as much as it weighs.
-fn joint_bands(
-    demand: &PooledDemand,
-    branches: &[(f64, StripeWeights)],
-    targets: &[f64],
-    plan: &ResamplingPlan,
-    settings: &BandSettings,
-) -> Result<Vec<Band>, BootstrapError> {
-    let weights: Vec<&StripeWeights> = branches.iter().map(|(_, weights)| weights).collect();
-    let replicates = Replicates::of(demand, &weights, targets, plan)?;
-    let tail = 0.5 * (1.0 - settings.confidence);
-    let mut bands = Vec::with_capacity(targets.len() * plan.sizes().len());
-    let mut pairs = Vec::with_capacity(branches.len() * plan.replicates());
-    for poe in 0..targets.len() {
-        for size in 0..plan.sizes().len() {
-            pairs.clear();
-            for (branch, (weight, _)) in branches.iter().enumerate() {
-                pairs.extend(replicates.ordinates_m(branch, poe, size).iter().map(|&u_m| (u_m, *weight)));
-            }
-            pairs.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-            let [lower_m, median_m, upper_m] =
-                [tail, 0.5, 1.0 - tail].map(|probability| weighted_quantile(&pairs, probability));
-            bands.push(Band { lower_m, median_m, upper_m });
-        }
-    }
-    Ok(bands)
 }
 
 /// The bands of all strengths, in order, as arrays; with the two figures of Table 4.1.
@@ -223,29 +177,15 @@ pub(super) fn gather_bands(
         let limits = Array::from_fn(shape, |[site, poe, size, strength]| limits[cell(site, poe, size)][strength]);
         [limits.map(|limits| limits.0), limits.map(|limits| limits.1)]
     });
-    let with_branches = (0..sites).filter(|&site| !measure.branches[site].is_empty());
-    let joint = with_branches
-        .enumerate()
-        .map(|(place, site)| {
-            // behind those of the sites
-            let of = |value: fn(&Band) -> f64| {
-                Array::from_fn([poes, sizes, strengths.len()], |[poe, size, strength]| {
-                    value(&strengths[strength].bands[cell(sites + place, poe, size)])
-                })
-            };
-            let (lower_m, median_m, upper_m) =
-                (of(|band| band.lower_m), of(|band| band.median_m), of(|band| band.upper_m));
-            let range_of_interval = Array::from_fn([poes, sizes], |at| {
-                let [lower, median, upper] = [&lower_m, &median_m, &upper_m].map(|limits| &limits.block(at)[first..]);
-                uplift_bootstrap::range_of_interval(lower, median, upper)
-            });
-            JointBands { site, lower_m, median_m, upper_m, range_of_interval }
-        })
-        .collect();
     let band = |[site, poe, size, strength]: [usize; 4]| strengths[strength].bands[cell(site, poe, size)];
     let mut plain = SpectraBands::of(&Array::from_fn(shape, band), &measure.exact_m, first);
     plain.simultaneous_m = simultaneous_m;
-    Bands { measure: measure.measure, plain, inferred, joint, repaired: None }
+    let with_branches = (0..sites).filter(|&site| !measure.branches[site].is_empty()).collect();
+    // behind those of the sites
+    plain.joint = JointBands::of(with_branches, shape, first, |place, [poe, size, strength]| {
+        strengths[strength].bands[cell(sites + place, poe, size)]
+    });
+    Bands { measure: measure.measure, plain, inferred, repaired: None }
 }
 
 impl SpectraBands {
@@ -263,6 +203,6 @@ impl SpectraBands {
             let [lower, median, upper] = [&lower_m, &median_m, &upper_m].map(|limits| &limits.block(at)[first..]);
             uplift_bootstrap::range_of_interval(lower, median, upper)
         });
-        Self { lower_m, median_m, upper_m, simultaneous_m: None, error_of_median, range_of_interval }
+        Self { lower_m, median_m, upper_m, simultaneous_m: None, error_of_median, range_of_interval, joint: None }
     }
 }

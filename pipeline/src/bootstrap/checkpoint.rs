@@ -7,6 +7,7 @@ use sha2::{Digest, Sha256};
 
 use super::bands::{StrengthBands, bands_of_numbers, numbers_of_bands};
 use super::compute::Source;
+use super::joint::JointSiteBands;
 use super::repaired::{SiteBands, SiteShape};
 use crate::consistency::Reweighing;
 use crate::error::UpliftError;
@@ -20,6 +21,8 @@ pub(super) struct Finished {
     pub(super) strengths: BTreeMap<(&'static str, usize), StrengthBands>,
     /// Sites with repaired spectra, by measure and index.
     pub(super) sites: BTreeMap<(&'static str, usize), SiteBands>,
+    /// Repaired sites with weighted hazard curves, by measure and index.
+    pub(super) joint: BTreeMap<(&'static str, usize), JointSiteBands>,
 }
 
 /// What a checkpoint may hold: a damaged one may hold anything.
@@ -117,12 +120,14 @@ impl Checkpoint {
                     finished.strengths.insert(strength, StrengthBands { bands, replicates_m });
                 }
             }
-            for &key in expected.keys.iter().filter(|key| reader.exists(&format!("/{key}/repaired"))) {
-                let sites = reader.array_u32(&format!("/{key}/site"))?.values;
-                let numbers = reader.array_f64(&format!("/{key}/repaired"))?.values;
-                for (row, &site) in numbers.chunks_exact((numbers.len() / sites.len().max(1)).max(1)).zip(&sites) {
-                    let bands = SiteBands::of_numbers(row, expected.site, expected.simultaneous);
-                    finished.sites.extend(bands.map(|bands| ((key, site as usize), bands)));
+            for &key in &expected.keys {
+                for (site, row) in rows_of_sites(&reader, key, REPAIRED)? {
+                    let bands = SiteBands::of_numbers(&row, expected.site, expected.simultaneous);
+                    finished.sites.extend(bands.map(|bands| ((key, site), bands)));
+                }
+                for (site, row) in rows_of_sites(&reader, key, JOINT)? {
+                    let bands = JointSiteBands::of_numbers(&row, expected.site);
+                    finished.joint.extend(bands.map(|bands| ((key, site), bands)));
                 }
             }
             Ok(finished)
@@ -152,12 +157,12 @@ impl Checkpoint {
             }
         }
         for (key, rows) in by_measure(&finished.sites) {
-            let row = row_axis(&mut writer, &format!("{key}_site_row"), rows.len())?;
-            writer.array_u32(&format!("/{key}/site"), &[&row], &indices(&rows), "1", "index of the site")?;
-            let numbers: Vec<f64> = rows.iter().flat_map(|(_, done)| done.numbers()).collect();
-            let value = row_axis(&mut writer, &format!("{key}_site_value"), numbers.len() / rows.len())?;
-            let what = "bands of repaired spectra";
-            writer.array_f64(&format!("/{key}/repaired"), &[&row, &value], &numbers, "1", what)?;
+            let rows = rows.into_iter().map(|(site, done)| (site, done.numbers())).collect();
+            write_rows_of_sites(&mut writer, key, (REPAIRED, "bands of repaired spectra"), rows)?;
+        }
+        for (key, rows) in by_measure(&finished.joint) {
+            let rows = rows.into_iter().map(|(site, done)| (site, done.numbers())).collect();
+            write_rows_of_sites(&mut writer, key, (JOINT, "joint bands of repaired spectra"), rows)?;
         }
         writer.finish()?;
         Ok(())
@@ -167,6 +172,37 @@ impl Checkpoint {
     pub(super) fn remove(&self) {
         let _ = std::fs::remove_file(&self.path);
     }
+}
+
+/// The rows of repaired sites.
+const REPAIRED: &str = "repaired";
+/// The rows of their bands over records and weighted hazard curves together.
+const JOINT: &str = "joint";
+
+/// Sites with their rows of numbers, by the `name` of these; none where there are none.
+fn rows_of_sites(reader: &LabelledReader, key: &str, name: &str) -> Result<Vec<(usize, Vec<f64>)>, UpliftError> {
+    if !reader.exists(&format!("/{key}/{name}")) {
+        return Ok(Vec::new());
+    }
+    let sites = reader.array_u32(&format!("/{key}/{name}_site"))?.values;
+    let numbers = reader.array_f64(&format!("/{key}/{name}"))?.values;
+    let rows = numbers.chunks_exact((numbers.len() / sites.len().max(1)).max(1)).map(<[f64]>::to_vec);
+    Ok(sites.iter().map(|&site| site as usize).zip(rows).collect())
+}
+
+fn write_rows_of_sites(
+    writer: &mut LabelledWriter,
+    key: &str,
+    (name, what): (&str, &str),
+    rows: Vec<(usize, Vec<f64>)>,
+) -> Result<(), UpliftError> {
+    let row = row_axis(writer, &format!("{key}_{name}_row"), rows.len())?;
+    writer.array_u32(&format!("/{key}/{name}_site"), &[&row], &indices(&rows), "1", "index of the site")?;
+    let count = rows.len();
+    let numbers: Vec<f64> = rows.into_iter().flat_map(|(_, numbers)| numbers).collect();
+    let value = row_axis(writer, &format!("{key}_{name}_value"), numbers.len() / count.max(1))?;
+    writer.array_f64(&format!("/{key}/{name}"), &[&row, &value], &numbers, "1", what)?;
+    Ok(())
 }
 
 /// What is finished of each measure, with its index.

@@ -5,11 +5,13 @@ use std::time::{Duration, Instant};
 use rayon::prelude::*;
 use uplift_bootstrap::ResamplingPlan;
 use uplift_ida::Watch;
+use uplift_motion::IntensityMeasure;
 use uplift_risk::PooledDemand;
 
 use super::bands::{BandSettings, Bands, StrengthBands, bands_of_strength, gather_bands};
 use super::checkpoint::{Checkpoint, Expected, Finished};
 use super::inferred::inferred_bands;
+use super::joint::{JointSiteBands, gather_joint, joint_bands_of_site};
 use super::repaired::{SiteBands, SiteShape, bands_of_site, gather_repaired};
 use crate::consistency::Reweighing;
 use crate::error::UpliftError;
@@ -68,14 +70,14 @@ pub(super) fn compute(
             .map_err(|error| error.in_file(&stored.path))?;
         let mut bands = gather_bands(stored, measure, plan, settings, (&own, inferred));
         bands.repaired = source.reweighing.map(|_| {
+            let (shape, first) = (source.site_shape(), settings.first_strength(&stored.strengths));
             let own: Vec<Option<&SiteBands>> =
                 (0..stored.sites.len()).map(|site| finished.sites.get(&(key, site))).collect();
-            gather_repaired(
-                &own,
-                source.site_shape(),
-                settings.first_strength(&stored.strengths),
-                settings.simultaneous,
-            )
+            let joint: Vec<Option<&JointSiteBands>> =
+                (0..stored.sites.len()).map(|site| finished.joint.get(&(key, site))).collect();
+            let mut repaired = gather_repaired(&own, shape, first, settings.simultaneous);
+            repaired.bands.joint = gather_joint(&joint, shape, first);
+            repaired
         });
         Ok(bands)
     };
@@ -129,16 +131,21 @@ fn repaired_bands(
     keeper: &mut Keeper<'_>,
     events: &dyn Events,
 ) -> Result<(), UpliftError> {
-    let Source { stored, plan, settings, .. } = source;
+    let stored = source.stored;
     let Some(reweighing) = source.reweighing else { return Ok(()) };
-    let sites_of = |measure: &StoredMeasure| -> Vec<usize> {
-        (0..stored.sites.len()).filter(|&site| reweighing.weights(measure.measure, site).is_some()).collect()
+    note_unrepaired_branches(stored, reweighing, events);
+    let is_left = |finished: &Finished, of @ (im, site): (IntensityMeasure, usize)| {
+        let place = (im.key(), site);
+        (reweighing.of_site(of).is_some() && !finished.sites.contains_key(&place))
+            || (reweighing.of_branches(of).is_some() && !finished.joint.contains_key(&place))
     };
-    let total: usize = stored.measures.iter().map(|measure| sites_of(measure).len()).sum();
+    let all: Vec<(IntensityMeasure, usize)> = (stored.measures.iter())
+        .flat_map(|measure| (0..stored.sites.len()).map(|site| (measure.measure, site)))
+        .filter(|&of| is_left(&Finished::default(), of))
+        .collect();
     for measure in &stored.measures {
-        let (im, key) = (measure.measure, measure.measure.key());
-        let left: Vec<usize> =
-            sites_of(measure).into_iter().filter(|&site| !finished.sites.contains_key(&(key, site))).collect();
+        let im = measure.measure;
+        let left: Vec<usize> = (0..stored.sites.len()).filter(|&site| is_left(finished, (im, site))).collect();
         if left.is_empty() {
             continue;
         }
@@ -149,13 +156,13 @@ fn repaired_bands(
             .map(demand)
             .collect::<Result<_, UpliftError>>()
             .map_err(|error| error.in_file(&stored.path))?;
-        for site in left {
+        for of in left.into_iter().map(|site| (im, site)) {
             let is_cancelled = || progress.cancelled();
-            let of = (reweighing, (im, site));
-            match bands_of_site(of, &demands, &stored.targets_per_year, plan, settings, &is_cancelled) {
-                Ok(bands) => finished.sites.extend(bands.map(|bands| ((key, site), bands))),
+            match finish_site((reweighing, of), &demands, source, finished, &is_cancelled) {
+                Ok(()) => {}
                 Err(UpliftError::Interrupted) => {
-                    return Err(keeper.stopped(finished, ("repaired sites", finished.sites.len(), total)));
+                    let done = all.iter().filter(|&&of| !is_left(finished, of)).count();
+                    return Err(keeper.stopped(finished, ("repaired sites", done, all.len())));
                 }
                 Err(error) => return Err(error.in_file(&stored.path)),
             }
@@ -164,6 +171,43 @@ fn repaired_bands(
         }
     }
     Ok(())
+}
+
+/// Finishes what is left of the bands of a repaired site.
+fn finish_site(
+    (reweighing, of @ (im, site)): (&Reweighing, (IntensityMeasure, usize)),
+    demands: &[PooledDemand],
+    source: &Source<'_>,
+    finished: &mut Finished,
+    is_cancelled: &(dyn Fn() -> bool + Sync),
+) -> Result<(), UpliftError> {
+    let Source { stored, plan, settings, .. } = source;
+    let (place, demands) = ((im.key(), site), (demands, &stored.targets_per_year[..]));
+    if let Some(analysis) = reweighing.of_site(of).filter(|_| !finished.sites.contains_key(&place)) {
+        finished.sites.insert(place, bands_of_site(&analysis, demands, (plan, settings), is_cancelled)?);
+    }
+    if let Some(branches) = reweighing.of_branches(of).filter(|_| !finished.joint.contains_key(&place)) {
+        let how = (*plan, settings.confidence);
+        finished.joint.insert(place, joint_bands_of_site(&branches, demands, how, is_cancelled)?);
+    }
+    Ok(())
+}
+
+/// Says where weighted hazard curves cannot be repaired, so that there is no joint band.
+fn note_unrepaired_branches(stored: &StoredStripes, reweighing: &Reweighing, events: &dyn Events) {
+    for (im, site) in stored.measures.iter().flat_map(|own| (0..stored.sites.len()).map(|site| (own.measure, site))) {
+        for branch in reweighing.of_branches((im, site)).into_iter().flatten() {
+            if let Err(reason) = &branch.analysis {
+                events.note(&format!(
+                    "{} by {}: no joint band of repaired spectra, since the hazard curve {} cannot be repaired: \
+                     {reason}",
+                    stored.sites[site],
+                    im.label(),
+                    branch.name
+                ));
+            }
+        }
+    }
 }
 
 /// Keeps what is finished, if there is a checkpoint to keep it in.
@@ -224,5 +268,6 @@ fn finished_before(source: &Source<'_>, checkpoint: &Checkpoint) -> Finished {
             && done.replicates_m.len() == replicates
     });
     finished.sites.retain(|(_, site), _| *site < stored.sites.len());
+    finished.joint.retain(|(_, site), _| *site < stored.sites.len());
     finished
 }

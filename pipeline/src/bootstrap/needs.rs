@@ -9,7 +9,8 @@ use crate::result::StoredStripes;
 /// A demand of the result has 8 bytes; a sample 12 bytes a record and some for itself, and 4 more where the draws are
 /// written; a replicate 8 bytes an ordinate of the one site that a thread is at, and where whole spectra are wanted of
 /// all of them, twice while they are put in order or kept. Repaired spectra are made of all demands of a measure, 12
-/// bytes each in the order of their size, and of all replicates of a site, twice while they are gathered.
+/// bytes each in the order of their size, and of all replicates of a site, twice while they are gathered; of one with
+/// weighted hazard curves by each of these, and once more while they are gathered.
 pub(super) fn needs(
     stored: &StoredStripes,
     sizes: usize,
@@ -28,7 +29,8 @@ pub(super) fn needs(
     let kept = if settings.simultaneous { product(&[16, measures, strengths, sites, poes, samples]) } else { 0 };
     let most_levels = stored.measures.iter().map(|measure| measure.levels.len()).max().unwrap_or(0);
     let repaired = if is_repaired {
-        let of_site = product(&[16, strengths, poes, samples]).saturating_mul(1 + u64::from(settings.simultaneous));
+        let times = (2 * (1 + usize::from(settings.simultaneous))).max(1 + branches);
+        let of_site = product(&[8, strengths, poes, samples, times]);
         product(&[12, records, strengths, most_levels]).saturating_add(of_site)
     } else {
         0

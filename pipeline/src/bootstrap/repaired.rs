@@ -5,12 +5,11 @@
 
 use rayon::prelude::*;
 use uplift_bootstrap::{Band, Interval, ResamplingPlan, simultaneous_bands};
-use uplift_motion::IntensityMeasure;
 use uplift_risk::{PooledDemand, RecordSample};
 
 use super::bands::{BandSettings, RepairedBands, SpectraBands, bands_of_numbers, numbers_of_bands};
 use crate::array::Array;
-use crate::consistency::Reweighing;
+use crate::consistency::{RepairedAnalysis, Reweighed};
 use crate::error::UpliftError;
 
 /// The bands of the repaired spectra of one site by one measure.
@@ -35,8 +34,19 @@ pub(super) struct SiteShape {
 }
 
 impl SiteShape {
-    fn cells(self) -> usize {
+    /// Number of the bands of a site.
+    pub(super) fn cells(self) -> usize {
         self.poes * self.sizes * self.strengths
+    }
+
+    /// Position of a band.
+    pub(super) fn cell(self, [poe, size, strength]: [usize; 3]) -> usize {
+        (poe * self.sizes + size) * self.strengths + strength
+    }
+
+    /// `[poe, size, strength]` of the band at `cell`.
+    fn of_cell(self, cell: usize) -> [usize; 3] {
+        [cell / (self.sizes * self.strengths), cell / self.strengths % self.sizes, cell % self.strengths]
     }
 }
 
@@ -62,54 +72,66 @@ impl SiteBands {
     }
 }
 
-/// The bands of a site by a measure, whose `demands` are of all strengths; none where there is no repair.
+/// The bands of a site by a measure, whose `demands` are of all strengths.
 ///
 /// # Errors
 /// [`UpliftError::Interrupted`]; numbers that do not fit together, in a file that was changed.
 pub(super) fn bands_of_site(
-    (reweighing, of): (&Reweighing, (IntensityMeasure, usize)),
-    demands: &[PooledDemand],
-    targets_per_year: &[f64],
-    plan: &ResamplingPlan,
-    settings: &BandSettings,
+    analysis: &RepairedAnalysis<'_>,
+    (demands, targets_per_year): (&[PooledDemand], &[f64]),
+    (plan, settings): (&ResamplingPlan, &BandSettings),
     is_cancelled: &(dyn Fn() -> bool + Sync),
-) -> Result<Option<SiteBands>, UpliftError> {
-    let weighed_anew =
-        |samples: &[RecordSample]| reweighing.ordinates(of, demands, targets_per_year, samples, is_cancelled);
-    let Some(of_set_m) = reweighing.ordinates_of_set(of, demands, targets_per_year)? else { return Ok(None) };
-    let Some(drawn) = weighed_anew(plan.samples())? else { return Ok(None) };
+) -> Result<SiteBands, UpliftError> {
+    let weighed_anew = |samples: &[RecordSample]| analysis.ordinates(demands, targets_per_year, samples, is_cancelled);
+    let of_set_m = analysis.ordinates_of_set(demands, targets_per_year)?;
+    let drawn = weighed_anew(plan.samples())?;
     let without_each = match settings.interval {
         Interval::Percentile => Vec::new(),
-        Interval::Bca => weighed_anew(&plan.left_out()?)?.map(|own| own.ordinates_m).unwrap_or_default(),
+        Interval::Bca => weighed_anew(&plan.left_out()?)?.ordinates_m,
     };
-    let (poes, sizes, strengths) = (targets_per_year.len(), plan.sizes().len(), demands.len());
-    let (samples, replicates) = (plan.samples().len(), plan.replicates());
-    // [strength, poe, size, replicate]
-    let replicates_m = |strength: usize, poe: usize, size: usize| {
-        &drawn.ordinates_m[(strength * poes + poe) * samples + size * replicates..][..replicates]
-    };
+    let shape = SiteShape { poes: targets_per_year.len(), sizes: plan.sizes().len(), strengths: demands.len() };
+    let SiteShape { poes, sizes, strengths } = shape;
     let units = without_each.len() / (strengths * poes).max(1);
     let of_cell = |cell: usize| {
-        let (poe, size, strength) = (cell / (sizes * strengths), cell / strengths % sizes, cell % strengths);
+        let [poe, size, strength] = shape.of_cell(cell);
         let without_each_m = &without_each[(strength * poes + poe) * units..][..units];
         let of_sample = (without_each_m, plan.units_drawn(plan.sizes()[size]));
-        settings.band(replicates_m(strength, poe, size), of_set_m[strength][poe], of_sample)
+        settings.band(replicates_m(&drawn, plan, shape, cell), of_set_m[strength][poe], of_sample)
     };
-    let bands = (0..poes * sizes * strengths).into_par_iter().map(of_cell).collect();
+    let bands = (0..shape.cells()).into_par_iter().map(of_cell).collect();
     let spectra = if settings.simultaneous { poes * sizes } else { 0 };
     let of_spectrum = |spectrum: usize| {
-        let of_strength = |strength| replicates_m(strength, spectrum / sizes, spectrum % sizes).to_vec();
+        let of_strength = |strength| replicates_m(&drawn, plan, shape, spectrum * strengths + strength).to_vec();
         let spectra_m: Vec<Vec<f64>> = (0..strengths).map(of_strength).collect();
         simultaneous_bands(&spectra_m, settings.confidence)
     };
     let simultaneous_m: Vec<Vec<(f64, f64)>> = (0..spectra).into_par_iter().map(of_spectrum).collect();
-    let share = |reached: &[bool]| reached.iter().filter(|is_reached| !**is_reached).count() as f64 / replicates as f64;
-    Ok(Some(SiteBands {
+    Ok(SiteBands {
         bands,
         simultaneous_m: simultaneous_m.concat(),
         spectra_m: (0..poes).flat_map(|poe| of_set_m.iter().map(move |of_strength| of_strength[poe])).collect(),
-        failed: drawn.is_reached.chunks_exact(replicates).map(share).collect(),
-    }))
+        failed: failed_shares(&drawn, plan).collect(),
+    })
+}
+
+/// The replicates of the band at `cell` of a site, m, among all that were `drawn`.
+pub(super) fn replicates_m<'a>(
+    drawn: &'a Reweighed,
+    plan: &ResamplingPlan,
+    shape: SiteShape,
+    cell: usize,
+) -> &'a [f64] {
+    let [poe, size, strength] = shape.of_cell(cell);
+    let (samples, replicates) = (plan.samples().len(), plan.replicates());
+    // [strength, poe, size, replicate]
+    &drawn.ordinates_m[(strength * shape.poes + poe) * samples + size * replicates..][..replicates]
+}
+
+/// Share of the samples of each size whose weights do not bring the hazard.
+pub(super) fn failed_shares<'a>(drawn: &'a Reweighed, plan: &ResamplingPlan) -> impl Iterator<Item = f64> + use<'a> {
+    let replicates = plan.replicates();
+    let failed = |reached: &[bool]| reached.iter().filter(|is_reached| !**is_reached).count();
+    drawn.is_reached.chunks_exact(replicates).map(move |reached| failed(reached) as f64 / replicates as f64)
 }
 
 /// Of all replicates of repaired spectra, this share may fail before it is a matter to be told.
@@ -125,10 +147,9 @@ pub(super) fn gather_repaired(
 ) -> RepairedBands {
     let SiteShape { poes, sizes, strengths } = shape;
     let all = [sites.len(), poes, sizes, strengths];
-    let cell = |[poe, size, strength]: [usize; 3]| (poe * sizes + size) * strengths + strength;
     let none = Band { lower_m: f64::NAN, median_m: f64::NAN, upper_m: f64::NAN };
     let band = |[site, poe, size, strength]: [usize; 4]| {
-        sites[site].map_or(none, |own| own.bands[cell([poe, size, strength])])
+        sites[site].map_or(none, |own| own.bands[shape.cell([poe, size, strength])])
     };
     let spectra_m = Array::from_fn([sites.len(), poes, strengths], |[site, poe, strength]| {
         sites[site].map_or(f64::NAN, |own| own.spectra_m[poe * strengths + strength])
@@ -136,7 +157,7 @@ pub(super) fn gather_repaired(
     let mut bands = SpectraBands::of(&Array::from_fn(all, band), &spectra_m, first);
     if simultaneous {
         let limits = Array::from_fn(all, |[site, poe, size, strength]| {
-            sites[site].map_or((f64::NAN, f64::NAN), |own| own.simultaneous_m[cell([poe, size, strength])])
+            sites[site].map_or((f64::NAN, f64::NAN), |own| own.simultaneous_m[shape.cell([poe, size, strength])])
         });
         bands.simultaneous_m = Some([limits.map(|limits| limits.0), limits.map(|limits| limits.1)]);
     }

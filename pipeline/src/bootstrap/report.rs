@@ -68,6 +68,10 @@ pub struct BootstrapRow {
     pub e_median: Option<f64>,
     /// Range of the interval (Eq. 4.10), per cent.
     pub r_90ci: Option<f64>,
+    /// Range of the interval over records and weighted hazard curves together (Eq. 4.10), per cent; none where the site
+    /// has no such curves.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub joint_r_90ci: Option<f64>,
     /// The bands of the spectrum of all records there could be and of that of another set of this size; none where an
     /// ordinate is censored or all are 0.
     pub inferred: Option<WidestInferred>,
@@ -85,6 +89,13 @@ pub struct RepairedFigures {
     pub r_90ci: Option<f64>,
     /// Samples whose weights do not bring the site's hazard, per cent.
     pub failed: f64,
+    /// Range of the interval over records and weighted hazard curves together (Eq. 4.10), per cent; none where the site
+    /// has no such curves, or one of them has no repair.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub joint_r_90ci: Option<f64>,
+    /// Pairs of a sample and a curve whose weights do not bring the hazard of the curve, per cent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub joint_failed: Option<f64>,
 }
 
 /// Where rocking begins (Section 4.5.2, Fig. 4.10): the strengths at which the band falls to the uplift displacement;
@@ -122,11 +133,18 @@ impl BootstrapReport {
                     sample_size: sizes[size],
                     e_median: percent(error[0]),
                     r_90ci: percent(bands.plain.range_of_interval[at]),
+                    joint_r_90ci: percent(bands.plain.joint.as_ref().and_then(|joint| joint.range_of_interval[at])),
                     inferred: bands.inferred.widest((&stored.strengths, measure.exact_m.block([site, poe])), at),
-                    repaired: repaired.map(|own| RepairedFigures {
-                        e_median: percent(own.bands.error_of_median[at]),
-                        r_90ci: percent(own.bands.range_of_interval[at]),
-                        failed: 100.0 * own.failed[[site, size]],
+                    repaired: repaired.map(|own| {
+                        let joint = own.bands.joint.as_ref();
+                        let failed = joint.and_then(|joint| Some(joint.failed.as_ref()?[[site, size]]));
+                        RepairedFigures {
+                            e_median: percent(own.bands.error_of_median[at]),
+                            r_90ci: percent(own.bands.range_of_interval[at]),
+                            failed: 100.0 * own.failed[[site, size]],
+                            joint_r_90ci: percent(joint.and_then(|joint| joint.range_of_interval[at])),
+                            joint_failed: percent(failed.filter(|share| !share.is_nan())),
+                        }
                     }),
                 });
             }

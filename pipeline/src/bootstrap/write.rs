@@ -6,10 +6,11 @@ use polars::prelude::Column;
 use uplift_bootstrap::ResamplingPlan;
 
 use super::bands::{BandSettings, Bands, RepairedBands, SpectraBands};
+use super::joint::JointBands;
 use crate::array::Array;
 use crate::error::UpliftError;
 use crate::outputs::{Output, OutputKind, beside};
-use crate::result::layout::{MULTIPLICITY, axis, band, bootstrap, joint_band, limit_names, repaired_band};
+use crate::result::layout::{MULTIPLICITY, axis, band, bootstrap, joint, limit_names, repaired_band};
 use crate::result::{Addition, StoredStripes, line, sign, write_table};
 use uplift_labelled::{LabelledError, LabelledWriter};
 
@@ -78,11 +79,10 @@ fn add_bands(writer: &mut LabelledWriter, file: &BandsFile<'_>) -> Result<(), La
     let long_name = "how often each record was drawn";
     let dims = [axis::SAMPLE_SIZE, axis::REPLICATE, axis::RECORD];
     writer.array_u32(MULTIPLICITY, &dims, &plan.multiplicities(), "1", long_name)?;
-    let [lower, median, upper] = limit_names(settings.confidence);
     for bands in file.bands {
         let measure = bands.measure;
         let path = |name: &str| band(measure, name);
-        add_spectra_bands(writer, &path, &bands.plain, settings.confidence)?;
+        add_spectra_bands(writer, &path, &bands.plain, (&stored.sites, settings.confidence))?;
         for (name, values, of) in [
             (bootstrap::TRUTH, &bands.inferred.truth_m, "limit of the spectrum of all records there could be"),
             (bootstrap::PREDICTION, &bands.inferred.prediction_m, "limit of the spectrum of another set of records"),
@@ -92,26 +92,9 @@ fn add_bands(writer: &mut LabelledWriter, file: &BandsFile<'_>) -> Result<(), La
                 writer.array_f64(&path(name), &dims, values.values(), "m", of)?;
             }
         }
-        for joint in &bands.joint {
-            let path = |name: &str| joint_band(measure, &stored.sites[joint.site], name);
-            for (name, values) in [(&lower, &joint.lower_m), (&median, &joint.median_m), (&upper, &joint.upper_m)] {
-                let dims = [axis::POE, axis::SAMPLE_SIZE, axis::STRENGTH];
-                let long_name = "limit over resampled records and weighted hazard curves together";
-                writer.array_f64(&path(name), &dims, values.values(), "m", long_name)?;
-            }
-            let dims = [axis::POE, axis::SAMPLE_SIZE];
-            let ranges = percent(&joint.range_of_interval);
-            writer.array_f64(
-                &path(bootstrap::R_90CI),
-                &dims,
-                ranges.values(),
-                "%",
-                "range of the joint interval (Eq. 4.10)",
-            )?;
-        }
         if let Some(repaired) = &bands.repaired {
             let path = |name: &str| repaired_band(measure, name);
-            add_spectra_bands(writer, &path, &repaired.bands, settings.confidence)?;
+            add_spectra_bands(writer, &path, &repaired.bands, (&stored.sites, settings.confidence))?;
             let dims = [axis::SITE, axis::SAMPLE_SIZE];
             let long_name = "share of the replicates whose weights do not bring the site's hazard";
             writer.array_f64(&path(bootstrap::FAILED), &dims, repaired.failed.values(), "1", long_name)?;
@@ -125,7 +108,7 @@ fn add_spectra_bands(
     writer: &mut LabelledWriter,
     path: &dyn Fn(&str) -> String,
     bands: &SpectraBands,
-    confidence: f64,
+    (sites, confidence): (&[String], f64),
 ) -> Result<(), LabelledError> {
     let dims = [axis::SITE, axis::POE, axis::SAMPLE_SIZE, axis::STRENGTH];
     let [lower, median, upper] = limit_names(confidence);
@@ -146,6 +129,31 @@ fn add_spectra_bands(
         (bootstrap::R_90CI, &bands.range_of_interval, "range of the interval (Eq. 4.10)"),
     ] {
         writer.array_f64(&path(name), &dims, percent(values).values(), "%", what)?;
+    }
+    if let Some(joint) = &bands.joint { add_joint_bands(writer, path, joint, (sites, confidence)) } else { Ok(()) }
+}
+
+/// Adds the bands over records and weighted hazard curves together, a group for each site that has such curves.
+fn add_joint_bands(
+    writer: &mut LabelledWriter,
+    path: &dyn Fn(&str) -> String,
+    bands: &JointBands,
+    (sites, confidence): (&[String], f64),
+) -> Result<(), LabelledError> {
+    for &site in &bands.sites {
+        let path = |name: &str| path(&joint(&sites[site], name));
+        for (name, limits) in limit_names(confidence).iter().zip(&bands.limits_m) {
+            let dims = [axis::POE, axis::SAMPLE_SIZE, axis::STRENGTH];
+            let long_name = "limit over resampled records and weighted hazard curves together";
+            writer.array_f64(&path(name), &dims, limits.block([site]), "m", long_name)?;
+        }
+        let (dims, ranges) = ([axis::POE, axis::SAMPLE_SIZE], percent(&bands.range_of_interval));
+        let long_name = "range of the joint interval (Eq. 4.10)";
+        writer.array_f64(&path(bootstrap::R_90CI), &dims, ranges.block([site]), "%", long_name)?;
+        if let Some(failed) = &bands.failed {
+            let long_name = "share of the pairs of a replicate and a curve whose weights do not bring its hazard";
+            writer.array_f64(&path(bootstrap::FAILED), &[axis::SAMPLE_SIZE], failed.block([site]), "1", long_name)?;
+        }
     }
     Ok(())
 }
@@ -183,7 +191,28 @@ fn bands_table(file: &BandsFile<'_>) -> Vec<Column> {
     let repaired: Vec<&SpectraBands> =
         file.bands.iter().filter_map(|bands| bands.repaired.as_ref().map(|repaired| &repaired.bands)).collect();
     columns.extend(limit_columns("_consistent", &repaired, file.settings.confidence));
+    columns.extend(joint_columns("_joint", &plain, file.settings.confidence));
+    columns.extend(joint_columns("_consistent_joint", &repaired, file.settings.confidence));
     columns
+}
+
+/// The joint limits of all measures, their names with `suffix` before the unit; none where no site has any.
+fn joint_columns(suffix: &str, bands: &[&SpectraBands], confidence: f64) -> Vec<Column> {
+    if bands.iter().all(|of| of.joint.is_none()) {
+        return Vec::new();
+    }
+    let column = |(limit, name): (usize, String)| {
+        // a measure of whose sites none has any has as many rows
+        let of_measure = |of: &&SpectraBands| match &of.joint {
+            Some(joint) => {
+                joint.limits_m[limit].values().iter().map(|&u_m| Some(u_m).filter(|u_m| !u_m.is_nan())).collect()
+            }
+            None => vec![None; of.median_m.values().len()],
+        };
+        let values: Vec<Option<f64>> = bands.iter().flat_map(of_measure).collect();
+        Column::new(format!("{}{suffix}_m", name.trim_end_matches("_m")).into(), values)
+    };
+    limit_names(confidence).into_iter().enumerate().map(column).collect()
 }
 
 /// The limits beyond the set of all measures.
@@ -258,5 +287,34 @@ fn figures_table(file: &BandsFile<'_>) -> Vec<Column> {
         columns.push(Column::new("r_90ci_consistent_pct".into(), repaired_ranges));
         columns.push(Column::new("failed_consistent_pct".into(), failed));
     }
+    columns.extend(joint_figure_columns(file.bands));
     columns
 }
+
+/// The figures of the joint bands; none where no site has weighted hazard curves.
+fn joint_figure_columns(bands: &[Bands]) -> Vec<Column> {
+    let figures: [JointFigure; 3] = [
+        ("r_90ci_joint_pct", |bands, at| bands.plain.joint.as_ref()?.range_of_interval[at]),
+        ("r_90ci_consistent_joint_pct", |bands, at| {
+            bands.repaired.as_ref()?.bands.joint.as_ref()?.range_of_interval[at]
+        }),
+        ("failed_consistent_joint_pct", |bands, [site, _, size]| {
+            let joint = bands.repaired.as_ref()?.bands.joint.as_ref()?;
+            Some(joint.failed.as_ref()?[[site, size]]).filter(|share| !share.is_nan())
+        }),
+    ];
+    let has_some = bands.iter().any(|of| of.plain.joint.is_some());
+    let is_repaired = bands.iter().any(|of| of.repaired.as_ref().is_some_and(|own| own.bands.joint.is_some()));
+    let column = |(name, figure): JointFigure| {
+        let of_measure = |of: &'_ Bands| -> Vec<Option<f64>> {
+            let places = of.plain.error_of_median.blocks::<3>().map(|(at, _)| at);
+            places.map(|at| Some(100.0 * figure(of, at)?)).collect()
+        };
+        Column::new(name.into(), bands.iter().flat_map(of_measure).collect::<Vec<_>>())
+    };
+    let there = usize::from(has_some) + 2 * usize::from(is_repaired);
+    figures.into_iter().take(there).map(column).collect()
+}
+
+/// A column, and its figure at `[site, poe, size]`.
+type JointFigure = (&'static str, fn(&Bands, [usize; 3]) -> Option<f64>);

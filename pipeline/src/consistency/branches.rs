@@ -88,7 +88,7 @@ impl Question {
     }
 
     /// The branches of a measure beside those of another; none where there are none, or not the same.
-    fn branch_pairs(
+    pub(super) fn branch_pairs(
         &self,
         site: usize,
         scaled_to: IntensityMeasure,

@@ -76,10 +76,10 @@ impl Question {
         (scaled_to, levels): (IntensityMeasure, &[f64]),
         other: IntensityMeasure,
         set: &RecordSet,
-        (own, compared): (&HazardCurve, &HazardCurve),
+        curves: (&HazardCurve, &HazardCurve),
         repair: bool,
     ) -> Result<Finding, UpliftError> {
-        let analysis = ScaledAnalysis::new(set, levels, own, compared, &self.targets_per_year, self.extrapolation)?;
+        let analysis = self.analysis(levels, set, curves)?;
         let options = RepairOptions {
             smoothness: self.settings.smoothness,
             least_effective: self.settings.least_effective as f64,
@@ -95,21 +95,16 @@ impl Question {
         Ok(Finding { site, scaled_to, other, range: *analysis.range(), diagnosis, repair })
     }
 
-    /// A set scaled to `levels` at a site, with the hazard of both measures; none where the site has not both.
+    /// A set scaled to `levels`, with the hazard of the measure that it is scaled to and of the other one.
     ///
     /// # Errors
     /// As [`findings`](Self::findings).
     pub(super) fn analysis<'a>(
-        &'a self,
-        site: usize,
-        (scaled_to, levels): (IntensityMeasure, &[f64]),
-        other: IntensityMeasure,
+        &self,
+        levels: &[f64],
         set: &'a RecordSet,
-    ) -> Result<Option<ScaledAnalysis<'a>>, UpliftError> {
-        let (Some(own), Some(compared)) = (self.curve(scaled_to, site), self.curve(other, site)) else {
-            return Ok(None);
-        };
-        let analysis = ScaledAnalysis::new(set, levels, own, compared, &self.targets_per_year, self.extrapolation)?;
-        Ok(Some(analysis))
+        (own, compared): (&HazardCurve, &'a HazardCurve),
+    ) -> Result<ScaledAnalysis<'a>, UpliftError> {
+        Ok(ScaledAnalysis::new(set, levels, own, compared, &self.targets_per_year, self.extrapolation)?)
     }
 }

@@ -216,6 +216,11 @@ impl Question {
         known.any(|(event, pair)| *pair_of.entry(event).or_insert(pair) != pair)
     }
 
+    /// The levels that records are scaled to by a measure; none where it is not analysed by it.
+    pub(super) fn levels(&self, measure: IntensityMeasure) -> &[f64] {
+        self.analyses.iter().find(|(own, _)| *own == measure).map_or(&[], |(_, levels)| levels)
+    }
+
     /// The curve of a site.
     pub(crate) fn curve(&self, measure: IntensityMeasure, site: usize) -> Option<&HazardCurve> {
         self.curves.get(&measure)?.get(site)?.as_ref()

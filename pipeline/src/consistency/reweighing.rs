@@ -2,11 +2,12 @@
 
 use rayon::prelude::*;
 use uplift_bootstrap::weighted_replicates;
-use uplift_consistency::{Exponents, RecordSet as ScaledSet, Repaired, ScaledAnalysis, Scratch, Solver};
+use uplift_consistency::{Exponents, Repaired, Scratch, Solver};
+use uplift_hazard::HazardCurve;
 use uplift_motion::IntensityMeasure;
 use uplift_risk::{PooledDemand, REPLICATES_AT_ONCE, RecordSample, RiskCurve, RunWeights};
 
-use super::{Finding, Question};
+use super::{BranchFindings, Finding, Question};
 use crate::error::UpliftError;
 use crate::result::ResultFile;
 
@@ -17,6 +18,24 @@ const PORTION: usize = 8 * REPLICATES_AT_ONCE;
 pub(crate) struct Reweighing {
     question: Question,
     findings: Vec<Finding>,
+    branches: Vec<BranchFindings>,
+}
+
+/// A repaired analysis: the records scaled to a measure, and the hazard that their weights bring.
+pub(crate) struct RepairedAnalysis<'a> {
+    question: &'a Question,
+    finding: &'a Finding,
+    repaired: &'a Repaired,
+    /// Of the measure that the records are scaled to, and of the other one.
+    curves: (&'a HazardCurve, &'a HazardCurve),
+}
+
+/// The analysis for a weighted hazard curve.
+pub(crate) struct ReweighedBranch<'a> {
+    pub(crate) name: &'a str,
+    pub(crate) weight: f64,
+    /// Or why it has no repair.
+    pub(crate) analysis: Result<RepairedAnalysis<'a>, String>,
 }
 
 /// The ordinates of samples that were weighed anew.
@@ -37,25 +56,41 @@ impl Reweighing {
             return Ok(None);
         }
         let question = Question::of_result(file)?;
-        let findings = question.findings(true)?;
-        Ok(Some(Self { question, findings }))
+        let (findings, branches) = (question.findings(true)?, question.findings_of_branches()?);
+        Ok(Some(Self { question, findings, branches }))
     }
 
-    /// The repaired analysis of the records scaled to `measure` at a site.
-    fn repaired(&self, measure: IntensityMeasure, site: usize) -> Option<(&Finding, &Repaired)> {
+    /// The analysis of the records scaled to a measure at a site; none where there is no repair.
+    pub(crate) fn of_site(&self, (measure, site): (IntensityMeasure, usize)) -> Option<RepairedAnalysis<'_>> {
         let finding = self.findings.iter().find(|own| own.site == site && own.scaled_to == measure)?;
-        Some((finding, finding.repaired()?))
+        let curves = (self.question.curve(measure, site)?, self.question.curve(finding.other, site)?);
+        Some(RepairedAnalysis { question: &self.question, finding, repaired: finding.repaired()?, curves })
+    }
+
+    /// Those of its weighted hazard curves; none where these are not repaired one by one.
+    pub(crate) fn of_branches(&self, (measure, site): (IntensityMeasure, usize)) -> Option<Vec<ReweighedBranch<'_>>> {
+        let own = self.branches.iter().find(|own| own.site == site && own.scaled_to == measure)?;
+        let pairs = self.question.branch_pairs(site, measure, own.findings.first()?.other)?;
+        let branches = own.findings.iter().zip(pairs).map(|(finding, (own, compared))| {
+            let curves = (&own.curve, &compared.curve);
+            let question = &self.question;
+            let analysis = finding.repaired().map(|repaired| RepairedAnalysis { question, finding, repaired, curves });
+            let analysis = analysis.ok_or_else(|| question.no_repair(finding).unwrap_or_default());
+            ReweighedBranch { name: &own.name, weight: own.weight, analysis }
+        });
+        Some(branches.collect())
     }
 
     /// The weights of the whole set, by which it brings a site's hazard; none where there is no repair.
     pub(crate) fn weights(&self, measure: IntensityMeasure, site: usize) -> Option<&RunWeights> {
-        Some(&self.repaired(measure, site)?.1.weights)
+        Some(self.of_site((measure, site))?.weights())
     }
 
-    /// Numbers by which a checkpoint knows the weights again: what the set's own repair came to.
+    /// Numbers by which a checkpoint knows the weights again: what the set's own repairs came to.
     pub(crate) fn numbers(&self) -> Vec<f64> {
         let mut numbers = vec![self.question.settings.smoothness];
-        for finding in &self.findings {
+        let of_branches = self.branches.iter().flat_map(|own| &own.findings);
+        for finding in self.findings.iter().chain(of_branches) {
             numbers.push(finding.site as f64);
             numbers.extend(finding.repaired().iter().flat_map(|repaired| repaired.fit.exponents));
             numbers.extend(finding.repaired().iter().flat_map(|repaired| repaired.knot_levels));
@@ -63,27 +98,31 @@ impl Reweighing {
         }
         numbers
     }
+}
 
-    /// Exact ordinates of the whole set under its own weights, m, `[strength][target]`; none where there is no repair.
+impl<'a> RepairedAnalysis<'a> {
+    /// The weights of the whole set.
+    pub(crate) fn weights(&self) -> &'a RunWeights {
+        &self.repaired.weights
+    }
+
+    /// Exact ordinates of the whole set under its own weights, m, `[strength][target]`.
     ///
     /// # Errors
     /// Demands of other records or levels, in a file that was changed.
     pub(crate) fn ordinates_of_set(
         &self,
-        (measure, site): (IntensityMeasure, usize),
         demands: &[PooledDemand],
         targets_per_year: &[f64],
-    ) -> Result<Option<Vec<Vec<f64>>>, UpliftError> {
-        let Some(weights) = self.weights(measure, site) else { return Ok(None) };
+    ) -> Result<Vec<Vec<f64>>, UpliftError> {
         let of_strength = |demand: &PooledDemand| {
-            let ordinates = RiskCurve::weighted(demand, weights)?.exact_ordinates(targets_per_year)?;
+            let ordinates = RiskCurve::weighted(demand, self.weights())?.exact_ordinates(targets_per_year)?;
             Ok(ordinates.iter().map(|ordinate| ordinate.displacement_m).collect())
         };
-        demands.par_iter().map(of_strength).collect::<Result<_, UpliftError>>().map(Some)
+        demands.par_iter().map(of_strength).collect()
     }
 
-    /// Exact ordinates of `samples` of the records, each under weights solved for it from those of the set; none where
-    /// there is no repair.
+    /// Exact ordinates of `samples` of the records, each under weights solved for it from those of the set.
     ///
     /// - `demands`: all runs of the oscillators, `[strength]`.
     /// - `targets_per_year`: target rates, 1/yr, whatever those of the study are.
@@ -93,34 +132,23 @@ impl Reweighing {
     /// [`UpliftError::Interrupted`]; demands of other records or levels, in a file that was changed.
     pub(crate) fn ordinates(
         &self,
-        (measure, site): (IntensityMeasure, usize),
         demands: &[PooledDemand],
         targets_per_year: &[f64],
         samples: &[RecordSample],
         is_cancelled: &(dyn Fn() -> bool + Sync),
-    ) -> Result<Option<Reweighed>, UpliftError> {
-        let Some((finding, repaired)) = self.repaired(measure, site) else { return Ok(None) };
-        let set = self.question.set(measure, finding.other)?;
-        let Some(analysis) = self.analysis(finding, &set)? else { return Ok(None) };
+    ) -> Result<Reweighed, UpliftError> {
+        let Finding { scaled_to, other, .. } = *self.finding;
+        let set = self.question.set(scaled_to, other)?;
+        let analysis = self.question.analysis(self.question.levels(scaled_to), &set, self.curves)?;
         let solver = Solver::new(&analysis, self.question.settings.smoothness)?;
         let of_portion = |samples: &[RecordSample]| {
             if is_cancelled() {
                 return Err(UpliftError::Interrupted);
             }
-            portion(&solver, &repaired.fit.exponents, demands, targets_per_year, samples)
+            portion(&solver, &self.repaired.fit.exponents, demands, targets_per_year, samples)
         };
         let portions: Vec<Reweighed> = samples.par_chunks(PORTION).map(of_portion).collect::<Result<_, _>>()?;
-        Ok(Some(Reweighed::joined(portions, demands.len() * targets_per_year.len())))
-    }
-
-    fn analysis<'a>(
-        &'a self,
-        finding: &Finding,
-        set: &'a ScaledSet,
-    ) -> Result<Option<ScaledAnalysis<'a>>, UpliftError> {
-        let levels = self.question.analyses.iter().find(|(measure, _)| *measure == finding.scaled_to);
-        let Some((_, levels)) = levels else { return Ok(None) };
-        self.question.analysis(finding.site, (finding.scaled_to, levels), finding.other, set)
+        Ok(Reweighed::joined(portions, demands.len() * targets_per_year.len()))
     }
 }
 

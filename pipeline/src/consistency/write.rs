@@ -219,8 +219,7 @@ impl Table<'_> {
     /// The weights of the repair, and what the set is under them.
     fn weights(&mut self, keep: Keep) -> Result<(), LabelledError> {
         let question = self.question;
-        let levels =
-            question.analyses.iter().find(|(own, _)| *own == self.measure).map_or(0, |(_, levels)| levels.len());
+        let levels = question.levels(self.measure).len();
         let level = axis::level(self.measure);
         let of_repaired = |value: OfLevels| move |finding: &Finding| finding.repaired().map_or_else(Vec::new, value);
         let values = self.by_site(KNOTS, of_repaired(|repaired| repaired.fit.exponents.to_vec()));

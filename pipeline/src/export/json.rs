@@ -54,6 +54,13 @@ impl Export {
             spectrum["fit_consistent"] = coefficients(fit);
             spectrum["bands_consistent"] = self.repaired_bands_of(row).iter().map(band).collect();
         }
+        for (key, bands) in
+            [("bands_joint", self.joint_bands_of(row)), ("bands_consistent_joint", self.repaired_joint_bands_of(row))]
+        {
+            if !bands.is_empty() {
+                spectrum[key] = bands.iter().map(band).collect();
+            }
+        }
         spectrum
     }
 

@@ -133,19 +133,27 @@ impl Export {
             let key = of.measure.key();
             let spectra = Shape(vec![strengths.len(), sizes.len(), poes.len(), sites.len()]);
             let figures = Shape(vec![sizes.len(), poes.len(), sites.len()]);
+            let of_sizes = Shape(vec![sizes.len(), sites.len()]);
             let mut add = |key: &str, own: &StoredSpectraBands| {
                 for (name, limits) in bands.limit_names().iter().zip(&own.limits_m) {
                     file.numbers(&format!("{}_{key}_m", name.trim_end_matches("_m")), &spectra, limits.values());
                 }
                 file.numbers(&format!("e_median_{key}_pct"), &figures, own.error_of_median.values());
                 file.numbers(&format!("r_90ci_{key}_pct"), &figures, own.range_of_interval.values());
+                let Some(joint) = &own.joint else { return };
+                for (name, limits) in bands.limit_names().iter().zip(&joint.limits_m) {
+                    file.numbers(&format!("{}_joint_{key}_m", name.trim_end_matches("_m")), &spectra, limits.values());
+                }
+                file.numbers(&format!("r_90ci_joint_{key}_pct"), &figures, joint.range_of_interval.values());
+                if let Some(failed) = &joint.failed {
+                    file.numbers(&format!("failed_joint_{key}"), &of_sizes, failed.values());
+                }
             };
             add(key, &of.plain);
             if let Some(own) = &of.repaired {
                 let key = format!("consistent_{key}");
                 add(&key, &own.bands);
-                let shape = Shape(vec![sizes.len(), sites.len()]);
-                file.numbers(&format!("failed_{key}"), &shape, own.failed.values());
+                file.numbers(&format!("failed_{key}"), &of_sizes, own.failed.values());
             }
             for (name, limits) in INFERRED.iter().zip(of.inferred.iter().flat_map(InferredBands::limits_m)) {
                 file.numbers(&format!("{name}_{key}_m"), &spectra, limits.values());

@@ -11,7 +11,7 @@ use crate::array::Array;
 use crate::error::UpliftError;
 use crate::result::{
     Head, InferredBands, MeasureBands, ResultFile, Spectrum, StoredBands, StoredConsistency, StoredHazard,
-    StoredRepairedBands, StoredSpectra, StoredSpectraBands,
+    StoredJointBands, StoredRepairedBands, StoredSpectra, StoredSpectraBands,
 };
 
 /// The spectra, bands and coefficients of a result, and where they come from.
@@ -114,10 +114,29 @@ impl Export {
         repaired.map(|of| self.by_size(&of.bands, (None, Some(&of.failed)), row.at)).unwrap_or_default()
     }
 
-    /// Those of the plain spectrum, then those of the repaired one, with what the weights of their records are.
+    /// The bands of the plain spectrum over records and weighted hazard curves together; none where the site has no
+    /// such curves.
+    pub(super) fn joint_bands_of(&self, row: &Row<'_>) -> Vec<BandOf<'_>> {
+        let joint = self.bands_of_measure(row).and_then(|of| of.plain.joint.as_ref());
+        joint.map(|of| self.joint_by_size(of, row.at)).unwrap_or_default()
+    }
+
+    /// The same of the repaired spectrum; none either where one of the curves has no repair.
+    pub(super) fn repaired_joint_bands_of(&self, row: &Row<'_>) -> Vec<BandOf<'_>> {
+        let joint = self.bands_of_measure(row).and_then(|of| of.repaired.as_ref()?.bands.joint.as_ref());
+        joint.map(|of| self.joint_by_size(of, row.at)).unwrap_or_default()
+    }
+
+    /// Those of the plain spectrum, then those of the repaired one, with what the weights of their records are and
+    /// whether weighted hazard curves are drawn too.
     pub(super) fn all_bands_of(&self, row: &Row<'_>) -> impl Iterator<Item = (&'static str, BandOf<'_>)> {
-        let plain = self.bands_of(row).into_iter().map(|band| ("alike", band));
-        plain.chain(self.repaired_bands_of(row).into_iter().map(|band| ("repaired", band)))
+        let named = [
+            ("alike", self.bands_of(row)),
+            ("alike, with hazard curves", self.joint_bands_of(row)),
+            ("repaired", self.repaired_bands_of(row)),
+            ("repaired, with hazard curves", self.repaired_joint_bands_of(row)),
+        ];
+        named.into_iter().flat_map(|(name, bands)| bands.into_iter().map(move |band| (name, band)))
     }
 
     fn bands_of_measure(&self, row: &Row<'_>) -> Option<&MeasureBands> {
@@ -141,6 +160,21 @@ impl Export {
         self.bands.iter().flat_map(|bands| bands.sizes.iter().enumerate()).map(of_size).collect()
     }
 
+    /// Joint bands, by size of the sample; none at a site that has none.
+    fn joint_by_size<'a>(&self, of: &'a StoredJointBands, [site, poe]: [usize; 2]) -> Vec<BandOf<'a>> {
+        let of_size = |(size, &records): (usize, &u32)| BandOf {
+            records,
+            limits_m: of.limits_m.each_ref().map(|limits| limits.block([site, poe, size])),
+            inferred_m: None,
+            error_of_median_pct: f64::NAN,
+            range_of_interval_pct: of.range_of_interval[[site, poe, size]],
+            failed_share: of.failed.as_ref().map(|failed| failed[[site, size]]),
+        };
+        let is_there = |band: &BandOf<'_>| !band.limits_m[1].iter().all(|u_m| u_m.is_nan());
+        let sizes = self.bands.iter().flat_map(|bands| bands.sizes.iter().enumerate());
+        sizes.map(of_size).filter(is_there).collect()
+    }
+
     /// Whether there are bands beyond the set.
     pub(super) fn has_inferred_bands(&self) -> bool {
         self.bands.iter().flat_map(|bands| &bands.measures).any(|of| of.inferred.is_some())
@@ -149,6 +183,16 @@ impl Export {
     /// Whether there are bands of repaired spectra.
     pub(super) fn has_repaired_bands(&self) -> bool {
         self.bands.iter().flat_map(|bands| &bands.measures).any(|of| of.repaired.is_some())
+    }
+
+    /// Whether there are joint bands of plain spectra, and of repaired ones.
+    pub(super) fn has_joint_bands(&self) -> [bool; 2] {
+        let any =
+            |is_there: fn(&MeasureBands) -> bool| self.bands.iter().flat_map(|bands| &bands.measures).any(is_there);
+        [
+            any(|of| of.plain.joint.is_some()),
+            any(|of| of.repaired.as_ref().is_some_and(|own| own.bands.joint.is_some())),
+        ]
     }
 }
 
@@ -177,7 +221,7 @@ pub(super) struct BandOf<'a> {
     /// Limits of the spectra of all records there could be, and of another set, as [`INFERRED`] names them, m; none of
     /// repaired spectra, and in results of before.
     pub(super) inferred_m: Option<[&'a [f64]; 4]>,
-    /// Error of the median (Eq. 4.9), %; NaN where there is none.
+    /// Error of the median (Eq. 4.9), %; NaN where there is none, as of joint bands.
     pub(super) error_of_median_pct: f64,
     /// Width of the interval (Eq. 4.10), %; NaN where there is none.
     pub(super) range_of_interval_pct: f64,

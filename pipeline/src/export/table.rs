@@ -4,7 +4,7 @@ use polars::prelude::Column;
 
 use super::Export;
 use super::added::SHARES;
-use super::source::{INFERRED, Row};
+use super::source::{BandOf, INFERRED, Row};
 use crate::result::flag_word;
 use crate::text::finite;
 
@@ -20,15 +20,9 @@ impl Export {
         let has_repaired = self.has_repaired();
         let names = self.band_names();
         let mut limits: Vec<Vec<f64>> = vec![Vec::new(); names.len()];
-        let repaired_names: Vec<String> = if self.has_repaired_bands() {
-            let of_repair = |name: &String| name.replacen("_n", "_consistent_n", 1);
-            names.iter().map(of_repair).collect()
-        } else {
-            Vec::new()
-        };
+        let mut further = self.further_bands();
         let inferred_names = self.inferred_names();
         let mut inferred_limits: Vec<Vec<f64>> = vec![Vec::new(); inferred_names.len()];
-        let mut repaired_limits: Vec<Vec<Option<f64>>> = vec![Vec::new(); repaired_names.len()];
         for row in self.rows() {
             let curve = row.spectrum.fit.curve();
             for ((&eta, &ordinate_m), &of) in
@@ -59,11 +53,8 @@ impl Export {
             for (column, values) in inferred_limits.iter_mut().zip(of_row) {
                 column.extend_from_slice(values);
             }
-            let repaired = self.repaired_bands_of(&row);
-            let of_row: Vec<&[f64]> = repaired.iter().flat_map(|band| band.limits_m).collect();
-            for (place, column) in repaired_limits.iter_mut().enumerate() {
-                let value = |strength| of_row.get(place).map(|values: &&[f64]| values[strength]);
-                column.extend((0..self.spectra.strengths.len()).map(value));
+            for bands in &mut further {
+                bands.extend(self, &row);
             }
         }
         let years = vec![self.spectra.years; site.len()];
@@ -82,11 +73,31 @@ impl Export {
         ];
         columns.extend(names.into_iter().zip(limits).map(|(name, values)| Column::new(name.into(), values)));
         columns.extend(added.into_columns());
-        let repaired = repaired_names.into_iter().zip(repaired_limits);
-        columns.extend(repaired.map(|(name, values)| Column::new(name.into(), values)));
+        columns.extend(further.into_iter().flat_map(FurtherBands::into_columns));
         let inferred = inferred_names.into_iter().zip(inferred_limits);
         columns.extend(inferred.map(|(name, values)| Column::new(name.into(), values)));
         columns
+    }
+
+    /// The columns of bands that some spectra have and others have not: of repaired spectra, and those over weighted
+    /// hazard curves too.
+    fn further_bands(&self) -> Vec<FurtherBands> {
+        let [joint, repaired_joint] = self.has_joint_bands();
+        let kinds: [(bool, &str, BandsOf); 3] = [
+            (self.has_repaired_bands(), "_consistent", Export::repaired_bands_of),
+            (joint, "_joint", Export::joint_bands_of),
+            (repaired_joint, "_consistent_joint", Export::repaired_joint_bands_of),
+        ];
+        let some = kinds.into_iter().filter(|(is_there, ..)| *is_there);
+        let names = |suffix: &str| {
+            let named = |name: &String| name.replacen("_n", &format!("{suffix}_n"), 1);
+            self.band_names().iter().map(named).collect::<Vec<_>>()
+        };
+        some.map(|(_, suffix, bands_of)| {
+            let names = names(suffix);
+            FurtherBands { bands_of, limits_m: vec![Vec::new(); names.len()], names }
+        })
+        .collect()
     }
 
     /// Names of the columns of bands, by size of the sample, then limit.
@@ -104,6 +115,34 @@ impl Export {
     fn inferred_names(&self) -> Vec<String> {
         let sizes = self.bands.iter().filter(|_| self.has_inferred_bands()).flat_map(|bands| &bands.sizes);
         sizes.flat_map(|size| INFERRED.map(|limit| format!("{limit}_n{size}_m"))).collect()
+    }
+}
+
+/// The bands of a spectrum, by size of the sample.
+type BandsOf = for<'a> fn(&'a Export, &Row<'_>) -> Vec<BandOf<'a>>;
+
+/// Columns of bands that some spectra have.
+struct FurtherBands {
+    bands_of: BandsOf,
+    /// By size of the sample, then limit.
+    names: Vec<String>,
+    /// None where a spectrum has no such band, m.
+    limits_m: Vec<Vec<Option<f64>>>,
+}
+
+impl FurtherBands {
+    /// The cells of one spectrum.
+    fn extend(&mut self, export: &Export, row: &Row<'_>) {
+        let bands = (self.bands_of)(export, row);
+        let of_row: Vec<&[f64]> = bands.iter().flat_map(|band| band.limits_m).collect();
+        for (place, column) in self.limits_m.iter_mut().enumerate() {
+            let value = |strength| of_row.get(place).map(|values: &&[f64]| values[strength]);
+            column.extend((0..export.spectra.strengths.len()).map(value));
+        }
+    }
+
+    fn into_columns(self) -> impl Iterator<Item = Column> {
+        self.names.into_iter().zip(self.limits_m).map(|(name, values)| Column::new(name.into(), values))
     }
 }
 

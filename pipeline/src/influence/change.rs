@@ -111,16 +111,15 @@ pub(super) fn influence_on_repaired(
     let (samples, targets) = (left_out(records)?, &stored.targets_per_year);
     let mut of_sites = Vec::with_capacity(sites);
     for site in 0..sites {
-        let of = (measure.measure, site);
-        let anew = reweighing.ordinates(of, &demands, targets, &samples, &is_cancelled)?;
-        let of_set_m = reweighing.ordinates_of_set(of, &demands, targets)?;
-        let (Some(weights), Some(of_set_m), Some(anew)) = (reweighing.weights(of.0, of.1), of_set_m, anew) else {
+        let Some(repaired) = reweighing.of_site((measure.measure, site)) else {
             of_sites.push(None);
             continue;
         };
+        let anew = repaired.ordinates(&demands, targets, &samples, &is_cancelled)?;
+        let of_set_m = repaired.ordinates_of_set(&demands, targets)?;
         // [strength][poe][bin]
         let shares_at = |(demand, of_set_m): (&PooledDemand, &Vec<f64>)| -> Result<Vec<Vec<f64>>, UpliftError> {
-            let curve = RiskCurve::weighted(demand, weights)?;
+            let curve = RiskCurve::weighted(demand, repaired.weights())?;
             of_set_m.iter().map(|&ordinate_m| shares_of(&curve, ordinate_m, bins)).collect()
         };
         let shares = demands.iter().zip(&of_set_m).map(shares_at).collect::<Result<Vec<_>, _>>()?;

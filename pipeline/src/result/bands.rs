@@ -4,8 +4,8 @@ use serde::Serialize;
 use uplift_bootstrap::{Interval, ResamplingPlan, Unit};
 use uplift_motion::IntensityMeasure;
 
-use super::file::ResultFile;
-use super::layout::{MULTIPLICITY, axis, band, bootstrap, limit_names, repaired_band};
+use super::file::{ResultFile, RiskAxes};
+use super::layout::{MULTIPLICITY, axis, band, bootstrap, joint, limit_names, repaired_band};
 use crate::array::Array;
 use crate::consistency::Question;
 use crate::error::UpliftError;
@@ -45,6 +45,21 @@ pub struct StoredSpectraBands {
     pub error_of_median: Array<3>,
     /// Widths of the interval `[site, poe, size]`, % (Eq. 4.10); NaN where an ordinate is censored or 0.
     pub range_of_interval: Array<3>,
+    /// The bands over records and weighted hazard curves together; none where no site has such curves.
+    pub joint: Option<StoredJointBands>,
+}
+
+/// Bands over records and weighted hazard curves together; NaN at sites without such curves, and of repaired spectra
+/// also where one of them has no repair.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StoredJointBands {
+    /// Lower limits, medians and upper limits, each `[site, poe, size, strength]`, m.
+    pub limits_m: [Array<4>; 3],
+    /// Widths of the interval `[site, poe, size]`, % (Eq. 4.10); NaN where an ordinate is censored or 0.
+    pub range_of_interval: Array<3>,
+    /// Share of the pairs of a sample and a curve whose weights do not bring the hazard of the curve `[site, size]`; of
+    /// repaired spectra alone.
+    pub failed: Option<Array<2>>,
 }
 
 /// What the records of a set say beyond it; limits are `[site, poe, size, strength]`, m, lower before upper.
@@ -97,6 +112,13 @@ pub struct StoredRepairedBands {
     pub bands: StoredSpectraBands,
     /// Share of the samples whose weights do not bring the site's hazard `[site, size]`.
     pub failed: Array<2>,
+}
+
+/// The joint bands of one site as the file has them, without the axis of sites.
+struct SiteJointBands {
+    limits_m: [Array<3>; 3],
+    range_of_interval: Array<2>,
+    failed: Option<Array<1>>,
 }
 
 /// How bands were made of their draws.
@@ -183,6 +205,7 @@ impl ResultFile {
                     limits_m: [limit(lower)?, limit(median)?, limit(upper)?],
                     error_of_median: figures(bootstrap::E_MEDIAN)?,
                     range_of_interval: figures(bootstrap::R_90CI)?,
+                    joint: self.joint_bands(path, &names, (&axes, sizes.len()))?,
                 })
             };
             let plain = arrays(&|name| band(measure, name))?;
@@ -206,6 +229,50 @@ impl ResultFile {
             measures.push(MeasureBands { measure, plain, inferred, repaired });
         }
         Ok(Some(StoredBands { sizes, unit: self.drawn_unit()?, confidence, measures }))
+    }
+
+    /// The joint bands beside those of the `path` of an array by its name; none where no site has any.
+    fn joint_bands(
+        &self,
+        path: &dyn Fn(&str) -> String,
+        limit_names: &[String; 3],
+        (axes, sizes): (&RiskAxes, usize),
+    ) -> Result<Option<StoredJointBands>, UpliftError> {
+        let [poe, size] = [(axis::POE, axes.poes.len()), (axis::SAMPLE_SIZE, sizes)];
+        let strength = (axis::STRENGTH, axes.strengths.len());
+        let of_site = |site: &String| -> Result<Option<SiteJointBands>, UpliftError> {
+            let path = |name: &str| path(&joint(site, name));
+            if !self.reader.exists(&path(bootstrap::R_90CI)) {
+                return Ok(None);
+            }
+            let failed = path(bootstrap::FAILED);
+            let has_failed = self.reader.exists(&failed);
+            let [lower, median, upper] =
+                limit_names.each_ref().map(|name| self.array(&path(name), [poe, size, strength]));
+            Ok(Some(SiteJointBands {
+                limits_m: [lower?, median?, upper?],
+                range_of_interval: self.array(&path(bootstrap::R_90CI), [poe, size])?,
+                failed: has_failed.then(|| self.array(&failed, [size])).transpose()?,
+            }))
+        };
+        let sites = axes.sites.iter().map(of_site).collect::<Result<Vec<_>, _>>()?;
+        let own = |site: usize| sites[site].as_ref();
+        let ([(_, poe), (_, size)], (_, strength), count) = ([poe, size], strength, sites.len());
+        let has_failed = sites.iter().flatten().any(|own| own.failed.is_some());
+        Ok(sites.iter().any(Option::is_some).then(|| StoredJointBands {
+            limits_m: [0, 1, 2].map(|limit| {
+                Array::from_fn([count, poe, size, strength], |[site, poe, size, strength]| {
+                    own(site).map_or(f64::NAN, |own| own.limits_m[limit][[poe, size, strength]])
+                })
+            }),
+            range_of_interval: Array::from_fn([count, poe, size], |[site, poe, size]| {
+                own(site).map_or(f64::NAN, |own| own.range_of_interval[[poe, size]])
+            }),
+            failed: has_failed.then(|| {
+                let failed = |site| own(site)?.failed.as_ref();
+                Array::from_fn([count, size], |[site, size]| failed(site).map_or(f64::NAN, |own| own[[size]]))
+            }),
+        }))
     }
 
     /// Whether there are bands of repaired spectra.

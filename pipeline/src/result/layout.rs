@@ -258,9 +258,10 @@ pub fn repaired_band(measure: IntensityMeasure, name: &str) -> String {
     format!("{}/consistent/{name}", bootstrap::group(measure))
 }
 
-/// An array of the bands of a site over records and weighted hazard curves together, by its name.
-pub fn joint_band(measure: IntensityMeasure, site: &str, name: &str) -> String {
-    format!("{}/joint/{site}/{name}", bootstrap::group(measure))
+/// An array of the bands of a site over records and weighted hazard curves together, by its name: the name of an array
+/// for [`band`] and [`repaired_band`].
+pub fn joint(site: &str, name: &str) -> String {
+    format!("joint/{site}/{name}")
 }
 
 in_group! {

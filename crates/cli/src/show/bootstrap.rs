@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use uplift::bootstrap::{BootstrapReport, BootstrapRow, Initiation, MANY_FAILED};
+use uplift::bootstrap::{Bands, BootstrapReport, BootstrapRow, Initiation, JointBands, MANY_FAILED};
 use uplift::text::{per_cent, risk_in_words, risk_name, table};
 
 use super::shown_path;
@@ -117,12 +117,7 @@ fn print_repaired(out: &mut impl Write, report: &BootstrapReport) -> Result<(), 
     let header = ["site", "im", "probability", "records", "plain r", "repaired e", "repaired r", "failed"];
     writeln!(out, "{}", table(&header, &rows))?;
     if !failing.is_empty() {
-        writeln!(
-            out,
-            "Many samples fail, and their spectra are repaired in part only, so that the band is too ({}): take more \
-             records, or records of another kind",
-            failing.join("; ")
-        )?;
+        writeln!(out, "{}", too_many_fail("samples", &failing))?;
     }
     Ok(())
 }
@@ -204,22 +199,39 @@ fn known_from(report: &BootstrapReport, (im, poe): (&str, f64), size: u32) -> St
     }
 }
 
-/// Records and hazard together, for the sites with branches.
+/// Records and hazard together, for the sites with weighted hazard curves; of the plain spectra and of the repaired
+/// ones.
 fn print_joint(out: &mut impl Write, report: &BootstrapReport) -> Result<(), CommandError> {
-    let mut rows = Vec::new();
+    let has_repaired = report.bands.iter().any(|bands| repaired_joint(bands).is_some());
+    let (mut rows, mut failing) = (Vec::new(), Vec::new());
     for bands in &report.bands {
-        for joint in &bands.joint {
-            for ([poe, size], range) in joint.range_of_interval.blocks() {
-                let of_records = bands.plain.range_of_interval[[joint.site, poe, size]];
-                rows.push(vec![
-                    report.sites[joint.site].clone(),
-                    bands.measure.label().to_owned(),
-                    risk_name(report.poes[poe], report.years),
-                    report.sizes[size].to_string(),
-                    figure(of_records, 0),
-                    figure(range[0], 0),
-                ]);
+        let Some(joint) = &bands.plain.joint else { continue };
+        for (at @ [site, poe, size], of_records) in bands.plain.range_of_interval.blocks() {
+            if !joint.sites.contains(&site) {
+                continue;
             }
+            let (name, label, records) = (&report.sites[site], bands.measure.label(), report.sizes[size]);
+            let mut row = vec![
+                name.clone(),
+                label.to_owned(),
+                risk_name(report.poes[poe], report.years),
+                records.to_string(),
+                figure(of_records[0], 0),
+                figure(joint.range_of_interval[at], 0),
+            ];
+            if has_repaired {
+                let of_repair = repaired_joint(bands);
+                let failed = of_repair.and_then(|joint| Some(joint.failed.as_ref()?[[site, size]]));
+                let failed = failed.filter(|share| !share.is_nan());
+                let repaired = bands.repaired.as_ref().and_then(|own| own.bands.range_of_interval[at]);
+                row.push(figure(repaired, 0));
+                row.push(figure(of_repair.and_then(|joint| joint.range_of_interval[at]), 0));
+                row.push(figure(failed, 1));
+                if let Some(share) = failed.filter(|&share| poe == 0 && share > MANY_FAILED) {
+                    failing.push(format!("{name} by {label}, samples of {records}: {:.0} %", 100.0 * share));
+                }
+            }
+            rows.push(row);
         }
     }
     if rows.is_empty() {
@@ -228,11 +240,35 @@ fn print_joint(out: &mut impl Write, report: &BootstrapReport) -> Result<(), Com
     writeln!(
         out,
         "\nRecords and hazard together: width r of the {} interval over the records, and over the records and the \
-         weighted hazard curves, per cent",
-        per_cent(report.confidence)
+         weighted hazard curves{}, per cent",
+        per_cent(report.confidence),
+        if has_repaired {
+            "; the same of the repaired spectra, their weights solved anew for every sample and curve, and how many of \
+             these weights do not bring the hazard of the curve"
+        } else {
+            ""
+        }
     )?;
-    writeln!(out, "{}", table(&["site", "im", "probability", "records", "r", "joint r"], &rows))?;
+    let header = ["site", "im", "probability", "records", "r", "joint r", "repaired r", "joint r", "failed"];
+    writeln!(out, "{}", table(&header[..if has_repaired { 9 } else { 6 }], &rows))?;
+    if !failing.is_empty() {
+        writeln!(out, "{}", too_many_fail("pairs of a sample and a hazard curve", &failing))?;
+    }
     Ok(())
+}
+
+/// The joint bands of the repaired spectra by a measure.
+fn repaired_joint(bands: &Bands) -> Option<&JointBands> {
+    bands.repaired.as_ref()?.bands.joint.as_ref()
+}
+
+/// That many of `what` fail.
+fn too_many_fail(what: &str, failing: &[String]) -> String {
+    format!(
+        "Many {what} fail, and their spectra are repaired in part only, so that the band is too ({}): take more \
+         records, or records of another kind",
+        failing.join("; ")
+    )
 }
 
 /// The bands where rocking begins (Section 4.5.2, Fig. 4.10).

@@ -18,6 +18,11 @@ const INFLUENCE_LEFT_OUT: &str = "Which records and intensities carry the spectr
 /// What Table 4.1 says of repaired spectra.
 const REPAIRED_BANDS: &str = " Those of repaired spectra have weights of their own in every resample.";
 
+/// What rows of Table 4.1 are of where a site's weighted hazard curves are drawn too.
+const WITH_CURVES: &str = "with hazard curves";
+/// What Table 4.1 says of them.
+const JOINT_BANDS: &str = " With hazard curves: over the records and the site's weighted hazard curves together.";
+
 /// What the table of displacements says of repaired spectra.
 const REPAIRED: &str = " Repaired: of records weighted so that they bring the site's hazard of both measures, where as \
                         they are they do not.";
@@ -249,15 +254,15 @@ fn confidence(stored: &StoredSpectra, bands: &StoredBands) -> Table {
         found().unwrap_or_else(|| ["-", "-"].map(str::to_owned))
     };
     let rows = |of_measure: &MeasureBands| -> Vec<Vec<String>> {
-        let row = |at: [usize; 3], measure: String, own: &StoredSpectraBands, [truth, another]: [String; 2]| {
+        let row = |at: [usize; 3], measure: String, (error, range): (f64, f64), [truth, another]: [String; 2]| {
             let [site, poe, size] = at;
             vec![
                 stored.sites[site].clone(),
                 measure,
                 risk_name(stored.poes[poe], stored.years),
                 bands.sizes[size].to_string(),
-                number(own.error_of_median[at], 1),
-                number(own.range_of_interval[at], 0),
+                number(error, 1),
+                number(range, 0),
                 truth,
                 another,
             ]
@@ -265,9 +270,16 @@ fn confidence(stored: &StoredSpectra, bands: &StoredBands) -> Table {
         let label = of_measure.measure.label();
         let mut rows = Vec::new();
         for (at @ [site, _, size], _) in of_measure.plain.error_of_median.blocks::<3>() {
-            rows.push(row(at, label.to_owned(), &of_measure.plain, beyond(of_measure, at)));
+            let mut add = |measure: String, own: &StoredSpectraBands, beyond: [String; 2]| {
+                rows.push(row(at, measure.clone(), (own.error_of_median[at], own.range_of_interval[at]), beyond));
+                if let Some(joint) = own.joint.as_ref().filter(|joint| !joint.limits_m[1].block(at)[0].is_nan()) {
+                    let measure = format!("{measure}, {WITH_CURVES}");
+                    rows.push(row(at, measure, (f64::NAN, joint.range_of_interval[at]), ["-", "-"].map(str::to_owned)));
+                }
+            };
+            add(label.to_owned(), &of_measure.plain, beyond(of_measure, at));
             if let Some(own) = of_measure.repaired.as_ref().filter(|own| !own.failed[[site, size]].is_nan()) {
-                rows.push(row(at, spectrum_words(label, true), &own.bands, ["-", "-"].map(str::to_owned)));
+                add(spectrum_words(label, true), &own.bands, ["-", "-"].map(str::to_owned));
             }
         }
         rows
@@ -279,11 +291,12 @@ fn confidence(stored: &StoredSpectra, bands: &StoredBands) -> Table {
             "Error of the median and width of the {} interval over {}, at the strength where each is largest (Eq. 4.9, \
              4.10). Truth: where the spectrum of all records like these lies, and another set: where that of another \
              set of as many lies, each with {} confidence, from the ordinate at the strength where the first is widest \
-             in metres.{}",
+             in metres.{}{}",
             per_cent(bands.confidence),
             bands.drawn_words(),
             per_cent(bands.confidence),
-            if bands.measures.iter().any(|of| of.repaired.is_some()) { REPAIRED_BANDS } else { "" }
+            if bands.measures.iter().any(|of| of.repaired.is_some()) { REPAIRED_BANDS } else { "" },
+            if bands.measures.iter().any(|of| of.plain.joint.is_some()) { JOINT_BANDS } else { "" }
         ),
         group: String::new(),
         header: ["site", "measure", "probability", "records", "e_{median}, %", "r, %", "truth, %", "another set, %"]

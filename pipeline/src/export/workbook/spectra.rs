@@ -55,8 +55,8 @@ impl Export {
     /// The bands of all sizes.
     pub(super) fn bands_sheet(&self, sheet: &mut Sheet<'_>) -> Result<(), XlsxError> {
         // plain bands alone need no line that says so
-        let has_repaired = self.has_repaired_bands();
-        let weights = has_repaired.then_some("weights");
+        let has_others = self.has_repaired_bands() || self.has_joint_bands()[0];
+        let weights = has_others.then_some("weights");
         let headings: Vec<&str> = weights.into_iter().chain(["records in a sample", "limit"]).collect();
         let below = self.heads(sheet, &headings)?;
         let [lower, upper] = self.bands.as_ref().map(crate::result::StoredBands::level_names).unwrap_or_default();
@@ -68,7 +68,7 @@ impl Export {
                 let inferred = beyond.iter().zip(band.inferred_m.into_iter().flatten());
                 for (name, values) in names.iter().zip(band.limits_m).chain(inferred) {
                     head_of(sheet, column, &row)?;
-                    if has_repaired {
+                    if has_others {
                         sheet.heading((below - 4, column), weights, false)?;
                     }
                     sheet.number((below - 3, column), f64::from(band.records), Shown::WholeHeading, "")?;
