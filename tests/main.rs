@@ -51,6 +51,7 @@ mod run;
 mod selections;
 mod shake_table;
 mod site_table;
+mod site_table_repair;
 mod spreadsheets;
 mod structure_resume;
 mod sweep;

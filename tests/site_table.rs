@@ -10,9 +10,9 @@ use uplift_labelled::LabelledReader;
 use crate::common::{SMALL_STUDY, SmallStudy};
 
 /// A site of an export: name, longitude, latitude and k0 of the curve λ = k0 im⁻²; at sea k0 is 0.
-type Site = (&'static str, f64, f64, f64);
+pub(crate) type Site = (&'static str, f64, f64, f64);
 
-const SITES: [Site; 5] = [
+pub(crate) const SITES: [Site; 5] = [
     ("alpha", 10.0, 45.0, 0.2),
     ("sea", 11.0, 45.0, 0.0),
     ("beta", 12.0, 45.0, 0.1),
@@ -21,7 +21,7 @@ const SITES: [Site; 5] = [
 ];
 
 /// An export as `OpenQuake` writes it: probabilities in one year.
-fn openquake(measure: &str, levels: &[f64], sites: &[Site]) -> String {
+pub(crate) fn openquake(measure: &str, levels: &[f64], sites: &[Site]) -> String {
     let mut text = format!(
         "#,,,,,,\"generated_by='OpenQuake engine 3.26.2', checksum=1, kind='mean', investigation_time=1.0, \
          imt='{measure}'\"\n\
@@ -39,8 +39,8 @@ fn openquake(measure: &str, levels: &[f64], sites: &[Site]) -> String {
     text + "\n"
 }
 
-const PGV_LEVELS: [f64; 5] = [0.5, 2.0, 20.0, 100.0, 300.0];
-const PGA_LEVELS: [f64; 4] = [0.01, 0.1, 1.0, 3.0];
+pub(crate) const PGV_LEVELS: [f64; 5] = [0.5, 2.0, 20.0, 100.0, 300.0];
+pub(crate) const PGA_LEVELS: [f64; 4] = [0.01, 0.1, 1.0, 3.0];
 
 /// Sites in another order than those of the export, one of them twice and one unknown; no hazard curve of theirs is
 /// anywhere else.
@@ -48,7 +48,7 @@ const TABLE: &str = "site_id;Lon;LAT [deg];vs30;problem\n\
     Delta, Upper;12.001;45.2;0800;yes\nAlpha;10;45.004;760;\n;12.0;45.0;;\nSea;11;45;1;\nGamma;-170;-20;1;\n\
     Alpha again;10;45;2;\nNowhere;0;0;3;\n";
 
-fn many(text: &str) -> SmallStudy {
+pub(crate) fn many(text: &str) -> SmallStudy {
     let study = SmallStudy::with(text);
     study.write("pgv-export.csv", &openquake("PGV", &PGV_LEVELS, &SITES));
     let weaker: Vec<Site> = SITES.iter().rev().map(|&(name, lon, lat, k0)| (name, lon, lat, 1e-3 * k0)).collect();
@@ -64,12 +64,12 @@ fn without_sites() -> &'static str {
 
 const SECTION: &str = "[site_table]\nsites = \"table.csv\"\npgv = \"pgv-export.csv\"\npga = \"pga-export.csv\"\n";
 
-fn read(at: &Path, name: &str) -> String {
+pub(crate) fn read(at: &Path, name: &str) -> String {
     std::fs::read_to_string(at.join(name)).unwrap()
 }
 
 /// Rows of a table by their first column, measure and probability: the columns `wanted`, as text.
-fn rows(text: &str, wanted: &[&str]) -> BTreeMap<String, Vec<Vec<String>>> {
+pub(crate) fn rows(text: &str, wanted: &[&str]) -> BTreeMap<String, Vec<Vec<String>>> {
     let mut lines = text.lines();
     let header: Vec<&str> = lines.next().unwrap().split(',').collect();
     let column = |name: &str| header.iter().position(|column| *column == name).unwrap_or_else(|| panic!("{name}"));
@@ -120,65 +120,8 @@ fn spectra_are_to_the_bit_those_of_the_same_curves_as_sites() {
     }
 }
 
-#[test]
-fn every_site_is_repaired_as_one_of_the_sites_is() {
-    let both = ["alpha", "delta"]
-        .map(|name| format!("[[sites]]\nname = \"{name}\"\npgv = \"{name}/pgv.csv\"\npga = \"{name}/pga.csv\"\n"));
-    let study = many(&format!(
-        "[records.synthetic]\npairs = 40\n[strengths]\nvalues = [0.05, 0.1, 0.2, 0.4]\n\
-         [pgv]\nlevels_cm_s = [0.5, 1, 2, 4, 8, 15, 30, 60, 120]\n\
-         [pga]\nlevels_g = [0.01, 0.02, 0.04, 0.08, 0.15, 0.3, 0.6, 1.2]\n\
-         [risk]\npoe = [0.1, 0.5]\nmaf_surface = false\n[regression]\nstrength_above = 0\n\
-         [site_table]\npgv = \"pgv-export.csv\"\npga = \"pga-export.csv\"\n{}[consistency]\nrepair = \"weights\"\n",
-        both.concat()
-    ));
-    // of PGA such that the records come near it at some sites, and nowhere near at one
-    let with = |factor: f64| -> Vec<Site> {
-        let of = |&(name, lon, lat, k0): &Site| (name, lon, lat, if name == "gamma" { 4e-3 * k0 } else { factor * k0 });
-        SITES.iter().map(of).collect()
-    };
-    study.write("pga-export.csv", &openquake("PGA", &PGA_LEVELS, &with(1.6e-4)));
-    for name in ["alpha", "delta"] {
-        study.uplift(&["hazard", "import", "pgv-export.csv", "pga-export.csv", "-o", name, "--name", name]).ok();
-    }
-    let told = study.uplift(&["run", "study.toml", "-o", "r.h5", "--set", "risk.extrapolate=loglog"]).ok().stdout;
-    let file = LabelledReader::open(&study.path().join("r.h5")).unwrap();
-    let spectra = rows(&read(study.path(), "r.sites.csv"), &["u_m", "u_consistent_m"]);
-    let coefficients = read(study.path(), "r.sites.coefficients.csv");
-    let columns = ["bias", "verdict", "least_effective", "c0_consistent_m", "no_repair"];
-    let coefficients = rows(&coefficients, &columns);
-    for (measure, label) in [("pgv", "PGV"), ("pga", "PGA")] {
-        let array = |name: &str| file.array_f64(&format!("/consistency/{measure}/{name}")).unwrap().values;
-        let other = if measure == "pgv" { "pga" } else { "pgv" };
-        let (u_m, bias, c0) = (array("u_m"), array(&format!("{other}_bias")), array("regression/c0_m"));
-        for (site, name) in ["alpha", "delta"].into_iter().enumerate() {
-            for (poe, key) in ["0.1", "0.5"].into_iter().enumerate() {
-                let ours = &spectra[&format!("{name} {label} {key}")];
-                for (strength, row) in ours.iter().enumerate() {
-                    let expected = u_m[(site * 2 + poe) * 4 + strength];
-                    assert_eq!(row[1].parse::<f64>().unwrap().to_bits(), expected.to_bits(), "{name} {label} {key}");
-                }
-                assert!(ours.iter().any(|row| row[0] != row[1]), "{ours:?}");
-                let row = &coefficients[&format!("{name} {label} {key}")][0];
-                assert_eq!(row[0].parse::<f64>().unwrap().to_bits(), bias[site].to_bits());
-                assert_eq!(row[3].parse::<f64>().unwrap().to_bits(), c0[site * 2 + poe].to_bits());
-                assert!(row[2].parse::<f64>().unwrap() > 1.0 && !row[1].is_empty() && row[4].is_empty(), "{row:?}");
-            }
-        }
-    }
-    // no hazard, and a hazard that no weights of these records bring
-    assert_eq!(coefficients["sea PGV 0.1"][0][4], "no hazard of PGA");
-    assert!(coefficients["gamma PGV 0.1"][0][4].len() > 20, "{:?}", coefficients["gamma PGV 0.1"]);
-    assert!(spectra["gamma PGV 0.1"].iter().all(|row| !row[0].is_empty() && row[1].is_empty()));
-    assert!(told.contains("2 of 5 sites have no repaired spectrum: the column `no_repair` says why"), "{told}");
-    let map: Value = serde_json::from_str(&read(study.path(), "r.sites.geojson")).unwrap();
-    let alpha = map["features"].as_array().unwrap().iter().find(|site| site["properties"]["name"] == "alpha").unwrap();
-    let on_map = alpha["properties"]["pgv_10pct_50yr_consistent_u_m_at_0.2"].as_f64().unwrap();
-    assert_eq!(on_map.to_bits(), spectra["alpha PGV 0.1"][2][1].parse::<f64>().unwrap().to_bits());
-}
-
 /// The three files without the provenance, which holds the time: of tables it stands beside them.
-fn files(at: &Path, result: &str) -> [String; 3] {
+pub(crate) fn files(at: &Path, result: &str) -> [String; 3] {
     ["sites.csv", "sites.coefficients.csv", "sites.geojson"].map(|extension| {
         let text = read(at, &format!("{result}.{extension}"));
         let lines: Vec<&str> = text.lines().filter(|line| !line.contains("uplift 0")).collect();

@@ -22,5 +22,5 @@ pub use record_set::{Record, RecordSet, read_records};
 pub(crate) use record_set::{read_measured, read_with_pairs};
 pub use record_sets::{NamedSet, RecordSets, SetRecord, read_record_sets};
 pub(crate) use record_sets::{is_numbered, read_sets};
-pub use site_table::{BatchSite, ListedSite, SiteCurves, SiteExport, SiteList, read_site_list};
+pub use site_table::{BatchSite, ListedSite, SharedCurve, SiteCurves, SiteExport, SiteList, read_site_list};
 pub use third_component::Vertical;

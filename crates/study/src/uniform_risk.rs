@@ -177,10 +177,16 @@ impl UniformRiskStudy {
     }
 }
 
-/// Whether a site has a curve of the measure that the consistency is asked against; else a mistake.
-fn compared_somewhere(root: &Section<'_>, consistency: &Consistency, sites: Option<&[Site]>) -> bool {
+/// Whether a site, or the table of many, has a curve of the measure that the consistency is asked against; else a
+/// mistake.
+fn compared_somewhere(
+    root: &Section<'_>,
+    consistency: &Consistency,
+    (sites, table): (Option<&[Site]>, Option<&SiteTable>),
+) -> bool {
     let (Some(against), Some(sites)) = (consistency.against, sites) else { return true };
-    if sites.is_empty() || sites.iter().any(|site| site.curve(against).is_some()) {
+    let is_of_table = table.is_some_and(|table| table.export(against).is_some());
+    if sites.is_empty() || is_of_table || sites.iter().any(|site| site.curve(against).is_some()) {
         return true;
     }
     root.mistake(
@@ -220,7 +226,8 @@ pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<UniformRiskSt
     let regression = regression::read(root.section("regression"));
     let bootstrap = bootstrap::read(root.section("bootstrap"));
     let consistency = consistency::read(root.section("consistency"));
-    let consistency = consistency.filter(|of| compared_somewhere(&root, of, sites.as_deref()));
+    let consistency = consistency
+        .filter(|of| compared_somewhere(&root, of, (sites.as_deref(), site_table.as_ref().and_then(Option::as_ref))));
     let by_one = measures.as_deref().is_none_or(|measures| is_of_one_measure(&root, records.as_ref(), measures));
     let inputs = (records.iter().flat_map(Records::files))
         .chain(sites.iter().flatten().flat_map(|site| site.curves.iter().flat_map(CurveFile::files)))

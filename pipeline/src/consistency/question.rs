@@ -217,7 +217,7 @@ impl Question {
     }
 
     /// The levels that records are scaled to by a measure; none where it is not analysed by it.
-    pub(super) fn levels(&self, measure: IntensityMeasure) -> &[f64] {
+    pub(crate) fn levels(&self, measure: IntensityMeasure) -> &[f64] {
         self.analyses.iter().find(|(own, _)| *own == measure).map_or(&[], |(_, levels)| levels)
     }
 

@@ -14,11 +14,13 @@ use uplift_hazard::HazardCurve;
 use uplift_motion::IntensityMeasure;
 use uplift_risk::StripeWeights;
 
-use self::export::{Index, Row, SharedCurve, Stream};
+pub use self::export::SharedCurve;
+use self::export::{Index, Row, Stream};
+use super::hazard::stripe_weights;
 use crate::checksum::checksum_of_file;
 use crate::error::UpliftError;
 use crate::text::thousands;
-use uplift_study::{MeasurePlan, UniformRiskStudy};
+use uplift_study::{MeasurePlan, Repair, SiteTable, UniformRiskStudy};
 
 /// Sites that a warning names.
 const SITES_NAMED: usize = 4;
@@ -50,8 +52,10 @@ pub struct SiteList {
     pub sites: Vec<ListedSite>,
     /// Names of further columns of the table.
     pub carried: Vec<String>,
-    /// The exports, in the order of the study's measures.
+    /// The exports of the measures that the study is analysed by, in their order.
     pub exports: Vec<SiteExport>,
+    /// Where the study repairs, those of other measures: what the records bring is held against them.
+    pub compared: Vec<SiteExport>,
     /// What to know: sites without spectra, what was taken for granted.
     pub notes: Vec<String>,
     /// Name to SHA-256 of each file read.
@@ -63,8 +67,6 @@ pub struct SiteList {
 pub struct SiteExport {
     /// The measure.
     pub measure: IntensityMeasure,
-    /// Its position among the study's measures.
-    pub plan: usize,
     path: PathBuf,
     checksum: String,
     /// Which curve of the export belongs to each site; none where no site of the export is near enough.
@@ -73,16 +75,22 @@ pub struct SiteExport {
 }
 
 impl SiteExport {
-    /// What each stripe of the study weighs at a site with this curve.
+    /// A curve of the export in field units, cm/s or g, for the definition of the measure that the records are combined
+    /// by.
+    ///
+    /// # Errors
+    /// A curve of another definition without a conversion, for instance; as the reason for a table.
+    pub fn curve(&self, study: &UniformRiskStudy, exported: &HazardCurve) -> Result<HazardCurve, String> {
+        export::for_the_records(study, self.measure, exported)
+    }
+
+    /// What each stripe of the study weighs at a site with this [`curve`](Self::curve).
     ///
     /// # Errors
     /// A curve that does not cover the levels, for instance; as the reason for a table.
     pub fn weights(&self, study: &UniformRiskStudy, curve: &HazardCurve) -> Result<StripeWeights, String> {
-        export::weights(study, self.plan_of(study)?, curve)
-    }
-
-    fn plan_of<'a>(&self, study: &'a UniformRiskStudy) -> Result<&'a MeasurePlan, String> {
-        study.measures.get(self.plan).ok_or_else(|| "the measure is not one of the study's".to_owned())
+        let plan = study.measures.iter().find(|plan| plan.measure == self.measure);
+        stripe_weights(study, plan.ok_or_else(|| "the measure is not one of the study's".to_owned())?, curve)
     }
 }
 
@@ -94,12 +102,12 @@ pub fn read_site_list(study: &UniformRiskStudy) -> Result<Option<SiteList>, Upli
     let Some(table) = &study.site_table else { return Ok(None) };
     let mut mistakes = Vec::new();
     let places = table.sites.as_deref().and_then(|path| noted(places::read(path), &mut mistakes));
-    let mut found: Vec<(usize, &Path, Index)> = Vec::new();
-    for (position, plan) in study.measures.iter().enumerate() {
-        let Some(path) = table.export(plan.measure) else { continue };
+    let mut found: Vec<(Read<'_>, &Path, Index)> = Vec::new();
+    for read in to_be_read(study, table) {
+        let Some(path) = table.export(read.measure()) else { continue };
         let with_names = table.sites.is_none() && found.is_empty();
-        let index = noted(Index::read(study, plan, path, with_names), &mut mistakes);
-        found.extend(index.map(|index| (position, path, index)));
+        let index = noted(Index::read(study, read, path, with_names), &mut mistakes);
+        found.extend(index.map(|index| (read, path, index)));
     }
     let (true, Some((_, _, first))) = (mistakes.is_empty(), found.first()) else {
         return Err(UpliftError::Inputs(mistakes));
@@ -108,10 +116,11 @@ pub fn read_site_list(study: &UniformRiskStudy) -> Result<Option<SiteList>, Upli
         Some(places) => (places.sites, places.carried),
         None => (first.sites(), Vec::new()),
     };
-    let mut list = SiteList { sites, carried, exports: Vec::new(), notes: Vec::new(), checksums: BTreeMap::new() };
+    let (notes, checksums) = (Vec::new(), BTreeMap::new());
+    let mut list = SiteList { sites, carried, exports: Vec::new(), compared: Vec::new(), notes, checksums };
     let mut failures = Vec::new();
     let mut any_works = false;
-    for (number, (plan, path, index)) in found.iter().enumerate() {
+    for (number, (read, path, index)) in found.iter().enumerate() {
         let rows: Vec<Option<Row>> = if table.sites.is_none() && number == 0 {
             index.rows().iter().copied().map(Some).collect()
         } else {
@@ -120,8 +129,8 @@ pub fn read_site_list(study: &UniformRiskStudy) -> Result<Option<SiteList>, Upli
             };
             list.sites.par_iter().map(near).collect()
         };
-        any_works |= rows.iter().flatten().any(|row| row.usable);
-        let measure = study.measures[*plan].measure;
+        let (measure, is_analysed) = (read.measure(), matches!(read, Read::Analysed(_)));
+        any_works |= is_analysed && rows.iter().flatten().any(|row| row.usable);
         let label = measure.label();
         failures.extend(list.without_hazard(label, path, index, &rows, table.within_km));
         list.notes.extend(index.notes.iter().cloned());
@@ -129,7 +138,8 @@ pub fn read_site_list(study: &UniformRiskStudy) -> Result<Option<SiteList>, Upli
         list.checksums.insert(format!("site table {label}"), checksum.clone());
         let items = rows.iter().map(|row| row.map(|row| row.item)).collect();
         let path = (*path).to_owned();
-        list.exports.push(SiteExport { measure, plan: *plan, path, checksum, items, within_km: table.within_km });
+        let export = SiteExport { measure, path, checksum, items, within_km: table.within_km };
+        if is_analysed { list.exports.push(export) } else { list.compared.push(export) }
     }
     if !any_works {
         failures.insert(0, "no site of the table has hazard that can be used".to_owned());
@@ -140,6 +150,32 @@ pub fn read_site_list(study: &UniformRiskStudy) -> Result<Option<SiteList>, Upli
         list.checksums.insert("site table".to_owned(), summed(path)?);
     }
     Ok(Some(list))
+}
+
+/// What an export is read for.
+#[derive(Debug, Clone, Copy)]
+enum Read<'a> {
+    /// The spectra of a measure that the study is analysed by.
+    Analysed(&'a MeasurePlan),
+    /// To be held against what the records bring of a measure.
+    Compared(IntensityMeasure),
+}
+
+impl Read<'_> {
+    fn measure(self) -> IntensityMeasure {
+        match self {
+            Self::Analysed(plan) => plan.measure,
+            Self::Compared(measure) => measure,
+        }
+    }
+}
+
+/// The exports that are wanted: those of measures that the study is analysed by come first.
+fn to_be_read<'a>(study: &'a UniformRiskStudy, table: &'a SiteTable) -> impl Iterator<Item = Read<'a>> {
+    let is_repaired = study.consistency.repair == Repair::Weights;
+    let is_other = |measure: &IntensityMeasure| study.measures.iter().all(|plan| plan.measure != *measure);
+    let others = table.exports.iter().map(|(measure, _)| *measure).filter(move |own| is_repaired && is_other(own));
+    study.measures.iter().map(Read::Analysed).chain(others.map(Read::Compared))
 }
 
 fn noted<T>(read: Result<T, Vec<String>>, mistakes: &mut Vec<String>) -> Option<T> {
@@ -155,9 +191,14 @@ fn count(number: usize) -> String {
 }
 
 impl SiteList {
+    /// All exports, first those that have spectra.
+    pub fn all_exports(&self) -> impl Iterator<Item = &SiteExport> {
+        self.exports.iter().chain(&self.compared)
+    }
+
     /// The sites in words, for a line on the screen.
     pub fn description(&self) -> String {
-        let exports = self.exports.iter().map(|export| {
+        let exports = self.all_exports().map(|export| {
             let found = export.items.iter().flatten().count();
             format!("{} found in the export of {}", count(found), export.measure.label())
         });
@@ -228,7 +269,7 @@ impl SiteList {
 pub struct BatchSite {
     /// Its position in the list.
     pub site: usize,
-    /// The curve, or why there is none, for each of [`SiteList::exports`].
+    /// The curve as exported, or why there is none, for each of [`SiteList::all_exports`].
     pub curves: Vec<SharedCurve>,
 }
 
@@ -254,7 +295,7 @@ impl<'a> SiteCurves<'a> {
             }
             Stream::open(&export.path, export.items.iter().copied().flatten())
         };
-        let streams = list.exports.iter().map(stream).collect::<Result<_, _>>()?;
+        let streams = list.all_exports().map(stream).collect::<Result<_, _>>()?;
         Ok(Self { list, streams, next: 0 })
     }
 
@@ -266,7 +307,7 @@ impl<'a> SiteCurves<'a> {
         let end = self.list.sites.len().min(self.next + most);
         let batch = (self.next..end)
             .map(|site| {
-                let curves = self.list.exports.iter().zip(&mut self.streams).map(|(export, stream)| {
+                let curves = self.list.all_exports().zip(&mut self.streams).map(|(export, stream)| {
                     match export.items.get(site).copied().flatten() {
                         Some(item) => stream.take(item),
                         None => {

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use serde::Serialize;
-use uplift_study::UniformRiskStudy;
+use uplift_study::{MeasurePlan, UniformRiskStudy};
 
 use super::levels::{LevelCheck, check_levels};
 use super::{plan_stripes, site_table, systems};
@@ -95,8 +95,7 @@ pub(crate) fn needs(study: &UniformRiskStudy, set: &RecordSet, list: Option<&Sit
     let product = |factors: &[u64]| factors.iter().fold(1_u64, |product, factor| product.saturating_mul(*factor));
     let sum = |terms: &[u64]| terms.iter().fold(0_u64, |sum, term| sum.saturating_add(*term));
     let (records, strengths) = (count(set.records.len()), count(study.strengths.len()));
-    let levels = |measure: usize| count(study.measures[measure].levels.len());
-    let all_levels = (0..study.measures.len()).map(levels).sum();
+    let all_levels = study.measures.iter().map(|plan| count(plan.levels.len())).sum();
     let (measures, sites) = (count(study.measures.len()), count(study.sites.len()));
     let stripes = product(&[12, records, strengths, all_levels]);
     let thresholds = if study.risk.maf_surface { count(study.risk.thresholds_m.len()) } else { 0 };
@@ -108,7 +107,8 @@ pub(crate) fn needs(study: &UniformRiskStudy, set: &RecordSet, list: Option<&Sit
     let samples: u64 = set.records.iter().map(samples).sum();
     let listed = list.map_or(0, |list| count(list.sites.len()));
     let exports = list.map_or(&[][..], |list| &list.exports[..]);
-    let listed_levels = exports.iter().map(|export| levels(export.plan)).sum();
+    let is_listed = |plan: &&MeasurePlan| exports.iter().any(|export| export.measure == plan.measure);
+    let listed_levels = study.measures.iter().filter(is_listed).map(|plan| count(plan.levels.len())).sum();
     let demands = product(&[12, records, strengths, listed_levels]);
     let text = product(&[listed, count(exports.len()), count(study.risk.poe.len()), 80 * strengths + 800]);
     Needs {

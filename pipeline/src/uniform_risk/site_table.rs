@@ -20,7 +20,7 @@ use super::Stripes;
 use crate::UpliftError;
 use crate::consistency::Question;
 use crate::events::{Events, Progress};
-use crate::inputs::{BatchSite, SiteCurves, SiteList, read_site_list};
+use crate::inputs::{BatchSite, SharedCurve, SiteCurves, SiteExport, SiteList, read_site_list};
 use crate::text::{risk_name, thousands};
 use uplift_study::{Repair, UniformRiskStudy};
 
@@ -72,8 +72,9 @@ pub(crate) fn compute(
     events: &dyn Events,
 ) -> Result<SiteOutput, UpliftError> {
     let Some(list) = list else { return Ok(SiteOutput::default()) };
-    let risks =
-        list.exports.iter().map(|export| SiteRisk::new(study, &stripes[export.plan])).collect::<Result<Vec<_>, _>>()?;
+    // both are in the order of the study's measures
+    let listed = stripes.iter().filter(|own| list.exports.iter().any(|export| export.measure == own.measure));
+    let risks: Vec<SiteRisk<'_>> = listed.map(|stripes| SiteRisk::new(study, stripes)).collect::<Result<_, _>>()?;
     let is_repaired = study.consistency.repair == Repair::Weights;
     let repair = is_repaired.then(|| SiteRepair::new(question, list)).transpose()?;
     let mut files = SiteTableFiles::create(path, study, list, line)?;
@@ -120,14 +121,14 @@ fn spectra_of(
     files: &SiteTableFiles,
     site: &BatchSite,
 ) -> (SiteText, SiteFindings) {
-    let exports = list.exports.iter().zip(risks).zip(&site.curves);
-    let spectra: Vec<Result<SiteSpectra, String>> = exports
-        .map(|((export, risk), curve)| {
-            let curve = curve.as_ref().as_ref().map_err(Clone::clone)?;
-            risk.spectra(&export.weights(study, curve)?)
-        })
+    let curve = |(export, exported): (&SiteExport, &SharedCurve)| {
+        export.curve(study, exported.as_ref().as_ref().map_err(Clone::clone)?)
+    };
+    let curves: Vec<Result<HazardCurve, String>> = list.all_exports().zip(&site.curves).map(curve).collect();
+    let spectra: Vec<Result<SiteSpectra, String>> = (list.exports.iter().zip(risks).zip(&curves))
+        .map(|((export, risk), curve)| risk.spectra(&export.weights(study, curve.as_ref().map_err(Clone::clone)?)?))
         .collect();
-    let curves: Vec<Option<&HazardCurve>> = site.curves.iter().map(|curve| curve.as_ref().as_ref().ok()).collect();
+    let curves: Vec<Option<&HazardCurve>> = curves.iter().map(|curve| curve.as_ref().ok()).collect();
     let consistency: Option<Vec<SiteConsistency>> = repair
         .map(|repair| risks.iter().enumerate().map(|(export, risk)| repair.of_site(export, risk, &curves)).collect());
     let findings = SiteFindings {

@@ -25,7 +25,8 @@ pub(super) const KEYS: SectionKeys = SectionKeys {
         Key {
             names: &["pgv", "pga", "sa_1s"],
             meaning: "export of mean hazard curves of any measure, by its name: OpenQuake's CSV, NRML or the JSON of \
-                      the USGS, PGV in cm/s and PGA in g as they write them",
+                      the USGS, PGV in cm/s and PGA in g as they write them; a repair (`consistency.repair`) holds \
+                      what the records bring against that of another measure, switched on or not",
             default: "one of a measure that is switched on is needed",
             range: "existing file",
         },
@@ -107,6 +108,11 @@ fn section(
     let mut of_the_study = false;
     for measure in measures::named(&section) {
         let Some(field) = section.field(measure.key()) else { continue };
+        if !measure.can_be_scaled_to() {
+            field.mistake(measures::cannot_be_scaled_to(measure), "leave the export out");
+            exports = None;
+            continue;
+        }
         of_the_study |= studied.contains(&measure);
         match (&mut exports, paths.input(&field)) {
             (Some(exports), Some(path)) => exports.push((measure, path)),

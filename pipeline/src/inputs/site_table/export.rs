@@ -5,12 +5,12 @@ use std::path::Path;
 use std::sync::Arc;
 
 use uplift_hazard::{ExportedCurve, ExportedCurves, HazardCurve, HazardError, SitePlace, Statistic};
-use uplift_risk::StripeWeights;
+use uplift_motion::IntensityMeasure;
 
 use super::super::hazard::{implausible, of_the_records_definition, stripe_weights};
-use super::ListedSite;
+use super::{ListedSite, Read};
 use crate::error::UpliftError;
-use uplift_study::{MeasurePlan, UniformRiskStudy, definition_of};
+use uplift_study::{UniformRiskStudy, definition_of};
 
 /// Mistakes that are told one by one.
 const MISTAKES_TOLD: usize = 8;
@@ -62,11 +62,11 @@ impl Index {
     /// What is wrong with the file as a whole, a line each; a site without a usable curve is none of it.
     pub(super) fn read(
         study: &UniformRiskStudy,
-        plan: &MeasurePlan,
+        read: Read<'_>,
         path: &Path,
         with_names: bool,
     ) -> Result<Self, Vec<String>> {
-        let label = plan.measure.label();
+        let label = read.measure().label();
         let fail = |reason: String| vec![format!("site table, {label}: {reason}")];
         let mut curves = ExportedCurves::open(path).map_err(|error| fail(error.to_string()))?;
         let (mut rows, mut names, mut reasons) = (Vec::new(), Vec::new(), BTreeMap::new());
@@ -99,7 +99,7 @@ impl Index {
                 tally.mistake(reason);
             }
             let used = site.curve.map_err(|error| reason_of(&error));
-            let used = used.and_then(|curve| tally.weigh(study, plan, path, &curve));
+            let used = used.and_then(|curve| tally.weigh(study, read, path, &curve));
             let SitePlace { name, longitude_deg, latitude_deg } = site.site;
             rows.push(Row { longitude_deg, latitude_deg, item, usable: used.is_ok() });
             if with_names {
@@ -197,13 +197,13 @@ impl Tally {
     fn weigh(
         &mut self,
         study: &UniformRiskStudy,
-        plan: &MeasurePlan,
+        read: Read<'_>,
         path: &Path,
         exported: &ExportedCurve,
     ) -> Result<(), String> {
         self.shortened += usize::from(exported.dropped_zeros + exported.dropped_certain > 0);
         let curve = exported.curve.in_field_units(study.gravity_m_s2).map_err(|error| reason_of(&error))?;
-        let curve = match of_the_records_definition(study, plan.measure, &curve) {
+        let curve = match of_the_records_definition(study, read.measure(), &curve) {
             Ok(Some(curve)) => curve,
             Ok(None) => {
                 self.undefined += 1;
@@ -217,11 +217,14 @@ impl Tally {
                 return Err(reason);
             }
         };
-        if let Some(reason) = implausible(&curve, plan.measure) {
+        if let Some(reason) = implausible(&curve, read.measure()) {
             self.implausible_curves += 1;
             self.first_implausible.get_or_insert_with(|| format!("{}: {reason}", exported.site));
         }
-        stripe_weights(study, plan, &curve).map(|_| ())
+        match read {
+            Read::Analysed(plan) => stripe_weights(study, plan, &curve).map(|_| ()),
+            Read::Compared(_) => Ok(()),
+        }
     }
 
     fn notes(&self, study: &UniformRiskStudy, label: &str, path: &Path) -> Vec<String> {
@@ -265,19 +268,18 @@ fn reason_of(error: &HazardError) -> String {
     }
 }
 
-/// What each stripe of the study weighs at a site of an export.
-pub(super) fn weights(
+/// A curve of an export in field units, for the definition of the measure that the records are combined by.
+pub(super) fn for_the_records(
     study: &UniformRiskStudy,
-    plan: &MeasurePlan,
-    curve: &HazardCurve,
-) -> Result<StripeWeights, String> {
-    let curve = curve.in_field_units(study.gravity_m_s2).map_err(|error| reason_of(&error))?;
-    let curve = of_the_records_definition(study, plan.measure, &curve)?.unwrap_or(curve);
-    stripe_weights(study, plan, &curve)
+    measure: IntensityMeasure,
+    exported: &HazardCurve,
+) -> Result<HazardCurve, String> {
+    let curve = exported.in_field_units(study.gravity_m_s2).map_err(|error| reason_of(&error))?;
+    Ok(of_the_records_definition(study, measure, &curve)?.unwrap_or(curve))
 }
 
 /// A curve that several sites may share, or why there is none.
-pub(super) type SharedCurve = Arc<Result<HazardCurve, String>>;
+pub type SharedCurve = Arc<Result<HazardCurve, String>>;
 
 /// The curves of an export in the order in which they are asked for.
 ///

@@ -7,7 +7,7 @@ use uplift_motion::IntensityMeasure;
 use super::{SiteRisk, SiteSpectra};
 use crate::consistency::Question;
 use crate::error::UpliftError;
-use crate::inputs::SiteList;
+use crate::inputs::{SiteExport, SiteList};
 
 /// What the records bring of the other measure at a site, and the spectra of weights by which they bring the site's.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,7 +34,7 @@ impl SiteConsistency {
 /// What the repair of every site has in common.
 pub struct SiteRepair<'a> {
     question: &'a Question,
-    /// `[export]`; none for a measure without another beside it.
+    /// Of those of [`SiteList::exports`], `[export]`; none for a measure without another beside it.
     sets: Vec<Option<ScaledExport>>,
 }
 
@@ -42,7 +42,7 @@ pub struct SiteRepair<'a> {
 struct ScaledExport {
     scaled_to: IntensityMeasure,
     levels: Vec<f64>,
-    /// The measure compared, and its position among the exports.
+    /// The measure compared, and its position among [`SiteList::all_exports`].
     other: (IntensityMeasure, usize),
     set: RecordSet,
 }
@@ -53,22 +53,25 @@ impl<'a> SiteRepair<'a> {
     /// # Errors
     /// Records without a measure.
     pub(crate) fn new(question: &'a Question, list: &SiteList) -> Result<Self, UpliftError> {
-        let measures: Vec<IntensityMeasure> = list.exports.iter().map(|export| export.measure).collect();
-        let scaled = |&scaled_to: &IntensityMeasure| -> Result<Option<ScaledExport>, UpliftError> {
+        let measures: Vec<IntensityMeasure> = list.all_exports().map(|export| export.measure).collect();
+        let scaled = |export: &SiteExport| -> Result<Option<ScaledExport>, UpliftError> {
+            let scaled_to = export.measure;
             let Some(other) = question.other_among(&measures, scaled_to) else { return Ok(None) };
             let position = measures.iter().position(|own| *own == other);
-            let levels = question.analyses.iter().find(|(own, _)| *own == scaled_to).map(|(_, levels)| levels.clone());
-            let (Some(position), Some(levels)) = (position, levels) else { return Ok(None) };
-            let set = question.set(scaled_to, other)?;
+            let Some(position) = position else { return Ok(None) };
+            let (levels, set) = (question.levels(scaled_to).to_vec(), question.set(scaled_to, other)?);
             Ok(Some(ScaledExport { scaled_to, levels, other: (other, position), set }))
         };
-        Ok(Self { question, sets: measures.iter().map(scaled).collect::<Result<_, _>>()? })
+        Ok(Self { question, sets: list.exports.iter().map(scaled).collect::<Result<_, _>>()? })
     }
 
-    /// The site with `curves` `[export]`, where the spectra of the export at `export` are those of `risk`.
+    /// The site with `curves` of [`SiteList::all_exports`], where the spectra of the export at `export` are those of
+    /// `risk`.
     pub fn of_site(&self, export: usize, risk: &SiteRisk<'_>, curves: &[Option<&HazardCurve>]) -> SiteConsistency {
         let Some(scaled) = &self.sets[export] else {
-            return SiteConsistency::unknown("the table has an export of one measure alone".to_owned());
+            return SiteConsistency::unknown(
+                "the table has an export of one measure alone: add that of another".to_owned(),
+            );
         };
         let (Some(own), Some(compared)) = (curves[export], curves[scaled.other.1]) else {
             return SiteConsistency::unknown(format!("no hazard of {}", scaled.other.0.label()));
