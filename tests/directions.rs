@@ -45,6 +45,32 @@ fn azimuths_of_quarter_turns_are_the_components() {
     }
 }
 
+/// What none of four pairs shows is not known better for having looked at each twice.
+#[test]
+fn the_bound_of_what_no_run_shows_counts_pairs() {
+    let study = SmallStudy::new();
+    let broad = "kind = \"block\"\nwidth_m = 40\nheight_m = 41\nmass_kg = 1000\nuplift_displacement_m = 0.001\n";
+    study.write("broad.toml", broad);
+    let of = |name: &str, more: &[String]| -> (Value, String) {
+        run(&study, name, more);
+        let told = study.uplift(&["overturning", "broad.toml", "--urs", name, "--json", "-q"]).ok().stdout;
+        let told: Value = serde_json::from_str(&told).unwrap();
+        let bound = told["overturning"][0]["sites"][0]["at_most_per_year"].clone();
+        let alarms = told["alarms"].as_array().unwrap();
+        let few = alarms.iter().find(|alarm| alarm["kind"] == "few-records").unwrap();
+        (bound, few["what"].as_str().unwrap().to_owned())
+    };
+    let (one, few) = of("one.h5", &component("h1"));
+    assert!(one.as_f64().is_some_and(|bound| bound > 0.0) && few.starts_with("4 are few"), "{one} {few}");
+    for (name, more, records) in
+        [("both.h5", component("both"), 8), ("each.h5", rotation(&["take=each", "azimuths=3"]), 12)]
+    {
+        let (bound, few) = of(name, &more);
+        assert_eq!(bound, one, "{name}");
+        assert!(few.starts_with(&format!("{records} records of 4 pairs are few")), "{few}");
+    }
+}
+
 /// The percentile is taken of the peaks under each azimuth; the worst is at least every one.
 #[test]
 fn a_percentile_ranks_the_peaks_of_all_azimuths() {

@@ -69,6 +69,11 @@ pub fn bytes(number: u64) -> String {
     }
 }
 
+/// "60 records of 30 pairs", where pairs have several; else "30 records".
+pub fn records_in_words(records: usize, pairs: usize) -> String {
+    if pairs < records { format!("{records} records of {pairs} pairs") } else { format!("{records} records") }
+}
+
 /// A whole number with its thousands set apart.
 pub fn thousands(number: u64) -> String {
     let digits = number.to_string();

@@ -8,14 +8,14 @@ use crate::error::UpliftError;
 use crate::frame::FEW_RECORDS;
 use crate::inputs::at_level::{far_factors, relative_factors};
 use crate::result::{Kind, ResultFile};
+use crate::text::records_in_words;
 
 pub(super) fn of_result(file: &ResultFile) -> Result<Vec<Alarm>, UpliftError> {
     let head = file.head()?;
     let mut alarms = Vec::new();
     // a study that cannot be read any more has nothing to add
-    if let Ok(study) = Study::stored(&head.study_toml) {
-        alarms.extend(of_study(&study));
-    }
+    let study = Study::stored(&head.study_toml).ok();
+    alarms.extend(study.iter().flat_map(of_study));
     if head.synthetic {
         alarms.push(Alarm::of_one(
             Severity::Caution,
@@ -26,11 +26,15 @@ pub(super) fn of_result(file: &ResultFile) -> Result<Vec<Alarm>, UpliftError> {
         ));
     }
     if file.kind() == Kind::UniformRisk {
-        let sets = sets_of_levels(file)?;
+        let records = file.stored_axes()?.records.len();
+        // nor does it say which records are of one pair
+        let pair_of = if study.is_some() { file.pair_of()? } else { (0..records).collect() };
+        let pairs = uplift_bootstrap::units(&pair_of);
+        let sets = sets_of_levels(file, &pairs)?;
         alarms.extend(sets.iter().filter_map(far));
         alarms.extend(sets.iter().find_map(few_at_level));
         if sets.is_empty() {
-            alarms.extend(few(file.axes()?.records.len()));
+            alarms.extend(few(records, pairs.len()));
         }
     }
     let noticed = head.warnings.iter().filter(|line| !line.is_empty());
@@ -59,16 +63,19 @@ struct Sets {
     relative: Vec<f64>,
     /// `[level, record]`; none where all count alike.
     shares: Option<Vec<f64>>,
+    /// The positions of the records of each pair.
+    pairs: Vec<Vec<usize>>,
 }
 
-fn sets_of_levels(file: &ResultFile) -> Result<Vec<Sets>, UpliftError> {
+fn sets_of_levels(file: &ResultFile, pairs: &[Vec<usize>]) -> Result<Vec<Sets>, UpliftError> {
     let mut sets = Vec::new();
     for (measure, levels) in file.levels()? {
         let stored = file.records()?;
         if let Some(own) = file.sets_of_levels(stored.ids.len(), measure, levels.len())? {
             let intensities = stored.intensities(measure).unwrap_or_default();
             let relative = relative_factors(&own.factors, measure, &levels, intensities);
-            sets.push(Sets { measure, levels, names: stored.ids, relative, shares: own.shares });
+            let (names, pairs) = (stored.ids, pairs.to_vec());
+            sets.push(Sets { measure, levels, names, relative, shares: own.shares, pairs });
         }
     }
     Ok(sets)
@@ -83,12 +90,15 @@ fn far(sets: &Sets) -> Option<Alarm> {
     Some(Alarm::of_one(Severity::Mistake, "factors-at-level", "records", what, OF_FAR_FACTORS))
 }
 
-/// Where the level with the fewest records has few that count.
+/// Where the level with the fewest pairs has few that count.
 fn few_at_level(sets: &Sets) -> Option<Alarm> {
     let records = sets.names.len();
     let counts = |(level, row): (usize, &[f64])| {
-        let effective = 1.0 / row.iter().map(|share| share * share).sum::<f64>();
-        (level, row.iter().filter(|share| **share > 0.0).count(), effective)
+        let of_pair = |pair: &Vec<usize>| pair.iter().map(|&record| row[record]).sum::<f64>();
+        let of_pairs: Vec<f64> = sets.pairs.iter().map(of_pair).collect();
+        let effective = 1.0 / of_pairs.iter().map(|share| share * share).sum::<f64>();
+        let count = |shares: &[f64]| shares.iter().filter(|share| **share > 0.0).count();
+        (level, records_in_words(count(row), count(&of_pairs)), effective)
     };
     let even = vec![1.0 / records as f64; records];
     let rows: Vec<&[f64]> = sets.shares.as_deref().map_or(vec![&even[..]], |shares| shares.chunks(records).collect());
@@ -100,7 +110,7 @@ fn few_at_level(sets: &Sets) -> Option<Alarm> {
             "few-records",
             &place,
             format!(
-                "its {count} records count as {effective:.1}, the fewest of all levels: below about {FEW_RECORDS} \
+                "its {count} count as {effective:.1}, the fewest of all levels: below about {FEW_RECORDS} \
                  spectra depend strongly on the choice of records"
             ),
             "select more for the level (records.at_level); uplift bootstrap shows how much",
@@ -108,13 +118,17 @@ fn few_at_level(sets: &Sets) -> Option<Alarm> {
     })
 }
 
-fn few(records: usize) -> Option<Alarm> {
-    (records < FEW_RECORDS).then(|| {
+/// Where the set has few pairs: two components of one, or what is seen of it from several azimuths, are no two of them.
+fn few(records: usize, pairs: usize) -> Option<Alarm> {
+    (pairs < FEW_RECORDS).then(|| {
         Alarm::of_one(
             Severity::Caution,
             "few-records",
             "records",
-            format!("{records} are few: below about {FEW_RECORDS} spectra depend strongly on the choice of records"),
+            format!(
+                "{are} are few: below about {FEW_RECORDS} spectra depend strongly on the choice of records",
+                are = if pairs < records { records_in_words(records, pairs) } else { records.to_string() }
+            ),
             "bring more (records.manifest), or take all there are (records.first); uplift bootstrap shows how much",
         )
     })
@@ -133,11 +147,16 @@ mod tests {
             names: (0..60).map(|record| format!("R{record}")).collect(),
             relative: vec![1.0; 120],
             shares: None,
+            pairs: (0..60).map(|record| vec![record]).collect(),
         };
         assert_eq!((few_at_level(&sets), far(&sets)), (None, None));
         sets.shares = Some([even(60), even(20), vec![0.0; 40]].concat());
         let few = few_at_level(&sets).map(|alarm| alarm.to_string()).unwrap_or_default();
         assert!(few.starts_with("PGV 10 cm/s: its 20 records count as 20.0"), "{few}");
+        // two of a pair
+        sets.pairs = (0..30).map(|pair| vec![2 * pair, 2 * pair + 1]).collect();
+        let few = few_at_level(&sets).map(|alarm| alarm.to_string()).unwrap_or_default();
+        assert!(few.starts_with("PGV 10 cm/s: its 20 records of 10 pairs count as 10.0"), "{few}");
         sets.relative[3] = 400.0;
         assert!(
             far(&sets).is_some_and(|alarm| alarm.severity == Severity::Mistake && alarm.what.contains("R3 at 1 cm/s"))
@@ -146,7 +165,8 @@ mod tests {
 
     #[test]
     fn forty_records_are_no_longer_few() {
-        assert_eq!(few(40), None);
-        assert!(few(39).is_some_and(|alarm| alarm.what.starts_with("39 are few")));
+        assert_eq!([few(40, 40), few(80, 40)], [None, None]);
+        assert!(few(39, 39).is_some_and(|alarm| alarm.what.starts_with("39 are few")));
+        assert!(few(78, 39).is_some_and(|alarm| alarm.what.starts_with("78 records of 39 pairs are few")));
     }
 }

@@ -8,7 +8,7 @@ use uplift_study::Structure;
 use super::inputs::of_warning;
 use super::{Alarm, Case, Severity};
 use crate::structure::{BOUND_CONFIDENCE, EventRisk, share_at_most};
-use crate::text::{per_cent, share as share_in_words};
+use crate::text::{per_cent, records_in_words, share as share_in_words};
 use uplift_study::levels_key;
 
 /// From this share of a risk on, it is decided by what was not analysed.
@@ -24,8 +24,10 @@ pub(crate) struct OwnRisk {
     /// The first and the last level of the stripes.
     pub(crate) levels: (f64, f64),
     pub(crate) records: usize,
-    /// To how many records that count alike these amount.
-    pub(crate) effective_records: f64,
+    /// Pairs that they are of.
+    pub(crate) pairs: usize,
+    /// To how many pairs that count alike these amount.
+    pub(crate) effective_pairs: f64,
 }
 
 /// Numbers of the structure file that are probably in another unit.
@@ -101,16 +103,16 @@ fn none_seen(own: &OwnRisk) -> Option<Case> {
         badness: at_most_per_year,
         subject: own.subject.clone(),
         what: format!(
-            "0 of {records} records at any level up to {} {}: that is not never, but at most {at_most_per_year:.1e} a \
-             year; stronger motions were not analysed and count as if all did, and 0 of {records}{weighted} leave \
-             a share of up to {} at the last level ({} confidence)",
+            "0 of {} at any level up to {} {}: that is not never, but at most {at_most_per_year:.1e} a year; stronger \
+             motions were not analysed and count as if all did, and 0 of {pairs}{weighted} leave a share of up to {} at the last level ({} confidence)",
+            records_in_words(own.records, own.pairs),
             own.levels.1,
             own.measure.unit(),
-            share_in_words(share_at_most(own.effective_records)),
+            share_in_words(share_at_most(own.effective_pairs)),
             per_cent(BOUND_CONFIDENCE),
-            records = own.records,
-            weighted = if own.effective_records < own.records as f64 {
-                format!(" (which, weighted, count as {:.0})", own.effective_records)
+            pairs = if own.pairs < own.records { format!("{} pairs", own.pairs) } else { own.records.to_string() },
+            weighted = if own.effective_pairs < own.pairs as f64 {
+                format!(" (which, weighted, count as {:.0})", own.effective_pairs)
             } else {
                 String::new()
             },
@@ -139,7 +141,8 @@ mod tests {
             measure: IntensityMeasure::Pgv,
             levels: (1.0, 200.0),
             records: 30,
-            effective_records: 30.0,
+            pairs: 30,
+            effective_pairs: 30.0,
         }
     }
 
@@ -171,6 +174,15 @@ mod tests {
         };
         // 1 − 0.05^(1/30)
         for words in ["0 of 30 records", "200 cm/s", "at most 2.3e-5 a year", "9.5 %"] {
+            assert!(none.what.contains(words), "{words}: {none}");
+        }
+    }
+
+    #[test]
+    fn none_of_thirty_pairs_is_no_more_for_having_two_components() {
+        let both = OwnRisk { records: 60, ..own(EventRisk { per_year: 0.0, at_most_per_year: Some(2.3e-5), ..RISK }) };
+        let [none] = &of_own_risks(&[both])[..] else { panic!() };
+        for words in ["0 of 60 records of 30 pairs at any level", "and 0 of 30 pairs leave", "9.5 %"] {
             assert!(none.what.contains(words), "{words}: {none}");
         }
     }

@@ -11,12 +11,12 @@ use crate::result::ResultFile;
 /// How often a band is to hold the number of all records there could be.
 pub(super) const CONFIDENCE: f64 = 0.9;
 
-/// What scatters: the records of each unit, which are pairs with their analysed components, or earthquakes with all of
-/// theirs.
+/// What scatters: the positions of the records of each unit.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Scatter {
-    pub(super) records: Vec<Vec<usize>>,
-    /// None where no two pairs are known to share one.
+    /// Those of each pair: its analysed components, or what is seen of it from each azimuth.
+    pub(super) pairs: Vec<Vec<usize>>,
+    /// Those of each earthquake. None where no two pairs are known to share one.
     pub(super) earthquakes: Option<Vec<Vec<usize>>>,
 }
 
@@ -28,9 +28,9 @@ impl Scatter {
     pub(super) fn of(file: &ResultFile) -> Result<Self, UpliftError> {
         let event_of = file.event_of()?;
         // two components of a pair are not independent
-        let records = uplift_bootstrap::units(&file.pair_of()?);
+        let pairs = uplift_bootstrap::units(&file.pair_of()?);
         let earthquakes = file.shares_earthquakes()?.then(|| uplift_bootstrap::units(&event_of));
-        Ok(Self { records, earthquakes })
+        Ok(Self { pairs, earthquakes })
     }
 }
 
@@ -72,7 +72,7 @@ pub(super) fn rate_bands(
     threshold_m: f64,
 ) -> Result<Option<RateBands>, UpliftError> {
     let of = |units: &Vec<Vec<usize>>| inferred_rate(demand, weights, units, (threshold_m, CONFIDENCE));
-    let by_record = of(&scatter.records)?;
+    let by_record = of(&scatter.pairs)?;
     let by_earthquake = scatter.earthquakes.as_ref().map(of).transpose()?.filter(|band| !band[1].is_nan());
     // NaN of a single record
     Ok((by_record[1] > 0.0).then_some(RateBands { by_record, by_earthquake }))
@@ -93,10 +93,10 @@ pub(super) fn demand_bands(
         let found = inferred_limits(demand, weights, units, &[target_per_year], (&[units.len()], CONFIDENCE))?;
         Ok(found.first().map(|own| own.truth_m.map(|limit_m| factor * limit_m)).filter(|band| !band[1].is_nan()))
     };
-    let Some(demand_by_record_m) = of(&scatter.records)? else { return Ok(None) };
+    let Some(demand_by_record_m) = of(&scatter.pairs)? else { return Ok(None) };
     let rate = |threshold_m: f64| rate_bands(demand, weights, scatter, threshold_m);
     Ok(Some(DemandBands {
-        records: scatter.records.len(),
+        records: scatter.pairs.len(),
         earthquakes: scatter.earthquakes.as_ref().map(Vec::len),
         demand_by_record_m,
         demand_by_earthquake_m: scatter.earthquakes.as_ref().map(of).transpose()?.flatten(),

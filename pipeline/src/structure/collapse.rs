@@ -27,6 +27,7 @@ pub(super) struct Collapse {
 ///
 /// * `levels` — of the stripes, ascending
 /// * `demands_m` — over `[record, level]`, m; infinite where overturned
+/// * `pairs` — the positions of each pair's records
 /// * `weights` — what each stripe weighs, and each run after a repair, `[site]`
 /// * `years` — that the probabilities refer to
 /// * `may_overturn` — false for a system that cannot
@@ -35,7 +36,7 @@ pub(super) struct Collapse {
 /// Arrays that do not fit together.
 pub(super) fn collapse(
     levels: &[f64],
-    demands_m: &[f64],
+    (demands_m, pairs): (&[f64], &[Vec<usize>]),
     weights: &[(&StripeWeights, Option<&RunWeights>)],
     years: f64,
     may_overturn: bool,
@@ -45,7 +46,7 @@ pub(super) fn collapse(
     let demand = PooledDemand::new(&stripes)?;
     let risk = |weights: SiteWeights<'_>| {
         let risk = risk_of_exceeding(&demand, &weights, OVERTURNING_M, years)?;
-        Ok::<_, UpliftError>(if may_overturn { risk.bounded(&weights, demand.record_count()) } else { risk })
+        Ok::<_, UpliftError>(if may_overturn { risk.bounded(&weights, pairs) } else { risk })
     };
     let risks = weights.iter().map(|(stripes, _)| risk(SiteWeights::Alike(stripes))).collect::<Result<_, _>>()?;
     let of_repair =
@@ -68,6 +69,11 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
 
+    /// Two records that are a pair each.
+    fn alone() -> [Vec<usize>; 2] {
+        [vec![0], vec![1]]
+    }
+
     /// Two records, levels 1, 2, 4 with rates 1, 1/2, 1/4 per year, nothing below: one overturns from 2 on, the other
     /// at 4 and, weaving, at 1.
     #[test]
@@ -76,8 +82,14 @@ mod tests {
         let weights = StripeWeights::new(&[1.0, 0.5, 0.25], None).unwrap();
         // the record that does not overturn at the first level counts thrice there
         let runs = RunWeights::new(&weights, &[0.75, 0.25, 0.5, 0.5, 0.5, 0.5]).unwrap();
-        let found =
-            collapse(&[1.0, 2.0, 4.0], &[0.1, inf, inf, inf, 0.3, inf], &[(&weights, Some(&runs))], 2.0, true).unwrap();
+        let found = collapse(
+            &[1.0, 2.0, 4.0],
+            (&[0.1, inf, inf, inf, 0.3, inf], &alone()),
+            &[(&weights, Some(&runs))],
+            2.0,
+            true,
+        )
+        .unwrap();
         let counts: Vec<(u32, u32)> = found.counts.iter().map(|count| (count.exceedances, count.trials)).collect();
         assert_eq!(counts, [(1, 2), (1, 2), (2, 2)]);
         // ½ (½ + ½)(1 − ½) + ½ (½ + 1)(½ − ¼) + 1 · ¼
@@ -98,13 +110,14 @@ mod tests {
     #[test]
     fn a_structure_that_stands_has_no_risk_seen_and_no_fit() {
         let weights = StripeWeights::new(&[1.0, 0.5], None).unwrap();
-        let found = collapse(&[1.0, 2.0], &[0.1, 0.2, 0.3, 1e9], &[(&weights, None)], 50.0, true).unwrap();
+        let found = collapse(&[1.0, 2.0], (&[0.1, 0.2, 0.3, 1e9], &alone()), &[(&weights, None)], 50.0, true).unwrap();
         assert_eq!(found.fit, Err(FragilityError::NoExceedance));
         assert_eq!((found.risks[0].per_year, found.risks[0].upper_tail_share), (0.0, 0.0));
         assert!(found.fitted.is_none());
         // beyond the last level everything may overturn
         assert!(found.risks[0].at_most_per_year.unwrap() > 0.5);
-        let cannot = collapse(&[1.0, 2.0], &[0.1, 0.2, 0.3, 1e9], &[(&weights, None)], 50.0, false).unwrap();
+        let cannot =
+            collapse(&[1.0, 2.0], (&[0.1, 0.2, 0.3, 1e9], &alone()), &[(&weights, None)], 50.0, false).unwrap();
         assert_eq!(cannot.risks[0].at_most_per_year, None);
     }
 }

@@ -136,8 +136,7 @@ pub(super) fn exact_demand(
         PostUplift::Negative { capacity_m } => Some(capacity_m),
         PostUplift::Zero | PostUplift::Positive { .. } => None,
     };
-    let records = stripes.peaks.axes().motions;
-    let may_happen = |risk: EventRisk| risk.bounded(weights, records);
+    let may_happen = |risk: EventRisk| risk.bounded(weights, &scatter.pairs);
     let beyond_capacity =
         capacity_m.map(|capacity_m| risk_of_exceeding(&own, weights, capacity_m, years).map(may_happen)).transpose()?;
     let overturning = risk_of_exceeding(&own, weights, OVERTURNING_M, years)?;

@@ -17,6 +17,7 @@ use uplift_oscillator::PostUplift;
 use uplift_plausible::SAFETY_FACTOR;
 use uplift_study::Structure;
 
+use super::certainty::Scatter;
 use super::choice::{measure_index, records, site_index};
 use super::demand::ExactDemand;
 use super::report::StructureReport;
@@ -202,7 +203,8 @@ pub fn design(
     alarms.extend(of_safety_factor(safety_factor));
     if let Some(exact) = &exact {
         let records = file.axes()?.records.len();
-        alarms.extend(of_own_risks(&own_risks(exact, measure, &source.sites[site], (records, &weights))));
+        let pairs = Scatter::of(&file)?.pairs;
+        alarms.extend(of_own_risks(&own_risks(exact, measure, &source.sites[site], (records, &pairs, &weights))));
         let satisfied = rules.iter().any(|rule| rule.check().is_some_and(|check| check.satisfied));
         alarms.extend(of_own_demand(exact.demand_m, told.capacity_m, safety_factor, satisfied));
     }
@@ -380,9 +382,9 @@ fn own_risks(
     exact: &ExactDemand,
     measure: &SpectraOfResult,
     site: &str,
-    (records, weights): (usize, &SiteWeights<'_>),
+    (records, pairs, weights): (usize, &[Vec<usize>], &SiteWeights<'_>),
 ) -> Vec<OwnRisk> {
-    let effective_records = weights.effective_records(records);
+    let effective_pairs = weights.effective_pairs(pairs);
     let levels = &measure.plan.levels;
     let own = |what: &str, risk: EventRisk| OwnRisk {
         subject: format!("{what}, {site}, {}", measure.measure().label()),
@@ -390,7 +392,8 @@ fn own_risks(
         measure: measure.measure(),
         levels: (levels[0], levels[levels.len() - 1]),
         records,
-        effective_records,
+        pairs: pairs.len(),
+        effective_pairs,
     };
     let ExactDemand { lower_tail_share, upper_tail_share, .. } = *exact;
     let demand = EventRisk { lower_tail_share, upper_tail_share, at_most_per_year: None, ..exact.overturning };

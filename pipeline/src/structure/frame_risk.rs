@@ -195,14 +195,16 @@ pub fn frame_risk(
     let rows = rows(&question, own, &demands, (structure, &design))?;
     let years = source.study.risk.years;
     let runs_m = shaken.once_a_run(&demands);
-    let mut overturning = collapse(levels, &runs_m, &[(weights, None)], years, true)?;
+    let pairs = uplift_bootstrap::units(&shaken.pair_of());
+    let mut overturning = collapse(levels, (&runs_m, &pairs), &[(weights, None)], years, true)?;
     if repaired.is_some() {
         // the weights of a repair are of records
-        overturning.repaired = collapse(levels, own_m, &[(weights, repaired)], years, true)?.repaired;
+        overturning.repaired = collapse(levels, (own_m, &pairs), &[(weights, repaired)], years, true)?.repaired;
     }
     let mut alarms = alarms_of_inputs(&file, &Scope { measure: Some(measure.measure()), ..Scope::default() })?;
     alarms.extend(of_structure(structure));
-    alarms.extend(of_own_risks(&own_risks(&overturning, measure, (&source.sites[site], runs_m.len() / levels.len()))));
+    let runs = (runs_m.len() / levels.len(), pairs.len());
+    alarms.extend(of_own_risks(&own_risks(&overturning, measure, &source.sites[site], runs)));
     let mut report = FrameRiskReport {
         structure: StructureReport::of(structure, None),
         site: source.sites[site].clone(),
@@ -218,7 +220,7 @@ pub fn frame_risk(
         replicates: plan.replicates(),
         confidence: settings.confidence,
         at_demand: StateAtDemand::of(&shaken.frame, demand_m),
-        events: edps::events(&shaken.frame, levels, (weights, &runs_m), (repaired, own_m), years)?,
+        events: edps::events(&shaken.frame, levels, (weights, &runs_m), (repaired, own_m), &pairs, years)?,
         direction: demands.wobbling_m.is_some().then(|| DirectionEffect::of(&demands.directions_m)),
         notes: notes(&shaken, (structure, &demands), &source, &overturning),
         demands: rows,
@@ -385,15 +387,21 @@ fn notes(
 }
 
 /// What may come from outside the stripes.
-fn own_risks(overturning: &Collapse, measure: &SpectraOfResult, (site, records): (&str, usize)) -> Vec<OwnRisk> {
+fn own_risks(
+    overturning: &Collapse,
+    measure: &SpectraOfResult,
+    site: &str,
+    (runs, pairs): (usize, usize),
+) -> Vec<OwnRisk> {
     let levels = &measure.plan.levels;
     let own = |risk: &EventRisk| OwnRisk {
         subject: format!("overturning of the frame, {site}, {}", measure.measure().label()),
         risk: *risk,
         measure: measure.measure(),
         levels: (levels[0], levels[levels.len() - 1]),
-        records,
-        effective_records: records as f64,
+        records: runs,
+        pairs,
+        effective_pairs: pairs as f64,
     };
     overturning.risks.iter().map(own).collect()
 }

@@ -208,8 +208,10 @@ pub fn overturning(
                 let records = 0..analysed.peaks.axes().motions;
                 records.flat_map(|record| peaks_m.iter().map(move |of_level| of_level[record])).collect()
             };
-            let at_nudge =
-                |nudge: usize| collapse(levels, &peaks_m_at(nudge), &weights, study.risk.years, model.can_overturn());
+            let at_nudge = |nudge: usize| {
+                let runs = (&peaks_m_at(nudge)[..], &scatter.pairs[..]);
+                collapse(levels, runs, &weights, study.risk.years, model.can_overturn())
+            };
             let rounded = (1..=NUDGES).map(at_nudge).collect::<Result<_, _>>()?;
             let demand = PooledDemand::new(&Stripes::new(levels, &peaks_m_at(0))?)?;
             let of_site = |(stripes, _): &(&StripeWeights, _)| rate_bands(&demand, stripes, &scatter, OVERTURNING_M);
@@ -232,7 +234,7 @@ pub fn overturning(
     let mut alarms = alarms_of_inputs(&file, &Scope { measure: options.measure, ..Scope::default() })?;
     alarms.extend(of_structure(structure));
     let names: Vec<&str> = sites.iter().map(|&site| source.sites[site].as_str()).collect();
-    alarms.extend(of_own_risks(&own_risks(&models, &found, &names, set.records.len())));
+    alarms.extend(of_own_risks(&own_risks(&models, &found, &names, (set.records.len(), scatter.pairs.len()))));
     let records = u32::try_from(set.records.len()).unwrap_or(u32::MAX);
     let of_measure = |(measure, found): &(&SpectraOfResult, Vec<Collapses>)| -> Vec<CollapseReport> {
         let names = sites.iter().map(|&site| source.sites[site].as_str());
@@ -396,7 +398,7 @@ fn own_risks(
     models: &[(System, &'static str)],
     found: &[(&SpectraOfResult, Vec<Collapses>)],
     sites: &[&str],
-    records: usize,
+    (records, pairs): (usize, usize),
 ) -> Vec<OwnRisk> {
     let mut risks = Vec::new();
     for (measure, found) in found {
@@ -408,7 +410,8 @@ fn own_risks(
                 measure: measure.measure(),
                 levels: (levels[0], levels[levels.len() - 1]),
                 records,
-                effective_records: records as f64,
+                pairs,
+                effective_pairs: pairs as f64,
             }));
         }
     }

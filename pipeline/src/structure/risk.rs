@@ -36,29 +36,30 @@ impl EventRisk {
         Ok(Self { per_year, probability, lower_tail_share, upper_tail_share, at_most_per_year: None })
     }
 
-    /// The same of something that may happen, though no run of `records` may show it.
-    pub(super) fn bounded(self, weights: &SiteWeights<'_>, records: usize) -> Self {
-        let records = weights.effective_records(records);
-        let at_most_per_year = (self.per_year == 0.0).then(|| at_most_per_year(weights.stripes(), records));
+    /// The same of something that may happen, though no run may show it of `pairs`, each with the positions of its
+    /// records.
+    pub(super) fn bounded(self, weights: &SiteWeights<'_>, pairs: &[Vec<usize>]) -> Self {
+        let bound = || at_most_per_year(weights.stripes(), weights.effective_pairs(pairs));
+        let at_most_per_year = (self.per_year == 0.0).then(bound);
         Self { at_most_per_year, ..self }
     }
 }
 
-/// Confidence of the bound on the share of records at the last level.
+/// Confidence of the bound on the share of motions at the last level.
 pub(crate) const BOUND_CONFIDENCE: f64 = 0.95;
 
-/// The share of all motions that may do what none of so many records did, with [`BOUND_CONFIDENCE`]: nearly 3/N.
-pub(crate) fn share_at_most(records: f64) -> f64 {
-    1.0 - (1.0 - BOUND_CONFIDENCE).powf(1.0 / records)
+/// The share of all motions that may do what none of so many pairs did, with [`BOUND_CONFIDENCE`]: nearly 3/N.
+pub(crate) fn share_at_most(pairs: f64) -> f64 {
+    1.0 - (1.0 - BOUND_CONFIDENCE).powf(1.0 / pairs)
 }
 
 /// The frequency that something has at most which no run shows, 1/yr: all motions stronger than the last level do it,
-/// and at that level the share that so many records leave open; from the level before it on that share grows from zero
+/// and at that level the share that so many pairs leave open; from the level before it on that share grows from zero
 /// as a fragility between stripes does (Eq. 4.4).
-fn at_most_per_year(weights: &StripeWeights, records: f64) -> f64 {
+fn at_most_per_year(weights: &StripeWeights, pairs: f64) -> f64 {
     let beyond = weights.upper_tail_per_year();
     let last = weights.per_year().last().copied().unwrap_or(beyond);
-    beyond + share_at_most(records) * (last - beyond)
+    beyond + share_at_most(pairs) * (last - beyond)
 }
 
 /// A threshold that nothing but overturning exceeds.
@@ -102,9 +103,11 @@ mod tests {
         let weights = StripeWeights::new(&[1.0, 0.5, 0.25], None).unwrap();
         let none = EventRisk::new(0.0, [0.0, 0.0], 50.0).unwrap();
         let weights = SiteWeights::Alike(&weights);
-        let bound = none.bounded(&weights, 1).at_most_per_year.unwrap();
+        let bound = none.bounded(&weights, &[vec![0]]).at_most_per_year.unwrap();
         assert!((bound - (0.25 + 0.95 * 0.125)).abs() < 1e-12, "{bound}");
+        // both components of the same pair leave as much open
+        assert_eq!(none.bounded(&weights, &[vec![0, 1]]).at_most_per_year, Some(bound));
         let some = EventRisk::new(1e-3, [0.0, 0.0], 50.0).unwrap();
-        assert_eq!(some.bounded(&weights, 1).at_most_per_year, None);
+        assert_eq!(some.bounded(&weights, &[vec![0]]).at_most_per_year, None);
     }
 }

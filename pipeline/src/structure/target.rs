@@ -24,6 +24,7 @@ pub use beside::{GenericTarget, LevelShare};
 pub use request::{TargetEvent, TargetFrequency, TargetOptions};
 pub use search::Crossing;
 
+use super::certainty::Scatter;
 use super::choice::{measure_index, site_index};
 use super::inputs::inputs;
 use super::report::StructureReport;
@@ -179,7 +180,8 @@ pub fn target(
     let target_per_year = options.frequency.per_year(years)?;
     let (range, own_value) = range(structure, options)?;
     let weights = SiteWeights::Alike(&measure.weights[site]);
-    let mut trials = Trials::of(structure, &source, (measure, weights), (options, years), events)?;
+    let scatter = Scatter::of(&file)?;
+    let mut trials = Trials::of(structure, &source, (measure, weights, &scatter), (options, years), events)?;
     trials.refuse_untellable(&source.sites[site], target_per_year)?;
 
     let meets = |attempt: &Attempt| attempt.meets(target_per_year);
@@ -211,15 +213,16 @@ pub fn target(
     notes.extend(assumptions(structure, &file, trials.restitution()));
     let at_return_periods = trials.at_return_periods(found, curve.as_ref(), &mut notes)?;
     let generic = curve.as_ref().map(|curve| beside::generic_target(curve, target_per_year, options)).transpose()?;
-    let records = trials.record_count();
+    let pairs = trials.pairs().len();
     let levels = &measure.plan.levels;
     let own = OwnRisk {
         subject: format!("{}, {}, {}", options.event.words(), source.sites[site], measure.measure().label()),
         risk: found.risk,
         measure: measure.measure(),
         levels: (levels[0], levels[levels.len() - 1]),
-        records,
-        effective_records: records as f64,
+        records: trials.record_count(),
+        pairs,
+        effective_pairs: pairs as f64,
     };
     alarms.extend(of_own_risks(&[own]));
     let mut report = TargetReport {

@@ -31,14 +31,16 @@ impl<'a> SiteWeights<'a> {
         }
     }
 
-    /// To how many records that count alike `records` amount at the last level, 1/Σp².
-    pub(super) fn effective_records(&self, records: usize) -> f64 {
+    /// To how many pairs that count alike `pairs`, each with the positions of its records, amount at the last level,
+    /// 1/Σp² with the share p of a pair: two records of one tell little more than one does.
+    pub(super) fn effective_pairs(&self, pairs: &[Vec<usize>]) -> f64 {
         match self {
-            Self::Alike(_) => records as f64,
+            Self::Alike(_) => pairs.len() as f64,
             Self::Repaired(weights) => {
                 let shares = weights.shares();
                 let last = &shares[shares.len().saturating_sub(weights.record_count())..];
-                1.0 / last.iter().map(|share| share * share).sum::<f64>()
+                let of_pair = |pair: &Vec<usize>| pair.iter().map(|&record| last[record]).sum::<f64>();
+                1.0 / pairs.iter().map(of_pair).map(|share| share * share).sum::<f64>()
             }
         }
     }
@@ -53,7 +55,18 @@ mod tests {
     fn records_that_weigh_little_count_little() {
         let stripes = StripeWeights::new(&[1.0, 0.5], None).unwrap();
         let repaired = RunWeights::new(&stripes, &[0.5, 0.5, 0.0, 0.25, 0.75, 0.0]).unwrap();
-        assert!((SiteWeights::Repaired(&repaired).effective_records(3) - 1.6).abs() < 1e-12);
-        assert!((SiteWeights::Alike(&stripes).effective_records(3) - 3.0).abs() < 1e-12);
+        let alone = [vec![0], vec![1], vec![2]];
+        assert!((SiteWeights::Repaired(&repaired).effective_pairs(&alone) - 1.6).abs() < 1e-12);
+        assert_eq!(SiteWeights::Alike(&stripes).effective_pairs(&alone), 3.0);
+    }
+
+    #[test]
+    fn records_of_one_pair_count_as_one() {
+        let stripes = StripeWeights::new(&[1.0, 0.5], None).unwrap();
+        // at the last level 1/4 and 1/4 of one pair, 1/2 and 0 of the other
+        let repaired = RunWeights::new(&stripes, &[0.25, 0.25, 0.25, 0.25, 0.25, 0.25, 0.5, 0.0]).unwrap();
+        let pairs = [vec![0, 1], vec![2, 3]];
+        assert_eq!(SiteWeights::Repaired(&repaired).effective_pairs(&pairs), 2.0);
+        assert_eq!(SiteWeights::Alike(&stripes).effective_pairs(&pairs), 2.0);
     }
 }

@@ -71,21 +71,20 @@ impl StateAtDemand {
 }
 
 /// How often each event of the frame happens: its peaks are `runs_m` over `[run, level]`, and `records_m` over
-/// `[record, level]`, which the weights of a repair are of.
+/// `[record, level]`, which the weights of a repair are of; `pairs` has the positions of each pair's records.
 pub(super) fn events(
     frame: &RockingFrame,
     levels: &[f64],
     (weights, runs_m): (&StripeWeights, &[f64]),
     (repaired, records_m): (Option<&RunWeights>, &[f64]),
+    pairs: &[Vec<usize>],
     years: f64,
 ) -> Result<Vec<EventReport>, UpliftError> {
     let pooled = |peaks_m| Ok::<_, UpliftError>(PooledDemand::new(&Stripe::new(levels, peaks_m)?)?);
     let (runs, records) = (pooled(runs_m)?, pooled(records_m)?);
     let risk = |weights: SiteWeights<'_>, threshold_m: f64| {
         let pool = if matches!(weights, SiteWeights::Repaired(_)) { &records } else { &runs };
-        Ok::<_, UpliftError>(
-            risk_of_exceeding(pool, &weights, threshold_m, years)?.bounded(&weights, pool.record_count()),
-        )
+        Ok::<_, UpliftError>(risk_of_exceeding(pool, &weights, threshold_m, years)?.bounded(&weights, pairs))
     };
     let of = |event: &uplift_statics::Event| {
         let displacement_m = event.state.displacement_m;

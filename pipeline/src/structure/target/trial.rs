@@ -15,9 +15,11 @@ use crate::error::UpliftError;
 use crate::events::Events;
 use crate::inputs::RecordSet;
 use crate::result::{SpectraOfResult, StudyOfResult};
+use crate::structure::certainty::Scatter;
 use crate::structure::choice::records;
 use crate::structure::risk::{EventRisk, OVERTURNING_M, demand_of, risk_of_exceeding};
 use crate::structure::weights::SiteWeights;
+use crate::text::records_in_words;
 use crate::uniform_risk::{Stripes, motion_keys, plan_levels};
 
 /// What values are tried on. The rows of every round stay in the checkpoint until the answer is given.
@@ -28,6 +30,7 @@ pub(super) struct Trials<'a> {
     study: UniformRiskStudy,
     measure: &'a SpectraOfResult,
     weights: SiteWeights<'a>,
+    scatter: &'a Scatter,
     options: &'a TargetOptions,
     years: f64,
     set: RecordSet,
@@ -41,14 +44,14 @@ pub(super) struct Trials<'a> {
 }
 
 impl<'a> Trials<'a> {
-    /// Of `structure`, by the stripes of `measure` with their weights at a site.
+    /// Of `structure`, by the stripes of `measure` with their weights at a site, under records that scatter so.
     ///
     /// # Errors
     /// Records that cannot be read.
     pub(super) fn of(
         structure: &'a Structure,
         source: &'a StudyOfResult,
-        (measure, weights): (&'a SpectraOfResult, SiteWeights<'a>),
+        (measure, weights, scatter): (&'a SpectraOfResult, SiteWeights<'a>, &'a Scatter),
         (options, years): (&'a TargetOptions, f64),
         events: &'a dyn Events,
     ) -> Result<Self, UpliftError> {
@@ -65,6 +68,7 @@ impl<'a> Trials<'a> {
             result: &source.path,
             measure,
             weights,
+            scatter,
             options,
             years,
             motions: motion_keys(&set),
@@ -88,6 +92,11 @@ impl<'a> Trials<'a> {
         self.set.records.len()
     }
 
+    /// The positions of the records of each of their pairs.
+    pub(super) fn pairs(&self) -> &[Vec<usize>] {
+        &self.scatter.pairs
+    }
+
     /// Nonlinear time histories so far.
     pub(super) fn analyses(&self) -> u64 {
         self.analyses
@@ -99,19 +108,19 @@ impl<'a> Trials<'a> {
     /// # Errors
     /// Such a target, at `site`.
     pub(super) fn refuse_untellable(&self, site: &str, target_per_year: f64) -> Result<(), UpliftError> {
-        let unseen = EventRisk::new(0.0, [0.0; 2], self.years)?.bounded(&self.weights, self.record_count());
+        let unseen = EventRisk::new(0.0, [0.0; 2], self.years)?.bounded(&self.weights, self.pairs());
         let Some(bound) = unseen.at_most_per_year.filter(|bound| *bound > target_per_year) else { return Ok(()) };
         let levels = &self.measure.plan.levels;
         let measure = self.measure.measure();
         Err(UpliftError::Usage(format!(
             "the target of {target_per_year:.3e} per year is below what these stripes can tell at {site}: motions \
-             above their last level, {} {}, come {:.1e} times a year, and what none of {} records does there may still \
+             above their last level, {} {}, come {:.1e} times a year, and what none of {} does there may still \
              happen up to {bound:.1e} times a year: let {} of the study reach further up and run it again, take more \
              records, or give a target above that",
             levels[levels.len() - 1],
             measure.unit(),
             self.weights.stripes().upper_tail_per_year(),
-            self.record_count(),
+            records_in_words(self.record_count(), self.pairs().len()),
             uplift_study::levels_key(measure)
         )))
     }
@@ -149,7 +158,7 @@ impl<'a> Trials<'a> {
             let risk = risk_of_exceeding(&demand, &self.weights, threshold_m, self.years)?;
             // what has no capacity cannot overturn
             let may_happen = threshold_m < OVERTURNING_M || oscillator.can_overturn();
-            let risk = if may_happen { risk.bounded(&self.weights, self.set.records.len()) } else { risk };
+            let risk = if may_happen { risk.bounded(&self.weights, self.pairs()) } else { risk };
             let per_year = self.weights.stripes().per_year();
             let contributed = |record: usize| -> f64 {
                 let peaks_m = stripes.peaks.row_m(record, place).iter();

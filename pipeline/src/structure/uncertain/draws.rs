@@ -71,5 +71,5 @@ fn drawn(scatter: &Scatter, draws: usize) -> Scatter {
         let of_record = |record: &usize| record * draws..(record + 1) * draws;
         units.iter().map(|unit| unit.iter().flat_map(of_record).collect()).collect()
     };
-    Scatter { records: of_units(&scatter.records), earthquakes: scatter.earthquakes.as_ref().map(of_units) }
+    Scatter { pairs: of_units(&scatter.pairs), earthquakes: scatter.earthquakes.as_ref().map(of_units) }
 }

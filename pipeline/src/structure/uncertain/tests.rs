@@ -70,7 +70,7 @@ fn weights(factor: f64) -> StripeWeights {
 /// Every record by itself; or all of them in one, so that nothing can be drawn.
 fn scatter(is_one: bool) -> Scatter {
     let records = if is_one { vec![(0..RECORDS).collect()] } else { (0..RECORDS).map(|record| vec![record]).collect() };
-    Scatter { records, earthquakes: None }
+    Scatter { pairs: records, earthquakes: None }
 }
 
 fn found(
