@@ -136,6 +136,87 @@ fn the_same_bits_however_it_is_computed() {
     }
 }
 
+/// The least value of a quantity of `file` with which it overturns as seldom as that.
+fn least(study: &SmallStudy, file: &str, text: &str, more: &[&str]) -> Value {
+    study.write(file, text);
+    let run = study.uplift(&[&["target", file, "--urs", "r.h5", "--json", "-q"], more].concat()).ok();
+    serde_json::from_str(&run.stdout).unwrap()
+}
+
+// A strength of v stands for 0.8 v to 1.2 v, of which those below 0.3 g overturn from that level on, as above: half of
+// them where v is 0.3. A branch of f v by itself needs a v of 0.3/f, so 90 % of them 0.3/1.18 to 0.3/0.82.
+#[test]
+fn a_target_known_by_hand() {
+    let study = steps();
+    let rate = |level: f64| 1e-4 * f64::powf(level, -2.2);
+    let half = 0.25 * (rate(0.12) - rate(0.3)) + 0.75 * (rate(0.3) - rate(0.8)) + rate(0.8);
+    let target = format!("{}", 2.0 / 3.0 * half);
+    let mast = "kind = \"point-mass\"\nwidth_m = 1\ncentre_height_m = 2.5\nmass_kg = 1\nuplift_displacement_m = 1e-4\n";
+    let ask = ["--vary", "strength", "--overturning", &target, "--from", "0.2", "--to", "0.5", "--tolerance", "0.01"];
+    for (kind, size, tolerance) in [("epistemic", "samples = 16", 0.01), ("aleatory", "draws = 50", 0.02)] {
+        let text = format!(
+            "{mast}[uncertainty]\nkind = \"{kind}\"\n{size}\n[uncertainty.strength]\ndistribution = \"uniform\"\n\
+             lower = 0.16\nupper = 0.24\n"
+        );
+        let found = least(&study, "mast.toml", &text, &ask);
+        let value = found["value"].as_f64().unwrap();
+        assert!((value / 0.3 - 1.0).abs() < tolerance, "{kind}: {value}");
+        let band = &found["uncertainty"]["by_structure"]["value"];
+        if kind == "aleatory" {
+            assert!(band.is_null(), "{found}");
+            continue;
+        }
+        assert_eq!(found["uncertainty"]["structures"], 32);
+        for (place, expected) in [(0, 0.3 / 1.18), (1, 0.3), (2, 0.3 / 0.82)] {
+            let limit = band[place].as_f64().unwrap();
+            assert!((limit / expected - 1.0).abs() < 0.03, "{limit} {expected}");
+        }
+    }
+}
+
+#[test]
+fn a_target_without_scatter_is_that_of_a_structure_that_is_known() {
+    let study = study();
+    let ask = ["--vary", "width", "--overturning", "2e-3", "--tolerance", "0.02"];
+    let known = least(&study, "block.toml", BLOCK, &ask);
+    assert!(known.get("uncertainty").is_none());
+    for kind in KINDS {
+        let text = format!("{BLOCK}{}", scattering(kind, few(kind), 0.0));
+        let mut found = least(&study, "block.toml", &text, &ask);
+        let uncertainty = found.as_object_mut().unwrap().remove("uncertainty").unwrap();
+        assert_eq!(found, known, "{kind}");
+        assert_eq!((&uncertainty["structures"], &uncertainty["by_all"]), (&json!(1), &Value::Null));
+    }
+}
+
+/// Every value has the risk that `uplift overturning` tells of a structure with it.
+#[test]
+fn target_and_risk_are_inverses_of_uncertain_structures() {
+    let study = study();
+    for kind in KINDS {
+        let text = scattering(kind, few(kind), 0.05);
+        let ask = ["--vary", "width", "--overturning", "3e-4", "--tolerance", "0.02", "--from", "0.8", "--to", "3"];
+        let found = least(&study, "block.toml", &format!("{BLOCK}{text}"), &ask);
+        let risk_of = |width_m: &Value| {
+            let width = format!("width_m = {width_m}");
+            study.write("found.toml", &format!("{}{text}", BLOCK.replace("width_m = 0.8", &width)));
+            let run = study.uplift(&["overturning", "found.toml", "--urs", "r.h5", "--json", "-q"]).ok();
+            let told: Value = serde_json::from_str(&run.stdout).unwrap();
+            let result = &told["uncertainty"]["results"][0];
+            let mean = &result["epistemic"]["by_structure"]["mean"];
+            mean.as_f64().or(result["aleatory"]["value"].as_f64()).unwrap()
+        };
+        // of the structure as described to the bit
+        let own = &found["tried"][0];
+        assert_eq!(own["value"], 0.8);
+        assert_eq!(Some(risk_of(&own["value"])), own["per_year"].as_f64(), "{kind}");
+        // of another but for the rounding of its means, on which a run may hang
+        let per_year = found["risk"]["per_year"].as_f64().unwrap();
+        assert!((risk_of(&found["value"]) / per_year - 1.0).abs() < 0.03, "{kind}: {per_year}");
+        assert!(per_year <= 3e-4 && risk_of(&found["missed_at"]) > 0.97 * 3e-4, "{kind}");
+    }
+}
+
 #[test]
 fn it_is_told_in_sentences_and_refused_in_words() {
     let study = study();

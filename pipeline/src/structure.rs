@@ -39,7 +39,7 @@ pub use rules::{RuleCheck, RuleOutcome};
 pub use spectrum::SpectrumDemand;
 pub use target::{
     Crossing, FoundSystem, GenericTarget, LevelShare, TargetBand, TargetEvent, TargetFrequency, TargetOptions,
-    TargetReport, TriedValue, target,
+    TargetReport, TargetUncertainty, TriedValue, target,
 };
 pub use uncertain::{
     AleatoryResult, EpistemicResult, QuantityReport, Spread, UncertainFinding, UncertainResult, UncertaintyReport,

@@ -104,7 +104,8 @@ fn none_seen(own: &OwnRisk) -> Option<Case> {
         subject: own.subject.clone(),
         what: format!(
             "0 of {} at any level up to {} {}: that is not never, but at most {at_most_per_year:.1e} a year; stronger \
-             motions were not analysed and count as if all did, and 0 of {pairs}{weighted} leave a share of up to {} at the last level ({} confidence)",
+             motions were not analysed and count as if all did, and 0 of {pairs}{weighted} leave a share of up \
+             to {} at the last level ({} confidence)",
             records_in_words(own.records, own.pairs),
             own.levels.1,
             own.measure.unit(),

@@ -1,6 +1,7 @@
 //! A structure under the records of a study: how often it goes too far.
 
 use serde::Serialize;
+use uplift_fragility::Stripes as Stripe;
 use uplift_hazard::probability_from_rate;
 use uplift_risk::{PooledDemand, StripeWeights};
 
@@ -79,6 +80,27 @@ pub(super) fn risk_of_exceeding(
     let per_year = curve.mean_annual_frequency(threshold_m)?;
     let parts = curve.disaggregation(threshold_m)?;
     EventRisk::new(per_year, [parts.lower_tail_per_year, parts.upper_tail_per_year], years)
+}
+
+/// Between what happens and what does not, where runs are told by 1 and 0.
+pub(super) const HAPPENS: f64 = 0.5;
+
+/// Runs told by 1 where they exceed their threshold, m, and by 0 where not: what goes beyond [`HAPPENS`] is what
+/// happens.
+///
+/// * `runs` — over the levels, each with its threshold
+///
+/// # Errors
+/// Runs of another number of levels.
+pub(super) fn happenings<'a>(
+    levels: &[f64],
+    runs: impl Iterator<Item = (&'a [f64], f64)>,
+) -> Result<PooledDemand, UpliftError> {
+    let tell = |(row_m, threshold_m): (&'a [f64], f64)| {
+        row_m.iter().map(move |&peak_m| if peak_m > threshold_m { 1.0 } else { 0.0 })
+    };
+    let told: Vec<f64> = runs.flat_map(tell).collect();
+    Ok(PooledDemand::new(&Stripe::new(levels, &told)?)?)
 }
 
 /// All demands of one oscillator of `stripes`, sorted.

@@ -6,15 +6,17 @@
 
 mod band;
 mod beside;
+mod candidate;
 mod request;
 mod search;
 mod table;
 mod trial;
+mod uncertain;
+mod words;
 
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use uplift_ida::System;
 use uplift_spectra::{NoiseSweep, Noisy};
 use uplift_structure::EquivalentSystem;
 use uplift_study::Structure;
@@ -23,6 +25,7 @@ pub use band::TargetBand;
 pub use beside::{GenericTarget, LevelShare};
 pub use request::{TargetEvent, TargetFrequency, TargetOptions};
 pub use search::Crossing;
+pub use uncertain::TargetUncertainty;
 
 use super::certainty::Scatter;
 use super::choice::{measure_index, site_index};
@@ -30,13 +33,15 @@ use super::inputs::inputs;
 use super::report::StructureReport;
 use super::risk::EventRisk;
 use super::weights::SiteWeights;
-use crate::alarms::{Alarm, OwnRisk, Scope, Severity, alarms_of_inputs, of_own_risks, of_structure, ranked};
+use crate::alarms::{Alarm, OwnRisk, Scope, alarms_of_inputs, of_own_risks, of_structure, ranked};
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::outputs::{self, Output, OutputKind};
 use crate::result::ResultFile;
-use search::{MOST_CROSSINGS, crossings, search, spread};
+use candidate::Attempt;
+use search::{crossings, search, spread};
 use trial::Trials;
+use words::{Words, assumptions, with_mistakes};
 
 /// Values tried before the search narrows, over the range.
 const VALUES: usize = 33;
@@ -80,7 +85,7 @@ pub struct TargetReport {
     pub missed_at: f64,
     /// The least value tried that meets it; below [`value`](Self::value) where the risk does not fall all the way.
     pub least_met: f64,
-    /// The risk at the value.
+    /// The risk at the value; of a structure that is not known exactly the mean of those that it may be.
     pub risk: EventRisk,
     /// The structure at the value.
     pub found: FoundSystem,
@@ -88,6 +93,9 @@ pub struct TargetReport {
     pub per_year_within_one_percent: Noisy,
     /// What other records would have given.
     pub band: TargetBand,
+    /// The structures that every value may be; none where the structure file says that all is known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub uncertainty: Option<TargetUncertainty>,
     /// Every place where the frequency crosses the target, ascending.
     pub crossings: Vec<Crossing>,
     /// What happens at levels of given return periods, for the structure at the value.
@@ -132,22 +140,6 @@ pub struct TriedValue {
     pub risk: EventRisk,
     /// Whether it meets the target.
     pub is_met: bool,
-}
-
-/// A value that was analysed.
-#[derive(Debug, Clone)]
-struct Attempt {
-    system: EquivalentSystem,
-    oscillator: System,
-    risk: EventRisk,
-    /// What each record contributes: the sum of its weights where it happens, 1/yr; their mean is the frequency.
-    record_per_year: Vec<f64>,
-}
-
-impl Attempt {
-    fn meets(&self, target_per_year: f64) -> bool {
-        self.risk.per_year <= target_per_year
-    }
 }
 
 /// Searches the least value of a quantity of `structure` with which it meets a target risk under the records and the
@@ -225,7 +217,9 @@ pub fn target(
         effective_pairs: pairs as f64,
     };
     alarms.extend(of_own_risks(&[own]));
+    let bands = band::band(&tried, (place, target_per_year), &source.study, (&file.pair_of()?, &file.event_of()?))?;
     let mut report = TargetReport {
+        uncertainty: trials.around().map(|around| TargetUncertainty::of(around, bands.structures)),
         structure: StructureReport::of(structure, Some(trials.restitution())),
         site: source.sites[site].clone(),
         im: measure.measure().label(),
@@ -240,9 +234,9 @@ pub fn target(
         missed_at: tried[place - 1].0,
         least_met: tried.iter().find(|(_, attempt)| meets(attempt)).map_or(value, |(value, _)| *value),
         risk: found.risk,
-        found: FoundSystem::of(&found.system),
+        found: FoundSystem::of(&found.candidate.system),
         per_year_within_one_percent: noise,
-        band: band::band(&tried, (place, target_per_year), &source.study, (&file.pair_of()?, &file.event_of()?))?,
+        band: bands.records,
         crossings,
         at_return_periods,
         generic: generic.flatten(),
@@ -307,135 +301,4 @@ impl FoundSystem {
             post_uplift_stiffness_n_m: system.post_uplift_stiffness_n_m(),
         }
     }
-}
-
-/// A refusal with the numbers that are probably mistaken: the reason for it, most likely.
-fn with_mistakes(reason: String, alarms: &[Alarm]) -> String {
-    let mistakes = alarms.iter().filter(|alarm| alarm.severity == Severity::Mistake);
-    let line = |alarm: &Alarm| format!("\n{} {alarm}: {}", alarm.severity.word(), alarm.what_to_do);
-    mistakes.fold(reason, |said, alarm| said + &line(alarm))
-}
-
-/// What is to be said of the values that were tried.
-struct Words<'a> {
-    options: &'a TargetOptions,
-    target_per_year: f64,
-}
-
-impl Words<'_> {
-    /// Position of the least value from which on all meet the target.
-    ///
-    /// # Errors
-    /// Why there is none.
-    fn first_of_met(&self, tried: &[(f64, Attempt)]) -> Result<usize, String> {
-        let Self { options, target_per_year } = self;
-        let (key, event) = (options.quantity.key(), options.event.words());
-        let at = |(value, attempt): &(f64, Attempt)| {
-            let frequency = match attempt.risk {
-                EventRisk { per_year: 0.0, at_most_per_year: Some(bound), .. } => format!("less than {bound:.1e}"),
-                EventRisk { per_year: 0.0, .. } => "none".to_owned(),
-                EventRisk { per_year, .. } => format!("{per_year:.3e}"),
-            };
-            format!("{frequency} at {}", self.value(*value))
-        };
-        let ends = || match (tried.first(), tried.last()) {
-            (Some(first), Some(last)) => format!("{} and {}", at(first), at(last)),
-            _ => String::new(),
-        };
-        let missed = tried.iter().rposition(|(_, attempt)| !attempt.meets(*target_per_year));
-        match missed {
-            None => Err(format!(
-                "the target is met at every {key} of the range: {event} has {} per year, and {target_per_year:.3e} is \
-                 allowed: give a lower --from, or a rarer target",
-                ends()
-            )),
-            Some(last) if last + 1 < tried.len() => Ok(last + 1),
-            Some(_) => {
-                let found = crossings(tried, |attempt| attempt.meets(*target_per_year));
-                if found.is_empty() {
-                    return Err(format!(
-                        "the target is missed at every {key} of the range: {event} has {} per year, and \
-                         {target_per_year:.3e} is allowed: give a higher --to, or vary something else",
-                        ends()
-                    ));
-                }
-                Err(format!(
-                    "the target is met in between and missed at the largest {key}: {}; a larger one is not safer \
-                     here: choose --to below the last of these crossings",
-                    self.crossings(&found)
-                ))
-            }
-        }
-    }
-
-    fn notes(&self, found: &[Crossing], tried: &[(f64, Attempt)]) -> Vec<String> {
-        if found.len() < 2 {
-            return Vec::new();
-        }
-        let least = tried.iter().find(|(_, attempt)| attempt.meets(self.target_per_year));
-        let least = least.map_or_else(String::new, |(value, _)| format!(" from {} on", self.value(*value)));
-        vec![format!(
-            "the frequency crosses the target {} times, for it does not fall all the way: it is met here and \
-             there{least}, and at every value tried above the one told ({})",
-            found.len(),
-            self.crossings(found)
-        )]
-    }
-
-    fn value(&self, value: f64) -> String {
-        // six digits, and no more of a stiffness than of a width
-        let rounded = format!("{value:.5e}").parse::<f64>().unwrap_or(value);
-        format!("{rounded} {}", self.options.quantity.unit()).trim_end().to_owned()
-    }
-
-    fn crossings(&self, found: &[Crossing]) -> String {
-        let words: Vec<String> = found
-            .iter()
-            .take(MOST_CROSSINGS)
-            .map(|crossing| {
-                let becomes = if crossing.becomes_met { "met" } else { "missed" };
-                format!("{becomes} from {} on", self.value(crossing.to))
-            })
-            .collect();
-        let more = if found.len() > MOST_CROSSINGS {
-            format!(", and {} more", found.len() - MOST_CROSSINGS)
-        } else {
-            String::new()
-        };
-        format!("{}{more}", words.join(", "))
-    }
-}
-
-/// What is taken for granted of the structure and of the records.
-fn assumptions(structure: &Structure, file: &ResultFile, restitution: f64) -> Vec<String> {
-    let mut notes = Vec::new();
-    if structure.description.restitution.is_none() {
-        notes.push(format!(
-            "every value has the restitution of the study, {restitution}: what is made more slender loses less at an \
-             impact, and its risk is larger; write the restitution of the structure that was found into its file, and \
-             look at its full motion with uplift overturning"
-        ));
-    }
-    if structure.uncertainty.is_some() {
-        notes.push(
-            "[uncertainty] takes no part in the search: every value is of a structure that is known exactly; write \
-             what was found into the file, and ask uplift overturning for its risk with a band"
-                .to_owned(),
-        );
-    }
-    if file.stored_study().is_ok_and(|study| study.records.vertical) {
-        notes.push(
-            "every value is looked for with the equivalent oscillator, which does not feel the vertical components of \
-             the records: uplift risk and uplift overturning shake frames and blocks with them"
-                .to_owned(),
-        );
-    }
-    if file.has_repair() {
-        notes.push(
-            "the records count alike here: the result has weights by which they bring the site's hazard, and uplift \
-             overturning and uplift design --repaired use them"
-                .to_owned(),
-        );
-    }
-    notes
 }

@@ -1,6 +1,7 @@
 //! The risk of a structure of which not all is known exactly: by the structures that it may be, drawn inside the
 //! stripes (docs/method.md, section 19).
 
+mod around;
 mod branches;
 mod draws;
 mod report;
@@ -10,10 +11,10 @@ use uplift_bootstrap::{BootstrapError, ResamplingPlan};
 use uplift_ida::System;
 use uplift_oscillator::PostUplift;
 use uplift_risk::StripeWeights;
-use uplift_structure::Realization;
+use uplift_structure::{EquivalentSystem, Realization};
 use uplift_study::{MeasurePlan, Structure, Uncertainty, UncertaintyKind, UniformRiskStudy};
-use uplift_uncertainty::unit_cube;
 
+pub(super) use around::Around;
 pub use report::{
     AleatoryResult, EpistemicResult, QuantityReport, Spread, UncertainFinding, UncertainResult, UncertaintyReport,
     VarianceShare,
@@ -28,9 +29,6 @@ use crate::result::{ResultFile, SpectraOfResult};
 use crate::text::thousands;
 use crate::uniform_risk::{Stripes, plan_stripes};
 use branches::Branches;
-
-/// Runs of a level, at most: those that a pool of demands holds.
-const MOST_RUNS: usize = u16::MAX as usize;
 
 /// The structures that one may be, as the oscillators that are shaken.
 #[derive(Debug)]
@@ -117,27 +115,15 @@ impl<'a> Uncertain<'a> {
     /// A structure that cannot be.
     pub(super) fn of(structure: &'a Structure, restitution: f64, records: usize) -> Result<Option<Self>, UpliftError> {
         let Some(of) = &structure.uncertainty else { return Ok(None) };
-        let realize = |point: &[f64]| realized(structure, of, restitution, point);
+        let realize = |point: &[f64]| realized((structure, &structure.system), of, restitution, point);
         let (systems, branches) = match of.kind {
             UncertaintyKind::Epistemic => {
                 let (systems, branches) = Branches::of(of, &realize)?;
                 (systems, Some(branches))
             }
             UncertaintyKind::Aleatory => {
-                let dimensions = of.quantities.len();
-                let is_known = of.vector.distributions().iter().all(|of| of.constant().is_some());
-                // structures that are all alike are one, with the very bits of the structure as described
-                let draws = if is_known { 1 } else { of.draws };
-                if records * draws > MOST_RUNS {
-                    return Err(UpliftError::input(format!(
-                        "[uncertainty]: {draws} structures of each of {records} records are {}, and a level takes \
-                         {MOST_RUNS}: take fewer draws",
-                        records * draws
-                    ))
-                    .in_file(&structure.file));
-                }
-                let points = unit_cube(of.sampling, (records * draws, dimensions), of.seed)?;
-                (points.chunks_exact(dimensions).map(realize).collect::<Result<_, _>>()?, None)
+                let points = draws::points(of, records, &structure.file)?;
+                (points.iter().map(|point| realize(point)).collect::<Result<_, _>>()?, None)
             }
         };
         Ok(Some(Self { of, participation: structure.system.participation(), systems, branches }))
@@ -228,11 +214,24 @@ fn resampling(scatter: &Scatter, rows: usize, seed: u64) -> Result<Option<Resamp
     }
 }
 
-/// The oscillator of the structure at a `point` of the unit cube.
-fn realized(structure: &Structure, of: &Uncertainty, restitution: f64, point: &[f64]) -> Result<System, UpliftError> {
-    let values = of.vector.values(point);
+/// The oscillator of `varied` at a `point` of the unit cube: what is uncertain differs from it by the factor by which
+/// it differs from the `structure` as described.
+fn realized(
+    (structure, varied): (&Structure, &EquivalentSystem),
+    of: &Uncertainty,
+    restitution: f64,
+    point: &[f64],
+) -> Result<System, UpliftError> {
+    let mut values = of.vector.values(point);
     let mut realization = Realization::default();
-    for (quantity, value) in of.quantities.iter().zip(&values) {
+    for (quantity, value) in of.quantities.iter().zip(&mut values) {
+        let [own, varied] = [&structure.system, varied].map(|system| quantity.value(system, Some(restitution)));
+        *value = match (own, varied) {
+            // what does not scatter is that of the varied structure, to the bit
+            (Some(own), Some(varied)) if own.to_bits() == value.to_bits() => varied,
+            (Some(own), Some(varied)) => *value * (varied / own),
+            _ => *value,
+        };
         realization.set(*quantity, *value);
     }
     let fail = |reason: String| {
@@ -245,7 +244,7 @@ fn realized(structure: &Structure, of: &Uncertainty, restitution: f64, point: &[
         ))
         .in_file(&structure.file)
     };
-    let system = structure.system.realized(&realization).map_err(|error| fail(error.to_string()))?;
+    let system = varied.realized(&realization).map_err(|error| fail(error.to_string()))?;
     let restitution = realization.restitution.unwrap_or(restitution);
     system.spectral_oscillator(restitution).map(System::Oscillator).map_err(|error| fail(error.to_string()))
 }

@@ -3,11 +3,12 @@
 use std::io::Write;
 
 use uplift::structure::{TargetBand, TargetReport};
-use uplift::text::{per_cent, table};
+use uplift::text::{per_cent, table, thousands};
 
 use super::alarms::print_alarms;
 use super::shown_path;
 use super::structure::{lines, risk_cells, short};
+use super::uncertainty::{kind_in_words, print_quantities};
 use crate::error::CommandError;
 use crate::terminal::output;
 
@@ -45,6 +46,10 @@ pub(crate) fn print_target(report: &TargetReport) -> Result<(), CommandError> {
     let noise = &report.per_year_within_one_percent;
     writeln!(out, "  within 1 % of it     {:.3e} to {:.3e} per year", noise.lowest, noise.highest)?;
     print_band(out, report, &report.band)?;
+    let uncertain = report.uncertainty.iter();
+    for band in uncertain.flat_map(|uncertain| [&uncertain.by_structure, &uncertain.by_all]).flatten() {
+        print_band(out, report, band)?;
+    }
     let found = &report.found;
     let capacity = found.capacity_m.map_or_else(|| "none".to_owned(), |capacity_m| format!("{capacity_m:.4} m"));
     writeln!(
@@ -52,6 +57,17 @@ pub(crate) fn print_target(report: &TargetReport) -> Result<(), CommandError> {
         "  the structure there  strength {:.4}, strength of the spectrum {:.4}, displacement capacity {capacity}",
         found.strength, found.spectral_strength
     )?;
+    if let Some(uncertain) = &report.uncertainty {
+        writeln!(
+            out,
+            "\nWhat is not known of the structure ({}): {} structures at every value, {}, seed {}; as described",
+            kind_in_words(uncertain.kind),
+            thousands(uncertain.structures as u64),
+            uncertain.sampling,
+            uncertain.seed
+        )?;
+        print_quantities(out, &uncertain.quantities)?;
+    }
     print_crossings(out, report)?;
     print_beside(out, report)?;
     print_alarms(out, &report.alarms)
@@ -65,10 +81,15 @@ fn print_band(out: &mut impl Write, report: &TargetReport, band: &TargetBand) ->
             "beyond the range".to_owned()
         }
     });
-    let drawn = if band.unit == "event" { "earthquakes" } else { "records" };
+    let (drawn, whose) = match band.unit {
+        "structure" => ("by structure", "structures"),
+        "structure and record" | "structure and pair" | "structure and event" => ("structure and records", "resamples"),
+        "event" => ("resampled earthquakes", "resamples"),
+        _ => ("resampled records", "resamples"),
+    };
     writeln!(
         out,
-        "  resampled {drawn:<9}  {lower} to {upper}, median {median} ({} of {} resamples)",
+        "  {drawn:<19}  {lower} to {upper}, median {median} ({} of {} {whose})",
         per_cent(band.confidence),
         band.replicates
     )?;
@@ -76,7 +97,7 @@ fn print_band(out: &mut impl Write, report: &TargetReport, band: &TargetBand) ->
     writeln!(out, "                       {lower:.3e} to {upper:.3e} per year at the value found")?;
     for (share, where_to) in [(band.below_share, "below"), (band.beyond_share, "above")] {
         if share > 0.0 {
-            writeln!(out, "                       {} of the resamples lie {where_to} the range", per_cent(share))?;
+            writeln!(out, "                       {} of the {whose} lie {where_to} the range", per_cent(share))?;
         }
     }
     Ok(())
@@ -105,17 +126,18 @@ fn print_beside(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
                 vec![
                     format!("{:.0} years", at.return_period_years),
                     short(at.level),
-                    format!("{} of {}", at.count, at.records),
+                    format!("{} of {}", at.count, at.runs),
                     per_cent(at.probability),
                 ]
             })
             .collect();
         let level = format!("{}, {}", report.im, report.im_unit);
+        let whose = if report.uncertainty.is_some() { "runs" } else { "records" };
         writeln!(
             out,
             "\nProbability of {} given the level of a return period, for the structure that was found\n{}",
             report.event,
-            table(&["return period", &level, "records", "probability"], &rows)
+            table(&["return period", &level, whose, "probability"], &rows)
         )?;
     }
     let Some(generic) = &report.generic else { return Ok(()) };

@@ -10,28 +10,16 @@ use crate::error::CommandError;
 
 /// Quantities, answers, and what they owe to what.
 pub(super) fn print_uncertainty(out: &mut impl Write, report: &UncertaintyReport) -> Result<(), CommandError> {
-    let kind = match report.kind {
-        "aleatory" => "aleatory, structures of each record",
-        _ => "epistemic, every structure a branch",
-    };
-    let rows: Vec<Vec<String>> = report.quantities.iter().map(quantity).collect();
+    let kind = kind_in_words(report.kind);
     writeln!(
         out,
-        "\nWhat is not known of the structure ({kind}): {} structures, {}, seed {}, {} analyses\n{}",
+        "\nWhat is not known of the structure ({kind}): {} structures, {}, seed {}, {} analyses",
         thousands(report.structures as u64),
         report.sampling,
         report.seed,
-        thousands(report.analyses),
-        table(&["quantity", "distribution", "5 %", "16 %", "50 %", "84 %", "95 %", "correlated with"], &rows)
+        thousands(report.analyses)
     )?;
-    for quantity in report.quantities.iter().filter(|quantity| quantity.cut_off_share > 0.0) {
-        writeln!(
-            out,
-            "{}: {} of the distribution lies where it cannot be, and is cut off",
-            quantity.quantity,
-            per_cent(quantity.cut_off_share)
-        )?;
-    }
+    print_quantities(out, &report.quantities)?;
     for result in &report.results {
         writeln!(out, "{}", result.in_words())?;
     }
@@ -40,6 +28,30 @@ pub(super) fn print_uncertainty(out: &mut impl Write, report: &UncertaintyReport
             out,
             "A share is of the variance: what would stay if all else were known, and alone what would go if only that \
              were (docs/method.md, section 19)"
+        )?;
+    }
+    Ok(())
+}
+
+/// The key of a kind with what it means.
+pub(super) fn kind_in_words(kind: &str) -> &'static str {
+    match kind {
+        "aleatory" => "aleatory, structures of each record",
+        _ => "epistemic, every structure a branch",
+    }
+}
+
+/// A row for each, and what was cut off.
+pub(super) fn print_quantities(out: &mut impl Write, quantities: &[QuantityReport]) -> Result<(), CommandError> {
+    let rows: Vec<Vec<String>> = quantities.iter().map(quantity).collect();
+    let header = ["quantity", "distribution", "5 %", "16 %", "50 %", "84 %", "95 %", "correlated with"];
+    writeln!(out, "{}", table(&header, &rows))?;
+    for quantity in quantities.iter().filter(|quantity| quantity.cut_off_share > 0.0) {
+        writeln!(
+            out,
+            "{}: {} of the distribution lies where it cannot be, and is cut off",
+            quantity.quantity,
+            per_cent(quantity.cut_off_share)
         )?;
     }
     Ok(())

@@ -53,6 +53,13 @@ pub struct Uncertainty {
     pub vector: RandomVector,
 }
 
+impl Uncertainty {
+    /// Whether nothing scatters after all: every coefficient of variation is 0.
+    pub fn is_known(&self) -> bool {
+        self.vector.distributions().iter().all(|of| of.constant().is_some())
+    }
+}
+
 /// The value that a quantity has before it is uncertain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Described {

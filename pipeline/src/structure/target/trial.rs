@@ -1,14 +1,14 @@
 //! Values tried on exact stripes: the structure's oscillator at each of them, under the records of a result.
 
+use std::ops::Range;
 use std::path::Path;
 
 use uplift_hazard::HazardCurve;
-use uplift_ida::{Plan, System};
-use uplift_oscillator::PostUplift;
-use uplift_structure::EquivalentSystem;
+use uplift_ida::{Peaks, Plan, System};
 use uplift_study::{Structure, UniformRiskStudy};
 
-use super::{Attempt, LevelShare, TargetEvent, TargetOptions};
+use super::candidate::{Attempt, Candidate, StructureRisk, threshold_m};
+use super::{LevelShare, TargetEvent, TargetOptions};
 use crate::analysis::{Analysed, Beside, LabelledPlan, Work};
 use crate::checkpoint::Checkpoint;
 use crate::error::UpliftError;
@@ -17,10 +17,11 @@ use crate::inputs::RecordSet;
 use crate::result::{SpectraOfResult, StudyOfResult};
 use crate::structure::certainty::Scatter;
 use crate::structure::choice::records;
-use crate::structure::risk::{EventRisk, OVERTURNING_M, demand_of, risk_of_exceeding};
+use crate::structure::risk::{EventRisk, HAPPENS, OVERTURNING_M, happenings, risk_of_exceeding};
+use crate::structure::uncertain::{Around, Spread};
 use crate::structure::weights::SiteWeights;
-use crate::text::records_in_words;
-use crate::uniform_risk::{Stripes, motion_keys, plan_levels};
+use crate::text::{records_in_words, thousands};
+use crate::uniform_risk::{motion_keys, plan_levels};
 
 /// What values are tried on. The rows of every round stay in the checkpoint until the answer is given.
 pub(super) struct Trials<'a> {
@@ -37,6 +38,8 @@ pub(super) struct Trials<'a> {
     /// Keys of the records' motions.
     motions: Vec<String>,
     restitution: f64,
+    /// The structures that it may be; none where all of it is known.
+    around: Option<Around<'a>>,
     events: &'a dyn Events,
     name: String,
     checkpoint: Option<Checkpoint>,
@@ -63,7 +66,9 @@ impl<'a> Trials<'a> {
         let mut study = source.study.clone();
         // what is lost when a record ends has overturned, whoever looks
         study.oscillator.free_vibration |= options.event == TargetEvent::Overturning;
+        let restitution = structure.description.restitution.unwrap_or(study.oscillator.restitution);
         Ok(Self {
+            around: Around::of(structure, restitution, set.records.len())?,
             structure,
             result: &source.path,
             measure,
@@ -73,7 +78,7 @@ impl<'a> Trials<'a> {
             years,
             motions: motion_keys(&set),
             set,
-            restitution: structure.description.restitution.unwrap_or(study.oscillator.restitution),
+            restitution,
             study,
             events,
             name: format!("target {}", structure.file.file_stem().unwrap_or_default().to_string_lossy()),
@@ -85,6 +90,11 @@ impl<'a> Trials<'a> {
     /// Coefficient of restitution of the oscillators.
     pub(super) fn restitution(&self) -> f64 {
         self.restitution
+    }
+
+    /// The structures that every value may be; none where all of it is known.
+    pub(super) fn around(&self) -> Option<&Around<'a>> {
+        self.around.as_ref()
     }
 
     /// Records that shake them.
@@ -130,47 +140,92 @@ impl<'a> Trials<'a> {
     /// # Errors
     /// A value that no such structure has; [`UpliftError::Paused`] where the events say so.
     pub(super) fn attempt(&mut self, values: &[f64]) -> Result<Vec<Attempt>, UpliftError> {
-        let quantity = self.options.quantity;
-        let system = |&value: &f64| {
-            let refused = |mistake: String| {
-                let key = quantity.key();
-                UpliftError::Usage(format!(
-                    "--vary {key}, {value} {}: {mistake}: give --from and --to",
-                    quantity.unit()
-                ))
-            };
-            let system = quantity
-                .varied(&self.structure.description, value)
-                .map_err(|mistakes| refused(mistakes.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")))?;
-            let oscillator =
-                system.spectral_oscillator(self.restitution).map_err(|error| refused(error.to_string()))?;
-            Ok((system, System::Oscillator(oscillator)))
-        };
-        let found: Vec<(EquivalentSystem, System)> = values.iter().map(system).collect::<Result<_, UpliftError>>()?;
-        let (systems, oscillators): (Vec<_>, Vec<_>) = found.into_iter().unzip();
+        let candidates = values.iter().map(|&value| self.candidate(value)).collect::<Result<Vec<_>, _>>()?;
         let label = format!("{}, {} values", self.measure.measure().label(), values.len());
         let levels = self.measure.plan.levels.to_vec();
-        let analysed = self.analyse(&label, &levels, &oscillators)?;
-        let stripes = Stripes::of(&self.measure.plan, &self.set, analysed);
-        let weigh = |(place, (system, oscillator)): (usize, (EquivalentSystem, System))| {
-            let threshold_m = threshold_m(self.options.event, &system, &oscillator);
-            let demand = demand_of(&stripes, place)?;
-            let risk = risk_of_exceeding(&demand, &self.weights, threshold_m, self.years)?;
-            // what has no capacity cannot overturn
-            let may_happen = threshold_m < OVERTURNING_M || oscillator.can_overturn();
-            let risk = if may_happen { risk.bounded(&self.weights, self.pairs()) } else { risk };
-            let per_year = self.weights.stripes().per_year();
-            let contributed = |record: usize| -> f64 {
-                let peaks_m = stripes.peaks.row_m(record, place).iter();
-                peaks_m.zip(&per_year).filter(|(peak_m, _)| **peak_m > threshold_m).map(|(_, weight)| weight).sum()
-            };
-            let record_per_year = (0..self.set.records.len()).map(contributed).collect();
-            Ok(Attempt { system, oscillator, risk, record_per_year })
-        };
-        systems.into_iter().zip(oscillators.iter().cloned()).enumerate().map(weigh).collect()
+        let analysed = self.analyse(&label, &levels, &candidates)?;
+        let weigh = |(place, candidate)| self.weigh(&analysed.peaks, place, candidate);
+        candidates.into_iter().enumerate().map(weigh).collect()
     }
 
-    /// Which share of the records lets it happen to the structure of `attempt` at the levels that `curve` has for the
+    /// The structures that may be what `value` makes of the structure.
+    ///
+    /// # Errors
+    /// A value that no such structure has.
+    fn candidate(&self, value: f64) -> Result<Candidate, UpliftError> {
+        let quantity = self.options.quantity;
+        let refused = |mistake: String| {
+            let key = quantity.key();
+            UpliftError::Usage(format!("--vary {key}, {value} {}: {mistake}: give --from and --to", quantity.unit()))
+        };
+        let system = quantity
+            .varied(&self.structure.description, value)
+            .map_err(|mistakes| refused(mistakes.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")))?;
+        let described = system.spectral_oscillator(self.restitution).map_err(|error| refused(error.to_string()))?;
+        let systems = match &self.around {
+            None => vec![System::Oscillator(described)],
+            Some(around) => around.systems(&system).map_err(|error| refused(error.to_string()))?,
+        };
+        Ok(Candidate { system, systems })
+    }
+
+    /// What the `peaks` of the candidate at `place` among others say.
+    fn weigh(&self, peaks: &Peaks, place: usize, candidate: Candidate) -> Result<Attempt, UpliftError> {
+        let all = place * self.per_record()..(place + 1) * self.per_record();
+        // structures of each record are one fragility together, branches one each
+        let structures = if self.is_of_each_record() {
+            vec![self.risk_of(peaks, all, &candidate)?]
+        } else {
+            all.map(|place| self.risk_of(peaks, place..place + 1, &candidate)).collect::<Result<_, _>>()?
+        };
+        let of = |value: &dyn Fn(&StructureRisk) -> f64| mean(structures.iter().map(value).collect());
+        let tail = |share: fn(&EventRisk) -> f64| of(&|one: &StructureRisk| share(&one.risk) * one.risk.per_year);
+        let mut risk = if let [one] = &structures[..] {
+            one.risk
+        } else {
+            let tails = [tail(|risk| risk.lower_tail_share), tail(|risk| risk.upper_tail_share)];
+            EventRisk::new(of(&|one| one.risk.per_year), tails, self.years)?
+        };
+        // what has no capacity cannot overturn
+        let may_happen = |system: &System| {
+            threshold_m(self.options.event, &candidate.system, system) < OVERTURNING_M || system.can_overturn()
+        };
+        if candidate.systems.iter().any(may_happen) {
+            risk = risk.bounded(&self.weights, self.pairs());
+        }
+        let record_per_year =
+            (0..self.set.records.len()).map(|record| of(&|one| one.record_per_year[record])).collect();
+        Ok(Attempt { candidate, risk, record_per_year, structures })
+    }
+
+    /// The risk of the structures at `places` of a `candidate`, each with its own threshold.
+    fn risk_of(
+        &self,
+        peaks: &Peaks,
+        places: Range<usize>,
+        candidate: &Candidate,
+    ) -> Result<StructureRisk, UpliftError> {
+        let (records, draws) = (self.set.records.len(), places.len());
+        let run = |record: usize, place: usize| {
+            let own = place % self.per_record() + if self.is_of_each_record() { record * self.per_record() } else { 0 };
+            let system = &candidate.systems[own];
+            (peaks.row_m(record, place), threshold_m(self.options.event, &candidate.system, system))
+        };
+        let of_record = |record: usize| places.clone().map(move |place| run(record, place));
+        let told = happenings(&self.measure.plan.levels, (0..records).flat_map(of_record))?;
+        let risk = risk_of_exceeding(&told, &self.weights, HAPPENS, self.years)?;
+        let per_year = self.weights.stripes().per_year();
+        let contributed = |record: usize| -> f64 {
+            let of_run = |(row_m, threshold_m): (&[f64], f64)| -> f64 {
+                let peaks_m = row_m.iter().zip(&per_year);
+                peaks_m.filter(|(peak_m, _)| **peak_m > threshold_m).map(|(_, weight)| weight).sum()
+            };
+            of_record(record).map(of_run).sum::<f64>() / draws as f64
+        };
+        Ok(StructureRisk { risk, record_per_year: (0..records).map(contributed).collect() })
+    }
+
+    /// Which share of the runs lets it happen to the structures of `attempt` at the levels that `curve` has for the
     /// return periods asked for; one outside the curve is a note.
     ///
     /// # Errors
@@ -199,18 +254,18 @@ impl<'a> Trials<'a> {
         }
         let levels: Vec<f64> = asked.iter().map(|(_, level)| *level).collect();
         let label = format!("{}, {} return periods", self.measure.measure().label(), levels.len());
-        let analysed = self.analyse(&label, &levels, std::slice::from_ref(&attempt.oscillator))?;
-        let threshold_m = threshold_m(self.options.event, &attempt.system, &attempt.oscillator);
-        let share = |(place, &(return_period_years, level)): (usize, &(f64, f64))| {
-            let peaks_m = analysed.peaks.over_motions_m(0, place);
-            let count = peaks_m.iter().filter(|peak_m| **peak_m > threshold_m).count();
-            LevelShare {
-                return_period_years,
-                level,
-                records: peaks_m.len(),
-                count,
-                probability: count as f64 / peaks_m.len() as f64,
-            }
+        let analysed = self.analyse(&label, &levels, std::slice::from_ref(&attempt.candidate))?;
+        let thresholds_m = attempt.candidate.thresholds_m(self.options.event);
+        let runs = self.set.records.len() * self.per_record();
+        let share = |(scale, &(return_period_years, level)): (usize, &(f64, f64))| {
+            let happens = |run: usize| {
+                let (record, place) = (run / self.per_record(), run % self.per_record());
+                let own = if self.is_of_each_record() { run } else { place };
+                analysed.peaks.at_m([record, place, scale]) > thresholds_m[own]
+            };
+            let count = (0..runs).filter(|run| happens(*run)).count();
+            let probability = count as f64 / runs as f64;
+            LevelShare { return_period_years, level, runs, count, probability }
         };
         Ok(asked.iter().enumerate().map(share).collect())
     }
@@ -222,29 +277,53 @@ impl<'a> Trials<'a> {
         }
     }
 
-    /// The peaks of `systems` at `levels`, in the unit of the measure.
-    fn analyse(&mut self, label: &str, levels: &[f64], systems: &[System]) -> Result<Analysed, UpliftError> {
+    /// The peaks of `candidates` at `levels`, in the unit of the measure: those of a candidate lie together.
+    fn analyse(&mut self, label: &str, levels: &[f64], candidates: &[Candidate]) -> Result<Analysed, UpliftError> {
         // one job has the file at a time, and this one goes on with it
         drop(self.checkpoint.take());
-        let plan: Plan<'_> = plan_levels(&self.study, (self.measure.measure(), levels), &self.set, systems)?;
+        let systems: Vec<System> = if self.is_of_each_record() {
+            // those of each record, one record after the other
+            let of = |record: usize| record * self.per_record()..(record + 1) * self.per_record();
+            let of_record = |record| candidates.iter().flat_map(move |one| one.systems[of(record)].iter().cloned());
+            (0..self.set.records.len()).flat_map(of_record).collect()
+        } else {
+            candidates.iter().flat_map(|one| one.systems.iter().cloned()).collect()
+        };
+        let plan: Plan<'_> = plan_levels(&self.study, (self.measure.measure(), levels), &self.set, &systems)?;
+        let plan = if self.is_of_each_record() { plan.with_own_systems()? } else { plan };
         self.analyses += plan.analyses();
-        let labelled =
-            LabelledPlan { label: label.to_owned(), remark: None, plan, motions: &self.motions, known: None };
+        let remark = self.cost(&plan, candidates.len()).map(|cost| ("uncertainty".to_owned(), cost));
+        let labelled = LabelledPlan { label: label.to_owned(), remark, plan, motions: &self.motions, known: None };
         let beside = Beside { result: self.result, name: &self.name };
         let (analysed, checkpoint) = beside.results(Work::new(&self.name, vec![labelled]), &[], self.events)?;
         self.checkpoint = Some(checkpoint);
         analysed.into_iter().next().ok_or(UpliftError::Interrupted)
     }
+
+    /// What a round costs where every value is many structures, in words.
+    fn cost(&self, plan: &Plan<'_>, values: usize) -> Option<String> {
+        self.around.as_ref()?;
+        let (axes, structures) = (plan.axes(), self.per_record());
+        let whose = if self.is_of_each_record() { "structures of each record" } else { "structures" };
+        Some(format!(
+            "{values} values x {structures} {whose} x {} records x {} levels, {} analyses",
+            axes.motions,
+            axes.scales,
+            thousands(plan.analyses())
+        ))
+    }
+
+    /// Structures that a record shakes at every value.
+    pub(super) fn per_record(&self) -> usize {
+        self.around.as_ref().map_or(1, Around::per_record)
+    }
+
+    fn is_of_each_record(&self) -> bool {
+        self.around.as_ref().is_some_and(Around::is_of_each_record)
+    }
 }
 
-/// What must not be exceeded, m, in the displacement of the `oscillator`: Γ times it is the structure's.
-fn threshold_m(event: TargetEvent, system: &EquivalentSystem, oscillator: &System) -> f64 {
-    match (event, oscillator) {
-        (TargetEvent::Beyond(displacement_m), _) => displacement_m / system.participation(),
-        (TargetEvent::BeyondCapacity, System::Oscillator(oscillator)) => match oscillator.post_uplift() {
-            PostUplift::Negative { capacity_m } => capacity_m,
-            PostUplift::Zero | PostUplift::Positive { .. } => OVERTURNING_M,
-        },
-        (TargetEvent::BeyondCapacity | TargetEvent::Overturning, _) => OVERTURNING_M,
-    }
+/// The mean of numbers that are not alike; that of those that are, to the bit.
+fn mean(values: Vec<f64>) -> f64 {
+    Spread::of(values).mean
 }

@@ -40,6 +40,20 @@ struct Cell {
     sample: Option<usize>,
 }
 
+/// The points of both samples, `[sample][row]`: a number for each quantity, and one for the hazard's branch.
+///
+/// # Errors
+/// More quantities than there are dimensions.
+pub(super) fn samples(of: &Uncertainty) -> Result<[Vec<Vec<f64>>; 2], UpliftError> {
+    // one dimension more for the hazard; of both samples
+    let factors = of.quantities.len() + 1;
+    let points = unit_cube(of.sampling, (of.samples, 2 * factors), of.seed)?;
+    let half = |half: usize| {
+        points.chunks_exact(2 * factors).map(|row| row[half * factors..(half + 1) * factors].to_vec()).collect()
+    };
+    Ok([half(0), half(1)])
+}
+
 impl Branches {
     /// Draws them: their systems, each once, and which are which.
     ///
@@ -50,13 +64,7 @@ impl Branches {
         realize: &dyn Fn(&[f64]) -> Result<System, UpliftError>,
     ) -> Result<(Vec<System>, Self), UpliftError> {
         let quantities = of.quantities.len();
-        // one dimension more for the hazard; of both samples
-        let factors = quantities + 1;
-        let points = unit_cube(of.sampling, (of.samples, 2 * factors), of.seed)?;
-        let half = |half: usize| -> Vec<&[f64]> {
-            points.chunks_exact(2 * factors).map(|row| &row[half * factors..(half + 1) * factors]).collect()
-        };
-        let (first, second) = (half(0), half(1));
+        let [first, second] = samples(of)?;
         let mut known: HashMap<Vec<u64>, usize> = HashMap::new();
         let mut systems = Vec::new();
         let mut place = |point: &[f64]| -> Result<usize, UpliftError> {
@@ -73,8 +81,8 @@ impl Branches {
             samples.push(points.iter().map(|point| place(point)).collect::<Result<Vec<_>, _>>()?);
         }
         for group in groups {
-            let with = |(first, second): (&&[f64], &&[f64])| {
-                let mut point = first.to_vec();
+            let with = |(first, second): (&Vec<f64>, &Vec<f64>)| {
+                let mut point = first.clone();
                 for &quantity in group {
                     point[quantity] = second[quantity];
                 }

@@ -1,17 +1,41 @@
 //! Structures of each record: what differs from one to the next is part of the fragility, and there is one risk.
 
+use std::path::Path;
+
 use uplift_fragility::Stripes as Stripe;
 use uplift_risk::{PooledDemand, RiskCurve};
+use uplift_study::Uncertainty;
+use uplift_uncertainty::unit_cube;
 
 use super::report::{AleatoryResult, UncertainFinding};
 use super::{AskedSite, Event, Uncertain};
 use crate::error::UpliftError;
 use crate::structure::certainty::{Scatter, demand_bands, rate_bands};
-use crate::structure::risk::OVERTURNING_M;
+use crate::structure::risk::{HAPPENS, OVERTURNING_M, happenings};
 use crate::uniform_risk::Stripes;
 
-/// Between what happens and what does not, where runs are told by 1 and 0.
-const HAPPENS: f64 = 0.5;
+/// Runs of a level, at most: those that a pool of demands holds.
+const MOST_RUNS: usize = u16::MAX as usize;
+
+/// The points of the structures of each record, one record after the other: a number for each quantity.
+///
+/// # Errors
+/// More structures than a level takes, in the structure `file`.
+pub(super) fn points(of: &Uncertainty, records: usize, file: &Path) -> Result<Vec<Vec<f64>>, UpliftError> {
+    let dimensions = of.quantities.len();
+    // structures that are all alike are one, with the very bits of the structure as described
+    let draws = if of.is_known() { 1 } else { of.draws };
+    if records * draws > MOST_RUNS {
+        return Err(UpliftError::input(format!(
+            "[uncertainty]: {draws} structures of each of {records} records are {}, and a level takes {MOST_RUNS}: \
+             take fewer draws",
+            records * draws
+        ))
+        .in_file(file));
+    }
+    let points = unit_cube(of.sampling, (records * draws, dimensions), of.seed)?;
+    Ok(points.chunks_exact(dimensions).map(<[f64]>::to_vec).collect())
+}
 
 /// The answers, `[site, asked]`: every draw of a record counts as a record does.
 ///
@@ -32,13 +56,13 @@ pub(super) fn findings(
     };
     let demand = pool(demands_m)?;
     let levels = stripes.levels.len();
-    let beyond: Vec<f64> = (demands_m.chunks_exact(levels).zip(&uncertain.systems))
-        .flat_map(|(row, system)| {
-            let capacity_m = Event::BeyondCapacity.threshold_m(system).unwrap_or(f64::INFINITY);
-            row.iter().map(move |&edp_m| if edp_m > capacity_m { 1.0 } else { 0.0 })
-        })
-        .collect();
-    let beyond = pool(&beyond)?;
+    let beyond = happenings(
+        &stripes.levels,
+        demands_m
+            .chunks_exact(levels)
+            .zip(&uncertain.systems)
+            .map(|(row_m, system)| (row_m, Event::BeyondCapacity.threshold_m(system).unwrap_or(f64::INFINITY))),
+    )?;
     let rate = |site: &AskedSite<'_>, of: &PooledDemand, threshold_m: f64| -> Result<AleatoryResult, UpliftError> {
         let bands = rate_bands(of, site.weights, &scatter, threshold_m)?;
         Ok(AleatoryResult {

@@ -119,7 +119,7 @@ pub struct Spread {
 
 impl Spread {
     /// Of `values`, at least one.
-    pub(super) fn of(mut values: Vec<f64>) -> Self {
+    pub(in crate::structure) fn of(mut values: Vec<f64>) -> Self {
         values.sort_by(f64::total_cmp);
         let percentiles = FRACTILES.map(|share| quantile(&values, share));
         // values that are all alike have themselves as their mean, to the bit

@@ -1,0 +1,64 @@
+//! A value that is tried: the structures that it may be, and what their stripes say.
+
+use uplift_ida::System;
+use uplift_oscillator::PostUplift;
+use uplift_structure::EquivalentSystem;
+
+use super::TargetEvent;
+use crate::structure::risk::{EventRisk, OVERTURNING_M};
+
+/// The structures that a value may be.
+#[derive(Debug, Clone)]
+pub(super) struct Candidate {
+    /// As described, with the value.
+    pub(super) system: EquivalentSystem,
+    /// The oscillators that shake: one where all is known; else one a branch, or those of each record, one record after
+    /// the other.
+    pub(super) systems: Vec<System>,
+}
+
+impl Candidate {
+    /// What each of them must not exceed, m of its oscillator.
+    pub(super) fn thresholds_m(&self, event: TargetEvent) -> Vec<f64> {
+        self.systems.iter().map(|system| threshold_m(event, &self.system, system)).collect()
+    }
+}
+
+/// A value that was analysed.
+#[derive(Debug, Clone)]
+pub(super) struct Attempt {
+    pub(super) candidate: Candidate,
+    /// On average over the structures that it may be.
+    pub(super) risk: EventRisk,
+    /// What each record contributes on average: the sum of its weights where it happens, 1/yr; their mean is the
+    /// frequency.
+    pub(super) record_per_year: Vec<f64>,
+    /// The same of every branch; of one where all is known, and where each record has structures of its own.
+    pub(super) structures: Vec<StructureRisk>,
+}
+
+/// The risk of one structure.
+#[derive(Debug, Clone)]
+pub(super) struct StructureRisk {
+    pub(super) risk: EventRisk,
+    /// What each record contributes, 1/yr.
+    pub(super) record_per_year: Vec<f64>,
+}
+
+impl Attempt {
+    pub(super) fn meets(&self, target_per_year: f64) -> bool {
+        self.risk.per_year <= target_per_year
+    }
+}
+
+/// What must not be exceeded, m, in the displacement of the `oscillator`: Γ times it is the structure's.
+pub(super) fn threshold_m(event: TargetEvent, system: &EquivalentSystem, oscillator: &System) -> f64 {
+    match (event, oscillator) {
+        (TargetEvent::Beyond(displacement_m), _) => displacement_m / system.participation(),
+        (TargetEvent::BeyondCapacity, System::Oscillator(oscillator)) => match oscillator.post_uplift() {
+            PostUplift::Negative { capacity_m } => capacity_m,
+            PostUplift::Zero | PostUplift::Positive { .. } => OVERTURNING_M,
+        },
+        (TargetEvent::BeyondCapacity | TargetEvent::Overturning, _) => OVERTURNING_M,
+    }
+}
