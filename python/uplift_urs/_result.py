@@ -274,7 +274,7 @@ class Result(StructureCommands):
         replicates: int | None = None,
         seed: int | None = None,
         interval: Literal["percentile", "bca"] | None = None,
-        unit: Literal["record", "event"] | None = None,
+        unit: Literal["record", "pair", "event"] | None = None,
         simultaneous: bool = False,
         force: bool = False,
         progress: Progress | None = None,
