@@ -19,6 +19,9 @@ pub const UPLIFT_DISPLACEMENT: Range = range(1e-6, 10.0, "m", "the dissertation 
 /// Velocity after an impact divided by the one before.
 pub const RESTITUTION: Range = range(0.0, 1.0, "", "velocity after an impact over the one before; 95 % is 0.95");
 
+/// Standard deviation over mean.
+pub const VARIATION: Range = range(0.0, 10.0, "", "standard deviation over mean: 0.1 is 10 %");
+
 /// Displacement at which the force has fallen to zero: the width of a base.
 pub const CAPACITY: Range = range(1e-6, 1e6, "m", "of the order of the width of a column; in m, not in mm");
 

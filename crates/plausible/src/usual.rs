@@ -26,6 +26,10 @@ pub const USUAL_RESTITUTION: Range =
 pub const USUAL_CAPACITY: Range =
     usual(0.01, 20.0, "m", "of the order of the width of a base; was it meant in mm or cm?");
 
+/// Standard deviation of a quantity over its mean: what is hardly known at all has 1.
+pub const USUAL_VARIATION: Range =
+    usual(0.0, 1.0, "", "standard deviation over mean, 0.06 for 6 %; was it meant in per cent?");
+
 /// Side of a block, column or frame: from a cabinet's foot to the tallest piers but a few.
 pub const USUAL_LENGTH: Range = usual(0.02, 150.0, "m", "was it meant in mm or cm?");
 
@@ -74,7 +78,7 @@ mod tests {
     use super::*;
     use crate::{
         CAPACITY, GRAVITY, LENGTH, MASS, PGA_LEVEL, PGV_LEVEL, SAFETY_FACTOR, STRENGTH, TENDON_STIFFNESS,
-        UPLIFT_DISPLACEMENT, YEARS,
+        UPLIFT_DISPLACEMENT, VARIATION, YEARS,
     };
 
     #[test]
@@ -90,6 +94,7 @@ mod tests {
             (USUAL_SAFETY_FACTOR, SAFETY_FACTOR),
             (USUAL_TOP_PGV, PGV_LEVEL),
             (USUAL_TOP_PGA, PGA_LEVEL),
+            (USUAL_VARIATION, VARIATION),
             (USUAL_YEARS, YEARS),
         ] {
             assert!(plausible.contains(usual.least) && plausible.contains(usual.most), "{usual}");

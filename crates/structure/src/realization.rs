@@ -9,7 +9,10 @@
 //!
 //! What goes together, such as strength and capacity of a block whose width is uncertain, is told by a correlation.
 
-use uplift_plausible::{CAPACITY, RESTITUTION, Range, STRENGTH, UPLIFT_DISPLACEMENT};
+use uplift_plausible::{
+    CAPACITY, RESTITUTION, Range, STRENGTH, UPLIFT_DISPLACEMENT, USUAL_CAPACITY, USUAL_RESTITUTION, USUAL_STRENGTH,
+    USUAL_UPLIFT_DISPLACEMENT,
+};
 
 use crate::equivalent::{Conditions, EquivalentSystem, PostUpliftForce};
 use crate::error::{StructureError, positive};
@@ -58,6 +61,16 @@ impl UncertainQuantity {
             Self::Restitution => RESTITUTION,
             Self::UpliftDisplacement => UPLIFT_DISPLACEMENT,
             Self::Capacity => CAPACITY,
+        }
+    }
+
+    /// What it usually is.
+    pub fn usual(self) -> Range {
+        match self {
+            Self::Strength => USUAL_STRENGTH,
+            Self::Restitution => USUAL_RESTITUTION,
+            Self::UpliftDisplacement => USUAL_UPLIFT_DISPLACEMENT,
+            Self::Capacity => USUAL_CAPACITY,
         }
     }
 

@@ -20,7 +20,7 @@ use crate::reading::findings::refused;
 use crate::reading::other_file::Wanted;
 use crate::reading::text::{parse_table, read_text};
 use crate::reading::{Field, Finding, Findings, Origin, Rule, Section, Table, Value};
-use crate::sections::uncertainty::{self, Described, Uncertainty};
+use crate::sections::uncertainty::{self, Described, Doubt, Uncertainty};
 use crate::warning::Warning;
 use restrainer::ReadRestrainer;
 pub use restrainer::RestrainerFile;
@@ -90,11 +90,14 @@ impl Structure {
         let read = read(Section::root(&document, &findings));
         let mut findings = findings.into_vec();
         let resolved = read.map(|read| read.resolve(file));
-        let (uncertainty, of_uncertainty) = read_uncertainty(&document, resolved.as_ref());
+        let (uncertainty, of_uncertainty, doubts) = read_uncertainty(&document, resolved.as_ref());
         findings.extend(of_uncertainty);
         if let Some(resolved) = resolved {
             match resolved {
-                Ok(structure) if findings.is_empty() => return Ok(Self { uncertainty, ..structure }),
+                Ok(mut structure) if findings.is_empty() => {
+                    structure.warnings.extend(doubts.iter().map(|doubt| asked_about(doubt, &text)));
+                    return Ok(Self { uncertainty, ..structure });
+                }
                 Ok(_) => {}
                 Err(mistakes) => {
                     let judged =
@@ -322,11 +325,12 @@ fn read(mut root: Section<'_>) -> Option<ReadStructure> {
     kind.map(|_| ReadStructure { description, restrainer, column_shape, f_cd_pa })
 }
 
-/// Reads `[uncertainty]`, and what is wrong with it; the means that are not given are those of the structure.
+/// Reads `[uncertainty]`, what is wrong with it, and what is doubtful; the means that are not given are those of the
+/// structure.
 fn read_uncertainty(
     document: &Table,
     resolved: Option<&Result<Structure, Vec<Mistake>>>,
-) -> (Option<Uncertainty>, Vec<Finding>) {
+) -> (Option<Uncertainty>, Vec<Finding>, Vec<Doubt>) {
     let described = |quantity: UncertainQuantity| {
         let Some(Ok(structure)) = resolved else { return Described::Mistaken };
         match quantity.value(&structure.system, structure.description.restitution) {
@@ -337,11 +341,24 @@ fn read_uncertainty(
             None => Described::Open,
         }
     };
-    let findings = Findings::default();
+    let (findings, mut doubts) = (Findings::default(), Vec::new());
     let table = document.get("uncertainty").filter(|entry| entry.node.table().is_some());
     let read = table.and_then(|_| {
         let section = Section::root(document, &findings).section("uncertainty");
-        uncertainty::read(section, &described)
+        uncertainty::read(section, &described, &mut doubts)
     });
-    (read, findings.into_vec())
+    (read, findings.into_vec(), doubts)
+}
+
+/// A doubtful number with its line in the `text` of the file.
+fn asked_about(doubt: &Doubt, text: &str) -> Warning {
+    let place = match &doubt.origin {
+        Origin::File(span) => format!("line {}, ", text[..span.start].lines().count().max(1)),
+        Origin::Override(_) | Origin::Study => String::new(),
+    };
+    let Doubt { key, what, .. } = doubt;
+    Warning {
+        unlikely: true,
+        ..Warning::new(format!("{place}{key}{what}"), format!("correct it, or leave it if it is meant: {key}"))
+    }
 }

@@ -64,12 +64,14 @@ impl Distribution {
     /// `range`: the least and the most that it can be.
     ///
     /// # Errors
-    /// A mean outside of the range, or of a lognormal one not above 0; a coefficient below 0; a distribution of which
-    /// too much lies outside.
+    /// A mean outside of the range, or of a lognormal one not above 0, or of 0 that has a scatter; a coefficient below
+    /// 0; a distribution of which too much lies outside.
     pub fn of_mean(family: Family, (mean, variation): (f64, f64), range: [f64; 2]) -> Result<Self, UncertaintyError> {
         let within = (range[0]..=range[1]).contains(&mean) && (family != Family::Lognormal || mean > 0.0);
         check("the mean", mean, within && mean.is_finite(), "within what the quantity can be")?;
         check("the coefficient of variation", variation, (0.0..=10.0).contains(&variation), "from 0 to 10")?;
+        let is_scattering = variation > 0.0;
+        check("the mean", mean, mean != 0.0 || !is_scattering, "other than 0, for what is 0 % or 10 % of 0 is 0")?;
         let deviation = variation * mean.abs();
         if deviation == 0.0 {
             return Self::within(Shape::Constant(mean), range);

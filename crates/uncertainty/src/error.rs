@@ -2,11 +2,16 @@
 
 use thiserror::Error;
 
+/// To four digits, which say what is wrong: what follows from a mean and a scatter has sixteen.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.3e}").parse().unwrap_or(value)
+}
+
 /// Why a quantity has no distribution, or several have none together.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum UncertaintyError {
     /// A number is out of range.
-    #[error("{name} is {value}: it must be {requirement}")]
+    #[error("{name} is {}: it must be {requirement}", rounded(*.value))]
     OutOfRange {
         /// Name of the number.
         name: &'static str,
@@ -17,8 +22,10 @@ pub enum UncertaintyError {
     },
     /// Percentiles that do not rise.
     #[error(
-        "the {first} % percentile is {first_value} and the {second} % percentile {second_value}: give two that rise \
-         together, or a coefficient of variation of 0 for a quantity that is known"
+        "the {first} % percentile is {} and the {second} % percentile {}: give two that rise together, or a \
+         coefficient of variation of 0 for a quantity that is known",
+        rounded(*.first_value),
+        rounded(*.second_value)
     )]
     Percentiles {
         /// The lower percentage.
@@ -31,7 +38,12 @@ pub enum UncertaintyError {
         second_value: f64,
     },
     /// Limits that do not rise.
-    #[error("the limits are {lower} and {upper}, the mode {mode}: give lower < upper, with the mode between them")]
+    #[error(
+        "the limits are {} and {}, the mode {}: give lower < upper, with the mode between them",
+        rounded(*.lower),
+        rounded(*.upper),
+        rounded(*.mode)
+    )]
     Limits {
         /// Lower limit.
         lower: f64,
@@ -41,7 +53,11 @@ pub enum UncertaintyError {
         upper: f64,
     },
     /// A bounded distribution that goes beyond what the quantity can be.
-    #[error("it reaches from {lower} to {upper}, and it can be from {least} to {most}: bring its limits within")]
+    #[error(
+        "it reaches from {} to {}, and it can be from {least} to {most}: bring its limits within",
+        rounded(*.lower),
+        rounded(*.upper)
+    )]
     Beyond {
         /// Its lower limit.
         lower: f64,
@@ -106,4 +122,19 @@ pub enum UncertaintyError {
         /// How many belong there.
         expected: usize,
     },
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn four_digits_say_what_is_wrong() {
+        let beyond = UncertaintyError::Beyond { lower: 0.123_456_789, upper: 1.0 + 1.0 / 3.0, least: 0.0, most: 1.0 };
+        assert!(
+            beyond.to_string().starts_with("it reaches from 0.1235 to 1.333, and it can be from 0 to 1"),
+            "{beyond}"
+        );
+        assert_eq!([1e-6, 0.06, 12.0, f64::INFINITY].map(rounded), [1e-6, 0.06, 12.0, f64::INFINITY]);
+    }
 }

@@ -1,9 +1,10 @@
 //! The section `[uncertainty]`: quantities of a structure that are not known exactly.
 
+use uplift_plausible::{Range, USUAL_VARIATION};
 use uplift_structure::UncertainQuantity;
 use uplift_uncertainty::{Distribution, Family, GaussianCopula, RandomVector, Sampling, UncertaintyError};
 
-use crate::reading::{Field, Rule, Section};
+use crate::reading::{Field, Origin, Rule, Section};
 
 /// Samples of a sensitivity analysis, and their range.
 const SAMPLES: (u64, std::ops::RangeInclusive<u64>) = (64, 8..=4096);
@@ -73,10 +74,21 @@ pub(crate) enum Described {
     Impossible(&'static str),
 }
 
-/// Reads the section; none where there is none, or where it is wrong.
+/// A number that can be, but is probably meant otherwise.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Doubt {
+    /// `uncertainty.strength.coefficient_of_variation`.
+    pub(crate) key: String,
+    pub(crate) origin: Origin,
+    /// ` is 6; usual is ...`, to be read after the key.
+    pub(crate) what: String,
+}
+
+/// Reads the section; none where there is none, or where it is wrong. What is doubtful goes to `doubts`.
 pub(crate) fn read(
     mut section: Section<'_>,
     described: &dyn Fn(UncertainQuantity) -> Described,
+    doubts: &mut Vec<Doubt>,
 ) -> Option<Uncertainty> {
     if !section.is_present() {
         return None;
@@ -104,19 +116,22 @@ pub(crate) fn read(
         let (below, above) = (samples.next_power_of_two() / 2, samples.next_power_of_two());
         section.mistake("samples", message, format!("write {below} or {above}, or sampling = \"latin-hypercube\""));
     }
-    let mut known = Vec::new();
+    let (mut known, mut mistaken) = (Vec::new(), Vec::new());
     let mut is_whole = true;
     for quantity in UncertainQuantity::ALL {
         let of_quantity = section.section(quantity.key());
         if !of_quantity.is_present() {
-            is_whole &= section.field(quantity.key()).is_none();
+            if section.field(quantity.key()).is_some() {
+                mistaken.push(quantity);
+            }
             continue;
         }
-        match read_quantity(of_quantity, quantity, described(quantity)) {
+        match read_quantity(of_quantity, quantity, described(quantity), doubts) {
             Some(distribution) => known.push((quantity, distribution)),
-            None => is_whole = false,
+            None => mistaken.push(quantity),
         }
     }
+    is_whole &= mistaken.is_empty();
     if known.is_empty() && is_whole {
         let keys = UncertainQuantity::ALL.map(UncertainQuantity::key).join("], [uncertainty.");
         section.mistake("", "nothing here is uncertain", format!("give one or more of [uncertainty.{keys}]"));
@@ -124,7 +139,7 @@ pub(crate) fn read(
     }
     let (quantities, distributions): (Vec<_>, Vec<_>) = known.into_iter().unzip();
     let correlation = section.field("correlation");
-    let pairs = correlation.as_ref().map(|field| read_pairs(field, &quantities));
+    let pairs = correlation.as_ref().map(|field| read_pairs(field, &quantities, &mistaken));
     section.finish();
     let pairs = match pairs {
         Some(pairs) => pairs?,
@@ -164,8 +179,13 @@ fn told(error: &UncertaintyError, quantities: &[UncertainQuantity]) -> String {
     }
 }
 
-/// Pairs of quantities, by their positions among the uncertain ones, with the coefficient of each.
-fn read_pairs(field: &Field<'_>, quantities: &[UncertainQuantity]) -> Option<Vec<(usize, usize, f64)>> {
+/// Pairs of quantities, by their positions among the uncertain ones, with the coefficient of each; those that are
+/// `mistaken` have been told.
+fn read_pairs(
+    field: &Field<'_>,
+    quantities: &[UncertainQuantity],
+    mistaken: &[UncertainQuantity],
+) -> Option<Vec<(usize, usize, f64)>> {
     let choices = UncertainQuantity::ALL.map(|quantity| (quantity.key(), quantity));
     let read = |item: Field<'_>| -> Option<(usize, usize, f64)> {
         let mut section = item.section();
@@ -190,17 +210,18 @@ fn read_pairs(field: &Field<'_>, quantities: &[UncertainQuantity]) -> Option<Vec
             between.mistake(format!("{} quantities", names.len()), "a correlation is between two");
             return None;
         };
-        let place = |field: &Field<'_>| {
-            let quantity = field.choice(&choices)?;
-            let place = quantities.iter().position(|known| *known == quantity);
-            if place.is_none() {
-                let help = format!("give [uncertainty.{}], or leave the correlation out", quantity.key());
-                field.mistake(format!("{} is not uncertain", quantity.key()), help);
-            }
-            place
-        };
-        let (first, second) = (place(first), place(second));
-        Some((first?, second?, coefficient?))
+        let (first, second) = (first.choice(&choices), second.choice(&choices));
+        let is_missing = |quantity: &UncertainQuantity| !quantities.contains(quantity) && !mistaken.contains(quantity);
+        let mut missing: Vec<&str> =
+            [first, second].into_iter().flatten().filter(is_missing).map(UncertainQuantity::key).collect();
+        missing.dedup();
+        if !missing.is_empty() {
+            let are = if missing.len() > 1 { "are" } else { "is" };
+            let help = format!("give [uncertainty.{}], or leave the correlation out", missing.join("], [uncertainty."));
+            between.mistake(format!("{} {are} not uncertain", missing.join(" and ")), help);
+        }
+        let place = |quantity| quantities.iter().position(|known| *known == quantity);
+        Some((place(first?)?, place(second?)?, coefficient?))
     };
     let items = field.few_items()?;
     let count = items.len();
@@ -209,8 +230,12 @@ fn read_pairs(field: &Field<'_>, quantities: &[UncertainQuantity]) -> Option<Vec
 }
 
 /// One quantity: its mean and coefficient of variation, two percentiles, or its limits.
-fn read_quantity(mut section: Section<'_>, quantity: UncertainQuantity, described: Described) -> Option<Distribution> {
-    let unit = quantity.range().unit;
+fn read_quantity(
+    mut section: Section<'_>,
+    quantity: UncertainQuantity,
+    described: Described,
+    doubts: &mut Vec<Doubt>,
+) -> Option<Distribution> {
     let families = Family::ALL.map(|family| (family.key(), family));
     let family = if let Some(field) = section.field("distribution") {
         field.choice(&families)
@@ -223,10 +248,16 @@ fn read_quantity(mut section: Section<'_>, quantity: UncertainQuantity, describe
         );
         None
     };
-    let mut number = |key, unit| section.field(key).map(|field| field.number(unit, ANY));
-    let (mean, variation) = (number("mean", unit), number("coefficient_of_variation", ""));
-    let (lower, mode, upper) = (number("lower", unit), number("mode", unit), number("upper", unit));
-    let percentiles = section.field("percentiles").map(|field| read_percentiles(&field, unit));
+    let mut number = |key, usual: Range| {
+        let field = section.field(key)?;
+        let value = field.number(usual.unit, ANY);
+        doubts.extend(value.and_then(|value| doubt(&field, value, usual)));
+        Some(value)
+    };
+    let usual = quantity.usual();
+    let (mean, variation) = (number("mean", usual), number("coefficient_of_variation", USUAL_VARIATION));
+    let (lower, mode, upper) = (number("lower", usual), number("mode", usual), number("upper", usual));
+    let percentiles = section.field("percentiles").map(|field| read_percentiles(&field, usual, doubts));
     if let Described::Impossible(reason) = described {
         section.mistake("", reason, "leave it out");
         section.finish();
@@ -299,10 +330,16 @@ fn read_quantity(mut section: Section<'_>, quantity: UncertainQuantity, describe
     found
 }
 
+/// What is to be asked about the `value` of a field that is not what is usual.
+fn doubt(field: &Field<'_>, value: f64, usual: Range) -> Option<Doubt> {
+    let found = usual.unlikely("", value)?;
+    Some(Doubt { key: field.key.clone(), origin: field.node.origin.clone(), what: found.to_string() })
+}
+
 /// Two percentiles, `[[5, 0.08], [95, 0.12]]`.
-fn read_percentiles(field: &Field<'_>, unit: &str) -> Option<[(f64, f64); 2]> {
+fn read_percentiles(field: &Field<'_>, usual: Range, doubts: &mut Vec<Doubt>) -> Option<[(f64, f64); 2]> {
     let help = "write two percentages with their values: [[5, 0.08], [95, 0.12]]";
-    let pair = |item: &Field<'_>| {
+    let mut pair = |item: &Field<'_>| {
         let numbers = item.items();
         let [percentage, value] = &numbers[..] else {
             item.mistake("a percentile is a percentage and a value", help);
@@ -310,13 +347,22 @@ fn read_percentiles(field: &Field<'_>, unit: &str) -> Option<[(f64, f64); 2]> {
         };
         let holds = |value: f64| value > 0.0 && value < 100.0;
         let percentage = percentage.number("%", Rule::Is { holds, words: "above 0 and below 100" });
-        Some((percentage?, value.number(unit, ANY)?))
+        let of_percentage = value.number(usual.unit, ANY);
+        doubts.extend(of_percentage.and_then(|number| doubt(value, number, usual)));
+        Some((percentage?, of_percentage?))
     };
     let items = field.items();
     let [first, second] = &items[..] else {
         field.mistake(format!("{} percentiles", items.len()), help);
         return None;
     };
-    let (first, second) = (pair(first), pair(second));
-    Some([first?, second?])
+    let (first, second) = (pair(first)?, pair(second)?);
+    if first.0 < 1.0 && second.0 < 1.0 {
+        doubts.push(Doubt {
+            key: field.key.clone(),
+            origin: field.node.origin.clone(),
+            what: format!(" are those of {} and {} %; were shares meant? 5 % is 5, and 95 % is 95", first.0, second.0),
+        });
+    }
+    Some([first, second])
 }

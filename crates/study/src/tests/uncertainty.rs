@@ -98,7 +98,20 @@ fn what_does_not_go_together_is_refused() {
         (pair("\"strength\", \"capacity_m\"", "1.0"), "the value is 1"),
         (pair("\"strength\", \"strength\"", "0.5"), "the correlation of strength with strength cannot be"),
         (pair("\"strength\", \"restitution\"", "0.5"), "restitution is not uncertain"),
+        (pair("\"uplift_displacement_m\", \"restitution\"", "0.5"), "uplift_displacement_m and restitution are not"),
+        // a quantity that is told to be wrong is not told to be missing
+        (pair("\"strength\", \"capacity_m\"", "0.5").replacen("normal", "norm", 1), "norm"),
         (pair("\"strength\"", "0.5"), "1 quantities"),
+        (
+            "[uncertainty.restitution]\ndistribution = \"normal\"\nmean = 0\ncoefficient_of_variation = 0.1\n"
+                .to_owned(),
+            "the mean is 0: it must be other than 0",
+        ),
+        (
+            "[uncertainty.restitution]\ndistribution = \"uniform\"\nmean = 0.95\ncoefficient_of_variation = 0.1\n"
+                .to_owned(),
+            "it reaches from 0.7855 to 1.115, and",
+        ),
         (
             "[uncertainty.strength]\ndistribution = \"uniform\"\nlower = 0.1\nmode = 0.2\nupper = 0.3\n".to_owned(),
             "a uniform distribution has no mode",
@@ -119,4 +132,39 @@ fn what_does_not_go_together_is_refused() {
                  deck_mass_kg = 9000\ntendon_stiffness_n_m = 1e8\ntendon_anchorage = \"foundation\"\n";
     let error = load(&format!("{stays}{capacity}")).unwrap_err();
     assert!(error.mistakes()[0].to_string().contains("does not fall after uplift"), "{error:?}");
+}
+
+/// Numbers that are probably in another unit are used, and asked about with their line.
+#[test]
+fn likely_slips_are_asked_about() {
+    let warnings = |text: &str| -> Vec<String> {
+        load(&format!("{BLOCK}{text}")).unwrap().warnings.iter().map(|warning| warning.what.clone()).collect()
+    };
+    let quantity = |key: &str, rest: &str| format!("[uncertainty.{key}]\ndistribution = \"lognormal\"\n{rest}\n");
+    for (text, starts) in [
+        (
+            quantity("strength", "coefficient_of_variation = 6"),
+            "line 7, uncertainty.strength.coefficient_of_variation is 6",
+        ),
+        (
+            quantity("uplift_displacement_m", "percentiles = [[5, 0.003], [95, 12]]"),
+            "line 7, uncertainty.uplift_displacement_m.percentiles[1][1] is 12 m",
+        ),
+        (
+            quantity("strength", "percentiles = [[5, 8], [95, 12]]"),
+            "line 7, uncertainty.strength.percentiles[0][1] is 8;",
+        ),
+        (
+            quantity("capacity_m", "mean = 800\ncoefficient_of_variation = 0.1"),
+            "line 7, uncertainty.capacity_m.mean is 800 m",
+        ),
+        (
+            quantity("strength", "percentiles = [[0.05, 0.1], [0.95, 0.12]]"),
+            "line 7, uncertainty.strength.percentiles are those of 0.05 and 0.95 %; were shares meant?",
+        ),
+    ] {
+        let found = warnings(&text);
+        assert!(found.iter().any(|told| told.starts_with(starts)), "{starts}: {found:#?}");
+    }
+    assert_eq!(warnings(&quantity("strength", "coefficient_of_variation = 0.06")), Vec::<String>::new());
 }

@@ -66,13 +66,35 @@ fn limits(spread: &Spread, unit: &str) -> String {
     range([lower, upper], unit)
 }
 
+/// A share of which the sampling makes more than all, or less than nothing, is told with that.
 fn share(of: &VarianceShare) -> String {
+    let is_share = |value: f64| (0.0..=1.0).contains(&value);
     format!(
-        "{} {:.0} ± {:.0} % (alone {:.0} ± {:.0} %)",
+        "{} {:.0} ± {:.0} % (alone {:.0} ± {:.0} %){}",
         of.factor,
         100.0 * of.total,
         100.0 * of.total_error,
         100.0 * of.first_order,
-        100.0 * of.first_order_error
+        100.0 * of.first_order_error,
+        if is_share(of.first_order) && is_share(of.total) { "" } else { " (few samples)" }
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_few_samples_make_of_a_share_is_said() {
+        let of = |first_order| VarianceShare {
+            factor: "capacity".to_owned(),
+            first_order,
+            first_order_error: 0.2,
+            total: 0.5,
+            total_error: 0.1,
+        };
+        assert_eq!(share(&of(0.4)), "capacity 50 ± 10 % (alone 40 ± 20 %)");
+        assert_eq!(share(&of(1.1)), "capacity 50 ± 10 % (alone 110 ± 20 %) (few samples)");
+        assert_eq!(share(&of(-0.04)), "capacity 50 ± 10 % (alone -4 ± 20 %) (few samples)");
+    }
 }
