@@ -23,6 +23,7 @@ mod displacement_spectra;
 mod epistemic;
 mod exports;
 mod figures;
+mod findings;
 mod first_hour;
 mod frame_response;
 mod frame_risk;

@@ -3,6 +3,7 @@
 
 mod added;
 mod consistency;
+mod findings;
 mod json;
 mod matlab;
 mod shake_table;
@@ -58,6 +59,9 @@ impl ExportFormat {
     }
 }
 
+/// How the table ends of what structures were asked.
+const FINDINGS: &str = "structures.csv";
+
 /// What is exported, and where it goes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExportOptions {
@@ -76,7 +80,7 @@ pub struct ExportOptions {
 /// What was exported.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct ExportReport {
-    /// The files, in the order of the formats.
+    /// The files, in the order of the formats; last the table of answers about structures, where CSV was asked for.
     pub files: Vec<PathBuf>,
 }
 
@@ -95,7 +99,16 @@ pub fn export(options: &ExportOptions, events: &dyn Events) -> Result<ExportRepo
         options.output.clone().unwrap_or_else(|| beside(&options.result, format.extension(kind)))
     };
     let output = |format: &ExportFormat| Output::new(file(format), format.kind(kind)).of(&options.result);
-    let outputs: Vec<Output> = options.formats.iter().map(output).collect();
+    let mut outputs: Vec<Output> = options.formats.iter().map(output).collect();
+    // answers about structures are no ordinates: they have a table of their own
+    let has_findings = options.formats.contains(&ExportFormat::Csv) && !result.findings()?.is_empty();
+    let findings = has_findings.then(|| match &options.output {
+        Some(table) => table.with_extension(FINDINGS),
+        None => beside(&options.result, FINDINGS),
+    });
+    outputs.extend(
+        findings.iter().map(|table| Output::new(table, OutputKind::Table(findings::FIRST_COLUMN)).of(&options.result)),
+    );
     if kind == Kind::ShakeTable {
         if options.risk != AskedRisk::default() {
             return Err(UpliftError::Usage(
@@ -115,12 +128,16 @@ pub fn export(options: &ExportOptions, events: &dyn Events) -> Result<ExportRepo
     outputs::check(&outputs, &[&options.result], options.force)?;
     let result = result.resampled(events)?;
     let export = Export::of(&result)?;
-    let report = write_each(&options.formats, file, events, |format, file| match format {
+    let mut report = write_each(&options.formats, file, events, |format, file| match format {
         ExportFormat::Csv => write_table(file, export.provenance(), export.columns()),
         ExportFormat::Json => write_atomically(file, format!("{:#}\n", export.json()).as_bytes()),
         ExportFormat::Matlab => write_atomically(file, &export.matlab()?),
         ExportFormat::Workbook => write_atomically(file, &export.workbook()?),
     })?;
+    if let Some(table) = findings {
+        write_table(&table, export.provenance(), export.finding_columns())?;
+        report.files.push(table);
+    }
     // after what was written anew
     result.tell_made_of_another(events)?;
     Ok(report)

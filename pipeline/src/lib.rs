@@ -13,7 +13,7 @@
 //! 4. How sure it is: [`bootstrap::bootstrap`], [`influence::influence`], [`efficiency::efficiency`] ask the result,
 //!    and add their arrays to it.
 //! 5. From a spectrum to a structure: [`structure::design`], [`structure::overturning`] and [`structure::target`]; the
-//!    risk of a frame itself: [`structure::frame_risk`].
+//!    risk of a frame itself: [`structure::frame_risk`]. [`structure::keep`] leaves the answers in the result.
 //! 6. Pushed rather than shaken: [`pushover::pushover`], [`restrainer::curve`], [`restrainer::design`].
 //! 7. Computed peaks beside measured ones: [`validate::validate`].
 //! 8. For others: [`export::export`] here; figures and the page are made by the crate `uplift_report`.

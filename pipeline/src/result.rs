@@ -12,6 +12,7 @@ pub(crate) mod earlier;
 mod efficiency;
 mod extend;
 mod file;
+mod findings;
 mod hazard;
 mod head;
 mod influence;
@@ -40,6 +41,8 @@ pub use displacements::{
 pub use efficiency::{StoredEfficiency, StoredTrend};
 pub(crate) use extend::{Addition, line, sign};
 pub use file::{ResultFile, RiskAxes};
+pub(crate) use findings::{DOCUMENT, REQUEST, STRUCTURE_FILE, STRUCTURE_SHA256, STRUCTURE_TOML, STUDY_DIGEST};
+pub use findings::{Finding, FindingRow, Inquiry, StoredFinding};
 pub use hazard::{StoredCurves, StoredHazard};
 pub use head::{Head, Overview};
 pub use influence::StoredInfluence;

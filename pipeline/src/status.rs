@@ -11,7 +11,7 @@ use crate::checkpoint::{Finding, RowFile, checkpoint_path};
 use crate::error::UpliftError;
 use crate::lock::ResultLock;
 use crate::result::earlier::made_of;
-use crate::result::{Overview, ResultFile, is_hdf5};
+use crate::result::{Overview, ResultFile, StoredFinding, is_hdf5};
 
 /// What is there of a run: at least one of its parts.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -60,6 +60,22 @@ pub struct ResultStatus {
     pub record_set: String,
     /// What it holds.
     pub content: ResultContent,
+    /// What structures were asked under it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub asked: Vec<AskedStatus>,
+}
+
+/// A question about a structure whose answer a result keeps.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct AskedStatus {
+    /// Name of the structure.
+    pub structure: String,
+    /// The command and what it was asked for.
+    pub question: String,
+    /// When.
+    pub created: String,
+    /// Whether the structure file was another when the structure was last asked something.
+    pub is_of_earlier_file: bool,
 }
 
 /// What a finished result holds.
@@ -72,7 +88,7 @@ pub enum ResultContent {
         analyses: Vec<(String, u64)>,
         /// The sites; none where the study has none.
         sites: Vec<String>,
-        /// What was added by later jobs: `bootstrap`, `influence`, `measures`.
+        /// What was added by later jobs: `bootstrap`, `influence`, `measures`, `structures`.
         added: Vec<String>,
     },
     /// Displacement spectra.
@@ -207,7 +223,15 @@ impl ResultStatus {
             title: head.title,
             record_set: head.record_set,
             content: ResultContent::of(file.overview()?),
+            asked: file.findings()?.into_iter().map(AskedStatus::of).collect(),
         })
+    }
+}
+
+impl AskedStatus {
+    fn of(stored: StoredFinding) -> Self {
+        let StoredFinding { finding, created, is_of_earlier_file, .. } = stored;
+        Self { question: finding.question(), structure: finding.structure, created, is_of_earlier_file }
     }
 }
 

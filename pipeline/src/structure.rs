@@ -6,6 +6,7 @@ mod choice;
 mod collapse;
 mod demand;
 mod design;
+mod finding;
 mod frame_risk;
 mod inputs;
 mod models;
@@ -24,6 +25,7 @@ mod weights;
 pub use certainty::{DemandBands, RateBands};
 pub use demand::{DemandNoise, DemandRounding, ExactDemand, RuleRanges};
 pub use design::{DesignOptions, DesignReport, design, design_shard};
+pub use finding::keep;
 pub use frame_risk::{
     Banded, DirectionEffect, EventReport, FrameOverturning, FrameRiskOptions, FrameRiskReport, ModelDemand, RiskPoint,
     StateAtDemand, frame_risk, frame_risk_shard,

@@ -102,6 +102,7 @@ pub fn table(options: &TableOptions, events: &dyn Events) -> Result<TableReport,
         Kind::ShakeTable => tests_of_table::read(options, &file).map(TableRows::Tests),
     }?;
     file.tell_made_of_another(events)?;
+    tell_findings(&file, events)?;
     // bands tell which measures disagree, at whatever risk
     let file = file.resampled(events)?;
     let alarms = match options.measure {
@@ -109,4 +110,16 @@ pub fn table(options: &TableOptions, events: &dyn Events) -> Result<TableReport,
         _ => alarms(&file),
     }?;
     Ok(TableReport { rows, alarms })
+}
+
+/// Says which structures were asked something under the result.
+fn tell_findings(file: &ResultFile, events: &dyn Events) -> Result<(), UpliftError> {
+    let findings = file.findings()?;
+    let mut structures: Vec<&str> = findings.iter().map(|of| of.finding.structure.as_str()).collect();
+    structures.dedup();
+    if !structures.is_empty() {
+        let text = format!("{} answer(s) on {}: uplift report shows them", findings.len(), structures.join(", "));
+        events.remark("asked", &text);
+    }
+    Ok(())
 }

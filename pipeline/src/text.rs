@@ -60,6 +60,16 @@ pub fn metres(value: f64) -> String {
     if value.is_infinite() { "censored".to_owned() } else { format!("{value:.4}") }
 }
 
+/// A number with a few digits, in powers of ten where it is very large or small.
+pub fn short(value: f64) -> String {
+    if value == 0.0 || (1e-3..1e6).contains(&value.abs()) {
+        let digits = 5_usize.saturating_sub(format!("{:.0}", value.abs().trunc()).len()).max(1);
+        format!("{value:.digits$}")
+    } else {
+        format!("{value:.3e}")
+    }
+}
+
 /// A size in bytes, in kB, MB or GB.
 pub fn bytes(number: u64) -> String {
     match number {

@@ -11,6 +11,7 @@ mod displacement;
 mod drawn;
 mod risk;
 mod shake_table;
+mod structures;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -21,6 +22,7 @@ use serde::Serialize;
 use answer::Answer;
 use differences::{differences, names};
 use drawn::DrawnFigure;
+use structures::AskedStructure;
 use uplift::UpliftError;
 use uplift::alarms::{Alarm, alarms};
 use uplift::events::Events;
@@ -46,6 +48,8 @@ struct Section {
     alarms: Vec<Alarm>,
     answer: Option<Answer>,
     parts: Vec<ShownPart>,
+    /// What was asked under it.
+    structures: Vec<AskedStructure>,
     facts: Vec<(&'static str, String)>,
     study_toml: String,
     checksums: BTreeMap<String, String>,
@@ -111,6 +115,7 @@ struct Read {
     mark: String,
     file: String,
     content: Content,
+    structures: Vec<AskedStructure>,
 }
 
 /// The page on the results at `paths`, in their order and at the risks `asked` for, as HTML.
@@ -193,11 +198,13 @@ fn read(path: &Path, result: &ResultFile) -> Result<Read, UpliftError> {
         Kind::ShakeTable => shake_table::content(result)?,
     };
     let file = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    Ok(Read { head: result.head()?, alarms: alarms(result)?, mark: result.name_and_digest()?, file, content })
+    let alarms = alarms(result)?;
+    let structures = structures::structures(result, &alarms)?;
+    Ok(Read { head: result.head()?, alarms, mark: result.name_and_digest()?, file, content, structures })
 }
 
 fn section(key: &str, title: String, result: Read) -> Result<Section, UpliftError> {
-    let Read { head, alarms, file, content, .. } = result;
+    let Read { head, alarms, file, content, mut structures, .. } = result;
     let mut facts = vec![
         ("Result", file.clone()),
         ("Records", head.record_set.clone()),
@@ -223,7 +230,11 @@ fn section(key: &str, title: String, result: Read) -> Result<Section, UpliftErro
             details: keyed(part.details),
         })
     };
+    for structure in &mut structures {
+        structure.tables = keyed(std::mem::take(&mut structure.tables));
+    }
     Ok(Section {
+        structures,
         key: key.to_owned(),
         title,
         file,

@@ -18,7 +18,8 @@ use uplift::study::Structure;
 use crate::page::{STYLE, render};
 use drawing::drawing;
 pub(crate) use drawing::drawing as elevation;
-use numbers::{facts, kind_name, lead, rounding_words, tables};
+pub(crate) use numbers::facts;
+use numbers::{kind_name, lead, rounding_words, tables};
 
 const SHEET: &str = concat!(include_str!("page/table.html"), include_str!("sheet/sheet.html"));
 
@@ -49,11 +50,11 @@ pub fn write_design_sheet(structure: &Structure, report: &DesignReport, file: &P
         SHEET,
         context! {
             name => report.structure.name,
-            kind => kind_name(report),
+            kind => kind_name(&report.structure),
             lead => lead(report),
             alarms,
             drawing => drawing(&structure.description),
-            facts => facts(structure, report),
+            facts => facts(structure, &report.structure),
             tables => tables(report),
             result => report.result.file_name().map(|name| name.to_string_lossy().into_owned()),
             record_set => report.record_set,

@@ -99,6 +99,14 @@ pub enum Rule {
 }
 
 impl Rule {
+    /// In words: `equal displacement`.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::EqualDisplacement => "equal displacement",
+            Self::EqualEnergy => "equal energy",
+        }
+    }
+
     /// Largest ZSBE demand with which the system stands, m: `u_cap`, or `(u_cap + u_up)/2` (Eq. 3.14).
     pub fn largest_zero_stiffness_demand_m(self, capacity: &Capacity) -> f64 {
         match self {

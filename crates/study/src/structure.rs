@@ -49,6 +49,8 @@ pub enum ColumnShape {
 pub struct Structure {
     /// The file it was read from.
     pub file: PathBuf,
+    /// What stands in it.
+    pub text: String,
     /// As written.
     pub description: StructureDescription,
     /// The equivalent oscillator (Table 3.1).
@@ -96,7 +98,7 @@ impl Structure {
             match resolved {
                 Ok(mut structure) if findings.is_empty() => {
                     structure.warnings.extend(doubts.iter().map(|doubt| asked_about(doubt, &text)));
-                    return Ok(Self { uncertainty, ..structure });
+                    return Ok(Self { text, uncertainty, ..structure });
                 }
                 Ok(_) => {}
                 Err(mistakes) => {
@@ -215,6 +217,7 @@ impl ReadStructure {
         };
         Ok(Structure {
             file: file.to_owned(),
+            text: String::new(),
             warnings: self.description.unlikely().iter().map(Warning::unlikely).collect(),
             description: self.description,
             system,

@@ -50,7 +50,7 @@ pub(super) fn tables(result: &Path) -> [Output; 2] {
 /// Whatever keeps the files from being written; the result file is then as it was.
 pub(super) fn write_bands(addition: &Addition, file: &BandsFile<'_>) -> Result<(), UpliftError> {
     let BandsFile { stored, plan, settings, .. } = file;
-    addition.write(stored, &replaced(), |writer| add_bands(writer, file))?;
+    addition.write(&replaced(), |writer| add_bands(writer, file))?;
     let what = format!(
         "bootstrap: {}, {} replicates, {} interval, confidence {}",
         file.plan_source,

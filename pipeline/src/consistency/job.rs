@@ -59,7 +59,7 @@ pub fn consistency(
     }
     let repairs = if repair { repairs_of(&file, &stored, &question, &findings)? } else { Vec::new() };
     let keep = if options.keep_weights { Keep::Weights } else { Keep::Exponents };
-    addition.write(&stored, &replaced(), |writer| add(writer, &question, &findings, &repairs, keep))?;
+    addition.write(&replaced(), |writer| add(writer, &question, &findings, &repairs, keep))?;
     let plain_m: Vec<(IntensityMeasure, Array<3>)> =
         file.spectra()?.measures.into_iter().map(|spectra| (spectra.measure, spectra.u_m)).collect();
     let mut report = ConsistencyReport::of(&question, &findings, &plain_m, &repairs);

@@ -37,7 +37,7 @@ pub(super) fn write_efficiency(
     covariates: &[Covariate],
     measures: &[MeasureEfficiency],
 ) -> Result<(), UpliftError> {
-    addition.write(stored, &replaced(earlier), |writer| add(writer, covariates, measures))?;
+    addition.write(&replaced(earlier), |writer| add(writer, covariates, measures))?;
     write_table(
         &efficiency_path(&stored.path),
         &line(stored, "efficiency and sufficiency"),

@@ -32,6 +32,9 @@ impl Export {
         if !self.consistency.is_empty() {
             all["consistency"] = self.consistencies().map(|row| consistency(&row)).collect();
         }
+        if !self.findings.is_empty() {
+            all["structures"] = self.findings_json();
+        }
         all
     }
 

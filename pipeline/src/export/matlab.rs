@@ -56,6 +56,9 @@ impl Export {
         self.add_bands(&mut file);
         self.add_influence(&mut file);
         self.add_efficiency(&mut file);
+        if !self.findings.is_empty() {
+            self.add_findings(&mut file);
+        }
         file.finish().map_err(UpliftError::input)
     }
 

@@ -10,8 +10,8 @@ use crate::alarms::{Alarm, alarms};
 use crate::array::Array;
 use crate::error::UpliftError;
 use crate::result::{
-    Head, InferredBands, MeasureBands, ResultFile, Spectrum, StoredBands, StoredConsistency, StoredHazard,
-    StoredJointBands, StoredRepairedBands, StoredSpectra, StoredSpectraBands,
+    Head, InferredBands, MeasureBands, ResultFile, Spectrum, StoredBands, StoredConsistency, StoredFinding,
+    StoredHazard, StoredJointBands, StoredRepairedBands, StoredSpectra, StoredSpectraBands,
 };
 
 /// The spectra, bands and coefficients of a result, and where they come from.
@@ -27,6 +27,8 @@ pub struct Export {
     pub(super) alarms: Vec<Alarm>,
     /// What was added to it after the run.
     pub(super) added: Added,
+    /// What structures were asked under it.
+    pub(super) findings: Vec<StoredFinding>,
     /// Whether its records bring the site's hazard of the other measure.
     pub(super) consistency: Vec<StoredConsistency>,
     /// Number of records.
@@ -75,6 +77,7 @@ impl Export {
             hazard: file.hazard()?,
             alarms: alarms(file)?,
             added: Added::read(file)?,
+            findings: file.findings()?,
             consistency: file.consistency()?,
             records: file.axes()?.records.len(),
             head,

@@ -3,7 +3,7 @@
 mod about;
 mod added;
 mod consistency;
-mod sheet;
+pub(super) mod sheet;
 mod spectra;
 mod tables;
 mod tests;
@@ -63,6 +63,9 @@ impl Export {
         }
         if !self.added.efficiency.is_empty() {
             add("Efficiency", &Self::efficiency_sheet)?;
+        }
+        if !self.findings.is_empty() {
+            add("Structures", &Self::findings_sheet)?;
         }
         add("Hazard", &Self::hazard_sheet)?;
         add("Study", &Self::study_sheet)?;

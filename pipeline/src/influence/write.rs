@@ -36,7 +36,7 @@ pub(super) fn write_influence(
     influences: &[Influence],
     rankings: &[Array<2, Vec<RecordInfluence>>],
 ) -> Result<(), UpliftError> {
-    addition.write(stored, &replaced(stored), |writer| add(writer, stored, influences))?;
+    addition.write(&replaced(stored), |writer| add(writer, stored, influences))?;
     write_table(
         &influence_path(&stored.path),
         &line(stored, "spectra without each record"),

@@ -14,6 +14,8 @@ use uplift_labelled::{LabelledError, LabelledReader, LabelledWriter};
 #[derive(Debug)]
 pub(crate) struct Addition {
     path: PathBuf,
+    /// Of the file as it was when this began.
+    identity: String,
     _lock: ResultLock,
 }
 
@@ -30,25 +32,25 @@ impl Addition {
         }
         let lock = ResultLock::wait(path, LONGEST_WAIT)?;
         drop(LabelledWriter::create(path)?);
-        Ok((Self { path: path.to_owned(), _lock: lock }, ResultFile::open(path)?))
+        let file = ResultFile::open(path)?;
+        Ok((Self { path: path.to_owned(), identity: file.identity().to_owned(), _lock: lock }, file))
     }
 
-    /// Writes the file, which `stored` was read from, anew: without the groups and axes `replaced`, and with what `add`
+    /// Writes the file, which this began with, anew: without the groups and axes `replaced`, and with what `add`
     /// writes.
     ///
     /// # Errors
     /// Whatever keeps the file from being read or written; it is then as it was. A file that is not as it was written,
-    /// or no longer the one that `stored` was read from.
+    /// or no longer the one that this began with.
     pub(crate) fn write(
         &self,
-        stored: &StoredStripes,
         replaced: &[impl AsRef<str>],
         add: impl FnOnce(&mut LabelledWriter) -> Result<(), LabelledError>,
     ) -> Result<(), UpliftError> {
         let path = &self.path;
         let reader = LabelledReader::open(path)?;
         // a program that knows nothing of the lock may have been there
-        if reader.identity() != stored.identity {
+        if reader.identity() != self.identity {
             return Err(UpliftError::input(format!(
                 "{}: was written anew meanwhile, so these numbers are not of it any more: run the command again",
                 path.display()

@@ -41,6 +41,7 @@ use crate::error::UpliftError;
 /// | [`stripes`](Self::stripes) | peak displacements of all runs, for what is asked after a run |
 /// | [`bands`](Self::bands), [`resampling_plan`](Self::resampling_plan) | confidence bands and their draws |
 /// | [`influence`](Self::influence) | what each record and intensity does to the spectra |
+/// | [`findings`](Self::findings) | what structures were asked, and the answers |
 /// | [`study`](Self::study) | the study itself, to be asked something new |
 /// | [`at`](Self::at), [`resampled`](Self::resampled) | the same at other probabilities or return periods |
 /// | **of displacement spectra** | |
@@ -101,6 +102,11 @@ impl ResultFile {
     /// The file.
     pub fn path(&self) -> &Path {
         &self.path
+    }
+
+    /// Checksum of the file.
+    pub(super) fn identity(&self) -> &str {
+        self.reader.identity()
     }
 
     /// What its study is of.

@@ -8,7 +8,7 @@ use uplift_study::Kind;
 
 use super::digest::UNSAID_NUMERICS;
 use super::file::ResultFile;
-use super::layout::{axis, bootstrap, design, efficiency, ida, influence, set, shake_table, spectra};
+use super::layout::{axis, bootstrap, design, efficiency, ida, influence, set, shake_table, spectra, structures};
 use crate::error::UpliftError;
 
 /// Where the numbers of a result come from: what results of every kind say at their root.
@@ -55,7 +55,7 @@ pub enum Overview {
         analyses: Vec<(&'static str, u64)>,
         /// Names of the sites.
         sites: Vec<String>,
-        /// What was added after the run: `bootstrap`, `influence`, `measures`.
+        /// What was added after the run: `bootstrap`, `influence`, `measures`, `structures`.
         added: Vec<&'static str>,
     },
     /// Displacement spectra.
@@ -162,7 +162,12 @@ impl ResultFile {
             analyses.push((measure.label(), reader.attribute_u64(&ida::group(measure), "analyses")?));
         }
         let sites = reader.exists(&axis::path(axis::SITE)).then(|| reader.axis_text(axis::SITE)).transpose()?;
-        let added = [(bootstrap::ROOT, "bootstrap"), (influence::ROOT, "influence"), (efficiency::ROOT, "measures")];
+        let added = [
+            (bootstrap::ROOT, "bootstrap"),
+            (influence::ROOT, "influence"),
+            (efficiency::ROOT, "measures"),
+            (structures::ROOT, "structures"),
+        ];
         Ok(Overview::UniformRisk {
             analyses,
             sites: sites.unwrap_or_default(),

@@ -211,6 +211,24 @@ pub mod sufficiency {
     }
 }
 
+/// What structures were asked, and the answers.
+pub mod structures {
+    /// The group of all structures.
+    pub const ROOT: &str = "/structures";
+    /// The arrays of an answer.
+    pub const ARRAYS: &[&str] = &["quantity", "site", "im", "value", "lower", "upper", "unit", "band"];
+
+    /// The answers on a structure.
+    pub fn group(structure: &str) -> String {
+        format!("{ROOT}/{structure}")
+    }
+
+    /// The answer of a command to the question of this key.
+    pub fn answer(structure: &str, command: &str, key: &str) -> String {
+        format!("{}/{command}/{key}", group(structure))
+    }
+}
+
 /// Hazard curves as used.
 pub mod hazard {
     use uplift_motion::IntensityMeasure;
@@ -435,6 +453,11 @@ pub mod axis {
     /// Natural periods.
     pub const PERIOD: &str = "period";
 
+    /// Rows of the answer to the question of this key.
+    pub fn finding(key: &str) -> String {
+        format!("finding_{key}")
+    }
+
     /// The path of an axis.
     pub fn path(name: &str) -> String {
         format!("/axes/{name}")
@@ -518,7 +541,7 @@ mod tests {
         let documented = |group: &str, name: &str| {
             page.lines().any(|line| line.contains(group) && line.contains(&format!("{name}`")))
         };
-        let groups: [(&str, &[&str]); 18] = [
+        let groups: [(&str, &[&str]); 19] = [
             ("`/records/", records::ARRAYS),
             ("`/ida/pgv/", ida::ARRAYS),
             ("`/risk/pgv/", risk::ARRAYS),
@@ -532,6 +555,7 @@ mod tests {
             ("`/sufficiency/pgv/<covariate>/", sufficiency::ARRAYS),
             ("`/epistemic/pgv/<site>/", epistemic::ARRAYS),
             ("`/consistency/pgv/branches/<site>/", &epistemic::ARRAYS[1..]),
+            ("`/structures/<structure>/<command>/<key>/", structures::ARRAYS),
             ("`/hazard/<site>/pgv/", &["maf_per_year"]),
             ("`/spectra/", spectra::ARRAYS),
             ("`/sets/<set>/", set::ARRAYS),

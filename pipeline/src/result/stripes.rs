@@ -19,8 +19,6 @@ use crate::error::UpliftError;
 pub struct StoredStripes {
     /// The file.
     pub path: PathBuf,
-    /// Checksum of the file.
-    pub identity: String,
     /// By what its numbers are known, see [`Head::study_digest`](super::Head::study_digest).
     pub study_digest: String,
     /// Where the records come from, in a line.
@@ -163,7 +161,6 @@ impl ResultFile {
         let RiskAxes { records, strengths, poes, years, sites } = axes;
         Ok(StoredStripes {
             path: self.path.clone(),
-            identity: self.reader.identity().to_owned(),
             study_digest: self.head()?.study_digest(),
             record_set: self.record_set()?,
             records,

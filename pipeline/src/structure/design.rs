@@ -81,6 +81,9 @@ pub struct DesignReport {
     pub structure: StructureReport,
     /// The result file.
     pub result: PathBuf,
+    /// By what the numbers of the result are known.
+    #[serde(skip)]
+    pub study_digest: String,
     /// Where its records come from, in a line.
     pub record_set: String,
     /// Whether they are synthetic.
@@ -220,6 +223,7 @@ pub fn design(
         poe: risk.poe[poe],
         years: risk.years,
         result: source.path,
+        study_digest: file.head()?.study_digest(),
         record_set: source.record_set,
         synthetic: source.synthetic,
         target_per_year,

@@ -41,7 +41,8 @@ pub struct StructureReport {
 }
 
 impl StructureReport {
-    pub(super) fn of(structure: &Structure, restitution: Option<f64>) -> Self {
+    /// Of `structure`, whose oscillator has this restitution.
+    pub fn of(structure: &Structure, restitution: Option<f64>) -> Self {
         let system = &structure.system;
         Self {
             name: structure.name(),

@@ -57,6 +57,9 @@ pub struct TargetReport {
     pub structure: StructureReport,
     /// The result file.
     pub result: PathBuf,
+    /// By what the numbers of the result are known.
+    #[serde(skip)]
+    pub study_digest: String,
     /// Where its records come from, in a line.
     pub record_set: String,
     /// Whether they are synthetic.
@@ -249,6 +252,7 @@ pub fn target(
         alarms: ranked(alarms),
         files: Vec::new(),
         result: source.path.clone(),
+        study_digest: file.head()?.study_digest(),
         record_set: source.record_set.clone(),
         synthetic: source.synthetic,
     };

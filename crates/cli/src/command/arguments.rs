@@ -3,6 +3,7 @@
 mod figures;
 mod folder;
 mod force;
+mod keep;
 mod model;
 mod number;
 mod probability;
@@ -14,6 +15,7 @@ mod study;
 pub(crate) use figures::FigureArguments;
 pub(crate) use folder::require_folder;
 pub(crate) use force::ForceArgument;
+pub(crate) use keep::KeepArgument;
 pub(crate) use model::model;
 pub(crate) use number::number;
 pub(crate) use probability::{number_or_per_cent, probability};

@@ -3,13 +3,13 @@
 use std::io::Write;
 
 use uplift::structure::{DemandBands, DemandRounding, DesignReport, ExactDemand, RateBands, RuleOutcome};
-use uplift::text::{risk_in_words, table};
+use uplift::text::{risk_in_words, short, table};
 use uplift_spectra::Noisy;
 use uplift_structure::Rule;
 
 use super::alarms::print_alarms;
 use super::shown_path;
-use super::structure::{lines, risk_cells, short};
+use super::structure::{lines, risk_cells};
 use super::uncertainty::print_uncertainty;
 use crate::error::CommandError;
 use crate::terminal::output;
@@ -31,13 +31,6 @@ fn relative(error: f64) -> String {
 /// How often in a year.
 fn rate(per_year: f64) -> String {
     if per_year == 0.0 { "none seen".to_owned() } else { format!("{per_year:.3e}") }
-}
-
-fn name(rule: Rule) -> &'static str {
-    match rule {
-        Rule::EqualDisplacement => "equal displacement",
-        Rule::EqualEnergy => "equal energy",
-    }
 }
 
 /// The design: structure, demands, rules, risk, and what of it is noise.
@@ -130,7 +123,7 @@ fn print_rules(out: &mut impl Write, report: &DesignReport) -> Result<(), Comman
                 });
                 let nothing = || ["-".to_owned(), "-".to_owned()];
                 let cells = [from_spectrum, from_exact].map(|cells| cells.unwrap_or_else(nothing)).concat();
-                [vec![name(outcome.rule).to_owned()], cells].concat()
+                [vec![outcome.rule.words().to_owned()], cells].concat()
             })
             .collect();
         let header = ["rule", "from the spectrum, m", "error", "from the exact demand, m", "error of the rule"];
@@ -148,14 +141,14 @@ fn print_checks(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
                 out,
                 "\nThe rule of {} says that the structure overturns: the demand at zero stiffness, {:.4} m, is beyond \
                  the {largest_m:.4} m{} that its capacity allows.",
-                name(rule),
+                rule.words(),
                 check.zero_stiffness_demand_m,
                 if rule == Rule::EqualEnergy { " (Eq. 3.14)" } else { "" }
             )?;
         }
         let infinite = check.capacity_m.is_infinite();
         rows.push(vec![
-            name(rule).to_owned(),
+            rule.words().to_owned(),
             metres(check.demand_m),
             format!("{:.4}", check.required_capacity_m),
             if infinite { "infinite".to_owned() } else { format!("{:.4}", check.capacity_m) },
@@ -177,7 +170,7 @@ fn print_checks(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
     let tendons = report.rules.iter().filter_map(|outcome| {
         let stiffness_n_m = outcome.check()?.required_tendon_stiffness_n_m?;
         let told = if stiffness_n_m > 0.0 { format!("{} N/m", short(stiffness_n_m)) } else { "none".to_owned() };
-        Some(format!("{told} ({})", name(outcome.rule)))
+        Some(format!("{told} ({})", outcome.rule.words()))
     });
     let tendons: Vec<String> = tendons.collect();
     if !tendons.is_empty() {
@@ -252,7 +245,7 @@ fn print_noise(out: &mut impl Write, rules: &[RuleOutcome], exact: &ExactDemand)
     row("demand on the structure, m".to_owned(), [noise.demand_m, rounding.demand_m], &metres);
     if let (Some(noisy), Some(rounding)) = (noise.rule_errors, rounding.rule_errors) {
         for &RuleOutcome { rule, .. } in rules {
-            row(format!("error of {}", name(rule)), [noisy.of(rule), rounding.of(rule)], &relative);
+            row(format!("error of {}", rule.words()), [noisy.of(rule), rounding.of(rule)], &relative);
         }
     }
     if let (Some(noisy), Some(rounded)) = (noise.beyond_capacity_per_year, rounding.beyond_capacity_per_year) {
@@ -276,7 +269,7 @@ fn print_rounding(out: &mut impl Write, rules: &[RuleOutcome], rounding: &Demand
     tell("zero stiffness, uplift and impacts of the structure, m", Some(rounding.zero_stiffness_demand_m), metres);
     tell("the structure itself, m", Some(rounding.demand_m), metres);
     for outcome in rules {
-        let rule = name(outcome.rule);
+        let rule = outcome.rule.words();
         let of_spectrum = outcome.from_spectrum.as_ref().map(|check| rounding.error_of(check.demand_m));
         let [demand, error] =
             [rounding.rule_demands_m, rounding.rule_errors].map(|ranges| ranges.map(|ranges| ranges.of(outcome.rule)));

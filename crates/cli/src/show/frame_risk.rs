@@ -3,11 +3,11 @@
 use std::io::Write;
 
 use uplift::structure::{Banded, FrameRiskReport, ModelDemand};
-use uplift::text::{risk_in_words, table};
+use uplift::text::{risk_in_words, short, table};
 
 use super::alarms::print_alarms;
 use super::shown_path;
-use super::structure::{lines, risk_cells, short};
+use super::structure::{lines, risk_cells};
 use crate::error::CommandError;
 use crate::terminal::output;
 

@@ -1,19 +1,9 @@
 //! What a design and an overturning tell alike: the structure, and how often something happens to it.
 
 use uplift::structure::{EventRisk, StructureReport};
-use uplift::text::per_cent;
+use uplift::text::{per_cent, short};
 
 use super::shown_path;
-
-/// A number with a few digits, in powers of ten where it is very large or small.
-pub(super) fn short(value: f64) -> String {
-    if value == 0.0 || (1e-3..1e6).contains(&value.abs()) {
-        let digits = 5_usize.saturating_sub(format!("{:.0}", value.abs().trunc()).len()).max(1);
-        format!("{value:.digits$}")
-    } else {
-        format!("{value:.3e}")
-    }
-}
 
 /// The structure in words: what is it, and which oscillator is it equivalent to; with its restitution where there is
 /// one to tell.

@@ -3,11 +3,11 @@
 use std::io::Write;
 
 use uplift::structure::{TargetBand, TargetReport};
-use uplift::text::{per_cent, table, thousands};
+use uplift::text::{per_cent, short, table, thousands};
 
 use super::alarms::print_alarms;
 use super::shown_path;
-use super::structure::{lines, risk_cells, short};
+use super::structure::{lines, risk_cells};
 use super::uncertainty::{kind_in_words, print_quantities};
 use crate::error::CommandError;
 use crate::terminal::output;

@@ -3,9 +3,8 @@
 use std::io::Write;
 
 use uplift::structure::{QuantityReport, UncertainFinding, UncertaintyReport};
-use uplift::text::{per_cent, table, thousands};
+use uplift::text::{per_cent, short, table, thousands};
 
-use super::structure::short;
 use crate::error::CommandError;
 
 /// Quantities, answers, and what they owe to what.

@@ -1,11 +1,10 @@
 //! The numbers of a design sheet: in sentences, as facts of the structure, in tables.
 
 use serde::Serialize;
-use uplift::structure::{DesignReport, EventRisk, ExactDemand, RuleCheck, RuleOutcome};
+use uplift::structure::{DesignReport, EventRisk, ExactDemand, RuleCheck, RuleOutcome, StructureReport};
 use uplift::study::Structure;
 use uplift::text::{per_cent, risk_in_words, share};
 use uplift_spectra::Noisy;
-use uplift_structure::Rule;
 
 use crate::page::Table;
 use crate::page::answer::significant;
@@ -57,12 +56,12 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
                 format!(
                     "With a safety factor of {safety} it needs a capacity of {required} m by {}: {verdict}, margin \
                      {margin}.",
-                    name(rule)
+                    rule.words()
                 ),
                 Some(if check.satisfied { "yes" } else { "no" }),
             );
         } else if check.overturns {
-            say(format!("By {} it overturns.", name(rule)), Some("no"));
+            say(format!("By {} it overturns.", rule.words()), Some("no"));
         }
     }
     if let Some(exact) = &report.exact {
@@ -105,10 +104,10 @@ pub(super) fn rounding_words(report: &DesignReport) -> Option<String> {
     tell("the structure itself", &rounding.demand_m, metres, " m");
     for outcome in &report.rules {
         if let Some(check) = &outcome.from_spectrum {
-            tell(&format!("error of {}", name(outcome.rule)), &rounding.error_of(check.demand_m), relative, "");
+            tell(&format!("error of {}", outcome.rule.words()), &rounding.error_of(check.demand_m), relative, "");
         }
         if let Some(errors) = &rounding.rule_errors {
-            let of = format!("error of {} from the exact demand", name(outcome.rule));
+            let of = format!("error of {} from the exact demand", outcome.rule.words());
             tell(&of, &errors.of(outcome.rule), relative, "");
         }
     }
@@ -122,14 +121,14 @@ pub(super) fn rounding_words(report: &DesignReport) -> Option<String> {
 }
 
 /// What kind of structure it is, in words.
-pub(super) fn kind_name(report: &DesignReport) -> String {
-    report.structure.kind.replace('-', " ")
+pub(super) fn kind_name(structure: &StructureReport) -> String {
+    structure.kind.replace('-', " ")
 }
 
 /// What the structure is, and what is equivalent to it: names and values.
-pub(super) fn facts(structure: &Structure, report: &DesignReport) -> Vec<(&'static str, String)> {
-    let (given, of) = (&structure.description, &report.structure);
-    let mut facts = vec![("Kind", format!("{}, Table 3.1 row {}", kind_name(report), of.table_3_1_row))];
+pub(crate) fn facts(structure: &Structure, of: &StructureReport) -> Vec<(&'static str, String)> {
+    let given = &structure.description;
+    let mut facts = vec![("Kind", format!("{}, Table 3.1 row {}", kind_name(of), of.table_3_1_row))];
     let mut given_as = |name: &'static str, value: Option<f64>, unit: &str| {
         facts.extend(value.map(|value| (name, format!("{} {unit}", number(value)))));
     };
@@ -215,7 +214,7 @@ fn rules(report: &DesignReport) -> Option<Table> {
         let verdict = if check.satisfied { "satisfied" } else { "NOT satisfied" };
         let stiffness = check.required_tendon_stiffness_n_m.map_or_else(|| "–".to_owned(), tendons);
         vec![
-            name(outcome.rule).to_owned(),
+            outcome.rule.words().to_owned(),
             metres(check.demand_m),
             metres(check.required_capacity_m),
             if check.capacity_m.is_finite() { metres(check.capacity_m) } else { "infinite".to_owned() },
@@ -295,13 +294,6 @@ fn noise(report: &DesignReport) -> Option<Table> {
                 the spectrum."
         .to_owned();
     table("noise", "How sure it is", note, &["within 1 % of the strength", "here", "lowest", "highest"], rows)
-}
-
-fn name(rule: Rule) -> &'static str {
-    match rule {
-        Rule::EqualDisplacement => "equal displacement",
-        Rule::EqualEnergy => "equal energy",
-    }
 }
 
 /// A displacement; infinite where the structure overturns.

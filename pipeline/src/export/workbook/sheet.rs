@@ -16,7 +16,7 @@ pub(super) struct Formats {
 
 /// How a number is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Shown {
+pub(in crate::export) enum Shown {
     /// As it is.
     Plain,
     /// With four decimals: strengths, metres.
@@ -66,7 +66,7 @@ impl Formats {
 }
 
 /// A sheet being filled.
-pub(super) struct Sheet<'a> {
+pub(in crate::export) struct Sheet<'a> {
     sheet: &'a mut Worksheet,
     formats: &'a Formats,
 }
@@ -77,7 +77,7 @@ impl<'a> Sheet<'a> {
     }
 
     /// A heading; the last line of headings has a rule below it.
-    pub(super) fn heading(&mut self, at: (usize, usize), text: &str, last: bool) -> Result<(), XlsxError> {
+    pub(in crate::export) fn heading(&mut self, at: (usize, usize), text: &str, last: bool) -> Result<(), XlsxError> {
         let format = if last { &self.formats.last_heading } else { &self.formats.heading };
         let (row, column) = place(at)?;
         self.sheet.write_string_with_format(row, column, clipped(text, LONGEST_CELL), format)?;
@@ -85,7 +85,7 @@ impl<'a> Sheet<'a> {
     }
 
     /// A text.
-    pub(super) fn text(&mut self, at: (usize, usize), text: &str) -> Result<(), XlsxError> {
+    pub(in crate::export) fn text(&mut self, at: (usize, usize), text: &str) -> Result<(), XlsxError> {
         let (row, column) = place(at)?;
         self.sheet.write_string(row, column, clipped(text, LONGEST_CELL))?;
         Ok(())
@@ -99,7 +99,7 @@ impl<'a> Sheet<'a> {
     }
 
     /// A number; `infinite` in place of one that is infinite, nothing where there is none.
-    pub(super) fn number(
+    pub(in crate::export) fn number(
         &mut self,
         at: (usize, usize),
         value: f64,
@@ -117,7 +117,11 @@ impl<'a> Sheet<'a> {
 
     /// What stays in sight: so many `rows` and `columns`; and how wide the first and the other columns are, in
     /// characters.
-    pub(super) fn finish(&mut self, (rows, columns): (usize, usize), widths: &[f64]) -> Result<(), XlsxError> {
+    pub(in crate::export) fn finish(
+        &mut self,
+        (rows, columns): (usize, usize),
+        widths: &[f64],
+    ) -> Result<(), XlsxError> {
         let (row, column) = place((rows, columns))?;
         self.sheet.set_freeze_panes(row, column)?;
         for (column, &width) in widths.iter().enumerate() {

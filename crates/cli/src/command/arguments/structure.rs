@@ -1,4 +1,5 @@
-//! What `uplift design` and `uplift overturning` share: a structure, and the result whose records and hazard it meets.
+//! What `uplift design`, `uplift overturning` and `uplift risk` share: a structure, and the result whose records and
+//! hazard it meets.
 
 use std::path::{Path, PathBuf};
 
@@ -6,6 +7,7 @@ use clap::Args;
 use uplift_ida::Shard;
 use uplift_study::Structure;
 
+use super::keep::KeepArgument;
 use super::study::shard;
 use crate::error::CommandError;
 
@@ -25,6 +27,8 @@ pub(crate) struct StructureArguments {
     /// Every shard of these analyses, as --shard wrote them, instead of computing them here
     #[arg(long, value_name = "FILE", num_args = 1..)]
     pub(crate) shards: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(crate) keeping: KeepArgument,
 }
 
 impl StructureArguments {

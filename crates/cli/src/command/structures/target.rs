@@ -9,7 +9,7 @@ use uplift_motion::IntensityMeasure;
 use uplift_structure::Quantity;
 use uplift_study::Structure;
 
-use crate::command::arguments::{ForceArgument, number, number_or_per_cent};
+use crate::command::arguments::{ForceArgument, KeepArgument, number, number_or_per_cent};
 use crate::error::CommandError;
 use crate::show::{print_json, print_target};
 use crate::terminal::Terminal;
@@ -98,6 +98,8 @@ pub(crate) struct TargetArguments {
     #[arg(long, short, value_name = "FILE.csv")]
     output: Option<PathBuf>,
     #[command(flatten)]
+    keeping: KeepArgument,
+    #[command(flatten)]
     overwriting: ForceArgument,
 }
 
@@ -136,7 +138,9 @@ impl TargetArguments {
 
 pub(crate) fn target(arguments: &TargetArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let options = arguments.options()?;
-    let report = run(&Structure::load(&arguments.structure)?, &arguments.urs, &options, terminal)?;
+    let structure = Structure::load(&arguments.structure)?;
+    let report = run(&structure, &arguments.urs, &options, terminal)?;
+    arguments.keeping.keep(|| report.finding(&structure, &options), &arguments.urs, terminal)?;
     if arguments.json { print_json(&report) } else { print_target(&report) }?;
     for file in &report.files {
         terminal.say(&file.display().to_string());

@@ -1,0 +1,81 @@
+//! What structures were asked under a result, a block each: the structure to scale, and every answer that is kept.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use minijinja::Value;
+use serde::Serialize;
+use uplift::UpliftError;
+use uplift::alarms::Alarm;
+use uplift::result::{FindingRow, ResultFile, StoredFinding};
+use uplift::structure::StructureReport;
+use uplift::study::Structure;
+
+use super::Table;
+use crate::sheet::{elevation, facts};
+
+/// A structure, and the answers to what it was asked.
+#[derive(Debug, Serialize)]
+pub(super) struct AskedStructure {
+    name: String,
+    /// A sentence on its file.
+    note: String,
+    /// Empty where its file is of another version of the program.
+    drawing: String,
+    facts: Vec<(&'static str, String)>,
+    /// What to know before the answers are used, but for what the page says of the result.
+    alarms: Vec<Value>,
+    pub(super) tables: Vec<Table>,
+}
+
+/// The structures that were asked something under `result`, of which the page says `known` already.
+///
+/// # Errors
+/// A file that is damaged.
+pub(super) fn structures(result: &ResultFile, known: &[Alarm]) -> Result<Vec<AskedStructure>, UpliftError> {
+    let mut findings = result.findings()?;
+    // a structure whose file has changed is another
+    findings.sort_by(|a, b| file_of(a).cmp(&file_of(b)));
+    let of_structure = findings.chunk_by(|a, b| file_of(a) == file_of(b));
+    Ok(of_structure.enumerate().map(|(index, answers)| asked(index + 1, answers, known)).collect())
+}
+
+/// Whose answers stand together, those of a file as it was before last.
+fn file_of(of: &StoredFinding) -> (&str, bool, String) {
+    (&of.finding.structure, of.is_of_earlier_file, of.finding.structure_sha256())
+}
+
+fn asked(number: usize, answers: &[StoredFinding], known: &[Alarm]) -> AskedStructure {
+    let first = &answers[0].finding;
+    let structure = Structure::parse(Path::new(&first.structure_file), first.structure_toml.clone()).ok();
+    let facts = structure.as_ref().map(|own| facts(own, &StructureReport::of(own, own.description.restitution)));
+    let before = "; these answers are for what it was before it changed: ask again";
+    let mut said: BTreeSet<String> = known.iter().map(|alarm| alarm.what.clone()).collect();
+    let alarms = answers.iter().flat_map(|of| of.finding.alarms());
+    let alarms = alarms.filter(|alarm| alarm["what"].as_str().is_some_and(|what| said.insert(what.to_owned())));
+    AskedStructure {
+        name: first.structure.clone(),
+        note: format!("File {}{}.", first.structure_file, if answers[0].is_of_earlier_file { before } else { "" }),
+        drawing: structure.as_ref().map_or_else(String::new, |own| elevation(&own.description)),
+        facts: facts.unwrap_or_default(),
+        alarms: alarms.map(Value::from_serialize).collect(),
+        tables: answers.iter().enumerate().map(|(index, of)| table([number, index + 1], of)).collect(),
+    }
+}
+
+fn table([structure, answer]: [usize; 2], of: &StoredFinding) -> Table {
+    let row = |row: &FindingRow| {
+        let unit = if row.unit == "1" { "" } else { &row.unit };
+        let texts = [&row.quantity, &row.site, &row.im].map(String::clone);
+        [&texts[..], &[row.shown(), row.band_shown(), unit.to_owned(), row.band.clone()]].concat()
+    };
+    Table {
+        id: format!("structure-{structure}-{answer}"),
+        title: of.finding.question(),
+        note: format!("Found {} by uplift {} ({}).", of.created, of.version, of.commit),
+        group: String::new(),
+        header: ["what", "site", "measure", "value", "band", "unit", "band of"].map(str::to_owned).to_vec(),
+        text_columns: 3,
+        rows: of.finding.rows.iter().map(row).collect(),
+    }
+}

@@ -1,0 +1,95 @@
+//! The answers of design, overturning, target and risk as a result keeps them: numbers with a name and a unit, in one
+//! form for all.
+
+mod keep;
+mod of_design;
+mod of_overturning;
+mod of_risk;
+mod of_target;
+
+use serde::Serialize;
+use uplift_study::Structure;
+
+use super::certainty::RateBands;
+use super::risk::EventRisk;
+use super::uncertain::{AleatoryResult, EpistemicResult, UncertainFinding, UncertaintyReport};
+use crate::error::UpliftError;
+use crate::result::{Finding, FindingRow, Inquiry};
+pub use keep::keep;
+
+/// What bands are of.
+const RECORDS: &str = "records";
+const EARTHQUAKES: &str = "earthquakes";
+
+/// What was asked of which structure, under which result.
+struct Question<'a> {
+    inquiry: Inquiry,
+    structure: &'a Structure,
+    /// Of the result.
+    study_digest: &'a str,
+    request: Vec<(&'static str, String)>,
+}
+
+impl Question<'_> {
+    /// The answer, of which `report` is what `--json` prints.
+    ///
+    /// # Errors
+    /// None for the reports of this program.
+    fn answered(self, rows: Vec<FindingRow>, report: &impl Serialize) -> Result<Finding, UpliftError> {
+        let Self { inquiry, structure, study_digest, request } = self;
+        let document = serde_json::to_string(report)
+            .map_err(|error| UpliftError::input(format!("the answer cannot be written as JSON: {error}")))?;
+        Ok(Finding {
+            structure: structure.name(),
+            structure_file: structure.file.display().to_string(),
+            structure_toml: structure.text.clone(),
+            inquiry,
+            request: request.into_iter().map(|(name, value)| (name.to_owned(), value)).collect(),
+            study_digest: study_digest.to_owned(),
+            rows,
+            document,
+        })
+    }
+}
+
+/// A number with its band as the records tell it, and again with that of their earthquakes where that is known.
+fn banded(row: &FindingRow, by_record: Option<[f64; 2]>, by_earthquake: Option<[f64; 2]>) -> Vec<FindingRow> {
+    let of_records = match by_record {
+        Some(limits) => row.clone().within(limits, RECORDS),
+        None => row.clone(),
+    };
+    let of_earthquakes = by_earthquake.map(|limits| row.clone().within(limits, EARTHQUAKES));
+    std::iter::once(of_records).chain(of_earthquakes).collect()
+}
+
+/// How often something happens, 1/yr, with its bands; where no run shows it, what it is at most.
+fn rate(what: &str, risk: &EventRisk, bands: Option<RateBands>, [site, im]: [&str; 2]) -> Vec<FindingRow> {
+    let row = FindingRow::new(what, risk.per_year, "1/yr").at(site, im);
+    match risk.at_most_per_year {
+        Some(bound) => vec![row.within([f64::NAN, bound], "at most")],
+        None => banded(&row, bands.map(|of| of.by_record), bands.and_then(|of| of.by_earthquake)),
+    }
+}
+
+/// What follows for a structure that is not known exactly.
+fn uncertain(report: Option<&UncertaintyReport>) -> Vec<FindingRow> {
+    let mut rows = Vec::new();
+    for result in report.into_iter().flat_map(|report| &report.results) {
+        let row = |value: f64| {
+            let what = format!("{}, structure not known exactly", result.of);
+            FindingRow::new(what, value, result.unit).at(&result.site, result.im)
+        };
+        match &result.found {
+            UncertainFinding::Epistemic(EpistemicResult { by_structure, by_all, .. }) => {
+                for (spread, band) in [(by_structure, "structure"), (by_all, "structure, records and hazard")] {
+                    let [lower, .., upper] = spread.percentiles;
+                    rows.push(row(spread.mean).within([lower, upper], band));
+                }
+            }
+            UncertainFinding::Aleatory(AleatoryResult { value, by_record, by_earthquake }) => {
+                rows.extend(banded(&row(*value), *by_record, *by_earthquake));
+            }
+        }
+    }
+    rows
+}
