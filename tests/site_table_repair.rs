@@ -58,7 +58,7 @@ fn every_site_is_repaired_as_one_of_the_sites_is() {
         }
     }
     // no hazard, and a hazard that no weights of these records bring
-    assert_eq!(coefficients["sea PGV 0.1"][0][4], "no hazard of PGA");
+    assert!(coefficients["sea PGV 0.1"][0][4].starts_with("PGV: no hazard"), "{:?}", coefficients["sea PGV 0.1"]);
     assert!(coefficients["gamma PGV 0.1"][0][4].len() > 20, "{:?}", coefficients["gamma PGV 0.1"]);
     assert!(spectra["gamma PGV 0.1"].iter().all(|row| !row[0].is_empty() && row[1].is_empty()));
     assert!(told.contains("2 of 5 sites have no repaired spectrum: the column `no_repair` says why"), "{told}");
@@ -114,7 +114,7 @@ fn run_and_compare(study: &SmallStudy, result: &str, more: &[&str]) -> Vec<f64> 
         }
     }
     assert!(coefficients.keys().all(|key| key.contains(" PGV ")), "there are no spectra by PGA");
-    assert_eq!(coefficients["sea PGV 0.1"][0][2], "no hazard of PGA");
+    assert!(coefficients["sea PGV 0.1"][0][2].starts_with("PGV: no hazard"), "{:?}", coefficients["sea PGV 0.1"]);
     u_m
 }
 

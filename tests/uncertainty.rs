@@ -189,6 +189,31 @@ fn a_target_without_scatter_is_that_of_a_structure_that_is_known() {
     }
 }
 
+/// Tendons of a certain stiffness leave a force that rises after uplift: there is no capacity then, and none scatters.
+#[test]
+fn a_capacity_scatters_where_there_is_one() {
+    let study = study();
+    let pier = "kind = \"restrained-frame\"\ncolumns = 4\nwidth_m = 0.6\nheight_m = 4\ncolumn_mass_kg = 48000\n\
+                deck_mass_kg = 900000\ntendon_stiffness_n_m = 1.5e6\ntendon_anchorage = \"foundation\"\n\
+                uplift_displacement_m = 0.0005\n";
+    let ask = ["--vary", "tendon-stiffness", "--exceed", "0.2", "--per-year", "1e-3", "--from", "5e6", "--to", "3e7"];
+    let known = least(&study, "pier.toml", pier, &ask);
+    for variation in [0.0, 0.02] {
+        let capacity = format!(
+            "[uncertainty]\nsamples = 8\n[uncertainty.capacity_m]\ndistribution = \"lognormal\"\n\
+             coefficient_of_variation = {variation}\n"
+        );
+        let found = least(&study, "pier.toml", &format!("{pier}{capacity}"), &ask);
+        let last = |of: &Value| of["tried"].as_array().unwrap().last().unwrap().clone();
+        assert_eq!(last(&found)["value"], json!(3e7));
+        // what rises has no capacity, and its risk is that of the structure that is known
+        assert_eq!(last(&found)["per_year"], last(&known)["per_year"], "{variation}");
+        if variation == 0.0 {
+            assert_eq!(found["value"], known["value"]);
+        }
+    }
+}
+
 /// Every value has the risk that `uplift overturning` tells of a structure with it.
 #[test]
 fn target_and_risk_are_inverses_of_uncertain_structures() {

@@ -42,7 +42,7 @@ def result(folder):
 @pytest.mark.parametrize(
     ("command", "arguments", "options"),
     [
-        ("design", {"safety_factor": 2, "poe": [0.1]}, ["--safety-factor=2", "--poe=0.1"]),
+        ("design", {"safety_factor": 2, "poe": 0.1}, ["--safety-factor=2", "--poe=0.1"]),
         ("overturning", {"restitution": 0.9}, ["--restitution=0.9"]),
         ("target", {"vary": "size", "overturning": 1e-4}, ["--vary=size", "--overturning=1e-4"]),
         (
@@ -50,7 +50,7 @@ def result(folder):
             {"vary": "capacity", "exceed": "capacity", "return_period": 10000, "between": (0.2, 2)},
             ["--vary=capacity", "--exceed=capacity", "--return-period=10000", "--from=0.2", "--to=2"],
         ),
-        ("risk", {"model": "planar", "return_period": [100]}, ["--model=planar", "--return-period=100"]),
+        ("risk", {"model": "planar", "return_period": 100}, ["--model=planar", "--return-period=100"]),
     ],
 )
 def test_answers_are_those_of_the_program(folder, program, result, command, arguments, options):
@@ -90,5 +90,18 @@ def test_variants_are_results(folder, tmp_path):
     (tmp_path / "cases.csv").write_text("name,oscillator.restitution\nlow,0.85\n")
     told = uplift.sweep(folder / "study.toml", tmp_path / "cases.csv", output=tmp_path / "cases")
     assert list(told) == ["low"]
+    with pytest.raises(TypeError, match="list of values"):
+        uplift.sweep(folder / "study.toml", {"records.component": "both"})
     with pytest.raises(uplift.StudyError):
         uplift.sweep(folder / "study.toml", {"oscillator.restitution": [2]}, output=tmp_path / "wrong")
+
+
+def test_answers_are_kept_in_the_file(folder):
+    result = uplift.run(folder / "study.toml", output=folder / "kept.h5")
+    told = result.compute_overturning(folder / "frame.toml")
+    result.compute_overturning(FRAME)
+    places = [group for group in result.groups if group.startswith("structures/frame/overturning/")]
+    assert len(places) == 1 and sum("/overturning/" in group for group in result.groups) == 2
+    kept = result[places[0]]
+    assert json.loads(kept.attrs["document"])["overturning"] == told["overturning"]
+    assert kept["unit"].values.tolist().count("1/yr") >= 1

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 import tempfile
@@ -21,8 +22,8 @@ StructureLike = _PathLike | Mapping[str, Any]
 class StructureCommands:
     """The commands that ask a result of a structure; each returns what ``--json`` prints.
 
-    They compute the structure's own stripes under the result's records, which the program keeps beside the result, so
-    that the next question is answered from them.
+    They compute the structure's own stripes under the result's records, and keep the answer in the file:
+    ``result["structures/pier/design/..."]``, `Result.groups` has the places.
     """
 
     path: Path
@@ -33,8 +34,8 @@ class StructureCommands:
         *,
         site: str | None = None,
         measure: str | None = None,
-        poe: Sequence[float] | None = None,
-        return_period: Sequence[float] | None = None,
+        poe: float | None = None,
+        return_period: float | None = None,
         years: float | None = None,
         repaired: bool = False,
         safety_factor: float | None = None,
@@ -53,8 +54,9 @@ class StructureCommands:
             A structure file, or its keys.
         site, measure : str, optional
             Without them the only site, and PGV if the result has it.
-        poe, return_period : sequence of float, optional
-            Any probabilities of exceedance in `years`, or return periods in years; without them those of the study.
+        poe, return_period : float, optional
+            A probability of exceedance in `years`, or a return period in years; without them the smallest probability
+            of the study.
         repaired : bool
             Whether the repaired spectrum is read, after ``compute_consistency(repair=True)``.
         safety_factor : float, optional
@@ -207,8 +209,8 @@ class StructureCommands:
         site: str | None = None,
         measure: str | None = None,
         model: Literal["wobbling", "planar"] | None = None,
-        poe: Sequence[float] | None = None,
-        return_period: Sequence[float] | None = None,
+        poe: float | None = None,
+        return_period: float | None = None,
         years: float | None = None,
         manifest: _PathLike | None = None,
         threads: int | None = None,
@@ -248,6 +250,7 @@ class StructureCommands:
         with _structure_file(structure) as file:
             arguments = [command, "--json", f"--urs={self.path}", *command_options(options), "--", file]
             told: dict[str, Any] = json.loads(call(arguments, progress=progress))
+        self.__dict__.pop("groups", None)
         return told
 
 
@@ -257,8 +260,10 @@ def _structure_file(structure: StructureLike) -> Iterator[str]:
         yield os.fspath(structure)
         return
     with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder, "structure.toml")
-        file.write_text(_toml.document(structure), encoding="utf-8")
+        text = _toml.document(structure)
+        # answers are kept by the name of the file: another structure is another name
+        file = Path(folder, f"structure-{hashlib.sha256(text.encode()).hexdigest()[:8]}.toml")
+        file.write_text(text, encoding="utf-8")
         yield os.fspath(file)
 
 

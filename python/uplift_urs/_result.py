@@ -29,7 +29,7 @@ _ADDED_BY = {
     "disaggregation": "compute_influence()",
     "efficiency": "compute_measures()",
     "sufficiency": "compute_measures()",
-    "structures": "uplift design, overturning, target or risk",
+    "structures": "compute_design(), compute_overturning(), compute_target() or compute_risk()",
     "risk": "risk.maf_surface = true in the study",
     "consistency": "hazard curves of both PGV and PGA",
 }

@@ -32,8 +32,8 @@ class Sweep(Mapping[str, Result]):
 
     def __init__(self, comparison: dict[str, Any]) -> None:
         self.comparison = comparison
-        self.folder = Path(comparison["folder"])
-        self._files: dict[str, str] = {variant["name"]: variant["result"] for variant in comparison["variants"]}
+        self.folder = Path(comparison["folder"]).resolve()
+        self._files = {variant["name"]: Path(variant["result"]).resolve() for variant in comparison["variants"]}
 
     def __getitem__(self, name: str) -> Result:
         return Result(self._files[name])
@@ -101,6 +101,9 @@ def sweep(
     """
     optional("h5py", "results")  # before anything is computed
     if isinstance(over, Mapping):
+        for key, values in over.items():
+            if isinstance(values, str) or not hasattr(values, "__iter__"):
+                raise TypeError(f"{key}: give a list of values, [{values!r}] for one alone")
         variants = [f"--over={key}={','.join(_toml.inline(value) for value in values)}" for key, values in over.items()]
     else:
         variants = [f"--cases={os.fspath(over)}"]

@@ -110,6 +110,29 @@ mod tests {
         assert!((other.acceleration_m_s2(2.4).unwrap() - 9.0 * 0.3 * 1.2 / 5.76).abs() < 1e-12);
     }
 
+    /// Soil factors and corner periods of EN 1998-1, Tables 3.2 and 3.3, seen where each of them alone decides.
+    #[test]
+    fn parameters_are_those_of_the_tables() {
+        let type_1 = [(1.0, 0.15, 0.4), (1.2, 0.15, 0.5), (1.15, 0.2, 0.6), (1.35, 0.2, 0.8), (1.4, 0.15, 0.5)];
+        let type_2 = [(1.0, 0.05, 0.25), (1.35, 0.05, 0.25), (1.5, 0.1, 0.25), (1.8, 0.1, 0.3), (1.6, 0.05, 0.25)];
+        for (shape, d_s, rows) in [(SpectrumShape::Type1, 2.0, type_1), (SpectrumShape::Type2, 1.2, type_2)] {
+            for (ground, (soil_factor, b_s, c_s)) in GROUNDS.into_iter().zip(rows) {
+                let of = |period_s: f64| spectrum(shape, ground).acceleration_m_s2(period_s).unwrap();
+                let plateau = 2.0 * soil_factor * 2.5;
+                for (period_s, expected) in [
+                    (0.0, 2.0 * soil_factor),
+                    (0.5 * b_s, 2.0 * soil_factor * 1.75),
+                    (b_s, plateau),
+                    (c_s, plateau),
+                    (d_s, plateau * c_s / d_s),
+                    (4.0, plateau * c_s * d_s / 16.0),
+                ] {
+                    assert!((of(period_s) / expected - 1.0).abs() < 1e-12, "{shape:?} {ground:?} {period_s} s");
+                }
+            }
+        }
+    }
+
     /// No branch begins where the one before did not end.
     #[test]
     fn every_spectrum_is_continuous() {

@@ -186,7 +186,7 @@ fn compared_somewhere(
 ) -> bool {
     let (Some(against), Some(sites)) = (consistency.against, sites) else { return true };
     let is_of_table = table.is_some_and(|table| table.export(against).is_some());
-    if sites.is_empty() || is_of_table || sites.iter().any(|site| site.curve(against).is_some()) {
+    if (sites.is_empty() && table.is_none()) || is_of_table || sites.iter().any(|site| site.curve(against).is_some()) {
         return true;
     }
     root.mistake(

@@ -222,21 +222,22 @@ fn realized(
     restitution: f64,
     point: &[f64],
 ) -> Result<System, UpliftError> {
-    let mut values = of.vector.values(point);
     let mut realization = Realization::default();
-    for (quantity, value) in of.quantities.iter().zip(&mut values) {
+    let mut told = Vec::new();
+    for (quantity, value) in of.quantities.iter().zip(of.vector.values(point)) {
         let [own, varied] = [&structure.system, varied].map(|system| quantity.value(system, Some(restitution)));
-        *value = match (own, varied) {
+        // what the varied structure has not, a capacity where its force does not fall, cannot scatter
+        let Some(varied) = varied else { continue };
+        let value = match own {
             // what does not scatter is that of the varied structure, to the bit
-            (Some(own), Some(varied)) if own.to_bits() == value.to_bits() => varied,
-            (Some(own), Some(varied)) => *value * (varied / own),
-            _ => *value,
+            Some(own) if own.to_bits() == value.to_bits() => varied,
+            Some(own) => value * (varied / own),
+            None => value,
         };
-        realization.set(*quantity, *value);
+        realization.set(*quantity, value);
+        told.push(format!("{} {value}", quantity.key()));
     }
     let fail = |reason: String| {
-        let told = of.quantities.iter().zip(&values).map(|(quantity, value)| format!("{} {value}", quantity.key()));
-        let told: Vec<String> = told.collect();
         UpliftError::input(format!(
             "[uncertainty]: one of the structures that it may be cannot be ({}): {reason}; take less scatter, or \
              correlate what goes together",

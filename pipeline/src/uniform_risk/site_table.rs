@@ -128,7 +128,6 @@ fn spectra_of(
     let spectra: Vec<Result<SiteSpectra, String>> = (list.exports.iter().zip(risks).zip(&curves))
         .map(|((export, risk), curve)| risk.spectra(&export.weights(study, curve.as_ref().map_err(Clone::clone)?)?))
         .collect();
-    let curves: Vec<Option<&HazardCurve>> = curves.iter().map(|curve| curve.as_ref().ok()).collect();
     let consistency: Option<Vec<SiteConsistency>> = repair
         .map(|repair| risks.iter().enumerate().map(|(export, risk)| repair.of_site(export, risk, &curves)).collect());
     let findings = SiteFindings {

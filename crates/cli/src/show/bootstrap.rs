@@ -249,7 +249,7 @@ fn print_joint(out: &mut impl Write, report: &BootstrapReport) -> Result<(), Com
             ""
         }
     )?;
-    let header = ["site", "im", "probability", "records", "r", "joint r", "repaired r", "joint r", "failed"];
+    let header = ["site", "im", "probability", "records", "r", "joint r", "repaired r", "repaired joint r", "failed"];
     writeln!(out, "{}", table(&header[..if has_repaired { 9 } else { 6 }], &rows))?;
     if !failing.is_empty() {
         writeln!(out, "{}", too_many_fail("pairs of a sample and a hazard curve", &failing))?;

@@ -83,7 +83,8 @@ fn print_band(out: &mut impl Write, report: &TargetReport, band: &TargetBand) ->
     });
     let (drawn, whose) = match band.unit {
         "structure" => ("by structure", "structures"),
-        "structure and record" | "structure and pair" | "structure and event" => ("structure and records", "resamples"),
+        "structure and record" | "structure and pair" => ("structure, records", "resamples"),
+        "structure and event" => ("structure, quakes", "resamples"),
         "event" => ("resampled earthquakes", "resamples"),
         _ => ("resampled records", "resamples"),
     };

@@ -96,6 +96,17 @@ file = "results/x.h5"
 csv = false
 "#;
 
+/// What is asked against a measure that only a table of sites could have, and has not, is a mistake.
+#[test]
+fn consistency_against_what_a_table_of_sites_has_not() {
+    let text = "[pgv]\n[consistency]\nagainst = \"pga\"\nrepair = \"weights\"\n[site_table]\nsites = \"manifest.csv\"\n\
+                pgv = \"pgv.csv\"\n";
+    let error = Folder::new(text).load(&[]).unwrap_err();
+    assert!(error.mistakes().iter().any(|mistake| mistake.to_string().contains("no site has a curve of PGA")));
+    let folder = Folder::new(&format!("{text}pga = \"pga.csv\"\n"));
+    assert_eq!(folder.load(&[]).unwrap().consistency.against, Some(IntensityMeasure::Pga));
+}
+
 #[test]
 fn a_study_of_spectral_acceleration_alone() {
     let text = "[measures.sa_0p5s]\n[measures.arias]\nlevels_cm_s = [1, 10, 100]\n[[sites]]\nname = \"x\"\n\

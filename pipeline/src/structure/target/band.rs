@@ -70,7 +70,7 @@ pub(super) fn band(
         return Ok(Bands { records, structures: None });
     }
     let alone = search.band(branches, "structure", &|branch, place| tried[place].1.structures[branch].risk.per_year);
-    // every structure as often as the others
+    // in turn: every structure as often as the others, but for one time
     let all = search.band(samples.len(), with_structures(plan.unit()), &|replicate, place| {
         resampled_per_year(&tried[place].1.structures[replicate % branches].record_per_year, &samples[replicate])
     });

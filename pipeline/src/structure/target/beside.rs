@@ -14,8 +14,9 @@ pub struct LevelShare {
     pub return_period_years: f64,
     /// Its level by the site's hazard curve, in the unit of the measure.
     pub level: f64,
-    /// Runs: records, each scaled to the level; as often as there are structures that it may be.
-    #[serde(rename = "records")]
+    /// Records, each scaled to the level.
+    pub records: usize,
+    /// Runs: every record with every structure that it may shake.
     pub runs: usize,
     /// Those of them in which it happens.
     pub count: usize,

@@ -256,7 +256,8 @@ impl<'a> Trials<'a> {
         let label = format!("{}, {} return periods", self.measure.measure().label(), levels.len());
         let analysed = self.analyse(&label, &levels, std::slice::from_ref(&attempt.candidate))?;
         let thresholds_m = attempt.candidate.thresholds_m(self.options.event);
-        let runs = self.set.records.len() * self.per_record();
+        let records = self.set.records.len();
+        let runs = records * self.per_record();
         let share = |(scale, &(return_period_years, level)): (usize, &(f64, f64))| {
             let happens = |run: usize| {
                 let (record, place) = (run / self.per_record(), run % self.per_record());
@@ -265,7 +266,7 @@ impl<'a> Trials<'a> {
             };
             let count = (0..runs).filter(|run| happens(*run)).count();
             let probability = count as f64 / runs as f64;
-            LevelShare { return_period_years, level, runs, count, probability }
+            LevelShare { return_period_years, level, records, runs, count, probability }
         };
         Ok(asked.iter().enumerate().map(share).collect())
     }

@@ -1,5 +1,6 @@
 //! What is said of a search: why it has no answer, where it crosses the target, what it takes for granted.
 
+use uplift_structure::UncertainQuantity;
 use uplift_study::Structure;
 
 use super::TargetOptions;
@@ -109,7 +110,9 @@ impl Words<'_> {
 /// What is taken for granted of the structure and of the records.
 pub(super) fn assumptions(structure: &Structure, file: &ResultFile, restitution: f64) -> Vec<String> {
     let mut notes = Vec::new();
-    if structure.description.restitution.is_none() {
+    let is_drawn =
+        structure.uncertainty.as_ref().is_some_and(|of| of.quantities.contains(&UncertainQuantity::Restitution));
+    if structure.description.restitution.is_none() && !is_drawn {
         notes.push(format!(
             "every value has the restitution of the study, {restitution}: what is made more slender loses less at an \
              impact, and its risk is larger; write the restitution of the structure that was found into its file, and \

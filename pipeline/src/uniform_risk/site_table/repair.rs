@@ -67,14 +67,21 @@ impl<'a> SiteRepair<'a> {
 
     /// The site with `curves` of [`SiteList::all_exports`], where the spectra of the export at `export` are those of
     /// `risk`.
-    pub fn of_site(&self, export: usize, risk: &SiteRisk<'_>, curves: &[Option<&HazardCurve>]) -> SiteConsistency {
+    pub fn of_site(
+        &self,
+        export: usize,
+        risk: &SiteRisk<'_>,
+        curves: &[Result<HazardCurve, String>],
+    ) -> SiteConsistency {
         let Some(scaled) = &self.sets[export] else {
             return SiteConsistency::unknown(
                 "the table has an export of one measure alone: add that of another".to_owned(),
             );
         };
-        let (Some(own), Some(compared)) = (curves[export], curves[scaled.other.1]) else {
-            return SiteConsistency::unknown(format!("no hazard of {}", scaled.other.0.label()));
+        let (own, compared) = match (&curves[export], &curves[scaled.other.1]) {
+            (Ok(own), Ok(compared)) => (own, compared),
+            (Err(reason), _) => return SiteConsistency::unknown(format!("{}: {reason}", scaled.scaled_to.label())),
+            (_, Err(reason)) => return SiteConsistency::unknown(format!("{}: {reason}", scaled.other.0.label())),
         };
         let stripes = (scaled.scaled_to, &scaled.levels[..]);
         match self.question.finding_of(0, stripes, scaled.other.0, &scaled.set, (own, compared), true) {
