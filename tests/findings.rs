@@ -178,6 +178,31 @@ fn report_and_exports_tell_what_was_printed() {
     assert!(said.stderr.contains("asked    4 answer(s) on block"), "{}", said.stderr);
 }
 
+/// A search among uncertain structures keeps the bands with structures drawn, beside the narrower one of the records.
+#[test]
+fn a_target_of_uncertain_structures_keeps_every_band() {
+    let study = study();
+    let uncertainty = "[uncertainty]\nsamples = 8\n[uncertainty.strength]\ndistribution = \"lognormal\"\n\
+                       coefficient_of_variation = 0.1\n";
+    study.write("block.toml", &format!("{BLOCK}{uncertainty}"));
+    ask(&study, &format!("{} --tolerance 0.05", QUESTIONS[2]));
+    study.uplift(&["export", "r.h5", "--json", "-q"]).ok();
+    let text = std::fs::read_to_string(study.path().join("r.json")).unwrap();
+    let answer = serde_json::from_str::<Value>(&text).unwrap()["structures"][0].clone();
+    for (quantity, of) in
+        [("least size that meets the target", "value"), ("overturning at the value found", "per_year")]
+    {
+        let rows: Vec<&Value> =
+            answer["rows"].as_array().unwrap().iter().filter(|row| row["quantity"] == quantity).collect();
+        assert_eq!(rows.len(), 3, "{answer:#}");
+        let bands = &answer["document"]["uncertainty"];
+        for (row, band) in rows[1..].iter().zip([&bands["by_structure"], &bands["by_all"]]) {
+            assert_eq!([&row["lower"], &row["upper"]], [&band[of][0], &band[of][2]], "{row}");
+            assert_eq!(row["band"], band["unit"]);
+        }
+    }
+}
+
 #[test]
 fn answers_are_sealed_and_go_with_their_result() {
     let study = study();

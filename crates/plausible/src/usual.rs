@@ -66,6 +66,9 @@ pub const USUAL_TOP_PGV: Range =
 pub const USUAL_TABLE_PGV: Range =
     usual(0.005, 5.0, "m/s", "0.1675 and 0.335 in the dissertation; was it meant in cm/s or mm/s?");
 
+/// Ground acceleration of a code's design spectrum.
+pub const USUAL_DESIGN_ACCELERATION: Range = usual(0.01, 1.2, "g", "0.16 in Athens; was it meant in m/s2?");
+
 /// The highest level of PGA that records are scaled to.
 pub const USUAL_TOP_PGA: Range =
     usual(0.05, 10.0, "g", "4 is the most that was recorded; was the level meant in m/s2 or cm/s2?");

@@ -156,6 +156,10 @@ pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<ShakeTableStu
     let of_level =
         |level: &LevelPlan| uplift_plausible::USUAL_TABLE_PGV.unlikely("pgv_srss_m_s of a level", level.pgv_srss_m_s);
     let levels: Vec<_> = study.levels.iter().filter_map(of_level).collect();
-    study.warnings = gravity.iter().chain(&levels).map(Warning::unlikely).collect();
+    let design = study.spectra.design.and_then(|design| {
+        let acceleration_g = design.ground_acceleration_g;
+        uplift_plausible::USUAL_DESIGN_ACCELERATION.unlikely("spectra.design.ground_acceleration_g", acceleration_g)
+    });
+    study.warnings = gravity.iter().chain(&levels).chain(&design).map(Warning::unlikely).collect();
     Some(study)
 }

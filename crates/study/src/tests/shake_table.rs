@@ -77,6 +77,9 @@ fn a_level_in_another_unit_is_told() {
     let told: Vec<String> = warnings(&COMPLETE.replace("0.335", "21")).iter().map(ToString::to_string).collect();
     assert_eq!(told.len(), 1);
     assert!(told[0].contains("pgv_srss_m_s of a level is 21 m/s") && told[0].contains("cm/s"), "{told:?}");
+    let told: Vec<String> = warnings(&COMPLETE.replace("0.16", "1.57")).iter().map(ToString::to_string).collect();
+    assert_eq!(told.len(), 1);
+    assert!(told[0].contains("ground_acceleration_g is 1.57 g") && told[0].contains("m/s2"), "{told:?}");
 }
 
 #[test]

@@ -52,9 +52,18 @@ impl TargetReport {
         let [lower, _, upper] = self.band.per_year;
         let there = row(format!("{} at the value found", self.event), self.risk.per_year, "1/yr");
         rows.push(match self.risk.at_most_per_year {
-            Some(bound) => there.within([f64::NAN, bound], "at most"),
-            None => there.within([lower, upper], &resampled),
+            Some(bound) => there.clone().within([f64::NAN, bound], "at most"),
+            None => there.clone().within([lower, upper], &resampled),
         });
+        // structures drawn too: wider bands of the same numbers
+        let uncertain = self.uncertainty.iter().flat_map(|of| [&of.by_structure, &of.by_all]).flatten();
+        for band in uncertain {
+            let [lower, _, upper] = band.value;
+            let least = of_quantity(format!("least {quantity} that meets the target"), self.value);
+            rows.push(least.within([lower, upper], band.unit));
+            let [lower, _, upper] = band.per_year;
+            rows.push(there.clone().within([lower, upper], band.unit));
+        }
         rows.push(row("strength of the spectrum at the value found".to_owned(), self.found.spectral_strength, "1"));
         rows.extend(self.found.capacity_m.map(|m| row("displacement capacity at the value found".to_owned(), m, "m")));
         rows.extend(self.at_return_periods.iter().map(|of| {
