@@ -175,15 +175,20 @@ impl Shaking<'_> {
 fn record_line(x: &Accelerogram, y: &Accelerogram) -> Option<[f64; 2]> {
     let at = |record: &Accelerogram, index: usize| record.acceleration_m_s2().get(index).copied().unwrap_or(0.0);
     let pairs = || (0..x.len().max(y.len())).map(|index| [at(x, index), at(y, index)]);
-    let largest = pairs().max_by(|one, other| one[0].hypot(one[1]).total_cmp(&other[0].hypot(other[1])))?;
+    let largest = pairs().max_by(|one, other| length(*one).total_cmp(&length(*other)))?;
     let line = unit(largest)?;
-    let across = |a: [f64; 2]| (a[0] * line[1] - a[1] * line[0]).abs() > 4.0 * f64::EPSILON * a[0].hypot(a[1]);
+    let across = |a: [f64; 2]| (a[0] * line[1] - a[1] * line[0]).abs() > 4.0 * f64::EPSILON * length(a);
     (!pairs().any(across)).then_some(line)
 }
 
+/// Length of a vector. `hypot`, which also holds where squares are beyond all numbers, takes several times as long.
+pub(crate) fn length([x, y]: [f64; 2]) -> f64 {
+    (x * x + y * y).sqrt()
+}
+
 fn unit(vector: [f64; 2]) -> Option<[f64; 2]> {
-    let length = vector[0].hypot(vector[1]);
-    (length > 0.0).then(|| vector.map(|component| component / length))
+    let size = vector[0].hypot(vector[1]);
+    (size > 0.0).then(|| vector.map(|component| component / size))
 }
 
 #[cfg(test)]

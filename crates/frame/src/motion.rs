@@ -13,6 +13,7 @@ use crate::branch::{Branch, branches};
 use crate::error::FrameError;
 use crate::escape::Free;
 use crate::frame::RockingFrame;
+use crate::ground::length;
 use crate::history::{Moment, Observer};
 use crate::peaks::Peaks;
 use crate::series::{Constants, Expansion, Shaken, Turning};
@@ -68,6 +69,8 @@ pub(crate) struct Motion<O> {
     p: f64,
     tangent: f64,
     prestress: f64,
+    /// `2R`, m.
+    diagonal_m: f64,
     /// `κ = √(c/M)`, `J → c θ²`.
     kappa: f64,
     rules: Rules,
@@ -128,6 +131,7 @@ impl<O: Observer> Motion<O> {
             p: frame.frequency_parameter_rad_s(),
             tangent: sin / cos,
             prestress: frame.prestress_ratio(),
+            diagonal_m: 2.0 * geometry.size_m(),
             kappa: ((inertia.deck * cos * cos + inertia.diameter) / inertia.tilt).sqrt(),
             rules,
             branches: branches(frame),
@@ -339,7 +343,7 @@ impl<O: Observer> Motion<O> {
             Lean::Plane { .. } => f64::INFINITY,
             Lean::Space(turning) => {
                 let across = self.kappa * self.x * turning.momentum / self.turning_inertia();
-                APEX_STEP * self.x / self.v.hypot(across)
+                APEX_STEP * self.x / length([self.v, across])
             }
         }
     }
@@ -384,7 +388,7 @@ impl<O: Observer> Motion<O> {
                 momentum => 0.5 * momentum * momentum / self.turning_inertia(),
             };
             let energy = 0.5 * self.constants.tilt_inertia * self.v * self.v + turning + self.frame.potential(self.x);
-            return x.hypot(y) <= self.tangent * (1.0 + lift) + self.prestress
+            return length([x, y]) <= self.tangent * (1.0 + lift) + self.prestress
                 && energy < self.constants.fall * self.constants.sin_alpha * amplitude;
         }
         let Lean::Plane { .. } = self.lean else { return false };

@@ -8,7 +8,7 @@ use uplift_statics::tilt::travel_m;
 use crate::error::{FrameError, within};
 use crate::escape::LYING_RAD;
 use crate::frame::{ColumnShape, RockingFrame};
-use crate::ground::{GroundMotion, Piece};
+use crate::ground::{GroundMotion, Piece, length};
 use crate::history::{History, Moment, Observer, Unobserved};
 use crate::motion::{Ending, LONGEST_STEP, Lean, Motion, Rules};
 use crate::peaks::Peak;
@@ -243,11 +243,11 @@ fn begin(
 ) -> Result<(Lean, f64, f64), FrameError> {
     let upright = Lean::Space(Turning { direction: 0.0, momentum: 0.0 });
     let Start::Tilted(state) = start else {
-        let lean = match (model, ground.line()) {
-            (Model::Planar, _) => Lean::Plane { direction: [1.0, 0.0], side: 1.0 },
-            (Model::Wobbling, Some(direction)) => Lean::Plane { direction, side: 1.0 },
-            (Model::Wobbling, None) => upright,
+        let line = match model {
+            Model::Planar => Some([1.0, 0.0]),
+            Model::Wobbling => ground.line(),
         };
+        let lean = line.map_or(upright, |direction| Lean::Plane { direction, side: 1.0 });
         return Ok((lean, 0.0, 0.0));
     };
     let FrameState { rotation_rad, direction_rad, velocity_rad_s, turning_rad_s } = state;
@@ -365,7 +365,7 @@ fn stays_at_rest<O: Observer>(motion: &Motion<O>, pieces: &[Piece; 3], length_s:
     }
     let [Some(x), Some(y), Some(z)] = pieces.map(|piece| piece.ends(length_s)) else { return false };
     let size = |ends: [f64; 2]| ends[0].abs().max(ends[1].abs());
-    motion.stays_at_rest(size(x).hypot(size(y)), -z[0].min(z[1]))
+    motion.stays_at_rest(length([size(x), size(y)]), -z[0].min(z[1]))
 }
 
 fn report<O: Observer>(frame: &RockingFrame, motion: Motion<O>, overturned: bool) -> (FrameResponse, O) {

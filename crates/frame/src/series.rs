@@ -19,7 +19,7 @@
 //! coefficients).
 
 use uplift_statics::RestrainedColumns;
-use uplift_taylor::{DEGREE, Forcing, LEAST_ORDER, ORDER, TRUNCATION, product, products, stretch, value};
+use uplift_taylor::{DEGREE, Factors, Forcing, LEAST_ORDER, ORDER, TRUNCATION, product, stretch, value};
 
 mod strands;
 mod wobble;
@@ -108,6 +108,10 @@ pub(crate) struct Step {
 #[derive(Debug)]
 pub(crate) struct Expansion {
     step: Step,
+    sin_psi: Coefficients,
+    cos_psi: Coefficients,
+    /// Factors of the products with the velocity.
+    swept: Factors<4>,
     wobble: Wobble,
     strands: Strands,
 }
@@ -128,7 +132,14 @@ impl Expansion {
             sin_direction: zero,
             cos_direction: zero,
         };
-        Self { step, wobble: Wobble::new(), strands: Strands::new() }
+        Self {
+            step,
+            sin_psi: zero,
+            cos_psi: zero,
+            swept: Factors::default(),
+            wobble: Wobble::default(),
+            strands: Strands::new(),
+        }
     }
 
     /// The step that was expanded last.
@@ -149,9 +160,28 @@ impl Expansion {
         step_s: f64,
         balanced: bool,
     ) {
+        if let Some(turning) = turning {
+            let step = &mut self.step;
+            (step.direction[0], step.momentum[0]) = (turning.direction, turning.momentum);
+            (step.sin_direction[0], step.cos_direction[0]) = turning.direction.sin_cos();
+            self.expand_as::<true>(constants, (x, v), shaken, held, step_s, balanced);
+        } else {
+            self.expand_as::<false>(constants, (x, v), shaken, held, step_s, balanced);
+        }
+    }
+
+    /// The same of a frame that wobbles or not, from the turning that the step has.
+    fn expand_as<const WOBBLES: bool>(
+        &mut self,
+        constants: &Constants,
+        (x, v): (f64, f64),
+        shaken: &Shaken,
+        held: Option<(&Branch, &RestrainedColumns)>,
+        step_s: f64,
+        balanced: bool,
+    ) {
         let h = step_s;
-        let zero = [0.0; DEGREE + 1];
-        let Self { step, wobble, strands } = self;
+        let Self { step, sin_psi, cos_psi, swept, wobble, strands } = self;
         step.length_s = step_s;
         (step.x[0], step.v[0]) = (x, v);
         let (half_sin, half_cos) = (0.5 * x).sin_cos();
@@ -159,26 +189,27 @@ impl Expansion {
         if let Some((branch, columns)) = held {
             strands.begin(branch, columns, x, [half_sin, half_cos]);
         }
-        if let Some(turning) = turning {
-            (step.direction[0], step.momentum[0]) = (turning.direction, turning.momentum);
-            (step.sin_direction[0], step.cos_direction[0]) = turning.direction.sin_cos();
-        }
-        let (mut sin_psi, mut cos_psi) = (zero, zero);
+        let multiples = if held.is_some() { strands.multiples() } else { Some([0.0, 0.0]) };
         let vertical = shaken.vertical.coefficients();
         let is_level = shaken.vertical.is_zero();
         let along = shaken.horizontal[0].coefficients();
-        let mut largest = [v.abs(), step.momentum[0].abs(), 0.0_f64];
+        let by_tilt_inertia = 1.0 / constants.tilt_inertia;
+        let (mut rotation, mut turning) = (Convergence::from([v]), Convergence::from([step.momentum[0], 0.0]));
+        let mut is_converged = false;
         for k in 0..ORDER {
             let factor = h / (k + 1) as f64;
+            let [half_sine, half_cosine] = strands.half(k);
+            let tilt = [step.sine[k], step.versine[k], half_sine, half_cosine];
+            let [sine_v, versine_v, half_sine_v, half_cosine_v] = swept.products(tilt, [step.v[k]; 4], k);
             let whole = f64::from(u8::from(k == 0)) - step.versine[k];
             sin_psi[k] = constants.sin_alpha * whole - constants.cos_alpha * step.sine[k];
             cos_psi[k] = constants.cos_alpha * whole + constants.sin_alpha * step.sine[k];
             let mut moment = sin_psi[k];
             if !is_level {
-                moment += short_product(vertical, &sin_psi, k);
+                moment += short_product(vertical, sin_psi, k);
             }
             let mut outward = 0.0;
-            if turning.is_some() {
+            if WOBBLES {
                 let change = wobble.order(constants, step, shaken, cos_psi[k], k);
                 moment += change.push;
                 outward = 0.5 * change.centrifugal;
@@ -187,32 +218,64 @@ impl Expansion {
                 step.sin_direction[k + 1] = factor * change.sin;
                 step.cos_direction[k + 1] = -factor * change.cos;
             } else {
-                moment += short_product(along, &cos_psi, k);
+                moment += short_product(along, cos_psi, k);
             }
-            let pull = if held.is_some() { strands.moment(&step.sine, &step.versine, k) } else { 0.0 };
-            let inward = (pull * constants.held - outward) / constants.tilt_inertia;
+            let pull = match multiples {
+                // the half angle is not followed where it is not needed
+                Some([of_sine, 0.0]) => of_sine * step.sine[k],
+                Some([of_sine, of_half_cosine]) => of_sine * step.sine[k] + of_half_cosine * half_cosine,
+                None => strands.moment(&step.sine, &step.versine, k),
+            };
+            let inward = (pull * constants.held - outward) * by_tilt_inertia;
             step.v[k + 1] = if balanced && k == 0 { 0.0 } else { -factor * (constants.p_squared * moment + inward) };
-            let [lost, rise] = products([(&step.versine, &step.v), (&step.sine, &step.v)], k);
-            step.versine[k + 1] = factor * rise;
-            step.sine[k + 1] = factor * (step.v[k] - lost);
-            if held.is_some() {
-                strands.extend(&step.v, factor, k);
-            }
+            step.versine[k + 1] = factor * sine_v;
+            step.sine[k + 1] = factor * (step.v[k] - versine_v);
+            strands.extend([half_sine_v, half_cosine_v], factor, k);
             step.x[k + 1] = factor * step.v[k];
             step.order = k + 1;
-            largest[0] = largest[0].max(step.v[k + 1].abs());
-            largest[1] = largest[1].max(step.momentum[k + 1].abs());
-            largest[2] = largest[2].max(step.turning[k].abs());
-            if step.order >= LEAST_ORDER
-                && step.tails().iter().zip(largest).all(|(tail, most)| *tail <= TRUNCATION * most)
-            {
+            is_converged = rotation.take([step.v[k + 1]]);
+            if WOBBLES {
+                is_converged &= turning.take([step.momentum[k + 1], step.turning[k]]);
+            }
+            is_converged &= step.order >= LEAST_ORDER;
+            if is_converged {
                 break;
             }
         }
         step.x[step.order + 1] = h / (step.order + 1) as f64 * step.v[step.order];
-        while let Some(ratio) = step.excess() {
-            step.shorten(ratio);
+        if !is_converged {
+            while let Some(ratio) = step.excess() {
+                step.shorten(ratio);
+            }
         }
+    }
+}
+
+/// Whether the last two terms of series are negligible beside the largest.
+struct Convergence<const N: usize> {
+    largest: [f64; N],
+    last: [f64; N],
+}
+
+impl<const N: usize> Convergence<N> {
+    /// Of series that begin so.
+    fn from(first: [f64; N]) -> Self {
+        let first = first.map(f64::abs);
+        Self { largest: first, last: first }
+    }
+
+    /// With one term more of each.
+    fn take(&mut self, terms: [f64; N]) -> bool {
+        let mut is_converged = true;
+        for (i, term) in terms.into_iter().enumerate() {
+            let term = term.abs();
+            // not `max`, which would look for what is no number
+            self.largest[i] = if term > self.largest[i] { term } else { self.largest[i] };
+            let negligible = TRUNCATION * self.largest[i];
+            is_converged &= term <= negligible && self.last[i] <= negligible;
+            self.last[i] = term;
+        }
+        is_converged
     }
 }
 
@@ -272,6 +335,11 @@ impl Step {
     /// Rotation and velocity at s.
     pub(crate) fn at(&self, s: f64) -> (f64, f64) {
         (value_at(self.x(), s), value_at(self.v(), s))
+    }
+
+    /// Velocity at s, rad/s.
+    pub(crate) fn velocity(&self, s: f64) -> f64 {
+        value_at(self.v(), s)
     }
 
     /// Acceleration at s, rad/s².
@@ -337,7 +405,17 @@ fn slope(c: &[f64], s: f64) -> f64 {
     c.iter().enumerate().skip(1).rev().fold(0.0, |sum, (k, c)| sum * s + k as f64 * c)
 }
 
-/// `Σ aⱼ bₖ₋ⱼ` where `a` may be short.
-fn short_product(a: &[f64], b: &[f64], k: usize) -> f64 {
+/// `Σ aⱼ bₖ₋ⱼ` where `a` may be short: on a record it is a straight line.
+#[inline]
+fn short_product(a: &[f64], b: &Coefficients, k: usize) -> f64 {
+    match a {
+        [begin, change] if k > 0 => begin * b[k] + change * b[k - 1],
+        _ => any_product(a, b, k),
+    }
+}
+
+/// Kept apart: its loops would cost the step that needs none of them.
+#[inline(never)]
+fn any_product(a: &[f64], b: &Coefficients, k: usize) -> f64 {
     a.iter().zip(b[..=k].iter().rev()).map(|(a, b)| a * b).sum()
 }

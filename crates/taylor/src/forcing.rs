@@ -24,18 +24,21 @@ impl Forcing {
     }
 
     /// Makes it a straight line from `begin` to `begin + change`.
+    #[inline]
     pub fn set_line(&mut self, begin: f64, change: f64) {
         [self.c[0], self.c[1]] = [begin, change];
         self.len = 2;
     }
 
     /// Makes it no shaking.
+    #[inline]
     pub fn set_none(&mut self) {
         self.c[0] = 0.0;
         self.len = 1;
     }
 
     /// Makes it `factor` times itself and `other_factor` times `other`.
+    #[inline]
     pub fn combine(&mut self, factor: f64, other: &Self, other_factor: f64) {
         self.c[self.len..other.len.max(self.len)].fill(0.0);
         self.len = self.len.max(other.len);
@@ -58,11 +61,13 @@ impl Forcing {
     }
 
     /// Coefficients, lowest power first.
+    #[inline]
     pub fn coefficients(&self) -> &[f64] {
         &self.c[..self.len]
     }
 
     /// The acceleration at `s`.
+    #[inline]
     pub fn value(&self, s: f64) -> f64 {
         value(self.coefficients(), s)
     }
@@ -111,11 +116,13 @@ impl Forcing {
     }
 
     /// Whether it is zero throughout.
+    #[inline]
     pub fn is_zero(&self) -> bool {
         self.coefficients().iter().all(|c| *c == 0.0)
     }
 
     /// Σ |cₖ|: no value on the step is larger.
+    #[inline]
     pub fn bound(&self) -> f64 {
         self.coefficients().iter().map(|c| c.abs()).sum()
     }

@@ -12,6 +12,8 @@ pub mod forcing;
 pub mod polynomial;
 pub mod rebound;
 
+use std::array::from_fn;
+
 pub use forcing::Forcing;
 pub use polynomial::{DEGREE, first_sign_change, first_zero, leading_sign, sign_changes, value};
 pub use rebound::Rebound;
@@ -40,42 +42,74 @@ pub fn product(a: &[f64], b: &[f64], k: usize) -> f64 {
     a[..=k].iter().zip(b[..=k].iter().rev()).map(|(a, b)| a * b).sum()
 }
 
-/// The coefficients `k` of several products at once, so that no addition waits for another's.
-///
-/// # Panics
-/// Never for `k` up to [`DEGREE`].
-#[inline]
-pub fn products<const N: usize>(pairs: [(&[f64; DEGREE + 1], &[f64; DEGREE + 1]); N], k: usize) -> [f64; N] {
-    assert!(k <= DEGREE);
-    let mut sums = [0.0; N];
-    // two ranges that exclude their ends: that they stay within the arrays is seen at compile time
-    let terms = k + 1;
-    for (j, i) in (0..terms).zip((0..terms).rev()) {
-        for (sum, (a, b)) in sums.iter_mut().zip(pairs) {
-            *sum += a[j] * b[i];
-        }
-    }
-    sums
+/// Factors of several products of two series side by side, a lane for each product.
+#[derive(Debug, Clone)]
+pub struct Factors<const N: usize> {
+    first: [[f64; N]; DEGREE + 1],
+    second: [[f64; N]; DEGREE + 1],
 }
 
-/// The coefficients `k` of the products of `a` and `b`, which hold their coefficients `[order][lane]`, lane by lane.
-/// The sums are those of [`products`]; vectors of the processor add them.
-///
-/// # Panics
-/// If `a` or `b` has not `k + 1` orders.
-#[inline]
-pub fn products_by_lane<const N: usize>(a: &[[f64; N]], b: &[[f64; N]], k: usize) -> [f64; N] {
-    let mut sums = [0.0; N];
-    for (a, b) in a[..=k].iter().zip(b[..=k].iter().rev()) {
-        for ((sum, a), b) in sums.iter_mut().zip(a).zip(b) {
-            *sum += a * b;
-        }
+impl<const N: usize> Default for Factors<N> {
+    fn default() -> Self {
+        Self { first: [[0.0; N]; DEGREE + 1], second: [[0.0; N]; DEGREE + 1] }
     }
-    sums
 }
 
-/// The same without the terms of `a₀` and `b₀`, which an implicit recurrence has on its other side.
+impl<const N: usize> Factors<N> {
+    /// `Σ aⱼ bₖ₋ⱼ`, j from 0 to k, of each lane, with the coefficients `k` of the factors given: those before are
+    /// what was given before. Nothing but the two last additions waits for what is given.
+    ///
+    /// # Panics
+    /// If `k` is above [`DEGREE`].
+    #[inline]
+    pub fn products(&mut self, first: [f64; N], second: [f64; N], k: usize) -> [f64; N] {
+        let sums = if k == 0 {
+            from_fn(|i| first[i] * second[i])
+        } else {
+            let between = self.first[1..k].iter().zip(self.second[1..k].iter().rev());
+            let sums: [f64; N] = between.fold([0.0; N], |sums, (a, b)| from_fn(|i| sums[i] + a[i] * b[i]));
+            let (a, b) = (self.first[0], self.second[0]);
+            from_fn(|i| sums[i] + a[i] * second[i] + first[i] * b[i])
+        };
+        (self.first[k], self.second[k]) = (first, second);
+        sums
+    }
+
+    /// Replaces the coefficients `k` of a lane's factors.
+    ///
+    /// # Panics
+    /// If `k` is above [`DEGREE`] or `lane` not below the number of lanes.
+    #[inline]
+    pub fn replace(&mut self, lane: usize, [first, second]: [f64; 2], k: usize) {
+        (self.first[k][lane], self.second[k][lane]) = (first, second);
+    }
+}
+
+/// [`product`] without the terms of `a₀` and `b₀`, which an implicit recurrence has on its other side.
 #[inline]
 pub fn inner_product(a: &[f64], b: &[f64], k: usize) -> f64 {
     if k < 2 { 0.0 } else { product(&a[1..k], &b[1..k], k - 2) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn lanes_are_products(a in prop::array::uniform16(-3.0..3.0_f64), b in prop::array::uniform16(-3.0..3.0_f64)) {
+            let mut factors = Factors::default();
+            for k in 0..16 {
+                let [one, square, late] = factors.products([a[k], b[k], 0.0], [b[k], b[k], 0.0], k);
+                let size: f64 = (0..=k).map(|j| (a[j] * b[k - j]).abs()).sum();
+                prop_assert!((one - product(&a, &b, k)).abs() <= 1e-15 * size);
+                prop_assert!((square - product(&b, &b, k)).abs() <= 1e-14 * 9.0 * (k + 1) as f64);
+                prop_assert!((late - inner_product(&a, &b, k)).abs() <= 1e-15 * size);
+                if k > 0 {
+                    factors.replace(2, [a[k], b[k]], k);
+                }
+            }
+        }
+    }
 }

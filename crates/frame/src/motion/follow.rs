@@ -6,6 +6,7 @@ use uplift_taylor::{DEGREE, leading_sign, sign_changes, value};
 
 use super::step::first_reach;
 use super::{Lean, Motion};
+use crate::ground::length;
 use crate::history::{HistoryRow, Moment, Observer};
 use crate::series::{Constants, Expansion, Shaken, Step};
 
@@ -112,7 +113,6 @@ impl<O: Observer> Motion<O> {
     }
 
     fn raise_deck(&mut self, own: [f64; 2], ground: [f64; 2], time_s: f64) {
-        let length = |[x, y]: [f64; 2]| (x * x + y * y).sqrt();
         self.peaks.deck.raise(length([own[0] + ground[0], own[1] + ground[1]]), time_s);
         let deck_kg = self.frame.deck_mass_kg();
         let columns_kg = f64::from(self.frame.columns().columns()) * self.frame.column_mass_kg();
@@ -124,9 +124,9 @@ impl<O: Observer> Motion<O> {
     /// Acceleration of the deck relative to the ground in x and y at s of a step, m/s².
     fn deck_acceleration(&self, step: &Step, s: f64) -> [f64; 2] {
         let Constants { sin_alpha, cos_alpha, .. } = self.constants;
-        let diagonal_m = 2.0 * self.frame.geometry().size_m();
+        let diagonal_m = self.diagonal_m;
         let (sine, versine) = step.tilt_at(s);
-        let (v, a) = (step.at(s).1, step.acceleration(s));
+        let (v, a) = (step.velocity(s), step.acceleration(s));
         // U, dU/dθ and d²U/dθ²
         let travel = diagonal_m * (cos_alpha * sine + sin_alpha * versine);
         let slope = diagonal_m * (cos_alpha * (1.0 - versine) + sin_alpha * sine);
@@ -147,7 +147,7 @@ impl<O: Observer> Motion<O> {
     /// Upward acceleration of the deck relative to the ground at the beginning of a step, m/s².
     fn rise_acceleration(&self, step: &Step) -> f64 {
         let angle = self.frame.geometry().slenderness_rad() - self.x;
-        2.0 * self.frame.geometry().size_m() * (angle.sin() * step.acceleration(0.0) - angle.cos() * self.v * self.v)
+        self.diagonal_m * (angle.sin() * step.acceleration(0.0) - angle.cos() * self.v * self.v)
     }
 
     /// Ground acceleration in x and y at s, m/s².
@@ -163,7 +163,7 @@ impl<O: Observer> Motion<O> {
     /// A frame at rest moves with the ground, whose acceleration is given in units of g, as long as that does not lift
     /// it.
     pub(crate) fn follow_ground(&mut self, [x, y, z]: [f64; 3], time_s: f64) {
-        if x.hypot(y) > self.tangent * (1.0 + z) + self.prestress {
+        if length([x, y]) > self.tangent * (1.0 + z) + self.prestress {
             return;
         }
         let ground = [x, y].map(|component| self.frame.gravity_m_s2() * component);

@@ -64,19 +64,26 @@ impl Strands {
         }
     }
 
-    /// Coefficient `k` of `T Δ'`, N m.
-    pub(super) fn moment(&mut self, sine: &Coefficients, versine: &Coefficients, k: usize) -> f64 {
+    /// `T Δ'` as multiples of `sin θ` and of `cos ½θ`, N m, where it is no more than that.
+    pub(super) fn multiples(&self) -> Option<[f64; 2]> {
         match (self.law, self.form) {
-            (Law::Loose, _) => return 0.0,
+            (Law::Loose, _) => Some([0.0, 0.0]),
             (Law::Linear { constant_n, stiffness_n_m }, Form::Axis { lever_m }) => {
-                let constant = if constant_n == 0.0 { 0.0 } else { constant_n * self.half_cosine[k] };
-                return lever_m * (stiffness_n_m * lever_m * sine[k] + constant);
+                Some([lever_m * stiffness_n_m * lever_m, lever_m * constant_n])
             }
-            (_, Form::Axis { lever_m }) => {
+            _ => None,
+        }
+    }
+
+    /// Coefficient `k` of `T Δ'`, N m. Kept apart: its loops would cost the step of a spring that needs none of them.
+    #[inline(never)]
+    pub(super) fn moment(&mut self, sine: &Coefficients, versine: &Coefficients, k: usize) -> f64 {
+        match self.form {
+            Form::Axis { lever_m } => {
                 self.length[k] = 2.0 * lever_m * self.half_sine[k];
                 self.rate[k] = lever_m * self.half_cosine[k];
             }
-            (_, Form::Chord { sine_m2, versine_m2, .. }) => {
+            Form::Chord { sine_m2, versine_m2, .. } => {
                 if k > 0 {
                     let square = sine_m2 * sine[k] + versine_m2 * versine[k];
                     self.length[k] = 0.5 * (square - inner_product(&self.length, &self.length, k)) / self.length[0];
@@ -117,17 +124,15 @@ impl Strands {
         }
     }
 
-    /// The half angle's sine and cosine to one order more.
-    pub(super) fn extend(&mut self, v: &Coefficients, factor: f64, k: usize) {
-        let is_needed = match (self.law, self.form) {
-            (Law::Loose, _) | (_, Form::Chord { .. }) => false,
-            (Law::Linear { constant_n, .. }, Form::Axis { .. }) => constant_n != 0.0,
-            (Law::Cubic { .. }, Form::Axis { .. }) => true,
-        };
-        if !is_needed {
-            return;
-        }
-        self.half_sine[k + 1] = 0.5 * factor * product(&self.half_cosine, v, k);
-        self.half_cosine[k + 1] = -0.5 * factor * product(&self.half_sine, v, k);
+    /// Coefficient `k` of the half angle's sine and cosine.
+    pub(super) fn half(&self, k: usize) -> [f64; 2] {
+        [self.half_sine[k], self.half_cosine[k]]
+    }
+
+    /// The half angle's sine and cosine to one order more, from the coefficients `k` of their products with the
+    /// velocity.
+    pub(super) fn extend(&mut self, [sine_v, cosine_v]: [f64; 2], factor: f64, k: usize) {
+        self.half_sine[k + 1] = 0.5 * factor * cosine_v;
+        self.half_cosine[k + 1] = -0.5 * factor * sine_v;
     }
 }

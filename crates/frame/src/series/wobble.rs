@@ -1,23 +1,18 @@
 //! What the turning of the lean adds to the recurrence.
 
-use uplift_taylor::{DEGREE, product, products, products_by_lane};
+use uplift_taylor::Factors;
 
-use super::{Coefficients, Constants, Shaken, Step, short_product};
-
-/// Products of a step side by side, with one of zeros that makes them pairs.
-const LANES: usize = 6;
-
-/// Coefficients of so many functions, `[order][function]`.
-type Lanes = [[f64; LANES]; DEGREE + 1];
+use super::{Constants, Shaken, Step, short_product};
 
 /// What turning needs beside the unknowns.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Wobble {
-    inertia: Coefficients,
-    /// First factors of the products in [`Changes`].
-    first: Lanes,
-    /// Second factors.
-    second: Lanes,
+    /// `1/J` and `φ̇` at the begin.
+    begin: [f64; 2],
+    /// Factors of `sin θ (1 − cos θ)`, `(1 − cos θ)²`, `J φ̇` and `φ̇²`, the last two without the terms at their begin.
+    inner: Factors<4>,
+    /// Factors of the products in [`Changes`], with one of zeros that makes them pairs.
+    factors: Factors<6>,
 }
 
 /// Coefficients of what turning changes.
@@ -36,11 +31,6 @@ pub(super) struct Changes {
 }
 
 impl Wobble {
-    pub(super) fn new() -> Self {
-        let zero = [[0.0; LANES]; DEGREE + 1];
-        Self { inertia: [0.0; DEGREE + 1], first: zero, second: zero }
-    }
-
     /// The coefficients of order `k`, of which that of `cos ψ` is given.
     pub(super) fn order(
         &mut self,
@@ -50,24 +40,35 @@ impl Wobble {
         cos_psi: f64,
         k: usize,
     ) -> Changes {
-        let (sine, versine) = (&step.sine, &step.versine);
-        let [sw, ww] = products([(sine, versine), (versine, versine)], k);
+        let (sine, versine) = (step.sine[k], step.versine[k]);
+        // the terms of inertia and turning are not known yet
+        let [sw, ww, momentum, squared] =
+            self.inner.products([sine, versine, 0.0, 0.0], [versine, versine, 0.0, 0.0], k);
         let [j1, j2, j3] = constants.turning;
         let [k0, k1, k2, k3] = constants.turning_slope;
-        self.inertia[k] = j1 * versine[k] + j2 * sw + j3 * ww;
-        let slope = k0 * sine[k] + k1 * versine[k] + k2 * sw + k3 * ww;
-        let known = if k == 0 { 0.0 } else { product(&self.inertia[1..], &step.turning, k - 1) };
-        let turning = (step.momentum[k] - known) / self.inertia[0];
+        let inertia = j1 * versine + j2 * sw + j3 * ww;
+        let slope = k0 * sine + k1 * versine + k2 * sw + k3 * ww;
+        if k == 0 {
+            self.begin = [1.0 / inertia, step.momentum[0] / inertia];
+        }
+        let [by_inertia, first] = self.begin;
+        let (turning, squared) = if k == 0 {
+            (first, first * first)
+        } else {
+            let turning = (step.momentum[k] - (momentum + inertia * first)) * by_inertia;
+            self.inner.replace(2, [inertia, turning], k);
+            self.inner.replace(3, [turning, turning], k);
+            (turning, squared + 2.0 * first * turning)
+        };
         step.turning[k] = turning;
-        let turning_squared = product(&step.turning, &step.turning, k);
-        let travel = constants.cos_alpha * sine[k] + constants.sin_alpha * versine[k];
+        let travel = constants.cos_alpha * sine + constants.sin_alpha * versine;
         let [x, y] = [shaken.horizontal[0].coefficients(), shaken.horizontal[1].coefficients()];
         let (sin, cos) = (&step.sin_direction, &step.cos_direction);
         let across = short_product(x, sin, k) - short_product(y, cos, k);
         let pushes = short_product(x, cos, k) + short_product(y, sin, k);
-        self.first[k] = [cos_psi, travel, slope, cos[k], sin[k], 0.0];
-        self.second[k] = [pushes, across, turning_squared, turning, turning, 0.0];
-        let [push, across, centrifugal, sin, cos, _] = products_by_lane(&self.first, &self.second, k);
+        let first = [cos_psi, travel, slope, cos[k], sin[k], 0.0];
+        let second = [pushes, across, squared, turning, turning, 0.0];
+        let [push, across, centrifugal, sin, cos, _] = self.factors.products(first, second, k);
         Changes { push, across, centrifugal, sin, cos }
     }
 }
