@@ -55,6 +55,7 @@ mod site_table;
 mod site_table_repair;
 mod spreadsheets;
 mod structure_resume;
+mod study_uncertainty;
 mod sweep;
 mod table_4_2;
 mod target;

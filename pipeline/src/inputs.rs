@@ -2,6 +2,7 @@
 
 pub(crate) mod at_level;
 mod cache;
+mod drawn_structures;
 mod file_options;
 mod hazard;
 mod made;
@@ -15,6 +16,7 @@ pub(crate) mod text_table;
 mod third_component;
 
 pub use at_level::AtLevel;
+pub use drawn_structures::DrawnStructure;
 pub use file_options::FileOptions;
 pub use hazard::{BranchHazard, HazardInput, OtherHazard, SiteHazard, read_hazard, read_other_hazard};
 pub(crate) use made::made_pairs;

@@ -26,6 +26,7 @@ mod stripes;
 mod study;
 mod table;
 mod target;
+mod units;
 
 pub use asked::{AskedRisk, RiskTargets};
 pub(crate) use bands::BandMethod;
@@ -59,4 +60,5 @@ pub(crate) use table::{neutral, plain, table_text, write_metadata};
 pub use table::{write_atomically, write_table};
 pub(crate) use target::{check_place, replaces_another};
 pub use target::{check_target, is_hdf5};
+pub use units::RecordUnits;
 pub use uplift_study::Kind;

@@ -26,7 +26,7 @@ use crate::{displacement, shake_table, uniform_risk};
 #[serde(untagged)]
 pub enum RunReport {
     /// Of a study of uniform risk.
-    UniformRisk(uniform_risk::RunReport),
+    UniformRisk(Box<uniform_risk::RunReport>),
     /// Of a study of displacement spectra.
     Displacement(displacement::RunReport),
     /// Of a study of a shaking table.
@@ -107,7 +107,9 @@ pub fn run_with(
     }
     let place = Place { path, options, start };
     match study {
-        AnyStudy::UniformRisk(study) => uniform_risk::run(study, &place, known, events).map(RunReport::UniformRisk),
+        AnyStudy::UniformRisk(study) => {
+            uniform_risk::run(study, &place, known, events).map(|report| RunReport::UniformRisk(Box::new(report)))
+        }
         AnyStudy::Displacement(study) => displacement::run(study, &place, known, events).map(RunReport::Displacement),
         AnyStudy::ShakeTable(study) => shake_table::run(study, &place, events).map(RunReport::ShakeTable),
     }

@@ -56,6 +56,19 @@ pub fn left_out(records: usize) -> Result<Vec<RecordSample>, RiskError> {
     if records < 2 { Ok(Vec::new()) } else { (0..records).map(|record| without(records, &[record])).collect() }
 }
 
+/// So many `records` without each of the `units` in turn, `[unit]`; none where there is but one.
+///
+/// - `units`: the positions of the records of each.
+///
+/// # Errors
+/// As [`left_out`].
+///
+/// # Panics
+/// If a unit has a record that there is not.
+pub fn left_out_together(records: usize, units: &[Vec<usize>]) -> Result<Vec<RecordSample>, RiskError> {
+    if units.len() < 2 { Ok(Vec::new()) } else { units.iter().map(|unit| without(records, unit)).collect() }
+}
+
 /// So many `records` once, but for those `left_out`.
 ///
 /// # Errors

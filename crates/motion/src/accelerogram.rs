@@ -1,5 +1,7 @@
 //! The accelerogram: ground acceleration at equal time steps.
 
+use std::sync::Arc;
+
 use crate::error::MotionError;
 
 /// Ground acceleration sampled at equal steps, linear between samples.
@@ -9,7 +11,8 @@ use crate::error::MotionError;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Accelerogram {
     dt_s: f64,
-    acceleration_m_s2: Vec<f64>,
+    /// Copies of a motion share them.
+    acceleration_m_s2: Arc<[f64]>,
 }
 
 impl Accelerogram {
@@ -31,7 +34,7 @@ impl Accelerogram {
         if let Some((index, &value)) = acceleration_m_s2.iter().enumerate().find(|(_, value)| !value.is_finite()) {
             return Err(MotionError::Sample { index, value });
         }
-        Ok(Self { dt_s, acceleration_m_s2 })
+        Ok(Self { dt_s, acceleration_m_s2: acceleration_m_s2.into() })
     }
 
     /// Time step \[s\].

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `records` | `[records]` |
 //! | `oscillator` | `[oscillator]` |
+//! | `uncertainty` | `[uncertainty]`: what of the oscillator is not known exactly |
 //! | `measures`, `lower_levels` | `[pgv]`, `[pga]`, `[measures.…]`, and where their levels could begin |
 //! | `risk` | `[risk]` |
 //! | `hazard` | `[hazard]` |
@@ -27,6 +28,7 @@ mod risk;
 mod rotation;
 mod site_table;
 mod sites;
+mod uncertainty;
 mod warnings;
 
 use std::collections::BTreeSet;
@@ -40,6 +42,7 @@ use crate::keys::{Key, SectionKeys};
 use crate::reading::{Paths, Section};
 use crate::sections::output::{self, Output};
 use crate::sections::stiffness;
+use crate::sections::uncertainty::{Uncertainty, UncertaintyKind};
 use crate::sections::{record_source, selection, strengths, top};
 use crate::warning::Warning;
 
@@ -58,13 +61,16 @@ pub use site_table::SiteTable;
 pub use sites::Site;
 
 /// The reference of every key.
-pub(crate) const KEYS: [SectionKeys; 25] = [
+pub(crate) const KEYS: [SectionKeys; 28] = [
     TOP,
     records::KEYS,
     rotation::KEYS,
     selection::KEYS,
     record_source::SYNTHETIC_KEYS,
     oscillator::KEYS,
+    uncertainty::KEYS,
+    uncertainty::QUANTITY_KEYS,
+    uncertainty::CORRELATION_KEYS,
     strengths::KEYS,
     measures::PGV_KEYS,
     measures::PGA_KEYS,
@@ -116,6 +122,9 @@ pub struct UniformRiskStudy {
     pub records: Records,
     /// The oscillator but for its strength.
     pub oscillator: Oscillator,
+    /// What of the oscillators is not known exactly; a strength scatters about each of `strengths`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub uncertainty: Option<Uncertainty>,
     /// Uplift strengths η = `f_up`/(m g) \[-\].
     #[serde(serialize_with = "strengths::write")]
     pub strengths: Grid,
@@ -157,14 +166,42 @@ impl UniformRiskStudy {
         all.into_iter().filter(|measure| !measure.is_of_chapter_4()).collect()
     }
 
-    /// What the bootstrap draws where `asked` is asked for, else what the study says: records of the azimuths of a pair
-    /// are never drawn apart.
+    /// Structures that each motion shakes: as many records are made of it.
+    pub fn structures_of_a_motion(&self) -> usize {
+        let Some(uncertainty) = &self.uncertainty else { return 1 };
+        match uncertainty.kind {
+            // structures that are all alike are one
+            _ if uncertainty.is_known() => 1,
+            UncertaintyKind::Epistemic => uncertainty.samples,
+            UncertaintyKind::Aleatory => uncertainty.draws,
+        }
+    }
+
+    /// Records that are made of a pair: of its components or azimuths, and of the structures that each shakes.
+    pub fn records_of_a_pair(&self) -> usize {
+        self.records.component.records_per_pair() * self.structures_of_a_motion()
+    }
+
+    /// The name of the pair that the record `id` is made of: what a record is of its pair, and which structure it
+    /// shakes, follow it.
+    pub fn pair_of_record<'a>(&self, id: &'a str) -> &'a str {
+        let directions = usize::from(self.records.component.records_per_pair() > 1);
+        let suffixes = directions + usize::from(self.structures_of_a_motion() > 1);
+        (0..suffixes).try_fold(id, |id, _| Some(id.rsplit_once(':')?.0)).unwrap_or(id)
+    }
+
+    /// What the bootstrap draws where `asked` is asked for, else what the study says: records of the azimuths of a
+    /// pair, or of its structures, are never drawn apart.
     pub fn drawn_unit(&self, asked: Option<Unit>) -> Unit {
-        let each = matches!(self.records.component, Component::Rotated(Rotation::Each { .. }));
         match asked.unwrap_or(self.bootstrap.unit) {
-            Unit::Record if each => Unit::Pair,
+            Unit::Record if self.keeps_pairs_together() => Unit::Pair,
             unit => unit,
         }
+    }
+
+    /// Whether the records of a pair tell no more than the pair does: those of its azimuths, and of its structures.
+    pub fn keeps_pairs_together(&self) -> bool {
+        matches!(self.records.component, Component::Rotated(Rotation::Each { .. })) || self.structures_of_a_motion() > 1
     }
 
     /// The study as TOML, complete and loadable; the warnings are left out, since loading finds them again.
@@ -217,6 +254,10 @@ pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<UniformRiskSt
     let gravity = top::gravity(&mut root);
     let records = records::read(root.section("records"), paths);
     let oscillator = oscillator::read(root.section("oscillator"));
+    let uncertainty = root.section("uncertainty");
+    let is_uncertain = uncertainty.is_present();
+    let uncertainty = uncertainty::read(uncertainty, oscillator.as_ref());
+    let by_one_set = uncertainty::without_sets_of_levels(&root, records.as_ref(), is_uncertain);
     let strengths = strengths::read(root.section("strengths"));
     let (switched_on, measures) = measures::read(&mut root);
     let risk = risk::read(root.section("risk"));
@@ -240,15 +281,17 @@ pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<UniformRiskSt
         stiffness::check(&root, system, oscillator.post_uplift);
     }
     root.finish();
-    if !by_one {
+    if !by_one || !by_one_set {
         return None;
     }
+    let (uncertainty, doubts) = uncertainty?;
     let mut study = UniformRiskStudy {
         title: title?,
         seed: seed?,
         gravity_m_s2: gravity?,
         records: records?,
         oscillator: oscillator?,
+        uncertainty,
         strengths: strengths?,
         measures: measures?,
         risk: risk?,
@@ -262,5 +305,6 @@ pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<UniformRiskSt
         warnings: Vec::new(),
     };
     study.warnings = warnings::of(&study);
+    study.warnings.extend(doubts);
     Some(study)
 }

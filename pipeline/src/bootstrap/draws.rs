@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use uplift_bootstrap::{BootstrapError, ResamplingPlan, Unit};
-use uplift_motion::{Component, Rotation};
 use uplift_study::Bootstrap;
 
 use super::BootstrapOptions;
@@ -30,16 +29,19 @@ pub(super) fn draws(
     let records = stored.records.len();
     let own = file.stored_study()?;
     let unit = own.drawn_unit(Some(options.unit.unwrap_or(study.unit)));
-    // samples of so many pairs, where each of their azimuths is a record
-    let of_a_pair = match own.records.component {
-        Component::Rotated(Rotation::Each { azimuths }) => u32::from(azimuths),
-        _ => 1,
-    };
+    // samples of so many pairs, where each of their azimuths or structures is a record
+    let of_a_pair = if own.keeps_pairs_together() { own.records_of_a_pair() } else { 1 };
+    let of_a_pair = u32::try_from(of_a_pair).unwrap_or(u32::MAX);
     let sizes = options.sizes.clone().or_else(|| study.sizes.clone()).unwrap_or_else(|| {
         let all = u32::try_from(records).unwrap_or(u32::MAX);
         // a smaller sample may leave a level with records of its own without any
         let of_levels = stored.measures.iter().any(|measure| measure.shares.is_some());
-        SIZES.map(|size| size * of_a_pair).into_iter().filter(|&size| size < all && !of_levels).chain([all]).collect()
+        SIZES
+            .map(|size| size.saturating_mul(of_a_pair))
+            .into_iter()
+            .filter(|&size| size < all && !of_levels)
+            .chain([all])
+            .collect()
     });
     let replicates = options.replicates.unwrap_or(study.replicates);
     let seed = options.seed.unwrap_or(stored.seed);

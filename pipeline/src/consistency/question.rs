@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use uplift_consistency::{LevelSets, Powers, RecordSet as ScaledSet, Seismology, SetRecord};
 use uplift_hazard::{Extrapolation, HazardCurve};
-use uplift_motion::{Component, IntensityMeasure};
+use uplift_motion::IntensityMeasure;
 use uplift_study::{Consistency, UniformRiskStudy};
 
 use super::branches::{AskedBranch, AskedBranches};
@@ -116,7 +116,7 @@ impl Question {
             }
             _ => None,
         };
-        let (records, events) = asked_records(rows, study.records.component);
+        let (records, events) = asked_records(rows, study);
         Ok(Self {
             settings: study.consistency.clone(),
             extrapolation: study.risk.extrapolate,
@@ -131,6 +131,17 @@ impl Question {
             curves,
             branches,
         })
+    }
+
+    /// What the result `file` is asked of its motions, each once, whatever structures they shake.
+    ///
+    /// # Errors
+    /// As [`of_result`](Self::of_result).
+    pub(crate) fn of_motions(file: &ResultFile) -> Result<Self, UpliftError> {
+        let structures = file.stored_study()?.structures_of_a_motion();
+        let mut question = Self::of_result(file)?;
+        question.records = question.records.into_iter().step_by(structures).collect();
+        Ok(question)
     }
 
     /// The same at other probabilities.
@@ -182,7 +193,7 @@ impl Question {
                 level_sets = Some(LevelSets::new(stored.ids.len(), relative, sets.shares)?);
             }
         }
-        let (records, events) = asked_records(rows, study.records.component);
+        let (records, events) = asked_records(rows, &study);
         Ok(Self {
             level_sets,
             settings: study.consistency,
@@ -306,7 +317,7 @@ struct RawRecord {
 }
 
 /// The records, and the names of their earthquakes.
-fn asked_records(rows: impl Iterator<Item = RawRecord>, component: Component) -> (Vec<AskedRecord>, Vec<String>) {
+fn asked_records(rows: impl Iterator<Item = RawRecord>, study: &UniformRiskStudy) -> (Vec<AskedRecord>, Vec<String>) {
     let (mut pairs, mut events): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
     let position = |known: &mut Vec<String>, name: &str| {
         known.iter().position(|known| known == name).unwrap_or_else(|| {
@@ -316,8 +327,7 @@ fn asked_records(rows: impl Iterator<Item = RawRecord>, component: Component) ->
     };
     let records = rows
         .map(|row| {
-            let suffix = if component.records_per_pair() > 1 { row.id.rsplit_once(':') } else { None };
-            let pair = position(&mut pairs, suffix.map_or(row.id.as_str(), |(pair, _)| pair));
+            let pair = position(&mut pairs, study.pair_of_record(&row.id));
             // what the program made is of no earthquake
             let known = !row.event.is_empty() && !row.event.to_lowercase().starts_with("synthetic");
             let number = |value: f64| value.is_finite().then_some(value);

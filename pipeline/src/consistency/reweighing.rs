@@ -55,9 +55,24 @@ impl Reweighing {
         if !file.has_repair() {
             return Ok(None);
         }
-        let question = Question::of_result(file)?;
+        Self::of_question(Question::of_result(file)?).map(Some)
+    }
+
+    /// That of the motions of a result, each once, whatever structures they shake; none where it has no repaired
+    /// spectra.
+    ///
+    /// # Errors
+    /// As [`of_result`](Self::of_result).
+    pub(crate) fn of_motions(file: &ResultFile) -> Result<Option<Self>, UpliftError> {
+        if !file.has_repair() {
+            return Ok(None);
+        }
+        Self::of_question(Question::of_motions(file)?).map(Some)
+    }
+
+    fn of_question(question: Question) -> Result<Self, UpliftError> {
         let (findings, branches) = (question.findings(true)?, question.findings_of_branches()?);
-        Ok(Some(Self { question, findings, branches }))
+        Ok(Self { question, findings, branches })
     }
 
     /// The analysis of the records scaled to a measure at a site; none where there is no repair.

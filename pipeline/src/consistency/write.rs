@@ -14,7 +14,7 @@ use super::{ConsistencyReport, Finding, Question, Repairs};
 use crate::outputs::beside;
 use crate::result::layout::{axis, consistency as layout};
 use crate::result::{flag_number, sign};
-use crate::uniform_risk::write_branch_spectra;
+use crate::uniform_risk::{BRANCHES, write_branch_spectra};
 
 /// Flag of an ordinate that does not exist, since the set could not be repaired.
 const NO_REPAIR: u8 = 3;
@@ -107,7 +107,7 @@ impl Table<'_> {
             let site = &self.question.sites[branches.site];
             let Some(axis) = &axes[branches.site] else { continue };
             let path = |name: &str| layout::branches(self.measure, site, name);
-            write_branch_spectra(self.writer, branches, axis, path)?;
+            write_branch_spectra(self.writer, branches, (axis, BRANCHES), path)?;
         }
         Ok(())
     }

@@ -15,7 +15,7 @@ pub(super) const SHARES: [f64; 3] = [0.05, 0.5, 0.95];
 /// The additions of a result; none where its commands were not run.
 #[derive(Debug, Default)]
 pub(super) struct Added {
-    /// Names of the records.
+    /// Names of the records; of the pairs where their records are left out together.
     pub(super) records: Vec<String>,
     /// Of the probabilities of the study alone: none of a result that was asked for others.
     pub(super) influence: Vec<Influence>,
@@ -51,7 +51,8 @@ impl Added {
             });
             influence.push(Influence { stored, levels: measure.levels.clone(), ranking });
         }
-        Ok(Self { records: stripes.records, influence, efficiency })
+        let records = (0..stripes.records.len()).map(|record| stripes.units.name(record).to_owned()).collect();
+        Ok(Self { records, influence, efficiency })
     }
 
     pub(super) fn influence_by(&self, measure: IntensityMeasure) -> Option<&Influence> {

@@ -1,7 +1,7 @@
 //! Which records carry a spectrum, and which intensities: the jackknife and the disaggregation of its risk.
 
 use rayon::prelude::*;
-use uplift_bootstrap::{leave_one_out, left_out};
+use uplift_bootstrap::{left_out_together, without_each};
 use uplift_motion::IntensityMeasure;
 use uplift_risk::{PooledDemand, RiskCurve};
 
@@ -30,7 +30,7 @@ pub(super) struct Influence {
 /// How a record changes a spectrum.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RecordInfluence {
-    /// Position of the record.
+    /// Position of the record; of the first of a pair whose records are left out together.
     pub record: usize,
     /// Mean of the relative change of the ordinates without it, over the strengths above uplift.
     pub mean_change: f64,
@@ -48,13 +48,14 @@ type OfStrength = (Vec<Vec<f64>>, Vec<f64>);
 /// # Errors
 /// Numbers that do not fit together, in a file that was changed.
 pub(super) fn influence_by(stored: &StoredStripes, measure: &StoredMeasure) -> Result<Influence, UpliftError> {
+    let samples = left_out_together(stored.records.len(), &stored.units.records)?;
     let (sites, poes, strengths) = (stored.sites.len(), stored.poes.len(), stored.strengths.len());
-    let (records, bins) = (stored.records.len(), measure.levels.len() + 1);
+    let bins = measure.levels.len() + 1;
     let of_strength = |strength: usize| -> Result<OfStrength, UpliftError> {
         let demand = measure.demand(strength)?;
         let (mut without, mut shares) = (Vec::new(), Vec::new());
         for (site, weights) in measure.weights.iter().enumerate() {
-            without.push(leave_one_out(&demand, weights, &stored.targets_per_year)?);
+            without.push(without_each(&demand, weights, &stored.targets_per_year, &samples)?);
             let curve = RiskCurve::new(&demand, weights)?;
             for poe in 0..poes {
                 shares.extend(shares_of(&curve, measure.exact_m[[site, poe, strength]], bins)?);
@@ -67,9 +68,9 @@ pub(super) fn influence_by(stored: &StoredStripes, measure: &StoredMeasure) -> R
         .map(of_strength)
         .collect::<Result<Vec<OfStrength>, _>>()
         .map_err(|error| error.in_file(&stored.path))?;
-    let without_m = (records > 1).then(|| {
-        Array::from_fn([sites, poes, records, strengths], |[site, poe, record, strength]| {
-            by_strength[strength].0[site][record * poes + poe]
+    let without_m = (!samples.is_empty()).then(|| {
+        Array::from_fn([sites, poes, stored.records.len(), strengths], |[site, poe, record, strength]| {
+            by_strength[strength].0[site][stored.units.of[record] * poes + poe]
         })
     });
     let shares = Array::from_fn([sites, poes, strengths, bins], |[site, poe, strength, bin]| {
@@ -108,7 +109,7 @@ pub(super) fn influence_on_repaired(
     let (records, bins) = (stored.records.len(), measure.levels.len() + 1);
     let demand = |strength| measure.demand(strength);
     let demands: Vec<PooledDemand> = (0..strengths).into_par_iter().map(demand).collect::<Result<_, UpliftError>>()?;
-    let (samples, targets) = (left_out(records)?, &stored.targets_per_year);
+    let (samples, targets) = (left_out_together(records, &stored.units.records)?, &stored.targets_per_year);
     let mut of_sites = Vec::with_capacity(sites);
     for site in 0..sites {
         let Some(repaired) = reweighing.of_site((measure.measure, site)) else {
@@ -123,8 +124,8 @@ pub(super) fn influence_on_repaired(
             of_set_m.iter().map(|&ordinate_m| shares_of(&curve, ordinate_m, bins)).collect()
         };
         let shares = demands.iter().zip(&of_set_m).map(shares_at).collect::<Result<Vec<_>, _>>()?;
-        let failing: Vec<&str> = (stored.records.iter().zip(&anew.is_reached))
-            .filter_map(|(record, is_reached)| (!is_reached).then_some(record.as_str()))
+        let failing: Vec<&str> = (stored.units.names.iter().zip(&anew.is_reached))
+            .filter_map(|(name, is_reached)| (!is_reached).then_some(name.as_str()))
             .collect();
         if !failing.is_empty() {
             events.note(&format!(
@@ -142,17 +143,17 @@ pub(super) fn influence_on_repaired(
     let shares = Array::from_fn([sites, poes, strengths, bins], |[site, poe, strength, bin]| {
         of_sites[site].as_ref().map_or(f64::NAN, |(_, shares, _)| shares[strength][poe][bin])
     });
-    let without_m = (records > 1).then(|| {
+    let without_m = (!samples.is_empty()).then(|| {
         Array::from_fn([sites, poes, records, strengths], |[site, poe, record, strength]| {
-            let place = (strength * poes + poe) * records + record;
+            let place = (strength * poes + poe) * samples.len() + stored.units.of[record];
             of_sites[site].as_ref().map_or(f64::NAN, |(.., without_m)| without_m[place])
         })
     });
     Ok(Influence { measure: measure.measure, repaired: true, exact_m, without_m, shares })
 }
 
-/// The influence of every record on one spectrum, the most influential first; empty where no ordinate lies above
-/// uplift.
+/// The influence of every record, or of every pair whose records are left out together by its first, on one spectrum,
+/// the most influential first; empty where no ordinate lies above uplift.
 ///
 /// * `without_m` — exact ordinates without each record `[site, poe, record, strength]`, m
 /// * `at` — site and probability of the spectrum, by position
@@ -166,7 +167,9 @@ pub fn rank_records(
     at: [usize; 2],
 ) -> Vec<RecordInfluence> {
     let [site, poe] = at;
-    let mut all: Vec<RecordInfluence> = (0..stored.records.len())
+    let mut all: Vec<RecordInfluence> = stored
+        .units
+        .firsts()
         .filter_map(|record| {
             let changes: Vec<(f64, f64)> = without_m
                 .block([site, poe, record])

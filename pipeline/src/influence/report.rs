@@ -103,7 +103,7 @@ impl InfluenceReport {
                         im: influence.measure.label(),
                         repaired: influence.repaired,
                         poe: stored.poes[poe],
-                        record: stored.records[entry.record].clone(),
+                        record: stored.units.name(entry.record).to_owned(),
                         mean_change_pct: 100.0 * entry.mean_change,
                         largest_change_pct: 100.0 * entry.largest_change,
                         at_strength: entry.strength,

@@ -56,7 +56,11 @@ fn add(writer: &mut LabelledWriter, stored: &StoredStripes, influences: &[Influe
         };
         if let Some(without_m) = &found.without_m {
             let dims = [axis::SITE, axis::POE, axis::RECORD, axis::STRENGTH];
-            let long_name = "uniform risk displacement without the record";
+            let long_name = if stored.units.are_records() {
+                "uniform risk displacement without the record"
+            } else {
+                "uniform risk displacement without the pair of the record"
+            };
             writer.array_f64(&without_path, &dims, without_m.values(), "m", long_name)?;
         }
         let bin = axis::bin(found.measure);
@@ -86,7 +90,7 @@ fn ranking_table(
                 site.push(stored.sites[site_index].as_str());
                 im.push(spectrum_words(influence.measure.label(), influence.repaired));
                 poe.push(stored.poes[poe_index]);
-                record.push(stored.records[entry.record].as_str());
+                record.push(stored.units.name(entry.record));
                 mean.push(100.0 * entry.mean_change);
                 largest.push(100.0 * entry.largest_change);
                 strength.push(entry.strength);

@@ -10,6 +10,7 @@ use uplift_motion::{
     Accelerogram, Combination, Component, Direction, Drawn, Horizontal, IntensityMeasure, MotionError, RecordPair,
 };
 
+use super::drawn_structures::{DrawnStructure, STRUCTURE, shaking_structures};
 use super::pairs::{self, CheckedPair};
 use super::third_component::{ThirdComponents, Vertical};
 use super::{AtLevel, at_level, cache, manifest, selection};
@@ -24,7 +25,8 @@ use uplift_study::{RecordSource, UniformRiskStudy};
 /// One analysis record: a component of a pair, or the pair as it is seen from azimuths, with the intensity of the pair.
 #[derive(Debug, Clone)]
 pub struct Record {
-    /// Identifier; where a pair makes several records, followed by a colon and the direction, `:h1` or `:30deg`.
+    /// Identifier; where a pair makes several records, followed by a colon and the direction, `:h1` or `:30deg`, and by
+    /// a colon and the number of its structure, `:s1`, where these are not known exactly.
     pub id: String,
     /// What of the pair it is.
     pub direction: Direction,
@@ -44,19 +46,26 @@ pub struct Record {
     pub metadata: BTreeMap<String, String>,
     /// SHA-256 of the record's file; of the samples of a synthetic one.
     pub checksum: String,
+    /// The structure that it shakes; none where these are known exactly.
+    pub structure: Option<DrawnStructure>,
 }
 
 impl Record {
-    /// SHA-256 of the motion that its peaks are of, hexadecimal; of all motions and the percentile where it is one.
+    /// SHA-256 of the motion that its peaks are of, hexadecimal; of all motions and the percentile where it is one; of
+    /// the motion and what its structure has where that is not known exactly.
     pub fn motion_key(&self) -> String {
         let first = motion_key(&self.accelerogram);
-        match self.direction {
+        let of_motion = match self.direction {
             Direction::Percentile { percentile, .. } if !self.other_azimuths.is_empty() => {
                 let others = self.other_azimuths.iter().map(motion_key);
                 let keys: Vec<String> = std::iter::once(first).chain(others).collect();
                 checksum(format!("percentile {percentile} of {}", keys.join(" ")).as_bytes())
             }
             _ => first,
+        };
+        match &self.structure {
+            Some(structure) => structure.key_with(&of_motion),
+            None => of_motion,
         }
     }
 
@@ -88,6 +97,22 @@ pub struct RecordSet {
     pub at_level: Option<AtLevel>,
     /// What is allowed but probably not meant.
     pub notes: Vec<String>,
+}
+
+impl RecordSet {
+    /// The same motions, each once, whatever structures they shake.
+    #[must_use]
+    pub(crate) fn without_structures(mut self) -> Self {
+        self.records.retain(|record| record.structure.as_ref().is_none_or(|structure| structure.number == 1));
+        for record in &mut self.records {
+            if record.structure.take().is_some()
+                && let Some((motion, _)) = record.id.rsplit_once(STRUCTURE)
+            {
+                record.id = motion.to_owned();
+            }
+        }
+        self
+    }
 }
 
 /// Read or make the records of `study`.
@@ -171,6 +196,9 @@ fn read_set(
     }
     let mut records = analysis_records((pairs, verticals), study, further, kept)?;
     let mut at_level = None;
+    if let Some(uncertainty) = &study.uncertainty {
+        (records, description) = shaking_structures(records, uncertainty, (study, description))?;
+    }
     if let Some((table, plan)) = &table {
         let (own, found, told) = table.of_records(records, plan).map_err(UpliftError::Inputs)?;
         records = own;
@@ -385,6 +413,7 @@ fn analysis_records(
                         checksum(format!("{sum1} {sum2}").as_bytes())
                     }
                 },
+                structure: None,
             });
         }
         if let Some(kept) = &mut kept {

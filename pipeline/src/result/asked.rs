@@ -179,5 +179,8 @@ fn read(
     });
     let fits = Array::from_fn([sites.len(), poes], |[site, poe]| sites[site].fits[poe].clone());
     let measure = stripes.measure;
-    Ok((Spectra { measure, ordinates, branches: Vec::new(), maf_per_year: None }, Coefficients { measure, fits }))
+    Ok((
+        Spectra { measure, ordinates, branches: Vec::new(), structures: Vec::new(), maf_per_year: None },
+        Coefficients { measure, fits },
+    ))
 }

@@ -55,7 +55,8 @@ in_group! {
     EVENT = "event", STATION = "station", MAGNITUDE = "magnitude", RRUP_KM = "rrup_km", VS30 = "vs30",
     COMPONENT = "component", MOTION_SHA256 = "motion_sha256", CHECKSUM = "checksum", PGA_G = "pga_g",
     PGV_CM_S = "pgv_cm_s", DURATION_5_75_S = "duration_5_75_s", DURATION_5_95_S = "duration_5_95_s", DT_S = "dt_s",
-    SAMPLES = "samples",
+    SAMPLES = "samples", STRUCTURE = "structure", STRENGTH_FACTOR = "strength_factor", RESTITUTION = "restitution",
+    UPLIFT_DISPLACEMENT_M = "uplift_displacement_m", CAPACITY_M = "capacity_m",
 }
 
 /// The array of an intensity measure of the unscaled pairs: `/records/pga_g`, `/records/sa_1s_g`.
@@ -263,6 +264,20 @@ pub mod epistemic {
     }
 }
 
+/// Spectra of the structures that may be.
+pub mod uncertainty {
+    use uplift_motion::IntensityMeasure;
+
+    /// Arrays of a site but for the fractiles, which are named as percentiles
+    /// ([`percentile_name`](super::percentile_name)).
+    pub const ARRAYS: &[&str] = &["u_m", "mean_m"];
+
+    /// An array of a measure and site.
+    pub fn array(measure: IntensityMeasure, site: &str, name: &str) -> String {
+        format!("/uncertainty/{}/{site}/{name}", measure.key())
+    }
+}
+
 /// How often each record was drawn.
 pub const MULTIPLICITY: &str = "/bootstrap/multiplicity";
 
@@ -376,6 +391,7 @@ pub mod axis {
     /// The axes with fixed names.
     pub const ALL: &[&str] = &[
         RECORD,
+        STRUCTURE,
         STRENGTH,
         THRESHOLD,
         SITE,
@@ -403,6 +419,8 @@ pub mod axis {
     ];
     /// Ground motions.
     pub const RECORD: &str = "record";
+    /// Structures that may be.
+    pub const STRUCTURE: &str = "structure";
     /// Uplift strengths.
     pub const STRENGTH: &str = "strength";
     /// Displacement thresholds.
@@ -541,7 +559,7 @@ mod tests {
         let documented = |group: &str, name: &str| {
             page.lines().any(|line| line.contains(group) && line.contains(&format!("{name}`")))
         };
-        let groups: [(&str, &[&str]); 19] = [
+        let groups: [(&str, &[&str]); 20] = [
             ("`/records/", records::ARRAYS),
             ("`/ida/pgv/", ida::ARRAYS),
             ("`/risk/pgv/", risk::ARRAYS),
@@ -554,6 +572,7 @@ mod tests {
             ("`/consistency/pgv/", consistency::ARRAYS),
             ("`/sufficiency/pgv/<covariate>/", sufficiency::ARRAYS),
             ("`/epistemic/pgv/<site>/", epistemic::ARRAYS),
+            ("`/uncertainty/pgv/<site>/", uncertainty::ARRAYS),
             ("`/consistency/pgv/branches/<site>/", &epistemic::ARRAYS[1..]),
             ("`/structures/<structure>/<command>/<key>/", structures::ARRAYS),
             ("`/hazard/<site>/pgv/", &["maf_per_year"]),

@@ -8,6 +8,7 @@ use uplift_motion::IntensityMeasure;
 use uplift_risk::{PooledDemand, RiskCurve, StripeWeights};
 use uplift_study::{Bootstrap, MeasurePlan};
 
+use super::RecordUnits;
 use super::RiskAxes;
 use super::file::ResultFile;
 use super::layout::{axis, ida};
@@ -25,6 +26,8 @@ pub struct StoredStripes {
     pub record_set: String,
     /// Names of the records.
     pub records: Vec<String>,
+    /// What of them tells something by itself.
+    pub units: RecordUnits,
     /// Uplift strengths.
     pub strengths: Vec<f64>,
     /// Probabilities of exceedance.
@@ -163,6 +166,7 @@ impl ResultFile {
             path: self.path.clone(),
             study_digest: self.head()?.study_digest(),
             record_set: self.record_set()?,
+            units: RecordUnits::new(&study, &records),
             records,
             strengths,
             poes,

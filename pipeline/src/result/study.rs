@@ -128,15 +128,16 @@ impl ResultFile {
 }
 
 impl StudyOfResult {
-    /// The records of the study, the very motions that the result was made from, with the same intensities.
+    /// The records of the study, the very motions that the result was made from, with the same intensities: each motion
+    /// once, whatever structures it shakes.
     ///
     /// # Errors
     /// Records that are not there, or are others: what is wrong, and what to do.
     pub fn records(&self) -> Result<RecordSet, String> {
-        self.records_measured(&self.study.further_measures())
+        Ok(self.records_measured(&self.study.further_measures())?.without_structures())
     }
 
-    /// The same with the measures `further` beside PGV and PGA.
+    /// The records of the result, with every structure that they shake, and the measures `further` beside PGV and PGA.
     ///
     /// # Errors
     /// As [`records`](Self::records).
@@ -151,7 +152,7 @@ impl StudyOfResult {
     pub(crate) fn records_and_pairs(&self) -> Result<(RecordSet, Vec<RecordPair>), String> {
         let further = self.study.further_measures();
         let (set, pairs) = read_with_pairs(&self.study, &further, &Silent).map_err(|error| error.to_string())?;
-        Ok((self.same_as_before(set)?, pairs))
+        Ok((self.same_as_before(set)?.without_structures(), pairs))
     }
 
     /// The records, if the result was made from them.

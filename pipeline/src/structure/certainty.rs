@@ -5,6 +5,7 @@ use uplift_bootstrap::{inferred_limits, inferred_rate};
 use uplift_risk::{PooledDemand, StripeWeights};
 
 use super::risk::OVERTURNING_M;
+use crate::consistency::Question;
 use crate::error::UpliftError;
 use crate::result::ResultFile;
 
@@ -26,9 +27,10 @@ impl Scatter {
     /// # Errors
     /// A file that is damaged.
     pub(super) fn of(file: &ResultFile) -> Result<Self, UpliftError> {
-        let event_of = file.event_of()?;
+        let motions = Question::of_motions(file)?;
+        let event_of = motions.event_of();
         // two components of a pair are not independent
-        let pairs = uplift_bootstrap::units(&file.pair_of()?);
+        let pairs = uplift_bootstrap::units(&motions.pair_of());
         let earthquakes = file.shares_earthquakes()?.then(|| uplift_bootstrap::units(&event_of));
         Ok(Self { pairs, earthquakes })
     }

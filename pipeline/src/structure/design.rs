@@ -149,7 +149,7 @@ pub fn design(
     let poe = source.only_risk(&options.risk)?;
     let target_per_year = source.target_per_year(poe)?;
     let repaired_m = repaired_spectrum(&file, measure, [site, poe])?;
-    let reweighing = if options.repaired { Reweighing::of_result(&file)? } else { None };
+    let reweighing = if options.repaired { Reweighing::of_motions(&file)? } else { None };
     let repair = reweighing.as_ref().and_then(|reweighing| reweighing.weights(measure.measure(), site));
     let weights = match (options.repaired, repair) {
         (false, _) => SiteWeights::Alike(&measure.weights[site]),

@@ -184,7 +184,7 @@ pub fn frame_risk(
     let (analysed, checkpoint) = beside.results(shaken.work(measure, &asked)?, &options.shards, events)?;
     let demands = shaken.demands(analysed);
 
-    let reweighing = Reweighing::of_result(&file)?;
+    let reweighing = Reweighing::of_motions(&file)?;
     let repaired = reweighing.as_ref().and_then(|reweighing| reweighing.weights(measure.measure(), site));
     let weights = &measure.weights[site];
     let settings = &source.study.bootstrap;
@@ -283,7 +283,7 @@ fn draws(file: &ResultFile, source: &StudyOfResult, shaken: &Shaken) -> Result<R
     let sizes = [u32::try_from(records).unwrap_or(u32::MAX)];
     let replicates = usize::try_from(settings.replicates).unwrap_or(usize::MAX);
     let drawn_together = match settings.unit {
-        Unit::Event => Some(file.event_of()?),
+        Unit::Event => Some(crate::consistency::Question::of_motions(file)?.event_of()),
         // all records of a pair are one wobbling run
         Unit::Record | Unit::Pair if shaken.pairs.len() < records && shaken.pairs.len() > 1 => Some(shaken.pair_of()),
         Unit::Record | Unit::Pair => None,

@@ -194,7 +194,7 @@ pub fn overturning(
     let (analysed, checkpoint) =
         beside.results(shaken.work(&measures, (&models, uncertain.as_ref()), &asked)?, &options.shards, events)?;
     let Shaken { study, set, .. } = &shaken;
-    let reweighing = Reweighing::of_result(&file)?;
+    let reweighing = Reweighing::of_motions(&file)?;
     let scatter = Scatter::of(&file)?;
     let mut analysed = analysed.into_iter();
     let mut found: Vec<(&SpectraOfResult, Vec<Collapses>)> = Vec::new();

@@ -34,6 +34,7 @@ use super::report::StructureReport;
 use super::risk::EventRisk;
 use super::weights::SiteWeights;
 use crate::alarms::{Alarm, OwnRisk, Scope, alarms_of_inputs, of_own_risks, of_structure, ranked};
+use crate::consistency::Question;
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::outputs::{self, Output, OutputKind};
@@ -220,7 +221,7 @@ pub fn target(
         effective_pairs: pairs as f64,
     };
     alarms.extend(of_own_risks(&[own]));
-    let bands = band::band(&tried, (place, target_per_year), &source.study, (&file.pair_of()?, &file.event_of()?))?;
+    let bands = band::band(&tried, (place, target_per_year), &source.study, &Question::of_motions(&file)?)?;
     let mut report = TargetReport {
         uncertainty: trials.around().map(|around| TargetUncertainty::of(around, bands.structures)),
         structure: StructureReport::of(structure, Some(trials.restitution())),

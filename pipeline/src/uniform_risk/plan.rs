@@ -7,7 +7,7 @@ use serde::Serialize;
 use uplift_study::{MeasurePlan, UniformRiskStudy};
 
 use super::levels::{LevelCheck, check_levels};
-use super::{plan_stripes, site_table, systems};
+use super::{plan_own_stripes, site_table, systems, systems_under};
 use crate::alarms::{OF_FAR_FACTORS, look_like_probabilities, what_of_probabilities};
 use crate::analysis::seconds;
 use crate::consistency::{Answer, ConsistencyReport};
@@ -40,7 +40,7 @@ pub(crate) fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Eve
     let site_list = site_table::read(study, events)?;
     notes.extend(site_list.iter().flat_map(|list| list.notes.iter().cloned()));
     let records = read_records(study, events)?;
-    let systems = systems(study)?;
+    let own_systems = systems_under(study, &records)?;
     notes.splice(0..0, study.warnings.iter().map(ToString::to_string));
     notes.extend(suspicious(&hazard));
     notes.extend(records.notes.iter().cloned());
@@ -48,11 +48,12 @@ pub(crate) fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Eve
     notes.extend(records.at_level.as_ref().and_then(far).map(|what| format!("{what}: {OF_FAR_FACTORS}")));
 
     let plans = (study.measures.iter())
-        .map(|measure| plan_stripes(study, measure, &records, &systems))
+        .map(|measure| plan_own_stripes(study, measure, &records, &own_systems))
         .collect::<Result<Vec<_>, _>>()?;
+    let (motions, systems) = (records.clone().without_structures(), systems(study)?);
     let mut levels = Vec::new();
     for (measure, hazard) in study.measures.iter().zip(&hazard) {
-        levels.extend(check_levels(study, measure, (&records, &systems), hazard)?);
+        levels.extend(check_levels(study, measure, (&motions, &systems), hazard)?);
     }
     let seconds = seconds(&plans, CALIBRATION * u32::try_from(plans.len()).unwrap_or(u32::MAX));
     let needs = needs(study, &records, site_list.as_ref());

@@ -4,7 +4,7 @@
 
 use rayon::prelude::*;
 use serde::Serialize;
-use uplift_bootstrap::{Unit, inferred_limits, units};
+use uplift_bootstrap::{inferred_limits, units};
 use uplift_fragility::quantile;
 use uplift_risk::{PooledDemand, RiskCurve, RiskError};
 use uplift_study::UniformRiskStudy;
@@ -64,8 +64,8 @@ pub(crate) fn precision(
     // two components of a pair are not independent
     let [pairs, earthquakes] = [units(&question.pair_of()), units(&event_of)];
     let records = event_of.len();
-    // the azimuths of a pair tell no more of other records than the pair does
-    let counted = if study.drawn_unit(Some(Unit::Record)) == Unit::Pair { pairs.len() } else { records };
+    // the azimuths or structures of a pair tell no more of other records than the pair does
+    let counted = if study.keeps_pairs_together() { pairs.len() } else { records };
     let Some(&poe) = study.risk.poe.iter().min_by(|a, b| a.total_cmp(b)) else { return Ok(None) };
     let target = uplift_hazard::rate_from_probability(poe, study.risk.years)?;
     let shown = nearest(&study.strengths, &STRENGTHS);

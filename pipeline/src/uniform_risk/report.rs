@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 use uplift_motion::IntensityMeasure;
 
-use super::{Outcome, Precision, Stripes};
+use super::{BranchSpectra, Outcome, Precision, Stripes};
 use crate::alarms::Alarm;
 use crate::array::Array;
 use crate::consistency::ConsistencyReport;
@@ -43,6 +43,9 @@ pub struct RunReport {
     /// Their spread over weighted hazard curves, for the sites that have some.
     #[serde(skip)]
     pub branches: Vec<BranchReport>,
+    /// Their spread over the structures that may be, where all records shake the same ones.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub structures: Vec<BranchReport>,
 }
 
 /// The analysis by one measure.
@@ -87,8 +90,8 @@ pub struct SpectrumReport {
     pub u_m: Vec<f64>,
 }
 
-/// The spread of one spectrum over weighted hazard curves, over the strengths, m.
-#[derive(Debug, Clone, PartialEq)]
+/// The spread of one spectrum over weighted hazard curves or structures that may be, over the strengths, m.
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BranchReport {
     /// The site.
     pub site: String,
@@ -137,7 +140,8 @@ impl RunReport {
             poes: study.risk.poe.clone(),
             years: study.risk.years,
             spectra: spectra(outcome),
-            branches: branches(outcome),
+            branches: branches(outcome, |spectra| &spectra.branches),
+            structures: branches(outcome, |spectra| &spectra.structures),
         }
     }
 }
@@ -163,10 +167,10 @@ fn spectra(outcome: &Outcome<'_>) -> Vec<SpectrumReport> {
     reports
 }
 
-fn branches(outcome: &Outcome<'_>) -> Vec<BranchReport> {
+fn branches(outcome: &Outcome<'_>, of: fn(&super::Spectra) -> &[BranchSpectra]) -> Vec<BranchReport> {
     let mut reports = Vec::new();
     for spectra in outcome.spectra {
-        for branches in &spectra.branches {
+        for branches in of(spectra) {
             for poe in 0..outcome.study.risk.poe.len() {
                 let of_poe = |values: &Array<2>| values.block([poe]).to_vec();
                 let [low, .., high] = &branches.fractiles_m;

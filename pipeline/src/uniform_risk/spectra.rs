@@ -11,7 +11,7 @@ use super::{BranchSpectra, Stripes};
 use crate::array::Array;
 use crate::error::UpliftError;
 use crate::inputs::{BranchHazard, SiteHazard};
-use uplift_study::{Contour, UniformRiskStudy};
+use uplift_study::{Contour, UncertaintyKind, UniformRiskStudy};
 
 /// The spectra of one measure.
 #[derive(Debug, Clone)]
@@ -22,6 +22,8 @@ pub struct Spectra {
     pub ordinates: Array<3, Ordinate>,
     /// Spectra of each branch, for the sites that have branches.
     pub branches: Vec<BranchSpectra>,
+    /// Spectra of each structure that may be, one a site, where all records shake the same ones.
+    pub structures: Vec<BranchSpectra>,
     /// Mean annual frequencies `[site, strength, threshold]`, 1/yr, if the study keeps them.
     pub maf_per_year: Option<Array<3>>,
 }
@@ -69,6 +71,26 @@ pub(crate) fn pooled_demand(stripes: &Stripes, strength: usize) -> Result<Pooled
     Ok(PooledDemand::new(&Stripe::with_shares(&stripes.levels, edp_m, (records, strengths * levels), shares)?)?)
 }
 
+/// The demands of one strength of a structure alone: of every so many-th record, from the `first` on.
+fn demand_of_structure(
+    stripes: &Stripes,
+    strength: usize,
+    (first, structures): (usize, usize),
+) -> Result<PooledDemand, UpliftError> {
+    let Axes { motions: records, systems: strengths, scales: levels } = stripes.peaks.axes();
+    let edp_m = &stripes.peaks.displacement_m()[(first * strengths + strength) * levels..];
+    let stride = structures * strengths * levels;
+    Ok(PooledDemand::new(&Stripe::strided(&stripes.levels, edp_m, records / structures, stride)?)?)
+}
+
+/// Structures that all records of a study shake; 1 where there are none such.
+fn shared_structures(study: &UniformRiskStudy) -> usize {
+    match &study.uncertainty {
+        Some(of) if of.kind == UncertaintyKind::Epistemic => study.structures_of_a_motion(),
+        _ => 1,
+    }
+}
+
 /// One strength.
 #[derive(Default)]
 struct OfStrength {
@@ -76,6 +98,8 @@ struct OfStrength {
     ordinates: Vec<Vec<Ordinate>>,
     /// `[site][branch][poe]`.
     branches: Vec<Vec<Vec<Ordinate>>>,
+    /// `[site][structure][poe]`.
+    structures: Vec<Vec<Vec<Ordinate>>>,
     /// Surface rows `[site]`.
     rows: Vec<Vec<f64>>,
 }
@@ -94,6 +118,7 @@ pub fn uniform_risk_spectra(
     let reading = Reading::of(study)?;
     let (targets, grid) = (&reading.targets, &reading.grid);
     let strengths = stripes.peaks.axes().systems;
+    let structures = shared_structures(study);
 
     let of_strength = |strength: usize| -> Result<OfStrength, UpliftError> {
         let demand = pooled_demand(stripes, strength)?;
@@ -107,6 +132,15 @@ pub fn uniform_risk_spectra(
             }
             let of_branch = |branch: &BranchHazard| read(&RiskCurve::new(&demand, &branch.input.weights)?);
             done.branches.push(site.branches.iter().map(of_branch).collect::<Result<_, _>>()?);
+        }
+        if structures > 1 {
+            done.structures = vec![Vec::new(); hazard.len()];
+            for structure in 0..structures {
+                let demand = demand_of_structure(stripes, strength, (structure, structures))?;
+                for (site, of_site) in hazard.iter().zip(&mut done.structures) {
+                    of_site.push(read(&RiskCurve::new(&demand, &site.curve.weights)?)?);
+                }
+            }
         }
         Ok(done)
     };
@@ -124,8 +158,17 @@ pub fn uniform_risk_spectra(
             BranchSpectra::new(index, &site.branches, spectra_m)
         })
         .collect();
+    let of_structures = |site: usize| {
+        let names = (1..=structures).map(|number| number.to_string()).collect();
+        let spectra_m = Array::from_fn([structures, targets.len(), strengths], |[structure, poe, strength]| {
+            by_strength[strength].structures[site][structure][poe].displacement_m
+        });
+        BranchSpectra::of(site, names, vec![1.0; structures], spectra_m)
+    };
+    let structures = if structures > 1 { (0..hazard.len()).map(of_structures).collect() } else { Vec::new() };
     Ok(Spectra {
         branches,
+        structures,
         measure: stripes.measure,
         ordinates: Array::from_fn([hazard.len(), targets.len(), strengths], |[site, poe, strength]| {
             by_strength[strength].ordinates[site][poe]

@@ -57,6 +57,37 @@ pub fn systems(study: &UniformRiskStudy) -> Result<Vec<System>, UpliftError> {
         .collect()
 }
 
+/// The oscillators that the records of `set` shake: those of the study, one a strength, for all of them; or as many of
+/// each record's own, where they are not known exactly.
+///
+/// # Errors
+/// A structure that cannot be.
+pub(crate) fn systems_under(study: &UniformRiskStudy, set: &RecordSet) -> Result<Vec<System>, UpliftError> {
+    if set.records.iter().all(|record| record.structure.is_none()) {
+        return systems(study);
+    }
+    let drawn = set.records.iter().filter_map(|record| record.structure.as_ref());
+    drawn
+        .flat_map(|structure| study.strengths.iter().map(move |&strength| structure.oscillator(study, strength)))
+        .map(|oscillator| oscillator.map(System::Oscillator))
+        .collect()
+}
+
+/// The plan of the study's own stripes: [`plan_stripes`] of [`systems_under`] the same set.
+///
+/// # Errors
+/// As [`plan_stripes`].
+pub(crate) fn plan_own_stripes<'a>(
+    study: &UniformRiskStudy,
+    measure: &MeasurePlan,
+    set: &'a RecordSet,
+    systems: &'a [System],
+) -> Result<Plan<'a>, UpliftError> {
+    let plan = plan_stripes(study, measure, set, systems)?;
+    let is_drawn = set.records.iter().any(|record| record.structure.is_some());
+    if is_drawn { Ok(plan.with_own_systems()?) } else { Ok(plan) }
+}
+
 /// The plan of the stripes of `measure`, of systems that need not be those of `study`.
 ///
 /// # Errors

@@ -5,7 +5,7 @@ use std::path::Path;
 use uplift_ida::{Cells, Shard, System};
 use uplift_study::UniformRiskStudy;
 
-use super::{EarlierStripes, needs, plan_stripes, systems};
+use super::{EarlierStripes, needs, plan_own_stripes, systems_under};
 use crate::analysis::{LabelledPlan, ShardReport, Work, carry_out_shard};
 use crate::error::UpliftError;
 use crate::events::Events;
@@ -27,7 +27,7 @@ impl Inputs {
     /// Records that cannot be used.
     pub(crate) fn read(study: &UniformRiskStudy, events: &dyn Events) -> Result<Self, UpliftError> {
         let records = read_records(study, events)?;
-        Ok(Self { systems: systems(study)?, motions: motion_keys(&records), records })
+        Ok(Self { systems: systems_under(study, &records)?, motions: motion_keys(&records), records })
     }
 
     /// The stripes of every measure, but for what is known of them from results at `earlier`.
@@ -38,7 +38,7 @@ impl Inputs {
         let earlier: Vec<EarlierStripes> = earlier.iter().filter_map(|path| EarlierStripes::open(path)).collect();
         let mut plans = Vec::new();
         for measure in &study.measures {
-            let plan = plan_stripes(study, measure, &self.records, &self.systems)?;
+            let plan = plan_own_stripes(study, measure, &self.records, &self.systems)?;
             // another factor is another run, and an earlier result is looked at by levels alone
             let is_known = !earlier.is_empty() && self.records.at_level.is_none();
             let known = is_known.then(|| {
@@ -56,8 +56,14 @@ impl Inputs {
                 1 => String::new(),
                 azimuths => format!(" x {azimuths} azimuths"),
             };
+            let structures = match study.structures_of_a_motion() {
+                1 => String::new(),
+                structures => {
+                    format!(" ({} motions x {structures} structures)", self.records.records.len() / structures)
+                }
+            };
             let text = format!(
-                "{} records x {} strengths x {} levels{own}{azimuths} = {} analyses",
+                "{} records{structures} x {} strengths x {} levels{own}{azimuths} = {} analyses",
                 self.records.records.len(),
                 study.strengths.len(),
                 measure.levels.len(),

@@ -6,14 +6,15 @@ use uplift_motion::{Combination, IntensityMeasure};
 use uplift_risk::Ordinate;
 
 use super::Outcome;
-use super::write_hazard::{write_branches, write_hazard, write_other_hazard};
+use super::write_hazard::{write_branches, write_hazard, write_other_hazard, write_structures};
 use crate::checkpoint::oscillator_key;
 use crate::consistency::Keep;
 use crate::error::UpliftError;
-use crate::inputs::{AtLevel, Record};
+use crate::inputs::{AtLevel, DrawnStructure, Record};
 use crate::result::layout::{URS_PRECISION, axis, ida, intensity, records as layout, regression, risk, urs};
 use crate::result::{Origin, flag_number};
 use uplift_labelled::{LabelledError, LabelledWriter};
+use uplift_structure::UncertainQuantity;
 
 /// Write `outcome` to `path`, atomically: an earlier file survives a failure.
 ///
@@ -65,6 +66,9 @@ fn write_axes(writer: &mut LabelledWriter, outcome: &Outcome<'_>) -> Result<(), 
     }
     if study.risk.maf_surface {
         writer.axis_f64(axis::THRESHOLD, &study.risk.thresholds_m, "m", "displacement threshold")?;
+    }
+    if let Some(structures) = outcome.spectra.first().and_then(|spectra| spectra.structures.first()) {
+        writer.axis_text(axis::STRUCTURE, &structures.names, "structure that may be")?;
     }
     let sites: Vec<String> = study.sites.iter().map(|site| site.name.clone()).collect();
     if !sites.is_empty() {
@@ -127,11 +131,34 @@ fn write_records(
         );
         writer.array_f64(path, dims, &durations, "s", &long_name)?;
     }
+    write_drawn_structures(writer, records)?;
     let dt: Vec<f64> = records.iter().map(|record| record.accelerogram.dt_s()).collect();
     writer.array_f64(layout::DT_S, dims, &dt, "s", "sampling interval")?;
     let samples: Vec<u32> =
         records.iter().map(|record| u32::try_from(record.accelerogram.len()).unwrap_or(u32::MAX)).collect();
     writer.array_u32(layout::SAMPLES, dims, &samples, "1", "number of samples")
+}
+
+/// The structure that each record shakes, where these are not known exactly.
+fn write_drawn_structures(writer: &mut LabelledWriter, records: &[Record]) -> Result<(), LabelledError> {
+    let dims = &[axis::RECORD];
+    let drawn: Vec<&DrawnStructure> = records.iter().filter_map(|record| record.structure.as_ref()).collect();
+    let Some(first) = drawn.first() else { return Ok(()) };
+    let numbers: Vec<u32> = drawn.iter().map(|structure| u32::try_from(structure.number).unwrap_or(u32::MAX)).collect();
+    writer.array_u32(layout::STRUCTURE, dims, &numbers, "1", "number of the structure that the record shakes")?;
+    for (quantity, _) in &first.values {
+        let values: Vec<f64> = drawn.iter().map(|structure| structure.value(*quantity).unwrap_or(f64::NAN)).collect();
+        let (path, unit, long_name) = match quantity {
+            UncertainQuantity::Strength => (layout::STRENGTH_FACTOR, "1", "factor on the strength of the structure"),
+            UncertainQuantity::Restitution => (layout::RESTITUTION, "1", "restitution of the structure"),
+            UncertainQuantity::UpliftDisplacement => {
+                (layout::UPLIFT_DISPLACEMENT_M, "m", "displacement at uplift of the structure")
+            }
+            UncertainQuantity::Capacity => (layout::CAPACITY_M, "m", "displacement capacity of the structure"),
+        };
+        writer.array_f64(path, dims, &values, unit, long_name)?;
+    }
+    Ok(())
 }
 
 fn write_measure(
@@ -194,6 +221,7 @@ fn write_measure(
         }
     }
     write_branches(writer, outcome, spectra)?;
+    write_structures(writer, outcome, spectra)?;
 
     let fits = outcome.coefficients[index].fits.values();
     let dims = [axis::SITE, axis::POE];

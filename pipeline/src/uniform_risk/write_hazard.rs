@@ -8,7 +8,10 @@ use uplift_labelled::{LabelledError, LabelledWriter};
 
 use super::{BranchSpectra, FRACTILES, Outcome, Spectra};
 use crate::inputs::{HazardInput, OtherHazard, SiteHazard};
-use crate::result::layout::{axis, epistemic, hazard as layout, percentile_name};
+use crate::result::layout::{axis, epistemic, hazard as layout, percentile_name, uncertainty};
+
+/// What weighted hazard curves are called.
+pub(crate) const BRANCHES: [&str; 2] = ["branch", "branches"];
 
 /// Write the curves `[measure][site]` with their branches.
 pub(super) fn write_hazard(writer: &mut LabelledWriter, hazard: &[Vec<SiteHazard>]) -> Result<(), LabelledError> {
@@ -72,27 +75,43 @@ pub(super) fn write_branches(
         writer.axis_text(&axis, &branches.names, "branch of the hazard")?;
         let path = |name: &str| epistemic::array(spectra.measure, site, name);
         writer.array_f64(&path("weight"), &[&axis], &branches.weights, "1", "weight of the branch")?;
-        write_branch_spectra(writer, branches, &axis, path)?;
+        write_branch_spectra(writer, branches, (&axis, BRANCHES), path)?;
     }
     Ok(())
 }
 
-/// Write spectra of branches along `branch_axis`, their mean and their fractiles, each at the `path` of its name.
+/// Write the spectra of the structures that may be, their mean and their fractiles.
+pub(super) fn write_structures(
+    writer: &mut LabelledWriter,
+    outcome: &Outcome<'_>,
+    spectra: &Spectra,
+) -> Result<(), LabelledError> {
+    for structures in &spectra.structures {
+        let site = &outcome.study.sites[structures.site].name;
+        write_branch_spectra(writer, structures, (axis::STRUCTURE, ["structure", "structures"]), |name| {
+            uncertainty::array(spectra.measure, site, name)
+        })?;
+    }
+    Ok(())
+}
+
+/// Write spectra of branches along `branch_axis`, their mean and their fractiles, each at the `path` of its name; a
+/// branch and several are called `one` and `many`.
 pub(crate) fn write_branch_spectra(
     writer: &mut LabelledWriter,
     branches: &BranchSpectra,
-    branch_axis: &str,
+    (branch_axis, [one, many]): (&str, [&str; 2]),
     path: impl Fn(&str) -> String,
 ) -> Result<(), LabelledError> {
     let dims = [branch_axis, axis::POE, axis::STRENGTH];
-    let long_name = "uniform risk displacement by the branch";
-    writer.array_f64(&path("u_m"), &dims, branches.spectra_m.values(), "m", long_name)?;
+    let long_name = format!("uniform risk displacement by the {one}");
+    writer.array_f64(&path("u_m"), &dims, branches.spectra_m.values(), "m", &long_name)?;
     let dims = [axis::POE, axis::STRENGTH];
-    let long_name = "weighted mean over the branches";
-    writer.array_f64(&path("mean_m"), &dims, branches.mean_m.values(), "m", long_name)?;
+    let long_name = format!("weighted mean over the {many}");
+    writer.array_f64(&path("mean_m"), &dims, branches.mean_m.values(), "m", &long_name)?;
     for (fractile, values) in FRACTILES.iter().zip(&branches.fractiles_m) {
         let percent = (100.0 * fractile).round();
-        let long_name = format!("{percent} % fractile over the branches");
+        let long_name = format!("{percent} % fractile over the {many}");
         writer.array_f64(&path(&percentile_name(percent)), &dims, values.values(), "m", &long_name)?;
     }
     Ok(())

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use uplift::text::{metres, nearest, risk_in_words, risk_name, table};
-use uplift::uniform_risk::RunReport;
+use uplift::uniform_risk::{BranchReport, RunReport};
 
 use crate::error::CommandError;
 
@@ -78,10 +78,23 @@ fn spectra_table(report: &RunReport, own: &[&uplift::uniform_risk::SpectrumRepor
     table(&header, &rows)
 }
 
-/// The spread of the spectra over weighted hazard curves, where a site has some.
+/// The spread of the spectra over weighted hazard curves and over the structures that may be, where there are such.
 fn print_branches(out: &mut impl Write, report: &RunReport, shown: &[usize]) -> Result<(), CommandError> {
+    for (over, spread) in [("weighted hazard curves", &report.branches), ("structures that may be", &report.structures)]
+    {
+        print_spread(out, over, (report, spread), shown)?;
+    }
+    Ok(())
+}
+
+fn print_spread(
+    out: &mut impl Write,
+    over: &str,
+    (report, spread): (&RunReport, &[BranchReport]),
+    shown: &[usize],
+) -> Result<(), CommandError> {
     let mut rows = Vec::new();
-    for branches in &report.branches {
+    for branches in spread {
         for &strength in shown {
             rows.push(vec![
                 branches.site.clone(),
@@ -95,7 +108,7 @@ fn print_branches(out: &mut impl Write, report: &RunReport, shown: &[usize]) -> 
         }
     }
     if !rows.is_empty() {
-        writeln!(out, "\nSpread over the weighted hazard curves: displacement in m, 5 and 95 % fractile and mean")?;
+        writeln!(out, "\nSpread over the {over}: displacement in m, 5 and 95 % fractile and mean")?;
         writeln!(out, "{}", table(&["site", "im", "probability", "strength", "5 %", "mean", "95 %"], &rows))?;
     }
     Ok(())

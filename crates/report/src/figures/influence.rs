@@ -72,11 +72,11 @@ pub(super) fn influence(source: &FigureSource) -> Vec<Figure> {
                 let rocks = |full_m: f64| full_m.is_finite() && full_m > stored.uplift_displacement_m;
                 pairs.map(|(&own, &full)| if rocks(full) { 100.0 * (own / full - 1.0) } else { f64::NAN }).collect()
             };
-            let others = (0..stored.records.len()).filter(|record| !named.contains(record));
+            let others = stored.units.firsts().filter(|record| !named.contains(record));
             let grey = others.map(|record| source.over_strengths("", &change(record), Tone::Faint));
             let mut series: Vec<Series> = grey.map(|line| Series { marks: Marks::None, ..line }).collect();
             let line = |(index, &record): (usize, &usize)| {
-                source.over_strengths(stored.records[record].as_str(), &change(record), Tone::Distinct(index))
+                source.over_strengths(stored.units.name(record), &change(record), Tone::Distinct(index))
             };
             series.extend(named.iter().enumerate().map(line));
             let y = Axis::linear("change of u_{max}, %");

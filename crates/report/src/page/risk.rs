@@ -181,7 +181,7 @@ fn records(source: &FigureSource) -> Option<Table> {
                 rows.push(vec![
                     name.clone(),
                     influence.measure.label().to_owned(),
-                    stored.records[of.record].clone(),
+                    stored.units.name(of.record).to_owned(),
                     format!("{:+.1}", 100.0 * of.mean_change),
                     format!("{:+.1}", 100.0 * of.largest_change),
                     format!("{:.3}", of.strength),

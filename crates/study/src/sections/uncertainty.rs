@@ -4,7 +4,10 @@ use uplift_plausible::{Range, USUAL_VARIATION};
 use uplift_structure::UncertainQuantity;
 use uplift_uncertainty::{Distribution, Family, GaussianCopula, RandomVector, Sampling, UncertaintyError};
 
+use self::written::{Scatter, Written};
 use crate::reading::{Field, Origin, Rule, Section};
+
+mod written;
 
 /// Samples of a sensitivity analysis, and their range.
 const SAMPLES: (u64, std::ops::RangeInclusive<u64>) = (64, 8..=4096);
@@ -52,6 +55,10 @@ pub struct Uncertainty {
     pub quantities: Vec<UncertainQuantity>,
     /// Their distributions, in the same order, and how they go together.
     pub vector: RandomVector,
+    /// The distributions as they were written, in the same order.
+    pub(crate) written: Vec<Written>,
+    /// The correlations as they were written: two positions among the quantities, and the coefficient.
+    pub(crate) correlations: Vec<(usize, usize, f64)>,
 }
 
 impl Uncertainty {
@@ -137,7 +144,8 @@ pub(crate) fn read(
         section.mistake("", "nothing here is uncertain", format!("give one or more of [uncertainty.{keys}]"));
         is_whole = false;
     }
-    let (quantities, distributions): (Vec<_>, Vec<_>) = known.into_iter().unzip();
+    let (quantities, known): (Vec<_>, Vec<_>) = known.into_iter().unzip();
+    let (distributions, written): (Vec<_>, Vec<_>) = known.into_iter().unzip();
     let correlation = section.field("correlation");
     let pairs = correlation.as_ref().map(|field| read_pairs(field, &quantities, &mistaken));
     section.finish();
@@ -165,6 +173,8 @@ pub(crate) fn read(
         seed: seed?,
         quantities,
         vector: RandomVector::new(distributions, copula).ok()?,
+        written,
+        correlations: pairs,
     })
 }
 
@@ -235,7 +245,7 @@ fn read_quantity(
     quantity: UncertainQuantity,
     described: Described,
     doubts: &mut Vec<Doubt>,
-) -> Option<Distribution> {
+) -> Option<(Distribution, Written)> {
     let families = Family::ALL.map(|family| (family.key(), family));
     let family = if let Some(field) = section.field("distribution") {
         field.choice(&families)
@@ -316,7 +326,14 @@ fn read_quantity(
     };
     let found = family.and_then(distribution);
     let found = match found? {
-        Ok(distribution) => Some(distribution),
+        Ok(distribution) => {
+            let scatter = match percentiles {
+                Some(percentiles) => Scatter::Percentiles(percentiles?),
+                None if by_limits => Scatter::Limits { limits: [lower??, upper??], mode: mode.flatten() },
+                None => Scatter::Mean { mean: mean.flatten(), coefficient_of_variation: variation?? },
+            };
+            Some((distribution, Written { family: family?, scatter }))
+        }
         Err(error) => {
             section.mistake(
                 "",

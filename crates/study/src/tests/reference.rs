@@ -5,6 +5,8 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::{env, fs};
 
+use uplift_structure::UncertainQuantity;
+
 use super::super::reading::{Findings, Paths, Section, Table};
 use super::super::{AnyStudy, Key, Kind, SectionKeys};
 use super::{displacement, resolving, shake_table};
@@ -113,6 +115,9 @@ fn asked(studies: &[&str]) -> BTreeSet<String> {
 fn every_key_is_in_the_reference_and_no_other() {
     const CURVES: &str = "[pgv]\n[pga]\n[measures.sa_1s]\n[consistency]\nagainst = \"sa_1s\"\n\
         [hazard]\nconversions = [{ from = \"larger\", to = \"RotD50\", sa_1s = 1 }]\n\
+        [uncertainty.restitution]\ndistribution = \"triangular\"\nlower = 0.8\nupper = 0.9\n\
+        [uncertainty.strength]\ndistribution = \"lognormal\"\ncoefficient_of_variation = 0.1\n\
+        [[uncertainty.correlation]]\nbetween = [\"strength\", \"restitution\"]\ncoefficient = 0.5\n\
         [site_table]\nsa_1s = \"a\"\n[[sites]]\nname = \"x\"\n[sites.pgv]\n\
         branches = [{ file = \"a\", weight = 0.5 }, { file = \"b\", weight = 0.5 }]\n[sites.pga]\n\
         branches = [{ file = \"a\", weight = 0.5 }, { file = \"b\", weight = 0.5 }]\n[sites.sa_1s]\n\
@@ -129,7 +134,13 @@ fn every_key_is_in_the_reference_and_no_other() {
                 known.insert(format!("{}.{name}", section.section).trim_start_matches('.').to_owned());
             }
         }
-        let asked = asked(&studies);
+        let of_one_quantity = |key: String| {
+            let others = UncertainQuantity::ALL.map(|quantity| format!("uncertainty.{}", quantity.key()));
+            let own = others.iter().find_map(|other| key.strip_prefix(other.as_str()));
+            own.map_or(key.clone(), |rest| format!("uncertainty.restitution{rest}"))
+        };
+        // the keys of every quantity are told with those of one
+        let asked: BTreeSet<String> = asked(&studies).into_iter().map(of_one_quantity).collect();
         let never: Vec<_> = known.difference(&asked).collect();
         assert!(never.is_empty(), "in the reference of {}, but never read: {never:?}", kind.key());
         // a section is known by its keys; the table of a grid is told with the grids

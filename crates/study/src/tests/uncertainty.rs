@@ -5,7 +5,7 @@ use std::path::Path;
 use uplift_structure::UncertainQuantity;
 use uplift_uncertainty::{Family, Sampling};
 
-use crate::{Structure, StudyError, UncertaintyKind};
+use crate::{AnyStudy, Structure, Study, StudyError, UncertaintyKind};
 
 const BLOCK: &str = "kind = \"block\"\nwidth_m = 0.8\nheight_m = 7.0\nmass_kg = 9000\n";
 
@@ -167,4 +167,28 @@ fn likely_slips_are_asked_about() {
         assert!(found.iter().any(|told| told.starts_with(starts)), "{starts}: {found:#?}");
     }
     assert_eq!(warnings(&quantity("strength", "coefficient_of_variation = 0.06")), Vec::<String>::new());
+}
+
+/// A study file that says all that can be uncertain, and what of it is told again in its result.
+#[test]
+fn an_uncertain_study_is_written_and_read_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("study.toml");
+    for (kind, count) in [("epistemic", "samples = 16"), ("aleatory", "draws = 4")] {
+        let text = format!(
+            "[oscillator]\ncapacity_m = 0.5\n[pgv]\n[uncertainty]\nkind = \"{kind}\"\nsampling = \"latin-hypercube\"\n\
+             {count}\nseed = 7\n[uncertainty.strength]\ndistribution = \"lognormal\"\ncoefficient_of_variation = 0.2\n\
+             [uncertainty.restitution]\ndistribution = \"triangular\"\nlower = 0.8\nupper = 0.99\nmode = 0.9\n\
+             [uncertainty.uplift_displacement_m]\ndistribution = \"lognormal\"\n\
+             percentiles = [[5, 0.0003], [95, 0.002]]\n[uncertainty.capacity_m]\ndistribution = \"normal\"\n\
+             mean = 0.45\ncoefficient_of_variation = 0.1\n[[uncertainty.correlation]]\n\
+             between = [\"capacity_m\", \"strength\"]\ncoefficient = 0.5\n"
+        );
+        std::fs::write(&file, text).unwrap();
+        let own = Study::load(&file, &[]).unwrap();
+        let written = own.to_toml().unwrap();
+        let AnyStudy::UniformRisk(again) = Study::stored(&written).unwrap() else { panic!() };
+        assert_eq!(own.uncertainty, again.uncertainty, "{written}");
+        assert_eq!(own.uncertainty.as_ref().unwrap().quantities, UncertainQuantity::ALL);
+    }
 }

@@ -8,6 +8,7 @@ use uplift_risk::RecordSample;
 use uplift_study::UniformRiskStudy;
 
 use super::candidate::Attempt;
+use crate::consistency::Question;
 use crate::error::UpliftError;
 
 /// What other records would have given, drawn from these with replacement (Section 4.5), or other structures.
@@ -45,17 +46,19 @@ pub(super) fn band(
     tried: &[(f64, Attempt)],
     (found, target_per_year): (usize, f64),
     study: &UniformRiskStudy,
-    (pair_of, event_of): (&[usize], &[usize]),
+    motions: &Question,
 ) -> Result<Bands, UpliftError> {
-    let settings = &study.bootstrap;
+    let (settings, pair_of, event_of) = (&study.bootstrap, motions.pair_of(), motions.event_of());
     let replicates = usize::try_from(settings.replicates).unwrap_or(usize::MAX);
     let size = u32::try_from(event_of.len()).unwrap_or(u32::MAX);
     let draw = |unit| match unit {
         Unit::Record => ResamplingPlan::draw(event_of.len(), &[size], replicates, study.seed),
-        Unit::Pair => ResamplingPlan::draw_pairs(pair_of, &[size], replicates, study.seed),
-        Unit::Event => ResamplingPlan::draw_events(event_of, &[size], replicates, study.seed),
+        Unit::Pair => ResamplingPlan::draw_pairs(&pair_of, &[size], replicates, study.seed),
+        Unit::Event => ResamplingPlan::draw_events(&event_of, &[size], replicates, study.seed),
     };
-    let plan = match draw(study.drawn_unit(None)) {
+    // each motion shakes the structure once, whatever structures of the study
+    let once = UniformRiskStudy { uncertainty: None, ..study.clone() };
+    let plan = match draw(once.drawn_unit(None)) {
         // a single earthquake or pair: nothing else can be drawn than its records
         Err(BootstrapError::OneEvent | BootstrapError::OnePair) => draw(Unit::Record)?,
         plan => plan?,
