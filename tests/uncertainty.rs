@@ -19,6 +19,10 @@ fn asked(study: &SmallStudy, job: &str, uncertainty: &str, more: &[&str]) -> Val
     serde_json::from_str(&run.stdout).unwrap()
 }
 
+fn read(study: &SmallStudy, name: &str) -> String {
+    std::fs::read_to_string(study.path().join(name)).unwrap()
+}
+
 /// Strength and capacity that scatter together, and a restitution.
 fn scattering(kind: &str, more: &str, variation: f64) -> String {
     let quantity = |key: &str| {
@@ -263,4 +267,58 @@ fn it_is_told_in_sentences_and_refused_in_words() {
     assert!(only.stdout.contains("[uncertainty]: all numbers are of the structure as described"), "{}", only.stdout);
     study.write("block.toml", &format!("{BLOCK}{}", scattering("random", "", 0.05)));
     study.uplift(&["overturning", "block.toml", "--urs", "r.h5"]).fails(3, &["uncertainty.kind", "epistemic"]);
+}
+
+/// A block that no run overturns: the bound of what is known stands in the place of every 0.
+#[test]
+fn what_no_run_shows_is_told_by_its_bound() {
+    let study = study();
+    let large = "kind = \"block\"\nwidth_m = 30\nheight_m = 8\nmass_kg = 1e6\nrestitution = 0.95\n";
+    for kind in KINDS {
+        study.write("large.toml", &format!("{large}{}", scattering(kind, few(kind), 0.01)));
+        for (job, questions) in [("overturning", 1), ("design", 2)] {
+            let ask = [job, "large.toml", "--urs", "r.h5", "-q"];
+            let told = study.uplift(&ask).ok().stdout;
+            let found: Value =
+                serde_json::from_str(&study.uplift(&[&ask[..], &["--json"]].concat()).ok().stdout).unwrap();
+            let plain = match job {
+                "overturning" => &found["overturning"][0]["sites"][0]["at_most_per_year"],
+                _ => &found["exact"]["overturning"]["at_most_per_year"],
+            };
+            assert!(plain.as_f64().unwrap() > 0.0, "{found}");
+            let results = found["uncertainty"]["results"].as_array().unwrap();
+            let frequencies: Vec<&Value> = results.iter().filter(|result| result["unit"] == "1/yr").collect();
+            assert_eq!(frequencies.len(), questions);
+            for result in frequencies {
+                let of = if kind == "epistemic" { &result[kind]["by_structure"] } else { &result[kind] };
+                assert_eq!((&of["at_most_per_year"], &result["as_described_at_most_per_year"]), (plain, plain));
+            }
+            let line = told.lines().find(|line| line.starts_with("overturning, Here, PGA: ")).unwrap();
+            let bound = format!("at most {:.1e} per year, for no run shows it", plain.as_f64().unwrap());
+            assert_eq!(line.matches(&bound).count(), 2, "{line}");
+            assert!(!told.contains("0.000e0"), "{told}");
+        }
+    }
+    // on the page and in the exports as well
+    study.uplift(&["report", "r.h5", "-o", "page.html", "-q"]).ok();
+    let page = read(&study, "page.html");
+    assert!(page.contains("structure not known exactly") && !page.contains("0.000e0"));
+    study.uplift(&["export", "r.h5", "--csv", "-o", "e.csv", "-q"]).ok();
+    let table = read(&study, "e.structures.csv");
+    let rows: Vec<&str> =
+        table.lines().filter(|row| row.contains("overturning, structure not known exactly")).collect();
+    assert!(rows.len() == 2 && rows.iter().all(|row| row.contains(",at most,")), "{table}");
+}
+
+/// What does not fall after uplift cannot overturn, and has no bound.
+#[test]
+fn what_cannot_overturn_has_no_bound() {
+    let study = study();
+    let stiff = "kind = \"restrained-frame\"\ncolumns = 2\nwidth_m = 0.5\nheight_m = 10\ncolumn_mass_kg = 0\n\
+                 deck_mass_kg = 1e5\ntendon_stiffness_n_m = 1e8\ntendon_anchorage = \"foundation\"\n";
+    let strength = "[uncertainty]\nsamples = 8\n[uncertainty.strength]\ndistribution = \"lognormal\"\n\
+                    coefficient_of_variation = 0.05\n";
+    study.write("stiff.toml", &format!("{stiff}{strength}"));
+    let told = study.uplift(&["overturning", "stiff.toml", "--urs", "r.h5", "-q"]).ok().stdout;
+    assert!(told.contains("overturning, Here, PGA: cannot happen"), "{told}");
 }

@@ -81,12 +81,19 @@ fn uncertain(report: Option<&UncertaintyReport>) -> Vec<FindingRow> {
         };
         match &result.found {
             UncertainFinding::Epistemic(EpistemicResult { by_structure, by_all, .. }) => {
+                if let Some(bound) = by_structure.at_most_per_year {
+                    rows.push(row(by_structure.mean).within([f64::NAN, bound], "at most"));
+                    continue;
+                }
                 for (spread, band) in [(by_structure, "structure"), (by_all, "structure, records and hazard")] {
                     let [lower, .., upper] = spread.percentiles;
                     rows.push(row(spread.mean).within([lower, upper], band));
                 }
             }
-            UncertainFinding::Aleatory(AleatoryResult { value, by_record, by_earthquake }) => {
+            UncertainFinding::Aleatory(AleatoryResult { value, at_most_per_year: Some(bound), .. }) => {
+                rows.push(row(*value).within([f64::NAN, *bound], "at most"));
+            }
+            UncertainFinding::Aleatory(AleatoryResult { value, by_record, by_earthquake, .. }) => {
                 rows.extend(banded(&row(*value), *by_record, *by_earthquake));
             }
         }

@@ -57,7 +57,7 @@ pub(crate) fn share_at_most(pairs: f64) -> f64 {
 /// The frequency that something has at most which no run shows, 1/yr: all motions stronger than the last level do it,
 /// and at that level the share that so many pairs leave open; from the level before it on that share grows from zero
 /// as a fragility between stripes does (Eq. 4.4).
-fn at_most_per_year(weights: &StripeWeights, pairs: f64) -> f64 {
+pub(super) fn at_most_per_year(weights: &StripeWeights, pairs: f64) -> f64 {
     let beyond = weights.upper_tail_per_year();
     let last = weights.per_year().last().copied().unwrap_or(beyond);
     beyond + share_at_most(pairs) * (last - beyond)

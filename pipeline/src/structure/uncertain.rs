@@ -21,7 +21,7 @@ pub use report::{
 };
 
 use super::certainty::Scatter;
-use super::risk::OVERTURNING_M;
+use super::risk::{OVERTURNING_M, at_most_per_year};
 use crate::analysis::LabelledPlan;
 use crate::error::UpliftError;
 use crate::inputs::RecordSet;
@@ -66,6 +66,15 @@ impl Event {
         match self {
             Self::Overturning | Self::BeyondCapacity => "1/yr",
             Self::Demand(_) => "m",
+        }
+    }
+
+    /// Whether a `system` may do it at all, so that runs which do not show it are no proof of never.
+    fn may_happen(self, system: &System) -> bool {
+        match self {
+            Self::Overturning => system.can_overturn(),
+            Self::BeyondCapacity => capacity_m(system).is_some(),
+            Self::Demand(_) => false,
         }
     }
 
@@ -170,13 +179,17 @@ impl<'a> Uncertain<'a> {
         };
         let asked = sites.iter().flat_map(|site| site.asked.iter().map(move |asked| (site, asked)));
         let result = |((site, (event, as_described)), found): ((&AskedSite<'_>, &(Event, f64)), UncertainFinding)| {
+            let may_happen = self.systems.iter().any(|system| event.may_happen(system));
+            // records are counted and not structures: to the ground motion of a pair all its structures are one sample
+            let bound = may_happen.then(|| at_most_per_year(site.weights, scatter.pairs.len() as f64));
             UncertainResult {
                 site: site.name.to_owned(),
                 im: stripes.measure.label(),
                 of: event.words(),
                 unit: event.unit(),
                 as_described: *as_described,
-                found,
+                as_described_at_most_per_year: bound.filter(|_| *as_described == 0.0),
+                found: found.bounded(bound),
             }
         };
         Ok(asked.zip(findings).map(result).collect())

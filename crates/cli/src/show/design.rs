@@ -9,7 +9,7 @@ use uplift_structure::Rule;
 
 use super::alarms::print_alarms;
 use super::shown_path;
-use super::structure::{lines, risk_cells};
+use super::structure::{lines, rate, risk_cells};
 use super::uncertainty::print_uncertainty;
 use crate::error::CommandError;
 use crate::terminal::output;
@@ -26,11 +26,6 @@ fn relative(error: f64) -> String {
         _ if error.is_infinite() => "too safe".to_owned(),
         _ => format!("{:+.1} %", 100.0 * error),
     }
-}
-
-/// How often in a year.
-fn rate(per_year: f64) -> String {
-    if per_year == 0.0 { "none seen".to_owned() } else { format!("{per_year:.3e}") }
 }
 
 /// The design: structure, demands, rules, risk, and what of it is noise.

@@ -8,7 +8,7 @@ use uplift_spectra::Noisy;
 
 use super::alarms::print_alarms;
 use super::shown_path;
-use super::structure::{lines, risk_cells};
+use super::structure::{lines, rate, risk_cells};
 use super::uncertainty::print_uncertainty;
 use crate::error::CommandError;
 use crate::terminal::output;
@@ -51,11 +51,6 @@ fn counted(count: u32, [fewest, most]: [u32; 2]) -> String {
 
 fn digits(value: f64) -> String {
     format!("{value:.4}")
-}
-
-/// How often in a year.
-fn rate(per_year: f64) -> String {
-    format!("{per_year:.3e}")
 }
 
 fn or_dash(value: Option<Noisy>, shown: fn(f64) -> String) -> String {

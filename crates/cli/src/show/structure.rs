@@ -32,6 +32,11 @@ pub(super) fn lines(structure: &StructureReport) -> Vec<String> {
     lines
 }
 
+/// How often in a year, as runs count it: none of them is no proof of never.
+pub(super) fn rate(per_year: f64) -> String {
+    if per_year == 0.0 { "none seen".to_owned() } else { format!("{per_year:.3e}") }
+}
+
 /// Frequency, probability and return period in words.
 pub(super) fn risk_cells(risk: &EventRisk) -> [String; 3] {
     let return_period = |per_year: f64| match 1.0 / per_year {

@@ -7,7 +7,7 @@ use uplift::text::{per_cent, short, table, thousands};
 
 use super::alarms::print_alarms;
 use super::shown_path;
-use super::structure::{lines, risk_cells};
+use super::structure::{lines, rate, risk_cells};
 use super::uncertainty::{kind_in_words, print_quantities};
 use crate::error::CommandError;
 use crate::terminal::output;
@@ -44,7 +44,7 @@ pub(crate) fn print_target(report: &TargetReport) -> Result<(), CommandError> {
         report.years
     )?;
     let noise = &report.per_year_within_one_percent;
-    writeln!(out, "  within 1 % of it     {:.3e} to {:.3e} per year", noise.lowest, noise.highest)?;
+    writeln!(out, "  within 1 % of it     {} to {} per year", rate(noise.lowest), rate(noise.highest))?;
     print_band(out, report, &report.band)?;
     let uncertain = report.uncertainty.iter();
     for band in uncertain.flat_map(|uncertain| [&uncertain.by_structure, &uncertain.by_all]).flatten() {
@@ -95,7 +95,7 @@ fn print_band(out: &mut impl Write, report: &TargetReport, band: &TargetBand) ->
         band.replicates
     )?;
     let [lower, _, upper] = band.per_year;
-    writeln!(out, "                       {lower:.3e} to {upper:.3e} per year at the value found")?;
+    writeln!(out, "                       {} to {} per year at the value found", rate(lower), rate(upper))?;
     for (share, where_to) in [(band.below_share, "below"), (band.beyond_share, "above")] {
         if share > 0.0 {
             writeln!(out, "                       {} of the {whose} lie {where_to} the range", per_cent(share))?;

@@ -67,6 +67,7 @@ pub(super) fn findings(
         let bands = rate_bands(of, site.weights, &scatter, threshold_m)?;
         Ok(AleatoryResult {
             value: RiskCurve::new(of, site.weights)?.mean_annual_frequency(threshold_m)?,
+            at_most_per_year: None,
             by_record: bands.map(|bands| bands.by_record),
             by_earthquake: bands.and_then(|bands| bands.by_earthquake),
         })
@@ -80,6 +81,7 @@ pub(super) fn findings(
             let bands = demand_bands(&demand, site.weights, &scatter, (target_per_year, factor, None))?;
             Ok(AleatoryResult {
                 value: factor * ordinate.displacement_m,
+                at_most_per_year: None,
                 by_record: bands.map(|bands| bands.demand_by_record_m),
                 by_earthquake: bands.and_then(|bands| bands.demand_by_earthquake_m),
             })

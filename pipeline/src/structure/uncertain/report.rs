@@ -79,6 +79,8 @@ pub struct UncertainResult {
     pub unit: &'static str,
     /// The same for the structure as its file describes it.
     pub as_described: f64,
+    /// Where no run of the structure as described shows it: what that frequency is at most, 1/yr.
+    pub as_described_at_most_per_year: Option<f64>,
     /// What the structures that it may be say.
     #[serde(flatten)]
     pub found: UncertainFinding,
@@ -92,6 +94,21 @@ pub enum UncertainFinding {
     Epistemic(EpistemicResult),
     /// Structures of each record: one number.
     Aleatory(AleatoryResult),
+}
+
+impl UncertainFinding {
+    /// The same of what may happen so often, 1/yr, where no run shows it: a count of none is no proof of never.
+    pub(super) fn bounded(self, at_most_per_year: Option<f64>) -> Self {
+        let bound = |value: f64| at_most_per_year.filter(|_| value == 0.0);
+        match self {
+            Self::Epistemic(found) => {
+                let of = |spread: Spread| Spread { at_most_per_year: bound(spread.mean), ..spread };
+                let (by_structure, by_all) = (of(found.by_structure), of(found.by_all));
+                Self::Epistemic(EpistemicResult { by_structure, by_all, ..found })
+            }
+            Self::Aleatory(found) => Self::Aleatory(AleatoryResult { at_most_per_year: bound(found.value), ..found }),
+        }
+    }
 }
 
 /// The answers of branches, and what their scatter owes to what.
@@ -113,6 +130,9 @@ pub struct EpistemicResult {
 pub struct Spread {
     /// The mean.
     pub mean: f64,
+    /// Where no run shows what is counted: what the mean is at most, 1/yr (docs/method.md, section 17). None where some
+    /// run does, of a demand, and where it cannot happen.
+    pub at_most_per_year: Option<f64>,
     /// The 5, 16, 50, 84 and 95 % percentiles.
     pub percentiles: [f64; 5],
 }
@@ -127,7 +147,7 @@ impl Spread {
             (Some(first), Some(last)) if first == last => *first,
             _ => values.iter().sum::<f64>() / values.len() as f64,
         };
-        Self { mean, percentiles }
+        Self { mean, at_most_per_year: None, percentiles }
     }
 }
 
@@ -151,6 +171,9 @@ pub struct VarianceShare {
 pub struct AleatoryResult {
     /// The answer.
     pub value: f64,
+    /// Where no run shows what is counted: what the answer is at most, 1/yr (docs/method.md, section 17). None where some
+    /// run does, of a demand, and where it cannot happen.
+    pub at_most_per_year: Option<f64>,
     /// Its 90 % band as the records tell it; none where no run shows it, and of a single record.
     pub by_record: Option<[f64; 2]>,
     /// The same as their earthquakes tell it; none where no two pairs are known to share one.

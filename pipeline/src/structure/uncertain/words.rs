@@ -5,27 +5,32 @@ use super::report::{AleatoryResult, EpistemicResult, Spread, UncertainFinding, U
 impl UncertainResult {
     /// The answer with its band, and what that owes to what, in one sentence.
     pub fn in_words(&self) -> String {
-        let Self { site, im, of, unit, as_described, found } = self;
-        let described = shown(*as_described, unit);
+        let Self { site, im, of, unit, found, .. } = self;
+        let described = shown(self.as_described, self.as_described_at_most_per_year, unit);
         match found {
             UncertainFinding::Epistemic(EpistemicResult { by_structure, by_all, shares, no_shares }) => {
+                let mean = shown(by_structure.mean, by_structure.at_most_per_year, unit);
+                if is_unseen(by_structure.mean, unit) {
+                    return format!(
+                        "{of}, {site}, {im}: {mean}, by all that the structure may be; as described {described}"
+                    );
+                }
                 let owed = match no_shares {
                     Some(reason) => format!("what it owes to what cannot be told: {reason}"),
                     None => format!("it owes that to {}", shares.iter().map(share).collect::<Vec<_>>().join(", ")),
                 };
-                let mean = shown(by_structure.mean, unit);
                 let [alone, all] = [by_structure, by_all].map(|spread| limits(spread, unit));
                 format!(
                     "{of}, {site}, {im}: {mean} on average, {alone} for 90 % of what the structure may be; with what \
                      else is not known {all}; as described {described}; {owed}"
                 )
             }
-            UncertainFinding::Aleatory(AleatoryResult { value, by_record, by_earthquake }) => {
+            UncertainFinding::Aleatory(AleatoryResult { value, at_most_per_year, by_record, by_earthquake }) => {
                 let records = by_record.map(|limits| format!(", 90 % band of the records {}", range(limits, unit)));
                 let earthquakes = by_earthquake.map(|limits| format!(", of the earthquakes {}", range(limits, unit)));
                 format!(
                     "{of}, {site}, {im}: {}{}{}; as described {described}",
-                    shown(*value, unit),
+                    shown(*value, *at_most_per_year, unit),
                     records.unwrap_or_default(),
                     earthquakes.unwrap_or_default()
                 )
@@ -34,18 +39,29 @@ impl UncertainResult {
     }
 }
 
+/// Whether no run shows what is counted; a demand is no count.
+fn is_unseen(value: f64, unit: &str) -> bool {
+    unit != "m" && value == 0.0
+}
+
 /// An answer without its unit.
 fn number(value: f64, unit: &str) -> String {
     match unit {
         "m" if value.is_infinite() => "overturns".to_owned(),
         "m" => format!("{value:.4}"),
+        // a limit of a band: what is counted is none for some of it, and that is not never
+        _ if value == 0.0 => "none seen".to_owned(),
         _ => format!("{value:.3e}"),
     }
 }
 
-/// An answer in its unit.
-fn shown(value: f64, unit: &str) -> String {
-    with_unit(number(value, unit), unit)
+/// An answer in its unit; of what no run shows what it is at most.
+fn shown(value: f64, at_most_per_year: Option<f64>, unit: &str) -> String {
+    match at_most_per_year {
+        Some(bound) => format!("at most {bound:.1e} per year, for no run shows it"),
+        None if is_unseen(value, unit) => "cannot happen".to_owned(),
+        None => with_unit(number(value, unit), unit),
+    }
 }
 
 fn with_unit(text: String, unit: &str) -> String {
@@ -96,5 +112,13 @@ mod tests {
         assert_eq!(share(&of(0.4)), "capacity 50 ± 10 % (alone 40 ± 20 %)");
         assert_eq!(share(&of(1.1)), "capacity 50 ± 10 % (alone 110 ± 20 %) (few samples)");
         assert_eq!(share(&of(-0.04)), "capacity 50 ± 10 % (alone -4 ± 20 %) (few samples)");
+    }
+
+    #[test]
+    fn what_no_run_shows_is_told_by_its_bound() {
+        assert_eq!(shown(0.0, Some(1.23e-5), "1/yr"), "at most 1.2e-5 per year, for no run shows it");
+        assert_eq!(shown(0.0, None, "1/yr"), "cannot happen");
+        assert_eq!(shown(0.0, None, "m"), "0.0000 m");
+        assert_eq!(range([0.0, 2e-4], "1/yr"), "none seen to 2.000e-4 per year");
     }
 }
