@@ -2,6 +2,9 @@
 
 use super::report::{AleatoryResult, EpistemicResult, Spread, UncertainFinding, UncertainResult, VarianceShare};
 
+/// A share with a larger standard error says nothing: a band of two errors to either side holds every share there is.
+const MOST_ERROR: f64 = 0.3;
+
 impl UncertainResult {
     /// The answer with its band, and what that owes to what, in one sentence.
     pub fn in_words(&self) -> String {
@@ -17,7 +20,7 @@ impl UncertainResult {
                 }
                 let owed = match no_shares {
                     Some(reason) => format!("what it owes to what cannot be told: {reason}"),
-                    None => format!("it owes that to {}", shares.iter().map(share).collect::<Vec<_>>().join(", ")),
+                    None => owed(shares),
                 };
                 let [alone, all] = [by_structure, by_all].map(|spread| limits(spread, unit));
                 format!(
@@ -82,36 +85,59 @@ fn limits(spread: &Spread, unit: &str) -> String {
     range([lower, upper], unit)
 }
 
-/// A share of which the sampling makes more than all, or less than nothing, is told with that.
+/// What a scatter owes to what, the most first.
+fn owed(shares: &[VarianceShare]) -> String {
+    if shares.iter().all(|of| !is_told(of.total_error) && !is_told(of.first_order_error)) {
+        return "what it owes to what takes more samples to say (samples of [uncertainty])".to_owned();
+    }
+    format!("it owes that to {}", shares.iter().map(share).collect::<Vec<_>>().join(", "))
+}
+
+/// Whether a share of this standard error can be told from others.
+fn is_told(standard_error: f64) -> bool {
+    standard_error <= MOST_ERROR
+}
+
+/// A share of which the sampling makes more than all, or less than nothing, is told with that; one that the sampling
+/// leaves open is not told.
 fn share(of: &VarianceShare) -> String {
+    let number =
+        |value: f64, error: f64| is_told(error).then(|| format!("{:.0} ± {:.0} %", 100.0 * value, 100.0 * error));
     let is_share = |value: f64| (0.0..=1.0).contains(&value);
-    format!(
-        "{} {:.0} ± {:.0} % (alone {:.0} ± {:.0} %){}",
-        of.factor,
-        100.0 * of.total,
-        100.0 * of.total_error,
-        100.0 * of.first_order,
-        100.0 * of.first_order_error,
-        if is_share(of.first_order) && is_share(of.total) { "" } else { " (few samples)" }
-    )
+    let few = if is_share(of.first_order) && is_share(of.total) { "" } else { " (few samples)" };
+    let factor = &of.factor;
+    match [number(of.total, of.total_error), number(of.first_order, of.first_order_error)] {
+        [Some(total), Some(alone)] => format!("{factor} {total} (alone {alone}){few}"),
+        [Some(total), None] => format!("{factor} {total} (alone: too few samples to say)"),
+        [None, Some(alone)] => format!("{factor} (alone {alone}; too few samples to say more)"),
+        [None, None] => format!("{factor} (too few samples to say)"),
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn of(first_order: f64, first_order_error: f64, total_error: f64) -> VarianceShare {
+        VarianceShare { factor: "capacity".to_owned(), first_order, first_order_error, total: 0.5, total_error }
+    }
+
     #[test]
     fn what_few_samples_make_of_a_share_is_said() {
-        let of = |first_order| VarianceShare {
-            factor: "capacity".to_owned(),
-            first_order,
-            first_order_error: 0.2,
-            total: 0.5,
-            total_error: 0.1,
-        };
-        assert_eq!(share(&of(0.4)), "capacity 50 ± 10 % (alone 40 ± 20 %)");
-        assert_eq!(share(&of(1.1)), "capacity 50 ± 10 % (alone 110 ± 20 %) (few samples)");
-        assert_eq!(share(&of(-0.04)), "capacity 50 ± 10 % (alone -4 ± 20 %) (few samples)");
+        assert_eq!(share(&of(0.4, 0.2, 0.1)), "capacity 50 ± 10 % (alone 40 ± 20 %)");
+        assert_eq!(share(&of(1.1, 0.2, 0.1)), "capacity 50 ± 10 % (alone 110 ± 20 %) (few samples)");
+        assert_eq!(share(&of(-0.04, 0.2, 0.1)), "capacity 50 ± 10 % (alone -4 ± 20 %) (few samples)");
+    }
+
+    /// 154 ± 57 % is no share.
+    #[test]
+    fn a_share_that_the_sampling_leaves_open_is_not_told() {
+        assert_eq!(share(&of(1.54, 0.57, 0.1)), "capacity 50 ± 10 % (alone: too few samples to say)");
+        assert_eq!(share(&of(0.4, 0.2, 0.31)), "capacity (alone 40 ± 20 %; too few samples to say more)");
+        assert_eq!(share(&of(0.4, 0.5, f64::NAN)), "capacity (too few samples to say)");
+        let (known, open) = (of(0.4, 0.2, 0.1), of(0.4, 0.5, 0.6));
+        assert!(owed(&[known, open.clone()]).ends_with("(alone 40 ± 20 %), capacity (too few samples to say)"));
+        assert!(owed(&[open]).contains("takes more samples to say"));
     }
 
     #[test]
