@@ -322,3 +322,16 @@ fn what_cannot_overturn_has_no_bound() {
     let told = study.uplift(&["overturning", "stiff.toml", "--urs", "r.h5", "-q"]).ok().stdout;
     assert!(told.contains("overturning, Here, PGA: cannot happen"), "{told}");
 }
+
+/// Numbers that are probably in another unit are asked about, beside the refusal that they lead to.
+#[test]
+fn a_target_in_another_unit_is_asked_about() {
+    let study = study();
+    study.write("block.toml", BLOCK);
+    let ask = ["target", "block.toml", "--urs", "r.h5", "--vary", "width"];
+    let often = ["--overturning", "5"];
+    study.uplift(&[&ask[..], &often].concat()).fails(2, &["the allowed frequency is 5 1/yr", "return period"]);
+    let far = ["--exceed", "300", "--per-year", "2e-3"];
+    let told = study.uplift(&[&ask[..], &far].concat()).ok().stdout;
+    assert!(told.contains("mistake?  target: --exceed is 300 m") && told.contains("in mm or cm?"), "{told}");
+}

@@ -18,6 +18,18 @@ pub const USUAL_STRENGTH: Range =
 pub const USUAL_UPLIFT_DISPLACEMENT: Range =
     usual(1e-5, 0.05, "m", "the dissertation has 0.0005 m; was it meant in mm or cm?");
 
+/// Displacement that a structure is not to exceed: as its capacity, or some times what it has at uplift.
+pub const USUAL_THRESHOLD: Range =
+    usual(1e-4, 20.0, "m", "of the order of the width of a base; was it meant in mm or cm?");
+
+/// How often a year a structure may fail: from a nuclear plant to what is put right after every earthquake.
+pub const USUAL_TARGET: Range = usual(
+    1e-8,
+    0.2,
+    "1/yr",
+    "a mean annual frequency, 2e-4 for once in 5000 years; was a return period or a percentage meant?",
+);
+
 /// Velocity after an impact over the one before: Housner's for slenderness below 0.6, and measured ones.
 pub const USUAL_RESTITUTION: Range =
     usual(0.5, 1.0, "", "0.8 to 0.98 are measured; a share of the energy lost is another number");
@@ -80,7 +92,7 @@ pub const USUAL_YEARS: Range = usual(1.0, 10_000.0, "yr", "50 years are usual");
 mod tests {
     use super::*;
     use crate::{
-        CAPACITY, GRAVITY, LENGTH, MASS, PGA_LEVEL, PGV_LEVEL, SAFETY_FACTOR, STRENGTH, TENDON_STIFFNESS,
+        CAPACITY, GRAVITY, LENGTH, MASS, PGA_LEVEL, PGV_LEVEL, SAFETY_FACTOR, STRENGTH, TENDON_STIFFNESS, THRESHOLD,
         UPLIFT_DISPLACEMENT, VARIATION, YEARS,
     };
 
@@ -91,6 +103,7 @@ mod tests {
             (USUAL_STRENGTH, STRENGTH),
             (USUAL_UPLIFT_DISPLACEMENT, UPLIFT_DISPLACEMENT),
             (USUAL_CAPACITY, CAPACITY),
+            (USUAL_THRESHOLD, THRESHOLD),
             (USUAL_LENGTH, LENGTH),
             (USUAL_MASS, MASS),
             (USUAL_TENDON_STIFFNESS, TENDON_STIFFNESS),

@@ -199,6 +199,7 @@ pub fn target(
     let mut notes = words.notes(&crossings, &tried);
     let neighbours: Vec<f64> = NoiseSweep::new(NOISE.0, NOISE.1)?.factors().iter().map(|by| by * value).collect();
     let noise: Vec<f64> = trials.attempt(&neighbours)?.iter().map(|attempt| attempt.risk.per_year).collect();
+    alarms.extend(options.doubtful());
     let noise = Noisy::of(&noise);
     if noise.highest > target_per_year {
         notes.push(format!(

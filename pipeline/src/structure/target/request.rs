@@ -4,9 +4,12 @@ use std::path::PathBuf;
 
 use uplift_hazard::rate_from_probability;
 use uplift_motion::IntensityMeasure;
-use uplift_plausible::{Implausible, PROBABILITY, RETURN_PERIOD, Range, THRESHOLD, YEARS};
+use uplift_plausible::{
+    Implausible, PROBABILITY, RETURN_PERIOD, Range, THRESHOLD, USUAL_TARGET, USUAL_THRESHOLD, YEARS,
+};
 use uplift_structure::Quantity;
 
+use crate::alarms::{Alarm, of_numbers};
 use crate::error::UpliftError;
 
 /// A range narrower than the noise of the stripes is no range; a wider tolerance no search.
@@ -121,6 +124,22 @@ impl TargetOptions {
         }
     }
 
+    /// Numbers that can be, but are probably in another unit, or no annual frequency.
+    pub(super) fn doubtful(&self) -> Vec<Alarm> {
+        let displacement_m = match self.event {
+            TargetEvent::Beyond(displacement_m) => Some(displacement_m),
+            TargetEvent::Overturning | TargetEvent::BeyondCapacity => None,
+        };
+        let per_year = match self.frequency {
+            TargetFrequency::PerYear(per_year) => Some(per_year),
+            TargetFrequency::Probability(..) | TargetFrequency::ReturnPeriod(_) => None,
+        };
+        of_numbers(
+            "target",
+            &[(USUAL_THRESHOLD, "--exceed", displacement_m), (USUAL_TARGET, "the allowed frequency", per_year)],
+        )
+    }
+
     /// Every number that is none, as the command line calls it.
     pub(super) fn mistakes(&self) -> Vec<Implausible> {
         let mut asked: Vec<(Range, &'static str, f64)> = vec![(TOLERANCE, "--tolerance", self.tolerance)];
@@ -149,6 +168,19 @@ impl TargetOptions {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn numbers_in_another_unit_are_asked_about() {
+        let asked = |event, per_year| {
+            let options = TargetOptions::new(Quantity::Width, event, TargetFrequency::PerYear(per_year));
+            options.doubtful().into_iter().map(|alarm| alarm.what).collect::<Vec<_>>()
+        };
+        let beyond = asked(TargetEvent::Beyond(300.0), 2e-4);
+        assert!(beyond.len() == 1 && beyond[0].starts_with("--exceed is 300 m; usual is"), "{beyond:?}");
+        let often = asked(TargetEvent::Overturning, 5.0);
+        assert!(often.len() == 1 && often[0].contains("frequency is 5 1/yr"), "{often:?}");
+        assert!(asked(TargetEvent::Beyond(0.3), 2e-4).is_empty() && asked(TargetEvent::BeyondCapacity, 0.1).is_empty());
+    }
 
     #[test]
     fn all_mistakes_are_told_at_once() {
