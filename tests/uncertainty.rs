@@ -323,6 +323,63 @@ fn what_cannot_overturn_has_no_bound() {
     assert!(told.contains("overturning, Here, PGA: cannot happen"), "{told}");
 }
 
+/// The rows of the oscillator have the answer, with bands and shares, in columns of their own.
+#[test]
+fn the_table_of_risks_has_what_is_uncertain() {
+    let study = study();
+    let column = |table: &str, name: &str| -> Vec<String> {
+        let mut rows = table.lines().map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>());
+        let header = rows.next().unwrap();
+        let place = header.iter().position(|of| of == name).unwrap_or_else(|| panic!("{name}: {header:?}"));
+        rows.map(|row| row[place].clone()).collect()
+    };
+    for kind in KINDS {
+        study.write("block.toml", &format!("{BLOCK}{}", scattering(kind, few(kind), 0.05)));
+        let ask = ["overturning", "block.toml", "--urs", "r.h5", "-o", "o.csv", "--json", "-q", "--force"];
+        let found: Value = serde_json::from_str(&study.uplift(&ask).ok().stdout).unwrap();
+        let table = read(&study, "o.risk.csv");
+        assert_eq!(column(&table, "model"), ["oscillator", "block"]);
+        assert_eq!(column(&table, "uncertainty"), [kind, ""]);
+        let result = &found["uncertainty"]["results"][0][kind];
+        let (value, others) = match kind {
+            "epistemic" => (
+                &result["by_structure"]["mean"],
+                vec![
+                    ("maf_structure_p95_per_year", &result["by_structure"]["percentiles"][4]),
+                    ("maf_all_mean_per_year", &result["by_all"]["mean"]),
+                    ("maf_all_p05_per_year", &result["by_all"]["percentiles"][0]),
+                ],
+            ),
+            _ => (&result["value"], vec![("maf_uncertain_records_upper_per_year", &result["by_record"][1])]),
+        };
+        for (name, expected) in [&[("maf_uncertain_per_year", value)], &others[..]].concat() {
+            let cells = column(&table, name);
+            let cell: f64 = cells[0].parse().unwrap();
+            assert!(Some(cell) == expected.as_f64() && cells[1].is_empty(), "{kind} {name}: {cells:?} {expected}");
+        }
+        if kind == "epistemic" {
+            let shares = result["shares"].as_array().unwrap();
+            let of = shares.iter().find(|share| share["factor"] == "strength and capacity").unwrap();
+            let cell: f64 = column(&table, "total_share_strength_and_capacity")[0].parse().unwrap();
+            assert_eq!(Some(cell), of["total"].as_f64());
+        }
+    }
+}
+
+/// Every value that was tried has the branches' percentiles beside their mean.
+#[test]
+fn the_table_of_a_target_has_what_is_uncertain() {
+    let study = study();
+    let ask = ["--vary", "width", "--overturning", "2e-3", "--tolerance", "0.1", "-o", "t.csv", "--force"];
+    for kind in KINDS {
+        least(&study, "block.toml", &format!("{BLOCK}{}", scattering(kind, few(kind), 0.05)), &ask);
+        let table = read(&study, "t.csv");
+        let header = table.lines().next().unwrap();
+        assert!(header.contains(",uncertainty") && table.lines().nth(1).unwrap().contains(kind), "{table}");
+        assert_eq!(header.contains(",maf_structure_p95_per_year"), kind == "epistemic", "{header}");
+    }
+}
+
 /// Numbers that are probably in another unit are asked about, beside the refusal that they lead to.
 #[test]
 fn a_target_in_another_unit_is_asked_about() {

@@ -1,5 +1,7 @@
 //! Collapse fragility and risk as CSV.
 
+mod uncertain;
+
 use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
@@ -7,8 +9,12 @@ use uplift_spectra::Noisy;
 
 use super::overturning::{CollapseReport, OverturningReport};
 use super::risk::EventRisk;
+use super::uncertain::{UncertainFinding, UncertaintyReport};
 use crate::error::UpliftError;
 use crate::result::write_table;
+
+/// Names of the percentiles of what is not known exactly, in their order.
+pub(super) const PERCENTILES: [&str; 5] = ["p05", "p16", "p50", "p84", "p95"];
 
 /// The table of risks beside that of the fragility.
 pub(super) fn risk_path(fragility: &Path) -> PathBuf {
@@ -110,5 +116,19 @@ fn risk(report: &OverturningReport) -> Vec<Column> {
     if repaired.iter().any(Option::is_some) {
         columns.push(Column::new("maf_consistent_per_year".into(), repaired));
     }
+    if let Some(uncertainty) = &report.uncertainty {
+        let found: Vec<_> = rows.iter().map(|(site, row)| found_of(uncertainty, (*site, row))).collect();
+        columns.extend(uncertain::columns(uncertainty, &found));
+    }
     columns
+}
+
+/// What `report` finds in a row of the risks; none for the block, which takes no account of what is not known.
+fn found_of<'a>(report: &'a UncertaintyReport, (place, row): (usize, &CollapseReport)) -> Option<&'a UncertainFinding> {
+    let is_of_row = |site: &str, im: &str| site == row.sites[place].site && im == row.im;
+    report
+        .results
+        .iter()
+        .find(|result| row.model == "oscillator" && is_of_row(&result.site, result.im))
+        .map(|of| &of.found)
 }

@@ -32,6 +32,7 @@ use super::choice::{measure_index, site_index};
 use super::inputs::inputs;
 use super::report::StructureReport;
 use super::risk::EventRisk;
+use super::uncertain::Spread;
 use super::weights::SiteWeights;
 use crate::alarms::{Alarm, OwnRisk, Scope, alarms_of_inputs, of_own_risks, of_structure, ranked};
 use crate::consistency::Question;
@@ -142,8 +143,20 @@ pub struct TriedValue {
     /// The risk at it.
     #[serde(flatten)]
     pub risk: EventRisk,
+    /// The 5, 16, 50, 84 and 95 % percentiles of the frequencies of branches, of which that of the risk is the mean,
+    /// 1/yr; none where there are no branches.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub structure_percentiles_per_year: Option<[f64; 5]>,
     /// Whether it meets the target.
     pub is_met: bool,
+}
+
+impl TriedValue {
+    fn of(value: f64, attempt: &Attempt, target_per_year: f64) -> Self {
+        let branches = || Spread::of(attempt.structures.iter().map(|of| of.risk.per_year).collect());
+        let structure_percentiles_per_year = (attempt.structures.len() > 1).then(|| branches().percentiles);
+        Self { value, risk: attempt.risk, structure_percentiles_per_year, is_met: attempt.meets(target_per_year) }
+    }
 }
 
 /// Searches the least value of a quantity of `structure` with which it meets a target risk under the records and the
@@ -186,6 +199,7 @@ pub fn target(
     let scope = Scope { site: Some(site), measure: Some(measure.measure()), ..Scope::default() };
     let mut alarms = alarms_of_inputs(&file, &scope)?;
     alarms.extend(of_structure(structure));
+    alarms.extend(options.doubtful());
     let place = match words.first_of_met(&tried) {
         Ok(place) => place,
         Err(reason) => {
@@ -199,7 +213,6 @@ pub fn target(
     let mut notes = words.notes(&crossings, &tried);
     let neighbours: Vec<f64> = NoiseSweep::new(NOISE.0, NOISE.1)?.factors().iter().map(|by| by * value).collect();
     let noise: Vec<f64> = trials.attempt(&neighbours)?.iter().map(|attempt| attempt.risk.per_year).collect();
-    alarms.extend(options.doubtful());
     let noise = Noisy::of(&noise);
     if noise.highest > target_per_year {
         notes.push(format!(
@@ -245,10 +258,7 @@ pub fn target(
         crossings,
         at_return_periods,
         generic: generic.flatten(),
-        tried: tried
-            .iter()
-            .map(|(value, attempt)| TriedValue { value: *value, risk: attempt.risk, is_met: meets(attempt) })
-            .collect(),
+        tried: tried.iter().map(|(value, attempt)| TriedValue::of(*value, attempt, target_per_year)).collect(),
         analyses: trials.analyses(),
         notes,
         alarms: ranked(alarms),

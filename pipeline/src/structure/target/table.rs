@@ -7,6 +7,7 @@ use polars::prelude::Column;
 use super::TargetReport;
 use crate::error::UpliftError;
 use crate::result::write_table;
+use crate::structure::tables::PERCENTILES;
 
 /// The column by which a table of this program is known.
 pub(super) const FIRST_COLUMN: &str = "quantity";
@@ -29,7 +30,7 @@ pub(super) fn write(path: &Path, report: &TargetReport) -> Result<(), UpliftErro
     .replace(['\n', '\r'], " ");
     let tried = &report.tried;
     let of = |value: fn(&super::TriedValue) -> f64| tried.iter().map(value).collect::<Vec<f64>>();
-    let columns = vec![
+    let mut columns = vec![
         Column::new(FIRST_COLUMN.into(), vec![report.quantity; tried.len()]),
         Column::new("unit".into(), vec![report.quantity_unit; tried.len()]),
         Column::new("value".into(), of(|tried| tried.value)),
@@ -43,5 +44,15 @@ pub(super) fn write(path: &Path, report: &TargetReport) -> Result<(), UpliftErro
         Column::new("target_per_year".into(), vec![report.target_per_year; tried.len()]),
         Column::new("is_met".into(), tried.iter().map(|tried| tried.is_met).collect::<Vec<bool>>()),
     ];
+    if let Some(uncertain) = &report.uncertainty {
+        columns.push(Column::new("uncertainty".into(), vec![uncertain.kind; tried.len()]));
+    }
+    if tried.iter().any(|tried| tried.structure_percentiles_per_year.is_some()) {
+        for (place, name) in PERCENTILES.into_iter().enumerate() {
+            let of = |tried: &super::TriedValue| Some(tried.structure_percentiles_per_year?[place]);
+            let values: Vec<Option<f64>> = tried.iter().map(of).collect();
+            columns.push(Column::new(format!("maf_structure_{name}_per_year").into(), values));
+        }
+    }
     write_table(path, &line, columns)
 }

@@ -97,6 +97,33 @@ pub enum UncertainFinding {
 }
 
 impl UncertainFinding {
+    /// The answer: the mean of the branches, with all records and the mean hazard; or the one of structures of each
+    /// record.
+    pub(in crate::structure) fn mean(&self) -> f64 {
+        match self {
+            Self::Epistemic(found) => found.by_structure.mean,
+            Self::Aleatory(found) => found.value,
+        }
+    }
+
+    /// What that is at most where no run shows it, 1/yr.
+    pub(in crate::structure) fn at_most_per_year(&self) -> Option<f64> {
+        match self {
+            Self::Epistemic(found) => found.by_structure.at_most_per_year,
+            Self::Aleatory(found) => found.at_most_per_year,
+        }
+    }
+
+    /// That of branches.
+    pub(in crate::structure) fn epistemic(&self) -> Option<&EpistemicResult> {
+        if let Self::Epistemic(found) = self { Some(found) } else { None }
+    }
+
+    /// That of structures of each record.
+    pub(in crate::structure) fn aleatory(&self) -> Option<&AleatoryResult> {
+        if let Self::Aleatory(found) = self { Some(found) } else { None }
+    }
+
     /// The same of what may happen so often, 1/yr, where no run shows it: a count of none is no proof of never.
     pub(super) fn bounded(self, at_most_per_year: Option<f64>) -> Self {
         let bound = |value: f64| at_most_per_year.filter(|_| value == 0.0);
