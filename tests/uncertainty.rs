@@ -392,3 +392,25 @@ fn a_target_in_another_unit_is_asked_about() {
     let told = study.uplift(&[&ask[..], &far].concat()).ok().stdout;
     assert!(told.contains("mistake?  target: --exceed is 300 m") && told.contains("in mm or cm?"), "{told}");
 }
+
+/// A structure that cannot be is refused with what is probably in another unit, with its line.
+#[test]
+fn a_slip_that_makes_a_structure_impossible_is_named() {
+    let study = study();
+    let quantity = |key: &str, rest: &str| format!("[uncertainty.{key}]\ndistribution = \"lognormal\"\n{rest}\n");
+    let millimetres = quantity("uplift_displacement_m", "percentiles = [[5, 3], [95, 12]]");
+    let six = "coefficient_of_variation = 6";
+    let per_cent = quantity("capacity_m", six) + &quantity("uplift_displacement_m", &format!("mean = 0.05\n{six}"));
+    for (text, words) in [
+        (millimetres, ["line 8, uncertainty.uplift_displacement_m.percentiles[0][1] is 3 m", "in mm or cm?"]),
+        (per_cent, ["line 8, uncertainty.capacity_m.coefficient_of_variation is 6", "in per cent?"]),
+    ] {
+        study.write("slip.toml", &format!("{BLOCK}{text}"));
+        let target = ["target", "slip.toml", "--urs", "r.h5", "--vary", "width", "--overturning", "1e-3"];
+        let overturning = ["overturning", "slip.toml", "--urs", "r.h5"];
+        for (ask, code) in [(&overturning[..], 4), (&target[..], 2)] {
+            let run = study.uplift(ask);
+            run.fails(code, &[&["cannot be (", "slip.toml", "mistake?"], &words[..]].concat());
+        }
+    }
+}

@@ -336,7 +336,10 @@ fn read_uncertainty(
 ) -> (Option<Uncertainty>, Vec<Finding>, Vec<Doubt>) {
     let described = |quantity: UncertainQuantity| {
         let Some(Ok(structure)) = resolved else { return Described::Mistaken };
+        let is_assumed =
+            quantity == UncertainQuantity::UpliftDisplacement && structure.description.uplift_displacement_m.is_none();
         match quantity.value(&structure.system, structure.description.restitution) {
+            Some(value) if is_assumed => Described::Assumed(value),
             Some(value) => Described::As(value),
             None if quantity == UncertainQuantity::Capacity => {
                 Described::Impossible("the force of this structure does not fall after uplift: it has no capacity")

@@ -22,6 +22,7 @@ pub use report::{
 
 use super::certainty::Scatter;
 use super::risk::{OVERTURNING_M, at_most_per_year};
+use crate::alarms::Severity;
 use crate::analysis::LabelledPlan;
 use crate::error::UpliftError;
 use crate::inputs::RecordSet;
@@ -251,9 +252,13 @@ fn realized(
         told.push(format!("{} {value}", quantity.key()));
     }
     let fail = |reason: String| {
+        // what is probably in another unit is why, most likely
+        let doubtful = structure.warnings.iter().filter(|warning| warning.unlikely);
+        let word = Severity::Mistake.word();
+        let asked = doubtful.fold(String::new(), |asked, of| format!("{asked}; {word} {}", of.what));
         UpliftError::input(format!(
             "[uncertainty]: one of the structures that it may be cannot be ({}): {reason}; take less scatter, or \
-             correlate what goes together",
+             correlate what goes together{asked}",
             told.join(", ")
         ))
         .in_file(&structure.file)

@@ -14,6 +14,9 @@ const SAMPLES: (u64, std::ops::RangeInclusive<u64>) = (64, 8..=4096);
 /// Structures that a record draws, and their range.
 const DRAWS: (u64, std::ops::RangeInclusive<u64>) = (10, 1..=100);
 
+/// A mean that is so many times what the structure has, or that part of it, is asked about.
+const FAR: f64 = 5.0;
+
 const ANY: Rule = Rule::Is { holds: |_| true, words: "finite" };
 const KINDS: [(&str, UncertaintyKind); 2] =
     [("epistemic", UncertaintyKind::Epistemic), ("aleatory", UncertaintyKind::Aleatory)];
@@ -73,6 +76,8 @@ impl Uncertainty {
 pub(crate) enum Described {
     /// This one: the mean where none is given.
     As(f64),
+    /// This one, which the file does not give: the mean where none is given, and nothing to measure another by.
+    Assumed(f64),
     /// Not told: a mean is needed.
     Open,
     /// Cannot be told for other mistakes.
@@ -258,16 +263,19 @@ fn read_quantity(
         );
         None
     };
+    let (usual, asked_before) = (quantity.usual(), doubts.len());
     let mut number = |key, usual: Range| {
         let field = section.field(key)?;
         let value = field.number(usual.unit, ANY);
         doubts.extend(value.and_then(|value| doubt(&field, value, usual)));
         Some(value)
     };
-    let usual = quantity.usual();
     let (mean, variation) = (number("mean", usual), number("coefficient_of_variation", USUAL_VARIATION));
     let (lower, mode, upper) = (number("lower", usual), number("mode", usual), number("upper", usual));
     let percentiles = section.field("percentiles").map(|field| read_percentiles(&field, usual, doubts));
+    if let (Some(Some(mean)), Described::As(own)) = (mean, described) {
+        doubts.extend(section.field("mean").and_then(|field| far_off(&field, mean, own, usual.unit)));
+    }
     if let Described::Impossible(reason) = described {
         section.mistake("", reason, "leave it out");
         section.finish();
@@ -319,7 +327,7 @@ fn read_quantity(
         }
         let mean = match (mean, described) {
             (Some(mean), _) => mean?,
-            (None, Described::As(value)) => value,
+            (None, Described::As(value) | Described::Assumed(value)) => value,
             (None, _) => return None,
         };
         Some(Distribution::of_mean(family, (mean, variation??), range))
@@ -335,11 +343,11 @@ fn read_quantity(
             Some((distribution, Written { family: family?, scatter }))
         }
         Err(error) => {
-            section.mistake(
-                "",
-                format!("{} cannot be distributed so: {error}", quantity.name()),
-                quantity.range().hint,
-            );
+            // a number that is probably in another unit is why, most likely
+            let doubtful = &doubts[asked_before..];
+            let refused = format!("{} cannot be distributed so: {error}", quantity.name());
+            let message = doubtful.iter().fold(refused, |told, doubt| format!("{told}; {}{}", doubt.key, doubt.what));
+            section.mistake("", message, quantity.range().hint);
             None
         }
     };
@@ -351,6 +359,26 @@ fn read_quantity(
 fn doubt(field: &Field<'_>, value: f64, usual: Range) -> Option<Doubt> {
     let found = usual.unlikely("", value)?;
     Some(Doubt { key: field.key.clone(), origin: field.node.origin.clone(), what: found.to_string() })
+}
+
+/// What is to be asked about a `mean` that is far from the value that the structure has as described.
+fn far_off(field: &Field<'_>, mean: f64, own: f64, unit: &str) -> Option<Doubt> {
+    let times = if mean.abs() > own { mean.abs() / own } else { own / mean.abs() };
+    // a mean of 0 is refused, and a value of 0 has no factor
+    if !(times.is_finite() && times > FAR) {
+        return None;
+    }
+    let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+    // what is computed of a structure has more digits than anyone reads
+    let own_shown = format!("{own:.3e}").parse::<f64>().unwrap_or(own);
+    let far = if mean.abs() > own { format!("{times:.0} times") } else { format!("a {times:.0}th of") };
+    Some(Doubt {
+        key: field.key.clone(),
+        origin: field.node.origin.clone(),
+        what: format!(
+            " is {mean}{unit}, {far} the {own_shown}{unit} that the structure has as described; without mean it is that"
+        ),
+    })
 }
 
 /// Two percentiles, `[[5, 0.08], [95, 0.12]]`.

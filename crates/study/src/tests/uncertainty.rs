@@ -167,6 +167,33 @@ fn likely_slips_are_asked_about() {
         assert!(found.iter().any(|told| told.starts_with(starts)), "{starts}: {found:#?}");
     }
     assert_eq!(warnings(&quantity("strength", "coefficient_of_variation = 0.06")), Vec::<String>::new());
+    // a file that is refused for such a number says so
+    let text = quantity("restitution", "percentiles = [[5, 90], [95, 97]]");
+    let error = load(&format!("{BLOCK}{text}")).unwrap_err();
+    assert!(error.mistakes()[0].to_string().contains("percentiles[0][1] is 90; usual is"), "{error:?}");
+}
+
+/// A mean far from what the structure has is asked about; where the file does not say what it has, there is nothing to
+/// be far from.
+#[test]
+fn a_mean_far_from_the_structure_is_asked_about() {
+    let warnings = |text: &str| -> Vec<String> {
+        load(text).unwrap().warnings.iter().map(|warning| warning.what.clone()).collect()
+    };
+    let mean = |key: &str, mean: f64| {
+        format!("[uncertainty.{key}]\ndistribution = \"lognormal\"\nmean = {mean}\ncoefficient_of_variation = 0.1\n")
+    };
+    let own = load(BLOCK).unwrap().system.strength();
+    for (factor, words) in [(10.0, "10 times the "), (0.1, "a 10th of the ")] {
+        let found = warnings(&format!("{BLOCK}{}", mean("strength", factor * own)));
+        let starts = "line 7, uncertainty.strength.mean is ";
+        assert!(found.len() == 1 && found[0].starts_with(starts) && found[0].contains(words), "{found:#?}");
+    }
+    assert_eq!(warnings(&format!("{BLOCK}{}", mean("strength", 2.0 * own))), Vec::<String>::new());
+    let uplift = mean("uplift_displacement_m", 0.006);
+    assert_eq!(warnings(&format!("{BLOCK}{uplift}")), Vec::<String>::new());
+    let found = warnings(&format!("{BLOCK}uplift_displacement_m = 0.0005\n{uplift}"));
+    assert!(found[0].contains("12 times the 0.0005 m that the structure has"), "{found:#?}");
 }
 
 /// A study file that says all that can be uncertain, and what of it is told again in its result.
