@@ -98,7 +98,8 @@ fn designs_tables_and_pages_take_it() {
         tree
     };
     let design = |result: &str, more: &[&str]| {
-        let asked = ["design", "block.toml", "--urs", result, "--site", "Here", "--json", "-q"];
+        // what is kept would stand on the page, with its risk
+        let asked = ["design", "block.toml", "--urs", result, "--site", "Here", "--json", "-q", "--no-keep"];
         without_file(study.uplift(&[&asked[..], more].concat()))
     };
     let found = design("r.h5", &["--poe", "0.3"]);

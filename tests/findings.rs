@@ -224,3 +224,18 @@ fn answers_are_sealed_and_go_with_their_result() {
     let earlier = std::fs::read_dir(study.path().join("r.earlier")).unwrap().next().unwrap().unwrap().path();
     assert!(LabelledReader::open(&earlier.join("r.h5")).unwrap().exists("/structures/block/design"));
 }
+
+/// 475 years are 9.991 % in 50 years: nobody asked for `poe 0.0999…`.
+#[test]
+fn a_return_period_is_told_as_it_was_asked_for() {
+    let study = study();
+    ask(&study, "design block.toml --urs r.h5 --site Here --return-period 475 --spectrum-only");
+    ask(&study, "target block.toml --urs r.h5 --site Here --vary size --from 0.1 --to 2 --return-period 4750");
+    let told = ask(&study, "status r.h5").stdout;
+    let asked: Vec<&str> = told.lines().filter(|line| line.trim_start().starts_with("asked")).collect();
+    assert!(asked[0].contains(", 475 years (") && !asked[0].contains("poe"), "{told}");
+    assert!(asked[1].contains(", per year 0.000210526,"), "{told}");
+    ask(&study, "report r.h5 -o page.html -q");
+    let page = std::fs::read_to_string(study.path().join("page.html")).unwrap();
+    assert!(page.contains("475 years (") && !page.contains("poe 0.0"), "475 years");
+}

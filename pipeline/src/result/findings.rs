@@ -4,7 +4,7 @@ use super::file::ResultFile;
 use super::layout::{axis, structures};
 use crate::checksum::checksum;
 use crate::error::UpliftError;
-use crate::text::short;
+use crate::text::{risk_in_words, short};
 
 /// Letters of the key of a question: no two questions asked of a result share them.
 const LETTERS: usize = 12;
@@ -121,11 +121,27 @@ impl Finding {
         structures::answer(&self.structure, self.inquiry.key(), &self.key())
     }
 
-    /// The command and what it was asked for: `design, site Athens, measure PGV`.
+    /// The command and what it was asked for: `design, site Athens, measure PGV, 475 years (9.991 % in 50 years)`.
     pub fn question(&self) -> String {
-        let asked = self.request.iter().map(|(name, value)| format!(", {name} {value}"));
-        std::iter::once(self.inquiry.key().to_owned()).chain(asked).collect()
+        let number = |wanted: &str| {
+            let of = self.request.iter().find(|(name, _)| name == wanted);
+            of.and_then(|(_, value)| value.parse::<f64>().ok())
+        };
+        // a return period is kept as the probability that it is in so many years: it is told as it was asked for
+        let risk = number("poe").zip(number("years")).map(|(poe, years)| risk_in_words(poe, years));
+        let told = |(name, value): &(String, String)| match (name.as_str(), &risk) {
+            ("poe", Some(risk)) => format!(", {risk}"),
+            ("years", Some(_)) => String::new(),
+            ("per year", _) => format!(", {name} {}", value.parse().map_or(value.clone(), six_digits)),
+            _ => format!(", {name} {value}"),
+        };
+        std::iter::once(self.inquiry.key().to_owned()).chain(self.request.iter().map(told)).collect()
     }
+}
+
+/// A number to six digits: 1/475 has many more, and nobody asked for them.
+fn six_digits(value: f64) -> String {
+    format!("{value:.5e}").parse::<f64>().unwrap_or(value).to_string()
 }
 
 impl FindingRow {
