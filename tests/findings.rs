@@ -239,3 +239,15 @@ fn a_return_period_is_told_as_it_was_asked_for() {
     let page = std::fs::read_to_string(study.path().join("page.html")).unwrap();
     assert!(page.contains("475 years (") && !page.contains("poe 0.0"), "475 years");
 }
+
+/// `uplift design` and `uplift risk` are of one risk, and their help says so.
+#[test]
+fn what_takes_one_risk_says_so() {
+    let study = SmallStudy::new();
+    for command in ["design", "risk"] {
+        let help = ask(&study, &format!("{command} --help")).stdout;
+        assert!(help.contains("--poe <P>") && help.contains("--return-period <YEARS>"), "{help}");
+        let several = [command, "block.toml", "--urs", "r.h5", "--poe", "0.1,0.02"];
+        study.uplift(&several).fails(2, &["--poe <P>", "0.1,0.02"]);
+    }
+}

@@ -112,7 +112,8 @@ fn what_cannot_be_found_is_said() {
     ask(&["--overturning", "1e-9", "--vary", "width"]).fails(2, &["below what these stripes can tell", "pga.levels_g"]);
     ask(&["--overturning", "10", "--vary", "width"]).fails(2, &["met at every width", "--from"]);
     ask(&["--overturning", "2e-3", "--vary", "width", "--to", "0.2"]).fails(2, &["missed at every width", "--to"]);
-    ask(&["--overturning", "2e-3", "--vary", "tendon-stiffness"]).fails(2, &["means nothing for kind \"frame\""]);
+    ask(&["--overturning", "2e-3", "--vary", "tendon-stiffness"])
+        .fails(2, &["kind \"frame\" has no tendons: vary strength"]);
     ask(&["--vary", "width"]).fails(2, &["--overturning"]);
     ask(&["--overturning", "-1", "--vary", "width", "--tolerance", "7"]).fails(2, &["2 things to mend", "--tolerance"]);
     ask(&["--per-year", "1e-3", "--exceed", "x", "--vary", "width"]).fails(2, &["--exceed x", "`capacity`"]);

@@ -414,3 +414,11 @@ fn a_slip_that_makes_a_structure_impossible_is_named() {
         }
     }
 }
+
+/// A structure file that is not there is answered with one, and not with a study.
+#[test]
+fn a_missing_structure_is_answered_with_a_structure() {
+    let study = SmallStudy::new();
+    let ask = ["overturning", "none.toml", "--urs", "r.h5"];
+    study.uplift(&ask).fails(3, &["there is no such file", "configs/structures/pier.toml"]);
+}

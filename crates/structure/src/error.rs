@@ -52,6 +52,15 @@ pub enum StructureError {
         /// Kind of structure.
         kind: &'static str,
     },
+    /// A quantity is to be varied that no structure of this kind has.
+    #[error(
+        "kind \"{kind}\" has no tendons: vary strength, size, width or capacity, or write kind = \"restrained-frame\" \
+         with the stiffness of its tendons"
+    )]
+    NoTendons {
+        /// Kind of structure.
+        kind: &'static str,
+    },
     /// The geometry is given by too few or too many quantities, or by two that do not go together.
     #[error("the geometry is given by {given}: {advice}")]
     Geometry {

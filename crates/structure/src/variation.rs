@@ -147,12 +147,7 @@ fn widened(of: &StructureDescription, width_m: f64) -> Result<StructureDescripti
 /// Tendons of another stiffness; an error for what has none.
 fn tendons(of: &StructureDescription, stiffness_n_m: f64) -> Result<StructureDescription, Vec<StructureError>> {
     if of.kind != Kind::RestrainedFrame {
-        return Err(vec![StructureError::Foreign {
-            key: "tendon_stiffness_n_m",
-            value: stiffness_n_m.to_string(),
-            unit: "N/m",
-            kind: of.kind.name(),
-        }]);
+        return Err(vec![StructureError::NoTendons { kind: of.kind.name() }]);
     }
     Ok(StructureDescription { tendon_stiffness_n_m: Some(stiffness_n_m), ..*of })
 }

@@ -130,7 +130,7 @@ fn file_reason(error: &UpliftError) -> Option<&'static str> {
         UpliftError::File(error) | UpliftError::Labelled(LabelledError::File(error)) => Some(of_file(error)),
         UpliftError::Study(StudyError::Unreadable { reason, .. }) => match reason {
             Unreadable::System(error) | Unreadable::NoCurrentDirectory(error) => Some(in_words(error)),
-            Unreadable::Missing => Some("not found"),
+            Unreadable::Missing { .. } => Some("not found"),
             Unreadable::NotAFile => Some("not a file"),
             _ => None,
         },

@@ -23,6 +23,14 @@ impl Wanted {
         }
     }
 
+    /// One that stands in the repository.
+    pub(crate) fn example(self) -> &'static str {
+        match self {
+            Self::Study => "configs/europe.toml",
+            Self::Structure => "configs/structures/pier.toml",
+        }
+    }
+
     fn refuse(self, found: &'static str, advice: &'static str) -> Unreadable {
         Unreadable::Other { found, wanted: self.words(), advice }
     }

@@ -28,7 +28,7 @@ pub(crate) fn input_text() -> Result<String, StudyError> {
 
 fn read(file: &Path, wanted: Wanted) -> Result<String, Unreadable> {
     let metadata = fs::metadata(file).map_err(|error| match error.kind() {
-        io::ErrorKind::NotFound => Unreadable::Missing,
+        io::ErrorKind::NotFound => Unreadable::Missing { example: wanted.example() },
         _ => Unreadable::System(error),
     })?;
     if !metadata.is_file() {

@@ -41,7 +41,7 @@ impl RiskArguments {
 /// One risk of the spectra, any: computed from the stripes of the result, without a new run.
 #[derive(Debug, Args)]
 pub(crate) struct OneRiskArguments {
-    /// Probability of exceedance, any, 0.1 or 10%, from the stripes of the result [default: the only one of its study]
+    /// Probability of exceedance, any, 0.1 or 10%, from the stripes of the result [default: the smallest of its study]
     #[arg(
         long, value_name = "P", allow_negative_numbers = true, value_parser = number_or_per_cent,
         conflicts_with = "return_period"

@@ -7,7 +7,7 @@ use uplift::structure::{DesignOptions, design as run, design_shard};
 use uplift_motion::IntensityMeasure;
 use uplift_report::{check_design_sheet, write_design_sheet};
 
-use crate::command::arguments::{ForceArgument, RiskArguments, StructureArguments, number};
+use crate::command::arguments::{ForceArgument, OneRiskArguments, StructureArguments, number};
 use crate::error::CommandError;
 use crate::show::print_shard;
 use crate::show::{print_design, print_json};
@@ -24,7 +24,7 @@ pub(crate) struct DesignArguments {
     #[arg(long)]
     site: Option<String>,
     #[command(flatten)]
-    risk: RiskArguments,
+    risk: OneRiskArguments,
     /// Intensity measure of the spectrum: pgv, pga or any other [default: pgv if the result has it]
     #[arg(long)]
     measure: Option<IntensityMeasure>,

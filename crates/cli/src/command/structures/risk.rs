@@ -8,7 +8,7 @@ use uplift_frame::Model;
 use uplift_motion::IntensityMeasure;
 use uplift_report::{check_figure_file, plot_frame_risk};
 
-use crate::command::arguments::{ForceArgument, RiskArguments, StructureArguments, model};
+use crate::command::arguments::{ForceArgument, OneRiskArguments, StructureArguments, model};
 use crate::error::CommandError;
 use crate::show::{print_frame_risk, print_json, print_shard};
 use crate::terminal::Terminal;
@@ -25,7 +25,7 @@ pub(crate) struct FrameRiskArguments {
     #[arg(long)]
     site: Option<String>,
     #[command(flatten)]
-    risk: RiskArguments,
+    risk: OneRiskArguments,
     /// Intensity measure: pgv, pga or any other [default: pgv if the result has it]
     #[arg(long)]
     measure: Option<IntensityMeasure>,
