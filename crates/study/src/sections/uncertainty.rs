@@ -244,6 +244,16 @@ fn read_pairs(
     (pairs.len() == count).then_some(pairs)
 }
 
+/// How a quantity is distributed.
+fn read_family(section: &mut Section<'_>) -> Option<Family> {
+    if let Some(field) = section.field("distribution") {
+        return field.choice(&Family::ALL.map(|family| (family.key(), family)));
+    }
+    let words = Family::ALL.map(Family::key).join("\", \"");
+    section.mistake("distribution", "how is it distributed?", format!("write distribution = and one of \"{words}\""));
+    None
+}
+
 /// One quantity: its mean and coefficient of variation, two percentiles, or its limits.
 fn read_quantity(
     mut section: Section<'_>,
@@ -251,18 +261,7 @@ fn read_quantity(
     described: Described,
     doubts: &mut Vec<Doubt>,
 ) -> Option<(Distribution, Written)> {
-    let families = Family::ALL.map(|family| (family.key(), family));
-    let family = if let Some(field) = section.field("distribution") {
-        field.choice(&families)
-    } else {
-        let words = Family::ALL.map(Family::key).join("\", \"");
-        section.mistake(
-            "distribution",
-            "how is it distributed?",
-            format!("write distribution = and one of \"{words}\""),
-        );
-        None
-    };
+    let family = read_family(&mut section);
     let (usual, asked_before) = (quantity.usual(), doubts.len());
     let mut number = |key, usual: Range| {
         let field = section.field(key)?;

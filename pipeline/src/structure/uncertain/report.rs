@@ -198,8 +198,8 @@ pub struct VarianceShare {
 pub struct AleatoryResult {
     /// The answer.
     pub value: f64,
-    /// Where no run shows what is counted: what the answer is at most, 1/yr (docs/method.md, section 17). None where some
-    /// run does, of a demand, and where it cannot happen.
+    /// Where no run shows what is counted: what the answer is at most, 1/yr (docs/method.md, section 17). None where
+    /// some run does, of a demand, and where it cannot happen.
     pub at_most_per_year: Option<f64>,
     /// Its 90 % band as the records tell it; none where no run shows it, and of a single record.
     pub by_record: Option<[f64; 2]>,
