@@ -3,9 +3,9 @@
 //! An aleatory study draws structures of each motion's own, an epistemic one the same structures for all. Either way
 //! every record counts alike, so that the spectrum is that of the mean frequency over the structures.
 
-use uplift_oscillator::{Oscillator, PostUplift};
+use uplift_oscillator::{Oscillator, OscillatorError, PostUplift};
 use uplift_structure::{Realization, UncertainQuantity};
-use uplift_study::{Uncertainty, UncertaintyKind, UniformRiskStudy};
+use uplift_study::{Uncertainty, UncertaintyKind, UniformRiskStudy, Warning};
 use uplift_uncertainty::unit_cube;
 
 use super::Record;
@@ -72,17 +72,22 @@ impl DrawnStructure {
         };
         let strength = drawn.strength.map_or(strength, |factor| factor * strength);
         let restitution = drawn.restitution.unwrap_or(own.restitution);
-        Oscillator::new(strength, study.gravity_m_s2, uplift_displacement_m, restitution, post_uplift).map_err(
-            |error| {
-                let values: Vec<String> =
-                    self.values.iter().map(|(quantity, value)| format!("{} {value}", quantity.key())).collect();
-                UpliftError::input(format!(
-                    "[uncertainty]: one of the structures that may be cannot be ({}, of strength {strength}): {error}; \
-                 take less scatter, or correlate what goes together",
-                    values.join(", ")
-                ))
-            },
-        )
+        Oscillator::new(strength, study.gravity_m_s2, uplift_displacement_m, restitution, post_uplift)
+            .map_err(|error| self.refused(study, strength, &error))
+    }
+
+    /// What it has, what is wrong with it, and what was doubtful in the study already.
+    fn refused(&self, study: &UniformRiskStudy, strength: f64, error: &OscillatorError) -> UpliftError {
+        let values: Vec<String> =
+            self.values.iter().map(|(quantity, value)| format!("{} {value}", quantity.key())).collect();
+        let is_doubt = |warning: &&Warning| warning.unlikely && warning.what.contains("uncertainty.");
+        let doubts: String =
+            study.warnings.iter().filter(is_doubt).map(|doubt| format!("; mistake? {}", doubt.what)).collect();
+        UpliftError::input(format!(
+            "[uncertainty]: one of the structures that may be cannot be ({}, of strength {strength}): {error}; take \
+             less scatter, or correlate what goes together{doubts}",
+            values.join(", ")
+        ))
     }
 }
 
