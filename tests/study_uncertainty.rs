@@ -104,6 +104,36 @@ fn array_u32(result: &Path, name: &str) -> Vec<u32> {
     uplift_labelled::LabelledReader::open(result).unwrap().array_u32(name).unwrap().values
 }
 
+/// One structure for each record: another one for each.
+#[test]
+fn one_draw_is_another_structure_for_each_record() {
+    for component in ["h1", "both"] {
+        let uncertain = study(&scattering("aleatory", "draws = 1"));
+        let set = format!("records.component={component}");
+        let result = run(&uncertain, "r.h5", &["--set", &set]);
+        let structures = structures(&result);
+        let records = if component == "both" { 8 } else { 4 };
+        assert_eq!(structures.len(), records);
+        assert!((1..records).all(|record| structures[record][1].to_bits() != structures[record - 1][1].to_bits()));
+        if component == "h1" {
+            let (_folder, alone) = of_only(&structures[3], "one.h5");
+            let [all, alone] = [&result, &alone].map(|result| array(result, "/ida/pgv/edp_m"));
+            assert!(same_bits(&all[3 * CELLS..], &alone[3 * CELLS..]));
+        }
+        uncertain.uplift(&["measures", "r.h5", "-q"]).ok();
+    }
+    // two components with two structures each are four records of a pair
+    let both = study(&scattering("aleatory", "draws = 2"));
+    let result = run(&both, "r.h5", &["--set", "records.component=both"]);
+    both.uplift(&["bootstrap", "r.h5", "--replicates", "20", "--sizes", "16", "-q"]).ok();
+    let drawn = array_u32(&result, "/bootstrap/multiplicity");
+    assert!(drawn.chunks(4).all(|of_pair| of_pair.iter().all(|times| *times == of_pair[0])));
+    for ask in [&["report", "r.h5", "-q"][..], &["export", "r.h5", "--csv", "-q"]] {
+        both.uplift(ask).ok();
+    }
+    both.uplift(&["measures", "r.h5"]).fails(4, &["not known exactly", "of one structure"]);
+}
+
 /// All records shake the same structures: each has its spectrum, and the frequency of all is the mean of theirs.
 #[test]
 fn structures_are_branches() {
@@ -138,8 +168,12 @@ fn structures_are_branches() {
         assert_eq!((low[place], high[place]), (ranked[0], ranked[7]));
         assert!(mean[place] == sum / 8.0 || (mean[place] - sum / 8.0).abs() <= 1e-15 * sum);
     }
-    let first = &told["structures"][0];
+    let first = &told["structure_spread"][0];
     assert_eq!((first["site"].as_str(), first["im"].as_str()), (Some("Here"), Some("PGV")));
+    assert_eq!(
+        first["poe"].as_f64(),
+        uplift_labelled::LabelledReader::open(&result).unwrap().axis_f64("poe").unwrap().first().copied()
+    );
     let numbers: Vec<f64> = first["mean_m"].as_array().unwrap().iter().filter_map(Value::as_f64).collect();
     let finite: Vec<f64> = mean[..STRENGTHS].iter().copied().filter(|mean| mean.is_finite()).collect();
     assert!(finite.len() > 5 && same_bits(&numbers, &finite), "{first}");
@@ -243,6 +277,11 @@ fn mistakes_are_told_at_once() {
         "{}",
         check.stdout
     );
+    // what cannot be is cut off, and said
+    let cut = "[uncertainty]\nsamples = 8\n[uncertainty.restitution]\ndistribution = \"normal\"\n\
+        coefficient_of_variation = 0.05\n";
+    let check = study(cut).uplift(&["check", "study.toml"]).ok();
+    assert!(check.stdout.contains("14.6 % of the restitution are cut off"), "{}", check.stdout);
     let many = study(&scattering("epistemic", "samples = 4096"));
     many.uplift(&["check", "study.toml", "--set", "records.synthetic.pairs=20", "--set", "records.first=20"])
         .fails(4, &["4096 structures under each of 20 records are 81920", "take fewer structures"]);

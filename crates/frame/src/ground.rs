@@ -174,10 +174,12 @@ impl Shaking<'_> {
 /// The direction of a pair of records that are multiples of one another, to rounding.
 fn record_line(x: &Accelerogram, y: &Accelerogram) -> Option<[f64; 2]> {
     let at = |record: &Accelerogram, index: usize| record.acceleration_m_s2().get(index).copied().unwrap_or(0.0);
+    // squares of the smallest samples would be zero
+    let size = |[x, y]: [f64; 2]| x.hypot(y);
     let pairs = || (0..x.len().max(y.len())).map(|index| [at(x, index), at(y, index)]);
-    let largest = pairs().max_by(|one, other| length(*one).total_cmp(&length(*other)))?;
+    let largest = pairs().max_by(|one, other| size(*one).total_cmp(&size(*other)))?;
     let line = unit(largest)?;
-    let across = |a: [f64; 2]| (a[0] * line[1] - a[1] * line[0]).abs() > 4.0 * f64::EPSILON * length(a);
+    let across = |a: [f64; 2]| (a[0] * line[1] - a[1] * line[0]).abs() > 4.0 * f64::EPSILON * size(a);
     (!pairs().any(across)).then_some(line)
 }
 

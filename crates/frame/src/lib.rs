@@ -64,6 +64,10 @@ mod series;
 pub mod shake_table;
 mod uplift;
 
+/// Version of the frame's numbers: raised whenever a change of its arithmetic changes any of them, so that unfinished
+/// work of an earlier version is not gone on with.
+pub const NUMERICS: u32 = 2;
+
 pub use error::FrameError;
 pub use frame::{ColumnShape, RockingFrame};
 pub use ground::{GroundMotion, Shaking};

@@ -221,7 +221,7 @@ impl Expansion {
                 moment += short_product(along, cos_psi, k);
             }
             let pull = match multiples {
-                // the half angle is not followed where it is not needed
+                // where the half angle is not needed, its products may be no numbers
                 Some([of_sine, 0.0]) => of_sine * step.sine[k],
                 Some([of_sine, of_half_cosine]) => of_sine * step.sine[k] + of_half_cosine * half_cosine,
                 None => strands.moment(&step.sine, &step.versine, k),
@@ -271,6 +271,7 @@ impl<const N: usize> Convergence<N> {
             let term = term.abs();
             // not `max`, which would look for what is no number
             self.largest[i] = if term > self.largest[i] { term } else { self.largest[i] };
+            // infinite ones are told by `Step::is_finite`
             let negligible = TRUNCATION * self.largest[i];
             is_converged &= term <= negligible && self.last[i] <= negligible;
             self.last[i] = term;

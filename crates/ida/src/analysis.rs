@@ -1,5 +1,7 @@
 //! The plan carried out on all cores.
 
+use std::collections::HashMap;
+
 use rayon::prelude::*;
 use uplift_block::{FreeRocking, RockingBlock, respond};
 use uplift_frame::{Model, Options, RockingFrame, Until};
@@ -67,7 +69,7 @@ pub fn complete(
             let scales: Vec<f64> = missing.iter().map(|scale| of_motion.scales[*scale]).collect();
             let grounds: Vec<Ground<'_>> = plan.grounds_of(motion).collect();
             // of every azimuth the peak at every scale
-            let peaks: Vec<Vec<Peak>> = match (shaken, &ground_motions[motion]) {
+            let peaks: Vec<Vec<Peak>> = match (shaken, ground_motions.of(motion)) {
                 (System::Oscillator(oscillator), Some(of_azimuths)) => {
                     let from = |ground| swept(oscillator, ground, plan.with_free_peak(), &scales);
                     of_azimuths.iter().map(from).collect()
@@ -125,22 +127,45 @@ fn check_number(system: &System, (motion, scale): (&str, f64), peak: &Peak) -> R
     Err(IdaError::NotFinite { motion: motion.to_owned(), scale, system: system.to_string(), displacement_m })
 }
 
-/// What oscillators share under each motion, one an azimuth, made ready only where a row of one is missing.
-fn ground_motions<'a>(
-    plan: &Plan<'a>,
-    cells: &Cells,
-    shard: Shard,
-) -> Result<Vec<Option<Vec<GroundMotion<'a>>>>, IdaError> {
+/// What oscillators share under each motion, one an azimuth: made ready once for motions of the same samples.
+struct GroundMotions<'a> {
+    ready: Vec<Option<Vec<GroundMotion<'a>>>>,
+    /// Where that of each motion is, `[motion]`.
+    place: Vec<usize>,
+}
+
+impl<'a> GroundMotions<'a> {
+    fn of(&self, motion: usize) -> Option<&Vec<GroundMotion<'a>>> {
+        self.ready[self.place[motion]].as_ref()
+    }
+}
+
+/// What oscillators share under each motion, made ready only where a row of one is missing.
+fn ground_motions<'a>(plan: &Plan<'a>, cells: &Cells, shard: Shard) -> Result<GroundMotions<'a>, IdaError> {
     let axes = plan.axes();
-    let of_motion = |motion: usize| {
-        let missing = |system: usize| {
+    let (mut known, mut place, mut sharing) = (HashMap::new(), Vec::new(), Vec::<Vec<usize>>::new());
+    for motion in 0..axes.motions {
+        let samples: Vec<(usize, u64)> = plan
+            .grounds_of(motion)
+            .map(|ground| (ground.along.acceleration_m_s2().as_ptr() as usize, ground.along.dt_s().to_bits()))
+            .collect();
+        let index = *known.entry(samples).or_insert_with(|| {
+            sharing.push(Vec::new());
+            sharing.len() - 1
+        });
+        sharing[index].push(motion);
+        place.push(index);
+    }
+    let of_motions = |motions: &Vec<usize>| {
+        let is_missing = |motion: usize, system: usize| {
             let is_swept = plan.system(motion, system).is_swept();
             is_swept && shard.contains(axes.row(motion, system)) && !cells.is_row_known(motion, system)
         };
+        let missing = |motion: &usize| (0..axes.systems).any(|system| is_missing(*motion, system));
         let ready = |ground: Ground<'a>| ground.excitation().map(GroundMotion::new);
-        (0..axes.systems).any(missing).then(|| plan.grounds_of(motion).map(ready).collect()).transpose()
+        motions.iter().any(missing).then(|| plan.grounds_of(motions[0]).map(ready).collect()).transpose()
     };
-    (0..axes.motions).into_par_iter().map(of_motion).collect()
+    Ok(GroundMotions { ready: sharing.par_iter().map(of_motions).collect::<Result<_, _>>()?, place })
 }
 
 /// Peaks of an oscillator at all `scales` together.

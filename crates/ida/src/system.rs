@@ -104,14 +104,16 @@ impl System {
                 ]
             }
             Self::Block(block) => {
-                vec![1.0, block.size_m(), block.slenderness_rad(), block.restitution(), block.gravity_m_s2()]
+                // where the ground moves upwards the frame's solver follows it
+                let version = f64::from(uplift_frame::NUMERICS);
+                vec![1.0, block.size_m(), block.slenderness_rad(), block.restitution(), block.gravity_m_s2(), version]
             }
             Self::Frame(shaken) => {
                 let model = match shaken.model {
                     Model::Planar => 0.0,
                     Model::Wobbling => 1.0,
                 };
-                let mut numbers = vec![2.0, model, shaken.restitution];
+                let mut numbers = vec![2.0, model, shaken.restitution, f64::from(uplift_frame::NUMERICS)];
                 numbers.extend(shaken.frame.identity());
                 numbers
             }

@@ -49,6 +49,13 @@ pub fn efficiency(
 ) -> Result<EfficiencyReport, UpliftError> {
     let (addition, file) = Addition::begin(result, events)?;
     file.refuse_records_at_level("how a measure ranks is asked of records that rise through the levels")?;
+    if file.stored_study()?.structures_of_a_motion() > 1 {
+        return Err(UpliftError::input(format!(
+            "{}: its oscillators are not known exactly ([uncertainty]), and how a measure ranks is asked of one \
+             structure: ask a result of a study without it",
+            file.path().display()
+        )));
+    }
     let stored = file.stripes()?;
     let table = Output::new(efficiency_path(&stored.path), OutputKind::Table("dispersion_rocking"));
     outputs::check(&[table], &[result], options.force)?;

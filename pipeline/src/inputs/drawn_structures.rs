@@ -81,8 +81,8 @@ impl DrawnStructure {
         let values: Vec<String> =
             self.values.iter().map(|(quantity, value)| format!("{} {value}", quantity.key())).collect();
         let is_doubt = |warning: &&Warning| warning.unlikely && warning.what.contains("uncertainty.");
-        let doubts: String =
-            study.warnings.iter().filter(is_doubt).map(|doubt| format!("; mistake? {}", doubt.what)).collect();
+        let doubts = study.warnings.iter().filter(is_doubt).map(|doubt| format!("; mistake? {}", doubt.what));
+        let doubts = doubts.collect::<Vec<_>>().concat();
         UpliftError::input(format!(
             "[uncertainty]: one of the structures that may be cannot be ({}, of strength {strength}): {error}; take \
              less scatter, or correlate what goes together{doubts}",
@@ -119,7 +119,7 @@ pub(super) fn shaking_structures(
         let values = of.vector.values(&points[row * dimensions..(row + 1) * dimensions]);
         DrawnStructure { number, values: of.quantities.iter().copied().zip(values).collect() }
     };
-    if each == 1 {
+    if of.is_known() {
         // nothing scatters: one structure, which is no draw where it is as described
         let only = structure(0, 1);
         let only = (!only.is_as_described(study)).then_some(only);
@@ -133,12 +133,13 @@ pub(super) fn shaking_structures(
                 UncertaintyKind::Epistemic => index,
                 UncertaintyKind::Aleatory => position * each + index,
             };
-            let id = format!("{}{STRUCTURE}{}", record.id, index + 1);
+            let id = if each == 1 { record.id.clone() } else { format!("{}{STRUCTURE}{}", record.id, index + 1) };
             shaking.push(Record { id, structure: Some(structure(row, index + 1)), ..record.clone() });
         }
     }
     let words = match of.kind {
         UncertaintyKind::Epistemic => format!("{description}, each shaking the same {each} structures"),
+        UncertaintyKind::Aleatory if each == 1 => format!("{description}, each shaking a structure of its own"),
         UncertaintyKind::Aleatory => format!("{description}, each shaking {each} structures of its own"),
     };
     Ok((shaking, words))

@@ -103,10 +103,14 @@ impl RecordSet {
     /// The same motions, each once, whatever structures they shake.
     #[must_use]
     pub(crate) fn without_structures(mut self) -> Self {
-        self.records.retain(|record| record.structure.as_ref().is_none_or(|structure| structure.number == 1));
+        let number = |record: &Record| record.structure.as_ref().map(|structure| structure.number);
+        // a single structure of each motion has no number in its name
+        let is_numbered = self.records.iter().any(|record| number(record) > Some(1));
+        self.records.retain(|record| number(record).is_none_or(|number| number == 1));
         for record in &mut self.records {
+            let first = format!("{STRUCTURE}1");
             if record.structure.take().is_some()
-                && let Some((motion, _)) = record.id.rsplit_once(STRUCTURE)
+                && let Some(motion) = is_numbered.then(|| record.id.strip_suffix(&first)).flatten()
             {
                 record.id = motion.to_owned();
             }

@@ -145,7 +145,7 @@ impl StudyOfResult {
         self.same_as_before(read_measured(&self.study, further, &Silent).map_err(|error| error.to_string())?)
     }
 
-    /// The same with the pairs that they are components of.
+    /// The records, each motion once, with the pairs that they are components of.
     ///
     /// # Errors
     /// As [`records`](Self::records).

@@ -45,7 +45,7 @@ impl RecordUnits {
     }
 
     /// Whether each is a record.
-    pub(crate) fn are_records(&self) -> bool {
+    pub fn are_records(&self) -> bool {
         self.records.len() == self.of.len()
     }
 }

@@ -205,8 +205,8 @@ pub fn design(
     alarms.extend(of_structure(structure));
     alarms.extend(of_safety_factor(safety_factor));
     if let Some(exact) = &exact {
-        let records = file.axes()?.records.len();
         let pairs = Scatter::of(&file)?.pairs;
+        let records = pairs.iter().map(Vec::len).sum();
         alarms.extend(of_own_risks(&own_risks(exact, measure, &source.sites[site], (records, &pairs, &weights))));
         let satisfied = rules.iter().any(|rule| rule.check().is_some_and(|check| check.satisfied));
         alarms.extend(of_own_demand(exact.demand_m, told.capacity_m, safety_factor, satisfied));
@@ -355,6 +355,13 @@ fn differences(structure: &Structure, source: &StudyOfResult, restitution: f64) 
     let (system, oscillator) = (&structure.system, &source.study.oscillator);
     let apart = |a: f64, b: f64| (a - b).abs() > 1e-9 * a.abs().max(b.abs());
     let mut notes = Vec::new();
+    if source.study.uncertainty.is_some() {
+        notes.push(
+            "the spectrum is of oscillators that are not known exactly ([uncertainty] of its study); what is compared \
+             with them here is the one that the study describes"
+                .to_owned(),
+        );
+    }
     let uplift_m = system.spectral_uplift_displacement_m();
     if apart(uplift_m, oscillator.uplift_displacement_m) {
         notes.push(format!(

@@ -105,7 +105,9 @@ pub(crate) fn needs(study: &UniformRiskStudy, set: &RecordSet, list: Option<&Sit
     let samples = |record: &Record| -> u64 {
         std::iter::once(&record.accelerogram).chain(&record.other_azimuths).map(|motion| count(motion.len())).sum()
     };
-    let samples: u64 = set.records.iter().map(samples).sum();
+    // structures of a motion share its samples
+    let is_first = |record: &&Record| record.structure.as_ref().is_none_or(|structure| structure.number == 1);
+    let samples: u64 = set.records.iter().filter(is_first).map(samples).sum();
     let listed = list.map_or(0, |list| count(list.sites.len()));
     let exports = list.map_or(&[][..], |list| &list.exports[..]);
     let is_listed = |plan: &&MeasurePlan| exports.iter().any(|export| export.measure == plan.measure);

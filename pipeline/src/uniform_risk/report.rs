@@ -44,7 +44,7 @@ pub struct RunReport {
     #[serde(skip)]
     pub branches: Vec<BranchReport>,
     /// Their spread over the structures that may be, where all records shake the same ones.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(rename = "structure_spread", skip_serializing_if = "Vec::is_empty")]
     pub structures: Vec<BranchReport>,
 }
 
@@ -98,12 +98,18 @@ pub struct BranchReport {
     /// `PGV` or `PGA`.
     pub im: &'static str,
     /// Position of the probability.
+    #[serde(skip)]
     pub poe: usize,
-    /// Lowest fractile.
+    /// The probability of exceedance.
+    #[serde(rename = "poe")]
+    pub probability: f64,
+    /// 5 % fractile.
+    #[serde(rename = "u05_m")]
     pub low_m: Vec<f64>,
     /// Weighted mean.
     pub mean_m: Vec<f64>,
-    /// Highest fractile.
+    /// 95 % fractile.
+    #[serde(rename = "u95_m")]
     pub high_m: Vec<f64>,
 }
 
@@ -178,6 +184,7 @@ fn branches(outcome: &Outcome<'_>, of: fn(&super::Spectra) -> &[BranchSpectra]) 
                     site: outcome.study.sites[branches.site].name.clone(),
                     im: spectra.measure.label(),
                     poe,
+                    probability: outcome.study.risk.poe[poe],
                     low_m: of_poe(low),
                     mean_m: of_poe(&branches.mean_m),
                     high_m: of_poe(high),

@@ -84,9 +84,10 @@ pub(super) fn influence(source: &FigureSource) -> Vec<Figure> {
         };
         let label = influence.measure.label();
         let caption = format!(
-            "Change of the spectrum of {} by {label} if one record is left out, a line for each record; \
+            "Change of the spectrum of {risk} by {label} if one {one} is left out, a line for each {one}; \
              those that change it most, at any site, are named.",
-            risk_in_words(stored.poes[poe], stored.years)
+            one = if stored.units.are_records() { "record" } else { "pair" },
+            risk = risk_in_words(stored.poes[poe], stored.years)
         );
         let id = format!("influence-{}", influence.measure.key());
         let title = format!("Records that carry the spectra, by {label}");
@@ -103,7 +104,7 @@ fn most_influential(source: &FigureSource, measure: &StoredMeasure, without_m: &
             largest[of.record] = largest[of.record].max(of.mean_change.abs());
         }
     }
-    let mut order: Vec<usize> = (0..largest.len()).collect();
+    let mut order: Vec<usize> = source.stored.units.firsts().collect();
     order.sort_by(|&a, &b| largest[b].total_cmp(&largest[a]));
     order.truncate(NAMED);
     order

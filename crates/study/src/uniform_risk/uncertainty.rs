@@ -2,6 +2,7 @@
 
 use uplift_oscillator::PostUplift;
 use uplift_structure::UncertainQuantity;
+use uplift_uncertainty::Distribution;
 
 use super::{Oscillator, Records};
 use crate::keys::{Key, SectionKeys};
@@ -98,6 +99,9 @@ pub(super) const CORRELATION_KEYS: SectionKeys = SectionKeys {
 /// Ways to give a distribution that a strength, which scatters about each of the study's, has not.
 const NOT_OF_STRENGTH: [&str; 5] = ["mean", "percentiles", "lower", "upper", "mode"];
 
+/// A share of a distribution that may be cut off in silence.
+const LITTLE: f64 = 0.001;
+
 /// Reads the section, and what is to be asked about it. None where something is wrong.
 pub(super) fn read(
     mut section: Section<'_>,
@@ -134,7 +138,16 @@ pub(super) fn read(
         unlikely: true,
         ..Warning::new(format!("{key}{what}"), format!("correct it, or leave it if it is meant: {key}"))
     };
-    Some((Some(uncertainty), doubts.iter().map(asked).collect()))
+    let cut = |(quantity, of): (&UncertainQuantity, &Distribution)| {
+        let share = of.cut_off_share();
+        (share > LITTLE).then(|| {
+            let what = format!("{:.1} % of the {} are cut off, where it cannot be", 100.0 * share, quantity.name());
+            Warning::new(what, "its mean is another than the one that is written: give limits, or less scatter")
+        })
+    };
+    let of_cuts = uncertainty.quantities.iter().zip(uncertainty.vector.distributions()).filter_map(cut);
+    let warnings = doubts.iter().map(asked).chain(of_cuts).collect();
+    Some((Some(uncertainty), warnings))
 }
 
 /// Whether the records are the same at every level, where something is uncertain; else a mistake.
