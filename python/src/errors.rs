@@ -42,7 +42,7 @@ pub(crate) fn of_study(py: Python<'_>, error: &StudyError) -> PyErr {
     };
     let kind = match reason {
         Unreadable::System(system) => system.kind(),
-        Unreadable::Missing => io::ErrorKind::NotFound,
+        Unreadable::Missing { .. } => io::ErrorKind::NotFound,
         Unreadable::NotAFile => io::ErrorKind::IsADirectory,
         _ => return refused(error),
     };
