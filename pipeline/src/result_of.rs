@@ -8,7 +8,7 @@ use crate::checkpoint::oscillator_key;
 use crate::error::UpliftError;
 use crate::events::{Events, Silent};
 use crate::frame::RunOptions;
-use crate::inputs::{Record, read_hazard, read_other_hazard, read_records};
+use crate::inputs::{Record, motion_keys, read_hazard, read_other_hazard, read_records};
 use crate::result::{Kind, Provenance, ResultFile, replaces_another};
 use crate::run::run;
 
@@ -80,11 +80,10 @@ fn refuse_other_question(study: &UniformRiskStudy, path: &Path) -> Result<(), Up
 /// them.
 fn is_of_records(file: &ResultFile, study: &UniformRiskStudy, records: &[Record]) -> Result<bool, UpliftError> {
     let kept = file.records()?;
-    let motions: Vec<String> = records.iter().map(Record::motion_key).collect();
     let same = |kept: &[f64], own: &dyn Fn(&Record) -> f64| {
         kept.iter().map(|value| value.to_bits()).eq(records.iter().map(|record| own(record).to_bits()))
     };
-    let mut is_same = kept.motion_sha256 == motions
+    let mut is_same = kept.motion_sha256 == motion_keys(records)
         && same(&kept.pga_g, &|record| record.pga_g)
         && same(&kept.pgv_cm_s, &|record| record.pgv_cm_s)
         && same(&kept.magnitude, &|record| record.number("magnitude"))

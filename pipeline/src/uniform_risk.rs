@@ -34,6 +34,6 @@ pub(crate) use spectra::{Reading, pooled_demand};
 pub use spectra::{Spectra, uniform_risk_spectra};
 pub use stripes::{Stripes, plan_stripes, systems};
 pub(crate) use stripes::{plan_levels, plan_own_stripes, seen, shaken_upwards, stripes_of, systems_under};
-pub(crate) use work::{Inputs, motion_keys, run_shard};
+pub(crate) use work::{Inputs, run_shard};
 pub use write::write_result;
 pub(crate) use write_hazard::{BRANCHES, write_branch_spectra};

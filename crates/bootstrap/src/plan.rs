@@ -5,8 +5,7 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 use uplift_risk::RecordSample;
 
 use crate::unit::{units, units_in_sample};
-use crate::weighted_replicates::without;
-use crate::{BootstrapError, Unit, left_out};
+use crate::{BootstrapError, Unit, left_out, left_out_together};
 
 /// Fills the seed behind the 8 bytes of the user's number, so that no other use of the generator shares these streams.
 const RECORDS: &[u8; 24] = b"uplift bootstrap records";
@@ -220,7 +219,7 @@ impl ResamplingPlan {
     /// More than 2²⁴ records.
     pub fn left_out(&self) -> Result<Vec<RecordSample>, BootstrapError> {
         let Some(groups) = self.groups() else { return Ok(left_out(self.record_count)?) };
-        groups.iter().map(|group| Ok(without(self.record_count, group)?)).collect()
+        Ok(left_out_together(self.record_count, groups)?)
     }
 
     /// Records drawn from.

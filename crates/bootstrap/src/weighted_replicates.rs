@@ -53,7 +53,8 @@ pub fn weighted_replicates<E: From<RiskError>>(
 /// # Errors
 /// More than 2²⁴ records.
 pub fn left_out(records: usize) -> Result<Vec<RecordSample>, RiskError> {
-    if records < 2 { Ok(Vec::new()) } else { (0..records).map(|record| without(records, &[record])).collect() }
+    let each: Vec<Vec<usize>> = (0..records).map(|record| vec![record]).collect();
+    left_out_together(records, &each)
 }
 
 /// So many `records` without each of the `units` in turn, `[unit]`; none where there is but one.
@@ -73,7 +74,7 @@ pub fn left_out_together(records: usize, units: &[Vec<usize>]) -> Result<Vec<Rec
 ///
 /// # Errors
 /// None left; more than 2²⁴ records.
-pub(crate) fn without(records: usize, left_out: &[usize]) -> Result<RecordSample, RiskError> {
+fn without(records: usize, left_out: &[usize]) -> Result<RecordSample, RiskError> {
     let mut multiplicities = vec![1; records];
     for &record in left_out {
         multiplicities[record] = 0;

@@ -40,14 +40,8 @@ impl DrawnStructure {
 
     /// Whether it is the one that `study` describes.
     fn is_as_described(&self, study: &UniformRiskStudy) -> bool {
-        let of = |quantity: UncertainQuantity| match (quantity, study.oscillator.post_uplift) {
-            (UncertainQuantity::Strength, _) => Some(1.0),
-            (UncertainQuantity::Restitution, _) => Some(study.oscillator.restitution),
-            (UncertainQuantity::UpliftDisplacement, _) => Some(study.oscillator.uplift_displacement_m),
-            (UncertainQuantity::Capacity, PostUplift::Negative { capacity_m }) => Some(capacity_m),
-            (UncertainQuantity::Capacity, _) => None,
-        };
-        self.values.iter().all(|(quantity, value)| of(*quantity).map(f64::to_bits) == Some(value.to_bits()))
+        let described = |quantity| study.oscillator.value(quantity).map(f64::to_bits);
+        self.values.iter().all(|(quantity, value)| described(*quantity) == Some(value.to_bits()))
     }
 
     /// The value of a quantity; none where that is known exactly.

@@ -14,7 +14,6 @@ use super::drawn_structures::{DrawnStructure, STRUCTURE, shaking_structures};
 use super::pairs::{self, CheckedPair};
 use super::third_component::{ThirdComponents, Vertical};
 use super::{AtLevel, at_level, cache, manifest, selection};
-use crate::checkpoint::motion_key;
 use crate::checksum::checksum;
 use crate::error::UpliftError;
 use crate::events::{Events, Silent};
@@ -51,24 +50,6 @@ pub struct Record {
 }
 
 impl Record {
-    /// SHA-256 of the motion that its peaks are of, hexadecimal; of all motions and the percentile where it is one; of
-    /// the motion and what its structure has where that is not known exactly.
-    pub fn motion_key(&self) -> String {
-        let first = motion_key(&self.accelerogram);
-        let of_motion = match self.direction {
-            Direction::Percentile { percentile, .. } if !self.other_azimuths.is_empty() => {
-                let others = self.other_azimuths.iter().map(motion_key);
-                let keys: Vec<String> = std::iter::once(first).chain(others).collect();
-                checksum(format!("percentile {percentile} of {}", keys.join(" ")).as_bytes())
-            }
-            _ => first,
-        };
-        match &self.structure {
-            Some(structure) => structure.key_with(&of_motion),
-            None => of_motion,
-        }
-    }
-
     /// A number that the manifest says under `key`; NaN where it says none.
     pub fn number(&self, key: &str) -> f64 {
         self.metadata.get(key).and_then(|text| text.parse().ok()).unwrap_or(f64::NAN)

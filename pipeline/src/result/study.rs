@@ -15,7 +15,7 @@ use super::stripes::poe_index;
 use crate::array::Array;
 use crate::error::UpliftError;
 use crate::events::Silent;
-use crate::inputs::{RecordSet, read_measured, read_with_pairs};
+use crate::inputs::{RecordSet, motion_keys, read_measured, read_with_pairs};
 use uplift_study::{AnyStudy, Kind, MeasurePlan, Study, UniformRiskStudy};
 
 /// A result with its study.
@@ -169,14 +169,14 @@ impl StudyOfResult {
                 "there are {found} records now, and the result was made from {made}: run the study again"
             ));
         }
-        let other = set.records.iter().enumerate().find(|(index, record)| {
+        let other = set.records.iter().zip(motion_keys(&set.records)).enumerate().find(|(index, (record, key))| {
             let same = |a: f64, b: f64| a.to_bits() == b.to_bits();
-            record.motion_key() != made_from.motion_sha256[*index]
+            *key != made_from.motion_sha256[*index]
                 || !same(record.pga_g, made_from.pga_g[*index])
                 || !same(record.pgv_cm_s, made_from.pgv_cm_s[*index])
         });
         match other {
-            Some((_, record)) => Err(format!(
+            Some((_, (record, _))) => Err(format!(
                 "record {} is not the motion that the result was made from: put that file back, or run the study again",
                 record.id
             )),

@@ -35,7 +35,7 @@ use super::risk::EventRisk;
 use super::rocking_frame::TORSION;
 use crate::alarms::{Alarm, OwnRisk, Scope, alarms_of_inputs, of_own_risks, of_structure, ranked};
 use crate::analysis::{Beside, ShardReport};
-use crate::consistency::Reweighing;
+use crate::consistency::{Question as Asked, Reweighing};
 use crate::error::UpliftError;
 use crate::events::{Events, Silent};
 use crate::outputs::{self, Output, OutputKind};
@@ -283,7 +283,7 @@ fn draws(file: &ResultFile, source: &StudyOfResult, shaken: &Shaken) -> Result<R
     let sizes = [u32::try_from(records).unwrap_or(u32::MAX)];
     let replicates = usize::try_from(settings.replicates).unwrap_or(usize::MAX);
     let drawn_together = match settings.unit {
-        Unit::Event => Some(crate::consistency::Question::of_motions(file)?.event_of()),
+        Unit::Event => Some(Asked::of_motions(file)?.event_of()),
         // all records of a pair are one wobbling run
         Unit::Record | Unit::Pair if shaken.pairs.len() < records && shaken.pairs.len() > 1 => Some(shaken.pair_of()),
         Unit::Record | Unit::Pair => None,

@@ -27,10 +27,10 @@ use crate::analysis::{Beside, LabelledPlan, ShardReport, Work};
 use crate::consistency::Reweighing;
 use crate::error::UpliftError;
 use crate::events::Events;
-use crate::inputs::RecordSet;
+use crate::inputs::{RecordSet, motion_keys};
 use crate::outputs::{self, Output, OutputKind};
 use crate::result::{ResultFile, SpectraOfResult, StudyOfResult};
-use crate::uniform_risk::{motion_keys, plan_stripes};
+use crate::uniform_risk::plan_stripes;
 
 /// What is asked of the overturning of a structure.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -324,7 +324,7 @@ impl Shaken {
         let mut study = source.study.clone();
         // what is lost when a record ends has overturned, whoever looks
         study.oscillator.free_vibration = true;
-        Ok(Self { motions: motion_keys(&set), study, set })
+        Ok(Self { motions: motion_keys(&set.records), study, set })
     }
 
     /// The stripes of each model by each measure, the models running fastest; those of the scale factors themselves,

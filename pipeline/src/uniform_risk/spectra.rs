@@ -22,7 +22,8 @@ pub struct Spectra {
     pub ordinates: Array<3, Ordinate>,
     /// Spectra of each branch, for the sites that have branches.
     pub branches: Vec<BranchSpectra>,
-    /// Spectra of each structure that may be, one a site, where all records shake the same ones.
+    /// Spectra over the structures that may be, one a site, where all records shake the same ones: a structure is a
+    /// branch, and all weigh alike.
     pub structures: Vec<BranchSpectra>,
     /// Mean annual frequencies `[site, strength, threshold]`, 1/yr, if the study keeps them.
     pub maf_per_year: Option<Array<3>>,
@@ -118,7 +119,7 @@ pub fn uniform_risk_spectra(
     let reading = Reading::of(study)?;
     let (targets, grid) = (&reading.targets, &reading.grid);
     let strengths = stripes.peaks.axes().systems;
-    let structures = shared_structures(study);
+    let shared = shared_structures(study);
 
     let of_strength = |strength: usize| -> Result<OfStrength, UpliftError> {
         let demand = pooled_demand(stripes, strength)?;
@@ -133,10 +134,10 @@ pub fn uniform_risk_spectra(
             let of_branch = |branch: &BranchHazard| read(&RiskCurve::new(&demand, &branch.input.weights)?);
             done.branches.push(site.branches.iter().map(of_branch).collect::<Result<_, _>>()?);
         }
-        if structures > 1 {
+        if shared > 1 {
             done.structures = vec![Vec::new(); hazard.len()];
-            for structure in 0..structures {
-                let demand = demand_of_structure(stripes, strength, (structure, structures))?;
+            for structure in 0..shared {
+                let demand = demand_of_structure(stripes, strength, (structure, shared))?;
                 for (site, of_site) in hazard.iter().zip(&mut done.structures) {
                     of_site.push(read(&RiskCurve::new(&demand, &site.curve.weights)?)?);
                 }
@@ -159,13 +160,13 @@ pub fn uniform_risk_spectra(
         })
         .collect();
     let of_structures = |site: usize| {
-        let names = (1..=structures).map(|number| number.to_string()).collect();
-        let spectra_m = Array::from_fn([structures, targets.len(), strengths], |[structure, poe, strength]| {
+        let names = (1..=shared).map(|number| number.to_string()).collect();
+        let spectra_m = Array::from_fn([shared, targets.len(), strengths], |[structure, poe, strength]| {
             by_strength[strength].structures[site][structure][poe].displacement_m
         });
-        BranchSpectra::of(site, names, vec![1.0; structures], spectra_m)
+        BranchSpectra::of(site, names, vec![1.0; shared], spectra_m)
     };
-    let structures = if structures > 1 { (0..hazard.len()).map(of_structures).collect() } else { Vec::new() };
+    let structures = if shared > 1 { (0..hazard.len()).map(of_structures).collect() } else { Vec::new() };
     Ok(Spectra {
         branches,
         structures,

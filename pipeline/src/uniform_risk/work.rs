@@ -9,7 +9,7 @@ use super::{EarlierStripes, needs, plan_own_stripes, systems_under};
 use crate::analysis::{LabelledPlan, ShardReport, Work, carry_out_shard};
 use crate::error::UpliftError;
 use crate::events::Events;
-use crate::inputs::{Record, RecordSet, read_hazard, read_records};
+use crate::inputs::{RecordSet, motion_keys, read_hazard, read_records};
 use crate::text::thousands;
 
 /// What the stripes of a study are made of.
@@ -27,7 +27,7 @@ impl Inputs {
     /// Records that cannot be used.
     pub(crate) fn read(study: &UniformRiskStudy, events: &dyn Events) -> Result<Self, UpliftError> {
         let records = read_records(study, events)?;
-        Ok(Self { systems: systems_under(study, &records)?, motions: motion_keys(&records), records })
+        Ok(Self { systems: systems_under(study, &records)?, motions: motion_keys(&records.records), records })
     }
 
     /// The stripes of every measure, but for what is known of them from results at `earlier`.
@@ -74,11 +74,6 @@ impl Inputs {
         }
         Ok(Work::new(&study.title, plans))
     }
-}
-
-/// Keys of the records' motions.
-pub(crate) fn motion_keys(set: &RecordSet) -> Vec<String> {
-    set.records.iter().map(Record::motion_key).collect()
 }
 
 /// Carries out one shard of the stripes of a study into a file, but for what is known from an `earlier` result.

@@ -10,7 +10,7 @@ use super::write_hazard::{write_branches, write_hazard, write_other_hazard, writ
 use crate::checkpoint::oscillator_key;
 use crate::consistency::Keep;
 use crate::error::UpliftError;
-use crate::inputs::{AtLevel, DrawnStructure, Record};
+use crate::inputs::{AtLevel, DrawnStructure, Record, motion_keys};
 use crate::result::layout::{URS_PRECISION, axis, ida, intensity, records as layout, regression, risk, urs};
 use crate::result::{Origin, flag_number};
 use uplift_labelled::{LabelledError, LabelledWriter};
@@ -95,8 +95,12 @@ fn write_records(
     writer.array_f64(layout::VS30, dims, &number("vs30"), "m/s", "mean shear-wave velocity of the upper 30 m")?;
     let component: Vec<String> = records.iter().map(|record| record.direction.to_string()).collect();
     writer.array_text(layout::COMPONENT, dims, &component, "horizontal component analysed")?;
-    let motions: Vec<String> = records.iter().map(Record::motion_key).collect();
-    writer.array_text(layout::MOTION_SHA256, dims, &motions, "SHA-256 of time step and samples in m/s2")?;
+    writer.array_text(
+        layout::MOTION_SHA256,
+        dims,
+        &motion_keys(records),
+        "SHA-256 of time step and samples in m/s2",
+    )?;
     let checksum: Vec<String> = records.iter().map(|record| record.checksum.clone()).collect();
     writer.array_text(layout::CHECKSUM, dims, &checksum, "SHA-256 of the component")?;
     let pga: Vec<f64> = records.iter().map(|record| record.pga_g).collect();

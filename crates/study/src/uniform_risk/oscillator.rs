@@ -3,6 +3,7 @@
 use serde::{Serialize, Serializer};
 use uplift_oscillator::PostUplift;
 use uplift_plausible::{CAPACITY, POST_UPLIFT_STIFFNESS, UPLIFT_DISPLACEMENT};
+use uplift_structure::UncertainQuantity;
 
 use crate::keys::{Key, SectionKeys};
 use crate::reading::{Rule, Section, ZERO_TO_ONE, optional, quantity};
@@ -56,6 +57,20 @@ pub struct Oscillator {
     /// The force after uplift; a capacity is above the displacement at uplift.
     #[serde(flatten, serialize_with = "write_post_uplift")]
     pub post_uplift: PostUplift,
+}
+
+impl Oscillator {
+    /// Its value of a quantity that may be uncertain: of the strength the factor on each of the study's, 1. None of a
+    /// capacity where the force does not fall.
+    pub fn value(&self, quantity: UncertainQuantity) -> Option<f64> {
+        match (quantity, self.post_uplift) {
+            (UncertainQuantity::Strength, _) => Some(1.0),
+            (UncertainQuantity::Restitution, _) => Some(self.restitution),
+            (UncertainQuantity::UpliftDisplacement, _) => Some(self.uplift_displacement_m),
+            (UncertainQuantity::Capacity, PostUplift::Negative { capacity_m }) => Some(capacity_m),
+            (UncertainQuantity::Capacity, PostUplift::Zero | PostUplift::Positive { .. }) => None,
+        }
+    }
 }
 
 fn write_post_uplift<S: Serializer>(post_uplift: &PostUplift, serializer: S) -> Result<S::Ok, S::Error> {

@@ -1,6 +1,5 @@
 //! The section `[uncertainty]`: what of the oscillators is not known exactly.
 
-use uplift_oscillator::PostUplift;
 use uplift_structure::UncertainQuantity;
 use uplift_uncertainty::Distribution;
 
@@ -119,18 +118,10 @@ pub(super) fn read(
             );
         }
     }
-    let described = |quantity: UncertainQuantity| {
-        let Some(oscillator) = oscillator else { return Described::Mistaken };
-        match (quantity, oscillator.post_uplift) {
-            // a factor on each strength
-            (UncertainQuantity::Strength, _) => Described::As(1.0),
-            (UncertainQuantity::Restitution, _) => Described::As(oscillator.restitution),
-            (UncertainQuantity::UpliftDisplacement, _) => Described::As(oscillator.uplift_displacement_m),
-            (UncertainQuantity::Capacity, PostUplift::Negative { capacity_m }) => Described::As(capacity_m),
-            (UncertainQuantity::Capacity, _) => {
-                Described::Impossible("the oscillator has no capacity: its force does not fall after uplift")
-            }
-        }
+    let described = |quantity: UncertainQuantity| match oscillator.map(|oscillator| oscillator.value(quantity)) {
+        Some(Some(value)) => Described::As(value),
+        Some(None) => Described::Impossible("the oscillator has no capacity: its force does not fall after uplift"),
+        None => Described::Mistaken,
     };
     let mut doubts = Vec::new();
     let uncertainty = uncertainty::read(section, &described, &mut doubts)?;

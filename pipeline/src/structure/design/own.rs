@@ -8,14 +8,14 @@ use crate::analysis::{Beside, LabelledPlan, Work};
 use crate::checkpoint::Checkpoint;
 use crate::error::UpliftError;
 use crate::events::Events;
-use crate::inputs::RecordSet;
+use crate::inputs::{RecordSet, motion_keys};
 use crate::result::{ResultFile, SpectraOfResult, StudyOfResult};
 use crate::structure::certainty::Scatter;
 use crate::structure::demand::{ExactDemand, exact_demand};
 use crate::structure::sweep::Sweep;
 use crate::structure::uncertain::{AskedSite, Event, Uncertain, UncertaintyReport};
 use crate::structure::weights::SiteWeights;
-use crate::uniform_risk::{Stripes, motion_keys, plan_stripes};
+use crate::uniform_risk::{Stripes, plan_stripes};
 
 /// Where and by what a structure is designed.
 pub(super) struct Question<'a> {
@@ -94,7 +94,7 @@ impl<'a> Shaken<'a> {
             Sweep::of(&source.study, &structure.system, restitution).map_err(|error| error.in_file(&structure.file))?;
         let is_asked = !options.repaired && source.study.records.at_level.is_none();
         let uncertain = if is_asked { Uncertain::of(structure, restitution, set.records.len())? } else { None };
-        Ok(Self { motions: motion_keys(&set), systems: sweep.systems(), sweep, uncertain, set })
+        Ok(Self { motions: motion_keys(&set.records), systems: sweep.systems(), sweep, uncertain, set })
     }
 
     /// Their stripes of one measure, then those of the structures that it may be.

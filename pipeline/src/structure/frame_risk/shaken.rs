@@ -10,10 +10,10 @@ use super::super::sweep::{OF_STUDY, OWN, Sweep};
 use crate::analysis::{Analysed, LabelledPlan, Work};
 use crate::checkpoint::motion_key;
 use crate::error::UpliftError;
-use crate::inputs::{Record, RecordSet};
+use crate::inputs::{Record, RecordSet, motion_keys};
 use crate::result::{SpectraOfResult, StudyOfResult};
 use crate::text::thousands;
-use crate::uniform_risk::{motion_keys, plan_stripes, seen, shaken_upwards, stripes_of};
+use crate::uniform_risk::{plan_stripes, seen, shaken_upwards, stripes_of};
 
 /// A frame with everything that it is shaken by and compared to.
 pub(super) struct Shaken {
@@ -75,7 +75,7 @@ impl Shaken {
             planar: vec![of(Model::Planar, restitution.0)],
             frame,
             restitution,
-            keys: [joint, components, motion_keys(&set)],
+            keys: [joint, components, motion_keys(&set.records)],
             set,
             pairs,
             study: source.study.clone(),

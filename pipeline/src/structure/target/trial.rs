@@ -13,7 +13,7 @@ use crate::analysis::{Analysed, Beside, LabelledPlan, Work};
 use crate::checkpoint::Checkpoint;
 use crate::error::UpliftError;
 use crate::events::Events;
-use crate::inputs::RecordSet;
+use crate::inputs::{RecordSet, motion_keys};
 use crate::result::{SpectraOfResult, StudyOfResult};
 use crate::structure::certainty::Scatter;
 use crate::structure::choice::records;
@@ -21,7 +21,7 @@ use crate::structure::risk::{EventRisk, HAPPENS, OVERTURNING_M, happenings, risk
 use crate::structure::uncertain::{Around, Spread};
 use crate::structure::weights::SiteWeights;
 use crate::text::{records_in_words, thousands};
-use crate::uniform_risk::{motion_keys, plan_levels};
+use crate::uniform_risk::plan_levels;
 
 /// What values are tried on. The rows of every round stay in the checkpoint until the answer is given.
 pub(super) struct Trials<'a> {
@@ -76,7 +76,7 @@ impl<'a> Trials<'a> {
             scatter,
             options,
             years,
-            motions: motion_keys(&set),
+            motions: motion_keys(&set.records),
             set,
             restitution,
             study,
