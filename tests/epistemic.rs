@@ -167,3 +167,108 @@ fn branches_that_are_not_the_same_are_repaired_by_their_mean_and_it_is_said() {
     let file = LabelledReader::open(&apart.path().join("r.h5")).unwrap();
     assert!(file.exists("/consistency/pgv/u_m") && !file.exists("/consistency/pgv/branches"));
 }
+
+/// A frame under twenty pairs, with the hazard that the rows `hazard` of its site say.
+fn structure_study(hazard: &str) -> SmallStudy {
+    let study = SmallStudy::with(&format!(
+        "title = \"small\"\n[records.synthetic]\npairs = 20\n[strengths]\nvalues = [0.05, 0.1, 0.2]\n[pga]\n\
+         levels_g = [0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 0.8, 1.2, 2]\n[bootstrap]\nreplicates = 101\n[[sites]]\n\
+         name = \"Here\"\n{hazard}"
+    ));
+    for (name, factor) in [("a", 1.0), ("b", 3.0)] {
+        let row = |im: f64| format!("{im},{:e}", 2e-4 * factor * im.powf(-2.0));
+        let rows: Vec<String> = [0.01, 0.1, 1.0, 4.0].map(row).to_vec();
+        study.write(&format!("{name}.csv"), &format!("iml,maf\n{}\n", rows.join("\n")));
+    }
+    study.write(
+        "frame.toml",
+        "kind = \"frame\"\ncolumns = 4\nwidth_m = 0.6\nheight_m = 4\ncolumn_mass_kg = 1000\ndeck_mass_kg = 9000\n",
+    );
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    study
+}
+
+fn two_curves(first: &str, second: &str) -> SmallStudy {
+    let of = |name: &str, file: &str, weight: f64| {
+        format!("[[sites.pga.branches]]\nname = \"{name}\"\nfile = \"{file}.csv\"\nweight = {weight}\n")
+    };
+    structure_study(&format!("[sites.pga]\n{}{}", of("first", first, 0.4), of("second", second, 0.6)))
+}
+
+fn answer(study: &SmallStudy, asked: &[&str]) -> serde_json::Value {
+    let arguments = [&asked[..1], &["frame.toml", "--urs", "r.h5", "--json", "-q"], &asked[1..]].concat();
+    serde_json::from_str(&study.uplift(&arguments).ok().stdout).unwrap()
+}
+
+const TARGET: [&str; 5] = ["target", "--vary", "width", "--overturning", "2e-3"];
+
+/// The bands of a structure's numbers, `[number][limit]`: as the records tell them, and with the hazard's curves.
+fn bands_of_structure(study: &SmallStudy) -> [Vec<[f64; 2]>; 2] {
+    let limits = |value: &serde_json::Value| {
+        let all: Vec<f64> = value.as_array().unwrap().iter().map(|limit| limit.as_f64().unwrap()).collect();
+        [all[0], all[all.len() - 1]]
+    };
+    let design = &answer(study, &["design", "--poe", "0.5"])["exact"]["bands"];
+    let overturning = &answer(study, &["overturning"])["overturning"][0]["sites"][0]["bands"];
+    let target = answer(study, &TARGET);
+    let numbers = |records: &str, of_margin: &str, of_demand: &str, of_target: &str| {
+        let own = [
+            &design[of_demand],
+            &design["margin"][of_margin],
+            &design["beyond_capacity_per_year"][records],
+            &design["overturning_per_year"][records],
+            &overturning[records],
+            &target[of_target]["value"],
+            &target[of_target]["per_year"],
+        ];
+        own.into_iter().filter(|value| !value.is_null()).map(limits).collect::<Vec<_>>()
+    };
+    [
+        numbers("by_record", "by_record_m", "demand_by_record_m", "band"),
+        numbers("with_hazard", "with_hazard_m", "demand_with_hazard_m", "band_with_hazard"),
+    ]
+}
+
+#[test]
+fn numbers_of_a_structure_are_banded_over_the_curves_of_the_hazard() {
+    let alone = ["a", "b"].map(|name| bands_of_structure(&structure_study(&format!("pga = \"{name}.csv\"\n"))));
+    for [records, with_hazard] in &alone {
+        assert!(records.len() == 7 && with_hazard.is_empty(), "a site with one curve has nothing to weigh");
+    }
+    // the same curve twice leaves what the records say
+    let [records, with_hazard] = bands_of_structure(&two_curves("a", "a"));
+    assert_eq!(records, alone[0][0]);
+    for (found, expected) in with_hazard.iter().flatten().zip(records.iter().flatten()) {
+        assert!((found - expected).abs() <= 1e-12 * expected.abs(), "{found} {expected}");
+    }
+    // limits of a mixture lie between those of its curves
+    let study = two_curves("a", "b");
+    let [records, with_hazard] = bands_of_structure(&study);
+    assert_eq!(with_hazard.len(), 7);
+    for (number, limits) in with_hazard.iter().enumerate() {
+        // a curve that is not known to hold puts one end further out
+        let [lower, upper] = records[number];
+        assert!(limits[0] < lower || limits[1] > upper, "{number}: {:?} {limits:?}", records[number]);
+        // frequencies at the value found are of another structure under another curve
+        if number == 6 {
+            continue;
+        }
+        let [of_a, of_b] = [0, 1].map(|curve: usize| alone[curve][0][number]);
+        for end in [0, 1] {
+            let [least, most] = [of_a[end].min(of_b[end]), of_a[end].max(of_b[end])];
+            assert!((least..=most).contains(&limits[end]), "{number}: {of_a:?} {of_b:?} {limits:?}");
+        }
+    }
+    // told in words, kept in the result, and exported
+    let told = study.uplift(&["design", "frame.toml", "--urs", "r.h5", "-q"]).ok().stdout;
+    assert!(told.contains("with the site's 2 hazard curves, ") && told.contains("capacity less demand"), "{told}");
+    let told = study.uplift(&["overturning", "frame.toml", "--urs", "r.h5", "-q", "-o", "o.csv"]).ok().stdout;
+    assert!(told.contains("with the site's weighted hazard curves"), "{told}");
+    let table = std::fs::read_to_string(study.path().join("o.risk.csv")).unwrap();
+    assert!(table.contains("maf_records_upper_per_year,maf_hazard_lower_per_year"), "{table}");
+    let told = study.uplift(&[&["target", "frame.toml", "--urs", "r.h5", "-q"], &TARGET[1..]].concat()).ok().stdout;
+    assert!(told.contains("hazard, records"), "{told}");
+    study.uplift(&["export", "r.h5", "--json", "-o", "x.json", "-q"]).ok();
+    let json = std::fs::read_to_string(study.path().join("x.json")).unwrap();
+    assert!(json.contains("records and hazard"), "the answers that are kept");
+}

@@ -178,6 +178,22 @@ fn structures_are_branches() {
     let finite: Vec<f64> = mean[..STRENGTHS].iter().copied().filter(|mean| mean.is_finite()).collect();
     assert!(finite.len() > 5 && same_bits(&numbers, &finite), "{first}");
     assert!(uncertain.uplift(&["run", "study.toml", "-o", "again.h5"]).ok().stdout.contains("structures that may be"));
+    // on the page, with a figure, and in the exports
+    uncertain.uplift(&["report", "r.h5", "-q"]).ok();
+    uncertain.uplift(&["export", "r.h5", "--json", "--csv", "--mat", "--xlsx", "-q"]).ok();
+    let read = |name: &str| std::fs::read_to_string(uncertain.path().join(name)).unwrap();
+    let page = read("r.html");
+    let cell = format!("{:.4} to {:.4}", low[2], high[2]);
+    assert!(page.contains("Spectra over the structures that may be, by PGV") && page.contains(&cell), "{cell}");
+    let json: Value = serde_json::from_str(&read("r.json")).unwrap();
+    let spread = &json["spectra"][0]["spread_over_structure"];
+    for (name, values) in [("u05_m", &low), ("mean_m", &mean), ("u95_m", &high)] {
+        let told: Vec<f64> = spread[name].as_array().unwrap().iter().filter_map(Value::as_f64).collect();
+        let finite: Vec<f64> = values[..STRENGTHS].iter().copied().filter(|value| value.is_finite()).collect();
+        assert!(same_bits(&told, &finite), "{name}");
+    }
+    let csv = read("r.spectra.csv");
+    assert!(csv.contains(",mean_structure_m,u05_structure_m,u16_structure_m,"), "{csv}");
 }
 
 #[test]

@@ -22,6 +22,7 @@ mod provenance;
 mod records;
 mod shake_table;
 mod spectra;
+mod spread;
 mod stripes;
 mod study;
 mod table;
@@ -54,6 +55,7 @@ pub use shake_table::{DIRECTIONS, Excitation, ShakeTable, TableLevel, TableSpect
 pub(crate) use shake_table::{QUANTITIES, column_of};
 pub use spectra::{Fit, MeasureSpectra, Spectrum, StoredSpectra};
 pub(crate) use spectra::{flag_number, flag_word};
+pub use spread::{SpreadOver, StoredSpread};
 pub use stripes::{StoredMeasure, StoredStripes};
 pub use study::{SpectraOfResult, StudyOfResult};
 pub(crate) use table::{neutral, plain, table_text, write_metadata};

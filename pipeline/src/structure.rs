@@ -8,6 +8,7 @@ mod demand;
 mod design;
 mod finding;
 mod frame_risk;
+mod hazard;
 mod inputs;
 mod models;
 mod overturning;
@@ -22,7 +23,7 @@ mod target;
 mod uncertain;
 mod weights;
 
-pub use certainty::{DemandBands, RateBands};
+pub use certainty::{DemandBands, MarginBands, RateBands};
 pub use demand::{DemandNoise, DemandRounding, ExactDemand, RuleRanges};
 pub use design::{DesignOptions, DesignReport, design, design_shard};
 pub use finding::keep;

@@ -43,9 +43,7 @@ pub fn inferred_limits(
     (sizes, confidence): (&[usize], f64),
 ) -> Result<Vec<InferredLimits>, RiskError> {
     check(demand, weights, units)?;
-    if let Some(&rate) = targets_per_year.iter().find(|target| !target.is_finite() || **target <= 0.0) {
-        return Err(RiskError::Target { rate });
-    }
+    targets_per_year.iter().try_for_each(|target| check_target(*target))?;
     let none = InferredLimits { truth_m: [f64::NAN; 2], prediction_m: [f64::NAN; 2] };
     if units.len() < 2 {
         return Ok(vec![none; targets_per_year.len() * sizes.len()]);
@@ -56,7 +54,6 @@ pub fn inferred_limits(
     let mut searches = vec![[Search::default(); 2]; targets_per_year.len() * sizes.len()];
     let per_year = weights.per_year();
     let mut rates = Rates::of(demand, units);
-    let mut above_m = f64::INFINITY;
     let mut look = |rates: &Rates, from_m: f64, to_m: f64| {
         let mean = rates.mean();
         let of_set = quantiles.at(mean.degrees_of_freedom(units.len()));
@@ -70,15 +67,10 @@ pub fn inferred_limits(
             }
         }
     };
-    let mut runs = demand.falling_runs().peekable();
-    while let Some(&(edp_m, ..)) = runs.peek() {
-        look(&rates, edp_m, above_m);
-        while let Some((_, record, level)) = runs.next_if(|run| run.0 == edp_m) {
-            rates.add(record, level, per_year[level]);
-        }
-        above_m = edp_m;
-    }
-    look(&rates, 0.0, above_m);
+    fall(demand, |step| match step {
+        Step::Between(from_m, to_m) => look(&rates, from_m, to_m),
+        Step::Run { record, level } => rates.add(record, level, per_year[level]),
+    });
     let limits = |[truth, prediction]: &[Search; 2]| InferredLimits {
         truth_m: truth.limits_m(),
         prediction_m: prediction.limits_m(),
@@ -106,8 +98,30 @@ pub fn inferred_rate(
     Ok(rates.mean().interval(&StudentQuantiles::new(confidence, units.len())))
 }
 
+/// A step of a displacement that falls through all runs.
+pub(crate) enum Step {
+    /// No run lies between these displacements, m, the lower one first.
+    Between(f64, f64),
+    /// A run is exceeded from here on.
+    Run { record: usize, level: usize },
+}
+
+/// Lets a displacement fall from above all runs to zero.
+pub(crate) fn fall(demand: &PooledDemand, mut take: impl FnMut(Step)) {
+    let mut above_m = f64::INFINITY;
+    let mut runs = demand.falling_runs().peekable();
+    while let Some(&(edp_m, ..)) = runs.peek() {
+        take(Step::Between(edp_m, above_m));
+        while let Some((_, record, level)) = runs.next_if(|run| run.0 == edp_m) {
+            take(Step::Run { record, level });
+        }
+        above_m = edp_m;
+    }
+    take(Step::Between(0.0, above_m));
+}
+
 /// The rate of the runs gone through, with the scatter of its units.
-enum Rates {
+pub(crate) enum Rates {
     /// Of records that are all run at every level.
     Alike(UnitRates),
     /// Of levels with records of their own.
@@ -115,21 +129,21 @@ enum Rates {
 }
 
 impl Rates {
-    fn of(demand: &PooledDemand, units: &[Vec<usize>]) -> Self {
+    pub(crate) fn of(demand: &PooledDemand, units: &[Vec<usize>]) -> Self {
         match demand.shares() {
             None => Self::Alike(UnitRates::new(units)),
             Some(shares) => Self::Shared(SharedRates::new(units, shares)),
         }
     }
 
-    fn add(&mut self, record: usize, level: usize, per_year: f64) {
+    pub(crate) fn add(&mut self, record: usize, level: usize, per_year: f64) {
         match self {
             Self::Alike(rates) => rates.add(record, per_year),
             Self::Shared(rates) => rates.add(record, level, per_year),
         }
     }
 
-    fn mean(&self) -> SkewedMean {
+    pub(crate) fn mean(&self) -> SkewedMean {
         match self {
             Self::Alike(rates) => rates.mean(),
             Self::Shared(rates) => rates.mean(),
@@ -137,8 +151,13 @@ impl Rates {
     }
 }
 
+/// Whether it is a target.
+pub(crate) fn check_target(rate: f64) -> Result<(), RiskError> {
+    if rate.is_finite() && rate > 0.0 { Ok(()) } else { Err(RiskError::Target { rate }) }
+}
+
 /// Whether these belong together.
-fn check(demand: &PooledDemand, weights: &StripeWeights, units: &[Vec<usize>]) -> Result<(), RiskError> {
+pub(crate) fn check(demand: &PooledDemand, weights: &StripeWeights, units: &[Vec<usize>]) -> Result<(), RiskError> {
     let fits = |what, found, expected| {
         if found == expected { Ok(()) } else { Err(RiskError::Count { what, found, expected }) }
     };
@@ -153,7 +172,7 @@ fn deviate_of(mean: &SkewedMean, target: f64, size: usize, quantiles: &StudentQu
 
 /// The displacements of a band, while they are gone through from above.
 #[derive(Debug, Clone, Copy, Default)]
-struct Search {
+pub(crate) struct Search {
     /// Least and largest displacement that belong to it, m.
     found_m: Option<[f64; 2]>,
     /// Where the deviate leaves the band, or leaps over the whole of it.
@@ -163,7 +182,7 @@ struct Search {
 
 impl Search {
     /// All displacements from `from_m` to `to_m` have this `deviate`, over its quantile.
-    fn see(&mut self, deviate: f64, from_m: f64, to_m: f64) {
+    pub(crate) fn see(&mut self, deviate: f64, from_m: f64, to_m: f64) {
         if self.was_beyond {
             return;
         }
@@ -175,7 +194,7 @@ impl Search {
         }
     }
 
-    fn limits_m(&self) -> [f64; 2] {
+    pub(crate) fn limits_m(&self) -> [f64; 2] {
         self.found_m.unwrap_or([self.leap_m; 2])
     }
 }

@@ -17,6 +17,7 @@ mod overturning;
 mod pulses;
 mod shake_table;
 mod spectra;
+mod spread;
 mod sweep;
 mod tails;
 mod together;
@@ -41,7 +42,7 @@ use uplift::Array;
 use uplift::UpliftError;
 use uplift::result::{
     Kind, ResultFile, StoredBands, StoredConsistency, StoredHazard, StoredInfluence, StoredRecords, StoredSpectra,
-    StoredStripes,
+    StoredSpread, StoredStripes,
 };
 use uplift_motion::IntensityMeasure;
 use uplift_plot::{Axis, Figure, Panel, Series, Tone, share_y};
@@ -64,6 +65,7 @@ pub struct FigureSource {
     pub(crate) stored: StoredStripes,
     pub(crate) spectra: StoredSpectra,
     pub(crate) bands: Option<StoredBands>,
+    pub(crate) spreads: Vec<StoredSpread>,
     pub(crate) influence: Vec<StoredInfluence>,
     pub(crate) consistency: Vec<StoredConsistency>,
     hazard: Vec<StoredHazard>,
@@ -102,6 +104,7 @@ impl FigureSource {
             stored: file.stripes()?,
             spectra: file.spectra()?,
             bands: file.bands()?,
+            spreads: file.spreads()?,
             // of the risks of its study alone
             influence: if file.is_asked() { Vec::new() } else { file.influence()? },
             consistency: file.consistency()?,
@@ -131,6 +134,7 @@ impl FigureSource {
         let mut confidence = confidence::bands(self);
         confidence.extend(confidence::measures_together(self));
         confidence.extend(confidence::initiation(self));
+        confidence.extend(spread::spreads(self));
         confidence.extend(demand::fragilities(self)?);
         confidence.extend(tails::tail_shares(self));
         let mut causes = vec![spectra::hazard(self)];

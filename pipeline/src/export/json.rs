@@ -7,7 +7,7 @@ use super::added::Influence;
 use super::consistency::ConsistencyOf;
 use super::source::{BandOf, INFERRED, Row};
 use crate::influence::RecordInfluence;
-use crate::result::{Fit, StoredEfficiency, StoredTrend, flag_word};
+use crate::result::{Fit, StoredEfficiency, StoredSpread, StoredTrend, flag_word};
 use crate::text::finite;
 
 impl Export {
@@ -63,6 +63,12 @@ impl Export {
             if !bands.is_empty() {
                 spectrum[key] = bands.iter().map(band).collect();
             }
+        }
+        for over in self.spread_over() {
+            let Some(limits_m) = self.spread_of(row, over) else { continue };
+            let named = StoredSpread::names().into_iter().zip(limits_m);
+            let named = named.map(|(name, values_m)| (format!("{name}_m"), numbers(values_m).into()));
+            spectrum[format!("spread_over_{}", over.key())] = Value::Object(named.collect());
         }
         spectrum
     }

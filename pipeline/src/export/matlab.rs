@@ -7,7 +7,7 @@ use super::added::Influence;
 use super::source::INFERRED;
 use crate::alarms::Alarm;
 use crate::error::UpliftError;
-use crate::result::{Fit, InferredBands, StoredSpectra, StoredSpectraBands, flag_number};
+use crate::result::{Fit, InferredBands, StoredSpectra, StoredSpectraBands, StoredSpread, flag_number};
 use level_5::{MatFile, Shape};
 
 /// A coefficient of a spectrum.
@@ -54,6 +54,7 @@ impl Export {
         }
         self.add_consistency(&mut file);
         self.add_bands(&mut file);
+        self.add_spreads(&mut file);
         self.add_influence(&mut file);
         self.add_efficiency(&mut file);
         if !self.findings.is_empty() {
@@ -84,6 +85,27 @@ impl Export {
                 for (name, value) in COEFFICIENTS {
                     let name = name.replace("{}", &format!("consistent_{key}"));
                     file.numbers(&name, &shape, fits.map(value).values());
+                }
+            }
+        }
+    }
+
+    /// Mean and fractiles over what is not known, as the spectra: `u05_hazard_pgv_m`; NaN where a site has no such
+    /// spread.
+    fn add_spreads(&self, file: &mut MatFile) {
+        let StoredSpectra { strengths, poes, sites, measures, .. } = &self.spectra;
+        let shape = Shape(vec![strengths.len(), poes.len(), sites.len()]);
+        for over in self.spread_over() {
+            for of in measures {
+                let none = vec![f64::NAN; strengths.len()];
+                for (place, name) in StoredSpread::names().iter().enumerate() {
+                    let rows = self.rows().filter(|row| row.spectrum.measure == of.measure);
+                    let values = rows.flat_map(|row| match self.spread_of(&row, over) {
+                        Some(limits_m) => limits_m[place].to_vec(),
+                        None => none.clone(),
+                    });
+                    let values: Vec<f64> = values.collect();
+                    file.numbers(&format!("{name}_{}_{}_m", over.key(), of.measure.key()), &shape, &values);
                 }
             }
         }

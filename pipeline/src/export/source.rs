@@ -10,8 +10,8 @@ use crate::alarms::{Alarm, alarms};
 use crate::array::Array;
 use crate::error::UpliftError;
 use crate::result::{
-    Head, InferredBands, MeasureBands, ResultFile, Spectrum, StoredBands, StoredConsistency, StoredFinding,
-    StoredHazard, StoredJointBands, StoredRepairedBands, StoredSpectra, StoredSpectraBands,
+    Head, InferredBands, MeasureBands, ResultFile, Spectrum, SpreadOver, StoredBands, StoredConsistency, StoredFinding,
+    StoredHazard, StoredJointBands, StoredRepairedBands, StoredSpectra, StoredSpectraBands, StoredSpread,
 };
 
 /// The spectra, bands and coefficients of a result, and where they come from.
@@ -20,6 +20,8 @@ pub struct Export {
     pub(super) study: UniformRiskStudy,
     pub(super) spectra: StoredSpectra,
     pub(super) bands: Option<StoredBands>,
+    /// Spreads over what is not known.
+    pub(super) spreads: Vec<StoredSpread>,
     pub(super) hazard: Vec<StoredHazard>,
     /// Return periods of the probabilities, years (Eq. 4.8).
     pub(super) return_periods: Vec<f64>,
@@ -74,6 +76,7 @@ impl Export {
             return_periods: spectra.poes.iter().map(return_period).collect::<Result<_, UpliftError>>()?,
             study: file.stored_study()?,
             bands: file.bands()?,
+            spreads: file.spreads()?,
             hazard: file.hazard()?,
             alarms: alarms(file)?,
             added: Added::read(file)?,
@@ -140,6 +143,19 @@ impl Export {
             ("repaired, with hazard curves", self.repaired_joint_bands_of(row)),
         ];
         named.into_iter().flat_map(|(name, bands)| bands.into_iter().map(move |band| (name, band)))
+    }
+
+    /// What there are spreads over.
+    pub(super) fn spread_over(&self) -> impl Iterator<Item = SpreadOver> + '_ {
+        SpreadOver::ALL.into_iter().filter(|over| self.spreads.iter().any(|spread| spread.over == *over))
+    }
+
+    /// Mean and fractiles of a spectrum over the strengths, m, as [`StoredSpread::names`] names them; none where it has
+    /// no such spread.
+    pub(super) fn spread_of(&self, row: &Row<'_>, over: SpreadOver) -> Option<[&[f64]; 6]> {
+        let [site, poe] = row.at;
+        let is_of = |of: &&StoredSpread| of.over == over && of.site == site && of.measure == row.spectrum.measure;
+        self.spreads.iter().find(is_of).map(|of| of.limits_m(poe))
     }
 
     fn bands_of_measure(&self, row: &Row<'_>) -> Option<&MeasureBands> {

@@ -5,12 +5,13 @@ use polars::prelude::Column;
 use super::Export;
 use super::added::SHARES;
 use super::source::{BandOf, INFERRED, Row};
-use crate::result::flag_word;
+use crate::result::{SpreadOver, StoredSpread, flag_word};
 use crate::text::finite;
 
 impl Export {
     /// A row for each ordinate: its fit beside it, its return period and flag, and the limits of its bands for each
-    /// size of the sample, `u05_n20_m` for 20 records; last the bands of all records there could be and of another set.
+    /// size of the sample, `u05_n20_m` for 20 records; then the bands of all records there could be and of another set;
+    /// last mean and fractiles over weighted hazard curves and over structures that may be, `u05_hazard_m`.
     pub fn columns(&self) -> Vec<Column> {
         let (mut site, mut im, mut flag) = (Vec::new(), Vec::new(), Vec::new());
         let (mut lower, mut upper) = (Vec::new(), Vec::new());
@@ -21,6 +22,8 @@ impl Export {
         let names = self.band_names();
         let mut limits: Vec<Vec<f64>> = vec![Vec::new(); names.len()];
         let mut further = self.further_bands();
+        let mut spreads: Vec<(SpreadOver, Vec<Vec<Option<f64>>>)> =
+            self.spread_over().map(|over| (over, vec![Vec::new(); 6])).collect();
         let inferred_names = self.inferred_names();
         let mut inferred_limits: Vec<Vec<f64>> = vec![Vec::new(); inferred_names.len()];
         for row in self.rows() {
@@ -56,6 +59,13 @@ impl Export {
             for bands in &mut further {
                 bands.extend(self, &row);
             }
+            for (over, columns) in &mut spreads {
+                let limits_m = self.spread_of(&row, *over);
+                for (place, column) in columns.iter_mut().enumerate() {
+                    let value = |strength| limits_m.map(|limits_m: [&[f64]; 6]| limits_m[place][strength]);
+                    column.extend((0..self.spectra.strengths.len()).map(value));
+                }
+            }
         }
         let years = vec![self.spectra.years; site.len()];
         let mut columns = vec![
@@ -76,6 +86,10 @@ impl Export {
         columns.extend(further.into_iter().flat_map(FurtherBands::into_columns));
         let inferred = inferred_names.into_iter().zip(inferred_limits);
         columns.extend(inferred.map(|(name, values)| Column::new(name.into(), values)));
+        for (over, values) in spreads {
+            let named = StoredSpread::names().into_iter().zip(values);
+            columns.extend(named.map(|(name, values)| Column::new(format!("{name}_{}_m", over.key()).into(), values)));
+        }
         columns
     }
 

@@ -48,6 +48,9 @@ impl Export {
             add("Bands", &Self::bands_sheet)?;
             add("Table 4.1", &Self::band_figures)?;
         }
+        if !self.spreads.is_empty() {
+            add("Spread", &Self::spread_sheet)?;
+        }
         add("Flags and tails", &Self::tails_sheet)?;
         add("Coefficients", &Self::coefficients)?;
         if !self.consistency.is_empty() {

@@ -8,6 +8,7 @@ use uplift_spectra::Noisy;
 use uplift_structure::{EquivalentSystem, Rule, relative_error};
 
 use super::certainty::{DemandBands, Scatter, demand_bands};
+use super::hazard::Hazard;
 use super::risk::{EventRisk, OVERTURNING_M, demand_of, risk_of_exceeding};
 use super::sweep::{OF_STUDY, OWN, Sweep, ZERO_STIFFNESS};
 use super::weights::SiteWeights;
@@ -29,6 +30,8 @@ pub struct ExactDemand {
     pub zero_stiffness_demand_m: f64,
     /// Demand on the structure, m.
     pub demand_m: f64,
+    /// Displacement capacity less the demand on the structure, m; none for a structure without one.
+    pub margin_m: Option<f64>,
     /// Whether it overturns more often than the target rate.
     pub overturns: bool,
     /// Share of the risk at the demand that comes from below the first stripe, 0 to 1.
@@ -113,12 +116,12 @@ impl DemandRounding {
 }
 
 /// The demand on `system`, whose oscillators are `sweep` with the `stripes` over `[record, oscillator, level]`, of the
-/// rate `target_per_year` at the site of `weights`, exactly as spectra are made.
+/// rate `target_per_year` at the site of `weights`, exactly as spectra are made; `hazard` is that of the site.
 ///
 /// # Errors
 /// Stripes and weights that do not fit together.
 pub(super) fn exact_demand(
-    (stripes, weights): (&Stripes, &SiteWeights<'_>),
+    (stripes, weights, hazard): (&Stripes, &SiteWeights<'_>, &Hazard<'_>),
     (system, sweep): (&EquivalentSystem, &Sweep),
     (target_per_year, years): (f64, f64),
     scatter: &Scatter,
@@ -190,7 +193,7 @@ pub(super) fn exact_demand(
     };
     let demand = ordinate(OWN)?;
     let bands = match weights {
-        SiteWeights::Alike(weights) => demand_bands(&own, weights, scatter, (target_per_year, factor, capacity_m))?,
+        SiteWeights::Alike(_) => demand_bands(&own, hazard, scatter, (target_per_year, factor, capacity_m))?,
         SiteWeights::Repaired(_) => None,
     };
     Ok(ExactDemand {
@@ -199,6 +202,7 @@ pub(super) fn exact_demand(
         zero_stiffness_demand_of_spectrum_m: ordinate(OF_STUDY)?.displacement_m,
         zero_stiffness_demand_m: ordinate(ZERO_STIFFNESS)?.displacement_m,
         demand_m: demand.displacement_m,
+        margin_m: capacity_m.map(|capacity_m| factor * capacity_m - demand.displacement_m),
         overturns: demand.displacement_m.is_infinite(),
         lower_tail_share: demand.lower_tail_share,
         upper_tail_share: demand.upper_tail_share,

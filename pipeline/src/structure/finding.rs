@@ -20,6 +20,7 @@ pub use keep::keep;
 /// What bands are of.
 const RECORDS: &str = "records";
 const EARTHQUAKES: &str = "earthquakes";
+const HAZARD: &str = "records and hazard";
 
 /// What was asked of which structure, under which result.
 struct Question<'a> {
@@ -52,23 +53,26 @@ impl Question<'_> {
     }
 }
 
-/// A number with its band as the records tell it, and again with that of their earthquakes where that is known.
-fn banded(row: &FindingRow, by_record: Option<[f64; 2]>, by_earthquake: Option<[f64; 2]>) -> Vec<FindingRow> {
+/// A number with its band as the records tell it, and again with those of their earthquakes and of the hazard's curves
+/// where these are known.
+fn banded(row: &FindingRow, [by_record, by_earthquake, with_hazard]: [Option<[f64; 2]>; 3]) -> Vec<FindingRow> {
     let of_records = match by_record {
         Some(limits) => row.clone().within(limits, RECORDS),
         None => row.clone(),
     };
-    let of_earthquakes = by_earthquake.map(|limits| row.clone().within(limits, EARTHQUAKES));
-    std::iter::once(of_records).chain(of_earthquakes).collect()
+    let wider = [(by_earthquake, EARTHQUAKES), (with_hazard, HAZARD)];
+    let wider = wider.into_iter().filter_map(|(limits, of)| Some(row.clone().within(limits?, of)));
+    std::iter::once(of_records).chain(wider).collect()
 }
 
 /// How often something happens, 1/yr, with its bands; where no run shows it, what it is at most.
 fn rate(what: &str, risk: &EventRisk, bands: Option<RateBands>, [site, im]: [&str; 2]) -> Vec<FindingRow> {
     let row = FindingRow::new(what, risk.per_year, "1/yr").at(site, im);
-    match risk.at_most_per_year {
-        Some(bound) => vec![row.within([f64::NAN, bound], "at most")],
-        None => banded(&row, bands.map(|of| of.by_record), bands.and_then(|of| of.by_earthquake)),
+    if let Some(bound) = risk.at_most_per_year {
+        return vec![row.within([f64::NAN, bound], "at most")];
     }
+    let of = |band: fn(RateBands) -> Option<[f64; 2]>| bands.and_then(band);
+    banded(&row, [of(|of| Some(of.by_record)), of(|of| of.by_earthquake), of(|of| of.with_hazard)])
 }
 
 /// What follows for a structure that is not known exactly.
@@ -93,8 +97,8 @@ fn uncertain(report: Option<&UncertaintyReport>) -> Vec<FindingRow> {
             UncertainFinding::Aleatory(AleatoryResult { value, at_most_per_year: Some(bound), .. }) => {
                 rows.push(row(*value).within([f64::NAN, *bound], "at most"));
             }
-            UncertainFinding::Aleatory(AleatoryResult { value, by_record, by_earthquake, .. }) => {
-                rows.extend(banded(&row(*value), *by_record, *by_earthquake));
+            UncertainFinding::Aleatory(AleatoryResult { value, by_record, by_earthquake, with_hazard, .. }) => {
+                rows.extend(banded(&row(*value), [*by_record, *by_earthquake, *with_hazard]));
             }
         }
     }

@@ -16,6 +16,7 @@ use uplift_study::{Structure, UniformRiskStudy};
 use super::certainty::{RateBands, Scatter, rate_bands};
 use super::choice::{measure_index, records, site_index};
 use super::collapse::{Collapse, collapse};
+use super::hazard::Hazard;
 use super::inputs::inputs;
 use super::models::models;
 use super::report::StructureReport;
@@ -198,7 +199,9 @@ pub fn overturning(
     let scatter = Scatter::of(&file)?;
     let mut analysed = analysed.into_iter();
     let mut found: Vec<(&SpectraOfResult, Vec<Collapses>)> = Vec::new();
+    let mut hazards: Vec<Vec<Hazard<'_>>> = Vec::new();
     for measure in measures {
+        let hazard = Hazard::of_sites(&file, (&source, &sites), measure)?;
         let of_repair = |site| reweighing.as_ref()?.weights(measure.measure(), site);
         let weights: Vec<(&StripeWeights, Option<&RunWeights>)> =
             sites.iter().map(|&site| (&measure.weights[site], of_repair(site))).collect();
@@ -217,20 +220,21 @@ pub fn overturning(
             };
             let rounded = (1..=NUDGES).map(at_nudge).collect::<Result<_, _>>()?;
             let demand = PooledDemand::new(&Stripes::new(levels, &peaks_m_at(0))?)?;
-            let of_site = |(stripes, _): &(&StripeWeights, _)| rate_bands(&demand, stripes, &scatter, OVERTURNING_M);
-            let bands = weights.iter().map(of_site).collect::<Result<_, _>>()?;
+            let of_site = |hazard: &Hazard<'_>| rate_bands(&demand, hazard, &scatter, OVERTURNING_M);
+            let bands = hazard.iter().map(of_site).collect::<Result<_, _>>()?;
             Ok::<_, UpliftError>(Collapses { own: at_nudge(0)?, rounded, bands })
         });
         found.push((measure, of_models.collect::<Result<_, _>>()?));
+        hazards.push(hazard);
     }
     notes.extend(notes_on(&models, &found));
     let uncertainty = match &uncertain {
         Some(uncertain) => {
-            let places: Vec<(&str, usize)> = sites.iter().map(|&site| (source.sites[site].as_str(), site)).collect();
+            let names: Vec<&str> = sites.iter().map(|&site| source.sites[site].as_str()).collect();
             let described = |measure: usize, place: usize| found[measure].1[OSCILLATOR].own.risks[place].per_year;
-            let measures: Vec<&SpectraOfResult> = found.iter().map(|(measure, _)| *measure).collect();
-            let shaken = (study, set, &scatter);
-            Some(uncertain::report(uncertain, &file, (&measures, &places), (analysed, shaken), &described)?)
+            let measures: Vec<(&SpectraOfResult, &[Hazard<'_>])> =
+                found.iter().zip(&hazards).map(|((measure, _), hazard)| (*measure, &hazard[..])).collect();
+            Some(uncertain::report(uncertain, (&measures, &names), (analysed, (set, &scatter)), &described)?)
         }
         None => None,
     };

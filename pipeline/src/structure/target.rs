@@ -29,11 +29,11 @@ pub use uncertain::TargetUncertainty;
 
 use super::certainty::Scatter;
 use super::choice::{measure_index, site_index};
+use super::hazard::Hazard;
 use super::inputs::inputs;
 use super::report::StructureReport;
 use super::risk::EventRisk;
 use super::uncertain::Spread;
-use super::weights::SiteWeights;
 use crate::alarms::{Alarm, OwnRisk, Scope, alarms_of_inputs, of_own_risks, of_structure, ranked};
 use crate::consistency::Question;
 use crate::error::UpliftError;
@@ -98,6 +98,8 @@ pub struct TargetReport {
     pub per_year_within_one_percent: Noisy,
     /// What other records would have given.
     pub band: TargetBand,
+    /// The same with each of the weighted hazard curves of the site; none where it has but one.
+    pub band_with_hazard: Option<TargetBand>,
     /// The structures that every value may be; none where the structure file says that all is known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uncertainty: Option<TargetUncertainty>,
@@ -188,9 +190,9 @@ pub fn target(
     let years = options.frequency.years().unwrap_or(source.study.risk.years);
     let target_per_year = options.frequency.per_year(years)?;
     let (range, own_value) = range(structure, options)?;
-    let weights = SiteWeights::Alike(&measure.weights[site]);
+    let hazard = Hazard::of(&file, (&source.sites[site], site), (measure, &source.study))?;
     let scatter = Scatter::of(&file)?;
-    let mut trials = Trials::of(structure, &source, (measure, weights, &scatter), (options, years), events)?;
+    let mut trials = Trials::of(structure, &source, (measure, &hazard, &scatter), (options, years), events)?;
     trials.refuse_untellable(&source.sites[site], target_per_year)?;
 
     let meets = |attempt: &Attempt| attempt.meets(target_per_year);
@@ -235,7 +237,8 @@ pub fn target(
         effective_pairs: pairs as f64,
     };
     alarms.extend(of_own_risks(&[own]));
-    let bands = band::band(&tried, (place, target_per_year), &source.study, &Question::of_motions(&file)?)?;
+    let motions = Question::of_motions(&file)?;
+    let bands = band::band((&tried, place), (target_per_year, &hazard), &source.study, &motions)?;
     let mut report = TargetReport {
         uncertainty: trials.around().map(|around| TargetUncertainty::of(around, bands.structures)),
         structure: StructureReport::of(structure, Some(trials.restitution())),
@@ -255,6 +258,7 @@ pub fn target(
         found: FoundSystem::of(&found.candidate.system),
         per_year_within_one_percent: noise,
         band: bands.records,
+        band_with_hazard: bands.with_hazard,
         crossings,
         at_return_periods,
         generic: generic.flatten(),

@@ -10,7 +10,6 @@ mod words;
 use uplift_bootstrap::{BootstrapError, ResamplingPlan};
 use uplift_ida::System;
 use uplift_oscillator::PostUplift;
-use uplift_risk::StripeWeights;
 use uplift_structure::{EquivalentSystem, Realization};
 use uplift_study::{MeasurePlan, Structure, Uncertainty, UncertaintyKind, UniformRiskStudy};
 
@@ -21,12 +20,12 @@ pub use report::{
 };
 
 use super::certainty::Scatter;
+use super::hazard::Hazard;
 use super::risk::{OVERTURNING_M, at_most_per_year};
 use crate::alarms::Severity;
 use crate::analysis::LabelledPlan;
 use crate::error::UpliftError;
 use crate::inputs::RecordSet;
-use crate::result::{ResultFile, SpectraOfResult};
 use crate::text::thousands;
 use crate::uniform_risk::{Stripes, plan_stripes};
 use branches::Branches;
@@ -93,28 +92,9 @@ impl Event {
 #[derive(Debug)]
 pub(super) struct AskedSite<'a> {
     pub(super) name: &'a str,
-    /// What each stripe weighs by the mean hazard.
-    pub(super) weights: &'a StripeWeights,
-    /// Weighted alternatives to it; none where there is but one curve.
-    pub(super) branches: Vec<(f64, StripeWeights)>,
+    pub(super) hazard: &'a Hazard<'a>,
     /// Each with its answer for the structure as described.
     pub(super) asked: Vec<(Event, f64)>,
-}
-
-impl<'a> AskedSite<'a> {
-    /// A site of a result.
-    ///
-    /// # Errors
-    /// A file that is damaged.
-    pub(super) fn of(
-        file: &ResultFile,
-        (name, site): (&'a str, usize),
-        (measure, study): (&'a SpectraOfResult, &UniformRiskStudy),
-        asked: Vec<(Event, f64)>,
-    ) -> Result<Self, UpliftError> {
-        let branches = file.branch_weights(name, &measure.plan, study.risk.extrapolate)?;
-        Ok(Self { name, weights: &measure.weights[site], branches, asked })
-    }
 }
 
 impl<'a> Uncertain<'a> {
@@ -182,7 +162,7 @@ impl<'a> Uncertain<'a> {
         let result = |((site, (event, as_described)), found): ((&AskedSite<'_>, &(Event, f64)), UncertainFinding)| {
             let may_happen = self.systems.iter().any(|system| event.may_happen(system));
             // records are counted and not structures: to the ground motion of a pair all its structures are one sample
-            let bound = may_happen.then(|| at_most_per_year(site.weights, scatter.pairs.len() as f64));
+            let bound = may_happen.then(|| at_most_per_year(site.hazard.mean, scatter.pairs.len() as f64));
             UncertainResult {
                 site: site.name.to_owned(),
                 im: stripes.measure.label(),
@@ -213,7 +193,7 @@ impl<'a> Uncertain<'a> {
 /// Draws of the records, one a row of both samples: earthquakes with all their records where they are known, else
 /// pairs; none of a single one.
 fn resampling(scatter: &Scatter, rows: usize, seed: u64) -> Result<Option<ResamplingPlan>, UpliftError> {
-    let units = scatter.earthquakes.as_ref().unwrap_or(&scatter.pairs);
+    let units = scatter.widest();
     let records = units.iter().map(Vec::len).sum();
     let mut unit_of = vec![0; records];
     for (unit, of_unit) in units.iter().enumerate() {

@@ -193,7 +193,7 @@ fn print_risk(out: &mut impl Write, report: &DesignReport, exact: &ExactDemand) 
     let header = ["the structure itself", "per year", &in_years, "return period, years"];
     writeln!(out, "\n{}", table(&header, &rows))?;
     if let Some(bands) = &exact.bands {
-        print_bands(out, bands)?;
+        print_bands(out, exact, bands)?;
     }
     if exact.overturns {
         writeln!(
@@ -207,20 +207,27 @@ fn print_risk(out: &mut impl Write, report: &DesignReport, exact: &ExactDemand) 
 }
 
 /// How sure demand and risks are, a sentence each.
-fn print_bands(out: &mut impl Write, bands: &DemandBands) -> Result<(), CommandError> {
+fn print_bands(out: &mut impl Write, exact: &ExactDemand, bands: &DemandBands) -> Result<(), CommandError> {
     writeln!(out, "\nWith 90 % confidence, by all records like these {} (docs/method.md, section 9):", bands.records)?;
     let limits = |[lower, upper]: [f64; 2], shown: fn(f64) -> String| format!("{} to {}", shown(lower), shown(upper));
-    let of = |what: &str, [own, by_event]: [Option<[f64; 2]>; 2], shown: fn(f64) -> String, unit: &str| {
+    let of = |what: &str, [own, by_event, with_hazard]: [Option<[f64; 2]>; 3], shown: fn(f64) -> String, unit: &str| {
         let own = own?;
         let by_event = by_event.zip(bands.earthquakes).map_or_else(String::new, |(by_event, count)| {
             format!("; if their {count} earthquakes were others, {}", limits(by_event, shown))
         });
-        Some(format!("  {what} {}{unit}{by_event}", limits(own, shown)))
+        let with_hazard = with_hazard.zip(bands.hazard_curves).map_or_else(String::new, |(limits_of, count)| {
+            format!("; with the site's {count} hazard curves, {}", limits(limits_of, shown))
+        });
+        Some(format!("  {what} {}{unit}{by_event}{with_hazard}", limits(own, shown)))
     };
-    let rate_of = |of: Option<RateBands>| [of.map(|of| of.by_record), of.and_then(|of| of.by_earthquake)];
-    let demand = [Some(bands.demand_by_record_m), bands.demand_by_earthquake_m];
+    let rate_of = |of: Option<RateBands>| {
+        [of.map(|of| of.by_record), of.and_then(|of| of.by_earthquake), of.and_then(|of| of.with_hazard)]
+    };
+    let demand = [Some(bands.demand_by_record_m), bands.demand_by_earthquake_m, bands.demand_with_hazard_m];
+    let margin = bands.margin.map_or([None; 3], |of| [Some(of.by_record_m), of.by_earthquake_m, of.with_hazard_m]);
     let told = [
         of("demand on the structure", demand, metres, " m"),
+        of(&format!("capacity less demand ({} m)", metres(exact.margin_m.unwrap_or(f64::NAN))), margin, metres, " m"),
         of("u > capacity", rate_of(bands.beyond_capacity_per_year), rate, " per year"),
         of("overturning", rate_of(bands.overturning_per_year), rate, " per year"),
     ];

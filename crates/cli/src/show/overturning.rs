@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use uplift::structure::{CollapseReport, OverturningReport, SiteRisk};
+use uplift::structure::{CollapseReport, OverturningReport, RateBands, SiteRisk};
 use uplift::text::{share, table};
 use uplift_spectra::Noisy;
 
@@ -94,6 +94,9 @@ fn print_fragility(out: &mut impl Write, report: &OverturningReport) -> Result<(
     Ok(())
 }
 
+/// A band of a frequency.
+type Band = fn(RateBands) -> Option<[f64; 2]>;
+
 fn print_risk(out: &mut impl Write, report: &OverturningReport) -> Result<(), CommandError> {
     let percent = |of_all: f64| match share(of_all) {
         text if text.starts_with("below") || text.starts_with("above") => text,
@@ -139,16 +142,22 @@ fn print_risk(out: &mut impl Write, report: &OverturningReport) -> Result<(), Co
          analysed levels\n{}",
         table(&header, &rows)
     )?;
-    let by_earthquake = |found: &CollapseReport| -> Vec<String> {
-        let of_site = |site: &SiteRisk| {
-            let band = site.bands?.by_earthquake?;
-            Some(format!("   {}, {}, {}: {} per year", site.site, found.im, found.model, limits(band)))
+    let wider: [(&str, Band); 2] = [
+        ("The band if the earthquakes of these records were others:", |of| of.by_earthquake),
+        ("The band with the site's weighted hazard curves, none of which is known to hold:", |of| of.with_hazard),
+    ];
+    for (title, of) in wider {
+        let of_model = |found: &CollapseReport| -> Vec<String> {
+            let of_site = |site: &SiteRisk| {
+                let band = of(site.bands?)?;
+                Some(format!("   {}, {}, {}: {} per year", site.site, found.im, found.model, limits(band)))
+            };
+            found.sites.iter().filter_map(of_site).collect()
         };
-        found.sites.iter().filter_map(of_site).collect()
-    };
-    let by_earthquake: Vec<String> = report.overturning.iter().flat_map(by_earthquake).collect();
-    if !by_earthquake.is_empty() {
-        writeln!(out, "The band if the earthquakes of these records were others:\n{}", by_earthquake.join("\n"))?;
+        let lines: Vec<String> = report.overturning.iter().flat_map(of_model).collect();
+        if !lines.is_empty() {
+            writeln!(out, "{title}\n{}", lines.join("\n"))?;
+        }
     }
     Ok(())
 }

@@ -46,6 +46,9 @@ pub(crate) fn print_target(report: &TargetReport) -> Result<(), CommandError> {
     let noise = &report.per_year_within_one_percent;
     writeln!(out, "  within 1 % of it     {} to {} per year", rate(noise.lowest), rate(noise.highest))?;
     print_band(out, report, &report.band)?;
+    if let Some(band) = &report.band_with_hazard {
+        print_band(out, report, band)?;
+    }
     let uncertain = report.uncertainty.iter();
     for band in uncertain.flat_map(|uncertain| [&uncertain.by_structure, &uncertain.by_all]).flatten() {
         print_band(out, report, band)?;
@@ -81,12 +84,14 @@ fn print_band(out: &mut impl Write, report: &TargetReport, band: &TargetBand) ->
             "beyond the range".to_owned()
         }
     });
-    let (drawn, whose) = match band.unit {
-        "structure" => ("by structure", "structures"),
-        "structure and record" | "structure and pair" => ("structure, records", "resamples"),
-        "structure and event" => ("structure, quakes", "resamples"),
-        "event" => ("resampled earthquakes", "resamples"),
-        _ => ("resampled records", "resamples"),
+    let quakes = if band.unit.ends_with("event") { "quakes" } else { "records" };
+    let (drawn, whose) = match band.unit.as_str() {
+        "structure" => ("by structure".to_owned(), "structures"),
+        of if of.starts_with("structure, hazard") => (format!("all, {quakes}"), "resamples"),
+        of if of.starts_with("structure") => (format!("structure, {quakes}"), "resamples"),
+        of if of.starts_with("hazard") => (format!("hazard, {quakes}"), "resamples"),
+        "event" => ("resampled earthquakes".to_owned(), "resamples"),
+        _ => ("resampled records".to_owned(), "resamples"),
     };
     writeln!(
         out,

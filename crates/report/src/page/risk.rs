@@ -49,7 +49,12 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
             note: if file.is_asked() { String::new() } else { how_sure(&file.precision()) },
             tables: Vec::new(),
             figures: figures.confidence,
-            details: source.bands.iter().map(|bands| confidence(&source.spectra, bands)).collect(),
+            details: source
+                .bands
+                .iter()
+                .map(|bands| confidence(&source.spectra, bands))
+                .chain(spread(&source))
+                .collect(),
         },
         Part {
             key: "causes",
@@ -131,6 +136,39 @@ fn summary(source: &FigureSource) -> Table {
         text_columns: 3,
         rows,
     }
+}
+
+/// How far the spectra lie apart over what is not known; none where all of it is.
+fn spread(source: &FigureSource) -> Option<Table> {
+    let stored = &source.spectra;
+    let shown = nearest(&stored.strengths, &SHOWN_STRENGTHS);
+    let mut rows = Vec::new();
+    for spread in &source.spreads {
+        for (poe, &probability) in stored.poes.iter().enumerate() {
+            let [_, lower, .., upper] = spread.limits_m(poe);
+            let mut row = vec![
+                stored.sites[spread.site].clone(),
+                spread.measure.label().to_owned(),
+                risk_name(probability, stored.years),
+                spread.over.words().to_owned(),
+            ];
+            row.extend(shown.iter().map(|&eta| format!("{} to {}", metres(lower[eta]), metres(upper[eta]))));
+            rows.push(row);
+        }
+    }
+    let mut header = ["site", "measure", "probability", "over"].map(str::to_owned).to_vec();
+    header.extend(shown.iter().map(|&strength| format!("{:.2} g", stored.strengths[strength])));
+    (!rows.is_empty()).then(|| Table {
+        id: "spread".to_owned(),
+        title: "Spectra over what is not known".to_owned(),
+        note: "5 to 95 % fractiles over weighted hazard curves, and over structures that may be: one of them holds, \
+               and nobody knows which. What the records leave open is not in it."
+            .to_owned(),
+        group: "displacement, m, of a structure that uplifts at".to_owned(),
+        header,
+        text_columns: 4,
+        rows,
+    })
 }
 
 /// Which levels make the risk of the rarest probability; none before `uplift influence`.

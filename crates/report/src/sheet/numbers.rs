@@ -31,8 +31,9 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
         (Some(exact), _) => {
             let demand = exact.rounding.demand_m.marked(significant);
             let band = exact.bands.as_ref().map_or_else(String::new, |bands| {
-                // the wider of the two, where both are known
-                let [lower_m, upper_m] = bands.demand_by_earthquake_m.unwrap_or(bands.demand_by_record_m);
+                // the widest of what is known
+                let wider = bands.demand_with_hazard_m.or(bands.demand_by_earthquake_m);
+                let [lower_m, upper_m] = wider.unwrap_or(bands.demand_by_record_m);
                 format!(" (90 % band {} to {} m)", significant(lower_m), significant(upper_m))
             });
             say(format!("{of}, it must survive {demand} m{band}{capacity}."), None);

@@ -13,6 +13,8 @@ const CENSORED: &str = "censored";
 const STRENGTH: &str = "strength f_up/(m g), -";
 /// What is told of each ordinate beside itself.
 const TAILS: [&str; 3] = ["flag", "share from below, %", "share from above, %"];
+/// What is told of a spread, as [`StoredSpread::limits_m`](crate::result::StoredSpread::limits_m) has it.
+const SPREAD: [&str; 6] = ["mean", "5 %", "16 %", "50 %", "84 %", "95 %"];
 /// Widths of the column of strengths, in characters.
 const WIDTHS: [f64; 1] = [26.0];
 
@@ -72,6 +74,26 @@ impl Export {
                         sheet.heading((below - 4, column), weights, false)?;
                     }
                     sheet.number((below - 3, column), f64::from(band.records), Shown::WholeHeading, "")?;
+                    sheet.heading((below - 2, column), name, false)?;
+                    sheet.heading((below - 1, column), "u, m", true)?;
+                    over_strengths(sheet, (below, column), values)?;
+                    column += 1;
+                }
+            }
+        }
+        sheet.finish((below, 1), &WIDTHS)
+    }
+
+    /// Mean and fractiles over what is not known.
+    pub(super) fn spread_sheet(&self, sheet: &mut Sheet<'_>) -> Result<(), XlsxError> {
+        let below = self.heads(sheet, &["over", "of them"])?;
+        let mut column = 1;
+        for row in self.rows() {
+            for over in self.spread_over() {
+                let Some(limits_m) = self.spread_of(&row, over) else { continue };
+                for (name, values) in SPREAD.iter().zip(limits_m) {
+                    head_of(sheet, column, &row)?;
+                    sheet.heading((below - 3, column), over.words(), false)?;
                     sheet.heading((below - 2, column), name, false)?;
                     sheet.heading((below - 1, column), "u, m", true)?;
                     over_strengths(sheet, (below, column), values)?;

@@ -12,6 +12,7 @@ use crate::inputs::{RecordSet, motion_keys};
 use crate::result::{ResultFile, SpectraOfResult, StudyOfResult};
 use crate::structure::certainty::Scatter;
 use crate::structure::demand::{ExactDemand, exact_demand};
+use crate::structure::hazard::Hazard;
 use crate::structure::sweep::Sweep;
 use crate::structure::uncertain::{AskedSite, Event, Uncertain, UncertaintyReport};
 use crate::structure::weights::SiteWeights;
@@ -57,12 +58,13 @@ impl Own {
         let (own, of_uncertain) = (stripes.next().ok_or(UpliftError::Interrupted)?, stripes.next());
         let scatter = Scatter::of(file)?;
         let rate = (target_per_year, source.study.risk.years);
-        let exact = exact_demand((&own, weights), (&structure.system, &shaken.sweep), rate, &scatter)?;
+        let place = (source.sites[site].as_str(), site);
+        let hazard = Hazard::of(file, place, (measure, &source.study))?;
+        let exact = exact_demand((&own, weights, &hazard), (&structure.system, &shaken.sweep), rate, &scatter)?;
         let uncertainty = match (&shaken.uncertain, of_uncertain) {
             (Some(uncertain), Some(stripes)) => {
                 let asked = asked_of_uncertain(&exact, target_per_year);
-                let place = (source.sites[site].as_str(), site);
-                let asked = AskedSite::of(file, place, (measure, &source.study), asked)?;
+                let asked = AskedSite { name: place.0, hazard: &hazard, asked };
                 let results = uncertain.results(&stripes, &[asked], &scatter)?;
                 Some(uncertain.report(stripes.analyses, results))
             }

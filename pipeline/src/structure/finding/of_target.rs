@@ -55,14 +55,14 @@ impl TargetReport {
             Some(bound) => there.clone().within([f64::NAN, bound], "at most"),
             None => there.clone().within([lower, upper], &resampled),
         });
-        // structures drawn too: wider bands of the same numbers
+        // hazard curves or structures drawn too: wider bands of the same numbers
         let uncertain = self.uncertainty.iter().flat_map(|of| [&of.by_structure, &of.by_all]).flatten();
-        for band in uncertain {
+        for band in self.band_with_hazard.iter().chain(uncertain) {
             let [lower, _, upper] = band.value;
             let least = of_quantity(format!("least {quantity} that meets the target"), self.value);
-            rows.push(least.within([lower, upper], band.unit));
+            rows.push(least.within([lower, upper], &band.unit));
             let [lower, _, upper] = band.per_year;
-            rows.push(there.clone().within([lower, upper], band.unit));
+            rows.push(there.clone().within([lower, upper], &band.unit));
         }
         rows.push(row("strength of the spectrum at the value found".to_owned(), self.found.spectral_strength, "1"));
         rows.extend(self.found.capacity_m.map(|m| row("displacement capacity at the value found".to_owned(), m, "m")));

@@ -2,13 +2,14 @@
 
 use uplift_ida::System;
 use uplift_structure::UncertainQuantity;
-use uplift_study::{Structure, Uncertainty, UniformRiskStudy};
+use uplift_study::{Structure, Uncertainty};
 
 use crate::analysis::Analysed;
 use crate::error::UpliftError;
 use crate::inputs::RecordSet;
-use crate::result::{ResultFile, SpectraOfResult};
+use crate::result::SpectraOfResult;
 use crate::structure::certainty::Scatter;
+use crate::structure::hazard::Hazard;
 use crate::structure::uncertain::{AskedSite, Event, Uncertain, UncertaintyReport};
 use crate::uniform_risk::Stripes;
 
@@ -33,25 +34,25 @@ pub(super) fn structures<'a>(
     Uncertain::of(structure, oscillator.restitution(), set.records.len())
 }
 
-/// What the stripes of the structures say by each of `measures`, at each of the sites with their places; `described` is
+/// What the stripes of the structures say by each of `measures`, with the hazard of each of the sites; `described` is
 /// the frequency for the structure as described, by the positions of measure and site.
 ///
 /// # Errors
-/// A file that is damaged; parts that do not belong together.
+/// Parts that do not belong together.
 pub(super) fn report(
     uncertain: &Uncertain<'_>,
-    file: &ResultFile,
-    (measures, sites): (&[&SpectraOfResult], &[(&str, usize)]),
-    (analysed, (study, set, scatter)): (impl Iterator<Item = Analysed>, (&UniformRiskStudy, &RecordSet, &Scatter)),
+    (measures, sites): (&[(&SpectraOfResult, &[Hazard<'_>])], &[&str]),
+    (analysed, (set, scatter)): (impl Iterator<Item = Analysed>, (&RecordSet, &Scatter)),
     described: &dyn Fn(usize, usize) -> f64,
 ) -> Result<UncertaintyReport, UpliftError> {
     let (mut results, mut analyses) = (Vec::new(), 0);
-    for ((index, measure), analysed) in measures.iter().enumerate().zip(analysed) {
-        let mut asked = Vec::new();
-        for (place, site) in sites.iter().enumerate() {
-            let of_site = vec![(Event::Overturning, described(index, place))];
-            asked.push(AskedSite::of(file, *site, (measure, study), of_site)?);
-        }
+    for ((index, (measure, hazard)), analysed) in measures.iter().enumerate().zip(analysed) {
+        let asked = sites.iter().zip(*hazard).enumerate().map(|(place, (&name, hazard))| AskedSite {
+            name,
+            hazard,
+            asked: vec![(Event::Overturning, described(index, place))],
+        });
+        let asked: Vec<AskedSite<'_>> = asked.collect();
         analyses += analysed.analyses;
         results.extend(uncertain.results(&Stripes::of(&measure.plan, set, analysed), &asked, scatter)?);
     }

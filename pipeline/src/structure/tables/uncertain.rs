@@ -24,7 +24,8 @@ pub(super) fn columns(report: &UncertaintyReport, found: &[Option<&UncertainFind
     // where no run shows it, what it is at most: a count of none is no proof of never
     add("at_most_uncertain_per_year".to_owned(), &UncertainFinding::at_most_per_year);
     if report.kind == "aleatory" {
-        let bands: [(&str, Band); 2] = [("records", |of| of.by_record), ("earthquakes", |of| of.by_earthquake)];
+        let bands: [(&str, Band); 3] =
+            [("records", |of| of.by_record), ("earthquakes", |of| of.by_earthquake), ("hazard", |of| of.with_hazard)];
         for (whose, band) in bands {
             for (end, place) in [("lower", 0), ("upper", 1)] {
                 add(format!("maf_uncertain_{whose}_{end}_per_year"), &|found| Some(band(found.aleatory()?)?[place]));

@@ -2,7 +2,7 @@
 //! stripes that were analysed.
 
 use serde::Serialize;
-use uplift_bootstrap::{BootstrapError, ResamplingPlan, Unit};
+use uplift_bootstrap::{BootstrapError, ResamplingPlan, Unit, weighted_quantile};
 use uplift_fragility::quantile;
 use uplift_risk::RecordSample;
 use uplift_study::UniformRiskStudy;
@@ -10,16 +10,19 @@ use uplift_study::UniformRiskStudy;
 use super::candidate::Attempt;
 use crate::consistency::Question;
 use crate::error::UpliftError;
+use crate::structure::hazard::Hazard;
 
 /// What other records would have given, drawn from these with replacement (Section 4.5), or other structures.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TargetBand {
     /// Share of the replicates between the limits.
     pub confidence: f64,
     /// How many replicates there are.
     pub replicates: usize,
-    /// What was drawn: `record`, `pair` or `event`; `structure`, of those that it may be, or `structure and record`.
-    pub unit: &'static str,
+    /// What was drawn: `record`, `pair` or `event`; `hazard and record`, where every draw goes with each of the
+    /// weighted hazard curves; `structure`, of those that it may be, `structure and record`, or `structure, hazard and
+    /// record`.
+    pub unit: String,
     /// Lower limit, median and upper limit of the value, in its unit; infinite beyond the values searched.
     pub value: [f64; 3],
     /// The same of the frequency at the value that was found, 1/yr.
@@ -34,7 +37,9 @@ pub struct TargetBand {
 pub(super) struct Bands {
     /// By records.
     pub(super) records: TargetBand,
-    /// By the structures that it may be, one a branch; by structures and records. None without branches.
+    /// By records and the weighted hazard curves of the site; none where it has but one.
+    pub(super) with_hazard: Option<TargetBand>,
+    /// By the structures that it may be, one a branch; by structures, records and hazard. None without branches.
     pub(super) structures: Option<[TargetBand; 2]>,
 }
 
@@ -43,8 +48,8 @@ pub(super) struct Bands {
 /// # Errors
 /// Draws of the study that cannot be.
 pub(super) fn band(
-    tried: &[(f64, Attempt)],
-    (found, target_per_year): (usize, f64),
+    (tried, found): (&[(f64, Attempt)], usize),
+    (target_per_year, hazard): (f64, &Hazard<'_>),
     study: &UniformRiskStudy,
     motions: &Question,
 ) -> Result<Bands, UpliftError> {
@@ -66,27 +71,24 @@ pub(super) fn band(
     let samples = plan.samples();
     let of_records = |sample: &RecordSample, place: usize| resampled_per_year(&tried[place].1.record_per_year, sample);
     let search = Search { tried, found, target_per_year, confidence: settings.confidence };
+    let unit = plan.unit().key();
     let records =
-        search.band(samples.len(), plan.unit().key(), &|replicate, place| of_records(&samples[replicate], place));
+        search.band(samples.len(), unit.to_owned(), &|replicate, place| of_records(&samples[replicate], place));
+    let with_hazard = (!hazard.branches.is_empty()).then(|| search.band_with_hazard(samples, hazard, unit));
     let branches = tried[found].1.structures.len();
     if branches == 1 {
-        return Ok(Bands { records, structures: None });
+        return Ok(Bands { records, with_hazard, structures: None });
     }
-    let alone = search.band(branches, "structure", &|branch, place| tried[place].1.structures[branch].risk.per_year);
+    let alone =
+        search.band(branches, "structure".to_owned(), &|branch, place| tried[place].1.structures[branch].risk.per_year);
+    let drawn = format!("structure{} and {unit}", if with_hazard.is_some() { ", hazard" } else { "" });
     // in turn: every structure as often as the others, but for one time
-    let all = search.band(samples.len(), with_structures(plan.unit()), &|replicate, place| {
-        resampled_per_year(&tried[place].1.structures[replicate % branches].record_per_year, &samples[replicate])
+    let all = search.band(samples.len(), drawn, &|replicate, place| {
+        let structure = &tried[place].1.structures[replicate % branches];
+        let record_per_year = structure.with_hazard.as_ref().unwrap_or(&structure.record_per_year);
+        resampled_per_year(record_per_year, &samples[replicate])
     });
-    Ok(Bands { records, structures: Some([alone, all]) })
-}
-
-/// What is drawn where structures are drawn too.
-fn with_structures(unit: Unit) -> &'static str {
-    match unit {
-        Unit::Record => "structure and record",
-        Unit::Pair => "structure and pair",
-        Unit::Event => "structure and event",
-    }
+    Ok(Bands { records, with_hazard, structures: Some([alone, all]) })
 }
 
 /// What was tried, ascending, and what was found there.
@@ -99,48 +101,90 @@ struct Search<'a> {
 
 impl Search<'_> {
     /// The band of so many `replicates`, whose frequencies at every place are `rate`, 1/yr.
-    fn band(&self, replicates: usize, unit: &'static str, rate: &dyn Fn(usize, usize) -> f64) -> TargetBand {
-        let Self { tried, found, target_per_year, confidence } = *self;
-        let (mut values, mut rates) = (Vec::with_capacity(replicates), Vec::with_capacity(replicates));
-        let (mut below, mut beyond) = (0, 0);
-        for replicate in 0..replicates {
-            let rate = |place: usize| rate(replicate, place);
-            let value = match (0..tried.len()).rev().find(|&place| rate(place) > target_per_year) {
-                None => {
-                    below += 1;
-                    tried[0].0
-                }
-                Some(last) if last + 1 == tried.len() => {
-                    beyond += 1;
-                    f64::INFINITY
-                }
-                Some(missed) => {
-                    let (from, to) = (tried[missed].0, tried[missed + 1].0);
-                    let [high, low] = [rate(missed), rate(missed + 1)];
-                    // straight in logarithms; where nothing is left of the frequency, the value that was analysed
-                    let share = if low > 0.0 { (high / target_per_year).ln() / (high / low).ln() } else { 1.0 };
-                    from * (to / from).powf(share)
-                }
-            };
-            values.push(value);
-            rates.push(rate(found));
+    fn band(&self, replicates: usize, unit: String, rate: &dyn Fn(usize, usize) -> f64) -> TargetBand {
+        let found: Vec<(Needed, f64)> =
+            (0..replicates).map(|replicate| (self.needed(&|place| rate(replicate, place)), 1.0)).collect();
+        let quantile_of = |sorted: &[(f64, f64)], level| {
+            let values: Vec<f64> = sorted.iter().map(|(value, _)| *value).collect();
+            quantile(&values, level)
+        };
+        self.told(&found, (replicates, unit), &quantile_of)
+    }
+
+    /// The band of all pairs of the `samples`, drawn by `unit`, and a curve of the `hazard`: a pair weighs as the curve
+    /// does.
+    fn band_with_hazard(&self, samples: &[RecordSample], hazard: &Hazard<'_>, unit: &str) -> TargetBand {
+        let mut found: Vec<(Needed, f64)> = Vec::with_capacity(samples.len() * hazard.branches.len());
+        for (weight, stripes) in &hazard.branches {
+            let per_year = stripes.per_year();
+            let contributed: Vec<Vec<f64>> =
+                self.tried.iter().map(|(_, attempt)| attempt.record_per_year_by(&per_year)).collect();
+            let of_sample = |sample| self.needed(&|place: usize| resampled_per_year(&contributed[place], sample));
+            found.extend(samples.iter().map(|sample| (of_sample(sample), *weight)));
         }
-        let count = values.len().max(1) as f64;
-        let tail = 0.5 * (1.0 - confidence);
-        let limits = |mut all: Vec<f64>| {
-            all.sort_by(f64::total_cmp);
-            [tail, 0.5, 1.0 - tail].map(|level| quantile(&all, level))
+        self.told(&found, (samples.len(), format!("hazard and {unit}")), &weighted_quantile)
+    }
+
+    /// The band of what is `found`, each with its weight.
+    fn told(
+        &self,
+        found: &[(Needed, f64)],
+        (replicates, unit): (usize, String),
+        quantile_of: &QuantileOf,
+    ) -> TargetBand {
+        let tail = 0.5 * (1.0 - self.confidence);
+        let limits = |of: fn(&Needed) -> f64| {
+            let mut all: Vec<(f64, f64)> = found.iter().map(|(needed, weight)| (of(needed), *weight)).collect();
+            all.sort_by(|a, b| a.0.total_cmp(&b.0));
+            [tail, 0.5, 1.0 - tail].map(|level| quantile_of(&all, level))
+        };
+        let total: f64 = found.iter().map(|(_, weight)| weight).sum();
+        let share = |of: fn(&Needed) -> bool| {
+            let those = found.iter().filter(|(needed, _)| of(needed));
+            if total > 0.0 { those.map(|(_, weight)| weight).sum::<f64>() / total } else { 0.0 }
         };
         TargetBand {
-            confidence,
+            confidence: self.confidence,
             replicates,
             unit,
-            value: limits(values),
-            per_year: limits(rates),
-            below_share: f64::from(below) / count,
-            beyond_share: f64::from(beyond) / count,
+            value: limits(|needed| needed.value),
+            per_year: limits(|needed| needed.per_year),
+            below_share: share(|needed| needed.is_below),
+            beyond_share: share(|needed| needed.value.is_infinite()),
         }
     }
+
+    /// What is needed where the frequencies at every place are `rate`, 1/yr.
+    fn needed(&self, rate: &dyn Fn(usize) -> f64) -> Needed {
+        let Self { tried, found, target_per_year, .. } = *self;
+        let missed = (0..tried.len()).rev().find(|&place| rate(place) > target_per_year);
+        let value = match missed {
+            None => tried[0].0,
+            Some(last) if last + 1 == tried.len() => f64::INFINITY,
+            Some(missed) => {
+                let (from, to) = (tried[missed].0, tried[missed + 1].0);
+                let [high, low] = [rate(missed), rate(missed + 1)];
+                // straight in logarithms; where nothing is left of the frequency, the value that was analysed
+                let share = if low > 0.0 { (high / target_per_year).ln() / (high / low).ln() } else { 1.0 };
+                from * (to / from).powf(share)
+            }
+        };
+        Needed { value, per_year: rate(found), is_below: missed.is_none() }
+    }
+}
+
+/// A quantile of values with their weights, sorted by value.
+type QuantileOf = dyn Fn(&[(f64, f64)], f64) -> f64;
+
+/// What a replicate needs.
+struct Needed {
+    /// The value from which on it meets the target: the smallest that was analysed where all do, infinite where none
+    /// does.
+    value: f64,
+    /// Its frequency at the value that was found, 1/yr.
+    per_year: f64,
+    /// Whether all that was analysed meets the target.
+    is_below: bool,
 }
 
 /// The frequency for a sample of the records, from what each contributes, 1/yr.

@@ -33,7 +33,9 @@ pub(super) struct Attempt {
     /// What each record contributes on average: the sum of its weights where it happens, 1/yr; their mean is the
     /// frequency.
     pub(super) record_per_year: Vec<f64>,
-    /// The same of every branch; of one where all is known, and where each record has structures of its own.
+    /// To which share of its structures it happens, 0 to 1, `[record, level]`.
+    pub(super) happening: Vec<f64>,
+    /// The same risk of every branch; of one where all is known, and where each record has structures of its own.
     pub(super) structures: Vec<StructureRisk>,
 }
 
@@ -43,9 +45,17 @@ pub(super) struct StructureRisk {
     pub(super) risk: EventRisk,
     /// What each record contributes, 1/yr.
     pub(super) record_per_year: Vec<f64>,
+    /// The same by the hazard curve that goes with the structure; none where the site has but one.
+    pub(super) with_hazard: Option<Vec<f64>>,
 }
 
 impl Attempt {
+    /// What each record contributes on average where a level weighs `per_year`, 1/yr.
+    pub(super) fn record_per_year_by(&self, per_year: &[f64]) -> Vec<f64> {
+        let of_record = |shares: &[f64]| shares.iter().zip(per_year).map(|(share, weight)| share * weight).sum();
+        self.happening.chunks_exact(per_year.len()).map(of_record).collect()
+    }
+
     pub(super) fn meets(&self, target_per_year: f64) -> bool {
         self.risk.per_year <= target_per_year
     }

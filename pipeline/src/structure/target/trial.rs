@@ -5,6 +5,7 @@ use std::path::Path;
 
 use uplift_hazard::HazardCurve;
 use uplift_ida::{Peaks, Plan, System};
+use uplift_risk::StripeWeights;
 use uplift_study::{Structure, UniformRiskStudy};
 
 use super::candidate::{Attempt, Candidate, StructureRisk, threshold_m};
@@ -17,6 +18,7 @@ use crate::inputs::{RecordSet, motion_keys};
 use crate::result::{SpectraOfResult, StudyOfResult};
 use crate::structure::certainty::Scatter;
 use crate::structure::choice::records;
+use crate::structure::hazard::Hazard;
 use crate::structure::risk::{EventRisk, HAPPENS, OVERTURNING_M, happenings, risk_of_exceeding};
 use crate::structure::uncertain::{Around, Spread};
 use crate::structure::weights::SiteWeights;
@@ -31,6 +33,7 @@ pub(super) struct Trials<'a> {
     study: UniformRiskStudy,
     measure: &'a SpectraOfResult,
     weights: SiteWeights<'a>,
+    hazard: &'a Hazard<'a>,
     scatter: &'a Scatter,
     options: &'a TargetOptions,
     years: f64,
@@ -47,14 +50,14 @@ pub(super) struct Trials<'a> {
 }
 
 impl<'a> Trials<'a> {
-    /// Of `structure`, by the stripes of `measure` with their weights at a site, under records that scatter so.
+    /// Of `structure`, by the stripes of `measure` with the hazard of a site, under records that scatter so.
     ///
     /// # Errors
     /// Records that cannot be read.
     pub(super) fn of(
         structure: &'a Structure,
         source: &'a StudyOfResult,
-        (measure, weights, scatter): (&'a SpectraOfResult, SiteWeights<'a>, &'a Scatter),
+        (measure, hazard, scatter): (&'a SpectraOfResult, &'a Hazard<'a>, &'a Scatter),
         (options, years): (&'a TargetOptions, f64),
         events: &'a dyn Events,
     ) -> Result<Self, UpliftError> {
@@ -72,7 +75,8 @@ impl<'a> Trials<'a> {
             structure,
             result: &source.path,
             measure,
-            weights,
+            weights: SiteWeights::Alike(hazard.mean),
+            hazard,
             scatter,
             options,
             years,
@@ -172,12 +176,15 @@ impl<'a> Trials<'a> {
     /// What the `peaks` of the candidate at `place` among others say.
     fn weigh(&self, peaks: &Peaks, place: usize, candidate: Candidate) -> Result<Attempt, UpliftError> {
         let all = place * self.per_record()..(place + 1) * self.per_record();
+        let mut happens = vec![0_u32; self.set.records.len() * self.measure.plan.levels.len()];
+        let mut of_places = |places| self.risk_of(peaks, places, (&candidate, &mut happens));
         // structures of each record are one fragility together, branches one each
-        let structures = if self.is_of_each_record() {
-            vec![self.risk_of(peaks, all, &candidate)?]
+        let structures: Vec<StructureRisk> = if self.is_of_each_record() {
+            vec![of_places(all)?]
         } else {
-            all.map(|place| self.risk_of(peaks, place..place + 1, &candidate)).collect::<Result<_, _>>()?
+            all.map(|place| of_places(place..place + 1)).collect::<Result<_, _>>()?
         };
+        let happening = happens.iter().map(|&count| f64::from(count) / self.per_record() as f64).collect();
         let of = |value: &dyn Fn(&StructureRisk) -> f64| mean(structures.iter().map(value).collect());
         let tail = |share: fn(&EventRisk) -> f64| of(&|one: &StructureRisk| share(&one.risk) * one.risk.per_year);
         let mut risk = if let [one] = &structures[..] {
@@ -195,15 +202,16 @@ impl<'a> Trials<'a> {
         }
         let record_per_year =
             (0..self.set.records.len()).map(|record| of(&|one| one.record_per_year[record])).collect();
-        Ok(Attempt { candidate, risk, record_per_year, structures })
+        Ok(Attempt { candidate, risk, record_per_year, happening, structures })
     }
 
-    /// The risk of the structures at `places` of a `candidate`, each with its own threshold.
+    /// The risk of the structures at `places` of a `candidate`, each with its own threshold; counts in `happens` to how
+    /// many of them it happens, `[record, level]`.
     fn risk_of(
         &self,
         peaks: &Peaks,
         places: Range<usize>,
-        candidate: &Candidate,
+        (candidate, happens): (&Candidate, &mut [u32]),
     ) -> Result<StructureRisk, UpliftError> {
         let (records, draws) = (self.set.records.len(), places.len());
         let run = |record: usize, place: usize| {
@@ -214,15 +222,26 @@ impl<'a> Trials<'a> {
         let of_record = |record: usize| places.clone().map(move |place| run(record, place));
         let told = happenings(&self.measure.plan.levels, (0..records).flat_map(of_record))?;
         let risk = risk_of_exceeding(&told, &self.weights, HAPPENS, self.years)?;
-        let per_year = self.weights.stripes().per_year();
-        let contributed = |record: usize| -> f64 {
+        let contributed = |weights: &StripeWeights| -> Vec<f64> {
+            let per_year = weights.per_year();
             let of_run = |(row_m, threshold_m): (&[f64], f64)| -> f64 {
                 let peaks_m = row_m.iter().zip(&per_year);
                 peaks_m.filter(|(peak_m, _)| **peak_m > threshold_m).map(|(_, weight)| weight).sum()
             };
-            of_record(record).map(of_run).sum::<f64>() / draws as f64
+            (0..records).map(|record| of_record(record).map(of_run).sum::<f64>() / draws as f64).collect()
         };
-        Ok(StructureRisk { risk, record_per_year: (0..records).map(contributed).collect() })
+        for (record, happens) in happens.chunks_exact_mut(self.measure.plan.levels.len()).enumerate() {
+            for (row_m, threshold_m) in of_record(record) {
+                happens.iter_mut().zip(row_m).for_each(|(count, peak_m)| *count += u32::from(*peak_m > threshold_m));
+            }
+        }
+        let number = self.around.as_ref().and_then(|around| around.hazard_number(places.start % self.per_record()));
+        let with_hazard = number.filter(|_| !self.hazard.branches.is_empty());
+        Ok(StructureRisk {
+            risk,
+            record_per_year: contributed(self.weights.stripes()),
+            with_hazard: with_hazard.map(|number| contributed(self.hazard.at(number))),
+        })
     }
 
     /// Which share of the runs lets it happen to the structures of `attempt` at the levels that `curve` has for the

@@ -29,7 +29,7 @@ impl TargetUncertainty {
     /// Of the structures `around` every value, with the `bands` of branches by themselves and with the records.
     pub(super) fn of(around: &Around<'_>, bands: Option<[TargetBand; 2]>) -> Self {
         let (kind, sampling, seed) = around.sampled();
-        let [by_structure, by_all] = bands.map_or([None; 2], |bands| bands.map(Some));
+        let [by_structure, by_all] = bands.map_or([None, None], |bands| bands.map(Some));
         let (structures, quantities) = (around.per_record(), around.quantities());
         Self { kind, sampling, seed, structures, quantities, by_structure, by_all }
     }

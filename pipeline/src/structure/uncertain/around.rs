@@ -63,6 +63,12 @@ impl<'a> Around<'a> {
         self.points.iter().map(system).collect()
     }
 
+    /// The number between 0 and 1 that chooses the hazard curve which goes with a branch; none where structures are not
+    /// branches.
+    pub(in crate::structure) fn hazard_number(&self, branch: usize) -> Option<f64> {
+        self.points[branch].get(self.of.quantities.len()).copied()
+    }
+
     /// The key of its kind, how it is sampled, and where the random numbers begin.
     pub(in crate::structure) fn sampled(&self) -> (&'static str, &'static str, u64) {
         (self.of.kind.key(), self.of.sampling.key(), self.of.seed)

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 
 use rayon::prelude::*;
 use uplift_ida::System;
-use uplift_risk::{PooledDemand, RecordSample, RiskCurve, StripeWeights};
+use uplift_risk::{PooledDemand, RecordSample, RiskCurve};
 use uplift_study::Uncertainty;
 use uplift_uncertainty::{SobolIndices, sobol_indices, unit_cube};
 
@@ -122,7 +122,7 @@ impl Branches {
             let mut factors: Vec<(String, usize)> =
                 self.groups.iter().enumerate().map(|(group, name)| (name.clone(), 4 + group)).collect();
             let after = 4 + self.groups.len();
-            if !site.branches.is_empty() {
+            if !site.hazard.branches.is_empty() {
                 factors.push(("hazard".to_owned(), after));
             }
             if !samples.is_empty() {
@@ -201,7 +201,7 @@ impl Answers<'_> {
     fn cell(&self, demand: &PooledDemand, cell: Cell) -> Result<Vec<f64>, UpliftError> {
         let mut answers = Vec::new();
         for site in self.sites {
-            let weights = cell.hazard.map_or(site.weights, |number| branch(site, number));
+            let weights = cell.hazard.map_or(site.hazard.mean, |number| site.hazard.at(number));
             let curve = match cell.sample {
                 Some(sample) => RiskCurve::resampled(demand, weights, &self.samples[sample])?,
                 None => RiskCurve::new(demand, weights)?,
@@ -219,19 +219,6 @@ impl Answers<'_> {
         }
         Ok(answers)
     }
-}
-
-/// The weights of the hazard's branch that a `number` between 0 and 1 chooses; of the mean where there are no branches.
-fn branch<'a>(site: &'a AskedSite<'_>, number: f64) -> &'a StripeWeights {
-    let total: f64 = site.branches.iter().map(|(weight, _)| weight).sum();
-    let mut before = 0.0;
-    for (weight, weights) in &site.branches {
-        before += weight;
-        if number * total < before {
-            return weights;
-        }
-    }
-    site.branches.last().map_or(site.weights, |(_, weights)| weights)
 }
 
 /// The factors with their shares, the largest total first.

@@ -64,12 +64,13 @@ pub(super) fn findings(
             .map(|(row_m, system)| (row_m, Event::BeyondCapacity.threshold_m(system).unwrap_or(f64::INFINITY))),
     )?;
     let rate = |site: &AskedSite<'_>, of: &PooledDemand, threshold_m: f64| -> Result<AleatoryResult, UpliftError> {
-        let bands = rate_bands(of, site.weights, &scatter, threshold_m)?;
+        let bands = rate_bands(of, site.hazard, &scatter, threshold_m)?;
         Ok(AleatoryResult {
-            value: RiskCurve::new(of, site.weights)?.mean_annual_frequency(threshold_m)?,
+            value: RiskCurve::new(of, site.hazard.mean)?.mean_annual_frequency(threshold_m)?,
             at_most_per_year: None,
             by_record: bands.map(|bands| bands.by_record),
             by_earthquake: bands.and_then(|bands| bands.by_earthquake),
+            with_hazard: bands.and_then(|bands| bands.with_hazard),
         })
     };
     let finding = |site: &AskedSite<'_>, event: Event| match event {
@@ -77,13 +78,14 @@ pub(super) fn findings(
         Event::BeyondCapacity => rate(site, &beyond, HAPPENS),
         Event::Demand(target_per_year) => {
             let factor = uncertain.participation;
-            let ordinate = RiskCurve::new(&demand, site.weights)?.exact_ordinate(target_per_year)?;
-            let bands = demand_bands(&demand, site.weights, &scatter, (target_per_year, factor, None))?;
+            let ordinate = RiskCurve::new(&demand, site.hazard.mean)?.exact_ordinate(target_per_year)?;
+            let bands = demand_bands(&demand, site.hazard, &scatter, (target_per_year, factor, None))?;
             Ok(AleatoryResult {
                 value: factor * ordinate.displacement_m,
                 at_most_per_year: None,
                 by_record: bands.map(|bands| bands.demand_by_record_m),
                 by_earthquake: bands.and_then(|bands| bands.demand_by_earthquake_m),
+                with_hazard: bands.and_then(|bands| bands.demand_with_hazard_m),
             })
         }
     };

@@ -205,4 +205,7 @@ pub struct AleatoryResult {
     pub by_record: Option<[f64; 2]>,
     /// The same as their earthquakes tell it; none where no two pairs are known to share one.
     pub by_earthquake: Option<[f64; 2]>,
+    /// The same as their earthquakes (the records, where none are known to share one) and the weighted hazard curves of
+    /// the site tell it; none where it has but one.
+    pub with_hazard: Option<[f64; 2]>,
 }

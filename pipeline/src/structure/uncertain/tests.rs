@@ -4,7 +4,7 @@
 use uplift_fragility::LognormalFragility;
 use uplift_ida::{AnalysisRow, Cells, Plan, ScaledMotion};
 use uplift_motion::{Accelerogram, IntensityMeasure};
-use uplift_risk::RiskCurve;
+use uplift_risk::{RiskCurve, StripeWeights};
 use uplift_uncertainty::{Distribution, Family};
 
 use super::*;
@@ -81,7 +81,8 @@ fn found(
 ) -> UncertainFinding {
     let uncertain = Uncertain::of(structure, 0.95, RECORDS).unwrap().unwrap();
     let weights = weights(1.0);
-    let site = AskedSite { name: "Here", weights: &weights, branches, asked: vec![(event, f64::NAN)] };
+    let hazard = Hazard { mean: &weights, branches };
+    let site = AskedSite { name: "Here", hazard: &hazard, asked: vec![(event, f64::NAN)] };
     let mut results = uncertain.results(&stripes(&uncertain, lost_m), &[site], scatter).unwrap();
     assert_eq!(results.len(), 1);
     results.remove(0).found

@@ -28,14 +28,22 @@ impl UncertainResult {
                      else is not known {all}; as described {described}; {owed}"
                 )
             }
-            UncertainFinding::Aleatory(AleatoryResult { value, at_most_per_year, by_record, by_earthquake }) => {
+            UncertainFinding::Aleatory(AleatoryResult {
+                value,
+                at_most_per_year,
+                by_record,
+                by_earthquake,
+                with_hazard,
+            }) => {
                 let records = by_record.map(|limits| format!(", 90 % band of the records {}", range(limits, unit)));
                 let earthquakes = by_earthquake.map(|limits| format!(", of the earthquakes {}", range(limits, unit)));
+                let hazard = with_hazard.map(|limits| format!(", with the hazard's curves {}", range(limits, unit)));
                 format!(
-                    "{of}, {site}, {im}: {}{}{}; as described {described}",
+                    "{of}, {site}, {im}: {}{}{}{}; as described {described}",
                     shown(*value, *at_most_per_year, unit),
                     records.unwrap_or_default(),
-                    earthquakes.unwrap_or_default()
+                    earthquakes.unwrap_or_default(),
+                    hazard.unwrap_or_default()
                 )
             }
         }
