@@ -1,5 +1,11 @@
 """What other packages have, handed over: streams of ObsPy, OpenQuake's datastore, tables of pandas."""
 
+import os
+import subprocess
+import sys
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
 import h5py
 import numpy as np
 import pandas
@@ -8,6 +14,8 @@ import pytest
 import uplift_urs as uplift
 
 YEARS = 50.0
+# of a calculation of OpenQuake, which takes about ten: nothing is to hang where it waits for something
+LIMIT_S = 120
 
 
 def test_a_stream_of_obspy():
@@ -26,11 +34,16 @@ def test_a_stream_of_obspy():
         uplift.Record.from_obspy((stream + obspy.Stream([late])).merge(), unit="g")
 
 
-def spectra_of(curves):
-    record = uplift.Record.from_array(np.sin(np.arange(400) / 8.0), dt_s=0.02, unit="m/s2")
+def peaks():
+    """Peaks of three records, two strengths and five levels; the levels, in cm/s."""
+    shaking = [np.sin(np.arange(400) / steps) for steps in (6.0, 8.0, 10.0)]
+    records = [uplift.Record.from_array(samples, dt_s=0.02, unit="m/s2") for samples in shaking]
     levels = [1.0, 3.0, 10.0, 30.0, 100.0]
-    edp_m = uplift.ida([record] * 3, [0.02, 0.1], levels)
-    return uplift.urs(edp_m, levels, curves, extrapolate="loglog").u_m
+    return uplift.ida(records, [0.02, 0.1], levels), levels
+
+
+def spectra_of(curves):
+    return uplift.urs(*peaks(), curves, extrapolate="loglog").u_m
 
 
 def test_a_table_of_a_hundred_sites():
@@ -47,28 +60,49 @@ def test_a_table_of_a_hundred_sites():
     assert spectra.loc[("site 099", 0.02), 0.02] >= spectra.loc[("site 000", 0.02), 0.02] > 0
 
 
-def curves_of(poes, levels):
+def curves_of(poes, levels, measure="pgv"):
     """Curves of annual rates from OpenQuake's probabilities, `[site, level]`; those of 1 and 0 have no rate."""
     curves = []
-    for poe in poes:
+    for poe in np.asarray(poes, float):
         known = (poe > 0) & (poe < 1)
-        curves.append(uplift.HazardCurve(levels[known], -np.log1p(-poe[known]) / YEARS))
+        curves.append(uplift.HazardCurve(levels[known], -np.log1p(-poe[known]) / YEARS, measure=measure))
     return curves
 
 
 def test_arrays_as_a_datastore_of_openquake_has_them(tmp_path):
-    """In the layout of a calculation's file, read by OpenQuake's own class where that is installed, else as HDF5."""
+    """In the layout of a calculation's file, without OpenQuake."""
     levels = np.geomspace(0.1, 300, 12)
     poes = -np.expm1(-YEARS * 0.3 * np.array([[1.0], [1.3]]) * levels**-2.0)
     with h5py.File(tmp_path / "calc_1.hdf5", "w") as file:
         # site, statistic, measure, level; in single precision
         file["hcurves-stats"] = poes.astype(np.float32)[:, None, None, :]
-    try:
-        from openquake.baselib.hdf5 import File
-    except ImportError:
-        from h5py import File
-    with File(str(tmp_path / "calc_1.hdf5"), "r") as file:
-        read = file["hcurves-stats"][:, 0, 0, :].astype(float)
+    with h5py.File(tmp_path / "calc_1.hdf5", "r") as file:
+        read = file["hcurves-stats"][:, 0, 0, :]
     curves = curves_of(read, levels)
     np.testing.assert_allclose(curves[0].maf_per_year, 0.3 * curves[0].im**-2.0, rtol=1e-3)
     assert spectra_of(curves).shape == (2, 3, 2)
+
+
+def test_a_calculation_of_openquake(tmp_path):
+    """Calculated, exported and read by OpenQuake itself, its arrays and its export handed over and compared."""
+    try:
+        version("openquake.engine")
+    except PackageNotFoundError:
+        install = "pip install --no-deps -r python/tests/requirements-openquake.txt"
+        if "CI" in os.environ:
+            pytest.fail(f"CI needs OpenQuake: {install}")
+        pytest.skip(f"skipped: no OpenQuake: {install}")
+    (tmp_path / "openquake.cfg").write_text(f"[dbserver]\nhost = 127.0.0.1\nfile = {tmp_path / 'jobs.sqlite3'}\n")
+    settings = {
+        # everything within one process and the folder of the test: no server, no workers, nothing of the home's
+        "OQ_CONFIG_FILE": str(tmp_path / "openquake.cfg"),
+        "OQ_DATABASE": "127.0.0.1",
+        "OQ_DATADIR": str(tmp_path),
+        "OQ_DISTRIBUTE": "no",
+        # numba would compile first, which takes two minutes in a fresh environment; the calculation takes less than a
+        # second without it
+        "NUMBA_DISABLE_JIT": "1",
+    }
+    program = [sys.executable, Path(__file__).with_name("openquake_handover.py"), tmp_path]
+    done = subprocess.run(program, env=os.environ | settings, capture_output=True, text=True, timeout=LIMIT_S)
+    assert done.returncode == 0, done.stderr
