@@ -89,7 +89,7 @@ def test_a_calculation_of_openquake(tmp_path):
         version("openquake.engine")
     except PackageNotFoundError:
         install = "pip install --no-deps -r python/tests/requirements-openquake.txt"
-        if "CI" in os.environ:
+        if "CI" in os.environ and (3, 11) <= sys.version_info < (3, 14):
             pytest.fail(f"CI needs OpenQuake: {install}")
         pytest.skip(f"skipped: no OpenQuake: {install}")
     (tmp_path / "openquake.cfg").write_text(f"[dbserver]\nhost = 127.0.0.1\nfile = {tmp_path / 'jobs.sqlite3'}\n")

@@ -41,9 +41,9 @@ pub fn inferred_rate_over_curves(
     Ok(mixture.interval(&means))
 }
 
-/// Limits of the exact ordinate of `target_per_year` \[1/yr\] by all records there could be and by one of several hazard
-/// curves, m: a displacement belongs to the band where the confidence that it is exceeded less often than the target is
-/// neither too small nor too large, as in [`inferred_limits`](crate::inferred_limits) by one curve.
+/// Limits of the exact ordinate of `target_per_year` \[1/yr\] by all records there could be and by one of several
+/// hazard curves, m: a displacement belongs to the band where the confidence that it is exceeded less often than the
+/// target is neither too small nor too large, as in [`inferred_limits`](crate::inferred_limits) by one curve.
 ///
 /// # Errors
 /// As [`inferred_rate_over_curves`]; a target that is not positive and finite.

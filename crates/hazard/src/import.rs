@@ -115,6 +115,15 @@ pub struct ExportedCurve {
     pub dropped_zeros: usize,
     /// Levels at the beginning with a probability of 1.
     pub dropped_certain: usize,
+    /// Levels at the beginning with the rate of the one after them: so low that every earthquake exceeds them.
+    pub dropped_alike: usize,
+}
+
+impl ExportedCurve {
+    /// Levels of the export that the curve has not.
+    pub fn dropped_levels(&self) -> usize {
+        self.dropped_zeros + self.dropped_certain + self.dropped_alike
+    }
 }
 
 /// A site as an export has it, with its curve or with what keeps it from having one: a site at sea has no hazard.

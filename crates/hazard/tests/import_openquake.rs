@@ -82,6 +82,24 @@ fn an_older_export_without_kind_depth_and_names() {
     assert_eq!(curve.dropped_certain, 1);
 }
 
+/// Levels so low that every earthquake exceeds them share one probability: the highest of them has it. One further up
+/// is a mistake.
+#[test]
+fn levels_that_every_earthquake_exceeds_are_one() {
+    let export = |poes: &str| {
+        let head = "# source_model_tree_path=('b1',), gsim_tree_path=('b1',), investigation_time=1.0, imt=\"PGA\"\n";
+        all(format!("{head}lon,lat,poe-0.001,poe-0.002,poe-0.01,poe-0.1,poe-1\n-0.1,0.2,{poes}\n"))
+    };
+    let curve = &export("1,0.05,0.05,0.01,0.001").unwrap()[0];
+    assert_eq!((curve.dropped_certain, curve.dropped_alike, curve.dropped_levels()), (1, 1, 2));
+    assert_eq!(curve.curve.im(), [0.01, 0.1, 1.0]);
+    let curve = &export("0.05,0.05,0.05,0.01,0.001").unwrap()[0];
+    assert_eq!((curve.dropped_alike, curve.curve.im()), (2, &[0.01, 0.1, 1.0][..]));
+    assert_eq!(curve.curve.maf()[0], -(-0.05_f64).ln_1p());
+    assert!(export("0.06,0.05,0.05,0.01,0.001").unwrap_err().to_string().contains("is not below"));
+    assert!(export("0.05,0.05,0.05,0.05,0.05").is_err());
+}
+
 #[test]
 fn kinds_and_measures() {
     let read = |kind: &str, imt: &str| {

@@ -178,11 +178,15 @@ fn choose(
 
 fn note_dropped(Chosen { exported, file, .. }: &Chosen, events: &dyn Events) {
     for (count, what) in [
-        (exported.dropped_zeros, "level(s) of zero at the end"),
-        (exported.dropped_certain, "level(s) of probability 1 at the start"),
+        (exported.dropped_zeros, "level(s) of zero at the end left out: no rate belongs to them"),
+        (exported.dropped_certain, "level(s) of probability 1 at the start left out: no rate belongs to them"),
+        (
+            exported.dropped_alike,
+            "level(s) at the start left out: they have the rate of the next one, since every earthquake exceeds them",
+        ),
     ] {
         if count > 0 {
-            events.note(&format!("{file}: {count} {what} left out: no rate belongs to them"));
+            events.note(&format!("{file}: {count} {what}"));
         }
     }
 }

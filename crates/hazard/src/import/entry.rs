@@ -84,8 +84,11 @@ impl Entry {
         let name = head.name(line);
         let levels = head.levels.iter().copied();
         let rows = levels.zip(values?).enumerate().map(|(at, (im, value))| Row { at, im, value }).collect();
-        let AnnualRates { rows, dropped_zeros, dropped_certain } =
+        let AnnualRates { mut rows, dropped_zeros, dropped_certain } =
             annual_rates(rows, head.content, head.years, &name, place)?;
+        // levels so low that every earthquake exceeds them have one rate, which belongs to the highest of them
+        let dropped_alike = rows.windows(2).take_while(|pair| pair[0].value == pair[1].value).count();
+        rows.drain(..dropped_alike);
         let (im, maf) = rows.iter().map(|row| (row.im, row.value)).unzip();
         let (measure, unit, source) = (head.measure.clone(), head.unit.to_owned(), head.source.clone());
         let curve = HazardCurve::new_at(measure, unit, source, im, maf, |index| place(rows[index].at))?;
@@ -98,6 +101,7 @@ impl Entry {
             curve: curve.with_component(head.component),
             dropped_zeros,
             dropped_certain,
+            dropped_alike,
         })
     }
 }

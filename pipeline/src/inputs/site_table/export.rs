@@ -201,7 +201,7 @@ impl Tally {
         path: &Path,
         exported: &ExportedCurve,
     ) -> Result<(), String> {
-        self.shortened += usize::from(exported.dropped_zeros + exported.dropped_certain > 0);
+        self.shortened += usize::from(exported.dropped_levels() > 0);
         let curve = exported.curve.in_field_units(study.gravity_m_s2).map_err(|error| reason_of(&error))?;
         let curve = match of_the_records_definition(study, read.measure(), &curve) {
             Ok(Some(curve)) => curve,
