@@ -507,6 +507,10 @@ fn a_design_sheet_says_what_the_design_says() {
     assert!((said / demand_m - 1.0).abs() < 0.06, "{lead}");
     let satisfied = found["rules"].as_array().unwrap().iter().all(|rule| rule["from_spectrum"]["satisfied"] == true);
     assert_eq!(lead.contains("class=\"verdict no\""), !satisfied, "{lead}");
+    // how sure that is, in words and drawn
+    assert!(lead.contains("m (90 % band ") && lead.contains(" 90 % band: "), "{lead}");
+    let drawn = rest.split_once("aria-label=\"Numbers (dots) and their bands (bars), m\"").unwrap().1;
+    assert!(drawn.contains(">demand on the structure, Here, PGV</text>"), "{drawn}");
     // the block to scale, with its dimensions
     let drawing = rest.split_once("<svg").unwrap().1.split_once("</svg>").unwrap().0;
     assert!(drawing.contains(">0.8 m</text>") && drawing.contains(">4 m</text>"), "{drawing}");

@@ -185,6 +185,7 @@ fn structures_are_branches() {
     let page = read("r.html");
     let cell = format!("{:.4} to {:.4}", low[2], high[2]);
     assert!(page.contains("Spectra over the structures that may be, by PGV") && page.contains(&cell), "{cell}");
+    assert!(!page.contains("Which measure to trust"), "structures are no observations");
     let json: Value = serde_json::from_str(&read("r.json")).unwrap();
     let spread = &json["spectra"][0]["spread_over_structure"];
     for (name, values) in [("u05_m", &low), ("mean_m", &mean), ("u95_m", &high)] {

@@ -21,4 +21,5 @@ pub use figure::{Axis, Band, Figure, Hatch, Map, Marks, Panel, Region, Scale, Se
 pub use mark::{with_description, with_software};
 pub use panel::{PanelPlace, share_y};
 pub use raster::{RasterError, png};
-pub use typeset::{html, plain};
+pub use ticks::ticks;
+pub use typeset::{escaped, html, plain};

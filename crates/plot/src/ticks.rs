@@ -3,7 +3,7 @@
 use super::figure::Scale;
 
 /// Positions (logarithms on a logarithmic axis) of the labelled ticks between two positions, about `wanted` of them.
-pub(super) fn ticks(scale: Scale, from: f64, to: f64, wanted: usize) -> Vec<f64> {
+pub fn ticks(scale: Scale, from: f64, to: f64, wanted: usize) -> Vec<f64> {
     match scale {
         Scale::Linear => linear(from, to, wanted),
         Scale::Log => {

@@ -53,7 +53,8 @@ pub fn html(text: &str) -> String {
     words.collect()
 }
 
-fn escaped(text: &str) -> String {
+/// The text as it stands in HTML and SVG: what they mean by a character spelt out.
+pub fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 

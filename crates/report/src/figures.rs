@@ -143,7 +143,10 @@ impl FigureSource {
         causes.extend(demand::risk_curves(self)?);
         causes.extend(demand::risk_surfaces(self)?);
         causes.extend(demand::ida_curves(self)?);
-        causes.push(efficiency::efficiency(self)?);
+        // structures of a motion are no more observations than the motion is: as `uplift measures` has it
+        if self.stored.units.structures_of_a_motion == 1 {
+            causes.push(efficiency::efficiency(self)?);
+        }
         Ok(RiskFigures {
             answer: spectra::spectra(self),
             confidence,

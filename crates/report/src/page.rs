@@ -230,8 +230,8 @@ fn section(key: &str, title: String, result: Read) -> Result<Section, UpliftErro
             details: keyed(part.details),
         })
     };
-    for structure in &mut structures {
-        structure.tables = keyed(std::mem::take(&mut structure.tables));
+    for answer in structures.iter_mut().flat_map(|structure| &mut structure.answers) {
+        answer.table.id = format!("{key}-{}", answer.table.id);
     }
     Ok(Section {
         structures,

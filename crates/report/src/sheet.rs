@@ -3,6 +3,7 @@
 //! It leads with demand, margin and risk in a sentence each; then the structure to scale, the numbers, and what they
 //! rest on. Style and policy are those of the report.
 
+mod bands;
 mod drawing;
 mod numbers;
 
@@ -16,6 +17,7 @@ use uplift::structure::DesignReport;
 use uplift::study::Structure;
 
 use crate::page::{STYLE, render};
+pub(crate) use bands::bands;
 use drawing::drawing;
 pub(crate) use drawing::drawing as elevation;
 pub(crate) use numbers::facts;
@@ -55,6 +57,7 @@ pub fn write_design_sheet(structure: &Structure, report: &DesignReport, file: &P
             alarms,
             drawing => drawing(&structure.description),
             facts => facts(structure, &report.structure),
+            bands => bands(&report.finding(structure)?.rows),
             tables => tables(report),
             result => report.result.file_name().map(|name| name.to_string_lossy().into_owned()),
             record_set => report.record_set,

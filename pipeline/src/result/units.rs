@@ -11,12 +11,19 @@ pub struct RecordUnits {
     pub(crate) names: Vec<String>,
     /// The unit of each record, `[record]`.
     pub(crate) of: Vec<usize>,
+    /// Structures that each motion shakes, one a record; one where they are known exactly.
+    pub structures_of_a_motion: usize,
 }
 
 impl RecordUnits {
     /// Those of `records` by their names, in a study.
     pub(super) fn new(study: &UniformRiskStudy, records: &[String]) -> Self {
-        let mut units = Self { records: Vec::new(), names: Vec::new(), of: Vec::new() };
+        let mut units = Self {
+            records: Vec::new(),
+            names: Vec::new(),
+            of: Vec::new(),
+            structures_of_a_motion: study.structures_of_a_motion(),
+        };
         for (position, record) in records.iter().enumerate() {
             let name = if study.keeps_pairs_together() { study.pair_of_record(record) } else { record };
             // the records of a pair follow each other

@@ -6,7 +6,7 @@ use super::{Content, Part, Table};
 use crate::figures::FigureSource;
 use uplift::UpliftError;
 use uplift::influence::{level_of_share, rank_records};
-use uplift::result::{MeasureBands, ResultFile, StoredBands, StoredSpectra, StoredSpectraBands};
+use uplift::result::{MeasureBands, ResultFile, StoredBands, StoredSpectra, StoredSpectraBands, StoredStripes};
 use uplift::text::{kind_of_risks, metres, nearest, per_cent, risk_in_words, risk_name, spectrum_words};
 
 /// Strengths in the table of displacements, and in that of intensities.
@@ -84,8 +84,8 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
     Ok(Content {
         subject: "Uniform risk spectra",
         extent: format!(
-            "{} ground motions, {} uplift strengths, {} sites.",
-            stored.records.len(),
+            "{}, {} uplift strengths, {} sites.",
+            ground_motions(stored),
             stored.strengths.len(),
             stored.sites.len()
         ),
@@ -94,6 +94,16 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
         parts,
         source: Some(source),
     })
+}
+
+/// How many ground motions there are, in words: azimuths and structures make several records of a pair.
+fn ground_motions(stored: &StoredStripes) -> String {
+    let (records, pairs) = (stored.records.len(), stored.units.firsts().count());
+    if records == pairs {
+        format!("{records} ground motions")
+    } else {
+        format!("{pairs} pairs of ground motions, of which {records} records are made")
+    }
 }
 
 /// Whether the records are enough, by every measure.

@@ -12,7 +12,7 @@ use uplift::structure::StructureReport;
 use uplift::study::Structure;
 
 use super::Table;
-use crate::sheet::{elevation, facts};
+use crate::sheet::{bands, elevation, facts};
 
 /// A structure, and the answers to what it was asked.
 #[derive(Debug, Serialize)]
@@ -25,7 +25,15 @@ pub(super) struct AskedStructure {
     facts: Vec<(&'static str, String)>,
     /// What to know before the answers are used, but for what the page says of the result.
     alarms: Vec<Value>,
-    pub(super) tables: Vec<Table>,
+    pub(super) answers: Vec<Answer>,
+}
+
+/// What one question was answered.
+#[derive(Debug, Serialize)]
+pub(super) struct Answer {
+    pub(super) table: Table,
+    /// Drawings of the numbers with bands.
+    bands: Vec<String>,
 }
 
 /// The structures that were asked something under `result`, of which the page says `known` already.
@@ -59,7 +67,11 @@ fn asked(number: usize, answers: &[StoredFinding], known: &[Alarm]) -> AskedStru
         drawing: structure.as_ref().map_or_else(String::new, |own| elevation(&own.description)),
         facts: facts.unwrap_or_default(),
         alarms: alarms.map(Value::from_serialize).collect(),
-        tables: answers.iter().enumerate().map(|(index, of)| table([number, index + 1], of)).collect(),
+        answers: answers
+            .iter()
+            .enumerate()
+            .map(|(index, of)| Answer { table: table([number, index + 1], of), bands: bands(&of.finding.rows) })
+            .collect(),
     }
 }
 

@@ -66,7 +66,13 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
         }
     }
     if let Some(exact) = &report.exact {
-        say(in_words("It overturns", &exact.overturning, &exact.rounding.overturning_per_year, years), None);
+        let overturns = in_words("It overturns", &exact.overturning, &exact.rounding.overturning_per_year, years);
+        let band = exact.bands.and_then(|bands| bands.overturning_per_year).map_or_else(String::new, |bands| {
+            let [lower, upper] = bands.with_hazard.or(bands.by_earthquake).unwrap_or(bands.by_record);
+            let shown = |per_year: f64| if per_year > 0.0 { power(per_year, 1) } else { "none seen".to_owned() };
+            format!(" 90 % band: {} to {} a year.", shown(lower), shown(upper))
+        });
+        say(format!("{overturns}{band}"), None);
     }
     for result in report.uncertainty.iter().flat_map(|uncertainty| &uncertainty.results) {
         say(format!("What is not known of the structure, {}.", result.in_words()), None);
