@@ -142,7 +142,7 @@ fn every_number_by_hand() {
         assert_eq!(exact["analyses"], (1 + 2 * 11 + 3 * 8) * 5 * 7);
         is_around(exact, &["zero_stiffness_demand_of_spectrum_m", "zero_stiffness_demand_m", "demand_m"]);
         assert_eq!(exact["overturns"], u.is_infinite());
-        let [lower, upper] = [0, 1].map(|limit| exact["bands"]["demand_by_record_m"][limit].as_f64());
+        let [lower, upper] = [0, 1].map(|limit| exact["bands"]["demand_m"]["by_record"][limit].as_f64());
         let [lower, upper] = [lower, upper].map(|limit_m| limit_m.unwrap_or(f64::INFINITY));
         assert!(0.0 < lower && lower <= u * (1.0 + 1e-6) && u <= upper * (1.0 + 1e-6), "{lower} {u} {upper}");
         for (event, threshold_m) in [("beyond_capacity", 0.8), ("overturning", f64::MAX)] {
@@ -508,7 +508,7 @@ fn a_design_sheet_says_what_the_design_says() {
     let satisfied = found["rules"].as_array().unwrap().iter().all(|rule| rule["from_spectrum"]["satisfied"] == true);
     assert_eq!(lead.contains("class=\"verdict no\""), !satisfied, "{lead}");
     // how sure that is, in words and drawn
-    assert!(lead.contains("m (90 % band ") && lead.contains(" 90 % band: "), "{lead}");
+    assert!(lead.contains("m (90 % band of records ") && lead.contains(" 90 % band of records: "), "{lead}");
     let drawn = rest.split_once("aria-label=\"Numbers (dots) and their bands (bars), m\"").unwrap().1;
     assert!(drawn.contains(">demand on the structure, Here, PGV</text>"), "{drawn}");
     // the block to scale, with its dimensions

@@ -67,7 +67,7 @@ fn the_bound_of_what_no_run_shows_counts_pairs() {
     {
         let (bound, few) = of(name, &more);
         assert_eq!(bound, one, "{name}");
-        assert!(few.starts_with(&format!("{records} records of 4 pairs are few")), "{few}");
+        assert!(few.starts_with(&format!("4 pairs, of which {records} records are made, are few")), "{few}");
     }
 }
 

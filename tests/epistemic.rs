@@ -172,7 +172,8 @@ fn branches_that_are_not_the_same_are_repaired_by_their_mean_and_it_is_said() {
 fn structure_study(hazard: &str) -> SmallStudy {
     let study = SmallStudy::with(&format!(
         "title = \"small\"\n[records.synthetic]\npairs = 20\n[strengths]\nvalues = [0.05, 0.1, 0.2]\n[pga]\n\
-         levels_g = [0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 0.8, 1.2, 2]\n[bootstrap]\nreplicates = 101\n[[sites]]\n\
+         levels_g = [0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 0.8, 1.2, 2]\n[bootstrap]\nreplicates = 101\n\
+         [risk]\npoe = [0.5]\n[[sites]]\n\
          name = \"Here\"\n{hazard}"
     ));
     for (name, factor) in [("a", 1.0), ("b", 3.0)] {
@@ -208,25 +209,22 @@ fn bands_of_structure(study: &SmallStudy) -> [Vec<[f64; 2]>; 2] {
         let all: Vec<f64> = value.as_array().unwrap().iter().map(|limit| limit.as_f64().unwrap()).collect();
         [all[0], all[all.len() - 1]]
     };
-    let design = &answer(study, &["design", "--poe", "0.5"])["exact"]["bands"];
+    let design = &answer(study, &["design"])["exact"]["bands"];
     let overturning = &answer(study, &["overturning"])["overturning"][0]["sites"][0]["bands"];
     let target = answer(study, &TARGET);
-    let numbers = |records: &str, of_margin: &str, of_demand: &str, of_target: &str| {
+    let numbers = |whose: &str, of_target: &str| {
         let own = [
-            &design[of_demand],
-            &design["margin"][of_margin],
-            &design["beyond_capacity_per_year"][records],
-            &design["overturning_per_year"][records],
-            &overturning[records],
+            &design["demand_m"][whose],
+            &design["capacity_less_demand_m"][whose],
+            &design["beyond_capacity_per_year"][whose],
+            &design["overturning_per_year"][whose],
+            &overturning[whose],
             &target[of_target]["value"],
             &target[of_target]["per_year"],
         ];
         own.into_iter().filter(|value| !value.is_null()).map(limits).collect::<Vec<_>>()
     };
-    [
-        numbers("by_record", "by_record_m", "demand_by_record_m", "band"),
-        numbers("with_hazard", "with_hazard_m", "demand_with_hazard_m", "band_with_hazard"),
-    ]
+    [numbers("by_record", "band"), numbers("with_hazard", "band_with_hazard")]
 }
 
 #[test]
@@ -237,7 +235,7 @@ fn numbers_of_a_structure_are_banded_over_the_curves_of_the_hazard() {
     }
     // the same curve twice leaves what the records say
     let [records, with_hazard] = bands_of_structure(&two_curves("a", "a"));
-    assert_eq!(records, alone[0][0]);
+    assert_eq!((&records, with_hazard.len()), (&alone[0][0], 7));
     for (found, expected) in with_hazard.iter().flatten().zip(records.iter().flatten()) {
         assert!((found - expected).abs() <= 1e-12 * expected.abs(), "{found} {expected}");
     }
@@ -267,8 +265,32 @@ fn numbers_of_a_structure_are_banded_over_the_curves_of_the_hazard() {
     let table = std::fs::read_to_string(study.path().join("o.risk.csv")).unwrap();
     assert!(table.contains("maf_records_upper_per_year,maf_hazard_lower_per_year"), "{table}");
     let told = study.uplift(&[&["target", "frame.toml", "--urs", "r.h5", "-q"], &TARGET[1..]].concat()).ok().stdout;
-    assert!(told.contains("hazard, records"), "{told}");
+    assert!(told.contains("records and hazard"), "{told}");
     study.uplift(&["export", "r.h5", "--json", "-o", "x.json", "-q"]).ok();
     let json = std::fs::read_to_string(study.path().join("x.json")).unwrap();
     assert!(json.contains("records and hazard"), "the answers that are kept");
+}
+
+/// What a rule asks for follows from the spectrum, and each curve has one.
+#[test]
+fn a_verdict_that_hangs_on_the_curve_is_told() {
+    let rule = |name: &str| {
+        let study = structure_study(&format!("pga = \"{name}.csv\"\n"));
+        move |factor: &str| {
+            answer(&study, &["design", "--spectrum-only", "--safety-factor", factor])["rules"][1]["from_spectrum"]
+                .clone()
+        }
+    };
+    let alone = ["a", "b"].map(rule);
+    let [safe, unsafe_] = alone.each_ref().map(|rule| rule("1")["safety_factor"].as_f64().unwrap());
+    assert!(safe > 1.01 * unsafe_ && unsafe_ > 1.0, "{safe} {unsafe_}");
+    // a factor between those that the structure has by either curve
+    let factor = (safe * unsafe_).sqrt().to_string();
+    let [most_m, least_m] = alone.each_ref().map(|rule| rule(&factor)["margin_m"].as_f64().unwrap());
+    let study = two_curves("a", "b");
+    let notes =
+        |factor: &str| answer(&study, &["design", "--spectrum-only", "--safety-factor", factor])["notes"].to_string();
+    let told = format!("satisfied by curves of 40 % of the weight, with margins from {least_m:+.4} to {most_m:+.4} m");
+    assert!(notes(&factor).contains(&format!("equal energy hangs on which hazard curve holds: {told}")), "{told}");
+    assert!(!notes("1").contains("hangs on"), "{}", notes("1"));
 }

@@ -196,9 +196,11 @@ fn a_target_of_uncertain_structures_keeps_every_band() {
             answer["rows"].as_array().unwrap().iter().filter(|row| row["quantity"] == quantity).collect();
         assert_eq!(rows.len(), 3, "{answer:#}");
         let bands = &answer["document"]["uncertainty"];
-        for (row, band) in rows[1..].iter().zip([&bands["by_structure"], &bands["by_all"]]) {
-            assert_eq!([&row["lower"], &row["upper"]], [&band[of][0], &band[of][2]], "{row}");
-            assert_eq!(row["band"], band["unit"]);
+        let drawn = [("by_structure", "structure"), ("by_all", "structure and records")];
+        for (row, (band, words)) in rows[1..].iter().zip(drawn) {
+            let band = &bands[band][of];
+            assert_eq!([&row["lower"], &row["upper"]], [&band[0], &band[2]], "{row}");
+            assert_eq!(row["band"], words);
         }
     }
 }

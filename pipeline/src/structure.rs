@@ -23,7 +23,7 @@ mod target;
 mod uncertain;
 mod weights;
 
-pub use certainty::{DemandBands, MarginBands, RateBands};
+pub use certainty::{Bands, DemandBands};
 pub use demand::{DemandNoise, DemandRounding, ExactDemand, RuleRanges};
 pub use design::{DesignOptions, DesignReport, design, design_shard};
 pub use finding::keep;
@@ -41,7 +41,7 @@ pub(crate) use rocking_frame::{TORSION, model_of, rocking_frame};
 pub use rules::{RuleCheck, RuleOutcome};
 pub use spectrum::SpectrumDemand;
 pub use target::{
-    Crossing, FoundSystem, GenericTarget, LevelShare, TargetBand, TargetEvent, TargetFrequency, TargetOptions,
+    Crossing, Drawn, FoundSystem, GenericTarget, LevelShare, TargetBand, TargetEvent, TargetFrequency, TargetOptions,
     TargetReport, TargetUncertainty, TriedValue, target,
 };
 pub use uncertain::{

@@ -218,6 +218,27 @@ mod tests {
         assert!((upper - (2.0 + 0.138_302_9)).abs() < 1e-6, "{upper}");
     }
 
+    /// A target may be the truth just where the band of the rate holds it; below the band the means are too large.
+    #[test]
+    fn the_place_of_a_target_is_that_in_the_band() {
+        let known = |rate: f64| of(&[rate; 4]);
+        let scattered = |rate: f64| of(&[0.6, 0.9, 1.0, 1.1, 1.4].map(|share| rate * share));
+        for (weights, means) in [
+            (vec![1.0, 1.0], vec![scattered(1.0), scattered(3.0)]),
+            (vec![0.04, 0.92, 0.04], vec![scattered(0.2), scattered(1.0), scattered(9.0)]),
+            (vec![0.3, 0.7], vec![known(1.0), scattered(2.0)]),
+        ] {
+            let mixture = mixture(&weights, means[1].units);
+            let [lower, upper] = mixture.interval(&means);
+            for (target, expected) in [(0.999 * lower, 1.0), (1.001 * lower, 0.0), (0.999 * upper, 0.0)] {
+                let place = mixture.place(&means, target);
+                let found = if place.abs() <= 1.0 { 0.0 } else { place.signum() };
+                assert_eq!(found, expected, "{weights:?}: {target} of {lower} to {upper}");
+            }
+            assert!(mixture.place(&means, 1.001 * upper) < -1.0, "{weights:?}");
+        }
+    }
+
     // A truth that is known: one of three curves holds, drawn by their weights, and records contribute exponentially.
     #[test]
     fn it_holds_the_rate_of_the_curve_that_holds() {

@@ -127,7 +127,11 @@ fn few(records: usize, pairs: usize) -> Option<Alarm> {
             "records",
             format!(
                 "{are} are few: below about {FEW_RECORDS} spectra depend strongly on the choice of records",
-                are = if pairs < records { records_in_words(records, pairs) } else { records.to_string() }
+                are = if pairs < records {
+                    format!("{pairs} pairs, of which {records} records are made,")
+                } else {
+                    records.to_string()
+                }
             ),
             "bring more (records.manifest), or take all there are (records.first); uplift bootstrap shows how much",
         )
@@ -167,6 +171,8 @@ mod tests {
     fn forty_records_are_no_longer_few() {
         assert_eq!([few(40, 40), few(80, 40)], [None, None]);
         assert!(few(39, 39).is_some_and(|alarm| alarm.what.starts_with("39 are few")));
-        assert!(few(78, 39).is_some_and(|alarm| alarm.what.starts_with("78 records of 39 pairs are few")));
+        assert!(
+            few(78, 39).is_some_and(|alarm| alarm.what.starts_with("39 pairs, of which 78 records are made, are few"))
+        );
     }
 }

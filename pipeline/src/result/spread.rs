@@ -68,6 +68,36 @@ impl StoredSpread {
 }
 
 impl ResultFile {
+    /// The spectrum of a probability of the study, by its position, by each of the weighted hazard curves of a site:
+    /// its weight of 1, and ordinates over the strengths, m. None of a site with one curve, and of a result that was
+    /// asked for other risks.
+    ///
+    /// # Errors
+    /// A file that is damaged, or of another kind.
+    pub(crate) fn branch_spectra(
+        &self,
+        measure: IntensityMeasure,
+        site: &str,
+        poe: usize,
+    ) -> Result<Vec<(f64, Vec<f64>)>, UpliftError> {
+        let path = epistemic::array(measure, site, "u_m");
+        if self.is_asked() || !self.reader.exists(&path) {
+            return Ok(Vec::new());
+        }
+        let axes = self.axes_with_sites()?;
+        let (poes, strengths) = (axes.poes.len(), axes.strengths.len());
+        let weights = self.reader.array_f64(&epistemic::array(measure, site, "weight"))?.values;
+        let spectra_m = self.reader.array_f64(&path)?.values;
+        if spectra_m.len() != weights.len() * poes * strengths {
+            return Err(self.damaged(format!("{path}: {} ordinates", spectra_m.len())));
+        }
+        let total: f64 = weights.iter().sum();
+        let of_curve = |(weight, of_curve): (&f64, &[f64])| {
+            (weight / total, of_curve[poe * strengths..(poe + 1) * strengths].to_vec())
+        };
+        Ok(weights.iter().zip(spectra_m.chunks_exact(poes * strengths)).map(of_curve).collect())
+    }
+
     /// Every spread that the result has, by measure, then what it is over, then site; none of a result that was asked
     /// for other risks than those of its study.
     ///

@@ -32,28 +32,58 @@ impl Scatter {
         let event_of = motions.event_of();
         // two components of a pair are not independent
         let pairs = uplift_bootstrap::units(&motions.pair_of());
-        let earthquakes = file.shares_earthquakes()?.then(|| uplift_bootstrap::units(&event_of));
+        let earthquakes = motions.shares_earthquakes().then(|| uplift_bootstrap::units(&event_of));
         Ok(Self { pairs, earthquakes })
     }
 
-    /// Those of each earthquake where they are known, else of each pair.
-    pub(super) fn widest(&self) -> &[Vec<usize>] {
-        self.earthquakes.as_ref().unwrap_or(&self.pairs)
+    /// Those of each earthquake where there are several that are known, else of each pair.
+    pub(super) fn coarsest(&self) -> &[Vec<usize>] {
+        self.earthquakes.as_ref().filter(|earthquakes| earthquakes.len() > 1).unwrap_or(&self.pairs)
     }
 }
 
-/// 90 % bands of a frequency, 1/yr: from where to where it is by all records like those at hand; none where no run
-/// shows it.
+/// 90 % bands of one number: from where to where it is by all records like those at hand.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct RateBands {
+pub struct Bands {
     /// As the records tell it, one by one.
     pub by_record: [f64; 2],
     /// As their earthquakes tell it; none where no two pairs are known to share one.
     pub by_earthquake: Option<[f64; 2]>,
     /// As their earthquakes (the records, where none are known to share one) and the weighted hazard curves of the site
-    /// tell it; none where it has but one.
+    /// tell it: of the number by the curve that holds, not by their mean. None where the site has but one.
     pub with_hazard: Option<[f64; 2]>,
 }
+
+impl Bands {
+    /// What they are called in names of columns.
+    pub(super) const WHOSE: [&str; 3] = ["records", "earthquakes", "hazard"];
+
+    /// By record, by earthquake and with the hazard.
+    pub fn each(&self) -> [Option<[f64; 2]>; 3] {
+        [Some(self.by_record), self.by_earthquake, self.with_hazard]
+    }
+
+    /// The band that takes account of most, and of what.
+    pub fn fullest(&self) -> (&'static str, [f64; 2]) {
+        let named = self.each().into_iter().zip(self.words());
+        named.rev().find_map(|(limits, of)| Some((of, limits?))).unwrap_or((RECORDS, self.by_record))
+    }
+
+    /// What each is of, in words.
+    pub(super) fn words(&self) -> [&'static str; 3] {
+        let with_hazard = if self.by_earthquake.is_some() { "earthquakes and hazard" } else { "records and hazard" };
+        [RECORDS, "earthquakes", with_hazard]
+    }
+
+    /// The same of what follows from the number.
+    fn map(self, of: impl Fn([f64; 2]) -> [f64; 2]) -> Self {
+        let Self { by_record, by_earthquake, with_hazard } = self;
+        Self { by_record: of(by_record), by_earthquake: by_earthquake.map(&of), with_hazard: with_hazard.map(&of) }
+    }
+}
+
+/// What a band of records is of.
+const RECORDS: &str = "records";
 
 /// 90 % bands of the demand on a structure and of its risks, by all records like those at hand.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -62,32 +92,17 @@ pub struct DemandBands {
     pub records: usize,
     /// Their earthquakes; none where no two pairs are known to share one.
     pub earthquakes: Option<usize>,
-    /// Demand on the structure as the records tell it, m; infinite where overturning leaves none.
-    pub demand_by_record_m: [f64; 2],
-    /// The same as their earthquakes tell it.
-    pub demand_by_earthquake_m: Option<[f64; 2]>,
     /// Weighted hazard curves of the site; none where it has but one.
     pub hazard_curves: Option<usize>,
-    /// Demand on the structure as their earthquakes (the records, where none are known to share one) and the hazard
-    /// curves tell it, m.
-    pub demand_with_hazard_m: Option<[f64; 2]>,
-    /// Displacement capacity less the demand, m, by the bands above; none of a structure without one.
-    pub margin: Option<MarginBands>,
+    /// Demand on the structure, m; infinite where overturning leaves none.
+    pub demand_m: Bands,
+    /// Displacement capacity less the demand, m; minus infinity where overturning leaves no demand. None of a structure
+    /// without a capacity.
+    pub capacity_less_demand_m: Option<Bands>,
     /// Frequency of exceeding the capacity; none without one, and where no run shows it.
-    pub beyond_capacity_per_year: Option<RateBands>,
+    pub beyond_capacity_per_year: Option<Bands>,
     /// Frequency of overturning; none where no run shows it.
-    pub overturning_per_year: Option<RateBands>,
-}
-
-/// 90 % bands of the displacement capacity of a structure less the demand on it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct MarginBands {
-    /// As the records tell it, m; minus infinity where overturning leaves no demand.
-    pub by_record_m: [f64; 2],
-    /// As their earthquakes tell it; none where no two pairs are known to share one.
-    pub by_earthquake_m: Option<[f64; 2]>,
-    /// As these and the hazard curves of the site tell it; none where it has but one.
-    pub with_hazard_m: Option<[f64; 2]>,
+    pub overturning_per_year: Option<Bands>,
 }
 
 /// The bands of the rate of exceeding `threshold_m`; none where there is nothing to tell it from.
@@ -99,19 +114,17 @@ pub(super) fn rate_bands(
     hazard: &Hazard<'_>,
     scatter: &Scatter,
     threshold_m: f64,
-) -> Result<Option<RateBands>, UpliftError> {
+) -> Result<Option<Bands>, UpliftError> {
     let of = |units: &Vec<Vec<usize>>| inferred_rate(demand, hazard.mean, units, (threshold_m, CONFIDENCE));
     let by_record = of(&scatter.pairs)?;
     // NaN of a single record
     let is_told = |band: &[f64; 2]| !band[1].is_nan();
     let by_earthquake = scatter.earthquakes.as_ref().map(of).transpose()?.filter(is_told);
-    let with_hazard = if hazard.branches.is_empty() {
-        None
-    } else {
-        let asked = (threshold_m, CONFIDENCE);
-        Some(inferred_rate_over_curves(demand, &hazard.branches, scatter.widest(), asked)?).filter(is_told)
-    };
-    Ok((by_record[1] > 0.0).then_some(RateBands { by_record, by_earthquake, with_hazard }))
+    // NaN of no curves too
+    let asked = (threshold_m, CONFIDENCE);
+    let with_hazard = inferred_rate_over_curves(demand, &hazard.branches, scatter.coarsest(), asked)?;
+    let with_hazard = Some(with_hazard).filter(is_told);
+    Ok((by_record[1] > 0.0).then_some(Bands { by_record, by_earthquake, with_hazard }))
 }
 
 /// The bands of the demand of `target_per_year` on a structure, `factor` times that on its oscillator, and of its
@@ -130,30 +143,20 @@ pub(super) fn demand_bands(
         let found = inferred_limits(demand, hazard.mean, units, &[target_per_year], (&[units.len()], CONFIDENCE))?;
         Ok(found.first().and_then(|own| told(own.truth_m)))
     };
-    let Some(demand_by_record_m) = of(&scatter.pairs)? else { return Ok(None) };
-    let rate = |threshold_m: f64| rate_bands(demand, hazard, scatter, threshold_m);
-    let with_hazard = || {
-        let asked = (target_per_year, CONFIDENCE);
-        inferred_limits_over_curves(demand, &hazard.branches, scatter.widest(), asked)
-    };
-    let curves = (!hazard.branches.is_empty()).then_some(hazard.branches.len());
-    let demand_by_earthquake_m = scatter.earthquakes.as_ref().map(of).transpose()?.flatten();
-    let demand_with_hazard_m = curves.map(|_| with_hazard()).transpose()?.and_then(told);
+    let Some(by_record) = of(&scatter.pairs)? else { return Ok(None) };
+    let asked = (target_per_year, CONFIDENCE);
+    let with_hazard = inferred_limits_over_curves(demand, &hazard.branches, scatter.coarsest(), asked)?;
+    let by_earthquake = scatter.earthquakes.as_ref().map(of).transpose()?.flatten();
+    let demand_m = Bands { by_record, by_earthquake, with_hazard: told(with_hazard) };
     // what is left of the capacity is least where the demand is largest
-    let left = |capacity_m: f64, [lower_m, upper_m]: [f64; 2]| [upper_m, lower_m].map(|m| factor * capacity_m - m);
-    let margin = |capacity_m: f64| MarginBands {
-        by_record_m: left(capacity_m, demand_by_record_m),
-        by_earthquake_m: demand_by_earthquake_m.map(|limits_m| left(capacity_m, limits_m)),
-        with_hazard_m: demand_with_hazard_m.map(|limits_m| left(capacity_m, limits_m)),
-    };
+    let left = |capacity_m: f64| demand_m.map(|[lower_m, upper_m]| [upper_m, lower_m].map(|m| factor * capacity_m - m));
+    let rate = |threshold_m: f64| rate_bands(demand, hazard, scatter, threshold_m);
     Ok(Some(DemandBands {
         records: scatter.pairs.len(),
         earthquakes: scatter.earthquakes.as_ref().map(Vec::len),
-        demand_by_record_m,
-        demand_by_earthquake_m,
-        hazard_curves: curves,
-        demand_with_hazard_m,
-        margin: capacity_m.map(margin),
+        hazard_curves: (!hazard.branches.is_empty()).then_some(hazard.branches.len()),
+        demand_m,
+        capacity_less_demand_m: capacity_m.map(left),
         beyond_capacity_per_year: capacity_m.map(rate).transpose()?.flatten(),
         overturning_per_year: rate(OVERTURNING_M)?,
     }))

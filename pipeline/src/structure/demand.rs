@@ -31,7 +31,7 @@ pub struct ExactDemand {
     /// Demand on the structure, m.
     pub demand_m: f64,
     /// Displacement capacity less the demand on the structure, m; none for a structure without one.
-    pub margin_m: Option<f64>,
+    pub capacity_less_demand_m: Option<f64>,
     /// Whether it overturns more often than the target rate.
     pub overturns: bool,
     /// Share of the risk at the demand that comes from below the first stripe, 0 to 1.
@@ -202,7 +202,7 @@ pub(super) fn exact_demand(
         zero_stiffness_demand_of_spectrum_m: ordinate(OF_STUDY)?.displacement_m,
         zero_stiffness_demand_m: ordinate(ZERO_STIFFNESS)?.displacement_m,
         demand_m: demand.displacement_m,
-        margin_m: capacity_m.map(|capacity_m| factor * capacity_m - demand.displacement_m),
+        capacity_less_demand_m: capacity_m.map(|capacity_m| factor * capacity_m - demand.displacement_m),
         overturns: demand.displacement_m.is_infinite(),
         lower_tail_share: demand.lower_tail_share,
         upper_tail_share: demand.upper_tail_share,

@@ -22,7 +22,7 @@ use super::choice::{measure_index, records, site_index};
 use super::demand::ExactDemand;
 use super::report::StructureReport;
 use super::risk::EventRisk;
-use super::rules::{RuleDemands, RuleOutcome, apply_rules};
+use super::rules::{RuleDemands, RuleOutcome, apply_rules, verdicts_by_curve};
 use super::spectrum::{SpectrumDemand, read_spectrum};
 use super::uncertain::UncertaintyReport;
 use super::weights::SiteWeights;
@@ -193,6 +193,10 @@ pub fn design(
         of_structure_m: exact.map(|exact| exact.demand_m),
     };
     let rules = apply_rules(structure, safety_factor, demands)?;
+    if spectrum.is_some() && !options.repaired {
+        let by_curve_m = demands_by_curve(structure, (&file, &source), (measure, site, poe))?;
+        notes.extend(verdicts_by_curve(structure, safety_factor, &by_curve_m)?);
+    }
     let scope = Scope {
         site: Some(site),
         measure: Some(measure.measure()),
@@ -284,6 +288,21 @@ fn repaired_spectrum(
     let consistency = file.consistency()?;
     let own = consistency.iter().find(|of| of.scaled_to == measure.measure() && of.is_repaired(site));
     Ok(own.and_then(|of| Some(of.u_m.as_ref()?.block([site, poe]).to_vec())))
+}
+
+/// The weights of the site's hazard curves, of 1, with the demand on the ZSBE system by the spectrum of each, m;
+/// infinite where that cannot be read.
+fn demands_by_curve(
+    structure: &Structure,
+    (file, source): (&ResultFile, &StudyOfResult),
+    (measure, site, poe): (&SpectraOfResult, usize, usize),
+) -> Result<Vec<(f64, f64)>, UpliftError> {
+    let of_curve = |(weight, u_m): (f64, Vec<f64>)| {
+        let demand = spectrum_demand(structure, source, &u_m);
+        (weight, demand.map_or(f64::INFINITY, |demand| demand.zero_stiffness_demand_m))
+    };
+    let spectra = file.branch_spectra(measure.measure(), &source.sites[site], poe)?;
+    Ok(spectra.into_iter().map(of_curve).collect())
 }
 
 /// Why there is no repaired spectrum of a site.

@@ -10,17 +10,12 @@ mod of_target;
 use serde::Serialize;
 use uplift_study::Structure;
 
-use super::certainty::RateBands;
+use super::certainty::Bands;
 use super::risk::EventRisk;
 use super::uncertain::{AleatoryResult, EpistemicResult, UncertainFinding, UncertaintyReport};
 use crate::error::UpliftError;
 use crate::result::{Finding, FindingRow, Inquiry};
 pub use keep::keep;
-
-/// What bands are of.
-const RECORDS: &str = "records";
-const EARTHQUAKES: &str = "earthquakes";
-const HAZARD: &str = "records and hazard";
 
 /// What was asked of which structure, under which result.
 struct Question<'a> {
@@ -55,24 +50,19 @@ impl Question<'_> {
 
 /// A number with its band as the records tell it, and again with those of their earthquakes and of the hazard's curves
 /// where these are known.
-fn banded(row: &FindingRow, [by_record, by_earthquake, with_hazard]: [Option<[f64; 2]>; 3]) -> Vec<FindingRow> {
-    let of_records = match by_record {
-        Some(limits) => row.clone().within(limits, RECORDS),
-        None => row.clone(),
-    };
-    let wider = [(by_earthquake, EARTHQUAKES), (with_hazard, HAZARD)];
-    let wider = wider.into_iter().filter_map(|(limits, of)| Some(row.clone().within(limits?, of)));
-    std::iter::once(of_records).chain(wider).collect()
+fn banded(row: &FindingRow, bands: Option<Bands>) -> Vec<FindingRow> {
+    let Some(bands) = bands else { return vec![row.clone()] };
+    let told = bands.each().into_iter().zip(bands.words());
+    told.filter_map(|(limits, of)| Some(row.clone().within(limits?, of))).collect()
 }
 
 /// How often something happens, 1/yr, with its bands; where no run shows it, what it is at most.
-fn rate(what: &str, risk: &EventRisk, bands: Option<RateBands>, [site, im]: [&str; 2]) -> Vec<FindingRow> {
+fn rate(what: &str, risk: &EventRisk, bands: Option<Bands>, [site, im]: [&str; 2]) -> Vec<FindingRow> {
     let row = FindingRow::new(what, risk.per_year, "1/yr").at(site, im);
     if let Some(bound) = risk.at_most_per_year {
         return vec![row.within([f64::NAN, bound], "at most")];
     }
-    let of = |band: fn(RateBands) -> Option<[f64; 2]>| bands.and_then(band);
-    banded(&row, [of(|of| Some(of.by_record)), of(|of| of.by_earthquake), of(|of| of.with_hazard)])
+    banded(&row, bands)
 }
 
 /// What follows for a structure that is not known exactly.
@@ -98,7 +88,12 @@ fn uncertain(report: Option<&UncertaintyReport>) -> Vec<FindingRow> {
                 rows.push(row(*value).within([f64::NAN, *bound], "at most"));
             }
             UncertainFinding::Aleatory(AleatoryResult { value, by_record, by_earthquake, with_hazard, .. }) => {
-                rows.extend(banded(&row(*value), [*by_record, *by_earthquake, *with_hazard]));
+                let bands = by_record.map(|by_record| Bands {
+                    by_record,
+                    by_earthquake: *by_earthquake,
+                    with_hazard: *with_hazard,
+                });
+                rows.extend(banded(&row(*value), bands));
             }
         }
     }

@@ -13,7 +13,7 @@ use uplift_risk::{PooledDemand, RunWeights, StripeWeights};
 use uplift_spectra::{NUDGES, Noisy, nudges};
 use uplift_study::{Structure, UniformRiskStudy};
 
-use super::certainty::{RateBands, Scatter, rate_bands};
+use super::certainty::{Bands, Scatter, rate_bands};
 use super::choice::{measure_index, records, site_index};
 use super::collapse::{Collapse, collapse};
 use super::hazard::Hazard;
@@ -144,7 +144,7 @@ pub struct SiteRisk {
     #[serde(flatten)]
     pub risk: EventRisk,
     /// How sure that is, as the records tell it; none where no run shows it, and of a single record.
-    pub bands: Option<RateBands>,
+    pub bands: Option<Bands>,
     /// From the counts with repaired weights, by which the records bring the site's hazard; none where the result has
     /// none.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -374,7 +374,7 @@ struct Collapses {
     own: Collapse,
     rounded: Vec<Collapse>,
     /// How sure its risks are, `[site]`.
-    bands: Vec<Option<RateBands>>,
+    bands: Vec<Option<Bands>>,
 }
 
 /// What the numbers rest on.

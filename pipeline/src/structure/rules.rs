@@ -5,6 +5,7 @@ use uplift_structure::{Check, Demand, PostUpliftForce, Rule, StructureError, rel
 use uplift_study::Structure;
 
 use crate::displacement::RULES;
+use crate::text::per_cent;
 
 /// A rule applied to the ordinate of a spectrum, and to the exact ZSBE demand.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -113,6 +114,47 @@ fn rule_check(structure: &Structure, check: &Check, of_structure_m: Option<f64>)
             Demand::Stands { .. } => None,
         },
     }
+}
+
+/// Which verdicts hang on the hazard curve, of those that may hold: `by_curve_m` has the weight of each, of 1, with
+/// the demand on the ZSBE system by its spectrum; infinite where that cannot be read.
+///
+/// # Errors
+/// As [`apply_rules`].
+pub(super) fn verdicts_by_curve(
+    structure: &Structure,
+    safety_factor: f64,
+    by_curve_m: &[(f64, f64)],
+) -> Result<Vec<String>, StructureError> {
+    // of each rule the weight of the curves by which it is satisfied, and the margins
+    let mut found: Vec<(Rule, f64, [f64; 2])> = Vec::new();
+    for &(weight, demand_m) in by_curve_m {
+        // where there is no demand to tell, nothing is enough
+        let of_spectrum_m = Some(demand_m).filter(|demand_m| demand_m.is_finite());
+        let demands = RuleDemands { of_spectrum_m, exact_m: None, of_structure_m: None };
+        for outcome in apply_rules(structure, safety_factor, demands)? {
+            let (satisfied, margin_m) =
+                outcome.check().map_or((false, f64::NEG_INFINITY), |check| (check.satisfied, check.margin_m));
+            let place = found.iter().position(|(rule, ..)| *rule == outcome.rule).unwrap_or_else(|| {
+                found.push((outcome.rule, 0.0, [f64::INFINITY, f64::NEG_INFINITY]));
+                found.len() - 1
+            });
+            let (_, share, [least_m, most_m]) = &mut found[place];
+            *share += if satisfied { weight } else { 0.0 };
+            (*least_m, *most_m) = (least_m.min(margin_m), most_m.max(margin_m));
+        }
+    }
+    let hangs = |(_, _, [least_m, most_m]): &&(Rule, f64, [f64; 2])| *least_m < 0.0 && *most_m >= 0.0;
+    let told = found.iter().filter(hangs).map(|(rule, share, [least_m, most_m])| {
+        format!(
+            "the verdict by {} hangs on which hazard curve holds: satisfied by curves of {} of the weight, with \
+             margins from {} to {most_m:+.4} m",
+            rule.words(),
+            per_cent(*share),
+            if least_m.is_finite() { format!("{least_m:+.4}") } else { "none".to_owned() }
+        )
+    });
+    Ok(told.collect())
 }
 
 #[cfg(test)]

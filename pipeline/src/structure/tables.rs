@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use polars::prelude::Column;
 use uplift_spectra::Noisy;
 
-use super::certainty::RateBands;
+use super::certainty::Bands;
 use super::overturning::{CollapseReport, OverturningReport};
 use super::risk::EventRisk;
 use super::uncertain::{UncertainFinding, UncertaintyReport};
@@ -16,9 +16,6 @@ use crate::result::write_table;
 
 /// Names of the percentiles of what is not known exactly, in their order.
 pub(super) const PERCENTILES: [&str; 5] = ["p05", "p16", "p50", "p84", "p95"];
-
-/// A band of a frequency.
-type Band = fn(RateBands) -> Option<[f64; 2]>;
 
 /// The table of risks beside that of the fragility.
 pub(super) fn risk_path(fragility: &Path) -> PathBuf {
@@ -117,28 +114,29 @@ fn risk(report: &OverturningReport) -> Vec<Column> {
         Column::new("maf_rounding_lowest_per_year".into(), rounding(|of| of.lowest)),
         Column::new("maf_rounding_highest_per_year".into(), rounding(|of| of.highest)),
     ];
-    let bands = |row: &(usize, &CollapseReport)| row.1.sites[row.0].bands;
-    let told: [(&str, Band); 3] =
-        [("records", |of| Some(of.by_record)), ("earthquakes", |of| of.by_earthquake), ("hazard", |of| of.with_hazard)];
-    for (whose, band) in told {
-        let limits: Vec<Option<[f64; 2]>> = rows.iter().map(|row| bands(row).and_then(band)).collect();
-        // one that is never told, of earthquakes or of hazard curves, has no columns
-        if whose != "records" && limits.iter().all(Option::is_none) {
-            continue;
-        }
-        for (end, place) in [("lower", 0), ("upper", 1)] {
-            let values: Vec<Option<f64>> = limits.iter().map(|limits| Some((*limits)?[place])).collect();
-            columns.push(Column::new(format!("maf_{whose}_{end}_per_year").into(), values));
-        }
-    }
     if repaired.iter().any(Option::is_some) {
         columns.push(Column::new("maf_consistent_per_year".into(), repaired));
+    }
+    for (place, whose) in Bands::WHOSE.into_iter().enumerate() {
+        let limits = rows.iter().map(|(site, found)| found.sites[*site].bands?.each()[place]).collect::<Vec<_>>();
+        add_limits(&mut columns, &format!("maf_{whose}"), &limits);
     }
     if let Some(uncertainty) = &report.uncertainty {
         let found: Vec<_> = rows.iter().map(|(site, row)| found_of(uncertainty, (*site, row))).collect();
         columns.extend(uncertain::columns(uncertainty, &found));
     }
     columns
+}
+
+/// Adds the limits of a band of frequencies; no columns of one that is never told.
+fn add_limits(columns: &mut Vec<Column>, name: &str, limits: &[Option<[f64; 2]>]) {
+    if limits.iter().all(Option::is_none) {
+        return;
+    }
+    for (place, end) in ["lower", "upper"].into_iter().enumerate() {
+        let values: Vec<Option<f64>> = limits.iter().map(|limits| Some((*limits)?[place])).collect();
+        columns.push(Column::new(format!("{name}_{end}_per_year").into(), values));
+    }
 }
 
 /// What `report` finds in a row of the risks; none for the block, which takes no account of what is not known.

@@ -21,7 +21,7 @@ use uplift_spectra::{NoiseSweep, Noisy};
 use uplift_structure::EquivalentSystem;
 use uplift_study::Structure;
 
-pub use band::TargetBand;
+pub use band::{Drawn, TargetBand};
 pub use beside::{GenericTarget, LevelShare};
 pub use request::{TargetEvent, TargetFrequency, TargetOptions};
 pub use search::Crossing;

@@ -193,7 +193,7 @@ impl<'a> Uncertain<'a> {
 /// Draws of the records, one a row of both samples: earthquakes with all their records where they are known, else
 /// pairs; none of a single one.
 fn resampling(scatter: &Scatter, rows: usize, seed: u64) -> Result<Option<ResamplingPlan>, UpliftError> {
-    let units = scatter.widest();
+    let units = scatter.coarsest();
     let records = units.iter().map(Vec::len).sum();
     let mut unit_of = vec![0; records];
     for (unit, of_unit) in units.iter().enumerate() {

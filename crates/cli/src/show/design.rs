@@ -2,14 +2,14 @@
 
 use std::io::Write;
 
-use uplift::structure::{DemandBands, DemandRounding, DesignReport, ExactDemand, RateBands, RuleOutcome};
+use uplift::structure::{Bands, DemandBands, DemandRounding, DesignReport, ExactDemand, RuleOutcome};
 use uplift::text::{risk_in_words, short, table};
 use uplift_spectra::Noisy;
 use uplift_structure::Rule;
 
 use super::alarms::print_alarms;
 use super::shown_path;
-use super::structure::{lines, rate, risk_cells};
+use super::structure::{limit, lines, rate, risk_cells};
 use super::uncertainty::print_uncertainty;
 use crate::error::CommandError;
 use crate::terminal::output;
@@ -210,26 +210,23 @@ fn print_risk(out: &mut impl Write, report: &DesignReport, exact: &ExactDemand) 
 fn print_bands(out: &mut impl Write, exact: &ExactDemand, bands: &DemandBands) -> Result<(), CommandError> {
     writeln!(out, "\nWith 90 % confidence, by all records like these {} (docs/method.md, section 9):", bands.records)?;
     let limits = |[lower, upper]: [f64; 2], shown: fn(f64) -> String| format!("{} to {}", shown(lower), shown(upper));
-    let of = |what: &str, [own, by_event, with_hazard]: [Option<[f64; 2]>; 3], shown: fn(f64) -> String, unit: &str| {
-        let own = own?;
+    let of = |what: &str, of: Option<Bands>, shown: fn(f64) -> String, unit: &str| {
+        let [own, by_event, with_hazard] = of?.each();
         let by_event = by_event.zip(bands.earthquakes).map_or_else(String::new, |(by_event, count)| {
             format!("; if their {count} earthquakes were others, {}", limits(by_event, shown))
         });
         let with_hazard = with_hazard.zip(bands.hazard_curves).map_or_else(String::new, |(limits_of, count)| {
             format!("; with the site's {count} hazard curves, {}", limits(limits_of, shown))
         });
-        Some(format!("  {what} {}{unit}{by_event}{with_hazard}", limits(own, shown)))
+        Some(format!("  {what} {}{unit}{by_event}{with_hazard}", limits(own?, shown)))
     };
-    let rate_of = |of: Option<RateBands>| {
-        [of.map(|of| of.by_record), of.and_then(|of| of.by_earthquake), of.and_then(|of| of.with_hazard)]
-    };
-    let demand = [Some(bands.demand_by_record_m), bands.demand_by_earthquake_m, bands.demand_with_hazard_m];
-    let margin = bands.margin.map_or([None; 3], |of| [Some(of.by_record_m), of.by_earthquake_m, of.with_hazard_m]);
+    let left = |left_m: f64| if left_m.is_infinite() { "none".to_owned() } else { format!("{left_m:.4}") };
+    let own_left = exact.capacity_less_demand_m.map_or_else(String::new, |left_m| format!(" ({} m)", left(left_m)));
     let told = [
-        of("demand on the structure", demand, metres, " m"),
-        of(&format!("capacity less demand ({} m)", metres(exact.margin_m.unwrap_or(f64::NAN))), margin, metres, " m"),
-        of("u > capacity", rate_of(bands.beyond_capacity_per_year), rate, " per year"),
-        of("overturning", rate_of(bands.overturning_per_year), rate, " per year"),
+        of("demand on the structure", Some(bands.demand_m), metres, " m"),
+        of(&format!("capacity less demand{own_left}"), bands.capacity_less_demand_m, left, " m"),
+        of("u > capacity", bands.beyond_capacity_per_year, limit, " per year"),
+        of("overturning", bands.overturning_per_year, limit, " per year"),
     ];
     for line in told.into_iter().flatten() {
         writeln!(out, "{line}")?;

@@ -2,13 +2,13 @@
 
 use std::io::Write;
 
-use uplift::structure::{CollapseReport, OverturningReport, RateBands, SiteRisk};
+use uplift::structure::{CollapseReport, OverturningReport, SiteRisk};
 use uplift::text::{share, table};
 use uplift_spectra::Noisy;
 
 use super::alarms::print_alarms;
 use super::shown_path;
-use super::structure::{lines, rate, risk_cells};
+use super::structure::{limit, lines, rate, risk_cells};
 use super::uncertainty::print_uncertainty;
 use crate::error::CommandError;
 use crate::terminal::output;
@@ -94,9 +94,6 @@ fn print_fragility(out: &mut impl Write, report: &OverturningReport) -> Result<(
     Ok(())
 }
 
-/// A band of a frequency.
-type Band = fn(RateBands) -> Option<[f64; 2]>;
-
 fn print_risk(out: &mut impl Write, report: &OverturningReport) -> Result<(), CommandError> {
     let percent = |of_all: f64| match share(of_all) {
         text if text.starts_with("below") || text.starts_with("above") => text,
@@ -142,14 +139,14 @@ fn print_risk(out: &mut impl Write, report: &OverturningReport) -> Result<(), Co
          analysed levels\n{}",
         table(&header, &rows)
     )?;
-    let wider: [(&str, Band); 2] = [
-        ("The band if the earthquakes of these records were others:", |of| of.by_earthquake),
-        ("The band with the site's weighted hazard curves, none of which is known to hold:", |of| of.with_hazard),
+    let others = [
+        (1, "The band if the earthquakes of these records were others:"),
+        (2, "The band with the site's weighted hazard curves, none of which is known to hold:"),
     ];
-    for (title, of) in wider {
+    for (place, title) in others {
         let of_model = |found: &CollapseReport| -> Vec<String> {
             let of_site = |site: &SiteRisk| {
-                let band = of(site.bands?)?;
+                let band = site.bands?.each()[place]?;
                 Some(format!("   {}, {}, {}: {} per year", site.site, found.im, found.model, limits(band)))
             };
             found.sites.iter().filter_map(of_site).collect()
@@ -163,7 +160,7 @@ fn print_risk(out: &mut impl Write, report: &OverturningReport) -> Result<(), Co
 }
 
 fn limits([lower, upper]: [f64; 2]) -> String {
-    format!("{} to {}", rate(lower), rate(upper))
+    format!("{} to {}", limit(lower), limit(upper))
 }
 
 /// What asterisks mean, and from where to where rounding moves counts and frequencies; nothing where there are none.

@@ -37,6 +37,11 @@ pub(super) fn rate(per_year: f64) -> String {
     if per_year == 0.0 { "none seen".to_owned() } else { format!("{per_year:.3e}") }
 }
 
+/// A limit of how often in a year; 0 where it may be as rare as one likes.
+pub(super) fn limit(per_year: f64) -> String {
+    if per_year == 0.0 { "0".to_owned() } else { format!("{per_year:.3e}") }
+}
+
 /// Frequency, probability and return period in words.
 pub(super) fn risk_cells(risk: &EventRisk) -> [String; 3] {
     let return_period = |per_year: f64| match 1.0 / per_year {

@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use uplift::structure::{TargetBand, TargetReport};
+use uplift::structure::{Drawn, TargetBand, TargetReport};
 use uplift::text::{per_cent, short, table, thousands};
 
 use super::alarms::print_alarms;
@@ -84,14 +84,10 @@ fn print_band(out: &mut impl Write, report: &TargetReport, band: &TargetBand) ->
             "beyond the range".to_owned()
         }
     });
-    let quakes = if band.unit.ends_with("event") { "quakes" } else { "records" };
-    let (drawn, whose) = match band.unit.as_str() {
-        "structure" => ("by structure".to_owned(), "structures"),
-        of if of.starts_with("structure, hazard") => (format!("all, {quakes}"), "resamples"),
-        of if of.starts_with("structure") => (format!("structure, {quakes}"), "resamples"),
-        of if of.starts_with("hazard") => (format!("hazard, {quakes}"), "resamples"),
-        "event" => ("resampled earthquakes".to_owned(), "resamples"),
-        _ => ("resampled records".to_owned(), "resamples"),
+    let (drawn, whose) = match band.drawn {
+        Drawn { records: None, .. } => (format!("by {}", band.drawn.words()), "structures"),
+        Drawn { hazard: true, structures: false, .. } => (band.drawn.words(), "pairs of a resample and a hazard curve"),
+        _ => (band.drawn.words(), "resamples"),
     };
     writeln!(
         out,

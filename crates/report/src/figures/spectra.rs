@@ -2,24 +2,40 @@
 
 use super::{DISPLACEMENT, FigureSource, STRENGTH};
 use uplift::hazard_curves::NamedCurve;
+use uplift::result::StoredHazard;
 use uplift::text::{per_cent, risk_in_words};
 use uplift_motion::IntensityMeasure;
 use uplift_plot::{Axis, Figure, Marks, Panel, Series, Tone};
 
 pub(super) const RATE: &str = "mean annual frequency, 1/yr";
+/// Weighted curves of a site that are drawn.
+const MOST_BRANCHES: usize = 32;
+/// What the caption says of them.
+const BRANCHES: &str = " Thin: weighted curves of the site, of which the thick one is the mean.";
 /// What the caption says of repaired spectra.
 const THIN: &str = " Thin: of records weighted so that they bring the site's hazard of both measures.";
 
 pub(super) fn hazard(source: &FigureSource) -> Figure {
-    let panel = |hazard: &uplift::result::StoredHazard| {
-        let line = |site: usize| {
-            let points = hazard.sites[site].curve.points().map(|point| (point.im, point.maf)).collect();
-            Series::line(&source.stored.sites[site], points, Tone::Distinct(site))
+    let panel = |hazard: &StoredHazard| {
+        let lines = |site: usize| {
+            let curves = &hazard.sites[site];
+            let branches = curves.branches.iter().take(MOST_BRANCHES).map(|(_, curve)| curve);
+            std::iter::once(&curves.curve).chain(branches).enumerate().map(move |(place, curve)| {
+                let points = curve.points().map(|point| (point.im, point.maf)).collect();
+                let own = source.stored.sites[site].as_str();
+                // a name in the legend is that of the site, once
+                let (name, tone) = if place == 0 { (own, Tone::Distinct(site)) } else { ("", Tone::Thin(site)) };
+                Series::line(name, points, tone)
+            })
         };
         let label = format!("{}, {}", hazard.measure.label(), hazard.measure.unit());
-        Panel::lines("", Axis::log(label), Axis::log(RATE), source.sites().map(line).collect())
+        Panel::lines("", Axis::log(label), Axis::log(RATE), source.sites().flat_map(lines).collect())
     };
-    let caption = "Mean annual frequency of exceeding a level of the intensity measure, as used (Fig. 4.5b, c).";
+    let is_one_of_many = |hazard: &StoredHazard| hazard.sites.iter().any(|site| !site.branches.is_empty());
+    let caption = format!(
+        "Mean annual frequency of exceeding a level of the intensity measure, as used (Fig. 4.5b, c).{}",
+        if source.hazard.iter().any(is_one_of_many) { BRANCHES } else { "" }
+    );
     source.figure("hazard", "Hazard curves", caption, source.hazard.iter().map(panel).collect())
 }
 

@@ -10,6 +10,8 @@ const WIDE: f64 = 640.0;
 const LEFT: f64 = 190.0;
 const RIGHT: f64 = 24.0;
 const LINE: f64 = 19.0;
+/// What an axis has beyond the numbers at either end, as a share of what they take.
+const AROUND: f64 = 0.04;
 /// Labels on an axis, about.
 const TICKS: usize = 6;
 
@@ -17,36 +19,24 @@ const TICKS: usize = 6;
 const UNITS: [(&str, Scale, &str); 2] =
     [("m", Scale::Linear, "m"), ("1/yr", Scale::Log, "mean annual frequency, 1/yr")];
 
-/// One drawing for displacements and one for frequencies, where there are such with bands.
+/// A drawing for each quantity of metres, whose sizes need not be alike, and one for all frequencies, where there are
+/// such with bands.
 pub(crate) fn bands(rows: &[FindingRow]) -> Vec<String> {
-    UNITS.iter().filter_map(|(unit, scale, label)| drawing(rows, (unit, *scale, label))).collect()
-}
-
-/// A band of a number.
-struct Bar<'a> {
-    row: &'a FindingRow,
-    /// Where it begins; none where it has no lower limit.
-    lower: Option<f64>,
-}
-
-impl<'a> Bar<'a> {
-    fn of(row: &'a FindingRow, scale: Scale) -> Self {
-        let [lower, _] = row.limits;
-        // nothing of a frequency is no place on an axis of powers of ten, and a demand may leave nothing of a capacity
-        let is_placed = lower.is_finite() && (scale == Scale::Linear || lower > 0.0);
-        Self { row, lower: is_placed.then_some(lower) }
+    let mut drawings = Vec::new();
+    for (unit, scale, label) in UNITS {
+        let banded: Vec<&FindingRow> = rows.iter().filter(|row| row.unit == unit && !row.limits[1].is_nan()).collect();
+        let alike = |a: &&FindingRow, b: &&FindingRow| scale == Scale::Log || a.quantity == b.quantity;
+        drawings.extend(banded.chunk_by(alike).filter_map(|rows| drawing(rows, (scale, label))));
     }
+    drawings
 }
 
-fn drawing(rows: &[FindingRow], (unit, scale, label): (&str, Scale, &str)) -> Option<String> {
-    let is_banded = |row: &&FindingRow| row.unit == unit && !row.limits[1].is_nan();
-    let bars: Vec<Bar<'_>> = rows.iter().filter(is_banded).map(|row| Bar::of(row, scale)).collect();
-    let axis = Axis::of(&bars, scale)?;
+fn drawing(rows: &[&FindingRow], (scale, label): (Scale, &str)) -> Option<String> {
+    let axis = Axis::of(rows, scale)?;
     let mut text = String::new();
     let mut line = 0.0;
     let mut before: Option<[&str; 3]> = None;
-    for bar in &bars {
-        let Bar { row, lower } = bar;
+    for row in rows {
         let names = [row.quantity.as_str(), &row.site, &row.im];
         if before.replace(names) != Some(names) {
             let named: Vec<&str> = names.into_iter().filter(|name| !name.is_empty()).collect();
@@ -63,22 +53,22 @@ fn drawing(rows: &[FindingRow], (unit, scale, label): (&str, Scale, &str)) -> Op
             y + 4.0,
             escaped(&row.band)
         );
-        let (value, upper) = (row.value, row.limits[1]);
-        let from = lower.map_or(LEFT, |lower| axis.x(lower));
-        let to = if upper.is_finite() { axis.x(upper) } else { WIDE - RIGHT };
+        let ends = row.limits.map(|limit| axis.place(limit));
+        let [from, to] = ends.map(|end| axis.pixel(end));
         let _ = writeln!(
             text,
             "<path d=\"M{from:.1} {y:.1}H{to:.1}\" stroke=\"#0072b2\" stroke-width=\"5\" stroke-opacity=\"0.45\"/>"
         );
-        // what has no end on the axis goes on beyond it
-        if lower.is_none() {
+        // what has no end on the axis lies, or goes on, beyond it
+        if ends.contains(&Place::Below) {
             arrow(&mut text, (LEFT, y), -1.0);
         }
-        if upper.is_infinite() {
+        if ends.contains(&Place::Above) {
             arrow(&mut text, (WIDE - RIGHT, y), 1.0);
         }
-        if value.is_finite() && (scale == Scale::Linear || value > 0.0) {
-            let _ = writeln!(text, "<circle cx=\"{:.1}\" cy=\"{y:.1}\" r=\"3.5\" fill=\"#1b1e23\"/>", axis.x(value));
+        if let at @ Place::At(_) = axis.place(row.value) {
+            let x = axis.pixel(at);
+            let _ = writeln!(text, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3.5\" fill=\"#1b1e23\"/>");
         }
     }
     let below = line * LINE + 4.0;
@@ -96,55 +86,66 @@ fn arrow(text: &mut String, (x, y): (f64, f64), towards: f64) {
     let _ = writeln!(text, "<path d=\"M{x:.1} {y:.1}L{back:.1} {top:.1}V{bottom:.1}Z\" fill=\"#0072b2\"/>");
 }
 
+/// Where a number lies on an axis.
+#[derive(Clone, Copy, PartialEq)]
+enum Place {
+    /// Below all numbers: minus infinity, nothing among powers of ten, and no lower limit.
+    Below,
+    /// At a position: the logarithm of a power of ten.
+    At(f64),
+    /// Above all numbers.
+    Above,
+}
+
 /// A horizontal axis.
 struct Axis {
     scale: Scale,
-    /// Positions of its ends: logarithms of powers of ten.
+    /// Positions of its ends.
     ends: [f64; 2],
 }
 
 impl Axis {
-    /// One that holds all `bars`; none where these have no extent.
-    fn of(bars: &[Bar<'_>], scale: Scale) -> Option<Self> {
-        let ends = bars.iter().flat_map(|bar| {
-            let Bar { row, lower } = bar;
-            [*lower, Some(row.limits[1]), Some(row.value)].into_iter().flatten()
-        });
-        let placed = |value: f64| match scale {
-            Scale::Linear => value,
-            Scale::Log => value.log10(),
-        };
-        let positions = ends.map(placed).filter(|position| position.is_finite());
+    /// One that holds all numbers and limits of `rows`; none where these have no extent.
+    fn of(rows: &[&FindingRow], scale: Scale) -> Option<Self> {
+        let axis = Self { scale, ends: [0.0; 2] };
+        let numbers = rows.iter().flat_map(|row| [row.limits[0], row.limits[1], row.value]);
+        let positions =
+            numbers.filter_map(|number| if let Place::At(at) = axis.place(number) { Some(at) } else { None });
         let [least, most] = positions.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], position| {
             [least.min(position), most.max(position)]
         });
-        let ends = match scale {
-            // a displacement is seen from nothing on
-            Scale::Linear => [least.min(0.0), most + 0.04 * (most - least.min(0.0))],
-            Scale::Log => [least - 0.1, most + 0.1],
-        };
-        (ends[0] < ends[1] && ends.iter().all(|end| end.is_finite())).then_some(Self { scale, ends })
+        let around = AROUND * (most - least);
+        let ends = [least - around, most + around];
+        (least < most && ends.iter().all(|end| end.is_finite())).then_some(Self { scale, ends })
     }
 
-    /// The pixel of a value.
-    fn x(&self, value: f64) -> f64 {
-        let position = if self.scale == Scale::Log { value.log10() } else { value };
-        let share = (position - self.ends[0]) / (self.ends[1] - self.ends[0]);
-        LEFT + share.clamp(0.0, 1.0) * (WIDE - RIGHT - LEFT)
+    fn place(&self, number: f64) -> Place {
+        let position = if self.scale == Scale::Log { number.log10() } else { number };
+        match position {
+            at if at.is_finite() => Place::At(at),
+            at if at > 0.0 => Place::Above,
+            _ => Place::Below,
+        }
+    }
+
+    fn pixel(&self, place: Place) -> f64 {
+        let share = match place {
+            Place::Below => 0.0,
+            Place::At(position) => (position - self.ends[0]) / (self.ends[1] - self.ends[0]),
+            Place::Above => 1.0,
+        };
+        LEFT + share * (WIDE - RIGHT - LEFT)
     }
 
     fn draw(&self, text: &mut String, y: f64, label: &str) {
         let right = WIDE - RIGHT;
         let _ = writeln!(text, "<path d=\"M{LEFT} {y:.1}H{right}\" stroke=\"#1b1e23\"/>");
         for tick in ticks(self.scale, self.ends[0], self.ends[1], TICKS) {
-            let (value, shown) = match self.scale {
-                Scale::Linear => (tick, format!("{}", (tick * 1e6).round() / 1e6)),
-                Scale::Log => {
-                    let value = 10.0_f64.powf(tick);
-                    (value, format!("{value:.0e}"))
-                }
+            let shown = match self.scale {
+                Scale::Linear => format!("{}", (tick * 1e6).round() / 1e6),
+                Scale::Log => format!("{:.0e}", 10.0_f64.powf(tick)),
             };
-            let x = self.x(value);
+            let x = self.pixel(Place::At(tick));
             let _ = writeln!(
                 text,
                 "<path d=\"M{x:.1} {y:.1}v5\" stroke=\"#1b1e23\"/><text x=\"{x:.1}\" y=\"{:.1}\" \
@@ -175,13 +176,16 @@ mod tests {
     fn a_bar_lies_where_its_limits_are() {
         let drawn = bands(&[row(0.2, [0.1, 0.4], "m"), row(0.2, [0.0, 0.5], "m"), row(0.3, [f64::NAN; 2], "m")]);
         assert_eq!(drawn.len(), 1, "a number without a band is not drawn");
-        // the axis goes from 0 to 0.52
-        let x = |value: f64| LEFT + value / 0.52 * (WIDE - RIGHT - LEFT);
+        // the axis goes from -0.02 to 0.52
+        let x = |value: f64| LEFT + (value + 0.02) / 0.54 * (WIDE - RIGHT - LEFT);
         assert!(drawn[0].contains(&format!("M{:.1} 30.0H{:.1}", x(0.1), x(0.4))), "{}", drawn[0]);
         assert!(
             drawn[0].contains(&format!("cx=\"{:.1}\"", x(0.2))) && drawn[0].contains("demand &lt;1&gt;, Here &amp;")
         );
         assert_eq!(drawn[0].matches("font-weight").count(), 1, "a number with two bands has one heading");
+        // numbers of other sizes have an axis of their own
+        let other = FindingRow { quantity: "capacity less demand".to_owned(), ..row(9.2, [9.1, 9.4], "m") };
+        assert_eq!(bands(&[row(0.2, [0.1, 0.4], "m"), other]).len(), 2);
     }
 
     #[test]
@@ -189,8 +193,25 @@ mod tests {
         let frequencies = bands(&[row(2e-4, [0.0, 1e-3], "1/yr"), row(0.0, [f64::NAN, 1e-5], "1/yr")]);
         assert_eq!(frequencies[0].matches("<circle").count(), 1, "none seen has no place among powers of ten");
         assert_eq!(frequencies[0].matches("fill=\"#0072b2\"").count(), 2);
-        let demand = bands(&[row(f64::INFINITY, [0.3, f64::INFINITY], "m")]);
-        assert!(demand[0].contains("fill=\"#0072b2\"") && !demand[0].contains("<circle"), "{}", demand[0]);
-        assert_eq!(bands(&[row(f64::INFINITY, [f64::INFINITY; 2], "m")]), Vec::<String>::new());
+        let demand = bands(&[row(f64::INFINITY, [0.3, f64::INFINITY], "m"), row(0.2, [0.1, 0.4], "m")]);
+        let right = WIDE - RIGHT;
+        assert!(
+            demand[0].contains(&format!("H{right:.1}")) && demand[0].matches("<circle").count() == 1,
+            "{}",
+            demand[0]
+        );
+        assert_eq!(demand[0].matches("fill=\"#0072b2\"").count(), 1);
+    }
+
+    /// What overturns however often lies beyond the axis, and leaves nothing open.
+    #[test]
+    fn what_lies_beyond_the_axis_has_an_arrow_alone() {
+        let (beyond, right) = ([f64::INFINITY; 2], WIDE - RIGHT);
+        for (limits, x) in [(beyond, right), (beyond.map(|limit: f64| -limit), LEFT)] {
+            let drawn = bands(&[row(limits[0], limits, "m"), row(0.2, [0.1, 0.4], "m")]);
+            assert!(drawn[0].contains(&format!("M{x:.1} 30.0H{x:.1}")), "{}", drawn[0]);
+            assert_eq!(drawn[0].matches("fill=\"#0072b2\"").count(), 1, "one arrow");
+        }
+        assert_eq!(bands(&[row(f64::INFINITY, beyond, "m")]), Vec::<String>::new());
     }
 }

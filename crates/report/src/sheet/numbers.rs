@@ -31,10 +31,8 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
         (Some(exact), _) => {
             let demand = exact.rounding.demand_m.marked(significant);
             let band = exact.bands.as_ref().map_or_else(String::new, |bands| {
-                // the widest of what is known
-                let wider = bands.demand_with_hazard_m.or(bands.demand_by_earthquake_m);
-                let [lower_m, upper_m] = wider.unwrap_or(bands.demand_by_record_m);
-                format!(" (90 % band {} to {} m)", significant(lower_m), significant(upper_m))
+                let (whose, [lower_m, upper_m]) = bands.demand_m.fullest();
+                format!(" (90 % band of {whose} {} to {} m)", significant(lower_m), significant(upper_m))
             });
             say(format!("{of}, it must survive {demand} m{band}{capacity}."), None);
         }
@@ -68,9 +66,9 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
     if let Some(exact) = &report.exact {
         let overturns = in_words("It overturns", &exact.overturning, &exact.rounding.overturning_per_year, years);
         let band = exact.bands.and_then(|bands| bands.overturning_per_year).map_or_else(String::new, |bands| {
-            let [lower, upper] = bands.with_hazard.or(bands.by_earthquake).unwrap_or(bands.by_record);
-            let shown = |per_year: f64| if per_year > 0.0 { power(per_year, 1) } else { "none seen".to_owned() };
-            format!(" 90 % band: {} to {} a year.", shown(lower), shown(upper))
+            let (whose, [lower, upper]) = bands.fullest();
+            let shown = |per_year: f64| if per_year > 0.0 { power(per_year, 1) } else { "0".to_owned() };
+            format!(" 90 % band of {whose}: {} to {} a year.", shown(lower), shown(upper))
         });
         say(format!("{overturns}{band}"), None);
     }

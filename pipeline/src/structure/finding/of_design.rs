@@ -2,7 +2,7 @@
 
 use uplift_study::Structure;
 
-use super::super::{DemandBands, DesignReport, ExactDemand, MarginBands};
+use super::super::{DesignReport, ExactDemand};
 use super::{Question, banded, rate, uncertain};
 use crate::error::UpliftError;
 use crate::result::{Finding, FindingRow, Inquiry};
@@ -67,14 +67,11 @@ fn demands(exact: &ExactDemand, [site, im]: [&str; 2]) -> Vec<FindingRow> {
     if own_m.to_bits() != exact.zero_stiffness_demand_of_spectrum_m.to_bits() {
         rows.push(row("zero stiffness, exact, uplift and impacts of the structure", own_m));
     }
-    let of = |band: fn(DemandBands) -> Option<[f64; 2]>| exact.bands.and_then(band);
-    let bands =
-        [of(|of| Some(of.demand_by_record_m)), of(|of| of.demand_by_earthquake_m), of(|of| of.demand_with_hazard_m)];
-    rows.extend(banded(&row("demand on the structure", exact.demand_m), bands));
-    if let Some(margin_m) = exact.margin_m {
-        let of = |band: fn(MarginBands) -> Option<[f64; 2]>| exact.bands.and_then(|bands| band(bands.margin?));
-        let bands = [of(|of| Some(of.by_record_m)), of(|of| of.by_earthquake_m), of(|of| of.with_hazard_m)];
-        rows.extend(banded(&row("capacity less demand on the structure", margin_m), bands));
+    let demand_m = row("demand on the structure", exact.demand_m);
+    rows.extend(banded(&demand_m, exact.bands.map(|bands| bands.demand_m)));
+    if let Some(left_m) = exact.capacity_less_demand_m {
+        let left_m = row("capacity less demand on the structure", left_m);
+        rows.extend(banded(&left_m, exact.bands.and_then(|bands| bands.capacity_less_demand_m)));
     }
     rows
 }

@@ -3,7 +3,7 @@
 use uplift_study::Structure;
 
 use super::super::{TargetOptions, TargetReport};
-use super::{EARTHQUAKES, Question, RECORDS};
+use super::Question;
 use crate::error::UpliftError;
 use crate::result::{Finding, FindingRow, Inquiry};
 
@@ -36,7 +36,7 @@ impl TargetReport {
     fn finding_rows(&self) -> Vec<FindingRow> {
         let row = |what: String, value: f64, unit: &str| FindingRow::new(what, value, unit).at(&self.site, self.im);
         let of_quantity = |what: String, value: f64| row(what, value, self.quantity_unit);
-        let resampled = format!("resampled {}", if self.band.unit == "event" { EARTHQUAKES } else { RECORDS });
+        let resampled = self.band.drawn.words();
         let [lower, _, upper] = self.band.value;
         let quantity = self.quantity;
         let mut rows = vec![
@@ -55,14 +55,17 @@ impl TargetReport {
             Some(bound) => there.clone().within([f64::NAN, bound], "at most"),
             None => there.clone().within([lower, upper], &resampled),
         });
-        // hazard curves or structures drawn too: wider bands of the same numbers
+        // hazard curves or structures drawn too: other bands of the same numbers
         let uncertain = self.uncertainty.iter().flat_map(|of| [&of.by_structure, &of.by_all]).flatten();
         for band in self.band_with_hazard.iter().chain(uncertain) {
             let [lower, _, upper] = band.value;
             let least = of_quantity(format!("least {quantity} that meets the target"), self.value);
-            rows.push(least.within([lower, upper], &band.unit));
-            let [lower, _, upper] = band.per_year;
-            rows.push(there.clone().within([lower, upper], &band.unit));
+            rows.push(least.within([lower, upper], &band.drawn.words()));
+            // of what no run shows there is a bound, and no band
+            if self.risk.at_most_per_year.is_none() {
+                let [lower, _, upper] = band.per_year;
+                rows.push(there.clone().within([lower, upper], &band.drawn.words()));
+            }
         }
         rows.push(row("strength of the spectrum at the value found".to_owned(), self.found.spectral_strength, "1"));
         rows.extend(self.found.capacity_m.map(|m| row("displacement capacity at the value found".to_owned(), m, "m")));

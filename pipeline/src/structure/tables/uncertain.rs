@@ -2,13 +2,13 @@
 
 use polars::prelude::Column;
 
-use super::PERCENTILES;
+use super::{PERCENTILES, add_limits};
+use crate::structure::certainty::Bands;
 use crate::structure::uncertain::{
     AleatoryResult, EpistemicResult, Spread, UncertainFinding, UncertaintyReport, VarianceShare,
 };
 
 /// What columns are made of.
-type Band = fn(&AleatoryResult) -> Option<[f64; 2]>;
 type OfBranches = fn(&EpistemicResult) -> Spread;
 type OfShare = fn(&VarianceShare) -> f64;
 
@@ -24,12 +24,10 @@ pub(super) fn columns(report: &UncertaintyReport, found: &[Option<&UncertainFind
     // where no run shows it, what it is at most: a count of none is no proof of never
     add("at_most_uncertain_per_year".to_owned(), &UncertainFinding::at_most_per_year);
     if report.kind == "aleatory" {
-        let bands: [(&str, Band); 3] =
-            [("records", |of| of.by_record), ("earthquakes", |of| of.by_earthquake), ("hazard", |of| of.with_hazard)];
-        for (whose, band) in bands {
-            for (end, place) in [("lower", 0), ("upper", 1)] {
-                add(format!("maf_uncertain_{whose}_{end}_per_year"), &|found| Some(band(found.aleatory()?)?[place]));
-            }
+        let bands = |of: &AleatoryResult| [of.by_record, of.by_earthquake, of.with_hazard];
+        for (place, whose) in Bands::WHOSE.into_iter().enumerate() {
+            let limits: Vec<Option<[f64; 2]>> = found.iter().map(|found| bands((*found)?.aleatory()?)[place]).collect();
+            add_limits(&mut columns, &format!("maf_uncertain_{whose}"), &limits);
         }
         return columns;
     }

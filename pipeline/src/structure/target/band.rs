@@ -1,7 +1,7 @@
 //! How sure a found value is: the search repeated for resampled records, and for the structures that it may be, on the
 //! stripes that were analysed.
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use uplift_bootstrap::{BootstrapError, ResamplingPlan, Unit, weighted_quantile};
 use uplift_fragility::quantile;
 use uplift_risk::RecordSample;
@@ -13,16 +13,17 @@ use crate::error::UpliftError;
 use crate::structure::hazard::Hazard;
 
 /// What other records would have given, drawn from these with replacement (Section 4.5), or other structures.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TargetBand {
     /// Share of the replicates between the limits.
     pub confidence: f64,
-    /// How many replicates there are.
+    /// How many replicates there are; of resamples with each hazard curve their pairs.
     pub replicates: usize,
     /// What was drawn: `record`, `pair` or `event`; `hazard and record`, where every draw goes with each of the
     /// weighted hazard curves; `structure`, of those that it may be, `structure and record`, or `structure, hazard and
     /// record`.
-    pub unit: String,
+    #[serde(rename = "unit")]
+    pub drawn: Drawn,
     /// Lower limit, median and upper limit of the value, in its unit; infinite beyond the values searched.
     pub value: [f64; 3],
     /// The same of the frequency at the value that was found, 1/yr.
@@ -31,6 +32,53 @@ pub struct TargetBand {
     pub below_share: f64,
     /// Share of the replicates that miss the target at the largest value.
     pub beyond_share: f64,
+}
+
+/// What a band is drawn from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Drawn {
+    /// The structures that it may be.
+    pub structures: bool,
+    /// The weighted hazard curves of the site.
+    pub hazard: bool,
+    /// Records, by this unit.
+    pub records: Option<Unit>,
+}
+
+impl Drawn {
+    /// `record`, `hazard and record`, `structure, hazard and record`, ….
+    pub fn key(self) -> String {
+        let names =
+            [self.structures.then_some("structure"), self.hazard.then_some("hazard"), self.records.map(Unit::key)];
+        listed(names)
+    }
+
+    /// `resampled records`, `records and hazard`, `structure, earthquakes and hazard`, ….
+    pub fn words(self) -> String {
+        let records = self.records.map(|unit| if unit == Unit::Event { "earthquakes" } else { "records" });
+        match (self.structures, self.hazard, records) {
+            (false, false, Some(records)) => format!("resampled {records}"),
+            (structures, hazard, records) => {
+                listed([structures.then_some("structure"), records, hazard.then_some("hazard")])
+            }
+        }
+    }
+}
+
+/// The names that there are, with commas and an "and".
+fn listed(names: [Option<&str>; 3]) -> String {
+    let names: Vec<&str> = names.into_iter().flatten().collect();
+    match names.split_last() {
+        Some((last, [])) => (*last).to_owned(),
+        Some((last, before)) => format!("{} and {last}", before.join(", ")),
+        None => String::new(),
+    }
+}
+
+impl Serialize for Drawn {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(&self.key())
+    }
 }
 
 /// Bands of a found value.
@@ -71,17 +119,17 @@ pub(super) fn band(
     let samples = plan.samples();
     let of_records = |sample: &RecordSample, place: usize| resampled_per_year(&tried[place].1.record_per_year, sample);
     let search = Search { tried, found, target_per_year, confidence: settings.confidence };
-    let unit = plan.unit().key();
-    let records =
-        search.band(samples.len(), unit.to_owned(), &|replicate, place| of_records(&samples[replicate], place));
-    let with_hazard = (!hazard.branches.is_empty()).then(|| search.band_with_hazard(samples, hazard, unit));
+    let of_unit = Drawn { structures: false, hazard: false, records: Some(plan.unit()) };
+    let records = search.band(samples.len(), of_unit, &|replicate, place| of_records(&samples[replicate], place));
+    let with_hazard = (!hazard.branches.is_empty()).then(|| search.band_with_hazard(samples, hazard, plan.unit()));
     let branches = tried[found].1.structures.len();
     if branches == 1 {
         return Ok(Bands { records, with_hazard, structures: None });
     }
-    let alone =
-        search.band(branches, "structure".to_owned(), &|branch, place| tried[place].1.structures[branch].risk.per_year);
-    let drawn = format!("structure{} and {unit}", if with_hazard.is_some() { ", hazard" } else { "" });
+    let alone = search.band(branches, Drawn { structures: true, hazard: false, records: None }, &|branch, place| {
+        tried[place].1.structures[branch].risk.per_year
+    });
+    let drawn = Drawn { structures: true, hazard: with_hazard.is_some(), ..of_unit };
     // in turn: every structure as often as the others, but for one time
     let all = search.band(samples.len(), drawn, &|replicate, place| {
         let structure = &tried[place].1.structures[replicate % branches];
@@ -101,19 +149,19 @@ struct Search<'a> {
 
 impl Search<'_> {
     /// The band of so many `replicates`, whose frequencies at every place are `rate`, 1/yr.
-    fn band(&self, replicates: usize, unit: String, rate: &dyn Fn(usize, usize) -> f64) -> TargetBand {
+    fn band(&self, replicates: usize, drawn: Drawn, rate: &dyn Fn(usize, usize) -> f64) -> TargetBand {
         let found: Vec<(Needed, f64)> =
             (0..replicates).map(|replicate| (self.needed(&|place| rate(replicate, place)), 1.0)).collect();
         let quantile_of = |sorted: &[(f64, f64)], level| {
             let values: Vec<f64> = sorted.iter().map(|(value, _)| *value).collect();
             quantile(&values, level)
         };
-        self.told(&found, (replicates, unit), &quantile_of)
+        self.told(&found, (replicates, drawn), &quantile_of)
     }
 
     /// The band of all pairs of the `samples`, drawn by `unit`, and a curve of the `hazard`: a pair weighs as the curve
     /// does.
-    fn band_with_hazard(&self, samples: &[RecordSample], hazard: &Hazard<'_>, unit: &str) -> TargetBand {
+    fn band_with_hazard(&self, samples: &[RecordSample], hazard: &Hazard<'_>, unit: Unit) -> TargetBand {
         let mut found: Vec<(Needed, f64)> = Vec::with_capacity(samples.len() * hazard.branches.len());
         for (weight, stripes) in &hazard.branches {
             let per_year = stripes.per_year();
@@ -122,14 +170,18 @@ impl Search<'_> {
             let of_sample = |sample| self.needed(&|place: usize| resampled_per_year(&contributed[place], sample));
             found.extend(samples.iter().map(|sample| (of_sample(sample), *weight)));
         }
-        self.told(&found, (samples.len(), format!("hazard and {unit}")), &weighted_quantile)
+        self.told(
+            &found,
+            (found.len(), Drawn { structures: false, hazard: true, records: Some(unit) }),
+            &weighted_quantile,
+        )
     }
 
     /// The band of what is `found`, each with its weight.
     fn told(
         &self,
         found: &[(Needed, f64)],
-        (replicates, unit): (usize, String),
+        (replicates, drawn): (usize, Drawn),
         quantile_of: &QuantileOf,
     ) -> TargetBand {
         let tail = 0.5 * (1.0 - self.confidence);
@@ -146,7 +198,7 @@ impl Search<'_> {
         TargetBand {
             confidence: self.confidence,
             replicates,
-            unit,
+            drawn,
             value: limits(|needed| needed.value),
             per_year: limits(|needed| needed.per_year),
             below_share: share(|needed| needed.is_below),

@@ -83,9 +83,9 @@ pub(super) fn findings(
             Ok(AleatoryResult {
                 value: factor * ordinate.displacement_m,
                 at_most_per_year: None,
-                by_record: bands.map(|bands| bands.demand_by_record_m),
-                by_earthquake: bands.and_then(|bands| bands.demand_by_earthquake_m),
-                with_hazard: bands.and_then(|bands| bands.demand_with_hazard_m),
+                by_record: bands.map(|bands| bands.demand_m.by_record),
+                by_earthquake: bands.and_then(|bands| bands.demand_m.by_earthquake),
+                with_hazard: bands.and_then(|bands| bands.demand_m.with_hazard),
             })
         }
     };
