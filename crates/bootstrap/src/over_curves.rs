@@ -167,18 +167,12 @@ mod tests {
     use rand_chacha::rand_core::{Rng, SeedableRng};
 
     use super::*;
+    use crate::skewed_mean::tests::of;
 
     fn mixture(weights: &[f64], units: usize) -> Mixture {
         let curves: Vec<(f64, StripeWeights)> =
             weights.iter().map(|weight| (*weight, StripeWeights::new(&[1.0, 0.5], None).unwrap())).collect();
         Mixture::new(&curves, &vec![vec![0]; units], 0.9)
-    }
-
-    fn of(values: &[f64]) -> SkewedMean {
-        let n = values.len() as f64;
-        let mean = values.iter().sum::<f64>() / n;
-        let moment = |power: i32| values.iter().map(|value| (value - mean).powi(power)).sum::<f64>() / n;
-        SkewedMean::new(mean, [2, 3, 4].map(moment), values.len())
     }
 
     // Records that do not scatter: what is left is which curve holds.

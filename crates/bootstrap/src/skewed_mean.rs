@@ -114,10 +114,10 @@ impl StudentQuantiles {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
 
-    fn of(values: &[f64]) -> SkewedMean {
+    pub(crate) fn of(values: &[f64]) -> SkewedMean {
         let n = values.len() as f64;
         let mean = values.iter().sum::<f64>() / n;
         let moment = |power: i32| values.iter().map(|value| (value - mean).powi(power)).sum::<f64>() / n;

@@ -82,7 +82,7 @@ impl Serialize for Drawn {
 }
 
 /// Bands of a found value.
-pub(super) struct Bands {
+pub(super) struct TargetBands {
     /// By records.
     pub(super) records: TargetBand,
     /// By records and the weighted hazard curves of the site; none where it has but one.
@@ -100,7 +100,7 @@ pub(super) fn band(
     (target_per_year, hazard): (f64, &Hazard<'_>),
     study: &UniformRiskStudy,
     motions: &Question,
-) -> Result<Bands, UpliftError> {
+) -> Result<TargetBands, UpliftError> {
     let (settings, pair_of, event_of) = (&study.bootstrap, motions.pair_of(), motions.event_of());
     let replicates = usize::try_from(settings.replicates).unwrap_or(usize::MAX);
     let size = u32::try_from(event_of.len()).unwrap_or(u32::MAX);
@@ -124,7 +124,7 @@ pub(super) fn band(
     let with_hazard = (!hazard.branches.is_empty()).then(|| search.band_with_hazard(samples, hazard, plan.unit()));
     let branches = tried[found].1.structures.len();
     if branches == 1 {
-        return Ok(Bands { records, with_hazard, structures: None });
+        return Ok(TargetBands { records, with_hazard, structures: None });
     }
     let alone = search.band(branches, Drawn { structures: true, hazard: false, records: None }, &|branch, place| {
         tried[place].1.structures[branch].risk.per_year
@@ -136,7 +136,7 @@ pub(super) fn band(
         let record_per_year = structure.with_hazard.as_ref().unwrap_or(&structure.record_per_year);
         resampled_per_year(record_per_year, &samples[replicate])
     });
-    Ok(Bands { records, with_hazard, structures: Some([alone, all]) })
+    Ok(TargetBands { records, with_hazard, structures: Some([alone, all]) })
 }
 
 /// What was tried, ascending, and what was found there.
