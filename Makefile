@@ -16,8 +16,8 @@ export PATH := $(TOOLS):$(PATH)
 
 UPLIFT := target/release/uplift
 
-.PHONY: run build install wheel dist test check test-cluster torture doc-figures lint docs python sbom notices bench \
-	fuzz clean
+.PHONY: run build install wheel dist test test-long check test-cluster torture doc-figures lint docs python sbom \
+	notices bench fuzz clean
 
 run: build
 	$(UPLIFT) run $(STUDY) $(SET) -o $(OUTPUT)
@@ -42,12 +42,18 @@ install: build
 doc-figures:
 	UPDATE_DOCS=1 cargo test --locked --workspace --test end_to_end figures:: -- --include-ignored
 
-# Every test: crates, the built program, its result file from Python.
+# Crates, the built program, its result file from Python.
 test: python
 	cargo test --locked --workspace
 
-# What CI asks of a change: formatting, lints and documentation besides.
-check: lint docs test
+# The tests of the built program that take five seconds and more, as much time as all others together.
+LONG_TESTS = $(shell grep -rhA1 'ignore = "long' tests | sed -n 's/^.*fn \([a-z0-9_]*\).*/\1/p')
+
+test-long: python
+	cargo test --locked --workspace --test end_to_end -- --ignored $(LONG_TESTS)
+
+# What CI asks of a change: every test, and formatting, lints and documentation besides.
+check: lint docs test test-long
 
 # The Python package: its wheel in python/dist, with the program in it, installed into a fresh environment and tested
 # there (docs/python.md).

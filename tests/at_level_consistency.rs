@@ -104,6 +104,7 @@ fn some(study: &SmallStudy) -> String {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn levels_are_weighed_with_their_own_records_factors_and_shares() {
     let study = study();
     study.write("sets.csv", &some(&study));

@@ -384,6 +384,7 @@ fn measures_are_compared() {
 /// The dissertation prints neither its records nor its hazard; so no digit of the table is held, and the figures are
 /// printed.
 #[test]
+#[ignore = "long: make test-long"]
 fn trends_of_table_4_1_appear_with_real_records() {
     let Some(records) = real_records() else { return };
     let folder = tempfile::tempdir().unwrap();

@@ -48,6 +48,7 @@ fn plain(study: &SmallStudy, name: &str) -> Vec<u64> {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn asked_in_every_run_and_repaired_beside_the_plain_spectra() {
     let study = study(BOTH, "pgv pga", "");
     let run = study.uplift(&["run", "study.toml", "-o", "r.h5"]).ok();
@@ -157,6 +158,7 @@ fn mistakes_in_the_section_are_named() {
 
 /// Influence, design and overturning by the repaired spectra, beside those by the plain ones.
 #[test]
+#[ignore = "long: make test-long"]
 fn what_is_made_of_a_repair_is_made_of_its_weights() {
     // Montreux cannot be repaired, Athens is
     let (study, site) = (SmallStudy::repaired(), "Athens &lt; 1");
@@ -251,6 +253,7 @@ fn the_earthquakes_of_the_hazard_stand_beside_those_of_the_records() {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn other_keys_of_the_section_are_another_run() {
     let study = study(BOTH, "pgv pga", "");
     study.uplift(&["run", "study.toml"]).ok();

@@ -117,6 +117,7 @@ fn flip_bits(flips: usize) {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn no_reader_is_deceived_by_a_flipped_bit() {
     flip_bits(10);
 }
@@ -303,6 +304,7 @@ fn flip_checkpoint(flips: usize) {
 
 #[cfg(unix)]
 #[test]
+#[ignore = "long: make test-long"]
 fn no_damage_of_a_checkpoint_is_sealed() {
     flip_checkpoint(4);
 }

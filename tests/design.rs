@@ -463,6 +463,7 @@ fn shown_in_the_documentation() -> Vec<(Vec<String>, String)> {
 // Last digits belong to a machine's mathematical functions.
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
 #[test]
+#[ignore = "long: make test-long"]
 fn the_documentation_shows_what_is_printed() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::create_dir_all(folder.path().join("configs/structures")).unwrap();

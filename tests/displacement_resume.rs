@@ -66,6 +66,7 @@ fn left(folder: &Path) -> Vec<String> {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn shards_make_the_same_result() {
     for text in [OSCILLATORS, BLOCKS] {
         let study = SmallStudy::with(text);
@@ -101,6 +102,7 @@ fn shards_make_the_same_result() {
 
 /// A checkpoint as it is at any moment of a run: every row of the whole, and any first part of them.
 #[test]
+#[ignore = "long: make test-long"]
 fn from_any_checkpoint_it_ends_with_the_same_bits() {
     for text in [OSCILLATORS, BLOCKS] {
         let study = SmallStudy::with(text);
@@ -122,6 +124,7 @@ fn from_any_checkpoint_it_ends_with_the_same_bits() {
 
 #[cfg(unix)]
 #[test]
+#[ignore = "long: make test-long"]
 fn an_interrupted_run_says_so_and_goes_on() {
     // a study of some seconds of work on one thread
     let text = OSCILLATORS.replace("pairs = 3", "pairs = 30").replace("0.1:0.1:0.3", "0.1:0.004:0.5");

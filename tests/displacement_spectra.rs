@@ -308,6 +308,7 @@ fn each_kind_is_refused_where_the_other_is_wanted() {
 // Ctrl-C ends a long run soon, with its own exit code, and leaves the earlier result alone.
 #[cfg(unix)]
 #[test]
+#[ignore = "long: make test-long"]
 fn interruption_keeps_the_earlier_result() {
     let study = SmallStudy::with(OSCILLATORS);
     study.write_bytes("r.h5", EARLIER);
@@ -320,6 +321,7 @@ fn interruption_keeps_the_earlier_result() {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn python_finds_the_percentiles_of_the_displacements() {
     let Some(python) = python() else { return };
     for text in [OSCILLATORS, BLOCKS] {
@@ -335,6 +337,7 @@ fn python_finds_the_percentiles_of_the_displacements() {
 /// The sets of FEMA P695 as Chapter 3 uses them: their sizes, and its medians within the noise of ours more often than
 /// not.
 #[test]
+#[ignore = "long: make test-long"]
 fn the_sets_of_the_dissertation() {
     let Some(records) = real_records() else { return };
     let study = SmallStudy::new();

@@ -127,6 +127,7 @@ pub(crate) fn two_measures(pgv: &str, pga: &str, more: &str) -> SmallStudy {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn every_branch_is_repaired_by_its_own_pair_of_curves() {
     let both = two_measures("north south", "north south", "");
     let printed = both.uplift(&["run", "study.toml", "-o", "r.h5"]).ok().stdout;
@@ -228,6 +229,7 @@ fn bands_of_structure(study: &SmallStudy) -> [Vec<[f64; 2]>; 2] {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn numbers_of_a_structure_are_banded_over_the_curves_of_the_hazard() {
     let alone = ["a", "b"].map(|name| bands_of_structure(&structure_study(&format!("pga = \"{name}.csv\"\n"))));
     for [records, with_hazard] in &alone {

@@ -50,6 +50,7 @@ fn kept(study: &SmallStudy, command: &str) -> Vec<String> {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn a_question_has_one_answer() {
     let study = study();
     for question in QUESTIONS {

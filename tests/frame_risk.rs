@@ -198,6 +198,7 @@ fn a_case_known_by_hand() {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn repaired_weights_stand_beside_the_plain_ones() {
     let study = SmallStudy::repaired();
     study.write("frame.toml", FRAME);
@@ -233,6 +234,7 @@ fn what_is_typed_wrong_is_told_and_figures_are_drawn() {
 // Last digits belong to a machine's mathematical functions.
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
 #[test]
+#[ignore = "long: make test-long"]
 fn the_documentation_shows_what_is_printed() {
     let folder = with_structures();
     let quick = repository().join("configs/quick.toml");

@@ -49,6 +49,7 @@ fn all(file: &Path) -> Vec<f64> {
 // Of one sample and two curves there are two pairs: the band says what the sample is worth under either curve, and that
 // is what a study of this curve alone makes of the same sample.
 #[test]
+#[ignore = "long: make test-long"]
 fn a_pair_is_worth_what_a_study_of_its_curve_makes_of_its_sample() {
     let options = ["--sizes", "60,105", "--replicates", "1", "-q"];
     let both = study();
@@ -77,6 +78,7 @@ fn a_pair_is_worth_what_a_study_of_its_curve_makes_of_its_sample() {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn of_one_curve_twice_it_is_the_band_of_that_curve() {
     // the 6th, 51st and 96th of 101, whichever of both definitions of a percentile is taken
     let options = ["--sizes", "105", "--replicates", "101", "-q"];
@@ -94,6 +96,7 @@ fn of_one_curve_twice_it_is_the_band_of_that_curve() {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn it_is_printed_in_tables_exports_and_the_page_and_hangs_on_no_thread() {
     let study = study();
     std::fs::copy(study.path().join("r.h5"), study.path().join("one.h5")).unwrap();

@@ -54,6 +54,7 @@ fn a_name_says_what_is_written() {
 
 // One of each command, onto a file of somebody else, and again onto its own.
 #[test]
+#[ignore = "long: make test-long"]
 fn what_others_wrote_is_left_alone() {
     let study = study();
     let response = ["response", "set/SYN001_H1.AT2", "--strength", "0.2"];

@@ -43,6 +43,7 @@ fn listed(help: &str) -> Vec<String> {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn nothing_but_what_was_asked_for() {
     let study = SmallStudy::new();
     for name in ["block.toml", "column-j.toml", "disc-springs.csv"] {

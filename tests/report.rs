@@ -304,6 +304,7 @@ document.body.dataset.tables = document.querySelectorAll('.block > .scroll table
 </script>";
 
 #[test]
+#[ignore = "long: make test-long"]
 fn a_browser_reads_the_report() {
     let Some(browser) = browser() else { return };
     let study = study();

@@ -99,6 +99,7 @@ fn killed(times: u32) {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn killed_at_any_moment_it_goes_on_and_ends_with_the_same_bits() {
     killed(30);
 }
@@ -231,6 +232,7 @@ fn every_flipped_byte_is_found() {
 
 // A damaged earlier result is no source of numbers.
 #[test]
+#[ignore = "long: make test-long"]
 fn damage_does_not_spread() {
     let study = SmallStudy::new();
     study.uplift(&["run", "study.toml", "-o", "a.h5"]).ok();

@@ -221,6 +221,7 @@ fn full_disk_keeps_the_earlier_result() {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn python_reads_the_result() {
     let Some(python) = python() else { return };
     let study = SmallStudy::new();
@@ -271,6 +272,7 @@ fn the_tree_of_a_result() {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn shipped_studies_are_in_order() {
     for entry in repository().join("configs").read_dir().unwrap() {
         let path = entry.unwrap().path();

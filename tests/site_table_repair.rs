@@ -119,6 +119,7 @@ fn run_and_compare(study: &SmallStudy, result: &str, more: &[&str]) -> Vec<f64> 
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn the_other_hazard_may_be_of_a_measure_that_is_not_analysed() {
     let study = by_pgv("");
     let told = study.uplift(&["check", "study.toml"]).ok();
@@ -141,6 +142,7 @@ fn the_other_hazard_may_be_of_a_measure_that_is_not_analysed() {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn levels_with_records_of_their_own_are_repaired_at_every_site() {
     let study = by_pgv("");
     let alike = run_and_compare(&study, "r", &[]);

@@ -86,6 +86,7 @@ fn from_any_checkpoint_the_answer_is_the_same() {
 
 #[cfg(unix)]
 #[test]
+#[ignore = "long: make test-long"]
 fn ctrl_c_leaves_a_checkpoint() {
     use std::process::Stdio;
     let study = study();

@@ -12,6 +12,7 @@ use crate::common::{self, SmallStudy, real_records, repository};
 /// were found with an independent solver. The test holds the order of magnitude, which a wrong unit, component or
 /// weight would break, and prints the ratios.
 #[test]
+#[ignore = "long: make test-long"]
 fn spectra_of_real_records_resemble_the_table() {
     let Some(records) = real_records() else { return };
     let folder = tempfile::tempdir().unwrap();

@@ -31,6 +31,7 @@ fn number(value: &Value) -> f64 {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn target_and_risk_are_inverses() {
     let study = study();
     let overturning_per_year = |width_m: f64| {
@@ -155,6 +156,7 @@ fn stripes_are_kept_until_the_answer_is_there() {
 
 #[cfg(unix)]
 #[test]
+#[ignore = "long: make test-long"]
 fn ctrl_c_leaves_a_checkpoint() {
     let study = study();
     study.uplift(&["records", "synthesize", "-o", "many", "--count", "60", "-q"]).ok();

@@ -114,6 +114,7 @@ fn what_is_known_keeps_its_numbers() {
 
 /// Shards, threads and a checkpoint that was cut off: the answer is that of an undisturbed run.
 #[test]
+#[ignore = "long: make test-long"]
 fn the_same_bits_however_it_is_computed() {
     let study = study();
     for (job, kind) in [("overturning", "epistemic"), ("overturning", "aleatory"), ("design", "epistemic")] {
@@ -150,6 +151,7 @@ fn least(study: &SmallStudy, file: &str, text: &str, more: &[&str]) -> Value {
 // A strength of v stands for 0.8 v to 1.2 v, of which those below 0.3 g overturn from that level on, as above: half of
 // them where v is 0.3. A branch of f v by itself needs a v of 0.3/f, so 90 % of them 0.3/1.18 to 0.3/0.82.
 #[test]
+#[ignore = "long: make test-long"]
 fn a_target_known_by_hand() {
     let study = steps();
     let rate = |level: f64| 1e-4 * f64::powf(level, -2.2);
@@ -195,6 +197,7 @@ fn a_target_without_scatter_is_that_of_a_structure_that_is_known() {
 
 /// Tendons of a certain stiffness leave a force that rises after uplift: there is no capacity then, and none scatters.
 #[test]
+#[ignore = "long: make test-long"]
 fn a_capacity_scatters_where_there_is_one() {
     let study = study();
     let pier = "kind = \"restrained-frame\"\ncolumns = 4\nwidth_m = 0.6\nheight_m = 4\ncolumn_mass_kg = 48000\n\
@@ -220,6 +223,7 @@ fn a_capacity_scatters_where_there_is_one() {
 
 /// Every value has the risk that `uplift overturning` tells of a structure with it.
 #[test]
+#[ignore = "long: make test-long"]
 fn target_and_risk_are_inverses_of_uncertain_structures() {
     let study = study();
     for kind in KINDS {

@@ -7,6 +7,7 @@ use super::{range, with_real_records};
 use crate::common::{array, repository, uplift};
 
 #[test]
+#[ignore = "long: make test-long"]
 fn of_the_real_records() {
     let Some(set) = with_real_records() else { return };
     let folder = tempfile::tempdir().unwrap();

@@ -27,6 +27,7 @@ fn without_description(svg: &str) -> String {
 
 /// The picture of README.md: spectra of 2 % in 50 years by PGV, embedded records, every sixth strength.
 #[test]
+#[ignore = "long: make test-long"]
 fn spectra_of_six_sites() {
     let folder = tempfile::tempdir().unwrap();
     let study = repository().join("configs/europe.toml").to_str().unwrap().to_owned();
@@ -64,6 +65,7 @@ fn spectra_of_six_sites() {
 
 /// The picture of docs/pulses.md.
 #[test]
+#[ignore = "long: make test-long"]
 fn displacement_over_acceleration_and_base_width() {
     let folder = tempfile::tempdir().unwrap();
     uplift(folder.path(), &[&["pulse", "-o", "p", "-q"][..], &LITTLE_ELSE].concat()).ok();

@@ -10,6 +10,7 @@ use crate::common::{repository, uplift};
 const STATIONS: [&str; 2] = ["TCU107", "TCU109"];
 
 #[test]
+#[ignore = "long: make test-long"]
 fn of_long_strong_motions() {
     let Some(set) = with_real_records() else { return };
     let folder = tempfile::tempdir().unwrap();

@@ -81,6 +81,7 @@ fn per_cent(relative: f64) -> String {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn errors_of_newmarks_method() {
     let runs = runs();
     let errors = |of: &dyn Fn(&Run) -> bool| -> [f64; 2] {

@@ -6,6 +6,7 @@ use crate::common::{repository, uplift};
 
 /// Ordinates of 2 % in 50 years, embedded set over real set, over the six sites.
 #[test]
+#[ignore = "long: make test-long"]
 fn spectra_of_the_embedded_set_over_real_ones() {
     let Some(real) = with_real_records() else { return };
     let folder = tempfile::tempdir().unwrap();

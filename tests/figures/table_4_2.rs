@@ -39,6 +39,7 @@ fn on_the_bound(rows: &[Value], poe: f64) -> String {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn ours_beside_the_dissertation() {
     let Some(set) = with_real_records() else { return };
     let (synthetic, real) = (rows(&[]), rows(&set));

@@ -110,6 +110,7 @@ fn of_real_records() {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn of_the_embedded_records() {
     let base = spectra(&[], &[]);
     let [flexible, lossless] = [(UPLIFT, 0.005), (RESTITUTION, 0.98)].map(|setting| spectra(&[setting], &[]));

@@ -59,6 +59,7 @@ fn metres(value: &Value, decimals: usize) -> String {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn by_hand_and_by_the_program() {
     let (mut computed, [factor, slenderness]) = by_hand();
     let folder = tempfile::tempdir().unwrap();
