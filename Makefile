@@ -1,4 +1,4 @@
-# Two commands do everything: `make run` and `make test`. Needs Rust (rustup, stable) and a C compiler; a cmake new
+# Two commands to begin with: `make run` and `make test`. Needs Rust (rustup, stable) and a C compiler; a cmake new
 # enough for the bundled HDF5 is looked for, or put under .tools, by .ci/provide-cmake.
 
 STUDY  ?= configs/europe.toml
@@ -50,7 +50,8 @@ test: python
 LONG_TESTS = $(shell grep -rhA1 'ignore = "long' tests | sed -n 's/^.*fn \([a-z0-9_]*\).*/\1/p')
 
 test-long: python
-	cargo test --locked --workspace --test end_to_end -- --ignored $(LONG_TESTS)
+	cargo test --locked --workspace --test end_to_end -- --ignored \
+		$(or $(LONG_TESTS),$(error no test is marked `#[ignore = "long: make test-long"]` right above its `fn`))
 
 # What CI asks of a change: every test, and formatting, lints and documentation besides.
 check: lint docs test test-long

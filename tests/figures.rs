@@ -1,8 +1,8 @@
 //! The figures of the documents that come from runs of the program: computed again, and compared as they are printed.
 //!
 //! A figure stands between `<!-- figure: NAME -->` and `<!-- end -->`. Its name begins with the source that computes
-//! it; `UPDATE_DOCS=1` writes what a source found. What takes minutes is ignored by `make test`, and part of
-//! `make doc-figures`. Times and sizes are no figures of this kind: they name their machine and day.
+//! it; `UPDATE_DOCS=1` writes what a source found. What takes seconds is part of `make test-long`, what
+//! takes minutes of `make doc-figures`. Times and sizes are no figures of this kind: they name their machine and day.
 //!
 //! Last digits belong to a machine's mathematical functions: other machines than the one below skip all of it.
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]

@@ -84,10 +84,11 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
     Ok(Content {
         subject: "Uniform risk spectra",
         extent: format!(
-            "{}, {} uplift strengths, {} sites.",
+            "{}, {} uplift strengths, {} site{}.",
             ground_motions(stored),
             stored.strengths.len(),
-            stored.sites.len()
+            stored.sites.len(),
+            if stored.sites.len() == 1 { "" } else { "s" }
         ),
         answer: answer(&source),
         facts,
