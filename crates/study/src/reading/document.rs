@@ -16,6 +16,17 @@ pub(crate) enum Origin {
     Study,
 }
 
+impl Origin {
+    /// Where what comes from here stands in a list of mistakes: the file from its beginning, overrides, the rest.
+    pub(crate) fn place_in_list(&self) -> (u8, usize) {
+        match self {
+            Self::File(span) => (0, span.start),
+            Self::Override(index) => (1, *index),
+            Self::Study => (2, 0),
+        }
+    }
+}
+
 /// A value and its origin.
 #[derive(Debug, Clone)]
 pub(crate) struct Node {

@@ -37,11 +37,7 @@ impl Findings {
 
 /// The `findings` in order, with their places in `text` and among the `overrides`.
 pub(crate) fn refused(file: &Path, text: String, mut findings: Vec<Finding>, overrides: &[String]) -> StudyError {
-    findings.sort_by_key(|finding| match &finding.origin {
-        Origin::File(span) => (0, span.start),
-        Origin::Override(index) => (1, *index),
-        Origin::Study => (2, 0),
-    });
+    findings.sort_by_key(|finding| finding.origin.place_in_list());
     let left_out = findings.len().saturating_sub(MOST_LISTED);
     let listed = findings.into_iter().take(MOST_LISTED).map(|finding| StudyMistake {
         key: finding.key,

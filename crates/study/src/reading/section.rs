@@ -6,6 +6,7 @@ use uplift_motion::IntensityMeasure;
 
 use super::suggestion::{MEASURES, did_you_mean, measure_by_its_key, other_unit};
 use super::{Field, Finding, Findings, LARGEST_INTEGER, Origin, Rule, Table};
+use crate::error::MOST_LISTED;
 
 /// A table being read. It learns its keys as they are asked for; [`Section::finish`] reports the others.
 pub(crate) struct Section<'a> {
@@ -93,21 +94,25 @@ impl<'a> Section<'a> {
 
     /// Reports the keys that nobody asked for.
     pub(crate) fn finish(self) {
-        for entry in self.table.iter().flat_map(|table| &table.entries) {
-            if self.known.contains(&entry.key.as_str()) {
-                continue;
-            }
+        let entries = self.table.iter().flat_map(|table| &table.entries);
+        let mut unknown: Vec<_> = entries.filter(|entry| !self.known.contains(&entry.key.as_str())).collect();
+        unknown.sort_by_key(|entry| entry.key_origin.place_in_list());
+        for (index, entry) in unknown.into_iter().enumerate() {
             let what = if entry.node.is_sections() { "section" } else { "key" };
             let measures = self.path == MEASURES || self.known.contains(&IntensityMeasure::Pgv.key());
-            let help = did_you_mean_key(&entry.key, &self.known, measures, self.path.is_empty()).unwrap_or_else(|| {
-                let place = if self.path.is_empty() { "the file".to_owned() } else { format!("`{}`", self.path) };
-                format!("{place} has {}", self.known.join(", "))
-            });
+            let help = || {
+                let meant = did_you_mean_key(&entry.key, &self.known, measures, self.path.is_empty());
+                meant.unwrap_or_else(|| {
+                    let place = if self.path.is_empty() { "the file".to_owned() } else { format!("`{}`", self.path) };
+                    format!("{place} has {}", self.known.join(", "))
+                })
+            };
             self.findings.add(Finding {
                 key: self.join(&entry.key),
                 origin: entry.key_origin.clone(),
                 message: format!("unknown {what} `{}`", entry.key),
-                help: Some(help),
+                // looked for only where it can be listed
+                help: (index < MOST_LISTED).then(help),
             });
         }
     }
