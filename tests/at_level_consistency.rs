@@ -58,6 +58,7 @@ fn arrays(file: &Path, group: &str) -> Vec<(String, Vec<f64>)> {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn the_same_records_at_every_level_are_diagnosed_repaired_and_resampled_as_the_plain_set() {
     let study = study();
     let (names, pgv) = records(&study);

@@ -92,6 +92,7 @@ fn a_study_becomes_bands() {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn same_bits_on_any_number_of_threads_and_from_a_kept_plan() {
     let study = SmallStudy::new();
     for name in ["a.h5", "b.h5", "c.h5"] {
@@ -212,6 +213,7 @@ fn kept_strengths(said: &str) -> usize {
 // Stopped in the middle, it keeps what is done and goes on from there, to the same bits.
 #[cfg(unix)]
 #[test]
+#[ignore = "long: make test-long"]
 fn an_interrupted_bootstrap_goes_on() {
     let study = SmallStudy::new();
     study.uplift(&["run", "study.toml", "-o", "whole.h5", "-q", "--set", "strengths.values=0.02:0.02:1"]).ok();
@@ -252,6 +254,7 @@ fn an_interrupted_bootstrap_goes_on() {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn sizes_above_the_set_one_record_and_one_replicate_are_defined() {
     let study = SmallStudy::new();
     study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
@@ -271,6 +274,7 @@ fn sizes_above_the_set_one_record_and_one_replicate_are_defined() {
 
 // An ordinate that overturning makes infinite, or that nothing exceeds so often, gives no ratio, and says so.
 #[test]
+#[ignore = "long: make test-long"]
 fn overturning_and_spectra_of_zero_are_defined() {
     let study = SmallStudy::new();
     let run = |name: &str, keys: [&str; 2]| {

@@ -215,6 +215,7 @@ fn ranges_are_those_of_neighbouring_strengths() {
 // A point mass is followed where the motion acts, Γ = 1: at a strength of the study its ZSBE demand is the ordinate
 // itself, to the bit.
 #[test]
+#[ignore = "long: make test-long"]
 fn the_exact_demand_is_the_ordinate_where_the_spectrum_has_one() {
     let study = study();
     study.write("mast.toml", "kind = \"point-mass\"\nslenderness_rad = 0.2\nsize_m = 5\nmass_kg = 10\n");
@@ -297,6 +298,7 @@ fn structures_without_a_capacity() {
 // The last step of Section 3.4.5: with the tendons that the program names, the structure has the capacity that it asks
 // for.
 #[test]
+#[ignore = "long: make test-long"]
 fn tendons_of_the_required_capacity() {
     let study = study();
     let pier = |stiffness: f64| {
@@ -334,6 +336,7 @@ fn what_differs_from_the_study_is_said() {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn records_that_are_gone_leave_the_spectrum() {
     let study = study();
     let full = design(&study, "block.toml", &[]);

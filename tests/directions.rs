@@ -47,6 +47,7 @@ fn azimuths_of_quarter_turns_are_the_components() {
 
 /// What none of four pairs shows is not known better for having looked at each twice.
 #[test]
+#[ignore = "long: make test-long"]
 fn the_bound_of_what_no_run_shows_counts_pairs() {
     let study = SmallStudy::new();
     let broad = "kind = \"block\"\nwidth_m = 40\nheight_m = 41\nmass_kg = 1000\nuplift_displacement_m = 0.001\n";
@@ -145,6 +146,7 @@ fn a_random_azimuth_follows_from_seed_and_pair() {
 
 /// What is drawn of azimuths are pairs, whatever is asked; so the bands are those of pairs of components.
 #[test]
+#[ignore = "long: make test-long"]
 fn azimuths_of_a_pair_are_resampled_together() {
     let study = SmallStudy::with(&SMALL_STUDY.replace("first = 4", "first = 6").replace("pairs = 4", "pairs = 6"));
     let ask = ["--sizes", "12", "--replicates", "40", "-q"];
@@ -225,6 +227,7 @@ fn json(study: &SmallStudy, ask: &[&str]) -> Value {
 
 /// Stripes of the frame are single runs with the third component, scaled as the pair.
 #[test]
+#[ignore = "long: make test-long"]
 fn the_third_component_shakes_frames_with_the_factor_of_the_pair() {
     let study = with_third_components();
     study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();

@@ -73,6 +73,7 @@ fn content(path: &Path) -> Vec<(String, Vec<u64>)> {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn the_same_bits_on_any_number_of_threads_and_from_the_stored_study() {
     for (text, arrays) in [(OSCILLATORS, 24), (BLOCKS, 23)] {
         let study = SmallStudy::with(text);

@@ -160,6 +160,7 @@ fn every_branch_is_repaired_by_its_own_pair_of_curves() {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn branches_that_are_not_the_same_are_repaired_by_their_mean_and_it_is_said() {
     let apart = two_measures("north south", "north elsewhere", "");
     apart.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
@@ -275,6 +276,7 @@ fn numbers_of_a_structure_are_banded_over_the_curves_of_the_hazard() {
 
 /// What a rule asks for follows from the spectrum, and each curve has one.
 #[test]
+#[ignore = "long: make test-long"]
 fn a_verdict_that_hangs_on_the_curve_is_told() {
     let rule = |name: &str| {
         let study = structure_study(&format!("pga = \"{name}.csv\"\n"));

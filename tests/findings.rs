@@ -123,6 +123,7 @@ fn a_result_that_may_not_be_written_keeps_nothing_and_answers_all_the_same() {
 
 /// The numbers that a command prints, as every other place has them.
 #[test]
+#[ignore = "long: make test-long"]
 fn report_and_exports_tell_what_was_printed() {
     let study = study();
     study.uplift(&["export", "r.h5", "--csv", "--json", "--mat", "--xlsx", "-q"]).ok();
@@ -181,6 +182,7 @@ fn report_and_exports_tell_what_was_printed() {
 
 /// A search among uncertain structures keeps the bands with structures drawn, beside the narrower one of the records.
 #[test]
+#[ignore = "long: make test-long"]
 fn a_target_of_uncertain_structures_keeps_every_band() {
     let study = study();
     let uncertainty = "[uncertainty]\nsamples = 8\n[uncertainty.strength]\ndistribution = \"lognormal\"\n\

@@ -83,6 +83,7 @@ fn an_import_names_the_option_for_the_unit() {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn figures_are_as_wide_as_a_journal_asks() {
     let study = study();
     let plot = ["plot", "r.h5", "--only", "urs-pgv", "-o", "narrow", "--format", "both"];

@@ -66,6 +66,7 @@ fn peak(row: &std::collections::BTreeMap<String, String>, column: &str) -> f64 {
 /// Every wobbling peak is that of `uplift response` under the same pair and factor, every oscillator's that of
 /// `design`.
 #[test]
+#[ignore = "long: make test-long"]
 fn the_stripes_are_single_runs_and_the_proxies_those_of_a_design() {
     let study = study(STUDY);
     let ask = ["risk", "frame.toml", "--site", "here"];

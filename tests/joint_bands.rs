@@ -163,6 +163,7 @@ impl Events for StopIn {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn a_stop_before_and_after_it_loses_nothing() {
     let study = study();
     let [whole, parts] = ["r.h5", "parts.h5"].map(|name| study.path().join(name));

@@ -89,6 +89,7 @@ fn levels_of_arias_intensity_are_squares() {
 
 // PGA told of the runs by PGV, against the runs by PGA itself.
 #[test]
+#[ignore = "long: make test-long"]
 fn a_measure_told_of_others_runs_scatters_as_in_its_own() {
     let both = "[records.synthetic]\npairs = 40\n[strengths]\nvalues = [0.1]\n";
     let levels = "levels_cm_s = [\"0.1:0.1:0.9\", \"1:1:20\", \"25:5:200\"]\n";

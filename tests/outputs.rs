@@ -160,6 +160,7 @@ fn names(folder: &Path) -> Vec<String> {
 
 // A result that is replaced takes with it what was made of it; nothing stale is left, and nothing computed is lost.
 #[test]
+#[ignore = "long: make test-long"]
 fn what_was_made_of_a_replaced_result_goes_with_it() {
     let study = study();
     let run = ["run", "study.toml", "-o", "r.h5"];

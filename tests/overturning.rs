@@ -83,6 +83,7 @@ const WITH_PGA: &str = "title = \"small\"\n[records.synthetic]\npairs = 20\n[str
 // A slender block without elasticity: the oscillator tends to it as its displacement before uplift does to zero.
 // Impacts that take much keep records on the edge of overturning few.
 #[test]
+#[ignore = "long: make test-long"]
 fn slender_blocks_overturn_as_their_oscillators_do() {
     let study = study(WITH_PGA);
     let counts = |model: &Value| -> Vec<i64> {
@@ -112,6 +113,7 @@ fn slender_blocks_overturn_as_their_oscillators_do() {
 
 // What rotates as one block is one block: the frame and the block of its size and restitution give the same numbers.
 #[test]
+#[ignore = "long: make test-long"]
 fn a_frame_is_its_block() {
     let study = study(WITH_PGA);
     study.write(
@@ -175,6 +177,7 @@ fn what_no_record_overturns_has_a_bound_and_what_cannot_has_none() {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn tables_and_figures_hold_what_is_printed() {
     let study = study(WITH_PGA);
     study.write("block.toml", "kind = \"block\"\nwidth_m = 0.4\nheight_m = 4\nmass_kg = 1000\n");
@@ -213,6 +216,7 @@ fn tables_and_figures_hold_what_is_printed() {
 
 /// Motions on the edge of overturning at many levels: one of them rounding pushes over it.
 #[test]
+#[ignore = "long: make test-long"]
 fn what_rounding_decides_is_marked() {
     let levels: Vec<String> = (0..12).map(|level| format!("{:.2}", 0.5 + 0.01 * f64::from(level))).collect();
     let study = study(&WITH_PGA.replace("0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 0.8", &levels.join(", ")));
@@ -260,6 +264,7 @@ fn mistakes_are_said() {
 // The real set: a spectrum's study with a capacity serves as well, and a block of temple size falls about as often by
 // either model.
 #[test]
+#[ignore = "long: make test-long"]
 fn real_set() {
     let Some(records) = real_records() else { return };
     let text = format!(

@@ -96,6 +96,7 @@ fn a_pushover_in_words() {
 /// Rows and protocol as tables, with what they are beside them; a figure of each; nothing of somebody else's is
 /// replaced.
 #[test]
+#[ignore = "long: make test-long"]
 fn tables_and_figures() {
     let study = SmallStudy::new();
     let frame = structure("shake-table.toml");
@@ -284,6 +285,7 @@ fn printed_numbers_by_the_table() {
 
 /// Stacks for both specimens out of the list of standard sizes.
 #[test]
+#[ignore = "long: make test-long"]
 fn stacks_out_of_a_catalogue() {
     let catalogue = structure("disc-springs.csv");
     for (name, stiffness, disc, springs) in
@@ -476,6 +478,7 @@ fn what_is_typed_wrong() {
 // Last digits belong to a machine's mathematical functions.
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
 #[test]
+#[ignore = "long: make test-long"]
 fn the_documentation_shows_what_is_printed() {
     let folder = crate::common::with_structures();
     let quick = repository().join("configs/quick.toml");

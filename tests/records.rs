@@ -243,6 +243,7 @@ fn what_is_no_folder_of_records() {
 
 // PGA and PGV of the manifest of the real records were computed independently; it prints five digits.
 #[test]
+#[ignore = "long: make test-long"]
 fn real_records_measure_what_their_manifest_says() {
     let Some(records) = real_records() else { return };
     let folder = tempfile::tempdir().unwrap();

@@ -80,6 +80,7 @@ fn a_replicate_is_weighed_by_weights_of_its_own() {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn they_stand_beside_the_plain_bands_and_hang_on_no_thread() {
     let study = study();
     let options = ["-q", "--sizes", "40,105", "--replicates", "60", "--simultaneous"];

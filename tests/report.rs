@@ -213,6 +213,7 @@ fn several_results_are_named_by_what_differs() {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn exports_hold_what_the_result_holds() {
     // names that a comment, a formula, a cell or an encoding could break at
     let text = common::SMALL_STUDY.replace("\"Here\"", "\"=1+1, Zürich\"").replace("\"There\"", "\"#1\"");

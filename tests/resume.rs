@@ -138,6 +138,7 @@ fn an_interrupted_run_says_what_is_finished_and_goes_on_from_there() {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn only_what_is_new_is_computed() {
     let study = SmallStudy::new();
     let first = computed(&study, &["run", "study.toml"]);
@@ -209,6 +210,7 @@ fn shards_make_the_same_result() {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn every_flipped_byte_is_found() {
     let study = SmallStudy::new();
     study.uplift(&["run", "study.toml"]).ok();

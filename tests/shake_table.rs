@@ -38,6 +38,7 @@ pub fn order_of_chapter_6() -> Option<Value> {
 
 /// Equations with the printed errors of Eq. 6.6 put the tests in quite another order.
 #[test]
+#[ignore = "long: make test-long"]
 fn the_order_of_the_tests_is_predicted() {
     let Some(agreement) = order_of_chapter_6() else { return };
     let spearman = agreement["spearman"].as_f64().unwrap();
@@ -160,6 +161,7 @@ fn spectra_of_what_is_played() {
 
 /// Every command that takes a result.
 #[test]
+#[ignore = "long: make test-long"]
 fn what_takes_a_result() {
     let study = small();
     let told = study.uplift(&["check", "table.toml"]).ok().stdout;

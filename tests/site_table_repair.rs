@@ -173,6 +173,7 @@ fn levels_with_records_of_their_own_are_repaired_at_every_site() {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn a_measure_that_only_the_table_has_may_be_asked_against() {
     let study = by_pgv("against = \"pga\"\n");
     study.uplift(&["check", "study.toml"]).ok();

@@ -106,6 +106,7 @@ fn array_u32(result: &Path, name: &str) -> Vec<u32> {
 
 /// One structure for each record: another one for each.
 #[test]
+#[ignore = "long: make test-long"]
 fn one_draw_is_another_structure_for_each_record() {
     for component in ["h1", "both"] {
         let uncertain = study(&scattering("aleatory", "draws = 1"));
@@ -198,6 +199,7 @@ fn structures_are_branches() {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn threads_shards_and_earlier_results_change_no_bit() {
     for (kind, count) in [("aleatory", "draws = 2"), ("epistemic", "samples = 8")] {
         let uncertain = study(&scattering(kind, count));

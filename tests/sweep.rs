@@ -10,6 +10,7 @@ fn json(study: &SmallStudy, more: &[&str]) -> Value {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn every_variant_is_the_result_of_its_own_run() {
     let study = SmallStudy::new();
     let over = ["--over", "oscillator.restitution=0.85,0.95", "--over", "strengths.values=[0.1],[0.1, 0.3]"];

@@ -64,6 +64,7 @@ fn target_and_risk_are_inverses() {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn any_number_of_threads_gives_the_same_answer() {
     let study = study();
     let ask = ["target", "frame.toml", "--urs", "r.h5", "--overturning", "5e-4", "--vary", "size", "--json", "-q"];
@@ -134,6 +135,7 @@ fn capacity_is_exceeded_more_often_than_the_frame_overturns() {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn stripes_are_kept_until_the_answer_is_there() {
     let study = study();
     let ask = ["target", "frame.toml", "--urs", "r.h5", "--overturning", "2e-3", "--vary", "width", "--json"];

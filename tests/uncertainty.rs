@@ -181,6 +181,7 @@ fn a_target_known_by_hand() {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn a_target_without_scatter_is_that_of_a_structure_that_is_known() {
     let study = study();
     let ask = ["--vary", "width", "--overturning", "2e-3", "--tolerance", "0.02"];
@@ -275,6 +276,7 @@ fn it_is_told_in_sentences_and_refused_in_words() {
 
 /// A block that no run overturns: the bound of what is known stands in the place of every 0.
 #[test]
+#[ignore = "long: make test-long"]
 fn what_no_run_shows_is_told_by_its_bound() {
     let study = study();
     let large = "kind = \"block\"\nwidth_m = 30\nheight_m = 8\nmass_kg = 1e6\nrestitution = 0.95\n";
@@ -372,6 +374,7 @@ fn the_table_of_risks_has_what_is_uncertain() {
 
 /// Every value that was tried has the branches' percentiles beside their mean.
 #[test]
+#[ignore = "long: make test-long"]
 fn the_table_of_a_target_has_what_is_uncertain() {
     let study = study();
     let ask = ["--vary", "width", "--overturning", "2e-3", "--tolerance", "0.1", "-o", "t.csv", "--force"];

@@ -34,6 +34,7 @@ fn power(value: f64) -> String {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn of_synthetic_records() {
     let peaks_m = displacements_m("1");
     let changes = |factor: &str| -> Vec<f64> {
@@ -64,6 +65,7 @@ fn of_synthetic_records() {
 
 /// The real run whose condition exceeds 1e16: a record of the far-field set, by record to 0.5 of the median PGA.
 #[test]
+#[ignore = "long: make test-long"]
 fn of_a_real_record() {
     let Some(records) = real_records() else { return };
     let record = records.join("RSN169_ImperialValley06_Delta/RSN169_IMPVALL.H_H-DLT262.AT2");

@@ -103,6 +103,7 @@ fn the_embedded_set() {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn real_records_beside_it() {
     let Some(real) = real_pairs() else { return };
     let set = generate(&SyntheticSetOptions::default()).unwrap();

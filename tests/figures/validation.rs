@@ -12,6 +12,7 @@ use crate::common::{repository, uplift};
 const DISPERSION: f64 = 0.7;
 
 #[test]
+#[ignore = "long: make test-long"]
 fn table_6_2_decoded() {
     let reference = std::fs::read_to_string(repository().join("tests/reference/table_6_2.csv")).unwrap();
     let mut computed = Vec::new();
