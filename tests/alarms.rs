@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use crate::common::SmallStudy;
+use crate::common::{SMALL_STUDY, SmallStudy};
 
 const BLOCK: &str = "kind = \"block\"\nwidth_m = 0.8\nheight_m = 4\nmass_kg = 6000\n";
 
@@ -182,6 +182,20 @@ fn a_response_asks_about_unlikely_numbers() {
 }
 
 #[test]
+fn a_check_tells_of_the_last_level_what_a_run_would() {
+    let study = study();
+    let said = study.uplift(&["check", "study.toml"]).ok().stdout;
+    let note =
+        said.lines().find(|line| line.starts_with("caution   Here, PGA, 2 %")).unwrap_or_else(|| panic!("{said}"));
+    assert!(note.contains("the last level, 1 g, is exceeded 1.0e-4 times a year, 24.7 % of the target rate"), "{note}");
+    assert!(note.ends_with("let pga.levels_g reach further up, the hazard curve goes to 3 g"), "{note}");
+    let check = json(&study, &["check", "study.toml", "--json"]);
+    let pga = check["levels"].as_array().unwrap().iter().find(|level| level["im"] == "PGA").unwrap();
+    assert_eq!(pga["last_level"], 1.0);
+    assert_eq!(alarm(&check, "beyond-last-level")["severity"], "caution");
+}
+
+#[test]
 fn probabilities_taken_for_rates_are_told() {
     let study = study();
     study.write("here-pgv.csv", &curve(&[0.5, 1.0, 2.0, 20.0, 300.0], |v| -(-50.0 * 0.2 / v).exp_m1()));
@@ -192,6 +206,17 @@ fn probabilities_taken_for_rates_are_told() {
     let first = &run["alarms"][0];
     assert!(first["kind"] == "hazard-probabilities" && first["severity"] == "mistake", "{first}");
     assert!(text(first, "what_to_do").contains("kind = \"poe\""), "{first}");
+
+    // one of two weighted curves beside a sound one is named, before a run and after it
+    study.write("rates.csv", &curve(&[0.5, 1.0, 2.0, 20.0, 300.0], |v| 0.2 / v));
+    let branches = "{ file = \"rates.csv\", branches = [{ file = \"rates.csv\", weight = 0.9 }, \
+                    { file = \"here-pgv.csv\", weight = 0.1, name = \"odd\" }] }";
+    study.write("branches.toml", &SMALL_STUDY.replacen("\"here-pgv.csv\"", branches, 1));
+    let words = "Here, PGV: the rates of the weighted curve \"odd\" level off just below 1";
+    let said = study.uplift(&["check", "branches.toml"]).ok().stdout;
+    assert!(said.contains(words) && said.contains("if not all, write rates per year into the files"), "{said}");
+    let said = study.uplift(&["run", "branches.toml", "-o", "b.h5"]).ok().stdout;
+    assert!(said.contains(words) && said.contains("if not all, write rates per year into the files"), "{said}");
 }
 
 #[test]
@@ -234,6 +259,7 @@ fn numbers_in_other_units_are_taken_and_told() {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn none_overturned_is_not_never() {
     let study = study();
     study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();

@@ -39,6 +39,7 @@ fn without_consistency(alarms: &Value) -> Vec<Value> {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn spectra_bands_and_warnings_are_those_of_a_run() {
     for contour in ["risk.contour=exact", "risk.contour=grid"] {
         let study = study(&["--set", contour]);
@@ -84,6 +85,7 @@ fn a_return_period_is_a_probability() {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn designs_tables_and_pages_take_it() {
     let study = study(&[]);
     study.write("block.toml", "kind = \"block\"\nwidth_m = 0.8\nheight_m = 4\nmass_kg = 1000\n");
@@ -122,6 +124,7 @@ fn designs_tables_and_pages_take_it() {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn a_return_period_is_called_by_its_name_everywhere() {
     let study = study(&[]);
     study.write("block.toml", "kind = \"block\"\nwidth_m = 0.8\nheight_m = 4\nmass_kg = 1000\n");
@@ -171,6 +174,7 @@ fn what_is_no_risk_is_refused() {
         (&["--poe", "1.5,0"][..], &["--poe 1.5", "--poe 0:", "10 % is 0.1 or 10%"][..]),
         (&["--poe", "0.1,0.1"], &["--poe 0.1 is given twice"]),
         (&["--poe", "x"], &["--poe", "x"]),
+        (&["--poe", "150%"], &["150%", "between 0 and 100 %"]),
         (&["--poe", "1e-300"], &["--poe 1e-300: a probability is from 1e-12 to 0.999999999999"]),
         (&["--return-period", "1e9", "--years", "1e-4"], &["--years is 1e-4 yr"]),
         (&["--return-period", "-475"], &["--return-period is -475 yr"]),
@@ -189,6 +193,7 @@ fn what_is_no_risk_is_refused() {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn what_no_sheet_holds_is_said() {
     let study = study(&[]);
     let many: Vec<String> = (1..=700).map(|index| (f64::from(index) / 1000.0).to_string()).collect();

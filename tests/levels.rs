@@ -21,14 +21,17 @@ name = "There"
 pgv = { file = "there-pgv.csv", unit = "m/s", kind = "poe", years = 50 }
 "#;
 
-/// The largest share from below the first level at these strengths, as a run has it.
-fn of_a_run(study: &SmallStudy, set: &[&str], strengths: &[f64]) -> f64 {
+/// The largest shares from below the first level and from above the last at these strengths, as a run has them.
+fn of_a_run(study: &SmallStudy, set: &[&str], strengths: &[f64]) -> [f64; 2] {
     study.uplift(&[&["run", "study.toml", "--force", "-o", "r.h5", "-q"], set].concat()).ok();
     let csv = std::fs::read_to_string(study.path().join("r.urs.csv")).unwrap();
-    let rows = csv.lines().skip(1).map(|line| line.split(',').collect::<Vec<_>>());
-    rows.filter(|cells| strengths.iter().any(|strength| (cells[4].parse::<f64>().unwrap() - strength).abs() < 1e-9))
-        .map(|cells| cells[7].parse().unwrap())
-        .fold(0.0, f64::max)
+    assert!(csv.lines().next().unwrap().ends_with("lower_tail_share,upper_tail_share"), "{csv}");
+    let rows = csv.lines().skip(1).map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>());
+    let is_tried = |cells: &Vec<String>| {
+        strengths.iter().any(|strength| (cells[4].parse::<f64>().unwrap() - strength).abs() < 1e-9)
+    };
+    let rows: Vec<_> = rows.filter(is_tried).collect();
+    [7, 8].map(|column| rows.iter().map(|cells| cells[column].parse().unwrap()).fold(0.0, f64::max))
 }
 
 #[test]
@@ -44,7 +47,12 @@ fn a_check_proposes_levels_that_a_run_is_content_with() {
     // the shares are a run's, to the bit: of the levels as they are, and of those proposed
     let share = number(&check["lower_tail_share"]);
     assert!(share > 0.01, "{check}");
-    assert_eq!(of_a_run(&study, &[], &strengths), share);
+    let above = number(&check["upper_tail_share"]);
+    assert!(above > 0.01 && number(&check["last_level"]) == 100.0, "{check}");
+    assert_eq!(of_a_run(&study, &[], &strengths), [share, above]);
+    // and so is what is raised of the last level, but for the strengths that it counts
+    let alarm = &plan["alarms"][0];
+    assert!(alarm["what"].as_str().unwrap().contains("of 4 ordinates tried take more than 1 %"), "{plan:#}");
     let proposal = &check["proposal"];
     let line = proposal["line"].as_str().unwrap();
     let (key, levels) = line.split_once(" = ").unwrap();
@@ -52,7 +60,7 @@ fn a_check_proposes_levels_that_a_run_is_content_with() {
     assert!(levels.starts_with('[') && levels.ends_with("5, 10, \"20:20:100\"]"), "{line}");
     let lowered = number(&proposal["lower_tail_share"]);
     assert!(lowered <= 0.01, "{proposal}");
-    assert_eq!(of_a_run(&study, &["--set", line], &strengths), lowered);
+    assert_eq!(of_a_run(&study, &["--set", line], &strengths)[0], lowered);
 
     let said = study.uplift(&["check", "study.toml"]).ok().stdout;
     let pasted = line.replace("pgv.levels", "in [pgv] levels");

@@ -34,8 +34,9 @@ use crate::error::UpliftError;
 use crate::result::{Kind, ResultFile};
 pub(crate) use evidence::{Evidence, Scope};
 pub use fit::{FitReach, reach_of_fit};
-pub(crate) use hazard::{look_like_probabilities, what_of_probabilities};
+pub(crate) use hazard::{alarm as alarm_of_probabilities, probabilities_for_rates};
 pub(crate) use inputs::OF_FAR_FACTORS;
+pub(crate) use levels::{Counted, UpperEnd, alarm_of_upper_ends};
 pub(crate) use numbers::of_numbers;
 pub(crate) use structure::{OwnRisk, of_own_demand, of_own_risks, of_safety_factor, of_structure};
 
@@ -86,7 +87,7 @@ impl Alarm {
     }
 
     /// The one alarm of several cases of a kind: the worst of them, the others by name.
-    fn of_cases(kind: &'static str, mut cases: Vec<Case>) -> Option<Self> {
+    pub(crate) fn of_cases(kind: &'static str, mut cases: Vec<Case>) -> Option<Self> {
         cases.sort_by(|a, b| b.badness.total_cmp(&a.badness));
         let mut cases = cases.into_iter();
         let worst = cases.next()?;
@@ -109,7 +110,7 @@ impl fmt::Display for Alarm {
 
 /// One of several spectra, curves or sites of which the same is to be said.
 #[derive(Debug, Clone, PartialEq)]
-struct Case {
+pub(crate) struct Case {
     severity: Severity,
     /// By which the worst is found.
     badness: f64,
@@ -143,7 +144,7 @@ pub(crate) fn alarms_by(file: &ResultFile, measure: IntensityMeasure) -> Result<
 fn alarms_of(file: &ResultFile, scope: &Scope) -> Result<Vec<Alarm>, UpliftError> {
     let mut alarms = inputs::of_result(file)?;
     if file.kind() == Kind::UniformRisk && !file.axes()?.sites.is_empty() {
-        alarms.extend(of_spectra(&Evidence::read(file)?, scope)?);
+        alarms.extend(of_spectra(&Evidence::read(file, scope)?, scope)?);
     }
     Ok(ranked(alarms))
 }
@@ -153,7 +154,7 @@ fn alarms_of(file: &ResultFile, scope: &Scope) -> Result<Vec<Alarm>, UpliftError
 /// # Errors
 /// A file that is damaged, or without sites.
 pub(crate) fn alarms_within(file: &ResultFile, scope: &Scope) -> Result<Vec<Alarm>, UpliftError> {
-    let evidence = Evidence::read(file)?;
+    let evidence = Evidence::read(file, scope)?;
     let mut alarms = inputs::of_result(file)?;
     alarms.extend(hazard::alarms(&evidence, scope));
     alarms.extend(levels::alarms(&evidence, scope)?);
@@ -172,7 +173,7 @@ pub(crate) fn alarms_within(file: &ResultFile, scope: &Scope) -> Result<Vec<Alar
 /// A file that is damaged, or without sites.
 pub(crate) fn alarms_of_inputs(file: &ResultFile, scope: &Scope) -> Result<Vec<Alarm>, UpliftError> {
     let mut alarms = inputs::of_result(file)?;
-    alarms.extend(hazard::alarms(&Evidence::read(file)?, scope));
+    alarms.extend(hazard::alarms(&Evidence::read(file, scope)?, scope));
     Ok(alarms)
 }
 

@@ -45,7 +45,7 @@ pub(crate) use extend::{Addition, line, sign};
 pub use file::{ResultFile, RiskAxes};
 pub(crate) use findings::{DOCUMENT, REQUEST, STRUCTURE_FILE, STRUCTURE_SHA256, STRUCTURE_TOML, STUDY_DIGEST};
 pub use findings::{Finding, FindingRow, Inquiry, StoredFinding};
-pub use hazard::{StoredCurves, StoredHazard};
+pub use hazard::{StoredBranch, StoredCurves, StoredHazard};
 pub use head::{Head, Overview};
 pub use influence::StoredInfluence;
 pub(crate) use provenance::Origin;

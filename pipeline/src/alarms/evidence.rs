@@ -13,7 +13,7 @@ use crate::text::risk_name;
 pub(crate) struct Evidence {
     pub(crate) study: UniformRiskStudy,
     pub(crate) spectra: StoredSpectra,
-    /// By measure, as the spectra.
+    /// By measure, as the spectra; weighted curves of the sites alone that are asked about.
     pub(crate) hazard: Vec<StoredHazard>,
     pub(crate) bands: Option<StoredBands>,
     /// By the measure that records are scaled to.
@@ -35,8 +35,12 @@ pub(crate) struct Scope {
 }
 
 impl Scope {
+    fn holds_site(&self, site: usize) -> bool {
+        self.site.is_none_or(|wanted| wanted == site)
+    }
+
     pub(super) fn holds(&self, site: usize, measure: IntensityMeasure) -> bool {
-        self.site.is_none_or(|wanted| wanted == site) && self.measure.is_none_or(|wanted| wanted == measure)
+        self.holds_site(site) && self.measure.is_none_or(|wanted| wanted == measure)
     }
 
     pub(super) fn holds_poe(&self, poe: usize) -> bool {
@@ -61,13 +65,15 @@ pub(super) struct Place<'a> {
 }
 
 impl Evidence {
+    /// Reads what is asked about within `scope`.
+    ///
     /// # Errors
     /// A file that is damaged, of another kind, or without sites.
-    pub(crate) fn read(file: &ResultFile) -> Result<Self, UpliftError> {
+    pub(crate) fn read(file: &ResultFile, scope: &Scope) -> Result<Self, UpliftError> {
         Ok(Self {
             study: file.stored_study()?,
             spectra: file.spectra()?,
-            hazard: file.hazard()?,
+            hazard: file.hazard_with_branches(|site| scope.holds_site(site))?,
             bands: file.bands()?,
             consistency: file.consistency()?,
         })

@@ -1,6 +1,7 @@
 //! Hazard curves that look like probabilities in some years where rates per year are meant.
 
 use uplift_hazard::HazardCurve;
+use uplift_motion::IntensityMeasure;
 
 use super::evidence::{Evidence, Scope};
 use super::{Alarm, Case, Severity};
@@ -11,47 +12,71 @@ const NEARLY_CERTAIN: f64 = 0.9;
 const FLAT: f64 = 0.25;
 
 /// Whether the rates of `curve` look like probabilities in many years.
-pub(crate) fn look_like_probabilities(curve: &HazardCurve) -> bool {
+fn look_like_probabilities(curve: &HazardCurve) -> bool {
     let mut points = curve.points();
     let (Some(first), Some(second)) = (points.next(), points.next()) else { return false };
     let slope = (first.maf / second.maf).ln() / (second.im / first.im).ln();
     first.maf > NEARLY_CERTAIN && first.maf <= 1.0 && slope < FLAT
 }
 
-/// What is said of such a curve.
-pub(crate) fn what_of_probabilities(curve: &HazardCurve) -> String {
-    let first = curve.first();
-    format!(
-        "the rates of the hazard curve level off just below 1 ({} a year at {} {}): they look like probabilities in \
-         many years, 50 mostly, and the spectra would be far too large",
-        first.maf,
-        first.im,
-        curve.unit()
-    )
+/// What is raised of the curves of a `site`, where some look so: its `curve`, or weighted ones, with their names.
+pub(crate) fn probabilities_for_rates<'a>(
+    (site, measure): (&str, IntensityMeasure),
+    curve: &'a HazardCurve,
+    branches: impl Iterator<Item = (&'a str, &'a HazardCurve)> + Clone,
+) -> Option<Case> {
+    let count = branches.clone().count();
+    let key = measure.key();
+    let mut odd = branches.filter(|(_, branch)| look_like_probabilities(branch));
+    let (odd_one, which, what_to_do) = if look_like_probabilities(curve) {
+        let input = if count == 0 { "file = …, " } else { "…, " };
+        let what_to_do = format!("if so, say so in [[sites]]: {key} = {{ {input}kind = \"poe\", years = 50 }}");
+        (curve, "the hazard curve".to_owned(), what_to_do)
+    } else {
+        let (name, branch) = odd.next()?;
+        let others = match odd.count() {
+            0 => String::new(),
+            more => format!(" (and {more} more of {count})"),
+        };
+        let what_to_do = format!(
+            "if all curves of {key} are, say so in [[sites]]: {key} = {{ …, kind = \"poe\", years = 50 }}; if not all, \
+             write rates per year into the files of those that are"
+        );
+        (branch, format!("the weighted curve \"{name}\"{others}"), what_to_do)
+    };
+    let first = odd_one.first();
+    Some(Case {
+        severity: Severity::Mistake,
+        badness: first.maf,
+        subject: format!("{site}, {}", measure.label()),
+        what: format!(
+            "the rates of {which} level off just below 1 ({} a year at {} {}): they look like probabilities in many \
+             years, 50 mostly, and the spectra would be far too large",
+            first.maf,
+            first.im,
+            odd_one.unit()
+        ),
+        what_to_do,
+    })
+}
+
+/// The one alarm of all sites.
+pub(crate) fn alarm(cases: Vec<Case>) -> Option<Alarm> {
+    Alarm::of_cases("hazard-probabilities", cases)
 }
 
 pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
     let mut cases = Vec::new();
     for hazard in &evidence.hazard {
         for (site, curves) in hazard.sites.iter().enumerate() {
-            let measure = hazard.measure;
-            let mut all = std::iter::once(&curves.curve).chain(curves.branches.iter().map(|(_, curve)| curve));
-            let Some(curve) = all.find(|curve| look_like_probabilities(curve)) else { continue };
-            if scope.holds(site, measure) {
-                cases.push(Case {
-                    severity: Severity::Mistake,
-                    badness: curve.first().maf,
-                    subject: format!("{}, {}", evidence.spectra.sites[site], measure.label()),
-                    what: what_of_probabilities(curve),
-                    what_to_do: format!(
-                        "if so, say so in [[sites]]: {} = {{ file = …, kind = \"poe\", years = 50 }}",
-                        measure.key()
-                    ),
-                });
+            let at = (evidence.spectra.sites[site].as_str(), hazard.measure);
+            let branches = curves.branches.iter().map(|branch| (branch.name.as_str(), &branch.curve));
+            if scope.holds(site, hazard.measure) {
+                cases.extend(probabilities_for_rates(at, &curves.curve, branches));
             }
         }
     }
-    Alarm::of_cases("hazard-probabilities", cases)
+    alarm(cases)
 }
 
 #[cfg(test)]
@@ -73,5 +98,20 @@ mod tests {
         // rates that happen to begin near 1, and rates above it
         assert!(!look_like_probabilities(&curve(|level| 0.49 / level)));
         assert!(!look_like_probabilities(&curve(|level| 3.0 / level.powf(0.1))));
+    }
+
+    #[test]
+    fn the_weighted_curve_that_looks_so_is_named() {
+        let rates = curve(|level| 0.2 / level);
+        let probabilities = curve(|level| -(-50.0 * 0.2 / level).exp_m1());
+        let said = |branches: &[(&'static str, &HazardCurve)]| {
+            let found = probabilities_for_rates(("Here", IntensityMeasure::Pgv), &rates, branches.iter().copied());
+            found.map_or_else(String::new, |case| case.what)
+        };
+        assert_eq!(said(&[("a", &rates), ("b", &rates)]), "");
+        let what = said(&[("a", &rates), ("b", &probabilities)]);
+        assert!(what.starts_with("the rates of the weighted curve \"b\" level off just below 1"), "{what}");
+        let what = said(&[("a", &probabilities), ("b", &rates), ("c", &probabilities)]);
+        assert!(what.starts_with("the rates of the weighted curve \"a\" (and 1 more of 3) level off"), "{what}");
     }
 }

@@ -1,11 +1,12 @@
 //! Ordinates that rest on what lies outside the analysed levels, and spectra without ordinates.
 
+use uplift_hazard::{Extrapolation, HazardCurve};
 use uplift_risk::{OrdinateFlag, TAIL_SHARE_LIMIT};
-
-use uplift_study::levels_key;
+use uplift_study::{MeasurePlan, levels_key};
 
 use super::evidence::{Evidence, Place, Scope};
 use super::{Alarm, Case, Severity};
+use crate::array::Array;
 use crate::error::UpliftError;
 use crate::text::{per_cent, share};
 
@@ -30,10 +31,15 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Result<Vec<Alarm>, U
 }
 
 /// How many of the shares of a spectrum are more than the limit, and the largest.
-fn heavy(shares: &[f64], of: &[usize]) -> (usize, f64) {
-    let shares = of.iter().map(|&strength| shares[strength]);
-    let count = shares.clone().filter(|share| *share > TAIL_SHARE_LIMIT).count();
-    (count, shares.fold(0.0, f64::max))
+fn heavy(shares: &[f64]) -> (usize, f64) {
+    let count = shares.iter().filter(|share| **share > TAIL_SHARE_LIMIT).count();
+    (count, shares.iter().copied().fold(0.0, f64::max))
+}
+
+/// The shares of the ordinates that are asked about.
+fn at_strengths(shares: &Array<3>, place: &Place<'_>) -> Vec<f64> {
+    let shares = shares.block([place.site, place.poe]);
+    place.strengths.iter().map(|&strength| shares[strength]).collect()
 }
 
 fn severity(share: f64) -> Severity {
@@ -42,7 +48,7 @@ fn severity(share: f64) -> Severity {
 
 /// Ordinates that rest on motions weaker than the first level, where the fragility is a straight line: too large.
 fn below_first(evidence: &Evidence, place: &Place<'_>) -> Option<Case> {
-    let (count, most) = heavy(place.of_measure.lower_tail_share.block([place.site, place.poe]), &place.strengths);
+    let (count, most) = heavy(&at_strengths(&place.of_measure.lower_tail_share, place));
     let plan = evidence.study.measures.iter().find(|plan| plan.measure == place.of_measure.measure)?;
     let (measure, first) = (plan.measure, *plan.levels.first()?);
     (count > 0).then(|| Case {
@@ -67,47 +73,86 @@ fn below_first(evidence: &Evidence, place: &Place<'_>) -> Option<Case> {
 
 /// Ordinates that rest on motions stronger than the last level, or than the hazard curve goes.
 fn beyond_last(evidence: &Evidence, place: &Place<'_>, target_per_year: f64) -> Result<Option<Case>, UpliftError> {
-    let (count, most) = heavy(place.of_measure.upper_tail_share.block([place.site, place.poe]), &place.strengths);
     let Some(plan) = evidence.study.measures.iter().find(|plan| plan.measure == place.of_measure.measure) else {
         return Ok(None);
     };
-    let (measure, unit, end) = (plan.measure, plan.measure.unit(), place.curve.last());
-    let Some(&last) = plan.levels.last() else { return Ok(None) };
-    // what is known of the hazard ends with the curve, though levels go on
-    let (known_to, per_year) = if end.im < last {
-        (format!("the hazard curve ends at {} {unit} and goes on by extrapolation, and that", end.im), end.maf)
-    } else {
-        let per_year = place.curve.rate_at_extrapolated(last, evidence.study.risk.extrapolate)?;
-        (format!("the last level, {last} {unit},"), per_year)
-    };
-    let beyond = per_year / target_per_year;
-    if count == 0 && beyond <= BEYOND_LIMIT {
-        return Ok(None);
-    }
-    let counted = match count {
-        0 => String::new(),
-        _ => format!(
-            "{count} of {} ordinates take more than {} of their risk from above the last level, at most {}; ",
-            place.strengths.len(),
-            per_cent(TAIL_SHARE_LIMIT),
-            share(most)
-        ),
-    };
-    Ok(Some(Case {
-        severity: severity(most.max(beyond)),
-        badness: most.max(beyond),
-        subject: place.name.clone(),
-        what: format!(
-            "{counted}{known_to} is exceeded {per_year:.1e} times a year, {} of the target rate of \
-             {target_per_year:.1e}: what stronger motions do is not known, and ordinates may be too small",
-            share(beyond)
-        ),
-        what_to_do: if end.im > last {
-            format!("let {} reach further up, the hazard curve goes to {} {unit}", levels_key(measure), end.im)
+    let end = UpperEnd { plan, curve: place.curve, extrapolate: evidence.study.risk.extrapolate, target_per_year };
+    end.case(&place.name, Counted::All, &at_strengths(&place.of_measure.upper_tail_share, place))
+}
+
+/// Where the levels and the hazard curve of a measure end, and the rate that spectra are asked at.
+pub(crate) struct UpperEnd<'a> {
+    pub(crate) plan: &'a MeasurePlan,
+    pub(crate) curve: &'a HazardCurve,
+    pub(crate) extrapolate: Extrapolation,
+    pub(crate) target_per_year: f64,
+}
+
+/// Which ordinates of a spectrum are counted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Counted {
+    All,
+    /// Those of a few strengths, before a run.
+    Tried,
+}
+
+/// The one alarm of all spectra.
+pub(crate) fn alarm_of_upper_ends(cases: Vec<Case>) -> Option<Alarm> {
+    Alarm::of_cases("beyond-last-level", cases)
+}
+
+impl UpperEnd<'_> {
+    /// What is to be raised of the spectrum `name`, whose ordinates take the `shares` of their risk from above the last
+    /// level; no shares where none is tried.
+    ///
+    /// # Errors
+    /// A curve that cannot be read at the last level.
+    pub(crate) fn case(&self, name: &str, counted: Counted, shares: &[f64]) -> Result<Option<Case>, UpliftError> {
+        let &Self { plan, curve, target_per_year, .. } = self;
+        let (measure, unit, end) = (plan.measure, plan.measure.unit(), curve.last());
+        let (count, most) = heavy(shares);
+        let Some(&last) = plan.levels.last() else { return Ok(None) };
+        // what is known of the hazard ends with the curve, though levels go on
+        let (known_to, per_year) = if end.im < last {
+            (format!("the hazard curve ends at {} {unit} and goes on by extrapolation, and that", end.im), end.maf)
         } else {
-            format!("take a hazard curve that goes beyond {} {unit}, and let {} follow it", end.im, levels_key(measure))
-        },
-    }))
+            let per_year = curve.rate_at_extrapolated(last, self.extrapolate)?;
+            (format!("the last level, {last} {unit},"), per_year)
+        };
+        let beyond = per_year / target_per_year;
+        if count == 0 && beyond <= BEYOND_LIMIT {
+            return Ok(None);
+        }
+        let ordinates = match counted {
+            Counted::All => "ordinates",
+            Counted::Tried => "ordinates tried",
+        };
+        let counted = match count {
+            0 => String::new(),
+            _ => format!(
+                "{count} of {} {ordinates} take more than {} of their risk from above the last level, at most {}; ",
+                shares.len(),
+                per_cent(TAIL_SHARE_LIMIT),
+                share(most)
+            ),
+        };
+        Ok(Some(Case {
+            severity: severity(most.max(beyond)),
+            badness: most.max(beyond),
+            subject: name.to_owned(),
+            what: format!(
+                "{counted}{known_to} is exceeded {per_year:.1e} times a year, {} of the target rate of \
+                 {target_per_year:.1e}: what stronger motions do is not known, and ordinates may be too small",
+                share(beyond)
+            ),
+            what_to_do: if end.im > last {
+                format!("let {} reach further up, the hazard curve goes to {} {unit}", levels_key(measure), end.im)
+            } else {
+                let key = levels_key(measure);
+                format!("take a hazard curve that goes beyond {} {unit}, and let {key} follow it", end.im)
+            },
+        }))
+    }
 }
 
 /// Spectra that are infinite in places.

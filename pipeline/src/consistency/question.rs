@@ -11,7 +11,7 @@ use super::branches::{AskedBranch, AskedBranches};
 use crate::error::UpliftError;
 use crate::inputs::at_level::relative_factors;
 use crate::inputs::{BranchHazard, OtherHazard, RecordSet, SiteHazard};
-use crate::result::ResultFile;
+use crate::result::{ResultFile, StoredBranch};
 
 /// A record as far as consistency asks.
 #[derive(Debug, Clone)]
@@ -170,7 +170,7 @@ impl Question {
             for (site, name) in axes.sites.iter().enumerate() {
                 let own = file.branches(name, *measure)?;
                 if !own.is_empty() {
-                    let asked = |(name, weight, curve)| AskedBranch { name, weight, curve };
+                    let asked = |StoredBranch { name, weight, curve }| AskedBranch { name, weight, curve };
                     branches.insert((*measure, site), own.into_iter().map(asked).collect());
                 }
             }

@@ -21,8 +21,19 @@ pub struct StoredHazard {
 pub struct StoredCurves {
     /// The curve; the mean where there are branches.
     pub curve: HazardCurve,
-    /// Weighted alternatives, each its weight and curve; none where there is but one curve.
-    pub branches: Vec<(f64, HazardCurve)>,
+    /// Weighted alternatives; none where there is but one curve.
+    pub branches: Vec<StoredBranch>,
+}
+
+/// One of the weighted curves of a site.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StoredBranch {
+    /// Its name.
+    pub name: String,
+    /// Its weight; those of a site add up to 1.
+    pub weight: f64,
+    /// The curve.
+    pub curve: HazardCurve,
 }
 
 impl ResultFile {
@@ -31,9 +42,25 @@ impl ResultFile {
     /// # Errors
     /// A file that is damaged, or of another kind; a study without sites.
     pub fn hazard(&self) -> Result<Vec<StoredHazard>, UpliftError> {
+        self.hazard_with_branches(|_| true)
+    }
+
+    /// The same, with the weighted curves of the sites alone that `wanted` says of their positions: reading those of
+    /// many sites takes seconds.
+    ///
+    /// # Errors
+    /// As those of [`hazard`](Self::hazard).
+    pub(crate) fn hazard_with_branches(
+        &self,
+        wanted: impl Fn(usize) -> bool,
+    ) -> Result<Vec<StoredHazard>, UpliftError> {
         let axes = self.axes_with_sites()?;
         let of_measure = |measure| {
-            let sites = axes.sites.iter().map(|site| self.curves(site, measure)).collect::<Result<_, _>>()?;
+            let of_site = |(position, site): (usize, &String)| {
+                let branches = if wanted(position) { self.branches(site, measure)? } else { Vec::new() };
+                Ok(StoredCurves { curve: self.site_curve(site, measure)?, branches })
+            };
+            let sites = axes.sites.iter().enumerate().map(of_site).collect::<Result<_, UpliftError>>()?;
             Ok(StoredHazard { measure, sites })
         };
         self.measures().into_iter().map(of_measure).collect()
@@ -65,16 +92,12 @@ impl ResultFile {
         self.measures().into_iter().map(of).collect()
     }
 
-    /// The weighted curves of a site, each with its name and weight; none where it has but one curve.
-    pub(crate) fn branches(
-        &self,
-        site: &str,
-        measure: IntensityMeasure,
-    ) -> Result<Vec<(String, f64, HazardCurve)>, UpliftError> {
+    /// The weighted curves of a site; none where it has but one curve.
+    pub(crate) fn branches(&self, site: &str, measure: IntensityMeasure) -> Result<Vec<StoredBranch>, UpliftError> {
         let of_group = |group: String| {
             let (name, weight) =
                 (self.reader.attribute_text(&group, "name")?, self.reader.attribute_f64(&group, "weight")?);
-            Ok((name, weight, self.curve(&group, measure)?))
+            Ok(StoredBranch { name, weight, curve: self.curve(&group, measure)? })
         };
         (0..)
             .map(|index| hazard::branch(site, measure, index))
@@ -83,13 +106,9 @@ impl ResultFile {
             .collect()
     }
 
-    /// The curves of one site and measure.
-    pub(super) fn curves(&self, site: &str, measure: IntensityMeasure) -> Result<StoredCurves, UpliftError> {
-        let branches = self.branches(site, measure)?;
-        Ok(StoredCurves {
-            curve: self.curve(&hazard::group(site, measure), measure)?,
-            branches: branches.into_iter().map(|(_, weight, curve)| (weight, curve)).collect(),
-        })
+    /// The curve of a site; the mean where it has several.
+    pub(super) fn site_curve(&self, site: &str, measure: IntensityMeasure) -> Result<HazardCurve, UpliftError> {
+        self.curve(&hazard::group(site, measure), measure)
     }
 
     /// The curve in the group `group`.

@@ -198,10 +198,10 @@ impl ResultFile {
         let shares = self.shares_of_levels(axes.records.len(), measure, levels.len())?;
         let (mut weights, mut branches) = (Vec::new(), Vec::new());
         for site in &axes.sites {
-            let curves = self.curves(site, measure)?;
             let weigh = |curve: &HazardCurve| self.weigh(site, curve, &levels, extrapolation);
-            weights.push(weigh(&curves.curve)?);
-            let of_site = curves.branches.iter().map(|(weight, curve)| Ok((*weight, weigh(curve)?)));
+            weights.push(weigh(&self.site_curve(site, measure)?)?);
+            let of_site = self.branches(site, measure)?.into_iter();
+            let of_site = of_site.map(|branch| Ok((branch.weight, weigh(&branch.curve)?)));
             branches.push(of_site.collect::<Result<Vec<_>, UpliftError>>()?);
         }
         let exact_m = Array::from_fn([axes.sites.len(), axes.poes.len(), axes.strengths.len()], |_| 0.0);
@@ -222,7 +222,7 @@ impl ResultFile {
     ) -> Result<Vec<(f64, StripeWeights)>, UpliftError> {
         let weigh = |curve: &HazardCurve| self.weigh(site, curve, &plan.levels, extrapolation);
         let branches = self.branches(site, plan.measure)?;
-        branches.iter().map(|(_, weight, curve)| Ok((*weight, weigh(curve)?))).collect()
+        branches.iter().map(|branch| Ok((branch.weight, weigh(&branch.curve)?))).collect()
     }
 
     /// The records of each level; none where they are the same at all of them.

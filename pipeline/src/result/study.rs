@@ -77,7 +77,7 @@ impl ResultFile {
             .iter()
             .map(|plan| {
                 let weigh = |site: &String| {
-                    let curve = self.curves(site, plan.measure)?.curve;
+                    let curve = self.site_curve(site, plan.measure)?;
                     self.weigh(site, &curve, &plan.levels, study.risk.extrapolate)
                 };
                 let own = spectra.measures.iter().find(|spectra| spectra.measure == plan.measure);

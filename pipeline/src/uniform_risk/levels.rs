@@ -1,17 +1,21 @@
-//! Whether the levels of a study begin low enough for its targets, tried on a few of its strengths.
+//! Whether the levels of a study begin low enough and end high enough for its targets, tried on a few of its strengths.
 //!
 //! Below the first level the fragility falls in a straight line (docs/method.md, section 6), so that an ordinate which
 //! rests on motions weaker than that comes out too large. How much of its risk lies there the responses alone can say,
-//! and a few strengths are quickly analysed: the shares are those that a run would report.
+//! and a few strengths are quickly analysed: the shares are those that a run would report. Above the last level the
+//! share of runs that exceed stays as it is there, though stronger motions may do more: what a run would raise of that
+//! is raised before it, as far as these strengths tell.
 
 use serde::Serialize;
 use uplift_fragility::Stripes as Stripe;
+use uplift_hazard::rate_from_probability;
 use uplift_ida::{Axes, System, Unwatched, analyse};
 use uplift_risk::{PooledDemand, RiskCurve, StripeWeights, TAIL_SHARE_LIMIT};
 use uplift_study::{Grid, MeasurePlan, UniformRiskStudy, lower_starts};
 
 use super::plan_stripes;
 use super::spectra::Reading;
+use crate::alarms::{Case, Counted, UpperEnd};
 use crate::error::UpliftError;
 use crate::inputs::{RecordSet, SiteHazard};
 use crate::text::risk_name;
@@ -21,7 +25,7 @@ const TRIED: usize = 4;
 /// Analyses that a trial may take: more records than this allows are not tried.
 const MOST_ANALYSES: usize = 300_000;
 
-/// How far down the levels of one measure reach.
+/// How far down and up the levels of one measure reach.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LevelCheck {
     /// `PGV` or `PGA`.
@@ -38,6 +42,10 @@ pub struct LevelCheck {
     pub too_high_for: Vec<String>,
     /// Levels that would do; none where these do, or where the hazard curves begin too high themselves.
     pub proposal: Option<LevelProposal>,
+    /// The last level.
+    pub last_level: f64,
+    /// The largest share of the risk of an ordinate that comes from above the last level, 0 to 1.
+    pub upper_tail_share: f64,
 }
 
 /// Levels that begin lower.
@@ -53,69 +61,65 @@ pub struct LevelProposal {
 struct Trial<'a> {
     study: &'a UniformRiskStudy,
     hazard: &'a [SiteHazard],
+    /// First levels that may be proposed, the highest first.
+    starts: Vec<f64>,
+    /// Positions of the strengths.
+    tried: Vec<usize>,
     levels: Grid,
     axes: Axes,
     edp_m: Vec<f64>,
     reading: Reading,
 }
 
-/// Tries the levels of `measure`; none where there is no hazard curve to try them by, the records are too many, or each
-/// level has records of its own.
+/// One of the spectra that a trial looks at: what its ordinates take from outside the levels, one share a strength.
+struct Tails<'a> {
+    site: &'a SiteHazard,
+    poe: f64,
+    lower: Vec<f64>,
+    upper: Vec<f64>,
+}
+
+impl Tails<'_> {
+    /// `50 % at Athens`.
+    fn in_words(&self, study: &UniformRiskStudy) -> String {
+        format!("{} at {}", risk_name(self.poe, study.risk.years), self.site.site)
+    }
+}
+
+/// Tries the levels of `measure`: what a run would take from outside them, and what is to be raised of their upper end
+/// as far as the strengths tried tell.
+///
+/// Not tried where there is no hazard curve to try them by, the records are too many, or each level has records of its
+/// own; of their upper end the hazard alone says something then.
 ///
 /// # Errors
 /// A record that cannot be scaled.
 pub(super) fn check_levels(
     study: &UniformRiskStudy,
     measure: &MeasurePlan,
-    (records, systems): (&RecordSet, &[System]),
+    inputs: (&RecordSet, &[System]),
     hazard: &[SiteHazard],
-) -> Result<Option<LevelCheck>, UpliftError> {
-    if records.at_level.is_some() {
-        // nobody knows the records of levels that are not there
-        return Ok(None);
-    }
-    let first = measure.levels[0];
-    // below the foot of any curve a level would be refused
-    let curves = hazard.iter().flat_map(|site| {
-        let branches = site.branches.iter().map(|branch| &branch.input);
-        std::iter::once(&site.curve).chain(branches).map(|input| input.curve.first().im)
-    });
-    let Some(least) = curves.reduce(f64::max) else { return Ok(None) };
-    let starts = lower_starts(first, least);
-    let widest = match starts.last() {
-        Some(&start) => measure.starting_at(start).map_err(|error| UpliftError::input(error.to_string()))?,
-        None => measure.clone(),
+) -> Result<(Option<LevelCheck>, Vec<Case>), UpliftError> {
+    let Some(trial) = Trial::of(study, measure, inputs, hazard)? else {
+        return Ok((None, upper_end(study, measure, &untried(study, hazard))?));
     };
-    let tried: Vec<usize> = tried(&study.strengths);
-    if tried.is_empty() || records.records.len() * tried.len() * widest.levels.len() > MOST_ANALYSES {
-        return Ok(None);
-    }
-    let oscillators: Vec<System> = tried.iter().map(|&strength| systems[strength].clone()).collect();
-    let plan = plan_stripes(study, &widest, records, &oscillators)?;
-    let peaks = analyse(&plan, &Unwatched)?;
-    let trial = Trial {
-        study,
-        hazard,
-        levels: widest.levels.clone(),
-        axes: peaks.axes(),
-        edp_m: peaks.displacement_m().to_vec(),
-        reading: Reading::of(study)?,
-    };
-
-    let own = trial.lower_shares(first)?;
-    let worst = |shares: &[(f64, String)]| shares.first().map_or(0.0, |(share, _)| *share);
+    let own = trial.tails(measure.levels[0])?;
+    let mut below: Vec<(f64, String)> = own.iter().map(|tails| (most(&tails.lower), tails.in_words(study))).collect();
+    below.sort_by(|a, b| b.0.total_cmp(&a.0));
     let mut check = LevelCheck {
         im: measure.measure.label(),
         unit: measure.measure.unit(),
-        first_level: first,
-        strengths: tried.iter().map(|&strength| study.strengths[strength]).collect(),
-        lower_tail_share: worst(&own),
-        too_high_for: own.into_iter().filter(|(share, _)| *share > TAIL_SHARE_LIMIT).map(|(_, name)| name).collect(),
+        first_level: measure.levels[0],
+        strengths: trial.tried.iter().map(|&strength| study.strengths[strength]).collect(),
+        lower_tail_share: below.first().map_or(0.0, |(share, _)| *share),
+        too_high_for: below.into_iter().filter(|(share, _)| *share > TAIL_SHARE_LIMIT).map(|(_, name)| name).collect(),
         proposal: None,
+        last_level: measure.levels[measure.levels.len() - 1],
+        upper_tail_share: own.iter().map(|tails| most(&tails.upper)).fold(0.0, f64::max),
     };
     if !check.too_high_for.is_empty() {
-        for start in starts {
-            let lower_tail_share = worst(&trial.lower_shares(start)?);
+        for &start in &trial.starts {
+            let lower_tail_share = trial.tails(start)?.iter().map(|tails| most(&tails.lower)).fold(0.0, f64::max);
             if lower_tail_share <= TAIL_SHARE_LIMIT {
                 let lowered = measure.starting_at(start).map_err(|error| UpliftError::input(error.to_string()))?;
                 check.proposal = Some(LevelProposal { line: lowered.line(), lower_tail_share });
@@ -123,7 +127,34 @@ pub(super) fn check_levels(
             }
         }
     }
-    Ok(Some(check))
+    Ok((Some(check), upper_end(study, measure, &own)?))
+}
+
+fn most(shares: &[f64]) -> f64 {
+    shares.iter().copied().fold(0.0, f64::max)
+}
+
+/// The spectra of a study of which nothing is analysed.
+fn untried<'a>(study: &UniformRiskStudy, hazard: &'a [SiteHazard]) -> Vec<Tails<'a>> {
+    let of = |site| move |&poe: &f64| Tails { site, poe, lower: Vec::new(), upper: Vec::new() };
+    hazard.iter().flat_map(|site| study.risk.poe.iter().map(of(site))).collect()
+}
+
+/// What is to be raised of the last level of `measure`.
+fn upper_end(study: &UniformRiskStudy, measure: &MeasurePlan, spectra: &[Tails<'_>]) -> Result<Vec<Case>, UpliftError> {
+    let mut cases = Vec::new();
+    for tails in spectra {
+        let end = UpperEnd {
+            plan: measure,
+            curve: &tails.site.curve.curve,
+            extrapolate: study.risk.extrapolate,
+            target_per_year: rate_from_probability(tails.poe, study.risk.years)?,
+        };
+        let risk = risk_name(tails.poe, study.risk.years);
+        let name = format!("{}, {}, {risk}", tails.site.site, measure.measure.label());
+        cases.extend(end.case(&name, Counted::Tried, &tails.upper)?);
+    }
+    Ok(cases)
 }
 
 /// Positions of the strengths to try: spread evenly, with the largest, without that of a free mass.
@@ -137,36 +168,70 @@ fn tried(strengths: &[f64]) -> Vec<usize> {
     positions
 }
 
-impl Trial<'_> {
-    /// What comes from below the first level if that is `start`: the largest share over the strengths, of each
-    /// probability and site, largest first.
-    fn lower_shares(&self, start: f64) -> Result<Vec<(f64, String)>, UpliftError> {
+impl<'a> Trial<'a> {
+    /// The peaks of the strengths tried; none where the levels cannot be tried.
+    fn of(
+        study: &'a UniformRiskStudy,
+        measure: &MeasurePlan,
+        (records, systems): (&RecordSet, &[System]),
+        hazard: &'a [SiteHazard],
+    ) -> Result<Option<Self>, UpliftError> {
+        if records.at_level.is_some() {
+            // nobody knows the records of levels that are not there
+            return Ok(None);
+        }
+        let first = measure.levels[0];
+        // below the foot of any curve a level would be refused
+        let curves = hazard.iter().flat_map(|site| {
+            let branches = site.branches.iter().map(|branch| &branch.input);
+            std::iter::once(&site.curve).chain(branches).map(|input| input.curve.first().im)
+        });
+        let Some(least) = curves.reduce(f64::max) else { return Ok(None) };
+        let starts = lower_starts(first, least);
+        let widest = match starts.last() {
+            Some(&start) => measure.starting_at(start).map_err(|error| UpliftError::input(error.to_string()))?,
+            None => measure.clone(),
+        };
+        let tried: Vec<usize> = tried(&study.strengths);
+        if tried.is_empty() || records.records.len() * tried.len() * widest.levels.len() > MOST_ANALYSES {
+            return Ok(None);
+        }
+        let oscillators: Vec<System> = tried.iter().map(|&strength| systems[strength].clone()).collect();
+        let plan = plan_stripes(study, &widest, records, &oscillators)?;
+        let peaks = analyse(&plan, &Unwatched)?;
+        Ok(Some(Self {
+            study,
+            hazard,
+            starts,
+            tried,
+            levels: widest.levels.clone(),
+            axes: peaks.axes(),
+            edp_m: peaks.displacement_m().to_vec(),
+            reading: Reading::of(study)?,
+        }))
+    }
+
+    /// What the spectra of each site and probability take from outside the levels if the first is `start`.
+    fn tails(&self, start: f64) -> Result<Vec<Tails<'a>>, UpliftError> {
         let dropped = self.levels.partition_point(|level| *level < start * (1.0 - 1e-9));
         let levels = &self.levels[dropped..];
         let Axes { motions, systems, scales } = self.axes;
         let weights =
             |site: &SiteHazard| StripeWeights::from_hazard(&site.curve.curve, levels, self.study.risk.extrapolate);
         let weights = self.hazard.iter().map(weights).collect::<Result<Vec<_>, _>>()?;
-        let mut shares = vec![vec![0.0_f64; self.study.risk.poe.len()]; self.hazard.len()];
+        let mut all = untried(self.study, self.hazard);
         for system in 0..systems {
             let edp_m = &self.edp_m[system * scales + dropped..];
             let demand = PooledDemand::new(&Stripe::strided(levels, edp_m, motions, systems * scales)?)?;
-            for (weights, shares) in weights.iter().zip(&mut shares) {
+            for (weights, of_site) in weights.iter().zip(all.chunks_mut(self.study.risk.poe.len())) {
                 let ordinates = self.reading.ordinates(&RiskCurve::new(&demand, weights)?)?;
-                for (share, ordinate) in shares.iter_mut().zip(ordinates) {
-                    *share = share.max(ordinate.lower_tail_share);
+                for (tails, ordinate) in of_site.iter_mut().zip(ordinates) {
+                    tails.lower.push(ordinate.lower_tail_share);
+                    tails.upper.push(ordinate.upper_tail_share);
                 }
             }
         }
-        let named = |(site, shares): (&SiteHazard, Vec<f64>)| {
-            let name = |(share, poe): (f64, &f64)| {
-                (share, format!("{} at {}", risk_name(*poe, self.study.risk.years), site.site))
-            };
-            shares.into_iter().zip(&self.study.risk.poe).map(name).collect::<Vec<_>>()
-        };
-        let mut shares: Vec<(f64, String)> = self.hazard.iter().zip(shares).flat_map(named).collect();
-        shares.sort_by(|a, b| b.0.total_cmp(&a.0));
-        Ok(shares)
+        Ok(all)
     }
 }
 

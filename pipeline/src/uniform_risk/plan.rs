@@ -8,7 +8,9 @@ use uplift_study::{MeasurePlan, UniformRiskStudy};
 
 use super::levels::{LevelCheck, check_levels};
 use super::{plan_own_stripes, site_table, systems, systems_under};
-use crate::alarms::{OF_FAR_FACTORS, look_like_probabilities, what_of_probabilities};
+use crate::alarms::{
+    Alarm, OF_FAR_FACTORS, alarm_of_probabilities, alarm_of_upper_ends, probabilities_for_rates, ranked,
+};
 use crate::analysis::seconds;
 use crate::consistency::{Answer, ConsistencyReport};
 use crate::error::UpliftError;
@@ -26,10 +28,12 @@ pub struct Plan {
     /// What every kind tells.
     #[serde(flatten)]
     pub head: PlanHead,
-    /// How far down the levels of each measure reach, where sites say what the study is for.
+    /// How far down and up the levels of each measure reach, where sites say what the study is for.
     pub levels: Vec<LevelCheck>,
     /// Whether the records bring the hazard of the other measure.
     pub consistency: ConsistencyReport,
+    /// What a run would raise of the hazard curves, and of the last levels as far as they were tried, the worst first.
+    pub alarms: Vec<Alarm>,
 }
 
 /// Reads and checks all inputs of `study`, and times some of its analyses.
@@ -42,7 +46,6 @@ pub(crate) fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Eve
     let records = read_records(study, events)?;
     let own_systems = systems_under(study, &records)?;
     notes.splice(0..0, study.warnings.iter().map(ToString::to_string));
-    notes.extend(suspicious(&hazard));
     notes.extend(records.notes.iter().cloned());
     let far = |at_level: &AtLevel| at_level.far_factors(&records.records, study.measures.first()?);
     notes.extend(records.at_level.as_ref().and_then(far).map(|what| format!("{what}: {OF_FAR_FACTORS}")));
@@ -51,9 +54,11 @@ pub(crate) fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Eve
         .map(|measure| plan_own_stripes(study, measure, &records, &own_systems))
         .collect::<Result<Vec<_>, _>>()?;
     let (motions, systems) = (records.clone().without_structures(), systems(study)?);
-    let mut levels = Vec::new();
+    let (mut levels, mut upper_ends) = (Vec::new(), Vec::new());
     for (measure, hazard) in study.measures.iter().zip(&hazard) {
-        levels.extend(check_levels(study, measure, (&motions, &systems), hazard)?);
+        let (tried, cases) = check_levels(study, measure, (&motions, &systems), hazard)?;
+        levels.extend(tried);
+        upper_ends.extend(cases);
     }
     let seconds = seconds(&plans, CALIBRATION * u32::try_from(plans.len()).unwrap_or(u32::MAX));
     let needs = needs(study, &records, site_list.as_ref());
@@ -71,19 +76,17 @@ pub(crate) fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Eve
         notes,
     };
     let consistency = Answer::of_plan(study, &records, (&hazard, &other_hazard))?.report(&[]);
-    Ok(Plan { head, levels, consistency })
+    let alarms = of_probabilities(&hazard).into_iter().chain(alarm_of_upper_ends(upper_ends)).collect();
+    Ok(Plan { head, levels, consistency, alarms: ranked(alarms) })
 }
 
 /// Curves whose rates look like probabilities.
-fn suspicious(hazard: &[Vec<SiteHazard>]) -> Vec<String> {
-    let curves = |site: &SiteHazard| {
-        let branches = site.branches.iter().map(|branch| &branch.input);
-        std::iter::once(&site.curve).chain(branches).any(|input| look_like_probabilities(&input.curve))
+fn of_probabilities(hazard: &[Vec<SiteHazard>]) -> Option<Alarm> {
+    let case = |site: &SiteHazard| {
+        let branches = site.branches.iter().map(|branch| (branch.name.as_str(), &branch.input.curve));
+        probabilities_for_rates((&site.site, site.measure), &site.curve.curve, branches)
     };
-    let sites = hazard.iter().flatten().filter(|site| curves(site));
-    sites
-        .map(|site| format!("{}, {}: {}", site.site, site.measure.label(), what_of_probabilities(&site.curve.curve)))
-        .collect()
+    alarm_of_probabilities(hazard.iter().flatten().filter_map(case).collect())
 }
 
 /// What a run of `study` takes.

@@ -4,7 +4,7 @@ use std::io::Write;
 
 use uplift::Plan;
 use uplift::machine::Limit;
-use uplift::text::{bytes, thousands};
+use uplift::text::{bytes, share, thousands};
 use uplift::uniform_risk::LevelCheck;
 use uplift_study::AnyStudy;
 
@@ -65,6 +65,11 @@ pub(crate) fn print_plan(plan: &Plan, study: &AnyStudy, terminal: &Terminal) -> 
         there(&room.disk_free, "that are free"),
         head.output.display()
     )?;
+    if let Plan::UniformRisk(plan) = plan {
+        for alarm in &plan.alarms {
+            writeln!(out, "{:<8}  {alarm}: {}", alarm.severity.word(), alarm.what_to_do)?;
+        }
+    }
     for note in &room.tight {
         writeln!(out, "note      {note}")?;
     }
@@ -77,16 +82,16 @@ pub(crate) fn print_plan(plan: &Plan, study: &AnyStudy, terminal: &Terminal) -> 
     Ok(())
 }
 
-/// How far down the levels of a measure reach, and a line for the study where that is not far enough.
+/// How far down and up the levels of a measure reach, and a line for the study where that is not far enough.
 fn levels(check: &LevelCheck) -> String {
-    let share = |share: f64| format!("{:.1} %", 100.0 * share);
-    let LevelCheck { im, unit, first_level, lower_tail_share, too_high_for, .. } = check;
+    let LevelCheck { im, unit, first_level, lower_tail_share, last_level, upper_tail_share, too_high_for, .. } = check;
     let strengths: Vec<String> = check.strengths.iter().map(|strength| format!("{strength:.3}")).collect();
     let found = format!(
-        "{im}: at the strengths {} up to {} of the risk of an ordinate lies below the first, {first_level} {unit}; \
-         others were not tried",
+        "{im}: at the strengths {} up to {} of the risk of an ordinate lies below the first level, {first_level} \
+         {unit}, and up to {} above the last, {last_level} {unit}; other strengths were not tried",
         strengths.join(", "),
-        share(*lower_tail_share)
+        share(*lower_tail_share),
+        share(*upper_tail_share)
     );
     let Some(worst) = too_high_for.first() else { return found };
     let others = match too_high_for.len() {
@@ -100,7 +105,7 @@ fn levels(check: &LevelCheck) -> String {
         }
         None => "the hazard curves begin too high to begin lower: take curves from further down".to_owned(),
     };
-    format!("{found}; too high for {worst}{others}, whose ordinates come out too large; {remedy}")
+    format!("{found}; the first is too high for {worst}{others}, whose ordinates come out too large; {remedy}")
 }
 
 /// A time for people.

@@ -162,6 +162,10 @@ pub(super) fn initiation(source: &FigureSource) -> Option<Figure> {
     let poe = (0..stored.poes.len()).max_by(|&a, &b| stored.poes[a].total_cmp(&stored.poes[b]))?;
     let top = 4.0 * stored.uplift_displacement_m;
     let panels = together(source, Of::Plain, poe, &Axis::linear(DISPLACEMENT).between(0.0, top), Some(top))?;
+    // where the medians stay above, there is nothing to see
+    if panels.iter().flat_map(|panel| &panel.series).all(|line| line.points.is_empty()) {
+        return None;
+    }
     let caption = format!(
         "Spectra of {} near the uplift displacement of {} m, for the largest sample (Fig. 4.10).",
         risk_in_words(stored.poes[poe], stored.years),

@@ -19,7 +19,7 @@ pub(super) fn hazard(source: &FigureSource) -> Figure {
     let panel = |hazard: &StoredHazard| {
         let lines = |site: usize| {
             let curves = &hazard.sites[site];
-            let branches = curves.branches.iter().take(MOST_BRANCHES).map(|(_, curve)| curve);
+            let branches = curves.branches.iter().take(MOST_BRANCHES).map(|branch| &branch.curve);
             std::iter::once(&curves.curve).chain(branches).enumerate().map(move |(place, curve)| {
                 let points = curve.points().map(|point| (point.im, point.maf)).collect();
                 let own = source.stored.sites[site].as_str();

@@ -1,12 +1,16 @@
 //! A probability as it is typed.
 
-/// Reads `0.1`, `10%` or `10 %`, whatever the number.
+/// Reads `0.1`, `10%` or `10 %`. What it may be is said where it is used, but per cent outside 0 to 100 are refused
+/// here: there `150%` would be called 1.5.
 pub(crate) fn number_or_per_cent(text: &str) -> Result<f64, String> {
-    let (number, unit) = match text.trim().strip_suffix('%') {
-        Some(number) => (number.trim_end(), 100.0),
-        None => (text.trim(), 1.0),
-    };
-    Ok(number.parse::<f64>().map_err(|_| "write a probability, 0.1 or 10%".to_owned())? / unit)
+    let value = |number: &str| number.trim().parse::<f64>().map_err(|_| "write a probability, 0.1 or 10%".to_owned());
+    let Some(number) = text.trim().strip_suffix('%') else { return value(text) };
+    let per_cent = value(number)?;
+    if per_cent > 0.0 && per_cent < 100.0 {
+        Ok(per_cent / 100.0)
+    } else {
+        Err("a probability lies between 0 and 100 %".to_owned())
+    }
 }
 
 /// Reads a probability: `0.1`, `10%` or `10 %`.
@@ -33,9 +37,12 @@ mod tests {
         {
             assert_eq!(probability(text), Ok(value), "{text}");
         }
-        for (text, words) in
-            [("10", "10 per cent is 10%"), ("0", "between 0 and 1"), ("200%", "between"), ("x", "0.1 or 10%")]
-        {
+        for (text, words) in [
+            ("10", "10 per cent is 10%"),
+            ("0", "between 0 and 1"),
+            ("200%", "between 0 and 100 %"),
+            ("x", "0.1 or 10%"),
+        ] {
             assert!(probability(text).is_err_and(|error| error.contains(words)), "{text}");
         }
     }
