@@ -44,6 +44,24 @@ pub fn run(study: &SmallStudy, rows: &str) -> String {
 }
 
 #[test]
+fn a_check_looks_at_the_last_level_by_the_hazard_alone() {
+    let study = study();
+    let mut rows = "record_id,pgv_cm_s\n".to_owned();
+    for record in plain(&study) {
+        for level in &LEVELS[..4] {
+            writeln!(rows, "{record},{level}").unwrap();
+        }
+    }
+    study.write("sets.csv", &rows);
+    let set = ["--set", "records.at_level=sets.csv", "--set", "pgv.levels_cm_s=[1, 3, 10, 30]"];
+    let said = study.uplift(&[&["check", "study.toml"], &set[..]].concat()).ok().stdout;
+    let caution =
+        said.lines().find(|line| line.starts_with("caution   Here, PGV, 2 %")).unwrap_or_else(|| panic!("{said}"));
+    assert!(caution.contains("the last level, 30 cm/s, is exceeded 2.2e-4 times a year"), "{caution}");
+    assert!(!said.contains("ordinates tried") && !said.contains("levels    PGV"), "{said}");
+}
+
+#[test]
 fn a_table_of_all_records_at_all_levels_is_the_plain_study() {
     let study = study();
     let records = plain(&study);
