@@ -26,10 +26,9 @@ fn of_a_run(study: &SmallStudy, set: &[&str], strengths: &[f64]) -> [f64; 2] {
     study.uplift(&[&["run", "study.toml", "--force", "-o", "r.h5", "-q"], set].concat()).ok();
     let csv = std::fs::read_to_string(study.path().join("r.urs.csv")).unwrap();
     assert!(csv.lines().next().unwrap().ends_with("lower_tail_share,upper_tail_share"), "{csv}");
-    let rows = csv.lines().skip(1).map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>());
-    let is_tried = |cells: &Vec<String>| {
-        strengths.iter().any(|strength| (cells[4].parse::<f64>().unwrap() - strength).abs() < 1e-9)
-    };
+    let rows = csv.lines().skip(1).map(|line| line.split(',').collect::<Vec<_>>());
+    let is_tried =
+        |cells: &Vec<&str>| strengths.iter().any(|strength| (cells[4].parse::<f64>().unwrap() - strength).abs() < 1e-9);
     let rows: Vec<_> = rows.filter(is_tried).collect();
     [7, 8].map(|column| rows.iter().map(|cells| cells[column].parse().unwrap()).fold(0.0, f64::max))
 }

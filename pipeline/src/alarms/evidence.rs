@@ -52,6 +52,11 @@ impl Scope {
     }
 }
 
+/// `Athens, PGV, 2 %`.
+pub(crate) fn spectrum_name(site: &str, measure: IntensityMeasure, (poe, years): (f64, f64)) -> String {
+    format!("{site}, {}, {}", measure.label(), risk_name(poe, years))
+}
+
 /// One spectrum within a scope.
 pub(super) struct Place<'a> {
     pub(super) of_measure: &'a MeasureSpectra,
@@ -103,8 +108,7 @@ impl Evidence {
     /// `Athens, PGV, 2 %`.
     pub(super) fn name(&self, site: usize, measure: IntensityMeasure, poe: usize) -> String {
         let spectra = &self.spectra;
-        let risk = risk_name(spectra.poes[poe], spectra.years);
-        format!("{}, {}, {risk}", spectra.sites[site], measure.label())
+        spectrum_name(&spectra.sites[site], measure, (spectra.poes[poe], spectra.years))
     }
 
     /// Target rate of a probability, 1/yr (Eq. 4.8).

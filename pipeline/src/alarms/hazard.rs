@@ -6,6 +6,8 @@ use uplift_motion::IntensityMeasure;
 use super::evidence::{Evidence, Scope};
 use super::{Alarm, Case, Severity};
 
+/// The kind of the alarm.
+pub(crate) const PROBABILITIES: &str = "hazard-probabilities";
 /// A probability saturates at 1, and a rate goes on rising: a curve that begins between this and 1 …
 const NEARLY_CERTAIN: f64 = 0.9;
 /// … and hardly falls, by less than this power of the intensity, where rates fall by its first power or so.
@@ -60,11 +62,6 @@ pub(crate) fn probabilities_for_rates<'a>(
     })
 }
 
-/// The one alarm of all sites.
-pub(crate) fn alarm(cases: Vec<Case>) -> Option<Alarm> {
-    Alarm::of_cases("hazard-probabilities", cases)
-}
-
 pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
     let mut cases = Vec::new();
     for hazard in &evidence.hazard {
@@ -76,7 +73,7 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
             }
         }
     }
-    alarm(cases)
+    Alarm::of_cases(PROBABILITIES, cases)
 }
 
 #[cfg(test)]

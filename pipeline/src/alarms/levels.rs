@@ -10,6 +10,8 @@ use crate::array::Array;
 use crate::error::UpliftError;
 use crate::text::{per_cent, share};
 
+/// The kind of the alarm about the last level.
+pub(crate) const BEYOND_LAST_LEVEL: &str = "beyond-last-level";
 /// From this share of the target rate on, motions above the last level may matter though few records exceed the
 /// ordinate there: the risk integral goes on with the share of the last level (Eq. 4.4), and the truth may be all.
 const BEYOND_LIMIT: f64 = 0.1;
@@ -26,7 +28,7 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Result<Vec<Alarm>, U
         zero.extend(never_exceeded(&place, &evidence.spectra.strengths, target_per_year));
     }
     let kinds =
-        [("censored", censored), ("no-exceedance", zero), ("beyond-last-level", beyond), ("below-first-level", below)];
+        [("censored", censored), ("no-exceedance", zero), (BEYOND_LAST_LEVEL, beyond), ("below-first-level", below)];
     Ok(kinds.into_iter().filter_map(|(kind, cases)| Alarm::of_cases(kind, cases)).collect())
 }
 
@@ -94,11 +96,6 @@ pub(crate) enum Counted {
     All,
     /// Those of a few strengths, before a run.
     Tried,
-}
-
-/// The one alarm of all spectra.
-pub(crate) fn alarm_of_upper_ends(cases: Vec<Case>) -> Option<Alarm> {
-    Alarm::of_cases("beyond-last-level", cases)
 }
 
 impl UpperEnd<'_> {

@@ -15,7 +15,7 @@ use uplift_study::{Grid, MeasurePlan, UniformRiskStudy, lower_starts};
 
 use super::plan_stripes;
 use super::spectra::Reading;
-use crate::alarms::{Case, Counted, UpperEnd};
+use crate::alarms::{Case, Counted, UpperEnd, spectrum_name};
 use crate::error::UpliftError;
 use crate::inputs::{RecordSet, SiteHazard};
 use crate::text::risk_name;
@@ -150,8 +150,7 @@ fn upper_end(study: &UniformRiskStudy, measure: &MeasurePlan, spectra: &[Tails<'
             extrapolate: study.risk.extrapolate,
             target_per_year: rate_from_probability(tails.poe, study.risk.years)?,
         };
-        let risk = risk_name(tails.poe, study.risk.years);
-        let name = format!("{}, {}, {risk}", tails.site.site, measure.measure.label());
+        let name = spectrum_name(&tails.site.site, measure.measure, (tails.poe, study.risk.years));
         cases.extend(end.case(&name, Counted::Tried, &tails.upper)?);
     }
     Ok(cases)

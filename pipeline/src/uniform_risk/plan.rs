@@ -8,9 +8,7 @@ use uplift_study::{MeasurePlan, UniformRiskStudy};
 
 use super::levels::{LevelCheck, check_levels};
 use super::{plan_own_stripes, site_table, systems, systems_under};
-use crate::alarms::{
-    Alarm, OF_FAR_FACTORS, alarm_of_probabilities, alarm_of_upper_ends, probabilities_for_rates, ranked,
-};
+use crate::alarms::{Alarm, BEYOND_LAST_LEVEL, OF_FAR_FACTORS, PROBABILITIES, probabilities_for_rates, ranked};
 use crate::analysis::seconds;
 use crate::consistency::{Answer, ConsistencyReport};
 use crate::error::UpliftError;
@@ -76,7 +74,7 @@ pub(crate) fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Eve
         notes,
     };
     let consistency = Answer::of_plan(study, &records, (&hazard, &other_hazard))?.report(&[]);
-    let alarms = of_probabilities(&hazard).into_iter().chain(alarm_of_upper_ends(upper_ends)).collect();
+    let alarms = of_probabilities(&hazard).into_iter().chain(Alarm::of_cases(BEYOND_LAST_LEVEL, upper_ends)).collect();
     Ok(Plan { head, levels, consistency, alarms: ranked(alarms) })
 }
 
@@ -86,7 +84,7 @@ fn of_probabilities(hazard: &[Vec<SiteHazard>]) -> Option<Alarm> {
         let branches = site.branches.iter().map(|branch| (branch.name.as_str(), &branch.input.curve));
         probabilities_for_rates((&site.site, site.measure), &site.curve.curve, branches)
     };
-    alarm_of_probabilities(hazard.iter().flatten().filter_map(case).collect())
+    Alarm::of_cases(PROBABILITIES, hazard.iter().flatten().filter_map(case).collect())
 }
 
 /// What a run of `study` takes.

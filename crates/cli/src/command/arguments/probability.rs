@@ -19,11 +19,7 @@ pub(crate) fn probability(text: &str) -> Result<f64, String> {
     if value > 0.0 && value < 1.0 {
         return Ok(value);
     }
-    let hint = if !text.contains('%') && value > 1.0 && value < 100.0 {
-        format!("; {value} per cent is {value}%")
-    } else {
-        String::new()
-    };
+    let hint = if value > 1.0 && value < 100.0 { format!("; {value} per cent is {value}%") } else { String::new() };
     Err(format!("a probability lies between 0 and 1{hint}"))
 }
 
