@@ -22,8 +22,8 @@ ifeq ($(wildcard $(or $(CARGO_TARGET_DIR),$(CARGO_BUILD_TARGET_DIR),target)/debu
 export CARGO_INCREMENTAL ?= 0
 endif
 
-.PHONY: run build install wheel dist test test-long check test-cluster torture doc-figures lint docs python sbom \
-	notices bench fuzz clean
+.PHONY: run build install wheel dist test tests-built test-long check test-cluster torture doc-figures lint docs \
+	python sbom notices bench fuzz clean
 
 run: build
 	$(UPLIFT) run $(STUDY) $(SET) -o $(OUTPUT)
@@ -48,9 +48,13 @@ install: build
 doc-figures:
 	UPDATE_DOCS=1 cargo test --locked --workspace --test end_to_end figures:: -- --include-ignored
 
-# Crates, the built program, its result file from Python.
-test: python
-	cargo test --locked --workspace
+# Crates, the built program, its result file from Python; the packages for that arrive while the tests are compiled.
+test:
+	@$(MAKE) --no-print-directory --jobs python tests-built
+	cargo test --locked --workspace --tests
+
+tests-built:
+	cargo test --locked --workspace --tests --no-run
 
 # The tests of the built program that take two seconds and more, longer than all others together.
 LONG_TESTS = $(shell grep -rhA1 'ignore = "long' tests | sed -n 's/^.*fn \([a-z0-9_]*\).*/\1/p')
@@ -88,8 +92,10 @@ lint:
 	cargo fmt --manifest-path python/Cargo.toml --check
 	cargo clippy --locked --workspace --all-targets -- -D warnings
 
+# Without warnings, and every example in it runs.
 docs:
 	RUSTDOCFLAGS="-D warnings" cargo doc --locked --workspace --no-deps
+	cargo test --locked --workspace --doc
 
 # Python reads the result files in the tests; without it those tests say that they were skipped.
 python:

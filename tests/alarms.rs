@@ -229,7 +229,8 @@ fn numbers_in_other_units_are_taken_and_told() {
         ("pgv.levels_cm_s=[0.6, 1, 2]", "the highest of pgv.levels_cm_s is 2 cm/s; usual is"),
     ] {
         let said = study.uplift(&["check", "study.toml", "-q", "--set", setting]).ok().stdout;
-        assert!(said.contains(words), "{words}:\n{said}");
+        assert!(said.contains(&format!("mistake?  study: {words}")), "{words}:\n{said}");
+        assert!(said.ends_with("See first what is marked mistake? and caution above.\n"), "{said}");
     }
     let run =
         json(&study, &["run", "study.toml", "-o", "r.h5", "--json", "--set", "strengths.values=[0.2, 5, 10, 40]"]);

@@ -59,7 +59,9 @@ pub struct PlanHead {
     pub room: Room,
     /// The result file.
     pub output: PathBuf,
-    /// What to know before running it.
+    /// What a run would raise, as far as it can be known before, the worst first.
+    pub alarms: Vec<Alarm>,
+    /// What else to know before running it.
     pub notes: Vec<String>,
 }
 

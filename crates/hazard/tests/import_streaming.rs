@@ -1,10 +1,14 @@
 //! Many sites at flat memory.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+mod cost;
+
 use std::fmt::Write as _;
 use std::io::{self, BufReader, Read};
 
 use uplift_hazard::ExportedCurves;
+
+use cost::peak_bytes;
 
 const SITES: usize = 30_000;
 const LEVELS: usize = 60;
@@ -44,13 +48,6 @@ impl Read for Generated {
         self.bytes += count;
         Ok(count)
     }
-}
-
-/// The most memory this process has had, bytes.
-fn peak_bytes() -> Option<usize> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
-    Some(1024 * line.trim().strip_suffix("kB")?.trim().parse::<usize>().ok()?)
 }
 
 #[test]

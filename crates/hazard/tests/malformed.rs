@@ -2,7 +2,9 @@
 //! proportion to them.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use std::io::{self, Cursor, Read, Write};
+mod cost;
+
+use std::io::{Cursor, Write};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -11,6 +13,8 @@ use uplift_hazard::{
     CsvOptions, ExportedCurves, HazardCurve, HazardError, SiteSelection, read_csv, read_export, read_path,
     read_realization_weights,
 };
+
+use cost::{bombs, peak_bytes};
 
 /// What a file can be read as.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -196,24 +200,12 @@ fn packed_files_that_are_cut_are_refused() {
     }
 }
 
-/// The most memory this process has had, bytes; the tests of this file run in it one beside the other.
-fn peak_bytes() -> Option<usize> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
-    Some(1024 * line.trim().strip_suffix("kB")?.trim().parse::<usize>().ok()?)
-}
-
 /// Files made to cost much more than they weigh.
 #[test]
 fn hostile_files_cost_little() {
     let before = peak_bytes();
     let begin = Instant::now();
-    // 100 MB packed into 100 kB.
-    for byte in *b"\0<{[1, \n#" {
-        let mut bomb = GzEncoder::new(Vec::new(), Compression::best());
-        io::copy(&mut io::repeat(byte).take(100 << 20), &mut bomb).unwrap();
-        let bomb = bomb.finish().unwrap();
-        assert!(bomb.len() < 200_000);
+    for bomb in bombs(b"\0<{[1, \n#") {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("bomb.gz");
         std::fs::write(&path, &bomb).unwrap();

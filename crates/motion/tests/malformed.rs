@@ -2,13 +2,18 @@
 //! proportion to them.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use std::io::{self, Read, Write};
+#[path = "../../hazard/tests/cost.rs"]
+mod cost;
+
+use std::io::Write;
 use std::time::{Duration, Instant};
 
 use flate2::{Compression, write::GzEncoder};
 use uplift_motion::{
     AccelerationUnit, MotionError, ReadOptions, RecordFile, RecordFormat, read_auto, read_record, read_record_file,
 };
+
+use cost::{bombs, peak_bytes};
 
 /// A good file of every layout and dialect; each component has six values, the last of which is -6 or as here.
 const SAMPLES: [(RecordFormat, &[u8], &str); 10] = [
@@ -194,24 +199,12 @@ fn packed_files_that_are_damaged_are_refused() {
     }
 }
 
-/// The most memory this process has had, bytes; the tests of this file run in it one beside the other.
-fn peak_bytes() -> Option<usize> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
-    Some(1024 * line.trim().strip_suffix("kB")?.trim().parse::<usize>().ok()?)
-}
-
 /// Files made to cost much more than they weigh.
 #[test]
 fn hostile_files_cost_little() {
     let before = peak_bytes();
     let begin = Instant::now();
-    // 100 MB packed into 100 kB.
-    for byte in *b"\0 1" {
-        let mut bomb = GzEncoder::new(Vec::new(), Compression::best());
-        io::copy(&mut io::repeat(byte).take(100 << 20), &mut bomb).unwrap();
-        let bomb = bomb.finish().unwrap();
-        assert!(bomb.len() < 200_000);
+    for bomb in bombs(b"\0 1") {
         for options in all_options() {
             let error = read_record(&bomb, "the file", &options).unwrap_err();
             assert!(matches!(error, MotionError::TooLarge { .. }), "{error}");

@@ -42,8 +42,8 @@ pub(crate) fn follow<const RUNS: usize, const STIFFNESS: bool>(
     }
 }
 
-/// One by one, where the series do not suffice.
-#[inline(always)]
+/// One by one, where the series do not suffice: few runs, so it is compiled for every processor's instructions alone.
+#[inline(never)]
 fn follow_alone<const STIFFNESS: bool>(sweep: &Sweep<'_>, pending: &[PendingRun], peaks: &mut [Peak]) {
     for &PendingRun { index, scale, interval } in pending {
         let mut run = Run::<STIFFNESS>::new(sweep, scale);

@@ -1,7 +1,6 @@
 //! Medians under the FEMA P695 sets, which may not be distributed: skipped where they are absent.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-#[path = "real_records/real.rs"]
 mod real;
 
 use uplift_ida::{System, Unwatched, analyse};

@@ -15,16 +15,7 @@ pub(super) fn of_result(file: &ResultFile) -> Result<Vec<Alarm>, UpliftError> {
     let mut alarms = Vec::new();
     // a study that cannot be read any more has nothing to add
     let study = Study::stored(&head.study_toml).ok();
-    alarms.extend(study.iter().flat_map(of_study));
-    if head.synthetic {
-        alarms.push(Alarm::of_one(
-            Severity::Caution,
-            "synthetic-records",
-            "records",
-            "they are synthetic, and scatter less than real ones: not for design".to_owned(),
-            "bring real ones for results that matter: records.manifest (records/README.md)",
-        ));
-    }
+    alarms.extend(of_study(study.as_ref().map_or(&[], AnyStudy::warnings), head.synthetic));
     if file.kind() == Kind::UniformRisk {
         let records = file.stored_axes()?.records.len();
         // nor does it say which records are of one pair
@@ -42,9 +33,18 @@ pub(super) fn of_result(file: &ResultFile) -> Result<Vec<Alarm>, UpliftError> {
     Ok(alarms)
 }
 
-/// What the study says but probably does not mean.
-fn of_study(study: &AnyStudy) -> Vec<Alarm> {
-    study.warnings().iter().map(|warning| of_warning("study", warning)).collect()
+/// What a study says but probably does not mean, and that its records are not real ones.
+pub(crate) fn of_study(warnings: &[Warning], synthetic: bool) -> impl Iterator<Item = Alarm> {
+    let of_records = synthetic.then(|| {
+        Alarm::of_one(
+            Severity::Caution,
+            "synthetic-records",
+            "records",
+            "they are synthetic, and scatter less than real ones: not for design".to_owned(),
+            "bring real ones for results that matter: records.manifest (records/README.md)",
+        )
+    });
+    warnings.iter().map(|warning| of_warning("study", warning)).chain(of_records)
 }
 
 /// What a file says but probably does not mean.
@@ -81,13 +81,15 @@ fn sets_of_levels(file: &ResultFile, pairs: &[Vec<usize>]) -> Result<Vec<Sets>, 
     Ok(sets)
 }
 
-/// What to do about factors that no definition of the measure explains.
-pub(crate) const OF_FAR_FACTORS: &str = "is the unit of the table's levels, of its factors or of the record files \
-                                         another one? correct it, or leave it if it is meant: records.at_level";
-
 fn far(sets: &Sets) -> Option<Alarm> {
-    let what = far_factors(&sets.relative, &sets.names, (sets.measure, &sets.levels))?;
-    Some(Alarm::of_one(Severity::Mistake, "factors-at-level", "records", what, OF_FAR_FACTORS))
+    far_factors(&sets.relative, &sets.names, (sets.measure, &sets.levels)).map(of_far_factors)
+}
+
+/// Of factors `what` of which no definition of the measure explains.
+pub(crate) fn of_far_factors(what: String) -> Alarm {
+    let what_to_do = "is the unit of the table's levels, of its factors or of the record files another one? correct \
+                      it, or leave it if it is meant: records.at_level";
+    Alarm::of_one(Severity::Mistake, "factors-at-level", "records", what, what_to_do)
 }
 
 /// Where the level with the fewest pairs has few that count.
@@ -119,7 +121,7 @@ fn few_at_level(sets: &Sets) -> Option<Alarm> {
 }
 
 /// Where the set has few pairs: two components of one, or what is seen of it from several azimuths, are no two of them.
-fn few(records: usize, pairs: usize) -> Option<Alarm> {
+pub(crate) fn few(records: usize, pairs: usize) -> Option<Alarm> {
     (pairs < FEW_RECORDS).then(|| {
         Alarm::of_one(
             Severity::Caution,

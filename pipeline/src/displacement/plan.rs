@@ -10,6 +10,7 @@ use uplift_study::{DisplacementStudy, Kind};
 use super::report::SetReport;
 use super::spectra::with_free_vibration;
 use super::{Inputs, design_analyses, printed};
+use crate::alarms::{of_study, ranked};
 use crate::analysis::seconds;
 use crate::error::UpliftError;
 use crate::events::Events;
@@ -44,7 +45,6 @@ pub(crate) fn plan(study: &DisplacementStudy, study_file: &Path, events: &dyn Ev
     let inputs = Inputs::read(study, events)?;
     let records = &inputs.records;
     let sets = records.motions(study.gravity_m_s2)?;
-    let notes = study.warnings.iter().map(ToString::to_string).chain(records.notes.iter().cloned()).collect();
 
     let ways = study.scaling.ways().0;
     let plans = (sets.iter())
@@ -76,7 +76,8 @@ pub(crate) fn plan(study: &DisplacementStudy, study_file: &Path, events: &dyn Ev
         disk_bytes: needs.disk_bytes,
         room: needs.room(&study.output.file),
         output: study.output.file.clone(),
-        notes,
+        alarms: ranked(of_study(&study.warnings, records.synthetic).collect()),
+        notes: records.notes.clone(),
     };
     Ok(Plan {
         head,

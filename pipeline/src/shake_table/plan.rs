@@ -7,6 +7,7 @@ use serde::Serialize;
 use uplift_study::{Kind, ShakeTableStudy};
 
 use super::{Inputs, carry_out};
+use crate::alarms::{of_study, ranked};
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::frame::PlanHead;
@@ -50,7 +51,8 @@ pub(crate) fn plan(study: &ShakeTableStudy, study_file: &Path, events: &dyn Even
         disk_bytes: needs.disk_bytes,
         room: needs.room(&study.output.file),
         output: study.output.file.clone(),
-        notes: study.warnings.iter().map(ToString::to_string).chain(inputs.notes).collect(),
+        alarms: ranked(of_study(&study.warnings, table.synthetic).collect()),
+        notes: inputs.notes,
     };
     let (excitations, levels) = (table.excitations.len(), table.levels.len());
     Ok(Plan { head, kind: Kind::ShakeTable.key(), excitations, levels })

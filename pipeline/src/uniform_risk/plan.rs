@@ -1,5 +1,6 @@
 //! What a study of uniform risk costs.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 use std::time::Duration;
 
@@ -8,13 +9,15 @@ use uplift_study::{MeasurePlan, UniformRiskStudy};
 
 use super::levels::{LevelCheck, check_levels};
 use super::{plan_own_stripes, site_table, systems, systems_under};
-use crate::alarms::{Alarm, BEYOND_LAST_LEVEL, OF_FAR_FACTORS, PROBABILITIES, probabilities_for_rates, ranked};
+use crate::alarms::{
+    Alarm, BEYOND_LAST_LEVEL, PROBABILITIES, few, of_far_factors, of_study, probabilities_for_rates, ranked,
+};
 use crate::analysis::seconds;
 use crate::consistency::{Answer, ConsistencyReport};
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::frame::PlanHead;
-use crate::inputs::{AtLevel, Record, RecordSet, SiteHazard, SiteList, read_hazard, read_other_hazard, read_records};
+use crate::inputs::{Record, RecordSet, SiteHazard, SiteList, read_hazard, read_other_hazard, read_records};
 use crate::machine::{Needs, PROGRAM_BYTES};
 
 /// Time spent on a measure to see how fast this machine is.
@@ -30,8 +33,6 @@ pub struct Plan {
     pub levels: Vec<LevelCheck>,
     /// Whether the records bring the hazard of the other measure.
     pub consistency: ConsistencyReport,
-    /// What a run would raise of the hazard curves, and of the last levels as far as they were tried, the worst first.
-    pub alarms: Vec<Alarm>,
 }
 
 /// Reads and checks all inputs of `study`, and times some of its analyses.
@@ -43,10 +44,7 @@ pub(crate) fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Eve
     notes.extend(site_list.iter().flat_map(|list| list.notes.iter().cloned()));
     let records = read_records(study, events)?;
     let own_systems = systems_under(study, &records)?;
-    notes.splice(0..0, study.warnings.iter().map(ToString::to_string));
     notes.extend(records.notes.iter().cloned());
-    let far = |at_level: &AtLevel| at_level.far_factors(&records.records, study.measures.first()?);
-    notes.extend(records.at_level.as_ref().and_then(far).map(|what| format!("{what}: {OF_FAR_FACTORS}")));
 
     let plans = (study.measures.iter())
         .map(|measure| plan_own_stripes(study, measure, &records, &own_systems))
@@ -60,6 +58,7 @@ pub(crate) fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Eve
     }
     let seconds = seconds(&plans, CALIBRATION * u32::try_from(plans.len()).unwrap_or(u32::MAX));
     let needs = needs(study, &records, site_list.as_ref());
+    let of_upper_ends = Alarm::of_cases(BEYOND_LAST_LEVEL, upper_ends);
     let head = PlanHead {
         study: study_file.to_owned(),
         record_set: records.description.clone(),
@@ -71,11 +70,23 @@ pub(crate) fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Eve
         disk_bytes: needs.disk_bytes,
         room: needs.room(&study.output.file),
         output: study.output.file.clone(),
+        alarms: ranked(of_inputs(study, &records).chain(of_probabilities(&hazard)).chain(of_upper_ends).collect()),
         notes,
     };
     let consistency = Answer::of_plan(study, &records, (&hazard, &other_hazard))?.report(&[]);
-    let alarms = of_probabilities(&hazard).into_iter().chain(Alarm::of_cases(BEYOND_LAST_LEVEL, upper_ends)).collect();
-    Ok(Plan { head, levels, consistency, alarms: ranked(alarms) })
+    Ok(Plan { head, levels, consistency })
+}
+
+/// What the study and its records are told of.
+fn of_inputs(study: &UniformRiskStudy, set: &RecordSet) -> impl Iterator<Item = Alarm> {
+    let of_records = if let Some(at_level) = &set.at_level {
+        let first = study.measures.first();
+        first.and_then(|plan| at_level.far_factors(&set.records, plan)).map(of_far_factors)
+    } else {
+        let pairs: BTreeSet<&str> = set.records.iter().map(|record| study.pair_of_record(&record.id)).collect();
+        few(set.records.len(), pairs.len())
+    };
+    of_study(&study.warnings, set.synthetic).chain(of_records)
 }
 
 /// Curves whose rates look like probabilities.

@@ -3,6 +3,7 @@
 use std::io::Write;
 
 use uplift::Plan;
+use uplift::alarms::{Alarm, Severity};
 use uplift::machine::Limit;
 use uplift::text::{bytes, share, thousands};
 use uplift::uniform_risk::LevelCheck;
@@ -65,10 +66,8 @@ pub(crate) fn print_plan(plan: &Plan, study: &AnyStudy, terminal: &Terminal) -> 
         there(&room.disk_free, "that are free"),
         head.output.display()
     )?;
-    if let Plan::UniformRisk(plan) = plan {
-        for alarm in &plan.alarms {
-            writeln!(out, "{:<8}  {alarm}: {}", alarm.severity.word(), alarm.what_to_do)?;
-        }
+    for alarm in &head.alarms {
+        writeln!(out, "{:<8}  {alarm}: {}", alarm.severity.word(), alarm.what_to_do)?;
     }
     for note in &room.tight {
         writeln!(out, "note      {note}")?;
@@ -77,9 +76,20 @@ pub(crate) fn print_plan(plan: &Plan, study: &AnyStudy, terminal: &Terminal) -> 
         writeln!(out, "note      {note}")?;
     }
     if room.cannot.is_empty() {
-        writeln!(out, "The study and its input data are in order.")?;
+        writeln!(out, "{}", conclusion(&head.alarms))?;
     }
     Ok(())
+}
+
+/// Whether what can be run is in order, too.
+fn conclusion(alarms: &[Alarm]) -> String {
+    let mut marks: Vec<&str> =
+        alarms.iter().filter(|alarm| alarm.severity < Severity::Note).map(|alarm| alarm.severity.word()).collect();
+    marks.dedup();
+    if marks.is_empty() {
+        return "The study and its input data are in order.".to_owned();
+    }
+    format!("The study can be run. See first what is marked {} above.", marks.join(" and "))
 }
 
 /// How far down and up the levels of a measure reach, and a line for the study where that is not far enough.

@@ -5,10 +5,12 @@
 pub(super) struct Complex(pub(super) f64, pub(super) f64);
 
 impl Complex {
+    #[inline]
     pub(super) fn times(self, other: Self) -> Self {
         Self(self.0 * other.0 - self.1 * other.1, self.1 * other.0 + self.0 * other.1)
     }
 
+    #[inline]
     pub(super) fn scaled(self, factor: f64) -> Self {
         Self(self.0 * factor, self.1 * factor)
     }
