@@ -83,6 +83,7 @@ fn three(values_m: [f64; 3]) -> String {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn the_embedded_set() {
     let set = generate(&SyntheticSetOptions::default()).unwrap();
     let mut computed = statistics("embedded", &set);

@@ -9,6 +9,7 @@ use crate::common::repository;
 use crate::shake_table::{order_of_chapter_6, tests_of_chapter_6};
 
 #[test]
+#[ignore = "long: make test-long"]
 fn the_printed_order() {
     let Some(agreement) = order_of_chapter_6() else { return };
     let name = |what: &str| format!("shake-table.{what}");

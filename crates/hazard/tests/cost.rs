@@ -2,6 +2,7 @@
 #![allow(dead_code)] // no program of tests uses all of it
 
 use std::io::{self, Read};
+use std::time::{Duration, Instant};
 
 use flate2::{Compression, write::GzEncoder};
 
@@ -25,4 +26,18 @@ pub(crate) fn bombs(bytes: &[u8]) -> Vec<Vec<u8>> {
     });
     assert!(bombs.iter().all(|bomb| bomb.len() < 200_000));
     bombs
+}
+
+/// Holds `read` to a minute and 300 MB.
+pub(crate) fn costs_little(read: impl FnOnce()) {
+    let (before, begin) = (peak_bytes(), Instant::now());
+    read();
+    assert!(begin.elapsed() < Duration::from_secs(60), "{:?}", begin.elapsed());
+    match (before, peak_bytes()) {
+        (Some(before), Some(after)) => {
+            println!("{:?}, {} MB more at the peak", begin.elapsed(), (after - before) >> 20);
+            assert!(after - before < 300 << 20, "{} bytes", after - before);
+        }
+        _ => println!("skipped: this system does not say how much memory a process has had"),
+    }
 }
