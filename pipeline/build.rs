@@ -3,8 +3,7 @@
 use std::process::Command;
 
 fn main() {
-    let commit = git(&["rev-parse", "--short", "HEAD"])
-        .map_or_else(|| "unknown".to_owned(), |commit| commit + if is_changed() { "-dirty" } else { "" });
+    let commit = commit().unwrap_or_else(|| "unknown".to_owned());
     println!("cargo::rustc-env=UPLIFT_COMMIT={commit}");
     for path in ["../.git/HEAD", "../.git/index", "src"] {
         if std::path::Path::new(path).exists() {
@@ -13,11 +12,12 @@ fn main() {
     }
 }
 
-/// Whether files are not as they were committed. `git describe --dirty` would tell the same, but it writes the index,
-/// so that the next build would begin here once more.
-fn is_changed() -> bool {
-    git(&["--no-optional-locks", "status", "--porcelain", "--untracked-files=no"])
-        .is_some_and(|files| !files.is_empty())
+/// The commit, and whether files are not as they were committed. `git describe --dirty` would tell the same, but it
+/// writes the index, so that the next build would begin here once more.
+fn commit() -> Option<String> {
+    let commit = git(&["rev-parse", "--short", "HEAD"])?;
+    let changed = git(&["--no-optional-locks", "status", "--porcelain", "--untracked-files=no"])?;
+    Some(if changed.is_empty() { commit } else { commit + "-dirty" })
 }
 
 fn git(arguments: &[&str]) -> Option<String> {

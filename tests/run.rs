@@ -136,9 +136,14 @@ fn summary_tables_and_provenance() {
 fn check_says_what_a_run_would_do() {
     let study = SmallStudy::new();
     let check = study.uplift(&["check", "study.toml"]).ok();
-    for words in
-        ["[oscillator]", "restitution = 0.95", "360", "they are synthetic", "4 are few", "marked caution above"]
-    {
+    for words in [
+        "[oscillator]",
+        "restitution = 0.95",
+        "360",
+        "they are synthetic",
+        "4 are few",
+        "See first what is marked caution",
+    ] {
         assert!(check.stdout.contains(words), "{words}:\n{}", check.stdout);
     }
     let json: serde_json::Value =

@@ -36,7 +36,7 @@ pub(crate) use evidence::{Evidence, Scope, spectrum_name};
 pub use fit::{FitReach, reach_of_fit};
 pub(crate) use hazard::{PROBABILITIES, probabilities_for_rates};
 pub(crate) use inputs::{few, of_far_factors, of_study};
-pub(crate) use levels::{BEYOND_LAST_LEVEL, Counted, UpperEnd};
+pub(crate) use levels::{BELOW_FIRST_LEVEL, BEYOND_LAST_LEVEL, Counted, UpperEnd, below_first_case};
 pub(crate) use numbers::of_numbers;
 pub(crate) use structure::{OwnRisk, of_own_demand, of_own_risks, of_safety_factor, of_structure};
 

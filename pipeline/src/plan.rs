@@ -49,11 +49,13 @@ pub fn plan(study: &AnyStudy, options: &RunOptions, events: &dyn Events) -> Resu
     };
     // a study is looked at more often than it is run
     if let Some(reason) = replaced(study, options)? {
-        match &mut plan {
-            Plan::UniformRisk(plan) => plan.head.notes.push(reason),
-            Plan::Displacement(plan) => plan.head.notes.push(reason),
-            Plan::ShakeTable(plan) => plan.head.notes.push(reason),
-        }
+        let head = match &mut plan {
+            Plan::UniformRisk(plan) => &mut plan.head,
+            Plan::Displacement(plan) => &mut plan.head,
+            Plan::ShakeTable(plan) => &mut plan.head,
+        };
+        head.notes.push(reason);
+        head.would_replace = true;
     }
     Ok(plan)
 }

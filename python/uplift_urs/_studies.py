@@ -78,7 +78,7 @@ def check(study: str | os.PathLike[str] | Mapping[str, Any], **overrides: Any) -
     Returns
     -------
     dict
-        What the program would do.
+        What the program would do, with "alarms" and "notes".
 
     Raises
     ------

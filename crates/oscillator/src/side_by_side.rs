@@ -42,7 +42,7 @@ pub(crate) fn follow<const RUNS: usize, const STIFFNESS: bool>(
     }
 }
 
-/// One by one, where the series do not suffice: few runs, so it is compiled for every processor's instructions alone.
+/// One by one, where the series do not suffice: seldom, so it is compiled once, for any processor.
 #[inline(never)]
 fn follow_alone<const STIFFNESS: bool>(sweep: &Sweep<'_>, pending: &[PendingRun], peaks: &mut [Peak]) {
     for &PendingRun { index, scale, interval } in pending {

@@ -177,7 +177,8 @@ fn demand(number: u16) -> f64 {
         0 => 0.0,
         1 => INF,
         2..=4 => f64::from(number / 11 % 20) / 20.0,
-        _ => f64::from(number) / 32_768.0,
+        // a quotient that is rounded
+        _ => f64::from(number) / 32_771.0,
     }
 }
 

@@ -10,6 +10,8 @@ use crate::array::Array;
 use crate::error::UpliftError;
 use crate::text::{per_cent, share};
 
+/// The kind of the alarm about the first level.
+pub(crate) const BELOW_FIRST_LEVEL: &str = "below-first-level";
 /// The kind of the alarm about the last level.
 pub(crate) const BEYOND_LAST_LEVEL: &str = "beyond-last-level";
 /// From this share of the target rate on, motions above the last level may matter though few records exceed the
@@ -28,7 +30,7 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Result<Vec<Alarm>, U
         zero.extend(never_exceeded(&place, &evidence.spectra.strengths, target_per_year));
     }
     let kinds =
-        [("censored", censored), ("no-exceedance", zero), (BEYOND_LAST_LEVEL, beyond), ("below-first-level", below)];
+        [("censored", censored), ("no-exceedance", zero), (BEYOND_LAST_LEVEL, beyond), (BELOW_FIRST_LEVEL, below)];
     Ok(kinds.into_iter().filter_map(|(kind, cases)| Alarm::of_cases(kind, cases)).collect())
 }
 
@@ -48,27 +50,41 @@ fn severity(share: f64) -> Severity {
     if share > DECISIVE { Severity::Caution } else { Severity::Note }
 }
 
-/// Ordinates that rest on motions weaker than the first level, where the fragility is a straight line: too large.
 fn below_first(evidence: &Evidence, place: &Place<'_>) -> Option<Case> {
-    let (count, most) = heavy(&at_strengths(&place.of_measure.lower_tail_share, place));
     let plan = evidence.study.measures.iter().find(|plan| plan.measure == place.of_measure.measure)?;
+    let shares = at_strengths(&place.of_measure.lower_tail_share, place);
+    below_first_case((plan, place.curve), &place.name, Counted::All, &shares)
+}
+
+/// What is to be raised of the spectrum `name`, whose ordinates take the `shares` of their risk from motions weaker
+/// than the first level, where the fragility is a straight line: too large.
+pub(crate) fn below_first_case(
+    (plan, curve): (&MeasurePlan, &HazardCurve),
+    name: &str,
+    counted: Counted,
+    shares: &[f64],
+) -> Option<Case> {
+    let (count, most) = heavy(shares);
     let (measure, first) = (plan.measure, *plan.levels.first()?);
     (count > 0).then(|| Case {
         severity: severity(most),
         badness: most,
-        subject: place.name.clone(),
+        subject: name.to_owned(),
         what: format!(
-            "{count} of {} ordinates take more than {} of their risk from below the first level, {first} {}, at most \
-             {}: they come out too large",
-            place.strengths.len(),
+            "{count} of {} {} take more than {} of their risk from below the first level, {first} {}, at most {}: they \
+             come out too large",
+            shares.len(),
+            counted.ordinates(),
             per_cent(TAIL_SHARE_LIMIT),
             measure.unit(),
             share(most)
         ),
-        what_to_do: if place.curve.first().im < first {
-            format!("begin {} lower: uplift check proposes a line", levels_key(measure))
-        } else {
-            format!("take a hazard curve from further down than {} {}", place.curve.first().im, measure.unit())
+        what_to_do: match counted {
+            _ if curve.first().im >= first => {
+                format!("take a hazard curve from further down than {} {}", curve.first().im, measure.unit())
+            }
+            Counted::All => format!("begin {} lower: uplift check proposes a line", levels_key(measure)),
+            Counted::Tried => format!("begin {} lower: what is said of levels above has a line", levels_key(measure)),
         },
     })
 }
@@ -98,6 +114,15 @@ pub(crate) enum Counted {
     Tried,
 }
 
+impl Counted {
+    fn ordinates(self) -> &'static str {
+        match self {
+            Self::All => "ordinates",
+            Self::Tried => "ordinates tried",
+        }
+    }
+}
+
 impl UpperEnd<'_> {
     /// What is to be raised of the spectrum `name`, whose ordinates take the `shares` of their risk from above the last
     /// level; no shares where none is tried.
@@ -120,15 +145,12 @@ impl UpperEnd<'_> {
         if count == 0 && beyond <= BEYOND_LIMIT {
             return Ok(None);
         }
-        let ordinates = match counted {
-            Counted::All => "ordinates",
-            Counted::Tried => "ordinates tried",
-        };
         let counted = match count {
             0 => String::new(),
             _ => format!(
-                "{count} of {} {ordinates} take more than {} of their risk from above the last level, at most {}; ",
+                "{count} of {} {} take more than {} of their risk from above the last level, at most {}; ",
                 shares.len(),
+                counted.ordinates(),
                 per_cent(TAIL_SHARE_LIMIT),
                 share(most)
             ),

@@ -78,6 +78,7 @@ pub(crate) fn plan(study: &DisplacementStudy, study_file: &Path, events: &dyn Ev
         output: study.output.file.clone(),
         alarms: ranked(of_study(&study.warnings, records.synthetic).collect()),
         notes: records.notes.clone(),
+        would_replace: false,
     };
     Ok(Plan {
         head,

@@ -53,6 +53,7 @@ pub(crate) fn plan(study: &ShakeTableStudy, study_file: &Path, events: &dyn Even
         output: study.output.file.clone(),
         alarms: ranked(of_study(&study.warnings, table.synthetic).collect()),
         notes: inputs.notes,
+        would_replace: false,
     };
     let (excitations, levels) = (table.excitations.len(), table.levels.len());
     Ok(Plan { head, kind: Kind::ShakeTable.key(), excitations, levels })

@@ -15,7 +15,7 @@ use uplift_study::{Grid, MeasurePlan, UniformRiskStudy, lower_starts};
 
 use super::plan_stripes;
 use super::spectra::Reading;
-use crate::alarms::{Case, Counted, UpperEnd, spectrum_name};
+use crate::alarms::{Case, Counted, UpperEnd, below_first_case, spectrum_name};
 use crate::error::UpliftError;
 use crate::inputs::{RecordSet, SiteHazard};
 use crate::text::risk_name;
@@ -86,8 +86,15 @@ impl Tails<'_> {
     }
 }
 
-/// Tries the levels of `measure`: what a run would take from outside them, and what is to be raised of their upper end
-/// as far as the strengths tried tell.
+/// What is to be raised of the ends of the levels.
+#[derive(Debug, Default)]
+pub(super) struct OfEnds {
+    pub(super) lower: Vec<Case>,
+    pub(super) upper: Vec<Case>,
+}
+
+/// Tries the levels of `measure`: what a run would take from outside them, and what is to be raised of that as far as
+/// the strengths tried tell.
 ///
 /// Not tried where there is no hazard curve to try them by, the records are too many, or each level has records of its
 /// own; of their upper end the hazard alone says something then.
@@ -99,9 +106,9 @@ pub(super) fn check_levels(
     measure: &MeasurePlan,
     inputs: (&RecordSet, &[System]),
     hazard: &[SiteHazard],
-) -> Result<(Option<LevelCheck>, Vec<Case>), UpliftError> {
+) -> Result<(Option<LevelCheck>, OfEnds), UpliftError> {
     let Some(trial) = Trial::of(study, measure, inputs, hazard)? else {
-        return Ok((None, upper_end(study, measure, &untried(study, hazard))?));
+        return Ok((None, of_ends(study, measure, &untried(study, hazard))?));
     };
     let own = trial.tails(measure.levels[0])?;
     let mut below: Vec<(f64, String)> = own.iter().map(|tails| (most(&tails.lower), tails.in_words(study))).collect();
@@ -127,7 +134,7 @@ pub(super) fn check_levels(
             }
         }
     }
-    Ok((Some(check), upper_end(study, measure, &own)?))
+    Ok((Some(check), of_ends(study, measure, &own)?))
 }
 
 fn most(shares: &[f64]) -> f64 {
@@ -140,18 +147,20 @@ fn untried<'a>(study: &UniformRiskStudy, hazard: &'a [SiteHazard]) -> Vec<Tails<
     hazard.iter().flat_map(|site| study.risk.poe.iter().map(of(site))).collect()
 }
 
-/// What is to be raised of the last level of `measure`.
-fn upper_end(study: &UniformRiskStudy, measure: &MeasurePlan, spectra: &[Tails<'_>]) -> Result<Vec<Case>, UpliftError> {
-    let mut cases = Vec::new();
+/// What is to be raised of the first and the last level of `measure`.
+fn of_ends(study: &UniformRiskStudy, measure: &MeasurePlan, spectra: &[Tails<'_>]) -> Result<OfEnds, UpliftError> {
+    let mut cases = OfEnds::default();
     for tails in spectra {
+        let curve = &tails.site.curve.curve;
         let end = UpperEnd {
             plan: measure,
-            curve: &tails.site.curve.curve,
+            curve,
             extrapolate: study.risk.extrapolate,
             target_per_year: rate_from_probability(tails.poe, study.risk.years)?,
         };
         let name = spectrum_name(&tails.site.site, measure.measure, (tails.poe, study.risk.years));
-        cases.extend(end.case(&name, Counted::Tried, &tails.upper)?);
+        cases.lower.extend(below_first_case((measure, curve), &name, Counted::Tried, &tails.lower));
+        cases.upper.extend(end.case(&name, Counted::Tried, &tails.upper)?);
     }
     Ok(cases)
 }

@@ -7,10 +7,11 @@ use std::time::Duration;
 use serde::Serialize;
 use uplift_study::{MeasurePlan, UniformRiskStudy};
 
-use super::levels::{LevelCheck, check_levels};
+use super::levels::{LevelCheck, OfEnds, check_levels};
 use super::{plan_own_stripes, site_table, systems, systems_under};
 use crate::alarms::{
-    Alarm, BEYOND_LAST_LEVEL, PROBABILITIES, few, of_far_factors, of_study, probabilities_for_rates, ranked,
+    Alarm, BELOW_FIRST_LEVEL, BEYOND_LAST_LEVEL, PROBABILITIES, few, of_far_factors, of_study, probabilities_for_rates,
+    ranked,
 };
 use crate::analysis::seconds;
 use crate::consistency::{Answer, ConsistencyReport};
@@ -50,15 +51,17 @@ pub(crate) fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Eve
         .map(|measure| plan_own_stripes(study, measure, &records, &own_systems))
         .collect::<Result<Vec<_>, _>>()?;
     let (motions, systems) = (records.clone().without_structures(), systems(study)?);
-    let (mut levels, mut upper_ends) = (Vec::new(), Vec::new());
+    let (mut levels, mut of_ends) = (Vec::new(), OfEnds::default());
     for (measure, hazard) in study.measures.iter().zip(&hazard) {
         let (tried, cases) = check_levels(study, measure, (&motions, &systems), hazard)?;
         levels.extend(tried);
-        upper_ends.extend(cases);
+        of_ends.lower.extend(cases.lower);
+        of_ends.upper.extend(cases.upper);
     }
     let seconds = seconds(&plans, CALIBRATION * u32::try_from(plans.len()).unwrap_or(u32::MAX));
     let needs = needs(study, &records, site_list.as_ref());
-    let of_upper_ends = Alarm::of_cases(BEYOND_LAST_LEVEL, upper_ends);
+    let ends = [(BEYOND_LAST_LEVEL, of_ends.upper), (BELOW_FIRST_LEVEL, of_ends.lower)];
+    let of_ends = ends.into_iter().filter_map(|(kind, cases)| Alarm::of_cases(kind, cases));
     let head = PlanHead {
         study: study_file.to_owned(),
         record_set: records.description.clone(),
@@ -70,8 +73,9 @@ pub(crate) fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Eve
         disk_bytes: needs.disk_bytes,
         room: needs.room(&study.output.file),
         output: study.output.file.clone(),
-        alarms: ranked(of_inputs(study, &records).chain(of_probabilities(&hazard)).chain(of_upper_ends).collect()),
+        alarms: ranked(of_inputs(study, &records).chain(of_probabilities(&hazard)).chain(of_ends).collect()),
         notes,
+        would_replace: false,
     };
     let consistency = Answer::of_plan(study, &records, (&hazard, &other_hazard))?.report(&[]);
     Ok(Plan { head, levels, consistency })

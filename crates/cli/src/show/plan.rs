@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use uplift::Plan;
-use uplift::alarms::{Alarm, Severity};
+use uplift::alarms::Severity;
 use uplift::machine::Limit;
 use uplift::text::{bytes, share, thousands};
 use uplift::uniform_risk::LevelCheck;
@@ -67,7 +67,10 @@ pub(crate) fn print_plan(plan: &Plan, study: &AnyStudy, terminal: &Terminal) -> 
         head.output.display()
     )?;
     for alarm in &head.alarms {
-        writeln!(out, "{:<8}  {alarm}: {}", alarm.severity.word(), alarm.what_to_do)?;
+        writeln!(out, "{:<8}  {alarm}", alarm.severity.word())?;
+        if !alarm.what_to_do.is_empty() {
+            writeln!(out, "          {}", alarm.what_to_do)?;
+        }
     }
     for note in &room.tight {
         writeln!(out, "note      {note}")?;
@@ -76,20 +79,32 @@ pub(crate) fn print_plan(plan: &Plan, study: &AnyStudy, terminal: &Terminal) -> 
         writeln!(out, "note      {note}")?;
     }
     if room.cannot.is_empty() {
-        writeln!(out, "{}", conclusion(&head.alarms))?;
+        writeln!(out, "{}", conclusion(plan))?;
     }
     Ok(())
 }
 
-/// Whether what can be run is in order, too.
-fn conclusion(alarms: &[Alarm]) -> String {
-    let mut marks: Vec<&str> =
-        alarms.iter().filter(|alarm| alarm.severity < Severity::Note).map(|alarm| alarm.severity.word()).collect();
+/// Whether it can be run, and which of the lines above are to be seen first.
+fn conclusion(plan: &Plan) -> String {
+    let head = plan.head();
+    let grave = head.alarms.iter().filter(|alarm| alarm.severity < Severity::Note);
+    let mut marks: Vec<&str> = grave.map(|alarm| alarm.severity.word()).collect();
     marks.dedup();
-    if marks.is_empty() {
-        return "The study and its input data are in order.".to_owned();
+    if let Plan::UniformRisk(plan) = plan
+        && plan.consistency.rows.iter().any(|row| row.verdict == Some("inconsistent"))
+    {
+        marks.push("hazard");
     }
-    format!("The study can be run. See first what is marked {} above.", marks.join(" and "))
+    let run = match (head.would_replace, &marks[..]) {
+        (true, _) => "A run would be refused: its result file is that of another, see the last note.",
+        (false, []) => return "The study and its input data are in order.".to_owned(),
+        (false, _) => "The study can be run.",
+    };
+    match &marks[..] {
+        [] => run.to_owned(),
+        [one] => format!("{run} See first what is marked {one} above."),
+        [first @ .., last] => format!("{run} See first what is marked {} and {last} above.", first.join(", ")),
+    }
 }
 
 /// How far down and up the levels of a measure reach, and a line for the study where that is not far enough.
