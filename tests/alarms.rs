@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use crate::common::{SMALL_STUDY, SmallStudy};
+use crate::common::{SMALL_STUDY, SmallStudy, repository};
 
 const BLOCK: &str = "kind = \"block\"\nwidth_m = 0.8\nheight_m = 4\nmass_kg = 6000\n";
 
@@ -229,6 +229,55 @@ fn probabilities_taken_for_rates_are_told() {
     assert!(said.contains(words) && said.contains("if not all, write rates per year into the files"), "{said}");
 }
 
+/// A curve of the repository, its levels `times` as large.
+fn curve_times(file: &str, times: f64) -> String {
+    let text = std::fs::read_to_string(repository().join("hazard").join(file)).unwrap();
+    let rows = text.lines().filter(|line| line.starts_with(|first: char| first.is_ascii_digit()));
+    let row = |line: &str| {
+        let (level, rate) = line.split_once(',').unwrap();
+        format!("{},{rate}\n", times * level.parse::<f64>().unwrap())
+    };
+    format!("iml,maf\n{}", rows.map(row).collect::<String>())
+}
+
+#[test]
+fn curves_and_levels_in_other_units_are_named() {
+    let study = SmallStudy::with(
+        "[records.synthetic]\npairs = 40\n[strengths]\nvalues = [0.2, 0.4]\n[pgv]\n\
+         levels_cm_s = [2, 5, 10, 20, 40, 80, 160]\n[pga]\nlevels_g = [0.02, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6]\n\
+         [[sites]]\nname = \"Here\"\npgv = \"pgv.csv\"\npga = \"pga.csv\"\n",
+    );
+    study.write("pgv.csv", &curve_times("athens/pgv.csv", 1.0));
+    study.write("pga.csv", &curve_times("athens/pga.csv", 1.0));
+    let said = study.uplift(&["check", "study.toml", "-q"]).ok().stdout;
+    assert!(!said.contains("mistake?"), "{said}");
+
+    // what the records bring of the other measure tells it, before a run and after it
+    study.write("pga.csv", &curve_times("athens/pga.csv", 9.81));
+    let checked = json(&study, &["check", "study.toml", "--json"]);
+    let run = json(&study, &["run", "study.toml", "-o", "r.h5", "--json"]);
+    for found in [&checked, &run] {
+        let mistaken = alarm(found, "hazard-inconsistent");
+        assert_eq!(mistaken["severity"], "mistake", "{mistaken}");
+        assert!(text(mistaken, "subject").starts_with("Here by P"), "{mistaken}");
+        assert!(text(mistaken, "what_to_do").contains("say so in [[sites]]: pga = { file = …, unit = \"m/s2\" }"));
+    }
+    let said_so = "sites.Here.pga = { file = \"pga.csv\", unit = \"m/s2\" }";
+    let said = study.uplift(&["check", "study.toml", "-q", "--set", said_so]).ok().stdout;
+    assert!(!said.contains("mistake?"), "{said}");
+
+    // outside the levels they are told by what would cover them
+    study.write("pga.csv", &curve_times("athens/pga.csv", 1.0));
+    let levels = "pgv.levels_cm_s=[0.02, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6]";
+    let words = ["Here, PGV", "is pgv.levels_cm_s in m/s?", "give it in cm/s", "PGV = 0.02 cm/s lies outside"];
+    study.uplift(&["check", "study.toml", "--set", levels]).fails(4, &words);
+    study.write("pgv.csv", &curve_times("athens/pgv.csv", 0.01));
+    let words =
+        ["are its numbers in m/s?", "pgv = { file = …, unit = \"m/s\" }; read as cm/s, PGV = 5 cm/s lies outside"];
+    study.uplift(&["check", "study.toml"]).fails(4, &words);
+    study.uplift(&["check", "study.toml", "--set", "sites.Here.pgv = { file = \"pgv.csv\", unit = \"m/s\" }"]).ok();
+}
+
 #[test]
 fn numbers_in_other_units_are_taken_and_told() {
     let study = study();
@@ -259,7 +308,7 @@ fn numbers_in_other_units_are_taken_and_told() {
         .as_array()
         .unwrap()
         .iter()
-        .filter(|alarm| alarm["severity"] == "mistake")
+        .filter(|alarm| alarm["kind"] == "unlikely-number")
         .map(|alarm| text(alarm, "what"))
         .collect();
     let starts =

@@ -32,6 +32,7 @@ use uplift_motion::IntensityMeasure;
 
 use crate::error::UpliftError;
 use crate::result::{Kind, ResultFile};
+pub(crate) use consistency::mistaken_curves;
 pub(crate) use evidence::{Evidence, Scope, spectrum_name};
 pub use fit::{FitReach, reach_of_fit};
 pub(crate) use hazard::{PROBABILITIES, probabilities_for_rates};

@@ -103,7 +103,8 @@ pub fn run_with(
     check_replaced(study, options)?;
     let _lock = ResultLock::acquire(path)?;
     for warning in study.warnings() {
-        events.note(&warning.to_string());
+        let doubt = if warning.unlikely { "mistake? " } else { "" };
+        events.note(&format!("{doubt}{warning}"));
     }
     let place = Place { path, options, start };
     match study {

@@ -96,6 +96,14 @@ impl CurveUnit {
         }
     }
 
+    /// How many times too large a number in this unit comes out where it is read as one in `read`: 9.81 for m/s2 read
+    /// as g; none where the two measure different things.
+    ///
+    /// * `gravity_m_s2` — acceleration of gravity, m/s²
+    pub fn times_too_large_as(self, read: Self, gravity_m_s2: f64) -> Option<f64> {
+        (self.dimension() == read.dimension()).then(|| self.per_si(gravity_m_s2) / read.per_si(gravity_m_s2))
+    }
+
     pub(crate) fn dimension(self) -> Dimension {
         match self {
             Self::CmPerS | Self::MPerS | Self::GS => Dimension::Velocity,
@@ -152,6 +160,17 @@ mod tests {
         for text in ["", "mm/s", "ms", "kg", "%g", "s", "km"] {
             assert_eq!(CurveUnit::parse(text), None, "{text}");
         }
+    }
+
+    #[test]
+    fn numbers_in_one_unit_read_as_another() {
+        // a gravity that divides without rounding
+        let times = |unit: CurveUnit, read| unit.times_too_large_as(read, 8.0);
+        assert_eq!(times(CurveUnit::MPerS2, CurveUnit::G), Some(8.0));
+        assert_eq!(times(CurveUnit::CmPerS2, CurveUnit::G), Some(800.0));
+        assert_eq!(times(CurveUnit::MPerS, CurveUnit::CmPerS), Some(0.01));
+        assert_eq!(times(CurveUnit::CmPerS, CurveUnit::MPerS), Some(100.0));
+        assert_eq!(times(CurveUnit::Cm, CurveUnit::CmPerS), None);
     }
 
     #[test]

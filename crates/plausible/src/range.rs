@@ -57,6 +57,14 @@ impl Range {
     }
 }
 
+impl Unlikely {
+    /// `correct gravity_m_s2, or leave it if it is meant`; of `the largest of strengths.values` the key alone.
+    pub fn what_to_do(&self) -> String {
+        let key = self.name.rsplit(" of ").next().unwrap_or(self.name);
+        format!("correct {key}, or leave it if it is meant")
+    }
+}
+
 impl fmt::Display for Range {
     /// `from 0.1 to 2000 m/s2 (9.81 on Earth)`.
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -8,7 +8,8 @@ const fn usual(least: f64, most: f64, unit: &'static str, hint: &'static str) ->
 }
 
 /// Acceleration of gravity on the ground, with what rounding makes of it: 9.76 to 9.83 are measured.
-pub const USUAL_GRAVITY: Range = usual(9.7, 9.9, "m/s2", "9.81 on Earth; 981 would be cm/s2, and 1 is g in g");
+pub const USUAL_GRAVITY: Range =
+    usual(9.7, 9.9, "m/s2", "9.81 on Earth; 981 would be cm/s2, and 1 a multiple of itself");
 
 /// Uplift strength: the slenderness of what rocks, 0.05 to 0.5, and some units where tendons hold it down.
 pub const USUAL_STRENGTH: Range =
@@ -77,6 +78,13 @@ pub const USUAL_TOP_PGV: Range =
 /// at some m/s.
 pub const USUAL_TABLE_PGV: Range =
     usual(0.005, 5.0, "m/s", "0.1675 and 0.335 in the dissertation; was it meant in cm/s or mm/s?");
+
+/// Lengths of a prototype over those of its model on a shaking table.
+pub const USUAL_LENGTH_SCALE: Range =
+    usual(1.0, 100.0, "", "5 where the model is a fifth of the prototype; was the fraction meant?");
+
+/// The largest of the percentiles of a spectrum.
+pub const USUAL_PERCENTILE: Range = usual(2.0, 100.0, "%", "50 is the median; was a fraction, 0 to 1, meant?");
 
 /// Ground acceleration of a code's design spectrum.
 pub const USUAL_DESIGN_ACCELERATION: Range = usual(0.01, 1.2, "g", "0.16 in Athens; was it meant in m/s2?");

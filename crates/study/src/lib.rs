@@ -73,6 +73,6 @@ pub use study::Study;
 pub use uniform_risk::{
     Bootstrap, Branch, Consistency, Contour, Conversion, CurveFile, CurveKind, Hazard, MeasurePlan, Oscillator,
     Records, Regression, Repair, Risk, Site, SiteTable, UniformRiskStudy, definition_of, levels_key, levels_within,
-    lower_starts,
+    lower_starts, usual_top_level,
 };
 pub use warning::Warning;

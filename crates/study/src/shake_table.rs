@@ -153,13 +153,15 @@ pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<ShakeTableStu
         warnings: Vec::new(),
     };
     let gravity = uplift_plausible::USUAL_GRAVITY.unlikely("gravity_m_s2", study.gravity_m_s2);
-    let of_level =
-        |level: &LevelPlan| uplift_plausible::USUAL_TABLE_PGV.unlikely("pgv_srss_m_s of a level", level.pgv_srss_m_s);
+    let of_level = |level: &LevelPlan| {
+        uplift_plausible::USUAL_TABLE_PGV.unlikely("pgv_srss_m_s in [[levels]]", level.pgv_srss_m_s)
+    };
     let levels: Vec<_> = study.levels.iter().filter_map(of_level).collect();
     let design = study.spectra.design.and_then(|design| {
         let acceleration_g = design.ground_acceleration_g;
         uplift_plausible::USUAL_DESIGN_ACCELERATION.unlikely("spectra.design.ground_acceleration_g", acceleration_g)
     });
-    study.warnings = gravity.iter().chain(&levels).chain(&design).map(Warning::unlikely).collect();
+    let scale = uplift_plausible::USUAL_LENGTH_SCALE.unlikely("length_scale", study.length_scale);
+    study.warnings = gravity.iter().chain(&scale).chain(&levels).chain(&design).map(Warning::unlikely).collect();
     Some(study)
 }

@@ -365,6 +365,6 @@ fn asked_about(doubt: &Doubt, text: &str) -> Warning {
     let Doubt { key, what, .. } = doubt;
     Warning {
         unlikely: true,
-        ..Warning::new(format!("{place}{key}{what}"), format!("correct it, or leave it if it is meant: {key}"))
+        ..Warning::new(format!("{place}{key}{what}"), format!("correct {key}, or leave it if it is meant"))
     }
 }

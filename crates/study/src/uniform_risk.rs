@@ -59,6 +59,7 @@ pub use regression::Regression;
 pub use risk::{Contour, Risk};
 pub use site_table::SiteTable;
 pub use sites::Site;
+pub use warnings::usual_top_level;
 
 /// The reference of every key.
 pub(crate) const KEYS: [SectionKeys; 28] = [

@@ -23,8 +23,7 @@ impl Warning {
 
     /// A number of a file that is possible but unlikely.
     pub(crate) fn unlikely(found: &Unlikely) -> Self {
-        let what_to_do = format!("correct it, or leave it if it is meant: {}", found.name);
-        Self { unlikely: true, ..Self::new(found.to_string(), what_to_do) }
+        Self { unlikely: true, ..Self::new(found.to_string(), found.what_to_do()) }
     }
 }
 

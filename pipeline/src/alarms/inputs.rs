@@ -88,7 +88,7 @@ fn far(sets: &Sets) -> Option<Alarm> {
 /// Of factors `what` of which no definition of the measure explains.
 pub(crate) fn of_far_factors(what: String) -> Alarm {
     let what_to_do = "is the unit of the table's levels, of its factors or of the record files another one? correct \
-                      it, or leave it if it is meant: records.at_level";
+                      records.at_level, or leave it if it is meant";
     Alarm::of_one(Severity::Mistake, "factors-at-level", "records", what, what_to_do)
 }
 

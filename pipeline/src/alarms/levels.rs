@@ -84,7 +84,7 @@ pub(crate) fn below_first_case(
                 format!("take a hazard curve from further down than {} {}", curve.first().im, measure.unit())
             }
             Counted::All => format!("begin {} lower: uplift check proposes a line", levels_key(measure)),
-            Counted::Tried => format!("begin {} lower: what is said of levels above has a line", levels_key(measure)),
+            Counted::Tried => format!("begin {} lower: see what is said of levels above", levels_key(measure)),
         },
     })
 }
@@ -160,9 +160,9 @@ impl UpperEnd<'_> {
             badness: most.max(beyond),
             subject: name.to_owned(),
             what: format!(
-                "{counted}{known_to} is exceeded {per_year:.1e} times a year, {} of the target rate of \
+                "{counted}{known_to} is exceeded {per_year:.1e} times a year, {} the target rate of \
                  {target_per_year:.1e}: what stronger motions do is not known, and ordinates may be too small",
-                share(beyond)
+                if beyond > 1.0 { format!("{beyond:.1} times") } else { format!("{} of", share(beyond)) }
             ),
             what_to_do: if end.im > last {
                 format!("let {} reach further up, the hazard curve goes to {} {unit}", levels_key(measure), end.im)

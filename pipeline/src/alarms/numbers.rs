@@ -8,8 +8,7 @@ use super::{Alarm, Severity};
 pub(crate) fn of_numbers(subject: &str, given: &[(Range, &'static str, Option<f64>)]) -> Vec<Alarm> {
     let unlikely = |(usual, option, value): &(Range, &'static str, Option<f64>)| usual.unlikely(option, (*value)?);
     let alarm = |found: uplift_plausible::Unlikely| {
-        let what_to_do = format!("correct it, or leave it if it is meant: {}", found.name);
-        Alarm::of_one(Severity::Mistake, "unlikely-number", subject, found.to_string(), &what_to_do)
+        Alarm::of_one(Severity::Mistake, "unlikely-number", subject, found.to_string(), &found.what_to_do())
     };
     given.iter().filter_map(unlikely).map(alarm).collect()
 }

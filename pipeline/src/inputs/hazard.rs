@@ -6,6 +6,7 @@ use uplift_hazard::{CsvOptions, HazardCurve, SecondColumn, read_path};
 use uplift_motion::{Combination, IntensityMeasure};
 use uplift_risk::StripeWeights;
 
+use super::other_unit::of_outside;
 use crate::checksum::checksum_of_file;
 use crate::error::UpliftError;
 use uplift_study::{CurveFile, CurveKind, MeasurePlan, UniformRiskStudy, definition_of, levels_key, levels_within};
@@ -135,11 +136,16 @@ fn extreme_levels(measure: IntensityMeasure) -> Option<[f64; 2]> {
 
 /// What a wrong unit looks like: the extreme shaking is frequent, or the faintest is rare.
 pub(super) fn implausible(curve: &HazardCurve, measure: IntensityMeasure) -> Option<String> {
+    implausible_if(curve, measure, 1.0)
+}
+
+/// The same if the levels of `curve` were so many times too large as they are read.
+pub(super) fn implausible_if(curve: &HazardCurve, measure: IntensityMeasure, too_large: f64) -> Option<String> {
     /// Once in ten thousand years.
     const RARE_PER_YEAR: f64 = 1e-4;
     let [strong, faint] = extreme_levels(measure)?;
     let unit = measure.unit();
-    let at = |level: f64| curve.rate_at(level).ok();
+    let at = |level: f64| curve.rate_at(level * too_large).ok();
     if let Some(rate) = at(strong).filter(|&rate| rate > RARE_PER_YEAR) {
         return Some(format!(
             "{strong} {unit} is exceeded {rate:.1e} times a year, which is hardly possible: check the unit of the curve"
@@ -285,6 +291,9 @@ impl SiteReader<'_> {
 
     fn weights(&self, curve: &HazardCurve, name: &str, plan: &MeasurePlan) -> Result<StripeWeights, String> {
         stripe_weights(self.study, plan, curve).map_err(|reason| {
+            if let Some(hint) = of_outside(self.study, self.file, plan, curve) {
+                return format!("{name}: {hint}{reason}");
+            }
             let within = levels_within(self.measure, curve.first().im, curve.last().im);
             let within = within
                 .map_or_else(String::new, |(key, levels)| format!(": the default ones within it are {key} = {levels}"));

@@ -10,8 +10,8 @@ use uplift_study::{MeasurePlan, UniformRiskStudy};
 use super::levels::{LevelCheck, OfEnds, check_levels};
 use super::{plan_own_stripes, site_table, systems, systems_under};
 use crate::alarms::{
-    Alarm, BELOW_FIRST_LEVEL, BEYOND_LAST_LEVEL, PROBABILITIES, few, of_far_factors, of_study, probabilities_for_rates,
-    ranked,
+    Alarm, BELOW_FIRST_LEVEL, BEYOND_LAST_LEVEL, PROBABILITIES, few, mistaken_curves, of_far_factors, of_study,
+    probabilities_for_rates, ranked,
 };
 use crate::analysis::seconds;
 use crate::consistency::{Answer, ConsistencyReport};
@@ -62,6 +62,8 @@ pub(crate) fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Eve
     let needs = needs(study, &records, site_list.as_ref());
     let ends = [(BEYOND_LAST_LEVEL, of_ends.upper), (BELOW_FIRST_LEVEL, of_ends.lower)];
     let of_ends = ends.into_iter().filter_map(|(kind, cases)| Alarm::of_cases(kind, cases));
+    let consistency = Answer::of_plan(study, &records, (&hazard, &other_hazard))?.report(&[]);
+    let of_curves = of_probabilities(&hazard).into_iter().chain(mistaken_curves(study, &consistency));
     let head = PlanHead {
         study: study_file.to_owned(),
         record_set: records.description.clone(),
@@ -73,11 +75,10 @@ pub(crate) fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Eve
         disk_bytes: needs.disk_bytes,
         room: needs.room(&study.output.file),
         output: study.output.file.clone(),
-        alarms: ranked(of_inputs(study, &records).chain(of_probabilities(&hazard)).chain(of_ends).collect()),
+        alarms: ranked(of_inputs(study, &records).chain(of_curves).chain(of_ends).collect()),
         notes,
         would_replace: false,
     };
-    let consistency = Answer::of_plan(study, &records, (&hazard, &other_hazard))?.report(&[]);
     Ok(Plan { head, levels, consistency })
 }
 

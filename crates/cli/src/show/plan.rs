@@ -112,8 +112,8 @@ fn levels(check: &LevelCheck) -> String {
     let LevelCheck { im, unit, first_level, lower_tail_share, last_level, upper_tail_share, too_high_for, .. } = check;
     let strengths: Vec<String> = check.strengths.iter().map(|strength| format!("{strength:.3}")).collect();
     let found = format!(
-        "{im}: at the strengths {} up to {} of the risk of an ordinate lies below the first level, {first_level} \
-         {unit}, and up to {} above the last, {last_level} {unit}; other strengths were not tried",
+        "{im}: at the strengths tried, {}, up to {} of the risk of an ordinate lies below the first level, \
+         {first_level} {unit}, and up to {} above the last, {last_level} {unit}",
         strengths.join(", "),
         share(*lower_tail_share),
         share(*upper_tail_share)

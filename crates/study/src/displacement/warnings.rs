@@ -1,8 +1,8 @@
 //! What a study of displacement spectra may say, but probably does not mean.
 
 use uplift_plausible::{
-    Range, USUAL_CAPACITY, USUAL_GRAVITY, USUAL_LENGTH, USUAL_RESTITUTION, USUAL_SAFETY_FACTOR, USUAL_STRENGTH,
-    USUAL_UPLIFT_DISPLACEMENT,
+    Range, USUAL_CAPACITY, USUAL_GRAVITY, USUAL_LENGTH, USUAL_PERCENTILE, USUAL_RESTITUTION, USUAL_SAFETY_FACTOR,
+    USUAL_STRENGTH, USUAL_UPLIFT_DISPLACEMENT,
 };
 
 use super::{DisplacementStudy, Structures};
@@ -29,6 +29,9 @@ pub(super) fn of(study: &DisplacementStudy) -> Vec<Warning> {
             numbers.extend(family.restitution.map(|value| ("block.restitution", value, USUAL_RESTITUTION)));
         }
     }
+    let percentile = study.percentiles.last().map(|&most| ("the largest of spectrum.percentiles", most));
+    let of_design = study.design.iter().map(|plan| ("design.percentile", plan.percentile));
+    numbers.extend(percentile.into_iter().chain(of_design).map(|(name, value)| (name, value, USUAL_PERCENTILE)));
     numbers.extend(study.design.iter().map(|plan| ("design.safety_factor", plan.safety_factor, USUAL_SAFETY_FACTOR)));
     let unlikely = |(name, value, usual): (&'static str, f64, Range)| usual.unlikely(name, value);
     numbers.into_iter().filter_map(unlikely).map(|found| Warning::unlikely(&found)).collect()

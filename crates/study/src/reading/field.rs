@@ -79,7 +79,18 @@ impl<'a> Field<'a> {
             Value::Float(float) => float,
             _ => {
                 let expected = if unit.is_empty() { "a number".to_owned() } else { format!("a number [{unit}]") };
-                return self.wrong_type(&expected, "write a number without quotes or unit");
+                let per_cent = match &self.node.value {
+                    Value::Text(text) => {
+                        text.trim().strip_suffix('%').and_then(|number| number.trim().parse::<f64>().ok())
+                    }
+                    _ => None,
+                };
+                let help = match per_cent {
+                    // rounded, as 2.8 % is not 0.027999999999999997
+                    Some(number) if unit != "%" => format!("write {} for {number} %", (number * 1e12).round() / 1e14),
+                    _ => "write a number without quotes or unit".to_owned(),
+                };
+                return self.wrong_type(&expected, &help);
             }
         };
         self.check(value, unit, rule).then_some(value)

@@ -62,6 +62,12 @@ fn put(table: &mut Table, parts: &[String], node: Node, origin: &Origin) -> Resu
             *target = node;
             return Ok(());
         }
+        // what is the path of a hazard curve alone takes further keys, as sites.Athens.pga.unit
+        if depth == 3 && parts[0] == "sites" && parts[2] != "name" && matches!(target.value, Value::Text(_)) {
+            let path = target.clone();
+            let file = Entry { key: "file".to_owned(), key_origin: path.origin.clone(), node: path };
+            target.value = Value::Table(Table { entries: vec![file] });
+        }
         let described = target.describe();
         let Value::Table(inner) = &mut target.value else {
             return Err(Refusal {

@@ -121,6 +121,17 @@ fn a_complete_study_is_read_and_written_as_it_is() {
 }
 
 #[test]
+fn percentiles_that_look_like_fractions_are_told() {
+    assert_eq!(load("[oscillator]\n[spectrum]\npercentiles = [0.5, 50]\n[design]").warnings, []);
+    let told = load("[oscillator]\n[spectrum]\npercentiles = [0.16, 0.5]\n[design]\npercentile = 0.84").warnings;
+    let what: Vec<&str> = told.iter().map(|warning| warning.what.as_str()).collect();
+    assert!(told.iter().all(|warning| warning.unlikely) && what.len() == 2, "{what:?}");
+    assert!(what[0].starts_with("the largest of spectrum.percentiles is 0.5 %; usual is from 2 to 100 %"), "{what:?}");
+    assert!(what[1].starts_with("design.percentile is 0.84 %; usual is"), "{what:?}");
+    assert_eq!(told[0].what_to_do, "correct spectrum.percentiles, or leave it if it is meant");
+}
+
+#[test]
 fn mistakes_are_all_told_at_once() {
     let folder = Folder::new(
         r#"kind = "displacement spectra"

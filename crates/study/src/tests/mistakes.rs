@@ -307,9 +307,11 @@ fn large_nonsense() {
 
 #[test]
 fn warnings() {
-    let study = load("gravity_m_s2 = 981\n[pgv]\n[strengths]\nvalues = [0, 0.5, 1]").unwrap();
+    let text = "gravity_m_s2 = 981\n[pgv]\n[strengths]\nvalues = [0, 0.5, 1]\n[risk]\nthresholds_m = [0, 10, 1000]";
+    let study = load(text).unwrap();
     let starts = [
         "gravity_m_s2 is 981 m/s2; usual is from 9.7 to 9.9",
+        "the largest of risk.thresholds_m is 1000 m; usual is from",
         "no [[sites]]",
         "regression.strength_above = 0.05 leaves 2",
     ];

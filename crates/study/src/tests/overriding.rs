@@ -1,6 +1,8 @@
+use uplift_hazard::CurveUnit;
 use uplift_motion::IntensityMeasure;
 
 use super::{Folder, mistakes};
+use crate::CurveKind;
 
 const STUDY: &str = r#"
 [pgv]
@@ -61,6 +63,29 @@ fn sites_by_position_and_by_name() {
     }
     let study = folder.load(&["sites.1.name=Athens II"]).unwrap();
     assert_eq!(study.sites[1].name, "Athens II");
+}
+
+/// A curve that is a path alone keeps it, from where it was written, when its unit or kind is set.
+#[test]
+fn the_path_of_a_curve_takes_further_keys() {
+    let folder = Folder::new(STUDY);
+    let before = folder.load(&[]).unwrap();
+    let study = folder.load(&["sites.Athens.pgv.unit=m/s", "sites.Athens.pgv.kind=poe", "sites.Athens.pgv.years=50"]);
+    let (before, curve) = (&before.sites[0].curves[0], &study.unwrap().sites[0].curves[0]);
+    assert_eq!(curve.file, before.file);
+    assert_eq!((before.unit, before.kind), (CurveUnit::CmPerS, CurveKind::Maf));
+    assert_eq!((curve.unit, curve.kind), (CurveUnit::MPerS, CurveKind::Poe { years: 50.0 }));
+    let error = folder.load(&["sites.Athens.name.unit=m/s"]).unwrap_err();
+    assert!(folder.rendered(&error).contains("it is the text \"Athens\", and has no `unit`"));
+}
+
+#[test]
+fn per_cent_are_answered_with_the_fraction() {
+    let folder = Folder::new(STUDY);
+    for (given, meant) in [("risk.poe=2%", "write 0.02 for 2 %"), ("risk.poe=[\"2.8 %\"]", "write 0.028 for 2.8 %")] {
+        let error = folder.load(&[given]).unwrap_err();
+        assert!(folder.rendered(&error).contains(meant), "{}", folder.rendered(&error));
+    }
 }
 
 #[test]

@@ -76,10 +76,14 @@ fn a_level_in_another_unit_is_told() {
     assert_eq!(warnings(COMPLETE), []);
     let told: Vec<String> = warnings(&COMPLETE.replace("0.335", "21")).iter().map(ToString::to_string).collect();
     assert_eq!(told.len(), 1);
-    assert!(told[0].contains("pgv_srss_m_s of a level is 21 m/s") && told[0].contains("cm/s"), "{told:?}");
+    assert!(told[0].contains("pgv_srss_m_s in [[levels]] is 21 m/s") && told[0].contains("cm/s"), "{told:?}");
     let told: Vec<String> = warnings(&COMPLETE.replace("0.16", "1.57")).iter().map(ToString::to_string).collect();
     assert_eq!(told.len(), 1);
     assert!(told[0].contains("ground_acceleration_g is 1.57 g") && told[0].contains("m/s2"), "{told:?}");
+    let told = warnings(&COMPLETE.replace("length_scale = 5", "length_scale = 0.2"));
+    assert_eq!(told.len(), 1);
+    assert!(told[0].unlikely && told[0].what.contains("length_scale is 0.2; usual is from 1 to 100"), "{told:?}");
+    assert_eq!(told[0].what_to_do, "correct length_scale, or leave it if it is meant");
 }
 
 #[test]

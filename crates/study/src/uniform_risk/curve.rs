@@ -67,6 +67,11 @@ impl CurveFile {
     pub fn files(&self) -> impl Iterator<Item = &Path> {
         self.file.iter().chain(self.branches.iter().map(|branch| &branch.file)).map(PathBuf::as_path)
     }
+
+    /// The other units that a curve of its measure may have.
+    pub fn other_units(&self) -> impl Iterator<Item = CurveUnit> {
+        MeasureKeys::of(self.measure).units.iter().copied().filter(|unit| *unit != self.unit)
+    }
 }
 
 /// What a file gives for each level.

@@ -127,7 +127,7 @@ pub(super) fn read(
     let uncertainty = uncertainty::read(section, &described, &mut doubts)?;
     let asked = |Doubt { key, what, .. }: &Doubt| Warning {
         unlikely: true,
-        ..Warning::new(format!("{key}{what}"), format!("correct it, or leave it if it is meant: {key}"))
+        ..Warning::new(format!("{key}{what}"), format!("correct {key}, or leave it if it is meant"))
     };
     let cut = |(quantity, of): (&UncertainQuantity, &Distribution)| {
         let share = of.cut_off_share();

@@ -3,8 +3,8 @@
 use uplift_motion::IntensityMeasure;
 use uplift_oscillator::PostUplift;
 use uplift_plausible::{
-    Range, USUAL_CAPACITY, USUAL_GRAVITY, USUAL_RESTITUTION, USUAL_STRENGTH, USUAL_TOP_PGA, USUAL_TOP_PGV,
-    USUAL_UPLIFT_DISPLACEMENT, USUAL_YEARS,
+    Range, USUAL_CAPACITY, USUAL_GRAVITY, USUAL_RESTITUTION, USUAL_STRENGTH, USUAL_THRESHOLD, USUAL_TOP_PGA,
+    USUAL_TOP_PGV, USUAL_UPLIFT_DISPLACEMENT, USUAL_YEARS,
 };
 
 use super::UniformRiskStudy;
@@ -52,14 +52,21 @@ fn numbers(study: &UniformRiskStudy) -> Vec<(&'static str, f64, Range)> {
         numbers.push(("oscillator.capacity_m", capacity_m, USUAL_CAPACITY));
     }
     numbers.extend(study.strengths.last().map(|&most| ("the largest of strengths.values", most, USUAL_STRENGTH)));
+    let threshold = study.risk.thresholds_m.last();
+    numbers.extend(threshold.map(|&most| ("the largest of risk.thresholds_m", most, USUAL_THRESHOLD)));
     for plan in &study.measures {
-        let (name, usual) = match plan.measure {
-            IntensityMeasure::Pgv => ("the highest of pgv.levels_cm_s", USUAL_TOP_PGV),
-            IntensityMeasure::Pga => ("the highest of pga.levels_g", USUAL_TOP_PGA),
-            // what the others usually are depends on the period, or is told by nobody
-            _ => continue,
-        };
+        let Some((name, usual)) = usual_top_level(plan.measure) else { continue };
         numbers.extend(plan.levels.last().map(|&top| (name, top, usual)));
     }
     numbers
+}
+
+/// What the highest level of a measure is called, and what it usually is; none where that depends on the period, or is
+/// told by nobody.
+pub fn usual_top_level(measure: IntensityMeasure) -> Option<(&'static str, Range)> {
+    match measure {
+        IntensityMeasure::Pgv => Some(("the highest of pgv.levels_cm_s", USUAL_TOP_PGV)),
+        IntensityMeasure::Pga => Some(("the highest of pga.levels_g", USUAL_TOP_PGA)),
+        _ => None,
+    }
 }
