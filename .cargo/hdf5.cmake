@@ -2,7 +2,7 @@
 # After a change here: cargo clean -p hdf5-metno-src
 
 # As cargo's level 1, of which cmake would make 3: that takes twice as long, and reads and writes our arrays no faster.
-# No tables to unwind it, a fifteenth of its size: a panic ends the program.
+# No tables to unwind it, a fifteenth of its size: no panic goes through it.
 set(CMAKE_C_FLAGS_RELEASE "-O1 -fno-asynchronous-unwind-tables -DNDEBUG" CACHE STRING "")
 set(CMAKE_C_FLAGS_RELWITHDEBINFO "-O1 -g -DNDEBUG" CACHE STRING "")
 

@@ -252,30 +252,48 @@ fn curves_and_levels_in_other_units_are_named() {
     let said = study.uplift(&["check", "study.toml", "-q"]).ok().stdout;
     assert!(!said.contains("mistake?"), "{said}");
 
-    // what the records bring of the other measure tells it, before a run and after it
+    // what the records bring of the other measure tells it, before a run, at its beginning and after it
     study.write("pga.csv", &curve_times("athens/pga.csv", 9.81));
     let checked = json(&study, &["check", "study.toml", "--json"]);
-    let run = json(&study, &["run", "study.toml", "-o", "r.h5", "--json"]);
+    let run = study.uplift(&["run", "study.toml", "-o", "r.h5", "--json"]).ok();
+    let told = run.stderr.find("note: mistake? Here: for its curve of PGV");
+    assert!(told.is_some_and(|at| run.stderr[at..].contains("analyses")), "{}", run.stderr);
+    let run: Value = serde_json::from_str(&run.stdout).unwrap();
     for found in [&checked, &run] {
-        let mistaken = alarm(found, "hazard-inconsistent");
-        assert_eq!(mistaken["severity"], "mistake", "{mistaken}");
-        assert!(text(mistaken, "subject").starts_with("Here by P"), "{mistaken}");
-        assert!(text(mistaken, "what_to_do").contains("say so in [[sites]]: pga = { file = …, unit = \"m/s2\" }"));
+        let mistaken = alarm(found, "curves-disagree");
+        assert!(mistaken["severity"] == "mistake" && text(mistaken, "subject") == "Here", "{mistaken}");
+        assert!(text(mistaken, "what").contains("its curve of PGA is") && text(mistaken, "what").contains("too high"));
+        let remedy = "numbers of its PGA in m/s2, which would explain it? Then unit = \"m/s2\" of pga in [[sites]], or \
+                      --set 'sites.Here.pga.unit=m/s2'";
+        assert!(text(mistaken, "what_to_do").contains(remedy), "{mistaken}");
     }
-    let said_so = "sites.Here.pga = { file = \"pga.csv\", unit = \"m/s2\" }";
-    let said = study.uplift(&["check", "study.toml", "-q", "--set", said_so]).ok().stdout;
+    // whichever spectra are asked for, and on the page by its word
+    for measure in ["PGV", "PGA"] {
+        let said = study.uplift(&["table", "r.h5", "--im", measure]).ok().stdout;
+        assert!(said.contains("mistake?  Here: for its curve of PGV"), "{measure}: {said}");
+    }
+    study.uplift(&["report", "r.h5", "-q"]).ok();
+    let page = std::fs::read_to_string(study.path().join("r.html")).unwrap();
+    assert!(page.contains("<li class=\"mistake\">mistake?: <strong>Here:</strong> for its curve of PGV"));
+    let said = study.uplift(&["check", "study.toml", "-q", "--set", "sites.Here.pga.unit=m/s2"]).ok().stdout;
     assert!(!said.contains("mistake?"), "{said}");
-
-    // outside the levels they are told by what would cover them
+    // a gravity in another unit is told, and no curve blamed for it
     study.write("pga.csv", &curve_times("athens/pga.csv", 1.0));
+    let said = study.uplift(&["check", "study.toml", "-q", "--set", "gravity_m_s2=981"]).ok().stdout;
+    assert!(said.contains("gravity_m_s2 is 981") && !said.contains("its curve of"), "{said}");
+
+    // far outside the levels they are told by what would cover them
     let levels = "pgv.levels_cm_s=[0.02, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6]";
     let words = ["Here, PGV", "is pgv.levels_cm_s in m/s?", "give it in cm/s", "PGV = 0.02 cm/s lies outside"];
     study.uplift(&["check", "study.toml", "--set", levels]).fails(4, &words);
     study.write("pgv.csv", &curve_times("athens/pgv.csv", 0.01));
-    let words =
-        ["are its numbers in m/s?", "pgv = { file = …, unit = \"m/s\" }; read as cm/s, PGV = 5 cm/s lies outside"];
+    let words = ["are its numbers in m/s?", "unit = \"m/s\" of pgv", "Read as cm/s, PGV = 5 cm/s lies outside"];
     study.uplift(&["check", "study.toml"]).fails(4, &words);
-    study.uplift(&["check", "study.toml", "--set", "sites.Here.pgv = { file = \"pgv.csv\", unit = \"m/s\" }"]).ok();
+    study.uplift(&["check", "study.toml", "--set", "sites.Here.pgv.unit=m/s"]).ok();
+    // a curve that begins a little too high is no curve in another unit
+    study.write("pgv.csv", "iml,maf\n4,0.01\n30,1e-3\n400,1e-6\n");
+    let failed = study.uplift(&["check", "study.toml"]).fails(4, &["PGV = 2 cm/s lies outside"]);
+    assert!(!failed.stderr.contains("are its numbers"), "{}", failed.stderr);
 }
 
 #[test]
@@ -308,11 +326,16 @@ fn numbers_in_other_units_are_taken_and_told() {
         .as_array()
         .unwrap()
         .iter()
-        .filter(|alarm| alarm["kind"] == "unlikely-number")
+        .filter(|alarm| alarm["severity"] == "mistake")
         .map(|alarm| text(alarm, "what"))
         .collect();
-    let starts =
-        ["height_m is 220 m", "mass_kg over the square of the width and the height is", "--safety-factor is 40"];
+    // the first is the site's: its curve of PGV is of a hundredth of the shaking
+    let starts = [
+        "for its curve of PGV and these records its curve of PGA is",
+        "height_m is 220 m",
+        "mass_kg over the square of the width and the height is",
+        "--safety-factor is 40",
+    ];
     assert_eq!(mistakes.len(), starts.len(), "{mistakes:?}");
     for (mistake, start) in mistakes.iter().zip(starts) {
         assert!(mistake.starts_with(start), "{mistake}");

@@ -9,6 +9,7 @@
 //! | `inputs` | the study's numbers, the records, what was noticed about the inputs |
 //! | `hazard` | hazard curves that look like probabilities |
 //! | `levels` | ordinates that rest on what lies outside the analysed levels, or do not exist |
+//! | `curves` | hazard curves of PGV and of PGA that cannot be of one site |
 //! | `consistency` | records that do not bring the hazard of the other measure |
 //! | `measures` | spectra by PGV and by PGA that disagree |
 //! | `numbers` | numbers of a command line in another unit, probably |
@@ -16,6 +17,7 @@
 //! | `structure` | a structure's numbers, and risks of its own that the levels do not hold |
 
 mod consistency;
+mod curves;
 mod evidence;
 mod fit;
 mod hazard;
@@ -32,7 +34,7 @@ use uplift_motion::IntensityMeasure;
 
 use crate::error::UpliftError;
 use crate::result::{Kind, ResultFile};
-pub(crate) use consistency::mistaken_curves;
+pub(crate) use curves::of_curves;
 pub(crate) use evidence::{Evidence, Scope, spectrum_name};
 pub use fit::{FitReach, reach_of_fit};
 pub(crate) use hazard::{PROBABILITIES, probabilities_for_rates};
@@ -158,6 +160,7 @@ pub(crate) fn alarms_within(file: &ResultFile, scope: &Scope) -> Result<Vec<Alar
     let evidence = Evidence::read(file, scope)?;
     let mut alarms = inputs::of_result(file)?;
     alarms.extend(hazard::alarms(&evidence, scope));
+    alarms.extend(curves::alarms(&evidence, scope));
     alarms.extend(levels::alarms(&evidence, scope)?);
     if scope.repaired {
         alarms.extend(consistency::failing_samples(&evidence, scope));
@@ -174,12 +177,15 @@ pub(crate) fn alarms_within(file: &ResultFile, scope: &Scope) -> Result<Vec<Alar
 /// A file that is damaged, or without sites.
 pub(crate) fn alarms_of_inputs(file: &ResultFile, scope: &Scope) -> Result<Vec<Alarm>, UpliftError> {
     let mut alarms = inputs::of_result(file)?;
-    alarms.extend(hazard::alarms(&Evidence::read(file, scope)?, scope));
+    let evidence = Evidence::read(file, scope)?;
+    alarms.extend(hazard::alarms(&evidence, scope));
+    alarms.extend(curves::alarms(&evidence, scope));
     Ok(alarms)
 }
 
 fn of_spectra(evidence: &Evidence, scope: &Scope) -> Result<Vec<Alarm>, UpliftError> {
     let mut alarms: Vec<Alarm> = hazard::alarms(evidence, scope).into_iter().collect();
+    alarms.extend(curves::alarms(evidence, scope));
     alarms.extend(levels::alarms(evidence, scope)?);
     alarms.extend(measures::alarms(evidence, scope));
     alarms.extend(consistency::alarms(evidence, scope));

@@ -35,7 +35,7 @@ pub(crate) struct Scope {
 }
 
 impl Scope {
-    fn holds_site(&self, site: usize) -> bool {
+    pub(super) fn holds_site(&self, site: usize) -> bool {
         self.site.is_none_or(|wanted| wanted == site)
     }
 

@@ -22,14 +22,15 @@ pub(crate) struct Answer {
 }
 
 impl Answer {
-    /// For a study that is looked at, and not run: no spectra.
+    /// For a study that is looked at, and not run: no spectra, and weights only `with_repair`.
     pub(crate) fn of_plan(
         study: &UniformRiskStudy,
         records: &RecordSet,
         (hazard, other): (&[Vec<SiteHazard>], &[OtherHazard]),
+        with_repair: bool,
     ) -> Result<Self, UpliftError> {
         let question = Question::of_study(study, records, hazard, other)?;
-        let findings = question.findings(study.consistency.repair == Repair::Weights)?;
+        let findings = question.findings(with_repair)?;
         Ok(Self { question, findings, repairs: Vec::new() })
     }
 
@@ -40,8 +41,9 @@ impl Answer {
         hazard: (&[Vec<SiteHazard>], &[OtherHazard]),
         stripes: &[Stripes],
     ) -> Result<Self, UpliftError> {
-        let mut answer = Self::of_plan(study, records, hazard)?;
-        if study.consistency.repair == Repair::Weights && !answer.findings.is_empty() {
+        let is_repaired = study.consistency.repair == Repair::Weights;
+        let mut answer = Self::of_plan(study, records, hazard, is_repaired)?;
+        if is_repaired && !answer.findings.is_empty() {
             let branches = answer.question.findings_of_branches()?;
             for stripes in stripes {
                 let demand = |strength| pooled_demand(stripes, strength);

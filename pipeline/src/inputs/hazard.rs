@@ -146,12 +146,15 @@ pub(super) fn implausible_if(curve: &HazardCurve, measure: IntensityMeasure, too
     let [strong, faint] = extreme_levels(measure)?;
     let unit = measure.unit();
     let at = |level: f64| curve.rate_at(level * too_large).ok();
-    if let Some(rate) = at(strong).filter(|&rate| rate > RARE_PER_YEAR) {
+    // beyond its ends the curve still says that it is more, or less
+    let at_least = |level| at(level).or((curve.first().im > level * too_large).then_some(curve.first().maf));
+    let at_most = |level| at(level).or((curve.last().im < level * too_large).then_some(curve.last().maf));
+    if let Some(rate) = at_least(strong).filter(|&rate| rate > RARE_PER_YEAR) {
         return Some(format!(
             "{strong} {unit} is exceeded {rate:.1e} times a year, which is hardly possible: check the unit of the curve"
         ));
     }
-    let rate = at(faint).filter(|&rate| rate < RARE_PER_YEAR)?;
+    let rate = at_most(faint).filter(|&rate| rate < RARE_PER_YEAR)?;
     Some(format!(
         "{faint} {unit} is exceeded only {rate:.1e} times a year, which is hardly possible: check the unit of the curve"
     ))
@@ -291,13 +294,11 @@ impl SiteReader<'_> {
 
     fn weights(&self, curve: &HazardCurve, name: &str, plan: &MeasurePlan) -> Result<StripeWeights, String> {
         stripe_weights(self.study, plan, curve).map_err(|reason| {
-            if let Some(hint) = of_outside(self.study, self.file, plan, curve) {
-                return format!("{name}: {hint}{reason}");
-            }
+            let hint = of_outside(self.study, (self.site, self.file), plan, curve).unwrap_or_default();
             let within = levels_within(self.measure, curve.first().im, curve.last().im);
             let within = within
                 .map_or_else(String::new, |(key, levels)| format!(": the default ones within it are {key} = {levels}"));
-            format!("{name}: {reason}{within}")
+            format!("{name}: {hint}{reason}{within}")
         })
     }
 }

@@ -5,12 +5,12 @@ use std::path::Path;
 use std::time::Duration;
 
 use serde::Serialize;
-use uplift_study::{MeasurePlan, UniformRiskStudy};
+use uplift_study::{MeasurePlan, Repair, UniformRiskStudy};
 
 use super::levels::{LevelCheck, OfEnds, check_levels};
 use super::{plan_own_stripes, site_table, systems, systems_under};
 use crate::alarms::{
-    Alarm, BELOW_FIRST_LEVEL, BEYOND_LAST_LEVEL, PROBABILITIES, few, mistaken_curves, of_far_factors, of_study,
+    self, Alarm, BELOW_FIRST_LEVEL, BEYOND_LAST_LEVEL, PROBABILITIES, few, of_far_factors, of_study,
     probabilities_for_rates, ranked,
 };
 use crate::analysis::seconds;
@@ -18,7 +18,9 @@ use crate::consistency::{Answer, ConsistencyReport};
 use crate::error::UpliftError;
 use crate::events::Events;
 use crate::frame::PlanHead;
-use crate::inputs::{Record, RecordSet, SiteHazard, SiteList, read_hazard, read_other_hazard, read_records};
+use crate::inputs::{
+    OtherHazard, Record, RecordSet, SiteHazard, SiteList, read_hazard, read_other_hazard, read_records,
+};
 use crate::machine::{Needs, PROGRAM_BYTES};
 
 /// Time spent on a measure to see how fast this machine is.
@@ -62,8 +64,9 @@ pub(crate) fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Eve
     let needs = needs(study, &records, site_list.as_ref());
     let ends = [(BEYOND_LAST_LEVEL, of_ends.upper), (BELOW_FIRST_LEVEL, of_ends.lower)];
     let of_ends = ends.into_iter().filter_map(|(kind, cases)| Alarm::of_cases(kind, cases));
-    let consistency = Answer::of_plan(study, &records, (&hazard, &other_hazard))?.report(&[]);
-    let of_curves = of_probabilities(&hazard).into_iter().chain(mistaken_curves(study, &consistency));
+    let is_repaired = study.consistency.repair == Repair::Weights;
+    let consistency = Answer::of_plan(study, &records, (&hazard, &other_hazard), is_repaired)?.report(&[]);
+    let of_curves = of_curves(study, &hazard, &consistency);
     let head = PlanHead {
         study: study_file.to_owned(),
         record_set: records.description.clone(),
@@ -92,6 +95,29 @@ fn of_inputs(study: &UniformRiskStudy, set: &RecordSet) -> impl Iterator<Item = 
         few(set.records.len(), pairs.len())
     };
     of_study(&study.warnings, set.synthetic).chain(of_records)
+}
+
+/// Curves that are probably mistaken: by themselves, or by what the records bring.
+fn of_curves(
+    study: &UniformRiskStudy,
+    hazard: &[Vec<SiteHazard>],
+    consistency: &ConsistencyReport,
+) -> impl Iterator<Item = Alarm> {
+    of_probabilities(hazard).into_iter().chain(alarms::of_curves(study, consistency))
+}
+
+/// Says which curves are probably mistaken, before hours are spent on them.
+pub(super) fn tell_mistaken_curves(
+    study: &UniformRiskStudy,
+    records: &RecordSet,
+    (hazard, other_hazard): (&[Vec<SiteHazard>], &[OtherHazard]),
+    events: &dyn Events,
+) -> Result<(), UpliftError> {
+    let consistency = Answer::of_plan(study, records, (hazard, other_hazard), false)?.report(&[]);
+    for alarm in of_curves(study, hazard, &consistency) {
+        events.note(&format!("{} {alarm}: {}", alarm.severity.word(), alarm.what_to_do));
+    }
+    Ok(())
 }
 
 /// Curves whose rates look like probabilities.

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use uplift_ida::Shard;
 use uplift_study::UniformRiskStudy;
 
+use super::plan::tell_mistaken_curves;
 use super::precision::precision;
 use super::report::RunReport;
 use super::{
@@ -36,6 +37,7 @@ pub(crate) fn run(
     let inputs = Inputs::read(study, events)?;
     let records = &inputs.records;
     events.remark("records", &records.description);
+    tell_mistaken_curves(study, records, (&hazard, &other_hazard), events)?;
 
     needs(study, records, site_list.as_ref()).with_rows_of(&[checkpoint_path(path)]).require(path, events)?;
     let earlier: Vec<&Path> = std::iter::once(path).chain(place.options.earlier.iter().map(PathBuf::as_path)).collect();

@@ -80,14 +80,15 @@ impl<'a> Field<'a> {
             _ => {
                 let expected = if unit.is_empty() { "a number".to_owned() } else { format!("a number [{unit}]") };
                 let per_cent = match &self.node.value {
-                    Value::Text(text) => {
-                        text.trim().strip_suffix('%').and_then(|number| number.trim().parse::<f64>().ok())
-                    }
+                    Value::Text(text) if unit.is_empty() => text.trim().strip_suffix('%'),
                     _ => None,
                 };
-                let help = match per_cent {
-                    // rounded, as 2.8 % is not 0.027999999999999997
-                    Some(number) if unit != "%" => format!("write {} for {number} %", (number * 1e12).round() / 1e14),
+                let help = match per_cent.and_then(|number| number.trim().parse::<f64>().ok()) {
+                    // 2.8 % is not 0.027999999999999997
+                    Some(number) if number.is_finite() => {
+                        let fraction = format!("{:.12e}", number / 100.0).parse().unwrap_or(number / 100.0);
+                        format!("write {fraction} for {number} %")
+                    }
                     _ => "write a number without quotes or unit".to_owned(),
                 };
                 return self.wrong_type(&expected, &help);

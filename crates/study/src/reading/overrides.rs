@@ -6,6 +6,8 @@ use super::{Finding, Node, Origin, Table, Value};
 
 /// No key of a study file has so many parts.
 const MOST_PARTS: usize = 16;
+/// Keys that the path of a hazard curve alone can be given.
+const OF_A_CURVE: [&str; 3] = ["unit", "kind", "years"];
 
 /// Puts the override `text`, number `index` on the command line, into the document.
 ///
@@ -63,7 +65,8 @@ fn put(table: &mut Table, parts: &[String], node: Node, origin: &Origin) -> Resu
             return Ok(());
         }
         // what is the path of a hazard curve alone takes further keys, as sites.Athens.pga.unit
-        if depth == 3 && parts[0] == "sites" && parts[2] != "name" && matches!(target.value, Value::Text(_)) {
+        let is_path = matches!(target.value, Value::Text(_)) && parts.get(2).is_some_and(|part| part != "name");
+        if depth == 3 && parts[0] == "sites" && is_path && OF_A_CURVE.contains(&parts[3].as_str()) {
             let path = target.clone();
             let file = Entry { key: "file".to_owned(), key_origin: path.origin.clone(), node: path };
             target.value = Value::Table(Table { entries: vec![file] });

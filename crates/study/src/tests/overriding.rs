@@ -86,6 +86,22 @@ fn per_cent_are_answered_with_the_fraction() {
         let error = folder.load(&[given]).unwrap_err();
         assert!(folder.rendered(&error).contains(meant), "{}", folder.rendered(&error));
     }
+    let error = folder.load(&["oscillator.uplift_displacement_m=2%"]).unwrap_err();
+    assert!(folder.rendered(&error).contains("write a number without quotes or unit"));
+}
+
+#[test]
+fn units_are_read_as_people_write_them_and_never_guessed() {
+    let folder = Folder::new(STUDY);
+    let pga = format!("sites.Athens.pga={}", folder.path("pga.csv").display());
+    let study = folder.load(&[&pga, "sites.Athens.pga.unit=gal"]).unwrap();
+    assert_eq!(study.sites[0].curve(IntensityMeasure::Pga).unwrap().unit, CurveUnit::CmPerS2);
+    for unit in ["mm/s", "g", "%g"] {
+        let error = folder.load(&[&format!("sites.Athens.pgv.unit={unit}")]).unwrap_err();
+        let told = folder.rendered(&error);
+        assert!(told.contains(&format!("levels in \"{unit}\" are not read")) && told.contains("cm/s, m/s"), "{told}");
+        assert!(!told.contains("did you mean"), "{told}");
+    }
 }
 
 #[test]

@@ -125,11 +125,24 @@ pub(super) fn read(field: &Field<'_>, measure: IntensityMeasure, paths: &Paths) 
             None
         }
     };
-    let words: Vec<_> = units.iter().map(|&unit| (unit.symbol(), unit)).collect();
-    let unit = section.choice_or("unit", &words, units[0]);
+    let unit = section.field("unit").map_or(Some(units[0]), |field| read_unit(&field, units));
     let kind = kind(&mut section);
     section.finish();
     Some(CurveFile { measure, file: file?, unit: unit?, kind: kind?, branches: branches? })
+}
+
+/// A unit as people write it, gal for cm/s2. What is spelt nearly as one is no suggestion: mm/s is not m/s.
+fn read_unit(field: &Field<'_>, units: &[CurveUnit]) -> Option<CurveUnit> {
+    let text = field.text()?;
+    let unit = CurveUnit::parse(text).filter(|unit| units.contains(unit));
+    if unit.is_none() {
+        let known: Vec<&str> = units.iter().map(|unit| unit.symbol()).collect();
+        field.mistake(
+            format!("levels in \"{text}\" are not read"),
+            format!("it is one of {}: convert levels that are in another", known.join(", ")),
+        );
+    }
+    unit
 }
 
 fn kind(section: &mut Section<'_>) -> Option<CurveKind> {
