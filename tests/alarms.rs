@@ -275,6 +275,7 @@ fn curves_and_levels_in_other_units_are_named() {
     study.uplift(&["report", "r.h5", "-q"]).ok();
     let page = std::fs::read_to_string(study.path().join("r.html")).unwrap();
     assert!(page.contains("<li class=\"mistake\">mistake?: <strong>Here:</strong> for its curve of PGV"));
+    assert!(page.contains("<p class=\"doubt\">"), "the answer is not given without a word of it");
     let said = study.uplift(&["check", "study.toml", "-q", "--set", "sites.Here.pga.unit=m/s2"]).ok().stdout;
     assert!(!said.contains("mistake?"), "{said}");
     // a gravity in another unit is told, and no curve blamed for it
@@ -288,12 +289,91 @@ fn curves_and_levels_in_other_units_are_named() {
     study.uplift(&["check", "study.toml", "--set", levels]).fails(4, &words);
     study.write("pgv.csv", &curve_times("athens/pgv.csv", 0.01));
     let words = ["are its numbers in m/s?", "unit = \"m/s\" of pgv", "Read as cm/s, PGV = 5 cm/s lies outside"];
-    study.uplift(&["check", "study.toml"]).fails(4, &words);
+    let failed = study.uplift(&["check", "study.toml"]).fails(4, &words);
+    assert!(!failed.stderr.contains("extrapolation"), "no remedy for a unit: {}", failed.stderr);
     study.uplift(&["check", "study.toml", "--set", "sites.Here.pgv.unit=m/s"]).ok();
     // a curve that begins a little too high is no curve in another unit
     study.write("pgv.csv", "iml,maf\n4,0.01\n30,1e-3\n400,1e-6\n");
     let failed = study.uplift(&["check", "study.toml"]).fails(4, &["PGV = 2 cm/s lies outside"]);
     assert!(!failed.stderr.contains("are its numbers"), "{}", failed.stderr);
+}
+
+/// Rows of a curve of slope -2 without a header, its levels `times` as large.
+fn rows(times: f64) -> String {
+    let rows = [(1.0, "0.1"), (10.0, "1e-3"), (100.0, "1e-5"), (300.0, "1.1e-6")];
+    rows.map(|(level, rate)| format!("{},{rate}\n", level * times)).concat()
+}
+
+#[test]
+fn curves_that_are_hardly_possible_or_far_from_their_alternatives_are_told() {
+    let study = SmallStudy::with(
+        "[records.synthetic]\npairs = 40\n[strengths]\nvalues = [0.2]\n[pgv]\nlevels_cm_s = [2, 5, 10, 20, 40, 80]\n\
+         [risk]\nextrapolate = \"loglog\"\n[[sites]]\nname = \"Here\"\npgv = \"pgv.csv\"\n",
+    );
+    // millimetres for centimetres, and nothing to hold them against
+    study.write("pgv.csv", &format!("iml,maf\n{}", rows(40.0)));
+    let checked = json(&study, &["check", "study.toml", "--json"]);
+    let run = study.uplift(&["run", "study.toml", "-o", "r.h5", "--json"]).ok();
+    assert!(
+        run.stderr.contains("note: mistake? Here, PGV: by the hazard curve 1000 cm/s is exceeded"),
+        "{}",
+        run.stderr
+    );
+    for found in [&checked, &serde_json::from_str(&run.stdout).unwrap()] {
+        let odd = alarm(found, "hazard-implausible");
+        assert!(
+            odd["severity"] == "mistake"
+                && text(odd, "what").ends_with("1.6e-4 times a year, which is hardly possible"),
+            "{odd}"
+        );
+        assert!(text(odd, "what_to_do").starts_with("are its numbers in mm/s? Then divide its levels by 10"), "{odd}");
+    }
+
+    // one of two in m/s, which every level of the study lies within
+    study.write("a.csv", &format!("iml,maf\n{}", rows(1.0)));
+    study.write("b.csv", &format!("iml,maf\n{}", rows(0.01)));
+    let branches = |second: &str| {
+        format!(
+            "sites.Here.pgv={{ branches = [{{ file = \"a.csv\", weight = 0.5 }}, {{ file = \"{second}\", weight = 0.5, \
+             name = \"other\" }}] }}"
+        )
+    };
+    let set = ["--set", &branches("b.csv"), "--force"];
+    let checked = json(&study, &[&["check", "study.toml", "--json"], &set[..2]].concat());
+    let run = json(&study, &[&["run", "study.toml", "-o", "r.h5", "--json"], &set[..]].concat());
+    for found in [&checked, &run] {
+        let odd = alarm(found, "branches-disagree");
+        assert!(odd["severity"] == "mistake" && text(odd, "what").contains("at least 100.0 times"), "{odd}");
+        let remedy = text(odd, "what_to_do");
+        assert!(remedy.contains("in m/s, which would explain it? All branches are read in cm/s: convert"), "{odd}");
+        let kinds: Vec<&Value> = found["alarms"].as_array().unwrap().iter().map(|alarm| &alarm["kind"]).collect();
+        assert!(!kinds.contains(&&Value::from("hazard-implausible")), "said once: {kinds:?}");
+    }
+    study.write("b.csv", &format!("iml,maf\n{}", rows(1.5)));
+    let said = study.uplift(&["check", "study.toml", "--set", &branches("b.csv")]).ok().stdout;
+    assert!(!said.contains("mistake?"), "{said}");
+}
+
+#[test]
+fn a_file_that_says_another_unit_or_kind_is_answered_with_the_line_to_write() {
+    let study = SmallStudy::with(
+        "[records.synthetic]\npairs = 40\n[strengths]\nvalues = [0.2]\n[pgv]\nlevels_cm_s = [2, 5, 10, 20, 40, 80]\n\
+         [[sites]]\nname = \"Here\"\npgv = \"pgv.csv\"\n",
+    );
+    let words = |of: &[&str]| study.uplift(&["check", "study.toml"]).fails(4, of);
+    study.write("pgv.csv", &format!("pgv_m_s,maf\n{}", rows(0.01)));
+    words(&[
+        "the study takes it for \"cm/s\"",
+        "unit = \"m/s\" of pgv in [[sites]]",
+        "--set 'sites.Here.pgv.unit=m/s'",
+    ]);
+    study.uplift(&["check", "study.toml", "--set", "sites.Here.pgv.unit=m/s"]).ok();
+    study.write("pgv.csv", &format!("pgv_cm_s,poe\n{}", rows(1.0)));
+    words(&["kind = \"poe\", years = 50", "--set 'sites.Here.pgv.kind=poe' --set 'sites.Here.pgv.years=50'"]);
+    study.uplift(&["check", "study.toml", "--set", "sites.Here.pgv.kind=poe", "--set", "sites.Here.pgv.years=50"]).ok();
+    // probabilities that are certain, called rates
+    study.write("pgv.csv", "pgv_cm_s,maf\n0.5,1\n1,1\n2,0.9\n80,0.01\n200,0.001\n");
+    words(&["line 3: annual rate 1 1/yr is not below 1 1/yr", "probabilities, mostly", "kind = \"poe\""]);
 }
 
 #[test]
@@ -340,6 +420,11 @@ fn numbers_in_other_units_are_taken_and_told() {
     for (mistake, start) in mistakes.iter().zip(starts) {
         assert!(mistake.starts_with(start), "{mistake}");
     }
+    let shown = study.uplift(&pier).ok().stdout;
+    assert!(
+        shown.contains("\nThese verdicts stand only if what is marked mistake? below is as it was meant.\n"),
+        "{shown}"
+    );
 }
 
 #[test]

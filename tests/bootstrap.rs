@@ -138,6 +138,7 @@ fn study_of_earthquakes() -> SmallStudy {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn earthquakes_are_drawn_with_all_their_records() {
     let study = study_of_earthquakes();
     let source = ["--set", "records.manifest=set/manifest.csv", "--set", "records.first=6"];

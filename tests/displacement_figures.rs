@@ -179,6 +179,7 @@ fn every_figure_of_oscillators_is_drawn() {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn spectra_and_design_of_blocks() {
     let study = SmallStudy::with(BLOCKS);
     study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();

@@ -93,6 +93,7 @@ fn the_same_bits_on_any_number_of_threads_and_from_the_stored_study() {
 
 /// What the text says of the design: Eq. 3.15 for each rule, and the error as it is defined.
 #[test]
+#[ignore = "long: make test-long"]
 fn design_values_hang_together() {
     let study = SmallStudy::with(OSCILLATORS);
     study.uplift(&["run", "study.toml", "-o", "r.h5", "-q", "--set", "design.width_m=0.001"]).ok();
@@ -160,6 +161,7 @@ leave_out = [3]
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn sets_are_made_by_tags_and_records_left_out() {
     let study = with_manifest();
     let check: serde_json::Value =

@@ -119,6 +119,7 @@ fn the_stripes_are_single_runs_and_the_proxies_those_of_a_design() {
 
 /// Events happen as often as their displacements are exceeded, the state is that of a pushover at the demand.
 #[test]
+#[ignore = "long: make test-long"]
 fn events_and_state_are_those_of_the_displacement() {
     let study = study(STUDY);
     let report = json(&study, &["risk", "frame.toml", "--site", "Here", "--return-period", "2475"]);
@@ -147,6 +148,7 @@ fn events_and_state_are_those_of_the_displacement() {
 
 /// Both components as records are one pair: the frame wobbles alike under both, and the answer is that of the pairs.
 #[test]
+#[ignore = "long: make test-long"]
 fn records_of_one_pair_are_one_motion() {
     let study = study(&STUDY.replace("[records]\n", "[records]\ncomponent = \"both\"\n"));
     let report = json(&study, &["risk", "frame.toml", "--site", "Here", "-o", "peaks.csv"]);

@@ -181,6 +181,7 @@ fn a_stop_before_and_after_it_loses_nothing() {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn where_a_curve_cannot_be_repaired_there_is_none_and_it_is_said() {
     let study = two_measures("north south", "north south", "");
     let athens = crate::common::repository().join("hazard/athens/pga.csv");

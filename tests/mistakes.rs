@@ -79,7 +79,10 @@ fn hazard_curves() {
         study.write("here-pgv.csv", &format!("iml,maf\n{rows}"));
         let checked = study.uplift(&["check", "study.toml"]).ok();
         let said = checked.stdout + &checked.stderr;
-        assert!(said.contains(word) && said.contains("check the unit"), "{said}");
+        assert!(
+            said.contains(word) && said.contains("mistake?") && said.contains("which is hardly possible"),
+            "{said}"
+        );
     }
     study.write("here-pgv.csv", "iml,maf\n0.5,0.1\n10,0.2\n300,0.01\n");
     // the mistakes of several sites at once

@@ -150,6 +150,7 @@ fn tables_and_figures() {
 
 /// Each kind of table gives way to its own kind and structure, and to no other without --force.
 #[test]
+#[ignore = "long: make test-long"]
 fn tables_give_way_to_their_own_kind() {
     let study = SmallStudy::new();
     let (frame, column, catalogue) =

@@ -161,6 +161,7 @@ impl Events for StopAtRepaired {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn a_stop_between_two_of_them_loses_nothing() {
     let study = study();
     let [whole, parts] = ["r.h5", "parts.h5"].map(|name| study.path().join(name));

@@ -35,6 +35,7 @@ fn left(folder: &Path) -> Vec<String> {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn shards_give_the_same_answer() {
     let study = study();
     for job in JOBS {

@@ -137,6 +137,7 @@ fn one_draw_is_another_structure_for_each_record() {
 
 /// All records shake the same structures: each has its spectrum, and the frequency of all is the mean of theirs.
 #[test]
+#[ignore = "long: make test-long"]
 fn structures_are_branches() {
     let uncertain = study(&scattering("epistemic", "samples = 8"));
     let ran = uncertain.uplift(&["run", "study.toml", "-o", "r.h5", "--json", "-q"]).ok();

@@ -161,6 +161,7 @@ fn variants_that_compare_nothing_are_refused_in_words() {
 }
 
 #[test]
+#[ignore = "long: make test-long"]
 fn repaired_spectra_are_compared_too() {
     let study = SmallStudy::repaired();
     let found = json(&study, &["--over", "oscillator.restitution=0.85,0.95", "--force"]);

@@ -124,6 +124,7 @@ fn pairs_by_key() {
 
 /// Two samples where there is no key; table and figures; of another band other areas.
 #[test]
+#[ignore = "long: make test-long"]
 fn samples_tables_and_figures() {
     let study = SmallStudy::new();
     let rows = |factor: f64| {

@@ -7,7 +7,10 @@
 //! | module | what it looks at |
 //! |---|---|
 //! | `inputs` | the study's numbers, the records, what was noticed about the inputs |
-//! | `hazard` | hazard curves that look like probabilities |
+//! | `hazard` | hazard curves that are probably mistaken, by the three that follow |
+//! | `probabilities` | those that look like probabilities |
+//! | `implausible` | those by which extreme shaking is frequent, or the faintest rare |
+//! | `branches` | weighted ones of which one is far from the others |
 //! | `levels` | ordinates that rest on what lies outside the analysed levels, or do not exist |
 //! | `curves` | hazard curves of PGV and of PGA that cannot be of one site |
 //! | `consistency` | records that do not bring the hazard of the other measure |
@@ -16,15 +19,18 @@
 //! | `fit` | fitted curves that leave their spectrum |
 //! | `structure` | a structure's numbers, and risks of its own that the levels do not hold |
 
+mod branches;
 mod consistency;
 mod curves;
 mod evidence;
 mod fit;
 mod hazard;
+mod implausible;
 mod inputs;
 mod levels;
 mod measures;
 mod numbers;
+mod probabilities;
 mod structure;
 
 use std::fmt;
@@ -37,7 +43,7 @@ use crate::result::{Kind, ResultFile};
 pub(crate) use curves::of_curves;
 pub(crate) use evidence::{Evidence, Scope, spectrum_name};
 pub use fit::{FitReach, reach_of_fit};
-pub(crate) use hazard::{PROBABILITIES, probabilities_for_rates};
+pub(crate) use hazard::{CurvesAtSite, of_hazard};
 pub(crate) use inputs::{few, of_far_factors, of_study};
 pub(crate) use levels::{BELOW_FIRST_LEVEL, BEYOND_LAST_LEVEL, Counted, UpperEnd, below_first_case};
 pub(crate) use numbers::of_numbers;
@@ -160,7 +166,6 @@ pub(crate) fn alarms_within(file: &ResultFile, scope: &Scope) -> Result<Vec<Alar
     let evidence = Evidence::read(file, scope)?;
     let mut alarms = inputs::of_result(file)?;
     alarms.extend(hazard::alarms(&evidence, scope));
-    alarms.extend(curves::alarms(&evidence, scope));
     alarms.extend(levels::alarms(&evidence, scope)?);
     if scope.repaired {
         alarms.extend(consistency::failing_samples(&evidence, scope));
@@ -179,13 +184,11 @@ pub(crate) fn alarms_of_inputs(file: &ResultFile, scope: &Scope) -> Result<Vec<A
     let mut alarms = inputs::of_result(file)?;
     let evidence = Evidence::read(file, scope)?;
     alarms.extend(hazard::alarms(&evidence, scope));
-    alarms.extend(curves::alarms(&evidence, scope));
     Ok(alarms)
 }
 
 fn of_spectra(evidence: &Evidence, scope: &Scope) -> Result<Vec<Alarm>, UpliftError> {
-    let mut alarms: Vec<Alarm> = hazard::alarms(evidence, scope).into_iter().collect();
-    alarms.extend(curves::alarms(evidence, scope));
+    let mut alarms = hazard::alarms(evidence, scope);
     alarms.extend(levels::alarms(evidence, scope)?);
     alarms.extend(measures::alarms(evidence, scope));
     alarms.extend(consistency::alarms(evidence, scope));

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::text::six_digits;
+
 /// Where a value stands: a point of arrays handed over, a line of a file, or a level in it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Place {
@@ -35,6 +37,12 @@ fn list(mistakes: &[HazardError], more: usize) -> String {
     }
     lines.join("; ")
 }
+
+/// What to do about rates that do not fall.
+const OF_RATES: &str = "correct the rates, export them with more digits, or remove the row";
+/// The same of rates of exactly 1.
+const OF_ONES: &str = "rates of exactly 1 are probabilities, mostly: say so (column poe; in a study kind = \"poe\" and \
+                       the years of the curve), or remove the row";
 
 /// Why a hazard curve could not be built, read or evaluated.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -93,7 +101,7 @@ pub enum HazardError {
     /// Rates that do not decrease.
     #[error(
         "{place}: annual rate {value} 1/yr is not below {previous} 1/yr at {previous_place}; a hazard curve must fall \
-         strictly: correct the rates, export them with more digits, or remove the row"
+         strictly: {}", if *value == 1.0 && *previous == 1.0 { OF_ONES } else { OF_RATES }
     )]
     RatesNotDecreasing {
         /// Where the offending rate stands.
@@ -132,9 +140,10 @@ pub enum HazardError {
     // Evaluation
     /// An intensity outside the curve, extrapolation refused.
     #[error(
-        "{measure} = {value} {unit} lies outside the hazard curve, which spans {first} to {last} {unit}; check the \
-         unit of the curve, give a curve that covers it, or choose log-log extrapolation \
-         (risk.extrapolate = \"loglog\")"
+        "{measure} = {value} {unit} lies outside the hazard curve, which spans {} to {} {unit}; check the unit of the \
+         curve, give a curve that covers it, or choose log-log extrapolation (risk.extrapolate = \"loglog\")",
+        six_digits(*first),
+        six_digits(*last)
     )]
     LevelOutside {
         /// The measure.

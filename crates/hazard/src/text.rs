@@ -24,6 +24,12 @@ pub(crate) fn excerpt(field: &str) -> String {
     if head.len() < field.len() { format!("{head:?}...") } else { format!("{head:?}") }
 }
 
+/// A `value` for a message, in any unit, without the digits that its conversion from another unit made.
+#[must_use]
+pub fn six_digits(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
+}
+
 /// The first characters of a text, `count` at most.
 pub(crate) fn beginning(text: &str, count: usize) -> &str {
     text.char_indices().nth(count).map_or(text, |(end, _)| &text[..end])
@@ -57,6 +63,12 @@ pub(crate) fn fields(line: &str, separator: char) -> impl Iterator<Item = &str> 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn digits_of_a_conversion_are_left_out() {
+        assert_eq!(six_digits(0.000_101_971_621_297_793), 0.000_101_972);
+        assert_eq!([six_digits(174.33), six_digits(5.0), six_digits(0.0)], [174.33, 5.0, 0.0]);
+    }
 
     #[test]
     fn quoted_fields() {

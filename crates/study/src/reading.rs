@@ -25,7 +25,7 @@ mod suggestion;
 pub(crate) mod text;
 
 pub(crate) use document::{Node, Origin, Table, Value};
-pub(crate) use field::{Field, LARGEST_INTEGER, optional};
+pub(crate) use field::{Field, LARGEST_INTEGER, commas, optional};
 pub(crate) use findings::{Finding, Findings};
 pub(crate) use paths::Paths;
 pub(crate) use rule::{PROBABILITY, Rule, ZERO_TO_ONE, quantity};

@@ -1,114 +1,90 @@
-//! Hazard curves that look like probabilities in some years where rates per year are meant.
+//! Hazard curves that are probably mistaken, each by itself or among its weighted alternatives.
 
 use uplift_hazard::HazardCurve;
 use uplift_motion::IntensityMeasure;
+use uplift_study::UniformRiskStudy;
 
 use super::evidence::{Evidence, Scope};
-use super::{Alarm, Case, Severity};
+use super::{Alarm, branches, implausible, probabilities};
 
-/// The kind of the alarm.
-pub(crate) const PROBABILITIES: &str = "hazard-probabilities";
-/// A probability saturates at 1, and a rate goes on rising: a curve that begins between this and 1 …
-const NEARLY_CERTAIN: f64 = 0.9;
-/// … and hardly falls, by less than this power of the intensity, where rates fall by its first power or so.
-const FLAT: f64 = 0.25;
-
-/// Whether the rates of `curve` look like probabilities in many years.
-fn look_like_probabilities(curve: &HazardCurve) -> bool {
-    let mut points = curve.points();
-    let (Some(first), Some(second)) = (points.next(), points.next()) else { return false };
-    let slope = (first.maf / second.maf).ln() / (second.im / first.im).ln();
-    first.maf > NEARLY_CERTAIN && first.maf <= 1.0 && slope < FLAT
+/// The hazard of a site in one measure.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct CurvesAtSite<'a> {
+    /// Name of the site.
+    pub(crate) site: &'a str,
+    pub(crate) measure: IntensityMeasure,
+    /// What the spectra are made of, in field units.
+    pub(crate) curve: &'a HazardCurve,
+    /// Weighted alternatives with their names.
+    pub(crate) branches: Vec<(&'a str, &'a HazardCurve)>,
 }
 
-/// What is raised of the curves of a `site`, where some look so: its `curve`, or weighted ones, with their names.
-pub(crate) fn probabilities_for_rates<'a>(
-    (site, measure): (&str, IntensityMeasure),
-    curve: &'a HazardCurve,
-    branches: impl Iterator<Item = (&'a str, &'a HazardCurve)> + Clone,
-) -> Option<Case> {
-    let count = branches.clone().count();
-    let key = measure.key();
-    let mut odd = branches.filter(|(_, branch)| look_like_probabilities(branch));
-    let (odd_one, which, what_to_do) = if look_like_probabilities(curve) {
-        let input = if count == 0 { "file = …, " } else { "…, " };
-        let what_to_do = format!("if so, say so in [[sites]]: {key} = {{ {input}kind = \"poe\", years = 50 }}");
-        (curve, "the hazard curve".to_owned(), what_to_do)
-    } else {
-        let (name, branch) = odd.next()?;
+/// One of the curves of a site.
+pub(super) struct Found<'a> {
+    pub(super) curve: &'a HazardCurve,
+    /// `the hazard curve`, or `the weighted curve "a" (and 1 more of 3)`.
+    pub(super) name: String,
+    /// Whether it is the one that the spectra are made of.
+    pub(super) is_all: bool,
+}
+
+impl<'a> CurvesAtSite<'a> {
+    /// `Athens, PGV`.
+    pub(super) fn subject(&self) -> String {
+        format!("{}, {}", self.site, self.measure.label())
+    }
+
+    /// The curve of the spectra where `is_odd` holds for it, else the first weighted one for which it does.
+    pub(super) fn first_that(&self, is_odd: impl Fn(&HazardCurve) -> bool) -> Option<Found<'a>> {
+        if is_odd(self.curve) {
+            return Some(Found { curve: self.curve, name: "the hazard curve".to_owned(), is_all: true });
+        }
+        let mut odd = self.branches.iter().filter(|(_, branch)| is_odd(branch));
+        let (name, curve) = odd.next()?;
         let others = match odd.count() {
             0 => String::new(),
-            more => format!(" (and {more} more of {count})"),
+            more => format!(" (and {more} more of {})", self.branches.len()),
         };
-        let what_to_do = format!(
-            "if all curves of {key} are, say so in [[sites]]: {key} = {{ …, kind = \"poe\", years = 50 }}; if not all, \
-             write rates per year into the files of those that are"
-        );
-        (branch, format!("the weighted curve \"{name}\"{others}"), what_to_do)
-    };
-    let first = odd_one.first();
-    Some(Case {
-        severity: Severity::Mistake,
-        badness: first.maf,
-        subject: format!("{site}, {}", measure.label()),
-        what: format!(
-            "the rates of {which} level off just below 1 ({} a year at {} {}): they look like probabilities in many \
-             years, 50 mostly, and the spectra would be far too large",
-            first.maf,
-            first.im,
-            odd_one.unit()
-        ),
-        what_to_do,
-    })
+        Some(Found { curve, name: format!("the weighted curve \"{name}\"{others}"), is_all: false })
+    }
 }
 
-pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
-    let mut cases = Vec::new();
+/// What is raised of all `curves`.
+pub(crate) fn of_hazard(study: &UniformRiskStudy, curves: &[CurvesAtSite<'_>]) -> Vec<Alarm> {
+    let (mut levelling_off, mut disagreeing, mut hardly_possible) = (Vec::new(), Vec::new(), Vec::new());
+    for curves in curves {
+        levelling_off.extend(probabilities::case(curves));
+        let disagrees = branches::case(study, curves);
+        // what is held against its alternatives says more of a unit than that it is hardly possible
+        if disagrees.is_none() {
+            hardly_possible.extend(implausible::case(study, curves));
+        }
+        disagreeing.extend(disagrees);
+    }
+    let alarms = [
+        Alarm::of_cases("hazard-probabilities", levelling_off),
+        Alarm::of_cases("branches-disagree", disagreeing),
+        Alarm::of_cases("hazard-implausible", hardly_possible),
+    ];
+    alarms.into_iter().flatten().collect()
+}
+
+/// All that is raised of the curves of a result: those of each measure, and those of PGV and PGA side by side.
+pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Vec<Alarm> {
+    let mut all = Vec::new();
     for hazard in &evidence.hazard {
         for (site, curves) in hazard.sites.iter().enumerate() {
-            let at = (evidence.spectra.sites[site].as_str(), hazard.measure);
-            let branches = curves.branches.iter().map(|branch| (branch.name.as_str(), &branch.curve));
             if scope.holds(site, hazard.measure) {
-                cases.extend(probabilities_for_rates(at, &curves.curve, branches));
+                all.push(CurvesAtSite {
+                    site: &evidence.spectra.sites[site],
+                    measure: hazard.measure,
+                    curve: &curves.curve,
+                    branches: curves.branches.iter().map(|branch| (branch.name.as_str(), &branch.curve)).collect(),
+                });
             }
         }
     }
-    Alarm::of_cases(PROBABILITIES, cases)
-}
-
-#[cfg(test)]
-mod tests {
-    #![allow(clippy::unwrap_used)]
-    use super::*;
-
-    fn curve(maf: impl Fn(f64) -> f64) -> HazardCurve {
-        let im: Vec<f64> = [0.5, 1.0, 2.0, 5.0, 20.0, 100.0].to_vec();
-        let maf = im.iter().map(|&level| maf(level)).collect();
-        HazardCurve::new("PGV", "cm/s", "", im, maf).unwrap()
-    }
-
-    #[test]
-    fn a_curve_that_saturates_below_one_is_told_from_rates() {
-        let rate = |level: f64| 0.2 / level;
-        assert!(look_like_probabilities(&curve(|level| -(-50.0 * rate(level)).exp_m1())));
-        assert!(!look_like_probabilities(&curve(rate)));
-        // rates that happen to begin near 1, and rates above it
-        assert!(!look_like_probabilities(&curve(|level| 0.49 / level)));
-        assert!(!look_like_probabilities(&curve(|level| 3.0 / level.powf(0.1))));
-    }
-
-    #[test]
-    fn the_weighted_curve_that_looks_so_is_named() {
-        let rates = curve(|level| 0.2 / level);
-        let probabilities = curve(|level| -(-50.0 * 0.2 / level).exp_m1());
-        let said = |branches: &[(&'static str, &HazardCurve)]| {
-            let found = probabilities_for_rates(("Here", IntensityMeasure::Pgv), &rates, branches.iter().copied());
-            found.map_or_else(String::new, |case| case.what)
-        };
-        assert_eq!(said(&[("a", &rates), ("b", &rates)]), "");
-        let what = said(&[("a", &rates), ("b", &probabilities)]);
-        assert!(what.starts_with("the rates of the weighted curve \"b\" level off just below 1"), "{what}");
-        let what = said(&[("a", &probabilities), ("b", &rates), ("c", &probabilities)]);
-        assert!(what.starts_with("the rates of the weighted curve \"a\" (and 1 more of 3) level off"), "{what}");
-    }
+    let mut alarms = of_hazard(&evidence.study, &all);
+    alarms.extend(super::curves::alarms(evidence, scope));
+    alarms
 }

@@ -6,7 +6,7 @@ use uplift_hazard::{CsvOptions, HazardCurve, SecondColumn, read_path};
 use uplift_motion::{Combination, IntensityMeasure};
 use uplift_risk::StripeWeights;
 
-use super::other_unit::of_outside;
+use super::other_unit::{of_outside, with_remedy};
 use crate::checksum::checksum_of_file;
 use crate::error::UpliftError;
 use uplift_study::{CurveFile, CurveKind, MeasurePlan, UniformRiskStudy, definition_of, levels_key, levels_within};
@@ -134,13 +134,32 @@ fn extreme_levels(measure: IntensityMeasure) -> Option<[f64; 2]> {
     }
 }
 
-/// What a wrong unit looks like: the extreme shaking is frequent, or the faintest is rare.
+/// What a wrong unit looks like.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct HardlyPossible {
+    /// `10 g is exceeded 6.1e-1 times a year`.
+    pub(crate) words: String,
+    /// How many times too often, or too rarely, at least.
+    pub(crate) times: f64,
+}
+
+/// What a wrong unit looks like, in one sentence.
 pub(super) fn implausible(curve: &HazardCurve, measure: IntensityMeasure) -> Option<String> {
-    implausible_if(curve, measure, 1.0)
+    let HardlyPossible { words, .. } = hardly_possible(curve, measure)?;
+    Some(format!("{words}, which is hardly possible: check the unit of the curve"))
+}
+
+/// By `curve` the extreme shaking is frequent, or the faintest is rare.
+pub(crate) fn hardly_possible(curve: &HazardCurve, measure: IntensityMeasure) -> Option<HardlyPossible> {
+    hardly_possible_if(curve, measure, 1.0)
 }
 
 /// The same if the levels of `curve` were so many times too large as they are read.
-pub(super) fn implausible_if(curve: &HazardCurve, measure: IntensityMeasure, too_large: f64) -> Option<String> {
+pub(super) fn hardly_possible_if(
+    curve: &HazardCurve,
+    measure: IntensityMeasure,
+    too_large: f64,
+) -> Option<HardlyPossible> {
     /// Once in ten thousand years.
     const RARE_PER_YEAR: f64 = 1e-4;
     let [strong, faint] = extreme_levels(measure)?;
@@ -150,14 +169,12 @@ pub(super) fn implausible_if(curve: &HazardCurve, measure: IntensityMeasure, too
     let at_least = |level| at(level).or((curve.first().im > level * too_large).then_some(curve.first().maf));
     let at_most = |level| at(level).or((curve.last().im < level * too_large).then_some(curve.last().maf));
     if let Some(rate) = at_least(strong).filter(|&rate| rate > RARE_PER_YEAR) {
-        return Some(format!(
-            "{strong} {unit} is exceeded {rate:.1e} times a year, which is hardly possible: check the unit of the curve"
-        ));
+        let words = format!("{strong} {unit} is exceeded {rate:.1e} times a year");
+        return Some(HardlyPossible { words, times: rate / RARE_PER_YEAR });
     }
     let rate = at_most(faint).filter(|&rate| rate < RARE_PER_YEAR)?;
-    Some(format!(
-        "{faint} {unit} is exceeded only {rate:.1e} times a year, which is hardly possible: check the unit of the curve"
-    ))
+    let words = format!("{faint} {unit} is exceeded only {rate:.1e} times a year");
+    Some(HardlyPossible { words, times: RARE_PER_YEAR / rate })
 }
 
 /// The mean of weighted curves, with the levels asked for among its own.
@@ -217,6 +234,9 @@ impl SiteReader<'_> {
             let mean = weighted_mean(&curves, &[]);
             (self.noted(mean)?, String::new())
         };
+        // no spectrum rests on it, and no alarm of one is raised
+        let odd = implausible(&curve, self.measure);
+        self.notes.extend(odd.map(|reason| format!("site {}, {}: {reason}", self.site, self.measure.label())));
         Some(OtherHazard {
             site: self.site.to_owned(),
             measure: self.measure,
@@ -265,7 +285,7 @@ impl SiteReader<'_> {
                 options.years = Some(years);
             }
         }
-        let read = read_path(path, &options).map_err(|error| error.to_string())?;
+        let read = read_path(path, &options).map_err(|error| with_remedy(&error, self.site, self.file))?;
         for (count, what) in
             [(read.dropped_zeros, "zeros at the end"), (read.dropped_certain, "probabilities of 1 at the start")]
         {
@@ -284,21 +304,20 @@ impl SiteReader<'_> {
             self.undefined.push(format!("{}, {}", self.site, self.measure.label()));
         }
         let curve = converted.unwrap_or(curve);
-        self.notes.extend(
-            implausible(&curve, self.measure)
-                .map(|reason| format!("site {}, {}: {}: {reason}", self.site, self.measure.label(), path.display())),
-        );
         let checksum = checksum_of_file(path).map_err(|error| format!("{}: {error}", path.display()))?;
         Ok((curve, checksum))
     }
 
     fn weights(&self, curve: &HazardCurve, name: &str, plan: &MeasurePlan) -> Result<StripeWeights, String> {
         stripe_weights(self.study, plan, curve).map_err(|reason| {
-            let hint = of_outside(self.study, (self.site, self.file), plan, curve).unwrap_or_default();
+            // who reads a curve in another unit is not helped by an extrapolation of it
+            if let Some(other_unit) = of_outside(self.study, (self.site, self.file), plan, curve) {
+                return format!("{name}: {other_unit}");
+            }
             let within = levels_within(self.measure, curve.first().im, curve.last().im);
             let within = within
                 .map_or_else(String::new, |(key, levels)| format!(": the default ones within it are {key} = {levels}"));
-            format!("{name}: {hint}{reason}{within}")
+            format!("{name}: {reason}{within}")
         })
     }
 }

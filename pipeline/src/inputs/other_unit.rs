@@ -1,10 +1,10 @@
 //! Hazard curves and levels whose numbers are probably of another unit than the one that they are read in.
 
-use uplift_hazard::{CurveUnit, HazardCurve};
+use uplift_hazard::{CurveUnit, HazardCurve, HazardError, six_digits};
 use uplift_motion::IntensityMeasure;
-use uplift_study::{CurveFile, MeasurePlan, UniformRiskStudy, levels_key, usual_top_level};
+use uplift_study::{CurveFile, CurveKind, MeasurePlan, UniformRiskStudy, levels_key, usual_top_level};
 
-use super::hazard::{implausible, implausible_if};
+use super::hazard::{hardly_possible, hardly_possible_if};
 
 /// What is further off than so many times is not explained by a unit: sites and records differ by some, units by more.
 const FITS_WITHIN: f64 = 2.0;
@@ -48,14 +48,12 @@ impl NumbersIn {
 
     /// What to write where the numbers of the `file` of a site are so.
     fn remedy(self, site: &str, file: &CurveFile) -> String {
-        let key = file.measure.key();
-        let is_bare = !site.contains(['.', '[', '"']);
-        let site = if is_bare { site.to_owned() } else { format!("\"{site}\"") };
+        let (key, site) = (file.measure.key(), key_of(site));
         match self {
             Self::Parts(_, parts, unit) => format!("divide its levels by {parts} into {}", unit.symbol()),
             Self::Unit(unit) if file.branches.is_empty() => format!(
-                "unit = \"{unit}\" of {key} in [[sites]], or --set 'sites.{site}.{key}.unit={unit}' (and in the \
-                 head of the file, if it says another)",
+                "unit = \"{unit}\" of {key} in [[sites]], or --set '{site}.{key}.unit={unit}' (and in the head of the \
+                 file, if it says another)",
                 unit = unit.symbol()
             ),
             Self::Unit(unit) => format!(
@@ -67,6 +65,43 @@ impl NumbersIn {
     }
 }
 
+/// The key of a site on the command line: `sites.Athens`, `sites."Sion 2.1"`.
+fn key_of(site: &str) -> String {
+    let is_bare = !site.contains(['.', '[', '"']);
+    if is_bare { format!("sites.{site}") } else { format!("sites.\"{site}\"") }
+}
+
+/// What is wrong with the curve of a `site` that is read from `file`: where this says something else than the study,
+/// with the line that agrees with it.
+pub(super) fn with_remedy(error: &HazardError, site: &str, file: &CurveFile) -> String {
+    let HazardError::Contradiction { place, what, found, declared } = error else { return error.to_string() };
+    let curve = format!("{}.{}", key_of(site), file.measure.key());
+    let (line, settings) = match *what {
+        "unit" => {
+            let found = CurveUnit::parse(found.trim_matches('"'));
+            let Some(unit) = found.filter(|found| file.other_units().any(|unit| unit == *found)) else {
+                return error.to_string();
+            };
+            (format!("unit = \"{unit}\"", unit = unit.symbol()), format!("--set '{curve}.unit={}'", unit.symbol()))
+        }
+        "second column" if file.kind == CurveKind::Maf => {
+            let settings = format!("--set '{curve}.kind=poe' --set '{curve}.years=50'");
+            ("kind = \"poe\", years = 50 (or how many the file says)".to_owned(), settings)
+        }
+        "second column" => {
+            // years without a probability would be refused
+            ("kind = \"maf\" without years".to_owned(), String::new())
+        }
+        _ => return error.to_string(),
+    };
+    let or_set = if settings.is_empty() { settings } else { format!(", or {settings}") };
+    format!(
+        "{place}: the file says {what} {found}, and the study takes it for {declared}: where the file is right, {line} \
+         of {} in [[sites]]{or_set}; else correct the file",
+        file.measure.key()
+    )
+}
+
 /// The units that the numbers of `file` may be of instead of its own.
 fn of_file(file: &CurveFile, gravity_m_s2: f64) -> impl Iterator<Item = OtherUnit> {
     let parts = [NumbersIn::PER_CENT_OF_G, NumbersIn::MM_PER_S];
@@ -76,8 +111,8 @@ fn of_file(file: &CurveFile, gravity_m_s2: f64) -> impl Iterator<Item = OtherUni
     })
 }
 
-/// What is said first where levels of `plan` lie far outside the `curve` of a `site`, which is read from `file`: that
-/// they, or the curve, would fit in another unit. None where no unit is better.
+/// What is said where levels of `plan` lie far outside the `curve` of a `site`, which is read from `file`: that they,
+/// or the curve, would fit in another unit. None where no unit is better.
 pub(super) fn of_outside(
     study: &UniformRiskStudy,
     (site, file): (&str, &CurveFile),
@@ -90,9 +125,17 @@ pub(super) fn of_outside(
         return None;
     }
     let gravity_m_s2 = study.gravity_m_s2;
+    let outside = plan.levels.iter().find(|level| !(first..=last).contains(*level))?;
+    let fact = format!(
+        "{0} = {outside} {1} lies outside the hazard curve, which spans {2} to {3} {1}",
+        plan.measure.label(),
+        plan.measure.unit(),
+        six_digits(first),
+        six_digits(last)
+    );
     // the levels are to blame where they look so themselves, and the curve does not
     let is_unusual = usual_top_level(plan.measure).is_some_and(|(_, usual)| !usual.contains(most));
-    if is_unusual && implausible(curve, plan.measure).is_none() {
+    if is_unusual && hardly_possible(curve, plan.measure).is_none() {
         let own = CurveUnit::parse(plan.measure.unit())?;
         let holds = |unit: &CurveUnit| {
             unit.times_too_large_as(own, gravity_m_s2)
@@ -100,7 +143,7 @@ pub(super) fn of_outside(
         };
         if let Some(unit) = file.other_units().chain([file.unit]).find(holds) {
             return Some(format!(
-                "is {} in {}? As such it lies within the curve: give it in {}. As it is, ",
+                "is {} in {}? As such it lies within the curve: give it in {}. As it is, {fact}",
                 levels_key(plan.measure),
                 unit.symbol(),
                 own.symbol()
@@ -108,12 +151,12 @@ pub(super) fn of_outside(
         }
     }
     let covers = |&OtherUnit { too_large, .. }: &OtherUnit| {
-        let is_plausible = implausible_if(curve, plan.measure, too_large).is_none();
+        let is_plausible = hardly_possible_if(curve, plan.measure, too_large).is_none();
         first / too_large <= least && most <= last / too_large && is_plausible
     };
     let other = of_file(file, gravity_m_s2).find(covers)?;
     Some(format!(
-        "are its numbers in {}? As such they cover the levels: {}. Read as {}, ",
+        "are its numbers in {}? As such they cover the levels: {}. Read as {}, {fact}",
         other.unit.name(),
         other.unit.remedy(site, file),
         file.unit.symbol()
@@ -149,4 +192,62 @@ pub(crate) fn unit_that_explains(study: &UniformRiskStudy, site: &str, too_high:
             Some(format!("are the numbers {}? Each would explain it: see both files", several.join(", or ")))
         }
     }
+}
+
+/// The curve of a site in a `measure`, as its study says it; none where it has none.
+fn file_of<'s>(study: &'s UniformRiskStudy, site: &str, measure: IntensityMeasure) -> Option<&'s CurveFile> {
+    study.sites.iter().find(|listed| listed.name == site)?.curve(measure)
+}
+
+/// What to do where a curve of a site says what is hardly possible, and would not in other units; none where it would
+/// in each.
+pub(crate) fn units_that_make_possible(
+    study: &UniformRiskStudy,
+    (site, measure): (&str, IntensityMeasure),
+    curve: &HazardCurve,
+) -> Option<String> {
+    let file = file_of(study, site, measure)?;
+    let is_possible = |other: &OtherUnit| hardly_possible_if(curve, measure, other.too_large).is_none();
+    let units: Vec<NumbersIn> = of_file(file, study.gravity_m_s2).filter(is_possible).map(|other| other.unit).collect();
+    match &units[..] {
+        [] => None,
+        [one] => Some(format!("are its numbers in {}? Then {}", one.name(), one.remedy(site, file))),
+        several => {
+            let names: Vec<&str> = several.iter().map(|unit| unit.name()).collect();
+            Some(format!(
+                "are its numbers in {}? See the file, and say so with unit = … of {} in [[sites]], or convert them",
+                names.join(", or "),
+                measure.key()
+            ))
+        }
+    }
+}
+
+/// What to do where the levels of one weighted curve are so many `times` those of the others, and another unit of it or
+/// of them explains that; none where none does.
+pub(crate) fn unit_of_branch(
+    study: &UniformRiskStudy,
+    (site, measure): (&str, IntensityMeasure),
+    times: f64,
+) -> Option<String> {
+    let file = file_of(study, site, measure)?;
+    let explains = |too_large: f64| (times / too_large).ln().abs() < FITS_WITHIN.ln();
+    let units = of_file(file, study.gravity_m_s2).filter_map(|other| {
+        let whose = if explains(other.too_large) {
+            "its numbers"
+        } else if explains(1.0 / other.too_large) {
+            "the numbers of the others"
+        } else {
+            return None;
+        };
+        Some(format!("{whose} in {}", other.unit.name()))
+    });
+    let units: Vec<String> = units.collect();
+    (!units.is_empty()).then(|| {
+        format!(
+            "are {}, which would explain it? All branches are read in {}: convert the files that are in another unit",
+            units.join(", or "),
+            file.unit.symbol()
+        )
+    })
 }

@@ -10,8 +10,7 @@ use uplift_study::{MeasurePlan, Repair, UniformRiskStudy};
 use super::levels::{LevelCheck, OfEnds, check_levels};
 use super::{plan_own_stripes, site_table, systems, systems_under};
 use crate::alarms::{
-    self, Alarm, BELOW_FIRST_LEVEL, BEYOND_LAST_LEVEL, PROBABILITIES, few, of_far_factors, of_study,
-    probabilities_for_rates, ranked,
+    self, Alarm, BELOW_FIRST_LEVEL, BEYOND_LAST_LEVEL, CurvesAtSite, few, of_far_factors, of_hazard, of_study, ranked,
 };
 use crate::analysis::seconds;
 use crate::consistency::{Answer, ConsistencyReport};
@@ -97,13 +96,21 @@ fn of_inputs(study: &UniformRiskStudy, set: &RecordSet) -> impl Iterator<Item = 
     of_study(&study.warnings, set.synthetic).chain(of_records)
 }
 
-/// Curves that are probably mistaken: by themselves, or by what the records bring.
-fn of_curves(
-    study: &UniformRiskStudy,
-    hazard: &[Vec<SiteHazard>],
-    consistency: &ConsistencyReport,
-) -> impl Iterator<Item = Alarm> {
-    of_probabilities(hazard).into_iter().chain(alarms::of_curves(study, consistency))
+/// Curves that are probably mistaken: by themselves, among each other, or by what the records bring.
+fn of_curves(study: &UniformRiskStudy, hazard: &[Vec<SiteHazard>], consistency: &ConsistencyReport) -> Vec<Alarm> {
+    let curves: Vec<CurvesAtSite<'_>> = hazard
+        .iter()
+        .flatten()
+        .map(|site| CurvesAtSite {
+            site: &site.site,
+            measure: site.measure,
+            curve: &site.curve.curve,
+            branches: site.branches.iter().map(|branch| (branch.name.as_str(), &branch.input.curve)).collect(),
+        })
+        .collect();
+    let mut alarms = of_hazard(study, &curves);
+    alarms.extend(alarms::of_curves(study, consistency));
+    alarms
 }
 
 /// Says which curves are probably mistaken, before hours are spent on them.
@@ -118,15 +125,6 @@ pub(super) fn tell_mistaken_curves(
         events.note(&format!("{} {alarm}: {}", alarm.severity.word(), alarm.what_to_do));
     }
     Ok(())
-}
-
-/// Curves whose rates look like probabilities.
-fn of_probabilities(hazard: &[Vec<SiteHazard>]) -> Option<Alarm> {
-    let case = |site: &SiteHazard| {
-        let branches = site.branches.iter().map(|branch| (branch.name.as_str(), &branch.input.curve));
-        probabilities_for_rates((&site.site, site.measure), &site.curve.curve, branches)
-    };
-    Alarm::of_cases(PROBABILITIES, hazard.iter().flatten().filter_map(case).collect())
 }
 
 /// What a run of `study` takes.

@@ -2,6 +2,7 @@
 
 use std::io::Write;
 
+use uplift::alarms::Severity;
 use uplift::structure::{Bands, DemandBands, DemandRounding, DesignReport, ExactDemand, RuleOutcome};
 use uplift::text::{risk_in_words, short, table};
 use uplift_spectra::Noisy;
@@ -162,6 +163,9 @@ fn print_checks(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
         report.required_safety_factor,
         table(&header, &rows)
     )?;
+    if report.alarms.iter().any(|alarm| alarm.severity == Severity::Mistake) {
+        writeln!(out, "These verdicts stand only if what is marked mistake? below is as it was meant.")?;
+    }
     let tendons = report.rules.iter().filter_map(|outcome| {
         let stiffness_n_m = outcome.check()?.required_tendon_stiffness_n_m?;
         let told = if stiffness_n_m > 0.0 { format!("{} N/m", short(stiffness_n_m)) } else { "none".to_owned() };

@@ -5,6 +5,7 @@
 //! rounded, gives each value.
 
 use super::GridError;
+use crate::reading::commas;
 
 /// Most values that a grid may have.
 pub const MOST_GRID_VALUES: usize = 100_000;
@@ -86,7 +87,9 @@ fn range(start: &str, step: &str, stop: &str) -> Result<Vec<f64>, GridError> {
 }
 
 fn not_a_number<T>(text: &str) -> Result<T, GridError> {
-    refuse(format!("\"{text}\" is no number"), "write a decimal such as 0.025 or 2.5e-2, or a fraction such as 1/300")
+    let help = commas(text)
+        .unwrap_or_else(|| "write a decimal such as 0.025 or 2.5e-2, or a fraction such as 1/300".to_owned());
+    refuse(format!("\"{text}\" is no number"), help)
 }
 
 fn too_many_digits<T>(text: &str) -> Result<T, GridError> {

@@ -79,18 +79,13 @@ impl<'a> Field<'a> {
             Value::Float(float) => float,
             _ => {
                 let expected = if unit.is_empty() { "a number".to_owned() } else { format!("a number [{unit}]") };
-                let per_cent = match &self.node.value {
-                    Value::Text(text) if unit.is_empty() => text.trim().strip_suffix('%'),
+                let help = match &self.node.value {
+                    Value::Text(text) => {
+                        (unit.is_empty().then(|| per_cent_as_fraction(text)).flatten()).or_else(|| commas(text))
+                    }
                     _ => None,
                 };
-                let help = match per_cent.and_then(|number| number.trim().parse::<f64>().ok()) {
-                    // 2.8 % is not 0.027999999999999997
-                    Some(number) if number.is_finite() => {
-                        let fraction = format!("{:.12e}", number / 100.0).parse().unwrap_or(number / 100.0);
-                        format!("write {fraction} for {number} %")
-                    }
-                    _ => "write a number without quotes or unit".to_owned(),
-                };
+                let help = help.unwrap_or_else(|| "write a number without quotes or unit".to_owned());
                 return self.wrong_type(&expected, &help);
             }
         };
@@ -183,5 +178,27 @@ impl<'a> Field<'a> {
             self.wrong_type::<()>("a section", &example);
         }
         Section::new(self.key.clone(), self.node.origin.clone(), table, self.findings)
+    }
+}
+
+/// What to write for a number of per cent.
+fn per_cent_as_fraction(text: &str) -> Option<String> {
+    let number = text.trim().strip_suffix('%')?.trim().parse::<f64>().ok().filter(|number| number.is_finite())?;
+    // 2.8 % is not 0.027999999999999997
+    let fraction: f64 = format!("{:.12e}", number / 100.0).parse().unwrap_or(number / 100.0);
+    Some(format!("write {fraction} for {number} %"))
+}
+
+/// What to write for numbers with commas between them, or within one.
+pub(crate) fn commas(text: &str) -> Option<String> {
+    let parts: Vec<&str> = text.split(',').map(str::trim).collect();
+    let numbers: Vec<f64> = parts.iter().map(|part| part.parse().ok()).collect::<Option<_>>()?;
+    let list = numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
+    match parts[..] {
+        [_] => None,
+        [whole, decimals] if !text.contains(' ') && decimals.bytes().all(|byte| byte.is_ascii_digit()) => {
+            Some(format!("write {whole}.{decimals} with a point, or a list as [{list}]"))
+        }
+        _ => Some(format!("write a list as [{list}]")),
     }
 }

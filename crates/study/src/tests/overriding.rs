@@ -91,6 +91,19 @@ fn per_cent_are_answered_with_the_fraction() {
 }
 
 #[test]
+fn commas_are_answered_with_a_list() {
+    let folder = Folder::new(STUDY);
+    for (given, meant) in [
+        ("risk.poe=0.02,0.1", "write a list as [0.02, 0.1]"),
+        ("pgv.levels_cm_s=1,2,5", "write a list as [1, 2, 5]"),
+        ("oscillator.uplift_displacement_m=0,02", "write 0.02 with a point, or a list as [0, 2]"),
+    ] {
+        let error = folder.load(&[given]).unwrap_err();
+        assert!(folder.rendered(&error).contains(meant), "{}", folder.rendered(&error));
+    }
+}
+
+#[test]
 fn units_are_read_as_people_write_them_and_never_guessed() {
     let folder = Folder::new(STUDY);
     let pga = format!("sites.Athens.pga={}", folder.path("pga.csv").display());

@@ -1,0 +1,28 @@
+//! Hazard curves by which the extreme shaking is frequent, or the faintest rare.
+
+use uplift_motion::IntensityMeasure;
+use uplift_plausible::USUAL_GRAVITY;
+use uplift_study::UniformRiskStudy;
+
+use super::hazard::CurvesAtSite;
+use super::{Case, Severity};
+use crate::inputs::{hardly_possible, units_that_make_possible};
+
+/// What is raised of the curves of a site, where some say what is hardly possible.
+pub(super) fn case(study: &UniformRiskStudy, curves: &CurvesAtSite<'_>) -> Option<Case> {
+    let measure = curves.measure;
+    // another gravity than the Earth's moves every acceleration, and has an alarm of its own
+    if measure != IntensityMeasure::Pgv && !USUAL_GRAVITY.contains(study.gravity_m_s2) {
+        return None;
+    }
+    let found = curves.first_that(|curve| hardly_possible(curve, measure).is_some())?;
+    let what = hardly_possible(found.curve, measure)?;
+    Some(Case {
+        severity: Severity::Mistake,
+        badness: what.times,
+        subject: curves.subject(),
+        what: format!("by {} {}, which is hardly possible", found.name, what.words),
+        what_to_do: units_that_make_possible(study, (curves.site, measure), found.curve)
+            .unwrap_or_else(|| "see its unit, that it is of this measure, and that it gives rates per year".to_owned()),
+    })
+}
