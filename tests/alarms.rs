@@ -263,8 +263,8 @@ fn curves_and_levels_in_other_units_are_named() {
         let mistaken = alarm(found, "curves-disagree");
         assert!(mistaken["severity"] == "mistake" && text(mistaken, "subject") == "Here", "{mistaken}");
         assert!(text(mistaken, "what").contains("its curve of PGA is") && text(mistaken, "what").contains("too high"));
-        let remedy = "numbers of its PGA in m/s2, which would explain it? Then unit = \"m/s2\" of pga in [[sites]], or \
-                      --set 'sites.Here.pga.unit=m/s2'";
+        let remedy = "numbers of its PGA in m/s2, which would explain it? Then pga = { file = …, unit = \"m/s2\" } in \
+                      [[sites]], or --set 'sites.Here.pga.unit=m/s2'";
         assert!(text(mistaken, "what_to_do").contains(remedy), "{mistaken}");
     }
     // whichever spectra are asked for, and on the page by its word
@@ -288,7 +288,8 @@ fn curves_and_levels_in_other_units_are_named() {
     let words = ["Here, PGV", "is pgv.levels_cm_s in m/s?", "give it in cm/s", "PGV = 0.02 cm/s lies outside"];
     study.uplift(&["check", "study.toml", "--set", levels]).fails(4, &words);
     study.write("pgv.csv", &curve_times("athens/pgv.csv", 0.01));
-    let words = ["are its numbers in m/s?", "unit = \"m/s\" of pgv", "Read as cm/s, PGV = 5 cm/s lies outside"];
+    let words =
+        ["are its numbers in m/s?", "pgv = { file = …, unit = \"m/s\" }", "Read as cm/s, PGV = 5 cm/s lies outside"];
     let failed = study.uplift(&["check", "study.toml"]).fails(4, &words);
     assert!(!failed.stderr.contains("extrapolation"), "no remedy for a unit: {}", failed.stderr);
     study.uplift(&["check", "study.toml", "--set", "sites.Here.pgv.unit=m/s"]).ok();
@@ -343,15 +344,23 @@ fn curves_that_are_hardly_possible_or_far_from_their_alternatives_are_told() {
     let run = json(&study, &[&["run", "study.toml", "-o", "r.h5", "--json"], &set[..]].concat());
     for found in [&checked, &run] {
         let odd = alarm(found, "branches-disagree");
-        assert!(odd["severity"] == "mistake" && text(odd, "what").contains("at least 100.0 times"), "{odd}");
+        assert!(odd["severity"] == "mistake" && text(odd, "what").contains("at least 100.0 times below"), "{odd}");
         let remedy = text(odd, "what_to_do");
-        assert!(remedy.contains("in m/s, which would explain it? All branches are read in cm/s: convert"), "{odd}");
+        assert!(remedy.contains("in m/s, which would explain it? All files of pgv are read in cm/s: convert"), "{odd}");
         let kinds: Vec<&Value> = found["alarms"].as_array().unwrap().iter().map(|alarm| &alarm["kind"]).collect();
         assert!(!kinds.contains(&&Value::from("hazard-implausible")), "said once: {kinds:?}");
     }
     study.write("b.csv", &format!("iml,maf\n{}", rows(1.5)));
     let said = study.uplift(&["check", "study.toml", "--set", &branches("b.csv")]).ok().stdout;
     assert!(!said.contains("mistake?"), "{said}");
+    // what is given as their mean is held against them, too
+    study.write("mean.csv", &format!("iml,maf\n{}", rows(0.01)));
+    let with_mean = branches("b.csv").replacen("{ ", "{ file = \"mean.csv\", ", 1);
+    let said = study.uplift(&["check", "study.toml", "--set", &with_mean]).ok().stdout;
+    assert!(
+        said.contains("the levels of the curve of the spectra are at least 100.0 times below those of the 2 others"),
+        "{said}"
+    );
 }
 
 #[test]
@@ -364,13 +373,22 @@ fn a_file_that_says_another_unit_or_kind_is_answered_with_the_line_to_write() {
     study.write("pgv.csv", &format!("pgv_m_s,maf\n{}", rows(0.01)));
     words(&[
         "the study takes it for \"cm/s\"",
-        "unit = \"m/s\" of pgv in [[sites]]",
+        "write pgv = { file = …, unit = \"m/s\" } in [[sites]], or",
         "--set 'sites.Here.pgv.unit=m/s'",
     ]);
     study.uplift(&["check", "study.toml", "--set", "sites.Here.pgv.unit=m/s"]).ok();
     study.write("pgv.csv", &format!("pgv_cm_s,poe\n{}", rows(1.0)));
-    words(&["kind = \"poe\", years = 50", "--set 'sites.Here.pgv.kind=poe' --set 'sites.Here.pgv.years=50'"]);
+    words(&["write pgv = { file = …, kind = \"poe\", years = … } in [[sites]], with the years that they are of"]);
+    // the other way round, and of one branch of several
     study.uplift(&["check", "study.toml", "--set", "sites.Here.pgv.kind=poe", "--set", "sites.Here.pgv.years=50"]).ok();
+    study.write("pgv.csv", &format!("pgv_cm_s,maf\n{}", rows(1.0)));
+    let poe = ["check", "study.toml", "--set", "sites.Here.pgv.kind=poe", "--set", "sites.Here.pgv.years=50"];
+    study.uplift(&poe).fails(4, &["leave out `kind` and `years` of pgv in [[sites]]"]);
+    study.write("b.csv", &format!("pgv_m_s,maf\n{}", rows(0.01)));
+    let branches =
+        "sites.Here.pgv={ branches = [{ file = \"pgv.csv\", weight = 0.5 }, { file = \"b.csv\", weight = 0.5 }] }";
+    let all_or_this = ["b.csv", "unit = \"m/s\" } in [[sites]] if all branches are so, or convert this file"];
+    study.uplift(&["check", "study.toml", "--set", branches]).fails(4, &all_or_this);
     // probabilities that are certain, called rates
     study.write("pgv.csv", "pgv_cm_s,maf\n0.5,1\n1,1\n2,0.9\n80,0.01\n200,0.001\n");
     words(&["line 3: annual rate 1 1/yr is not below 1 1/yr", "probabilities, mostly", "kind = \"poe\""]);

@@ -187,7 +187,6 @@ fn levels_are_weighed_with_their_own_records_factors_and_shares() {
 }
 
 #[test]
-#[ignore = "long: make test-long"]
 fn factors_of_another_unit_and_levels_of_few_records_are_raised() {
     let study = study();
     let (names, pgv) = records(&study);

@@ -171,7 +171,6 @@ fn with_address_space(study: &SmallStudy, kilobytes: u64, arguments: &str, limit
 
 #[cfg(target_os = "linux")]
 #[test]
-#[ignore = "long: make test-long"]
 fn what_does_not_fit_is_refused_before_anything_is_computed() {
     let study = SmallStudy::new();
     // 2 measures x 2 sites x 5000 strengths x 20000 thresholds x 8 bytes = 3.2 GB

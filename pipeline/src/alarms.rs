@@ -10,7 +10,7 @@
 //! | `hazard` | hazard curves that are probably mistaken, by the three that follow |
 //! | `probabilities` | those that look like probabilities |
 //! | `implausible` | those by which extreme shaking is frequent, or the faintest rare |
-//! | `branches` | weighted ones of which one is far from the others |
+//! | `branches` | weighted ones of which some are far from the others |
 //! | `levels` | ordinates that rest on what lies outside the analysed levels, or do not exist |
 //! | `curves` | hazard curves of PGV and of PGA that cannot be of one site |
 //! | `consistency` | records that do not bring the hazard of the other measure |
@@ -40,6 +40,7 @@ use uplift_motion::IntensityMeasure;
 
 use crate::error::UpliftError;
 use crate::result::{Kind, ResultFile};
+pub(crate) use branches::Apart;
 pub(crate) use curves::of_curves;
 pub(crate) use evidence::{Evidence, Scope, spectrum_name};
 pub use fit::{FitReach, reach_of_fit};

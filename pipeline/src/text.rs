@@ -3,6 +3,7 @@
 mod risk;
 mod visible;
 
+pub(crate) use risk::rounded;
 pub use risk::{kind_of_risks, per_cent, risk_in_words, risk_name, risks_in_words, share};
 pub use visible::{is_obeyed, one_line, visible};
 

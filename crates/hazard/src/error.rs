@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::text::six_digits;
+use crate::text::shown_end;
 
 /// Where a value stands: a point of arrays handed over, a line of a file, or a level in it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -142,8 +142,8 @@ pub enum HazardError {
     #[error(
         "{measure} = {value} {unit} lies outside the hazard curve, which spans {} to {} {unit}; check the unit of the \
          curve, give a curve that covers it, or choose log-log extrapolation (risk.extrapolate = \"loglog\")",
-        six_digits(*first),
-        six_digits(*last)
+        shown_end(*first, *value),
+        shown_end(*last, *value)
     )]
     LevelOutside {
         /// The measure.

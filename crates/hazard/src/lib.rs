@@ -51,5 +51,4 @@ pub use import::{
 };
 pub use interpolation::Extrapolation;
 pub use probability::{probability_from_rate, rate_from_probability};
-pub use text::six_digits;
 pub use unit::CurveUnit;

@@ -24,10 +24,11 @@ pub(crate) fn excerpt(field: &str) -> String {
     if head.len() < field.len() { format!("{head:?}...") } else { format!("{head:?}") }
 }
 
-/// A `value` for a message, in any unit, without the digits that its conversion from another unit made.
-#[must_use]
-pub fn six_digits(value: f64) -> f64 {
-    format!("{value:.5e}").parse().unwrap_or(value)
+/// The `end` of a curve for a message that `value` lies beyond it: without the digits that a conversion from another
+/// unit made, unless these are what it lies beyond.
+pub(crate) fn shown_end(end: f64, value: f64) -> f64 {
+    let six_digits: f64 = format!("{end:.5e}").parse().unwrap_or(end);
+    if (six_digits < value) == (end < value) && (six_digits > value) == (end > value) { six_digits } else { end }
 }
 
 /// The first characters of a text, `count` at most.
@@ -66,8 +67,11 @@ mod tests {
 
     #[test]
     fn digits_of_a_conversion_are_left_out() {
-        assert_eq!(six_digits(0.000_101_971_621_297_793), 0.000_101_972);
-        assert_eq!([six_digits(174.33), six_digits(5.0), six_digits(0.0)], [174.33, 5.0, 0.0]);
+        assert_eq!(shown_end(0.000_101_971_621_297_793, 1e-5), 0.000_101_972);
+        assert_eq!([shown_end(174.33, 175.0), shown_end(5.0, 2.0)], [174.33, 5.0]);
+        // 0.07 m/s is not 7 cm/s
+        let end = 0.07 * 100.0;
+        assert_eq!((end > 7.0, shown_end(end, 7.0), shown_end(end, 6.0)), (true, end, 7.0));
     }
 
     #[test]

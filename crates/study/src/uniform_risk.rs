@@ -167,6 +167,17 @@ impl UniformRiskStudy {
         all.into_iter().filter(|measure| !measure.is_of_chapter_4()).collect()
     }
 
+    /// The key of the site of this `name` in an override that a shell takes in single quotes: `sites.Athens`,
+    /// `sites."Sion 2.1"`; its position where the name holds what ends the quotes or the key.
+    pub fn key_of_site(&self, name: &str) -> String {
+        let position = self.sites.iter().position(|site| site.name == name);
+        match position.filter(|_| name.contains(['\'', '='])) {
+            Some(position) => format!("sites.{position}"),
+            None if name.contains(['.', '[']) => format!("sites.\"{name}\""),
+            None => format!("sites.{name}"),
+        }
+    }
+
     /// Structures that each motion shakes: as many records are made of it.
     pub fn structures_of_a_motion(&self) -> usize {
         let Some(uncertainty) = &self.uncertainty else { return 1 };

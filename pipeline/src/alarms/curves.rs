@@ -138,7 +138,8 @@ mod tests {
             let told = told(units, biases).unwrap();
             assert!(words.iter().all(|word| told.contains(word)), "{told}");
         }
-        let remedy = "unit = \"m/s2\" of pga in [[sites]], or --set 'sites.\"Sion 2.1\".pga.unit=m/s2'";
+        let remedy =
+            "Then pga = { file = …, unit = \"m/s2\" } in [[sites]], or --set 'sites.\"Sion 2.1\".pga.unit=m/s2'";
         assert!(told(["cm/s", "g"], [Some(0.1), None]).unwrap().contains(remedy));
     }
 

@@ -16,12 +16,12 @@ pub(super) fn case(study: &UniformRiskStudy, curves: &CurvesAtSite<'_>) -> Optio
         return None;
     }
     let found = curves.first_that(|curve| hardly_possible(curve, measure).is_some())?;
-    let what = hardly_possible(found.curve, measure)?;
+    let odd = hardly_possible(found.curve, measure)?;
     Some(Case {
         severity: Severity::Mistake,
-        badness: what.times,
+        badness: odd.times,
         subject: curves.subject(),
-        what: format!("by {} {}, which is hardly possible", found.name, what.words),
+        what: format!("by {} {}, which is hardly possible", found.name, odd.what),
         what_to_do: units_that_make_possible(study, (curves.site, measure), found.curve)
             .unwrap_or_else(|| "see its unit, that it is of this measure, and that it gives rates per year".to_owned()),
     })

@@ -6,6 +6,7 @@ use uplift_hazard::{CsvOptions, HazardCurve, SecondColumn, read_path};
 use uplift_motion::{Combination, IntensityMeasure};
 use uplift_risk::StripeWeights;
 
+use super::hardly_possible::hardly_possible;
 use super::other_unit::{of_outside, with_remedy};
 use crate::checksum::checksum_of_file;
 use crate::error::UpliftError;
@@ -123,60 +124,6 @@ pub fn read_other_hazard(study: &UniformRiskStudy) -> Result<(Vec<OtherHazard>, 
     if mistakes.is_empty() { Ok((all, notes)) } else { Err(UpliftError::Inputs(mistakes)) }
 }
 
-/// A level that hardly any site exceeds, and one that nearly every site does, in field units.
-fn extreme_levels(measure: IntensityMeasure) -> Option<[f64; 2]> {
-    match measure {
-        IntensityMeasure::Pgv => Some([1000.0, 0.3]),
-        IntensityMeasure::Pga => Some([10.0, 0.003]),
-        // at long periods even the faintest may be rare
-        IntensityMeasure::Sa(period) if period.s() <= 0.5 => Some([20.0, 0.003]),
-        _ => None,
-    }
-}
-
-/// What a wrong unit looks like.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct HardlyPossible {
-    /// `10 g is exceeded 6.1e-1 times a year`.
-    pub(crate) words: String,
-    /// How many times too often, or too rarely, at least.
-    pub(crate) times: f64,
-}
-
-/// What a wrong unit looks like, in one sentence.
-pub(super) fn implausible(curve: &HazardCurve, measure: IntensityMeasure) -> Option<String> {
-    let HardlyPossible { words, .. } = hardly_possible(curve, measure)?;
-    Some(format!("{words}, which is hardly possible: check the unit of the curve"))
-}
-
-/// By `curve` the extreme shaking is frequent, or the faintest is rare.
-pub(crate) fn hardly_possible(curve: &HazardCurve, measure: IntensityMeasure) -> Option<HardlyPossible> {
-    hardly_possible_if(curve, measure, 1.0)
-}
-
-/// The same if the levels of `curve` were so many times too large as they are read.
-pub(super) fn hardly_possible_if(
-    curve: &HazardCurve,
-    measure: IntensityMeasure,
-    too_large: f64,
-) -> Option<HardlyPossible> {
-    /// Once in ten thousand years.
-    const RARE_PER_YEAR: f64 = 1e-4;
-    let [strong, faint] = extreme_levels(measure)?;
-    let unit = measure.unit();
-    let at = |level: f64| curve.rate_at(level * too_large).ok();
-    // beyond its ends the curve still says that it is more, or less
-    let at_least = |level| at(level).or((curve.first().im > level * too_large).then_some(curve.first().maf));
-    let at_most = |level| at(level).or((curve.last().im < level * too_large).then_some(curve.last().maf));
-    if let Some(rate) = at_least(strong).filter(|&rate| rate > RARE_PER_YEAR) {
-        let words = format!("{strong} {unit} is exceeded {rate:.1e} times a year");
-        return Some(HardlyPossible { words, times: rate / RARE_PER_YEAR });
-    }
-    let rate = at_most(faint).filter(|&rate| rate < RARE_PER_YEAR)?;
-    let words = format!("{faint} {unit} is exceeded only {rate:.1e} times a year");
-    Some(HardlyPossible { words, times: RARE_PER_YEAR / rate })
-}
-
 /// The mean of weighted curves, with the levels asked for among its own.
 fn weighted_mean(curves: &[(f64, &HazardCurve)], levels: &[f64]) -> Result<HazardCurve, String> {
     HazardCurve::weighted_mean(curves, levels).map_err(|error| format!("the branches have no mean: {error}"))
@@ -221,12 +168,15 @@ impl SiteReader<'_> {
         let mut branches = Vec::new();
         let (curve, checksum) = if let Some(path) = &file.file {
             let read = self.read_file(path);
-            self.noted(read)?
+            let read = self.noted(read)?;
+            self.note_if_hardly_possible(path, &read.0);
+            read
         } else {
             let mut curves = Vec::new();
             for branch in &file.branches {
                 let read = self.read_file(&branch.file);
                 let (curve, checksum) = self.noted(read)?;
+                self.note_if_hardly_possible(&branch.file, &curve);
                 curves.push((branch.weight, curve));
                 branches.push((branch.name.clone(), checksum));
             }
@@ -234,9 +184,6 @@ impl SiteReader<'_> {
             let mean = weighted_mean(&curves, &[]);
             (self.noted(mean)?, String::new())
         };
-        // no spectrum rests on it, and no alarm of one is raised
-        let odd = implausible(&curve, self.measure);
-        self.notes.extend(odd.map(|reason| format!("site {}, {}: {reason}", self.site, self.measure.label())));
         Some(OtherHazard {
             site: self.site.to_owned(),
             measure: self.measure,
@@ -245,6 +192,14 @@ impl SiteReader<'_> {
             curve,
             branches,
         })
+    }
+
+    /// Alarms are raised of the curves that a study is analysed by, and of others this note.
+    fn note_if_hardly_possible(&mut self, path: &Path, curve: &HazardCurve) {
+        if let Some(reason) = hardly_possible(curve, self.measure) {
+            let (measure, path) = (self.measure.label(), path.display());
+            self.notes.push(format!("site {}, {measure}: {path}: {reason}", self.site));
+        }
     }
 
     fn input(&mut self, path: &Path, plan: &MeasurePlan) -> Option<HazardInput> {
@@ -285,7 +240,7 @@ impl SiteReader<'_> {
                 options.years = Some(years);
             }
         }
-        let read = read_path(path, &options).map_err(|error| with_remedy(&error, self.site, self.file))?;
+        let read = read_path(path, &options).map_err(|error| with_remedy(&error, self.study, self.site, self.file))?;
         for (count, what) in
             [(read.dropped_zeros, "zeros at the end"), (read.dropped_certain, "probabilities of 1 at the start")]
         {
@@ -310,9 +265,10 @@ impl SiteReader<'_> {
 
     fn weights(&self, curve: &HazardCurve, name: &str, plan: &MeasurePlan) -> Result<StripeWeights, String> {
         stripe_weights(self.study, plan, curve).map_err(|reason| {
-            // who reads a curve in another unit is not helped by an extrapolation of it
             if let Some(other_unit) = of_outside(self.study, (self.site, self.file), plan, curve) {
-                return format!("{name}: {other_unit}");
+                // who reads a curve in another unit is not helped by an extrapolation of it
+                let key = levels_key(self.measure);
+                return format!("{name}: {other_unit}; if not, take a longer curve or leave levels out of {key}");
             }
             let within = levels_within(self.measure, curve.first().im, curve.last().im);
             let within = within

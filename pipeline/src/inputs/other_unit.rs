@@ -1,10 +1,12 @@
 //! Hazard curves and levels whose numbers are probably of another unit than the one that they are read in.
 
-use uplift_hazard::{CurveUnit, HazardCurve, HazardError, six_digits};
+use uplift_hazard::{CurveUnit, HazardCurve, HazardError};
 use uplift_motion::IntensityMeasure;
 use uplift_study::{CurveFile, CurveKind, MeasurePlan, UniformRiskStudy, levels_key, usual_top_level};
 
-use super::hazard::{hardly_possible, hardly_possible_if};
+use super::hardly_possible::{hardly_possible, hardly_possible_if};
+use crate::alarms::Apart;
+use crate::text::rounded;
 
 /// What is further off than so many times is not explained by a unit: sites and records differ by some, units by more.
 const FITS_WITHIN: f64 = 2.0;
@@ -47,58 +49,72 @@ impl NumbersIn {
     }
 
     /// What to write where the numbers of the `file` of a site are so.
-    fn remedy(self, site: &str, file: &CurveFile) -> String {
-        let (key, site) = (file.measure.key(), key_of(site));
+    fn remedy(self, study: &UniformRiskStudy, site: &str, file: &CurveFile) -> String {
         match self {
-            Self::Parts(_, parts, unit) => format!("divide its levels by {parts} into {}", unit.symbol()),
+            Self::Parts(_, parts, unit) => {
+                let line =
+                    if unit == file.unit { String::new() } else { format!(", and write {}", unit_line(file, unit)) };
+                format!("divide its levels by {parts} into {}{line}", unit.symbol())
+            }
             Self::Unit(unit) if file.branches.is_empty() => format!(
-                "unit = \"{unit}\" of {key} in [[sites]], or --set '{site}.{key}.unit={unit}' (and in the head of the \
-                 file, if it says another)",
-                unit = unit.symbol()
+                "{}, or {} (and in the head of the file, if it says another)",
+                unit_line(file, unit),
+                unit_setting(study, site, file, unit)
             ),
             Self::Unit(unit) => format!(
-                "if those of all branches are, unit = \"{}\" of {key} in [[sites]]; if not all, convert the files of \
-                 those that are",
-                unit.symbol()
+                "if those of all branches are, {}; if not all, convert the files of those that are",
+                unit_line(file, unit)
             ),
         }
     }
 }
 
-/// The key of a site on the command line: `sites.Athens`, `sites."Sion 2.1"`.
-fn key_of(site: &str) -> String {
-    let is_bare = !site.contains(['.', '[', '"']);
-    if is_bare { format!("sites.{site}") } else { format!("sites.\"{site}\"") }
+/// `pga = { file = …, unit = "m/s2" } in [[sites]]`.
+fn unit_line(file: &CurveFile, unit: CurveUnit) -> String {
+    line(file, &format!("unit = \"{}\"", unit.symbol()))
 }
 
-/// What is wrong with the curve of a `site` that is read from `file`: where this says something else than the study,
-/// with the line that agrees with it.
-pub(super) fn with_remedy(error: &HazardError, site: &str, file: &CurveFile) -> String {
+/// The line of a study that says `what` of a curve.
+fn line(file: &CurveFile, what: &str) -> String {
+    let input = if file.branches.is_empty() { "file = …" } else { "…" };
+    format!("{} = {{ {input}, {what} }} in [[sites]]", file.measure.key())
+}
+
+/// `--set 'sites.Athens.pga.unit=m/s2'`.
+fn unit_setting(study: &UniformRiskStudy, site: &str, file: &CurveFile, unit: CurveUnit) -> String {
+    format!("--set '{}.{}.unit={}'", study.key_of_site(site), file.measure.key(), unit.symbol())
+}
+
+/// What is wrong with a curve of a `site` that the study says as `file`: where the file says something else, with the
+/// line that agrees with it.
+pub(super) fn with_remedy(error: &HazardError, study: &UniformRiskStudy, site: &str, file: &CurveFile) -> String {
     let HazardError::Contradiction { place, what, found, declared } = error else { return error.to_string() };
-    let curve = format!("{}.{}", key_of(site), file.measure.key());
-    let (line, settings) = match *what {
+    let remedy = match *what {
         "unit" => {
             let found = CurveUnit::parse(found.trim_matches('"'));
             let Some(unit) = found.filter(|found| file.other_units().any(|unit| unit == *found)) else {
                 return error.to_string();
             };
-            (format!("unit = \"{unit}\"", unit = unit.symbol()), format!("--set '{curve}.unit={}'", unit.symbol()))
+            if file.branches.is_empty() {
+                format!("write {}, or {}", unit_line(file, unit), unit_setting(study, site, file, unit))
+            } else {
+                format!("write {} if all branches are so, or convert this file", unit_line(file, unit))
+            }
         }
         "second column" if file.kind == CurveKind::Maf => {
-            let settings = format!("--set '{curve}.kind=poe' --set '{curve}.years=50'");
-            ("kind = \"poe\", years = 50 (or how many the file says)".to_owned(), settings)
+            let line = line(file, "kind = \"poe\", years = …");
+            if file.branches.is_empty() {
+                format!("write {line}, with the years that they are of")
+            } else {
+                format!("write {line} if all branches are so, or rates per year into this file")
+            }
         }
-        "second column" => {
-            // years without a probability would be refused
-            ("kind = \"maf\" without years".to_owned(), String::new())
-        }
+        "second column" => format!("leave out `kind` and `years` of {} in [[sites]]", file.measure.key()),
         _ => return error.to_string(),
     };
-    let or_set = if settings.is_empty() { settings } else { format!(", or {settings}") };
     format!(
-        "{place}: the file says {what} {found}, and the study takes it for {declared}: where the file is right, {line} \
-         of {} in [[sites]]{or_set}; else correct the file",
-        file.measure.key()
+        "{place}: the file says {what} {found}, and the study takes it for {declared}: where the file is right, \
+         {remedy}; else correct the file"
     )
 }
 
@@ -130,8 +146,8 @@ pub(super) fn of_outside(
         "{0} = {outside} {1} lies outside the hazard curve, which spans {2} to {3} {1}",
         plan.measure.label(),
         plan.measure.unit(),
-        six_digits(first),
-        six_digits(last)
+        rounded(first, 6),
+        rounded(last, 6)
     );
     // the levels are to blame where they look so themselves, and the curve does not
     let is_unusual = usual_top_level(plan.measure).is_some_and(|(_, usual)| !usual.contains(most));
@@ -158,7 +174,7 @@ pub(super) fn of_outside(
     Some(format!(
         "are its numbers in {}? As such they cover the levels: {}. Read as {}, {fact}",
         other.unit.name(),
-        other.unit.remedy(site, file),
+        other.unit.remedy(study, site, file),
         file.unit.symbol()
     ))
 }
@@ -184,7 +200,7 @@ pub(crate) fn unit_that_explains(study: &UniformRiskStudy, site: &str, too_high:
     match &explanations[..] {
         [] => None,
         [one @ (file, unit)] => {
-            let remedy = unit.remedy(site, file);
+            let remedy = unit.remedy(study, site, file);
             Some(format!("are the numbers {}, which would explain it? Then {remedy}", numbers(one)))
         }
         several => {
@@ -195,7 +211,7 @@ pub(crate) fn unit_that_explains(study: &UniformRiskStudy, site: &str, too_high:
 }
 
 /// The curve of a site in a `measure`, as its study says it; none where it has none.
-fn file_of<'s>(study: &'s UniformRiskStudy, site: &str, measure: IntensityMeasure) -> Option<&'s CurveFile> {
+pub(crate) fn file_of<'s>(study: &'s UniformRiskStudy, site: &str, measure: IntensityMeasure) -> Option<&'s CurveFile> {
     study.sites.iter().find(|listed| listed.name == site)?.curve(measure)
 }
 
@@ -211,7 +227,7 @@ pub(crate) fn units_that_make_possible(
     let units: Vec<NumbersIn> = of_file(file, study.gravity_m_s2).filter(is_possible).map(|other| other.unit).collect();
     match &units[..] {
         [] => None,
-        [one] => Some(format!("are its numbers in {}? Then {}", one.name(), one.remedy(site, file))),
+        [one] => Some(format!("are its numbers in {}? Then {}", one.name(), one.remedy(study, site, file))),
         several => {
             let names: Vec<&str> = several.iter().map(|unit| unit.name()).collect();
             Some(format!(
@@ -223,18 +239,18 @@ pub(crate) fn units_that_make_possible(
     }
 }
 
-/// What to do where the levels of one weighted curve are so many `times` those of the others, and another unit of it or
-/// of them explains that; none where none does.
+/// What to do where some of the weighted curves of a site are `apart` from the others, and another unit of them or of
+/// the others explains that; none where none does.
 pub(crate) fn unit_of_branch(
     study: &UniformRiskStudy,
     (site, measure): (&str, IntensityMeasure),
-    times: f64,
+    apart: &Apart,
 ) -> Option<String> {
     let file = file_of(study, site, measure)?;
-    let explains = |too_large: f64| (times / too_large).ln().abs() < FITS_WITHIN.ln();
+    let explains = |too_large: f64| (apart.too_large() / too_large).ln().abs() < FITS_WITHIN.ln();
     let units = of_file(file, study.gravity_m_s2).filter_map(|other| {
         let whose = if explains(other.too_large) {
-            "its numbers"
+            "these numbers"
         } else if explains(1.0 / other.too_large) {
             "the numbers of the others"
         } else {
@@ -245,8 +261,9 @@ pub(crate) fn unit_of_branch(
     let units: Vec<String> = units.collect();
     (!units.is_empty()).then(|| {
         format!(
-            "are {}, which would explain it? All branches are read in {}: convert the files that are in another unit",
+            "are {}, which would explain it? All files of {} are read in {}: convert those that are in another unit",
             units.join(", or "),
+            measure.key(),
             file.unit.symbol()
         )
     })

@@ -4,7 +4,7 @@ use super::file::ResultFile;
 use super::layout::{axis, structures};
 use crate::checksum::checksum;
 use crate::error::UpliftError;
-use crate::text::{risk_in_words, short};
+use crate::text::{risk_in_words, rounded, short};
 
 /// Letters of the key of a question: no two questions asked of a result share them.
 const LETTERS: usize = 12;
@@ -141,7 +141,7 @@ impl Finding {
 
 /// A number to six digits: 1/475 has many more, and nobody asked for them.
 fn six_digits(value: f64) -> String {
-    format!("{value:.5e}").parse::<f64>().unwrap_or(value).to_string()
+    rounded(value, 6).to_string()
 }
 
 impl FindingRow {

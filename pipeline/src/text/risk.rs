@@ -80,7 +80,7 @@ fn near(value: f64, other: f64, tolerance: f64) -> bool {
 }
 
 /// A number with so many digits.
-fn rounded(value: f64, digits: usize) -> f64 {
+pub(crate) fn rounded(value: f64, digits: usize) -> f64 {
     format!("{value:.*e}", digits - 1).parse().unwrap_or(value)
 }
 

@@ -2,6 +2,7 @@
 
 use super::suggestion::did_you_mean;
 use super::{Finding, Findings, Node, Rule, Section, Value, quantity};
+use uplift_plausible::{may_be_thousands, with_point};
 
 /// The largest integer of TOML, which has signed ones of 64 bits.
 pub(crate) const LARGEST_INTEGER: u64 = i64::MAX as u64;
@@ -191,14 +192,17 @@ fn per_cent_as_fraction(text: &str) -> Option<String> {
 
 /// What to write for numbers with commas between them, or within one.
 pub(crate) fn commas(text: &str) -> Option<String> {
-    let parts: Vec<&str> = text.split(',').map(str::trim).collect();
-    let numbers: Vec<f64> = parts.iter().map(|part| part.parse().ok()).collect::<Option<_>>()?;
-    let list = numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
-    match parts[..] {
-        [_] => None,
-        [whole, decimals] if !text.contains(' ') && decimals.bytes().all(|byte| byte.is_ascii_digit()) => {
-            Some(format!("write {whole}.{decimals} with a point, or a list as [{list}]"))
-        }
-        _ => Some(format!("write a list as [{list}]")),
+    let numbers: Vec<f64> = text.split(',').map(|part| part.trim().parse().ok()).collect::<Option<_>>()?;
+    if numbers.len() < 2 || !numbers.iter().all(|number| number.is_finite()) {
+        return None;
     }
+    let list = numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
+    let several = format!("where several numbers may stand, they are a list: [{list}]");
+    Some(match with_point(text) {
+        Some(point) if may_be_thousands(text) => {
+            format!("write {}, or {point} with a point, whichever is meant; {several}", text.replace(',', ""))
+        }
+        Some(point) => format!("write {point} with a point; {several}"),
+        None => several,
+    })
 }

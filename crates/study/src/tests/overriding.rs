@@ -80,23 +80,38 @@ fn the_path_of_a_curve_takes_further_keys() {
 }
 
 #[test]
+fn the_key_of_a_site_is_taken() {
+    let folder = Folder::new(STUDY);
+    for name in ["Athens", "Bern 1.5", "L'Aquila", "Vs30=800", "[3]", "5", "two words"] {
+        let named = format!("sites.0.name={name:?}");
+        let key = folder.load(&[&named]).unwrap().key_of_site(name);
+        assert!(!key.contains('\''), "{key}");
+        let study = folder.load(&[&named, &format!("{key}.pgv.unit=m/s")]).unwrap();
+        assert_eq!(study.sites[0].curves[0].unit, CurveUnit::MPerS, "{key}");
+    }
+}
+
+#[test]
 fn per_cent_are_answered_with_the_fraction() {
     let folder = Folder::new(STUDY);
     for (given, meant) in [("risk.poe=2%", "write 0.02 for 2 %"), ("risk.poe=[\"2.8 %\"]", "write 0.028 for 2.8 %")] {
         let error = folder.load(&[given]).unwrap_err();
         assert!(folder.rendered(&error).contains(meant), "{}", folder.rendered(&error));
     }
-    let error = folder.load(&["oscillator.uplift_displacement_m=2%"]).unwrap_err();
-    assert!(folder.rendered(&error).contains("write a number without quotes or unit"));
+    for given in ["oscillator.uplift_displacement_m=2%", "risk.years=nan,inf", "risk.years=1e3,5e2,a"] {
+        let error = folder.load(&[given]).unwrap_err();
+        assert!(folder.rendered(&error).contains("write a number without quotes or unit"), "{given}");
+    }
 }
 
 #[test]
-fn commas_are_answered_with_a_list() {
+fn commas_are_answered() {
     let folder = Folder::new(STUDY);
     for (given, meant) in [
-        ("risk.poe=0.02,0.1", "write a list as [0.02, 0.1]"),
-        ("pgv.levels_cm_s=1,2,5", "write a list as [1, 2, 5]"),
-        ("oscillator.uplift_displacement_m=0,02", "write 0.02 with a point, or a list as [0, 2]"),
+        ("risk.poe=0.02,0.1", "where several numbers may stand, they are a list: [0.02, 0.1]"),
+        ("pgv.levels_cm_s=1,2,5", "they are a list: [1, 2, 5]"),
+        ("oscillator.uplift_displacement_m=0,02", "write 0.02 with a point; where several numbers may stand"),
+        ("risk.years=1,000", "write 1000, or 1.000 with a point, whichever is meant"),
     ] {
         let error = folder.load(&[given]).unwrap_err();
         assert!(folder.rendered(&error).contains(meant), "{}", folder.rendered(&error));

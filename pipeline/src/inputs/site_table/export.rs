@@ -7,7 +7,8 @@ use std::sync::Arc;
 use uplift_hazard::{ExportedCurve, ExportedCurves, HazardCurve, HazardError, SitePlace, Statistic};
 use uplift_motion::IntensityMeasure;
 
-use super::super::hazard::{implausible, of_the_records_definition, stripe_weights};
+use super::super::hardly_possible::hardly_possible;
+use super::super::hazard::{of_the_records_definition, stripe_weights};
 use super::{ListedSite, Read};
 use crate::error::UpliftError;
 use uplift_study::{UniformRiskStudy, definition_of};
@@ -217,7 +218,7 @@ impl Tally {
                 return Err(reason);
             }
         };
-        if let Some(reason) = implausible(&curve, read.measure()) {
+        if let Some(reason) = hardly_possible(&curve, read.measure()) {
             self.implausible_curves += 1;
             self.first_implausible.get_or_insert_with(|| format!("{}: {reason}", exported.site));
         }
