@@ -293,6 +293,12 @@ fn curves_and_levels_in_other_units_are_named() {
     let failed = study.uplift(&["check", "study.toml"]).fails(4, &words);
     assert!(!failed.stderr.contains("extrapolation"), "no remedy for a unit: {}", failed.stderr);
     study.uplift(&["check", "study.toml", "--set", "sites.Here.pgv.unit=m/s"]).ok();
+    // two files that were taken for each other are no matter of units
+    let interchanged = ["--set", "sites.Here.pgv=pga.csv", "--set", "sites.Here.pga=pgv.csv"];
+    study.write("pgv.csv", &curve_times("athens/pgv.csv", 1.0));
+    let failed = study.uplift(&[&["check", "study.toml"], &interchanged[..]].concat());
+    let failed = failed.fails(4, &["are the files of pgv and pga interchanged?"]);
+    assert!(!failed.stderr.contains("are its numbers"), "{}", failed.stderr);
     // a curve that begins a little too high is no curve in another unit
     study.write("pgv.csv", "iml,maf\n4,0.01\n30,1e-3\n400,1e-6\n");
     let failed = study.uplift(&["check", "study.toml"]).fails(4, &["PGV = 2 cm/s lies outside"]);
@@ -358,7 +364,9 @@ fn curves_that_are_hardly_possible_or_far_from_their_alternatives_are_told() {
     let with_mean = branches("b.csv").replacen("{ ", "{ file = \"mean.csv\", ", 1);
     let said = study.uplift(&["check", "study.toml", "--set", &with_mean]).ok().stdout;
     assert!(
-        said.contains("the levels of the curve of the spectra are at least 100.0 times below those of the 2 others"),
+        said.contains(
+            "the levels of the curve of the spectra (mean.csv) are at least 100.0 times below those of the 2 others"
+        ),
         "{said}"
     );
 }
@@ -389,6 +397,9 @@ fn a_file_that_says_another_unit_or_kind_is_answered_with_the_line_to_write() {
         "sites.Here.pgv={ branches = [{ file = \"pgv.csv\", weight = 0.5 }, { file = \"b.csv\", weight = 0.5 }] }";
     let all_or_this = ["b.csv", "unit = \"m/s\" } in [[sites]] if all branches are so, or convert this file"];
     study.uplift(&["check", "study.toml", "--set", branches]).fails(4, &all_or_this);
+    // a unit that is not read
+    study.write("pgv.csv", &format!("# IM: PGV [mm/s]\niml,maf\n{}", rows(10.0)));
+    words(&["says unit \"mm/s\"", "convert its levels into cm/s, and write that into its head"]);
     // probabilities that are certain, called rates
     study.write("pgv.csv", "pgv_cm_s,maf\n0.5,1\n1,1\n2,0.9\n80,0.01\n200,0.001\n");
     words(&["line 3: annual rate 1 1/yr is not below 1 1/yr", "probabilities, mostly", "kind = \"poe\""]);

@@ -128,7 +128,7 @@ fn realizations_become_branches() {
         alone.stderr
     );
     assert!(
-        alone.stderr.contains("the default stripes do not") && alone.stderr.contains("pgv.levels_cm_s = "),
+        alone.stderr.contains("the default stripes do not") && alone.stderr.contains("in [pgv], levels_cm_s = "),
         "{}",
         alone.stderr
     );

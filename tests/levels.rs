@@ -75,7 +75,8 @@ fn a_check_proposes_levels_that_a_run_is_content_with() {
 #[test]
 fn a_curve_that_begins_above_the_default_levels_has_those_that_it_covers_named() {
     let study = SmallStudy::with(HIGH);
-    let levels = "pgv.levels_cm_s = [\"0.5:0.1:0.9\", \"1:0.5:20\", \"25:5:200\"]";
+    let levels =
+        "the default ones within it are, in [pgv], levels_cm_s = [\"0.5:0.1:0.9\", \"1:0.5:20\", \"25:5:200\"]";
     let text = HIGH.replace("levels_cm_s = [5, 10, \"20:20:100\"]\n", "");
     study.write("study.toml", &text);
     study.uplift(&["check", "study.toml"]).fails(4, &["Here", "leave the level out of pgv.levels_cm_s", levels]);

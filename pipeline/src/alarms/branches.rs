@@ -21,15 +21,21 @@ pub(super) fn case(study: &UniformRiskStudy, curves: &CurvesAtSite<'_>) -> Optio
     if curves.branches.is_empty() {
         return None;
     }
-    let mut all: Vec<(&str, &HazardCurve)> = curves.branches.clone();
+    let files = file_of(study, curves.site, curves.measure)?;
+    let mut all: Vec<&HazardCurve> = curves.branches.iter().map(|(_, curve)| *curve).collect();
     // the mean of the weighted curves is no other one, and what a file calls their mean may be
-    if file_of(study, curves.site, curves.measure).is_some_and(|curve| curve.file.is_some()) {
-        all.push(("", curves.curve));
+    if files.file.is_some() {
+        all.push(curves.curve);
     }
-    let apart = Apart::of(&all.iter().map(|(_, curve)| *curve).collect::<Vec<_>>())?;
-    let name = |curve: usize| match all[curve].0 {
-        "" => "the curve of the spectra".to_owned(),
-        name => format!("the weighted curve \"{name}\""),
+    let apart = Apart::of(&all)?;
+    let name = |curve: usize| {
+        let branch = files.branches.get(curve);
+        let path = branch.map(|branch| &branch.file).or(files.file.as_ref()).and_then(|path| path.file_name());
+        let path = path.unwrap_or_default().to_string_lossy();
+        match branch {
+            Some(branch) => format!("the weighted curve \"{}\" ({path})", branch.name),
+            None => format!("the curve of the spectra ({path})"),
+        }
     };
     let more = match &apart.odd[1..] {
         [] => String::new(),

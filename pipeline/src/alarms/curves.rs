@@ -125,11 +125,18 @@ mod tests {
         for (units, biases, words) in [
             (["cm/s", "g"], [Some(0.09), Some(14.0)], ["12.5 times too high", "numbers of its PGA in m/s2"]),
             (["cm/s", "g"], [Some(0.001), None], ["1000.0 times too high", "numbers of its PGA in cm/s2"]),
-            (["cm/s", "m/s2"], [Some(9.0), None], ["9.0 times too low", "of its PGV in mm/s, or of its PGA in g?"]),
+            (
+                ["cm/s", "m/s2"],
+                [Some(9.0), None],
+                ["9.0 times too low", "of its PGV in mm/s (divide its levels by 10 into cm/s), or of its PGA in g ("],
+            ),
             (
                 ["cm/s", "g"],
                 [Some(0.012), Some(90.0)],
-                ["86.6 times too high", "of its PGV in m/s, or of its PGA in per cent of g? Each would explain it"],
+                [
+                    "86.6 times too high",
+                    "or of its PGA in per cent of g (divide its levels by 100 into g)? Each would explain it",
+                ],
             ),
             (["m/s", "g"], [Some(120.0), Some(0.01)], ["109.5 times too low", "numbers of its PGV in cm/s"]),
             (["cm/s", "g"], [Some(9.0), Some(0.1)], ["9.5 times too low", "of its PGV in mm/s"]),

@@ -22,13 +22,17 @@ fn look_like_probabilities(curve: &HazardCurve) -> bool {
 pub(super) fn case(curves: &CurvesAtSite<'_>) -> Option<Case> {
     let key = curves.measure.key();
     let found = curves.first_that(look_like_probabilities)?;
+    let input = if curves.branches.is_empty() { "file = …" } else { "…" };
+    let line = format!("{key} = {{ {input}, kind = \"poe\", years = … }} in [[sites]]");
     let what_to_do = if found.is_all {
-        let input = if curves.branches.is_empty() { "file = …, " } else { "…, " };
-        format!("if so, say so in [[sites]]: {key} = {{ {input}kind = \"poe\", years = 50 }}")
+        format!(
+            "if so, write {line}, with the years that the file is of, 1 or 50 mostly, and poe for maf in the head of \
+             the file"
+        )
     } else {
         format!(
-            "if all curves of {key} are, say so in [[sites]]: {key} = {{ …, kind = \"poe\", years = 50 }}; if not all, \
-             write rates per year into the files of those that are"
+            "if all curves of {key} are, write {line}, and poe for maf in the heads of the files; if not all, write \
+             rates per year into the files of those that are"
         )
     };
     let first = found.curve.first();
@@ -37,8 +41,8 @@ pub(super) fn case(curves: &CurvesAtSite<'_>) -> Option<Case> {
         badness: first.maf,
         subject: curves.subject(),
         what: format!(
-            "the rates of {} level off just below 1 ({} a year at {} {}): they look like probabilities in many years, \
-             50 mostly, and the spectra would be far too large",
+            "the rates of {} level off just below 1 ({} a year at {} {}): they look like probabilities, and if these \
+             are of many years the spectra are far too large",
             found.name,
             first.maf,
             first.im,

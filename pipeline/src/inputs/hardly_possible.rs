@@ -45,12 +45,13 @@ pub(super) fn hardly_possible_if(
     let at_least = |level| at(level).or((curve.first().im > level * too_large).then_some(curve.first().maf));
     let at_most = |level| at(level).or((curve.last().im < level * too_large).then_some(curve.last().maf));
     if let Some(rate) = at_least(strong).filter(|&rate| rate > RARE_PER_YEAR) {
-        let words = format!("{strong} {unit} is exceeded {rate:.1e} times a year");
-        return Some(HardlyPossible { what: words, times: rate / RARE_PER_YEAR });
+        let often = if rate < 0.01 { format!("{rate:.1e}") } else { format!("{rate:.2}") };
+        let what = format!("{strong} {unit} is exceeded {often} times a year");
+        return Some(HardlyPossible { what, times: rate / RARE_PER_YEAR });
     }
     let rate = at_most(faint).filter(|&rate| rate < RARE_PER_YEAR)?;
-    let words = format!("{faint} {unit} is exceeded only {rate:.1e} times a year");
-    Some(HardlyPossible { what: words, times: RARE_PER_YEAR / rate })
+    let what = format!("{faint} {unit} is exceeded only {rate:.1e} times a year");
+    Some(HardlyPossible { what, times: RARE_PER_YEAR / rate })
 }
 
 impl fmt::Display for HardlyPossible {
@@ -96,7 +97,7 @@ mod tests {
             (IntensityMeasure::Pga, 0.0008, "0.003 g is exceeded only 3.7e-6 times a year"),
             (short, 60.0, "20 g is exceeded 1.6e-3 times a year"),
             // beyond its ends a curve still says that it is more, or less
-            (IntensityMeasure::Pgv, 200_000.0, "1000 cm/s is exceeded 1.0e1 times a year"),
+            (IntensityMeasure::Pgv, 200_000.0, "1000 cm/s is exceeded 10.00 times a year"),
             (IntensityMeasure::Pga, 1e-5, "0.003 g is exceeded only 3.2e-7 times a year"),
         ] {
             assert_eq!(told(measure, level).as_deref(), Some(words), "{measure:?} {level}");

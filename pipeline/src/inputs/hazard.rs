@@ -64,7 +64,8 @@ pub fn read_hazard(study: &UniformRiskStudy) -> Result<(Vec<Vec<SiteHazard>>, Ve
             let Some(file) = site.curve(plan.measure) else { continue };
             let (notes, undefined, mistakes) = (&mut notes, &mut undefined, &mut mistakes);
             let measure = plan.measure;
-            let mut reader = SiteReader { site: &site.name, file, measure, study, notes, undefined, mistakes };
+            let mut reader =
+                SiteReader { site: &site.name, file, measure, study, notes, undefined, mistakes, certain: 0 };
             sites.extend(reader.read(plan));
         }
         all.push(sites);
@@ -116,7 +117,8 @@ pub fn read_other_hazard(study: &UniformRiskStudy) -> Result<(Vec<OtherHazard>, 
             }
             let measure = file.measure;
             let (notes, undefined, mistakes) = (&mut notes, &mut undefined, &mut mistakes);
-            let mut reader = SiteReader { site: &site.name, file, measure, study, notes, undefined, mistakes };
+            let mut reader =
+                SiteReader { site: &site.name, file, measure, study, notes, undefined, mistakes, certain: 0 };
             all.extend(reader.other());
         }
     }
@@ -139,6 +141,8 @@ struct SiteReader<'a> {
     /// Curves that do not say which definition of the measure they are of.
     undefined: &'a mut Vec<String>,
     mistakes: &'a mut Vec<String>,
+    /// How many probabilities of 1 at its start the file that was read last has.
+    certain: usize,
 }
 
 impl SiteReader<'_> {
@@ -213,6 +217,7 @@ impl SiteReader<'_> {
     fn mean(&mut self, branches: &[BranchHazard], plan: &MeasurePlan) -> Option<HazardInput> {
         let curves: Vec<(f64, &HazardCurve)> =
             branches.iter().map(|branch| (branch.weight, &branch.input.curve)).collect();
+        self.certain = 0;
         let mean = weighted_mean(&curves, &plan.levels).and_then(|curve| {
             let weights = self.weights(&curve, "the mean of the branches", plan)?;
             Ok(HazardInput { file: None, checksum: String::new(), curve, weights })
@@ -232,15 +237,9 @@ impl SiteReader<'_> {
 
     /// The curve of a file for the records' definition of the measure, and the file's SHA-256.
     fn read_file(&mut self, path: &Path) -> Result<(HazardCurve, String), String> {
-        let mut options = CsvOptions::new(self.measure.label(), self.file.unit.symbol());
-        match self.file.kind {
-            CurveKind::Maf => options.second_column = Some(SecondColumn::AnnualRate),
-            CurveKind::Poe { years } => {
-                options.second_column = Some(SecondColumn::Probability);
-                options.years = Some(years);
-            }
-        }
-        let read = read_path(path, &options).map_err(|error| with_remedy(&error, self.study, self.site, self.file))?;
+        let read = read_path(path, &csv_options(self.file));
+        let read = read.map_err(|error| with_remedy(&error, self.study, self.site, self.file))?;
+        self.certain = read.dropped_certain;
         for (count, what) in
             [(read.dropped_zeros, "zeros at the end"), (read.dropped_certain, "probabilities of 1 at the start")]
         {
@@ -265,17 +264,60 @@ impl SiteReader<'_> {
 
     fn weights(&self, curve: &HazardCurve, name: &str, plan: &MeasurePlan) -> Result<StripeWeights, String> {
         stripe_weights(self.study, plan, curve).map_err(|reason| {
+            if self.are_interchanged(plan).unwrap_or(false) {
+                return format!(
+                    "{name}: are the files of pgv and pga interchanged? Each covers the levels of the other. As they \
+                     are, {reason}"
+                );
+            }
             if let Some(other_unit) = of_outside(self.study, (self.site, self.file), plan, curve) {
                 // who reads a curve in another unit is not helped by an extrapolation of it
                 let key = levels_key(self.measure);
                 return format!("{name}: {other_unit}; if not, take a longer curve or leave levels out of {key}");
             }
             let within = levels_within(self.measure, curve.first().im, curve.last().im);
-            let within = within
-                .map_or_else(String::new, |(key, levels)| format!(": the default ones within it are {key} = {levels}"));
-            format!("{name}: {reason}{within}")
+            let within = within.map_or_else(String::new, |(key, levels)| {
+                let (section, key) = key.rsplit_once('.').unwrap_or_default();
+                format!(": the default ones within it are, in [{section}], {key} = {levels}")
+            });
+            let dropped = match self.certain {
+                0 => String::new(),
+                rows => format!(" ({rows} rows of probability 1 at its start carry no rate and were dropped)"),
+            };
+            format!("{name}: {reason}{within}{dropped}")
         })
     }
+
+    /// Whether the files of PGV and PGA each cover the levels of the other; none where there are not both.
+    fn are_interchanged(&self, plan: &MeasurePlan) -> Option<bool> {
+        let other = match self.measure {
+            IntensityMeasure::Pgv => IntensityMeasure::Pga,
+            IntensityMeasure::Pga => IntensityMeasure::Pgv,
+            _ => return None,
+        };
+        let other_file = self.study.sites.iter().find(|site| site.name == self.site)?.curve(other)?;
+        let other_plan = self.study.measures.iter().find(|plan| plan.measure == other)?;
+        let covers = |path: Option<&PathBuf>, file: &CurveFile, plan: &MeasurePlan| {
+            let curve =
+                read_path(path?, &csv_options(file)).ok()?.curve.in_field_units(self.study.gravity_m_s2).ok()?;
+            Some(curve.first().im <= *plan.levels.first()? && *plan.levels.last()? <= curve.last().im)
+        };
+        let this_covers_others = covers(self.file.file.as_ref(), other_file, other_plan)?;
+        Some(this_covers_others && covers(other_file.file.as_ref(), self.file, plan)?)
+    }
+}
+
+/// How the numbers of a file are read that a study says as `file`.
+fn csv_options(file: &CurveFile) -> CsvOptions {
+    let mut options = CsvOptions::new(file.measure.label(), file.unit.symbol());
+    match file.kind {
+        CurveKind::Maf => options.second_column = Some(SecondColumn::AnnualRate),
+        CurveKind::Poe { years } => {
+            options.second_column = Some(SecondColumn::Probability);
+            options.years = Some(years);
+        }
+    }
+    options
 }
 
 /// The curve for the definition of the measure that the records are combined by; none where the definition of the curve

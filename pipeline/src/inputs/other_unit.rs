@@ -91,14 +91,14 @@ pub(super) fn with_remedy(error: &HazardError, study: &UniformRiskStudy, site: &
     let HazardError::Contradiction { place, what, found, declared } = error else { return error.to_string() };
     let remedy = match *what {
         "unit" => {
-            let found = CurveUnit::parse(found.trim_matches('"'));
-            let Some(unit) = found.filter(|found| file.other_units().any(|unit| unit == *found)) else {
-                return error.to_string();
-            };
-            if file.branches.is_empty() {
-                format!("write {}, or {}", unit_line(file, unit), unit_setting(study, site, file, unit))
-            } else {
-                format!("write {} if all branches are so, or convert this file", unit_line(file, unit))
+            let found = found.trim_matches('"');
+            let unit = CurveUnit::parse(found).filter(|found| file.other_units().any(|unit| unit == *found));
+            match unit {
+                Some(unit) if file.branches.is_empty() => {
+                    format!("write {}, or {}", unit_line(file, unit), unit_setting(study, site, file, unit))
+                }
+                Some(unit) => format!("write {} if all branches are so, or convert this file", unit_line(file, unit)),
+                None => format!("convert its levels into {}, and write that into its head", file.unit.symbol()),
             }
         }
         "second column" if file.kind == CurveKind::Maf => {
@@ -204,7 +204,9 @@ pub(crate) fn unit_that_explains(study: &UniformRiskStudy, site: &str, too_high:
             Some(format!("are the numbers {}, which would explain it? Then {remedy}", numbers(one)))
         }
         several => {
-            let several: Vec<String> = several.iter().map(numbers).collect();
+            let remedy =
+                |one: &(&CurveFile, NumbersIn)| format!("{} ({})", numbers(one), one.1.remedy(study, site, one.0));
+            let several: Vec<String> = several.iter().map(remedy).collect();
             Some(format!("are the numbers {}? Each would explain it: see both files", several.join(", or ")))
         }
     }

@@ -44,9 +44,10 @@ pub(super) fn remarks(written: &[Chosen]) -> Vec<String> {
         let most = of.iter().map(|curve| curve.last().im).fold(f64::INFINITY, f64::min);
         if let (false, Some((key, levels))) = (of.is_empty(), levels_within(measure, least, most)) {
             let unit = measure.unit();
+            let (section, key) = key.rsplit_once('.').unwrap_or_default();
             remarks.push(format!(
                 "the {measure} curves span {least:.4} to {most:.4} {unit}, and the default stripes do not: in the \
-                 study, {key} = {levels} (or risk.extrapolate = \"loglog\")"
+                 study, in [{section}], {key} = {levels} (or risk.extrapolate = \"loglog\")"
             ));
         }
     }
