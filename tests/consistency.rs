@@ -116,6 +116,21 @@ fn a_verdict_can_be_required() {
         .uplift(&["consistency", "r.h5", "-q", "--require", "off"])
         .fails(4, &["--require off", "Montreux by PGA: inconsistent"]);
     study.uplift(&["consistency", "r.h5", "-q", "--require", "sound"]).fails(2, &["--require"]);
+    // a mean that is right is not all that a verdict rests on
+    let said = study.uplift(&["check", "study.toml"]).ok().stdout;
+    let asked = json(&study.uplift(&["consistency", "r.h5", "--json", "-q"]).ok());
+    let mut told = 0;
+    for row in asked["rows"].as_array().unwrap().iter().filter(|row| row["verdict"] != "consistent") {
+        let (bias, most) = (row["bias"].as_f64().unwrap(), row["max"].as_f64().unwrap().exp());
+        let words = format!(
+            "times the {} of the site's hazard, and {most:.2} times off at one rate",
+            row["shows"].as_str().unwrap()
+        );
+        let is_more = most > 1.1 * bias.max(1.0 / bias);
+        assert_eq!(said.contains(&words), is_more, "{words}: {said}");
+        told += usize::from(is_more);
+    }
+    assert!(told > 0, "{said}");
 }
 
 #[test]

@@ -52,10 +52,16 @@ pub(super) fn consistency_lines(report: &ConsistencyReport) -> Vec<String> {
     for row in report.rows.iter().filter(|row| !is_consistent(row)) {
         let (site, scaled_to, shows) = (&row.site, row.scaled_to, row.shows);
         lines.push(match (row.bias, row.verdict) {
-            (Some(bias), Some(verdict)) => format!(
-                "{site} by {scaled_to}: the records bring {bias:.2} times the {shows} of the site's hazard: {verdict} \
-                 (uplift consistency)"
-            ),
+            (Some(bias), Some(verdict)) => {
+                // a mean that is right may hide a rate at which it is not
+                let most = row.max.map(f64::exp).filter(|most| *most > 1.1 * bias.max(1.0 / bias));
+                let at_one_rate =
+                    most.map_or_else(String::new, |most| format!(", and {most:.2} times off at one rate"));
+                format!(
+                    "{site} by {scaled_to}: the records bring {bias:.2} times the {shows} of the site's \
+                     hazard{at_one_rate}: {verdict} (uplift consistency)"
+                )
+            }
             _ => {
                 format!("{site} by {scaled_to}: no verdict on the {shows} that the records bring (uplift consistency)")
             }
