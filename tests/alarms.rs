@@ -350,7 +350,12 @@ fn curves_that_are_hardly_possible_or_far_from_their_alternatives_are_told() {
     let run = json(&study, &[&["run", "study.toml", "-o", "r.h5", "--json"], &set[..]].concat());
     for found in [&checked, &run] {
         let odd = alarm(found, "branches-disagree");
-        assert!(odd["severity"] == "mistake" && text(odd, "what").contains("at least 100.0 times below"), "{odd}");
+        assert!(
+            odd["severity"] == "mistake"
+                && text(odd, "what").contains("at least 100.0 times below")
+                && text(odd, "what").ends_with("at every rate from 0.1 to 0.00001 a year"),
+            "{odd}"
+        );
         let remedy = text(odd, "what_to_do");
         assert!(remedy.contains("in m/s, which would explain it? All files of pgv are read in cm/s: convert"), "{odd}");
         let kinds: Vec<&Value> = found["alarms"].as_array().unwrap().iter().map(|alarm| &alarm["kind"]).collect();

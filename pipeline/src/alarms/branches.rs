@@ -6,6 +6,7 @@ use uplift_study::UniformRiskStudy;
 use super::hazard::CurvesAtSite;
 use super::{Case, Severity};
 use crate::inputs::{file_of, unit_of_branch};
+use crate::text::rounded;
 
 /// Alternatives differ by 2 or 3 times, more at low rates alone; told is a gap between them that is as wide throughout.
 const BEYOND_ALTERNATIVES: f64 = 5.0;
@@ -46,14 +47,14 @@ pub(super) fn case(study: &UniformRiskStudy, curves: &CurvesAtSite<'_>) -> Optio
         others => format!("the {} others", others.len()),
     };
     let direction = if apart.odd_above { "above" } else { "below" };
-    let [frequent, rare] = apart.rates_per_year;
+    let [frequent, rare] = apart.rates_per_year.map(|rate| rounded(rate, 1));
     Some(Case {
         severity: Severity::Mistake,
         badness: apart.times,
         subject: curves.subject(),
         what: format!(
             "the levels of {}{more} are at least {:.1} times {direction} those of {others}, at every rate from \
-             {frequent:.0e} to {rare:.0e} a year",
+             {frequent} to {rare} a year",
             name(apart.odd[0]),
             apart.times
         ),
