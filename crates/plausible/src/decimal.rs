@@ -81,7 +81,7 @@ pub fn with_point(cell: &str) -> Option<String> {
 }
 
 /// Whether the comma of a number could part thousands: 1,500 may, 0,500 and 1,5 may not.
-pub fn may_be_thousands(cell: &str) -> bool {
+fn may_be_thousands(cell: &str) -> bool {
     let unsigned = cell.trim_start_matches(['-', '+']);
     unsigned.split_once(',').is_some_and(|(whole, rest)| {
         (1..=3).contains(&whole.len())

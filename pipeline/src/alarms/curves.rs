@@ -124,7 +124,11 @@ mod tests {
     fn the_unit_that_explains_it_is_told() {
         for (units, biases, words) in [
             (["cm/s", "g"], [Some(0.09), Some(14.0)], ["12.5 times too high", "numbers of its PGA in m/s2"]),
-            (["cm/s", "g"], [Some(0.001), None], ["1000.0 times too high", "numbers of its PGA in cm/s2"]),
+            (
+                ["cm/s", "g"],
+                [Some(0.001), None],
+                ["numbers of its PGA in cm/s2 (pga = {", "or of its PGV in m/s and of its PGA in m/s2 (pgv = {"],
+            ),
             (
                 ["cm/s", "m/s2"],
                 [Some(9.0), None],
@@ -148,6 +152,18 @@ mod tests {
         let remedy =
             "Then pga = { file = …, unit = \"m/s2\" } in [[sites]], or --set 'sites.\"Sion 2.1\".pga.unit=m/s2'";
         assert!(told(["cm/s", "g"], [Some(0.1), None]).unwrap().contains(remedy));
+    }
+
+    #[test]
+    fn probabilities_may_be_of_other_years() {
+        let text = "[pgv]\n[[sites]]\nname = \"Here\"\npgv = \"c.csv\"\n\
+                    pga = { file = \"c.csv\", kind = \"poe\", years = 50 }\n";
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("c.csv"), "iml,maf\n").unwrap();
+        let path = folder.path().join("study.toml");
+        std::fs::write(&path, text).unwrap();
+        let case = case(&uplift_study::Study::load(&path, &[]).unwrap(), "Here", [Some(9.0), None]).unwrap();
+        assert!(case.what_to_do.ends_with("divide its levels by 10 into cm/s; or is PGA not of 50 years?"));
     }
 
     #[test]

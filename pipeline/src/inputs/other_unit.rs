@@ -180,34 +180,44 @@ pub(super) fn of_outside(
 }
 
 /// What to do where the curve of PGA of a site is `too_high` times what goes with its curve of PGV, and another unit of
-/// one of them explains it; none where none does.
+/// one of them, or of both, explains it; none where none does.
 pub(crate) fn unit_that_explains(study: &UniformRiskStudy, site: &str, too_high: f64) -> Option<String> {
-    let curves = &study.sites.iter().find(|listed| listed.name == site)?.curves;
-    let explanations = curves.iter().flat_map(|file| {
-        of_file(file, study.gravity_m_s2).filter_map(move |other| {
-            let explained = match file.measure {
-                IntensityMeasure::Pga => other.too_large,
-                IntensityMeasure::Pgv => 1.0 / other.too_large,
-                _ => return None,
-            };
-            let left = (too_high / explained).ln().abs();
-            (left < FITS_WITHIN.ln()).then_some((file, other.unit))
+    let [pgv, pga] = [IntensityMeasure::Pgv, IntensityMeasure::Pga].map(|measure| file_of(study, site, measure));
+    let (pgv, pga) = (pgv?, pga?);
+    let explains = |times: f64| (too_high / times).ln().abs() < FITS_WITHIN.ln();
+    let others = |file| of_file(file, study.gravity_m_s2);
+    let numbers = |file: &CurveFile, unit: NumbersIn| format!("of its {} in {}", file.measure.label(), unit.name());
+    // what, and what to write then
+    let mut explanations: Vec<(String, String)> = Vec::new();
+    let of_pgv = others(pgv).filter(|other| explains(1.0 / other.too_large)).map(|other| (pgv, other.unit));
+    let of_pga = others(pga).filter(|other| explains(other.too_large)).map(|other| (pga, other.unit));
+    explanations.extend(of_pgv.chain(of_pga).map(|(file, unit)| (numbers(file, unit), unit.remedy(study, site, file))));
+    // who works in m/s and m/s2 forgets both
+    for of_pgv in others(pgv) {
+        for of_pga in others(pga) {
+            if let (NumbersIn::Unit(velocity), NumbersIn::Unit(acceleration)) = (of_pgv.unit, of_pga.unit)
+                && explains(of_pga.too_large / of_pgv.too_large)
+            {
+                let what = format!("{} and {}", numbers(pgv, of_pgv.unit), numbers(pga, of_pga.unit));
+                explanations.push((what, format!("{}, {}", unit_line(pgv, velocity), unit_line(pga, acceleration))));
+            }
+        }
+    }
+    // probabilities that are taken for those of other years do the same
+    let years: Vec<String> = [pgv, pga]
+        .into_iter()
+        .filter_map(|file| match file.kind {
+            CurveKind::Poe { years } => Some(format!("; or is {} not of {years} years?", file.measure.label())),
+            CurveKind::Maf => None,
         })
-    });
-    let explanations: Vec<(&CurveFile, NumbersIn)> = explanations.collect();
-    let numbers =
-        |&(file, unit): &(&CurveFile, NumbersIn)| format!("of its {} in {}", file.measure.label(), unit.name());
+        .collect();
+    let years = years.concat();
     match &explanations[..] {
         [] => None,
-        [one @ (file, unit)] => {
-            let remedy = unit.remedy(study, site, file);
-            Some(format!("are the numbers {}, which would explain it? Then {remedy}", numbers(one)))
-        }
+        [(what, remedy)] => Some(format!("are the numbers {what}, which would explain it? Then {remedy}{years}")),
         several => {
-            let remedy =
-                |one: &(&CurveFile, NumbersIn)| format!("{} ({})", numbers(one), one.1.remedy(study, site, one.0));
-            let several: Vec<String> = several.iter().map(remedy).collect();
-            Some(format!("are the numbers {}? Each would explain it: see both files", several.join(", or ")))
+            let several: Vec<String> = several.iter().map(|(what, remedy)| format!("{what} ({remedy})")).collect();
+            Some(format!("are the numbers {}? Each would explain it: see both files{years}", several.join(", or ")))
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::suggestion::did_you_mean;
 use super::{Finding, Findings, Node, Rule, Section, Value, quantity};
-use uplift_plausible::{may_be_thousands, with_point};
+use uplift_plausible::with_point;
 
 /// The largest integer of TOML, which has signed ones of 64 bits.
 pub(crate) const LARGEST_INTEGER: u64 = i64::MAX as u64;
@@ -192,17 +192,31 @@ fn per_cent_as_fraction(text: &str) -> Option<String> {
 
 /// What to write for numbers with commas between them, or within one.
 pub(crate) fn commas(text: &str) -> Option<String> {
-    let numbers: Vec<f64> = text.split(',').map(|part| part.trim().parse().ok()).collect::<Option<_>>()?;
-    if numbers.len() < 2 || !numbers.iter().all(|number| number.is_finite()) {
+    let parts: Vec<&str> = text.split(',').map(str::trim).collect();
+    let are_numbers = parts.iter().all(|part| part.parse::<f64>().is_ok_and(f64::is_finite));
+    if parts.len() < 2 || !are_numbers {
         return None;
     }
-    let list = numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
-    let several = format!("where several numbers may stand, they are a list: [{list}]");
-    Some(match with_point(text) {
-        Some(point) if may_be_thousands(text) => {
-            format!("write {}, or {point} with a point, whichever is meant; {several}", text.replace(',', ""))
-        }
-        Some(point) => format!("write {point} with a point; {several}"),
-        None => several,
-    })
+    let mut meant = Vec::new();
+    meant.extend(parts_thousands(&parts).then(|| parts.concat()));
+    meant.extend(with_point(text).map(|point| format!("{point} with a point")));
+    // 02 is part of a decimal, or of thousands
+    let is_list = parts.iter().all(|part| !part.starts_with('0') || part.starts_with("0.") || *part == "0");
+    meant.extend(is_list.then(|| format!("where several numbers may stand the list [{}]", parts.join(","))));
+    match &meant[..] {
+        [] => None,
+        [one] => Some(format!("write {one}")),
+        several => Some(format!("write {}, whichever is meant", several.join(", or "))),
+    }
+}
+
+/// Whether the commas between `parts` may be those between thousands, as in 1,000,000 and 1,000.5.
+fn parts_thousands(parts: &[&str]) -> bool {
+    let are_digits = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
+    let [first, middle @ .., last] = parts else { return false };
+    let whole = last.split_once('.').map_or(*last, |(whole, _)| whole);
+    (1..=3).contains(&first.len())
+        && are_digits(first)
+        && !first.starts_with('0')
+        && middle.iter().chain([&whole]).all(|part| part.len() == 3 && are_digits(part))
 }

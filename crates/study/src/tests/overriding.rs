@@ -98,7 +98,7 @@ fn per_cent_are_answered_with_the_fraction() {
         let error = folder.load(&[given]).unwrap_err();
         assert!(folder.rendered(&error).contains(meant), "{}", folder.rendered(&error));
     }
-    for given in ["oscillator.uplift_displacement_m=2%", "risk.years=nan,inf", "risk.years=1e3,5e2,a"] {
+    for given in ["oscillator.uplift_displacement_m=2%", "risk.years=nan,inf", "risk.years=0,02,0,1"] {
         let error = folder.load(&[given]).unwrap_err();
         assert!(folder.rendered(&error).contains("write a number without quotes or unit"), "{given}");
     }
@@ -108,10 +108,13 @@ fn per_cent_are_answered_with_the_fraction() {
 fn commas_are_answered() {
     let folder = Folder::new(STUDY);
     for (given, meant) in [
-        ("risk.poe=0.02,0.1", "where several numbers may stand, they are a list: [0.02, 0.1]"),
-        ("pgv.levels_cm_s=1,2,5", "they are a list: [1, 2, 5]"),
-        ("oscillator.uplift_displacement_m=0,02", "write 0.02 with a point; where several numbers may stand"),
+        ("risk.poe=0.02,0.1", "write where several numbers may stand the list [0.02,0.1]"),
+        ("pgv.levels_cm_s=1,2,5", "the list [1,2,5]"),
+        ("risk.years=2,5", "write 2.5 with a point, or where several numbers may stand the list [2,5], whichever"),
+        ("oscillator.uplift_displacement_m=0,02", "write 0.02 with a point"),
         ("risk.years=1,000", "write 1000, or 1.000 with a point, whichever is meant"),
+        ("risk.years=1,000,000", "write 1000000"),
+        ("risk.years=1,000.5", "write 1000.5"),
     ] {
         let error = folder.load(&[given]).unwrap_err();
         assert!(folder.rendered(&error).contains(meant), "{}", folder.rendered(&error));
