@@ -25,7 +25,7 @@ pub(crate) use hardly_possible::hardly_possible;
 pub use hazard::{BranchHazard, HazardInput, OtherHazard, SiteHazard, read_hazard, read_other_hazard};
 pub(crate) use made::made_pairs;
 pub(crate) use motion_keys::motion_keys;
-pub(crate) use other_unit::{file_of, unit_of_branch, unit_that_explains, units_that_make_possible};
+pub(crate) use other_unit::{POE, curve_line, file_of, unit_of_branch, unit_that_explains, units_that_make_possible};
 pub use record_set::{Record, RecordSet, read_records};
 pub(crate) use record_set::{read_measured, read_with_pairs};
 pub use record_sets::{NamedSet, RecordSets, SetRecord, read_record_sets};

@@ -80,15 +80,16 @@ pub fn with_point(cell: &str) -> Option<String> {
     Some(cell.replace(',', ".")).filter(|text| text.parse::<f64>().is_ok())
 }
 
-/// Whether the comma of a number could part thousands: 1,500 may, 0,500 and 1,5 may not.
-fn may_be_thousands(cell: &str) -> bool {
+/// Whether the commas of a number could part thousands: 1,500 and 1,000,000.5 may, 0,500 and 1,5 may not.
+pub fn may_be_thousands(cell: &str) -> bool {
+    let are_digits = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
     let unsigned = cell.trim_start_matches(['-', '+']);
-    unsigned.split_once(',').is_some_and(|(whole, rest)| {
-        (1..=3).contains(&whole.len())
-            && !whole.starts_with('0')
-            && rest.len() == 3
-            && rest.bytes().all(|byte| byte.is_ascii_digit())
-    })
+    let whole = unsigned.split_once('.').map_or(unsigned, |(whole, _)| whole);
+    let Some((first, groups)) = whole.split_once(',') else { return false };
+    (1..=3).contains(&first.len())
+        && are_digits(first)
+        && !first.starts_with('0')
+        && groups.split(',').all(|group| group.len() == 3 && are_digits(group))
 }
 
 #[cfg(test)]
@@ -112,6 +113,11 @@ mod tests {
         assert!(mixed.contains("line 1: 0,12 has a decimal comma, and 3.4 (line 2) a decimal point"), "{mixed}");
         let doubtful = marks(&["x", "1,500", "2,500"]).unwrap_err();
         assert!(doubtful.contains("line 2: 1,500 may be 1.500 or 1500"), "{doubtful}");
+        for (cell, may) in
+            [("1,500", true), ("-1,000,000.5", true), ("0,500", false), ("1,5", false), ("1,000,5", false)]
+        {
+            assert_eq!(may_be_thousands(cell), may, "{cell}");
+        }
         assert_eq!(with_point("-1,5e3").as_deref(), Some("-1.5e3"));
         assert_eq!((with_point("1,2,3"), with_point("1.000,5"), with_point("a,b")), (None, None, None));
     }

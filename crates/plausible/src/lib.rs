@@ -22,7 +22,7 @@ mod range;
 mod table;
 mod usual;
 
-pub use decimal::{AmbiguousMarks, DecimalMarks, with_point};
+pub use decimal::{AmbiguousMarks, DecimalMarks, may_be_thousands, with_point};
 pub use range::{Implausible, Range, Unlikely};
 pub use table::*;
 pub use usual::*;

@@ -51,7 +51,7 @@ pub use branches::Branch;
 pub use consistency::{Consistency, Repair};
 pub use curve::{CurveFile, CurveKind};
 pub use hazard::{Conversion, Hazard, definition_of};
-pub use lower_levels::{levels_key, lower_starts};
+pub use lower_levels::{levels_key, levels_place, lower_starts};
 pub use measures::{MeasurePlan, levels_within};
 pub use oscillator::Oscillator;
 pub use records::Records;

@@ -14,20 +14,20 @@ const BEYOND_NATURE: f64 = 5.0;
 
 pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
     let sites = evidence.spectra.sites.iter().enumerate().filter(|(site, _)| scope.holds_site(*site));
-    Alarm::of_cases("curves-disagree", sites.filter_map(|(site, name)| of_site(evidence, site, name)).collect())
+    let case = |(site, name): (usize, &String)| case(&evidence.study, name, biases(evidence, site));
+    Alarm::of_cases("curves-disagree", sites.filter_map(case).collect())
 }
 
 /// Whether the curves of a site are told not to belong together.
 pub(super) fn are_apart(evidence: &Evidence, site: usize) -> bool {
-    of_site(evidence, site, "").is_some()
+    beyond_nature(&evidence.study, biases(evidence, site)).is_some()
 }
 
-fn of_site(evidence: &Evidence, site: usize, name: &str) -> Option<Case> {
-    let biases = [(Pgv, Pga), (Pga, Pgv)].map(|(scaled_to, other)| {
+fn biases(evidence: &Evidence, site: usize) -> [Option<f64>; 2] {
+    [(Pgv, Pga), (Pga, Pgv)].map(|(scaled_to, other)| {
         let of = evidence.consistency.iter().find(|of| (of.scaled_to, of.other) == (scaled_to, other));
         of.map(|of| of.bias[site])
-    });
-    case(&evidence.study, name, biases)
+    })
 }
 
 /// The same of a study that is looked at and not run.
@@ -57,13 +57,17 @@ fn too_high([of_pga, of_pgv]: [Option<f64>; 2]) -> Option<f64> {
     }
 }
 
-fn case(study: &UniformRiskStudy, site: &str, biases: [Option<f64>; 2]) -> Option<Case> {
+/// [`too_high`] where that is more, or less, than sites are.
+fn beyond_nature(study: &UniformRiskStudy, biases: [Option<f64>; 2]) -> Option<f64> {
     let too_high = too_high(biases)?;
-    let times = too_high.max(1.0 / too_high);
     // another gravity than the Earth's moves every acceleration, and has an alarm of its own
-    if times <= BEYOND_NATURE || !USUAL_GRAVITY.contains(study.gravity_m_s2) {
-        return None;
-    }
+    let is_usual = USUAL_GRAVITY.contains(study.gravity_m_s2);
+    (too_high.max(1.0 / too_high) > BEYOND_NATURE && is_usual).then_some(too_high)
+}
+
+fn case(study: &UniformRiskStudy, site: &str, biases: [Option<f64>; 2]) -> Option<Case> {
+    let too_high = beyond_nature(study, biases)?;
+    let times = too_high.max(1.0 / too_high);
     let direction = if too_high > 1.0 { "high" } else { "low" };
     Some(Case {
         severity: Severity::Mistake,

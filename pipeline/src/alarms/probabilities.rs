@@ -4,6 +4,7 @@ use uplift_hazard::HazardCurve;
 
 use super::hazard::CurvesAtSite;
 use super::{Case, Severity};
+use crate::inputs::{POE, curve_line};
 
 /// A probability saturates at 1, and a rate goes on rising: a curve that begins between this and 1 …
 const NEARLY_CERTAIN: f64 = 0.9;
@@ -22,8 +23,7 @@ fn look_like_probabilities(curve: &HazardCurve) -> bool {
 pub(super) fn case(curves: &CurvesAtSite<'_>) -> Option<Case> {
     let key = curves.measure.key();
     let found = curves.first_that(look_like_probabilities)?;
-    let input = if curves.branches.is_empty() { "file = …" } else { "…" };
-    let line = format!("{key} = {{ {input}, kind = \"poe\", years = … }} in [[sites]]");
+    let line = curve_line(curves.measure, !curves.branches.is_empty(), POE);
     let what_to_do = if found.is_all {
         format!(
             "if so, write {line}, with the years that the file is of, 1 or 50 mostly, and poe for maf in the head of \

@@ -143,8 +143,6 @@ fn direction(description: &RecordingDescription) -> String {
 
 /// Six significant digits: a table to look at; what is computed is computed from the files.
 fn rounded(value: Option<f64>) -> String {
-    value.filter(|value| value.is_finite()).map_or_else(String::new, |value| {
-        let text = format!("{value:.5e}");
-        text.parse::<f64>().map_or(text, |short| short.to_string())
-    })
+    let finite = value.filter(|value| value.is_finite());
+    finite.map_or_else(String::new, |value| crate::text::rounded(value, 6).to_string())
 }

@@ -7,10 +7,12 @@ use uplift_motion::{Combination, IntensityMeasure};
 use uplift_risk::StripeWeights;
 
 use super::hardly_possible::hardly_possible;
-use super::other_unit::{of_outside, with_remedy};
+use super::other_unit::{file_of, of_outside, with_remedy};
 use crate::checksum::checksum_of_file;
 use crate::error::UpliftError;
-use uplift_study::{CurveFile, CurveKind, MeasurePlan, UniformRiskStudy, definition_of, levels_key, levels_within};
+use uplift_study::{
+    CurveFile, CurveKind, MeasurePlan, UniformRiskStudy, definition_of, levels_key, levels_place, levels_within,
+};
 
 /// The hazard of one site in one measure.
 #[derive(Debug, Clone)]
@@ -64,8 +66,7 @@ pub fn read_hazard(study: &UniformRiskStudy) -> Result<(Vec<Vec<SiteHazard>>, Ve
             let Some(file) = site.curve(plan.measure) else { continue };
             let (notes, undefined, mistakes) = (&mut notes, &mut undefined, &mut mistakes);
             let measure = plan.measure;
-            let mut reader =
-                SiteReader { site: &site.name, file, measure, study, notes, undefined, mistakes, certain: 0 };
+            let mut reader = SiteReader { site: &site.name, file, measure, study, notes, undefined, mistakes };
             sites.extend(reader.read(plan));
         }
         all.push(sites);
@@ -117,8 +118,7 @@ pub fn read_other_hazard(study: &UniformRiskStudy) -> Result<(Vec<OtherHazard>, 
             }
             let measure = file.measure;
             let (notes, undefined, mistakes) = (&mut notes, &mut undefined, &mut mistakes);
-            let mut reader =
-                SiteReader { site: &site.name, file, measure, study, notes, undefined, mistakes, certain: 0 };
+            let mut reader = SiteReader { site: &site.name, file, measure, study, notes, undefined, mistakes };
             all.extend(reader.other());
         }
     }
@@ -131,6 +131,15 @@ fn weighted_mean(curves: &[(f64, &HazardCurve)], levels: &[f64]) -> Result<Hazar
     HazardCurve::weighted_mean(curves, levels).map_err(|error| format!("the branches have no mean: {error}"))
 }
 
+/// A curve as its file has it.
+struct ReadCurve {
+    curve: HazardCurve,
+    /// SHA-256 of the file.
+    checksum: String,
+    /// Rows of probability 1 at its start, which carry no rate.
+    dropped_certain: usize,
+}
+
 /// Reads what belongs to one site and measure.
 struct SiteReader<'a> {
     site: &'a str,
@@ -141,8 +150,6 @@ struct SiteReader<'a> {
     /// Curves that do not say which definition of the measure they are of.
     undefined: &'a mut Vec<String>,
     mistakes: &'a mut Vec<String>,
-    /// How many probabilities of 1 at its start the file that was read last has.
-    certain: usize,
 }
 
 impl SiteReader<'_> {
@@ -173,13 +180,13 @@ impl SiteReader<'_> {
         let (curve, checksum) = if let Some(path) = &file.file {
             let read = self.read_file(path);
             let read = self.noted(read)?;
-            self.note_if_hardly_possible(path, &read.0);
-            read
+            self.note_if_hardly_possible(path, &read.curve);
+            (read.curve, read.checksum)
         } else {
             let mut curves = Vec::new();
             for branch in &file.branches {
                 let read = self.read_file(&branch.file);
-                let (curve, checksum) = self.noted(read)?;
+                let ReadCurve { curve, checksum, .. } = self.noted(read)?;
                 self.note_if_hardly_possible(&branch.file, &curve);
                 curves.push((branch.weight, curve));
                 branches.push((branch.name.clone(), checksum));
@@ -207,8 +214,8 @@ impl SiteReader<'_> {
     }
 
     fn input(&mut self, path: &Path, plan: &MeasurePlan) -> Option<HazardInput> {
-        let read = self.read_file(path).and_then(|(curve, checksum)| {
-            let weights = self.weights(&curve, &path.display().to_string(), plan)?;
+        let read = self.read_file(path).and_then(|ReadCurve { curve, checksum, dropped_certain }| {
+            let weights = self.weights(&curve, &path.display().to_string(), plan, dropped_certain)?;
             Ok(HazardInput { file: Some(path.to_owned()), checksum, curve, weights })
         });
         self.noted(read)
@@ -217,9 +224,8 @@ impl SiteReader<'_> {
     fn mean(&mut self, branches: &[BranchHazard], plan: &MeasurePlan) -> Option<HazardInput> {
         let curves: Vec<(f64, &HazardCurve)> =
             branches.iter().map(|branch| (branch.weight, &branch.input.curve)).collect();
-        self.certain = 0;
         let mean = weighted_mean(&curves, &plan.levels).and_then(|curve| {
-            let weights = self.weights(&curve, "the mean of the branches", plan)?;
+            let weights = self.weights(&curve, "the mean of the branches", plan, 0)?;
             Ok(HazardInput { file: None, checksum: String::new(), curve, weights })
         });
         self.noted(mean)
@@ -235,11 +241,10 @@ impl SiteReader<'_> {
         }
     }
 
-    /// The curve of a file for the records' definition of the measure, and the file's SHA-256.
-    fn read_file(&mut self, path: &Path) -> Result<(HazardCurve, String), String> {
+    /// The curve of a file for the records' definition of the measure.
+    fn read_file(&mut self, path: &Path) -> Result<ReadCurve, String> {
         let read = read_path(path, &csv_options(self.file));
         let read = read.map_err(|error| with_remedy(&error, self.study, self.site, self.file))?;
-        self.certain = read.dropped_certain;
         for (count, what) in
             [(read.dropped_zeros, "zeros at the end"), (read.dropped_certain, "probabilities of 1 at the start")]
         {
@@ -259,10 +264,16 @@ impl SiteReader<'_> {
         }
         let curve = converted.unwrap_or(curve);
         let checksum = checksum_of_file(path).map_err(|error| format!("{}: {error}", path.display()))?;
-        Ok((curve, checksum))
+        Ok(ReadCurve { curve, checksum, dropped_certain: read.dropped_certain })
     }
 
-    fn weights(&self, curve: &HazardCurve, name: &str, plan: &MeasurePlan) -> Result<StripeWeights, String> {
+    fn weights(
+        &self,
+        curve: &HazardCurve,
+        name: &str,
+        plan: &MeasurePlan,
+        dropped_certain: usize,
+    ) -> Result<StripeWeights, String> {
         stripe_weights(self.study, plan, curve).map_err(|reason| {
             if self.are_interchanged(plan).unwrap_or(false) {
                 return format!(
@@ -276,11 +287,11 @@ impl SiteReader<'_> {
                 return format!("{name}: {other_unit}; if not, take a longer curve or leave levels out of {key}");
             }
             let within = levels_within(self.measure, curve.first().im, curve.last().im);
-            let within = within.map_or_else(String::new, |(key, levels)| {
-                let (section, key) = key.rsplit_once('.').unwrap_or_default();
+            let within = within.map_or_else(String::new, |(_, levels)| {
+                let (section, key) = levels_place(self.measure);
                 format!(": the default ones within it are, in [{section}], {key} = {levels}")
             });
-            let dropped = match self.certain {
+            let dropped = match dropped_certain {
                 0 => String::new(),
                 rows => format!(" ({rows} rows of probability 1 at its start carry no rate and were dropped)"),
             };
@@ -295,7 +306,7 @@ impl SiteReader<'_> {
             IntensityMeasure::Pga => IntensityMeasure::Pgv,
             _ => return None,
         };
-        let other_file = self.study.sites.iter().find(|site| site.name == self.site)?.curve(other)?;
+        let other_file = file_of(self.study, self.site, other)?;
         let other_plan = self.study.measures.iter().find(|plan| plan.measure == other)?;
         let covers = |path: Option<&PathBuf>, file: &CurveFile, plan: &MeasurePlan| {
             let curve =

@@ -13,6 +13,9 @@ const FITS_WITHIN: f64 = 2.0;
 /// Levels that leave a curve by less than so many times do so with the right unit, too.
 const FAR_OUTSIDE: f64 = 5.0;
 
+/// What a study says of a curve of probabilities.
+pub(crate) const POE: &str = "kind = \"poe\", years = …";
+
 /// A unit that numbers may be of, and how many times too large they then are as they are read.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct OtherUnit {
@@ -71,13 +74,13 @@ impl NumbersIn {
 
 /// `pga = { file = …, unit = "m/s2" } in [[sites]]`.
 fn unit_line(file: &CurveFile, unit: CurveUnit) -> String {
-    line(file, &format!("unit = \"{}\"", unit.symbol()))
+    curve_line(file.measure, !file.branches.is_empty(), &format!("unit = \"{}\"", unit.symbol()))
 }
 
-/// The line of a study that says `what` of a curve.
-fn line(file: &CurveFile, what: &str) -> String {
-    let input = if file.branches.is_empty() { "file = …" } else { "…" };
-    format!("{} = {{ {input}, {what} }} in [[sites]]", file.measure.key())
+/// The line of a study that says `what` of a curve of one file or of several.
+pub(crate) fn curve_line(measure: IntensityMeasure, has_branches: bool, what: &str) -> String {
+    let input = if has_branches { "…" } else { "file = …" };
+    format!("{} = {{ {input}, {what} }} in [[sites]]", measure.key())
 }
 
 /// `--set 'sites.Athens.pga.unit=m/s2'`.
@@ -102,7 +105,7 @@ pub(super) fn with_remedy(error: &HazardError, study: &UniformRiskStudy, site: &
             }
         }
         "second column" if file.kind == CurveKind::Maf => {
-            let line = line(file, "kind = \"poe\", years = …");
+            let line = curve_line(file.measure, !file.branches.is_empty(), POE);
             if file.branches.is_empty() {
                 format!("write {line}, with the years that they are of")
             } else {
@@ -184,7 +187,7 @@ pub(super) fn of_outside(
 pub(crate) fn unit_that_explains(study: &UniformRiskStudy, site: &str, too_high: f64) -> Option<String> {
     let [pgv, pga] = [IntensityMeasure::Pgv, IntensityMeasure::Pga].map(|measure| file_of(study, site, measure));
     let (pgv, pga) = (pgv?, pga?);
-    let explains = |times: f64| (too_high / times).ln().abs() < FITS_WITHIN.ln();
+    let explains = |times: f64| is_near(too_high, times);
     let others = |file| of_file(file, study.gravity_m_s2);
     let numbers = |file: &CurveFile, unit: NumbersIn| format!("of its {} in {}", file.measure.label(), unit.name());
     // what, and what to write then
@@ -220,6 +223,11 @@ pub(crate) fn unit_that_explains(study: &UniformRiskStudy, site: &str, too_high:
             Some(format!("are the numbers {}? Each would explain it: see both files{years}", several.join(", or ")))
         }
     }
+}
+
+/// Whether a unit that makes numbers so many `times` too large explains that they are `found` to be.
+fn is_near(found: f64, times: f64) -> bool {
+    (found / times).ln().abs() < FITS_WITHIN.ln()
 }
 
 /// The curve of a site in a `measure`, as its study says it; none where it has none.
@@ -259,7 +267,7 @@ pub(crate) fn unit_of_branch(
     apart: &Apart,
 ) -> Option<String> {
     let file = file_of(study, site, measure)?;
-    let explains = |too_large: f64| (apart.too_large() / too_large).ln().abs() < FITS_WITHIN.ln();
+    let explains = |too_large: f64| is_near(apart.too_large(), too_large);
     let units = of_file(file, study.gravity_m_s2).filter_map(|other| {
         let whose = if explains(other.too_large) {
             "these numbers"

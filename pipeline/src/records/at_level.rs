@@ -278,8 +278,7 @@ fn study_lines(options: &AtLevelOptions, levels: &[LevelSet], of_components: boo
         lines.push("component = \"both\"".to_owned());
     }
     let levels: Vec<String> = levels.iter().map(|set| set.level.to_string()).collect();
-    let key = uplift_study::levels_key(options.measure);
-    let (section, key) = key.rsplit_once('.').unwrap_or_default();
+    let (section, key) = uplift_study::levels_place(options.measure);
     lines.push(format!("\n[{section}]\n{key} = [{}]\n", levels.join(", ")));
     lines.join("\n")
 }

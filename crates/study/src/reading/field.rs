@@ -2,7 +2,7 @@
 
 use super::suggestion::did_you_mean;
 use super::{Finding, Findings, Node, Rule, Section, Value, quantity};
-use uplift_plausible::with_point;
+use uplift_plausible::{may_be_thousands, with_point};
 
 /// The largest integer of TOML, which has signed ones of 64 bits.
 pub(crate) const LARGEST_INTEGER: u64 = i64::MAX as u64;
@@ -198,7 +198,7 @@ pub(crate) fn commas(text: &str) -> Option<String> {
         return None;
     }
     let mut meant = Vec::new();
-    meant.extend(parts_thousands(&parts).then(|| parts.concat()));
+    meant.extend(may_be_thousands(&parts.join(",")).then(|| parts.concat()));
     meant.extend(with_point(text).map(|point| format!("{point} with a point")));
     // 02 is part of a decimal, or of thousands
     let is_list = parts.iter().all(|part| !part.starts_with('0') || part.starts_with("0.") || *part == "0");
@@ -208,15 +208,4 @@ pub(crate) fn commas(text: &str) -> Option<String> {
         [one] => Some(format!("write {one}")),
         several => Some(format!("write {}, whichever is meant", several.join(", or "))),
     }
-}
-
-/// Whether the commas between `parts` may be those between thousands, as in 1,000,000 and 1,000.5.
-fn parts_thousands(parts: &[&str]) -> bool {
-    let are_digits = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
-    let [first, middle @ .., last] = parts else { return false };
-    let whole = last.split_once('.').map_or(*last, |(whole, _)| whole);
-    (1..=3).contains(&first.len())
-        && are_digits(first)
-        && !first.starts_with('0')
-        && middle.iter().chain([&whole]).all(|part| part.len() == 3 && are_digits(part))
 }

@@ -61,7 +61,13 @@ impl MeasurePlan {
 
 /// The key of the levels of `measure`, with its section: `pgv.levels_cm_s`, `measures.sa_1s.levels_g`.
 pub fn levels_key(measure: IntensityMeasure) -> String {
-    format!("{}.{}", section_of(measure), MeasureKeys::of(measure).levels)
+    let (section, key) = levels_place(measure);
+    format!("{section}.{key}")
+}
+
+/// Where the levels of `measure` are written: the section, `pgv` or `measures.sa_1s`, and the key in it.
+pub fn levels_place(measure: IntensityMeasure) -> (String, &'static str) {
+    (section_of(measure), MeasureKeys::of(measure).levels)
 }
 
 /// The power of ten at or below `value`.

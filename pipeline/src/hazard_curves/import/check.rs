@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use uplift_hazard::{ExportedCurve, HazardCurve, RealizationWeight, SiteSelection, Statistic};
-use uplift_study::levels_within;
+use uplift_study::{levels_place, levels_within};
 
 use super::text::{is_of, measures_of};
 use super::{Chosen, HazardImportOptions, weight_of};
@@ -42,9 +42,9 @@ pub(super) fn remarks(written: &[Chosen]) -> Vec<String> {
             (written.iter().map(|written| &written.exported.curve)).filter(|curve| is_of(curve, measure)).collect();
         let least = of.iter().map(|curve| curve.first().im).fold(0.0, f64::max);
         let most = of.iter().map(|curve| curve.last().im).fold(f64::INFINITY, f64::min);
-        if let (false, Some((key, levels))) = (of.is_empty(), levels_within(measure, least, most)) {
+        if let (false, Some((_, levels))) = (of.is_empty(), levels_within(measure, least, most)) {
             let unit = measure.unit();
-            let (section, key) = key.rsplit_once('.').unwrap_or_default();
+            let (section, key) = levels_place(measure);
             remarks.push(format!(
                 "the {measure} curves span {least:.4} to {most:.4} {unit}, and the default stripes do not: in the \
                  study, in [{section}], {key} = {levels} (or risk.extrapolate = \"loglog\")"
