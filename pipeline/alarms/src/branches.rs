@@ -1,12 +1,12 @@
 //! Weighted hazard curves of which some are far from the others: in another unit, or of another site.
 
 use uplift_hazard::HazardCurve;
-use uplift_study::UniformRiskStudy;
-
-use super::hazard::CurvesAtSite;
 use uplift_inputs::{file_of, unit_of_branch};
 use uplift_job::alarm::{Case, Severity};
 use uplift_job::text::rounded;
+use uplift_study::UniformRiskStudy;
+
+use super::hazard::CurvesAtSite;
 
 /// Alternatives differ by 2 or 3 times, more at low rates alone; told is a gap between them that is as wide throughout.
 const BEYOND_ALTERNATIVES: f64 = 5.0;

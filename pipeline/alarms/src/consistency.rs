@@ -2,12 +2,12 @@
 //! of the site.
 
 use uplift_consistency::Verdict;
-
-use super::curves;
-use super::evidence::{Evidence, Scope};
 use uplift_job::alarm::{Alarm, Case, Severity};
 use uplift_result::StoredConsistency;
 use uplift_uniform_risk::MANY_FAILED;
+
+use super::curves;
+use super::evidence::{Evidence, Scope};
 
 pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
     let mut cases = Vec::new();

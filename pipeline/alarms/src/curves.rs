@@ -1,13 +1,13 @@
 //! Hazard curves of PGV and of PGA that cannot be of one site: one of them is in another unit, or of something else.
 
+use uplift_inputs::unit_that_explains;
+use uplift_job::alarm::{Alarm, Case, Severity};
 use uplift_motion::IntensityMeasure::{Pga, Pgv};
 use uplift_plausible::USUAL_GRAVITY;
 use uplift_study::UniformRiskStudy;
+use uplift_uniform_risk::consistency::ConsistencyReport;
 
 use super::evidence::{Evidence, Scope};
-use uplift_inputs::unit_that_explains;
-use uplift_job::alarm::{Alarm, Case, Severity};
-use uplift_uniform_risk::consistency::ConsistencyReport;
 
 /// PGA over PGV differs by 3 times between rock near by and soft soil far away, of which records bring some.
 const BEYOND_NATURE: f64 = 5.0;

@@ -1,12 +1,12 @@
 //! What alarms are raised from: the spectra of a result with all that the file knows of them.
 
 use uplift_hazard::{HazardCurve, rate_from_probability};
+use uplift_job::text::risk_name;
 use uplift_motion::IntensityMeasure;
+use uplift_result::{MeasureSpectra, ResultFile, StoredBands, StoredConsistency, StoredHazard, StoredSpectra};
 use uplift_study::UniformRiskStudy;
 
 use crate::error::AlarmsError;
-use uplift_job::text::risk_name;
-use uplift_result::{MeasureSpectra, ResultFile, StoredBands, StoredConsistency, StoredHazard, StoredSpectra};
 
 /// The spectra of a result, its study, hazard and bands.
 #[derive(Debug, Clone)]

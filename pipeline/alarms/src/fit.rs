@@ -1,11 +1,11 @@
 //! Fitted curves (Eq. 4.11) that leave their spectrum: how far, where, and where they stay with it.
 
 use serde::Serialize;
+use uplift_job::alarm::{Alarm, Case, Severity};
 use uplift_regression::Exponential;
+use uplift_uniform_risk::fit_ordinates;
 
 use super::evidence::{Evidence, Scope};
-use uplift_job::alarm::{Alarm, Case, Severity};
-use uplift_uniform_risk::fit_ordinates;
 
 /// A curve is with its spectrum where it is this near, relative to the ordinate: no further than half of a 90 % band by
 /// PGV with 105 records.

@@ -1,12 +1,12 @@
 //! Hazard curves that are probably mistaken, each by itself or among its weighted alternatives.
 
 use uplift_hazard::HazardCurve;
+use uplift_job::alarm::Alarm;
 use uplift_motion::IntensityMeasure;
 use uplift_study::UniformRiskStudy;
 
 use super::evidence::{Evidence, Scope};
 use super::{branches, implausible, probabilities};
-use uplift_job::alarm::Alarm;
 
 /// The hazard of a site in one measure.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,12 +1,12 @@
 //! Hazard curves by which the extreme shaking is frequent, or the faintest rare.
 
+use uplift_inputs::{hardly_possible, units_that_make_possible};
+use uplift_job::alarm::{Case, Severity};
 use uplift_motion::IntensityMeasure;
 use uplift_plausible::USUAL_GRAVITY;
 use uplift_study::UniformRiskStudy;
 
 use super::hazard::CurvesAtSite;
-use uplift_inputs::{hardly_possible, units_that_make_possible};
-use uplift_job::alarm::{Case, Severity};
 
 /// What is raised of the curves of a site, where some say what is hardly possible.
 pub(super) fn case(study: &UniformRiskStudy, curves: &CurvesAtSite<'_>) -> Option<Case> {

@@ -1,15 +1,15 @@
 //! What a result rests on: its study, its records, and what was noticed when they were read.
 
-use uplift_motion::IntensityMeasure;
-use uplift_study::{AnyStudy, Study, Warning};
-
-use crate::error::AlarmsError;
 use uplift_inputs::at_level::{far_factors, relative_factors};
 use uplift_job::alarm::{Alarm, Severity};
 use uplift_job::frame::FEW_RECORDS;
 use uplift_job::text::records_in_words;
+use uplift_motion::IntensityMeasure;
 use uplift_result::{Kind, ResultFile};
+use uplift_study::{AnyStudy, Study, Warning};
 use uplift_uniform_risk::consistency::Question;
+
+use crate::error::AlarmsError;
 
 pub(super) fn of_result(file: &ResultFile) -> Result<Vec<Alarm>, AlarmsError> {
     let head = file.head()?;

@@ -1,14 +1,14 @@
 //! Ordinates that rest on what lies outside the analysed levels, and spectra without ordinates.
 
 use uplift_hazard::{Extrapolation, HazardCurve};
+use uplift_job::Array;
+use uplift_job::alarm::{Alarm, Case, Severity};
+use uplift_job::text::{per_cent, share};
 use uplift_risk::{OrdinateFlag, TAIL_SHARE_LIMIT};
 use uplift_study::{MeasurePlan, levels_key};
 
 use super::evidence::{Evidence, Place, Scope};
 use crate::error::AlarmsError;
-use uplift_job::Array;
-use uplift_job::alarm::{Alarm, Case, Severity};
-use uplift_job::text::{per_cent, share};
 
 /// The kind of the alarm about the first level.
 pub const BELOW_FIRST_LEVEL: &str = "below-first-level";

@@ -34,9 +34,8 @@ mod numbers;
 mod probabilities;
 mod structure;
 
-use uplift_motion::IntensityMeasure;
-
 use uplift_job::alarm::Alarm;
+use uplift_motion::IntensityMeasure;
 
 pub use curves::of_curves;
 pub use error::AlarmsError;

@@ -1,8 +1,7 @@
 //! Numbers of a command line that can be, but are probably in another unit.
 
-use uplift_plausible::Range;
-
 use uplift_job::alarm::{Alarm, Severity};
+use uplift_plausible::Range;
 
 /// The alarms of what is `given`: what is usual of a number, its option, and the number where there is one.
 pub fn of_numbers(subject: &str, given: &[(Range, &'static str, Option<f64>)]) -> Vec<Alarm> {

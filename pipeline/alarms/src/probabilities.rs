@@ -1,10 +1,10 @@
 //! Hazard curves that look like probabilities in some years where rates per year are meant.
 
 use uplift_hazard::HazardCurve;
-
-use super::hazard::CurvesAtSite;
 use uplift_inputs::{POE, curve_line};
 use uplift_job::alarm::{Case, Severity};
+
+use super::hazard::CurvesAtSite;
 
 /// A probability saturates at 1, and a rate goes on rising: a curve that begins between this and 1 …
 const NEARLY_CERTAIN: f64 = 0.9;

@@ -1,15 +1,14 @@
 //! What is to be raised about a structure: its own numbers, and risks of it that the analysed levels do not hold.
 
+use uplift_job::alarm::{Alarm, Case, Severity};
+use uplift_job::text::{per_cent, records_in_words, share as share_in_words};
 use uplift_motion::IntensityMeasure;
 use uplift_plausible::USUAL_SAFETY_FACTOR;
 use uplift_risk::TAIL_SHARE_LIMIT;
-use uplift_study::Structure;
+use uplift_study::{Structure, levels_key};
+use uplift_uniform_risk::{BOUND_CONFIDENCE, EventRisk, share_at_most};
 
 use super::inputs::of_warning;
-use uplift_job::alarm::{Alarm, Case, Severity};
-use uplift_job::text::{per_cent, records_in_words, share as share_in_words};
-use uplift_study::levels_key;
-use uplift_uniform_risk::{BOUND_CONFIDENCE, EventRisk, share_at_most};
 
 /// From this share of a risk on, it is decided by what was not analysed.
 const DECISIVE: f64 = 0.1;

@@ -2,13 +2,13 @@
 
 use serde::Serialize;
 use uplift_bootstrap::{inferred_limits, inferred_limits_over_curves, inferred_rate, inferred_rate_over_curves};
+use uplift_result::ResultFile;
 use uplift_risk::PooledDemand;
+use uplift_uniform_risk::consistency::Question;
 
 use super::hazard::Hazard;
 use super::risk::OVERTURNING_M;
 use crate::error::DesignError;
-use uplift_result::ResultFile;
-use uplift_uniform_risk::consistency::Question;
 
 /// How often a band is to hold the number of all records there could be.
 pub(super) const CONFIDENCE: f64 = 0.9;

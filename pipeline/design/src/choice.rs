@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use uplift_motion::IntensityMeasure;
-
-use crate::error::DesignError;
 use uplift_inputs::RecordSet;
 use uplift_job::JobError;
+use uplift_motion::IntensityMeasure;
 use uplift_uniform_risk::StudyOfResult;
+
+use crate::error::DesignError;
 
 /// Position of the site `wanted`; of the only one where none is.
 pub(super) fn site_index(source: &StudyOfResult, wanted: Option<&str>) -> Result<usize, DesignError> {

@@ -3,11 +3,11 @@
 
 use uplift_fragility::{FragilityError, LognormalFit, StripeCount, Stripes as Stripe, fit_lognormal, stripe_counts};
 use uplift_risk::{PooledDemand, RunWeights, StripeWeights};
+use uplift_uniform_risk::EventRisk;
 
 use super::risk::{OVERTURNING_M, bounded, risk_of_exceeding};
 use super::weights::SiteWeights;
 use crate::error::DesignError;
-use uplift_uniform_risk::EventRisk;
 
 /// Overturning of one model by one measure.
 #[derive(Debug, Clone, PartialEq)]

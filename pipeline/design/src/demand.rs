@@ -3,9 +3,11 @@
 
 use serde::Serialize;
 use uplift_oscillator::PostUplift;
+use uplift_result::RULES;
 use uplift_risk::Ordinate;
 use uplift_spectra::Noisy;
 use uplift_structure::{EquivalentSystem, Rule, relative_error};
+use uplift_uniform_risk::{EventRisk, Stripes};
 
 use super::certainty::{DemandBands, Scatter, demand_bands};
 use super::hazard::Hazard;
@@ -13,9 +15,6 @@ use super::risk::{OVERTURNING_M, bounded, demand_of, risk_of_exceeding};
 use super::sweep::{OF_STUDY, OWN, Sweep, ZERO_STIFFNESS};
 use super::weights::SiteWeights;
 use crate::error::DesignError;
-use uplift_result::RULES;
-use uplift_uniform_risk::EventRisk;
-use uplift_uniform_risk::Stripes;
 
 /// What the structure's own stripes say, in its own displacement; infinite where it overturns more often than the
 /// target.

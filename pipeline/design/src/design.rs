@@ -11,11 +11,23 @@ mod own;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
+use uplift_alarms::{
+    OwnRisk, Scope, alarms_within, of_own_demand, of_own_risks, of_safety_factor, of_structure, ranked,
+};
+use uplift_engine::analysis::{Beside, ShardReport};
 use uplift_ida::Shard;
+use uplift_job::JobError;
+use uplift_job::alarm::Alarm;
+use uplift_job::events::Events;
+use uplift_job::text::spectrum_words;
 use uplift_motion::IntensityMeasure;
 use uplift_oscillator::PostUplift;
 use uplift_plausible::SAFETY_FACTOR;
+use uplift_questions::bootstrap::resampled;
+use uplift_result::ResultFile;
 use uplift_study::Structure;
+use uplift_uniform_risk::consistency::Reweighing;
+use uplift_uniform_risk::{AskedRisk, EventRisk, SpectraOfResult, StudyOfResult, at};
 
 use super::certainty::Scatter;
 use super::choice::{measure_index, records, site_index};
@@ -27,19 +39,6 @@ use super::uncertain::UncertaintyReport;
 use super::weights::SiteWeights;
 use crate::error::DesignError;
 use own::{Own, Question, Shaken};
-use uplift_alarms::{
-    OwnRisk, Scope, alarms_within, of_own_demand, of_own_risks, of_safety_factor, of_structure, ranked,
-};
-use uplift_engine::analysis::{Beside, ShardReport};
-use uplift_job::JobError;
-use uplift_job::alarm::Alarm;
-use uplift_job::events::Events;
-use uplift_job::text::spectrum_words;
-use uplift_questions::bootstrap::resampled;
-use uplift_result::ResultFile;
-use uplift_uniform_risk::EventRisk;
-use uplift_uniform_risk::consistency::Reweighing;
-use uplift_uniform_risk::{AskedRisk, SpectraOfResult, StudyOfResult, at};
 
 /// What is asked of a design.
 #[derive(Debug, Clone, PartialEq)]

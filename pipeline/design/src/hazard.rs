@@ -1,11 +1,11 @@
 //! What the stripes weigh at a site: by its mean hazard curve, and by each of the curves that may hold.
 
+use uplift_result::ResultFile;
 use uplift_risk::StripeWeights;
 use uplift_study::UniformRiskStudy;
+use uplift_uniform_risk::{SpectraOfResult, StudyOfResult, branch_weights};
 
 use crate::error::DesignError;
-use uplift_result::ResultFile;
-use uplift_uniform_risk::{SpectraOfResult, StudyOfResult, branch_weights};
 
 /// The hazard of a site.
 #[derive(Debug, Clone)]

@@ -2,10 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use uplift_study::{AnyStudy, Structure};
-
 use uplift_inputs::manifest::record_files;
 use uplift_result::ResultFile;
+use uplift_study::{AnyStudy, Structure};
 
 /// The structure, the result, the manifest that is given in place of the study's, and the files that the result was
 /// made from, where they still are; of a result that cannot be opened it is said later.

@@ -3,12 +3,12 @@
 
 use uplift_block::RockingBlock;
 use uplift_ida::System;
+use uplift_job::JobError;
 use uplift_structure::PostUpliftForce;
 use uplift_study::Structure;
+use uplift_uniform_risk::StudyOfResult;
 
 use crate::error::DesignError;
-use uplift_job::JobError;
-use uplift_uniform_risk::StudyOfResult;
 
 /// The models of a structure, each with the origin of its restitution.
 pub(super) fn models(

@@ -6,12 +6,22 @@ mod uncertain;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
+use uplift_alarms::{OwnRisk, Scope, alarms_of_inputs, of_own_risks, of_structure, ranked};
+use uplift_engine::analysis::{Beside, LabelledPlan, ShardReport, Work};
 use uplift_fragility::{LognormalFit, Stripes};
 use uplift_ida::{Shard, System};
+use uplift_inputs::{RecordSet, motion_keys};
+use uplift_job::JobError;
+use uplift_job::alarm::Alarm;
+use uplift_job::events::Events;
+use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_motion::IntensityMeasure;
+use uplift_result::ResultFile;
 use uplift_risk::{PooledDemand, RunWeights, StripeWeights};
 use uplift_spectra::{NUDGES, Noisy, nudges};
 use uplift_study::{Structure, UniformRiskStudy};
+use uplift_uniform_risk::consistency::Reweighing;
+use uplift_uniform_risk::{EventRisk, SpectraOfResult, StudyOfResult, plan_stripes};
 
 use super::certainty::{Bands, Scatter, rate_bands};
 use super::choice::{measure_index, records, site_index};
@@ -24,18 +34,6 @@ use super::risk::OVERTURNING_M;
 use super::tables::{risk_path, write_tables};
 use super::uncertain::{Uncertain, UncertaintyReport};
 use crate::error::DesignError;
-use uplift_alarms::{OwnRisk, Scope, alarms_of_inputs, of_own_risks, of_structure, ranked};
-use uplift_engine::analysis::{Beside, LabelledPlan, ShardReport, Work};
-use uplift_inputs::{RecordSet, motion_keys};
-use uplift_job::JobError;
-use uplift_job::alarm::Alarm;
-use uplift_job::events::Events;
-use uplift_job::outputs::{self, Output, OutputKind};
-use uplift_result::ResultFile;
-use uplift_uniform_risk::EventRisk;
-use uplift_uniform_risk::consistency::Reweighing;
-use uplift_uniform_risk::plan_stripes;
-use uplift_uniform_risk::{SpectraOfResult, StudyOfResult};
 
 /// What is asked of the overturning of a structure.
 #[derive(Debug, Clone, Default, PartialEq)]

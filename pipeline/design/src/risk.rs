@@ -2,10 +2,10 @@
 
 use uplift_fragility::Stripes as Stripe;
 use uplift_risk::PooledDemand;
+use uplift_uniform_risk::{EventRisk, Stripes, at_most_per_year, pooled_demand};
 
 use super::weights::SiteWeights;
 use crate::error::DesignError;
-use uplift_uniform_risk::{EventRisk, Stripes, at_most_per_year, pooled_demand};
 
 /// The same of something that may happen, though no run may show it of `pairs`, each with the positions of its
 /// records.

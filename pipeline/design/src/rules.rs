@@ -1,11 +1,10 @@
 //! The rules of Section 3.3.2 applied to a structure, and the capacity that they ask for (Eq. 3.15).
 
 use serde::Serialize;
-use uplift_structure::{Check, Demand, PostUpliftForce, Rule, StructureError, relative_error};
-use uplift_study::Structure;
-
 use uplift_job::text::per_cent;
 use uplift_result::RULES;
+use uplift_structure::{Check, Demand, PostUpliftForce, Rule, StructureError, relative_error};
+use uplift_study::Structure;
 
 /// A rule applied to the ordinate of a spectrum, and to the exact ZSBE demand.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

@@ -5,14 +5,14 @@ mod uncertain;
 use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
+use uplift_job::table::write_table;
 use uplift_spectra::Noisy;
+use uplift_uniform_risk::EventRisk;
 
 use super::certainty::Bands;
 use super::overturning::{CollapseReport, OverturningReport};
 use super::uncertain::{UncertainFinding, UncertaintyReport};
 use crate::error::DesignError;
-use uplift_job::table::write_table;
-use uplift_uniform_risk::EventRisk;
 
 /// Names of the percentiles of what is not known exactly, in their order.
 pub(super) const PERCENTILES: [&str; 5] = ["p05", "p16", "p50", "p84", "p95"];

@@ -1,10 +1,11 @@
 //! Why analyses were not carried out.
 
-use crate::checkpoint::CheckpointError;
 use thiserror::Error;
 use uplift_atomic_file::FileError;
 use uplift_ida::IdaError;
 use uplift_job::JobError;
+
+use crate::checkpoint::CheckpointError;
 
 /// Why analyses were not carried out.
 #[derive(Debug, Error)]

@@ -11,13 +11,13 @@ use std::time::SystemTime;
 
 use serde::{Deserialize, Serialize};
 use uplift_atomic_file::{read_file, write_whole};
+use uplift_job::checksum::checksum;
+use uplift_job::events::Events;
 use uplift_motion::synthetic::SyntheticSetOptions;
 use uplift_motion::{Accelerogram, RecordPair};
 
 use super::made::made_pairs;
 use crate::error::InputsError;
-use uplift_job::checksum::checksum;
-use uplift_job::events::Events;
 
 /// The most that the sets take together, bytes: some 150 sets of 105 pairs.
 const LARGEST_CACHE: u64 = 2 << 30;

@@ -3,6 +3,8 @@
 //! An aleatory study draws structures of each motion's own, an epistemic one the same structures for all. Either way
 //! every record counts alike, so that the spectrum is that of the mean frequency over the structures.
 
+use uplift_job::JobError;
+use uplift_job::checksum::checksum;
 use uplift_oscillator::{Oscillator, OscillatorError, PostUplift};
 use uplift_structure::{Realization, UncertainQuantity};
 use uplift_study::{Uncertainty, UncertaintyKind, UniformRiskStudy, Warning};
@@ -10,8 +12,6 @@ use uplift_uncertainty::unit_cube;
 
 use super::Record;
 use crate::error::InputsError;
-use uplift_job::JobError;
-use uplift_job::checksum::checksum;
 
 /// Records at most: those that a pool of demands holds.
 const MOST_RECORDS: usize = u16::MAX as usize;

@@ -3,17 +3,17 @@
 use std::path::{Path, PathBuf};
 
 use uplift_hazard::{CsvOptions, HazardCurve, SecondColumn, read_path};
+use uplift_job::JobError;
+use uplift_job::checksum::checksum_of_file;
 use uplift_motion::{Combination, IntensityMeasure};
 use uplift_risk::StripeWeights;
+use uplift_study::{
+    CurveFile, CurveKind, MeasurePlan, UniformRiskStudy, definition_of, levels_key, levels_place, levels_within,
+};
 
 use super::hardly_possible::hardly_possible;
 use super::other_unit::{file_of, of_outside, with_remedy};
 use crate::error::InputsError;
-use uplift_job::JobError;
-use uplift_job::checksum::checksum_of_file;
-use uplift_study::{
-    CurveFile, CurveKind, MeasurePlan, UniformRiskStudy, definition_of, levels_key, levels_place, levels_within,
-};
 
 /// The hazard of one site in one measure.
 #[derive(Debug, Clone)]

@@ -1,12 +1,12 @@
 //! Synthetic pairs as they are made, with a sign of how far they are.
 
 use uplift_ida::Watch;
+use uplift_job::JobError;
+use uplift_job::events::{Events, Progress};
 use uplift_motion::RecordPair;
 use uplift_motion::synthetic::{Pairs, SyntheticSetOptions};
 
 use crate::error::InputsError;
-use uplift_job::JobError;
-use uplift_job::events::{Events, Progress};
 
 /// Pairs that are made within a few seconds, without a word.
 const SOON: usize = 200;

@@ -5,10 +5,9 @@ use std::path::{Component as PathPart, Path, PathBuf};
 
 use polars::prelude::{Column, DataFrame};
 use uplift_atomic_file::read_file;
-use uplift_motion::{AccelerationUnit, RecordFormat};
-
 use uplift_job::table::plain;
 use uplift_job::text_table;
+use uplift_motion::{AccelerationUnit, RecordFormat};
 
 /// A row of a manifest.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,10 +1,9 @@
 //! Keys of motions: what tells whether a peak is that of the same shaking.
 
+use uplift_job::checksum::{checksum, motion_key};
 use uplift_motion::Direction;
 
 use super::Record;
-use uplift_job::checksum::checksum;
-use uplift_job::checksum::motion_key;
 
 /// SHA-256 of what the peaks of each record are of, hexadecimal: of its motion; of the motion and what its structure
 /// has where that is not known exactly.

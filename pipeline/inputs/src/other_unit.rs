@@ -1,11 +1,11 @@
 //! Hazard curves and levels whose numbers are probably of another unit than the one that they are read in.
 
 use uplift_hazard::{CurveUnit, HazardCurve, HazardError};
+use uplift_job::text::rounded;
 use uplift_motion::IntensityMeasure;
 use uplift_study::{CurveFile, CurveKind, MeasurePlan, UniformRiskStudy, levels_key, usual_top_level};
 
 use super::hardly_possible::{hardly_possible, hardly_possible_if};
-use uplift_job::text::rounded;
 
 /// What is further off than so many times is not explained by a unit: sites and records differ by some, units by more.
 const FITS_WITHIN: f64 = 2.0;

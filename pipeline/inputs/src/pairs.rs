@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use rayon::prelude::*;
+use uplift_job::checksum::checksum;
 use uplift_motion::{ReadOptions, RecordPair, Recording, read_record, record_bytes};
 
 use super::manifest::{ComponentFile, Row};
-use uplift_job::checksum::checksum;
 
 /// A pair with the SHA-256 of what each component was read from.
 pub type CheckedPair = (RecordPair, [String; 2]);

@@ -5,10 +5,15 @@ use std::path::Path;
 
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
+use uplift_job::JobError;
+use uplift_job::checksum::checksum;
+use uplift_job::events::{Events, Silent};
+use uplift_job::machine::{Needs, PROGRAM_BYTES};
 use uplift_motion::synthetic::SyntheticSetOptions;
 use uplift_motion::{
     Accelerogram, Combination, Component, Direction, Drawn, Horizontal, IntensityMeasure, MotionError, RecordPair,
 };
+use uplift_study::{RecordSource, UniformRiskStudy};
 
 use super::drawn_structures::{DrawnStructure, STRUCTURE, shaking_structures};
 use super::pairs::{self, CheckedPair};
@@ -16,11 +21,6 @@ use super::third_component::{ThirdComponents, Vertical};
 use super::{AtLevel, at_level, cache, manifest, selection};
 use crate::error::InputsError;
 use crate::import::unusual_peak;
-use uplift_job::JobError;
-use uplift_job::checksum::checksum;
-use uplift_job::events::{Events, Silent};
-use uplift_job::machine::{Needs, PROGRAM_BYTES};
-use uplift_study::{RecordSource, UniformRiskStudy};
 
 /// One analysis record: a component of a pair, or the pair as it is seen from azimuths, with the intensity of the pair.
 #[derive(Debug, Clone)]

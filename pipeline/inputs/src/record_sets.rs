@@ -3,8 +3,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
+use uplift_job::JobError;
+use uplift_job::events::Events;
 use uplift_motion::{Combination, RecordPair};
 use uplift_spectra::{MotionSet, RecordOfSet};
+use uplift_study::{DisplacementStudy, RecordSource, SetPlan, SetRecords};
 
 use super::manifest::{self, Row};
 use super::pairs::{self, CheckedPair};
@@ -12,9 +15,6 @@ use super::record_set::{alike, is_made, synthetic_pairs};
 use super::selection;
 use super::third_component::{ThirdComponents, Vertical};
 use crate::error::InputsError;
-use uplift_job::JobError;
-use uplift_job::events::Events;
-use uplift_study::{DisplacementStudy, RecordSource, SetPlan, SetRecords};
 
 /// Name of the set where a study names none.
 const ALL_RECORDS: &str = "all records";

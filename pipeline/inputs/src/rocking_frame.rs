@@ -1,10 +1,10 @@
 //! The frame of a structure file, ready to be shaken.
 
 use uplift_frame::{Model, RockingFrame};
+use uplift_job::JobError;
 use uplift_study::Structure;
 
 use crate::error::InputsError;
-use uplift_job::JobError;
 
 /// Said with every result of the wobbling model.
 pub const TORSION: &str = "torsion is outside the model: the deck does not turn about the vertical, which the \

@@ -1,12 +1,12 @@
 //! The records of a set that satisfy what a study asks for.
 
 use rayon::prelude::*;
+use uplift_job::JobError;
 use uplift_motion::{Combination, RecordPair, classify_pulse, geometric_mean, may_be_pulse_like};
+use uplift_study::RecordSelection;
 
 use super::pairs::CheckedPair;
 use crate::error::InputsError;
-use uplift_job::JobError;
-use uplift_study::RecordSelection;
 
 /// The pairs that pass `selection`, their peaks combined as `intensity` says and in multiples of `gravity_m_s2`; and
 /// notes about those of which something is not known.

@@ -5,8 +5,9 @@ use std::io::{Read, Seek, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use crate::error::JobError;
 use uplift_atomic_file::{final_place, is_still_at};
+
+use crate::error::JobError;
 
 /// Held as long as something is being written to a result. The operating system lets go of it when the program ends,
 /// however it ends.

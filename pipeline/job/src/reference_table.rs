@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use polars::prelude::{Column, DataFrame, DataType};
-
 use uplift_atomic_file::read_file;
 
 use crate::error::JobError;

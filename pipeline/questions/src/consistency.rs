@@ -2,20 +2,19 @@
 
 use std::path::{Path, PathBuf};
 
-use uplift_motion::IntensityMeasure;
-use uplift_study::Repair;
-
-use crate::error::QuestionsError;
-use uplift_job::Array;
-use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_job::table::write_table;
+use uplift_job::{Array, JobError};
+use uplift_motion::IntensityMeasure;
 use uplift_result::Addition;
+use uplift_study::Repair;
 use uplift_uniform_risk::StoredStripes;
 use uplift_uniform_risk::consistency::{
     ConsistencyReport, Keep, Question, add, columns, consistency_path, disaggregated, earthquakes, repairs_of, replaced,
 };
+
+use crate::error::QuestionsError;
 
 /// What is done beyond asking.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]

@@ -2,12 +2,12 @@
 
 use serde::Serialize;
 use uplift_bootstrap::{Interval, Unit};
+use uplift_job::Array;
 use uplift_motion::IntensityMeasure;
 
 use super::file::{ResultFile, RiskAxes};
 use super::layout::{MULTIPLICITY, axis, band, bootstrap, joint, limit_names, repaired_band};
 use crate::error::ResultError;
-use uplift_job::Array;
 
 /// The confidence bands of a result.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,12 +1,12 @@
 //! What a result knows of the consistency of its records with the hazard.
 
+use uplift_job::Array;
 use uplift_motion::IntensityMeasure;
 
 use super::Fit;
 use super::file::ResultFile;
 use super::layout::{axis, consistency};
 use crate::error::ResultError;
-use uplift_job::Array;
 
 /// The consistency of the records scaled to one measure; NaN at sites that were not looked at.
 #[derive(Debug, Clone, PartialEq)]

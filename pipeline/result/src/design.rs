@@ -1,6 +1,7 @@
 //! The design example of a result of displacement spectra, as tables and figures show it.
 
 use serde::{Serialize, Serializer};
+use uplift_job::Array;
 use uplift_job::text::finite;
 use uplift_spectra::Noisy;
 use uplift_structure::Rule;
@@ -9,7 +10,6 @@ use uplift_study::Kind;
 use super::file::ResultFile;
 use super::layout::{axis, design};
 use crate::error::ResultError;
-use uplift_job::Array;
 
 /// The rules that a restrained bridge is designed by, in the order of the results.
 pub const RULES: [Rule; 2] = [Rule::EqualDisplacement, Rule::EqualEnergy];

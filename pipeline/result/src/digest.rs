@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 
 use toml::Value;
 use uplift_ida::NUMERICS;
+use uplift_job::checksum::checksum;
+use uplift_job::outputs;
 
 use super::file::ResultFile;
 use super::head::Head;
 use crate::error::ResultError;
-use uplift_job::checksum::checksum;
-use uplift_job::outputs;
 
 /// Letters of a digest that is written into tables and figures: two results of a folder do not share them.
 const LETTERS: usize = 12;

@@ -1,6 +1,8 @@
 //! The displacement spectra of a result, as figures and tables read them.
 
 use serde::Serialize;
+use uplift_job::Array;
+use uplift_job::text::metres;
 use uplift_spectra::Noisy;
 use uplift_study::Kind;
 
@@ -8,8 +10,6 @@ use super::design::BOUNDS;
 use super::file::ResultFile;
 use super::layout::{axis, set, spectra};
 use crate::error::ResultError;
-use uplift_job::Array;
-use uplift_job::text::metres;
 
 /// The displacement spectra of a result file.
 #[derive(Debug, Clone, PartialEq)]

@@ -4,15 +4,15 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
+use uplift_job::JobError;
+use uplift_job::events::Events;
+use uplift_job::outputs::{beside, digest_said, is_of_digest, is_of_result, provide_folder};
 use uplift_labelled::LabelledReader;
 
 use super::file::ResultFile;
 use super::head::Overview;
 use super::layout::LAYOUT;
 use crate::error::ResultError;
-use uplift_job::JobError;
-use uplift_job::events::Events;
-use uplift_job::outputs::{beside, digest_said, is_of_digest, is_of_result, provide_folder};
 
 /// How the names of the files end that are made of a result.
 const ENDINGS: [&str; 8] = ["csv", "json", "mat", "xlsx", "geojson", "html", "svg", "png"];

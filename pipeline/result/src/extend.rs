@@ -3,12 +3,13 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use super::ResultFile;
-use crate::error::ResultError;
 use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_job::lock::ResultLock;
 use uplift_labelled::{LabelledError, LabelledReader, LabelledWriter};
+
+use super::ResultFile;
+use crate::error::ResultError;
 
 /// A result that is being added to: nobody else writes to it meanwhile, from before its numbers are read until what is
 /// made of them is in the file.

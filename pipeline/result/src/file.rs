@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use uplift_job::{Array, JobError};
 use uplift_labelled::{LabelledArray, LabelledReader};
 use uplift_study::Kind;
 
@@ -10,8 +11,6 @@ use super::head::kind_of;
 use super::layout::{LAYOUT, axis};
 use super::other_file::no_result;
 use crate::error::ResultError;
-use uplift_job::Array;
-use uplift_job::JobError;
 
 /// The result of a study of any kind, open for reading.
 ///

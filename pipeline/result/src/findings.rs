@@ -1,10 +1,11 @@
 //! What structures were asked under a result, and the answers, as they stand in its file.
 
+use uplift_job::checksum::checksum;
+use uplift_job::text::{risk_in_words, rounded, short};
+
 use super::file::ResultFile;
 use super::layout::{axis, structures};
 use crate::error::ResultError;
-use uplift_job::checksum::checksum;
-use uplift_job::text::{risk_in_words, rounded, short};
 
 /// Letters of the key of a question: no two questions asked of a result share them.
 const LETTERS: usize = 12;

@@ -1,11 +1,11 @@
 //! The influence of records and intensities as `uplift influence` left it in a result.
 
+use uplift_job::Array;
 use uplift_motion::IntensityMeasure;
 
 use super::file::ResultFile;
 use super::layout::{axis, disaggregation, influence};
 use crate::error::ResultError;
-use uplift_job::Array;
 
 /// Influence on the spectra of one measure.
 #[derive(Debug, Clone, PartialEq)]

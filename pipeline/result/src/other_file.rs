@@ -4,11 +4,11 @@ use std::io::ErrorKind;
 use std::path::Path;
 
 use uplift_atomic_file::FileError;
+use uplift_job::JobError;
 use uplift_labelled::LabelledError;
 use uplift_study::{Structure, Study};
 
 use crate::error::ResultError;
-use uplift_job::JobError;
 
 /// What to say where the file at `path` cannot be opened as a result.
 pub(super) fn no_result(path: &Path, error: LabelledError) -> ResultError {

@@ -3,15 +3,16 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::digest::study_digest;
-use super::layout::LAYOUT;
-use crate::error::ResultError;
 use uplift_ida::NUMERICS;
 use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
 use uplift_job::checksum::checksum;
 use uplift_job::frame::{RunHead, RunOptions};
 use uplift_labelled::LabelledWriter;
+
+use super::digest::study_digest;
+use super::layout::LAYOUT;
+use crate::error::ResultError;
 
 /// What someone needs to repeat a run.
 #[derive(Debug, Clone)]

@@ -1,5 +1,6 @@
 //! The uniform risk spectra of a result, and what was fitted to them.
 
+use uplift_job::Array;
 use uplift_motion::IntensityMeasure;
 use uplift_regression::{Exponential, ExponentialFit};
 use uplift_risk::OrdinateFlag;
@@ -7,7 +8,6 @@ use uplift_risk::OrdinateFlag;
 use super::file::ResultFile;
 use super::layout::{URS_PRECISION, axis, regression, urs};
 use crate::error::ResultError;
-use uplift_job::Array;
 
 /// The spectra of a result, read as its study says (`risk.contour`), with their coefficients.
 #[derive(Debug, Clone, PartialEq)]

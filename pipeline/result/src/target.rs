@@ -4,15 +4,15 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use uplift_atomic_file::open_file;
+use uplift_job::JobError;
+use uplift_job::frame::RunOptions;
+use uplift_job::outputs::{beside, is_same_file, wrong_ending};
 use uplift_labelled::{LabelledError, LabelledReader, LabelledWriter};
 use uplift_study::AnyStudy;
 
 use super::provenance::place_of;
 use crate::error::ResultError;
 use crate::what_counts;
-use uplift_job::JobError;
-use uplift_job::frame::RunOptions;
-use uplift_job::outputs::{beside, is_same_file, wrong_ending};
 
 /// First bytes of every HDF5 file.
 const HDF5_SIGNATURE: [u8; 8] = *b"\x89HDF\r\n\x1a\n";

@@ -1,7 +1,10 @@
 //! A result asked for other risks than those of its study: its stripes and hazard hold them all.
 
 use uplift_hazard::probability_from_rate;
+use uplift_job::{Array, JobError, in_file};
 use uplift_plausible::{PROBABILITY, RETURN_PERIOD, YEARS};
+use uplift_result::{Fit, MeasureSpectra, ResultFile, RiskAxes, StoredSpectra};
+use uplift_risk::Ordinate;
 use uplift_study::{Kind, UniformRiskStudy};
 
 use crate::coefficients::Coefficients;
@@ -10,10 +13,6 @@ use crate::error::UniformRiskError;
 use crate::site_risk::{SiteRisk, SiteSpectra};
 use crate::spectra::Spectra;
 use crate::stored_stripes::{StoredMeasure, stored_measure};
-use uplift_job::JobError;
-use uplift_job::{Array, in_file};
-use uplift_result::{Fit, MeasureSpectra, ResultFile, RiskAxes, StoredSpectra};
-use uplift_risk::Ordinate;
 
 /// Most risks, each a spectrum for every site.
 const MOST_RISKS: usize = 1000;

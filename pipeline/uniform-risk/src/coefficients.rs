@@ -1,12 +1,12 @@
 //! The coefficients of Table 4.2: each spectrum fitted by `u = c0 exp(c1 η) + c2` (Eq. 4.11).
 
+use uplift_job::Array;
 use uplift_motion::IntensityMeasure;
 use uplift_regression::{ExponentialFit, fit};
 use uplift_risk::Ordinate;
+use uplift_study::UniformRiskStudy;
 
 use super::Spectra;
-use uplift_job::Array;
-use uplift_study::UniformRiskStudy;
 
 /// The fits of one measure.
 #[derive(Debug, Clone)]

@@ -2,7 +2,6 @@
 //! the choice of hazard model, and how much what is not known of the structure.
 
 use uplift_bootstrap::weighted_quantile;
-
 use uplift_inputs::BranchHazard;
 use uplift_job::Array;
 use uplift_labelled::{LabelledError, LabelledWriter};

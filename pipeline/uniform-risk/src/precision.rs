@@ -6,14 +6,14 @@ use rayon::prelude::*;
 use serde::Serialize;
 use uplift_bootstrap::{inferred_limits, units};
 use uplift_fragility::quantile;
+use uplift_inputs::SiteHazard;
+use uplift_job::text::{nearest, per_cent, risk_in_words};
 use uplift_risk::{PooledDemand, RiskCurve, RiskError};
 use uplift_study::UniformRiskStudy;
 
 use super::{Stripes, pooled_demand};
 use crate::consistency::Question;
 use crate::error::UniformRiskError;
-use uplift_inputs::SiteHazard;
-use uplift_job::text::{nearest, per_cent, risk_in_words};
 
 /// Strengths that are looked at.
 const STRENGTHS: [f64; 3] = [0.1, 0.2, 0.4];

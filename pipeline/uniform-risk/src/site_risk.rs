@@ -3,12 +3,12 @@
 use rayon::prelude::*;
 use uplift_regression::ExponentialFit;
 use uplift_risk::{Ordinate, PooledDemand, RiskCurve, RiskError, RunWeights, StripeWeights};
+use uplift_study::UniformRiskStudy;
 
 use crate::coefficients::fit_spectrum;
 use crate::error::UniformRiskError;
 use crate::spectra::{Reading, pooled_demand};
 use crate::stripes::Stripes;
-use uplift_study::UniformRiskStudy;
 
 /// What turns the hazard of any site into spectra: the demands of one measure, sorted once for each strength.
 pub struct SiteRisk<'a> {

@@ -4,14 +4,14 @@ use rayon::prelude::*;
 use uplift_fragility::Stripes as Stripe;
 use uplift_hazard::rate_from_probability;
 use uplift_ida::Axes;
+use uplift_inputs::{BranchHazard, SiteHazard};
+use uplift_job::Array;
 use uplift_motion::IntensityMeasure;
 use uplift_risk::{Ordinate, PooledDemand, RiskCurve, RiskError, ThresholdGrid};
+use uplift_study::{Contour, UncertaintyKind, UniformRiskStudy};
 
 use super::{BranchSpectra, Stripes};
 use crate::error::UniformRiskError;
-use uplift_inputs::{BranchHazard, SiteHazard};
-use uplift_job::Array;
-use uplift_study::{Contour, UncertaintyKind, UniformRiskStudy};
 
 /// The spectra of one measure.
 #[derive(Debug, Clone)]

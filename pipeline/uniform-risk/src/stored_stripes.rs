@@ -4,12 +4,11 @@ use std::path::PathBuf;
 
 use uplift_fragility::Stripes;
 use uplift_hazard::{Extrapolation, HazardCurve, rate_from_probability};
+use uplift_job::{Array, COMMIT, JobError, VERSION, in_file, now};
 use uplift_motion::IntensityMeasure;
+use uplift_result::{ResultFile, RiskAxes, StoredBranch, StoredPeaks};
 use uplift_risk::{PooledDemand, RiskCurve, StripeWeights};
 use uplift_study::{Bootstrap, MeasurePlan};
-
-use uplift_job::{Array, COMMIT, JobError, VERSION, in_file, now};
-use uplift_result::{ResultFile, RiskAxes, StoredBranch, StoredPeaks};
 
 use crate::error::UniformRiskError;
 use crate::units::RecordUnits;

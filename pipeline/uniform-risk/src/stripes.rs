@@ -1,15 +1,15 @@
 //! The stripes of one intensity measure: records × strengths × levels.
 
-use uplift_ida::{Peaks, Plan, ScaledMotion, StripeRecord, System};
-use uplift_motion::{Accelerogram, Direction, IntensityMeasure};
-use uplift_oscillator::Oscillator;
-
-use crate::error::UniformRiskError;
 use uplift_engine::analysis::Analysed;
+use uplift_ida::{Peaks, Plan, ScaledMotion, StripeRecord, System};
 use uplift_inputs::RecordSet;
 use uplift_inputs::at_level::AtLevel;
 use uplift_job::JobError;
+use uplift_motion::{Accelerogram, Direction, IntensityMeasure};
+use uplift_oscillator::Oscillator;
 use uplift_study::{MeasurePlan, UniformRiskStudy};
+
+use crate::error::UniformRiskError;
 
 /// The analysed stripes of one measure.
 #[derive(Debug, Clone)]

@@ -4,20 +4,18 @@
 use std::path::{Path, PathBuf};
 
 use uplift_hazard::rate_from_probability;
+use uplift_inputs::{RecordSet, motion_keys, read_measured, read_with_pairs};
+use uplift_job::events::Silent;
+use uplift_job::{Array, JobError};
 use uplift_motion::{IntensityMeasure, RecordPair};
+use uplift_result::layout::urs;
+use uplift_result::{ResultFile, StoredRecords};
 use uplift_risk::StripeWeights;
+use uplift_study::{MeasurePlan, UniformRiskStudy};
 
 use super::asked::{AskedRisk, RiskTargets};
 use crate::error::UniformRiskError;
 use crate::stored_stripes::{poe_index, weigh};
-use uplift_inputs::{RecordSet, motion_keys, read_measured, read_with_pairs};
-use uplift_job::Array;
-use uplift_job::JobError;
-use uplift_job::events::Silent;
-use uplift_result::ResultFile;
-use uplift_result::StoredRecords;
-use uplift_result::layout::urs;
-use uplift_study::{MeasurePlan, UniformRiskStudy};
 
 /// A result with its study.
 #[derive(Debug, Clone)]

@@ -1,11 +1,11 @@
 //! What a study costs, of whichever kind, once everything that can be wrong with it has been looked at.
 
 use serde::Serialize;
+use uplift_job::events::Events;
 use uplift_study::AnyStudy;
 
 use crate::error::UpliftError;
 use crate::run::{check_outputs, replaced};
-use uplift_job::events::Events;
 pub use uplift_job::frame::PlanHead;
 use uplift_job::frame::RunOptions;
 use uplift_studies::{displacement, shake_table, uniform_risk};

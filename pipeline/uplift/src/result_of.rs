@@ -2,16 +2,16 @@
 
 use std::path::{Path, PathBuf};
 
-use uplift_study::{AnyStudy, UniformRiskStudy};
-
-use crate::error::UpliftError;
-use crate::run::run;
 use uplift_engine::checkpoint::oscillator_key;
 use uplift_inputs::{Record, input_checksums, motion_keys, read_hazard, read_other_hazard, read_records};
 use uplift_job::JobError;
 use uplift_job::events::{Events, Silent};
 use uplift_job::frame::RunOptions;
 use uplift_result::{Kind, Provenance, ResultFile, replaces_another, what_counts};
+use uplift_study::{AnyStudy, UniformRiskStudy};
+
+use crate::error::UpliftError;
+use crate::run::run;
 
 /// The result file of `study`; a study without one is run.
 ///

@@ -8,14 +8,14 @@ use std::path::Path;
 use std::time::Instant;
 
 use serde::Serialize;
-use uplift_study::AnyStudy;
-
-use crate::error::UpliftError;
 use uplift_engine::checkpoint::FinishedRows;
 use uplift_inputs::manifest;
 use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_job::frame::Place;
+use uplift_study::AnyStudy;
+
+use crate::error::UpliftError;
 pub use uplift_job::frame::{RunHead, RunOptions};
 use uplift_job::lock::ResultLock;
 use uplift_job::outputs;

@@ -2,12 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use uplift_ida::Shard;
-use uplift_study::AnyStudy;
-
-use crate::error::UpliftError;
-use crate::run::{RunReport, check_outputs, check_replaced, run_with};
 use uplift_engine::analysis::{ShardReport, hold, join};
+use uplift_ida::Shard;
 use uplift_inputs::read_hazard;
 use uplift_job::JobError;
 use uplift_job::events::Events;
@@ -15,6 +11,10 @@ use uplift_job::frame::RunOptions;
 use uplift_job::outputs::check_shard_name;
 use uplift_studies::uniform_risk::site_table;
 use uplift_studies::{displacement, uniform_risk};
+use uplift_study::AnyStudy;
+
+use crate::error::UpliftError;
+use crate::run::{RunReport, check_outputs, check_replaced, run_with};
 
 /// Carries out one shard of the analyses of a study into the file `path`, but for what is known from an `earlier`
 /// result.

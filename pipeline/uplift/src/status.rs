@@ -4,15 +4,15 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use uplift_study::Study;
-
-use crate::error::UpliftError;
 use uplift_engine::checkpoint::{Finding, RowFile, checkpoint_path};
 use uplift_job::JobError;
 use uplift_job::lock::ResultLock;
 use uplift_questions::bootstrap::{finished_strengths, part_path};
 use uplift_result::earlier::made_of;
 use uplift_result::{Overview, ResultFile, StoredFinding, is_hdf5};
+use uplift_study::Study;
+
+use crate::error::UpliftError;
 
 /// What is there of a run: at least one of its parts.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -12,12 +12,6 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use sha2::{Digest, Sha256};
-use uplift_labelled::hexadecimal;
-use uplift_study::{AnyStudy, Study, StudyError, UniformRiskStudy};
-
-use crate::error::UpliftError;
-use crate::result_of::result_of;
-use crate::shard::check_inputs;
 use uplift_alarms::alarms;
 use uplift_engine::checkpoint::oscillator_key;
 use uplift_job::JobError;
@@ -25,8 +19,14 @@ use uplift_job::alarm::{Alarm, Severity};
 use uplift_job::events::Events;
 use uplift_job::frame::RunOptions;
 use uplift_job::outputs::{self, Output, OutputKind};
+use uplift_labelled::hexadecimal;
 use uplift_result::{ResultFile, flag_word};
 use uplift_studies::uniform_risk::Inputs;
+use uplift_study::{AnyStudy, Study, StudyError, UniformRiskStudy};
+
+use crate::error::UpliftError;
+use crate::result_of::result_of;
+use crate::shard::check_inputs;
 pub use variants::{Variant, cases, product};
 
 /// Variants of one sweep: more are a study of their own.

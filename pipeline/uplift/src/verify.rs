@@ -3,12 +3,12 @@
 use std::path::PathBuf;
 
 use serde::Serialize;
-use uplift_labelled::{Seal, Verdict, verify as verify_file, verify_bytes};
-
-use crate::error::UpliftError;
 use uplift_job::JobError;
 use uplift_job::events::Events;
+use uplift_labelled::{Seal, Verdict, verify as verify_file, verify_bytes};
 use uplift_result::ResultFile;
+
+use crate::error::UpliftError;
 
 /// What was found of some results.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]

@@ -1,7 +1,14 @@
 //! The structure itself, and those that it may be, under the records and the hazard of a spectrum.
 
+use uplift_engine::analysis::{Beside, LabelledPlan, Work};
+use uplift_engine::checkpoint::Checkpoint;
 use uplift_ida::System;
+use uplift_inputs::{RecordSet, motion_keys};
+use uplift_job::JobError;
+use uplift_job::events::Events;
+use uplift_result::ResultFile;
 use uplift_study::Structure;
+use uplift_uniform_risk::{SpectraOfResult, Stripes, StudyOfResult, plan_stripes};
 
 use super::{DesignOptions, name};
 use crate::certainty::Scatter;
@@ -11,14 +18,6 @@ use crate::hazard::Hazard;
 use crate::sweep::Sweep;
 use crate::uncertain::{AskedSite, Event, Uncertain, UncertaintyReport};
 use crate::weights::SiteWeights;
-use uplift_engine::analysis::{Beside, LabelledPlan, Work};
-use uplift_engine::checkpoint::Checkpoint;
-use uplift_inputs::{RecordSet, motion_keys};
-use uplift_job::JobError;
-use uplift_job::events::Events;
-use uplift_result::ResultFile;
-use uplift_uniform_risk::{SpectraOfResult, StudyOfResult};
-use uplift_uniform_risk::{Stripes, plan_stripes};
 
 /// Where and by what a structure is designed.
 pub(super) struct Question<'a> {

@@ -3,16 +3,16 @@
 use std::path::Path;
 
 use serde_json::{Map, Value};
-use uplift_labelled::{LabelledError, LabelledWriter};
-
-use crate::error::DesignError;
 use uplift_job::JobError;
 use uplift_job::events::Events;
+use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_result::layout::{axis, structures};
 use uplift_result::{
     Addition, DOCUMENT, Finding, FindingRow, REQUEST, STRUCTURE_FILE, STRUCTURE_SHA256, STRUCTURE_TOML, STUDY_DIGEST,
     StoredFinding, sign,
 };
+
+use crate::error::DesignError;
 
 /// Keeps `finding` in the result at `result`, in place of an earlier answer to the same question and of no other, and
 /// tells `events` where. What cannot be kept is told too, with the reason: an answer is none the worse for that.

@@ -1,11 +1,11 @@
 //! The answer of a design.
 
+use uplift_result::{Finding, FindingRow, Inquiry};
 use uplift_study::Structure;
 
 use super::super::{DesignReport, ExactDemand};
 use super::{Question, banded, rate, uncertain};
 use crate::error::DesignError;
-use uplift_result::{Finding, FindingRow, Inquiry};
 
 impl DesignReport {
     /// The demand on `structure`, its rules and risks, as a result keeps them.

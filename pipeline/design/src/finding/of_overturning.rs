@@ -1,11 +1,11 @@
 //! The answer of overturning.
 
+use uplift_result::{Finding, FindingRow, Inquiry};
 use uplift_study::Structure;
 
 use super::super::{CollapseReport, OverturningOptions, OverturningReport};
 use super::{Question, rate, uncertain};
 use crate::error::DesignError;
-use uplift_result::{Finding, FindingRow, Inquiry};
 
 impl OverturningReport {
     /// How often `structure` overturns at each site, by each measure and model, as a result keeps it.

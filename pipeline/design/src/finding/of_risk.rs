@@ -1,11 +1,11 @@
 //! The answer of the risk of a frame.
 
+use uplift_result::{Finding, FindingRow, Inquiry};
 use uplift_study::Structure;
 
 use super::super::{FrameRiskReport, ModelDemand};
 use super::{Question, rate};
 use crate::error::DesignError;
-use uplift_result::{Finding, FindingRow, Inquiry};
 
 /// What its bands are of.
 const RESAMPLED: &str = "resampled records";

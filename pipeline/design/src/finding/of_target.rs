@@ -1,11 +1,11 @@
 //! The answer of a search for a target risk.
 
+use uplift_result::{Finding, FindingRow, Inquiry};
 use uplift_study::Structure;
 
 use super::super::{TargetOptions, TargetReport};
 use super::Question;
 use crate::error::DesignError;
-use uplift_result::{Finding, FindingRow, Inquiry};
 
 impl TargetReport {
     /// The value that was found for `structure`, its band and every crossing, as a result keeps them.

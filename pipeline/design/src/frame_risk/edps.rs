@@ -6,11 +6,11 @@ use uplift_fragility::Stripes as Stripe;
 use uplift_frame::RockingFrame;
 use uplift_risk::{PooledDemand, RunWeights, StripeWeights};
 use uplift_statics::{EventKind, Spring};
+use uplift_uniform_risk::EventRisk;
 
 use super::super::risk::{bounded, risk_of_exceeding};
 use super::super::weights::SiteWeights;
 use crate::error::DesignError;
-use uplift_uniform_risk::EventRisk;
 
 /// How often something happens to the frame.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -1,19 +1,17 @@
 //! A frame and its proxies under the pairs of a study: the plans, and their peaks record by record.
 
+use uplift_engine::analysis::{Analysed, LabelledPlan, Work};
 use uplift_frame::{ColumnShape, FrameError, Model, RockingFrame};
 use uplift_ida::{Peaks, ShakenFrame, StripeRecord, System};
+use uplift_inputs::{Record, RecordSet, motion_keys, rocking_frame};
+use uplift_job::checksum::motion_key;
+use uplift_job::text::thousands;
 use uplift_motion::{Accelerogram, Component, Direction, Horizontal, RecordPair};
 use uplift_study::{Structure, UniformRiskStudy};
+use uplift_uniform_risk::{SpectraOfResult, StudyOfResult, plan_stripes, seen, shaken_upwards, stripes_of};
 
 use super::super::sweep::{OF_STUDY, OWN, Sweep};
 use crate::error::DesignError;
-use uplift_engine::analysis::{Analysed, LabelledPlan, Work};
-use uplift_inputs::rocking_frame;
-use uplift_inputs::{Record, RecordSet, motion_keys};
-use uplift_job::checksum::motion_key;
-use uplift_job::text::thousands;
-use uplift_uniform_risk::{SpectraOfResult, StudyOfResult};
-use uplift_uniform_risk::{plan_stripes, seen, shaken_upwards, stripes_of};
 
 /// A frame with everything that it is shaken by and compared to.
 pub(super) struct Shaken {

@@ -4,13 +4,13 @@ use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
 use uplift_fragility::quantile;
+use uplift_inputs::RecordSet;
+use uplift_job::outputs;
+use uplift_job::table::write_table;
 
 use super::FrameRiskReport;
 use super::shaken::Demands;
 use crate::error::DesignError;
-use uplift_inputs::RecordSet;
-use uplift_job::outputs;
-use uplift_job::table::write_table;
 
 /// A column that only the table of peaks has.
 pub(super) const PEAKS_COLUMN: &str = "planar_frame_m";

@@ -1,18 +1,17 @@
 //! Overturning of the structures that one may be.
 
+use uplift_engine::analysis::Analysed;
 use uplift_ida::System;
+use uplift_inputs::RecordSet;
+use uplift_job::JobError;
 use uplift_structure::UncertainQuantity;
 use uplift_study::{Structure, Uncertainty};
+use uplift_uniform_risk::{SpectraOfResult, Stripes};
 
 use crate::certainty::Scatter;
 use crate::error::DesignError;
 use crate::hazard::Hazard;
 use crate::uncertain::{AskedSite, Event, Uncertain, UncertaintyReport};
-use uplift_engine::analysis::Analysed;
-use uplift_inputs::RecordSet;
-use uplift_job::JobError;
-use uplift_uniform_risk::SpectraOfResult;
-use uplift_uniform_risk::Stripes;
 
 /// The structures that `structure` may be, whose `oscillator` is that of the structure as described; none where all of
 /// it is known.

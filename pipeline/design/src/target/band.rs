@@ -6,11 +6,11 @@ use uplift_bootstrap::{BootstrapError, ResamplingPlan, Unit, weighted_quantile};
 use uplift_fragility::quantile;
 use uplift_risk::RecordSample;
 use uplift_study::UniformRiskStudy;
+use uplift_uniform_risk::consistency::Question;
 
 use super::candidate::Attempt;
 use crate::error::DesignError;
 use crate::hazard::Hazard;
-use uplift_uniform_risk::consistency::Question;
 
 /// What other records would have given, drawn from these with replacement (Section 4.5), or other structures.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

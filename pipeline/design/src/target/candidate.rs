@@ -3,10 +3,10 @@
 use uplift_ida::System;
 use uplift_oscillator::PostUplift;
 use uplift_structure::EquivalentSystem;
+use uplift_uniform_risk::EventRisk;
 
 use super::TargetEvent;
 use crate::risk::OVERTURNING_M;
-use uplift_uniform_risk::EventRisk;
 
 /// The structures that a value may be.
 #[derive(Debug, Clone)]

@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
+use uplift_alarms::of_numbers;
 use uplift_hazard::rate_from_probability;
+use uplift_job::alarm::Alarm;
 use uplift_motion::IntensityMeasure;
 use uplift_plausible::{
     Implausible, PROBABILITY, RETURN_PERIOD, Range, THRESHOLD, USUAL_TARGET, USUAL_THRESHOLD, YEARS,
@@ -10,8 +12,6 @@ use uplift_plausible::{
 use uplift_structure::Quantity;
 
 use crate::error::DesignError;
-use uplift_alarms::of_numbers;
-use uplift_job::alarm::Alarm;
 
 /// A range narrower than the noise of the stripes is no range; a wider tolerance no search.
 const TOLERANCE: Range = Range { least: 1e-9, most: 0.5, unit: "", hint: "a share of the value, 0.005 or so" };

@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use polars::prelude::Column;
+use uplift_job::table::write_table;
 
 use super::TargetReport;
 use crate::error::DesignError;
 use crate::tables::PERCENTILES;
-use uplift_job::table::write_table;
 
 /// The column by which a table of this program is known.
 pub(super) const FIRST_COLUMN: &str = "quantity";

@@ -3,10 +3,17 @@
 use std::ops::Range;
 use std::path::Path;
 
+use uplift_engine::analysis::{Analysed, Beside, LabelledPlan, Work};
+use uplift_engine::checkpoint::Checkpoint;
 use uplift_hazard::HazardCurve;
 use uplift_ida::{Peaks, Plan, System};
+use uplift_inputs::{RecordSet, motion_keys};
+use uplift_job::JobError;
+use uplift_job::events::Events;
+use uplift_job::text::{records_in_words, thousands};
 use uplift_risk::StripeWeights;
 use uplift_study::{Structure, UniformRiskStudy};
+use uplift_uniform_risk::{EventRisk, SpectraOfResult, StudyOfResult, plan_levels};
 
 use super::candidate::{Attempt, Candidate, StructureRisk, threshold_m};
 use super::{LevelShare, TargetEvent, TargetOptions};
@@ -17,15 +24,6 @@ use crate::hazard::Hazard;
 use crate::risk::{HAPPENS, OVERTURNING_M, bounded, happenings, risk_of_exceeding};
 use crate::uncertain::{Around, Spread};
 use crate::weights::SiteWeights;
-use uplift_engine::analysis::{Analysed, Beside, LabelledPlan, Work};
-use uplift_engine::checkpoint::Checkpoint;
-use uplift_inputs::{RecordSet, motion_keys};
-use uplift_job::JobError;
-use uplift_job::events::Events;
-use uplift_job::text::{records_in_words, thousands};
-use uplift_uniform_risk::EventRisk;
-use uplift_uniform_risk::plan_levels;
-use uplift_uniform_risk::{SpectraOfResult, StudyOfResult};
 
 /// What values are tried on. The rows of every round stay in the checkpoint until the answer is given.
 pub(super) struct Trials<'a> {

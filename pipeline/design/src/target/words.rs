@@ -1,14 +1,14 @@
 //! What is said of a search: why it has no answer, where it crosses the target, what it takes for granted.
 
+use uplift_job::alarm::{Alarm, Severity};
+use uplift_result::ResultFile;
 use uplift_structure::UncertainQuantity;
 use uplift_study::Structure;
+use uplift_uniform_risk::EventRisk;
 
 use super::TargetOptions;
 use super::candidate::Attempt;
 use super::search::{Crossing, MOST_CROSSINGS, crossings};
-use uplift_job::alarm::{Alarm, Severity};
-use uplift_result::ResultFile;
-use uplift_uniform_risk::EventRisk;
 
 /// A refusal with the numbers that are probably mistaken: the reason for it, most likely.
 pub(super) fn with_mistakes(reason: String, alarms: &[Alarm]) -> String {

@@ -8,12 +8,12 @@ use uplift_ida::System;
 use uplift_risk::{PooledDemand, RecordSample, RiskCurve};
 use uplift_study::Uncertainty;
 use uplift_uncertainty::{SobolIndices, sobol_indices, unit_cube};
+use uplift_uniform_risk::{Stripes, pooled_demand};
 
 use super::report::{EpistemicResult, Spread, UncertainFinding, VarianceShare};
 use super::{AskedSite, Event, Uncertain, resampling};
 use crate::certainty::Scatter;
 use crate::error::DesignError;
-use uplift_uniform_risk::{Stripes, pooled_demand};
 
 /// Resamples of the rows that errors of indices are made of.
 const REPLICATES: usize = 1000;

@@ -3,17 +3,17 @@
 use std::path::Path;
 
 use uplift_fragility::Stripes as Stripe;
+use uplift_job::JobError;
 use uplift_risk::{PooledDemand, RiskCurve};
 use uplift_study::Uncertainty;
 use uplift_uncertainty::unit_cube;
+use uplift_uniform_risk::Stripes;
 
 use super::report::{AleatoryResult, UncertainFinding};
 use super::{AskedSite, Event, Uncertain};
 use crate::certainty::{Scatter, demand_bands, rate_bands};
 use crate::error::DesignError;
 use crate::risk::{HAPPENS, OVERTURNING_M, happenings};
-use uplift_job::JobError;
-use uplift_uniform_risk::Stripes;
 
 /// Runs of a level, at most: those that a pool of demands holds.
 const MOST_RUNS: usize = u16::MAX as usize;

@@ -2,9 +2,8 @@
 
 use serde::Serialize;
 use uplift_fragility::quantile;
-use uplift_study::Uncertainty;
-
 use uplift_result::FRACTILES;
+use uplift_study::Uncertainty;
 
 /// The risk of a structure of which not all is known exactly.
 #[derive(Debug, Clone, PartialEq, Serialize)]

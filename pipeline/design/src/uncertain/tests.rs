@@ -6,9 +6,9 @@ use uplift_ida::{AnalysisRow, Cells, Plan, ScaledMotion};
 use uplift_motion::{Accelerogram, IntensityMeasure};
 use uplift_risk::{RiskCurve, StripeWeights};
 use uplift_uncertainty::{Distribution, Family};
+use uplift_uniform_risk::pooled_demand;
 
 use super::*;
-use uplift_uniform_risk::pooled_demand;
 
 const RECORDS: usize = 40;
 const LEVELS: [f64; 8] = [0.05, 0.1, 0.2, 0.4, 0.8, 1.2, 1.6, 2.0];

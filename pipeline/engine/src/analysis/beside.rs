@@ -3,11 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use uplift_ida::Shard;
+use uplift_job::events::Events;
 
 use super::{Analysed, ShardReport, Work, join, run_shard};
 use crate::checkpoint::{Checkpoint, FinishedRows, path_beside};
 use crate::error::EngineError;
-use uplift_job::events::Events;
 
 /// What is asked, and of which result.
 #[derive(Debug, Clone, Copy)]

@@ -5,14 +5,14 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use uplift_ida::Shard;
-
-use super::Work;
-use crate::checkpoint::{Checkpoint, FinishedRows, RowFile, RowFileHead};
-use crate::error::EngineError;
 use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_job::lock::ResultLock;
 use uplift_job::outputs::beside;
+
+use super::Work;
+use crate::checkpoint::{Checkpoint, FinishedRows, RowFile, RowFileHead};
+use crate::error::EngineError;
 
 /// Most shards that a work is cut into.
 pub const MOST_SHARDS: u64 = 100_000;

@@ -5,13 +5,13 @@ use std::time::{Duration, Instant};
 
 use sha2::{Digest, Sha256};
 use uplift_ida::{AnalysisRow, Cells, IdaError, Peaks, Plan, Shard, estimate};
-
-use crate::checkpoint::{Checkpoint, FinishedRows, RowFileHead, RowKey, RowKeys};
-use crate::error::EngineError;
 use uplift_job::events::{Events, Progress};
 use uplift_job::machine::{Needs, PROGRAM_BYTES};
 use uplift_job::text::thousands;
 use uplift_labelled::hexadecimal;
+
+use crate::checkpoint::{Checkpoint, FinishedRows, RowFileHead, RowKey, RowKeys};
+use crate::error::EngineError;
 
 /// A plan, and what is told of it.
 #[derive(Debug)]

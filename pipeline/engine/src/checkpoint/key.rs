@@ -2,7 +2,6 @@
 
 use sha2::{Digest, Sha256};
 use uplift_ida::{Axes, NUMERICS, Plan};
-
 use uplift_job::checksum::motion_key;
 use uplift_labelled::hexadecimal;
 use uplift_oscillator::PostUplift;

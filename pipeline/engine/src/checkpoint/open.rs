@@ -4,14 +4,14 @@ use std::path::{Path, PathBuf};
 
 use uplift_atomic_file::final_place;
 use uplift_ida::{AnalysisRow, Cells, IdaError, Peaks, Plan, Shard, Watch, complete};
+use uplift_job::JobError;
+use uplift_job::events::Events;
+use uplift_job::lock::ResultLock;
 
 use super::error::CheckpointError;
 use super::key::RowKeys;
 use super::row_file::{FinishedRows, RowFile, RowFileHead};
 use crate::error::EngineError;
-use uplift_job::JobError;
-use uplift_job::events::Events;
-use uplift_job::lock::ResultLock;
 
 /// Finished analysis rows of a job: those known from before, and a file that takes up each further one when it is
 /// finished.

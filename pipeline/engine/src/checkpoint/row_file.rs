@@ -12,13 +12,13 @@ use std::sync::{Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
+use uplift_atomic_file::{FileError, final_place, open_file, write_whole};
 use uplift_ida::{AnalysisRow, Cells};
 
 use super::block::{Row, read_block, write_block};
 use super::error::CheckpointError;
 use super::key::{RowKey, RowKeys};
 use crate::error::EngineError;
-use uplift_atomic_file::{FileError, final_place, open_file, write_whole};
 
 /// What the first line says it is.
 pub(super) const FORMAT: &str = "uplift analysis rows 2";

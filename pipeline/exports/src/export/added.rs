@@ -1,14 +1,14 @@
 //! What `uplift influence` and `uplift measures` added to a result, as every format takes it.
 
+use uplift_job::Array;
 use uplift_motion::IntensityMeasure;
+use uplift_questions::influence::{RecordInfluence, level_of_share, rank_records};
+use uplift_result::{ResultFile, StoredEfficiency, StoredInfluence};
+use uplift_uniform_risk::StoredStripes;
 
 use super::Export;
 use super::source::Row;
 use crate::error::ExportsError;
-use uplift_job::Array;
-use uplift_questions::influence::{RecordInfluence, level_of_share, rank_records};
-use uplift_result::{ResultFile, StoredEfficiency, StoredInfluence};
-use uplift_uniform_risk::StoredStripes;
 
 /// Shares of the risk whose levels are told: below them lie 5 %, half and 95 % of it.
 pub(super) const SHARES: [f64; 3] = [0.05, 0.5, 0.95];

@@ -1,8 +1,9 @@
 //! Whether the records bring the site's hazard, as every format takes it, and the spectra of weighted records.
 
+use uplift_result::{Fit, StoredConsistency};
+
 use super::Export;
 use super::source::Row;
-use uplift_result::{Fit, StoredConsistency};
 
 /// What the records scaled to one measure bring at a site.
 pub(super) struct ConsistencyOf<'a> {

@@ -3,12 +3,12 @@
 use polars::prelude::Column;
 use rust_xlsxwriter::XlsxError;
 use serde_json::{Map, Value, json};
+use uplift_job::text::finite;
+use uplift_result::{FindingRow, StoredFinding};
 
 use super::Export;
 use super::matlab::level_5::{MatFile, Shape};
 use super::workbook::sheet::{Sheet, Shown};
-use uplift_job::text::finite;
-use uplift_result::{FindingRow, StoredFinding};
 
 /// The column by which a table of this program is known.
 pub(super) const FIRST_COLUMN: &str = "structure";

@@ -1,14 +1,14 @@
 //! A result as JSON.
 
 use serde_json::{Value, json};
+use uplift_job::text::finite;
+use uplift_questions::influence::RecordInfluence;
+use uplift_result::{Fit, StoredEfficiency, StoredSpread, StoredTrend, flag_word};
 
 use super::Export;
 use super::added::Influence;
 use super::consistency::ConsistencyOf;
 use super::source::{BandOf, INFERRED, Row};
-use uplift_job::text::finite;
-use uplift_questions::influence::RecordInfluence;
-use uplift_result::{Fit, StoredEfficiency, StoredSpread, StoredTrend, flag_word};
 
 impl Export {
     /// Everything as one JSON object; what is not finite is null.

@@ -2,14 +2,15 @@
 
 pub(super) mod level_5;
 
+use uplift_job::JobError;
+use uplift_job::alarm::Alarm;
+use uplift_result::{Fit, InferredBands, StoredSpectra, StoredSpectraBands, StoredSpread, flag_number};
+
 use super::Export;
 use super::added::Influence;
 use super::source::INFERRED;
 use crate::error::ExportsError;
 use level_5::{MatFile, Shape};
-use uplift_job::JobError;
-use uplift_job::alarm::Alarm;
-use uplift_result::{Fit, InferredBands, StoredSpectra, StoredSpectraBands, StoredSpread, flag_number};
 
 /// A coefficient of a spectrum.
 type Value = fn(&Fit) -> f64;

@@ -2,16 +2,16 @@
 
 use polars::prelude::Column;
 use serde_json::{Value, json};
-
-use super::matlab::level_5::{MatFile, Shape};
-use super::source::provenance_of;
-use crate::error::ExportsError;
 use uplift_alarms::alarms;
 use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
 use uplift_result::layout::shake_table as layout;
 use uplift_result::{DIRECTIONS, Head, QUANTITIES, ResultFile, ShakeTable, column_of};
 use uplift_studies::shake_table::columns;
+
+use super::matlab::level_5::{MatFile, Shape};
+use super::source::provenance_of;
+use crate::error::ExportsError;
 
 /// The tests of a result, and where they come from.
 pub(super) struct TestsExport {

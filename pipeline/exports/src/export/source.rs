@@ -2,19 +2,18 @@
 
 use std::path::Path;
 
-use uplift_hazard::rate_from_probability;
-use uplift_study::UniformRiskStudy;
-
-use super::added::Added;
-use crate::error::ExportsError;
 use uplift_alarms::alarms;
-use uplift_job::Array;
-use uplift_job::JobError;
+use uplift_hazard::rate_from_probability;
 use uplift_job::alarm::Alarm;
+use uplift_job::{Array, JobError};
 use uplift_result::{
     Head, InferredBands, MeasureBands, ResultFile, Spectrum, SpreadOver, StoredBands, StoredConsistency, StoredFinding,
     StoredHazard, StoredJointBands, StoredRepairedBands, StoredSpectra, StoredSpectraBands, StoredSpread,
 };
+use uplift_study::UniformRiskStudy;
+
+use super::added::Added;
+use crate::error::ExportsError;
 
 /// The spectra, bands and coefficients of a result, and where they come from.
 pub struct Export {

@@ -1,12 +1,12 @@
 //! A result as a tidy table.
 
 use polars::prelude::Column;
+use uplift_job::text::finite;
+use uplift_result::{SpreadOver, StoredSpread, flag_word};
 
 use super::Export;
 use super::added::SHARES;
 use super::source::{BandOf, INFERRED, Row};
-use uplift_job::text::finite;
-use uplift_result::{SpreadOver, StoredSpread, flag_word};
 
 impl Export {
     /// A row for each ordinate: its fit beside it, its return period and flag, and the limits of its bands for each

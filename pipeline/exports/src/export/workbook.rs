@@ -9,12 +9,12 @@ mod tables;
 mod tests;
 
 use rust_xlsxwriter::{DocProperties, ExcelDateTime, Workbook, XlsxError};
+use uplift_job::JobError;
+use uplift_result::Head;
 
 use super::Export;
 use crate::error::ExportsError;
 use sheet::{Formats, Sheet, clipped};
-use uplift_job::JobError;
-use uplift_result::Head;
 
 /// Most characters of a property that Excel shows.
 const LONGEST_PROPERTY: usize = 255;

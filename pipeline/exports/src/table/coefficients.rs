@@ -3,18 +3,16 @@
 use std::path::Path;
 
 use serde::Serialize;
+use uplift_alarms::{COMPARED_FROM_M, FitReach, reach_of_fit};
+use uplift_job::events::Events;
+use uplift_job::{JobError, ReferenceTable};
 use uplift_motion::IntensityMeasure;
 use uplift_regression::Exponential;
+use uplift_result::{ResultFile, Spectrum, StoredConsistency};
 use uplift_study::UniformRiskStudy;
 
 use super::TableOptions;
 use crate::error::ExportsError;
-use uplift_alarms::COMPARED_FROM_M;
-use uplift_alarms::{FitReach, reach_of_fit};
-use uplift_job::JobError;
-use uplift_job::ReferenceTable;
-use uplift_job::events::Events;
-use uplift_result::{ResultFile, Spectrum, StoredConsistency};
 
 /// Strengths above this are compared, up to 1 (the range of Table 4.2's fits).
 pub const COMPARED_ABOVE: f64 = 0.05;

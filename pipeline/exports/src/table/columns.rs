@@ -3,13 +3,13 @@
 use std::path::PathBuf;
 
 use serde::Serialize;
+use uplift_job::ReferenceTable;
+use uplift_laboratory::pushover::{axial_load_ratio, capacity, pushed};
 use uplift_statics::{EventKind, Parts, RestrainedColumns, Restrainer, Spring, TendonPath};
 use uplift_study::Structure;
 
 use super::TableOptions;
 use crate::error::ExportsError;
-use uplift_job::ReferenceTable;
-use uplift_laboratory::pushover::{axial_load_ratio, capacity, pushed};
 
 /// Drift ratio up to which the force is searched for its peak, that of the last slope of Table 5.1.
 const LARGEST_DRIFT: f64 = 0.15;

@@ -3,15 +3,14 @@
 use std::path::Path;
 
 use serde::Serialize;
+use uplift_job::events::Events;
+use uplift_job::{JobError, ReferenceTable};
+use uplift_result::{DesignRow, ResultFile};
 use uplift_spectra::Noisy;
 use uplift_study::ScaledTo;
 
 use super::TableOptions;
 use crate::error::ExportsError;
-use uplift_job::JobError;
-use uplift_job::ReferenceTable;
-use uplift_job::events::Events;
-use uplift_result::{DesignRow, ResultFile};
 
 /// The design tables of a result; serialized, the rows.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -3,13 +3,13 @@
 use std::collections::BTreeMap;
 
 use serde::Serialize;
+use uplift_job::ReferenceTable;
+use uplift_job::text::finite;
+use uplift_result::{ResultFile, ShakeTable};
 use uplift_validation::pairs::spearman;
 
 use super::TableOptions;
 use crate::error::ExportsError;
-use uplift_job::ReferenceTable;
-use uplift_job::text::finite;
-use uplift_result::{ResultFile, ShakeTable};
 
 /// The tests of a result, in the order of their response.
 #[derive(Debug, Clone, PartialEq, Serialize)]

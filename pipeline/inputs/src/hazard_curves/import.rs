@@ -12,15 +12,15 @@ use uplift_hazard::{
     ComponentDefinition, CsvOptions, Declared, ExportedCurve, RealizationWeight, SiteSelection, Statistic, read_csv,
     read_export, read_realization_weights,
 };
+use uplift_job::JobError;
+use uplift_job::events::Events;
+use uplift_job::outputs::{self, Output, OutputKind};
+use uplift_job::table::write_atomically;
 
 use super::read::distinct;
 use crate::error::InputsError;
 use check::{check_weights, one_site, remarks};
 use text::{curve_text, file_stem, study_lines};
-use uplift_job::JobError;
-use uplift_job::events::Events;
-use uplift_job::outputs::{self, Output, OutputKind};
-use uplift_job::table::write_atomically;
 
 /// Distance of a site from the place asked for that needs no word, km.
 const NEAR_KM: f64 = 10.0;

@@ -6,11 +6,11 @@ use uplift_hazard::{
     CsvOptions, Declared, ExportedCurve, ExportedCurves, HazardCurve, SecondColumn, SiteSelection, Statistic, read_csv,
     read_export, table_text,
 };
+use uplift_job::JobError;
+use uplift_job::events::Events;
 use uplift_motion::{IntensityMeasure, STANDARD_GRAVITY_M_S2};
 
 use crate::error::InputsError;
-use uplift_job::JobError;
-use uplift_job::events::Events;
 
 /// Which curves of a file are read, and what a table does not say.
 #[derive(Debug, Clone, PartialEq)]

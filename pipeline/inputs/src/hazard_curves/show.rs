@@ -4,11 +4,11 @@ use std::path::Path;
 
 use serde::Serialize;
 use uplift_hazard::{HazardCurve, rate_from_probability};
+use uplift_job::events::Events;
 
 use super::NamedCurve;
 use super::read::{CurveOptions, read_file};
 use crate::error::InputsError;
-use uplift_job::events::Events;
 
 /// Probabilities at which levels are told.
 const PROBABILITIES: [f64; 5] = [0.5, 0.2, 0.1, 0.05, 0.02];

@@ -7,6 +7,9 @@ use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 use uplift_ida::Watch;
+use uplift_job::JobError;
+use uplift_job::checksum::checksum;
+use uplift_job::events::{Events, Progress};
 use uplift_motion::{MotionError, RecordFormat, RecordingDescription, read_record, record_bytes};
 
 use super::measured::{self, PairMeasures};
@@ -15,9 +18,6 @@ use super::search_results::{Entry, SearchResults};
 use super::warnings::Warning;
 use super::{ImportOptions, group, name};
 use crate::error::InputsError;
-use uplift_job::JobError;
-use uplift_job::checksum::checksum;
-use uplift_job::events::{Events, Progress};
 
 /// One component of a file, without its samples.
 #[derive(Debug, Clone)]

@@ -1,5 +1,6 @@
 //! What a pair of components measures.
 
+use uplift_job::checksum::checksum;
 use uplift_motion::{
     Accelerogram, Combination, PulseClassification, RecordPair, classify_pulse, geometric_mean, may_be_pulse_like,
     read_auto, record_bytes,
@@ -8,7 +9,6 @@ use uplift_motion::{
 use super::collect::{Component, ImportedPair};
 use super::group::Candidate;
 use super::{ImportOptions, warnings};
-use uplift_job::checksum::checksum;
 
 /// Measures of a pair; of those of single components the geometric mean.
 #[derive(Debug, Clone)]

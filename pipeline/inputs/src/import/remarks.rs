@@ -3,9 +3,9 @@
 use std::fmt;
 
 use serde::Serialize;
+use uplift_job::text::one_line;
 
 use super::collect::Imported;
-use uplift_job::text::one_line;
 
 /// Remarks of one kind.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]

@@ -3,8 +3,9 @@
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use crate::error::InputsError;
 use uplift_job::JobError;
+
+use crate::error::InputsError;
 
 /// What lies in a folder and in the folders in it.
 pub(super) struct Scan {

@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use uplift_atomic_file::read_file;
+use uplift_job::text_table;
 
 use super::group::Candidate;
 use super::warnings::Warning;
-use uplift_job::text_table;
 
 /// What a search result says about a record.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -10,16 +10,16 @@ use std::path::{Component, Path, PathBuf};
 
 use uplift_atomic_file::{open_file, read_file};
 use uplift_ida::Watch;
-use zip::result::ZipError;
-use zip::{CompressionMethod, ZipArchive};
-
-use super::scan::may_be_used;
-use crate::error::InputsError;
 use uplift_job::JobError;
 use uplift_job::checksum::checksum;
 use uplift_job::events::{Events, Progress};
 use uplift_job::outputs::provide_folder;
 use uplift_job::table::write_atomically;
+use zip::result::ZipError;
+use zip::{CompressionMethod, ZipArchive};
+
+use super::scan::may_be_used;
+use crate::error::InputsError;
 
 /// Files that an archive may hold: a search at PEER gives some hundreds.
 const MOST_FILES: usize = 100_000;

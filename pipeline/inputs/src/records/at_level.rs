@@ -8,15 +8,15 @@ use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
 use serde::Serialize;
+use uplift_job::JobError;
+use uplift_job::outputs::{self, Output, OutputKind};
+use uplift_job::table::{table_text, write_atomically};
 use uplift_motion::{IntensityMeasure, SelectedComponent, SelectedRecord, SelectedSet, SelectionTool, read_selection};
 
 use crate::at_level::{RECORD, check_bytes, count, level_column, list};
 use crate::error::InputsError;
 use crate::manifest;
 use known::KnownRecords;
-use uplift_job::JobError;
-use uplift_job::outputs::{self, Output, OutputKind};
-use uplift_job::table::{table_text, write_atomically};
 
 /// By how much a level that is given may differ from that of the file, relative: it may be rounded.
 const SAME_LEVEL: f64 = 1e-3;

@@ -1,11 +1,11 @@
 //! The records of a manifest.
 
 use serde::Serialize;
+use uplift_job::events::Events;
 use uplift_motion::{Combination, RecordPair, STANDARD_GRAVITY_M_S2, geometric_mean};
 
 use super::SetOptions;
 use crate::error::InputsError;
-use uplift_job::events::Events;
 
 /// The records of a set that were asked for.
 #[derive(Debug, Clone, PartialEq, Serialize)]

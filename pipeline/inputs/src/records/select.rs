@@ -4,16 +4,16 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
+use uplift_job::JobError;
+use uplift_job::events::Events;
+use uplift_job::outputs::{self, Output, OutputKind};
+use uplift_job::table::{table_text, write_atomically};
 use uplift_motion::Combination;
 use uplift_study::RecordSelection;
 
 use super::SetOptions;
 use crate::error::InputsError;
 use crate::manifest;
-use uplift_job::JobError;
-use uplift_job::events::Events;
-use uplift_job::outputs::{self, Output, OutputKind};
-use uplift_job::table::{table_text, write_atomically};
 
 /// Which records are chosen, and where they are listed.
 #[derive(Debug, Clone, PartialEq)]

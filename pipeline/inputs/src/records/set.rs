@@ -2,14 +2,14 @@
 
 use std::path::PathBuf;
 
+use uplift_job::JobError;
+use uplift_job::events::Events;
 use uplift_motion::{Combination, STANDARD_GRAVITY_M_S2};
 use uplift_study::RecordSelection;
 
 use crate::error::InputsError;
 use crate::pairs::CheckedPair;
 use crate::{manifest, pairs, selection};
-use uplift_job::JobError;
-use uplift_job::events::Events;
 
 /// A manifest, and which of its records.
 #[derive(Debug, Clone, PartialEq)]

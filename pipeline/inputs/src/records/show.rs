@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
+use uplift_job::JobError;
 use uplift_motion::{Accelerogram, Combination, Orientation, ReadOptions, RecordPair, Recording, read_record_file};
 
 use crate::FileOptions;
@@ -11,7 +12,6 @@ use crate::error::InputsError;
 use crate::import::{PairMeasures, unusual_peak, warnings_of_pair};
 use crate::manifest::{self, ComponentFile};
 use crate::pairs::read_component;
-use uplift_job::JobError;
 
 /// What is looked at.
 #[derive(Debug, Clone, PartialEq)]

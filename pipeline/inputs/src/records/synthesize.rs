@@ -4,15 +4,15 @@ use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
 use serde::Serialize;
+use uplift_job::JobError;
+use uplift_job::events::Events;
+use uplift_job::outputs::{self, Output, OutputKind};
+use uplift_job::table::{table_text, write_atomically};
 use uplift_motion::synthetic::SyntheticSetOptions;
 use uplift_motion::{RecordPair, STANDARD_GRAVITY_M_S2, at2_text};
 
 use crate::error::InputsError;
 use crate::made_pairs;
-use uplift_job::JobError;
-use uplift_job::events::Events;
-use uplift_job::outputs::{self, Output, OutputKind};
-use uplift_job::table::{table_text, write_atomically};
 
 /// Which records are made, and where they go.
 #[derive(Debug, Clone)]

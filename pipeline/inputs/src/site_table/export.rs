@@ -5,14 +5,14 @@ use std::path::Path;
 use std::sync::Arc;
 
 use uplift_hazard::{ExportedCurve, ExportedCurves, HazardCurve, HazardError, SitePlace, Statistic};
+use uplift_job::JobError;
 use uplift_motion::IntensityMeasure;
+use uplift_study::{UniformRiskStudy, definition_of};
 
 use super::super::hardly_possible::hardly_possible;
 use super::super::hazard::{of_the_records_definition, stripe_weights};
 use super::{ListedSite, Read};
 use crate::error::InputsError;
-use uplift_job::JobError;
-use uplift_study::{UniformRiskStudy, definition_of};
 
 /// Mistakes that are told one by one.
 const MISTAKES_TOLD: usize = 8;

@@ -3,11 +3,10 @@
 use std::path::Path;
 
 use polars::prelude::{DataFrame, StringChunked};
-
 use uplift_atomic_file::{FileError, read_file};
+use uplift_job::text_table;
 
 use super::ListedSite;
-use uplift_job::text_table;
 
 /// Largest table, bytes: some millions of sites.
 const MAX_BYTES: u64 = 256 << 20;

@@ -6,10 +6,10 @@ use uplift_block::{
     respond,
 };
 use uplift_ida::Watch;
+use uplift_job::JobError;
 
 use super::plan::PulsePlan;
 use crate::error::LaboratoryError;
-use uplift_job::JobError;
 
 /// The spectra of one wavelet.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,12 +1,12 @@
 //! What is computed.
 
 use uplift_block::{BlockError, PulseSpectrumPlan, RickerPulse, RickerShape, RockingBlock, SizeMeasure};
+use uplift_job::JobError;
+use uplift_job::text::thousands;
 use uplift_motion::STANDARD_GRAVITY_M_S2;
 use uplift_plausible::{Implausible, PULSE_AMPLITUDE, PULSE_PERIOD, PULSE_RATIO, SIZE};
 
 use crate::error::LaboratoryError;
-use uplift_job::JobError;
-use uplift_job::text::thousands;
 
 /// Points of a map that a figure can show, and then some.
 const MOST_POINTS: usize = 4_000_000;

@@ -3,15 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
+use uplift_job::events::{Events, Progress};
+use uplift_job::outputs::{self, Output, OutputKind};
+use uplift_job::table::write_table;
 
 use super::compute::{PulseSpectra, compute};
 use super::plan::{PulsePlan, wavelet};
 use super::summary::{Summary, summary};
 use super::tables::{PULSE_FIGURES, WAVELET_COLUMN, tables};
 use crate::error::LaboratoryError;
-use uplift_job::events::{Events, Progress};
-use uplift_job::outputs::{self, Output, OutputKind};
-use uplift_job::table::write_table;
 
 /// Which spectra are computed, and where their tables go.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
+use uplift_job::ReferenceTable;
 use uplift_statics::{LoopCycle, MeasuredLoop, RestrainedColumns};
 
 use crate::error::LaboratoryError;
-use uplift_job::ReferenceTable;
 
 /// Drift ratios between which Table 5.1 takes the slope after uplift.
 const SLOPE_DRIFTS: (f64, f64) = (0.03, 0.15);

@@ -3,12 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
+use uplift_job::events::Events;
+use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_statics::{CyclicState, LoadingProtocol, ProtocolPoint, RestrainedColumns};
 
 use super::tables;
 use crate::error::LaboratoryError;
-use uplift_job::events::Events;
-use uplift_job::outputs::{self, Output, OutputKind};
 
 /// Points in a quarter of a cycle of columns under a protocol.
 const PARTS: u32 = 40;

@@ -3,6 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
+use uplift_job::JobError;
+use uplift_job::events::Events;
+use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_statics::{
     Capacity, Event, EventKind, LinearState, LoadingProtocol, PushoverState, RestrainedColumns, TendonPath, tilt,
 };
@@ -12,9 +15,6 @@ use super::measured::MeasuredCurve;
 use super::protocol::CyclicReport;
 use super::tables;
 use crate::error::LaboratoryError;
-use uplift_job::JobError;
-use uplift_job::events::Events;
-use uplift_job::outputs::{self, Output, OutputKind};
 
 /// What is asked of a pushover.
 #[derive(Debug, Clone, PartialEq)]

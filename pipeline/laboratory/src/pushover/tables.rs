@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use polars::prelude::Column;
+use uplift_job::JobError;
+use uplift_job::table::write_table;
 use uplift_statics::{CyclicState, LoadingProtocol, ProtocolPoint, PushoverState};
 
 use super::run::PushoverReport;
 use crate::error::LaboratoryError;
-use uplift_job::JobError;
-use uplift_job::table::write_table;
 
 /// A column of every pushover, and of no other table.
 pub(super) const PUSHOVER_COLUMN: &str = "top_moment_n_m";

@@ -7,14 +7,14 @@ use serde::Serialize;
 use uplift_block::{
     FreeRocking, History, HistoryRow, Moment, Overturning, RockingBlock, respond, respond_with_history,
 };
+use uplift_job::JobError;
+use uplift_job::alarm::Alarm;
+use uplift_job::table::write_table;
 use uplift_motion::Accelerogram;
 use uplift_plausible::{LENGTH, RESTITUTION, SIZE, USUAL_LENGTH, USUAL_RESTITUTION};
 
 use super::{ShakenBy, Shaking};
 use crate::error::LaboratoryError;
-use uplift_job::JobError;
-use uplift_job::alarm::Alarm;
-use uplift_job::table::write_table;
 
 /// Which block is shaken, and by what. Two numbers make a block: width and height, or a slenderness and one length.
 #[derive(Debug, Clone, PartialEq)]

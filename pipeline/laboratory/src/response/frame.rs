@@ -4,16 +4,16 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use uplift_frame::{FrameEvent, FrameResponse, GroundMotion, Model, Options, RockingFrame, Until};
+use uplift_inputs::{TORSION, model_of, rocking_frame};
+use uplift_job::JobError;
+use uplift_job::alarm::Alarm;
+use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_motion::{AccelerationUnit, Accelerogram};
 use uplift_plausible::{RESTITUTION, USUAL_RESTITUTION};
 use uplift_study::Structure;
 
 use super::{FrameHistory, ShakenBy, Shaking};
 use crate::error::LaboratoryError;
-use uplift_inputs::{TORSION, model_of, rocking_frame};
-use uplift_job::JobError;
-use uplift_job::alarm::Alarm;
-use uplift_job::outputs::{self, Output, OutputKind};
 
 /// One component of the ground's motion.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -4,14 +4,14 @@ use std::path::Path;
 
 use polars::prelude::Column;
 use uplift_frame::{History, HistoryRow, Moment, RockingFrame};
+use uplift_job::outputs;
+use uplift_job::table::write_table;
 use uplift_motion::Accelerogram;
 use uplift_statics::Sections;
 
 use super::FrameResponseReport;
 use super::history::acceleration_at;
 use crate::error::LaboratoryError;
-use uplift_job::outputs;
-use uplift_job::table::write_table;
 
 /// A motion of the ground and what it did to the frame.
 #[derive(Debug, Clone, PartialEq)]

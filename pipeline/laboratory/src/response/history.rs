@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use polars::prelude::Column;
+use uplift_job::table::write_table;
 use uplift_oscillator::{Event, EventKind, Excitation, History};
 
 use super::ResponseReport;
 use crate::error::LaboratoryError;
-use uplift_job::table::write_table;
 
 /// The motion of the ground and what it did to the oscillator.
 #[derive(Debug, Clone, PartialEq, Default)]

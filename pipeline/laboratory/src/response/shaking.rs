@@ -3,16 +3,16 @@
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
+use uplift_alarms::of_numbers;
+use uplift_job::JobError;
+use uplift_job::alarm::Alarm;
+use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_motion::{
     AccelerationUnit, Accelerogram, ReadOptions, RecordFormat, STANDARD_GRAVITY_M_S2, read_record_file,
 };
 use uplift_plausible::{FREE_VIBRATION, GRAVITY, Range, SCALE, TIME_STEP, USUAL_GRAVITY};
 
 use crate::error::LaboratoryError;
-use uplift_alarms::of_numbers;
-use uplift_job::JobError;
-use uplift_job::alarm::Alarm;
-use uplift_job::outputs::{self, Output, OutputKind};
 
 /// A number from outside: what it may be, its name, and the number where it is given.
 pub(super) type Given = (Range, &'static str, Option<f64>);

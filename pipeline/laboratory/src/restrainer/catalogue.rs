@@ -2,11 +2,10 @@
 
 use std::path::Path;
 
+use uplift_job::{JobError, ReferenceTable};
 use uplift_statics::{CatalogueDisc, DiscDimensions};
 
 use crate::error::LaboratoryError;
-use uplift_job::JobError;
-use uplift_job::ReferenceTable;
 
 /// Most discs; no maker has more.
 const MOST_DISCS: usize = 100_000;

@@ -4,16 +4,16 @@ use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
 use serde::Serialize;
+use uplift_job::JobError;
+use uplift_job::events::Events;
+use uplift_job::outputs::{self, Output, OutputKind};
+use uplift_job::table::write_table;
 use uplift_plausible::ELONGATION;
 use uplift_statics::{Restrainer, Spring, Threshold};
 use uplift_study::RestrainerFile;
 
 use crate::error::LaboratoryError;
 use crate::pushover::{anchorage_word, check_rows};
-use uplift_job::JobError;
-use uplift_job::events::Events;
-use uplift_job::outputs::{self, Output, OutputKind};
-use uplift_job::table::write_table;
 
 /// A column of every curve, and of no other table.
 const CURVE_COLUMN: &str = "spring_secant_n_m";

@@ -4,6 +4,11 @@ use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
 use serde::Serialize;
+use uplift_design::{DesignOptions, design as design_by_spectrum};
+use uplift_job::JobError;
+use uplift_job::events::Events;
+use uplift_job::outputs::{self, Output, OutputKind};
+use uplift_job::table::write_table;
 use uplift_statics::selection::{select, stopper_yield_force_n};
 use uplift_statics::{Candidate, Imperfections, Limits, Ranking, StaticsError, Target, TendonPath, Tolerance};
 use uplift_structure::{Kind, StructureDescription};
@@ -12,11 +17,6 @@ use uplift_study::Structure;
 use super::catalogue;
 use crate::error::LaboratoryError;
 use crate::pushover::pushed;
-use uplift_design::{DesignOptions, design as design_by_spectrum};
-use uplift_job::JobError;
-use uplift_job::events::Events;
-use uplift_job::outputs::{self, Output, OutputKind};
-use uplift_job::table::write_table;
 
 /// A column of every list of stacks, and of no other table.
 const STACK_COLUMN: &str = "tendon_utilisation";

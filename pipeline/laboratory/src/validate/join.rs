@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use serde::Serialize;
+use uplift_job::JobError;
 
 use super::peaks::{PeakValue, Peaks, Row};
 use crate::error::LaboratoryError;
-use uplift_job::JobError;
 
 /// Rows that a message names.
 const TOLD: usize = 5;

@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use crate::error::LaboratoryError;
-use uplift_job::JobError;
-use uplift_job::ReferenceTable;
+use uplift_job::{JobError, ReferenceTable};
 use uplift_result::{ResultFile, is_hdf5};
 use uplift_studies::shake_table::columns;
+
+use crate::error::LaboratoryError;
 
 /// Units that a column's name may end in, by quantity, with what makes SI units of them.
 const UNITS: [&[(&str, f64)]; 5] = [

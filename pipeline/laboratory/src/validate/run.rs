@@ -5,6 +5,9 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 use serde::Serialize;
 use uplift_ida::Watch;
+use uplift_job::JobError;
+use uplift_job::events::{Events, Progress};
+use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_validation::{BandRule, ValidationError, holm_adjusted};
 
 use super::group::GroupReport;
@@ -12,9 +15,6 @@ use super::join::{Joined, Unmatched, as_samples, by_key};
 use super::peaks::{Peaks, unit_of};
 use super::write::{self, COLUMN};
 use crate::error::LaboratoryError;
-use uplift_job::JobError;
-use uplift_job::events::{Events, Progress};
-use uplift_job::outputs::{self, Output, OutputKind};
 
 /// Groups beyond which a column is not meant to be grouped by.
 const MOST_GROUPS: usize = 400;

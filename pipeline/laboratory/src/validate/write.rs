@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use polars::prelude::Column;
+use uplift_job::table::write_table;
 use uplift_validation::{Bands, Pairs, Quantiles};
 
 use super::group::GroupReport;
 use super::run::ValidateReport;
 use crate::error::LaboratoryError;
-use uplift_job::table::write_table;
 
 /// A column of every such table, and of no other.
 pub(super) const COLUMN: &str = "ks_p_kstest2";

@@ -1,9 +1,5 @@
 //! The bands of a result at risks that it is asked for after its bootstrap: from the draws that it keeps.
 
-use super::bands::{BandSettings, Bands, RepairedBands, SpectraBands};
-use super::compute::{Source, compute};
-use super::write::percent;
-use crate::error::QuestionsError;
 use uplift_bootstrap::{ResamplingPlan, Unit};
 use uplift_job::events::Events;
 use uplift_result::{
@@ -12,6 +8,11 @@ use uplift_result::{
 };
 use uplift_uniform_risk::StoredStripes;
 use uplift_uniform_risk::consistency::{Question, Reweighing};
+
+use super::bands::{BandSettings, Bands, RepairedBands, SpectraBands};
+use super::compute::{Source, compute};
+use super::write::percent;
+use crate::error::QuestionsError;
 
 /// The result `file` with bands at the risks that it was asked for ([`at`](uplift_uniform_risk::at)), made of the draws
 /// of its bootstrap, to the bit as a bootstrap of these risks makes them. Without a bootstrap there are none, and

@@ -2,14 +2,14 @@
 
 use rayon::prelude::*;
 use uplift_bootstrap::{Band, Interval, Replicates, ResamplingPlan, acceleration, simultaneous_bands, without_each};
+use uplift_job::Array;
 use uplift_motion::IntensityMeasure;
+use uplift_result::InferredBands;
 use uplift_risk::StripeWeights;
+use uplift_uniform_risk::{StoredMeasure, StoredStripes};
 
 use super::joint::{JointBands, joint_bands};
 use crate::error::QuestionsError;
-use uplift_job::Array;
-use uplift_result::InferredBands;
-use uplift_uniform_risk::{StoredMeasure, StoredStripes};
 
 /// What kind of bands.
 #[derive(Debug, Clone, Copy, PartialEq)]

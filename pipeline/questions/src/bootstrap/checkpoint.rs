@@ -4,15 +4,15 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
+use uplift_job::outputs::beside;
+use uplift_labelled::{LabelledReader, LabelledWriter};
+use uplift_uniform_risk::consistency::Reweighing;
 
 use super::bands::{StrengthBands, bands_of_numbers, numbers_of_bands};
 use super::compute::Source;
 use super::joint::JointSiteBands;
 use super::repaired::{SiteBands, SiteShape};
 use crate::error::QuestionsError;
-use uplift_job::outputs::beside;
-use uplift_labelled::{LabelledReader, LabelledWriter};
-use uplift_uniform_risk::consistency::Reweighing;
 
 /// What is finished.
 #[derive(Debug, Default)]

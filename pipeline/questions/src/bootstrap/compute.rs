@@ -5,8 +5,12 @@ use std::time::{Duration, Instant};
 use rayon::prelude::*;
 use uplift_bootstrap::ResamplingPlan;
 use uplift_ida::Watch;
+use uplift_job::events::{Events, Progress};
+use uplift_job::{JobError, is_stopped};
 use uplift_motion::IntensityMeasure;
 use uplift_risk::PooledDemand;
+use uplift_uniform_risk::consistency::Reweighing;
+use uplift_uniform_risk::{StoredMeasure, StoredStripes};
 
 use super::bands::{BandSettings, Bands, StrengthBands, bands_of_strength, gather_bands};
 use super::checkpoint::{Checkpoint, Expected, Finished};
@@ -14,11 +18,6 @@ use super::inferred::inferred_bands;
 use super::joint::{JointSiteBands, gather_joint, joint_bands_of_site};
 use super::repaired::{SiteBands, SiteShape, bands_of_site, gather_repaired};
 use crate::error::QuestionsError;
-use uplift_job::JobError;
-use uplift_job::events::{Events, Progress};
-use uplift_job::is_stopped;
-use uplift_uniform_risk::consistency::Reweighing;
-use uplift_uniform_risk::{StoredMeasure, StoredStripes};
 
 /// Strengths done between two looks at the clock and at whoever may stop the job, a thread.
 const BATCH: usize = 16;

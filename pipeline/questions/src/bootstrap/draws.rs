@@ -3,18 +3,18 @@
 use std::path::Path;
 
 use uplift_bootstrap::{BootstrapError, ResamplingPlan, Unit};
+use uplift_job::JobError;
+use uplift_job::events::Events;
+use uplift_result::ResultFile;
 use uplift_study::Bootstrap;
+use uplift_uniform_risk::StoredStripes;
+use uplift_uniform_risk::consistency::Question;
 
 use super::BootstrapOptions;
 use super::asked::resampling_plan;
 use super::bands::BandSettings;
 use super::needs::needs;
 use crate::error::QuestionsError;
-use uplift_job::JobError;
-use uplift_job::events::Events;
-use uplift_result::ResultFile;
-use uplift_uniform_risk::StoredStripes;
-use uplift_uniform_risk::consistency::Question;
 
 /// Sample sizes of Section 4.5 below the whole set.
 const SIZES: [u32; 4] = [20, 40, 60, 80];

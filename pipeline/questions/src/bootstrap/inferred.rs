@@ -2,11 +2,11 @@
 
 use rayon::prelude::*;
 use uplift_bootstrap::{InferredLimits, ResamplingPlan, Unit, inferred_limits, units, units_in_sample};
-
-use crate::error::QuestionsError;
 use uplift_job::Array;
 use uplift_result::InferredBands;
 use uplift_uniform_risk::{StoredMeasure, StoredStripes};
+
+use crate::error::QuestionsError;
 
 /// The bands of the spectra of one measure, from all its records, pair by pair or earthquake by earthquake as `plan`
 /// has it.

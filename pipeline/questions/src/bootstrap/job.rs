@@ -4,7 +4,12 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use uplift_bootstrap::{Interval, Unit};
+use uplift_job::events::Events;
+use uplift_job::outputs;
+use uplift_result::Addition;
 use uplift_study::Bootstrap;
+use uplift_uniform_risk::StoredStripes;
+use uplift_uniform_risk::consistency::{Question, Reweighing};
 
 use super::bands::BandSettings;
 use super::checkpoint::Checkpoint;
@@ -14,12 +19,6 @@ use super::reference::ReferenceRow;
 use super::report::BootstrapReport;
 use super::write::{BandsFile, band_paths, tables, write_bands};
 use crate::error::QuestionsError;
-use uplift_job::events::Events;
-use uplift_job::outputs;
-use uplift_result::Addition;
-use uplift_uniform_risk::StoredStripes;
-use uplift_uniform_risk::consistency::Question;
-use uplift_uniform_risk::consistency::Reweighing;
 
 /// What is asked of a bootstrap. What is left open is as a study says: as `study`, else as the one in the result.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -3,13 +3,13 @@
 
 use rayon::prelude::*;
 use uplift_bootstrap::{Band, BootstrapError, Replicates, ResamplingPlan, weighted_quantile};
+use uplift_job::Array;
 use uplift_risk::{PooledDemand, StripeWeights};
+use uplift_uniform_risk::consistency::{Reweighed, ReweighedBranch};
 
 use super::bands::{bands_of_numbers, numbers_of_bands};
 use super::repaired::{SiteShape, failed_shares, replicates_m};
 use crate::error::QuestionsError;
-use uplift_job::Array;
-use uplift_uniform_risk::consistency::{Reweighed, ReweighedBranch};
 
 /// The bands over records and weighted hazard curves together; NaN at sites without such curves, and of repaired
 /// spectra also where one of them has no repair.

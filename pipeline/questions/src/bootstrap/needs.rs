@@ -1,8 +1,9 @@
 //! What a bootstrap takes, before anything is drawn.
 
-use super::bands::BandSettings;
 use uplift_job::machine::{Needs, PROGRAM_BYTES};
 use uplift_uniform_risk::StoredStripes;
+
+use super::bands::BandSettings;
 
 /// What `replicates` samples of each of so many `sizes` take.
 ///

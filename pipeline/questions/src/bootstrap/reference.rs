@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
+use uplift_job::ReferenceTable;
 use uplift_motion::IntensityMeasure;
 
 use crate::error::QuestionsError;
-use uplift_job::ReferenceTable;
 
 /// A row: one site and sample size.
 #[derive(Debug, Clone, PartialEq)]

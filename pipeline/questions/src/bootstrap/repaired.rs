@@ -5,12 +5,12 @@
 
 use rayon::prelude::*;
 use uplift_bootstrap::{Band, Interval, ResamplingPlan, simultaneous_bands};
+use uplift_job::Array;
 use uplift_risk::{PooledDemand, RecordSample};
+use uplift_uniform_risk::consistency::{RepairedAnalysis, Reweighed};
 
 use super::bands::{BandSettings, RepairedBands, SpectraBands, bands_of_numbers, numbers_of_bands};
 use crate::error::QuestionsError;
-use uplift_job::Array;
-use uplift_uniform_risk::consistency::{RepairedAnalysis, Reweighed};
 
 /// The bands of the repaired spectra of one site by one measure.
 #[derive(Debug, Clone, PartialEq)]

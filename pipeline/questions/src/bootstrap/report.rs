@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 
 use serde::Serialize;
+use uplift_result::WidestInferred;
+use uplift_uniform_risk::StoredStripes;
 
 use super::bands::{BandSettings, Bands, SpectraBands};
 use super::reference::ReferenceRow;
-use uplift_result::WidestInferred;
-use uplift_uniform_risk::StoredStripes;
 
 /// What a bootstrap tells.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -4,10 +4,6 @@ use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
 use uplift_bootstrap::ResamplingPlan;
-
-use super::bands::{BandSettings, Bands, RepairedBands, SpectraBands};
-use super::joint::JointBands;
-use crate::error::QuestionsError;
 use uplift_job::Array;
 use uplift_job::outputs::{Output, OutputKind, beside};
 use uplift_job::table::write_table;
@@ -15,6 +11,10 @@ use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_result::layout::{MULTIPLICITY, axis, band, bootstrap, joint, limit_names, repaired_band};
 use uplift_result::{Addition, sign};
 use uplift_uniform_risk::StoredStripes;
+
+use super::bands::{BandSettings, Bands, RepairedBands, SpectraBands};
+use super::joint::JointBands;
+use crate::error::QuestionsError;
 
 /// Groups and axes of the file that bands replace.
 fn replaced() -> [String; 3] {

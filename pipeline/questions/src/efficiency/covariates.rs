@@ -1,7 +1,8 @@
 //! What a result knows of its records, as trends are looked for.
 
-use super::Covariate;
 use uplift_result::StoredRecords;
+
+use super::Covariate;
 
 /// What a result knows of its records, in the form in which a demand may depend on it: magnitude, the logarithm of the
 /// distance, the logarithm of the significant duration. What is known of fewer than three records is left out.

@@ -3,7 +3,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
+use uplift_job::JobError;
+use uplift_job::events::Events;
+use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_motion::{IntensityMeasure, Period};
+use uplift_result::{Addition, ResultFile};
+use uplift_uniform_risk::{StoredStripes, StudyOfResult};
 
 use super::covariates::covariates;
 use super::of_measure::{efficiency_by, efficiency_restated};
@@ -12,11 +17,6 @@ use super::report::EfficiencyReport;
 use super::restated::{Measured, restated};
 use super::write::{efficiency_path, write_efficiency};
 use crate::error::QuestionsError;
-use uplift_job::JobError;
-use uplift_job::events::Events;
-use uplift_job::outputs::{self, Output, OutputKind};
-use uplift_result::{Addition, ResultFile};
-use uplift_uniform_risk::{StoredStripes, StudyOfResult};
 
 /// Which measures are compared, and how the answer is written.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]

@@ -4,10 +4,10 @@ use rayon::prelude::*;
 use uplift_fragility::{Dispersion, mean_residuals, standard_deviation, uplift_levels};
 use uplift_motion::IntensityMeasure;
 use uplift_regression::{Line, fit_line};
+use uplift_uniform_risk::{StoredMeasure, StoredStripes};
 
 use super::restated::Restated;
 use crate::error::QuestionsError;
-use uplift_uniform_risk::{StoredMeasure, StoredStripes};
 
 /// What is known of each record that a demand may depend on beside the measure.
 #[derive(Debug, Clone, PartialEq)]

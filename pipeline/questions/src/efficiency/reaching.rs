@@ -3,10 +3,10 @@
 
 use rayon::prelude::*;
 use uplift_fragility::{Stripes, quantile, standard_deviation};
+use uplift_uniform_risk::{StoredMeasure, StoredStripes};
 
 use super::restated::Measured;
 use crate::error::QuestionsError;
-use uplift_uniform_risk::{StoredMeasure, StoredStripes};
 
 /// Displacements at which measures are compared.
 const DISPLACEMENTS: usize = 20;

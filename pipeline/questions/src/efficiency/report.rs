@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use serde::Serialize;
+use uplift_uniform_risk::StoredStripes;
 
 use super::of_measure::{Covariate, MeasureEfficiency};
 use super::write::efficiency_path;
-use uplift_uniform_risk::StoredStripes;
 
 /// What is told of efficiency and sufficiency.
 #[derive(Debug, Clone, PartialEq, Serialize)]

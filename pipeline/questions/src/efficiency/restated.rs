@@ -5,11 +5,11 @@
 //! logarithm of the factor, between neighbouring stripes.
 
 use uplift_fragility::uplift_levels;
+use uplift_job::Array;
 use uplift_motion::IntensityMeasure;
+use uplift_uniform_risk::{StoredMeasure, StoredStripes};
 
 use crate::error::QuestionsError;
-use uplift_job::Array;
-use uplift_uniform_risk::{StoredMeasure, StoredStripes};
 
 /// A measure with its value of each unscaled record, in its unit.
 #[derive(Debug, Clone, Copy)]

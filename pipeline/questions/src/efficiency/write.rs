@@ -4,18 +4,18 @@ use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
 use uplift_fragility::Dispersion;
-use uplift_regression::Line;
-
-use super::of_measure::{Covariate, MeasureEfficiency};
-use super::report::rank;
-use crate::error::QuestionsError;
 use uplift_job::outputs::beside;
 use uplift_job::table::write_table;
 use uplift_job::text::finite;
 use uplift_labelled::{LabelledError, LabelledWriter};
+use uplift_regression::Line;
 use uplift_result::layout::{axis, efficiency, sufficiency};
 use uplift_result::{Addition, StoredEfficiency, sign};
 use uplift_uniform_risk::StoredStripes;
+
+use super::of_measure::{Covariate, MeasureEfficiency};
+use super::report::rank;
+use crate::error::QuestionsError;
 
 /// The groups that a new look replaces, with the axes of the measures that were told of others' runs.
 fn replaced(earlier: &[StoredEfficiency]) -> Vec<String> {

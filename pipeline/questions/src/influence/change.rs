@@ -2,14 +2,14 @@
 
 use rayon::prelude::*;
 use uplift_bootstrap::{left_out_together, without_each};
-use uplift_motion::IntensityMeasure;
-use uplift_risk::{PooledDemand, RiskCurve};
-
-use crate::error::QuestionsError;
 use uplift_job::Array;
 use uplift_job::events::Events;
+use uplift_motion::IntensityMeasure;
+use uplift_risk::{PooledDemand, RiskCurve};
 use uplift_uniform_risk::consistency::Reweighing;
 use uplift_uniform_risk::{StoredMeasure, StoredStripes};
+
+use crate::error::QuestionsError;
 
 /// Influence on the spectra of one measure, plain or repaired.
 #[derive(Debug, Clone, PartialEq)]

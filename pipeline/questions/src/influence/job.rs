@@ -2,17 +2,17 @@
 
 use std::path::Path;
 
+use uplift_job::events::Events;
+use uplift_job::outputs::{self, Output, OutputKind};
+use uplift_job::{Array, JobError};
+use uplift_result::Addition;
+use uplift_uniform_risk::StoredStripes;
+use uplift_uniform_risk::consistency::Reweighing;
+
 use super::change::{Influence, RecordInfluence, influence_by, influence_on_repaired, rank_records};
 use super::report::InfluenceReport;
 use super::write::{influence_path, write_influence};
 use crate::error::QuestionsError;
-use uplift_job::Array;
-use uplift_job::JobError;
-use uplift_job::events::Events;
-use uplift_job::outputs::{self, Output, OutputKind};
-use uplift_result::Addition;
-use uplift_uniform_risk::StoredStripes;
-use uplift_uniform_risk::consistency::Reweighing;
 
 /// What is told of the influence; the files hold all of it.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,12 +3,12 @@
 use std::path::PathBuf;
 
 use serde::Serialize;
-
-use super::change::{Influence, RecordInfluence, level_of_share};
-use super::write::influence_path;
 use uplift_job::Array;
 use uplift_job::text::nearest;
 use uplift_uniform_risk::StoredStripes;
+
+use super::change::{Influence, RecordInfluence, level_of_share};
+use super::write::influence_path;
 
 /// Strengths at which the risk is taken apart.
 const SHOWN_STRENGTHS: [f64; 3] = [0.1, 0.2, 0.4];

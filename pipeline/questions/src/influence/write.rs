@@ -3,9 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
-
-use super::change::{Influence, RecordInfluence};
-use crate::error::QuestionsError;
 use uplift_job::Array;
 use uplift_job::outputs::beside;
 use uplift_job::table::write_table;
@@ -14,6 +11,9 @@ use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_result::layout::{axis, disaggregation, influence};
 use uplift_result::{Addition, sign};
 use uplift_uniform_risk::StoredStripes;
+
+use super::change::{Influence, RecordInfluence};
+use crate::error::QuestionsError;
 
 /// The groups that a new look replaces.
 fn replaced(stored: &StoredStripes) -> Vec<String> {

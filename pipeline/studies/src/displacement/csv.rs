@@ -3,14 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
-
-use super::{DisplacementOutcome, printed};
-use crate::error::StudiesError;
 use uplift_job::outputs::{Output, OutputKind, beside};
 use uplift_job::table::write_table;
 use uplift_result::DesignRow;
 use uplift_result::layout::percentile_name;
 use uplift_study::{DisplacementStudy, ScaledTo, Structures};
+
+use super::{DisplacementOutcome, printed};
+use crate::error::StudiesError;
 
 /// The tables beside the result file `result`: spectra, and the design example.
 pub fn displacement_csv_paths(result: &Path) -> [PathBuf; 2] {

@@ -1,21 +1,20 @@
 //! The design examples of Sections 2.4.3 and 3.4.5 for every set and way of scaling.
 
 use rayon::prelude::*;
+use uplift_engine::checkpoint::Checkpoint;
 use uplift_ida::{Plan, Shard, Watch};
+use uplift_job::events::{Events, Progress};
+use uplift_job::{JobError, is_stopped};
+use uplift_result::RULES;
 use uplift_spectra::{
     Case, MotionSet, NUDGES, RestrainedDesign, RestrainedExample, Scaling, SolitaryDesign, SolitaryExample,
     SpectraError,
 };
+use uplift_study::{DesignPlan, Designed, DisplacementStudy, Structures};
 
 use super::KeyedMotions;
 use super::spectra::with_free_vibration;
 use crate::error::StudiesError;
-use uplift_engine::checkpoint::Checkpoint;
-use uplift_job::JobError;
-use uplift_job::events::{Events, Progress};
-use uplift_job::is_stopped;
-use uplift_result::RULES;
-use uplift_study::{DesignPlan, Designed, DisplacementStudy, Structures};
 
 /// Ratio of neighbouring slendernesses in the search for the intersection: a range in which the block does not stand
 /// may be missed if it is narrower.

@@ -1,12 +1,12 @@
 //! The design examples in the result file.
 
-use uplift_spectra::{Noisy, RestrainedExample, SolitaryExample};
-
-use super::{Designs, Doubted, strength};
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_result::layout::{axis, design};
 use uplift_result::{RULES, bounds, rule_names};
+use uplift_spectra::{Noisy, RestrainedExample, SolitaryExample};
 use uplift_study::{DesignPlan, Designed, DisplacementStudy, Structures};
+
+use super::{Designs, Doubted, strength};
 
 pub(super) fn write(
     writer: &mut LabelledWriter,

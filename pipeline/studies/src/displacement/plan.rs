@@ -4,6 +4,12 @@ use std::path::Path;
 use std::time::Duration;
 
 use serde::Serialize;
+use uplift_alarms::{of_study, ranked};
+use uplift_engine::analysis::seconds;
+use uplift_inputs::RecordSets;
+use uplift_job::events::Events;
+use uplift_job::frame::PlanHead;
+use uplift_job::machine::{Needs, PROGRAM_BYTES};
 use uplift_spectra::{MotionSet, NUDGES};
 use uplift_study::{DisplacementStudy, Kind};
 
@@ -11,12 +17,6 @@ use super::report::SetReport;
 use super::spectra::with_free_vibration;
 use super::{Inputs, design_analyses, printed};
 use crate::error::StudiesError;
-use uplift_alarms::{of_study, ranked};
-use uplift_engine::analysis::seconds;
-use uplift_inputs::RecordSets;
-use uplift_job::events::Events;
-use uplift_job::frame::PlanHead;
-use uplift_job::machine::{Needs, PROGRAM_BYTES};
 
 /// Time spent to see how fast this machine is.
 const CALIBRATION: Duration = Duration::from_secs(2);

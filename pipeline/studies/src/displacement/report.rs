@@ -3,14 +3,14 @@
 use std::path::PathBuf;
 
 use serde::Serialize;
-use uplift_spectra::{MotionSet, Noisy};
-use uplift_study::{Kind, Structures};
-
-use super::{DisplacementOutcome, printed};
 use uplift_inputs::NamedSet;
 use uplift_job::alarm::Alarm;
 use uplift_job::frame::RunHead;
 use uplift_result::DesignRow;
+use uplift_spectra::{MotionSet, Noisy};
+use uplift_study::{Kind, Structures};
+
+use super::{DisplacementOutcome, printed};
 
 /// What a run tells.
 #[derive(Debug, Clone, Serialize)]

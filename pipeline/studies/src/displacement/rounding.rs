@@ -4,12 +4,12 @@
 //! a percentile to the other moves it as well.
 
 use uplift_ida::{IdaError, Peaks, Plan, System};
+use uplift_job::text::nearest;
 use uplift_spectra::{MotionSet, NUDGES, Noisy, nudges, percentile};
 use uplift_study::DisplacementStudy;
 
 use super::SetSpectra;
 use super::spectra::with_free_vibration;
-use uplift_job::text::nearest;
 
 /// Strengths or slendernesses at which a run prints its spectra, or those nearest to them.
 const PRINTED: [f64; 3] = [0.1, 0.2, 0.4];

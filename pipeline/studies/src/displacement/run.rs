@@ -3,7 +3,14 @@
 use std::collections::BTreeMap;
 use std::time::Instant;
 
+use uplift_alarms::alarms;
+use uplift_engine::checkpoint::{Checkpoint, FinishedRows, checkpoint_path};
 use uplift_ida::Shard;
+use uplift_inputs::RecordSets;
+use uplift_job::events::Events;
+use uplift_job::frame::Place;
+use uplift_result::earlier::Earlier;
+use uplift_result::{Provenance, ResultFile};
 use uplift_spectra::MotionSet;
 use uplift_study::DisplacementStudy;
 
@@ -13,13 +20,6 @@ use super::{
     DisplacementOutcome, Inputs, carry_out_designs, needs, set_spectra, write_displacement_csv, write_displacements,
 };
 use crate::error::StudiesError;
-use uplift_alarms::alarms;
-use uplift_engine::checkpoint::{Checkpoint, FinishedRows, checkpoint_path};
-use uplift_inputs::RecordSets;
-use uplift_job::events::Events;
-use uplift_job::frame::Place;
-use uplift_result::earlier::Earlier;
-use uplift_result::{Provenance, ResultFile};
 
 /// With fewer motions beyond a percentile than this, one of them decides it.
 const FEW_BEYOND: f64 = 5.0;

@@ -4,9 +4,9 @@ use uplift_block::RockingBlock;
 use uplift_ida::{Peaks, System};
 use uplift_oscillator::{Oscillator, PostUplift};
 use uplift_spectra::{MotionSet, SpectraError, critical, percentile};
+use uplift_study::{BlockFamily, DisplacementStudy, OscillatorFamily, Structures};
 
 use crate::error::StudiesError;
-use uplift_study::{BlockFamily, DisplacementStudy, OscillatorFamily, Structures};
 
 /// What a set asks of the structures. A way of scaling is `[to, by]` of the study; a line is a combination of uplift
 /// displacement and capacity, or a height; the abscissa is a strength or a slenderness.

@@ -2,7 +2,12 @@
 
 use std::path::Path;
 
+use uplift_engine::analysis::{LabelledPlan, ShardReport, Work, carry_out_shard};
 use uplift_ida::{Shard, System};
+use uplift_inputs::{RecordSets, read_record_sets};
+use uplift_job::checksum::motion_key;
+use uplift_job::events::Events;
+use uplift_job::text::thousands;
 use uplift_spectra::{MotionSet, NUDGES};
 use uplift_study::DisplacementStudy;
 
@@ -10,11 +15,6 @@ use super::rounding::{printed_structures, rounding_plan};
 use super::spectra::with_free_vibration;
 use super::{carry_out_designs, needs, structures};
 use crate::error::StudiesError;
-use uplift_engine::analysis::{LabelledPlan, ShardReport, Work, carry_out_shard};
-use uplift_inputs::{RecordSets, read_record_sets};
-use uplift_job::checksum::motion_key;
-use uplift_job::events::Events;
-use uplift_job::text::thousands;
 
 /// What the spectra of a study are made of.
 pub struct Inputs {

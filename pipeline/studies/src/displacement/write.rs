@@ -3,17 +3,16 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use uplift_spectra::{MotionSet, Noisy};
-
-use super::design_rows as design;
-use super::printed;
-use crate::displacement::{Designs, SetSpectra};
-use crate::error::StudiesError;
 use uplift_inputs::{NamedSet, RecordSets};
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_result::layout::{axis as axes, set as layout, spectra};
 use uplift_result::{BOUNDS, Origin, Provenance, bounds};
+use uplift_spectra::{MotionSet, Noisy};
 use uplift_study::{DisplacementStudy, Kind, Structures};
+
+use super::{design_rows as design, printed};
+use crate::displacement::{Designs, SetSpectra};
+use crate::error::StudiesError;
 
 /// All that a study of displacement spectra computed.
 #[derive(Debug)]

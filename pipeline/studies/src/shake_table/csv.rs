@@ -3,13 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
-
-use super::ShakeTableOutcome;
-use crate::error::StudiesError;
 use uplift_job::outputs::{Output, OutputKind, beside};
 use uplift_job::table::write_table;
 use uplift_result::{QUANTITIES, ShakeTable, column_of};
 use uplift_study::ShakeTableStudy;
+
+use super::ShakeTableOutcome;
+use crate::error::StudiesError;
 
 /// A column of every such table, and of no other.
 pub const COLUMN: &str = "base_shear_n";

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use crate::error::StudiesError;
 use uplift_inputs::{RecordSets, SetRecord, is_numbered};
-use uplift_job::JobError;
-use uplift_job::ReferenceTable;
+use uplift_job::{JobError, ReferenceTable};
+
+use crate::error::StudiesError;
 
 /// Columns that say which record is played.
 const RECORDS: [&str; 2] = ["rsn", "record_id"];

@@ -4,16 +4,15 @@ use std::collections::BTreeMap;
 
 use uplift_atomic_file::read_file;
 use uplift_frame::{ColumnShape, RockingFrame, srss};
-use uplift_study::{ShakeTableStudy, Structure};
-
-use super::excitations::{Chosen, all, of_table};
-use crate::error::StudiesError;
-use uplift_inputs::rocking_frame;
-use uplift_inputs::{RecordSets, SetRecord, read_sets};
+use uplift_inputs::{RecordSets, SetRecord, read_sets, rocking_frame};
 use uplift_job::JobError;
 use uplift_job::checksum::checksum;
 use uplift_job::events::Events;
 use uplift_result::Excitation;
+use uplift_study::{ShakeTableStudy, Structure};
+
+use super::excitations::{Chosen, all, of_table};
+use crate::error::StudiesError;
 
 /// The most that a structure file has.
 const LARGEST_BYTES: u64 = 1 << 20;

@@ -4,14 +4,14 @@ use std::path::Path;
 use std::time::Instant;
 
 use serde::Serialize;
-use uplift_study::{Kind, ShakeTableStudy};
-
-use super::{Inputs, carry_out};
-use crate::error::StudiesError;
 use uplift_alarms::{of_study, ranked};
 use uplift_job::events::Events;
 use uplift_job::frame::PlanHead;
 use uplift_job::machine::{Needs, PROGRAM_BYTES};
+use uplift_study::{Kind, ShakeTableStudy};
+
+use super::{Inputs, carry_out};
+use crate::error::StudiesError;
 
 /// Bytes of an ordinate of the spectrum of an excitation: two components.
 const ORDINATE_BYTES: u64 = 16;

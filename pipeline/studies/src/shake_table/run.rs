@@ -2,6 +2,11 @@
 
 use std::time::Instant;
 
+use uplift_alarms::alarms;
+use uplift_job::events::Events;
+use uplift_job::frame::Place;
+use uplift_result::earlier::Earlier;
+use uplift_result::{Provenance, ResultFile};
 use uplift_study::{Kind, ShakeTableStudy};
 
 use super::plan::needs;
@@ -9,11 +14,6 @@ use super::report::RunReport;
 use super::spectra::spectra;
 use super::{Inputs, ShakeTableOutcome, carry_out, write_shake_table, write_shake_table_csv};
 use crate::error::StudiesError;
-use uplift_alarms::alarms;
-use uplift_job::events::Events;
-use uplift_job::frame::Place;
-use uplift_result::earlier::Earlier;
-use uplift_result::{Provenance, ResultFile};
 
 /// What every result says of the model.
 const TORSION: &str = "the deck does not turn about the vertical in the model: torsion, which was up to 0.115 rad in \

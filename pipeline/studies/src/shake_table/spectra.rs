@@ -2,14 +2,14 @@
 
 use rayon::prelude::*;
 use uplift_ida::Watch;
-use uplift_study::ShakeTableStudy;
-
-use super::Inputs;
-use crate::error::StudiesError;
 use uplift_inputs::SetRecord;
 use uplift_job::JobError;
 use uplift_job::events::{Events, Progress};
 use uplift_result::{Excitation, TableSpectra};
+use uplift_study::ShakeTableStudy;
+
+use super::Inputs;
+use crate::error::StudiesError;
 
 /// The spectra of every component that is played, and the code's.
 ///

@@ -3,14 +3,14 @@
 use rayon::prelude::*;
 use uplift_frame::{GroundMotion, Model, Options, Shaking, TableLevel as Level, respond, srss};
 use uplift_ida::Watch;
-use uplift_study::{LevelPlan, ShakeTableStudy};
-
-use super::Inputs;
-use crate::error::StudiesError;
 use uplift_inputs::SetRecord;
 use uplift_job::JobError;
 use uplift_job::events::{Events, Progress};
 use uplift_result::{Excitation, ShakeTable, TableLevel, TableTest};
+use uplift_study::{LevelPlan, ShakeTableStudy};
+
+use super::Inputs;
+use crate::error::StudiesError;
 
 /// Carries out every test.
 ///

@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use uplift_labelled::LabelledWriter;
+use uplift_result::layout::{axis, shake_table as layout};
+use uplift_result::{DIRECTIONS, Excitation, Origin, Provenance, QUANTITIES, ShakeTable, TableSpectra};
 use uplift_study::{Kind, ShakeTableStudy};
 
 use crate::error::StudiesError;
-use uplift_result::layout::{axis, shake_table as layout};
-use uplift_result::{DIRECTIONS, Excitation, Origin, Provenance, QUANTITIES, ShakeTable, TableSpectra};
 
 /// All that a study of a shaking table computed.
 #[derive(Debug)]

@@ -3,14 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
+use uplift_job::outputs::{Output, OutputKind, beside};
+use uplift_job::table::write_table;
+use uplift_result::flag_word;
 use uplift_study::UniformRiskStudy;
 
 use super::Outcome;
 use super::site_table::site_table_paths;
 use crate::error::StudiesError;
-use uplift_job::outputs::{Output, OutputKind, beside};
-use uplift_job::table::write_table;
-use uplift_result::flag_word;
 
 /// The tables beside the result file `result`: spectra and coefficients.
 pub fn csv_paths(result: &Path) -> [PathBuf; 2] {

@@ -3,9 +3,8 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use uplift_ida::{Axes, Cells};
-
 use uplift_engine::checkpoint::oscillator_key;
+use uplift_ida::{Axes, Cells};
 use uplift_inputs::RecordSet;
 use uplift_labelled::{LabelledError, LabelledReader};
 use uplift_result::layout::{axis, ida, intensity, records};

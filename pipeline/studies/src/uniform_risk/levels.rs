@@ -7,20 +7,19 @@
 //! is raised before it, as far as these strengths tell.
 
 use serde::Serialize;
+use uplift_alarms::{Counted, UpperEnd, below_first_case, spectrum_name};
 use uplift_fragility::Stripes as Stripe;
 use uplift_hazard::rate_from_probability;
 use uplift_ida::{Axes, System, Unwatched, analyse};
-use uplift_risk::{PooledDemand, RiskCurve, StripeWeights, TAIL_SHARE_LIMIT};
-use uplift_study::{Grid, MeasurePlan, UniformRiskStudy, lower_starts};
-
-use crate::error::StudiesError;
-use uplift_alarms::{Counted, UpperEnd, below_first_case, spectrum_name};
 use uplift_inputs::{RecordSet, SiteHazard};
 use uplift_job::JobError;
 use uplift_job::alarm::Case;
 use uplift_job::text::risk_name;
-use uplift_uniform_risk::Reading;
-use uplift_uniform_risk::plan_stripes;
+use uplift_risk::{PooledDemand, RiskCurve, StripeWeights, TAIL_SHARE_LIMIT};
+use uplift_study::{Grid, MeasurePlan, UniformRiskStudy, lower_starts};
+use uplift_uniform_risk::{Reading, plan_stripes};
+
+use crate::error::StudiesError;
 
 /// Strengths tried, spread over those of the study up to the largest.
 const TRIED: usize = 4;

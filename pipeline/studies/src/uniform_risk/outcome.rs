@@ -1,9 +1,8 @@
 //! All that a study of uniform risk computed.
 
-use uplift_study::UniformRiskStudy;
-
 use uplift_inputs::{OtherHazard, RecordSet, SiteHazard};
 use uplift_result::Provenance;
+use uplift_study::UniformRiskStudy;
 use uplift_uniform_risk::consistency::Answer;
 use uplift_uniform_risk::{Coefficients, Precision, Spectra, Stripes};
 

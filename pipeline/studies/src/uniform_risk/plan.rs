@@ -5,11 +5,6 @@ use std::path::Path;
 use std::time::Duration;
 
 use serde::Serialize;
-use uplift_study::{MeasurePlan, Repair, UniformRiskStudy};
-
-use super::levels::{LevelCheck, OfEnds, check_levels};
-use super::site_table;
-use crate::error::StudiesError;
 use uplift_alarms::{
     BELOW_FIRST_LEVEL, BEYOND_LAST_LEVEL, CurvesAtSite, few, of_far_factors, of_hazard, of_study, ranked,
 };
@@ -21,8 +16,13 @@ use uplift_job::alarm::Alarm;
 use uplift_job::events::Events;
 use uplift_job::frame::PlanHead;
 use uplift_job::machine::{Needs, PROGRAM_BYTES};
+use uplift_study::{MeasurePlan, Repair, UniformRiskStudy};
 use uplift_uniform_risk::consistency::{Answer, ConsistencyReport};
 use uplift_uniform_risk::{plan_own_stripes, systems, systems_under};
+
+use super::levels::{LevelCheck, OfEnds, check_levels};
+use super::site_table;
+use crate::error::StudiesError;
 
 /// Time spent on a measure to see how fast this machine is.
 const CALIBRATION: Duration = Duration::from_secs(1);

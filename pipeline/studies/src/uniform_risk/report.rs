@@ -3,14 +3,14 @@
 use std::path::PathBuf;
 
 use serde::Serialize;
-use uplift_motion::IntensityMeasure;
-
-use super::Outcome;
 use uplift_job::Array;
 use uplift_job::alarm::Alarm;
 use uplift_job::frame::RunHead;
+use uplift_motion::IntensityMeasure;
 use uplift_uniform_risk::consistency::ConsistencyReport;
 use uplift_uniform_risk::{BranchSpectra, Coefficients, Precision, Spectra, SpectrumReport, Stripes};
+
+use super::Outcome;
 
 /// What a run tells.
 #[derive(Debug, Clone, Serialize)]

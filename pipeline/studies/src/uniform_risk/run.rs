@@ -2,23 +2,22 @@
 
 use std::path::{Path, PathBuf};
 
-use uplift_ida::Shard;
-use uplift_study::UniformRiskStudy;
-
-use super::plan::tell_mistaken_curves;
-use super::report::RunReport;
-use super::{Inputs, Outcome, csv_paths, needs, site_table, write_csv, write_result};
-use crate::error::StudiesError;
 use uplift_alarms::alarms;
 use uplift_engine::checkpoint::{Checkpoint, FinishedRows, checkpoint_path};
+use uplift_ida::Shard;
 use uplift_inputs::{input_checksums, read_hazard, read_other_hazard};
 use uplift_job::events::Events;
 use uplift_job::frame::Place;
 use uplift_result::earlier::Earlier;
 use uplift_result::{Provenance, ResultFile};
+use uplift_study::UniformRiskStudy;
 use uplift_uniform_risk::consistency::Answer;
-use uplift_uniform_risk::precision;
-use uplift_uniform_risk::{Coefficients, Stripes, fit_spectra, uniform_risk_spectra};
+use uplift_uniform_risk::{Coefficients, Stripes, fit_spectra, precision, uniform_risk_spectra};
+
+use super::plan::tell_mistaken_curves;
+use super::report::RunReport;
+use super::{Inputs, Outcome, csv_paths, needs, site_table, write_csv, write_result};
+use crate::error::StudiesError;
 
 /// Carries out `study`, but for the rows of its analysis that are `known`.
 ///

@@ -12,16 +12,16 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 use uplift_hazard::HazardCurve;
 use uplift_ida::Watch;
-use uplift_risk::OrdinateFlag;
-
-use crate::error::StudiesError;
 use uplift_inputs::{BatchSite, SharedCurve, SiteCurves, SiteExport, SiteList, read_site_list};
 use uplift_job::JobError;
 use uplift_job::events::{Events, Progress};
 use uplift_job::text::{risk_name, thousands};
+use uplift_risk::OrdinateFlag;
 use uplift_study::{Repair, UniformRiskStudy};
 use uplift_uniform_risk::consistency::Question;
 use uplift_uniform_risk::{SiteRisk, SiteSpectra, Stripes};
+
+use crate::error::StudiesError;
 
 /// Bytes of text, about, that are in memory at a time.
 const BATCH_BYTES: usize = 16 << 20;

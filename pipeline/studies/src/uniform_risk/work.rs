@@ -2,16 +2,16 @@
 
 use std::path::Path;
 
-use uplift_ida::{Cells, Shard, System};
-use uplift_study::UniformRiskStudy;
-
-use super::{EarlierStripes, needs};
-use crate::error::StudiesError;
 use uplift_engine::analysis::{LabelledPlan, ShardReport, Work, carry_out_shard};
+use uplift_ida::{Cells, Shard, System};
 use uplift_inputs::{RecordSet, motion_keys, read_hazard, read_records};
 use uplift_job::events::Events;
 use uplift_job::text::thousands;
+use uplift_study::UniformRiskStudy;
 use uplift_uniform_risk::{plan_own_stripes, systems_under};
+
+use super::{EarlierStripes, needs};
+use crate::error::StudiesError;
 
 /// What the stripes of a study are made of.
 pub struct Inputs {

@@ -2,20 +2,20 @@
 
 use std::path::Path;
 
-use uplift_motion::{Combination, IntensityMeasure};
-use uplift_risk::Ordinate;
-
-use super::Outcome;
-use super::write_hazard::{write_branches, write_hazard, write_other_hazard, write_structures};
-use crate::error::StudiesError;
 use uplift_engine::checkpoint::oscillator_key;
 use uplift_inputs::at_level::AtLevel;
 use uplift_inputs::{DrawnStructure, Record, motion_keys};
 use uplift_labelled::{LabelledError, LabelledWriter};
+use uplift_motion::{Combination, IntensityMeasure};
 use uplift_result::layout::{URS_PRECISION, axis, ida, intensity, records as layout, regression, risk, urs};
 use uplift_result::{Origin, flag_number};
+use uplift_risk::Ordinate;
 use uplift_structure::UncertainQuantity;
 use uplift_uniform_risk::consistency::Keep;
+
+use super::Outcome;
+use super::write_hazard::{write_branches, write_hazard, write_other_hazard, write_structures};
+use crate::error::StudiesError;
 
 /// Write `outcome` to `path`, atomically: an earlier file survives a failure.
 ///

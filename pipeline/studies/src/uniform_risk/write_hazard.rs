@@ -4,12 +4,12 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use uplift_hazard::HazardCurve;
-use uplift_labelled::{LabelledError, LabelledWriter};
-
-use super::Outcome;
 use uplift_inputs::{HazardInput, OtherHazard, SiteHazard};
+use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_result::layout::{axis, epistemic, hazard as layout, uncertainty};
 use uplift_uniform_risk::{BRANCHES, Spectra, write_branch_spectra};
+
+use super::Outcome;
 
 /// Write the curves `[measure][site]` with their branches.
 pub(super) fn write_hazard(writer: &mut LabelledWriter, hazard: &[Vec<SiteHazard>]) -> Result<(), LabelledError> {

@@ -1,5 +1,7 @@
 //! All that consistency makes of a run: the question, the findings, and the spectra of repaired weights.
 
+use uplift_inputs::{OtherHazard, RecordSet, SiteHazard};
+use uplift_job::Array;
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_motion::IntensityMeasure;
 use uplift_risk::Ordinate;
@@ -12,8 +14,6 @@ use crate::SpectrumReport;
 use crate::error::UniformRiskError;
 use crate::spectra::pooled_demand;
 use crate::stripes::Stripes;
-use uplift_inputs::{OtherHazard, RecordSet, SiteHazard};
-use uplift_job::Array;
 
 /// All that consistency makes of a study.
 #[derive(Debug, Clone)]

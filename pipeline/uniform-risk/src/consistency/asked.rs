@@ -2,14 +2,14 @@
 //! probabilities, and spectra are read at the others.
 
 use uplift_consistency::{DEVIATION_RATES, Verdict};
+use uplift_job::Array;
 use uplift_motion::IntensityMeasure;
+use uplift_result::{Fit, ResultFile, StoredConsistency};
 
 use super::spectra::repairs_of;
 use super::{Finding, Question, Repairs};
 use crate::error::UniformRiskError;
 use crate::stored_stripes::StoredStripes;
-use uplift_job::Array;
-use uplift_result::{Fit, ResultFile, StoredConsistency};
 
 /// What [`ResultFile::consistency`] says of `file` at the risks that it is asked for; with the spectra of weights where
 /// it has some.

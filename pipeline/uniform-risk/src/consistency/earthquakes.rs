@@ -5,11 +5,11 @@ use std::path::PathBuf;
 use serde::Serialize;
 use uplift_atomic_file::read_file;
 use uplift_hazard::{Disaggregation, MAX_JSON_BYTES, read_disaggregation};
+use uplift_job::JobError;
 
 use super::Question;
 use super::report::{ConsistencyRow, TargetRow};
 use crate::error::UniformRiskError;
-use uplift_job::JobError;
 
 /// How far a rate of a disaggregation may lie from that of a probability of the result.
 const SAME_RATE: f64 = 0.01;

@@ -4,14 +4,14 @@ use std::collections::BTreeMap;
 
 use uplift_consistency::{LevelSets, Powers, RecordSet as ScaledSet, Seismology, SetRecord};
 use uplift_hazard::{Extrapolation, HazardCurve};
+use uplift_inputs::at_level::relative_factors;
+use uplift_inputs::{BranchHazard, OtherHazard, RecordSet, SiteHazard};
 use uplift_motion::IntensityMeasure;
+use uplift_result::{ResultFile, StoredBranch};
 use uplift_study::{Consistency, UniformRiskStudy};
 
 use super::branches::{AskedBranch, AskedBranches};
 use crate::error::UniformRiskError;
-use uplift_inputs::at_level::relative_factors;
-use uplift_inputs::{BranchHazard, OtherHazard, RecordSet, SiteHazard};
-use uplift_result::{ResultFile, StoredBranch};
 
 /// A record as far as consistency asks.
 #[derive(Debug, Clone)]

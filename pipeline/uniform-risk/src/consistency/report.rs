@@ -4,12 +4,12 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 use uplift_consistency::{Agreement, Diagnosis, NoRepair, TwoSided, Verdict, Words};
+use uplift_job::Array;
+use uplift_job::text::per_cent;
 use uplift_motion::IntensityMeasure;
 
 use super::earthquakes::EarthquakeRow;
 use super::{Finding, Question, Repairs};
-use uplift_job::Array;
-use uplift_job::text::per_cent;
 
 /// Displacements that agreement is looked at from, m: below it rocking has only just begun.
 const COMPARED_FROM_M: f64 = 0.01;

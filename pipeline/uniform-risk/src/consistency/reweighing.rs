@@ -4,13 +4,13 @@ use rayon::prelude::*;
 use uplift_bootstrap::weighted_replicates;
 use uplift_consistency::{Exponents, Repaired, Scratch, Solver};
 use uplift_hazard::HazardCurve;
+use uplift_job::JobError;
 use uplift_motion::IntensityMeasure;
+use uplift_result::ResultFile;
 use uplift_risk::{PooledDemand, REPLICATES_AT_ONCE, RecordSample, RiskCurve, RunWeights};
 
 use super::{BranchFindings, Finding, Question};
 use crate::error::UniformRiskError;
-use uplift_job::JobError;
-use uplift_result::ResultFile;
 
 /// Samples that a thread weighs before another look at whoever may stop it.
 const PORTION: usize = 8 * REPLICATES_AT_ONCE;

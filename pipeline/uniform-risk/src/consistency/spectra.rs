@@ -1,8 +1,10 @@
 //! The spectra of a repaired set, beside the plain ones.
 
 use rayon::prelude::*;
+use uplift_job::Array;
 use uplift_motion::IntensityMeasure;
 use uplift_regression::ExponentialFit;
+use uplift_result::ResultFile;
 use uplift_risk::{Ordinate, PooledDemand, RiskCurve, RunWeights};
 use uplift_study::UniformRiskStudy;
 
@@ -12,8 +14,6 @@ use crate::epistemic::BranchSpectra;
 use crate::error::UniformRiskError;
 use crate::spectra::Reading;
 use crate::stored_stripes::{StoredMeasure, StoredStripes};
-use uplift_job::Array;
-use uplift_result::ResultFile;
 
 /// The repaired spectra of one measure.
 #[derive(Debug, Clone)]

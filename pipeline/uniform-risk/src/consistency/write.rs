@@ -5,16 +5,16 @@ use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
 use uplift_consistency::{DEVIATION_RATES, Deviation, Diagnosis, KNOTS, Repaired};
+use uplift_job::outputs::beside;
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_motion::IntensityMeasure;
 use uplift_regression::ExponentialFit;
+use uplift_result::layout::{axis, consistency as layout};
+use uplift_result::{flag_number, sign};
 use uplift_risk::Ordinate;
 
 use super::{ConsistencyReport, Finding, Question, Repairs};
 use crate::{BRANCHES, write_branch_spectra};
-use uplift_job::outputs::beside;
-use uplift_result::layout::{axis, consistency as layout};
-use uplift_result::{flag_number, sign};
 
 /// Flag of an ordinate that does not exist, since the set could not be repaired.
 const NO_REPAIR: u8 = 3;

@@ -1,10 +1,10 @@
 //! All spectra of all variants in one table, a row an ordinate.
 
 use polars::prelude::Column;
+use uplift_job::table::write_table;
 
 use super::{SweepReport, VariantReport, VariantSpectrum};
 use crate::error::UpliftError;
-use uplift_job::table::write_table;
 
 /// The column by which a table of this program is known.
 pub(super) const FIRST_COLUMN: &str = "variant";

@@ -4,12 +4,11 @@ use std::path::Path;
 
 use sha2::{Digest, Sha256};
 use uplift_atomic_file::read_file;
+use uplift_job::{JobError, text_table};
 use uplift_labelled::hexadecimal;
 
 use super::MOST_VARIANTS;
 use crate::error::UpliftError;
-use uplift_job::JobError;
-use uplift_job::text_table;
 
 /// Longest name of a variant that is made of its values; longer ones are cut, and a hash of all tells them apart.
 const LONGEST_NAME: usize = 80;

@@ -1,11 +1,11 @@
 //! The sheets that say where the numbers come from: the result in short, and the study in full.
 
 use rust_xlsxwriter::XlsxError;
+use uplift_job::text::{per_cent, risk_in_words};
 use uplift_oscillator::PostUplift;
 
 use super::sheet::Sheet;
 use crate::export::Export;
-use uplift_job::text::{per_cent, risk_in_words};
 
 impl Export {
     /// What the workbook is of, and what to know before using it.

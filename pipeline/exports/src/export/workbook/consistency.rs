@@ -1,11 +1,11 @@
 //! The sheets of whether the records bring the site's hazard, and of the spectra of weighted records.
 
 use rust_xlsxwriter::XlsxError;
+use uplift_job::text::risk_in_words;
 
 use super::sheet::{Sheet, Shown};
 use super::spectra::{head_of, over_strengths};
 use crate::export::Export;
-use uplift_job::text::risk_in_words;
 
 impl Export {
     /// What the records bring of the other measure: a line each measure that they are scaled to, and site.

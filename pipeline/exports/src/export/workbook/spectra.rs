@@ -1,11 +1,11 @@
 //! The sheets of spectra and of bands: strengths down, spectra across.
 
 use rust_xlsxwriter::XlsxError;
+use uplift_result::flag_word;
 
 use super::sheet::{Sheet, Shown};
 use crate::export::Export;
 use crate::export::source::Row;
-use uplift_result::flag_word;
 
 /// In place of an ordinate that does not exist.
 const CENSORED: &str = "censored";

@@ -1,11 +1,11 @@
 //! The sheets with a line each spectrum, and that of the hazard curves.
 
 use rust_xlsxwriter::XlsxError;
+use uplift_result::Fit;
 
 use super::sheet::{Sheet, Shown};
 use crate::export::Export;
 use crate::export::source::Row;
-use uplift_result::Fit;
 
 /// Columns of what a line is of.
 pub(super) const OF: usize = 5;

@@ -1,12 +1,12 @@
 //! The workbook of a shaking table: its tests, a line each, and where they come from.
 
 use rust_xlsxwriter::{Workbook, XlsxError};
+use uplift_result::QUANTITIES;
 
 use super::sheet::{Formats, Sheet, Shown};
 use super::{no_workbook, properties_of, study_lines};
 use crate::error::ExportsError;
 use crate::export::shake_table::TestsExport;
-use uplift_result::QUANTITIES;
 
 /// Columns of what a line is of.
 const OF: [&str; 6] = ["order", "excitation", "class", "level", "record", "RSN"];

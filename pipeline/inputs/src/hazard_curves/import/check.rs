@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 
 use uplift_hazard::{ExportedCurve, HazardCurve, RealizationWeight, SiteSelection, Statistic};
+use uplift_job::JobError;
 use uplift_study::{levels_place, levels_within};
 
 use super::text::{is_of, measures_of};
 use super::{Chosen, HazardImportOptions, weight_of};
 use crate::error::InputsError;
-use uplift_job::JobError;
 
 /// How far apart two exports may have the same site, km.
 const ONE_PLACE_KM: f64 = 1.0;

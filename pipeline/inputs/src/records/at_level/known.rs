@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
+use uplift_job::outputs::is_same_file;
 use uplift_motion::{SelectedComponent, SelectedName};
 
 use crate::import::sequence_number;
 use crate::manifest::Row;
-use uplift_job::outputs::is_same_file;
 
 /// Endings of record files, and words before them: what programs that write a record anew leave out or change.
 const ENDINGS: [&str; 11] = [".gz", ".at2", ".txt", ".asc", ".csv", ".dat", ".acc", ".mp", ".cv", ".ap", ".th"];

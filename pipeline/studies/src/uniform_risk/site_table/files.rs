@@ -7,19 +7,19 @@ use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use uplift_atomic_file::{AtomicFile, io_error};
-use uplift_regression::ExponentialFit;
-use uplift_risk::Ordinate;
-
-use super::consistent;
-use super::repair::SiteConsistency;
-use crate::error::StudiesError;
 use uplift_inputs::{ListedSite, SiteList};
 use uplift_job::outputs::beside;
 use uplift_job::table::{neutral, write_metadata};
 use uplift_job::text::nearest;
+use uplift_regression::ExponentialFit;
 use uplift_result::flag_word;
+use uplift_risk::Ordinate;
 use uplift_study::{Repair, UniformRiskStudy};
 use uplift_uniform_risk::SiteSpectra;
+
+use super::consistent;
+use super::repair::SiteConsistency;
+use crate::error::StudiesError;
 
 /// Strengths of which the map shows ordinates, unless the study names some.
 const SHOWN_ON_MAP: [f64; 3] = [0.1, 0.2, 0.4];

@@ -2,12 +2,12 @@
 
 use uplift_consistency::{RecordSet, Verdict};
 use uplift_hazard::HazardCurve;
-use uplift_motion::IntensityMeasure;
-
-use crate::error::StudiesError;
 use uplift_inputs::{SiteExport, SiteList};
+use uplift_motion::IntensityMeasure;
 use uplift_uniform_risk::consistency::Question;
 use uplift_uniform_risk::{SiteRisk, SiteSpectra};
+
+use crate::error::StudiesError;
 
 /// What the records bring of the other measure at a site, and the spectra of weights by which they bring the site's.
 #[derive(Debug, Clone, PartialEq)]
