@@ -22,17 +22,18 @@ const ANY_QUANTITY: &str = "restitution";
 /// The schema of study files of every kind.
 pub fn study_schema() -> Value {
     let reference = |kind: Kind| json!({ "$ref": format!("#/definitions/{}", name(kind)) });
-    // editors complete keys by the alternatives, of which the last allows anything; the conditions check them
-    let mut alternatives: Vec<Value> = Kind::ALL.into_iter().map(reference).collect();
+    let is_any_of = |kinds: &[Kind]| {
+        let words: Vec<&str> = kinds.iter().map(|kind| kind.key()).collect();
+        json!({ "properties": { "kind": { "enum": words } }, "required": ["kind"] })
+    };
+    let others = [Kind::Displacement, Kind::ShakeTable];
+    let mut checks = others.map(|kind| json!({ "if": is_any_of(&[kind]), "then": reference(kind) })).to_vec();
+    checks.push(json!({ "if": { "not": is_any_of(&others) }, "then": reference(Kind::UniformRisk) }));
+    // Taplo completes keys by alternatives, not by conditions: the last one leaves the checking to these
+    let mut alternatives = Kind::ALL.map(reference).to_vec();
     alternatives.push(json!({}));
-    let mut checked = reference(Kind::UniformRisk);
-    for kind in [Kind::Displacement, Kind::ShakeTable] {
-        let is_kind = json!({ "properties": { "kind": { "const": kind.key() } }, "required": ["kind"] });
-        checked = json!({ "if": is_kind, "then": reference(kind), "else": checked });
-    }
     let definitions = Kind::ALL.into_iter().map(|kind| (name(kind), table("", kind.keys())));
-    checked["anyOf"] = alternatives.into();
-    schema("Study file of uplift", definitions, &checked)
+    schema("Study file of uplift", definitions, &json!({ "allOf": checks, "anyOf": alternatives }))
 }
 
 /// The schema of structure files.
