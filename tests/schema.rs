@@ -33,7 +33,8 @@ fn every_config_satisfies_the_schema_and_a_mistake_does_not() {
     let small = SmallStudy::new();
     let folder = small.path();
     let [study, structure] = ["study", "structure"].map(|of| schema(folder, of));
-    for (schema, folders) in [(&study, &["configs"][..]), (&structure, &["configs/structures", "configs/shake-table"])] {
+    for (schema, folders) in [(&study, &["configs"][..]), (&structure, &["configs/structures", "configs/shake-table"])]
+    {
         let files: Vec<PathBuf> = folders.iter().flat_map(|folder| toml_files(folder)).collect();
         assert!(!files.is_empty());
         let output = validate(&python, schema, &files);
@@ -43,7 +44,7 @@ fn every_config_satisfies_the_schema_and_a_mistake_does_not() {
         (&study, "[oscillator]\nrestitution = 0.95\n[strengths]\nvalues = \"0:1/100:1\"\n", true),
         (&study, "[oscillator]\nrestitutoin = 0.95\n", false),
         (&study, "[oscillator]\nrestitution = 1.5\n", false),
-        (&study, "kind = \"displacement\"\n[oscillator]\nrestitution = 0.95\n", false),
+        (&study, "kind = \"displacement spectra\"\n[oscillator]\nrestitution = 0.95\n", false),
         (&structure, "kind = \"pear\"\n", false),
     ];
     for (schema, text, is_sound) in cases {
