@@ -44,7 +44,7 @@ fn every_config_satisfies_the_schema_and_a_mistake_does_not() {
         (&study, "[oscillator]\nrestitution = 0.95\n[strengths]\nvalues = \"0:1/100:1\"\n", true),
         (&study, "[oscillator]\nrestitutoin = 0.95\n", false),
         (&study, "[oscillator]\nrestitution = 1.5\n", false),
-        (&study, "kind = \"displacement spectra\"\n[oscillator]\nrestitution = 0.95\n", false),
+        (&study, "kind = \"displacement spectra\"\n[bootstrap]\nreplicates = 100\n", false),
         (&structure, "kind = \"pear\"\n", false),
     ];
     for (schema, text, is_sound) in cases {
