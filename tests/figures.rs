@@ -56,7 +56,7 @@ fn real_record_sets() -> Option<RecordSets> {
 /// The pairs of the 105 real records.
 fn real_pairs() -> Option<Vec<RecordPair>> {
     let sets = record_sets(&["record_sets=[{ name = \"real\", tag = \"ord105\" }]".to_owned()])?;
-    Some(sets.of(&sets.sets[0]).map(|record| record.pair.clone()).collect())
+    Some(sets.records_of(&sets.sets[0]).map(|record| record.pair.clone()).collect())
 }
 
 fn record_sets(settings: &[String]) -> Option<RecordSets> {

@@ -64,7 +64,7 @@ pub fn plot(options: &PlotOptions, events: &dyn Events) -> Result<PlotReport, Up
     let folder = options.folder.clone().unwrap_or_else(|| beside(&options.result, "figures"));
     let ids = chosen.iter().map(|figure| figure.id.as_str());
     let outputs: Vec<Output> =
-        options.figures.outputs(ids, &folder).into_iter().map(|output| output.of(&options.result)).collect();
+        options.figures.outputs(ids, &folder).into_iter().map(|output| output.with_result(&options.result)).collect();
     outputs::check(&outputs, &[&options.result], options.force)?;
     let result = ResultFile::open(&options.result)?;
     let mark = result.mark()?;

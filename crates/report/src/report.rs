@@ -40,7 +40,7 @@ pub fn report(options: &ReportOptions, events: &dyn Events) -> Result<PageReport
         return Err(JobError::Usage("a report is of one result or more: give one".to_owned()).into());
     };
     let file = options.output.clone().unwrap_or_else(|| beside(first, "html"));
-    let output = Output::new(&file, OutputKind::Page).of(first);
+    let output = Output::new(&file, OutputKind::Page).with_result(first);
     outputs::check(&[output], &options.results, options.force)?;
     // what is no result at all is told as what it is
     for other in options.results.iter().filter(|path| !is_hdf5(path)) {

@@ -30,7 +30,7 @@ const SHEET: &str = concat!(include_str!("page/table.html"), include_str!("sheet
 /// # Errors
 /// As [`outputs::check`].
 pub fn check_design_sheet(file: &Path, result: &Path, inputs: &[&Path], force: bool) -> Result<(), UpliftError> {
-    Ok(outputs::check(&[Output::new(file, OutputKind::Page).of(result)], inputs, force)?)
+    Ok(outputs::check(&[Output::new(file, OutputKind::Page).with_result(result)], inputs, force)?)
 }
 
 /// Writes the design of `structure` as one HTML page.

@@ -28,7 +28,7 @@ pub(super) fn case(study: &UniformRiskStudy, curves: &CurvesAtSite<'_>) -> Optio
     if files.file.is_some() {
         all.push(curves.curve);
     }
-    let apart = Apart::of(&all)?;
+    let apart = Apart::from_curves(&all)?;
     let name = |curve: usize| {
         let branch = files.branches.get(curve);
         let path = branch.map(|branch| &branch.file).or(files.file.as_ref()).and_then(|path| path.file_name());
@@ -84,7 +84,7 @@ impl Apart {
     }
 
     /// The groups of `curves`; none where all are near at one rate at least, or have too few in common.
-    fn of(curves: &[&HazardCurve]) -> Option<Self> {
+    fn from_curves(curves: &[&HazardCurve]) -> Option<Self> {
         // by rate, the levels of the curves that have it as logarithms, the lowest first
         let rows: Vec<(i32, Vec<(usize, f64)>)> = HALF_DECADES
             .map(|k| {
@@ -139,7 +139,7 @@ mod tests {
     /// The odd ones, and how many times too large they are.
     fn found(levels: &[f64]) -> Option<(Vec<usize>, f64)> {
         let curves: Vec<HazardCurve> = levels.iter().map(|level| curve(*level)).collect();
-        let apart = Apart::of(&curves.iter().collect::<Vec<_>>())?;
+        let apart = Apart::from_curves(&curves.iter().collect::<Vec<_>>())?;
         let too_large = apart.too_large();
         Some((apart.odd, (100.0 * too_large).round() / 100.0))
     }
@@ -162,12 +162,12 @@ mod tests {
         // curves that cross
         let steep = HazardCurve::new("PGV", "cm/s", "", vec![1.0, 10.0, 100.0], vec![1.0, 1e-3, 1e-6]).unwrap();
         let gentle = HazardCurve::new("PGV", "cm/s", "", vec![0.01, 10.0, 10_000.0], vec![1.0, 1e-3, 1e-6]).unwrap();
-        assert_eq!(Apart::of(&[&steep, &gentle]), None);
+        assert_eq!(Apart::from_curves(&[&steep, &gentle]), None);
         // no rate in common, and rare ones alone
         let rare = HazardCurve::new("PGV", "cm/s", "", vec![500.0, 900.0], vec![1e-7, 1e-8]).unwrap();
-        assert_eq!(Apart::of(&[&steep, &rare]), None);
+        assert_eq!(Apart::from_curves(&[&steep, &rare]), None);
         let low = HazardCurve::new("PGV", "cm/s", "", vec![1.0, 10.0], vec![9e-4, 9e-6]).unwrap();
         let high = HazardCurve::new("PGV", "cm/s", "", vec![20.0, 200.0], vec![9e-4, 9e-6]).unwrap();
-        assert_eq!(Apart::of(&[&low, &high]), None);
+        assert_eq!(Apart::from_curves(&[&low, &high]), None);
     }
 }

@@ -27,7 +27,7 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
             }
         }
     }
-    Alarm::of_cases("hazard-inconsistent", cases)
+    Alarm::from_cases("hazard-inconsistent", cases)
 }
 
 /// Bands of repaired spectra of whose samples many cannot be weighed to the site's hazard.
@@ -60,7 +60,7 @@ pub(super) fn failing_samples(evidence: &Evidence, scope: &Scope) -> Option<Alar
             }
         }
     }
-    Alarm::of_cases("repair-of-samples", cases)
+    Alarm::from_cases("repair-of-samples", cases)
 }
 
 /// `times` the level of the other measure do the records bring.

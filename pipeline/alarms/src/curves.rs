@@ -15,7 +15,7 @@ const BEYOND_NATURE: f64 = 5.0;
 pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
     let sites = evidence.spectra.sites.iter().enumerate().filter(|(site, _)| scope.holds_site(*site));
     let case = |(site, name): (usize, &String)| case(&evidence.study, name, biases(evidence, site));
-    Alarm::of_cases("curves-disagree", sites.filter_map(case).collect())
+    Alarm::from_cases("curves-disagree", sites.filter_map(case).collect())
 }
 
 /// Whether the curves of a site are told not to belong together.
@@ -31,7 +31,7 @@ fn biases(evidence: &Evidence, site: usize) -> [Option<f64>; 2] {
 }
 
 /// The same of a study that is looked at and not run.
-pub fn of_curves(study: &UniformRiskStudy, report: &ConsistencyReport) -> Option<Alarm> {
+pub fn curves_alarm(study: &UniformRiskStudy, report: &ConsistencyReport) -> Option<Alarm> {
     let case = |site: &String| {
         let biases = [(Pgv, Pga), (Pga, Pgv)].map(|(scaled_to, other)| {
             let wanted = (site, scaled_to.label(), other.label());
@@ -40,7 +40,7 @@ pub fn of_curves(study: &UniformRiskStudy, report: &ConsistencyReport) -> Option
         case(study, site, biases)
     };
     let sites = study.sites.iter().map(|site| &site.name);
-    Alarm::of_cases("curves-disagree", sites.filter_map(case).collect())
+    Alarm::from_cases("curves-disagree", sites.filter_map(case).collect())
 }
 
 /// How many times too high the curve of PGA is for that of PGV, by what the records bring of the site's level of the

@@ -109,7 +109,7 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Vec<Alarm> {
         }
     }
     let kinds = [("fit-leaves-spectrum", far), ("no-fit", none), ("no-exponential", meaningless)];
-    kinds.into_iter().filter_map(|(kind, cases)| Alarm::of_cases(kind, cases)).collect()
+    kinds.into_iter().filter_map(|(kind, cases)| Alarm::from_cases(kind, cases)).collect()
 }
 
 /// A curve that leaves its spectrum, in words.

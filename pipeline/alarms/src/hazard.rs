@@ -52,7 +52,7 @@ impl<'a> CurvesAtSite<'a> {
 }
 
 /// What is raised of all `curves`.
-pub fn of_hazard(study: &UniformRiskStudy, curves: &[CurvesAtSite<'_>]) -> Vec<Alarm> {
+pub fn hazard_alarms(study: &UniformRiskStudy, curves: &[CurvesAtSite<'_>]) -> Vec<Alarm> {
     let (mut levelling_off, mut disagreeing, mut hardly_possible) = (Vec::new(), Vec::new(), Vec::new());
     for curves in curves {
         levelling_off.extend(probabilities::case(curves));
@@ -64,9 +64,9 @@ pub fn of_hazard(study: &UniformRiskStudy, curves: &[CurvesAtSite<'_>]) -> Vec<A
         disagreeing.extend(disagrees);
     }
     let alarms = [
-        Alarm::of_cases("hazard-probabilities", levelling_off),
-        Alarm::of_cases("branches-disagree", disagreeing),
-        Alarm::of_cases("hazard-implausible", hardly_possible),
+        Alarm::from_cases("hazard-probabilities", levelling_off),
+        Alarm::from_cases("branches-disagree", disagreeing),
+        Alarm::from_cases("hazard-implausible", hardly_possible),
     ];
     alarms.into_iter().flatten().collect()
 }
@@ -86,7 +86,7 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Vec<Alarm> {
             }
         }
     }
-    let mut alarms = of_hazard(&evidence.study, &all);
+    let mut alarms = hazard_alarms(&evidence.study, &all);
     alarms.extend(super::curves::alarms(evidence, scope));
     alarms
 }

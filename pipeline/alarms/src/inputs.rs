@@ -11,16 +11,16 @@ use uplift_uniform_risk::consistency::Question;
 
 use crate::error::AlarmsError;
 
-pub(super) fn of_result(file: &ResultFile) -> Result<Vec<Alarm>, AlarmsError> {
+pub(super) fn result_alarms(file: &ResultFile) -> Result<Vec<Alarm>, AlarmsError> {
     let head = file.head()?;
     let mut alarms = Vec::new();
     // a study that cannot be read any more has nothing to add
     let study = Study::stored(&head.study_toml).ok();
-    alarms.extend(of_study(study.as_ref().map_or(&[], AnyStudy::warnings), head.synthetic));
+    alarms.extend(study_alarms(study.as_ref().map_or(&[], AnyStudy::warnings), head.synthetic));
     if file.kind() == Kind::UniformRisk {
         let records = file.stored_axes()?.records.len();
         // nor does it say which records are of one pair
-        let pair_of = if study.is_some() { Question::of_result(file)?.pair_of() } else { (0..records).collect() };
+        let pair_of = if study.is_some() { Question::from_result(file)?.pair_of() } else { (0..records).collect() };
         let pairs = uplift_bootstrap::units(&pair_of);
         let sets = sets_of_levels(file, &pairs)?;
         alarms.extend(sets.iter().filter_map(far));
@@ -30,14 +30,14 @@ pub(super) fn of_result(file: &ResultFile) -> Result<Vec<Alarm>, AlarmsError> {
         }
     }
     let noticed = head.warnings.iter().filter(|line| !line.is_empty());
-    alarms.extend(noticed.map(|line| Alarm::of_one(Severity::Note, "inputs", "inputs", line.clone(), "")));
+    alarms.extend(noticed.map(|line| Alarm::new(Severity::Note, "inputs", "inputs", line.clone(), "")));
     Ok(alarms)
 }
 
 /// What a study says but probably does not mean, and that its records are not real ones.
-pub fn of_study(warnings: &[Warning], synthetic: bool) -> impl Iterator<Item = Alarm> {
+pub fn study_alarms(warnings: &[Warning], synthetic: bool) -> impl Iterator<Item = Alarm> {
     let of_records = synthetic.then(|| {
-        Alarm::of_one(
+        Alarm::new(
             Severity::Caution,
             "synthetic-records",
             "records",
@@ -45,14 +45,14 @@ pub fn of_study(warnings: &[Warning], synthetic: bool) -> impl Iterator<Item = A
             "bring real ones for results that matter: records.manifest (records/README.md)",
         )
     });
-    warnings.iter().map(|warning| of_warning("study", warning)).chain(of_records)
+    warnings.iter().map(|warning| warning_alarm("study", warning)).chain(of_records)
 }
 
 /// What a file says but probably does not mean.
-pub(super) fn of_warning(subject: &str, warning: &Warning) -> Alarm {
+pub(super) fn warning_alarm(subject: &str, warning: &Warning) -> Alarm {
     let (severity, kind) =
         if warning.unlikely { (Severity::Mistake, "unlikely-number") } else { (Severity::Note, "study") };
-    Alarm::of_one(severity, kind, subject, warning.what.clone(), &warning.what_to_do)
+    Alarm::new(severity, kind, subject, warning.what.clone(), &warning.what_to_do)
 }
 
 /// The records of each level of a measure, where these are its own.
@@ -83,14 +83,14 @@ fn sets_of_levels(file: &ResultFile, pairs: &[Vec<usize>]) -> Result<Vec<Sets>, 
 }
 
 fn far(sets: &Sets) -> Option<Alarm> {
-    far_factors(&sets.relative, &sets.names, (sets.measure, &sets.levels)).map(of_far_factors)
+    far_factors(&sets.relative, &sets.names, (sets.measure, &sets.levels)).map(far_factors_alarm)
 }
 
 /// Of factors `what` of which no definition of the measure explains.
-pub fn of_far_factors(what: String) -> Alarm {
+pub fn far_factors_alarm(what: String) -> Alarm {
     let what_to_do = "is the unit of the table's levels, of its factors or of the record files another one? correct \
                       records.at_level, or leave it if it is meant";
-    Alarm::of_one(Severity::Mistake, "factors-at-level", "records", what, what_to_do)
+    Alarm::new(Severity::Mistake, "factors-at-level", "records", what, what_to_do)
 }
 
 /// Where the level with the fewest pairs has few that count.
@@ -108,7 +108,7 @@ fn few_at_level(sets: &Sets) -> Option<Alarm> {
     let (level, count, effective) = rows.into_iter().enumerate().map(counts).min_by(|a, b| a.2.total_cmp(&b.2))?;
     let place = format!("{} {} {}", sets.measure.label(), sets.levels[level], sets.measure.unit());
     (effective < FEW_RECORDS as f64 - 0.05).then(|| {
-        Alarm::of_one(
+        Alarm::new(
             Severity::Caution,
             "few-records",
             &place,
@@ -124,7 +124,7 @@ fn few_at_level(sets: &Sets) -> Option<Alarm> {
 /// Where the set has few pairs: two components of one, or what is seen of it from several azimuths, are no two of them.
 pub fn few(records: usize, pairs: usize) -> Option<Alarm> {
     (pairs < FEW_RECORDS).then(|| {
-        Alarm::of_one(
+        Alarm::new(
             Severity::Caution,
             "few-records",
             "records",

@@ -31,7 +31,7 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Result<Vec<Alarm>, A
     }
     let kinds =
         [("censored", censored), ("no-exceedance", zero), (BEYOND_LAST_LEVEL, beyond), (BELOW_FIRST_LEVEL, below)];
-    Ok(kinds.into_iter().filter_map(|(kind, cases)| Alarm::of_cases(kind, cases)).collect())
+    Ok(kinds.into_iter().filter_map(|(kind, cases)| Alarm::from_cases(kind, cases)).collect())
 }
 
 /// How many of the shares of a spectrum are more than the limit, and the largest.

@@ -37,16 +37,16 @@ mod structure;
 use uplift_job::alarm::Alarm;
 use uplift_motion::IntensityMeasure;
 
-pub use curves::of_curves;
+pub use curves::curves_alarm;
 pub use error::AlarmsError;
 pub use evidence::{Evidence, Scope, spectrum_name};
 pub use fit::{FitReach, reach_of_fit};
-pub use hazard::{CurvesAtSite, of_hazard};
-pub use inputs::{few, of_far_factors, of_study};
+pub use hazard::{CurvesAtSite, hazard_alarms};
+pub use inputs::{far_factors_alarm, few, study_alarms};
 pub use levels::{BELOW_FIRST_LEVEL, BEYOND_LAST_LEVEL, Counted, UpperEnd, below_first_case};
 pub use measures::COMPARED_FROM_M;
-pub use numbers::of_numbers;
-pub use structure::{OwnRisk, of_own_demand, of_own_risks, of_safety_factor, of_structure};
+pub use numbers::number_alarms;
+pub use structure::{OwnRisk, own_demand_alarm, own_risk_alarms, safety_factor_alarm, structure_alarms};
 use uplift_result::{Kind, ResultFile};
 
 /// The alarms in the order in which they should be read.
@@ -72,9 +72,9 @@ pub fn alarms_by(file: &ResultFile, measure: IntensityMeasure) -> Result<Vec<Ala
 }
 
 fn alarms_of(file: &ResultFile, scope: &Scope) -> Result<Vec<Alarm>, AlarmsError> {
-    let mut alarms = inputs::of_result(file)?;
+    let mut alarms = inputs::result_alarms(file)?;
     if file.kind() == Kind::UniformRisk && !file.axes()?.sites.is_empty() {
-        alarms.extend(of_spectra(&Evidence::read(file, scope)?, scope)?);
+        alarms.extend(spectra_alarms(&Evidence::read(file, scope)?, scope)?);
     }
     Ok(ranked(alarms))
 }
@@ -85,7 +85,7 @@ fn alarms_of(file: &ResultFile, scope: &Scope) -> Result<Vec<Alarm>, AlarmsError
 /// A file that is damaged, or without sites.
 pub fn alarms_within(file: &ResultFile, scope: &Scope) -> Result<Vec<Alarm>, AlarmsError> {
     let evidence = Evidence::read(file, scope)?;
-    let mut alarms = inputs::of_result(file)?;
+    let mut alarms = inputs::result_alarms(file)?;
     alarms.extend(hazard::alarms(&evidence, scope));
     alarms.extend(levels::alarms(&evidence, scope)?);
     if scope.repaired {
@@ -102,13 +102,13 @@ pub fn alarms_within(file: &ResultFile, scope: &Scope) -> Result<Vec<Alarm>, Ala
 /// # Errors
 /// A file that is damaged, or without sites.
 pub fn alarms_of_inputs(file: &ResultFile, scope: &Scope) -> Result<Vec<Alarm>, AlarmsError> {
-    let mut alarms = inputs::of_result(file)?;
+    let mut alarms = inputs::result_alarms(file)?;
     let evidence = Evidence::read(file, scope)?;
     alarms.extend(hazard::alarms(&evidence, scope));
     Ok(alarms)
 }
 
-fn of_spectra(evidence: &Evidence, scope: &Scope) -> Result<Vec<Alarm>, AlarmsError> {
+fn spectra_alarms(evidence: &Evidence, scope: &Scope) -> Result<Vec<Alarm>, AlarmsError> {
     let mut alarms = hazard::alarms(evidence, scope);
     alarms.extend(levels::alarms(evidence, scope)?);
     alarms.extend(measures::alarms(evidence, scope));
@@ -134,12 +134,12 @@ mod tests {
             what_to_do: "mend it".to_owned(),
         };
         let cases = vec![case(2.0, Severity::Note, "Here"), case(3.0, Severity::Caution, "There")];
-        let found = Alarm::of_cases("off", cases).into_iter().collect::<Vec<_>>();
+        let found = Alarm::from_cases("off", cases).into_iter().collect::<Vec<_>>();
         assert_eq!(found[0].to_string(), "There (and Here): is off by 3");
         assert_eq!((found[0].severity, &found[0].also[..]), (Severity::Caution, &["Here".to_owned()][..]));
-        assert_eq!(Alarm::of_cases("off", Vec::new()), None);
+        assert_eq!(Alarm::from_cases("off", Vec::new()), None);
 
-        let of = |severity| Alarm::of_one(severity, "kind", "subject", String::new(), "");
+        let of = |severity| Alarm::new(severity, "kind", "subject", String::new(), "");
         let order = ranked(vec![of(Severity::Note), of(Severity::Mistake), of(Severity::Caution)]);
         let order: Vec<Severity> = order.iter().map(|alarm| alarm.severity).collect();
         assert_eq!(order, [Severity::Mistake, Severity::Caution, Severity::Note]);

@@ -79,7 +79,7 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
             ));
         }
     }
-    Alarm::of_cases("measures-disagree", cases)
+    Alarm::from_cases("measures-disagree", cases)
 }
 
 fn case(evidence: &Evidence, subject: String, (pgv, pga): (Side<'_>, Side<'_>), gap: Gap, banded: bool) -> Case {

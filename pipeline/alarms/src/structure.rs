@@ -8,7 +8,7 @@ use uplift_risk::TAIL_SHARE_LIMIT;
 use uplift_study::{Structure, levels_key};
 use uplift_uniform_risk::{BOUND_CONFIDENCE, EventRisk, share_at_most};
 
-use super::inputs::of_warning;
+use super::inputs::warning_alarm;
 
 /// From this share of a risk on, it is decided by what was not analysed.
 const DECISIVE: f64 = 0.1;
@@ -33,23 +33,23 @@ pub struct OwnRisk {
 }
 
 /// Numbers of the structure file that are probably in another unit.
-pub fn of_structure(structure: &Structure) -> Vec<Alarm> {
-    structure.warnings.iter().map(|warning| of_warning(&structure.name(), warning)).collect()
+pub fn structure_alarms(structure: &Structure) -> Vec<Alarm> {
+    structure.warnings.iter().map(|warning| warning_alarm(&structure.name(), warning)).collect()
 }
 
 /// A safety factor that was probably meant otherwise.
-pub fn of_safety_factor(safety_factor: f64) -> Option<Alarm> {
+pub fn safety_factor_alarm(safety_factor: f64) -> Option<Alarm> {
     let found = USUAL_SAFETY_FACTOR.unlikely("--safety-factor", safety_factor)?;
     let what_to_do = "give --safety-factor as a factor, or leave it if it is meant";
-    Some(Alarm::of_one(Severity::Mistake, "unlikely-number", "design", found.to_string(), what_to_do))
+    Some(Alarm::new(Severity::Mistake, "unlikely-number", "design", found.to_string(), what_to_do))
 }
 
 /// A design that the rules are content with and that the structure's own demand, m, is not, within the capacity over
 /// the safety factor.
-pub fn of_own_demand(demand_m: f64, capacity_m: Option<f64>, safety_factor: f64, satisfied: bool) -> Option<Alarm> {
+pub fn own_demand_alarm(demand_m: f64, capacity_m: Option<f64>, safety_factor: f64, satisfied: bool) -> Option<Alarm> {
     let capacity_m = capacity_m.filter(|_| satisfied)?;
     (safety_factor * demand_m > capacity_m).then(|| {
-        Alarm::of_one(
+        Alarm::new(
             Severity::Caution,
             "rule-unsafe",
             "design",
@@ -65,11 +65,11 @@ pub fn of_own_demand(demand_m: f64, capacity_m: Option<f64>, safety_factor: f64,
 }
 
 /// Risks that come from outside the stripes, and those that no run of them shows.
-pub fn of_own_risks(risks: &[OwnRisk]) -> Vec<Alarm> {
+pub fn own_risk_alarms(risks: &[OwnRisk]) -> Vec<Alarm> {
     let outside = risks.iter().filter_map(outside_levels).collect();
     let unseen = risks.iter().filter_map(none_seen).collect();
     let kinds = [("risk-outside-levels", outside), ("none-overturned", unseen)];
-    kinds.into_iter().filter_map(|(kind, cases)| Alarm::of_cases(kind, cases)).collect()
+    kinds.into_iter().filter_map(|(kind, cases)| Alarm::from_cases(kind, cases)).collect()
 }
 
 fn outside_levels(own: &OwnRisk) -> Option<Case> {
@@ -146,27 +146,27 @@ mod tests {
 
     #[test]
     fn a_design_is_held_against_its_own_demand() {
-        assert_eq!(of_own_demand(0.2, Some(0.7), 2.5, true), None);
-        assert_eq!(of_own_demand(0.4, Some(0.7), 2.5, false), None, "the rules say so");
-        assert_eq!(of_own_demand(0.4, None, 2.5, true), None);
-        let Some(alarm) = of_own_demand(0.4, Some(0.7), 2.5, true) else { panic!() };
+        assert_eq!(own_demand_alarm(0.2, Some(0.7), 2.5, true), None);
+        assert_eq!(own_demand_alarm(0.4, Some(0.7), 2.5, false), None, "the rules say so");
+        assert_eq!(own_demand_alarm(0.4, None, 2.5, true), None);
+        let Some(alarm) = own_demand_alarm(0.4, Some(0.7), 2.5, true) else { panic!() };
         assert!(alarm.what.contains("1.75 times") && alarm.severity == Severity::Caution, "{alarm}");
-        assert!(of_own_demand(f64::INFINITY, Some(0.7), 2.5, true).is_some(), "it overturns");
+        assert!(own_demand_alarm(f64::INFINITY, Some(0.7), 2.5, true).is_some(), "it overturns");
     }
 
     #[test]
     fn a_risk_from_outside_the_levels_says_which_way_it_is_wrong() {
-        assert_eq!(of_own_risks(&[own(RISK)]), []);
-        let [above] = &of_own_risks(&[own(EventRisk { upper_tail_share: 0.078, ..RISK })])[..] else { panic!() };
+        assert_eq!(own_risk_alarms(&[own(RISK)]), []);
+        let [above] = &own_risk_alarms(&[own(EventRisk { upper_tail_share: 0.078, ..RISK })])[..] else { panic!() };
         assert_eq!(above.severity, Severity::Note);
         assert!(above.what.starts_with("7.8 % of the risk") && above.what.ends_with("rather a lower bound"), "{above}");
-        let [below] = &of_own_risks(&[own(EventRisk { lower_tail_share: 0.5, ..RISK })])[..] else { panic!() };
+        let [below] = &own_risk_alarms(&[own(EventRisk { lower_tail_share: 0.5, ..RISK })])[..] else { panic!() };
         assert!(below.severity == Severity::Caution && below.what.contains("below the first level, 1 cm/s"), "{below}");
     }
 
     #[test]
     fn none_of_thirty_is_not_never() {
-        let [none] = &of_own_risks(&[own(EventRisk { per_year: 0.0, at_most_per_year: Some(2.3e-5), ..RISK })])[..]
+        let [none] = &own_risk_alarms(&[own(EventRisk { per_year: 0.0, at_most_per_year: Some(2.3e-5), ..RISK })])[..]
         else {
             panic!()
         };
@@ -179,7 +179,7 @@ mod tests {
     #[test]
     fn none_of_thirty_pairs_is_no_more_for_having_two_components() {
         let both = OwnRisk { records: 60, ..own(EventRisk { per_year: 0.0, at_most_per_year: Some(2.3e-5), ..RISK }) };
-        let [none] = &of_own_risks(&[both])[..] else { panic!() };
+        let [none] = &own_risk_alarms(&[both])[..] else { panic!() };
         for words in ["0 of 60 records of 30 pairs at any level", "and 0 of 30 pairs leave", "9.5 %"] {
             assert!(none.what.contains(words), "{words}: {none}");
         }
@@ -187,7 +187,7 @@ mod tests {
 
     #[test]
     fn a_safety_factor_of_forty_is_asked_about() {
-        assert_eq!(of_safety_factor(2.5), None);
-        assert!(of_safety_factor(40.0).is_some_and(|alarm| alarm.what.starts_with("--safety-factor is 40")));
+        assert_eq!(safety_factor_alarm(2.5), None);
+        assert!(safety_factor_alarm(40.0).is_some_and(|alarm| alarm.what.starts_with("--safety-factor is 40")));
     }
 }

@@ -28,7 +28,7 @@ impl Scatter {
     /// # Errors
     /// A file that is damaged.
     pub(super) fn of(file: &ResultFile) -> Result<Self, DesignError> {
-        let motions = Question::of_motions(file)?;
+        let motions = Question::from_motions(file)?;
         let event_of = motions.event_of();
         // two components of a pair are not independent
         let pairs = uplift_bootstrap::units(&motions.pair_of());

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use uplift_alarms::{
-    OwnRisk, Scope, alarms_within, of_own_demand, of_own_risks, of_safety_factor, of_structure, ranked,
+    OwnRisk, Scope, alarms_within, own_demand_alarm, own_risk_alarms, ranked, safety_factor_alarm, structure_alarms,
 };
 use uplift_engine::analysis::{Beside, ShardReport};
 use uplift_ida::Shard;
@@ -152,7 +152,7 @@ pub fn design(
     let poe = source.only_risk(&options.risk)?;
     let target_per_year = source.target_per_year(poe)?;
     let repaired_m = repaired_spectrum(&file, measure, [site, poe])?;
-    let reweighing = if options.repaired { Reweighing::of_motions(&file)? } else { None };
+    let reweighing = if options.repaired { Reweighing::from_motions(&file)? } else { None };
     let repair = reweighing.as_ref().and_then(|reweighing| reweighing.weights(measure.measure(), site));
     let weights = match (options.repaired, repair) {
         (false, _) => SiteWeights::Alike(&measure.weights[site]),
@@ -209,14 +209,14 @@ pub fn design(
     };
     let told = StructureReport::of(structure, Some(restitution));
     let mut alarms = alarms_within(&file, &scope)?;
-    alarms.extend(of_structure(structure));
-    alarms.extend(of_safety_factor(safety_factor));
+    alarms.extend(structure_alarms(structure));
+    alarms.extend(safety_factor_alarm(safety_factor));
     if let Some(exact) = &exact {
         let pairs = Scatter::of(&file)?.pairs;
         let records = pairs.iter().map(Vec::len).sum();
-        alarms.extend(of_own_risks(&own_risks(exact, measure, &source.sites[site], (records, &pairs, &weights))));
+        alarms.extend(own_risk_alarms(&own_risks(exact, measure, &source.sites[site], (records, &pairs, &weights))));
         let satisfied = rules.iter().any(|rule| rule.check().is_some_and(|check| check.satisfied));
-        alarms.extend(of_own_demand(exact.demand_m, told.capacity_m, safety_factor, satisfied));
+        alarms.extend(own_demand_alarm(exact.demand_m, told.capacity_m, safety_factor, satisfied));
     }
     if let Some(checkpoint) = checkpoint {
         checkpoint.remove();

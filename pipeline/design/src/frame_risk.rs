@@ -35,7 +35,7 @@ use crate::error::DesignError;
 use demand::{Question, Resampled};
 use shaken::{Demands, Shaken};
 use tables::{levels_path, write_tables};
-use uplift_alarms::{OwnRisk, Scope, alarms_of_inputs, of_own_risks, of_structure, ranked};
+use uplift_alarms::{OwnRisk, Scope, alarms_of_inputs, own_risk_alarms, ranked, structure_alarms};
 use uplift_engine::analysis::{Beside, ShardReport};
 use uplift_inputs::TORSION;
 use uplift_job::JobError;
@@ -187,7 +187,7 @@ pub fn frame_risk(
     let (analysed, checkpoint) = beside.results(shaken.work(measure, &asked)?, &options.shards, events)?;
     let demands = shaken.demands(analysed);
 
-    let reweighing = Reweighing::of_motions(&file)?;
+    let reweighing = Reweighing::from_motions(&file)?;
     let repaired = reweighing.as_ref().and_then(|reweighing| reweighing.weights(measure.measure(), site));
     let weights = &measure.weights[site];
     let settings = &source.study.bootstrap;
@@ -208,9 +208,9 @@ pub fn frame_risk(
         overturning.repaired = collapse(levels, (own_m, &pairs), &[(weights, repaired)], years, true)?.repaired;
     }
     let mut alarms = alarms_of_inputs(&file, &Scope { measure: Some(measure.measure()), ..Scope::default() })?;
-    alarms.extend(of_structure(structure));
+    alarms.extend(structure_alarms(structure));
     let runs = (runs_m.len() / levels.len(), pairs.len());
-    alarms.extend(of_own_risks(&own_risks(&overturning, measure, &source.sites[site], runs)));
+    alarms.extend(own_risk_alarms(&own_risks(&overturning, measure, &source.sites[site], runs)));
     let mut report = FrameRiskReport {
         structure: StructureReport::of(structure, None),
         site: source.sites[site].clone(),
@@ -286,7 +286,7 @@ fn draws(file: &ResultFile, source: &StudyOfResult, shaken: &Shaken) -> Result<R
     let sizes = [u32::try_from(records).unwrap_or(u32::MAX)];
     let replicates = usize::try_from(settings.replicates).unwrap_or(usize::MAX);
     let drawn_together = match settings.unit {
-        Unit::Event => Some(Asked::of_motions(file)?.event_of()),
+        Unit::Event => Some(Asked::from_motions(file)?.event_of()),
         // all records of a pair are one wobbling run
         Unit::Record | Unit::Pair if shaken.pairs.len() < records && shaken.pairs.len() > 1 => Some(shaken.pair_of()),
         Unit::Record | Unit::Pair => None,
@@ -419,7 +419,7 @@ fn check_table(structure: &Structure, result: &Path, options: &FrameRiskOptions)
     let inputs = inputs(structure, result, options.manifest.as_deref());
     let levels = levels_path(path);
     let tables = [(path, tables::PEAKS_COLUMN), (&levels, tables::LEVELS_COLUMN)];
-    let tables = tables.map(|(path, column)| Output::new(path, OutputKind::Table(column)).of(result));
+    let tables = tables.map(|(path, column)| Output::new(path, OutputKind::Table(column)).with_result(result));
     Ok(outputs::check(&tables, &inputs, options.force)?)
 }
 

@@ -6,7 +6,7 @@ mod uncertain;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use uplift_alarms::{OwnRisk, Scope, alarms_of_inputs, of_own_risks, of_structure, ranked};
+use uplift_alarms::{OwnRisk, Scope, alarms_of_inputs, own_risk_alarms, ranked, structure_alarms};
 use uplift_engine::analysis::{Beside, LabelledPlan, ShardReport, Work};
 use uplift_fragility::{LognormalFit, Stripes};
 use uplift_ida::{Shard, System};
@@ -197,7 +197,7 @@ pub fn overturning(
     let (analysed, checkpoint) =
         beside.results(shaken.work(&measures, (&models, uncertain.as_ref()), &asked)?, &options.shards, events)?;
     let Shaken { study, set, .. } = &shaken;
-    let reweighing = Reweighing::of_motions(&file)?;
+    let reweighing = Reweighing::from_motions(&file)?;
     let scatter = Scatter::of(&file)?;
     let mut analysed = analysed.into_iter();
     let mut found: Vec<(&SpectraOfResult, Vec<Collapses>)> = Vec::new();
@@ -241,9 +241,9 @@ pub fn overturning(
         None => None,
     };
     let mut alarms = alarms_of_inputs(&file, &Scope { measure: options.measure, ..Scope::default() })?;
-    alarms.extend(of_structure(structure));
+    alarms.extend(structure_alarms(structure));
     let names: Vec<&str> = sites.iter().map(|&site| source.sites[site].as_str()).collect();
-    alarms.extend(of_own_risks(&own_risks(&models, &found, &names, (set.records.len(), scatter.pairs.len()))));
+    alarms.extend(own_risk_alarms(&own_risks(&models, &found, &names, (set.records.len(), scatter.pairs.len()))));
     let records = u32::try_from(set.records.len()).unwrap_or(u32::MAX);
     let of_measure = |(measure, found): &(&SpectraOfResult, Vec<Collapses>)| -> Vec<CollapseReport> {
         let names = sites.iter().map(|&site| source.sites[site].as_str());
@@ -367,7 +367,7 @@ fn check_table(structure: &Structure, result: &Path, options: &OverturningOption
     let inputs = inputs(structure, result, options.manifest.as_deref());
     let risk = risk_path(path);
     let tables = [(path, "im"), (&risk, "site")];
-    let tables = tables.map(|(path, column)| Output::new(path, OutputKind::Table(column)).of(result));
+    let tables = tables.map(|(path, column)| Output::new(path, OutputKind::Table(column)).with_result(result));
     Ok(outputs::check(&tables, &inputs, options.force)?)
 }
 

@@ -37,7 +37,7 @@ use crate::error::DesignError;
 use candidate::Attempt;
 use search::{crossings, search, spread};
 use trial::Trials;
-use uplift_alarms::{OwnRisk, Scope, alarms_of_inputs, of_own_risks, of_structure, ranked};
+use uplift_alarms::{OwnRisk, Scope, alarms_of_inputs, own_risk_alarms, ranked, structure_alarms};
 use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
 use uplift_job::events::Events;
@@ -202,7 +202,7 @@ pub fn target(
     let words = Words { options, target_per_year };
     let scope = Scope { site: Some(site), measure: Some(measure.measure()), ..Scope::default() };
     let mut alarms = alarms_of_inputs(&file, &scope)?;
-    alarms.extend(of_structure(structure));
+    alarms.extend(structure_alarms(structure));
     alarms.extend(options.doubtful());
     let place = match words.first_of_met(&tried) {
         Ok(place) => place,
@@ -238,8 +238,8 @@ pub fn target(
         pairs,
         effective_pairs: pairs as f64,
     };
-    alarms.extend(of_own_risks(&[own]));
-    let motions = Question::of_motions(&file)?;
+    alarms.extend(own_risk_alarms(&[own]));
+    let motions = Question::from_motions(&file)?;
     let bands = band::band((&tried, place), (target_per_year, &hazard), &source.study, &motions)?;
     let mut report = TargetReport {
         uncertainty: trials.around().map(|around| TargetUncertainty::of(around, bands.structures)),
@@ -310,7 +310,11 @@ fn range(structure: &Structure, options: &TargetOptions) -> Result<([f64; 2], Op
 fn check_table(structure: &Structure, result: &Path, options: &TargetOptions) -> Result<(), DesignError> {
     let Some(path) = &options.table else { return Ok(()) };
     let inputs = inputs(structure, result, options.manifest.as_deref());
-    Ok(outputs::check(&[Output::new(path, OutputKind::Table(table::FIRST_COLUMN)).of(result)], &inputs, options.force)?)
+    Ok(outputs::check(
+        &[Output::new(path, OutputKind::Table(table::FIRST_COLUMN)).with_result(result)],
+        &inputs,
+        options.force,
+    )?)
 }
 
 impl FoundSystem {

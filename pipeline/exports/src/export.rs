@@ -103,7 +103,7 @@ pub fn export(options: &ExportOptions, events: &dyn Events) -> Result<ExportRepo
     let file = |format: &ExportFormat| {
         options.output.clone().unwrap_or_else(|| beside(&options.result, format.extension(kind)))
     };
-    let output = |format: &ExportFormat| Output::new(file(format), format.kind(kind)).of(&options.result);
+    let output = |format: &ExportFormat| Output::new(file(format), format.kind(kind)).with_result(&options.result);
     let mut outputs: Vec<Output> = options.formats.iter().map(output).collect();
     // answers about structures are no ordinates: they have a table of their own
     let has_findings = options.formats.contains(&ExportFormat::Csv) && !result.findings()?.is_empty();
@@ -112,7 +112,9 @@ pub fn export(options: &ExportOptions, events: &dyn Events) -> Result<ExportRepo
         None => beside(&options.result, FINDINGS),
     });
     outputs.extend(
-        findings.iter().map(|table| Output::new(table, OutputKind::Table(findings::FIRST_COLUMN)).of(&options.result)),
+        findings
+            .iter()
+            .map(|table| Output::new(table, OutputKind::Table(findings::FIRST_COLUMN)).with_result(&options.result)),
     );
     if kind == Kind::ShakeTable {
         if options.risk != AskedRisk::default() {

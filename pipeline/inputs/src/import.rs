@@ -124,7 +124,7 @@ pub fn import(options: &ImportOptions, events: &dyn Events) -> Result<ImportRepo
         unpack::unpack(&options.folder, &folder, events)?;
         find_pairs(&ImportOptions { folder, ..options.clone() }, events)?
     };
-    let remarks = Remarks::of(&imported);
+    let remarks = Remarks::from_import(&imported);
     let remarks_file = (!remarks.is_empty()).then(|| manifest.with_extension("remarks.txt"));
     if let Some(file) = &remarks_file {
         let mut text = format!("# {}: records import, what deserves a look\n", outputs::mark());

@@ -150,7 +150,7 @@ fn read_set(
     let named = table.as_ref().map(|(table, _)| table.names());
     let (pairs, third, source, synthetic) = match &study.records.source {
         RecordSource::Synthetic { pairs, seed } => {
-            let none = ThirdComponents::of(&[], study.gravity_m_s2);
+            let none = ThirdComponents::from_rows(&[], study.gravity_m_s2);
             (synthetic_pairs((*pairs, *seed), events)?, none, format!("seed {seed}"), true)
         }
         RecordSource::Manifest { manifest, tag } => {
@@ -314,7 +314,7 @@ fn manifest_pairs(
     if study.records.select.is_empty() {
         rows.truncate(first_of(study));
     }
-    let third = ThirdComponents::of(&rows, study.gravity_m_s2);
+    let third = ThirdComponents::from_rows(&rows, study.gravity_m_s2);
     Ok((pairs::read(rows, study.gravity_m_s2).map_err(JobError::Inputs)?, third))
 }
 

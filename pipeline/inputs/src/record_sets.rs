@@ -75,7 +75,7 @@ pub struct RecordSets {
 
 impl RecordSets {
     /// The records of a set.
-    pub fn of<'a>(&'a self, set: &'a NamedSet) -> impl Iterator<Item = &'a SetRecord> {
+    pub fn records_of<'a>(&'a self, set: &'a NamedSet) -> impl Iterator<Item = &'a SetRecord> {
         set.members.iter().map(|&member| &self.records[member])
     }
 
@@ -88,11 +88,11 @@ impl RecordSets {
         let mut sets = Vec::new();
         for set in &self.sets {
             let records = self
-                .of(set)
+                .records_of(set)
                 .map(|SetRecord { pair, .. }| RecordOfSet { id: &pair.id, components: [&pair.h1, &pair.h2] });
             match MotionSet::new(&set.name, records, gravity_m_s2) {
                 Ok(motions) => {
-                    let verticals = self.of(set).filter_map(|record| record.vertical.as_ref());
+                    let verticals = self.records_of(set).filter_map(|record| record.vertical.as_ref());
                     sets.push(motions.upwards(verticals.map(|vertical| &vertical.accelerogram)));
                 }
                 Err(error) => mistakes.push(error.to_string()),
@@ -122,7 +122,7 @@ pub fn read_sets(
     events: &dyn Events,
 ) -> Result<RecordSets, InputsError> {
     let most = most(records);
-    let mut third = ThirdComponents::of(&[], gravity_m_s2);
+    let mut third = ThirdComponents::from_rows(&[], gravity_m_s2);
     let (pairs, chosen, source, mut notes) = match &records.source {
         &RecordSource::Synthetic { pairs, seed } => {
             let named = plans.len();
@@ -140,7 +140,7 @@ pub fn read_sets(
         RecordSource::Manifest { manifest, .. } => {
             let RowsOfSets { rows, chosen, notes } = rows_of_sets(manifest, records, plans)?;
             let name = manifest.file_name().unwrap_or(manifest.as_os_str()).to_string_lossy().into_owned();
-            third = ThirdComponents::of(&rows, gravity_m_s2);
+            third = ThirdComponents::from_rows(&rows, gravity_m_s2);
             (pairs::read(rows, gravity_m_s2).map_err(JobError::Inputs)?, chosen, name, notes)
         }
     };

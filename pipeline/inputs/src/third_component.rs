@@ -23,7 +23,7 @@ pub(super) struct ThirdComponents(BTreeMap<String, (ComponentFile, ReadOptions)>
 
 impl ThirdComponents {
     /// As the `rows` of a manifest say; values in g are converted with `gravity_m_s2`.
-    pub(super) fn of(rows: &[Row], gravity_m_s2: f64) -> Self {
+    pub(super) fn from_rows(rows: &[Row], gravity_m_s2: f64) -> Self {
         let own = |row: &Row| {
             let file = row.vertical.clone()?;
             let options =

@@ -46,13 +46,13 @@ pub struct Alarm {
 
 impl Alarm {
     /// The alarm about one `subject`.
-    pub fn of_one(severity: Severity, kind: &'static str, subject: &str, what: String, what_to_do: &str) -> Self {
+    pub fn new(severity: Severity, kind: &'static str, subject: &str, what: String, what_to_do: &str) -> Self {
         let (subject, what_to_do) = (subject.to_owned(), what_to_do.to_owned());
         Self { severity, kind, subject, also: Vec::new(), what, what_to_do }
     }
 
     /// The one alarm of several cases of a kind: the worst of them, the others by name.
-    pub fn of_cases(kind: &'static str, mut cases: Vec<Case>) -> Option<Self> {
+    pub fn from_cases(kind: &'static str, mut cases: Vec<Case>) -> Option<Self> {
         cases.sort_by(|a, b| b.badness.total_cmp(&a.badness));
         let mut cases = cases.into_iter();
         let worst = cases.next()?;

@@ -82,7 +82,7 @@ pub const PROGRAM_BYTES: u64 = 45_000_000;
 impl Needs {
     /// Those of one shard: its rows are a part, in memory it has room for all of them.
     #[must_use]
-    pub fn of_shard(self, shard: Shard) -> Self {
+    pub fn for_shard(self, shard: Shard) -> Self {
         let rows = self.disk_least_bytes / shard.count.max(1);
         Self { disk_bytes: rows.saturating_add(1_000_000), disk_least_bytes: rows, ..self }
     }

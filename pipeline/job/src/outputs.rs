@@ -78,7 +78,7 @@ impl Output {
 
     /// The same, of which the file says that it is of the result, or the structure, at `result`.
     #[must_use]
-    pub fn of(mut self, result: &Path) -> Self {
+    pub fn with_result(mut self, result: &Path) -> Self {
         // a name with other characters may stand there in other words
         let plain = |name: &&str| name.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"._- ".contains(&byte));
         self.result = result.file_name().and_then(|name| name.to_str()).filter(plain).map(str::to_owned);

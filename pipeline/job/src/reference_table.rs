@@ -44,7 +44,7 @@ impl ReferenceTable {
     ///
     /// # Errors
     /// Columns that make no table.
-    pub fn of(name: String, columns: Vec<Column>) -> Result<Self, JobError> {
+    pub fn from_columns(name: String, columns: Vec<Column>) -> Result<Self, JobError> {
         let frame = columns
             .into_iter()
             .map(|column| column.cast(&DataType::String))

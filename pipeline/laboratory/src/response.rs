@@ -168,7 +168,7 @@ pub fn response(options: &ResponseOptions) -> Result<ResponseReport, LaboratoryE
         .map_err(|error| JobError::Usage(error.to_string()))?;
     let (result, history) = if shaking.wants_history() {
         let (result, history) = respond_with_history(&oscillator, &excitation, after);
-        (result, Some(ResponseHistory::of(&history, &excitation)))
+        (result, Some(ResponseHistory::from_history(&history, &excitation)))
     } else {
         (respond(&oscillator, &excitation, after), None)
     };

@@ -42,10 +42,10 @@ pub fn consistency(
     events: &dyn Events,
 ) -> Result<ConsistencyReport, QuestionsError> {
     let (addition, file) = Addition::begin(result, events)?;
-    let question = Question::of_result(&file)?;
+    let question = Question::from_result(&file)?;
     let shaken = disaggregated(&question, &options.disaggregations)?;
     if !question.can_be_asked() {
-        return Ok(ConsistencyReport::of(&question, &[], &[], &[]));
+        return Ok(ConsistencyReport::new(&question, &[], &[], &[]));
     }
     let stored = StoredStripes::read(&file)?;
     let table = Output::new(consistency_path(&stored.path), OutputKind::Table("implied_level"));
@@ -62,7 +62,7 @@ pub fn consistency(
     addition.write(&replaced(), |writer| add(writer, &question, &findings, &repairs, keep))?;
     let plain_m: Vec<(IntensityMeasure, Array<3>)> =
         file.spectra()?.measures.into_iter().map(|spectra| (spectra.measure, spectra.u_m)).collect();
-    let mut report = ConsistencyReport::of(&question, &findings, &plain_m, &repairs);
+    let mut report = ConsistencyReport::new(&question, &findings, &plain_m, &repairs);
     report.earthquakes = earthquakes(&question, &report.rows, &shaken);
     for ((_, path), (site, _)) in options.disaggregations.iter().zip(&shaken) {
         if !report.earthquakes.iter().any(|row| row.site == question.sites[*site]) {

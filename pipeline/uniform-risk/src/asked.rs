@@ -158,7 +158,7 @@ fn read(
     stripes: &StoredMeasure,
 ) -> Result<(Spectra, Coefficients), UniformRiskError> {
     let (strengths, poes) = (axes.strengths.len(), study.risk.poe.len());
-    let risk = SiteRisk::of(study, strengths, |strength| stripes.demand(strength))?;
+    let risk = SiteRisk::from_demands(study, strengths, |strength| stripes.demand(strength))?;
     let of_site = |weights| risk.spectra(weights).map_err(JobError::input);
     let sites: Vec<SiteSpectra> = stripes.weights.iter().map(of_site).collect::<Result<_, _>>()?;
     let ordinates = Array::from_fn([sites.len(), poes, strengths], |[site, poe, strength]| {

@@ -31,11 +31,11 @@ impl BranchSpectra {
     /// Those of `branches`, with ordinates `spectra_m` `[branch, poe, strength]`, m.
     pub fn new(site: usize, branches: &[BranchHazard], spectra_m: Array<3>) -> Self {
         let names = branches.iter().map(|branch| branch.name.clone()).collect();
-        Self::of(site, names, branches.iter().map(|branch| branch.weight).collect(), spectra_m)
+        Self::from_spectra(site, names, branches.iter().map(|branch| branch.weight).collect(), spectra_m)
     }
 
     /// Mean and fractiles of `spectra_m`, ordinates `[branch, poe, strength]`, m; NaN where a branch has none.
-    pub fn of(site: usize, names: Vec<String>, weights: Vec<f64>, spectra_m: Array<3>) -> Self {
+    pub fn from_spectra(site: usize, names: Vec<String>, weights: Vec<f64>, spectra_m: Array<3>) -> Self {
         let total: f64 = weights.iter().sum();
         let [_, poes, strengths] = spectra_m.shape();
         let pairs = |[poe, strength]: [usize; 2]| -> Vec<(f64, f64)> {

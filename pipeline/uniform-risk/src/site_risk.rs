@@ -33,20 +33,20 @@ impl<'a> SiteRisk<'a> {
     /// # Errors
     /// Numbers that do not fit together, which the check of the study rules out.
     pub fn new(study: &'a UniformRiskStudy, stripes: &Stripes) -> Result<Self, UniformRiskError> {
-        Self::of(study, stripes.peaks.axes().systems, |strength| pooled_demand(stripes, strength))
+        Self::from_demands(study, stripes.peaks.axes().systems, |strength| pooled_demand(stripes, strength))
     }
 
     /// The same of demands that `demand` pools for each of the `strengths`.
     ///
     /// # Errors
     /// Those of `demand`, and numbers that do not fit together.
-    pub(crate) fn of(
+    pub(crate) fn from_demands(
         study: &'a UniformRiskStudy,
         strengths: usize,
         demand: impl Fn(usize) -> Result<PooledDemand, UniformRiskError> + Sync + Send,
     ) -> Result<Self, UniformRiskError> {
         let demands = (0..strengths).into_par_iter().map(demand).collect::<Result<_, _>>()?;
-        Ok(Self { study, reading: Reading::of(study)?, demands })
+        Ok(Self { study, reading: Reading::from_study(study)?, demands })
     }
 
     /// The spectra of the site whose hazard gives the stripes these weights: to the bit those of

@@ -65,7 +65,7 @@ impl Reading {
     ///
     /// # Errors
     /// Probabilities and thresholds that the check of the study rules out.
-    pub fn of(study: &UniformRiskStudy) -> Result<Self, UniformRiskError> {
+    pub fn from_study(study: &UniformRiskStudy) -> Result<Self, UniformRiskError> {
         let rate = |&poe: &f64| rate_from_probability(poe, study.risk.years);
         let targets = study.risk.poe.iter().map(rate).collect::<Result<Vec<_>, _>>()?;
         let grid = ThresholdGrid::new(study.risk.thresholds_m.to_vec())?;
@@ -139,7 +139,7 @@ pub fn uniform_risk_spectra(
     stripes: &Stripes,
     hazard: &[SiteHazard],
 ) -> Result<Spectra, UniformRiskError> {
-    let reading = Reading::of(study)?;
+    let reading = Reading::from_study(study)?;
     let (targets, grid) = (&reading.targets, &reading.grid);
     let strengths = stripes.peaks.axes().systems;
     let shared = shared_structures(study);
@@ -187,7 +187,7 @@ pub fn uniform_risk_spectra(
         let spectra_m = Array::from_fn([shared, targets.len(), strengths], |[structure, poe, strength]| {
             by_strength[strength].structures[site][structure][poe].displacement_m
         });
-        BranchSpectra::of(site, names, vec![1.0; shared], spectra_m)
+        BranchSpectra::from_spectra(site, names, vec![1.0; shared], spectra_m)
     };
     let structures = if shared > 1 { (0..hazard.len()).map(of_structures).collect() } else { Vec::new() };
     Ok(Spectra {

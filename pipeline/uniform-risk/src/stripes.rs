@@ -32,7 +32,7 @@ pub struct Stripes {
 
 impl Stripes {
     /// The stripes of `measure`, analysed with the records of `set`.
-    pub fn of(measure: &MeasurePlan, set: &RecordSet, analysed: Analysed) -> Self {
+    pub fn new(measure: &MeasurePlan, set: &RecordSet, analysed: Analysed) -> Self {
         let Analysed { peaks, analyses, computed, seconds } = analysed;
         let (levels, at_level) = (measure.levels.to_vec(), set.at_level.clone());
         Self { measure: measure.measure, levels, peaks, at_level, analyses, computed, seconds }

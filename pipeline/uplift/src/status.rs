@@ -144,14 +144,14 @@ pub struct UnfinishedStatus {
 pub fn status(input: &Path) -> Result<StatusReport, UpliftError> {
     if input.is_file() && !is_hdf5(input) {
         if let Ok(Some(finding)) = RowFile::read(input) {
-            let unfinished = vec![UnfinishedStatus::of(input, &finding)];
+            let unfinished = vec![UnfinishedStatus::from_finding(input, &finding)];
             return Ok(StatusReport { result: None, unfinished, bootstrap: None, written_by: None });
         }
         if input.extension().is_some_and(|extension| extension == "h5") {
             return Err(JobError::input(format!("{} is not an HDF5 file", input.display())).into());
         }
     }
-    if let Some(bootstrap) = BootstrapStatus::of(input.to_owned()) {
+    if let Some(bootstrap) = BootstrapStatus::read(input.to_owned()) {
         return Ok(StatusReport { result: None, unfinished: Vec::new(), bootstrap: Some(bootstrap), written_by: None });
     }
     let path = if input.extension().is_some_and(|extension| extension == "toml") {
@@ -163,11 +163,11 @@ pub fn status(input: &Path) -> Result<StatusReport, UpliftError> {
     let checkpoint = checkpoint_path(&path);
     let mut unfinished = Vec::new();
     if let Some(finding) = RowFile::read(&checkpoint)? {
-        unfinished.push(UnfinishedStatus::of(&checkpoint, &finding));
+        unfinished.push(UnfinishedStatus::from_finding(&checkpoint, &finding));
     }
     for shard in shards_of(&path) {
         if let Ok(Some(finding)) = RowFile::read(&shard) {
-            unfinished.push(UnfinishedStatus::of(&shard, &finding));
+            unfinished.push(UnfinishedStatus::from_finding(&shard, &finding));
         }
     }
     let written_by = ResultLock::holder(&path);
@@ -176,7 +176,7 @@ pub fn status(input: &Path) -> Result<StatusReport, UpliftError> {
             JobError::input(format!("{}: no result, and no checkpoint of an unfinished run", path.display())).into()
         );
     }
-    let bootstrap = BootstrapStatus::of(part_path(&path));
+    let bootstrap = BootstrapStatus::read(part_path(&path));
     Ok(StatusReport { result, unfinished, bootstrap, written_by })
 }
 
@@ -200,7 +200,7 @@ fn shards_of(result: &Path) -> Vec<PathBuf> {
 }
 
 impl BootstrapStatus {
-    fn of(file: PathBuf) -> Option<Self> {
+    fn read(file: PathBuf) -> Option<Self> {
         let strengths = finished_strengths(&file)?;
         Some(Self { file, strengths })
     }
@@ -222,21 +222,21 @@ impl ResultStatus {
             study: head.study_file,
             title: head.title,
             record_set: head.record_set,
-            content: ResultContent::of(file.overview()?),
-            asked: file.findings()?.into_iter().map(AskedStatus::of).collect(),
+            content: ResultContent::from_overview(file.overview()?),
+            asked: file.findings()?.into_iter().map(AskedStatus::from_finding).collect(),
         })
     }
 }
 
 impl AskedStatus {
-    fn of(stored: StoredFinding) -> Self {
+    fn from_finding(stored: StoredFinding) -> Self {
         let StoredFinding { finding, created, is_of_earlier_file, .. } = stored;
         Self { question: finding.question(), structure: finding.structure, created, is_of_earlier_file }
     }
 }
 
 impl ResultContent {
-    fn of(overview: Overview) -> Self {
+    fn from_overview(overview: Overview) -> Self {
         match overview {
             Overview::Displacement { structure, analyses, sets, designed } => {
                 Self::Displacement { structure, analyses, sets, has_design: designed }
@@ -253,7 +253,7 @@ impl ResultContent {
 }
 
 impl UnfinishedStatus {
-    fn of(file: &Path, finding: &Finding) -> Self {
+    fn from_finding(file: &Path, finding: &Finding) -> Self {
         let head = &finding.head;
         Self {
             file: file.to_owned(),

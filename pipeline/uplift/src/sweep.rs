@@ -157,7 +157,7 @@ pub fn sweep(options: &SweepOptions, events: &dyn Events) -> Result<SweepReport,
         let of_oscillator = finished.entry(oscillator_key(&study)).or_default();
         let result = result_of(&study, &RunOptions { earlier: of_oscillator.clone(), ..options }, events)?;
         of_oscillator.push(result.clone());
-        reports.push(VariantReport::of(name, result, &keys, asked)?);
+        reports.push(VariantReport::new(name, result, &keys, asked)?);
     }
     let report =
         SweepReport { study: options.study_file.clone(), title: study.title, folder, keys, variants: reports, table };
@@ -290,7 +290,7 @@ fn check(ready: &[Ready], events: &dyn Events) -> Result<(), UpliftError> {
 
 impl VariantReport {
     /// What the file at `result` has.
-    fn of(name: String, result: PathBuf, keys: &[String], asked: &Variant) -> Result<Self, UpliftError> {
+    fn new(name: String, result: PathBuf, keys: &[String], asked: &Variant) -> Result<Self, UpliftError> {
         let file = ResultFile::open(&result)?;
         let axes = file.axes()?;
         let spectra = file.spectra()?;

@@ -55,7 +55,7 @@ pub fn verify(files: &[PathBuf], events: &dyn Events) -> Result<VerifyReport, Up
             Ok(verdict)
         });
         found.push(match verdict {
-            Ok(verdict) => VerifiedFile::of(file.clone(), verdict),
+            Ok(verdict) => VerifiedFile::from_verdict(file.clone(), verdict),
             Err(error) => {
                 let mistakes = vec![error.to_string()];
                 VerifiedFile { file: file.clone(), sound: 0, unknown: Vec::new(), mistakes }
@@ -72,13 +72,13 @@ pub fn verify(files: &[PathBuf], events: &dyn Events) -> Result<VerifyReport, Up
 pub fn require_whole(files: &[PathBuf]) -> Result<(), UpliftError> {
     let mut mistakes = Vec::new();
     for file in files {
-        mistakes.extend(VerifiedFile::of(file.clone(), verify_bytes(file)?).mistakes);
+        mistakes.extend(VerifiedFile::from_verdict(file.clone(), verify_bytes(file)?).mistakes);
     }
     if mistakes.is_empty() { Ok(()) } else { Err(JobError::Inputs(mistakes).into()) }
 }
 
 impl VerifiedFile {
-    fn of(file: PathBuf, verdict: Verdict) -> Self {
+    fn from_verdict(file: PathBuf, verdict: Verdict) -> Self {
         let name = file.display();
         let mut mistakes: Vec<String> = verdict.damaged.iter().map(|damage| format!("{name}: {damage}")).collect();
         match verdict.seal {

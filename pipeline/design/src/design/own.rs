@@ -55,7 +55,7 @@ impl Own {
         let asked = name(structure);
         let beside = Beside { result: &source.path, name: &asked };
         let (analysed, checkpoint) = beside.results(shaken.work(source, measure, &asked)?, &options.shards, events)?;
-        let mut stripes = analysed.into_iter().map(|analysed| Stripes::of(&measure.plan, &shaken.set, analysed));
+        let mut stripes = analysed.into_iter().map(|analysed| Stripes::new(&measure.plan, &shaken.set, analysed));
         let (own, of_uncertain) = (stripes.next().ok_or(JobError::Interrupted)?, stripes.next());
         let scatter = Scatter::of(file)?;
         let rate = (target_per_year, source.study.risk.years);

@@ -55,7 +55,7 @@ pub(super) fn report(
         });
         let asked: Vec<AskedSite<'_>> = asked.collect();
         analyses += analysed.analyses;
-        results.extend(uncertain.results(&Stripes::of(&measure.plan, set, analysed), &asked, scatter)?);
+        results.extend(uncertain.results(&Stripes::new(&measure.plan, set, analysed), &asked, scatter)?);
     }
     Ok(uncertain.report(analyses, results))
 }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use uplift_alarms::of_numbers;
+use uplift_alarms::number_alarms;
 use uplift_hazard::rate_from_probability;
 use uplift_job::alarm::Alarm;
 use uplift_motion::IntensityMeasure;
@@ -135,7 +135,7 @@ impl TargetOptions {
             TargetFrequency::PerYear(per_year) => Some(per_year),
             TargetFrequency::Probability(..) | TargetFrequency::ReturnPeriod(_) => None,
         };
-        of_numbers(
+        number_alarms(
             "target",
             &[(USUAL_THRESHOLD, "--exceed", displacement_m), (USUAL_TARGET, "the allowed frequency", per_year)],
         )

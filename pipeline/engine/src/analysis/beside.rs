@@ -51,7 +51,7 @@ impl Beside<'_> {
     /// # Errors
     /// As [`Work::carry_out`]; a file that is a shard of other work, or that another job has.
     pub fn shard(&self, work: Work<'_>, shard: Shard, events: &dyn Events) -> Result<ShardReport, EngineError> {
-        work.needs().of_shard(shard).require(self.result, events)?;
+        work.needs().for_shard(shard).require(self.result, events)?;
         run_shard(work, &self.shard_path(shard), shard, events)
     }
 }

@@ -53,7 +53,7 @@ pub struct Work<'a> {
 impl<'a> Work<'a> {
     /// The work of `plans`; `title` is told with files of its rows.
     pub fn new(title: &str, plans: Vec<LabelledPlan<'a>>) -> Self {
-        let keys = plans.iter().map(|labelled| RowKeys::of(&labelled.plan, labelled.motions)).collect();
+        let keys = plans.iter().map(|labelled| RowKeys::from_plan(&labelled.plan, labelled.motions)).collect();
         Self { title: title.to_owned(), plans, keys }
     }
 

@@ -44,7 +44,7 @@ impl RowKeys {
     ///
     /// # Panics
     /// If there are not as many keys as motions, which is a bug of the caller.
-    pub fn of(plan: &Plan<'_>, motions: &[String]) -> Self {
+    pub fn from_plan(plan: &Plan<'_>, motions: &[String]) -> Self {
         let axes = plan.axes();
         assert_eq!(motions.len(), axes.motions, "keys of motions");
         let mut keys = Vec::with_capacity(axes.rows());
@@ -123,7 +123,7 @@ mod tests {
         ];
         let keys = |motion: &Accelerogram, scales: &[f64], systems: &[System], free: bool| {
             let motions = vec![ScaledMotion { id: "any", accelerogram: motion, scales: scales.to_vec() }];
-            RowKeys::of(&Plan::scaled(motions, systems, free).unwrap(), &[motion_key(motion)]).keys
+            RowKeys::from_plan(&Plan::scaled(motions, systems, free).unwrap(), &[motion_key(motion)]).keys
         };
         let mut seen: HashSet<RowKey> = keys(&one, &[1.0, 2.0], &systems, true).into_iter().collect();
         seen.extend(keys(&other, &[1.0, 2.0], &systems, true));
@@ -136,13 +136,13 @@ mod tests {
             Plan::scaled(motions, &systems, true).unwrap()
         };
         let seen_from = |others: &[Accelerogram], percentile: u8| {
-            RowKeys::of(&plan().from_azimuths(vec![others], percentile).unwrap(), &[motion_key(&one)]).keys
+            RowKeys::from_plan(&plan().from_azimuths(vec![others], percentile).unwrap(), &[motion_key(&one)]).keys
         };
         let others = [other.clone()];
         seen.extend(seen_from(&others, 50));
         seen.extend(seen_from(&others, 100));
         seen.extend(seen_from(std::slice::from_ref(&one), 100));
-        seen.extend(RowKeys::of(&plan().upwards(vec![&other]).unwrap(), &[motion_key(&one)]).keys);
+        seen.extend(RowKeys::from_plan(&plan().upwards(vec![&other]).unwrap(), &[motion_key(&one)]).keys);
         assert_eq!(seen.len(), 9 * systems.len());
         // one azimuth is no percentile
         assert_eq!(seen_from(&[], 100), keys(&one, &[1.0, 2.0], &systems, true));

@@ -111,7 +111,7 @@ impl Checkpoint {
     /// # Errors
     /// Rows that are missing or of another length.
     pub fn peaks(&self, plan: &Plan<'_>, motions: &[String], watch: &dyn Watch) -> Result<Peaks, IdaError> {
-        let keys = RowKeys::of(plan, motions);
+        let keys = RowKeys::from_plan(plan, motions);
         let cells = self.complete((plan, &keys), Cells::unknown(plan), Shard::WHOLE, watch, &|_| {})?;
         cells.complete().ok_or(IdaError::Cancelled)
     }

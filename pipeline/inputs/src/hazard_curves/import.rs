@@ -124,12 +124,12 @@ pub fn import(options: &HazardImportOptions, events: &dyn Events) -> Result<Haza
         study_lines: study_lines(&chosen, &options.folder, &site),
         site,
         folder: options.folder.clone(),
-        curves: chosen.into_iter().map(WrittenCurve::of).collect(),
+        curves: chosen.into_iter().map(WrittenCurve::from_chosen).collect(),
     })
 }
 
 impl WrittenCurve {
-    fn of(Chosen { exported, file, weight }: Chosen) -> Self {
+    fn from_chosen(Chosen { exported, file, weight }: Chosen) -> Self {
         Self { file, measure: exported.curve.measure().to_owned(), kind: exported.kind.to_string(), weight }
     }
 }

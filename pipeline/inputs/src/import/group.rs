@@ -67,7 +67,7 @@ pub(super) fn pairs(components: Vec<Component>, search: &SearchResults, warnings
                 ),
             }),
             2 => {
-                let entry = search.of(rsn).cloned();
+                let entry = search.find(rsn).cloned();
                 let mut components = horizontal;
                 put_in_order(&mut components, entry.as_ref());
                 let count = ids.entry(id.clone()).or_insert(0);

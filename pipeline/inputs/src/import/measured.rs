@@ -33,7 +33,7 @@ pub struct PairMeasures {
 
 impl PairMeasures {
     /// Measures `pair`; `gravity_m_s2` makes g of accelerations, `pulses` tells whether a velocity pulse is sought.
-    pub fn of(pair: &RecordPair, gravity_m_s2: f64, pulses: bool) -> Self {
+    pub fn from_pair(pair: &RecordPair, gravity_m_s2: f64, pulses: bool) -> Self {
         let peaks = Combination::all_peaks_of(pair).map(|peaks| {
             let peaks = peaks?;
             Some([peaks.pga_g(gravity_m_s2), peaks.pgv_cm_s()])
@@ -71,7 +71,7 @@ pub(super) fn pair(candidate: Candidate, options: &ImportOptions) -> Result<Impo
     let Candidate { id, rsn: _, components, vertical, search } = candidate;
     let [first, second] = &components;
     let pair = RecordPair { id, h1: read(first)?, h2: read(second)?, metadata: std::collections::BTreeMap::new() };
-    let mut measures = PairMeasures::of(&pair, options.files.gravity_m_s2, options.pulses);
+    let mut measures = PairMeasures::from_pair(&pair, options.files.gravity_m_s2, options.pulses);
     if !warnings::are_together([&first.description, &second.description], pair.h1.dt_s()) {
         // all but the geometric mean would be wrong
         measures.peaks[1..].fill(None);

@@ -18,7 +18,7 @@ pub struct Remarks {
 
 impl Remarks {
     /// Those of an import, kinds in the order in which they came up, files that are no records last.
-    pub(super) fn of(imported: &Imported) -> Vec<Self> {
+    pub(super) fn from_import(imported: &Imported) -> Vec<Self> {
         let mut kinds: Vec<Self> = Vec::new();
         for warning in &imported.warnings {
             match kinds.iter_mut().find(|kind| kind.kind == warning.kind) {

@@ -53,7 +53,7 @@ impl SearchResults {
     }
 
     /// What is said about the record of this sequence number.
-    pub(super) fn of(&self, rsn: Option<u64>) -> Option<&Entry> {
+    pub(super) fn find(&self, rsn: Option<u64>) -> Option<&Entry> {
         self.entries.get(&rsn?)
     }
 

@@ -139,8 +139,11 @@ fn file(path: &Path, files: FileOptions) -> Result<FileReport, InputsError> {
         .into());
     }
     let file = read_record_file(path, &files.read_options(None))?;
-    let components: Vec<ComponentReport> =
-        file.recordings.iter().map(|recording| ComponentReport::of(recording, files.gravity_m_s2)).collect();
+    let components: Vec<ComponentReport> = file
+        .recordings
+        .iter()
+        .map(|recording| ComponentReport::from_recording(recording, files.gravity_m_s2))
+        .collect();
     let warnings = components.iter().filter_map(|component| unusual_peak(component.pga_g)).collect();
     Ok(FileReport { file: path.to_owned(), format: file.format.to_string(), components, warnings })
 }
@@ -162,11 +165,11 @@ fn record(set: &Path, id: &str, gravity_m_s2: f64) -> Result<RecordReport, Input
             .map_err(|reason| JobError::input(format!("record {id}: {reason}")))?)
     };
     let [one, other] = [component(&row.components[0])?, component(&row.components[1])?];
-    let components = [&one, &other].map(|recording| ComponentReport::of(recording, gravity_m_s2));
+    let components = [&one, &other].map(|recording| ComponentReport::from_recording(recording, gravity_m_s2));
     let descriptions = [&one.description, &other.description];
     let pair =
         RecordPair { id: id.to_owned(), h1: one.accelerogram, h2: other.accelerogram, metadata: BTreeMap::new() };
-    let measures = PairMeasures::of(&pair, gravity_m_s2, true);
+    let measures = PairMeasures::from_pair(&pair, gravity_m_s2, true);
     let peaks = Combination::ALL.iter().zip(&measures.peaks).filter_map(|(combination, peaks)| {
         let [pga_g, pgv_cm_s] = (*peaks)?;
         Some(PairPeaks { combination: combination.key(), pga_g, pgv_cm_s })
@@ -191,7 +194,7 @@ fn record(set: &Path, id: &str, gravity_m_s2: f64) -> Result<RecordReport, Input
 }
 
 impl ComponentReport {
-    fn of(recording: &Recording, gravity_m_s2: f64) -> Self {
+    fn from_recording(recording: &Recording, gravity_m_s2: f64) -> Self {
         let motion = &recording.accelerogram;
         Self {
             said: said(recording),

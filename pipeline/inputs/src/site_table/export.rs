@@ -122,10 +122,10 @@ impl Index {
             return Err(tally.mistakes.into_iter().flat_map(fail).collect());
         }
         let notes = tally.notes(study, label, path);
-        Ok(Self { names, reasons, notes, ..Self::of_rows(rows) })
+        Ok(Self { names, reasons, notes, ..Self::from_rows(rows) })
     }
 
-    fn of_rows(rows: Vec<Row>) -> Self {
+    fn from_rows(rows: Vec<Row>) -> Self {
         let latitude = |position: u32| rows[position as usize].latitude_deg;
         let mut by_latitude: Vec<u32> = (0..).take(rows.len()).collect();
         by_latitude.sort_by(|&a, &b| latitude(a).total_cmp(&latitude(b)));
@@ -346,7 +346,7 @@ mod tests {
             usable: true,
         };
         let rows: Vec<Row> = (0..).zip(places).map(row).collect();
-        Index::of_rows(rows)
+        Index::from_rows(rows)
     }
 
     #[test]

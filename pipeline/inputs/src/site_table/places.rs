@@ -43,7 +43,7 @@ pub(super) fn read(path: &Path) -> Result<Places, Vec<String>> {
     let table = text_table::parse(&bytes, &[])
         .map_err(|error| fail(format!("cannot be read as a CSV table with a header row: {error}")))?;
     drop(bytes);
-    let columns = Columns::of(&table).map_err(fail)?;
+    let columns = Columns::from_table(&table).map_err(fail)?;
     let mut mistakes = Vec::new();
     let mut more = 0;
     let mut sites = Vec::with_capacity(table.height());
@@ -75,7 +75,7 @@ struct Columns<'a> {
 }
 
 impl<'a> Columns<'a> {
-    fn of(table: &'a DataFrame) -> Result<Self, String> {
+    fn from_table(table: &'a DataFrame) -> Result<Self, String> {
         let texts: Vec<&StringChunked> = table.columns().iter().filter_map(|column| column.str().ok()).collect();
         let keys: Vec<String> = texts.iter().map(|column| key(column.name())).collect();
         let position = |wanted: &[&str]| wanted.iter().find_map(|wanted| keys.iter().position(|key| key == wanted));

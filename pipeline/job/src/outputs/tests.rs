@@ -37,7 +37,7 @@ fn of_another_result() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.csv");
     std::fs::write(&path, "# uplift 0.1.0 (abc), 2026; one.h5; records\nsite,im\n").unwrap();
-    let output = |result: &str| Output::new(&path, OutputKind::Table("site")).of(Path::new(result));
+    let output = |result: &str| Output::new(&path, OutputKind::Table("site")).with_result(Path::new(result));
     check(&[output("results/one.h5")], &[Path::new("results/one.h5")], false).unwrap();
     let error = check(&[output("two.h5")], &[Path::new("two.h5")], false).unwrap_err();
     assert!(error.to_string().contains("not of two.h5"), "{error}");
@@ -62,7 +62,8 @@ fn a_table_is_known_by_what_stands_beside_it() {
     let ours = metadata_text(&path, line, ["site", "u_m"].into_iter());
     write("site,u_m", &ours);
     assert_eq!(refused(&path, kind, &[], false), None);
-    let of = |result: &str| check(&[Output::new(&path, kind).of(Path::new(result))], &[Path::new(result)], false);
+    let of =
+        |result: &str| check(&[Output::new(&path, kind).with_result(Path::new(result))], &[Path::new(result)], false);
     of("one.h5").unwrap();
     assert!(of("two.h5").unwrap_err().to_string().contains("not of two.h5"));
     assert!(refused(&path, kind, &[&beside], true).unwrap().contains("an input"));

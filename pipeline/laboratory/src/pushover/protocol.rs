@@ -82,7 +82,7 @@ pub struct CyclicReport {
 }
 
 impl CyclicReport {
-    pub(super) fn of(columns: &RestrainedColumns, protocol: LoadingProtocol) -> Result<Self, LaboratoryError> {
+    pub(super) fn new(columns: &RestrainedColumns, protocol: LoadingProtocol) -> Result<Self, LaboratoryError> {
         let states = columns.under(&protocol.history(PARTS)?)?;
         let largest = |value: fn(&CyclicState) -> f64| states.iter().map(value).fold(0.0, f64::max);
         Ok(Self {

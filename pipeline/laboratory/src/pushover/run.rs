@@ -149,7 +149,11 @@ pub fn pushover(
         let column = if options.protocol.is_some() { tables::CYCLIC_COLUMN } else { tables::PUSHOVER_COLUMN };
         let inputs: Vec<&Path> =
             [Some(&structure.file), options.measured.as_ref()].into_iter().flatten().map(PathBuf::as_path).collect();
-        outputs::check(&[Output::new(table, OutputKind::Table(column)).of(&structure.file)], &inputs, options.force)?;
+        outputs::check(
+            &[Output::new(table, OutputKind::Table(column)).with_result(&structure.file)],
+            &inputs,
+            options.force,
+        )?;
     }
     tables::check_rows(options.rows)?;
     let columns = pushed(structure, options.lost)?;
@@ -167,7 +171,7 @@ pub fn pushover(
         .chain(options.stiffnesses_n_m.iter().copied())
         .map(|stiffness_n_m| linear_curve(&columns, stiffness_n_m, (0..options.rows).map(place_m)))
         .collect::<Result<Vec<_>, _>>()?;
-    let cyclic = options.protocol.map(|protocol| CyclicReport::of(&columns, protocol)).transpose()?;
+    let cyclic = options.protocol.map(|protocol| CyclicReport::new(&columns, protocol)).transpose()?;
     let measured = options.measured.as_deref().map(|file| MeasuredCurve::read(file, &columns)).transpose()?;
     let geometry = columns.geometry();
     let mut report = PushoverReport {

@@ -168,7 +168,7 @@ pub fn block_response(options: &BlockResponseOptions) -> Result<BlockResponseRep
     let free = options.free_rocking();
     let (result, history) = if shaking.wants_history() {
         let (result, history) = respond_with_history(&block, &ground, free)?;
-        (result, Some(BlockHistory::of(history, &block, &ground)))
+        (result, Some(BlockHistory::from_history(history, &block, &ground)))
     } else {
         (respond(&block, &ground, free)?, None)
     };
@@ -202,7 +202,7 @@ pub fn block_response(options: &BlockResponseOptions) -> Result<BlockResponseRep
 }
 
 impl BlockHistory {
-    fn of(history: History, block: &RockingBlock, ground: &Accelerogram) -> Self {
+    fn from_history(history: History, block: &RockingBlock, ground: &Accelerogram) -> Self {
         Self {
             dt_s: ground.dt_s(),
             ground_acceleration_m_s2: ground.acceleration_m_s2().to_vec(),

@@ -355,7 +355,7 @@ impl FrameRun {
         };
         if options.wants_history() {
             let (response, history) = uplift_frame::respond_with_history(frame, &ground, model, &asked)?;
-            let history = FrameHistory::of(frame, history, shaken);
+            let history = FrameHistory::from_history(frame, history, shaken);
             Ok(Self { history: Some(history), ..Self::told(frame, under, response) })
         } else {
             Ok(Self::told(frame, under, uplift_frame::respond(frame, &ground, model, &asked)?))

@@ -37,7 +37,7 @@ impl FrameHistory {
     /// A column that the table of every frame has.
     pub(super) const COLUMN: &str = "deck_acceleration_x_m_s2";
 
-    pub(super) fn of(frame: &RockingFrame, history: History, shaken: [Option<&Accelerogram>; 3]) -> Self {
+    pub(super) fn from_history(frame: &RockingFrame, history: History, shaken: [Option<&Accelerogram>; 3]) -> Self {
         let row = |state: HistoryRow| {
             let ground_m_s2 = shaken.map(|motion| {
                 motion

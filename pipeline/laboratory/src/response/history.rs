@@ -45,7 +45,7 @@ impl HistoryRow {
 }
 
 impl ResponseHistory {
-    pub(super) fn of(history: &History, excitation: &Excitation<'_>) -> Self {
+    pub(super) fn from_history(history: &History, excitation: &Excitation<'_>) -> Self {
         let mut rows = Vec::with_capacity(history.samples.len() + 2 * history.events.len());
         let mut events = history.events.iter().peekable();
         for sample in &history.samples {

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use uplift_alarms::of_numbers;
+use uplift_alarms::number_alarms;
 use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
 use uplift_job::outputs::{self, Output, OutputKind};
@@ -75,7 +75,7 @@ impl Shaking {
     /// What is unlikely of the numbers that are given, the `system`'s among them.
     pub(super) fn alarms(&self, system: &[Given]) -> Vec<Alarm> {
         let gravity = (USUAL_GRAVITY, "--gravity-m-s2", Some(self.gravity_m_s2));
-        of_numbers("response", &[system, &[gravity]].concat())
+        number_alarms("response", &[system, &[gravity]].concat())
     }
 
     /// Whether the motion is to be kept.

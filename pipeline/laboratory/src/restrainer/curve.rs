@@ -127,7 +127,7 @@ pub fn curve(
     events: &dyn Events,
 ) -> Result<RestrainerCurve, LaboratoryError> {
     if let Some(table) = &options.table {
-        let output = Output::new(table, OutputKind::Table(CURVE_COLUMN)).of(&of.file);
+        let output = Output::new(table, OutputKind::Table(CURVE_COLUMN)).with_result(&of.file);
         outputs::check(&[output], &[&of.file], options.force)?;
     }
     check_rows(options.rows)?;

@@ -162,7 +162,7 @@ pub fn design(
     events: &dyn Events,
 ) -> Result<RestrainerDesign, LaboratoryError> {
     if let Some(table) = &options.table {
-        let output = Output::new(table, OutputKind::Table(STACK_COLUMN)).of(&structure.file);
+        let output = Output::new(table, OutputKind::Table(STACK_COLUMN)).with_result(&structure.file);
         outputs::check(&[output], &[&structure.file, &options.catalogue], options.force)?;
     }
     let columns = pushed(structure, 0)?;

@@ -98,7 +98,7 @@ pub struct GroupReport {
 
 impl GroupReport {
     /// Of peers; Holm's p is that of one group.
-    pub(super) fn of(
+    pub(super) fn from_peaks(
         of: Vec<Option<String>>,
         peers: &Peers,
         are_pairs: bool,
@@ -134,7 +134,7 @@ impl GroupReport {
         });
         let swaps = options.permutation && are_pairs;
         let p_permutation = swaps.then(|| permutation_p(&values[0], &values[1], resampling)).transpose()?;
-        let [of_measured, of_computed] = [Median::of(&peers.measured)?, Median::of(&peers.computed)?];
+        let [of_measured, of_computed] = [Median::from_peaks(&peers.measured)?, Median::from_peaks(&peers.computed)?];
         let median_error = of_measured.known.zip(of_computed.known).and_then(|(m, c)| finite(c / m - 1.0));
         let collapses = |peaks: &[PeakValue]| peaks.iter().filter(|peak| matches!(peak, PeakValue::Overturned)).count();
         let at = distinct_finite(&measured);
@@ -182,7 +182,7 @@ struct Median {
 impl Median {
     /// Of peaks of which some may be above a limit only: each is at least its limit, and the median lies between those
     /// with all of them there and with all of them above every value. Where these agree it is known.
-    fn of(peaks: &[PeakValue]) -> Result<Self, ValidationError> {
+    fn from_peaks(peaks: &[PeakValue]) -> Result<Self, ValidationError> {
         let median =
             |place: fn(PeakValue) -> f64| Ok(Sample::new(peaks.iter().map(|peak| place(*peak)).collect())?.median());
         let (least, most): (f64, f64) = (median(PeakValue::at_limit)?, median(PeakValue::ranked)?);
@@ -266,7 +266,7 @@ mod tests {
     fn a_median_among_limits_is_a_bound() {
         use PeakValue::{Above, Finite, Overturned};
         let of = |peaks: &[PeakValue]| {
-            let found = Median::of(peaks).unwrap();
+            let found = Median::from_peaks(peaks).unwrap();
             (found.known, found.above)
         };
         // the limit lies above the middle
@@ -288,7 +288,7 @@ mod tests {
             measured: vec![Finite(0.1), Above(0.3), Overturned, Above(0.3)],
             computed: vec![Finite(0.12), Overturned, Overturned, Finite(0.31)],
         };
-        let report = GroupReport::of(Vec::new(), &peers, true, &ValidateOptions::default()).unwrap();
+        let report = GroupReport::from_peaks(Vec::new(), &peers, true, &ValidateOptions::default()).unwrap();
         let pairs = report.pairs.unwrap();
         assert_eq!((pairs.collapses.both, pairs.collapses.computed_only, pairs.collapses.none), (1, 1, 2));
         assert_eq!((report.measured_collapses, report.computed_collapses), (1, 2));

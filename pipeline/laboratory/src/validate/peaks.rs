@@ -127,7 +127,7 @@ fn table(what: &str, file: &Path) -> Result<ReferenceTable, LaboratoryError> {
         return Ok(ReferenceTable::read_as(what, file)?);
     }
     let tests = ResultFile::open(file)?.shake_table()?;
-    Ok(ReferenceTable::of(format!("{what} {}", file.display()), columns(&tests))?)
+    Ok(ReferenceTable::from_columns(format!("{what} {}", file.display()), columns(&tests))?)
 }
 
 /// The unit in the name of a quantity, in words: `u_m` is in m; a name without one is a pure number.

@@ -155,7 +155,7 @@ pub fn validate(options: &ValidateOptions, events: &dyn Events) -> Result<Valida
             if progress.cancelled() || peers.measured.is_empty() || peers.computed.is_empty() {
                 return None;
             }
-            let group = GroupReport::of(of, &peers, are_pairs, options);
+            let group = GroupReport::from_peaks(of, &peers, are_pairs, options);
             progress.finished(1);
             Some(group)
         })

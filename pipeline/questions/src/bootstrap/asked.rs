@@ -35,8 +35,8 @@ pub fn resampled(file: ResultFile, events: &dyn Events) -> Result<ResultFile, Qu
     let settings = BandSettings { confidence, interval, simultaneous: false, strength_above };
     let stored = StoredStripes::read(&file)?;
     // where the bootstrap made bands of repaired spectra as well
-    let reweighing = if file.has_repaired_bands() { Reweighing::of_result(&file)? } else { None };
-    let (reweighing, pair_of) = (reweighing.as_ref(), &Question::of_result(&file)?.pair_of());
+    let reweighing = if file.has_repaired_bands() { Reweighing::from_result(&file)? } else { None };
+    let (reweighing, pair_of) = (reweighing.as_ref(), &Question::from_result(&file)?.pair_of());
     let source = Source { stored: &stored, reweighing, plan: &plan, pair_of, settings: &settings };
     let measures = compute(&source, None, events)?.into_iter().map(stored_bands).collect();
     let (sizes, unit) = (plan.sizes().to_vec(), plan.unit());
@@ -53,8 +53,8 @@ pub fn resampling_plan(file: &ResultFile) -> Result<Option<ResamplingPlan>, Ques
     };
     let group_of = match unit {
         Unit::Record => None,
-        Unit::Pair => Some(Question::of_result(file)?.pair_of()),
-        Unit::Event => Some(Question::of_result(file)?.event_of()),
+        Unit::Pair => Some(Question::from_result(file)?.pair_of()),
+        Unit::Event => Some(Question::from_result(file)?.event_of()),
     };
     let group_of = group_of.as_deref().map(|group_of| (unit, group_of));
     ResamplingPlan::from_multiplicities(records, &sizes, replicates, &multiplicities, group_of)

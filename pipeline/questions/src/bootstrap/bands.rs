@@ -179,11 +179,11 @@ pub(super) fn gather_bands(
         [limits.map(|limits| limits.0), limits.map(|limits| limits.1)]
     });
     let band = |[site, poe, size, strength]: [usize; 4]| strengths[strength].bands[cell(site, poe, size)];
-    let mut plain = SpectraBands::of(&Array::from_fn(shape, band), &measure.exact_m, first);
+    let mut plain = SpectraBands::from_bands(&Array::from_fn(shape, band), &measure.exact_m, first);
     plain.simultaneous_m = simultaneous_m;
     let with_branches = (0..sites).filter(|&site| !measure.branches[site].is_empty()).collect();
     // behind those of the sites
-    plain.joint = JointBands::of(with_branches, shape, first, |place, [poe, size, strength]| {
+    plain.joint = JointBands::from_draws(with_branches, shape, first, |place, [poe, size, strength]| {
         strengths[strength].bands[cell(sites + place, poe, size)]
     });
     Bands { measure: measure.measure, plain, inferred, repaired: None }
@@ -192,7 +192,7 @@ pub(super) fn gather_bands(
 impl SpectraBands {
     /// Bands `[site, poe, size, strength]` of spectra `[site, poe, strength]`, m, with the figures of Table 4.1 over
     /// the strengths from the position `first` on.
-    pub(super) fn of(bands: &Array<4, Band>, spectra_m: &Array<3>, first: usize) -> Self {
+    pub(super) fn from_bands(bands: &Array<4, Band>, spectra_m: &Array<3>, first: usize) -> Self {
         let [lower_m, median_m, upper_m] =
             [|band: &Band| band.lower_m, |band: &Band| band.median_m, |band: &Band| band.upper_m]
                 .map(|value: fn(&Band) -> f64| bands.map(value));

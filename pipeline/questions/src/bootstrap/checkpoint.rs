@@ -59,7 +59,7 @@ pub fn finished_strengths(part: &Path) -> Option<u64> {
 
 impl Checkpoint {
     /// The checkpoint of this very bootstrap: its fingerprint covers all numbers that the bands depend on.
-    pub(super) fn of(source: &Source<'_>) -> Self {
+    pub(super) fn new(source: &Source<'_>) -> Self {
         // pairs are of the bands of the truth, which are not kept
         let Source { stored, reweighing, plan, settings, pair_of: _ } = source;
         let mut hash = Sha256::new();
@@ -122,11 +122,11 @@ impl Checkpoint {
             }
             for &key in &expected.keys {
                 for (site, row) in rows_of_sites(&reader, key, REPAIRED)? {
-                    let bands = SiteBands::of_numbers(&row, expected.site, expected.simultaneous);
+                    let bands = SiteBands::from_numbers(&row, expected.site, expected.simultaneous);
                     finished.sites.extend(bands.map(|bands| ((key, site), bands)));
                 }
                 for (site, row) in rows_of_sites(&reader, key, JOINT)? {
-                    let bands = JointSiteBands::of_numbers(&row, expected.site);
+                    let bands = JointSiteBands::from_numbers(&row, expected.site);
                     finished.joint.extend(bands.map(|bands| ((key, site), bands)));
                 }
             }

@@ -137,8 +137,8 @@ fn repaired_bands(
     note_unrepaired_branches(stored, reweighing, events);
     let is_left = |finished: &Finished, of @ (im, site): (IntensityMeasure, usize)| {
         let place = (im.key(), site);
-        (reweighing.of_site(of).is_some() && !finished.sites.contains_key(&place))
-            || (reweighing.of_branches(of).is_some() && !finished.joint.contains_key(&place))
+        (reweighing.site(of).is_some() && !finished.sites.contains_key(&place))
+            || (reweighing.branches(of).is_some() && !finished.joint.contains_key(&place))
     };
     let all: Vec<(IntensityMeasure, usize)> = (stored.measures.iter())
         .flat_map(|measure| (0..stored.sites.len()).map(|site| (measure.measure, site)))
@@ -184,10 +184,10 @@ fn finish_site(
 ) -> Result<(), QuestionsError> {
     let Source { stored, plan, settings, .. } = source;
     let (place, demands) = ((im.key(), site), (demands, &stored.targets_per_year[..]));
-    if let Some(analysis) = reweighing.of_site(of).filter(|_| !finished.sites.contains_key(&place)) {
+    if let Some(analysis) = reweighing.site(of).filter(|_| !finished.sites.contains_key(&place)) {
         finished.sites.insert(place, bands_of_site(&analysis, demands, (plan, settings), is_cancelled)?);
     }
-    if let Some(branches) = reweighing.of_branches(of).filter(|_| !finished.joint.contains_key(&place)) {
+    if let Some(branches) = reweighing.branches(of).filter(|_| !finished.joint.contains_key(&place)) {
         let how = (*plan, settings.confidence);
         finished.joint.insert(place, joint_bands_of_site(&branches, demands, how, is_cancelled)?);
     }
@@ -197,7 +197,7 @@ fn finish_site(
 /// Says where weighted hazard curves cannot be repaired, so that there is no joint band.
 fn note_unrepaired_branches(stored: &StoredStripes, reweighing: &Reweighing, events: &dyn Events) {
     for (im, site) in stored.measures.iter().flat_map(|own| (0..stored.sites.len()).map(|site| (own.measure, site))) {
-        for branch in reweighing.of_branches((im, site)).into_iter().flatten() {
+        for branch in reweighing.branches((im, site)).into_iter().flatten() {
             if let Err(reason) = &branch.analysis {
                 events.note(&format!(
                     "{} by {}: no joint band of repaired spectra, since the hazard curve {} cannot be repaired: \

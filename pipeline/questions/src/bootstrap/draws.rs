@@ -54,8 +54,8 @@ pub(super) fn draws(
     let count = usize::try_from(replicates).unwrap_or(usize::MAX);
     let plan = match unit {
         Unit::Record => ResamplingPlan::draw(records, &sizes, count, seed),
-        Unit::Pair => ResamplingPlan::draw_pairs(&Question::of_result(file)?.pair_of(), &sizes, count, seed),
-        Unit::Event => ResamplingPlan::draw_events(&Question::of_result(file)?.event_of(), &sizes, count, seed),
+        Unit::Pair => ResamplingPlan::draw_pairs(&Question::from_result(file)?.pair_of(), &sizes, count, seed),
+        Unit::Event => ResamplingPlan::draw_events(&Question::from_result(file)?.event_of(), &sizes, count, seed),
     };
     let plan = plan.map_err(|error| match error {
         BootstrapError::OneEvent | BootstrapError::OnePair => {
@@ -163,7 +163,7 @@ pub(super) fn announce(
                 plan.unit_count()
             ),
         );
-        if plan.unit() == Unit::Event && !Question::of_result(file)?.shares_earthquakes() {
+        if plan.unit() == Unit::Event && !Question::from_result(file)?.shares_earthquakes() {
             events.note(
                 "no two pairs are known to share an earthquake: the band is that of pairs drawn one by one (column \
                  event of the manifest)",

@@ -69,14 +69,14 @@ pub fn bootstrap(
         simultaneous: options.simultaneous || study.simultaneous,
         strength_above: study.strength_above,
     };
-    let reweighing = Reweighing::of_result(&file)?;
+    let reweighing = Reweighing::from_result(&file)?;
     let (plan, plan_source) = draws(options, study, (&file, &stored), (&settings, reweighing.is_some()), events)?;
     announce((&file, &stored), &plan, events)?;
 
     let start = Instant::now();
-    let (reweighing, pair_of) = (reweighing.as_ref(), &Question::of_result(&file)?.pair_of());
+    let (reweighing, pair_of) = (reweighing.as_ref(), &Question::from_result(&file)?.pair_of());
     let source = Source { stored: &stored, reweighing, plan: &plan, pair_of, settings: &settings };
-    let checkpoint = Checkpoint::of(&source);
+    let checkpoint = Checkpoint::new(&source);
     let bands = compute(&source, Some(&checkpoint), events)?;
     events.remark("", &format!("{:.1} s", start.elapsed().as_secs_f64()));
     write_bands(

@@ -29,7 +29,7 @@ impl JointBands {
     /// Those of the sites at the positions `places`, of which there are some, of all sites in `shape` `[site, poe,
     /// size, strength]`; `band` is that of the place among them at `[poe, size, strength]`, and only strengths from the
     /// position `first` on count in Eq. 4.10.
-    pub(super) fn of(
+    pub(super) fn from_draws(
         places: Vec<usize>,
         shape: [usize; 4],
         first: usize,
@@ -106,7 +106,7 @@ impl JointSiteBands {
     }
 
     /// The bands of such a row; none where it is of another shape.
-    pub(super) fn of_numbers(numbers: &[f64], shape: SiteShape) -> Option<Self> {
+    pub(super) fn from_numbers(numbers: &[f64], shape: SiteShape) -> Option<Self> {
         let (bands, failed) = numbers.split_at_checked(3 * shape.cells())?;
         (failed.len() == shape.sizes).then(|| Self { bands: bands_of_numbers(bands), failed: failed.to_vec() })
     }
@@ -149,7 +149,7 @@ pub(super) fn gather_joint(sites: &[Option<&JointSiteBands>], shape: SiteShape, 
     let SiteShape { poes, sizes, strengths } = shape;
     let own: Vec<&JointSiteBands> = sites.iter().copied().flatten().collect();
     let places = (0..sites.len()).filter(|&site| sites[site].is_some()).collect();
-    let mut joint = JointBands::of(places, [sites.len(), poes, sizes, strengths], first, |place, at| {
+    let mut joint = JointBands::from_draws(places, [sites.len(), poes, sizes, strengths], first, |place, at| {
         own[place].bands[shape.cell(at)]
     })?;
     joint.failed =
@@ -177,8 +177,8 @@ mod tests {
         let band = |at: f64| Band { lower_m: at, median_m: at + 0.5, upper_m: at + 1.0 };
         let of_site = JointSiteBands { bands: [1.0, 2.0].map(band).to_vec(), failed: vec![0.0, 0.25] };
         let numbers = of_site.numbers();
-        assert_eq!(JointSiteBands::of_numbers(&numbers, shape), Some(of_site.clone()));
-        assert_eq!(JointSiteBands::of_numbers(&numbers[1..], shape), None);
+        assert_eq!(JointSiteBands::from_numbers(&numbers, shape), Some(of_site.clone()));
+        assert_eq!(JointSiteBands::from_numbers(&numbers[1..], shape), None);
         assert_eq!(gather_joint(&[None, None], shape, 0), None);
         let joint = gather_joint(&[None, Some(&of_site)], shape, 0);
         let found = joint.map(|own| {

@@ -59,7 +59,7 @@ impl SiteBands {
     }
 
     /// The bands of such a row; none where it is of another shape.
-    pub(super) fn of_numbers(numbers: &[f64], shape: SiteShape, simultaneous: bool) -> Option<Self> {
+    pub(super) fn from_numbers(numbers: &[f64], shape: SiteShape, simultaneous: bool) -> Option<Self> {
         let (bands, rest) = numbers.split_at_checked(3 * shape.cells())?;
         let (limits, rest) = rest.split_at_checked(if simultaneous { 2 * shape.cells() } else { 0 })?;
         let (spectra_m, failed) = rest.split_at_checked(shape.poes * shape.strengths)?;
@@ -151,7 +151,7 @@ pub(super) fn gather_repaired(
     let spectra_m = Array::from_fn([sites.len(), poes, strengths], |[site, poe, strength]| {
         sites[site].map_or(f64::NAN, |own| own.spectra_m[poe * strengths + strength])
     });
-    let mut bands = SpectraBands::of(&Array::from_fn(all, band), &spectra_m, first);
+    let mut bands = SpectraBands::from_bands(&Array::from_fn(all, band), &spectra_m, first);
     if simultaneous {
         let limits = Array::from_fn(all, |[site, poe, size, strength]| {
             sites[site].map_or((f64::NAN, f64::NAN), |own| own.simultaneous_m[shape.cell([poe, size, strength])])
@@ -179,9 +179,9 @@ mod tests {
             failed: vec![0.0, 0.25],
         };
         let numbers = bands.numbers();
-        assert_eq!(SiteBands::of_numbers(&numbers, shape, true), Some(bands.clone()));
-        assert_eq!(SiteBands::of_numbers(&numbers, shape, false), None);
-        assert_eq!(SiteBands::of_numbers(&numbers[1..], shape, true), None);
+        assert_eq!(SiteBands::from_numbers(&numbers, shape, true), Some(bands.clone()));
+        assert_eq!(SiteBands::from_numbers(&numbers, shape, false), None);
+        assert_eq!(SiteBands::from_numbers(&numbers[1..], shape, true), None);
         let gathered = gather_repaired(&[None, Some(&bands)], shape, 0, true);
         assert!(gathered.failed[[0, 1]].is_nan() && gathered.failed[[1, 1]] == 0.25);
         assert_eq!(gathered.bands.lower_m.block([1, 0]), [1.0, 2.0, 3.0, 4.0]);

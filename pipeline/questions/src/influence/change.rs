@@ -112,7 +112,7 @@ pub(super) fn influence_on_repaired(
     let (samples, targets) = (left_out_together(records, &stored.units.records)?, &stored.targets_per_year);
     let mut of_sites = Vec::with_capacity(sites);
     for site in 0..sites {
-        let Some(repaired) = reweighing.of_site((measure.measure, site)) else {
+        let Some(repaired) = reweighing.site((measure.measure, site)) else {
             of_sites.push(None);
             continue;
         };

@@ -52,7 +52,7 @@ pub fn influence(
         Some(years) => stored.return_period_index(years)?,
         None => stored.poe_index(options.poe)?,
     };
-    let reweighing = Reweighing::of_result(&file)?;
+    let reweighing = Reweighing::from_result(&file)?;
     let mut influences: Vec<Influence> = Vec::new();
     for measure in &stored.measures {
         if events.cancelled() {

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use serde::Serialize;
-use uplift_alarms::{of_study, ranked};
+use uplift_alarms::{ranked, study_alarms};
 use uplift_engine::analysis::seconds;
 use uplift_inputs::RecordSets;
 use uplift_job::events::Events;
@@ -67,7 +67,7 @@ pub fn plan(study: &DisplacementStudy, study_file: &Path, events: &dyn Events) -
     let of_all = (of_spectra + of_rounding) as f64 / of_spectra as f64;
     let seconds = seconds(&plans, CALIBRATION) * of_all + designs;
     let needs = needs(study, records, &sets);
-    let reports = records.sets.iter().zip(&sets).map(|(set, motions)| SetReport::of(set, motions)).collect();
+    let reports = records.sets.iter().zip(&sets).map(|(set, motions)| SetReport::from_motions(set, motions)).collect();
     let head = PlanHead {
         study: study_file.to_owned(),
         record_set: records.description.clone(),
@@ -79,7 +79,7 @@ pub fn plan(study: &DisplacementStudy, study_file: &Path, events: &dyn Events) -
         disk_bytes: needs.disk_bytes,
         room: needs.room(&study.output.file),
         output: study.output.file.clone(),
-        alarms: ranked(of_study(&study.warnings, records.synthetic).collect()),
+        alarms: ranked(study_alarms(&study.warnings, records.synthetic).collect()),
         notes: records.notes.clone(),
         would_replace: false,
     };

@@ -72,7 +72,7 @@ pub struct SpectraReport {
 }
 
 impl SetReport {
-    pub(super) fn of(set: &NamedSet, motions: &MotionSet<'_>) -> Self {
+    pub(super) fn from_motions(set: &NamedSet, motions: &MotionSet<'_>) -> Self {
         Self {
             name: set.name.clone(),
             records: set.members.len(),
@@ -85,7 +85,7 @@ impl SetReport {
 
 impl RunReport {
     /// The report on what was computed and written.
-    pub(super) fn of(
+    pub(super) fn from_outcome(
         outcome: &DisplacementOutcome<'_>,
         (design, alarms): (Vec<DesignRow>, Vec<Alarm>),
         files: Vec<PathBuf>,
@@ -97,7 +97,7 @@ impl RunReport {
         Self {
             head: outcome.provenance.head(&study.title, records, alarms, files, seconds),
             kind: Kind::Displacement.key(),
-            sets: sets.map(|(set, motions)| SetReport::of(set, motions)).collect(),
+            sets: sets.map(|(set, motions)| SetReport::from_motions(set, motions)).collect(),
             analyses: outcome.analyses,
             design,
             has_design: outcome.designs.is_some(),

@@ -95,7 +95,7 @@ pub fn run(
     if study.output.csv {
         files.extend(write_displacement_csv(path, &outcome, &rows)?);
     }
-    Ok(RunReport::of(&outcome, (rows, alarms(&file)?), files, place.start.elapsed().as_secs_f64()))
+    Ok(RunReport::from_outcome(&outcome, (rows, alarms(&file)?), files, place.start.elapsed().as_secs_f64()))
 }
 
 fn checksums(records: &RecordSets) -> BTreeMap<String, String> {

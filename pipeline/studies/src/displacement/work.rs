@@ -100,7 +100,7 @@ pub fn run_shard(
     let inputs = Inputs::read(study, events)?;
     events.remark("records", &inputs.records.description);
     let sets = inputs.sets(study)?;
-    needs(study, &inputs.records, &sets.motions).of_shard(shard).with_rows_of(&[path]).require(path, events)?;
+    needs(study, &inputs.records, &sets.motions).for_shard(shard).with_rows_of(&[path]).require(path, events)?;
     let work = sets.work(study)?;
     let total = work.analyses() / shard.count;
     carry_out_shard(work, (path, shard), events, &|checkpoint| {

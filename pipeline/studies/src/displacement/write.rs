@@ -207,7 +207,7 @@ fn write_set(
     writer.array_u32(&path("samples"), dims, &samples, "1", "number of samples")?;
 
     // two motions a record
-    let records = || outcome.records.of(set).flat_map(|record| [(record, 0), (record, 1)]);
+    let records = || outcome.records.records_of(set).flat_map(|record| [(record, 0), (record, 1)]);
     let text = |key: &str| -> Vec<String> {
         records().map(|(record, _)| record.pair.metadata.get(key).cloned().unwrap_or_default()).collect()
     };

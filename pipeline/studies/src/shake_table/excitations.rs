@@ -47,7 +47,7 @@ pub(super) fn all(records: &RecordSets) -> Result<Vec<Chosen>, StudiesError> {
 ///
 /// # Errors
 /// A table without its columns, or with an excitation twice; one of which no record is there.
-pub(super) fn of_table(path: &Path, records: &RecordSets) -> Result<(Vec<Chosen>, Option<String>), StudiesError> {
+pub(super) fn read_table(path: &Path, records: &RecordSets) -> Result<(Vec<Chosen>, Option<String>), StudiesError> {
     let table = ReferenceTable::read_as("excitations", path)?;
     let Some(by) = RECORDS.into_iter().find(|name| table.has(name)).filter(|_| table.has("exc_id")) else {
         return Err(table

@@ -11,7 +11,7 @@ use uplift_job::events::Events;
 use uplift_result::Excitation;
 use uplift_study::{ShakeTableStudy, Structure};
 
-use super::excitations::{Chosen, all, of_table};
+use super::excitations::{Chosen, all, read_table};
 use crate::error::StudiesError;
 
 /// The most that a structure file has.
@@ -38,7 +38,7 @@ impl Inputs {
         let frame = frame(&structure)?;
         let records = read_sets(&study.records, &[], study.gravity_m_s2, events)?;
         let (chosen, missing) = match &study.excitations {
-            Some(table) => of_table(table, &records)?,
+            Some(table) => read_table(table, &records)?,
             None => (all(&records)?, None),
         };
         let mut checksums: BTreeMap<String, String> =

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use serde::Serialize;
-use uplift_alarms::{of_study, ranked};
+use uplift_alarms::{ranked, study_alarms};
 use uplift_job::events::Events;
 use uplift_job::frame::PlanHead;
 use uplift_job::machine::{Needs, PROGRAM_BYTES};
@@ -54,7 +54,7 @@ pub fn plan(study: &ShakeTableStudy, study_file: &Path, events: &dyn Events) -> 
         disk_bytes: needs.disk_bytes,
         room: needs.room(&study.output.file),
         output: study.output.file.clone(),
-        alarms: ranked(of_study(&study.warnings, table.synthetic).collect()),
+        alarms: ranked(study_alarms(&study.warnings, table.synthetic).collect()),
         notes: inputs.notes,
         would_replace: false,
     };

@@ -216,7 +216,7 @@ impl<'a> Trial<'a> {
             levels: widest.levels.clone(),
             axes: peaks.axes(),
             edp_m: peaks.displacement_m().to_vec(),
-            reading: Reading::of(study)?,
+            reading: Reading::from_study(study)?,
         }))
     }
 

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use serde::Serialize;
 use uplift_alarms::{
-    BELOW_FIRST_LEVEL, BEYOND_LAST_LEVEL, CurvesAtSite, few, of_far_factors, of_hazard, of_study, ranked,
+    BELOW_FIRST_LEVEL, BEYOND_LAST_LEVEL, CurvesAtSite, far_factors_alarm, few, hazard_alarms, ranked, study_alarms,
 };
 use uplift_engine::analysis::seconds;
 use uplift_inputs::{
@@ -67,9 +67,9 @@ pub fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Events) ->
     let seconds = seconds(&plans, CALIBRATION * u32::try_from(plans.len()).unwrap_or(u32::MAX));
     let needs = needs(study, &records, site_list.as_ref());
     let ends = [(BEYOND_LAST_LEVEL, of_ends.upper), (BELOW_FIRST_LEVEL, of_ends.lower)];
-    let of_ends = ends.into_iter().filter_map(|(kind, cases)| Alarm::of_cases(kind, cases));
+    let of_ends = ends.into_iter().filter_map(|(kind, cases)| Alarm::from_cases(kind, cases));
     let is_repaired = study.consistency.repair == Repair::Weights;
-    let consistency = Answer::of_plan(study, &records, (&hazard, &other_hazard), is_repaired)?.report(&[]);
+    let consistency = Answer::from_plan(study, &records, (&hazard, &other_hazard), is_repaired)?.report(&[]);
     let of_curves = of_curves(study, &hazard, &consistency);
     let head = PlanHead {
         study: study_file.to_owned(),
@@ -93,12 +93,12 @@ pub fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Events) ->
 fn of_inputs(study: &UniformRiskStudy, set: &RecordSet) -> impl Iterator<Item = Alarm> {
     let of_records = if let Some(at_level) = &set.at_level {
         let first = study.measures.first();
-        first.and_then(|plan| at_level.far_factors(&set.records, plan)).map(of_far_factors)
+        first.and_then(|plan| at_level.far_factors(&set.records, plan)).map(far_factors_alarm)
     } else {
         let pairs: BTreeSet<&str> = set.records.iter().map(|record| study.pair_of_record(&record.id)).collect();
         few(set.records.len(), pairs.len())
     };
-    of_study(&study.warnings, set.synthetic).chain(of_records)
+    study_alarms(&study.warnings, set.synthetic).chain(of_records)
 }
 
 /// Curves that are probably mistaken: by themselves, among each other, or by what the records bring.
@@ -113,8 +113,8 @@ fn of_curves(study: &UniformRiskStudy, hazard: &[Vec<SiteHazard>], consistency: 
             branches: site.branches.iter().map(|branch| (branch.name.as_str(), &branch.input.curve)).collect(),
         })
         .collect();
-    let mut alarms = of_hazard(study, &curves);
-    alarms.extend(uplift_alarms::of_curves(study, consistency));
+    let mut alarms = hazard_alarms(study, &curves);
+    alarms.extend(uplift_alarms::curves_alarm(study, consistency));
     alarms
 }
 
@@ -125,7 +125,7 @@ pub(super) fn tell_mistaken_curves(
     (hazard, other_hazard): (&[Vec<SiteHazard>], &[OtherHazard]),
     events: &dyn Events,
 ) -> Result<(), StudiesError> {
-    let consistency = Answer::of_plan(study, records, (hazard, other_hazard), false)?.report(&[]);
+    let consistency = Answer::from_plan(study, records, (hazard, other_hazard), false)?.report(&[]);
     for alarm in of_curves(study, hazard, &consistency) {
         events.note(&format!("{} {alarm}: {}", alarm.severity.word(), alarm.what_to_do));
     }

@@ -103,7 +103,7 @@ pub struct BranchReport {
 
 impl RunReport {
     /// The report on what was computed and written.
-    pub(super) fn of(outcome: &Outcome<'_>, alarms: Vec<Alarm>, files: Vec<PathBuf>, seconds: f64) -> Self {
+    pub(super) fn from_outcome(outcome: &Outcome<'_>, alarms: Vec<Alarm>, files: Vec<PathBuf>, seconds: f64) -> Self {
         let study = outcome.study;
         let fits = |coefficients: &Coefficients| -> Vec<CoefficientsReport> {
             let im = coefficients.measure.label();
@@ -125,7 +125,7 @@ impl RunReport {
         let records = (outcome.records.description.as_str(), outcome.records.synthetic);
         Self {
             head: outcome.provenance.head(&study.title, records, alarms, files, seconds),
-            measures: outcome.stripes.iter().map(MeasureReport::of).collect(),
+            measures: outcome.stripes.iter().map(MeasureReport::from_outcome).collect(),
             coefficients: outcome.coefficients.iter().flat_map(fits).collect(),
             precision: outcome.precision.to_vec(),
             consistency: outcome.consistency.report(&plain_m(outcome)),
@@ -184,7 +184,7 @@ fn branches(outcome: &Outcome<'_>, of: fn(&Spectra) -> &[BranchSpectra]) -> Vec<
 }
 
 impl MeasureReport {
-    fn of(stripes: &Stripes) -> Self {
+    fn from_outcome(stripes: &Stripes) -> Self {
         Self {
             im: stripes.measure.label(),
             analyses: stripes.analyses,

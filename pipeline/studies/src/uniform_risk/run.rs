@@ -52,14 +52,14 @@ pub fn run(
         .measures
         .iter()
         .zip(analysed)
-        .map(|(measure, analysed)| Stripes::of(measure, records, analysed))
+        .map(|(measure, analysed)| Stripes::new(measure, records, analysed))
         .collect();
     let mut spectra = Vec::new();
     for (stripes, hazard) in stripes.iter().zip(&hazard) {
         spectra.push(uniform_risk_spectra(study, stripes, hazard)?);
     }
     let coefficients: Vec<Coefficients> = spectra.iter().map(|spectra| fit_spectra(study, spectra)).collect();
-    let consistency = Answer::of_run(study, records, (&hazard, &other_hazard), &stripes)?;
+    let consistency = Answer::from_run(study, records, (&hazard, &other_hazard), &stripes)?;
     let mut precisions = Vec::new();
     for (stripes, hazard) in stripes.iter().zip(&hazard) {
         precisions.extend(precision(study, stripes, hazard, consistency.question())?);
@@ -104,5 +104,5 @@ pub fn run(
     files.extend(sites.finish()?);
     // the summary says what every other look at the file says
     let alarms = alarms(&ResultFile::open(path)?)?;
-    Ok(RunReport::of(&outcome, alarms, files, place.start.elapsed().as_secs_f64()))
+    Ok(RunReport::from_outcome(&outcome, alarms, files, place.start.elapsed().as_secs_f64()))
 }

@@ -92,6 +92,6 @@ pub fn run_shard(
     read_hazard(study)?;
     let inputs = Inputs::read(study, events)?;
     events.remark("records", &inputs.records.description);
-    needs(study, &inputs.records, None).of_shard(shard).with_rows_of(&[path]).require(path, events)?;
+    needs(study, &inputs.records, None).for_shard(shard).with_rows_of(&[path]).require(path, events)?;
     carry_out_shard(inputs.work(study, &earlier.into_iter().collect::<Vec<_>>())?, (path, shard), events, &|_| Ok(()))
 }

@@ -28,13 +28,13 @@ impl Answer {
     ///
     /// # Errors
     /// Records and hazard that cannot be held against each other.
-    pub fn of_plan(
+    pub fn from_plan(
         study: &UniformRiskStudy,
         records: &RecordSet,
         (hazard, other): (&[Vec<SiteHazard>], &[OtherHazard]),
         with_repair: bool,
     ) -> Result<Self, UniformRiskError> {
-        let question = Question::of_study(study, records, hazard, other)?;
+        let question = Question::from_study(study, records, hazard, other)?;
         let findings = question.findings(with_repair)?;
         Ok(Self { question, findings, repairs: Vec::new() })
     }
@@ -43,14 +43,14 @@ impl Answer {
     ///
     /// # Errors
     /// Records and hazard that cannot be held against each other.
-    pub fn of_run(
+    pub fn from_run(
         study: &UniformRiskStudy,
         records: &RecordSet,
         hazard: (&[Vec<SiteHazard>], &[OtherHazard]),
         stripes: &[Stripes],
     ) -> Result<Self, UniformRiskError> {
         let is_repaired = study.consistency.repair == Repair::Weights;
-        let mut answer = Self::of_plan(study, records, hazard, is_repaired)?;
+        let mut answer = Self::from_plan(study, records, hazard, is_repaired)?;
         if is_repaired && !answer.findings.is_empty() {
             let branches = answer.question.findings_of_branches()?;
             for stripes in stripes {
@@ -93,6 +93,6 @@ impl Answer {
 
     /// What is told of it beside the plain spectra.
     pub fn report(&self, plain_m: &[(IntensityMeasure, Array<3>)]) -> ConsistencyReport {
-        ConsistencyReport::of(&self.question, &self.findings, plain_m, &self.repairs)
+        ConsistencyReport::new(&self.question, &self.findings, plain_m, &self.repairs)
     }
 }

@@ -17,7 +17,7 @@ use crate::stored_stripes::StoredStripes;
 /// # Errors
 /// A file that is damaged.
 pub fn consistency_of_asked(file: &ResultFile) -> Result<Vec<StoredConsistency>, UniformRiskError> {
-    let (question, is_repaired) = (Question::of_result(file)?, file.has_repair());
+    let (question, is_repaired) = (Question::from_result(file)?, file.has_repair());
     let findings = question.findings(is_repaired)?;
     let axes = file.axes()?;
     let asked = question.at(&axes.poes, axes.years)?;

@@ -74,7 +74,7 @@ pub struct Question {
 impl Question {
     /// What a study asks, with its records and hazard `[measure][site]`, that of measures which it is not analysed by
     /// in `other`.
-    pub(crate) fn of_study(
+    pub(crate) fn from_study(
         study: &UniformRiskStudy,
         records: &RecordSet,
         hazard: &[Vec<SiteHazard>],
@@ -136,10 +136,10 @@ impl Question {
     /// What the result `file` is asked of its motions, each once, whatever structures they shake.
     ///
     /// # Errors
-    /// As [`of_result`](Self::of_result).
-    pub fn of_motions(file: &ResultFile) -> Result<Self, UniformRiskError> {
+    /// As [`of_result`](Self::from_result).
+    pub fn from_motions(file: &ResultFile) -> Result<Self, UniformRiskError> {
         let structures = file.stored_study()?.structures_of_a_motion();
-        let mut question = Self::of_result(file)?;
+        let mut question = Self::from_result(file)?;
         question.records = question.records.into_iter().step_by(structures).collect();
         Ok(question)
     }
@@ -154,7 +154,7 @@ impl Question {
     ///
     /// # Errors
     /// Records and hazard that cannot be held against each other.
-    pub fn of_result(file: &ResultFile) -> Result<Self, UniformRiskError> {
+    pub fn from_result(file: &ResultFile) -> Result<Self, UniformRiskError> {
         let study = file.stored_study()?;
         let axes = file.stored_axes()?;
         let stored = file.records()?;

@@ -54,39 +54,39 @@ impl Reweighing {
     ///
     /// # Errors
     /// A file that is damaged, or of another kind.
-    pub fn of_result(file: &ResultFile) -> Result<Option<Self>, UniformRiskError> {
+    pub fn from_result(file: &ResultFile) -> Result<Option<Self>, UniformRiskError> {
         if !file.has_repair() {
             return Ok(None);
         }
-        Self::of_question(Question::of_result(file)?).map(Some)
+        Self::from_question(Question::from_result(file)?).map(Some)
     }
 
     /// That of the motions of a result, each once, whatever structures they shake; none where it has no repaired
     /// spectra.
     ///
     /// # Errors
-    /// As [`of_result`](Self::of_result).
-    pub fn of_motions(file: &ResultFile) -> Result<Option<Self>, UniformRiskError> {
+    /// As [`of_result`](Self::from_result).
+    pub fn from_motions(file: &ResultFile) -> Result<Option<Self>, UniformRiskError> {
         if !file.has_repair() {
             return Ok(None);
         }
-        Self::of_question(Question::of_motions(file)?).map(Some)
+        Self::from_question(Question::from_motions(file)?).map(Some)
     }
 
-    fn of_question(question: Question) -> Result<Self, UniformRiskError> {
+    fn from_question(question: Question) -> Result<Self, UniformRiskError> {
         let (findings, branches) = (question.findings(true)?, question.findings_of_branches()?);
         Ok(Self { question, findings, branches })
     }
 
     /// The analysis of the records scaled to a measure at a site; none where there is no repair.
-    pub fn of_site(&self, (measure, site): (IntensityMeasure, usize)) -> Option<RepairedAnalysis<'_>> {
+    pub fn site(&self, (measure, site): (IntensityMeasure, usize)) -> Option<RepairedAnalysis<'_>> {
         let finding = self.findings.iter().find(|own| own.site == site && own.scaled_to == measure)?;
         let curves = (self.question.curve(measure, site)?, self.question.curve(finding.other, site)?);
         Some(RepairedAnalysis { question: &self.question, finding, repaired: finding.repaired()?, curves })
     }
 
     /// Those of its weighted hazard curves; none where these are not repaired one by one.
-    pub fn of_branches(&self, (measure, site): (IntensityMeasure, usize)) -> Option<Vec<ReweighedBranch<'_>>> {
+    pub fn branches(&self, (measure, site): (IntensityMeasure, usize)) -> Option<Vec<ReweighedBranch<'_>>> {
         let own = self.branches.iter().find(|own| own.site == site && own.scaled_to == measure)?;
         let pairs = self.question.branch_pairs(site, measure, own.findings.first()?.other)?;
         let branches = own.findings.iter().zip(pairs).map(|(finding, (own, compared))| {
@@ -101,7 +101,7 @@ impl Reweighing {
 
     /// The weights of the whole set, by which it brings a site's hazard; none where there is no repair.
     pub fn weights(&self, measure: IntensityMeasure, site: usize) -> Option<&RunWeights> {
-        Some(self.of_site((measure, site))?.weights())
+        Some(self.site((measure, site))?.weights())
     }
 
     /// Numbers by which a checkpoint knows the weights again: what the set's own repairs came to.

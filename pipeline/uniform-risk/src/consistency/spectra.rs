@@ -39,7 +39,7 @@ pub fn repaired_spectra(
     (findings, branches): (&[Finding], &[BranchFindings]),
     demand: impl Fn(usize) -> Result<PooledDemand, UniformRiskError> + Sync,
 ) -> Result<Repairs, UniformRiskError> {
-    let reading = Reading::of(study)?;
+    let reading = Reading::from_study(study)?;
     let (sites, targets, strengths) = (study.sites.len(), reading.targets.len(), study.strengths.len());
     let of_site = |site: usize| findings.iter().find(|own| own.site == site && own.scaled_to == measure);
     let of_sites = (0..sites).map(|site| Some(&of_site(site)?.repaired()?.weights));
@@ -69,7 +69,7 @@ pub fn repaired_spectra(
         let spectra_m = Array::from_fn([own.findings.len(), targets, strengths], |[branch, poe, strength]| {
             by_strength[strength][begin + branch].as_ref().map_or(f64::NAN, |of| of[poe].displacement_m)
         });
-        BranchSpectra::of(own.site, own.names.clone(), own.weights.clone(), spectra_m)
+        BranchSpectra::from_spectra(own.site, own.names.clone(), own.weights.clone(), spectra_m)
     };
     let branches = branches.iter().map(&mut spectra_of).collect();
     Ok(Repairs { measure, ordinates, fits, branches })

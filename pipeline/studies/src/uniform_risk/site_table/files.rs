@@ -96,7 +96,7 @@ impl SiteTableFiles {
     /// # Errors
     /// A file that cannot be written.
     pub fn create(result: &Path, study: &UniformRiskStudy, list: &SiteList, line: &str) -> Result<Self, StudiesError> {
-        let layout = SiteTableLayout::of(study, list);
+        let layout = SiteTableLayout::new(study, list);
         let paths = site_table_paths(result);
         let [spectra, coefficients, map] = &paths;
         let mut files = [GrowingFile::create(spectra)?, GrowingFile::create(coefficients)?, GrowingFile::create(map)?];
@@ -148,7 +148,7 @@ impl SiteTableFiles {
 }
 
 impl SiteTableLayout {
-    fn of(study: &UniformRiskStudy, list: &SiteList) -> Self {
+    fn new(study: &UniformRiskStudy, list: &SiteList) -> Self {
         let chosen = study.site_table.as_ref().and_then(|table| table.strengths.as_ref()).map(|chosen| {
             let is_chosen = |&index: &usize| chosen.contains(&study.strengths[index]);
             (0..study.strengths.len()).filter(is_chosen).collect::<Vec<usize>>()
