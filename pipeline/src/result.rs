@@ -5,6 +5,7 @@
 mod asked;
 mod bands;
 mod consistency;
+pub mod declared;
 mod design;
 pub(crate) mod digest;
 mod displacements;
@@ -34,7 +35,7 @@ pub(crate) use bands::BandMethod;
 pub use bands::{
     InferredBands, MeasureBands, StoredBands, StoredJointBands, StoredRepairedBands, StoredSpectraBands, WidestInferred,
 };
-pub use consistency::StoredConsistency;
+pub use consistency::{REPAIRED_FITS, StoredConsistency};
 pub(crate) use design::{BOUNDS, bounds, rule_names};
 pub use design::{DesignRow, RULES, StoredDesign, StoredDesigned};
 pub use displacements::{
@@ -53,7 +54,7 @@ pub use provenance::Provenance;
 pub use records::StoredRecords;
 pub use shake_table::{DIRECTIONS, Excitation, ShakeTable, TableLevel, TableSpectra, TableTest};
 pub(crate) use shake_table::{QUANTITIES, column_of};
-pub use spectra::{Fit, MeasureSpectra, Spectrum, StoredSpectra};
+pub use spectra::{Fit, Fits, MeasureSpectra, Spectrum, StoredSpectra, regression, urs};
 pub(crate) use spectra::{flag_number, flag_word};
 pub use spread::{SpreadOver, StoredSpread};
 pub use stripes::{StoredMeasure, StoredStripes};

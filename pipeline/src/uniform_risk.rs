@@ -19,6 +19,7 @@ mod write_hazard;
 
 pub(crate) use coefficients::fit_ordinates;
 pub use coefficients::{Coefficients, fit_spectra};
+pub(crate) use csv::spectra_table;
 pub(crate) use csv::tables;
 pub use csv::{csv_paths, write_csv};
 pub use earlier::EarlierStripes;

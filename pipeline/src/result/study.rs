@@ -9,8 +9,8 @@ use uplift_risk::StripeWeights;
 
 use super::asked::{AskedRisk, RiskTargets};
 use super::file::ResultFile;
-use super::layout::urs;
 use super::records::StoredRecords;
+use super::spectra::urs;
 use super::stripes::poe_index;
 use crate::array::Array;
 use crate::error::UpliftError;
@@ -83,7 +83,10 @@ impl ResultFile {
                 let own = spectra.measures.iter().find(|spectra| spectra.measure == plan.measure);
                 Ok(SpectraOfResult {
                     plan: plan.clone(),
-                    u_m: own.ok_or_else(|| self.damaged(urs::u_m(plan.measure) + " is missing"))?.u_m.clone(),
+                    u_m: own
+                        .ok_or_else(|| self.damaged(urs::GROUP.path_of(&urs::U_M, plan.measure) + " is missing"))?
+                        .u_m
+                        .clone(),
                     weights: axes.sites.iter().map(weigh).collect::<Result<_, _>>()?,
                 })
             })

@@ -5,7 +5,7 @@ use uplift_study::UniformRiskStudy;
 use super::{Coefficients, Precision, Spectra, Stripes};
 use crate::consistency::Answer;
 use crate::inputs::{OtherHazard, RecordSet, SiteHazard};
-use crate::result::Provenance;
+use crate::result::{MeasureSpectra, Provenance, StoredSpectra};
 
 /// All that a study computed, by measure where it depends on it.
 #[derive(Debug)]
@@ -32,4 +32,18 @@ pub struct Outcome<'a> {
     pub warnings: &'a [String],
     /// Where the numbers come from.
     pub provenance: &'a Provenance,
+}
+
+impl Outcome<'_> {
+    /// Its spectra and coefficients as the result file has them.
+    pub(super) fn stored_spectra(&self) -> StoredSpectra {
+        let stored = |(spectra, coefficients)| MeasureSpectra::of(spectra, coefficients);
+        StoredSpectra {
+            strengths: self.study.strengths.to_vec(),
+            poes: self.study.risk.poe.clone(),
+            years: self.study.risk.years,
+            sites: self.study.sites.iter().map(|site| site.name.clone()).collect(),
+            measures: self.spectra.iter().zip(self.coefficients).map(stored).collect(),
+        }
+    }
 }
