@@ -52,8 +52,9 @@ pub use influence::StoredInfluence;
 pub(crate) use provenance::Origin;
 pub use provenance::Provenance;
 pub use records::StoredRecords;
-pub use shake_table::{DIRECTIONS, Excitation, ShakeTable, TableLevel, TableSpectra, TableTest};
-pub(crate) use shake_table::{QUANTITIES, column_of};
+pub use shake_table::{
+    DIRECTIONS, Excitation, ShakeTable, TABLE_EXCITATIONS, TABLE_TESTS, TableLevel, TableSpectra, TableTest,
+};
 pub use spectra::{Fit, Fits, MeasureSpectra, Spectrum, StoredSpectra, regression, urs};
 pub(crate) use spectra::{flag_number, flag_word};
 pub use spread::{SpreadOver, StoredSpread};

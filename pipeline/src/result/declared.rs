@@ -24,7 +24,7 @@ pub struct Quantity<T: 'static> {
     pub unit: &'static str,
     /// Its attribute `long_name`.
     pub long_name: &'static str,
-    /// What `docs/hdf5-layout.md` says of it.
+    /// What `docs/hdf5-layout.md` says of it; empty where that is its `long_name`.
     pub note: &'static str,
     /// The field that it holds.
     pub field: Field<T>,
@@ -239,7 +239,8 @@ impl<T> Group<T> {
     #[cfg(test)]
     pub(super) fn rows(&self) -> String {
         let row = |quantity: &Quantity<T>| {
-            let Quantity { name, axes, unit, note, .. } = *quantity;
+            let Quantity { name, axes, unit, long_name, .. } = *quantity;
+            let note = if quantity.note.is_empty() { long_name } else { quantity.note };
             let (path, axes) = [self.path.to_owned(), axes.join(", ")].map(|text| text.replace(MEASURE, "pgv")).into();
             let unit = if quantity.element() == "text" { String::new() } else { format!(" {unit}") };
             format!("| `{path}/{name}` | {axes} | {} |{unit} | {note} |\n", quantity.element())
@@ -260,7 +261,7 @@ mod tests {
     use std::path::Path;
     use std::{env, fs};
 
-    use super::super::{REPAIRED_FITS, regression, urs};
+    use super::super::{REPAIRED_FITS, TABLE_EXCITATIONS, TABLE_TESTS, regression, urs};
 
     /// The paths of declared groups with the rows of their arrays.
     fn declared() -> Vec<(&'static str, String)> {
@@ -268,6 +269,7 @@ mod tests {
             (urs::GROUP.path, urs::GROUP.rows()),
             (regression::GROUP.path, regression::GROUP.rows()),
             (REPAIRED_FITS.path, REPAIRED_FITS.rows()),
+            (TABLE_TESTS.path, TABLE_EXCITATIONS.rows() + &TABLE_TESTS.rows()),
         ]
     }
 

@@ -288,11 +288,7 @@ in_group! {
 in_group! {
     /// The tests of a shaking table.
     shake_table:
-    PGV_SRSS_M_S = "pgv_srss_m_s", CLASS = "class", RECORD = "record", RSN = "rsn",
-    RECORDED_PGV_M_S = "recorded_pgv_m_s", ORDER = "order", FACTOR = "factor", PGA_SRSS_M_S2 = "pga_srss_m_s2",
-    U_M = "u_m", U_X_M = "u_x_m", U_Y_M = "u_y_m", DRIFT = "drift", TENDON_N = "tendon_n", SPRING_M = "spring_m",
-    BASE_SHEAR_N = "base_shear_n", BASE_REACTION_N = "base_reaction_n",
-    DECK_ACCELERATION_M_S2 = "deck_acceleration_m_s2",
+    ORDER = "order",
     SPECTRAL_ACCELERATION_M_S2 = "spectral_acceleration_m_s2", DESIGN_SPECTRUM_M_S2 = "design_spectrum_m_s2",
 }
 

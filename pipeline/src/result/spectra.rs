@@ -5,7 +5,7 @@ use uplift_motion::IntensityMeasure;
 use uplift_regression::{Exponential, ExponentialFit};
 use uplift_risk::{Ordinate, OrdinateFlag};
 
-use super::declared::{Field, Group, Quantity, place};
+use super::declared::{Field, Group, Place, Quantity, place};
 use super::file::ResultFile;
 use super::layout::{URS_PRECISION, axis};
 use crate::array::Array;
@@ -48,15 +48,13 @@ pub struct MeasureSpectra {
 pub mod urs {
     use super::{Field, Group, MeasureSpectra, Quantity, axis, place};
 
-    const AXES: &[&str] = &[axis::SITE, axis::POE, axis::STRENGTH];
-
     /// The group.
     pub const GROUP: Group<MeasureSpectra> =
         Group { path: "/urs/<im>", quantities: &[U_M, FLAG, LOWER_TAIL_SHARE, UPPER_TAIL_SHARE] };
     /// The spectra.
     pub const U_M: Quantity<MeasureSpectra> = Quantity {
         name: "u_m",
-        axes: AXES,
+        axes: &[axis::SITE, axis::POE, axis::STRENGTH],
         unit: "m",
         long_name: "uniform risk displacement",
         note: "the spectra; `inf` where censored",
@@ -65,26 +63,25 @@ pub mod urs {
     /// What kind of ordinate each is.
     pub const FLAG: Quantity<MeasureSpectra> = Quantity {
         name: "flag",
-        axes: AXES,
         unit: "1",
         long_name: "0 regular, 1 no exceedance so that the ordinate is 0, 2 censored",
         note: "0 regular; 1 no exceedance, ordinate 0; 2 censored",
         field: Field::Flag(place!(|of, at| of.flags[at])),
+        ..U_M
     };
     /// The risk from below the first stripe.
     pub const LOWER_TAIL_SHARE: Quantity<MeasureSpectra> = Quantity {
         name: "lower_tail_share",
-        axes: AXES,
         unit: "1",
         long_name: "share of the risk from below the first stripe",
-        note: "share of the risk from below the first stripe",
+        note: "",
         field: Field::F64(place!(|of, at| of.lower_tail_share[at])),
+        ..U_M
     };
     /// The risk from above the last stripe.
     pub const UPPER_TAIL_SHARE: Quantity<MeasureSpectra> = Quantity {
         name: "upper_tail_share",
         long_name: "share of the risk from above the last stripe",
-        note: "share of the risk from above the last stripe",
         field: Field::F64(place!(|of, at| of.upper_tail_share[at])),
         ..LOWER_TAIL_SHARE
     };
@@ -92,7 +89,7 @@ pub mod urs {
 
 /// Coefficients of Eq. 4.11: the arrays of `/regression/<im>`.
 pub mod regression {
-    use super::{Field, Fits, Group, Quantity, axis, place};
+    use super::{Field, Fits, Group, Place, Quantity, axis, place};
 
     /// The group.
     pub const GROUP: Group<Fits> = Group {
@@ -101,74 +98,49 @@ pub mod regression {
     };
     /// The four that every table of coefficients has.
     pub const COEFFICIENTS: &[Quantity<Fits>] = &[C0_M, C1, C2_M, RMSE_M];
-    /// c0.
+    /// Amplitude.
     pub const C0_M: Quantity<Fits> = Quantity {
-        name: "c0_m",
-        axes: &[axis::SITE, axis::POE],
-        unit: "m",
-        long_name: "c0 of u = c0 exp(c1 strength) + c2",
         note: "coefficient of Eq. 4.11; NaN where there is no fit, here and below",
-        field: Field::F64(place!(|of, at| of[at].c0_m)),
+        ..number("c0_m", "m", "c0 of u = c0 exp(c1 strength) + c2", place!(|of, at| of[at].c0_m))
     };
-    /// c1.
-    pub const C1: Quantity<Fits> = Quantity {
-        name: "c1",
-        unit: "1",
-        long_name: "c1",
-        note: "its exponent",
-        field: Field::F64(place!(|of, at| of[at].c1)),
-        ..C0_M
-    };
-    /// c2.
-    pub const C2_M: Quantity<Fits> = Quantity {
-        name: "c2_m",
-        long_name: "c2, not negative",
-        note: "its constant, not negative",
-        field: Field::F64(place!(|of, at| of[at].c2_m)),
-        ..C0_M
-    };
+    /// Exponent.
+    pub const C1: Quantity<Fits> = number("c1", "1", "c1", place!(|of, at| of[at].c1));
+    /// Constant.
+    pub const C2_M: Quantity<Fits> = number("c2_m", "m", "c2, not negative", place!(|of, at| of[at].c2_m));
     /// Root mean square error.
-    pub const RMSE_M: Quantity<Fits> = Quantity {
-        name: "rmse_m",
-        long_name: "root mean square error with n - 3 degrees of freedom",
-        note: "root mean square error, n − 3 degrees of freedom",
-        field: Field::F64(place!(|of, at| of[at].rmse_m)),
-        ..C0_M
-    };
+    pub const RMSE_M: Quantity<Fits> =
+        number("rmse_m", "m", "root mean square error with n - 3 degrees of freedom", place!(|of, at| of[at].rmse_m));
     /// Root mean square error over n points.
-    pub const RMSE_PLAIN_M: Quantity<Fits> = Quantity {
-        name: "rmse_plain_m",
-        long_name: "root mean square error over n points",
-        note: "the same over n points",
-        field: Field::F64(place!(|of, at| of[at].rmse_plain_m)),
-        ..C0_M
-    };
+    pub const RMSE_PLAIN_M: Quantity<Fits> =
+        number("rmse_plain_m", "m", "root mean square error over n points", place!(|of, at| of[at].rmse_plain_m));
     /// Largest residual.
-    pub const MAX_ABS_RESIDUAL_M: Quantity<Fits> = Quantity {
-        name: "max_abs_residual_m",
-        long_name: "largest residual",
-        note: "largest residual",
-        field: Field::F64(place!(|of, at| of[at].max_abs_residual_m)),
-        ..C0_M
-    };
+    pub const MAX_ABS_RESIDUAL_M: Quantity<Fits> =
+        number("max_abs_residual_m", "m", "largest residual", place!(|of, at| of[at].max_abs_residual_m));
     /// Whether c2 is held at 0.
     pub const BOUND_ACTIVE: Quantity<Fits> = Quantity {
         name: "bound_active",
-        unit: "1",
         long_name: "1 where c2 is held at 0",
-        note: "1 where c2 is held at 0",
         field: Field::Bool(place!(|of, at| of[at].bound_active)),
-        ..C0_M
+        ..C1
     };
     /// Strengths fitted.
     pub const POINTS: Quantity<Fits> = Quantity {
         name: "points",
-        unit: "1",
         long_name: "strengths fitted, 0 where there is no fit",
         note: "strengths fitted, n; 0 where there is no fit",
         field: Field::U32(place!(|of, at| of[at].points)),
-        ..C0_M
+        ..C1
     };
+
+    /// A number of each fit.
+    const fn number(
+        name: &'static str,
+        unit: &'static str,
+        long_name: &'static str,
+        place: Place<Fits, f64>,
+    ) -> Quantity<Fits> {
+        Quantity { name, axes: &[axis::SITE, axis::POE], unit, long_name, note: "", field: Field::F64(place) }
+    }
 }
 
 /// Coefficients of spectra `[site, poe]`.
