@@ -4,7 +4,8 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use serde_json::Value;
-use uplift::result::ResultFile;
+use uplift::bootstrap::resampling_plan;
+use uplift::result::{ResultFile, StoredStripes};
 use uplift_consistency::{
     KNOTS, LevelSets, RecordSet, RepairOptions, ScaledAnalysis, Scratch, Seismology, SetRecord, Solver,
 };
@@ -114,7 +115,8 @@ fn levels_are_weighed_with_their_own_records_factors_and_shares() {
     study.uplift(&["bootstrap", "sets.h5", "-q", "--replicates", "1", "--sizes", "105"]).ok();
     let path = study.path().join("sets.h5");
     let file = ResultFile::open(&path).unwrap();
-    let (stored, stripes, hazard) = (file.records().unwrap(), file.stripes().unwrap(), file.hazard().unwrap());
+    let (stored, stripes, hazard) =
+        (file.records().unwrap(), StoredStripes::read(&file).unwrap(), file.hazard().unwrap());
     let (measure, records) = (&stripes.measures[0], stored.ids.len());
     let shares = measure.shares.clone().unwrap();
     // what the file has, put together here: factors [record, level] over level/intensity
@@ -146,7 +148,7 @@ fn levels_are_weighed_with_their_own_records_factors_and_shares() {
     same("pga_implied", &analysis.diagnose(None, [0.2, 5.0]).unwrap().deviation.unwrap().implied_levels);
     same("pga_repaired", &repaired.diagnosis.deviation.as_ref().unwrap().implied_levels);
     // the spectrum, and the one resample, by weights of its own
-    let plan = file.resampling_plan().unwrap().unwrap();
+    let plan = resampling_plan(&file).unwrap().unwrap();
     let solver = Solver::new(&analysis, 0.05).unwrap();
     let mut scratch = Scratch::default();
     let drawn = plan.samples()[0].multiplicities();

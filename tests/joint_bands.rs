@@ -5,13 +5,18 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use serde_json::Value;
-use uplift::UpliftError;
+use uplift::JobError;
 use uplift::bootstrap::{BootstrapOptions, bootstrap};
 use uplift::events::{Events, Phase, Silent};
 use uplift_labelled::LabelledReader;
 
 use crate::common::{SmallStudy, array, same_bits};
 use crate::epistemic::two_measures;
+
+/// What a job that failed says.
+fn job_error<T, E: std::error::Error + 'static>(outcome: &Result<T, E>) -> Option<&JobError> {
+    uplift::cause(outcome.as_ref().err()?)
+}
 
 const MEASURES: [&str; 2] = ["pgv", "pga"];
 const ARRAYS: [&str; 5] = ["u05_m", "u50_m", "u95_m", "r_90ci", "failed"];
@@ -173,8 +178,8 @@ fn a_stop_before_and_after_it_loses_nothing() {
     for (label, expected) in [("PGV repaired", 0), ("PGA repaired", 1)] {
         let stop = StopIn { label, is_there: AtomicBool::new(false), looks: AtomicUsize::new(0) };
         let stopped = bootstrap(&parts, &options, &stop);
-        let Err(UpliftError::Paused { what, done, total, .. }) = stopped else { panic!("{stopped:?}") };
-        assert_eq!((what, done, total), ("repaired sites", expected, 2), "{label}");
+        let Some(JobError::Paused { what, done, total, .. }) = job_error(&stopped) else { panic!("{stopped:?}") };
+        assert_eq!((*what, *done, *total), ("repaired sites", expected, 2), "{label}");
     }
     bootstrap(&parts, &options, &Silent).unwrap();
     assert!(same_bits(&all(&whole), &all(&parts)));

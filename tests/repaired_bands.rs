@@ -3,15 +3,21 @@
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use uplift::UpliftError;
+use uplift::JobError;
+use uplift::bootstrap::resampling_plan;
 use uplift::bootstrap::{BootstrapOptions, bootstrap};
 use uplift::events::{Events, Phase, Silent};
-use uplift::result::ResultFile;
+use uplift::result::{ResultFile, StoredStripes};
 use uplift_consistency::{KNOTS, RecordSet, ScaledAnalysis, Scratch, Seismology, SetRecord, Solver};
 use uplift_hazard::Extrapolation;
 use uplift_risk::{RiskCurve, RunWeights};
 
 use crate::common::{SmallStudy, array, repository, same_bits};
+
+/// What a job that failed says.
+fn job_error<T, E: std::error::Error + 'static>(outcome: &Result<T, E>) -> Option<&JobError> {
+    uplift::cause(outcome.as_ref().err()?)
+}
 
 /// 105 synthetic pairs at Montreux, two strengths, coarse stripes.
 fn study() -> SmallStudy {
@@ -42,8 +48,9 @@ fn a_replicate_is_weighed_by_weights_of_its_own() {
     study.uplift(&["bootstrap", "r.h5", "-q", "--sizes", "60,105", "--replicates", "1"]).ok();
     let path = study.path().join("r.h5");
     let file = ResultFile::open(&path).unwrap();
-    let (records, stripes, hazard) = (file.records().unwrap(), file.stripes().unwrap(), file.hazard().unwrap());
-    let plan = file.resampling_plan().unwrap().unwrap();
+    let (records, stripes, hazard) =
+        (file.records().unwrap(), StoredStripes::read(&file).unwrap(), file.hazard().unwrap());
+    let plan = resampling_plan(&file).unwrap().unwrap();
     for (own, other) in [(0, 1), (1, 0)] {
         let measure = &stripes.measures[own];
         let [x, y] = [own, other].map(|at| records.intensities(stripes.measures[at].measure).unwrap());
@@ -169,8 +176,8 @@ fn a_stop_between_two_of_them_loses_nothing() {
     let options = BootstrapOptions { sizes: Some(vec![105]), replicates: Some(40), ..BootstrapOptions::default() };
     bootstrap(&whole, &options, &Silent).unwrap();
     let stopped = bootstrap(&parts, &options, &StopAtRepaired::default());
-    let Err(UpliftError::Paused { what, done, total, path }) = stopped else { panic!("{stopped:?}") };
-    assert_eq!((what, done, total), ("repaired sites", 1, 2));
+    let Some(JobError::Paused { what, done, total, path }) = job_error(&stopped) else { panic!("{stopped:?}") };
+    assert_eq!((*what, *done, *total), ("repaired sites", 1, 2));
     assert!(path.is_file());
     bootstrap(&parts, &options, &Silent).unwrap();
     assert!(!path.exists());

@@ -3,7 +3,8 @@
 use std::collections::HashMap;
 
 use serde_json::Value;
-use uplift::result::{Kind, ResultFile};
+use uplift::bootstrap::resampling_plan;
+use uplift::result::{Kind, ResultFile, StoredStripes, StudyOfResult};
 use uplift_labelled::{LabelledReader, LabelledWriter};
 
 use crate::common::{SMALL_STUDY, SmallStudy, repository};
@@ -34,7 +35,7 @@ fn figures_and_report_show_the_ordinates_of_the_file() {
     study.uplift(&["report", "r.h5", "-q"]).ok();
     let page = std::fs::read_to_string(study.path().join("r.html")).unwrap();
     let file = ResultFile::open(&study.path().join("r.h5")).unwrap();
-    let (spectra, stripes) = (file.spectra().unwrap(), file.stripes().unwrap());
+    let (spectra, stripes) = (file.spectra().unwrap(), StoredStripes::read(&file).unwrap());
     let mut differing = 0;
     for (of_measure, measure) in spectra.measures.iter().zip(&stripes.measures) {
         let key = of_measure.measure.key();
@@ -82,7 +83,7 @@ fn results_of_version_0_1_are_read() {
     assert_eq!(spectra.measures[0].u_m.values(), expected);
     let fit = spectra.measures[0].fits[[0, 0]];
     assert!((fit.c0_m - 7.8093).abs() < 1e-4 && (fit.c1 + 50.7230).abs() < 1e-4 && !fit.bound_active);
-    let stripes = file.stripes().unwrap();
+    let stripes = StoredStripes::read(&file).unwrap();
     assert_eq!(stripes.measures[0].edp_m.shape(), [3, 5, 3]);
     assert!(
         stripes.measures[0].exact_m.values().iter().zip(&expected).all(|(exact, grid)| (exact - grid).abs() < 0.02)
@@ -93,8 +94,8 @@ fn results_of_version_0_1_are_read() {
     let bands = file.bands().unwrap().unwrap();
     assert_eq!((bands.sizes.as_slice(), bands.level_names()), (&[2, 3][..], ["5 %".to_owned(), "95 %".to_owned()]));
     assert_eq!(bands.measures[0].plain.limits_m[1].shape(), [1, 1, 2, 5]);
-    assert_eq!(file.resampling_plan().unwrap().unwrap().replicates(), 5);
-    let study = file.study(None).unwrap();
+    assert_eq!(resampling_plan(&file).unwrap().unwrap().replicates(), 5);
+    let study = StudyOfResult::read(&file, None).unwrap();
     assert_eq!(study.spectrum(&study.measures[0], 0, 0), expected);
     // its records are made again, and are the same motions
     assert_eq!(study.records().unwrap().records.len(), 3);

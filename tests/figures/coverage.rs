@@ -1,13 +1,13 @@
 //! How often bands hold what they are bands of (docs/method.md, Section 9): sets drawn from real and from synthetic
 //! records, which stand for the world.
 
-use uplift::result::ResultFile;
+use uplift::result::{ResultFile, StoredStripes};
 
 use self::simulation::{BANDS, SIZES, coverage};
 use super::marks::hold;
 use crate::common::{real_records, repository, uplift};
 
-#[path = "../../pipeline/examples/coverage/simulation.rs"]
+#[path = "../../pipeline/uplift/examples/coverage/simulation.rs"]
 mod simulation;
 
 /// Sets of each size.
@@ -40,7 +40,7 @@ fn of_sets_drawn_from_all_records() {
         let mut run = vec!["run", "two.toml", "-o", "r.h5", "-q", "--force"];
         run.extend(set.iter().flat_map(|set| ["--set", *set]));
         uplift(folder.path(), &run).ok();
-        let stored = ResultFile::open(&folder.path().join("r.h5")).unwrap().stripes().unwrap();
+        let stored = StoredStripes::read(&ResultFile::open(&folder.path().join("r.h5")).unwrap()).unwrap();
         if name == "real" {
             figures.push(("coverage.records".to_owned(), stored.records.len().to_string()));
         }

@@ -4,7 +4,7 @@
 use rayon::prelude::*;
 use uplift::events::Silent;
 use uplift::inputs::{Record, read_records};
-use uplift::result::{ResultFile, StoredMeasure};
+use uplift::result::{ResultFile, StoredMeasure, StoredStripes};
 use uplift_fragility::Stripes;
 use uplift_motion::{IntensityMeasure, scale_factor};
 use uplift_oscillator::{Excitation, FreeVibration, Oscillator, respond};
@@ -64,7 +64,7 @@ fn spectra_of_both_solvers() {
     run.extend(settings.iter().flat_map(|setting| ["--set".to_owned(), setting.clone()]));
     uplift(folder.path(), &run).ok();
     let records = read_records(&Study::load(&file, &settings).unwrap(), &Silent).unwrap().records;
-    let stored = ResultFile::open(&folder.path().join("r.h5")).unwrap().stripes().unwrap();
+    let stored = StoredStripes::read(&ResultFile::open(&folder.path().join("r.h5")).unwrap()).unwrap();
     let mut all: Vec<(f64, String)> = Vec::new();
     for of in &stored.measures {
         for (strength, &eta) in stored.strengths.iter().enumerate() {

@@ -3,10 +3,17 @@
 use std::io;
 
 use thiserror::Error;
-use uplift::UpliftError;
+use uplift::errors::{
+    AlarmsError, DesignError, ExportsError, InputsError, LaboratoryError, QuestionsError, ResultError, StudiesError,
+    UniformRiskError,
+};
 use uplift::study::StudyError;
+use uplift::{JobError, UpliftError};
+use uplift_frame::FrameError;
 use uplift_labelled::LabelledError;
 use uplift_motion::MotionError;
+use uplift_oscillator::OscillatorError;
+use uplift_statics::StaticsError;
 
 /// Why a command did not do what was typed.
 #[derive(Debug, Error)]
@@ -29,25 +36,18 @@ pub(crate) enum CommandError {
 }
 
 impl CommandError {
+    /// The exit code of what the user stopped.
+    pub(crate) const STOPPED: u8 = 5;
+
     /// What the shell sees: 2 usage, 3 study file, 4 input data or disk, 5 interrupted.
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
             Self::OutputClosed => 0,
-            // oscillators, blocks, pulses and what a synthetic record is asked to be are typed, too; those of a file
-            // are said to be of it
-            Self::Usage(_)
-            | Self::Uplift(
-                UpliftError::Usage(_)
-                | UpliftError::Choice { .. }
-                | UpliftError::Oscillator(_)
-                | UpliftError::Blocks(_)
-                | UpliftError::Statics(_)
-                | UpliftError::Frame(_)
-                | UpliftError::Implausible(_)
-                | UpliftError::Motion(MotionError::SyntheticOption { .. } | MotionError::SyntheticCandidates { .. }),
-            ) => 2,
-            Self::Uplift(UpliftError::Study(_)) => 3,
-            Self::Interrupted(_) | Self::Uplift(UpliftError::Interrupted | UpliftError::Paused { .. }) => 5,
+            Self::Usage(_) => 2,
+            Self::Uplift(error) if is_typed(error) => 2,
+            Self::Uplift(error) if error.root().is::<StudyError>() => 3,
+            Self::Interrupted(_) => Self::STOPPED,
+            Self::Uplift(error) if is_stopped(error) => Self::STOPPED,
             // whatever else a job meets is in the input data or on the disk
             Self::Output(_) | Self::Uplift(_) => 4,
         }
@@ -55,21 +55,54 @@ impl CommandError {
 
     /// One mistake in the input data.
     pub(crate) fn input(message: impl Into<String>) -> Self {
-        Self::Uplift(UpliftError::input(message))
+        Self::Uplift(JobError::input(message).into())
     }
 }
 
-impl From<StudyError> for CommandError {
-    fn from(error: StudyError) -> Self {
-        Self::Uplift(error.into())
-    }
+/// Whether what was typed is at fault: oscillators, blocks, pulses and what a synthetic record is asked to be are typed,
+/// too; those of a file are said to be of it.
+fn is_typed(error: &UpliftError) -> bool {
+    let root = error.root();
+    let job =
+        matches!(root.downcast_ref(), Some(JobError::Usage(_) | JobError::Choice { .. } | JobError::Implausible(_)));
+    let motion = matches!(
+        root.downcast_ref(),
+        Some(MotionError::SyntheticOption { .. } | MotionError::SyntheticCandidates { .. })
+    );
+    let system = root.is::<OscillatorError>() || root.is::<StaticsError>() || root.is::<FrameError>();
+    job || motion || system || !error.blocks().is_empty()
 }
 
-impl From<LabelledError> for CommandError {
-    fn from(error: LabelledError) -> Self {
-        Self::Uplift(error.into())
-    }
+/// Whether the user stopped the job.
+pub(crate) fn is_stopped(error: &UpliftError) -> bool {
+    matches!(error.root().downcast_ref(), Some(JobError::Interrupted | JobError::Paused { .. }))
 }
+
+/// Whatever a job or what it is given may fail with.
+macro_rules! from_errors {
+    ($($error:ty),+ $(,)?) => {
+        $(impl From<$error> for CommandError {
+            fn from(error: $error) -> Self {
+                Self::Uplift(error.into())
+            }
+        })+
+    };
+}
+
+from_errors!(
+    JobError,
+    InputsError,
+    ResultError,
+    UniformRiskError,
+    AlarmsError,
+    StudiesError,
+    QuestionsError,
+    DesignError,
+    LaboratoryError,
+    ExportsError,
+    StudyError,
+    LabelledError,
+);
 
 impl From<io::Error> for CommandError {
     /// Only standard output is written through plain `io`; files have their own errors.

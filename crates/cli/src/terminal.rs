@@ -13,8 +13,9 @@ use std::time::Duration;
 
 use clap::ValueEnum;
 use miette::{GraphicalReportHandler, GraphicalTheme};
-use uplift::UpliftError;
+use uplift::JobError;
 use uplift::events::{Events, Phase};
+use uplift::study::StudyError;
 use uplift::text::{one_line, visible};
 
 use crate::error::CommandError;
@@ -51,7 +52,7 @@ impl Terminal {
     /// A terminal that hears Ctrl-C and SIGTERM from now on; a quiet one tells results and errors only.
     pub(crate) fn new(quiet: bool, form: Form) -> Self {
         let stop = Arc::new(AtomicBool::new(false));
-        let interruption_message = Arc::new(Mutex::new(UpliftError::Interrupted.to_string()));
+        let interruption_message = Arc::new(Mutex::new(JobError::Interrupted.to_string()));
         let terminal = Self {
             quiet,
             form,
@@ -192,7 +193,7 @@ pub(crate) fn tell(text: &str) {
 /// An error in words.
 fn tell_error(error: &CommandError) {
     match error {
-        CommandError::Uplift(UpliftError::Study(error)) => {
+        CommandError::Uplift(error) if let Some(error) = error.root().downcast_ref::<StudyError>() => {
             let rendered = |theme| {
                 let mut text = String::new();
                 GraphicalReportHandler::new_themed(theme).render_report(&mut text, error).ok().map(|()| text)

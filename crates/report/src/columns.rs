@@ -2,12 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use uplift::UpliftError;
 use uplift::outputs::{self, provide_folder};
 use uplift::pushover::{ProtocolReport, PushoverReport};
 use uplift::restrainer::RestrainerCurve;
 use uplift::result::write_atomically;
 use uplift::study::Structure;
+use uplift::{JobError, UpliftError};
 
 use crate::figures::{column_figures, protocol_figure, pushover_figure, restrainer_figure};
 use crate::files::{FigureOptions, write_figure_file};
@@ -59,10 +59,11 @@ pub fn plot_columns(
     let drawn = ELEVATION.contains(wanted);
     if chosen.is_empty() && !drawn {
         let names: Vec<&str> = figures.iter().map(|figure| figure.id.as_str()).collect();
-        return Err(UpliftError::Usage(format!(
+        return Err(JobError::Usage(format!(
             "no figure is called {wanted}: the structure has the figures {}, {ELEVATION}",
             names.join(", ")
-        )));
+        ))
+        .into());
     }
     let elevation_file = folder.join(format!("{ELEVATION}.svg"));
     let mut planned = options.outputs(chosen.iter().map(|figure| figure.id.as_str()), folder);

@@ -101,7 +101,7 @@ impl FigureSource {
     /// A file that is damaged, or of another kind; a study without sites.
     pub fn read(file: &ResultFile) -> Result<Self, UpliftError> {
         Ok(Self {
-            stored: file.stripes()?,
+            stored: StoredStripes::read(file)?,
             spectra: file.spectra()?,
             bands: file.bands()?,
             spreads: file.spreads()?,

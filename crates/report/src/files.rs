@@ -3,10 +3,10 @@
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
-use uplift::UpliftError;
 use uplift::outputs::{self, Output, OutputKind};
 use uplift::result::write_atomically;
 use uplift::text::visible;
+use uplift::{JobError, UpliftError};
 use uplift_plot::{Drawing, Figure, Look, Width, png, svg, with_description, with_software};
 
 /// Of a PNG for print.
@@ -80,7 +80,7 @@ impl FigureOptions {
 /// # Errors
 /// As [`outputs::check`].
 pub fn check_figure_file(file: &Path, inputs: &[impl AsRef<Path>], force: bool) -> Result<(), UpliftError> {
-    outputs::check(&[Output::new(file, OutputKind::Figure)], inputs, force)
+    Ok(outputs::check(&[Output::new(file, OutputKind::Figure)], inputs, force)?)
 }
 
 /// Writes `figure`, as wide as a page, to `file`, whose ending tells the format.
@@ -102,9 +102,9 @@ fn write_drawing(
     let mark = visible(mark).into_owned();
     if file.extension().is_some_and(|extension| extension == "png") {
         let image = png(&drawing.svg, f32::from(dots_per_inch)).map_err(|error| refused(figure, error))?;
-        write_atomically(file, &with_software(&image, &mark))
+        Ok(write_atomically(file, &with_software(&image, &mark))?)
     } else {
-        write_atomically(file, with_description(&drawing.svg, &mark).as_bytes())
+        Ok(write_atomically(file, with_description(&drawing.svg, &mark).as_bytes())?)
     }
 }
 
@@ -116,5 +116,5 @@ fn drawing_of(figure: &Figure, look: Look) -> Result<Drawing, UpliftError> {
 
 /// A figure that the drawing library does not draw.
 pub(crate) fn refused(figure: &Figure, reason: impl Display) -> UpliftError {
-    UpliftError::input(format!("{}: {reason}", figure.id))
+    JobError::input(format!("{}: {reason}", figure.id)).into()
 }

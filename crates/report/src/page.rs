@@ -23,12 +23,13 @@ use answer::Answer;
 use differences::{differences, names};
 use drawn::DrawnFigure;
 use structures::AskedStructure;
-use uplift::UpliftError;
 use uplift::alarms::{Alarm, alarms};
+use uplift::bootstrap::resampled;
 use uplift::events::Events;
 use uplift::outputs;
-use uplift::result::{AskedRisk, Head, Kind, ResultFile};
+use uplift::result::{AskedRisk, Head, Kind, ResultFile, at};
 use uplift::text::visible;
+use uplift::{JobError, UpliftError};
 use uplift_plot::{Figure, html};
 
 use crate::figures::{FigureSource, together};
@@ -126,9 +127,9 @@ pub fn page(paths: &[PathBuf], asked: &AskedRisk, events: &dyn Events) -> Result
     let mut results = Vec::new();
     for path in paths {
         if events.cancelled() {
-            return Err(UpliftError::Interrupted);
+            return Err(JobError::Interrupted.into());
         }
-        results.push(read(path, &ResultFile::open(path)?.at(asked)?.resampled(events)?)?);
+        results.push(read(path, &resampled(at(ResultFile::open(path)?, asked)?, events)?)?);
     }
     let heads: Vec<&Head> = results.iter().map(|of| &of.head).collect();
     let titles: Vec<&str> = results.iter().map(Read::title).collect();
@@ -175,13 +176,13 @@ pub fn page(paths: &[PathBuf], asked: &AskedRisk, events: &dyn Events) -> Result
 pub(crate) fn render(template: &'static str, context: Value) -> Result<String, UpliftError> {
     let mut templates = Environment::new();
     templates.add_filter("typeset", |text: &str| Value::from_safe_string(html(text)));
-    templates
+    Ok(templates
         .add_template("page.html", template)
         .and_then(|()| templates.get_template("page.html"))
         .and_then(|template| template.render(context))
         // what is no letter may be hidden in a text of the results, and is of no page
         .map(|page| visible(&page).into_owned())
-        .map_err(|error| UpliftError::input(format!("the page cannot be made: {error}")))
+        .map_err(|error| JobError::input(format!("the page cannot be made: {error}")))?)
 }
 
 impl Read {

@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use uplift::UpliftError;
 use uplift::events::Events;
 use uplift::hazard_curves::{CurveOptions, read as read_curves};
 use uplift::outputs::{self, Output, beside, provide_folder};
@@ -13,6 +12,7 @@ use uplift::result::ResultFile;
 use uplift::structure::{FrameRiskReport, OverturningReport};
 use uplift::sweep::SweepReport;
 use uplift::validate::ValidateReport;
+use uplift::{JobError, UpliftError};
 
 use crate::figures::{
     block_history_figure, distributions_figure, frame_figure, frame_risk_figure, hazard_figure, history_figure,
@@ -55,10 +55,11 @@ pub fn plot(options: &PlotOptions, events: &dyn Events) -> Result<PlotReport, Up
     let chosen: Vec<_> = figures.iter().filter(|figure| figure.id.contains(wanted)).collect();
     if chosen.is_empty() {
         let names: Vec<&str> = figures.iter().map(|figure| figure.id.as_str()).collect();
-        return Err(UpliftError::Usage(format!(
+        return Err(JobError::Usage(format!(
             "no figure is called {wanted}: the result has the figures {}",
             names.join(", ")
-        )));
+        ))
+        .into());
     }
     let folder = options.folder.clone().unwrap_or_else(|| beside(&options.result, "figures"));
     let ids = chosen.iter().map(|figure| figure.id.as_str());
@@ -70,7 +71,7 @@ pub fn plot(options: &PlotOptions, events: &dyn Events) -> Result<PlotReport, Up
     let mut files = Vec::new();
     for figure in chosen {
         if events.cancelled() {
-            return Err(UpliftError::Interrupted);
+            return Err(JobError::Interrupted.into());
         }
         files.extend(options.figures.write(figure, &folder, &mark)?);
     }
@@ -85,7 +86,7 @@ pub fn plot(options: &PlotOptions, events: &dyn Events) -> Result<PlotReport, Up
 /// As [`outputs::check`].
 pub fn check_pulse_figures(folder: &Path, figures: FigureOptions, force: bool) -> Result<(), UpliftError> {
     let nothing: [&Path; 0] = [];
-    outputs::check(&figures.outputs(PULSE_FIGURES.into_iter(), folder), &nothing, force)
+    Ok(outputs::check(&figures.outputs(PULSE_FIGURES.into_iter(), folder), &nothing, force)?)
 }
 
 /// Draws the rocking spectra of Figures 2.2 to 2.7 into `folder`; the files written.
@@ -134,7 +135,7 @@ pub fn plot_frame_response(report: &FrameResponseReport, file: &Path) -> Result<
 }
 
 fn no_history() -> UpliftError {
-    UpliftError::Usage("the response was computed without its time history: ask for it".to_owned())
+    JobError::Usage("the response was computed without its time history: ask for it".to_owned()).into()
 }
 
 /// The record and its scale, for a title.
@@ -164,11 +165,11 @@ pub fn plot_validation(report: &ValidateReport, file: &Path) -> Result<(), Uplif
 /// Peaks that are no pairs; a file that cannot be written.
 pub fn plot_validation_pairs(report: &ValidateReport, file: &Path) -> Result<(), UpliftError> {
     if report.key.is_empty() {
-        return Err(UpliftError::Usage(
+        return Err(JobError::Usage(
             "computed over measured peaks are drawn of pairs: name by --key the column that says which rows are of the \
              same motion"
                 .to_owned(),
-        ));
+        ).into());
     }
     write_figure_file(&pairs_figure(report), file)
 }
@@ -211,10 +212,11 @@ pub fn plot_hazard(options: &HazardPlotOptions, events: &dyn Events) -> Result<P
     check_figure_file(&options.output, &options.files, options.force)?;
     let curves = read_curves(&options.files, &options.curves, events)?;
     if curves.len() > MOST_CURVES {
-        return Err(UpliftError::Usage(format!(
+        return Err(JobError::Usage(format!(
             "{} curves cannot be told apart in one figure: pick a site by --name or --near LON,LAT",
             curves.len()
-        )));
+        ))
+        .into());
     }
     write_figure_file(&hazard_figure(&curves), &options.output)?;
     Ok(PlotReport { files: vec![options.output.clone()] })

@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 
 use serde::Serialize;
-use uplift::UpliftError;
 use uplift::events::Events;
 use uplift::outputs::{self, Output, OutputKind, beside};
 use uplift::result::{AskedRisk, ResultFile, is_hdf5, write_atomically};
 use uplift::verify::require_whole;
+use uplift::{JobError, UpliftError};
 
 use crate::page::page;
 
@@ -37,7 +37,7 @@ pub struct PageReport {
 /// A result that is missing, damaged or without sites; a file that cannot be written.
 pub fn report(options: &ReportOptions, events: &dyn Events) -> Result<PageReport, UpliftError> {
     let Some(first) = options.results.first() else {
-        return Err(UpliftError::Usage("a report is of one result or more: give one".to_owned()));
+        return Err(JobError::Usage("a report is of one result or more: give one".to_owned()).into());
     };
     let file = options.output.clone().unwrap_or_else(|| beside(first, "html"));
     let output = Output::new(&file, OutputKind::Page).of(first);

@@ -30,7 +30,7 @@ const SHEET: &str = concat!(include_str!("page/table.html"), include_str!("sheet
 /// # Errors
 /// As [`outputs::check`].
 pub fn check_design_sheet(file: &Path, result: &Path, inputs: &[&Path], force: bool) -> Result<(), UpliftError> {
-    outputs::check(&[Output::new(file, OutputKind::Page).of(result)], inputs, force)
+    Ok(outputs::check(&[Output::new(file, OutputKind::Page).of(result)], inputs, force)?)
 }
 
 /// Writes the design of `structure` as one HTML page.
@@ -68,5 +68,5 @@ pub fn write_design_sheet(structure: &Structure, report: &DesignReport, file: &P
             commit => uplift::COMMIT,
         },
     )?;
-    write_atomically(file, page.as_bytes())
+    Ok(write_atomically(file, page.as_bytes())?)
 }

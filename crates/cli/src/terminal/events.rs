@@ -1,9 +1,10 @@
 //! What is told, for a program that started this one: a line of JSON for each event (docs/study-file.md).
 
+use std::error::Error;
 use std::io::{self, Write};
 
 use serde::Serialize;
-use uplift::UpliftError;
+use uplift::{JobError, UpliftError, root};
 use uplift_atomic_file::FileError;
 use uplift_labelled::LabelledError;
 use uplift_study::{Place, StudyError, StudyMistake, Unreadable};
@@ -99,13 +100,14 @@ impl<'a> Event<'a> {
 /// All that was found, where an error has several mistakes.
 fn mistakes(error: &UpliftError) -> Vec<Mistake<'_>> {
     let of = |message: String| Mistake { key: "", line: None, column: None, given: None, message, help: None };
-    match error {
-        UpliftError::Study(error) => error.mistakes().iter().map(in_study).collect(),
-        UpliftError::Inputs(mistakes) | UpliftError::Room(mistakes) => mistakes.iter().cloned().map(of).collect(),
-        UpliftError::Implausible(mistakes) => mistakes.iter().map(|mistake| of(mistake.to_string())).collect(),
-        UpliftError::Blocks(mistakes) => mistakes.iter().map(|mistake| of(mistake.to_string())).collect(),
-        UpliftError::InFile { source, .. } => mistakes(source),
-        _ => Vec::new(),
+    let root = innermost(error);
+    if let Some(error) = root.downcast_ref::<StudyError>() {
+        return error.mistakes().iter().map(in_study).collect();
+    }
+    match root.downcast_ref() {
+        Some(JobError::Inputs(mistakes) | JobError::Room(mistakes)) => mistakes.iter().cloned().map(of).collect(),
+        Some(JobError::Implausible(mistakes)) => mistakes.iter().map(|mistake| of(mistake.to_string())).collect(),
+        _ => error.blocks().iter().map(|mistake| of(mistake.to_string())).collect(),
     }
 }
 
@@ -126,17 +128,28 @@ fn file_reason(error: &UpliftError) -> Option<&'static str> {
         FileError::NotAFile { .. } => "not a file",
         FileError::TooLarge { .. } => "too large",
     };
-    match error {
-        UpliftError::File(error) | UpliftError::Labelled(LabelledError::File(error)) => Some(of_file(error)),
-        UpliftError::Study(StudyError::Unreadable { reason, .. }) => match reason {
+    let root = innermost(error);
+    if let Some(JobError::File(error) | JobError::Labelled(LabelledError::File(error))) = root.downcast_ref() {
+        return Some(of_file(error));
+    }
+    match root.downcast_ref() {
+        Some(StudyError::Unreadable { reason, .. }) => match reason {
             Unreadable::System(error) | Unreadable::NoCurrentDirectory(error) => Some(in_words(error)),
             Unreadable::Missing { .. } => Some("not found"),
             Unreadable::NotAFile => Some("not a file"),
             _ => None,
         },
-        UpliftError::InFile { source, .. } => file_reason(source),
         _ => None,
     }
+}
+
+/// What is at fault, in whichever file it is.
+fn innermost(error: &UpliftError) -> &(dyn Error + 'static) {
+    let mut found = error.root();
+    while let Some(JobError::InFile { source, .. }) = found.downcast_ref() {
+        found = root(&**source);
+    }
+    found
 }
 
 fn in_words(error: &io::Error) -> &'static str {

@@ -4,8 +4,8 @@ use uplift_fragility::{exceedance_probabilities, quantile, weighted_quantile};
 use uplift_risk::{RiskCurve, ThresholdGrid};
 
 use super::{DISPLACEMENT, FigureSource, STRENGTH};
-use uplift::UpliftError;
 use uplift::text::{nearest, risk_in_words, risks_in_words};
+use uplift::{JobError, UpliftError};
 use uplift_plot::{Axis, Figure, Panel, Series, Tone};
 
 /// Strength of the oscillator shown.
@@ -25,7 +25,7 @@ impl FigureSource {
     }
 
     fn fail(&self, error: &dyn std::fmt::Display) -> UpliftError {
-        UpliftError::input(format!("{}: {error}", self.stored.path.display()))
+        JobError::input(format!("{}: {error}", self.stored.path.display())).into()
     }
 }
 

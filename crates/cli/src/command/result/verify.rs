@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use uplift::UpliftError;
+use uplift::JobError;
 use uplift::verify::verify as verify_results;
 
 use crate::error::CommandError;
@@ -21,5 +21,5 @@ pub(crate) fn verify(arguments: &VerifyArguments, terminal: &Terminal) -> Result
     let report = verify_results(&arguments.results, terminal)?;
     print_verified(&report, terminal)?;
     let mistakes = report.mistakes();
-    if mistakes.is_empty() { Ok(()) } else { Err(UpliftError::Inputs(mistakes).into()) }
+    if mistakes.is_empty() { Ok(()) } else { Err(JobError::Inputs(mistakes).into()) }
 }

@@ -77,7 +77,7 @@ pub(crate) fn design(arguments: &DesignArguments, terminal: &Terminal) -> Result
     if let Some(file) = &arguments.report {
         write_design_sheet(&structure, &report, file)?;
     }
-    arguments.structure.keeping.keep(|| report.finding(&structure), urs, terminal)?;
+    arguments.structure.keeping.keep(|| Ok(report.finding(&structure)?), urs, terminal)?;
     if arguments.json { print_json(&report) } else { print_design(&report) }?;
     if let Some(file) = &arguments.report {
         terminal.say(&file.display().to_string());

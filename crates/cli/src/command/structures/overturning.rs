@@ -65,7 +65,7 @@ pub(crate) fn overturning(arguments: &OverturningArguments, terminal: &Terminal)
     if let Some(figure) = &arguments.plot {
         plot_overturning(&report, figure)?;
     }
-    arguments.structure.keeping.keep(|| report.finding(&structure, &options), urs, terminal)?;
+    arguments.structure.keeping.keep(|| Ok(report.finding(&structure, &options)?), urs, terminal)?;
     if arguments.json { print_json(&report) } else { print_overturning(&report) }?;
     for file in arguments.plot.iter().chain(&report.files) {
         terminal.say(&file.display().to_string());

@@ -70,7 +70,7 @@ pub(crate) fn risk(arguments: &FrameRiskArguments, terminal: &Terminal) -> Resul
     if let Some(figure) = &arguments.plot {
         plot_frame_risk(&report, figure)?;
     }
-    arguments.structure.keeping.keep(|| report.finding(&structure), urs, terminal)?;
+    arguments.structure.keeping.keep(|| Ok(report.finding(&structure)?), urs, terminal)?;
     if arguments.json { print_json(&report) } else { print_frame_risk(&report) }?;
     for file in arguments.plot.iter().chain(&report.files) {
         terminal.say(&file.display().to_string());

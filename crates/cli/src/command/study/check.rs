@@ -1,10 +1,10 @@
 //! `uplift check`: everything that can be wrong, and what the study would cost.
 
 use clap::Args;
-use uplift::{UpliftError, plan};
+use uplift::plan;
 
 use crate::command::arguments::{StudyArguments, run_options};
-use crate::error::CommandError;
+use crate::error::{CommandError, is_stopped};
 use crate::show::{print_json, print_plan};
 use crate::terminal::Terminal;
 
@@ -23,10 +23,8 @@ const STOPPED: &str = "a check writes nothing. Run the same command to start aga
 pub(crate) fn check(arguments: &CheckArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let study = arguments.study.load_any()?;
     terminal.set_interruption_message(format!("interrupted: {STOPPED}"));
-    let plan = plan(&study, &run_options(&arguments.study, None, false), terminal).map_err(|error| match error {
-        UpliftError::Interrupted => CommandError::Interrupted(STOPPED),
-        other => other.into(),
-    })?;
+    let plan = plan(&study, &run_options(&arguments.study, None, false), terminal)
+        .map_err(|error| if is_stopped(&error) { CommandError::Interrupted(STOPPED) } else { error.into() })?;
     if arguments.json { print_json(&plan) } else { print_plan(&plan, &study, terminal) }?;
     Ok(plan.head().room.refuse(terminal)?)
 }

@@ -4,8 +4,8 @@ use uplift_structure::{Capacity, Demand, Rule};
 
 use super::super::DISPLACEMENT;
 use super::{DisplacementSource, Line};
-use uplift::UpliftError;
 use uplift::result::{SpectrumPlace, StoredStructures};
+use uplift::{JobError, UpliftError};
 use uplift_plot::{Axis, Figure, Panel, Series, Tone};
 
 /// One of the figures that show a percentile for all scalings.
@@ -110,7 +110,7 @@ pub(super) fn by_equal_energy(source: &DisplacementSource<'_>) -> Result<Vec<Fig
             .iter()
             .map(|&capacity_m| Capacity::new(shown.uplift_m.unwrap_or_default(), capacity_m))
             .collect::<Result<Vec<_>, _>>()
-            .map_err(|error| UpliftError::input(format!("{}: {error}", source.file.path().display())))?;
+            .map_err(|error| JobError::input(format!("{}: {error}", source.file.path().display())))?;
         let first = shown.uplift * capacity_m.len();
         Ok(source.over_scalings((&shown, &[first + endless]), kind, caption, |place, line| {
             let own_m = stored.percentile_m(place, line.position, shown.percentile);

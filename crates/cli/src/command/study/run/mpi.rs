@@ -11,7 +11,7 @@ use ::mpi::topology::SimpleCommunicator;
 use ::mpi::traits::{Communicator, CommunicatorCollectives};
 use uplift::analysis::shard_path;
 use uplift::events::Events;
-use uplift::{UpliftError, run_shard};
+use uplift::{JobError, UpliftError, run_shard};
 use uplift_ida::Shard;
 
 use super::RunArguments;
@@ -39,7 +39,7 @@ pub(super) fn run(arguments: &RunArguments, terminal: &Terminal) -> Option<Resul
     match run_rank(arguments, &world, shard, terminal) {
         done @ (Ok(()) | Err(CommandError::OutputClosed)) => Some(done),
         // a stop is sent to all ranks, and one says so
-        Err(error @ CommandError::Uplift(UpliftError::Paused { .. } | UpliftError::Interrupted)) => {
+        Err(error @ CommandError::Uplift(_)) if error.exit_code() == CommandError::STOPPED => {
             if index == 0 {
                 terminal.tell_error(&error);
             }
@@ -88,11 +88,8 @@ fn run_rank(
     ));
     let file = shard_path(&path, shard);
     let rows = run_shard(&study, &file, shard, Some(&path), &own)?.rows;
-    wait(world, terminal).map_err(|_| UpliftError::Paused {
-        what: "analysis rows",
-        done: rows,
-        total: rows,
-        path: file,
+    wait(world, terminal).map_err(|_| {
+        UpliftError::from(JobError::Paused { what: "analysis rows", done: rows, total: rows, path: file })
     })?;
     if !first {
         return Ok(());
@@ -118,7 +115,7 @@ fn wait(world: &SimpleCommunicator, terminal: &Terminal) -> Result<(), CommandEr
         if terminal.cancelled() {
             // the program ends here; a request must not be dropped before it is complete
             std::mem::forget(all_here);
-            return Err(UpliftError::Interrupted.into());
+            return Err(CommandError::Uplift(JobError::Interrupted.into()));
         }
         std::thread::sleep(LOOK_EVERY);
     }

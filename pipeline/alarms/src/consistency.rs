@@ -1,0 +1,90 @@
+//! Records that do not bring the site's hazard of the other measure: spectra of such a set are true of the set, and not
+//! of the site.
+
+use uplift_consistency::Verdict;
+use uplift_job::alarm::{Alarm, Case, Severity};
+use uplift_result::StoredConsistency;
+use uplift_uniform_risk::MANY_FAILED;
+
+use super::curves;
+use super::evidence::{Evidence, Scope};
+
+pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
+    let mut cases = Vec::new();
+    for consistency in &evidence.consistency {
+        for (site, name) in evidence.spectra.sites.iter().enumerate() {
+            // one risk is judged by itself, so that the others of a result do not matter to it
+            let (times, verdict) = match scope.poe {
+                None => (consistency.bias[site], consistency.verdict[site].as_str()),
+                Some(poe) => {
+                    let ratio = consistency.ratio[[site, poe]];
+                    (ratio, Verdict::of(ratio, ratio.ln().abs()).key())
+                }
+            };
+            let is_told = scope.holds(site, consistency.scaled_to) && !curves::are_apart(evidence, site);
+            if is_told && times.is_finite() && verdict == Verdict::Inconsistent.key() {
+                cases.push(case(consistency, site, name, times));
+            }
+        }
+    }
+    Alarm::of_cases("hazard-inconsistent", cases)
+}
+
+/// Bands of repaired spectra of whose samples many cannot be weighed to the site's hazard.
+pub(super) fn failing_samples(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
+    let stored = evidence.bands.as_ref()?;
+    let mut cases = Vec::new();
+    for bands in &stored.measures {
+        let Some(repaired) = &bands.repaired else { continue };
+        let records = stored.sizes[stored.largest()];
+        let of_joint = repaired.bands.joint.as_ref().and_then(|joint| joint.failed.as_ref());
+        let kinds = [
+            (Some(&repaired.failed), format!("the site's hazard to {{}} of the samples of {records} records")),
+            (of_joint, format!("the hazard to {{}} of the pairs of a sample of {records} records and a hazard curve")),
+        ];
+        for (site, name) in evidence.spectra.sites.iter().enumerate() {
+            for (failed, what) in &kinds {
+                let share = failed.map_or(0.0, |failed| failed[[site, stored.largest()]]);
+                if scope.holds(site, bands.measure) && share > MANY_FAILED {
+                    cases.push(Case {
+                        severity: Severity::Caution,
+                        badness: share,
+                        subject: format!("{name} by {}", bands.measure.label()),
+                        what: format!(
+                            "no weights bring {}: their spectra are repaired in part only, and so is the band",
+                            what.replace("{}", &format!("{:.0} %", 100.0 * share))
+                        ),
+                        what_to_do: "take more records, or records of another kind (uplift consistency)".to_owned(),
+                    });
+                }
+            }
+        }
+    }
+    Alarm::of_cases("repair-of-samples", cases)
+}
+
+/// `times` the level of the other measure do the records bring.
+fn case(consistency: &StoredConsistency, site: usize, name: &str, times: f64) -> Case {
+    let StoredConsistency { scaled_to, other, u_m, .. } = consistency;
+    let (scaled_to, other) = (scaled_to.label(), other.label());
+    let is_repaired = consistency.is_repaired(site);
+    Case {
+        severity: if is_repaired { Severity::Note } else { Severity::Caution },
+        badness: times.ln().abs(),
+        subject: format!("{name} by {scaled_to}"),
+        what: format!(
+            "the records bring {times:.1} times the {other} of the site's hazard; spectra by {scaled_to} are not \
+             hazard-consistent"
+        ),
+        what_to_do: match u_m {
+            Some(_) if is_repaired => {
+                "use the repaired spectra beside them (uplift consistency; uplift design --repaired)"
+            }
+            Some(_) => "no weights of these records can mend it: uplift consistency says which are missing",
+            None => {
+                "[consistency] repair = \"weights\" gives spectra that are, beside the plain ones (uplift consistency)"
+            }
+        }
+        .to_owned(),
+    }
+}

@@ -1,0 +1,119 @@
+//! What alarms are raised from: the spectra of a result with all that the file knows of them.
+
+use uplift_hazard::{HazardCurve, rate_from_probability};
+use uplift_job::text::risk_name;
+use uplift_motion::IntensityMeasure;
+use uplift_result::{MeasureSpectra, ResultFile, StoredBands, StoredConsistency, StoredHazard, StoredSpectra};
+use uplift_study::UniformRiskStudy;
+
+use crate::error::AlarmsError;
+
+/// The spectra of a result, its study, hazard and bands.
+#[derive(Debug, Clone)]
+pub struct Evidence {
+    pub(crate) study: UniformRiskStudy,
+    pub(crate) spectra: StoredSpectra,
+    /// By measure, as the spectra; weighted curves of the sites alone that are asked about.
+    pub(crate) hazard: Vec<StoredHazard>,
+    pub(crate) bands: Option<StoredBands>,
+    /// By the measure that records are scaled to.
+    pub(crate) consistency: Vec<StoredConsistency>,
+}
+
+/// Which of the spectra are asked about; all where nothing is said.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Scope {
+    /// Position of the site.
+    pub site: Option<usize>,
+    /// The measure.
+    pub measure: Option<IntensityMeasure>,
+    /// Position of the probability.
+    pub poe: Option<usize>,
+    /// The strengths between which the spectra are read, both included.
+    pub strengths: Option<(f64, f64)>,
+    /// Whether it is asked by repaired spectra, so that what is wrong with the plain ones is of no account.
+    pub repaired: bool,
+}
+
+impl Scope {
+    pub(super) fn holds_site(&self, site: usize) -> bool {
+        self.site.is_none_or(|wanted| wanted == site)
+    }
+
+    pub(super) fn holds(&self, site: usize, measure: IntensityMeasure) -> bool {
+        self.holds_site(site) && self.measure.is_none_or(|wanted| wanted == measure)
+    }
+
+    pub(super) fn holds_poe(&self, poe: usize) -> bool {
+        self.poe.is_none_or(|wanted| wanted == poe)
+    }
+
+    pub(super) fn holds_strength(&self, strength: f64) -> bool {
+        self.strengths.is_none_or(|(a, b)| (a..=b).contains(&strength))
+    }
+}
+
+/// `Athens, PGV, 2 %`.
+pub fn spectrum_name(site: &str, measure: IntensityMeasure, (poe, years): (f64, f64)) -> String {
+    format!("{site}, {}, {}", measure.label(), risk_name(poe, years))
+}
+
+/// One spectrum within a scope.
+pub(super) struct Place<'a> {
+    pub(super) of_measure: &'a MeasureSpectra,
+    pub(super) curve: &'a HazardCurve,
+    pub(super) site: usize,
+    pub(super) poe: usize,
+    /// Positions of the strengths that are asked about.
+    pub(super) strengths: Vec<usize>,
+    /// `Athens, PGV, 2 %`.
+    pub(super) name: String,
+}
+
+impl Evidence {
+    /// Reads what is asked about within `scope`.
+    ///
+    /// # Errors
+    /// A file that is damaged, of another kind, or without sites.
+    pub(crate) fn read(file: &ResultFile, scope: &Scope) -> Result<Self, AlarmsError> {
+        Ok(Self {
+            study: file.stored_study()?,
+            spectra: file.spectra()?,
+            hazard: file.hazard_with_branches(|site| scope.holds_site(site))?,
+            bands: file.bands()?,
+            consistency: file.consistency()?,
+        })
+    }
+
+    /// Every spectrum within `scope`.
+    pub(super) fn places(&self, scope: &Scope) -> Vec<Place<'_>> {
+        let spectra = &self.spectra;
+        let strengths: Vec<usize> = (0..spectra.strengths.len())
+            .filter(|&strength| scope.holds_strength(spectra.strengths[strength]))
+            .collect();
+        let mut places = Vec::new();
+        for (of_measure, hazard) in spectra.measures.iter().zip(&self.hazard) {
+            for (site, curves) in hazard.sites.iter().enumerate() {
+                for poe in 0..spectra.poes.len() {
+                    if scope.holds(site, of_measure.measure) && scope.holds_poe(poe) && !strengths.is_empty() {
+                        let curve = &curves.curve;
+                        let name = self.name(site, of_measure.measure, poe);
+                        places.push(Place { of_measure, curve, site, poe, strengths: strengths.clone(), name });
+                    }
+                }
+            }
+        }
+        places
+    }
+
+    /// `Athens, PGV, 2 %`.
+    pub(super) fn name(&self, site: usize, measure: IntensityMeasure, poe: usize) -> String {
+        let spectra = &self.spectra;
+        spectrum_name(&spectra.sites[site], measure, (spectra.poes[poe], spectra.years))
+    }
+
+    /// Target rate of a probability, 1/yr (Eq. 4.8).
+    pub(super) fn target_per_year(&self, poe: usize) -> Result<f64, AlarmsError> {
+        Ok(rate_from_probability(self.spectra.poes[poe], self.spectra.years)?)
+    }
+}

@@ -1,0 +1,28 @@
+//! Hazard curves by which the extreme shaking is frequent, or the faintest rare.
+
+use uplift_inputs::{hardly_possible, units_that_make_possible};
+use uplift_job::alarm::{Case, Severity};
+use uplift_motion::IntensityMeasure;
+use uplift_plausible::USUAL_GRAVITY;
+use uplift_study::UniformRiskStudy;
+
+use super::hazard::CurvesAtSite;
+
+/// What is raised of the curves of a site, where some say what is hardly possible.
+pub(super) fn case(study: &UniformRiskStudy, curves: &CurvesAtSite<'_>) -> Option<Case> {
+    let measure = curves.measure;
+    // another gravity than the Earth's moves every acceleration, and has an alarm of its own
+    if measure != IntensityMeasure::Pgv && !USUAL_GRAVITY.contains(study.gravity_m_s2) {
+        return None;
+    }
+    let found = curves.first_that(|curve| hardly_possible(curve, measure).is_some())?;
+    let odd = hardly_possible(found.curve, measure)?;
+    Some(Case {
+        severity: Severity::Mistake,
+        badness: odd.times,
+        subject: curves.subject(),
+        what: format!("by {} {}, which is hardly possible", found.name, odd.what),
+        what_to_do: units_that_make_possible(study, (curves.site, measure), found.curve)
+            .unwrap_or_else(|| "see its unit, that it is of this measure, and that it gives rates per year".to_owned()),
+    })
+}

@@ -1,0 +1,221 @@
+//! Ordinates that rest on what lies outside the analysed levels, and spectra without ordinates.
+
+use uplift_hazard::{Extrapolation, HazardCurve};
+use uplift_job::Array;
+use uplift_job::alarm::{Alarm, Case, Severity};
+use uplift_job::text::{per_cent, share};
+use uplift_risk::{OrdinateFlag, TAIL_SHARE_LIMIT};
+use uplift_study::{MeasurePlan, levels_key};
+
+use super::evidence::{Evidence, Place, Scope};
+use crate::error::AlarmsError;
+
+/// The kind of the alarm about the first level.
+pub const BELOW_FIRST_LEVEL: &str = "below-first-level";
+/// The kind of the alarm about the last level.
+pub const BEYOND_LAST_LEVEL: &str = "beyond-last-level";
+/// From this share of the target rate on, motions above the last level may matter though few records exceed the
+/// ordinate there: the risk integral goes on with the share of the last level (Eq. 4.4), and the truth may be all.
+const BEYOND_LIMIT: f64 = 0.1;
+/// From this share of the risk on, an ordinate is decided by what was not analysed.
+const DECISIVE: f64 = 0.1;
+
+pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Result<Vec<Alarm>, AlarmsError> {
+    let (mut below, mut beyond, mut censored, mut zero) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    for place in evidence.places(scope) {
+        let target_per_year = evidence.target_per_year(place.poe)?;
+        below.extend(below_first(evidence, &place));
+        beyond.extend(beyond_last(evidence, &place, target_per_year)?);
+        censored.extend(without_ordinate(&place));
+        zero.extend(never_exceeded(&place, &evidence.spectra.strengths, target_per_year));
+    }
+    let kinds =
+        [("censored", censored), ("no-exceedance", zero), (BEYOND_LAST_LEVEL, beyond), (BELOW_FIRST_LEVEL, below)];
+    Ok(kinds.into_iter().filter_map(|(kind, cases)| Alarm::of_cases(kind, cases)).collect())
+}
+
+/// How many of the shares of a spectrum are more than the limit, and the largest.
+fn heavy(shares: &[f64]) -> (usize, f64) {
+    let count = shares.iter().filter(|share| **share > TAIL_SHARE_LIMIT).count();
+    (count, shares.iter().copied().fold(0.0, f64::max))
+}
+
+/// The shares of the ordinates that are asked about.
+fn at_strengths(shares: &Array<3>, place: &Place<'_>) -> Vec<f64> {
+    let shares = shares.block([place.site, place.poe]);
+    place.strengths.iter().map(|&strength| shares[strength]).collect()
+}
+
+fn severity(share: f64) -> Severity {
+    if share > DECISIVE { Severity::Caution } else { Severity::Note }
+}
+
+fn below_first(evidence: &Evidence, place: &Place<'_>) -> Option<Case> {
+    let plan = evidence.study.measures.iter().find(|plan| plan.measure == place.of_measure.measure)?;
+    let shares = at_strengths(&place.of_measure.lower_tail_share, place);
+    below_first_case((plan, place.curve), &place.name, Counted::All, &shares)
+}
+
+/// What is to be raised of the spectrum `name`, whose ordinates take the `shares` of their risk from motions weaker
+/// than the first level, where the fragility is a straight line: too large.
+pub fn below_first_case(
+    (plan, curve): (&MeasurePlan, &HazardCurve),
+    name: &str,
+    counted: Counted,
+    shares: &[f64],
+) -> Option<Case> {
+    let (count, most) = heavy(shares);
+    let (measure, first) = (plan.measure, *plan.levels.first()?);
+    (count > 0).then(|| Case {
+        severity: severity(most),
+        badness: most,
+        subject: name.to_owned(),
+        what: format!(
+            "{count} of {} {} take more than {} of their risk from below the first level, {first} {}, at most {}: they \
+             come out too large",
+            shares.len(),
+            counted.ordinates(),
+            per_cent(TAIL_SHARE_LIMIT),
+            measure.unit(),
+            share(most)
+        ),
+        what_to_do: match counted {
+            _ if curve.first().im >= first => {
+                format!("take a hazard curve from further down than {} {}", curve.first().im, measure.unit())
+            }
+            Counted::All => format!("begin {} lower: uplift check proposes a line", levels_key(measure)),
+            Counted::Tried => format!("begin {} lower: see what is said of levels above", levels_key(measure)),
+        },
+    })
+}
+
+/// Ordinates that rest on motions stronger than the last level, or than the hazard curve goes.
+fn beyond_last(evidence: &Evidence, place: &Place<'_>, target_per_year: f64) -> Result<Option<Case>, AlarmsError> {
+    let Some(plan) = evidence.study.measures.iter().find(|plan| plan.measure == place.of_measure.measure) else {
+        return Ok(None);
+    };
+    let end = UpperEnd { plan, curve: place.curve, extrapolate: evidence.study.risk.extrapolate, target_per_year };
+    end.case(&place.name, Counted::All, &at_strengths(&place.of_measure.upper_tail_share, place))
+}
+
+/// Where the levels and the hazard curve of a measure end, and the rate that spectra are asked at.
+pub struct UpperEnd<'a> {
+    /// The measure with its levels.
+    pub plan: &'a MeasurePlan,
+    /// The hazard curve.
+    pub curve: &'a HazardCurve,
+    /// How the curve is extrapolated.
+    pub extrapolate: Extrapolation,
+    /// The target rate, 1/yr.
+    pub target_per_year: f64,
+}
+
+/// Which ordinates of a spectrum are counted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Counted {
+    /// All of them.
+    All,
+    /// Those of a few strengths, before a run.
+    Tried,
+}
+
+impl Counted {
+    fn ordinates(self) -> &'static str {
+        match self {
+            Self::All => "ordinates",
+            Self::Tried => "ordinates tried",
+        }
+    }
+}
+
+impl UpperEnd<'_> {
+    /// What is to be raised of the spectrum `name`, whose ordinates take the `shares` of their risk from above the last
+    /// level; no shares where none is tried.
+    ///
+    /// # Errors
+    /// A curve that cannot be read at the last level.
+    pub fn case(&self, name: &str, counted: Counted, shares: &[f64]) -> Result<Option<Case>, AlarmsError> {
+        let &Self { plan, curve, target_per_year, .. } = self;
+        let (measure, unit, end) = (plan.measure, plan.measure.unit(), curve.last());
+        let (count, most) = heavy(shares);
+        let Some(&last) = plan.levels.last() else { return Ok(None) };
+        // what is known of the hazard ends with the curve, though levels go on
+        let (known_to, per_year) = if end.im < last {
+            (format!("the hazard curve ends at {} {unit} and goes on by extrapolation, and that", end.im), end.maf)
+        } else {
+            let per_year = curve.rate_at_extrapolated(last, self.extrapolate)?;
+            (format!("the last level, {last} {unit},"), per_year)
+        };
+        let beyond = per_year / target_per_year;
+        if count == 0 && beyond <= BEYOND_LIMIT {
+            return Ok(None);
+        }
+        let counted = match count {
+            0 => String::new(),
+            _ => format!(
+                "{count} of {} {} take more than {} of their risk from above the last level, at most {}; ",
+                shares.len(),
+                counted.ordinates(),
+                per_cent(TAIL_SHARE_LIMIT),
+                share(most)
+            ),
+        };
+        Ok(Some(Case {
+            severity: severity(most.max(beyond)),
+            badness: most.max(beyond),
+            subject: name.to_owned(),
+            what: format!(
+                "{counted}{known_to} is exceeded {per_year:.1e} times a year, {} the target rate of \
+                 {target_per_year:.1e}: what stronger motions do is not known, and ordinates may be too small",
+                if beyond > 1.0 { format!("{beyond:.1} times") } else { format!("{} of", share(beyond)) }
+            ),
+            what_to_do: if end.im > last {
+                format!("let {} reach further up, the hazard curve goes to {} {unit}", levels_key(measure), end.im)
+            } else {
+                let key = levels_key(measure);
+                format!("take a hazard curve that goes beyond {} {unit}, and let {key} follow it", end.im)
+            },
+        }))
+    }
+}
+
+/// Spectra that are infinite in places.
+fn without_ordinate(place: &Place<'_>) -> Option<Case> {
+    let flags = place.of_measure.flags.block([place.site, place.poe]);
+    let count = place.strengths.iter().filter(|&&strength| flags[strength] == OrdinateFlag::Censored).count();
+    (count > 0).then(|| Case {
+        severity: Severity::Caution,
+        badness: count as f64,
+        subject: place.name.clone(),
+        what: format!(
+            "{count} of {} ordinates are censored: overturned runs, or the last threshold, exceed the target risk",
+            place.strengths.len()
+        ),
+        what_to_do:
+            "no displacement meets the target there: take larger strengths.values or oscillator.capacity_m, or \
+                     with risk.contour = \"grid\" larger risk.thresholds_m"
+                .to_owned(),
+    })
+}
+
+/// Spectra that are zero although something rocks: the hazard curve begins above the target.
+fn never_exceeded(place: &Place<'_>, strengths: &[f64], target_per_year: f64) -> Option<Case> {
+    let flags = place.of_measure.flags.block([place.site, place.poe]);
+    let zero = |strength: &&usize| flags[**strength] == OrdinateFlag::NoExceedance && strengths[**strength] > 0.0;
+    let count = place.strengths.iter().filter(zero).count();
+    let foot = place.curve.first();
+    (count > 0).then(|| Case {
+        severity: Severity::Caution,
+        badness: count as f64,
+        subject: place.name.clone(),
+        what: format!(
+            "{count} of {} ordinates are 0: the target rate of {target_per_year:.1e} a year is not reached, and the \
+             hazard curve begins with {:.1e} a year at {} {}",
+            place.strengths.len(),
+            foot.maf,
+            foot.im,
+            place.curve.unit()
+        ),
+        what_to_do: "take a hazard curve from further down, or a smaller risk.poe".to_owned(),
+    })
+}

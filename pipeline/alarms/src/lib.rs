@@ -1,0 +1,147 @@
+//! What an engineer would raise before using the numbers of a result: one ranked list, each thing said once with what
+//! to do about it.
+//!
+//! It is derived from the result file, so that the summary of a run, `uplift table`, the page, an export and a design
+//! say the same; thresholds and their reasons: docs/method.md, section 17.
+//!
+//! | module | what it looks at |
+//! |---|---|
+//! | `inputs` | the study's numbers, the records, what was noticed about the inputs |
+//! | `hazard` | hazard curves that are probably mistaken, by the three that follow |
+//! | `probabilities` | those that look like probabilities |
+//! | `implausible` | those by which extreme shaking is frequent, or the faintest rare |
+//! | `branches` | weighted ones of which some are far from the others |
+//! | `levels` | ordinates that rest on what lies outside the analysed levels, or do not exist |
+//! | `curves` | hazard curves of PGV and of PGA that cannot be of one site |
+//! | `consistency` | records that do not bring the hazard of the other measure |
+//! | `measures` | spectra by PGV and by PGA that disagree |
+//! | `numbers` | numbers of a command line in another unit, probably |
+//! | `fit` | fitted curves that leave their spectrum |
+//! | `structure` | a structure's numbers, and risks of its own that the levels do not hold |
+
+mod branches;
+mod consistency;
+mod curves;
+mod error;
+mod evidence;
+mod fit;
+mod hazard;
+mod implausible;
+mod inputs;
+mod levels;
+mod measures;
+mod numbers;
+mod probabilities;
+mod structure;
+
+use uplift_job::alarm::Alarm;
+use uplift_motion::IntensityMeasure;
+
+pub use curves::of_curves;
+pub use error::AlarmsError;
+pub use evidence::{Evidence, Scope, spectrum_name};
+pub use fit::{FitReach, reach_of_fit};
+pub use hazard::{CurvesAtSite, of_hazard};
+pub use inputs::{few, of_far_factors, of_study};
+pub use levels::{BELOW_FIRST_LEVEL, BEYOND_LAST_LEVEL, Counted, UpperEnd, below_first_case};
+pub use measures::COMPARED_FROM_M;
+pub use numbers::of_numbers;
+pub use structure::{OwnRisk, of_own_demand, of_own_risks, of_safety_factor, of_structure};
+use uplift_result::{Kind, ResultFile};
+
+/// The alarms in the order in which they should be read.
+pub fn ranked(mut alarms: Vec<Alarm>) -> Vec<Alarm> {
+    alarms.sort_by_key(|alarm| alarm.severity);
+    alarms
+}
+
+/// All that is to be raised about the result `file`, the worst first.
+///
+/// # Errors
+/// A file that is damaged.
+pub fn alarms(file: &ResultFile) -> Result<Vec<Alarm>, AlarmsError> {
+    alarms_of(file, &Scope::default())
+}
+
+/// The alarms of the spectra by one `measure`, the worst first.
+///
+/// # Errors
+/// A file that is damaged.
+pub fn alarms_by(file: &ResultFile, measure: IntensityMeasure) -> Result<Vec<Alarm>, AlarmsError> {
+    alarms_of(file, &Scope { measure: Some(measure), ..Scope::default() })
+}
+
+fn alarms_of(file: &ResultFile, scope: &Scope) -> Result<Vec<Alarm>, AlarmsError> {
+    let mut alarms = inputs::of_result(file)?;
+    if file.kind() == Kind::UniformRisk && !file.axes()?.sites.is_empty() {
+        alarms.extend(of_spectra(&Evidence::read(file, scope)?, scope)?);
+    }
+    Ok(ranked(alarms))
+}
+
+/// The alarms that concern a structure which is read into the spectra of `file` within `scope`; not ranked yet.
+///
+/// # Errors
+/// A file that is damaged, or without sites.
+pub fn alarms_within(file: &ResultFile, scope: &Scope) -> Result<Vec<Alarm>, AlarmsError> {
+    let evidence = Evidence::read(file, scope)?;
+    let mut alarms = inputs::of_result(file)?;
+    alarms.extend(hazard::alarms(&evidence, scope));
+    alarms.extend(levels::alarms(&evidence, scope)?);
+    if scope.repaired {
+        alarms.extend(consistency::failing_samples(&evidence, scope));
+    } else {
+        alarms.extend(measures::alarms(&evidence, scope));
+        alarms.extend(consistency::alarms(&evidence, scope));
+    }
+    Ok(alarms)
+}
+
+/// The alarms that concern curves and records alone, whoever asks something new of them; not ranked yet.
+///
+/// # Errors
+/// A file that is damaged, or without sites.
+pub fn alarms_of_inputs(file: &ResultFile, scope: &Scope) -> Result<Vec<Alarm>, AlarmsError> {
+    let mut alarms = inputs::of_result(file)?;
+    let evidence = Evidence::read(file, scope)?;
+    alarms.extend(hazard::alarms(&evidence, scope));
+    Ok(alarms)
+}
+
+fn of_spectra(evidence: &Evidence, scope: &Scope) -> Result<Vec<Alarm>, AlarmsError> {
+    let mut alarms = hazard::alarms(evidence, scope);
+    alarms.extend(levels::alarms(evidence, scope)?);
+    alarms.extend(measures::alarms(evidence, scope));
+    alarms.extend(consistency::alarms(evidence, scope));
+    alarms.extend(consistency::failing_samples(evidence, scope));
+    alarms.extend(fit::alarms(evidence, scope));
+    Ok(alarms)
+}
+
+#[cfg(test)]
+mod tests {
+    use uplift_job::alarm::{Case, Severity};
+
+    use super::*;
+
+    #[test]
+    fn the_worst_speaks_for_all_and_comes_first() {
+        let case = |badness: f64, severity, subject: &str| Case {
+            severity,
+            badness,
+            subject: subject.to_owned(),
+            what: format!("is off by {badness}"),
+            what_to_do: "mend it".to_owned(),
+        };
+        let cases = vec![case(2.0, Severity::Note, "Here"), case(3.0, Severity::Caution, "There")];
+        let found = Alarm::of_cases("off", cases).into_iter().collect::<Vec<_>>();
+        assert_eq!(found[0].to_string(), "There (and Here): is off by 3");
+        assert_eq!((found[0].severity, &found[0].also[..]), (Severity::Caution, &["Here".to_owned()][..]));
+        assert_eq!(Alarm::of_cases("off", Vec::new()), None);
+
+        let of = |severity| Alarm::of_one(severity, "kind", "subject", String::new(), "");
+        let order = ranked(vec![of(Severity::Note), of(Severity::Mistake), of(Severity::Caution)]);
+        let order: Vec<Severity> = order.iter().map(|alarm| alarm.severity).collect();
+        assert_eq!(order, [Severity::Mistake, Severity::Caution, Severity::Note]);
+    }
+}

@@ -1,0 +1,153 @@
+//! Spectra of one site and probability by PGV and by PGA that disagree: the demand is one, and two numbers for it are
+//! one too many.
+
+use uplift_motion::IntensityMeasure;
+
+/// Where the reference curve is below this, m, a ratio says nothing: it is at the uplift displacement.
+pub const COMPARED_FROM_M: f64 = 0.003;
+
+use super::evidence::{Evidence, Scope};
+use uplift_job::Array;
+use uplift_job::alarm::{Alarm, Case, Severity};
+use uplift_job::text::{per_cent, risk_name};
+use uplift_result::{MeasureSpectra, StoredBands};
+
+/// Ordinates that are further apart than this need no band to say so: with 105 recorded pairs 90 % bands are some 40 %
+/// wide by PGV and 120 to 170 % by PGA (docs/method.md, section 9), half of each to either side.
+const RATIO_LIMIT: f64 = 2.0;
+/// From this ratio on the measure chosen matters more than everything else in a study.
+const RATIO_DECISIVE: f64 = 3.0;
+
+/// The spectrum of one measure, with its band.
+#[derive(Debug, Clone, Copy)]
+struct Side<'a> {
+    u_m: &'a [f64],
+    /// Lower and upper limits.
+    band_m: Option<[&'a [f64]; 2]>,
+}
+
+/// Where two spectra are furthest apart.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Gap {
+    strength: usize,
+    /// The second over the first.
+    ratio: f64,
+}
+
+/// The largest gap between two spectra, of those that their bands do not hold or, without bands, beyond the limit.
+fn largest_gap(one: Side<'_>, other: Side<'_>, at: &[usize]) -> Option<Gap> {
+    let gap = |&strength: &usize| -> Option<Gap> {
+        let (a, b) = (one.u_m[strength], other.u_m[strength]);
+        // where neither is more than a few millimetres they say nothing of rocking
+        let compared = a.is_finite() && b.is_finite() && a > 0.0 && b > 0.0 && a.max(b) > COMPARED_FROM_M;
+        let ratio = b / a;
+        let apart = match (one.band_m, other.band_m) {
+            (Some([low_a, high_a]), Some([low_b, high_b])) => {
+                low_a[strength] > high_b[strength] || low_b[strength] > high_a[strength]
+            }
+            _ => ratio.max(1.0 / ratio) > RATIO_LIMIT,
+        };
+        (compared && apart).then_some(Gap { strength, ratio })
+    };
+    at.iter().filter_map(gap).max_by(|a, b| a.ratio.ln().abs().total_cmp(&b.ratio.ln().abs()))
+}
+
+pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
+    let spectra = &evidence.spectra;
+    let of = |measure| spectra.measures.iter().find(|spectra| spectra.measure == measure);
+    let (pgv, pga) = (of(IntensityMeasure::Pgv)?, of(IntensityMeasure::Pga)?);
+    let strengths: Vec<usize> = (0..spectra.strengths.len())
+        .filter(|&strength| scope.holds_strength(spectra.strengths[strength]) && spectra.strengths[strength] > 0.0)
+        .collect();
+    let mut cases = Vec::new();
+    // both measures are looked at, whichever is asked about
+    for (site, name) in spectra.sites.iter().enumerate() {
+        for (poe, &probability) in spectra.poes.iter().enumerate() {
+            if !(scope.site.is_none_or(|wanted| wanted == site) && scope.holds_poe(poe)) {
+                continue;
+            }
+            let side = |of_measure| side(of_measure, evidence.bands.as_ref(), [site, poe]);
+            let (one, other) = (side(pgv), side(pga));
+            let Some(gap) = largest_gap(one, other, &strengths) else { continue };
+            let banded = one.band_m.is_some() && other.band_m.is_some();
+            cases.push(case(
+                evidence,
+                format!("{name}, {}", risk_name(probability, spectra.years)),
+                (one, other),
+                gap,
+                banded,
+            ));
+        }
+    }
+    Alarm::of_cases("measures-disagree", cases)
+}
+
+fn case(evidence: &Evidence, subject: String, (pgv, pga): (Side<'_>, Side<'_>), gap: Gap, banded: bool) -> Case {
+    let times = gap.ratio.max(1.0 / gap.ratio);
+    let allowed = match &evidence.bands {
+        Some(bands) if banded => format!("further apart than their {} bands", per_cent(bands.confidence)),
+        _ => format!("more than {RATIO_LIMIT} times apart"),
+    };
+    Case {
+        severity: if times > RATIO_DECISIVE { Severity::Caution } else { Severity::Note },
+        badness: times,
+        subject,
+        what: format!(
+            "the spectra by PGV and by PGA are {allowed}: at strength {:.3} {:.4} m by PGV and {:.4} m by PGA, \
+             {times:.1} times",
+            evidence.spectra.strengths[gap.strength], pgv.u_m[gap.strength], pga.u_m[gap.strength]
+        ),
+        what_to_do: if banded {
+            "uplift measures tells which measure is the more efficient and sufficient: use that one, or the larger"
+        } else {
+            "uplift measures tells which measure is the more efficient and sufficient: use that one, or the larger; \
+             uplift bootstrap, how far apart the records alone can put them"
+        }
+        .to_owned(),
+    }
+}
+
+/// The spectrum of a site and probability with its band for all records.
+fn side<'a>(spectra: &'a MeasureSpectra, bands: Option<&'a StoredBands>, [site, poe]: [usize; 2]) -> Side<'a> {
+    let band = || {
+        let bands = bands?;
+        let size = (0..bands.sizes.len()).max_by_key(|&size| bands.sizes[size])?;
+        let of_measure = bands.of(spectra.measure)?;
+        let [lower, _, upper] = &of_measure.plain.limits_m;
+        // what all records there could be have; in results made before it was known, what resamples have
+        let [lower, upper] =
+            of_measure.inferred.as_ref().map_or([lower, upper], |own| [&own.truth_m[0], &own.truth_m[1]]);
+        let of = |limit: &'a Array<4>| limit.block([site, poe, size]);
+        Some([of(lower), of(upper)])
+    };
+    Side { u_m: spectra.u_m.block([site, poe]), band_m: band() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const AT: [usize; 4] = [0, 1, 2, 3];
+
+    #[test]
+    fn without_bands_a_ratio_of_more_than_two_counts_and_millimetres_do_not() {
+        let side = |u_m| Side { u_m, band_m: None };
+        // 2.5 times in millimetres; 1.9 times; a quarter; censored
+        let (one, other) = ([0.001, 0.1, 0.2, 0.1], [0.0025, 0.19, 0.05, f64::INFINITY]);
+        let gap = largest_gap(side(&one), side(&other), &AT);
+        assert_eq!(gap, Some(Gap { strength: 2, ratio: 0.25 }));
+        assert_eq!(largest_gap(side(&one), side(&other), &AT[..2]), None);
+    }
+
+    #[test]
+    fn with_bands_only_what_they_do_not_hold_counts() {
+        let (one, other) = ([0.1, 0.1, 0.1, 0.1], [0.5, 0.13, 0.1, 0.1]);
+        let (low, high) = ([0.08, 0.09, 0.08, 0.08], [0.12, 0.11, 0.12, 0.12]);
+        let (other_low, other_high) = ([0.11, 0.12, 0.05, 0.05], [0.9, 0.14, 0.2, 0.2]);
+        let one = Side { u_m: &one, band_m: Some([&low, &high]) };
+        let other = Side { u_m: &other, band_m: Some([&other_low, &other_high]) };
+        // five times, but the bands meet; 1.3 times, and they do not
+        let gap = largest_gap(one, other, &AT);
+        assert_eq!(gap.map(|gap| gap.strength), Some(1));
+    }
+}

@@ -1,0 +1,193 @@
+//! What is to be raised about a structure: its own numbers, and risks of it that the analysed levels do not hold.
+
+use uplift_job::alarm::{Alarm, Case, Severity};
+use uplift_job::text::{per_cent, records_in_words, share as share_in_words};
+use uplift_motion::IntensityMeasure;
+use uplift_plausible::USUAL_SAFETY_FACTOR;
+use uplift_risk::TAIL_SHARE_LIMIT;
+use uplift_study::{Structure, levels_key};
+use uplift_uniform_risk::{BOUND_CONFIDENCE, EventRisk, share_at_most};
+
+use super::inputs::of_warning;
+
+/// From this share of a risk on, it is decided by what was not analysed.
+const DECISIVE: f64 = 0.1;
+
+/// A risk of the structure itself by the stripes of one measure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OwnRisk {
+    /// What happens, where and by what: `overturning, Athens, PGV`.
+    pub subject: String,
+    /// How often it happens.
+    pub risk: EventRisk,
+    /// The measure of the stripes.
+    pub measure: IntensityMeasure,
+    /// The first and the last level of the stripes.
+    pub levels: (f64, f64),
+    /// Records of the set.
+    pub records: usize,
+    /// Pairs that they are of.
+    pub pairs: usize,
+    /// To how many pairs that count alike these amount.
+    pub effective_pairs: f64,
+}
+
+/// Numbers of the structure file that are probably in another unit.
+pub fn of_structure(structure: &Structure) -> Vec<Alarm> {
+    structure.warnings.iter().map(|warning| of_warning(&structure.name(), warning)).collect()
+}
+
+/// A safety factor that was probably meant otherwise.
+pub fn of_safety_factor(safety_factor: f64) -> Option<Alarm> {
+    let found = USUAL_SAFETY_FACTOR.unlikely("--safety-factor", safety_factor)?;
+    let what_to_do = "give --safety-factor as a factor, or leave it if it is meant";
+    Some(Alarm::of_one(Severity::Mistake, "unlikely-number", "design", found.to_string(), what_to_do))
+}
+
+/// A design that the rules are content with and that the structure's own demand, m, is not, within the capacity over
+/// the safety factor.
+pub fn of_own_demand(demand_m: f64, capacity_m: Option<f64>, safety_factor: f64, satisfied: bool) -> Option<Alarm> {
+    let capacity_m = capacity_m.filter(|_| satisfied)?;
+    (safety_factor * demand_m > capacity_m).then(|| {
+        Alarm::of_one(
+            Severity::Caution,
+            "rule-unsafe",
+            "design",
+            format!(
+                "the rules are satisfied, and the structure's own exact demand of {demand_m:.4} m is not: the \
+                 capacity of {capacity_m:.4} m is {:.2} times it, for a safety factor of {safety_factor}",
+                capacity_m / demand_m
+            ),
+            "size it by its own demand, or make the spectrum with its uplift displacement and restitution \
+             (oscillator.uplift_displacement_m, oscillator.restitution)",
+        )
+    })
+}
+
+/// Risks that come from outside the stripes, and those that no run of them shows.
+pub fn of_own_risks(risks: &[OwnRisk]) -> Vec<Alarm> {
+    let outside = risks.iter().filter_map(outside_levels).collect();
+    let unseen = risks.iter().filter_map(none_seen).collect();
+    let kinds = [("risk-outside-levels", outside), ("none-overturned", unseen)];
+    kinds.into_iter().filter_map(|(kind, cases)| Alarm::of_cases(kind, cases)).collect()
+}
+
+fn outside_levels(own: &OwnRisk) -> Option<Case> {
+    let EventRisk { lower_tail_share, upper_tail_share, .. } = own.risk;
+    let (first, last) = own.levels;
+    let (share, where_from, therefore, remedy) = if upper_tail_share >= lower_tail_share {
+        (upper_tail_share, format!("above the last level, {last}"), "rather a lower bound", "reach further up")
+    } else {
+        (lower_tail_share, format!("below the first level, {first}"), "rather too large", "begin lower")
+    };
+    (share > TAIL_SHARE_LIMIT).then(|| Case {
+        severity: if share > DECISIVE { Severity::Caution } else { Severity::Note },
+        badness: share,
+        subject: own.subject.clone(),
+        what: format!(
+            "{} of the risk comes from outside the analysed levels, {where_from} {}: it is {therefore}",
+            share_in_words(share),
+            own.measure.unit()
+        ),
+        what_to_do: format!("let {} of the study {remedy}, and run it again", levels_key(own.measure)),
+    })
+}
+
+fn none_seen(own: &OwnRisk) -> Option<Case> {
+    let at_most_per_year = own.risk.at_most_per_year?;
+    Some(Case {
+        severity: Severity::Note,
+        badness: at_most_per_year,
+        subject: own.subject.clone(),
+        what: format!(
+            "0 of {} at any level up to {} {}: that is not never, but at most {at_most_per_year:.1e} a year; stronger \
+             motions were not analysed and count as if all did, and 0 of {pairs}{weighted} leave a share of up \
+             to {} at the last level ({} confidence)",
+            records_in_words(own.records, own.pairs),
+            own.levels.1,
+            own.measure.unit(),
+            share_in_words(share_at_most(own.effective_pairs)),
+            per_cent(BOUND_CONFIDENCE),
+            pairs = if own.pairs < own.records { format!("{} pairs", own.pairs) } else { own.records.to_string() },
+            weighted = if own.effective_pairs < own.pairs as f64 {
+                format!(" (which, weighted, count as {:.0})", own.effective_pairs)
+            } else {
+                String::new()
+            },
+        ),
+        what_to_do: format!("for a smaller bound let {} of the study reach further up", levels_key(own.measure)),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RISK: EventRisk = EventRisk {
+        per_year: 1e-5,
+        probability: 5e-4,
+        lower_tail_share: 0.0,
+        upper_tail_share: 0.0,
+        at_most_per_year: None,
+    };
+
+    fn own(risk: EventRisk) -> OwnRisk {
+        let subject = "overturning, Here, PGV".to_owned();
+        OwnRisk {
+            subject,
+            risk,
+            measure: IntensityMeasure::Pgv,
+            levels: (1.0, 200.0),
+            records: 30,
+            pairs: 30,
+            effective_pairs: 30.0,
+        }
+    }
+
+    #[test]
+    fn a_design_is_held_against_its_own_demand() {
+        assert_eq!(of_own_demand(0.2, Some(0.7), 2.5, true), None);
+        assert_eq!(of_own_demand(0.4, Some(0.7), 2.5, false), None, "the rules say so");
+        assert_eq!(of_own_demand(0.4, None, 2.5, true), None);
+        let Some(alarm) = of_own_demand(0.4, Some(0.7), 2.5, true) else { panic!() };
+        assert!(alarm.what.contains("1.75 times") && alarm.severity == Severity::Caution, "{alarm}");
+        assert!(of_own_demand(f64::INFINITY, Some(0.7), 2.5, true).is_some(), "it overturns");
+    }
+
+    #[test]
+    fn a_risk_from_outside_the_levels_says_which_way_it_is_wrong() {
+        assert_eq!(of_own_risks(&[own(RISK)]), []);
+        let [above] = &of_own_risks(&[own(EventRisk { upper_tail_share: 0.078, ..RISK })])[..] else { panic!() };
+        assert_eq!(above.severity, Severity::Note);
+        assert!(above.what.starts_with("7.8 % of the risk") && above.what.ends_with("rather a lower bound"), "{above}");
+        let [below] = &of_own_risks(&[own(EventRisk { lower_tail_share: 0.5, ..RISK })])[..] else { panic!() };
+        assert!(below.severity == Severity::Caution && below.what.contains("below the first level, 1 cm/s"), "{below}");
+    }
+
+    #[test]
+    fn none_of_thirty_is_not_never() {
+        let [none] = &of_own_risks(&[own(EventRisk { per_year: 0.0, at_most_per_year: Some(2.3e-5), ..RISK })])[..]
+        else {
+            panic!()
+        };
+        // 1 − 0.05^(1/30)
+        for words in ["0 of 30 records", "200 cm/s", "at most 2.3e-5 a year", "9.5 %"] {
+            assert!(none.what.contains(words), "{words}: {none}");
+        }
+    }
+
+    #[test]
+    fn none_of_thirty_pairs_is_no_more_for_having_two_components() {
+        let both = OwnRisk { records: 60, ..own(EventRisk { per_year: 0.0, at_most_per_year: Some(2.3e-5), ..RISK }) };
+        let [none] = &of_own_risks(&[both])[..] else { panic!() };
+        for words in ["0 of 60 records of 30 pairs at any level", "and 0 of 30 pairs leave", "9.5 %"] {
+            assert!(none.what.contains(words), "{words}: {none}");
+        }
+    }
+
+    #[test]
+    fn a_safety_factor_of_forty_is_asked_about() {
+        assert_eq!(of_safety_factor(2.5), None);
+        assert!(of_safety_factor(40.0).is_some_and(|alarm| alarm.what.starts_with("--safety-factor is 40")));
+    }
+}

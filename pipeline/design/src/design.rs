@@ -1,0 +1,438 @@
+//! A structure checked against a uniform risk spectrum, and the check itself put to the test (Sections 3.3.2 and
+//! 3.4.5).
+//!
+//! The rules take the demand on a structure from that on the ZSBE oscillator of the same strength. Under one set of
+//! records scaled to one intensity their error is known (Tables 3.2 to 3.7); here it is that of the ordinate of a given
+//! risk, over all intensities of a site: the structure's own oscillator is put through the records and the hazard that
+//! the spectrum was made from.
+
+mod own;
+
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+use uplift_alarms::{
+    OwnRisk, Scope, alarms_within, of_own_demand, of_own_risks, of_safety_factor, of_structure, ranked,
+};
+use uplift_engine::analysis::{Beside, ShardReport};
+use uplift_ida::Shard;
+use uplift_job::JobError;
+use uplift_job::alarm::Alarm;
+use uplift_job::events::Events;
+use uplift_job::text::spectrum_words;
+use uplift_motion::IntensityMeasure;
+use uplift_oscillator::PostUplift;
+use uplift_plausible::SAFETY_FACTOR;
+use uplift_questions::bootstrap::resampled;
+use uplift_result::ResultFile;
+use uplift_study::Structure;
+use uplift_uniform_risk::consistency::Reweighing;
+use uplift_uniform_risk::{AskedRisk, EventRisk, SpectraOfResult, StudyOfResult, at};
+
+use super::certainty::Scatter;
+use super::choice::{measure_index, records, site_index};
+use super::demand::ExactDemand;
+use super::report::StructureReport;
+use super::rules::{RuleDemands, RuleOutcome, apply_rules, verdicts_by_curve};
+use super::spectrum::{SpectrumDemand, read_spectrum};
+use super::uncertain::UncertaintyReport;
+use super::weights::SiteWeights;
+use crate::error::DesignError;
+use own::{Own, Question, Shaken};
+
+/// What is asked of a design.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DesignOptions {
+    /// Manifest of the records, where it is no longer where the study says.
+    pub manifest: Option<PathBuf>,
+    /// Site of the result; its only one where none is given.
+    pub site: Option<String>,
+    /// The risk of the design, one; the smallest probability of the study where none is given.
+    pub risk: AskedRisk,
+    /// Measure of the spectrum; PGV where none is given and the result has it.
+    pub measure: Option<IntensityMeasure>,
+    /// Take the repaired spectrum, and weigh the structure's own analysis as it is.
+    pub repaired: bool,
+    /// Safety factor on the demand (Eq. 3.15), at least 1.
+    pub safety_factor: f64,
+    /// Read the spectrum and apply the rules, without analysing the structure itself.
+    pub spectrum_only: bool,
+    /// Every shard of the structure's own analysis, as [`design_shard`] wrote them; none to compute it here.
+    pub shards: Vec<PathBuf>,
+}
+
+impl Default for DesignOptions {
+    /// The safety factor of Section 3.4.5, 2.5.
+    fn default() -> Self {
+        Self {
+            manifest: None,
+            site: None,
+            risk: AskedRisk::default(),
+            measure: None,
+            repaired: false,
+            safety_factor: 2.5,
+            spectrum_only: false,
+            shards: Vec::new(),
+        }
+    }
+}
+
+/// What a design tells.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DesignReport {
+    /// The structure, with the restitution of its oscillator.
+    pub structure: StructureReport,
+    /// The result file.
+    pub result: PathBuf,
+    /// By what the numbers of the result are known.
+    #[serde(skip)]
+    pub study_digest: String,
+    /// Where its records come from, in a line.
+    pub record_set: String,
+    /// Whether they are synthetic.
+    pub synthetic: bool,
+    /// The site.
+    pub site: String,
+    /// `PGV` or `PGA`.
+    pub im: &'static str,
+    /// Whether spectrum and risks are of records weighted so that they bring the site's hazard.
+    pub repaired: bool,
+    /// Probability of exceedance.
+    pub poe: f64,
+    /// Years that it refers to.
+    pub years: f64,
+    /// Its rate, 1/yr (Eq. 4.8).
+    pub target_per_year: f64,
+    /// Safety factor asked for.
+    pub required_safety_factor: f64,
+    /// What the spectrum says; none where it cannot be read.
+    pub spectrum: Option<SpectrumDemand>,
+    /// What the structure's own analysis says; none where there is none.
+    pub exact: Option<ExactDemand>,
+    /// The structure where its quantities are not known exactly; none where its file says that they are, and without
+    /// an analysis of its own.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub uncertainty: Option<UncertaintyReport>,
+    /// The rules; none where they do not apply, to positive post-uplift stiffness.
+    pub rules: Vec<RuleOutcome>,
+    /// How the structure and the study differ, and what could not be done.
+    pub notes: Vec<String>,
+    /// What to know before using the numbers, the worst first.
+    pub alarms: Vec<Alarm>,
+}
+
+impl DesignReport {
+    /// By which spectrum, in words: `PGV`, or `PGV, repaired`.
+    pub fn spectrum_words(&self) -> String {
+        spectrum_words(self.im, self.repaired)
+    }
+}
+
+/// Designs `structure` by a spectrum of the result at `result`, and tests the design by the structure's own risk.
+///
+/// # Errors
+/// A safety factor below 1 or implausibly large; a file that is missing, damaged, no result, or without sites; spectra
+/// of another system than ZSBE; a site or measure that the result does not have, or no repaired spectrum where one is
+/// asked for; a risk that is none, or several; records of a manifest that was given and cannot be read; shards that do
+/// not belong together; [`JobError::Paused`] where `events` say so, [`JobError::Interrupted`] where no checkpoint
+/// can be written beside the result.
+pub fn design(
+    structure: &Structure,
+    result: &Path,
+    options: &DesignOptions,
+    events: &dyn Events,
+) -> Result<DesignReport, DesignError> {
+    let safety_factor = options.safety_factor;
+    SAFETY_FACTOR.check("--safety-factor", safety_factor).map_err(|mistake| JobError::Implausible(vec![mistake]))?;
+    let file = resampled(at(ResultFile::open(result)?, &options.risk)?, events)?;
+    let source = StudyOfResult::read(&file, options.manifest.as_deref())?;
+    require_zero_stiffness(&source)?;
+    let site = site_index(&source, options.site.as_deref())?;
+    let measure = &source.measures[measure_index(&source, options.measure)?];
+    let poe = source.only_risk(&options.risk)?;
+    let target_per_year = source.target_per_year(poe)?;
+    let repaired_m = repaired_spectrum(&file, measure, [site, poe])?;
+    let reweighing = if options.repaired { Reweighing::of_motions(&file)? } else { None };
+    let repair = reweighing.as_ref().and_then(|reweighing| reweighing.weights(measure.measure(), site));
+    let weights = match (options.repaired, repair) {
+        (false, _) => SiteWeights::Alike(&measure.weights[site]),
+        (true, Some(weights)) => SiteWeights::Repaired(weights),
+        (true, None) => return Err(not_repaired(&source, measure, site)),
+    };
+    let restitution = structure.description.restitution.unwrap_or(source.study.oscillator.restitution);
+    let mut notes = differences(structure, &source, restitution);
+
+    let plain = spectrum_demand(structure, &source, source.spectrum(measure, site, poe));
+    let repaired = repaired_m.and_then(|u_m| spectrum_demand(structure, &source, &u_m));
+    let spectrum = if options.repaired { repaired } else { plain };
+    if !options.repaired {
+        notes.extend(beside(plain, repaired));
+    }
+    if spectrum.is_none() {
+        notes.push(beyond_spectrum(structure, &source));
+    }
+    let mut own = None;
+    if !options.spectrum_only {
+        match records(&source, options.manifest.as_deref())? {
+            Ok(set) => {
+                let question = Question { site, measure, weights: &weights, target_per_year };
+                own = Some(Own::of(structure, (&file, &source), (&question, restitution), (options, set), events)?);
+            }
+            Err(reason) => notes.push(format!(
+                "the structure itself is not analysed, and what follows is what the spectrum alone says: {reason}"
+            )),
+        }
+    }
+    let (exact, uncertainty, checkpoint) = match own {
+        Some(Own { exact, uncertainty, checkpoint }) => (Some(exact), uncertainty, Some(checkpoint)),
+        None => (None, None, None),
+    };
+    if structure.uncertainty.is_some() && uncertainty.is_none() {
+        notes.push(without_uncertainty(options, &source));
+    }
+    let demands = RuleDemands {
+        of_spectrum_m: spectrum.map(|spectrum| spectrum.zero_stiffness_demand_m),
+        exact_m: exact.map(|exact| exact.zero_stiffness_demand_m).filter(|demand_m| demand_m.is_finite()),
+        of_structure_m: exact.map(|exact| exact.demand_m),
+    };
+    let rules = apply_rules(structure, safety_factor, demands)?;
+    if spectrum.is_some() && !options.repaired {
+        let by_curve_m = demands_by_curve(structure, (&file, &source), (measure, site, poe))?;
+        notes.extend(verdicts_by_curve(structure, safety_factor, &by_curve_m)?);
+    }
+    let scope = Scope {
+        site: Some(site),
+        measure: Some(measure.measure()),
+        poe: Some(poe),
+        strengths: spectrum.map(|spectrum| spectrum.between_strengths).or(Some((f64::NAN, f64::NAN))),
+        repaired: options.repaired,
+    };
+    let told = StructureReport::of(structure, Some(restitution));
+    let mut alarms = alarms_within(&file, &scope)?;
+    alarms.extend(of_structure(structure));
+    alarms.extend(of_safety_factor(safety_factor));
+    if let Some(exact) = &exact {
+        let pairs = Scatter::of(&file)?.pairs;
+        let records = pairs.iter().map(Vec::len).sum();
+        alarms.extend(of_own_risks(&own_risks(exact, measure, &source.sites[site], (records, &pairs, &weights))));
+        let satisfied = rules.iter().any(|rule| rule.check().is_some_and(|check| check.satisfied));
+        alarms.extend(of_own_demand(exact.demand_m, told.capacity_m, safety_factor, satisfied));
+    }
+    if let Some(checkpoint) = checkpoint {
+        checkpoint.remove();
+    }
+    let risk = &source.study.risk;
+    Ok(DesignReport {
+        structure: told,
+        site: source.sites[site].clone(),
+        im: measure.measure().label(),
+        repaired: options.repaired,
+        poe: risk.poe[poe],
+        years: risk.years,
+        result: source.path,
+        study_digest: file.head()?.study_digest(),
+        record_set: source.record_set,
+        synthetic: source.synthetic,
+        target_per_year,
+        required_safety_factor: safety_factor,
+        spectrum,
+        exact,
+        uncertainty,
+        rules,
+        notes,
+        alarms: ranked(alarms),
+    })
+}
+
+/// Computes one shard of the structure's own analysis into a file beside the result, for [`DesignOptions::shards`].
+///
+/// # Errors
+/// As [`design`], and where the records of the result cannot be read.
+pub fn design_shard(
+    structure: &Structure,
+    result: &Path,
+    options: &DesignOptions,
+    shard: Shard,
+    events: &dyn Events,
+) -> Result<ShardReport, DesignError> {
+    let source = StudyOfResult::read(&ResultFile::open(result)?, options.manifest.as_deref())?;
+    require_zero_stiffness(&source)?;
+    let measure = &source.measures[measure_index(&source, options.measure)?];
+    let restitution = structure.description.restitution.unwrap_or(source.study.oscillator.restitution);
+    let set = records(&source, options.manifest.as_deref())?.map_err(JobError::input)?;
+    let shaken = Shaken::of(structure, &source, set, (restitution, options))?;
+    let asked = name(structure);
+    Ok(Beside { result, name: &asked }.shard(shaken.work(&source, measure, &asked)?, shard, events)?)
+}
+
+/// What is asked, for the names of files.
+fn name(structure: &Structure) -> String {
+    format!("design {}", structure.file.file_stem().unwrap_or_default().to_string_lossy())
+}
+
+/// Why the structures that it may be are not analysed.
+fn without_uncertainty(options: &DesignOptions, source: &StudyOfResult) -> String {
+    let reason = if options.repaired {
+        "their risk is not computed with repaired weights (leave --repaired out)"
+    } else if source.study.records.at_level.is_some() {
+        "their risk is not computed with records of their own at each level (records.at_level)"
+    } else {
+        "the structure itself is not analysed"
+    };
+    format!("[uncertainty]: all numbers are of the structure as described, and none of those that it may be: {reason}")
+}
+
+/// The repaired spectrum at a site and probability, m, `[strength]`; none where there is none.
+fn repaired_spectrum(
+    file: &ResultFile,
+    measure: &SpectraOfResult,
+    [site, poe]: [usize; 2],
+) -> Result<Option<Vec<f64>>, DesignError> {
+    let consistency = file.consistency()?;
+    let own = consistency.iter().find(|of| of.scaled_to == measure.measure() && of.is_repaired(site));
+    Ok(own.and_then(|of| Some(of.u_m.as_ref()?.block([site, poe]).to_vec())))
+}
+
+/// The weights of the site's hazard curves, of 1, with the demand on the ZSBE system by the spectrum of each, m;
+/// infinite where that cannot be read.
+fn demands_by_curve(
+    structure: &Structure,
+    (file, source): (&ResultFile, &StudyOfResult),
+    (measure, site, poe): (&SpectraOfResult, usize, usize),
+) -> Result<Vec<(f64, f64)>, DesignError> {
+    let of_curve = |(weight, u_m): (f64, Vec<f64>)| {
+        let demand = spectrum_demand(structure, source, &u_m);
+        (weight, demand.map_or(f64::INFINITY, |demand| demand.zero_stiffness_demand_m))
+    };
+    let spectra = file.branch_spectra(measure.measure(), &source.sites[site], poe)?;
+    Ok(spectra.into_iter().map(of_curve).collect())
+}
+
+/// Why there is no repaired spectrum of a site.
+fn not_repaired(source: &StudyOfResult, measure: &SpectraOfResult, site: usize) -> DesignError {
+    JobError::input(format!(
+        "{}: has no repaired spectrum of {} by {}: `uplift consistency {} --repair` makes it, or says what keeps it \
+         from being made",
+        source.path.display(),
+        source.sites[site],
+        measure.measure().label(),
+        source.path.display()
+    ))
+    .into()
+}
+
+/// What the repaired spectrum says beside the plain one.
+fn beside(plain: Option<SpectrumDemand>, repaired: Option<SpectrumDemand>) -> Option<String> {
+    let [plain_m, repaired_m] = [plain?, repaired?].map(|demand| demand.zero_stiffness_demand_m);
+    Some(format!(
+        "the repaired spectrum, of records weighted so that they bring the site's hazard, demands {repaired_m:.4} m \
+         with zero stiffness where the plain one has {plain_m:.4} m: --repaired designs by it"
+    ))
+}
+
+/// The rules start from the ZSBE system: a spectrum of another says nothing to them.
+fn require_zero_stiffness(source: &StudyOfResult) -> Result<(), DesignError> {
+    let (what, key) = match source.study.oscillator.post_uplift {
+        PostUplift::Zero => return Ok(()),
+        PostUplift::Negative { capacity_m } => {
+            (format!("of negative stiffness, with a capacity of {capacity_m} m"), "capacity_m")
+        }
+        PostUplift::Positive { stiffness_per_s2 } => {
+            (format!("of positive stiffness, {stiffness_per_s2} 1/s2 after uplift"), "post_uplift_stiffness_per_s2")
+        }
+    };
+    Err(JobError::input(format!(
+        "{}: its spectra are those of an oscillator {what}; the rules start from zero stiffness (ZSBE): run the study \
+         without oscillator.{key}",
+        source.path.display()
+    ))
+    .into())
+}
+
+/// The spectrum read at the strength of the structure; none where it cannot be.
+fn spectrum_demand(structure: &Structure, source: &StudyOfResult, u_m: &[f64]) -> Option<SpectrumDemand> {
+    let system = &structure.system;
+    let strength = system.spectral_strength_at(source.study.gravity_m_s2);
+    let reading = read_spectrum(&source.study.strengths, u_m, strength)?;
+    Some(SpectrumDemand {
+        strength,
+        between_strengths: reading.between,
+        ordinate_m: reading.ordinate_m,
+        zero_stiffness_demand_m: system.participation() * reading.ordinate_m,
+    })
+}
+
+/// Why the spectrum cannot be read.
+fn beyond_spectrum(structure: &Structure, source: &StudyOfResult) -> String {
+    let strengths = &source.study.strengths;
+    format!(
+        "the spectrum cannot be read at strength {:.4}: its strengths go from {} to {}, and beside a censored ordinate \
+         there is nothing to read",
+        structure.system.spectral_strength_at(source.study.gravity_m_s2),
+        strengths[0],
+        strengths[strengths.len() - 1]
+    )
+}
+
+/// What the structure and the study's oscillator do not have in common.
+fn differences(structure: &Structure, source: &StudyOfResult, restitution: f64) -> Vec<String> {
+    let (system, oscillator) = (&structure.system, &source.study.oscillator);
+    let apart = |a: f64, b: f64| (a - b).abs() > 1e-9 * a.abs().max(b.abs());
+    let mut notes = Vec::new();
+    if source.study.uncertainty.is_some() {
+        notes.push(
+            "the spectrum is of oscillators that are not known exactly ([uncertainty] of its study); what is compared \
+             with them here is the one that the study describes"
+                .to_owned(),
+        );
+    }
+    let uplift_m = system.spectral_uplift_displacement_m();
+    if apart(uplift_m, oscillator.uplift_displacement_m) {
+        notes.push(format!(
+            "the spectrum is of an uplift displacement of {} mm, the structure's is {} mm, over Γ {:.3} mm (Section \
+             3.5)",
+            1e3 * oscillator.uplift_displacement_m,
+            1e3 * system.conditions().uplift_displacement_m(),
+            1e3 * uplift_m
+        ));
+    }
+    if apart(restitution, oscillator.restitution) {
+        notes.push(format!(
+            "the spectrum is of a restitution of {}, the structure's is {restitution}",
+            oscillator.restitution
+        ));
+    }
+    let gravity_m_s2 = system.conditions().gravity_m_s2();
+    if apart(gravity_m_s2, source.study.gravity_m_s2) {
+        notes.push(format!(
+            "the spectrum is of a gravity of {} m/s2, the structure's is {gravity_m_s2} m/s2",
+            source.study.gravity_m_s2
+        ));
+    }
+    notes
+}
+
+/// What may come from outside the stripes: the demand, exceeding the capacity, overturning.
+fn own_risks(
+    exact: &ExactDemand,
+    measure: &SpectraOfResult,
+    site: &str,
+    (records, pairs, weights): (usize, &[Vec<usize>], &SiteWeights<'_>),
+) -> Vec<OwnRisk> {
+    let effective_pairs = weights.effective_pairs(pairs);
+    let levels = &measure.plan.levels;
+    let own = |what: &str, risk: EventRisk| OwnRisk {
+        subject: format!("{what}, {site}, {}", measure.measure().label()),
+        risk,
+        measure: measure.measure(),
+        levels: (levels[0], levels[levels.len() - 1]),
+        records,
+        pairs: pairs.len(),
+        effective_pairs,
+    };
+    let ExactDemand { lower_tail_share, upper_tail_share, .. } = *exact;
+    let demand = EventRisk { lower_tail_share, upper_tail_share, at_most_per_year: None, ..exact.overturning };
+    let mut risks = vec![own("demand on the structure", demand), own("overturning", exact.overturning)];
+    risks.extend(exact.beyond_capacity.map(|risk| own("exceeding the capacity", risk)));
+    risks
+}

@@ -1,0 +1,121 @@
+//! An answer goes into the result that it was asked under.
+
+use std::path::Path;
+
+use serde_json::{Map, Value};
+use uplift_job::JobError;
+use uplift_job::events::Events;
+use uplift_labelled::{LabelledError, LabelledWriter};
+use uplift_result::layout::{axis, structures};
+use uplift_result::{
+    Addition, DOCUMENT, Finding, FindingRow, REQUEST, STRUCTURE_FILE, STRUCTURE_SHA256, STRUCTURE_TOML, STUDY_DIGEST,
+    StoredFinding, sign,
+};
+
+use crate::error::DesignError;
+
+/// Keeps `finding` in the result at `result`, in place of an earlier answer to the same question and of no other, and
+/// tells `events` where. What cannot be kept is told too, with the reason: an answer is none the worse for that.
+///
+/// Returns the group that it stands in; none where it is not kept.
+pub fn keep(finding: &Finding, result: &Path, events: &dyn Events) -> Option<String> {
+    match write(finding, result, events) {
+        Ok(()) => {
+            let group = finding.group();
+            events.remark("kept", &format!("{}: {group}", result.display()));
+            Some(group)
+        }
+        Err(error) => {
+            events.note(&format!("the answer is not kept in {}: {error}", result.display()));
+            None
+        }
+    }
+}
+
+fn write(finding: &Finding, result: &Path, events: &dyn Events) -> Result<(), DesignError> {
+    if std::fs::metadata(result).is_ok_and(|metadata| metadata.permissions().readonly()) {
+        return Err(JobError::input("it may not be written to".to_owned()).into());
+    }
+    let (addition, file) = Addition::begin(result, events)?;
+    if file.head()?.study_digest() != finding.study_digest {
+        return Err(JobError::input(
+            "it was replaced by another result meanwhile: ask the same of that one".to_owned(),
+        )
+        .into());
+    }
+    let earlier = file.findings()?;
+    let (key, group) = (finding.key(), finding.group());
+    let replaced = [group.clone(), axis::path(&axis::finding(&key))];
+    addition.write(&replaced, |writer| add(writer, finding, &group, &axis::finding(&key)))?;
+    tell_of_another_file(finding, &earlier, events);
+    Ok(())
+}
+
+/// Says which answers were of the structure file as it was before.
+fn tell_of_another_file(finding: &Finding, earlier: &[StoredFinding], events: &dyn Events) {
+    let (sha256, group) = (finding.structure_sha256(), finding.group());
+    let of_another =
+        |of: &&StoredFinding| of.finding.structure == finding.structure && of.finding.structure_sha256() != sha256;
+    let (replaced, left): (Vec<&StoredFinding>, Vec<&StoredFinding>) =
+        earlier.iter().filter(of_another).partition(|of| of.finding.group() == group);
+    let file = &finding.structure_file;
+    if !replaced.is_empty() {
+        events.note(&format!("{file} has changed: this answer replaces the one for what it was before"));
+    }
+    if !left.is_empty() {
+        let questions: Vec<String> = left.iter().map(|of| of.finding.question()).collect();
+        events.note(&format!(
+            "of {} the result keeps {} answer(s) for what its file was before, marked as such until they are asked \
+             again: {}",
+            finding.structure,
+            left.len(),
+            questions.join("; ")
+        ));
+    }
+}
+
+/// Cells of a row.
+type Text = fn(&FindingRow) -> &String;
+type Number = fn(&FindingRow) -> f64;
+
+fn add(writer: &mut LabelledWriter, finding: &Finding, group: &str, rows: &str) -> Result<(), LabelledError> {
+    sign(writer, group)?;
+    let sha256 = finding.structure_sha256();
+    writer.attribute(&structures::group(&finding.structure), STRUCTURE_SHA256, sha256.as_str())?;
+    let request: Map<String, Value> =
+        finding.request.iter().map(|(name, value)| (name.clone(), value.as_str().into())).collect();
+    for (name, text) in [
+        (STRUCTURE_FILE, finding.structure_file.as_str()),
+        (STRUCTURE_SHA256, &sha256),
+        (STRUCTURE_TOML, &finding.structure_toml),
+        (STUDY_DIGEST, &finding.study_digest),
+        (REQUEST, &Value::Object(request).to_string()),
+        (DOCUMENT, &finding.document),
+    ] {
+        writer.attribute(group, name, text)?;
+    }
+    let numbers: Vec<u32> = (1..).take(finding.rows.len()).collect();
+    writer.axis_u32(rows, &numbers, "1", "number of an answer")?;
+    let texts: [(&str, Text, &str); 5] = [
+        ("quantity", |row| &row.quantity, "what the number is"),
+        ("site", |row| &row.site, "site; empty where it is of none"),
+        ("im", |row| &row.im, "intensity measure; empty where it is of none"),
+        ("unit", |row| &row.unit, "unit of value, lower and upper"),
+        ("band", |row| &row.band, "what the band is of"),
+    ];
+    for (name, text, long_name) in texts {
+        let texts: Vec<String> = finding.rows.iter().map(|row| text(row).clone()).collect();
+        writer.array_text(&format!("{group}/{name}"), &[rows], &texts, long_name)?;
+    }
+    let numbers: [(&str, Number, &str); 3] = [
+        ("value", |row| row.value, "the number, in its unit"),
+        ("lower", |row| row.limits[0], "lower limit of its band"),
+        ("upper", |row| row.limits[1], "upper limit of its band; alone where no run shows what it bounds"),
+    ];
+    for (name, number, long_name) in numbers {
+        let numbers: Vec<f64> = finding.rows.iter().map(number).collect();
+        // of each row its own, in the array beside it
+        writer.array_f64(&format!("{group}/{name}"), &[rows], &numbers, "1", long_name)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,440 @@
+//! The risk of a frame itself: its own motion under the pairs and the hazard of a result, beside what its proxies say.
+//!
+//! The frame takes the place of the oscillator: one structure in place of the strength axis, both components of a pair
+//! scaled together by the factor of the measure; stripes, fragility and risk integral are those of a spectrum. What the
+//! planar frame, the equivalent oscillator and the spectrum make of the same records is their error under risk, with
+//! the noise that the same resamples of the records leave of it.
+
+mod demand;
+mod direction;
+mod edps;
+mod shaken;
+mod tables;
+
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+use uplift_bootstrap::{ResamplingPlan, Unit};
+use uplift_fragility::LognormalFit;
+use uplift_frame::Model;
+use uplift_ida::Shard;
+use uplift_motion::IntensityMeasure;
+use uplift_structure::Rule;
+use uplift_study::Structure;
+
+pub use demand::{Banded, ModelDemand, RiskPoint};
+pub use direction::DirectionEffect;
+pub use edps::{EventReport, StateAtDemand};
+
+use super::choice::{measure_index, site_index};
+use super::collapse::{Collapse, collapse};
+use super::design::{DesignOptions, design};
+use super::inputs::inputs;
+use super::report::StructureReport;
+use crate::error::DesignError;
+use demand::{Question, Resampled};
+use shaken::{Demands, Shaken};
+use tables::{levels_path, write_tables};
+use uplift_alarms::{OwnRisk, Scope, alarms_of_inputs, of_own_risks, of_structure, ranked};
+use uplift_engine::analysis::{Beside, ShardReport};
+use uplift_inputs::TORSION;
+use uplift_job::JobError;
+use uplift_job::alarm::Alarm;
+use uplift_job::events::{Events, Silent};
+use uplift_job::outputs::{self, Output, OutputKind};
+use uplift_result::ResultFile;
+use uplift_uniform_risk::EventRisk;
+use uplift_uniform_risk::consistency::{Question as Asked, Reweighing};
+use uplift_uniform_risk::{AskedRisk, SpectraOfResult, StudyOfResult, at};
+
+/// What is asked of the risk of a frame.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct FrameRiskOptions {
+    /// Manifest of the records, where it is no longer where the study says.
+    pub manifest: Option<PathBuf>,
+    /// Site of the result; its only one where none is given.
+    pub site: Option<String>,
+    /// The risk of the demand, one; the smallest probability of the study where none is given.
+    pub risk: AskedRisk,
+    /// Intensity measure; PGV where none is given and the result has it.
+    pub measure: Option<IntensityMeasure>,
+    /// The model of the frame itself; by the section of its columns where none is given.
+    pub model: Option<Model>,
+    /// CSV file of the peak of every record, level and model to write; what they come to at each level goes to one that
+    /// ends in .levels.csv beside it.
+    pub table: Option<PathBuf>,
+    /// Every shard of the analyses, as [`frame_risk_shard`] wrote them; none to compute them here.
+    pub shards: Vec<PathBuf>,
+    /// Whether whatever is at the places of the tables gives way.
+    pub force: bool,
+}
+
+/// What the risk of a frame tells.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FrameRiskReport {
+    /// The structure, and the oscillator that it is equivalent to.
+    pub structure: StructureReport,
+    /// The result file.
+    pub result: PathBuf,
+    /// By what the numbers of the result are known.
+    #[serde(skip)]
+    pub study_digest: String,
+    /// Where its records come from, in a line.
+    pub record_set: String,
+    /// Whether they are synthetic.
+    pub synthetic: bool,
+    /// The site.
+    pub site: String,
+    /// `PGV` or `PGA`.
+    pub im: &'static str,
+    /// Unit of the levels.
+    pub unit: &'static str,
+    /// Probability of exceedance.
+    pub poe: f64,
+    /// Years that it refers to.
+    pub years: f64,
+    /// Its rate, 1/yr (Eq. 4.8).
+    pub target_per_year: f64,
+    /// Records; where both components of a pair are records, pairs are half as many.
+    pub records: usize,
+    /// Nonlinear time histories of frame and oscillators.
+    pub analyses: u64,
+    /// Velocity after over before an impact of the planar frame.
+    pub planar_restitution: f64,
+    /// Where that comes from.
+    pub planar_restitution_from: &'static str,
+    /// Resamples of the records that bands are made of.
+    pub replicates: usize,
+    /// Share of them between the limits of a band.
+    pub confidence: f64,
+    /// The frame itself first, then its proxies.
+    pub demands: Vec<ModelDemand>,
+    /// Columns and restrainers at the demand on the frame; none where it overturns more often than the target.
+    pub at_demand: Option<StateAtDemand>,
+    /// How often each event of the frame happens.
+    pub events: Vec<EventReport>,
+    /// How often it overturns.
+    pub overturning: FrameOverturning,
+    /// What the second component does; none of a planar frame.
+    pub direction: Option<DirectionEffect>,
+    /// What the models leave out, and what could not be done.
+    pub notes: Vec<String>,
+    /// What to know before using the numbers, the worst first.
+    pub alarms: Vec<Alarm>,
+    /// What was written.
+    #[serde(skip)]
+    pub files: Vec<PathBuf>,
+}
+
+/// Overturning of the frame itself.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FrameOverturning {
+    /// Levels of the stripes, ascending.
+    pub levels: Vec<f64>,
+    /// Records that overturn it at each level.
+    pub overturned: Vec<u32>,
+    /// How often, from the counts.
+    #[serde(flatten)]
+    pub risk: EventRisk,
+    /// The same of records weighted so that they bring the site's hazard; none where the result has no repair.
+    pub repaired: Option<EventRisk>,
+    /// Median of the lognormal fragility of maximum likelihood; none where there is no fit.
+    pub theta: Option<f64>,
+    /// Its dispersion.
+    pub beta: Option<f64>,
+    /// Frequency with that fragility in place of the counts, 1/yr.
+    pub lognormal_per_year: Option<f64>,
+    /// The fit itself.
+    #[serde(skip)]
+    pub fit: Option<LognormalFit>,
+}
+
+/// The risk of the frame of `structure` under the records and the hazard of the result at `result`.
+///
+/// # Errors
+/// A structure that is no frame, or of rectangular columns that are to wobble; a file that is missing, damaged, no
+/// result, or without sites; spectra of another system than ZSBE; a site or measure that the result does not have; a
+/// risk that is none, or several; records that cannot be read; tables that cannot be written or would replace something
+/// else; shards that do not belong together; [`JobError::Paused`] where `events` say so,
+/// [`JobError::Interrupted`] where no checkpoint can be written beside the result.
+pub fn frame_risk(
+    structure: &Structure,
+    result: &Path,
+    options: &FrameRiskOptions,
+    events: &dyn Events,
+) -> Result<FrameRiskReport, DesignError> {
+    check_table(structure, result, options)?;
+    let file = at(ResultFile::open(result)?, &options.risk)?;
+    file.refuse_records_at_level("a frame is shaken by the same records at every level")?;
+    let source = StudyOfResult::read(&file, options.manifest.as_deref())?;
+    let site = site_index(&source, options.site.as_deref())?;
+    let measure = &source.measures[measure_index(&source, options.measure)?];
+    let poe = source.only_risk(&options.risk)?;
+    let target_per_year = source.target_per_year(poe)?;
+    let shaken = shaken(structure, &source, options)?;
+    // what the spectrum says, and how an engineer reads it
+    let asked = DesignOptions {
+        manifest: options.manifest.clone(),
+        site: options.site.clone(),
+        risk: options.risk.clone(),
+        measure: options.measure,
+        spectrum_only: true,
+        ..DesignOptions::default()
+    };
+    let design = design(structure, result, &asked, &Silent)?;
+    let asked = name(structure);
+    let beside = Beside { result, name: &asked };
+    let (analysed, checkpoint) = beside.results(shaken.work(measure, &asked)?, &options.shards, events)?;
+    let demands = shaken.demands(analysed);
+
+    let reweighing = Reweighing::of_motions(&file)?;
+    let repaired = reweighing.as_ref().and_then(|reweighing| reweighing.weights(measure.measure(), site));
+    let weights = &measure.weights[site];
+    let settings = &source.study.bootstrap;
+    let plan = draws(&file, &source, &shaken)?;
+    let levels: &[f64] = &measure.plan.levels;
+    let question =
+        Question { levels, weights, repaired, target_per_year, plan: &plan, confidence: settings.confidence };
+    let own_m = demands.wobbling_m.as_ref().unwrap_or(&demands.planar_m);
+    let own = question.ask(own_m, 1.0)?;
+    let demand_m = own.demand_m;
+    let rows = rows(&question, own, &demands, (structure, &design))?;
+    let years = source.study.risk.years;
+    let runs_m = shaken.once_a_run(&demands);
+    let pairs = uplift_bootstrap::units(&shaken.pair_of());
+    let mut overturning = collapse(levels, (&runs_m, &pairs), &[(weights, None)], years, true)?;
+    if repaired.is_some() {
+        // the weights of a repair are of records
+        overturning.repaired = collapse(levels, (own_m, &pairs), &[(weights, repaired)], years, true)?.repaired;
+    }
+    let mut alarms = alarms_of_inputs(&file, &Scope { measure: Some(measure.measure()), ..Scope::default() })?;
+    alarms.extend(of_structure(structure));
+    let runs = (runs_m.len() / levels.len(), pairs.len());
+    alarms.extend(of_own_risks(&own_risks(&overturning, measure, &source.sites[site], runs)));
+    let mut report = FrameRiskReport {
+        structure: StructureReport::of(structure, None),
+        site: source.sites[site].clone(),
+        im: measure.measure().label(),
+        unit: measure.measure().unit(),
+        poe: source.study.risk.poe[poe],
+        years,
+        target_per_year,
+        records: shaken.set.records.len(),
+        analyses: demands.analyses,
+        planar_restitution: shaken.restitution.0,
+        planar_restitution_from: shaken.restitution.1,
+        replicates: plan.replicates(),
+        confidence: settings.confidence,
+        at_demand: StateAtDemand::of(&shaken.frame, demand_m),
+        events: edps::events(&shaken.frame, levels, (weights, &runs_m), (repaired, own_m), &pairs, years)?,
+        direction: demands.wobbling_m.is_some().then(|| DirectionEffect::of(&demands.directions_m)),
+        notes: notes(&shaken, (structure, &demands), &source, &overturning),
+        demands: rows,
+        overturning: FrameOverturning::of(&overturning),
+        alarms: ranked(alarms),
+        files: Vec::new(),
+        result: source.path.clone(),
+        study_digest: file.head()?.study_digest(),
+        record_set: source.record_set.clone(),
+        synthetic: source.synthetic,
+    };
+    if let Some(path) = &options.table {
+        write_tables(path, &report, (&shaken.set, levels, &demands))?;
+        report.files = vec![path.clone(), levels_path(path)];
+    }
+    checkpoint.remove();
+    Ok(report)
+}
+
+/// Computes one shard of the analyses into a file beside the result, for [`FrameRiskOptions::shards`].
+///
+/// # Errors
+/// As [`frame_risk`].
+pub fn frame_risk_shard(
+    structure: &Structure,
+    result: &Path,
+    options: &FrameRiskOptions,
+    shard: Shard,
+    events: &dyn Events,
+) -> Result<ShardReport, DesignError> {
+    let source = StudyOfResult::read(&ResultFile::open(result)?, options.manifest.as_deref())?;
+    let measure = &source.measures[measure_index(&source, options.measure)?];
+    let shaken = shaken(structure, &source, options)?;
+    let asked = name(structure);
+    Ok(Beside { result, name: &asked }.shard(shaken.work(measure, &asked)?, shard, events)?)
+}
+
+/// What is asked, for the names of files.
+fn name(structure: &Structure) -> String {
+    format!("risk {}", structure.file.file_stem().unwrap_or_default().to_string_lossy())
+}
+
+fn shaken(structure: &Structure, source: &StudyOfResult, options: &FrameRiskOptions) -> Result<Shaken, DesignError> {
+    let motions = source.records_and_pairs().map_err(|reason| {
+        JobError::input(format!(
+            "{reason}; the risk of a frame needs the records that the result was made from (--manifest says where they \
+             are)"
+        ))
+    })?;
+    Shaken::of(structure, source, motions, options.model)
+}
+
+/// The draws of the bands: pairs, or earthquakes with all their records.
+fn draws(file: &ResultFile, source: &StudyOfResult, shaken: &Shaken) -> Result<ResamplingPlan, DesignError> {
+    let settings = &source.study.bootstrap;
+    let records = shaken.set.records.len();
+    let sizes = [u32::try_from(records).unwrap_or(u32::MAX)];
+    let replicates = usize::try_from(settings.replicates).unwrap_or(usize::MAX);
+    let drawn_together = match settings.unit {
+        Unit::Event => Some(Asked::of_motions(file)?.event_of()),
+        // all records of a pair are one wobbling run
+        Unit::Record | Unit::Pair if shaken.pairs.len() < records && shaken.pairs.len() > 1 => Some(shaken.pair_of()),
+        Unit::Record | Unit::Pair => None,
+    };
+    let plan = match drawn_together {
+        Some(units) => ResamplingPlan::draw_events(&units, &sizes, replicates, source.study.seed),
+        None => ResamplingPlan::draw(records, &sizes, replicates, source.study.seed),
+    };
+    Ok(plan?)
+}
+
+/// The demand on the frame itself, then on its proxies.
+fn rows(
+    question: &Question<'_>,
+    own: Resampled,
+    demands: &Demands,
+    (structure, design): (&Structure, &super::DesignReport),
+) -> Result<Vec<ModelDemand>, DesignError> {
+    let factor = structure.system.participation();
+    let zero = question.ask(&demands.zero_stiffness_m, factor)?;
+    let oscillator = question.ask(&demands.oscillator_m, factor)?;
+    let mut rows = Vec::new();
+    if demands.wobbling_m.is_some() {
+        rows.push(question.row("planar frame", question.ask(&demands.planar_m, 1.0)?, Some(&own)));
+    }
+    rows.push(question.row("equivalent oscillator", oscillator, Some(&own)));
+    if let Some(spectrum) = &design.spectrum {
+        let read = zero.through(spectrum.zero_stiffness_demand_m, Ok)?;
+        rows.push(question.row("spectrum, zero stiffness", read, Some(&own)));
+    }
+    for outcome in &design.rules {
+        let Some(check) = &outcome.from_spectrum else { continue };
+        let rule = |zero_m: f64| -> Result<f64, DesignError> {
+            if zero_m.is_infinite() {
+                return Ok(f64::INFINITY);
+            }
+            let demand = structure.system.capacity().and_then(|capacity| outcome.rule.demand(&capacity, zero_m))?;
+            Ok(demand.displacement_m())
+        };
+        let model = match outcome.rule {
+            Rule::EqualDisplacement => "spectrum, equal displacement",
+            Rule::EqualEnergy => "spectrum, equal energy",
+        };
+        rows.push(question.row(model, zero.through(check.demand_m, rule)?, Some(&own)));
+    }
+    let model = if demands.wobbling_m.is_some() { "wobbling frame" } else { "planar frame" };
+    rows.insert(0, question.row(model, own, None));
+    Ok(rows)
+}
+
+/// What the models leave out, and what is assumed of the records.
+fn notes(
+    shaken: &Shaken,
+    (structure, demands): (&Structure, &Demands),
+    source: &StudyOfResult,
+    overturning: &Collapse,
+) -> Vec<String> {
+    let mut notes = Vec::new();
+    if structure.uncertainty.is_some() {
+        notes.push(
+            "[uncertainty] is of the equivalent oscillator and takes no part here: uplift overturning and uplift \
+             design have its risk with a band"
+                .to_owned(),
+        );
+    }
+    if demands.wobbling_m.is_some() {
+        notes.push(TORSION.to_owned());
+        notes.push("the wobbling model has no loss of energy by impact or friction".to_owned());
+        let alone = shaken.without_second();
+        if !alone.is_empty() {
+            notes.push(format!(
+                "{} of {} pairs have the same motion as both components, and move the frame along one line: {}",
+                alone.len(),
+                shaken.pairs.len(),
+                alone.join(", ")
+            ));
+        }
+        let apart: Vec<&str> = (shaken.pairs.iter())
+            .filter(|pair| pair.metadata.contains_key(uplift_inputs::pairs::START_APART))
+            .map(|pair| pair.id.as_str())
+            .collect();
+        if !apart.is_empty() {
+            notes.push(format!(
+                "{} pairs have components that begin at different times, and are taken to begin together: {}",
+                apart.len(),
+                apart.join(", ")
+            ));
+        }
+    } else if shaken.frame.shape() == uplift_frame::ColumnShape::Rectangle {
+        notes.push(
+            "columns of rectangular section do not wobble: the frame is planar, under the components of the study \
+             (column_shape = \"cylinder\" wobbles)"
+                .to_owned(),
+        );
+    }
+    if !source.study.oscillator.free_vibration {
+        notes.push(
+            "the study ends with its records (free_vibration = false); a frame that falls after their end counts as \
+             overturned"
+                .to_owned(),
+        );
+    }
+    notes.extend(overturning.fit.as_ref().err().map(|reason| format!("no lognormal fragility: {reason}")));
+    notes
+}
+
+/// What may come from outside the stripes.
+fn own_risks(
+    overturning: &Collapse,
+    measure: &SpectraOfResult,
+    site: &str,
+    (runs, pairs): (usize, usize),
+) -> Vec<OwnRisk> {
+    let levels = &measure.plan.levels;
+    let own = |risk: &EventRisk| OwnRisk {
+        subject: format!("overturning of the frame, {site}, {}", measure.measure().label()),
+        risk: *risk,
+        measure: measure.measure(),
+        levels: (levels[0], levels[levels.len() - 1]),
+        records: runs,
+        pairs,
+        effective_pairs: pairs as f64,
+    };
+    overturning.risks.iter().map(own).collect()
+}
+
+/// Names that would lose something, before anything is computed.
+fn check_table(structure: &Structure, result: &Path, options: &FrameRiskOptions) -> Result<(), DesignError> {
+    let Some(path) = &options.table else { return Ok(()) };
+    let inputs = inputs(structure, result, options.manifest.as_deref());
+    let levels = levels_path(path);
+    let tables = [(path, tables::PEAKS_COLUMN), (&levels, tables::LEVELS_COLUMN)];
+    let tables = tables.map(|(path, column)| Output::new(path, OutputKind::Table(column)).of(result));
+    Ok(outputs::check(&tables, &inputs, options.force)?)
+}
+
+impl FrameOverturning {
+    fn of(found: &Collapse) -> Self {
+        let fit = found.fit.as_ref().ok();
+        Self {
+            levels: found.counts.iter().map(|count| count.level).collect(),
+            overturned: found.counts.iter().map(|count| count.exceedances).collect(),
+            risk: found.risks[0],
+            repaired: found.repaired[0],
+            theta: fit.map(|fit| fit.fragility.median()),
+            beta: fit.map(|fit| fit.fragility.dispersion()),
+            lognormal_per_year: found.fitted.as_ref().map(|fitted| fitted[0].per_year),
+            fit: fit.copied(),
+        }
+    }
+}

@@ -1,0 +1,190 @@
+//! The demand of a target rate on a frame and on its proxies, with bands from resampled records.
+
+use rayon::prelude::*;
+use serde::Serialize;
+use uplift_bootstrap::{Band, ResamplingPlan};
+use uplift_fragility::Stripes as Stripe;
+use uplift_risk::{PooledDemand, ResamplingTable, RunWeights, StripeWeights};
+use uplift_structure::relative_error;
+
+use super::super::weights::SiteWeights;
+use crate::error::DesignError;
+
+/// Displacements at which a risk curve is told.
+const POINTS: usize = 60;
+
+/// A number with its band; NaN where replicates have none.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Banded {
+    /// Of all records.
+    pub value: f64,
+    /// Lower limit.
+    pub lower: f64,
+    /// Upper limit.
+    pub upper: f64,
+}
+
+/// The demand on one model.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ModelDemand {
+    /// What it is: `wobbling frame`, `planar frame`, `oscillator`, or a reading of the spectrum.
+    pub model: &'static str,
+    /// Demand of the target rate in the displacement of the deck, m, with its band; infinite where it overturns more
+    /// often.
+    pub demand_m: Banded,
+    /// The same of records weighted so that they bring the site's hazard, m; none where the result has no repair, and
+    /// for a spectrum.
+    pub repaired_m: Option<f64>,
+    /// Error against the frame itself, the first row: `demand/frame − 1`, with the band that the same resamples of the
+    /// records give both. None of the frame itself.
+    pub error: Option<Banded>,
+    /// Annual frequency of exceeding displacements.
+    pub risk_curve: Vec<RiskPoint>,
+}
+
+/// A point of a risk curve.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct RiskPoint {
+    /// Displacement, m.
+    pub displacement_m: f64,
+    /// Mean annual frequency of exceeding it, 1/yr.
+    pub per_year: f64,
+}
+
+/// What a demand is asked of.
+pub(super) struct Question<'a> {
+    pub(super) levels: &'a [f64],
+    pub(super) weights: &'a StripeWeights,
+    pub(super) repaired: Option<&'a RunWeights>,
+    pub(super) target_per_year: f64,
+    pub(super) plan: &'a ResamplingPlan,
+    pub(super) confidence: f64,
+}
+
+/// A demand, and that of every resample, m.
+pub(super) struct Resampled {
+    pub(super) demand_m: f64,
+    pub(super) replicates_m: Vec<f64>,
+    repaired_m: Option<f64>,
+    risk_curve: Vec<RiskPoint>,
+}
+
+impl Question<'_> {
+    /// The demand on a model whose peaks are `peaks_m` over `[record, level]`, all times `factor`.
+    pub(super) fn ask(&self, peaks_m: &[f64], factor: f64) -> Result<Resampled, DesignError> {
+        let pool = PooledDemand::new(&Stripe::new(self.levels, peaks_m)?)?;
+        let demand_m = |weights: SiteWeights<'_>| -> Result<f64, DesignError> {
+            Ok(factor * weights.curve(&pool)?.exact_ordinate(self.target_per_year)?.displacement_m)
+        };
+        let table = ResamplingTable::new(&pool, self.weights)?;
+        let replicate = |sample| -> Result<f64, DesignError> {
+            let mut ordinate_m = [0.0];
+            table.ordinates(sample, &[self.target_per_year], &mut ordinate_m)?;
+            Ok(factor * ordinate_m[0])
+        };
+        Ok(Resampled {
+            demand_m: demand_m(SiteWeights::Alike(self.weights))?,
+            replicates_m: self.plan.samples().par_iter().map(replicate).collect::<Result<_, _>>()?,
+            repaired_m: self.repaired.map(|weights| demand_m(SiteWeights::Repaired(weights))).transpose()?,
+            risk_curve: self.risk_curve(&pool, factor)?,
+        })
+    }
+
+    /// From where nearly everything exceeds to the largest peak.
+    fn risk_curve(&self, pool: &PooledDemand, factor: f64) -> Result<Vec<RiskPoint>, DesignError> {
+        let curve = SiteWeights::Alike(self.weights).curve(pool)?;
+        let mut finite = pool.edp_m().iter().filter(|peak_m| peak_m.is_finite());
+        let (Some(&largest_m), Some(&least_m)) = (finite.next(), finite.next_back()) else { return Ok(Vec::new()) };
+        let least_m = least_m.max(1e-4 * largest_m);
+        let ratio = largest_m / least_m;
+        let point = |step: usize| {
+            let displacement_m = least_m * ratio.powf(step as f64 / (POINTS - 1) as f64);
+            let per_year = curve.mean_annual_frequency(displacement_m)?;
+            Ok(RiskPoint { displacement_m: factor * displacement_m, per_year })
+        };
+        (0..POINTS).map(point).collect()
+    }
+
+    fn band(&self, value: f64, mut replicates: Vec<f64>) -> Banded {
+        replicates.sort_by(f64::total_cmp);
+        let band = Band::percentile(&replicates, self.confidence);
+        Banded { value, lower: band.lower_m, upper: band.upper_m }
+    }
+
+    /// The row of a model, beside the frame itself if it is not that.
+    pub(super) fn row(&self, model: &'static str, of: Resampled, frame: Option<&Resampled>) -> ModelDemand {
+        let error = frame.map(|frame| {
+            let replicates = of.replicates_m.iter().zip(&frame.replicates_m);
+            let errors = replicates.map(|(proxy_m, frame_m)| error_of(*proxy_m, *frame_m)).collect();
+            self.band(error_of(of.demand_m, frame.demand_m), errors)
+        });
+        ModelDemand {
+            model,
+            demand_m: self.band(of.demand_m, of.replicates_m),
+            repaired_m: of.repaired_m,
+            error,
+            risk_curve: of.risk_curve,
+        }
+    }
+}
+
+/// `proxy/frame − 1`; 0 where both are zero, or both infinite: they say the same.
+pub(super) fn error_of(proxy_m: f64, frame_m: f64) -> f64 {
+    relative_error(proxy_m, frame_m).unwrap_or(0.0)
+}
+
+impl Resampled {
+    /// The same through a rule, from the displacement that it starts from to the one that it gives; without a risk
+    /// curve or a repair, which are not the rule's.
+    pub(super) fn through(
+        &self,
+        demand_m: f64,
+        rule: impl Fn(f64) -> Result<f64, DesignError>,
+    ) -> Result<Self, DesignError> {
+        let replicates_m = self.replicates_m.iter().map(|of| rule(*of)).collect::<Result<_, _>>()?;
+        Ok(Self { demand_m, replicates_m, repaired_m: None, risk_curve: Vec::new() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    /// Two records, levels 1 and 2 with rates 1 and 1/2 a year and all beyond the last: one record's peaks are 1 and 2
+    /// m, the other's 2 m and infinite.
+    #[test]
+    fn a_case_by_hand() {
+        let weights = StripeWeights::new(&[1.0, 0.5], None).unwrap();
+        let plan = ResamplingPlan::draw(2, &[2], 200, 1).unwrap();
+        let question = Question {
+            levels: &[1.0, 2.0],
+            weights: &weights,
+            repaired: None,
+            target_per_year: 0.4,
+            plan: &plan,
+            confidence: 0.9,
+        };
+        // the weights of both levels are ½(1 − ½) and ½(1 − ½) + ½: 0.25 and 0.75, halved for each record
+        let peaks_m = [1.0, 2.0, 2.0, f64::INFINITY];
+        let frame = question.ask(&peaks_m, 1.0).unwrap();
+        // overturning alone has 0.375 a year, what exceeds 1 m has 0.375 + 0.375 + 0.125
+        assert_eq!(frame.demand_m, 2.0);
+        let proxy = question.ask(&peaks_m, 3.0).unwrap();
+        assert_eq!(proxy.demand_m, 6.0);
+        let row = question.row("proxy", proxy, Some(&frame));
+        // the same resamples of both: the error has no noise
+        assert_eq!(row.error.unwrap(), Banded { value: 2.0, lower: 0.0, upper: 2.0 });
+        assert!(row.demand_m.upper.is_infinite() && row.demand_m.lower <= 6.0);
+        assert!(row.risk_curve.windows(2).all(|pair| pair[0].per_year >= pair[1].per_year));
+        let own = question.row("frame", frame, None);
+        assert_eq!((own.error, own.demand_m.value), (None, 2.0));
+    }
+
+    #[test]
+    fn errors_of_what_overturns_are_numbers() {
+        let inf = f64::INFINITY;
+        assert_eq!([error_of(inf, inf), error_of(0.0, 0.0), error_of(1.0, inf)], [0.0, 0.0, -1.0]);
+        assert_eq!(error_of(inf, 1.0), inf);
+    }
+}

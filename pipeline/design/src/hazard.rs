@@ -1,0 +1,58 @@
+//! What the stripes weigh at a site: by its mean hazard curve, and by each of the curves that may hold.
+
+use uplift_result::ResultFile;
+use uplift_risk::StripeWeights;
+use uplift_study::UniformRiskStudy;
+use uplift_uniform_risk::{SpectraOfResult, StudyOfResult, branch_weights};
+
+use crate::error::DesignError;
+
+/// The hazard of a site.
+#[derive(Debug, Clone)]
+pub(super) struct Hazard<'a> {
+    /// By the mean curve.
+    pub(super) mean: &'a StripeWeights,
+    /// Weighted alternatives to it; none where there is but one curve.
+    pub(super) branches: Vec<(f64, StripeWeights)>,
+}
+
+impl<'a> Hazard<'a> {
+    /// At a site of a result, by its name and position.
+    ///
+    /// # Errors
+    /// A file that is damaged.
+    pub(super) fn of(
+        file: &ResultFile,
+        (name, site): (&str, usize),
+        (measure, study): (&'a SpectraOfResult, &UniformRiskStudy),
+    ) -> Result<Self, DesignError> {
+        let branches = branch_weights(file, name, &measure.plan, study.risk.extrapolate)?;
+        Ok(Self { mean: &measure.weights[site], branches })
+    }
+
+    /// The same at each of the `sites` of a result, by their positions.
+    ///
+    /// # Errors
+    /// A file that is damaged.
+    pub(super) fn of_sites(
+        file: &ResultFile,
+        (source, sites): (&StudyOfResult, &[usize]),
+        measure: &'a SpectraOfResult,
+    ) -> Result<Vec<Self>, DesignError> {
+        let of_site = |&site: &usize| Self::of(file, (&source.sites[site], site), (measure, &source.study));
+        sites.iter().map(of_site).collect()
+    }
+
+    /// The branch that a `number` between 0 and 1 chooses; the mean where there are no branches.
+    pub(super) fn at(&self, number: f64) -> &StripeWeights {
+        let total: f64 = self.branches.iter().map(|(weight, _)| weight).sum();
+        let mut before = 0.0;
+        for (weight, weights) in &self.branches {
+            before += weight;
+            if number * total < before {
+                return weights;
+            }
+        }
+        self.branches.last().map_or(self.mean, |(_, weights)| weights)
+    }
+}

@@ -1,0 +1,48 @@
+//! A structure under the records and the hazard of a result: its design by the spectrum, its own risk, its overturning,
+//! and what it must be for a target risk.
+
+mod certainty;
+mod choice;
+mod collapse;
+mod demand;
+mod design;
+mod error;
+mod finding;
+mod frame_risk;
+mod hazard;
+mod inputs;
+mod models;
+mod overturning;
+mod report;
+mod risk;
+mod rules;
+mod spectrum;
+mod sweep;
+mod tables;
+mod target;
+mod uncertain;
+mod weights;
+
+pub use certainty::{Bands, DemandBands};
+pub use demand::{DemandNoise, DemandRounding, ExactDemand, RuleRanges};
+pub use design::{DesignOptions, DesignReport, design, design_shard};
+pub use error::DesignError;
+pub use finding::keep;
+pub use frame_risk::{
+    Banded, DirectionEffect, EventReport, FrameOverturning, FrameRiskOptions, FrameRiskReport, ModelDemand, RiskPoint,
+    StateAtDemand, frame_risk, frame_risk_shard,
+};
+pub use overturning::{
+    CollapseReport, ModelReport, OverturningOptions, OverturningReport, SiteRisk, overturning, overturning_shard,
+};
+pub use report::StructureReport;
+pub use rules::{RuleCheck, RuleOutcome};
+pub use spectrum::SpectrumDemand;
+pub use target::{
+    Crossing, Drawn, FoundSystem, GenericTarget, LevelShare, TargetBand, TargetEvent, TargetFrequency, TargetOptions,
+    TargetReport, TargetUncertainty, TriedValue, target,
+};
+pub use uncertain::{
+    AleatoryResult, EpistemicResult, QuantityReport, Spread, UncertainFinding, UncertainResult, UncertaintyReport,
+    VarianceShare,
+};

@@ -1,0 +1,494 @@
+//! How often a structure overturns, by its equivalent oscillator and by the rigid block that rotates as it does
+//! (Section 2.4.3).
+
+mod uncertain;
+
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+use uplift_alarms::{OwnRisk, Scope, alarms_of_inputs, of_own_risks, of_structure, ranked};
+use uplift_engine::analysis::{Beside, LabelledPlan, ShardReport, Work};
+use uplift_fragility::{LognormalFit, Stripes};
+use uplift_ida::{Shard, System};
+use uplift_inputs::{RecordSet, motion_keys};
+use uplift_job::JobError;
+use uplift_job::alarm::Alarm;
+use uplift_job::events::Events;
+use uplift_job::outputs::{self, Output, OutputKind};
+use uplift_motion::IntensityMeasure;
+use uplift_result::ResultFile;
+use uplift_risk::{PooledDemand, RunWeights, StripeWeights};
+use uplift_spectra::{NUDGES, Noisy, nudges};
+use uplift_study::{Structure, UniformRiskStudy};
+use uplift_uniform_risk::consistency::Reweighing;
+use uplift_uniform_risk::{EventRisk, SpectraOfResult, StudyOfResult, plan_stripes};
+
+use super::certainty::{Bands, Scatter, rate_bands};
+use super::choice::{measure_index, records, site_index};
+use super::collapse::{Collapse, collapse};
+use super::hazard::Hazard;
+use super::inputs::inputs;
+use super::models::models;
+use super::report::StructureReport;
+use super::risk::OVERTURNING_M;
+use super::tables::{risk_path, write_tables};
+use super::uncertain::{Uncertain, UncertaintyReport};
+use crate::error::DesignError;
+
+/// What is asked of the overturning of a structure.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct OverturningOptions {
+    /// Manifest of the records, where it is no longer where the study says.
+    pub manifest: Option<PathBuf>,
+    /// Site of the result; all where none is given.
+    pub site: Option<String>,
+    /// Intensity measure; all of the result where none is given.
+    pub measure: Option<IntensityMeasure>,
+    /// One coefficient of restitution for both models, in place of the structure's, the study's (oscillator) and that
+    /// of angular momentum (block).
+    pub restitution: Option<f64>,
+    /// CSV file of the collapse fragility to write; the risk goes to one that ends in .risk.csv beside it.
+    pub table: Option<PathBuf>,
+    /// Every shard of the analyses, as [`overturning_shard`] wrote them; none to compute them here.
+    pub shards: Vec<PathBuf>,
+    /// Whether whatever is at the places of the tables gives way.
+    pub force: bool,
+}
+
+/// What the overturning of a structure tells.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct OverturningReport {
+    /// The structure; each model has its own restitution.
+    pub structure: StructureReport,
+    /// The result file.
+    pub result: PathBuf,
+    /// By what the numbers of the result are known.
+    #[serde(skip)]
+    pub study_digest: String,
+    /// Where its records come from, in a line.
+    pub record_set: String,
+    /// Whether they are synthetic.
+    pub synthetic: bool,
+    /// Years that probabilities refer to.
+    pub years: f64,
+    /// How the structure is modelled.
+    pub models: Vec<ModelReport>,
+    /// Fragility and risk, one a measure and model, in this order.
+    pub overturning: Vec<CollapseReport>,
+    /// The oscillator where its quantities are not known exactly; none where the structure file says that they are.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub uncertainty: Option<UncertaintyReport>,
+    /// How the models differ, and what could not be done.
+    pub notes: Vec<String>,
+    /// What to know before using the numbers, the worst first.
+    pub alarms: Vec<Alarm>,
+    /// What was written.
+    #[serde(skip)]
+    pub files: Vec<PathBuf>,
+}
+
+/// A model of a structure.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ModelReport {
+    /// `oscillator` or `block`.
+    pub model: &'static str,
+    /// Coefficient of restitution.
+    pub restitution: f64,
+    /// Where that comes from.
+    pub restitution_from: &'static str,
+    /// Half diagonal R of the block, m; none for the oscillator.
+    pub size_m: Option<f64>,
+    /// Slenderness α of the block, rad; none for the oscillator.
+    pub slenderness_rad: Option<f64>,
+}
+
+/// Overturning of one model by one measure.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CollapseReport {
+    /// `PGV` or `PGA`.
+    pub im: &'static str,
+    /// Unit of the levels.
+    pub unit: &'static str,
+    /// `oscillator` or `block`.
+    pub model: &'static str,
+    /// Levels of the stripes, ascending.
+    pub levels: Vec<f64>,
+    /// Records that overturn the structure at each level.
+    pub overturned: Vec<u32>,
+    /// Fewest and most of them with all scale factors up to 4e-15 smaller and larger: another count than the one above
+    /// hangs on runs beyond double precision (docs/method.md, section 1.5).
+    pub overturned_rounding: Vec<[u32; 2]>,
+    /// Records.
+    pub records: u32,
+    /// Median of the lognormal fragility of maximum likelihood; none where there is no fit.
+    pub theta: Option<f64>,
+    /// Its dispersion.
+    pub beta: Option<f64>,
+    /// The median with its range over the same scale factors; NaN where one of them has no fit.
+    pub theta_rounding: Option<Noisy>,
+    /// The dispersion with its range.
+    pub beta_rounding: Option<Noisy>,
+    /// Its logarithmic likelihood.
+    pub log_likelihood: Option<f64>,
+    /// The risk at each site.
+    pub sites: Vec<SiteRisk>,
+    /// The fit itself.
+    #[serde(skip)]
+    pub fit: Option<LognormalFit>,
+}
+
+/// The risk of overturning at one site.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SiteRisk {
+    /// The site.
+    pub site: String,
+    /// From the counts, with no curve fitted.
+    #[serde(flatten)]
+    pub risk: EventRisk,
+    /// How sure that is, as the records tell it; none where no run shows it, and of a single record.
+    pub bands: Option<Bands>,
+    /// From the counts with repaired weights, by which the records bring the site's hazard; none where the result has
+    /// none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub repaired: Option<EventRisk>,
+    /// Frequency with the lognormal fragility in place of the counts, 1/yr; none without a fit.
+    pub lognormal_per_year: Option<f64>,
+    /// The frequency from the counts with its range over scale factors up to 4e-15 smaller and larger, 1/yr.
+    pub per_year_rounding: Noisy,
+    /// That with the lognormal fragility; NaN where one of them has no fit.
+    pub lognormal_per_year_rounding: Option<Noisy>,
+}
+
+/// How often `structure` overturns under the records and the hazard of the result at `result`.
+///
+/// # Errors
+/// A file that is missing, damaged, no result, or without sites; a site or measure that it does not have; a restitution
+/// that cannot be; records that cannot be read; tables that cannot be written or would replace something else; shards
+/// that do not belong together; [`JobError::Paused`] where `events` say so, [`JobError::Interrupted`] where no
+/// checkpoint can be written beside the result.
+pub fn overturning(
+    structure: &Structure,
+    result: &Path,
+    options: &OverturningOptions,
+    events: &dyn Events,
+) -> Result<OverturningReport, DesignError> {
+    check_table(structure, result, options)?;
+    let file = ResultFile::open(result)?;
+    file.refuse_records_at_level("overturning is counted among the same records at every level")?;
+    let source = StudyOfResult::read(&file, options.manifest.as_deref())?;
+    let sites = match &options.site {
+        Some(site) => vec![site_index(&source, Some(site))?],
+        None => (0..source.sites.len()).collect(),
+    };
+    let measures = measures(&source, options.measure)?;
+    let mut notes = Vec::new();
+    let models = models(structure, &source, options.restitution, &mut notes)?;
+    let shaken = Shaken::of(&source, options.manifest.as_deref())?;
+    let uncertain = uncertain::structures(structure, options.restitution, (&models[OSCILLATOR].0, &shaken.set))?;
+    if !source.study.oscillator.free_vibration {
+        notes.push(
+            "the study ends with its records (free_vibration = false); here what falls after their end counts as \
+             overturned"
+                .to_owned(),
+        );
+    }
+    let asked = name(structure);
+    let beside = Beside { result, name: &asked };
+    let (analysed, checkpoint) =
+        beside.results(shaken.work(&measures, (&models, uncertain.as_ref()), &asked)?, &options.shards, events)?;
+    let Shaken { study, set, .. } = &shaken;
+    let reweighing = Reweighing::of_motions(&file)?;
+    let scatter = Scatter::of(&file)?;
+    let mut analysed = analysed.into_iter();
+    let mut found: Vec<(&SpectraOfResult, Vec<Collapses>)> = Vec::new();
+    let mut hazards: Vec<Vec<Hazard<'_>>> = Vec::new();
+    for measure in measures {
+        let hazard = Hazard::of_sites(&file, (&source, &sites), measure)?;
+        let of_repair = |site| reweighing.as_ref()?.weights(measure.measure(), site);
+        let weights: Vec<(&StripeWeights, Option<&RunWeights>)> =
+            sites.iter().map(|&site| (&measure.weights[site], of_repair(site))).collect();
+        let of_models = models.iter().zip(analysed.by_ref()).map(|((model, _), analysed)| {
+            let levels = &measure.plan.levels;
+            let peaks_m_at = |nudge: usize| -> Vec<f64> {
+                let first = nudge * levels.len();
+                let of_level = |scale| analysed.peaks.over_motions_m(0, scale);
+                let peaks_m: Vec<Vec<f64>> = (first..first + levels.len()).map(of_level).collect();
+                let records = 0..analysed.peaks.axes().motions;
+                records.flat_map(|record| peaks_m.iter().map(move |of_level| of_level[record])).collect()
+            };
+            let at_nudge = |nudge: usize| {
+                let runs = (&peaks_m_at(nudge)[..], &scatter.pairs[..]);
+                collapse(levels, runs, &weights, study.risk.years, model.can_overturn())
+            };
+            let rounded = (1..=NUDGES).map(at_nudge).collect::<Result<_, _>>()?;
+            let demand = PooledDemand::new(&Stripes::new(levels, &peaks_m_at(0))?)?;
+            let of_site = |hazard: &Hazard<'_>| rate_bands(&demand, hazard, &scatter, OVERTURNING_M);
+            let bands = hazard.iter().map(of_site).collect::<Result<_, _>>()?;
+            Ok::<_, DesignError>(Collapses { own: at_nudge(0)?, rounded, bands })
+        });
+        found.push((measure, of_models.collect::<Result<_, _>>()?));
+        hazards.push(hazard);
+    }
+    notes.extend(notes_on(&models, &found));
+    let uncertainty = match &uncertain {
+        Some(uncertain) => {
+            let names: Vec<&str> = sites.iter().map(|&site| source.sites[site].as_str()).collect();
+            let described = |measure: usize, place: usize| found[measure].1[OSCILLATOR].own.risks[place].per_year;
+            let measures: Vec<(&SpectraOfResult, &[Hazard<'_>])> =
+                found.iter().zip(&hazards).map(|((measure, _), hazard)| (*measure, &hazard[..])).collect();
+            Some(uncertain::report(uncertain, (&measures, &names), (analysed, (set, &scatter)), &described)?)
+        }
+        None => None,
+    };
+    let mut alarms = alarms_of_inputs(&file, &Scope { measure: options.measure, ..Scope::default() })?;
+    alarms.extend(of_structure(structure));
+    let names: Vec<&str> = sites.iter().map(|&site| source.sites[site].as_str()).collect();
+    alarms.extend(of_own_risks(&own_risks(&models, &found, &names, (set.records.len(), scatter.pairs.len()))));
+    let records = u32::try_from(set.records.len()).unwrap_or(u32::MAX);
+    let of_measure = |(measure, found): &(&SpectraOfResult, Vec<Collapses>)| -> Vec<CollapseReport> {
+        let names = sites.iter().map(|&site| source.sites[site].as_str());
+        let report = |(found, (model, _)): (&Collapses, &(System, _))| {
+            CollapseReport::of(found, measure.measure(), model.kind(), records, names.clone())
+        };
+        found.iter().zip(&models).map(report).collect()
+    };
+    let mut report = OverturningReport {
+        structure: StructureReport::of(structure, None),
+        years: study.risk.years,
+        models: models.iter().map(|(model, origin)| ModelReport::of(model, origin)).collect(),
+        overturning: found.iter().flat_map(of_measure).collect(),
+        uncertainty,
+        notes,
+        alarms: ranked(alarms),
+        files: Vec::new(),
+        result: source.path.clone(),
+        study_digest: file.head()?.study_digest(),
+        record_set: source.record_set.clone(),
+        synthetic: source.synthetic,
+    };
+    if let Some(path) = &options.table {
+        write_tables(path, &report)?;
+        report.files = vec![path.clone(), risk_path(path)];
+    }
+    checkpoint.remove();
+    Ok(report)
+}
+
+/// Computes one shard of the analyses into a file beside the result, for [`OverturningOptions::shards`].
+///
+/// # Errors
+/// As [`overturning`].
+pub fn overturning_shard(
+    structure: &Structure,
+    result: &Path,
+    options: &OverturningOptions,
+    shard: Shard,
+    events: &dyn Events,
+) -> Result<ShardReport, DesignError> {
+    let source = StudyOfResult::read(&ResultFile::open(result)?, options.manifest.as_deref())?;
+    let measures = measures(&source, options.measure)?;
+    let models = models(structure, &source, options.restitution, &mut Vec::new())?;
+    let shaken = Shaken::of(&source, options.manifest.as_deref())?;
+    let uncertain = uncertain::structures(structure, options.restitution, (&models[OSCILLATOR].0, &shaken.set))?;
+    let asked = name(structure);
+    let work = shaken.work(&measures, (&models, uncertain.as_ref()), &asked)?;
+    Ok(Beside { result, name: &asked }.shard(work, shard, events)?)
+}
+
+/// Place of the equivalent oscillator among the models.
+const OSCILLATOR: usize = 0;
+
+/// What is asked, for the names of files.
+fn name(structure: &Structure) -> String {
+    format!("overturning {}", structure.file.file_stem().unwrap_or_default().to_string_lossy())
+}
+
+/// The measure `wanted` of a result; all where none is.
+fn measures(source: &StudyOfResult, wanted: Option<IntensityMeasure>) -> Result<Vec<&SpectraOfResult>, DesignError> {
+    match wanted {
+        Some(measure) => Ok(vec![&source.measures[measure_index(source, Some(measure))?]]),
+        None => Ok(source.measures.iter().collect()),
+    }
+}
+
+/// The records that shake the models.
+struct Shaken {
+    /// The study of the result, with what happens after the end of a record.
+    study: UniformRiskStudy,
+    set: RecordSet,
+    /// Keys of the records' motions.
+    motions: Vec<String>,
+}
+
+impl Shaken {
+    fn of(source: &StudyOfResult, manifest: Option<&Path>) -> Result<Self, DesignError> {
+        let set = records(source, manifest)?.map_err(|reason| {
+            JobError::input(format!(
+                "{reason}; overturning needs the records that the result was made from (--manifest says where they are)"
+            ))
+        })?;
+        let mut study = source.study.clone();
+        // what is lost when a record ends has overturned, whoever looks
+        study.oscillator.free_vibration = true;
+        Ok(Self { motions: motion_keys(&set.records), study, set })
+    }
+
+    /// The stripes of each model by each measure, the models running fastest; those of the scale factors themselves,
+    /// then those of their neighbours. After all of them those of the structures that it may be, one a measure.
+    fn work<'a>(
+        &'a self,
+        measures: &[&SpectraOfResult],
+        (models, uncertain): (&'a [(System, &'static str)], Option<&'a Uncertain<'_>>),
+        title: &str,
+    ) -> Result<Work<'a>, DesignError> {
+        let mut plans = Vec::new();
+        let factors: Vec<f64> = [1.0].into_iter().chain(nudges()).collect();
+        for measure in measures {
+            for (model, _) in models {
+                let plan = plan_stripes(&self.study, &measure.plan, &self.set, std::slice::from_ref(model))?;
+                let plan = plan.multiplied(&factors)?;
+                let label = format!("{}, {}", measure.measure().label(), model.kind());
+                plans.push(LabelledPlan { label, remark: None, plan, motions: &self.motions, known: None });
+            }
+        }
+        if let Some(uncertain) = uncertain {
+            for measure in measures {
+                let label = measure.measure().label();
+                plans.push(uncertain.plan((label, &self.study), &measure.plan, (&self.set, &self.motions))?);
+            }
+        }
+        Ok(Work::new(title, plans))
+    }
+}
+
+/// Names that would lose something, before anything is computed.
+fn check_table(structure: &Structure, result: &Path, options: &OverturningOptions) -> Result<(), DesignError> {
+    let Some(path) = &options.table else { return Ok(()) };
+    let inputs = inputs(structure, result, options.manifest.as_deref());
+    let risk = risk_path(path);
+    let tables = [(path, "im"), (&risk, "site")];
+    let tables = tables.map(|(path, column)| Output::new(path, OutputKind::Table(column)).of(result));
+    Ok(outputs::check(&tables, &inputs, options.force)?)
+}
+
+/// Overturning at the scale factors themselves, and at their neighbours some roundings away.
+struct Collapses {
+    own: Collapse,
+    rounded: Vec<Collapse>,
+    /// How sure its risks are, `[site]`.
+    bands: Vec<Option<Bands>>,
+}
+
+/// What the numbers rest on.
+fn notes_on(models: &[(System, &'static str)], found: &[(&SpectraOfResult, Vec<Collapses>)]) -> Vec<String> {
+    let mut notes = Vec::new();
+    if let [(a, _), (b, _)] = models
+        && a.restitution().to_bits() != b.restitution().to_bits()
+    {
+        notes.push(format!(
+            "the oscillator keeps {} of its velocity at an impact, the block {:.4}: part of what they differ by is \
+             that (--restitution gives both the same)",
+            a.restitution(),
+            b.restitution()
+        ));
+    }
+    for (measure, found) in found {
+        let label = measure.measure().label();
+        for (found, (model, _)) in found.iter().zip(models) {
+            if let Err(reason) = &found.own.fit {
+                notes.push(format!("no lognormal fragility of the {} by {label}: {reason}", model.kind()));
+            }
+        }
+    }
+    notes
+}
+
+/// The risk of every model at every site by every measure.
+fn own_risks(
+    models: &[(System, &'static str)],
+    found: &[(&SpectraOfResult, Vec<Collapses>)],
+    sites: &[&str],
+    (records, pairs): (usize, usize),
+) -> Vec<OwnRisk> {
+    let mut risks = Vec::new();
+    for (measure, found) in found {
+        let levels = &measure.plan.levels;
+        for (found, (model, _)) in found.iter().zip(models) {
+            risks.extend(sites.iter().zip(&found.own.risks).map(|(site, &risk)| OwnRisk {
+                subject: format!("overturning of the {}, {site}, {}", model.kind(), measure.measure().label()),
+                risk,
+                measure: measure.measure(),
+                levels: (levels[0], levels[levels.len() - 1]),
+                records,
+                pairs,
+                effective_pairs: pairs as f64,
+            }));
+        }
+    }
+    risks
+}
+
+impl ModelReport {
+    fn of(model: &System, restitution_from: &'static str) -> Self {
+        let block = match model {
+            System::Oscillator(_) | System::Frame(_) => None,
+            System::Block(block) => Some(block),
+        };
+        Self {
+            model: model.kind(),
+            restitution: model.restitution(),
+            restitution_from,
+            size_m: block.map(uplift_block::RockingBlock::size_m),
+            slenderness_rad: block.map(uplift_block::RockingBlock::slenderness_rad),
+        }
+    }
+}
+
+impl CollapseReport {
+    fn of<'a>(
+        Collapses { own, rounded, bands }: &Collapses,
+        measure: IntensityMeasure,
+        model: &'static str,
+        records: u32,
+        sites: impl Iterator<Item = &'a str>,
+    ) -> Self {
+        let around = |value: &dyn Fn(&Collapse) -> f64| Noisy::around(value(own), rounded.iter().map(value));
+        let fit = own.fit.as_ref().ok();
+        let of_fit = |value: &dyn Fn(&LognormalFit) -> f64| {
+            fit.map(|_| around(&|found| found.fit.as_ref().map_or(f64::NAN, value)))
+        };
+        let site = |(index, site): (usize, &str)| SiteRisk {
+            site: site.to_owned(),
+            risk: own.risks[index],
+            bands: bands[index],
+            repaired: own.repaired[index],
+            lognormal_per_year: own.fitted.as_ref().map(|fitted| fitted[index].per_year),
+            per_year_rounding: around(&|found| found.risks[index].per_year),
+            lognormal_per_year_rounding: own
+                .fitted
+                .as_ref()
+                .map(|_| around(&|found| found.fitted.as_ref().map_or(f64::NAN, |fitted| fitted[index].per_year))),
+        };
+        let count = |found: &Collapse, level: usize| found.counts[level].exceedances;
+        let counts_at = |level: usize| {
+            let counts = rounded.iter().map(move |found| count(found, level));
+            counts.fold([count(own, level); 2], |[fewest, most], other| [fewest.min(other), most.max(other)])
+        };
+        Self {
+            im: measure.label(),
+            unit: measure.unit(),
+            model,
+            levels: own.counts.iter().map(|count| count.level).collect(),
+            overturned: own.counts.iter().map(|count| count.exceedances).collect(),
+            overturned_rounding: (0..own.counts.len()).map(counts_at).collect(),
+            records,
+            theta: fit.map(|fit| fit.fragility.median()),
+            beta: fit.map(|fit| fit.fragility.dispersion()),
+            theta_rounding: of_fit(&|fit| fit.fragility.median()),
+            beta_rounding: of_fit(&|fit| fit.fragility.dispersion()),
+            log_likelihood: fit.map(|fit| fit.log_likelihood),
+            sites: sites.enumerate().map(site).collect(),
+            fit: fit.copied(),
+        }
+    }
+}

@@ -1,0 +1,90 @@
+//! A structure under the records of a study: how often it goes too far.
+
+use uplift_fragility::Stripes as Stripe;
+use uplift_risk::PooledDemand;
+use uplift_uniform_risk::{EventRisk, Stripes, at_most_per_year, pooled_demand};
+
+use super::weights::SiteWeights;
+use crate::error::DesignError;
+
+/// The same of something that may happen, though no run may show it of `pairs`, each with the positions of its
+/// records.
+pub(super) fn bounded(risk: EventRisk, weights: &SiteWeights<'_>, pairs: &[Vec<usize>]) -> EventRisk {
+    let bound = || at_most_per_year(weights.stripes(), weights.effective_pairs(pairs));
+    let at_most_per_year = (risk.per_year == 0.0).then(bound);
+    EventRisk { at_most_per_year, ..risk }
+}
+
+/// A threshold that nothing but overturning exceeds.
+pub(super) const OVERTURNING_M: f64 = f64::MAX;
+
+/// The risk of exceeding `threshold_m`.
+///
+/// # Errors
+/// Stripes and weights of different levels; a threshold that is none.
+pub(super) fn risk_of_exceeding(
+    demand: &PooledDemand,
+    weights: &SiteWeights<'_>,
+    threshold_m: f64,
+    years: f64,
+) -> Result<EventRisk, DesignError> {
+    let curve = weights.curve(demand)?;
+    let per_year = curve.mean_annual_frequency(threshold_m)?;
+    let parts = curve.disaggregation(threshold_m)?;
+    Ok(EventRisk::new(per_year, [parts.lower_tail_per_year, parts.upper_tail_per_year], years)?)
+}
+
+/// Between what happens and what does not, where runs are told by 1 and 0.
+pub(super) const HAPPENS: f64 = 0.5;
+
+/// Runs told by 1 where they exceed their threshold, m, and by 0 where not: what goes beyond [`HAPPENS`] is what
+/// happens.
+///
+/// * `runs` — over the levels, each with its threshold
+///
+/// # Errors
+/// Runs of another number of levels.
+pub(super) fn happenings<'a>(
+    levels: &[f64],
+    runs: impl Iterator<Item = (&'a [f64], f64)>,
+) -> Result<PooledDemand, DesignError> {
+    let tell = |(row_m, threshold_m): (&'a [f64], f64)| {
+        row_m.iter().map(move |&peak_m| if peak_m > threshold_m { 1.0 } else { 0.0 })
+    };
+    let told: Vec<f64> = runs.flat_map(tell).collect();
+    Ok(PooledDemand::new(&Stripe::new(levels, &told)?)?)
+}
+
+/// All demands of one oscillator of `stripes`, sorted.
+///
+/// # Errors
+/// None for stripes that were computed.
+pub(super) fn demand_of(stripes: &Stripes, oscillator: usize) -> Result<PooledDemand, DesignError> {
+    Ok(pooled_demand(stripes, oscillator)?)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use uplift_risk::StripeWeights;
+    use uplift_uniform_risk::share_at_most;
+
+    use super::*;
+
+    #[test]
+    fn what_no_run_shows_has_a_bound_all_the_same() {
+        // 1 − 0.05^(1/N), that is some 3/N
+        assert!((share_at_most(1.0) - 0.95).abs() < 1e-12);
+        assert!((share_at_most(300.0) * 300.0 - 3.0).abs() < 0.02);
+        // rates 1, 0.5, 0.25: all beyond the last level, and 0.95 of half the last interval for a single record
+        let weights = StripeWeights::new(&[1.0, 0.5, 0.25], None).unwrap();
+        let none = EventRisk::new(0.0, [0.0, 0.0], 50.0).unwrap();
+        let weights = SiteWeights::Alike(&weights);
+        let bound = bounded(none, &weights, &[vec![0]]).at_most_per_year.unwrap();
+        assert!((bound - (0.25 + 0.95 * 0.125)).abs() < 1e-12, "{bound}");
+        // both components of the same pair leave as much open
+        assert_eq!(bounded(none, &weights, &[vec![0, 1]]).at_most_per_year, Some(bound));
+        let some = EventRisk::new(1e-3, [0.0, 0.0], 50.0).unwrap();
+        assert_eq!(bounded(some, &weights, &[vec![0]]).at_most_per_year, None);
+    }
+}

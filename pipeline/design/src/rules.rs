@@ -1,0 +1,172 @@
+//! The rules of Section 3.3.2 applied to a structure, and the capacity that they ask for (Eq. 3.15).
+
+use serde::Serialize;
+use uplift_job::text::per_cent;
+use uplift_result::RULES;
+use uplift_structure::{Check, Demand, PostUpliftForce, Rule, StructureError, relative_error};
+use uplift_study::Structure;
+
+/// A rule applied to the ordinate of a spectrum, and to the exact ZSBE demand.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct RuleOutcome {
+    /// The rule.
+    pub rule: Rule,
+    /// From the spectrum as an engineer reads it; none where it cannot be read.
+    pub from_spectrum: Option<RuleCheck>,
+    /// From the exact demand on the structure's ZSBE oscillator: what is wrong with it is the rule's own error. None
+    /// where there is no such demand.
+    pub from_exact: Option<RuleCheck>,
+}
+
+/// What a rule says of a structure; infinite where it overturns, and for a structure whose capacity is infinite.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct RuleCheck {
+    /// Demand that the rule starts from, on the ZSBE system, m.
+    pub zero_stiffness_demand_m: f64,
+    /// Demand on the structure, m.
+    pub demand_m: f64,
+    /// Whether the rule says that it overturns.
+    pub overturns: bool,
+    /// Relative error against the exact demand on the structure; none without one, and where both are zero.
+    pub error: Option<f64>,
+    /// Capacity that the safety factor asks for (Eq. 3.15), m.
+    pub required_capacity_m: f64,
+    /// Stiffness of each tendon that would give that capacity, N/m; none for a structure without tendons.
+    pub required_tendon_stiffness_n_m: Option<f64>,
+    /// Capacity less required capacity, m.
+    pub margin_m: f64,
+    /// Factor of safety that the structure has.
+    pub safety_factor: f64,
+    /// Whether its capacity is at least the required one.
+    pub satisfied: bool,
+    /// Capacity of the structure, m.
+    #[serde(skip)]
+    pub capacity_m: f64,
+    /// Where the rule says that it overturns: the largest demand on the ZSBE system with which it would stand, m.
+    #[serde(skip)]
+    pub largest_zero_stiffness_demand_m: Option<f64>,
+}
+
+impl RuleOutcome {
+    /// The check that counts: from the spectrum, or where that cannot be read from the exact demand.
+    pub fn check(&self) -> Option<&RuleCheck> {
+        self.from_spectrum.as_ref().or(self.from_exact.as_ref())
+    }
+}
+
+/// Demands that the rules start from and are measured by, in the structure's displacement, m.
+#[derive(Debug, Clone, Copy)]
+#[expect(clippy::struct_field_names, reason = "the unit of each")]
+pub(super) struct RuleDemands {
+    /// On the ZSBE system, by the spectrum.
+    pub(super) of_spectrum_m: Option<f64>,
+    /// On the ZSBE system, exact.
+    pub(super) exact_m: Option<f64>,
+    /// On the structure, exact.
+    pub(super) of_structure_m: Option<f64>,
+}
+
+/// Both rules; none where they do not apply, to positive post-uplift stiffness.
+///
+/// # Errors
+/// A safety factor below 1, a demand that is not finite.
+pub(super) fn apply_rules(
+    structure: &Structure,
+    safety_factor: f64,
+    demands: RuleDemands,
+) -> Result<Vec<RuleOutcome>, StructureError> {
+    match structure.system.post_uplift() {
+        PostUpliftForce::Positive { .. } => return Ok(Vec::new()),
+        PostUpliftForce::Negative { .. } | PostUpliftForce::Zero => {}
+    }
+    let check = |rule: Rule, demand_m: Option<f64>| -> Result<Option<RuleCheck>, StructureError> {
+        let Some(demand_m) = demand_m else { return Ok(None) };
+        let check = Check::of(&structure.system, rule, safety_factor, demand_m)?;
+        Ok(Some(rule_check(structure, &check, demands.of_structure_m)))
+    };
+    let outcome = |rule: Rule| -> Result<RuleOutcome, StructureError> {
+        Ok(RuleOutcome {
+            rule,
+            from_spectrum: check(rule, demands.of_spectrum_m)?,
+            from_exact: check(rule, demands.exact_m)?,
+        })
+    };
+    RULES.into_iter().map(outcome).collect()
+}
+
+fn rule_check(structure: &Structure, check: &Check, of_structure_m: Option<f64>) -> RuleCheck {
+    let demand_m = check.demand.displacement_m();
+    let tendons = structure.description.tendon_stiffness_for_capacity_n_m(check.required_capacity_m);
+    RuleCheck {
+        zero_stiffness_demand_m: check.zero_stiffness_demand_m,
+        demand_m,
+        overturns: demand_m.is_infinite(),
+        error: of_structure_m.and_then(|exact_m| relative_error(demand_m, exact_m)),
+        required_capacity_m: check.required_capacity_m,
+        required_tendon_stiffness_n_m: tendons.ok().flatten(),
+        margin_m: check.margin_m(),
+        safety_factor: check.safety_factor(),
+        satisfied: check.is_satisfied(),
+        capacity_m: check.capacity_m,
+        largest_zero_stiffness_demand_m: match check.demand {
+            Demand::Overturns { largest_zero_stiffness_demand_m } => Some(largest_zero_stiffness_demand_m),
+            Demand::Stands { .. } => None,
+        },
+    }
+}
+
+/// Which verdicts hang on the hazard curve, of those that may hold: `by_curve_m` has the weight of each, of 1, with
+/// the demand on the ZSBE system by its spectrum; infinite where that cannot be read.
+///
+/// # Errors
+/// As [`apply_rules`].
+pub(super) fn verdicts_by_curve(
+    structure: &Structure,
+    safety_factor: f64,
+    by_curve_m: &[(f64, f64)],
+) -> Result<Vec<String>, StructureError> {
+    // of each rule the weight of the curves by which it is satisfied, and the margins
+    let mut found: Vec<(Rule, f64, [f64; 2])> = Vec::new();
+    for &(weight, demand_m) in by_curve_m {
+        // where there is no demand to tell, nothing is enough
+        let of_spectrum_m = Some(demand_m).filter(|demand_m| demand_m.is_finite());
+        let demands = RuleDemands { of_spectrum_m, exact_m: None, of_structure_m: None };
+        for outcome in apply_rules(structure, safety_factor, demands)? {
+            let (satisfied, margin_m) =
+                outcome.check().map_or((false, f64::NEG_INFINITY), |check| (check.satisfied, check.margin_m));
+            let place = found.iter().position(|(rule, ..)| *rule == outcome.rule).unwrap_or_else(|| {
+                found.push((outcome.rule, 0.0, [f64::INFINITY, f64::NEG_INFINITY]));
+                found.len() - 1
+            });
+            let (_, share, [least_m, most_m]) = &mut found[place];
+            *share += if satisfied { weight } else { 0.0 };
+            (*least_m, *most_m) = (least_m.min(margin_m), most_m.max(margin_m));
+        }
+    }
+    let hangs = |(_, _, [least_m, most_m]): &&(Rule, f64, [f64; 2])| *least_m < 0.0 && *most_m >= 0.0;
+    let told = found.iter().filter(hangs).map(|(rule, share, [least_m, most_m])| {
+        format!(
+            "the verdict by {} hangs on which hazard curve holds: satisfied by curves of {} of the weight, with \
+             margins from {} to {most_m:+.4} m",
+            rule.words(),
+            per_cent(*share),
+            if least_m.is_finite() { format!("{least_m:+.4}") } else { "none".to_owned() }
+        )
+    });
+    Ok(told.collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_have_the_sign_of_their_danger() {
+        let inf = f64::INFINITY;
+        assert_eq!(relative_error(0.9, 1.0), Some(0.9 - 1.0));
+        assert_eq!(relative_error(2.0, inf), Some(-1.0));
+        assert_eq!(relative_error(inf, 2.0), Some(inf));
+        assert_eq!(relative_error(inf, inf), Some(0.0));
+        assert_eq!(relative_error(0.0, 0.0), None);
+    }
+}

@@ -1,0 +1,326 @@
+//! The least strength, size, width, capacity or tendon stiffness with which a structure meets a target risk.
+//!
+//! The risk of each value that is tried is that of the structure's own oscillator under the records and the hazard of a
+//! result, from exact stripes. Counts of records step, and a chaotic system may step back: every crossing of the target
+//! is followed, and the value that is told is the one from which on all that was tried meets it.
+
+mod band;
+mod beside;
+mod candidate;
+mod request;
+mod search;
+mod table;
+mod trial;
+mod uncertain;
+mod words;
+
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+use uplift_spectra::{NoiseSweep, Noisy};
+use uplift_structure::EquivalentSystem;
+use uplift_study::Structure;
+
+pub use band::{Drawn, TargetBand};
+pub use beside::{GenericTarget, LevelShare};
+pub use request::{TargetEvent, TargetFrequency, TargetOptions};
+pub use search::Crossing;
+pub use uncertain::TargetUncertainty;
+
+use super::certainty::Scatter;
+use super::choice::{measure_index, site_index};
+use super::hazard::Hazard;
+use super::inputs::inputs;
+use super::report::StructureReport;
+use super::uncertain::Spread;
+use crate::error::DesignError;
+use candidate::Attempt;
+use search::{crossings, search, spread};
+use trial::Trials;
+use uplift_alarms::{OwnRisk, Scope, alarms_of_inputs, of_own_risks, of_structure, ranked};
+use uplift_job::JobError;
+use uplift_job::alarm::Alarm;
+use uplift_job::events::Events;
+use uplift_job::outputs::{self, Output, OutputKind};
+use uplift_result::ResultFile;
+use uplift_uniform_risk::consistency::Question;
+use uplift_uniform_risk::{EventRisk, StudyOfResult};
+use words::{Words, assumptions, with_mistakes};
+
+/// Values tried before the search narrows, over the range.
+const VALUES: usize = 33;
+/// How far the range reaches below and above the structure's own value, where it is not given.
+const REACH: f64 = 4.0;
+/// Half the width of the sweep that shows the noise, relative to the value, and its points.
+const NOISE: (f64, usize) = (0.01, 11);
+
+/// What a search for a target risk tells.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TargetReport {
+    /// The structure as its file has it, with the restitution of its oscillator.
+    pub structure: StructureReport,
+    /// The result file.
+    pub result: PathBuf,
+    /// By what the numbers of the result are known.
+    #[serde(skip)]
+    pub study_digest: String,
+    /// Where its records come from, in a line.
+    pub record_set: String,
+    /// Whether they are synthetic.
+    pub synthetic: bool,
+    /// The site.
+    pub site: String,
+    /// `PGV` or `PGA`.
+    pub im: &'static str,
+    /// Unit of its levels.
+    pub im_unit: &'static str,
+    /// What is varied: `width`.
+    pub quantity: &'static str,
+    /// Its unit.
+    pub quantity_unit: &'static str,
+    /// Its value in the structure file; none of what the structure does not have.
+    pub own_value: Option<f64>,
+    /// What must not happen more often: `overturning`, or which displacement is exceeded.
+    pub event: String,
+    /// How often it may happen, 1/yr.
+    pub target_per_year: f64,
+    /// Years that probabilities refer to.
+    pub years: f64,
+    /// The least value from which on everything tried meets the target.
+    pub value: f64,
+    /// The largest value tried that misses it.
+    pub missed_at: f64,
+    /// The least value tried that meets it; below [`value`](Self::value) where the risk does not fall all the way.
+    pub least_met: f64,
+    /// The risk at the value; of a structure that is not known exactly the mean of those that it may be.
+    pub risk: EventRisk,
+    /// The structure at the value.
+    pub found: FoundSystem,
+    /// The frequency within one per cent of the value, 1/yr: the noise of a chaotic system.
+    pub per_year_within_one_percent: Noisy,
+    /// What other records would have given.
+    pub band: TargetBand,
+    /// The same with each of the weighted hazard curves of the site; none where it has but one.
+    pub band_with_hazard: Option<TargetBand>,
+    /// The structures that every value may be; none where the structure file says that all is known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub uncertainty: Option<TargetUncertainty>,
+    /// Every place where the frequency crosses the target, ascending.
+    pub crossings: Vec<Crossing>,
+    /// What happens at levels of given return periods, for the structure at the value.
+    pub at_return_periods: Vec<LevelShare>,
+    /// The level that a generic fragility asks for; none where none was given.
+    pub generic: Option<GenericTarget>,
+    /// Everything that was tried, ascending.
+    pub tried: Vec<TriedValue>,
+    /// Nonlinear time histories of the search.
+    pub analyses: u64,
+    /// What to know of the search.
+    pub notes: Vec<String>,
+    /// What to know before using the numbers, the worst first.
+    pub alarms: Vec<Alarm>,
+    /// What was written.
+    #[serde(skip)]
+    pub files: Vec<PathBuf>,
+}
+
+/// The equivalent oscillator at the value that was found.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct FoundSystem {
+    /// Uplift strength `f_up/(m g)`.
+    pub strength: f64,
+    /// Strength at which a spectrum is read.
+    pub spectral_strength: f64,
+    /// Force at uplift, N.
+    pub uplift_force_n: f64,
+    /// Displacement capacity, m; none for a structure that has none.
+    pub capacity_m: Option<f64>,
+    /// Stiffness after uplift, N/m.
+    pub post_uplift_stiffness_n_m: f64,
+}
+
+/// One value that was tried.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct TriedValue {
+    /// The value.
+    pub value: f64,
+    /// The risk at it.
+    #[serde(flatten)]
+    pub risk: EventRisk,
+    /// The 5, 16, 50, 84 and 95 % percentiles of the frequencies of branches, of which that of the risk is the mean,
+    /// 1/yr; none where there are no branches.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub structure_percentiles_per_year: Option<[f64; 5]>,
+    /// Whether it meets the target.
+    pub is_met: bool,
+}
+
+impl TriedValue {
+    fn of(value: f64, attempt: &Attempt, target_per_year: f64) -> Self {
+        let branches = || Spread::of(attempt.structures.iter().map(|of| of.risk.per_year).collect());
+        let structure_percentiles_per_year = (attempt.structures.len() > 1).then(|| branches().percentiles);
+        Self { value, risk: attempt.risk, structure_percentiles_per_year, is_met: attempt.meets(target_per_year) }
+    }
+}
+
+/// Searches the least value of a quantity of `structure` with which it meets a target risk under the records and the
+/// hazard of the result at `result`.
+///
+/// # Errors
+/// Numbers that are no target, range or tolerance, all at once; a target below what the stripes can tell; a target that
+/// is met or missed at every value of the range, or missed at its upper end; a quantity that the structure does not
+/// have; a file that is missing, damaged, no result, or without sites; a site or measure that the result does not have;
+/// records that cannot be read; a table that would replace something else; [`JobError::Paused`] where `events` say
+/// so, [`JobError::Interrupted`] where no checkpoint can be written beside the result.
+pub fn target(
+    structure: &Structure,
+    result: &Path,
+    options: &TargetOptions,
+    events: &dyn Events,
+) -> Result<TargetReport, DesignError> {
+    let mistakes = options.mistakes();
+    if !mistakes.is_empty() {
+        return Err(JobError::Implausible(mistakes).into());
+    }
+    check_table(structure, result, options)?;
+    let file = ResultFile::open(result)?;
+    file.refuse_records_at_level("a target is looked for with the same records at every level")?;
+    let source = StudyOfResult::read(&file, options.manifest.as_deref())?;
+    let site = site_index(&source, options.site.as_deref())?;
+    let measure = &source.measures[measure_index(&source, options.measure)?];
+    let curve = file.mean_curve(&source.sites[site], measure.measure())?;
+    let years = options.frequency.years().unwrap_or(source.study.risk.years);
+    let target_per_year = options.frequency.per_year(years)?;
+    let (range, own_value) = range(structure, options)?;
+    let hazard = Hazard::of(&file, (&source.sites[site], site), (measure, &source.study))?;
+    let scatter = Scatter::of(&file)?;
+    let mut trials = Trials::of(structure, &source, (measure, &hazard, &scatter), (options, years), events)?;
+    trials.refuse_untellable(&source.sites[site], target_per_year)?;
+
+    let meets = |attempt: &Attempt| attempt.meets(target_per_year);
+    let tried = search(spread(range, VALUES), options.tolerance, |values| trials.attempt(values), meets)?;
+    let words = Words { options, target_per_year };
+    let scope = Scope { site: Some(site), measure: Some(measure.measure()), ..Scope::default() };
+    let mut alarms = alarms_of_inputs(&file, &scope)?;
+    alarms.extend(of_structure(structure));
+    alarms.extend(options.doubtful());
+    let place = match words.first_of_met(&tried) {
+        Ok(place) => place,
+        Err(reason) => {
+            // that is the answer: nothing is left to go on with
+            trials.finish();
+            return Err(JobError::Usage(with_mistakes(reason, &alarms)).into());
+        }
+    };
+    let (value, found) = (tried[place].0, &tried[place].1);
+    let crossings = crossings(&tried, meets);
+    let mut notes = words.notes(&crossings, &tried);
+    let neighbours: Vec<f64> = NoiseSweep::new(NOISE.0, NOISE.1)?.factors().iter().map(|by| by * value).collect();
+    let noise: Vec<f64> = trials.attempt(&neighbours)?.iter().map(|attempt| attempt.risk.per_year).collect();
+    let noise = Noisy::of(&noise);
+    if noise.highest > target_per_year {
+        notes.push(format!(
+            "within 1 % of the value the frequency goes from {:.3e} to {:.3e} per year: choose the value with a margin",
+            noise.lowest, noise.highest
+        ));
+    }
+    notes.extend(assumptions(structure, &file, trials.restitution()));
+    let at_return_periods = trials.at_return_periods(found, curve.as_ref(), &mut notes)?;
+    let generic = curve.as_ref().map(|curve| beside::generic_target(curve, target_per_year, options)).transpose()?;
+    let pairs = trials.pairs().len();
+    let levels = &measure.plan.levels;
+    let own = OwnRisk {
+        subject: format!("{}, {}, {}", options.event.words(), source.sites[site], measure.measure().label()),
+        risk: found.risk,
+        measure: measure.measure(),
+        levels: (levels[0], levels[levels.len() - 1]),
+        records: trials.record_count(),
+        pairs,
+        effective_pairs: pairs as f64,
+    };
+    alarms.extend(of_own_risks(&[own]));
+    let motions = Question::of_motions(&file)?;
+    let bands = band::band((&tried, place), (target_per_year, &hazard), &source.study, &motions)?;
+    let mut report = TargetReport {
+        uncertainty: trials.around().map(|around| TargetUncertainty::of(around, bands.structures)),
+        structure: StructureReport::of(structure, Some(trials.restitution())),
+        site: source.sites[site].clone(),
+        im: measure.measure().label(),
+        im_unit: measure.measure().unit(),
+        quantity: options.quantity.key(),
+        quantity_unit: options.quantity.unit(),
+        own_value,
+        event: options.event.words(),
+        target_per_year,
+        years,
+        value,
+        missed_at: tried[place - 1].0,
+        least_met: tried.iter().find(|(_, attempt)| meets(attempt)).map_or(value, |(value, _)| *value),
+        risk: found.risk,
+        found: FoundSystem::of(&found.candidate.system),
+        per_year_within_one_percent: noise,
+        band: bands.records,
+        band_with_hazard: bands.with_hazard,
+        crossings,
+        at_return_periods,
+        generic: generic.flatten(),
+        tried: tried.iter().map(|(value, attempt)| TriedValue::of(*value, attempt, target_per_year)).collect(),
+        analyses: trials.analyses(),
+        notes,
+        alarms: ranked(alarms),
+        files: Vec::new(),
+        result: source.path.clone(),
+        study_digest: file.head()?.study_digest(),
+        record_set: source.record_set.clone(),
+        synthetic: source.synthetic,
+    };
+    if let Some(path) = &options.table {
+        table::write(path, &report)?;
+        report.files = vec![path.clone()];
+    }
+    trials.finish();
+    Ok(report)
+}
+
+/// The range of the search, and the value that the structure has.
+fn range(structure: &Structure, options: &TargetOptions) -> Result<([f64; 2], Option<f64>), DesignError> {
+    let of_structure = |mistakes: Vec<uplift_structure::StructureError>| {
+        let words: Vec<String> = mistakes.iter().map(ToString::to_string).collect();
+        JobError::Usage(format!("--vary {}: {}", options.quantity.key(), words.join("; ")))
+    };
+    let own = options.quantity.value(&structure.description).map_err(of_structure)?;
+    let around = |factor: f64| own.filter(|own| *own > 0.0).map(|own| own * factor);
+    let end = |given: Option<f64>, factor: f64, option: &str| {
+        given.or(around(factor)).ok_or_else(|| {
+            JobError::Usage(format!(
+                "{option}: the structure has no {} above 0 to start from: give both --from and --to",
+                options.quantity.key()
+            ))
+        })
+    };
+    let range = [end(options.from, 1.0 / REACH, "--from")?, end(options.to, REACH, "--to")?];
+    if range[0] >= range[1] {
+        let [from, to] = range;
+        return Err(JobError::Usage(format!("--from {from} is not below --to {to}: give a range that rises")).into());
+    }
+    Ok((range, own))
+}
+
+/// A name that would lose something, before anything is computed.
+fn check_table(structure: &Structure, result: &Path, options: &TargetOptions) -> Result<(), DesignError> {
+    let Some(path) = &options.table else { return Ok(()) };
+    let inputs = inputs(structure, result, options.manifest.as_deref());
+    Ok(outputs::check(&[Output::new(path, OutputKind::Table(table::FIRST_COLUMN)).of(result)], &inputs, options.force)?)
+}
+
+impl FoundSystem {
+    fn of(system: &EquivalentSystem) -> Self {
+        Self {
+            strength: system.strength(),
+            spectral_strength: system.spectral_strength(),
+            uplift_force_n: system.uplift_force_n(),
+            capacity_m: system.capacity().ok().map(|capacity| capacity.capacity_m()).filter(|m| m.is_finite()),
+            post_uplift_stiffness_n_m: system.post_uplift_stiffness_n_m(),
+        }
+    }
+}

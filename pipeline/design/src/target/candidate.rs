@@ -1,0 +1,75 @@
+//! A value that is tried: the structures that it may be, and what their stripes say.
+
+use uplift_ida::System;
+use uplift_oscillator::PostUplift;
+use uplift_structure::EquivalentSystem;
+use uplift_uniform_risk::EventRisk;
+
+use super::TargetEvent;
+use crate::risk::OVERTURNING_M;
+
+/// The structures that a value may be.
+#[derive(Debug, Clone)]
+pub(super) struct Candidate {
+    /// As described, with the value.
+    pub(super) system: EquivalentSystem,
+    /// The oscillators that shake: one where all is known; else one a branch, or those of each record, one record after
+    /// the other.
+    pub(super) systems: Vec<System>,
+}
+
+impl Candidate {
+    /// What each of them must not exceed, m of its oscillator.
+    pub(super) fn thresholds_m(&self, event: TargetEvent) -> Vec<f64> {
+        self.systems.iter().map(|system| threshold_m(event, &self.system, system)).collect()
+    }
+}
+
+/// A value that was analysed.
+#[derive(Debug, Clone)]
+pub(super) struct Attempt {
+    pub(super) candidate: Candidate,
+    /// On average over the structures that it may be.
+    pub(super) risk: EventRisk,
+    /// What each record contributes on average: the sum of its weights where it happens, 1/yr; their mean is the
+    /// frequency.
+    pub(super) record_per_year: Vec<f64>,
+    /// To which share of its structures it happens, 0 to 1, `[record, level]`.
+    pub(super) happening: Vec<f64>,
+    /// The same risk of every branch; of one where all is known, and where each record has structures of its own.
+    pub(super) structures: Vec<StructureRisk>,
+}
+
+/// The risk of one structure.
+#[derive(Debug, Clone)]
+pub(super) struct StructureRisk {
+    pub(super) risk: EventRisk,
+    /// What each record contributes, 1/yr.
+    pub(super) record_per_year: Vec<f64>,
+    /// The same by the hazard curve that goes with the structure; none where the site has but one.
+    pub(super) with_hazard: Option<Vec<f64>>,
+}
+
+impl Attempt {
+    /// What each record contributes on average where a level weighs `per_year`, 1/yr.
+    pub(super) fn record_per_year_by(&self, per_year: &[f64]) -> Vec<f64> {
+        let of_record = |shares: &[f64]| shares.iter().zip(per_year).map(|(share, weight)| share * weight).sum();
+        self.happening.chunks_exact(per_year.len()).map(of_record).collect()
+    }
+
+    pub(super) fn meets(&self, target_per_year: f64) -> bool {
+        self.risk.per_year <= target_per_year
+    }
+}
+
+/// What must not be exceeded, m, in the displacement of the `oscillator`: Γ times it is the structure's.
+pub(super) fn threshold_m(event: TargetEvent, system: &EquivalentSystem, oscillator: &System) -> f64 {
+    match (event, oscillator) {
+        (TargetEvent::Beyond(displacement_m), _) => displacement_m / system.participation(),
+        (TargetEvent::BeyondCapacity, System::Oscillator(oscillator)) => match oscillator.post_uplift() {
+            PostUplift::Negative { capacity_m } => capacity_m,
+            PostUplift::Zero | PostUplift::Positive { .. } => OVERTURNING_M,
+        },
+        (TargetEvent::BeyondCapacity | TargetEvent::Overturning, _) => OVERTURNING_M,
+    }
+}

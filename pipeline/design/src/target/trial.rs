@@ -1,0 +1,350 @@
+//! Values tried on exact stripes: the structure's oscillator at each of them, under the records of a result.
+
+use std::ops::Range;
+use std::path::Path;
+
+use uplift_engine::analysis::{Analysed, Beside, LabelledPlan, Work};
+use uplift_engine::checkpoint::Checkpoint;
+use uplift_hazard::HazardCurve;
+use uplift_ida::{Peaks, Plan, System};
+use uplift_inputs::{RecordSet, motion_keys};
+use uplift_job::JobError;
+use uplift_job::events::Events;
+use uplift_job::text::{records_in_words, thousands};
+use uplift_risk::StripeWeights;
+use uplift_study::{Structure, UniformRiskStudy};
+use uplift_uniform_risk::{EventRisk, SpectraOfResult, StudyOfResult, plan_levels};
+
+use super::candidate::{Attempt, Candidate, StructureRisk, threshold_m};
+use super::{LevelShare, TargetEvent, TargetOptions};
+use crate::certainty::Scatter;
+use crate::choice::records;
+use crate::error::DesignError;
+use crate::hazard::Hazard;
+use crate::risk::{HAPPENS, OVERTURNING_M, bounded, happenings, risk_of_exceeding};
+use crate::uncertain::{Around, Spread};
+use crate::weights::SiteWeights;
+
+/// What values are tried on. The rows of every round stay in the checkpoint until the answer is given.
+pub(super) struct Trials<'a> {
+    structure: &'a Structure,
+    result: &'a Path,
+    /// The study of the result, with what happens after the end of a record.
+    study: UniformRiskStudy,
+    measure: &'a SpectraOfResult,
+    weights: SiteWeights<'a>,
+    hazard: &'a Hazard<'a>,
+    scatter: &'a Scatter,
+    options: &'a TargetOptions,
+    years: f64,
+    set: RecordSet,
+    /// Keys of the records' motions.
+    motions: Vec<String>,
+    restitution: f64,
+    /// The structures that it may be; none where all of it is known.
+    around: Option<Around<'a>>,
+    events: &'a dyn Events,
+    name: String,
+    checkpoint: Option<Checkpoint>,
+    analyses: u64,
+}
+
+impl<'a> Trials<'a> {
+    /// Of `structure`, by the stripes of `measure` with the hazard of a site, under records that scatter so.
+    ///
+    /// # Errors
+    /// Records that cannot be read.
+    pub(super) fn of(
+        structure: &'a Structure,
+        source: &'a StudyOfResult,
+        (measure, hazard, scatter): (&'a SpectraOfResult, &'a Hazard<'a>, &'a Scatter),
+        (options, years): (&'a TargetOptions, f64),
+        events: &'a dyn Events,
+    ) -> Result<Self, DesignError> {
+        let set = records(source, options.manifest.as_deref())?.map_err(|reason| {
+            JobError::input(format!(
+                "{reason}; a target needs the records that the result was made from (--manifest says where they are)"
+            ))
+        })?;
+        let mut study = source.study.clone();
+        // what is lost when a record ends has overturned, whoever looks
+        study.oscillator.free_vibration |= options.event == TargetEvent::Overturning;
+        let restitution = structure.description.restitution.unwrap_or(study.oscillator.restitution);
+        Ok(Self {
+            around: Around::of(structure, restitution, set.records.len())?,
+            structure,
+            result: &source.path,
+            measure,
+            weights: SiteWeights::Alike(hazard.mean),
+            hazard,
+            scatter,
+            options,
+            years,
+            motions: motion_keys(&set.records),
+            set,
+            restitution,
+            study,
+            events,
+            name: format!("target {}", structure.file.file_stem().unwrap_or_default().to_string_lossy()),
+            checkpoint: None,
+            analyses: 0,
+        })
+    }
+
+    /// Coefficient of restitution of the oscillators.
+    pub(super) fn restitution(&self) -> f64 {
+        self.restitution
+    }
+
+    /// The structures that every value may be; none where all of it is known.
+    pub(super) fn around(&self) -> Option<&Around<'a>> {
+        self.around.as_ref()
+    }
+
+    /// Records that shake them.
+    pub(super) fn record_count(&self) -> usize {
+        self.set.records.len()
+    }
+
+    /// The positions of the records of each of their pairs.
+    pub(super) fn pairs(&self) -> &[Vec<usize>] {
+        &self.scatter.pairs
+    }
+
+    /// Nonlinear time histories so far.
+    pub(super) fn analyses(&self) -> u64 {
+        self.analyses
+    }
+
+    /// Refuses a target rarer than what a structure may do of which no run shows it: whatever is found, the stripes
+    /// could not tell it from that.
+    ///
+    /// # Errors
+    /// Such a target, at `site`.
+    pub(super) fn refuse_untellable(&self, site: &str, target_per_year: f64) -> Result<(), DesignError> {
+        let unseen = bounded(EventRisk::new(0.0, [0.0; 2], self.years)?, &self.weights, self.pairs());
+        let Some(bound) = unseen.at_most_per_year.filter(|bound| *bound > target_per_year) else { return Ok(()) };
+        let levels = &self.measure.plan.levels;
+        let measure = self.measure.measure();
+        Err(JobError::Usage(format!(
+            "the target of {target_per_year:.3e} per year is below what these stripes can tell at {site}: motions \
+             above their last level, {} {}, come {:.1e} times a year, and what none of {} does there may still \
+             happen up to {bound:.1e} times a year: let {} of the study reach further up and run it again, take more \
+             records, or give a target above that",
+            levels[levels.len() - 1],
+            measure.unit(),
+            self.weights.stripes().upper_tail_per_year(),
+            records_in_words(self.record_count(), self.pairs().len()),
+            uplift_study::levels_key(measure)
+        ))
+        .into())
+    }
+
+    /// The risks of `values`, in one work.
+    ///
+    /// # Errors
+    /// A value that no such structure has; [`JobError::Paused`] where the events say so.
+    pub(super) fn attempt(&mut self, values: &[f64]) -> Result<Vec<Attempt>, DesignError> {
+        let candidates = values.iter().map(|&value| self.candidate(value)).collect::<Result<Vec<_>, _>>()?;
+        let label = format!("{}, {} values", self.measure.measure().label(), values.len());
+        let levels = self.measure.plan.levels.to_vec();
+        let analysed = self.analyse(&label, &levels, &candidates)?;
+        let weigh = |(place, candidate)| self.weigh(&analysed.peaks, place, candidate);
+        candidates.into_iter().enumerate().map(weigh).collect()
+    }
+
+    /// The structures that may be what `value` makes of the structure.
+    ///
+    /// # Errors
+    /// A value that no such structure has.
+    fn candidate(&self, value: f64) -> Result<Candidate, DesignError> {
+        let quantity = self.options.quantity;
+        let refused = |mistake: String| {
+            let key = quantity.key();
+            JobError::Usage(format!("--vary {key}, {value} {}: {mistake}: give --from and --to", quantity.unit()))
+        };
+        let system = quantity
+            .varied(&self.structure.description, value)
+            .map_err(|mistakes| refused(mistakes.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")))?;
+        let described = system.spectral_oscillator(self.restitution).map_err(|error| refused(error.to_string()))?;
+        let systems = match &self.around {
+            None => vec![System::Oscillator(described)],
+            Some(around) => around.systems(&system).map_err(|error| refused(error.to_string()))?,
+        };
+        Ok(Candidate { system, systems })
+    }
+
+    /// What the `peaks` of the candidate at `place` among others say.
+    fn weigh(&self, peaks: &Peaks, place: usize, candidate: Candidate) -> Result<Attempt, DesignError> {
+        let all = place * self.per_record()..(place + 1) * self.per_record();
+        let mut happens = vec![0_u32; self.set.records.len() * self.measure.plan.levels.len()];
+        let mut of_places = |places| self.risk_of(peaks, places, (&candidate, &mut happens));
+        // structures of each record are one fragility together, branches one each
+        let structures: Vec<StructureRisk> = if self.is_of_each_record() {
+            vec![of_places(all)?]
+        } else {
+            all.map(|place| of_places(place..place + 1)).collect::<Result<_, _>>()?
+        };
+        let happening = happens.iter().map(|&count| f64::from(count) / self.per_record() as f64).collect();
+        let of = |value: &dyn Fn(&StructureRisk) -> f64| mean(structures.iter().map(value).collect());
+        let tail = |share: fn(&EventRisk) -> f64| of(&|one: &StructureRisk| share(&one.risk) * one.risk.per_year);
+        let mut risk = if let [one] = &structures[..] {
+            one.risk
+        } else {
+            let tails = [tail(|risk| risk.lower_tail_share), tail(|risk| risk.upper_tail_share)];
+            EventRisk::new(of(&|one| one.risk.per_year), tails, self.years)?
+        };
+        // what has no capacity cannot overturn
+        let may_happen = |system: &System| {
+            threshold_m(self.options.event, &candidate.system, system) < OVERTURNING_M || system.can_overturn()
+        };
+        if candidate.systems.iter().any(may_happen) {
+            risk = bounded(risk, &self.weights, self.pairs());
+        }
+        let record_per_year =
+            (0..self.set.records.len()).map(|record| of(&|one| one.record_per_year[record])).collect();
+        Ok(Attempt { candidate, risk, record_per_year, happening, structures })
+    }
+
+    /// The risk of the structures at `places` of a `candidate`, each with its own threshold; counts in `happens` to how
+    /// many of them it happens, `[record, level]`.
+    fn risk_of(
+        &self,
+        peaks: &Peaks,
+        places: Range<usize>,
+        (candidate, happens): (&Candidate, &mut [u32]),
+    ) -> Result<StructureRisk, DesignError> {
+        let (records, draws) = (self.set.records.len(), places.len());
+        let run = |record: usize, place: usize| {
+            let own = place % self.per_record() + if self.is_of_each_record() { record * self.per_record() } else { 0 };
+            let system = &candidate.systems[own];
+            (peaks.row_m(record, place), threshold_m(self.options.event, &candidate.system, system))
+        };
+        let of_record = |record: usize| places.clone().map(move |place| run(record, place));
+        let told = happenings(&self.measure.plan.levels, (0..records).flat_map(of_record))?;
+        let risk = risk_of_exceeding(&told, &self.weights, HAPPENS, self.years)?;
+        let contributed = |weights: &StripeWeights| -> Vec<f64> {
+            let per_year = weights.per_year();
+            let of_run = |(row_m, threshold_m): (&[f64], f64)| -> f64 {
+                let peaks_m = row_m.iter().zip(&per_year);
+                peaks_m.filter(|(peak_m, _)| **peak_m > threshold_m).map(|(_, weight)| weight).sum()
+            };
+            (0..records).map(|record| of_record(record).map(of_run).sum::<f64>() / draws as f64).collect()
+        };
+        for (record, happens) in happens.chunks_exact_mut(self.measure.plan.levels.len()).enumerate() {
+            for (row_m, threshold_m) in of_record(record) {
+                happens.iter_mut().zip(row_m).for_each(|(count, peak_m)| *count += u32::from(*peak_m > threshold_m));
+            }
+        }
+        let number = self.around.as_ref().and_then(|around| around.hazard_number(places.start % self.per_record()));
+        let with_hazard = number.filter(|_| !self.hazard.branches.is_empty());
+        Ok(StructureRisk {
+            risk,
+            record_per_year: contributed(self.weights.stripes()),
+            with_hazard: with_hazard.map(|number| contributed(self.hazard.at(number))),
+        })
+    }
+
+    /// Which share of the runs lets it happen to the structures of `attempt` at the levels that `curve` has for the
+    /// return periods asked for; one outside the curve is a note.
+    ///
+    /// # Errors
+    /// As [`attempt`](Self::attempt).
+    pub(super) fn at_return_periods(
+        &mut self,
+        attempt: &Attempt,
+        curve: Option<&HazardCurve>,
+        notes: &mut Vec<String>,
+    ) -> Result<Vec<LevelShare>, DesignError> {
+        let Some(curve) = curve else { return Ok(Vec::new()) };
+        let mut periods = self.options.return_periods.clone();
+        periods.sort_by(f64::total_cmp);
+        periods.dedup();
+        let mut asked: Vec<(f64, f64)> = Vec::new();
+        for years in periods {
+            match curve.im_at_rate(1.0 / years) {
+                // a curve that is level has one level for several
+                Ok(level) if asked.last().is_none_or(|(_, before)| level > *before) => asked.push((years, level)),
+                Ok(_) => {}
+                Err(error) => notes.push(format!("nothing is told of a return period of {years} years: {error}")),
+            }
+        }
+        if asked.is_empty() {
+            return Ok(Vec::new());
+        }
+        let levels: Vec<f64> = asked.iter().map(|(_, level)| *level).collect();
+        let label = format!("{}, {} return periods", self.measure.measure().label(), levels.len());
+        let analysed = self.analyse(&label, &levels, std::slice::from_ref(&attempt.candidate))?;
+        let thresholds_m = attempt.candidate.thresholds_m(self.options.event);
+        let records = self.set.records.len();
+        let runs = records * self.per_record();
+        let share = |(scale, &(return_period_years, level)): (usize, &(f64, f64))| {
+            let happens = |run: usize| {
+                let (record, place) = (run / self.per_record(), run % self.per_record());
+                let own = if self.is_of_each_record() { run } else { place };
+                analysed.peaks.at_m([record, place, scale]) > thresholds_m[own]
+            };
+            let count = (0..runs).filter(|run| happens(*run)).count();
+            let probability = count as f64 / runs as f64;
+            LevelShare { return_period_years, level, records, runs, count, probability }
+        };
+        Ok(asked.iter().enumerate().map(share).collect())
+    }
+
+    /// Takes the checkpoint away, once the answer is there.
+    pub(super) fn finish(self) {
+        if let Some(checkpoint) = self.checkpoint {
+            checkpoint.remove();
+        }
+    }
+
+    /// The peaks of `candidates` at `levels`, in the unit of the measure: those of a candidate lie together.
+    fn analyse(&mut self, label: &str, levels: &[f64], candidates: &[Candidate]) -> Result<Analysed, DesignError> {
+        // one job has the file at a time, and this one goes on with it
+        drop(self.checkpoint.take());
+        let systems: Vec<System> = if self.is_of_each_record() {
+            // those of each record, one record after the other
+            let of = |record: usize| record * self.per_record()..(record + 1) * self.per_record();
+            let of_record = |record| candidates.iter().flat_map(move |one| one.systems[of(record)].iter().cloned());
+            (0..self.set.records.len()).flat_map(of_record).collect()
+        } else {
+            candidates.iter().flat_map(|one| one.systems.iter().cloned()).collect()
+        };
+        let plan: Plan<'_> = plan_levels(&self.study, (self.measure.measure(), levels), &self.set, &systems)?;
+        let plan = if self.is_of_each_record() { plan.with_own_systems()? } else { plan };
+        self.analyses += plan.analyses();
+        let remark = self.cost(&plan, candidates.len()).map(|cost| ("uncertainty".to_owned(), cost));
+        let labelled = LabelledPlan { label: label.to_owned(), remark, plan, motions: &self.motions, known: None };
+        let beside = Beside { result: self.result, name: &self.name };
+        let (analysed, checkpoint) = beside.results(Work::new(&self.name, vec![labelled]), &[], self.events)?;
+        self.checkpoint = Some(checkpoint);
+        analysed.into_iter().next().ok_or(JobError::Interrupted.into())
+    }
+
+    /// What a round costs where every value is many structures, in words.
+    fn cost(&self, plan: &Plan<'_>, values: usize) -> Option<String> {
+        self.around.as_ref()?;
+        let (axes, structures) = (plan.axes(), self.per_record());
+        let whose = if self.is_of_each_record() { "structures of each record" } else { "structures" };
+        Some(format!(
+            "{values} values x {structures} {whose} x {} records x {} levels, {} analyses",
+            axes.motions,
+            axes.scales,
+            thousands(plan.analyses())
+        ))
+    }
+
+    /// Structures that a record shakes at every value.
+    pub(super) fn per_record(&self) -> usize {
+        self.around.as_ref().map_or(1, Around::per_record)
+    }
+
+    fn is_of_each_record(&self) -> bool {
+        self.around.as_ref().is_some_and(Around::is_of_each_record)
+    }
+}
+
+/// The mean of numbers that are not alike; that of those that are, to the bit.
+fn mean(values: Vec<f64>) -> f64 {
+    Spread::of(values).mean
+}

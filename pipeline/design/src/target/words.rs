@@ -1,0 +1,137 @@
+//! What is said of a search: why it has no answer, where it crosses the target, what it takes for granted.
+
+use uplift_job::alarm::{Alarm, Severity};
+use uplift_result::ResultFile;
+use uplift_structure::UncertainQuantity;
+use uplift_study::Structure;
+use uplift_uniform_risk::EventRisk;
+
+use super::TargetOptions;
+use super::candidate::Attempt;
+use super::search::{Crossing, MOST_CROSSINGS, crossings};
+
+/// A refusal with the numbers that are probably mistaken: the reason for it, most likely.
+pub(super) fn with_mistakes(reason: String, alarms: &[Alarm]) -> String {
+    let mistakes = alarms.iter().filter(|alarm| alarm.severity == Severity::Mistake);
+    let line = |alarm: &Alarm| format!("\n{} {alarm}: {}", alarm.severity.word(), alarm.what_to_do);
+    mistakes.fold(reason, |said, alarm| said + &line(alarm))
+}
+
+/// What is to be said of the values that were tried.
+pub(super) struct Words<'a> {
+    pub(super) options: &'a TargetOptions,
+    pub(super) target_per_year: f64,
+}
+
+impl Words<'_> {
+    /// Position of the least value from which on all meet the target.
+    ///
+    /// # Errors
+    /// Why there is none.
+    pub(super) fn first_of_met(&self, tried: &[(f64, Attempt)]) -> Result<usize, String> {
+        let Self { options, target_per_year } = self;
+        let (key, event) = (options.quantity.key(), options.event.words());
+        let at = |(value, attempt): &(f64, Attempt)| {
+            let frequency = match attempt.risk {
+                EventRisk { per_year: 0.0, at_most_per_year: Some(bound), .. } => format!("less than {bound:.1e}"),
+                EventRisk { per_year: 0.0, .. } => "none".to_owned(),
+                EventRisk { per_year, .. } => format!("{per_year:.3e}"),
+            };
+            format!("{frequency} at {}", self.value(*value))
+        };
+        let ends = || match (tried.first(), tried.last()) {
+            (Some(first), Some(last)) => format!("{} and {}", at(first), at(last)),
+            _ => String::new(),
+        };
+        let missed = tried.iter().rposition(|(_, attempt)| !attempt.meets(*target_per_year));
+        match missed {
+            None => Err(format!(
+                "the target is met at every {key} of the range: {event} has {} per year, and {target_per_year:.3e} is \
+                 allowed: give a lower --from, or a rarer target",
+                ends()
+            )),
+            Some(last) if last + 1 < tried.len() => Ok(last + 1),
+            Some(_) => {
+                let found = crossings(tried, |attempt| attempt.meets(*target_per_year));
+                if found.is_empty() {
+                    return Err(format!(
+                        "the target is missed at every {key} of the range: {event} has {} per year, and \
+                         {target_per_year:.3e} is allowed: give a higher --to, or vary something else",
+                        ends()
+                    ));
+                }
+                Err(format!(
+                    "the target is met in between and missed at the largest {key}: {}; a larger one is not safer \
+                     here: choose --to below the last of these crossings",
+                    self.crossings(&found)
+                ))
+            }
+        }
+    }
+
+    pub(super) fn notes(&self, found: &[Crossing], tried: &[(f64, Attempt)]) -> Vec<String> {
+        if found.len() < 2 {
+            return Vec::new();
+        }
+        let least = tried.iter().find(|(_, attempt)| attempt.meets(self.target_per_year));
+        let least = least.map_or_else(String::new, |(value, _)| format!(" from {} on", self.value(*value)));
+        vec![format!(
+            "the frequency crosses the target {} times, for it does not fall all the way: it is met here and \
+             there{least}, and at every value tried above the one told ({})",
+            found.len(),
+            self.crossings(found)
+        )]
+    }
+
+    fn value(&self, value: f64) -> String {
+        // six digits, and no more of a stiffness than of a width
+        let rounded = format!("{value:.5e}").parse::<f64>().unwrap_or(value);
+        format!("{rounded} {}", self.options.quantity.unit()).trim_end().to_owned()
+    }
+
+    fn crossings(&self, found: &[Crossing]) -> String {
+        let words: Vec<String> = found
+            .iter()
+            .take(MOST_CROSSINGS)
+            .map(|crossing| {
+                let becomes = if crossing.becomes_met { "met" } else { "missed" };
+                format!("{becomes} from {} on", self.value(crossing.to))
+            })
+            .collect();
+        let more = if found.len() > MOST_CROSSINGS {
+            format!(", and {} more", found.len() - MOST_CROSSINGS)
+        } else {
+            String::new()
+        };
+        format!("{}{more}", words.join(", "))
+    }
+}
+
+/// What is taken for granted of the structure and of the records.
+pub(super) fn assumptions(structure: &Structure, file: &ResultFile, restitution: f64) -> Vec<String> {
+    let mut notes = Vec::new();
+    let is_drawn =
+        structure.uncertainty.as_ref().is_some_and(|of| of.quantities.contains(&UncertainQuantity::Restitution));
+    if structure.description.restitution.is_none() && !is_drawn {
+        notes.push(format!(
+            "every value has the restitution of the study, {restitution}: what is made more slender loses less at an \
+             impact, and its risk is larger; write the restitution of the structure that was found into its file, and \
+             look at its full motion with uplift overturning"
+        ));
+    }
+    if file.stored_study().is_ok_and(|study| study.records.vertical) {
+        notes.push(
+            "every value is looked for with the equivalent oscillator, which does not feel the vertical components of \
+             the records: uplift risk and uplift overturning shake frames and blocks with them"
+                .to_owned(),
+        );
+    }
+    if file.has_repair() {
+        notes.push(
+            "the records count alike here: the result has weights by which they bring the site's hazard, and uplift \
+             overturning and uplift design --repaired use them"
+                .to_owned(),
+        );
+    }
+    notes
+}

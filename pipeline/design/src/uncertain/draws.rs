@@ -1,0 +1,104 @@
+//! Structures of each record: what differs from one to the next is part of the fragility, and there is one risk.
+
+use std::path::Path;
+
+use uplift_fragility::Stripes as Stripe;
+use uplift_job::JobError;
+use uplift_risk::{PooledDemand, RiskCurve};
+use uplift_study::Uncertainty;
+use uplift_uncertainty::unit_cube;
+use uplift_uniform_risk::Stripes;
+
+use super::report::{AleatoryResult, UncertainFinding};
+use super::{AskedSite, Event, Uncertain};
+use crate::certainty::{Scatter, demand_bands, rate_bands};
+use crate::error::DesignError;
+use crate::risk::{HAPPENS, OVERTURNING_M, happenings};
+
+/// Runs of a level, at most: those that a pool of demands holds.
+const MOST_RUNS: usize = u16::MAX as usize;
+
+/// The points of the structures of each record, one record after the other: a number for each quantity.
+///
+/// # Errors
+/// More structures than a level takes, in the structure `file`.
+pub(super) fn points(of: &Uncertainty, records: usize, file: &Path) -> Result<Vec<Vec<f64>>, DesignError> {
+    let dimensions = of.quantities.len();
+    // structures that are all alike are one, with the very bits of the structure as described
+    let draws = if of.is_known() { 1 } else { of.draws };
+    if records * draws > MOST_RUNS {
+        let error = JobError::input(format!(
+            "[uncertainty]: {draws} structures of each of {records} records are {}, and a level takes {MOST_RUNS}: \
+             take fewer draws",
+            records * draws
+        ));
+        return Err(uplift_job::in_file(error, file).into());
+    }
+    let points = unit_cube(of.sampling, (records * draws, dimensions), of.seed)?;
+    Ok(points.chunks_exact(dimensions).map(<[f64]>::to_vec).collect())
+}
+
+/// The answers, `[site, asked]`: every draw of a record counts as a record does.
+///
+/// # Errors
+/// Parts that do not belong together; more than 65,535 structures.
+pub(super) fn findings(
+    uncertain: &Uncertain<'_>,
+    stripes: &Stripes,
+    sites: &[AskedSite<'_>],
+    scatter: &Scatter,
+) -> Result<Vec<UncertainFinding>, DesignError> {
+    let draws = stripes.peaks.axes().systems;
+    let scatter = drawn(scatter, draws);
+    // the draws of a record lie one after the other, each a row of levels
+    let demands_m = stripes.peaks.displacement_m();
+    let pool = |demands_m: &[f64]| -> Result<PooledDemand, DesignError> {
+        Ok(PooledDemand::new(&Stripe::new(&stripes.levels, demands_m)?)?)
+    };
+    let demand = pool(demands_m)?;
+    let levels = stripes.levels.len();
+    let beyond = happenings(
+        &stripes.levels,
+        demands_m
+            .chunks_exact(levels)
+            .zip(&uncertain.systems)
+            .map(|(row_m, system)| (row_m, Event::BeyondCapacity.threshold_m(system).unwrap_or(f64::INFINITY))),
+    )?;
+    let rate = |site: &AskedSite<'_>, of: &PooledDemand, threshold_m: f64| -> Result<AleatoryResult, DesignError> {
+        let bands = rate_bands(of, site.hazard, &scatter, threshold_m)?;
+        Ok(AleatoryResult {
+            value: RiskCurve::new(of, site.hazard.mean)?.mean_annual_frequency(threshold_m)?,
+            at_most_per_year: None,
+            by_record: bands.map(|bands| bands.by_record),
+            by_earthquake: bands.and_then(|bands| bands.by_earthquake),
+            with_hazard: bands.and_then(|bands| bands.with_hazard),
+        })
+    };
+    let finding = |site: &AskedSite<'_>, event: Event| match event {
+        Event::Overturning => rate(site, &demand, OVERTURNING_M),
+        Event::BeyondCapacity => rate(site, &beyond, HAPPENS),
+        Event::Demand(target_per_year) => {
+            let factor = uncertain.participation;
+            let ordinate = RiskCurve::new(&demand, site.hazard.mean)?.exact_ordinate(target_per_year)?;
+            let bands = demand_bands(&demand, site.hazard, &scatter, (target_per_year, factor, None))?;
+            Ok(AleatoryResult {
+                value: factor * ordinate.displacement_m,
+                at_most_per_year: None,
+                by_record: bands.map(|bands| bands.demand_m.by_record),
+                by_earthquake: bands.and_then(|bands| bands.demand_m.by_earthquake),
+                with_hazard: bands.and_then(|bands| bands.demand_m.with_hazard),
+            })
+        }
+    };
+    let asked = sites.iter().flat_map(|site| site.asked.iter().map(move |(event, _)| (site, *event)));
+    asked.map(|(site, event)| Ok(UncertainFinding::Aleatory(finding(site, event)?))).collect()
+}
+
+/// What scatters where each record has so many draws: they go with their record.
+fn drawn(scatter: &Scatter, draws: usize) -> Scatter {
+    let of_units = |units: &Vec<Vec<usize>>| -> Vec<Vec<usize>> {
+        let of_record = |record: &usize| record * draws..(record + 1) * draws;
+        units.iter().map(|unit| unit.iter().flat_map(of_record).collect()).collect()
+    };
+    Scatter { pairs: of_units(&scatter.pairs), earthquakes: scatter.earthquakes.as_ref().map(of_units) }
+}

@@ -1,0 +1,267 @@
+//! Finished analysis rows in a file, appended as they come.
+//!
+//! The file is a line of JSON, then one block a row. A block that was damaged is passed over, and one that was cut off
+//! ends what is read; when the file is gone on with they are gone. Whatever stops the program, at most the rows in work
+//! are lost.
+
+use std::collections::HashMap;
+use std::fs::File;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, OnceLock, PoisonError};
+use std::time::{Duration, Instant};
+
+use serde::{Deserialize, Serialize};
+use uplift_atomic_file::{FileError, final_place, open_file, write_whole};
+use uplift_ida::{AnalysisRow, Cells};
+
+use super::block::{Row, read_block, write_block};
+use super::error::CheckpointError;
+use super::key::{RowKey, RowKeys};
+use crate::error::EngineError;
+
+/// What the first line says it is.
+pub(super) const FORMAT: &str = "uplift analysis rows 2";
+/// The same of version 0.1: its rows had other keys and are of no use, but nothing is wrong with such a file.
+const FORMAT_BEFORE: &str = "uplift pieces 1";
+/// How every first line begins.
+const FIRST_WORDS: &[u8] = b"{\"format\":\"uplift ";
+/// Longest first line, bytes.
+const LONGEST_HEAD: u64 = 1 << 16;
+/// How often what was appended is brought to the disk.
+const SYNC_EVERY: Duration = Duration::from_secs(5);
+
+/// The first line of a file of finished rows.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RowFileHead {
+    /// Format with its version.
+    format: String,
+    /// Hash of all keys of the whole work, in order.
+    pub work: String,
+    /// Title of the study.
+    pub title: String,
+    /// Which shard of the work, from 1; 1 of 1 is the checkpoint of a run.
+    pub shard: u64,
+    /// Of how many.
+    pub shards: u64,
+    /// Analysis rows of this shard.
+    #[serde(alias = "pieces")]
+    pub rows: u64,
+}
+
+impl RowFileHead {
+    /// The head of the file of one shard of a work.
+    pub fn new(work: String, title: &str, [shard, shards]: [u64; 2], rows: u64) -> Self {
+        Self { format: FORMAT.to_owned(), work, title: title.to_owned(), shard, shards, rows }
+    }
+}
+
+/// Finished rows by their keys.
+#[derive(Debug, Clone, Default)]
+pub struct FinishedRows {
+    rows: HashMap<RowKey, Row>,
+}
+
+impl FinishedRows {
+    /// Puts into `cells` what is there of the rows with `keys`.
+    pub fn fill(&self, keys: &RowKeys, cells: &mut Cells) {
+        if self.rows.is_empty() {
+            return;
+        }
+        for (row, key) in keys.as_slice().iter().enumerate() {
+            if let Some((displacement_m, impacts)) = self.rows.get(key) {
+                let (motion, system) = keys.axes().of_row(row);
+                // a row of another length is none of these, whatever its key says
+                let _ = cells.set_row(&AnalysisRow { motion, system, displacement_m, impacts });
+            }
+        }
+    }
+
+    /// Whether the row is there.
+    pub fn contains(&self, key: RowKey) -> bool {
+        self.rows.contains_key(&key)
+    }
+
+    /// Number of rows.
+    pub fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.rows.is_empty()
+    }
+
+    /// Adds the rows of `other`.
+    pub fn extend(&mut self, other: Self) {
+        self.rows.extend(other.rows);
+    }
+}
+
+/// What a file of finished rows holds.
+#[derive(Debug)]
+pub struct Finding {
+    /// Its first line.
+    pub head: RowFileHead,
+    /// The rows in it.
+    pub rows: FinishedRows,
+    /// Bytes of blocks that were cut off or damaged.
+    pub damaged_bytes: u64,
+}
+
+/// A file to which finished rows are appended.
+#[derive(Debug)]
+pub struct RowFile {
+    path: PathBuf,
+    file: Mutex<(File, Instant)>,
+    /// Why nothing can be appended any more.
+    failure: OnceLock<std::io::Error>,
+}
+
+/// The checkpoint of the result at `result`.
+pub fn checkpoint_path(result: &Path) -> PathBuf {
+    let result = &final_place(result).unwrap_or_else(|_| result.to_owned());
+    let mut name = result.file_name().unwrap_or(result.as_os_str()).to_owned();
+    name.push(".part");
+    result.with_file_name(name)
+}
+
+impl RowFile {
+    /// Reads the file at `path`; none if there is no such file.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or holds something else.
+    pub fn read(path: &Path) -> Result<Option<Finding>, CheckpointError> {
+        let fail = |source| CheckpointError::Read { path: path.to_owned(), source };
+        let file = match open_file(path) {
+            Ok(file) => file,
+            Err(FileError::Io { source, .. }) if source.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+            Err(FileError::Io { source, .. }) => return Err(fail(source)),
+            Err(_) => return Err(CheckpointError::NotRows { path: path.to_owned() }),
+        };
+        let length = file.metadata().map_err(fail)?.len();
+        let mut reader = BufReader::with_capacity(1 << 20, file);
+        let mut line = Vec::new();
+        (&mut reader).take(LONGEST_HEAD).read_until(b'\n', &mut line).map_err(fail)?;
+        let head: RowFileHead = serde_json::from_slice(&line)
+            .ok()
+            .filter(|head: &RowFileHead| [FORMAT, FORMAT_BEFORE].contains(&head.format.as_str()))
+            .filter(|_| line.ends_with(b"\n"))
+            .ok_or_else(|| CheckpointError::NotRows { path: path.to_owned() })?;
+        let mut sound = line.len() as u64;
+        let mut rows = FinishedRows::default();
+        while let Some((block, size)) = read_block(&mut reader) {
+            if let Some((key, row)) = block {
+                rows.rows.insert(key, row);
+                sound += size;
+            }
+        }
+        Ok(Some(Finding { head, rows, damaged_bytes: length.saturating_sub(sound) }))
+    }
+
+    /// Opens the file at `path` to append to it, a new one with `head` unless a sound one of the same work is there;
+    /// with what it holds.
+    ///
+    /// # Errors
+    /// A file that cannot be written, that holds something else, or that is a shard of other work: nothing else is
+    /// overwritten.
+    pub fn open(path: &Path, head: &RowFileHead) -> Result<(Self, Finding), EngineError> {
+        let fail = |source| CheckpointError::Write { path: path.to_owned(), source };
+        // what cannot be read to its first line was cut off in it
+        let found = match Self::read(path) {
+            Err(_) if was_cut_off(path) => None,
+            found => found?,
+        };
+        let found = match found {
+            Some(found) if found.head != *head && (found.head.shards > 1 || head.shards > 1) => {
+                let RowFileHead { title, shard, shards, .. } = found.head;
+                return Err(CheckpointError::OtherWork { path: path.to_owned(), shard, shards, title }.into());
+            }
+            // rows of the version before are none of any work
+            Some(found) if found.head.format == FORMAT_BEFORE => None,
+            found => found,
+        };
+        let (rows, damaged_bytes, same) = found.map_or((FinishedRows::default(), 0, false), |found| {
+            (found.rows, found.damaged_bytes, found.damaged_bytes == 0 && found.head == *head)
+        });
+        if !same {
+            // written anew without what is damaged; rows of other work may be of use, and are carried over
+            let mut content = serde_json::to_vec(head).map_err(|error| fail(error.into()))?;
+            content.push(b'\n');
+            for (key, (displacement_m, impacts)) in &rows.rows {
+                content.extend(write_block(*key, displacement_m, impacts));
+            }
+            write_whole(path, &content)?;
+        }
+        let file = File::options().append(true).open(path).map_err(fail)?;
+        let file = Mutex::new((file, Instant::now()));
+        let found = Finding { head: head.clone(), rows, damaged_bytes };
+        Ok((Self { path: path.to_owned(), file, failure: OnceLock::new() }, found))
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Appends a finished row. What goes wrong is told by [`RowFile::full`].
+    pub fn append(&self, key: RowKey, row: &AnalysisRow<'_>) {
+        if self.is_full() {
+            return;
+        }
+        let block = write_block(key, row.displacement_m, row.impacts);
+        let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut written = file.0.write_all(&block);
+        if written.is_ok() && file.1.elapsed() >= SYNC_EVERY {
+            file.1 = Instant::now();
+            // the others go on while the disk works
+            let copy = file.0.try_clone();
+            drop(file);
+            written = copy.and_then(|file| file.sync_data());
+        }
+        if let Err(error) = written {
+            // of several threads the first says why
+            let _ = self.failure.set(error);
+        }
+    }
+
+    /// Whether nothing can be appended any more.
+    pub fn is_full(&self) -> bool {
+        self.failure.get().is_some()
+    }
+
+    /// Why nothing can be appended any more, if so.
+    pub fn full(&self) -> Option<CheckpointError> {
+        let failure = self.failure.get()?;
+        let source = failure.raw_os_error().map_or_else(
+            || std::io::Error::new(failure.kind(), failure.to_string()),
+            std::io::Error::from_raw_os_error,
+        );
+        Some(CheckpointError::Full { path: self.path.clone(), source })
+    }
+
+    /// Brings everything to the disk.
+    ///
+    /// # Errors
+    /// What the operating system says.
+    pub fn sync(&self) -> Result<(), CheckpointError> {
+        let file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
+        file.0.sync_all().map_err(|source| CheckpointError::Write { path: self.path.clone(), source })
+    }
+
+    /// Takes the file away, once its rows are in a result.
+    pub fn remove(self) {
+        let _ = std::fs::remove_file(&self.path);
+    }
+}
+
+/// Whether the file at `path` ends within its first line, as one that was being begun.
+fn was_cut_off(path: &Path) -> bool {
+    let mut head = Vec::new();
+    let read = open_file(path).is_ok_and(|file| file.take(LONGEST_HEAD).read_to_end(&mut head).is_ok());
+    let begun = &head[..head.len().min(FIRST_WORDS.len())];
+    read && head.len() as u64 != LONGEST_HEAD && !head.contains(&b'\n') && FIRST_WORDS.starts_with(begun)
+}
+
+#[cfg(test)]
+mod tests;

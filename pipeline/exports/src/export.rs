@@ -1,0 +1,169 @@
+//! Spectra, bands and coefficients, or the tests of a shaking table, for other programs: a tidy table, JSON, a MATLAB
+//! file, a workbook.
+
+mod added;
+mod consistency;
+mod findings;
+mod json;
+mod matlab;
+mod shake_table;
+mod source;
+mod table;
+mod workbook;
+
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+
+use crate::error::ExportsError;
+use shake_table::TestsExport;
+pub use source::Export;
+use uplift_job::JobError;
+use uplift_job::events::Events;
+use uplift_job::outputs::{self, Output, OutputKind, beside};
+use uplift_job::table::{write_atomically, write_table};
+use uplift_questions::bootstrap::resampled;
+use uplift_result::{Kind, ResultFile};
+use uplift_studies::shake_table::TESTS_COLUMN;
+use uplift_uniform_risk::AskedRisk;
+use uplift_uniform_risk::at;
+
+/// Formats of other programs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ExportFormat {
+    /// A tidy table, a row each ordinate: `site`, `im`, `poe`, `years`, `strength`, `u_m`, `fit_m`, then more.
+    Csv,
+    /// One object with the spectra, their bands and their coefficients.
+    Json,
+    /// A file that MATLAB and `scipy.io` load; `u_pgv_m` is strength × probability × site.
+    Matlab,
+    /// A workbook of Excel: a sheet each of spectra, bands, coefficients, hazard, and of where they come from.
+    Workbook,
+}
+
+impl ExportFormat {
+    /// How the files end that are named after a result of this kind.
+    pub fn extension(self, of: Kind) -> &'static str {
+        match self {
+            Self::Csv if of == Kind::ShakeTable => "tests.csv",
+            Self::Csv => "spectra.csv",
+            Self::Json => "json",
+            Self::Matlab => "mat",
+            Self::Workbook => "xlsx",
+        }
+    }
+
+    fn kind(self, of: Kind) -> OutputKind {
+        match self {
+            Self::Csv if of == Kind::ShakeTable => OutputKind::Table(TESTS_COLUMN),
+            Self::Csv => OutputKind::Table("fit_m"),
+            Self::Json => OutputKind::Json,
+            Self::Matlab => OutputKind::Matlab,
+            Self::Workbook => OutputKind::Workbook,
+        }
+    }
+}
+
+/// How the table ends of what structures were asked.
+const FINDINGS: &str = "structures.csv";
+
+/// What is exported, and where it goes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExportOptions {
+    /// The result file.
+    pub result: PathBuf,
+    /// The formats, one or more.
+    pub formats: Vec<ExportFormat>,
+    /// The file, beside one format; the result with the ending of each format if none is given.
+    pub output: Option<PathBuf>,
+    /// The risks of the spectra.
+    pub risk: AskedRisk,
+    /// Whether whatever is at the places of the files gives way.
+    pub force: bool,
+}
+
+/// What was exported.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct ExportReport {
+    /// The files, in the order of the formats; last the table of answers about structures, where CSV was asked for.
+    pub files: Vec<PathBuf>,
+}
+
+/// Writes the spectra, bands and coefficients of a result for other programs.
+///
+/// # Errors
+/// No format, or several for one file; a file that is no result, is damaged or has no spectra; a file that would
+/// overwrite the result or what is not this program's, or cannot be written.
+pub fn export(options: &ExportOptions, events: &dyn Events) -> Result<ExportReport, ExportsError> {
+    if options.formats.is_empty() || (options.output.is_some() && options.formats.len() > 1) {
+        return Err(JobError::Usage("say --csv, --json, --mat or --xlsx; -o goes with one of them".to_owned()).into());
+    }
+    let result = ResultFile::open(&options.result)?;
+    let kind = result.kind();
+    let file = |format: &ExportFormat| {
+        options.output.clone().unwrap_or_else(|| beside(&options.result, format.extension(kind)))
+    };
+    let output = |format: &ExportFormat| Output::new(file(format), format.kind(kind)).of(&options.result);
+    let mut outputs: Vec<Output> = options.formats.iter().map(output).collect();
+    // answers about structures are no ordinates: they have a table of their own
+    let has_findings = options.formats.contains(&ExportFormat::Csv) && !result.findings()?.is_empty();
+    let findings = has_findings.then(|| match &options.output {
+        Some(table) => table.with_extension(FINDINGS),
+        None => beside(&options.result, FINDINGS),
+    });
+    outputs.extend(
+        findings.iter().map(|table| Output::new(table, OutputKind::Table(findings::FIRST_COLUMN)).of(&options.result)),
+    );
+    if kind == Kind::ShakeTable {
+        if options.risk != AskedRisk::default() {
+            return Err(JobError::Usage(
+                "the tests of a shaking table have no risk: leave --poe and the like out".into(),
+            )
+            .into());
+        }
+        outputs::check(&outputs, &[&options.result], options.force)?;
+        let export = TestsExport::of(&result)?;
+        return write_each(&options.formats, file, events, |format, file| match format {
+            ExportFormat::Csv => Ok(write_table(file, &export.provenance, export.columns())?),
+            ExportFormat::Json => Ok(write_atomically(file, format!("{:#}\n", export.json()).as_bytes())?),
+            ExportFormat::Matlab => Ok(write_atomically(file, &export.matlab()?)?),
+            ExportFormat::Workbook => Ok(write_atomically(file, &export.workbook()?)?),
+        });
+    }
+    let result = at(result, &options.risk)?;
+    outputs::check(&outputs, &[&options.result], options.force)?;
+    let result = resampled(result, events)?;
+    let export = Export::of(&result)?;
+    let mut report = write_each(&options.formats, file, events, |format, file| match format {
+        ExportFormat::Csv => Ok(write_table(file, export.provenance(), export.columns())?),
+        ExportFormat::Json => Ok(write_atomically(file, format!("{:#}\n", export.json()).as_bytes())?),
+        ExportFormat::Matlab => Ok(write_atomically(file, &export.matlab()?)?),
+        ExportFormat::Workbook => Ok(write_atomically(file, &export.workbook()?)?),
+    })?;
+    if let Some(table) = findings {
+        write_table(&table, export.provenance(), export.finding_columns())?;
+        report.files.push(table);
+    }
+    // after what was written anew
+    result.tell_made_of_another(events)?;
+    Ok(report)
+}
+
+/// Writes each of the `formats` to its file, unless `events` stop it before.
+fn write_each(
+    formats: &[ExportFormat],
+    file: impl Fn(&ExportFormat) -> PathBuf,
+    events: &dyn Events,
+    write: impl Fn(&ExportFormat, &Path) -> Result<(), ExportsError>,
+) -> Result<ExportReport, ExportsError> {
+    let mut files = Vec::new();
+    for format in formats {
+        if events.cancelled() {
+            return Err(JobError::Interrupted.into());
+        }
+        let file = file(format);
+        write(format, &file)?;
+        files.push(file);
+    }
+    Ok(ExportReport { files })
+}

@@ -1,0 +1,184 @@
+//! A result as JSON.
+
+use serde_json::{Value, json};
+use uplift_job::text::finite;
+use uplift_questions::influence::RecordInfluence;
+use uplift_result::declared::{Field, Quantity};
+use uplift_result::{Fit, Fits, StoredEfficiency, StoredSpread, StoredTrend, flag_word, regression, urs};
+
+use super::Export;
+use super::added::Influence;
+use super::consistency::ConsistencyOf;
+use super::source::{BandOf, INFERRED, Row};
+
+impl Export {
+    /// Everything as one JSON object; what is not finite is null.
+    pub fn json(&self) -> Value {
+        let mut all = json!({
+            "provenance": self.provenance(),
+            "title": self.head.title,
+            "created": self.head.created,
+            "study_digest": self.head.study_digest(),
+            "record_set": self.head.record_set,
+            "synthetic": self.head.synthetic,
+            "alarms": self.alarms,
+            "years": self.spectra.years,
+            "strength": self.spectra.strengths,
+            "confidence": self.bands.as_ref().map(|bands| bands.confidence),
+            "resampled": self.bands.as_ref().map(|bands| bands.unit.key()),
+            "influence": self.influences(),
+            "efficiency": self.added.efficiency.iter().map(efficiency).collect::<Vec<_>>(),
+            "spectra": self.rows().map(|row| self.spectrum(&row)).collect::<Vec<_>>(),
+        });
+        if !self.consistency.is_empty() {
+            all["consistency"] = self.consistencies().map(|row| consistency(&row)).collect();
+        }
+        if !self.findings.is_empty() {
+            all["structures"] = self.findings_json();
+        }
+        all
+    }
+
+    fn spectrum(&self, row: &Row<'_>) -> Value {
+        let mut spectrum = json!({
+            "site": row.spectrum.site,
+            "im": row.spectrum.measure.label(),
+            "poe": row.spectrum.poe,
+            "return_period_years": finite(row.return_period),
+        });
+        let strengths = self.spectra.strengths.len();
+        let first = (row.at[0] * self.spectra.poes.len() + row.at[1]) * strengths;
+        for quantity in urs::GROUP.quantities {
+            spectrum[quantity.name] = (first..first + strengths).map(|at| cell(quantity, row.of_measure, at)).collect();
+        }
+        spectrum["fit"] = coefficients(&row.spectrum.fit);
+        spectrum["bands"] = self.bands_of(row).iter().map(band).collect();
+        spectrum["disaggregation"] =
+            self.influence_on(row).map(|influence| self.disaggregation(row.at, influence)).into();
+        if let Some((u_m, fit)) = self.repaired(row) {
+            spectrum["u_consistent_m"] = numbers(u_m).into();
+            spectrum["fit_consistent"] = coefficients(fit);
+            spectrum["bands_consistent"] = self.repaired_bands_of(row).iter().map(band).collect();
+        }
+        for (key, bands) in
+            [("bands_joint", self.joint_bands_of(row)), ("bands_consistent_joint", self.repaired_joint_bands_of(row))]
+        {
+            if !bands.is_empty() {
+                spectrum[key] = bands.iter().map(band).collect();
+            }
+        }
+        for over in self.spread_over() {
+            let Some(limits_m) = self.spread_of(row, over) else { continue };
+            let named = StoredSpread::names().into_iter().zip(limits_m);
+            let named = named.map(|(name, values_m)| (format!("{name}_m"), numbers(values_m).into()));
+            spectrum[format!("spread_over_{}", over.key())] = Value::Object(named.collect());
+        }
+        spectrum
+    }
+
+    /// The records of every spectrum, the most influential first.
+    fn influences(&self) -> Vec<Value> {
+        let of_row = |row: Row<'_>| {
+            let of = |found: &RecordInfluence| {
+                json!({
+                    "site": row.spectrum.site,
+                    "im": row.spectrum.measure.label(),
+                    "poe": row.spectrum.poe,
+                    "record": self.added.records[found.record],
+                    "mean_change_pct": finite(100.0 * found.mean_change),
+                    "largest_change_pct": finite(100.0 * found.largest_change),
+                    "at_strength": found.strength,
+                })
+            };
+            let ranking = self.influence_on(&row).map(|influence| &influence.ranking[row.at]);
+            ranking.into_iter().flatten().map(of).collect::<Vec<Value>>()
+        };
+        self.rows().flat_map(of_row).collect()
+    }
+
+    /// Where the risk of each ordinate comes from.
+    fn disaggregation(&self, [site, poe]: [usize; 2], influence: &Influence) -> Value {
+        let share = |strength| numbers(influence.stored.shares.block([site, poe, strength]));
+        json!({
+            "level_from": influence.stored.bins,
+            "share": (0..self.spectra.strengths.len()).map(share).collect::<Vec<_>>(),
+        })
+    }
+}
+
+fn coefficients(fit: &Fit) -> Value {
+    let fit = Fits::from_fn([1, 1], |_| *fit);
+    let all = regression::COEFFICIENTS.iter().chain([&regression::BOUND_ACTIVE]);
+    Value::Object(all.map(|quantity| (quantity.name.to_owned(), cell(quantity, &fit, 0))).collect())
+}
+
+/// The value at an index of a stored array.
+fn cell<T>(quantity: &Quantity<T>, of: &T, at: usize) -> Value {
+    match quantity.field {
+        Field::F64(place) => finite(*(place.get)(of, at)).into(),
+        Field::U32(place) => (*(place.get)(of, at)).into(),
+        Field::Bool(place) => (*(place.get)(of, at)).into(),
+        Field::Flag(place) => flag_word(*(place.get)(of, at)).into(),
+        Field::Text(place) => (place.get)(of, at).as_str().into(),
+    }
+}
+
+fn consistency(row: &ConsistencyOf<'_>) -> Value {
+    let mut said = json!({
+        "site": row.site,
+        "scaled_to": row.of.scaled_to.label(),
+        "shows": row.of.other.label(),
+        "poe": row.of.poes,
+        "years": row.of.years,
+        "ratio": numbers(row.ratio),
+        "bias": finite(row.bias),
+        "max": finite(row.max),
+        "verdict": row.verdict,
+    });
+    if let Some(least) = row.least_effective {
+        said["least_effective_records"] = finite(least).into();
+    }
+    said
+}
+
+fn efficiency(of: &StoredEfficiency) -> Value {
+    let trend = |trend: &StoredTrend| {
+        json!({
+            "covariate": trend.covariate,
+            "slope": numbers(&trend.slope),
+            "p_value": numbers(&trend.p_value),
+        })
+    };
+    json!({
+        "im": of.measure.label(),
+        "scaled_to": of.scaled_to.label(),
+        "dispersion_level": numbers(&of.reaching),
+        "dispersion_rocking": numbers(&of.rocking),
+        "undefined_share": numbers(&of.undefined),
+        "dispersion_initiation": numbers(&of.initiation),
+        "trends": of.trends.iter().map(trend).collect::<Vec<_>>(),
+    })
+}
+
+fn band(band: &BandOf<'_>) -> Value {
+    let [lower_m, median_m, upper_m] = band.limits_m.map(numbers);
+    let mut said = json!({
+        "sample_size": band.records,
+        "lower_m": lower_m,
+        "median_m": median_m,
+        "upper_m": upper_m,
+        "e_median_pct": finite(band.error_of_median_pct),
+        "r_90ci_pct": finite(band.range_of_interval_pct),
+    });
+    for (name, limits_m) in INFERRED.iter().zip(band.inferred_m.iter().flatten()) {
+        said[format!("{name}_m")] = numbers(limits_m).into();
+    }
+    if let Some(share) = band.failed_share {
+        said["failed_share"] = finite(share).into();
+    }
+    said
+}
+
+fn numbers(values: &[f64]) -> Vec<Option<f64>> {
+    values.iter().copied().map(finite).collect()
+}

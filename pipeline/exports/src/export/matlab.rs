@@ -1,0 +1,180 @@
+//! A result as a MATLAB file.
+
+pub(super) mod level_5;
+
+use uplift_job::JobError;
+use uplift_job::alarm::Alarm;
+use uplift_result::declared::Quantity;
+use uplift_result::{InferredBands, StoredSpectra, StoredSpectraBands, StoredSpread, regression, urs};
+
+use super::Export;
+use super::added::Influence;
+use super::source::INFERRED;
+use crate::error::ExportsError;
+use level_5::{MatFile, Shape};
+
+impl Export {
+    /// A MATLAB file: `u_pgv_m` is strength × probability × site, bands `u05_pgv_m` are strength × size × probability ×
+    /// site, coefficients probability × site.
+    ///
+    /// # Errors
+    /// A result that is too large for the format.
+    pub fn matlab(&self) -> Result<Vec<u8>, ExportsError> {
+        let StoredSpectra { strengths, poes, years, sites, measures } = &self.spectra;
+        let mut file = MatFile::new(self.provenance());
+        file.text("provenance", self.provenance());
+        let said = |alarm: &Alarm| format!("{}: {alarm}", alarm.severity.word());
+        let alarms: Vec<String> = self.alarms.iter().map(said).collect();
+        file.texts("warnings", &alarms.iter().map(String::as_str).collect::<Vec<_>>());
+        file.numbers("strength", &Shape::column(strengths.len()), strengths);
+        file.numbers("poe", &Shape::column(poes.len()), poes);
+        file.numbers("years", &Shape::column(1), &[*years]);
+        file.numbers("return_period_years", &Shape::column(poes.len()), &self.return_periods);
+        file.texts("site", &sites.iter().map(String::as_str).collect::<Vec<_>>());
+        for spectra in measures {
+            let key = spectra.measure.key();
+            // spectra come site by site, in each probability by probability: the order of MATLAB's columns
+            let shape = Shape(vec![strengths.len(), poes.len(), sites.len()]);
+            add(&mut file, urs::GROUP.quantities, key, &shape, spectra);
+            add(&mut file, regression::COEFFICIENTS, key, &Shape(vec![poes.len(), sites.len()]), &spectra.fits);
+        }
+        self.add_consistency(&mut file);
+        self.add_bands(&mut file);
+        self.add_spreads(&mut file);
+        self.add_influence(&mut file);
+        self.add_efficiency(&mut file);
+        if !self.findings.is_empty() {
+            self.add_findings(&mut file);
+        }
+        Ok(file.finish().map_err(JobError::input)?)
+    }
+
+    /// Whether the records bring the site's hazard, columns over the sites, and the spectra of weighted records as the
+    /// plain ones.
+    fn add_consistency(&self, file: &mut MatFile) {
+        let StoredSpectra { strengths, poes, sites, .. } = &self.spectra;
+        for of in &self.consistency {
+            let key = of.scaled_to.key();
+            let column = Shape::column(sites.len());
+            file.numbers(&format!("consistency_bias_{key}"), &column, &of.bias);
+            file.numbers(&format!("consistency_max_{key}"), &column, &of.max);
+            let verdicts: Vec<&str> = of.verdict.iter().map(String::as_str).collect();
+            file.texts(&format!("consistency_verdict_{key}"), &verdicts);
+            if let Some(least) = &of.least_effective {
+                file.numbers(&format!("consistency_least_effective_{key}"), &column, least);
+            }
+            let shape = Shape(vec![poes.len(), sites.len()]);
+            file.numbers(&format!("consistency_ratio_{key}"), &shape, of.ratio.values());
+            if let (Some(u_m), Some(fits)) = (&of.u_m, &of.fits) {
+                let spectra = Shape(vec![strengths.len(), poes.len(), sites.len()]);
+                file.numbers(&format!("u_consistent_{key}_m"), &spectra, u_m.values());
+                add(file, regression::COEFFICIENTS, &format!("consistent_{key}"), &shape, fits);
+            }
+        }
+    }
+
+    /// Mean and fractiles over what is not known, as the spectra: `u05_hazard_pgv_m`; NaN where a site has no such
+    /// spread.
+    fn add_spreads(&self, file: &mut MatFile) {
+        let StoredSpectra { strengths, poes, sites, measures, .. } = &self.spectra;
+        let shape = Shape(vec![strengths.len(), poes.len(), sites.len()]);
+        for over in self.spread_over() {
+            for of in measures {
+                let none = vec![f64::NAN; strengths.len()];
+                for (place, name) in StoredSpread::names().iter().enumerate() {
+                    let rows = self.rows().filter(|row| row.spectrum.measure == of.measure);
+                    let values = rows.flat_map(|row| match self.spread_of(&row, over) {
+                        Some(limits_m) => limits_m[place].to_vec(),
+                        None => none.clone(),
+                    });
+                    let values: Vec<f64> = values.collect();
+                    file.numbers(&format!("{name}_{}_{}_m", over.key(), of.measure.key()), &shape, &values);
+                }
+            }
+        }
+    }
+
+    /// What `uplift influence` found, if it was run: `share_pgv` is bin × strength × probability × site,
+    /// `u_without_pgv_m` strength × record × probability × site.
+    fn add_influence(&self, file: &mut MatFile) {
+        let StoredSpectra { strengths, poes, sites, .. } = &self.spectra;
+        let records: Vec<&str> = self.added.records.iter().map(String::as_str).collect();
+        if !self.added.influence.is_empty() {
+            file.texts("record", &records);
+        }
+        for Influence { stored, .. } in &self.added.influence {
+            let key = stored.measure.key();
+            file.numbers(&format!("bin_{key}"), &Shape::column(stored.bins.len()), &stored.bins);
+            let shape = Shape(vec![stored.bins.len(), strengths.len(), poes.len(), sites.len()]);
+            file.numbers(&format!("share_{key}"), &shape, stored.shares.values());
+            if let Some(without_m) = &stored.without_m {
+                let shape = Shape(vec![strengths.len(), records.len(), poes.len(), sites.len()]);
+                file.numbers(&format!("u_without_{key}_m"), &shape, without_m.values());
+            }
+        }
+    }
+
+    /// What `uplift measures` found, if it was run: columns over the strengths.
+    fn add_efficiency(&self, file: &mut MatFile) {
+        let shape = Shape::column(self.spectra.strengths.len());
+        for of in &self.added.efficiency {
+            let key = of.measure.key();
+            file.numbers(&format!("dispersion_level_{key}"), &shape, &of.reaching);
+            file.numbers(&format!("dispersion_rocking_{key}"), &shape, &of.rocking);
+            file.numbers(&format!("undefined_share_{key}"), &shape, &of.undefined);
+            file.numbers(&format!("dispersion_initiation_{key}"), &shape, &of.initiation);
+            for trend in &of.trends {
+                file.numbers(&format!("slope_{}_{key}", trend.covariate), &shape, &trend.slope);
+                file.numbers(&format!("p_value_{}_{key}", trend.covariate), &shape, &trend.p_value);
+            }
+        }
+    }
+
+    /// The bands, if there are some.
+    fn add_bands(&self, file: &mut MatFile) {
+        let Some(bands) = &self.bands else { return };
+        let StoredSpectra { strengths, poes, sites, .. } = &self.spectra;
+        let sizes: Vec<f64> = bands.sizes.iter().copied().map(f64::from).collect();
+        file.numbers("sample_size", &Shape::column(sizes.len()), &sizes);
+        file.numbers("confidence", &Shape::column(1), &[bands.confidence]);
+        for of in &bands.measures {
+            let key = of.measure.key();
+            let spectra = Shape(vec![strengths.len(), sizes.len(), poes.len(), sites.len()]);
+            let figures = Shape(vec![sizes.len(), poes.len(), sites.len()]);
+            let of_sizes = Shape(vec![sizes.len(), sites.len()]);
+            let mut add = |key: &str, own: &StoredSpectraBands| {
+                for (name, limits) in bands.limit_names().iter().zip(&own.limits_m) {
+                    file.numbers(&format!("{}_{key}_m", name.trim_end_matches("_m")), &spectra, limits.values());
+                }
+                file.numbers(&format!("e_median_{key}_pct"), &figures, own.error_of_median.values());
+                file.numbers(&format!("r_90ci_{key}_pct"), &figures, own.range_of_interval.values());
+                let Some(joint) = &own.joint else { return };
+                for (name, limits) in bands.limit_names().iter().zip(&joint.limits_m) {
+                    file.numbers(&format!("{}_joint_{key}_m", name.trim_end_matches("_m")), &spectra, limits.values());
+                }
+                file.numbers(&format!("r_90ci_joint_{key}_pct"), &figures, joint.range_of_interval.values());
+                if let Some(failed) = &joint.failed {
+                    file.numbers(&format!("failed_joint_{key}"), &of_sizes, failed.values());
+                }
+            };
+            add(key, &of.plain);
+            if let Some(own) = &of.repaired {
+                let key = format!("consistent_{key}");
+                add(&key, &own.bands);
+                file.numbers(&format!("failed_{key}"), &of_sizes, own.failed.values());
+            }
+            for (name, limits) in INFERRED.iter().zip(of.inferred.iter().flat_map(InferredBands::limits_m)) {
+                file.numbers(&format!("{name}_{key}_m"), &spectra, limits.values());
+            }
+        }
+    }
+}
+
+/// The arrays of `value`, each named with `key`.
+fn add<T>(file: &mut MatFile, quantities: &[Quantity<T>], key: &str, shape: &Shape, value: &T) {
+    let count = shape.0.iter().product();
+    for quantity in quantities {
+        let values: Vec<f64> = (0..count).filter_map(|at| quantity.number(value, at)).collect();
+        file.numbers(&quantity.name_with(key), shape, &values);
+    }
+}

@@ -1,0 +1,94 @@
+//! The tests of a shaking table for other programs.
+
+use polars::prelude::Column;
+use serde_json::{Value, json};
+use uplift_alarms::alarms;
+use uplift_job::JobError;
+use uplift_job::alarm::Alarm;
+use uplift_result::{DIRECTIONS, Head, ResultFile, ShakeTable, TABLE_TESTS};
+use uplift_studies::shake_table::columns;
+
+use super::matlab::level_5::{MatFile, Shape};
+use super::source::provenance_of;
+use crate::error::ExportsError;
+
+/// The tests of a result, and where they come from.
+pub(super) struct TestsExport {
+    pub(super) head: Head,
+    pub(super) table: ShakeTable,
+    /// What to know before using them, the worst first.
+    pub(super) alarms: Vec<Alarm>,
+    /// Name of the result file.
+    pub(super) file: String,
+    /// One line: program, time, file, records.
+    pub(super) provenance: String,
+}
+
+impl TestsExport {
+    /// Read `file`.
+    ///
+    /// # Errors
+    /// A file that is damaged, or no result of a shaking table.
+    pub(super) fn of(file: &ResultFile) -> Result<Self, ExportsError> {
+        let (head, table) = (file.head()?, file.shake_table()?);
+        let name = file.path().file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let provenance = provenance_of(&head, &name);
+        Ok(Self { alarms: alarms(file)?, head, table, file: name, provenance })
+    }
+
+    /// A row a test, as the table that a run leaves beside the result.
+    pub(super) fn columns(&self) -> Vec<Column> {
+        columns(&self.table)
+    }
+
+    /// Everything as one JSON object; what is infinite, the displacement of a frame that overturned, is null.
+    pub(super) fn json(&self) -> Value {
+        json!({
+            "provenance": self.provenance,
+            "title": self.head.title,
+            "created": self.head.created,
+            "study_digest": self.head.study_digest(),
+            "alarms": self.alarms,
+            "shake_table": self.table,
+            "order": self.table.order(),
+            "spectra": self.table.spectra,
+        })
+    }
+
+    /// A MATLAB file: `u_m` and every other quantity of a test are excitation × level, spectra are period × direction ×
+    /// excitation.
+    ///
+    /// # Errors
+    /// A result that is too large for the format.
+    pub(super) fn matlab(&self) -> Result<Vec<u8>, ExportsError> {
+        let ShakeTable { levels, excitations, tests, .. } = &self.table;
+        let mut file = MatFile::new(&self.provenance);
+        file.text("provenance", &self.provenance);
+        let said: Vec<String> = self.alarms.iter().map(|alarm| format!("{}: {alarm}", alarm.severity.word())).collect();
+        file.texts("warnings", &said.iter().map(String::as_str).collect::<Vec<_>>());
+        file.texts("level", &levels.iter().map(|level| level.name.as_str()).collect::<Vec<_>>());
+        let velocities: Vec<f64> = levels.iter().map(|level| level.pgv_srss_m_s).collect();
+        file.numbers("pgv_srss_m_s", &Shape::column(levels.len()), &velocities);
+        file.texts("exc_id", &excitations.iter().map(|one| one.exc_id.as_str()).collect::<Vec<_>>());
+        file.texts("class", &excitations.iter().map(|one| one.class.as_str()).collect::<Vec<_>>());
+        file.texts("record", &excitations.iter().map(|one| one.record.as_str()).collect::<Vec<_>>());
+        // tests come level by level, in each excitation by excitation: the order of MATLAB's columns
+        let shape = Shape(vec![excitations.len(), levels.len()]);
+        for quantity in TABLE_TESTS.quantities {
+            let values: Vec<f64> = (0..tests.len()).filter_map(|at| quantity.number(&self.table, at)).collect();
+            file.numbers(quantity.name, &shape, &values);
+        }
+        let order: Vec<f64> = self.table.order().into_iter().map(f64::from).collect();
+        file.numbers("order", &shape, &order);
+        if let Some(spectra) = &self.table.spectra {
+            let count = spectra.periods_s.len();
+            file.numbers("period_s", &Shape::column(count), &spectra.periods_s);
+            let shape = Shape(vec![count, DIRECTIONS.len(), excitations.len()]);
+            file.numbers("spectral_acceleration_m_s2", &shape, &spectra.recorded_m_s2);
+            if let Some(design_m_s2) = &spectra.design_m_s2 {
+                file.numbers("design_spectrum_m_s2", &Shape::column(count), design_m_s2);
+            }
+        }
+        Ok(file.finish().map_err(JobError::input)?)
+    }
+}

@@ -1,0 +1,59 @@
+//! The sheets of whether the records bring the site's hazard, and of the spectra of weighted records.
+
+use rust_xlsxwriter::XlsxError;
+use uplift_job::text::risk_in_words;
+
+use super::sheet::{Sheet, Shown};
+use super::spectra::{head_of, over_strengths};
+use crate::export::Export;
+
+impl Export {
+    /// What the records bring of the other measure: a line each measure that they are scaled to, and site.
+    pub(super) fn consistency_sheet(&self, sheet: &mut Sheet<'_>) -> Result<(), XlsxError> {
+        let mut headings = ["site", "scaled to", "shows", "verdict"].map(str::to_owned).to_vec();
+        if let Some(of) = self.consistency.first() {
+            let over = |&poe: &f64| format!("over the site's level, {}", risk_in_words(poe, of.years));
+            headings.extend(of.poes.iter().map(over));
+        }
+        headings.extend(["bias", "largest |ln|"].map(str::to_owned));
+        if self.consistency.iter().any(|of| of.least_effective.is_some()) {
+            headings.push("effective records, least".to_owned());
+        }
+        for (column, heading) in headings.iter().enumerate() {
+            sheet.heading((0, column), heading, true)?;
+        }
+        for (index, row) in self.consistencies().enumerate() {
+            let line = index + 1;
+            let texts = [row.site, row.of.scaled_to.label(), row.of.other.label(), row.verdict.unwrap_or("no verdict")];
+            for (column, text) in texts.into_iter().enumerate() {
+                sheet.text((line, column), text)?;
+            }
+            let numbers = row.ratio.iter().copied().chain([row.bias, row.max]);
+            for (column, number) in numbers.enumerate() {
+                sheet.number((line, texts.len() + column), number, Shown::FourDecimals, "")?;
+            }
+            if let Some(least) = row.least_effective {
+                sheet.number((line, headings.len() - 1), least, Shown::OneDecimal, "")?;
+            }
+        }
+        sheet.finish((1, 1), &[18.0, 10.0, 9.0, 14.0])
+    }
+
+    /// The spectra of weighted records.
+    pub(super) fn consistent_spectra(&self, sheet: &mut Sheet<'_>) -> Result<(), XlsxError> {
+        let below = self.heads(sheet, &[])?;
+        let repaired = self.rows().filter_map(|row| self.repaired(&row).map(|(u_m, _)| (row, u_m)));
+        for (index, (row, u_m)) in repaired.enumerate() {
+            let column = index + 1;
+            head_of(sheet, column, &row)?;
+            sheet.heading((below - 1, column), "u, m", true)?;
+            over_strengths(sheet, (below, column), u_m)?;
+        }
+        sheet.finish((below, 1), &[26.0])
+    }
+
+    /// Their coefficients.
+    pub(super) fn consistent_coefficients(&self, sheet: &mut Sheet<'_>) -> Result<(), XlsxError> {
+        self.coefficients_of(sheet, |row| self.repaired(row).map(|(_, fit)| *fit))
+    }
+}

@@ -1,0 +1,139 @@
+//! The sheets of spectra and of bands: strengths down, spectra across.
+
+use rust_xlsxwriter::XlsxError;
+use uplift_result::flag_word;
+
+use super::sheet::{Sheet, Shown};
+use crate::export::Export;
+use crate::export::source::Row;
+
+/// In place of an ordinate that does not exist.
+const CENSORED: &str = "censored";
+/// Label of the first column.
+const STRENGTH: &str = "strength f_up/(m g), -";
+/// What is told of each ordinate beside itself.
+const TAILS: [&str; 3] = ["flag", "share from below, %", "share from above, %"];
+/// What is told of a spread, as [`StoredSpread::limits_m`](uplift_result::StoredSpread::limits_m) has it.
+const SPREAD: [&str; 6] = ["mean", "5 %", "16 %", "50 %", "84 %", "95 %"];
+/// Widths of the column of strengths, in characters.
+const WIDTHS: [f64; 1] = [26.0];
+
+impl Export {
+    /// The spectra.
+    pub(super) fn spectra_sheet(&self, sheet: &mut Sheet<'_>) -> Result<(), XlsxError> {
+        let below = self.heads(sheet, &[])?;
+        for (index, row) in self.rows().enumerate() {
+            let column = index + 1;
+            head_of(sheet, column, &row)?;
+            sheet.heading((below - 1, column), "u, m", true)?;
+            over_strengths(sheet, (below, column), row.spectrum.u_m)?;
+        }
+        sheet.finish((below, 1), &WIDTHS)
+    }
+
+    /// What each ordinate is, and what of its risk comes from outside the analysed levels.
+    pub(super) fn tails_sheet(&self, sheet: &mut Sheet<'_>) -> Result<(), XlsxError> {
+        let below = self.heads(sheet, &[])?;
+        let mut column = 1;
+        for row in self.rows() {
+            let spectrum = &row.spectrum;
+            for name in TAILS {
+                head_of(sheet, column, &row)?;
+                sheet.heading((below - 1, column), name, true)?;
+                column += 1;
+            }
+            for (index, &flag) in spectrum.flags.iter().enumerate() {
+                sheet.text((below + index, column - TAILS.len()), flag_word(flag))?;
+            }
+            for (shares, column) in [(spectrum.lower_tail_share, column - 2), (spectrum.upper_tail_share, column - 1)] {
+                for (index, &share) in shares.iter().enumerate() {
+                    sheet.number((below + index, column), share, Shown::Percent, "")?;
+                }
+            }
+        }
+        sheet.finish((below, 1), &WIDTHS)
+    }
+
+    /// The bands of all sizes.
+    pub(super) fn bands_sheet(&self, sheet: &mut Sheet<'_>) -> Result<(), XlsxError> {
+        // plain bands alone need no line that says so
+        let has_others = self.has_repaired_bands() || self.has_joint_bands()[0];
+        let weights = has_others.then_some("weights");
+        let headings: Vec<&str> = weights.into_iter().chain(["records in a sample", "limit"]).collect();
+        let below = self.heads(sheet, &headings)?;
+        let [lower, upper] = self.bands.as_ref().map(uplift_result::StoredBands::level_names).unwrap_or_default();
+        let names = [lower.as_str(), "median", upper.as_str()];
+        let beyond = ["truth, lower", "truth, upper", "another set, lower", "another set, upper"];
+        let mut column = 1;
+        for row in self.rows() {
+            for (weights, band) in self.all_bands_of(&row) {
+                let inferred = beyond.iter().zip(band.inferred_m.into_iter().flatten());
+                for (name, values) in names.iter().zip(band.limits_m).chain(inferred) {
+                    head_of(sheet, column, &row)?;
+                    if has_others {
+                        sheet.heading((below - 4, column), weights, false)?;
+                    }
+                    sheet.number((below - 3, column), f64::from(band.records), Shown::WholeHeading, "")?;
+                    sheet.heading((below - 2, column), name, false)?;
+                    sheet.heading((below - 1, column), "u, m", true)?;
+                    over_strengths(sheet, (below, column), values)?;
+                    column += 1;
+                }
+            }
+        }
+        sheet.finish((below, 1), &WIDTHS)
+    }
+
+    /// Mean and fractiles over what is not known.
+    pub(super) fn spread_sheet(&self, sheet: &mut Sheet<'_>) -> Result<(), XlsxError> {
+        let below = self.heads(sheet, &["over", "of them"])?;
+        let mut column = 1;
+        for row in self.rows() {
+            for over in self.spread_over() {
+                let Some(limits_m) = self.spread_of(&row, over) else { continue };
+                for (name, values) in SPREAD.iter().zip(limits_m) {
+                    head_of(sheet, column, &row)?;
+                    sheet.heading((below - 3, column), over.words(), false)?;
+                    sheet.heading((below - 2, column), name, false)?;
+                    sheet.heading((below - 1, column), "u, m", true)?;
+                    over_strengths(sheet, (below, column), values)?;
+                    column += 1;
+                }
+            }
+        }
+        sheet.finish((below, 1), &WIDTHS)
+    }
+
+    /// What the lines of headings are, with `more` of them, and the strengths below; the first line of numbers.
+    pub(super) fn heads(&self, sheet: &mut Sheet<'_>, more: &[&str]) -> Result<usize, XlsxError> {
+        let probability = format!("probability in {} years", self.spectra.years);
+        let names = ["site", "intensity measure", &probability, "return period, years"];
+        for (line, name) in names.iter().chain(more).enumerate() {
+            sheet.heading((line, 0), name, false)?;
+        }
+        let below = names.len() + more.len() + 1;
+        sheet.heading((below - 1, 0), STRENGTH, true)?;
+        over_strengths(sheet, (below, 0), &self.spectra.strengths)?;
+        Ok(below)
+    }
+}
+
+/// What stands at the head of the column of a spectrum.
+pub(super) fn head_of(sheet: &mut Sheet<'_>, column: usize, row: &Row<'_>) -> Result<(), XlsxError> {
+    sheet.heading((0, column), row.spectrum.site, false)?;
+    sheet.heading((1, column), row.spectrum.measure.label(), false)?;
+    sheet.number((2, column), row.spectrum.poe, Shown::Percent, "")?;
+    sheet.number((3, column), row.return_period, Shown::Whole, "")
+}
+
+/// Numbers below each other, from a place on.
+pub(super) fn over_strengths(
+    sheet: &mut Sheet<'_>,
+    (row, column): (usize, usize),
+    values: &[f64],
+) -> Result<(), XlsxError> {
+    for (index, &value) in values.iter().enumerate() {
+        sheet.number((row + index, column), value, Shown::FourDecimals, CENSORED)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,7 @@
+//! A result beside a reference, and for other programs.
+
+mod error;
+pub mod export;
+pub mod table;
+
+pub use error::ExportsError;

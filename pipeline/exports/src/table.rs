@@ -1,0 +1,128 @@
+//! The tables of a result, ours beside a reference: coefficients of the spectra (Table 4.2), or the design example
+//! (Tables 2.1 to 2.3 and 3.2 to 3.7).
+
+mod coefficients;
+mod columns;
+mod design;
+mod tests_of_table;
+
+use std::path::PathBuf;
+
+use serde::Serialize;
+use uplift_motion::IntensityMeasure;
+use uplift_study::Structure;
+
+pub use coefficients::{COMPARED_ABOVE, CoefficientRow, CoefficientTable, ReferenceFit};
+pub use columns::{ColumnsRow, ColumnsTable};
+pub use design::{DesignTable, DesignTableRow};
+pub use tests_of_table::{Agreement, TestRow, TestsTable};
+pub use uplift_alarms::COMPARED_FROM_M;
+
+use crate::error::ExportsError;
+use uplift_alarms::{alarms, alarms_by};
+use uplift_job::alarm::Alarm;
+use uplift_job::events::Events;
+use uplift_questions::bootstrap::resampled;
+use uplift_result::{Kind, ResultFile};
+use uplift_uniform_risk::AskedRisk;
+use uplift_uniform_risk::at;
+
+/// Which table, and what stands beside it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TableOptions {
+    /// The result file, or a structure file.
+    pub result: PathBuf,
+    /// CSV table to compare with: for uniform risk spectra with the columns `site`, `poe_50y` (or `poe`), `c0_m`, `c1`,
+    /// `c2_m`, `rmse_m`; for displacement spectra `record_set`, `scaling`, `quantity`, `value` and, for oscillators,
+    /// `rule`; for a shaking table `level` and `exc_id` in the order of the tests.
+    pub reference: Option<PathBuf>,
+    /// By which intensity measures; not of displacement spectra.
+    pub measure: TableMeasure,
+    /// The risks of the spectra; not of displacement spectra.
+    pub risk: AskedRisk,
+}
+
+/// By which intensity measures the rows of a table are.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum TableMeasure {
+    /// PGV, as Table 4.2 is, or the first measure of a study without it; what is to be known of the result is told as a
+    /// whole.
+    #[default]
+    Usual,
+    /// This one, and what is to be known of it alone.
+    Only(IntensityMeasure),
+    /// Every measure of the result.
+    All,
+}
+
+impl TableMeasure {
+    /// The measure of the rows of a result that has spectra by `known` ones, in order; none for all.
+    pub(crate) fn of_rows(self, known: &[IntensityMeasure]) -> Option<IntensityMeasure> {
+        match self {
+            Self::Usual => Some(known.first().copied().unwrap_or(IntensityMeasure::Pgv)),
+            Self::Only(measure) => Some(measure),
+            Self::All => None,
+        }
+    }
+}
+
+/// A table of a result, with what to know before it is used.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TableReport {
+    /// The table.
+    pub rows: TableRows,
+    /// What to know before using it, the worst first.
+    pub alarms: Vec<Alarm>,
+}
+
+/// The rows of a table.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum TableRows {
+    /// Of uniform risk spectra.
+    Coefficients(CoefficientTable),
+    /// Of displacement spectra.
+    Design(DesignTable),
+    /// Of the columns of a structure.
+    Columns(ColumnsTable),
+    /// Of a shaking table.
+    Tests(TestsTable),
+}
+
+/// Reads the table of a result, or what the columns of a structure have, and what a reference says beside each row.
+///
+/// # Errors
+/// A file that is missing, damaged or no result; a result without such a table; a reference that cannot be read.
+pub fn table(options: &TableOptions, events: &dyn Events) -> Result<TableReport, ExportsError> {
+    if Structure::is_written_in(&options.result) {
+        let rows = TableRows::Columns(columns::read(options)?);
+        return Ok(TableReport { rows, alarms: Vec::new() });
+    }
+    let file = at(ResultFile::open(&options.result)?, &options.risk)?;
+    let rows = match file.kind() {
+        Kind::UniformRisk => coefficients::read(options, &file, events).map(TableRows::Coefficients),
+        Kind::Displacement => design::read(options, &file, events).map(TableRows::Design),
+        Kind::ShakeTable => tests_of_table::read(options, &file).map(TableRows::Tests),
+    }?;
+    file.tell_made_of_another(events)?;
+    tell_findings(&file, events)?;
+    // bands tell which measures disagree, at whatever risk
+    let file = resampled(file, events)?;
+    let alarms = match options.measure {
+        TableMeasure::Only(measure) if file.kind() == Kind::UniformRisk => alarms_by(&file, measure),
+        _ => alarms(&file),
+    }?;
+    Ok(TableReport { rows, alarms })
+}
+
+/// Says which structures were asked something under the result.
+fn tell_findings(file: &ResultFile, events: &dyn Events) -> Result<(), ExportsError> {
+    let findings = file.findings()?;
+    let mut structures: Vec<&str> = findings.iter().map(|of| of.finding.structure.as_str()).collect();
+    structures.dedup();
+    if !structures.is_empty() {
+        let text = format!("{} answer(s) on {}: uplift report shows them", findings.len(), structures.join(", "));
+        events.remark("asked", &text);
+    }
+    Ok(())
+}

@@ -1,0 +1,378 @@
+//! The hazard curves of a study's sites, with the weights of the stripes that follow from them.
+
+use std::path::{Path, PathBuf};
+
+use uplift_hazard::{CsvOptions, HazardCurve, SecondColumn, read_path};
+use uplift_job::JobError;
+use uplift_job::checksum::checksum_of_file;
+use uplift_motion::{Combination, IntensityMeasure};
+use uplift_risk::StripeWeights;
+use uplift_study::{
+    CurveFile, CurveKind, MeasurePlan, UniformRiskStudy, definition_of, levels_key, levels_place, levels_within,
+};
+
+use super::hardly_possible::hardly_possible;
+use super::other_unit::{file_of, of_outside, with_remedy};
+use crate::error::InputsError;
+
+/// The hazard of one site in one measure.
+#[derive(Debug, Clone)]
+pub struct SiteHazard {
+    /// Name of the site.
+    pub site: String,
+    /// The measure.
+    pub measure: IntensityMeasure,
+    /// The curve that the spectra are made of.
+    pub curve: HazardInput,
+    /// Weighted alternatives to it, if the site has some.
+    pub branches: Vec<BranchHazard>,
+}
+
+/// A hazard curve as used.
+#[derive(Debug, Clone)]
+pub struct HazardInput {
+    /// Where it was read; none for the mean of the branches.
+    pub file: Option<PathBuf>,
+    /// SHA-256 of the file; empty for a mean.
+    pub checksum: String,
+    /// The curve in field units, cm/s or g.
+    pub curve: HazardCurve,
+    /// What each stripe weighs in the risk integral (Eq. 4.4).
+    pub weights: StripeWeights,
+}
+
+/// One of several weighted curves.
+#[derive(Debug, Clone)]
+pub struct BranchHazard {
+    /// Its name.
+    pub name: String,
+    /// Its weight.
+    pub weight: f64,
+    /// Its curve.
+    pub input: HazardInput,
+}
+
+/// Read the curves of every site and measure, `[measure][site]`, and notes about what was dropped from them.
+///
+/// # Errors
+/// Everything that is wrong with them, at once.
+pub fn read_hazard(study: &UniformRiskStudy) -> Result<(Vec<Vec<SiteHazard>>, Vec<String>), InputsError> {
+    let mut mistakes = Vec::new();
+    let mut notes = Vec::new();
+    let mut undefined = Vec::new();
+    let mut all = Vec::new();
+    for plan in &study.measures {
+        let mut sites = Vec::new();
+        for site in &study.sites {
+            let Some(file) = site.curve(plan.measure) else { continue };
+            let (notes, undefined, mistakes) = (&mut notes, &mut undefined, &mut mistakes);
+            let measure = plan.measure;
+            let mut reader = SiteReader { site: &site.name, file, measure, study, notes, undefined, mistakes };
+            sites.extend(reader.read(plan));
+        }
+        all.push(sites);
+    }
+    notes.extend(undefined_note(study, &undefined));
+    if mistakes.is_empty() { Ok((all, notes)) } else { Err(JobError::Inputs(mistakes).into()) }
+}
+
+/// That curves do not say how horizontal components are combined; none where all do.
+fn undefined_note(study: &UniformRiskStudy, undefined: &[String]) -> Option<String> {
+    undefined.first().map(|first| {
+        format!(
+            "{} hazard curve(s) do not say how horizontal components are combined ({first}{}): taken as {}; say it \
+             with [hazard] component",
+            undefined.len(),
+            if undefined.len() > 1 { ", …" } else { "" },
+            definition_of(study.records.intensity)
+        )
+    })
+}
+
+/// The hazard of a site in a measure that its study is not analysed by: what the records bring is held against it.
+#[derive(Debug, Clone)]
+pub struct OtherHazard {
+    /// Name of the site.
+    pub site: String,
+    /// The measure.
+    pub measure: IntensityMeasure,
+    /// Where it was read; none for the mean of branches.
+    pub file: Option<PathBuf>,
+    /// SHA-256 of the file; empty for a mean.
+    pub checksum: String,
+    /// The curve in field units, cm/s or g.
+    pub curve: HazardCurve,
+    /// Name and SHA-256 of the file of each branch that it is the mean of.
+    pub branches: Vec<(String, String)>,
+}
+
+/// Reads the curves of the measures that `study` is not analysed by, and notes about what was dropped from them.
+///
+/// # Errors
+/// Everything that is wrong with them, at once.
+pub fn read_other_hazard(study: &UniformRiskStudy) -> Result<(Vec<OtherHazard>, Vec<String>), InputsError> {
+    let (mut mistakes, mut notes, mut undefined, mut all) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    for site in &study.sites {
+        for file in &site.curves {
+            if study.measures.iter().any(|plan| plan.measure == file.measure) {
+                continue;
+            }
+            let measure = file.measure;
+            let (notes, undefined, mistakes) = (&mut notes, &mut undefined, &mut mistakes);
+            let mut reader = SiteReader { site: &site.name, file, measure, study, notes, undefined, mistakes };
+            all.extend(reader.other());
+        }
+    }
+    notes.extend(undefined_note(study, &undefined));
+    if mistakes.is_empty() { Ok((all, notes)) } else { Err(JobError::Inputs(mistakes).into()) }
+}
+
+/// The mean of weighted curves, with the levels asked for among its own.
+fn weighted_mean(curves: &[(f64, &HazardCurve)], levels: &[f64]) -> Result<HazardCurve, String> {
+    HazardCurve::weighted_mean(curves, levels).map_err(|error| format!("the branches have no mean: {error}"))
+}
+
+/// A curve as its file has it.
+struct ReadCurve {
+    curve: HazardCurve,
+    /// SHA-256 of the file.
+    checksum: String,
+    /// Rows of probability 1 at its start, which carry no rate.
+    dropped_certain: usize,
+}
+
+/// Reads what belongs to one site and measure.
+struct SiteReader<'a> {
+    site: &'a str,
+    file: &'a CurveFile,
+    measure: IntensityMeasure,
+    study: &'a UniformRiskStudy,
+    notes: &'a mut Vec<String>,
+    /// Curves that do not say which definition of the measure they are of.
+    undefined: &'a mut Vec<String>,
+    mistakes: &'a mut Vec<String>,
+}
+
+impl SiteReader<'_> {
+    /// The hazard; none where something is wrong, which is then among the mistakes.
+    fn read(&mut self, plan: &MeasurePlan) -> Option<SiteHazard> {
+        let file = self.file;
+        let branches: Vec<BranchHazard> = file
+            .branches
+            .iter()
+            .filter_map(|branch| {
+                let input = self.input(&branch.file, plan)?;
+                Some(BranchHazard { name: branch.name.clone(), weight: branch.weight, input })
+            })
+            .collect();
+        let curve = match &file.file {
+            Some(path) => self.input(path, plan)?,
+            // a mean of some of the branches would be another curve
+            None if branches.len() < file.branches.len() => return None,
+            None => self.mean(&branches, plan)?,
+        };
+        Some(SiteHazard { site: self.site.to_owned(), measure: self.measure, curve, branches })
+    }
+
+    /// The curve of a measure that the study is not analysed by.
+    fn other(&mut self) -> Option<OtherHazard> {
+        let file = self.file;
+        let mut branches = Vec::new();
+        let (curve, checksum) = if let Some(path) = &file.file {
+            let read = self.read_file(path);
+            let read = self.noted(read)?;
+            self.note_if_hardly_possible(path, &read.curve);
+            (read.curve, read.checksum)
+        } else {
+            let mut curves = Vec::new();
+            for branch in &file.branches {
+                let read = self.read_file(&branch.file);
+                let ReadCurve { curve, checksum, .. } = self.noted(read)?;
+                self.note_if_hardly_possible(&branch.file, &curve);
+                curves.push((branch.weight, curve));
+                branches.push((branch.name.clone(), checksum));
+            }
+            let curves: Vec<(f64, &HazardCurve)> = curves.iter().map(|(weight, curve)| (*weight, curve)).collect();
+            let mean = weighted_mean(&curves, &[]);
+            (self.noted(mean)?, String::new())
+        };
+        Some(OtherHazard {
+            site: self.site.to_owned(),
+            measure: self.measure,
+            file: file.file.clone(),
+            checksum,
+            curve,
+            branches,
+        })
+    }
+
+    /// Alarms are raised of the curves that a study is analysed by, and of others this note.
+    fn note_if_hardly_possible(&mut self, path: &Path, curve: &HazardCurve) {
+        if let Some(reason) = hardly_possible(curve, self.measure) {
+            let (measure, path) = (self.measure.label(), path.display());
+            self.notes.push(format!("site {}, {measure}: {path}: {reason}", self.site));
+        }
+    }
+
+    fn input(&mut self, path: &Path, plan: &MeasurePlan) -> Option<HazardInput> {
+        let read = self.read_file(path).and_then(|ReadCurve { curve, checksum, dropped_certain }| {
+            let weights = self.weights(&curve, &path.display().to_string(), plan, dropped_certain)?;
+            Ok(HazardInput { file: Some(path.to_owned()), checksum, curve, weights })
+        });
+        self.noted(read)
+    }
+
+    fn mean(&mut self, branches: &[BranchHazard], plan: &MeasurePlan) -> Option<HazardInput> {
+        let curves: Vec<(f64, &HazardCurve)> =
+            branches.iter().map(|branch| (branch.weight, &branch.input.curve)).collect();
+        let mean = weighted_mean(&curves, &plan.levels).and_then(|curve| {
+            let weights = self.weights(&curve, "the mean of the branches", plan, 0)?;
+            Ok(HazardInput { file: None, checksum: String::new(), curve, weights })
+        });
+        self.noted(mean)
+    }
+
+    fn noted<T>(&mut self, read: Result<T, String>) -> Option<T> {
+        match read {
+            Ok(read) => Some(read),
+            Err(reason) => {
+                self.mistakes.push(format!("site {}, {}: {reason}", self.site, self.measure.label()));
+                None
+            }
+        }
+    }
+
+    /// The curve of a file for the records' definition of the measure.
+    fn read_file(&mut self, path: &Path) -> Result<ReadCurve, String> {
+        let read = read_path(path, &csv_options(self.file));
+        let read = read.map_err(|error| with_remedy(&error, self.study, self.site, self.file))?;
+        for (count, what) in
+            [(read.dropped_zeros, "zeros at the end"), (read.dropped_certain, "probabilities of 1 at the start")]
+        {
+            if count > 0 {
+                self.notes.push(format!(
+                    "site {}, {}: {count} {what} of the hazard curve carry no rate and were dropped",
+                    self.site,
+                    self.measure.label()
+                ));
+            }
+        }
+        let curve = read.curve.in_field_units(self.study.gravity_m_s2).map_err(|error| error.to_string())?;
+        let converted = of_the_records_definition(self.study, self.measure, &curve)
+            .map_err(|reason| format!("{}: {reason}", path.display()))?;
+        if converted.is_none() {
+            self.undefined.push(format!("{}, {}", self.site, self.measure.label()));
+        }
+        let curve = converted.unwrap_or(curve);
+        let checksum = checksum_of_file(path).map_err(|error| format!("{}: {error}", path.display()))?;
+        Ok(ReadCurve { curve, checksum, dropped_certain: read.dropped_certain })
+    }
+
+    fn weights(
+        &self,
+        curve: &HazardCurve,
+        name: &str,
+        plan: &MeasurePlan,
+        dropped_certain: usize,
+    ) -> Result<StripeWeights, String> {
+        stripe_weights(self.study, plan, curve).map_err(|reason| {
+            if self.are_interchanged(plan).unwrap_or(false) {
+                return format!(
+                    "{name}: are the files of pgv and pga interchanged? Each covers the levels of the other. As they \
+                     are, {reason}"
+                );
+            }
+            if let Some(other_unit) = of_outside(self.study, (self.site, self.file), plan, curve) {
+                // who reads a curve in another unit is not helped by an extrapolation of it
+                let key = levels_key(self.measure);
+                return format!("{name}: {other_unit}; if not, take a longer curve or leave levels out of {key}");
+            }
+            let within = levels_within(self.measure, curve.first().im, curve.last().im);
+            let within = within.map_or_else(String::new, |(_, levels)| {
+                let (section, key) = levels_place(self.measure);
+                format!(": the default ones within it are, in [{section}], {key} = {levels}")
+            });
+            let dropped = match dropped_certain {
+                0 => String::new(),
+                rows => format!(" ({rows} rows of probability 1 at its start carry no rate and were dropped)"),
+            };
+            format!("{name}: {reason}{within}{dropped}")
+        })
+    }
+
+    /// Whether the files of PGV and PGA each cover the levels of the other; none where there are not both.
+    fn are_interchanged(&self, plan: &MeasurePlan) -> Option<bool> {
+        let other = match self.measure {
+            IntensityMeasure::Pgv => IntensityMeasure::Pga,
+            IntensityMeasure::Pga => IntensityMeasure::Pgv,
+            _ => return None,
+        };
+        let other_file = file_of(self.study, self.site, other)?;
+        let other_plan = self.study.measures.iter().find(|plan| plan.measure == other)?;
+        let covers = |path: Option<&PathBuf>, file: &CurveFile, plan: &MeasurePlan| {
+            let curve =
+                read_path(path?, &csv_options(file)).ok()?.curve.in_field_units(self.study.gravity_m_s2).ok()?;
+            Some(curve.first().im <= *plan.levels.first()? && *plan.levels.last()? <= curve.last().im)
+        };
+        let this_covers_others = covers(self.file.file.as_ref(), other_file, other_plan)?;
+        Some(this_covers_others && covers(other_file.file.as_ref(), self.file, plan)?)
+    }
+}
+
+/// How the numbers of a file are read that a study says as `file`.
+fn csv_options(file: &CurveFile) -> CsvOptions {
+    let mut options = CsvOptions::new(file.measure.label(), file.unit.symbol());
+    match file.kind {
+        CurveKind::Maf => options.second_column = Some(SecondColumn::AnnualRate),
+        CurveKind::Poe { years } => {
+            options.second_column = Some(SecondColumn::Probability);
+            options.years = Some(years);
+        }
+    }
+    options
+}
+
+/// The curve for the definition of the measure that the records are combined by; none where the definition of the curve
+/// is not known.
+pub(super) fn of_the_records_definition(
+    study: &UniformRiskStudy,
+    measure: IntensityMeasure,
+    curve: &HazardCurve,
+) -> Result<Option<HazardCurve>, String> {
+    let wanted = definition_of(study.records.intensity);
+    let Some(own) = curve.component().or(study.hazard.component) else {
+        // what was written before there were such words is taken for the geometric mean, and for nothing else
+        if study.records.intensity == Combination::GeometricMean {
+            return Ok(None);
+        }
+        return Err(format!(
+            "the curve does not say how horizontal components are combined, and the records are measured by the \
+             {wanted}: say what it is with [hazard] component = \"{}\"",
+            wanted.key()
+        ));
+    };
+    if own == wanted {
+        return Ok(Some(curve.clone()));
+    }
+    let Some(factor) = study.hazard.factor(own, wanted, measure) else {
+        let key = measure.key();
+        let (from, to) = (own.key(), wanted.key());
+        return Err(format!(
+            "the curve is of the {own}, and the records are measured by the {wanted}: take a curve of the same \
+             definition, another records.intensity, or declare what the levels are multiplied by: [hazard] conversions \
+             = [{{ from = \"{from}\", to = \"{to}\", {key} = … }}], with the ratio of the two (docs/hazard.md, section \
+             4)"
+        ));
+    };
+    curve.converted(factor, wanted).map(Some).map_err(|error| error.to_string())
+}
+
+/// What each stripe of the study weighs at a site of this hazard.
+pub(super) fn stripe_weights(
+    study: &UniformRiskStudy,
+    plan: &MeasurePlan,
+    curve: &HazardCurve,
+) -> Result<StripeWeights, String> {
+    StripeWeights::from_hazard(curve, &plan.levels, study.risk.extrapolate)
+        .map_err(|error| format!("{error}; or leave the level out of {}", levels_key(plan.measure)))
+}

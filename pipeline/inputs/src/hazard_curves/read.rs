@@ -1,0 +1,150 @@
+//! Curves of files, each with what to call it.
+
+use std::path::{Path, PathBuf};
+
+use uplift_hazard::{
+    CsvOptions, Declared, ExportedCurve, ExportedCurves, HazardCurve, SecondColumn, SiteSelection, Statistic, read_csv,
+    read_export, table_text,
+};
+use uplift_job::JobError;
+use uplift_job::events::Events;
+use uplift_motion::{IntensityMeasure, STANDARD_GRAVITY_M_S2};
+
+use crate::error::InputsError;
+
+/// Which curves of a file are read, and what a table does not say.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CurveOptions {
+    /// Which site of an export with several.
+    pub site: SiteSelection,
+    /// Measure of a table that does not name it: PGV, PGA.
+    pub measure: Option<String>,
+    /// Unit of the levels of such a table: cm/s, m/s, g, m/s2, cm/s2.
+    pub unit: Option<String>,
+    /// Years that the probabilities of a table refer to; none where it holds rates.
+    pub years: Option<f64>,
+}
+
+impl Default for CurveOptions {
+    fn default() -> Self {
+        Self { site: SiteSelection::All, measure: None, unit: None, years: None }
+    }
+}
+
+/// A curve with what to call it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NamedCurve {
+    /// Site and statistic, or folder and file.
+    pub name: String,
+    /// The curve.
+    pub curve: HazardCurve,
+}
+
+/// The curves of `files`, each read once: those of an export, or the one of a table with two columns.
+///
+/// # Errors
+/// A file that is neither; a table that does not say what it holds.
+pub fn read(files: &[PathBuf], options: &CurveOptions, events: &dyn Events) -> Result<Vec<NamedCurve>, InputsError> {
+    let mut curves = Vec::new();
+    for file in distinct(files) {
+        curves.extend(read_file(file, options, events)?);
+    }
+    Ok(curves)
+}
+
+/// The curves of one file.
+pub(super) fn read_file(
+    path: &Path,
+    options: &CurveOptions,
+    events: &dyn Events,
+) -> Result<Vec<NamedCurve>, InputsError> {
+    let export = match curves_of(path, &options.site, events) {
+        Ok(curves) => {
+            if let Some(far) = curves.iter().filter_map(|curve| curve.distance_km).reduce(f64::max) {
+                events.note(&format!("{}: the nearest site is {far:.1} km away", path.display()));
+            }
+            return Ok(curves.into_iter().map(|exported| named(path, exported)).collect());
+        }
+        Err(error) => error,
+    };
+    let text = table_text(path)?;
+    // what looks like an export but cannot be read as one is told as such
+    let begins = text.trim_start_matches('\u{feff}').trim_start();
+    let an_export =
+        begins.starts_with(['<', '{', '[']) || begins.lines().next().is_some_and(|line| line.contains("generated_by"));
+    if an_export {
+        return Err(export);
+    }
+    let declared = match (&options.measure, &options.unit, Declared::in_table(&text)) {
+        (Some(measure), Some(unit), _) => {
+            let known = measure.parse().map(|known: IntensityMeasure| known.label().to_owned());
+            Declared { measure: known.unwrap_or_else(|_| measure.to_uppercase()), unit: unit.clone() }
+        }
+        (_, _, Some(declared)) => declared,
+        _ => {
+            return Err(JobError::input(format!(
+                "{}: the table does not say its measure and unit: call its column pgv_cm_s or pga_g, \
+                 add a first line such as \"# IM: PGV [cm/s]\", or give --measure and --unit",
+                path.display()
+            ))
+            .into());
+        }
+    };
+    let options =
+        CsvOptions { declared, second_column: options.years.map(|_| SecondColumn::Probability), years: options.years };
+    let read = read_csv(&text, &path.display().to_string(), &options)?;
+    let stem = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
+    let folder = path.parent().and_then(Path::file_name).map(|folder| format!("{}/", folder.to_string_lossy()));
+    let curve = read.curve.in_field_units(STANDARD_GRAVITY_M_S2)?;
+    Ok(vec![NamedCurve { name: format!("{}{stem}", folder.unwrap_or_default()), curve }])
+}
+
+/// The curves of an export; of all sites those that have one, the others are told.
+fn curves_of(path: &Path, selection: &SiteSelection, events: &dyn Events) -> Result<Vec<ExportedCurve>, InputsError> {
+    if *selection != SiteSelection::All {
+        return Ok(read_export(path, selection)?);
+    }
+    let mut export = ExportedCurves::open(path)?;
+    let (mut curves, mut first, mut without) = (Vec::new(), None, 0);
+    while let Some(site) = export.next_site() {
+        match site?.curve {
+            Ok(curve) => curves.push(curve),
+            Err(error) => {
+                without += 1;
+                first.get_or_insert(error);
+            }
+        }
+    }
+    match first {
+        Some(error) if curves.is_empty() => Err(error.into()),
+        Some(error) => {
+            events.note(&format!("{without} site(s) without a hazard curve, the first: {error}"));
+            Ok(curves)
+        }
+        None => Ok(curves),
+    }
+}
+
+fn named(path: &Path, exported: ExportedCurve) -> NamedCurve {
+    let place = exported
+        .site
+        .name
+        .clone()
+        .unwrap_or_else(|| format!("{}, {}", exported.site.longitude_deg, exported.site.latitude_deg));
+    let kind = match exported.kind {
+        Statistic::Unspecified => path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
+        kind => kind.to_string(),
+    };
+    NamedCurve { name: format!("{place}, {kind}"), curve: exported.curve }
+}
+
+/// The files given, each once.
+pub(super) fn distinct(files: &[PathBuf]) -> Vec<&PathBuf> {
+    let mut distinct: Vec<&PathBuf> = Vec::new();
+    for file in files {
+        if !distinct.contains(&file) {
+            distinct.push(file);
+        }
+    }
+    distinct
+}

@@ -1,0 +1,77 @@
+//! What a curve file or an export holds.
+
+use std::path::Path;
+
+use serde::Serialize;
+use uplift_hazard::{HazardCurve, rate_from_probability};
+use uplift_job::events::Events;
+
+use super::NamedCurve;
+use super::read::{CurveOptions, read_file};
+use crate::error::InputsError;
+
+/// Probabilities at which levels are told.
+const PROBABILITIES: [f64; 5] = [0.5, 0.2, 0.1, 0.05, 0.02];
+/// Years that they refer to.
+const YEARS: f64 = 50.0;
+
+/// The curves of a file.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct HazardReport {
+    /// Probabilities at which the levels of the curves are told.
+    pub probabilities: Vec<f64>,
+    /// Years that they refer to.
+    pub years: f64,
+    /// The curves.
+    pub curves: Vec<ShownCurve>,
+}
+
+/// A curve in a few numbers.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ShownCurve {
+    /// Site and statistic, or folder and file.
+    pub name: String,
+    /// Its intensity measure.
+    pub measure: String,
+    /// Unit of its levels.
+    pub unit: String,
+    /// Levels that are exceeded with the probabilities of the report; none where the curve does not reach.
+    pub levels: Vec<Option<f64>>,
+    /// Number of levels of the curve.
+    pub points: usize,
+    /// Its lowest level.
+    pub lowest: f64,
+    /// Its highest level.
+    pub highest: f64,
+    /// How horizontal components are combined; none where that is not said.
+    pub component: Option<String>,
+    /// Where it comes from, in lines.
+    pub source: String,
+}
+
+/// Looks at the curves of a file.
+///
+/// # Errors
+/// A file that holds none; a table that does not say what it holds.
+pub fn show(file: &Path, options: &CurveOptions, events: &dyn Events) -> Result<HazardReport, InputsError> {
+    let curves = read_file(file, options, events)?;
+    Ok(HazardReport { probabilities: PROBABILITIES.to_vec(), years: YEARS, curves: curves.iter().map(shown).collect() })
+}
+
+fn shown(NamedCurve { name, curve }: &NamedCurve) -> ShownCurve {
+    ShownCurve {
+        name: name.clone(),
+        measure: curve.measure().to_owned(),
+        unit: curve.unit().to_string(),
+        levels: PROBABILITIES.iter().map(|&probability| level(curve, probability)).collect(),
+        points: curve.len(),
+        lowest: curve.first().im,
+        highest: curve.last().im,
+        component: curve.component().map(|component| component.to_string()),
+        source: curve.source().to_owned(),
+    }
+}
+
+fn level(curve: &HazardCurve, probability: f64) -> Option<f64> {
+    rate_from_probability(probability, YEARS).and_then(|rate| curve.im_at_rate(rate)).ok()
+}

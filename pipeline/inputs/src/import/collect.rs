@@ -1,0 +1,180 @@
+//! Files are found, read, paired and measured.
+//!
+//! Every file is read twice: first for what its head says, by which components are paired, then with its partner
+//! to be measured. So memory holds a pair a thread, however large the folder.
+
+use std::path::{Path, PathBuf};
+
+use rayon::prelude::*;
+use uplift_ida::Watch;
+use uplift_job::JobError;
+use uplift_job::checksum::checksum;
+use uplift_job::events::{Events, Progress};
+use uplift_motion::{MotionError, RecordFormat, RecordingDescription, read_record, record_bytes};
+
+use super::measured::{self, PairMeasures};
+use super::scan::scan;
+use super::search_results::{Entry, SearchResults};
+use super::warnings::Warning;
+use super::{ImportOptions, group, name};
+use crate::error::InputsError;
+
+/// One component of a file, without its samples.
+#[derive(Debug, Clone)]
+pub(super) struct Component {
+    /// The file.
+    pub(super) path: PathBuf,
+    /// Its number in a file with several.
+    pub(super) channel: Option<usize>,
+    /// Its layout.
+    pub(super) format: RecordFormat,
+    /// What its head says.
+    pub(super) description: RecordingDescription,
+    /// Time step, s.
+    pub(super) dt_s: f64,
+    /// Samples.
+    pub(super) points: usize,
+    /// SHA-256 of the file.
+    pub(super) file_sha256: String,
+    /// SHA-256 of the samples: the same motion in two files has one.
+    pub(super) samples_sha256: String,
+}
+
+/// A pair ready for a row of a manifest.
+#[derive(Debug, Clone)]
+pub(super) struct ImportedPair {
+    pub(super) id: String,
+    pub(super) components: [Component; 2],
+    pub(super) vertical: Option<Component>,
+    pub(super) measures: PairMeasures,
+    pub(super) search: Option<Entry>,
+    pub(super) warnings: Vec<Warning>,
+}
+
+/// What an import found.
+#[derive(Debug, Clone)]
+pub(super) struct Imported {
+    /// The pairs, by name.
+    pub(super) pairs: Vec<ImportedPair>,
+    /// What deserves a look, each with the record's or the file's name.
+    pub(super) warnings: Vec<Warning>,
+    /// Files that are no records, a line each with the reason.
+    pub(super) passed_over: Vec<String>,
+    /// Number of files read.
+    pub(super) files: usize,
+    /// Number of components in them.
+    pub(super) components: usize,
+}
+
+/// Finds, reads, pairs and measures the records in the folder and the folders in it.
+///
+/// # Errors
+/// A folder that cannot be read, and an interruption; what is wrong with single files is among the warnings.
+pub(super) fn find_pairs(options: &ImportOptions, events: &dyn Events) -> Result<Imported, InputsError> {
+    let found = scan(&options.folder)?;
+    let mut warnings = Vec::new();
+    let search = SearchResults::read(&found.search_results, &mut warnings);
+
+    let progress = Progress::begin(events, "reading", "files", found.files.len() as u64);
+    let read: Vec<Result<Vec<Component>, MotionError>> = found
+        .files
+        .par_iter()
+        .map(|path| {
+            if progress.cancelled() {
+                return Ok(Vec::new());
+            }
+            let components = components_of(path, options);
+            progress.finished(1);
+            components
+        })
+        .collect();
+    drop(progress);
+    if events.cancelled() {
+        return Err(JobError::Interrupted.into());
+    }
+    let mut components = Vec::new();
+    let mut passed_over = Vec::new();
+    for outcome in read {
+        match outcome {
+            Ok(found) => components.extend(found),
+            // a file cannot be asked, whoever imports it can
+            Err(error @ MotionError::MissingUnit { .. }) => passed_over.push(format!("{error} (--unit)")),
+            Err(error) => passed_over.push(error.to_string()),
+        }
+    }
+    let count = components.len();
+    let components = without_duplicates(components, &mut warnings);
+    let candidates = group::pairs(components, &search, &mut warnings);
+    warnings.extend(search.missing(&candidates));
+
+    let progress = Progress::begin(events, "measuring", "pairs", candidates.len() as u64);
+    let measured: Vec<Option<Result<ImportedPair, String>>> = candidates
+        .into_par_iter()
+        .map(|candidate| {
+            if progress.cancelled() {
+                return None;
+            }
+            let pair = measured::pair(candidate, options);
+            progress.finished(1);
+            Some(pair)
+        })
+        .collect();
+    drop(progress);
+    if events.cancelled() {
+        return Err(JobError::Interrupted.into());
+    }
+    let mut pairs = Vec::new();
+    for outcome in measured.into_iter().flatten() {
+        match outcome {
+            Ok(pair) => {
+                warnings.extend(pair.warnings.iter().cloned());
+                pairs.push(pair);
+            }
+            Err(reason) => passed_over.push(reason),
+        }
+    }
+    Ok(Imported { pairs, warnings, passed_over, files: found.files.len(), components: count })
+}
+
+/// The components of a file.
+fn components_of(path: &Path, options: &ImportOptions) -> Result<Vec<Component>, MotionError> {
+    let bytes = record_bytes(path)?;
+    let file = read_record(&bytes, &path.display().to_string(), &options.files.read_options(None))?;
+    let file_sha256 = checksum(&bytes);
+    let several = file.recordings.len() > 1;
+    let named = name::of(path).orientation;
+    let components = file.recordings.into_iter().enumerate().map(|(index, mut recording)| {
+        // what the head does not say, the name may
+        recording.description.orientation = recording.description.orientation.or(named);
+        let samples = recording.accelerogram.acceleration_m_s2();
+        let bytes: Vec<u8> = samples.iter().flat_map(|a| a.to_le_bytes()).collect();
+        Component {
+            path: path.to_owned(),
+            channel: several.then_some(index + 1),
+            format: file.format,
+            dt_s: recording.accelerogram.dt_s(),
+            points: samples.len(),
+            file_sha256: file_sha256.clone(),
+            samples_sha256: checksum(&bytes),
+            description: recording.description,
+        }
+    });
+    Ok(components.collect())
+}
+
+/// Leaves out what is there already, and says so.
+fn without_duplicates(components: Vec<Component>, warnings: &mut Vec<Warning>) -> Vec<Component> {
+    let mut seen = std::collections::HashMap::new();
+    let mut kept: Vec<Component> = Vec::new();
+    for component in components {
+        let first = *seen.entry(component.samples_sha256.clone()).or_insert(kept.len());
+        match kept.get(first) {
+            Some(same) => warnings.push(Warning {
+                kind: "duplicate",
+                text: format!("{}: the same motion as {}; left out", component.path.display(), same.path.display()),
+            }),
+            None => kept.push(component),
+        }
+    }
+    kept
+}

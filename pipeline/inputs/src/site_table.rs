@@ -1,0 +1,326 @@
+//! Many sites: a table of them, and the exports that hold their hazard curves.
+//!
+//! The exports are gone through twice: before the analyses to find each site and every mistake, and after them for the
+//! curves, site by site, so that memory does not grow with the curves.
+
+mod export;
+mod places;
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use rayon::prelude::*;
+use uplift_hazard::HazardCurve;
+use uplift_motion::IntensityMeasure;
+use uplift_risk::StripeWeights;
+
+pub use self::export::SharedCurve;
+use self::export::{Index, Row, Stream};
+use super::hazard::stripe_weights;
+use crate::error::InputsError;
+use uplift_job::JobError;
+use uplift_job::checksum::checksum_of_file;
+use uplift_job::text::thousands;
+use uplift_study::{MeasurePlan, Repair, SiteTable, UniformRiskStudy};
+
+/// Sites that a warning names.
+const SITES_NAMED: usize = 4;
+
+/// A site of the table.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ListedSite {
+    /// Its name, or its number from 1 if it has none.
+    pub name: Box<str>,
+    /// Longitude as given, degrees.
+    pub longitude_deg: f64,
+    /// Latitude, degrees.
+    pub latitude_deg: f64,
+    /// The cells of further columns, one after the other.
+    carried: Box<str>,
+}
+
+impl ListedSite {
+    /// Its cells in the columns of [`SiteList::carried`].
+    pub fn carried(&self) -> impl Iterator<Item = &str> {
+        self.carried.split(places::BETWEEN_CELLS)
+    }
+}
+
+/// The sites of a study's table, each with its place in the exports.
+#[derive(Debug, Clone)]
+pub struct SiteList {
+    /// The sites in the order of the table, or of the first export where there is no table.
+    pub sites: Vec<ListedSite>,
+    /// Names of further columns of the table.
+    pub carried: Vec<String>,
+    /// The exports of the measures that the study is analysed by, in their order.
+    pub exports: Vec<SiteExport>,
+    /// Where the study repairs, those of other measures: what the records bring is held against them.
+    pub compared: Vec<SiteExport>,
+    /// What to know: sites without spectra, what was taken for granted.
+    pub notes: Vec<String>,
+    /// Name to SHA-256 of each file read.
+    pub checksums: BTreeMap<String, String>,
+}
+
+/// The export with the hazard of one measure.
+#[derive(Debug, Clone)]
+pub struct SiteExport {
+    /// The measure.
+    pub measure: IntensityMeasure,
+    path: PathBuf,
+    checksum: String,
+    /// Which curve of the export belongs to each site; none where no site of the export is near enough.
+    items: Vec<Option<u32>>,
+    within_km: f64,
+}
+
+impl SiteExport {
+    /// A curve of the export in field units, cm/s or g, for the definition of the measure that the records are combined
+    /// by.
+    ///
+    /// # Errors
+    /// A curve of another definition without a conversion, for instance; as the reason for a table.
+    pub fn curve(&self, study: &UniformRiskStudy, exported: &HazardCurve) -> Result<HazardCurve, String> {
+        export::for_the_records(study, self.measure, exported)
+    }
+
+    /// What each stripe of the study weighs at a site with this [`curve`](Self::curve).
+    ///
+    /// # Errors
+    /// A curve that does not cover the levels, for instance; as the reason for a table.
+    pub fn weights(&self, study: &UniformRiskStudy, curve: &HazardCurve) -> Result<StripeWeights, String> {
+        let plan = study.measures.iter().find(|plan| plan.measure == self.measure);
+        stripe_weights(study, plan.ok_or_else(|| "the measure is not one of the study's".to_owned())?, curve)
+    }
+}
+
+/// Read the study's table of sites and find the sites in the exports; none where the study has no such table.
+///
+/// # Errors
+/// Everything that is wrong with the files, at once; no site with a curve that can be used.
+pub fn read_site_list(study: &UniformRiskStudy) -> Result<Option<SiteList>, InputsError> {
+    let Some(table) = &study.site_table else { return Ok(None) };
+    let mut mistakes = Vec::new();
+    let places = table.sites.as_deref().and_then(|path| noted(places::read(path), &mut mistakes));
+    let mut found: Vec<(Read<'_>, &Path, Index)> = Vec::new();
+    for read in to_be_read(study, table) {
+        let Some(path) = table.export(read.measure()) else { continue };
+        let with_names = table.sites.is_none() && found.is_empty();
+        let index = noted(Index::read(study, read, path, with_names), &mut mistakes);
+        found.extend(index.map(|index| (read, path, index)));
+    }
+    let (true, Some((_, _, first))) = (mistakes.is_empty(), found.first()) else {
+        return Err(JobError::Inputs(mistakes).into());
+    };
+    let (sites, carried) = match places {
+        Some(places) => (places.sites, places.carried),
+        None => (first.sites(), Vec::new()),
+    };
+    let (notes, checksums) = (Vec::new(), BTreeMap::new());
+    let mut list = SiteList { sites, carried, exports: Vec::new(), compared: Vec::new(), notes, checksums };
+    let mut failures = Vec::new();
+    let mut any_works = false;
+    for (number, (read, path, index)) in found.iter().enumerate() {
+        let rows: Vec<Option<Row>> = if table.sites.is_none() && number == 0 {
+            index.rows().iter().copied().map(Some).collect()
+        } else {
+            let near = |site: &ListedSite| {
+                index.nearest(site.longitude_deg, site.latitude_deg, table.within_km).map(|(row, _)| *row)
+            };
+            list.sites.par_iter().map(near).collect()
+        };
+        let (measure, is_analysed) = (read.measure(), matches!(read, Read::Analysed(_)));
+        any_works |= is_analysed && rows.iter().flatten().any(|row| row.usable);
+        let label = measure.label();
+        failures.extend(list.without_hazard(label, path, index, &rows, table.within_km));
+        list.notes.extend(index.notes.iter().cloned());
+        let checksum = summed(path)?;
+        list.checksums.insert(format!("site table {label}"), checksum.clone());
+        let items = rows.iter().map(|row| row.map(|row| row.item)).collect();
+        let path = (*path).to_owned();
+        let export = SiteExport { measure, path, checksum, items, within_km: table.within_km };
+        if is_analysed { list.exports.push(export) } else { list.compared.push(export) }
+    }
+    if !any_works {
+        failures.insert(0, "no site of the table has hazard that can be used".to_owned());
+        return Err(JobError::Inputs(failures).into());
+    }
+    list.notes.splice(0..0, failures);
+    if let Some(path) = &table.sites {
+        list.checksums.insert("site table".to_owned(), summed(path)?);
+    }
+    Ok(Some(list))
+}
+
+/// What an export is read for.
+#[derive(Debug, Clone, Copy)]
+enum Read<'a> {
+    /// The spectra of a measure that the study is analysed by.
+    Analysed(&'a MeasurePlan),
+    /// To be held against what the records bring of a measure.
+    Compared(IntensityMeasure),
+}
+
+impl Read<'_> {
+    fn measure(self) -> IntensityMeasure {
+        match self {
+            Self::Analysed(plan) => plan.measure,
+            Self::Compared(measure) => measure,
+        }
+    }
+}
+
+/// The exports that are wanted: those of measures that the study is analysed by come first.
+fn to_be_read<'a>(study: &'a UniformRiskStudy, table: &'a SiteTable) -> impl Iterator<Item = Read<'a>> {
+    let is_repaired = study.consistency.repair == Repair::Weights;
+    let is_other = |measure: &IntensityMeasure| study.measures.iter().all(|plan| plan.measure != *measure);
+    let others = table.exports.iter().map(|(measure, _)| *measure).filter(move |own| is_repaired && is_other(own));
+    study.measures.iter().map(Read::Analysed).chain(others.map(Read::Compared))
+}
+
+fn noted<T>(read: Result<T, Vec<String>>, mistakes: &mut Vec<String>) -> Option<T> {
+    read.map_err(|reasons| mistakes.extend(reasons)).ok()
+}
+
+fn summed(path: &Path) -> Result<String, InputsError> {
+    Ok(checksum_of_file(path).map_err(|error| JobError::input(format!("{}: {error}", path.display())))?)
+}
+
+fn count(number: usize) -> String {
+    thousands(number as u64)
+}
+
+impl SiteList {
+    /// All exports, first those that have spectra.
+    pub fn all_exports(&self) -> impl Iterator<Item = &SiteExport> {
+        self.exports.iter().chain(&self.compared)
+    }
+
+    /// The sites in words, for a line on the screen.
+    pub fn description(&self) -> String {
+        let exports = self.all_exports().map(|export| {
+            let found = export.items.iter().flatten().count();
+            format!("{} found in the export of {}", count(found), export.measure.label())
+        });
+        format!("{}; {}", count(self.sites.len()), exports.collect::<Vec<_>>().join(", "))
+    }
+
+    /// What keeps sites from having spectra of a measure, counted, the first ones named.
+    fn without_hazard(
+        &self,
+        label: &str,
+        path: &Path,
+        index: &Index,
+        rows: &[Option<Row>],
+        within_km: f64,
+    ) -> Vec<String> {
+        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+        let all = count(self.sites.len());
+        let shown = |site: &ListedSite| {
+            let name: String = site.name.chars().take(40).collect();
+            format!("{} ({}, {})", name.escape_debug(), site.longitude_deg, site.latitude_deg)
+        };
+        let pairs = || self.sites.iter().zip(rows);
+        let mut messages = Vec::new();
+        let unknown = rows.iter().filter(|row| row.is_none()).count();
+        if unknown > 0 {
+            let examples = pairs().filter(|(_, row)| row.is_none()).take(SITES_NAMED).map(|(site, _)| {
+                let far = index.nearest(site.longitude_deg, site.latitude_deg, f64::INFINITY);
+                format!("{}{}", shown(site), far.map_or(String::new(), |(_, km)| format!(" is {km:.1} km away")))
+            });
+            let examples: Vec<String> = examples.collect();
+            // latitude first is the slip to expect where nothing is found
+            let swapped = |site: &ListedSite| {
+                site.longitude_deg.abs() <= 90.0
+                    && index.nearest(site.latitude_deg, site.longitude_deg, within_km).is_some()
+            };
+            let hint = if unknown == self.sites.len() && self.sites.iter().take(SITES_NAMED).any(swapped) {
+                "; are longitude and latitude swapped?"
+            } else {
+                ""
+            };
+            messages.push(format!(
+                "site table, {label}: {} of {all} sites have no site of {name} within {within_km} km: {}{}{hint}",
+                count(unknown),
+                examples.join("; "),
+                if unknown > examples.len() { "; …" } else { "" },
+            ));
+        }
+        let unusable =
+            || pairs().filter_map(|(site, row)| row.as_ref().filter(|row| !row.usable).map(|row| (site, row)));
+        let total = unusable().count();
+        if total > 0 {
+            let examples: Vec<String> = unusable()
+                .take(SITES_NAMED)
+                .map(|(site, row)| format!("{}: {}", shown(site), index.reason(row).unwrap_or("see the tables")))
+                .collect();
+            messages.push(format!(
+                "site table, {label}: {} of {all} sites have no hazard curve that can be used: {}{}",
+                count(total),
+                examples.join("; "),
+                if total > examples.len() { "; …" } else { "" },
+            ));
+        }
+        messages
+    }
+}
+
+/// A site with its hazard curve in each export.
+pub struct BatchSite {
+    /// Its position in the list.
+    pub site: usize,
+    /// The curve as exported, or why there is none, for each of [`SiteList::all_exports`].
+    pub curves: Vec<SharedCurve>,
+}
+
+/// The hazard curves of a list of sites, in its order.
+pub struct SiteCurves<'a> {
+    list: &'a SiteList,
+    streams: Vec<Stream>,
+    next: usize,
+}
+
+impl<'a> SiteCurves<'a> {
+    /// Opens the exports again.
+    ///
+    /// # Errors
+    /// An export that cannot be read, or is not any more what it was.
+    pub fn open(list: &'a SiteList) -> Result<Self, InputsError> {
+        let stream = |export: &SiteExport| {
+            if summed(&export.path)? != export.checksum {
+                return Err(JobError::input(format!(
+                    "{}: was changed during the run: run the study again",
+                    export.path.display()
+                ))
+                .into());
+            }
+            Stream::open(&export.path, export.items.iter().copied().flatten())
+        };
+        let streams = list.all_exports().map(stream).collect::<Result<_, _>>()?;
+        Ok(Self { list, streams, next: 0 })
+    }
+
+    /// The next sites, at most so many; none at the end.
+    ///
+    /// # Errors
+    /// An export that cannot be read any more.
+    pub fn next_batch(&mut self, most: usize) -> Result<Vec<BatchSite>, InputsError> {
+        let end = self.list.sites.len().min(self.next + most);
+        let batch = (self.next..end)
+            .map(|site| {
+                let curves = self.list.all_exports().zip(&mut self.streams).map(|(export, stream)| {
+                    match export.items.get(site).copied().flatten() {
+                        Some(item) => stream.take(item),
+                        None => {
+                            Ok(SharedCurve::new(Err(format!("no site of the export within {} km", export.within_km))))
+                        }
+                    }
+                });
+                Ok(BatchSite { site, curves: curves.collect::<Result<_, _>>()? })
+            })
+            .collect::<Result<_, InputsError>>()?;
+        self.next = end;
+        Ok(batch)
+    }
+}

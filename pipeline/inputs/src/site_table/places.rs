@@ -1,0 +1,139 @@
+//! The table of sites: where they are, and what they are called.
+
+use std::path::Path;
+
+use polars::prelude::{DataFrame, StringChunked};
+use uplift_atomic_file::{FileError, read_file};
+use uplift_job::text_table;
+
+use super::ListedSite;
+
+/// Largest table, bytes: some millions of sites.
+const MAX_BYTES: u64 = 256 << 20;
+/// Mistakes that are told one by one.
+const MISTAKES_TOLD: usize = 8;
+/// Stands between the cells of further columns.
+pub(super) const BETWEEN_CELLS: char = '\u{1f}';
+
+/// Column names that are understood, the better ones first.
+const LONGITUDE: [&str; 6] = ["longitude", "longitude_deg", "lon", "lon_deg", "long", "x"];
+const LATITUDE: [&str; 5] = ["latitude", "latitude_deg", "lat", "lat_deg", "y"];
+const NAME: [&str; 7] = ["name", "site", "site_name", "custom_site_id", "site_id", "station", "id"];
+
+/// Sites and the names of the columns that are carried along.
+pub(super) struct Places {
+    pub(super) sites: Vec<ListedSite>,
+    pub(super) carried: Vec<String>,
+}
+
+/// Reads a table with a header row; other columns than longitude, latitude and name are carried along as they are.
+///
+/// # Errors
+/// Everything that is wrong with it, a line each, the repetitions counted.
+pub(super) fn read(path: &Path) -> Result<Places, Vec<String>> {
+    let name = path.display();
+    let fail = |reason: String| vec![format!("site table {name} {reason}")];
+    let bytes = match read_file(path, MAX_BYTES) {
+        Ok(bytes) => bytes,
+        Err(FileError::TooLarge { limit_bytes, .. }) => {
+            return Err(fail(format!("has more than {limit_bytes} bytes: leave out further columns, for instance")));
+        }
+        Err(error) => return Err(vec![format!("site table {error}")]),
+    };
+    let table = text_table::parse(&bytes, &[])
+        .map_err(|error| fail(format!("cannot be read as a CSV table with a header row: {error}")))?;
+    drop(bytes);
+    let columns = Columns::of(&table).map_err(fail)?;
+    let mut mistakes = Vec::new();
+    let mut more = 0;
+    let mut sites = Vec::with_capacity(table.height());
+    for row in 0..table.height() {
+        match columns.site(row) {
+            Ok(site) => sites.push(site),
+            Err(reason) if mistakes.len() < MISTAKES_TOLD => {
+                mistakes.push(format!("site table {name}, row {} below the header: {reason}", row + 1));
+            }
+            Err(_) => more += 1,
+        }
+    }
+    if more > 0 {
+        mistakes.push(format!("site table {name}: {more} more rows like these"));
+    }
+    if mistakes.is_empty() && sites.is_empty() {
+        mistakes.push(format!("site table {name} has no sites"));
+    }
+    let carried = columns.carried.iter().map(|column| column.name().to_string()).collect();
+    if mistakes.is_empty() { Ok(Places { sites, carried }) } else { Err(mistakes) }
+}
+
+/// What the columns hold.
+struct Columns<'a> {
+    longitude: &'a StringChunked,
+    latitude: &'a StringChunked,
+    name: Option<&'a StringChunked>,
+    carried: Vec<&'a StringChunked>,
+}
+
+impl<'a> Columns<'a> {
+    fn of(table: &'a DataFrame) -> Result<Self, String> {
+        let texts: Vec<&StringChunked> = table.columns().iter().filter_map(|column| column.str().ok()).collect();
+        let keys: Vec<String> = texts.iter().map(|column| key(column.name())).collect();
+        let position = |wanted: &[&str]| wanted.iter().find_map(|wanted| keys.iter().position(|key| key == wanted));
+        let (Some(longitude), Some(latitude)) = (position(&LONGITUDE), position(&LATITUDE)) else {
+            let found: Vec<&str> = texts.iter().take(20).map(|column| column.name().as_str()).collect();
+            return Err(format!(
+                "does not name columns longitude and latitude [degrees] in its first line (lon, lat, x, y will do); \
+                 found {}",
+                found.join(", ").escape_debug()
+            ));
+        };
+        let name = position(&NAME);
+        let used = [Some(longitude), Some(latitude), name];
+        let carried = (0..texts.len()).filter(|&index| !used.contains(&Some(index))).map(|index| texts[index]);
+        Ok(Self {
+            longitude: texts[longitude],
+            latitude: texts[latitude],
+            name: name.map(|index| texts[index]),
+            carried: carried.collect(),
+        })
+    }
+
+    fn site(&self, row: usize) -> Result<ListedSite, String> {
+        let longitude_deg = degrees("longitude", cell(self.longitude, row))?;
+        let latitude_deg = degrees("latitude", cell(self.latitude, row))?;
+        if !(-90.0..=90.0).contains(&latitude_deg) || !(-180.0..=360.0).contains(&longitude_deg) {
+            let swapped = if longitude_deg.abs() <= 90.0 { "; are they swapped?" } else { "" };
+            return Err(format!(
+                "longitude {longitude_deg}, latitude {latitude_deg} is no place on earth: give degrees{swapped}"
+            ));
+        }
+        let name = self.name.map(|column| cell(column, row)).filter(|name| !name.is_empty());
+        let name = name.map_or_else(|| (row + 1).to_string(), str::to_owned).into();
+        let cells: Vec<String> =
+            self.carried.iter().map(|column| cell(column, row).replace(BETWEEN_CELLS, " ")).collect();
+        Ok(ListedSite { name, longitude_deg, latitude_deg, carried: cells.join(&BETWEEN_CELLS.to_string()).into() })
+    }
+}
+
+/// A column name without capitals, and without unit or remark behind it.
+fn key(name: &str) -> String {
+    let word = name.trim().split([' ', '[', '(']).next().unwrap_or_default();
+    word.to_lowercase()
+}
+
+fn cell(column: &StringChunked, row: usize) -> &str {
+    column.get(row).unwrap_or_default().trim()
+}
+
+fn degrees(what: &str, text: &str) -> Result<f64, String> {
+    if let Some(value) = text.parse::<f64>().ok().filter(|value| value.is_finite()) {
+        return Ok(value);
+    }
+    let head: String = text.chars().take(40).collect();
+    let hint = if text.replace(',', ".").parse::<f64>().is_ok() {
+        ", with a decimal point, or semicolons between the columns"
+    } else {
+        ""
+    };
+    Err(format!("{what} is {head:?}: give degrees{hint}"))
+}

@@ -1,0 +1,138 @@
+//! What keeps any job from doing what it was asked.
+
+use std::error::Error;
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+use uplift_atomic_file::FileError;
+use uplift_ida::IdaError;
+use uplift_labelled::LabelledError;
+use uplift_plausible::Implausible;
+
+use crate::text::one_line;
+
+/// Why a job did not do what it was asked, whatever the job. Each crate of the pipeline wraps it in an error of its own;
+/// [`cause`] finds it there.
+#[derive(Debug, Error)]
+pub enum JobError {
+    /// What a job is asked for does not fit together.
+    #[error("{0}")]
+    Usage(String),
+    /// A choice among what a result has, that it does not have or that was not made.
+    #[error("{}: the result has {}", choice(option, wanted.as_deref()), known.join(", "))]
+    Choice {
+        /// What is chosen, as the command line calls it: `--site`.
+        option: &'static str,
+        /// The choice made; none where there is none, and there are several.
+        wanted: Option<String>,
+        /// What the result has.
+        known: Vec<String>,
+    },
+    /// Records or hazard curves cannot be used; all that was found.
+    #[error("{}", list(" in the input data", .0))]
+    Inputs(Vec<String>),
+    /// Numbers that no system, record or person means; all that was found.
+    #[error("{}", list("", .0))]
+    Implausible(Vec<Implausible>),
+    /// A job cannot fit on this machine; why.
+    #[error(
+        "{}\n(what is needed is estimated: UPLIFT_LIMITS=warn in the environment goes on nonetheless)",
+        list(" before it fits on this machine", .0)
+    )]
+    Room(Vec<String>),
+    /// A file cannot be opened or written.
+    #[error("{0}")]
+    File(#[from] FileError),
+    /// A file of labelled arrays, a result above all, cannot be read or written.
+    #[error("{0}")]
+    Labelled(#[from] LabelledError),
+    /// One of the files that a job reads is at fault.
+    #[error("{}: {source}", path.display())]
+    InFile {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        source: Box<dyn Error + Send + Sync>,
+    },
+    /// An analysis that cannot be planned or finished; one that was told to stop is [`Interrupted`](Self::Interrupted).
+    #[error("{0}")]
+    Analysis(#[source] Box<IdaError>),
+    /// The user stopped the run.
+    #[error(
+        "interrupted: nothing was written, and an earlier result file is as it was. Run the same command to start again"
+    )]
+    Interrupted,
+    /// The user stopped a computation that goes on where it stopped.
+    #[error(
+        "interrupted: {done} of {total} {what} are in the checkpoint {}. Run the same command to go on from there",
+        path.display()
+    )]
+    Paused {
+        /// What is counted, in the plural.
+        what: &'static str,
+        /// Finished, over all measures.
+        done: u64,
+        /// In all.
+        total: u64,
+        /// The checkpoint that holds them.
+        path: PathBuf,
+    },
+}
+
+/// An option, with the value given to it.
+fn choice(option: &str, wanted: Option<&str>) -> String {
+    wanted.map_or_else(|| option.to_owned(), |wanted| format!("{option} {wanted}"))
+}
+
+/// Several mistakes as one message; `place` says where they are.
+pub fn list(place: &str, mistakes: &[impl ToString]) -> String {
+    match mistakes {
+        [one] => one_line(&one.to_string()).into_owned(),
+        many => {
+            let lines: Vec<String> =
+                many.iter().map(|mistake| format!("  - {}", one_line(&mistake.to_string()))).collect();
+            format!("{} things to mend{place}:\n{}", many.len(), lines.join("\n"))
+        }
+    }
+}
+
+impl JobError {
+    /// One mistake in the input data.
+    pub fn input(message: impl Into<String>) -> Self {
+        Self::Inputs(vec![message.into()])
+    }
+}
+
+impl From<IdaError> for JobError {
+    fn from(error: IdaError) -> Self {
+        match error {
+            IdaError::Cancelled => Self::Interrupted,
+            other => Self::Analysis(Box::new(other)),
+        }
+    }
+}
+
+/// The first error of type `E` in the chain of causes that begins with `error`.
+pub fn cause<'e, E: Error + 'static>(error: &'e (dyn Error + 'static)) -> Option<&'e E> {
+    let mut next = Some(error);
+    while let Some(error) = next {
+        if let Some(found) = error.downcast_ref() {
+            return Some(found);
+        }
+        next = error.source();
+    }
+    None
+}
+
+/// Whether somebody stopped the job.
+pub fn is_stopped(error: &(dyn Error + 'static)) -> bool {
+    matches!(cause(error), Some(JobError::Interrupted | JobError::Paused { .. }))
+}
+
+/// The `error`, said of the file at `path`; a job that was stopped was not stopped by the file.
+pub fn in_file<E: From<JobError> + Error + Send + Sync + 'static>(error: E, path: &Path) -> E {
+    if is_stopped(&error) {
+        return error;
+    }
+    JobError::InFile { path: path.to_owned(), source: Box::new(error) }.into()
+}

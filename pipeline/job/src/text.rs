@@ -1,0 +1,123 @@
+//! Tables and texts for the terminal.
+
+mod risk;
+mod visible;
+
+pub use risk::rounded;
+pub use risk::{kind_of_risks, per_cent, risk_in_words, risk_name, risks_in_words, share};
+pub use visible::{is_obeyed, one_line, visible};
+
+/// A number for a table or JSON, which have no infinity and no NaN: none for these. Zero has no sign there.
+pub fn finite(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value + 0.0)
+}
+
+/// Which spectrum, by the measure that records are scaled to: `PGV`, or `PGV, repaired`.
+pub fn spectrum_words(measure: &str, repaired: bool) -> String {
+    if repaired { format!("{measure}, repaired") } else { measure.to_owned() }
+}
+
+/// Lines of a table: the first column to the left, the others to the right, a rule below the header.
+pub fn table(header: &[&str], rows: &[Vec<String>]) -> String {
+    let width = |column: usize| {
+        rows.iter()
+            .map(|row| row[column].chars().count())
+            .chain([header[column].chars().count()])
+            .max()
+            .unwrap_or_default()
+    };
+    let widths: Vec<usize> = (0..header.len()).map(width).collect();
+    let line = |cells: &[String]| {
+        let padded =
+            cells.iter().zip(&widths).enumerate().map(|(column, (cell, &width))| match cell.strip_prefix("| ") {
+                _ if column == 0 => format!("{cell:<width$}"),
+                // a bar stands below the bar above it
+                Some(value) => format!("| {value:>0$}", width - 2),
+                None => format!("{cell:>width$}"),
+            });
+        let padded: Vec<String> = padded.collect();
+        padded.join("  ").trim_end().to_owned()
+    };
+    let header: Vec<String> = header.iter().map(|&name| name.to_owned()).collect();
+    let rule = "-".repeat(widths.iter().sum::<usize>() + 2 * widths.len().saturating_sub(1));
+    let mut lines = vec![line(&header), rule];
+    lines.extend(rows.iter().map(|row| line(row)));
+    lines.join("\n")
+}
+
+/// Positions of the values nearest to those `wanted`, each once.
+pub fn nearest(values: &[f64], wanted: &[f64]) -> Vec<usize> {
+    let distance = |index: usize, wanted: f64| (values[index] - wanted).abs();
+    let mut found: Vec<usize> = wanted
+        .iter()
+        .filter_map(|&wanted| (0..values.len()).min_by(|&a, &b| distance(a, wanted).total_cmp(&distance(b, wanted))))
+        .collect();
+    found.dedup();
+    found
+}
+
+/// A displacement in metres to the tenth of a millimetre.
+pub fn metres(value: f64) -> String {
+    if value.is_infinite() { "censored".to_owned() } else { format!("{value:.4}") }
+}
+
+/// A number with a few digits, in powers of ten where it is very large or small.
+pub fn short(value: f64) -> String {
+    if value == 0.0 || (1e-3..1e6).contains(&value.abs()) {
+        let digits = 5_usize.saturating_sub(format!("{:.0}", value.abs().trunc()).len()).max(1);
+        format!("{value:.digits$}")
+    } else {
+        format!("{value:.3e}")
+    }
+}
+
+/// A size in bytes, in kB, MB or GB.
+pub fn bytes(number: u64) -> String {
+    match number {
+        ..1_000_000 => format!("{} kB", number.div_ceil(1000)),
+        1_000_000..1_000_000_000 => format!("{} MB", number.div_ceil(1_000_000)),
+        _ => format!("{:.1} GB", number as f64 / 1e9),
+    }
+}
+
+/// "60 records of 30 pairs", where pairs have several; else "30 records".
+pub fn records_in_words(records: usize, pairs: usize) -> String {
+    if pairs < records { format!("{records} records of {pairs} pairs") } else { format!("{records} records") }
+}
+
+/// A whole number with its thousands set apart.
+pub fn thousands(number: u64) -> String {
+    let digits = number.to_string();
+    let mut text = String::new();
+    for (position, digit) in digits.chars().enumerate() {
+        if position > 0 && (digits.len() - position).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_for_people() {
+        assert_eq!(thousands(2_370_375), "2,370,375");
+        assert_eq!(thousands(12), "12");
+        assert_eq!(metres(f64::INFINITY), "censored");
+    }
+
+    #[test]
+    fn each_nearest_value_once() {
+        assert_eq!(nearest(&[0.0, 0.1, 0.3], &[0.11, 0.12, 0.4]), [1, 2]);
+        assert!(nearest(&[], &[0.1]).is_empty());
+    }
+
+    #[test]
+    fn columns_line_up() {
+        let rows = vec![vec!["Aachen".into(), "1.0".into()], vec!["X".into(), "22.50".into()]];
+        assert_eq!(table(&["site", "u"], &rows), "site        u\n-------------\nAachen    1.0\nX       22.50");
+    }
+}

@@ -1,0 +1,86 @@
+//! Tables that users bring: CSV as programs and spreadsheets of every country write it.
+
+mod shape;
+
+use std::io::Cursor;
+
+use polars::prelude::{Column, DataFrame};
+use polars_io::prelude::{CsvParseOptions, CsvReadOptions, SerReader};
+use uplift_plausible::{DecimalMarks, with_point};
+
+/// How a zip archive begins.
+const ZIP: &[u8] = b"PK\x03\x04";
+/// How text of two bytes a letter begins, either way round.
+const UTF_16: [&[u8]; 2] = [b"\xff\xfe", b"\xfe\xff"];
+
+/// All columns of a table with a header row as text: an identifier such as 0012 must stay what it is. Lines that begin
+/// with `#` are comments.
+///
+/// Commas, semicolons or tabs separate the columns. Where it is not commas, numbers may have decimal commas, and get
+/// points, but for those in the columns named `texts`.
+///
+/// # Errors
+/// What the file is instead of such a table; numbers that can be read in two ways.
+pub fn parse(bytes: &[u8], texts: &[&str]) -> Result<DataFrame, String> {
+    refuse_what_is_no_text(bytes)?;
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let header = bytes.split(|&byte| byte == b'\n').find(|line| !line.starts_with(b"#")).unwrap_or_default();
+    let separator = separator(header);
+    shape::check(bytes, separator)?;
+    let options = CsvParseOptions::default().with_comment_prefix(Some("#")).with_separator(separator);
+    let table = CsvReadOptions::default()
+        .with_has_header(true)
+        .with_infer_schema_length(Some(0))
+        .with_parse_options(options)
+        .into_reader_with_file_handle(Cursor::new(bytes))
+        .finish()
+        .map_err(|error| error.to_string())?;
+    if separator == b',' { Ok(table) } else { with_points(table, texts) }
+}
+
+/// Refuses what is no text of one byte a letter.
+///
+/// # Errors
+/// What the file is instead.
+pub fn refuse_what_is_no_text(bytes: &[u8]) -> Result<(), String> {
+    if bytes.starts_with(ZIP) {
+        return Err("it is a zip archive: `uplift records import` takes one of records".to_owned());
+    }
+    if UTF_16.iter().any(|mark| bytes.starts_with(mark)) {
+        return Err("it is UTF-16 text, which Excel and Notepad call Unicode: save it as \"CSV UTF-8\"".to_owned());
+    }
+    Ok(())
+}
+
+/// What separates the columns of a table with this `header`: what stands there most often.
+fn separator(header: &[u8]) -> u8 {
+    let count = |mark: u8| header.split(|byte| *byte == mark).count();
+    [b'\t', b';', b','].into_iter().max_by_key(|&mark| count(mark)).unwrap_or(b',')
+}
+
+/// The table, decimal commas of its columns of numbers replaced.
+fn with_points(table: DataFrame, texts: &[&str]) -> Result<DataFrame, String> {
+    let is_number = |cell: &str| cell.is_empty() || cell.parse::<f64>().is_ok() || with_point(cell).is_some();
+    let cells = |column: &Column| -> Option<Vec<String>> {
+        let cells = column.str().ok()?.iter().map(|cell| cell.unwrap_or_default().trim().to_owned());
+        Some(cells.collect::<Vec<_>>())
+            .filter(|cells| !texts.contains(&column.name().as_str()) && cells.iter().all(|cell| is_number(cell)))
+    };
+    let mut marks = DecimalMarks::default();
+    for column in table.columns() {
+        for (row, cell) in cells(column).into_iter().flatten().enumerate() {
+            marks.see(|| format!("row {} below the header, {}", row + 1, column.name()), &cell);
+        }
+    }
+    if !marks.are_commas().map_err(|error| error.to_string())? {
+        return Ok(table);
+    }
+    let replaced = table.columns().iter().map(|column| match cells(column) {
+        Some(cells) => {
+            let cells: Vec<String> = cells.into_iter().map(|cell| with_point(&cell).unwrap_or(cell)).collect();
+            Column::new(column.name().clone(), cells)
+        }
+        None => column.clone(),
+    });
+    DataFrame::new(table.height(), replaced.collect()).map_err(|error| error.to_string())
+}

@@ -1,0 +1,97 @@
+//! Loading protocols (Figure 5.11), by themselves and with columns under them.
+
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+use uplift_job::events::Events;
+use uplift_job::outputs::{self, Output, OutputKind};
+use uplift_statics::{CyclicState, LoadingProtocol, ProtocolPoint, RestrainedColumns};
+
+use super::tables;
+use crate::error::LaboratoryError;
+
+/// Points in a quarter of a cycle of columns under a protocol.
+const PARTS: u32 = 40;
+
+/// A protocol as asked for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ProtocolOptions {
+    /// The protocol.
+    pub protocol: LoadingProtocol,
+    /// Points in a quarter of a cycle.
+    pub parts: u32,
+    /// Where its history is written, CSV.
+    pub table: Option<PathBuf>,
+    /// Whether whatever is at that place gives way.
+    pub force: bool,
+}
+
+/// A protocol in numbers.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ProtocolReport {
+    /// Amplitudes of the sets, as drift ratios.
+    pub amplitudes: Vec<f64>,
+    /// Duration, s.
+    pub duration_s: f64,
+    /// The history.
+    #[serde(skip)]
+    pub history: Vec<ProtocolPoint>,
+    /// The files written.
+    pub files: Vec<PathBuf>,
+}
+
+/// Computes a loading protocol, and writes its history where that is asked for.
+///
+/// # Errors
+/// A history of too many points; a table that would replace something else or cannot be written.
+pub fn protocol(options: &ProtocolOptions, events: &dyn Events) -> Result<ProtocolReport, LaboratoryError> {
+    if let Some(table) = &options.table {
+        let nothing: [&Path; 0] = [];
+        outputs::check(&[Output::new(table, OutputKind::Table(tables::PROTOCOL_COLUMN))], &nothing, options.force)?;
+    }
+    let mut report = ProtocolReport {
+        amplitudes: options.protocol.amplitudes(),
+        duration_s: options.protocol.duration_s(),
+        history: options.protocol.history(options.parts)?,
+        files: Vec::new(),
+    };
+    if let Some(table) = &options.table {
+        events.writing_into(table.parent().unwrap_or(Path::new("")));
+        tables::write_protocol(&options.protocol, &report.history, table)?;
+        report.files.push(table.clone());
+    }
+    Ok(report)
+}
+
+/// Columns under a protocol.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CyclicReport {
+    /// Amplitudes of the sets, as drift ratios.
+    pub amplitudes: Vec<f64>,
+    /// Duration, s.
+    pub duration_s: f64,
+    /// Largest force on the deck, N.
+    pub largest_force_n: f64,
+    /// Largest force of a restrainer, N.
+    pub largest_tendon_n: f64,
+    /// Energy that yielding stoppers dissipate, all cycles together, J; 0 where none yields.
+    pub dissipated_j: f64,
+    /// The history.
+    #[serde(skip)]
+    pub states: Vec<CyclicState>,
+}
+
+impl CyclicReport {
+    pub(super) fn of(columns: &RestrainedColumns, protocol: LoadingProtocol) -> Result<Self, LaboratoryError> {
+        let states = columns.under(&protocol.history(PARTS)?)?;
+        let largest = |value: fn(&CyclicState) -> f64| states.iter().map(value).fold(0.0, f64::max);
+        Ok(Self {
+            amplitudes: protocol.amplitudes(),
+            duration_s: protocol.duration_s(),
+            largest_force_n: largest(|state| state.force_n.map_or(0.0, f64::abs)),
+            largest_tendon_n: largest(|state| state.tendon_n),
+            dissipated_j: states.last().map_or(0.0, |state| state.dissipated_j),
+            states,
+        })
+    }
+}

@@ -1,0 +1,251 @@
+//! One record through one rigid rocking block: its peak rotation, its impacts and, where asked for, its time history.
+
+use std::path::{Path, PathBuf};
+
+use polars::prelude::Column;
+use serde::Serialize;
+use uplift_block::{
+    FreeRocking, History, HistoryRow, Moment, Overturning, RockingBlock, respond, respond_with_history,
+};
+use uplift_job::JobError;
+use uplift_job::alarm::Alarm;
+use uplift_job::table::write_table;
+use uplift_motion::Accelerogram;
+use uplift_plausible::{LENGTH, RESTITUTION, SIZE, USUAL_LENGTH, USUAL_RESTITUTION};
+
+use super::{ShakenBy, Shaking};
+use crate::error::LaboratoryError;
+
+/// Which block is shaken, and by what. Two numbers make a block: width and height, or a slenderness and one length.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BlockResponseOptions {
+    /// The record. Without free vibration the block is followed to its first peak after the record, which is the last
+    /// that may be the largest.
+    pub shaking: Shaking,
+    /// Width 2b, m.
+    pub width_m: Option<f64>,
+    /// Height 2h, m.
+    pub height_m: Option<f64>,
+    /// Size R, half the diagonal, m.
+    pub size_m: Option<f64>,
+    /// Slenderness α = atan(b/h), rad.
+    pub slenderness_rad: Option<f64>,
+    /// Angular velocity after an impact over the one before; Housner's (Eq. 2.3) if none.
+    pub restitution: Option<f64>,
+}
+
+impl BlockResponseOptions {
+    /// `record`, unscaled, through the block of this width and height, m, with Housner's restitution; no history.
+    pub fn new(record: impl Into<PathBuf>, width_m: f64, height_m: f64) -> Self {
+        Self {
+            shaking: Shaking::new(record),
+            width_m: Some(width_m),
+            height_m: Some(height_m),
+            size_m: None,
+            slenderness_rad: None,
+            restitution: None,
+        }
+    }
+
+    /// The block, its numbers plausible.
+    fn block(&self) -> Result<RockingBlock, LaboratoryError> {
+        self.shaking.check(&[
+            (LENGTH, "width_m", self.width_m),
+            (LENGTH, "height_m", self.height_m),
+            (SIZE, "size_m", self.size_m),
+            (RESTITUTION, "restitution", self.restitution),
+        ])?;
+        let block = match (self.slenderness_rad, self.width_m, self.height_m, self.size_m) {
+            (None, Some(width_m), Some(height_m), None) => {
+                RockingBlock::from_half_sides(0.5 * width_m, 0.5 * height_m)?
+            }
+            (Some(slenderness_rad), None, Some(height_m), None) => {
+                RockingBlock::from_height(height_m, slenderness_rad)?
+            }
+            (Some(slenderness_rad), Some(width_m), None, None) => {
+                RockingBlock::new(0.5 * width_m / slenderness_rad.sin(), slenderness_rad)?
+            }
+            (Some(slenderness_rad), None, None, Some(size_m)) => RockingBlock::new(size_m, slenderness_rad)?,
+            _ => {
+                return Err(JobError::Usage(
+                    "two numbers make a block: its width and height, or its slenderness and one of width, height and \
+                     size (half the diagonal)"
+                        .to_owned(),
+                )
+                .into());
+            }
+        };
+        let block = block.with_gravity(self.shaking.gravity_m_s2)?;
+        Ok(self.restitution.map_or(Ok(block), |restitution| block.with_restitution(restitution))?)
+    }
+
+    /// The numbers that can be but are unlikely, mistakes of unit mostly.
+    fn alarms(&self) -> Vec<Alarm> {
+        self.shaking.alarms(&[
+            (USUAL_LENGTH, "--width-m", self.width_m),
+            (USUAL_LENGTH, "--height-m", self.height_m),
+            (USUAL_LENGTH, "--size-m", self.size_m),
+            (USUAL_RESTITUTION, "--restitution", self.restitution),
+        ])
+    }
+
+    fn free_rocking(&self) -> FreeRocking {
+        let duration_s = self.shaking.free_vibration_s;
+        if duration_s > 0.0 { FreeRocking::Lasting { duration_s } } else { FreeRocking::FirstPeak }
+    }
+}
+
+/// What became of the block.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BlockResponseReport {
+    /// The record.
+    #[serde(flatten)]
+    pub shaken_by: ShakenBy,
+    /// Width 2b, m.
+    pub width_m: f64,
+    /// Height 2h, m.
+    pub height_m: f64,
+    /// Size R, half the diagonal, m.
+    pub size_m: f64,
+    /// Slenderness α, rad.
+    pub slenderness_rad: f64,
+    /// Angular velocity after an impact over the one before.
+    pub restitution: f64,
+    /// Whether that is Housner's (Eq. 2.3).
+    pub restitution_is_housners: bool,
+    /// Frequency parameter p = √(3g/(4R)), rad/s.
+    pub frequency_parameter_rad_s: f64,
+    /// Ground acceleration beyond which the block uplifts, tan α, g.
+    pub uplift_acceleration_g: f64,
+    /// Largest rotation, rad; infinite, as JSON null, where the block overturned.
+    pub peak_rotation_rad: f64,
+    /// Largest displacement of the top, m (Eq. 2.10); infinite, as JSON null, where the block overturned.
+    pub peak_displacement_m: f64,
+    /// When, s from the start of the record; none where it overturned or never uplifted.
+    pub time_of_peak_s: Option<f64>,
+    /// When the block first uplifted, s; none if it never did.
+    pub time_of_uplift_s: Option<f64>,
+    /// Impacts; of the infinitely many before a rest, those until it was certain.
+    pub impacts: u64,
+    /// Whether the block overturned.
+    pub overturned: bool,
+    /// When it overturned, s.
+    pub time_of_overturning_s: Option<f64>,
+    /// Whether a nearly elastic block that rebounded 100,000 times in a sample interval was put to rest.
+    pub chatter_was_cut: bool,
+    /// What to know before using the numbers.
+    pub alarms: Vec<Alarm>,
+    /// The time history, where it was asked for.
+    #[serde(skip)]
+    pub history: Option<BlockHistory>,
+    /// The file that it was written to.
+    #[serde(skip)]
+    pub history_file: Option<PathBuf>,
+}
+
+/// The motion of the ground and what it did to the block.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BlockHistory {
+    /// Sampling interval of the record, s.
+    pub dt_s: f64,
+    /// Ground acceleration at every sample of the record, scaled, m/s².
+    pub ground_acceleration_m_s2: Vec<f64>,
+    /// Samples and events in the order of time; an impact has two rows, before and after.
+    pub rows: Vec<HistoryRow>,
+    /// Displacement of the top at every row, m (Eq. 2.10).
+    pub top_displacement_m: Vec<f64>,
+}
+
+/// Shakes one rigid rocking block with one record: Eq. 2.1 between impacts, Eq. 2.3 at them.
+///
+/// # Errors
+/// A block that cannot be, a record that cannot be read, a history that cannot be written.
+pub fn block_response(options: &BlockResponseOptions) -> Result<BlockResponseReport, LaboratoryError> {
+    let block = options.block()?;
+    let shaking = &options.shaking;
+    let motion = shaking.read()?;
+    let ground = motion.scaled(shaking.scale)?;
+    let free = options.free_rocking();
+    let (result, history) = if shaking.wants_history() {
+        let (result, history) = respond_with_history(&block, &ground, free)?;
+        (result, Some(BlockHistory::of(history, &block, &ground)))
+    } else {
+        (respond(&block, &ground, free)?, None)
+    };
+    let overturned = result.overturning != Overturning::None;
+    let report = BlockResponseReport {
+        shaken_by: shaking.told(&motion),
+        width_m: 2.0 * block.half_width_m(),
+        height_m: 2.0 * block.half_height_m(),
+        size_m: block.size_m(),
+        slenderness_rad: block.slenderness_rad(),
+        restitution: block.restitution(),
+        restitution_is_housners: options.restitution.is_none(),
+        frequency_parameter_rad_s: block.frequency_parameter_rad_s(),
+        uplift_acceleration_g: block.slenderness_rad().tan(),
+        peak_rotation_rad: result.rotation_rad,
+        peak_displacement_m: result.displacement_m,
+        time_of_peak_s: (!overturned && result.uplift_s.is_some()).then_some(result.time_s),
+        time_of_uplift_s: result.uplift_s,
+        impacts: result.impacts,
+        alarms: options.alarms(),
+        overturned,
+        time_of_overturning_s: overturned.then_some(result.time_s),
+        chatter_was_cut: result.chatter_was_cut,
+        history,
+        history_file: shaking.history_file.clone(),
+    };
+    if let (Some(file), Some(history)) = (&shaking.history_file, &report.history) {
+        history.write(file, &report)?;
+    }
+    Ok(report)
+}
+
+impl BlockHistory {
+    fn of(history: History, block: &RockingBlock, ground: &Accelerogram) -> Self {
+        Self {
+            dt_s: ground.dt_s(),
+            ground_acceleration_m_s2: ground.acceleration_m_s2().to_vec(),
+            top_displacement_m: history.rows.iter().map(|row| block.top_displacement_m(row.rotation_rad)).collect(),
+            rows: history.rows,
+        }
+    }
+
+    fn write(&self, file: &Path, report: &BlockResponseReport) -> Result<(), LaboratoryError> {
+        let line = report.shaken_by.line(&format!(
+            "block of size {} m, slenderness {} rad, restitution {}",
+            report.size_m, report.slenderness_rad, report.restitution
+        ));
+        let column = |name: &str, value: fn(&HistoryRow) -> f64| {
+            Column::new(name.into(), self.rows.iter().map(value).collect::<Vec<f64>>())
+        };
+        let ground: Vec<f64> = self.rows.iter().map(|row| self.acceleration_at(row.time_s)).collect();
+        let events: Vec<Option<&str>> = self.rows.iter().map(|row| word(row.moment)).collect();
+        let columns = vec![
+            column("time_s", |row| row.time_s),
+            column("rotation_rad", |row| row.rotation_rad),
+            column("angular_velocity_rad_s", |row| row.velocity_rad_s),
+            Column::new("top_displacement_m".into(), &self.top_displacement_m),
+            Column::new("ground_acceleration_m_s2".into(), ground),
+            Column::new("event".into(), events),
+        ];
+        Ok(write_table(file, &line, columns)?)
+    }
+
+    /// The scaled acceleration of the ground, linear between samples, zero after the record.
+    fn acceleration_at(&self, time_s: f64) -> f64 {
+        super::history::acceleration_at(&self.ground_acceleration_m_s2, 1.0, self.dt_s, time_s)
+    }
+}
+
+/// What the table calls a moment; nothing of a sample.
+fn word(moment: Moment) -> Option<&'static str> {
+    match moment {
+        Moment::Sample => None,
+        Moment::Uplift => Some(super::HistoryRow::UPLIFT),
+        Moment::BeforeImpact => Some(super::HistoryRow::BEFORE_IMPACT),
+        Moment::AfterImpact => Some(super::HistoryRow::AFTER_IMPACT),
+        Moment::Rest => Some("rest"),
+        Moment::Overturned => Some("overturned"),
+    }
+}

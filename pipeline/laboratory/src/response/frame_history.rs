@@ -1,0 +1,125 @@
+//! The motion of a frame in time, row by row, and the table of it.
+
+use std::path::Path;
+
+use polars::prelude::Column;
+use uplift_frame::{History, HistoryRow, Moment, RockingFrame};
+use uplift_job::outputs;
+use uplift_job::table::write_table;
+use uplift_motion::Accelerogram;
+use uplift_statics::Sections;
+
+use super::FrameResponseReport;
+use super::history::acceleration_at;
+use crate::error::LaboratoryError;
+
+/// A motion of the ground and what it did to the frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FrameHistory {
+    /// Samples and events in the order of time.
+    pub rows: Vec<FrameHistoryRow>,
+}
+
+/// An instant of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FrameHistoryRow {
+    /// Rotation, travel, restrainer and deck.
+    pub state: HistoryRow,
+    /// Ends of a column; none where it stands upright, its sections closed.
+    pub sections: Option<Sections>,
+    /// Base shear of the deck alone, `m_b |a|` (Eq. 6.10), N.
+    pub base_shear_n: f64,
+    /// Acceleration of the ground in x, y and upwards, m/s².
+    pub ground_m_s2: [f64; 3],
+}
+
+impl FrameHistory {
+    /// A column that the table of every frame has.
+    pub(super) const COLUMN: &str = "deck_acceleration_x_m_s2";
+
+    pub(super) fn of(frame: &RockingFrame, history: History, shaken: [Option<&Accelerogram>; 3]) -> Self {
+        let row = |state: HistoryRow| {
+            let ground_m_s2 = shaken.map(|motion| {
+                motion
+                    .map_or(0.0, |motion| acceleration_at(motion.acceleration_m_s2(), 1.0, motion.dt_s(), state.time_s))
+            });
+            let deck_m_s2 = state.deck_acceleration_x_m_s2.hypot(state.deck_acceleration_y_m_s2);
+            FrameHistoryRow {
+                sections: frame.sections(&state, ground_m_s2[2]),
+                base_shear_n: frame.deck_mass_kg() * deck_m_s2,
+                ground_m_s2,
+                state,
+            }
+        };
+        Self { rows: history.rows.into_iter().map(row).collect() }
+    }
+}
+
+/// What the table calls a moment; nothing of a sample.
+fn word(moment: Moment) -> Option<&'static str> {
+    match moment {
+        Moment::Sample => None,
+        Moment::Uplift => Some(super::HistoryRow::UPLIFT),
+        Moment::Impact => Some("impact"),
+        Moment::Rest => Some("rest"),
+        Moment::Overturned => Some("overturned"),
+    }
+}
+
+/// Writes the histories of all runs of `report` as one table.
+pub(super) fn write(file: &Path, report: &FrameResponseReport) -> Result<(), LaboratoryError> {
+    let records: Vec<String> =
+        (report.components.iter()).map(|of| format!("{} {}", of.component, of.shaken_by.record.display())).collect();
+    let scale = report.components.first().map_or(1.0, |of| of.shaken_by.scale);
+    let line = format!(
+        "{}; structure {}, {} model, restitution {}; {}, scale {scale}",
+        outputs::mark(),
+        report.structure.display(),
+        model_word(report.model),
+        report.restitution,
+        records.join(", ")
+    );
+    let rows: Vec<(&'static str, FrameHistoryRow)> = (report.runs.iter())
+        .flat_map(|run| run.history.iter().flat_map(|history| history.rows.iter().map(|row| (run.under, *row))))
+        .collect();
+    let number = |name: &str, value: fn(&FrameHistoryRow) -> f64| {
+        Column::new(name.into(), rows.iter().map(|(_, row)| value(row)).collect::<Vec<f64>>())
+    };
+    let section = |name: &str, value: fn(&Sections) -> f64| {
+        let cells = rows.iter().map(|(_, row)| row.sections.as_ref().map(value)).collect::<Vec<Option<f64>>>();
+        Column::new(name.into(), cells)
+    };
+    let columns = vec![
+        Column::new("under".into(), rows.iter().map(|(under, _)| *under).collect::<Vec<&str>>()),
+        number("time_s", |row| row.state.time_s),
+        number("rotation_rad", |row| row.state.rotation_rad),
+        number("direction_rad", |row| row.state.direction_rad),
+        number("displacement_x_m", |row| row.state.displacement_x_m),
+        number("displacement_y_m", |row| row.state.displacement_y_m),
+        number("rise_m", |row| row.state.rise_m),
+        number("tendon_n", |row| row.state.tendon_n),
+        number("spring_m", |row| row.state.spring_m),
+        section("top_axial_n", |of| of.top_axial_n),
+        section("top_shear_n", |of| of.top_shear_n),
+        section("top_moment_n_m", |of| of.top_moment_n_m),
+        section("base_axial_n", |of| of.base_axial_n),
+        section("base_moment_n_m", |of| of.base_moment_n_m),
+        number(FrameHistory::COLUMN, |row| row.state.deck_acceleration_x_m_s2),
+        number("deck_acceleration_y_m_s2", |row| row.state.deck_acceleration_y_m_s2),
+        number("deck_acceleration_z_m_s2", |row| row.state.deck_acceleration_z_m_s2),
+        number("base_shear_n", |row| row.base_shear_n),
+        number("ground_acceleration_x_m_s2", |row| row.ground_m_s2[0]),
+        number("ground_acceleration_y_m_s2", |row| row.ground_m_s2[1]),
+        number("ground_acceleration_z_m_s2", |row| row.ground_m_s2[2]),
+        Column::new("event".into(), rows.iter().map(|(_, row)| word(row.state.moment)).collect::<Vec<Option<&str>>>()),
+    ];
+    Ok(write_table(file, &line, columns)?)
+}
+
+/// A model in a word.
+fn model_word(model: uplift_frame::Model) -> &'static str {
+    match model {
+        uplift_frame::Model::Planar => "planar",
+        uplift_frame::Model::Wobbling => "wobbling",
+    }
+}

@@ -1,0 +1,180 @@
+//! What shakes a system, whichever it is: a record, its scale, and what is kept of the motion.
+
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+use uplift_alarms::of_numbers;
+use uplift_job::JobError;
+use uplift_job::alarm::Alarm;
+use uplift_job::outputs::{self, Output, OutputKind};
+use uplift_motion::{
+    AccelerationUnit, Accelerogram, ReadOptions, RecordFormat, STANDARD_GRAVITY_M_S2, read_record_file,
+};
+use uplift_plausible::{FREE_VIBRATION, GRAVITY, Range, SCALE, TIME_STEP, USUAL_GRAVITY};
+
+use crate::error::LaboratoryError;
+
+/// A number from outside: what it may be, its name, and the number where it is given.
+pub(super) type Given = (Range, &'static str, Option<f64>);
+
+/// The record that shakes a system, and what is kept of the motion.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shaking {
+    /// The record: a file with one component, or with several of which `channel` is taken.
+    pub record: PathBuf,
+    /// Which component of a file with several, counted from 1.
+    pub channel: Option<usize>,
+    /// Sampling interval of a file that does not say it, s.
+    pub dt_s: Option<f64>,
+    /// Unit of a file that does not say it.
+    pub unit: Option<AccelerationUnit>,
+    /// Factor on the record.
+    pub scale: f64,
+    /// Acceleration of gravity, m/s².
+    pub gravity_m_s2: f64,
+    /// How long the free vibration after the record is followed, s.
+    pub free_vibration_s: f64,
+    /// Whether the report holds the time history.
+    pub history: bool,
+    /// A CSV file for the time history.
+    pub history_file: Option<PathBuf>,
+    /// Whether whatever is at the place of that file gives way.
+    pub force: bool,
+}
+
+impl Shaking {
+    /// `record`, unscaled, under standard gravity; no history.
+    pub fn new(record: impl Into<PathBuf>) -> Self {
+        Self {
+            record: record.into(),
+            channel: None,
+            dt_s: None,
+            unit: None,
+            scale: 1.0,
+            gravity_m_s2: STANDARD_GRAVITY_M_S2,
+            free_vibration_s: 0.0,
+            history: false,
+            history_file: None,
+            force: false,
+        }
+    }
+
+    /// Refuses numbers that no system, record or person means, the `system`'s among them; all of them at once.
+    pub(super) fn check(&self, system: &[Given]) -> Result<(), LaboratoryError> {
+        let shaking = [
+            (SCALE, "scale", Some(self.scale.abs())),
+            (GRAVITY, "gravity_m_s2", Some(self.gravity_m_s2)),
+            (TIME_STEP, "dt_s", self.dt_s),
+            (FREE_VIBRATION, "free_vibration_s", Some(self.free_vibration_s)),
+        ];
+        let given = system.iter().chain(&shaking);
+        let mistakes: Vec<_> = given.filter_map(|(range, name, value)| range.check(name, (*value)?).err()).collect();
+        if mistakes.is_empty() { Ok(()) } else { Err(JobError::Implausible(mistakes).into()) }
+    }
+
+    /// What is unlikely of the numbers that are given, the `system`'s among them.
+    pub(super) fn alarms(&self, system: &[Given]) -> Vec<Alarm> {
+        let gravity = (USUAL_GRAVITY, "--gravity-m-s2", Some(self.gravity_m_s2));
+        of_numbers("response", &[system, &[gravity]].concat())
+    }
+
+    /// Whether the motion is to be kept.
+    pub(super) fn wants_history(&self) -> bool {
+        self.history || self.history_file.is_some()
+    }
+
+    /// Refuses a place for the history where something else is, and a time step or unit for a file that says its own;
+    /// else the record.
+    pub(super) fn read(&self) -> Result<Accelerogram, LaboratoryError> {
+        let (motion, format) = self.read_told()?;
+        self.refuse_unused(&[(&self.record, format)])?;
+        Ok(motion)
+    }
+
+    /// Refuses a time step or unit that none of the files takes, since all say their own.
+    pub(super) fn refuse_unused(&self, files: &[(&Path, RecordFormat)]) -> Result<(), LaboratoryError> {
+        let given: Vec<&str> = [("--dt-s", self.dt_s.is_some()), ("--unit", self.unit.is_some())]
+            .into_iter()
+            .filter_map(|(option, is_given)| is_given.then_some(option))
+            .collect();
+        if given.is_empty() || files.iter().any(|(_, format)| *format == RecordFormat::Columns) {
+            return Ok(());
+        }
+        let told = |(file, format): &(&Path, RecordFormat)| format!("{} ({format})", file.display());
+        let files: Vec<String> = files.iter().map(told).collect();
+        Err(JobError::Usage(format!(
+            "{} of a record that says its own, {}: leave it out, or make a text file of the values if the head is \
+             wrong",
+            given.join(" and "),
+            files.join(", ")
+        ))
+        .into())
+    }
+
+    /// The record with the layout of its file.
+    pub(super) fn read_told(&self) -> Result<(Accelerogram, RecordFormat), LaboratoryError> {
+        if let Some(file) = &self.history_file {
+            outputs::check(
+                &[Output::new(file, OutputKind::Table("ground_acceleration_m_s2"))],
+                &[&self.record],
+                self.force,
+            )?;
+        }
+        let options = ReadOptions {
+            dt_s: self.dt_s,
+            unit: self.unit,
+            gravity_m_s2: self.gravity_m_s2,
+            channel: self.channel,
+            format: None,
+        };
+        let file = read_record_file(&self.record, &options)?;
+        let format = file.format;
+        Ok((file.component(&self.record.display().to_string(), self.channel)?.accelerogram, format))
+    }
+
+    /// What is told of `motion`, the record read.
+    pub(super) fn told(&self, motion: &Accelerogram) -> ShakenBy {
+        let scale = self.scale.abs();
+        ShakenBy {
+            record: self.record.clone(),
+            samples: motion.len(),
+            dt_s: motion.dt_s(),
+            scale: self.scale,
+            pga_g: scale * motion.pga_m_s2() / self.gravity_m_s2,
+            pgv_cm_s: scale * motion.pgv_m_s() * 100.0,
+            pgd_m: scale * motion.pgd_m(),
+            gravity_m_s2: self.gravity_m_s2,
+            free_vibration_s: self.free_vibration_s,
+        }
+    }
+}
+
+/// The record that shook a system.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ShakenBy {
+    /// The record's file.
+    pub record: PathBuf,
+    /// Its samples.
+    pub samples: usize,
+    /// Its sampling interval, s.
+    pub dt_s: f64,
+    /// Factor on it.
+    pub scale: f64,
+    /// Peak ground acceleration of the scaled record, g.
+    pub pga_g: f64,
+    /// Peak ground velocity of the scaled record, cm/s.
+    pub pgv_cm_s: f64,
+    /// Peak ground displacement of the scaled record, m.
+    pub pgd_m: f64,
+    /// Acceleration of gravity, m/s².
+    pub gravity_m_s2: f64,
+    /// How long the free vibration was followed, s.
+    pub free_vibration_s: f64,
+}
+
+impl ShakenBy {
+    /// What stands beside the table of a history of `system`.
+    pub(super) fn line(&self, system: &str) -> String {
+        format!("{}; record {}, scale {}, {system}", outputs::mark(), self.record.display(), self.scale)
+    }
+}

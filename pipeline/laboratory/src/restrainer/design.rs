@@ -1,0 +1,444 @@
+//! Stacks out of a catalogue for the columns of a structure.
+
+use std::path::{Path, PathBuf};
+
+use polars::prelude::Column;
+use serde::Serialize;
+use uplift_design::{DesignOptions, design as design_by_spectrum};
+use uplift_job::JobError;
+use uplift_job::events::Events;
+use uplift_job::outputs::{self, Output, OutputKind};
+use uplift_job::table::write_table;
+use uplift_statics::selection::{select, stopper_yield_force_n};
+use uplift_statics::{Candidate, Imperfections, Limits, Ranking, StaticsError, Target, TendonPath, Tolerance};
+use uplift_structure::{Kind, StructureDescription};
+use uplift_study::Structure;
+
+use super::catalogue;
+use crate::error::LaboratoryError;
+use crate::pushover::pushed;
+
+/// A column of every list of stacks, and of no other table.
+const STACK_COLUMN: &str = "tendon_utilisation";
+/// Slack of which the effect is told, m.
+const SLACK_M: f64 = 0.002;
+/// Prestress of which the effect is told, as a share of the load on a column: that of column J, 2 kN of 52.2 kN.
+const PRESTRESS_SHARE: f64 = 0.04;
+/// Gap of a duct of which the effect is told where the structure has none, m: the specimen's of Chapter 6.
+const DUCT_GAP_M: f64 = 0.0087;
+
+/// What the stack is for.
+#[derive(Debug, Clone, PartialEq)]
+pub enum DesignTarget {
+    /// A secant stiffness of springs and tendon, N/m.
+    Stiffness(f64),
+    /// A displacement capacity, m.
+    Capacity(f64),
+    /// The capacity that a uniform risk spectrum asks for: demand times safety factor.
+    Spectrum {
+        /// Result file.
+        result: PathBuf,
+        /// Site, risk, measure and safety factor.
+        options: Box<DesignOptions>,
+    },
+    /// A force that stays.
+    ZeroStiffness,
+    /// A force that rises.
+    PositiveStiffness,
+}
+
+/// A stopper beside the stack.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StopperOptions {
+    /// Deformation of the springs at which it engages, m.
+    pub gap_m: f64,
+    /// Stiffness `EA/L` of its rods, N/m.
+    pub stiffness_n_m: f64,
+}
+
+/// What is asked of a design. Tendon, prestress and path are those of the structure's restrainer.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RestrainerDesignOptions {
+    /// The catalogue, CSV.
+    pub catalogue: PathBuf,
+    /// What the stack is for.
+    pub target: DesignTarget,
+    /// Travel at which a stiffness is asked for, m; 4b, twice what free columns can go, where none is given.
+    pub at_m: Option<f64>,
+    /// What limits the stack; tendon, prestress and path of it are replaced by those of the structure.
+    pub limits: Option<Limits>,
+    /// By what stacks are ranked.
+    pub ranking: Ranking,
+    /// A stopper to be sized for each.
+    pub stopper: Option<StopperOptions>,
+    /// The stack whose tolerances are told, as it is called in the list, `6 x 2 x 160/82/10`; the first where none is
+    /// given.
+    pub tolerances_of: Option<String>,
+    /// Most stacks that are told.
+    pub most: usize,
+    /// Where all of them are written, CSV.
+    pub table: Option<PathBuf>,
+    /// Whether whatever is at that place gives way.
+    pub force: bool,
+}
+
+/// The target in numbers.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TargetReport {
+    /// In words.
+    pub words: String,
+    /// Stiffness of a restrainer, N/m: asked for, or by the linear law for the capacity.
+    pub stiffness_n_m: f64,
+    /// Displacement capacity asked for, m.
+    pub capacity_m: Option<f64>,
+    /// Displacement that the spectrum demands, m; none where the target is no spectrum's.
+    pub demand_m: Option<f64>,
+    /// Travel at which the stiffness counts, m.
+    pub at_m: f64,
+    /// Stiffness at which the linear force neither falls nor rises, N/m.
+    pub critical_stiffness_n_m: f64,
+}
+
+/// A stack at the demand of a spectrum.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct AtDemand {
+    /// Force of the tendon, N.
+    pub tendon_n: f64,
+    /// Deformation of the springs, m.
+    pub spring_m: f64,
+}
+
+/// A stopper for a stack.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct StopperReport {
+    /// Force of the springs when it engages, N.
+    pub engages_at_n: f64,
+    /// Travel of the deck there, m; none where the columns do not come so far.
+    pub engages_at_m: Option<f64>,
+    /// The most at which its rods may yield, N; none where the springs alone are too much for the tendon, or are flat
+    /// before the gap closes.
+    pub most_yield_n: Option<f64>,
+}
+
+/// What a design tells.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RestrainerDesign {
+    /// Name for people.
+    #[serde(skip)]
+    pub name: String,
+    /// The structure file.
+    pub file: PathBuf,
+    /// The catalogue.
+    pub catalogue: PathBuf,
+    /// Discs in it.
+    pub discs: usize,
+    /// The target.
+    pub target: TargetReport,
+    /// How many stacks meet it.
+    pub found: usize,
+    /// The first of them.
+    pub stacks: Vec<Candidate>,
+    /// Each of these at the demand; none where the target is no spectrum's.
+    pub at_demand: Vec<AtDemand>,
+    /// A stopper for each of these; none was asked for where there is none.
+    pub stoppers: Vec<StopperReport>,
+    /// The stack that the tolerances are of, as [`stack_name`] calls it.
+    pub tolerances_of: String,
+    /// What imperfections do to it.
+    pub tolerances: Vec<Tolerance>,
+    /// The files written.
+    pub files: Vec<PathBuf>,
+}
+
+/// Finds stacks out of a catalogue for the columns of a structure.
+///
+/// # Errors
+/// A structure without columns, or whose restrainer has no tendon; a catalogue that cannot be read; a target that
+/// cannot be, or that no stack meets, with what comes nearest; a table that would replace something else or cannot be
+/// written; what a design by a spectrum may meet.
+pub fn design(
+    structure: &Structure,
+    options: &RestrainerDesignOptions,
+    events: &dyn Events,
+) -> Result<RestrainerDesign, LaboratoryError> {
+    if let Some(table) = &options.table {
+        let output = Output::new(table, OutputKind::Table(STACK_COLUMN)).of(&structure.file);
+        outputs::check(&[output], &[&structure.file, &options.catalogue], options.force)?;
+    }
+    let columns = pushed(structure, 0)?;
+    let held = columns.restrainer().and_then(|held| held.parts().tendon.map(|tendon| (tendon, *held.parts())));
+    let Some((tendon, parts)) = held else {
+        return Err(JobError::Usage(format!(
+            "{}: a stack stands in series with a tendon, and [restrainer] has none: give tendon_stiffness_n_m, or \
+             tendon_area_m2 and tendon_length_m (kind = \"tendon\" until there is a stack)",
+            structure.file.display()
+        ))
+        .into());
+    };
+    let limits = Limits {
+        tendon,
+        prestress_n: parts.prestress_n,
+        path: columns.path(),
+        ..options.limits.unwrap_or(Limits::behind(tendon))
+    };
+    let discs = catalogue::read(&options.catalogue)?;
+    let (target, told) = target_of(structure, options, events)?;
+    let all = select(&columns, &discs, target, &limits, options.ranking)?;
+    if all.is_empty() {
+        return Err(JobError::Usage(none_found(&columns, &discs, (target, &told), &limits, options)).into());
+    }
+    let stacks: Vec<Candidate> = all.iter().take(options.most.max(1)).cloned().collect();
+    let with = |stack: &Candidate| columns.clone().with_restrainer(stack.restrainer.clone(), limits.path);
+    let stoppers = match options.stopper {
+        None => Vec::new(),
+        Some(stopper) => stacks
+            .iter()
+            .map(|stack| {
+                // a stack that is flat before the gap closes has no use for a stopper
+                let most_yield_n = match stopper_yield_force_n(
+                    &stack.restrainer,
+                    stopper.gap_m,
+                    stopper.stiffness_n_m,
+                    limits.tendon_factor,
+                ) {
+                    Err(StaticsError::StopperBehindFlat { .. }) => None,
+                    found => found?,
+                };
+                let (held, law) = (with(stack)?, stack.restrainer.parts());
+                let engages_at_n = match law.spring {
+                    uplift_statics::Spring::Discs(discs) => discs.law().force_n(stopper.gap_m),
+                    _ => f64::NAN,
+                };
+                let elongation_m = stack.restrainer.elongation_at_force_m(engages_at_n);
+                let rotation = elongation_m.and_then(|elongation_m| held.rotation_at_elongation_rad(elongation_m));
+                let engages_at_m =
+                    rotation.and_then(|rotation| held.at_rotation(rotation).ok()).map(|state| state.displacement_m);
+                Ok(StopperReport { engages_at_n, engages_at_m, most_yield_n })
+            })
+            .collect::<Result<Vec<_>, LaboratoryError>>()?,
+    };
+    let at_demand = match told.demand_m {
+        None => Vec::new(),
+        Some(demand_m) => stacks.iter().map(|stack| at_demand(&with(stack)?, demand_m)).collect::<Result<_, _>>()?,
+    };
+    let (duct_gap_m, tendon_length_m) = match limits.path {
+        TendonPath::Shifted { duct_gap_m, tendon_length_m } => (duct_gap_m, tendon_length_m),
+        TendonPath::Column | TendonPath::Foundation => {
+            // a tendon reaches from the foot to above the stack; nothing depends much on by how much
+            (DUCT_GAP_M.min(0.2 * columns.geometry().half_width_m()), 1.5 * columns.geometry().height_m())
+        }
+    };
+    let imperfections = Imperfections {
+        slack_m: SLACK_M,
+        prestress_n: PRESTRESS_SHARE * columns.top_load_n(),
+        duct_gap_m,
+        tendon_length_m,
+    };
+    let wanted = named(&all, options.tolerances_of.as_deref())?;
+    let tolerances_of = stack_name(wanted);
+    let tolerances = with(wanted)?.tolerances(&imperfections)?;
+    let mut files = Vec::new();
+    if let Some(table) = &options.table {
+        events.writing_into(table.parent().unwrap_or(Path::new("")));
+        write(&all, structure, table)?;
+        files.push(table.clone());
+    }
+    Ok(RestrainerDesign {
+        name: structure.name(),
+        file: structure.file.clone(),
+        catalogue: options.catalogue.clone(),
+        discs: discs.len(),
+        target: told,
+        found: all.len(),
+        stacks,
+        at_demand,
+        stoppers,
+        tolerances_of,
+        tolerances,
+        files,
+    })
+}
+
+/// Columns with a stack in them at the demand (m).
+fn at_demand(held: &uplift_statics::RestrainedColumns, demand_m: f64) -> Result<AtDemand, LaboratoryError> {
+    let state = held.at_displacement(demand_m)?;
+    Ok(AtDemand { tendon_n: state.tendon_n, spring_m: state.spring_m.unwrap_or(0.0) })
+}
+
+/// What a stack is called: packets in alternate sense, discs in each where there are several, the disc.
+pub fn stack_name(stack: &Candidate) -> String {
+    let parallel = if stack.parallel > 1 { format!("{} x ", stack.parallel) } else { String::new() };
+    format!("{} x {parallel}{}", stack.springs, stack.disc)
+}
+
+/// The stack of this name, whatever its spaces; the first where none is given.
+fn named<'a>(stacks: &'a [Candidate], name: Option<&str>) -> Result<&'a Candidate, LaboratoryError> {
+    let Some(name) = name else { return Ok(&stacks[0]) };
+    let plain = |name: &str| name.split_whitespace().collect::<String>();
+    Ok(stacks.iter().find(|stack| plain(&stack_name(stack)) == plain(name)).ok_or_else(|| {
+        JobError::Usage(format!(
+            "{name:?} is none of the {} stacks that meet the target: name one as they are listed, e.g. \"{}\"",
+            stacks.len(),
+            stack_name(&stacks[0])
+        ))
+    })?)
+}
+
+/// The target as the search takes it, and as it is told.
+fn target_of(
+    structure: &Structure,
+    options: &RestrainerDesignOptions,
+    events: &dyn Events,
+) -> Result<(Target, TargetReport), LaboratoryError> {
+    let columns = pushed(structure, 0)?;
+    let free = columns.without_stoppers()?.linear(0.0)?;
+    let critical_stiffness_n_m = free.critical_stiffness_n_m();
+    let at_m = options.at_m.unwrap_or(2.0 * columns.geometry().width_m());
+    let report = |words: String, stiffness_n_m: f64, capacity_m: Option<f64>| TargetReport {
+        words,
+        stiffness_n_m,
+        capacity_m,
+        demand_m: None,
+        at_m: capacity_m.unwrap_or(at_m),
+        critical_stiffness_n_m,
+    };
+    let capacity = |words: String, capacity_m: f64| {
+        if !(capacity_m > 0.0 && capacity_m.is_finite()) {
+            return Err(
+                JobError::Usage(format!("a displacement capacity of {capacity_m} m: give one above 0, in m")).into()
+            );
+        }
+        let free_m = columns.geometry().width_m();
+        if capacity_m <= free_m {
+            return Err(JobError::Usage(format!(
+                "{words}: the columns have {free_m:.4} m without any restrainer, and need none for {capacity_m:.4} m"
+            ))
+            .into());
+        }
+        let told = report(words, free.stiffness_for_capacity_n_m(capacity_m), Some(capacity_m));
+        Ok((Target::Capacity { capacity_m }, told))
+    };
+    match &options.target {
+        DesignTarget::Stiffness(stiffness_n_m) => {
+            let stiffness_n_m = *stiffness_n_m;
+            let words = format!("{:.0} kN/m at {at_m:.4} m", 1e-3 * stiffness_n_m);
+            Ok((Target::Stiffness { stiffness_n_m, at_m }, report(words, stiffness_n_m, None)))
+        }
+        DesignTarget::Capacity(capacity_m) => capacity(format!("a capacity of {capacity_m:.4} m"), *capacity_m),
+        DesignTarget::Spectrum { result, options: design } => {
+            let design = DesignOptions { spectrum_only: true, ..(**design).clone() };
+            let found = design_by_spectrum(&without_restrainers(structure)?, result, &design, events)?;
+            // the capacity that a rule asks for does not depend on the one that there is; the larger of both rules
+            let required =
+                found.rules.iter().filter_map(|rule| Some(rule.check()?.required_capacity_m)).reduce(f64::max);
+            let Some(required_m) = required else {
+                return Err(JobError::input(format!(
+                    "{}: its spectrum says no capacity for {}: {}",
+                    result.display(),
+                    found.site,
+                    found.notes.join("; ")
+                ))
+                .into());
+            };
+            let words = format!(
+                "a capacity of {required_m:.4} m: {} times the demand at {}, {:.4} in {} years, by {}",
+                design.safety_factor, found.site, found.poe, found.years, found.im
+            );
+            let (target, told) = capacity(words, required_m)?;
+            Ok((target, TargetReport { demand_m: Some(required_m / design.safety_factor), ..told }))
+        }
+        DesignTarget::ZeroStiffness => {
+            let words = format!("a force that stays up to {at_m:.4} m");
+            Ok((Target::ZeroStiffness { at_m }, report(words, critical_stiffness_n_m, None)))
+        }
+        DesignTarget::PositiveStiffness => {
+            let words = format!("a force that rises up to {at_m:.4} m");
+            Ok((Target::PositiveStiffness { at_m }, report(words, critical_stiffness_n_m, None)))
+        }
+    }
+}
+
+/// The columns without their restrainers, which may be a tendon that is still to get its springs.
+fn without_restrainers(structure: &Structure) -> Result<Structure, LaboratoryError> {
+    let description = StructureDescription {
+        kind: Kind::Frame,
+        tendon_stiffness_n_m: None,
+        tendon_anchorage: None,
+        ..structure.description
+    };
+    // a description that was one of a restrained frame is one of a free frame
+    let system = description.resolve().map_err(|mistakes| match mistakes.into_iter().next() {
+        Some(mistake) => LaboratoryError::Structure(mistake),
+        None => JobError::input(structure.name()).into(),
+    })?;
+    Ok(Structure { description, system, columns: None, ..structure.clone() })
+}
+
+/// What to say where no stack meets the target: what comes nearest without the limits.
+fn none_found(
+    columns: &uplift_statics::RestrainedColumns,
+    discs: &[uplift_statics::CatalogueDisc],
+    (target, told): (Target, &TargetReport),
+    limits: &Limits,
+    options: &RestrainerDesignOptions,
+) -> String {
+    let loose = Limits {
+        tolerance: 0.99,
+        capacity_excess: 10.0,
+        stroke_share: 1.0,
+        tendon_factor: 1.0,
+        largest_force_n: None,
+        largest_diameter_m: None,
+        least_inner_diameter_m: None,
+        largest_length_m: None,
+        ..*limits
+    };
+    let nearest = select(columns, discs, target, &loose, Ranking::Target).ok().and_then(|all| all.into_iter().next());
+    let snapping = discs.iter().filter(|disc| disc.disc.snaps_through()).count();
+    let advice = match nearest {
+        None if snapping == discs.len() => {
+            "every disc snaps through (h0/t from 1.414 on), and behind a tendon has no unique state: take discs of \
+             less cone height"
+                .to_owned()
+        }
+        None => {
+            "no stack of these discs comes near it: take other discs, or allow more in a row with --springs".to_owned()
+        }
+        Some(near) => format!(
+            "the nearest without limits is {}, {:+.1} % of the target, pressed by {:.0} % of its stroke, {:.0} \
+             kN, {:.3} m long: allow it by --tolerance, --stroke, --tendon-factor, --largest-diameter-m, \
+             --least-inner-diameter-m, --largest-length-m or --largest-force-n, or take other discs",
+            stack_name(&near),
+            100.0 * near.miss,
+            100.0 * near.stroke_share,
+            1e-3 * near.tendon_n,
+            near.length_m
+        ),
+    };
+    format!("no stack of the {} discs of {} meets {}: {advice}", discs.len(), options.catalogue.display(), told.words)
+}
+
+fn write(stacks: &[Candidate], structure: &Structure, file: &Path) -> Result<(), LaboratoryError> {
+    let column = |name: &str, value: fn(&Candidate) -> Option<f64>| {
+        Column::new(name.into(), stacks.iter().map(value).collect::<Vec<Option<f64>>>())
+    };
+    let columns = vec![
+        Column::new("disc".into(), stacks.iter().map(|stack| stack.disc.clone()).collect::<Vec<String>>()),
+        Column::new("springs".into(), stacks.iter().map(|stack| stack.springs).collect::<Vec<u32>>()),
+        Column::new("parallel".into(), stacks.iter().map(|stack| stack.parallel).collect::<Vec<u32>>()),
+        column("miss", |stack| Some(stack.miss)),
+        column("secant_n_m", |stack| Some(stack.secant_n_m)),
+        column("at_m", |stack| Some(stack.at_m)),
+        column("tendon_n", |stack| Some(stack.tendon_n)),
+        column("spring_m", |stack| Some(stack.spring_m)),
+        column("stroke_share", |stack| Some(stack.stroke_share)),
+        column(STACK_COLUMN, |stack| stack.tendon_utilisation),
+        column("capacity_m", |stack| stack.capacity_m),
+        column("linear_capacity_m", |stack| stack.linear_capacity_m),
+        column("length_m", |stack| Some(stack.length_m)),
+        column("mass_kg", |stack| Some(stack.mass_kg)),
+        column("price", |stack| stack.price),
+    ];
+    let line = format!("{}; stacks of springs, structure {}", outputs::mark(), structure.file.display());
+    Ok(write_table(file, &line, columns)?)
+}

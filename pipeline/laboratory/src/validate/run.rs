@@ -1,0 +1,342 @@
+//! The job: two tables in, every statistic of every group out.
+
+use std::path::{Path, PathBuf};
+
+use rayon::prelude::*;
+use serde::Serialize;
+use uplift_ida::Watch;
+use uplift_job::JobError;
+use uplift_job::events::{Events, Progress};
+use uplift_job::outputs::{self, Output, OutputKind};
+use uplift_validation::{BandRule, ValidationError, holm_adjusted};
+
+use super::group::GroupReport;
+use super::join::{Joined, Unmatched, as_samples, by_key};
+use super::peaks::{Peaks, unit_of};
+use super::write::{self, COLUMN};
+use crate::error::LaboratoryError;
+
+/// Groups beyond which a column is not meant to be grouped by.
+const MOST_GROUPS: usize = 400;
+/// Most replicates; more is a slip.
+const MOST_REPLICATES: u32 = 10_000_000;
+/// The column that the key stands in where none is named.
+const USUAL_KEY: &str = "exc_id";
+
+/// Which p of the Kolmogorov–Smirnov test decides.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum PRule {
+    /// Of all orders of the values.
+    #[default]
+    Exact,
+    /// By Kolmogorov's distribution.
+    Kolmogorov,
+    /// By the formula of MATLAB's `kstest2`, which Table 6.2 prints.
+    Kstest2,
+}
+
+/// What is compared, and how.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ValidateOptions {
+    /// Table of measured peaks, CSV.
+    pub measured: PathBuf,
+    /// Table of computed peaks, CSV.
+    pub computed: PathBuf,
+    /// Column of the peaks, its unit at its end; either table may have it in another unit.
+    pub value: String,
+    /// Columns that say which rows are of the same motion; `exc_id` where none are given, if both tables have it.
+    pub key: Vec<String>,
+    /// Columns by whose values the peaks are grouped. Groups are those of every combination, and of all values of the
+    /// first.
+    pub by: Vec<String>,
+    /// Which p decides.
+    pub p_rule: PRule,
+    /// Significance that the power is for.
+    pub significance: f64,
+    /// Replicates of bands, and of swaps.
+    pub replicates: u32,
+    /// Their seed.
+    pub seed: u64,
+    /// Also p by swaps within pairs.
+    pub permutation: bool,
+    /// Band of the measured distribution.
+    pub band: BandRule,
+    /// Where the statistics are written, CSV.
+    pub table: Option<PathBuf>,
+    /// Whether whatever is at the place of the table gives way.
+    pub force: bool,
+}
+
+impl Default for ValidateOptions {
+    fn default() -> Self {
+        Self {
+            measured: PathBuf::new(),
+            computed: PathBuf::new(),
+            value: "u_m".to_owned(),
+            key: Vec::new(),
+            by: Vec::new(),
+            p_rule: PRule::Exact,
+            significance: 0.1,
+            replicates: 10_000,
+            seed: 1,
+            permutation: false,
+            band: BandRule::Greenwood,
+            table: None,
+            force: false,
+        }
+    }
+}
+
+/// What was found.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ValidateReport {
+    /// The table of measured peaks.
+    pub measured: PathBuf,
+    /// The table of computed peaks.
+    pub computed: PathBuf,
+    /// The column of the peaks.
+    pub value: String,
+    /// Their unit; empty of pure numbers.
+    pub unit: &'static str,
+    /// Columns that pairs are joined by; empty where the tables are two samples.
+    pub key: Vec<String>,
+    /// Columns that the peaks are grouped by.
+    pub by: Vec<String>,
+    /// Which p decides.
+    pub p_rule: PRule,
+    /// Significance that the power is for.
+    pub significance: f64,
+    /// Replicates of bands, and of swaps.
+    pub replicates: u32,
+    /// Their seed.
+    pub seed: u64,
+    /// Band of the measured distribution.
+    pub band: BandRule,
+    /// The groups.
+    pub groups: Vec<GroupReport>,
+    /// Rows that stand in no statistic.
+    pub unmatched: Unmatched,
+    /// What to know before using the numbers.
+    pub notes: Vec<String>,
+    /// The files written.
+    pub files: Vec<PathBuf>,
+}
+
+impl ValidateReport {
+    /// A group in words: `low, all`.
+    pub fn name(group: &GroupReport) -> String {
+        if group.of.is_empty() {
+            return "all".to_owned();
+        }
+        group.of.iter().map(|value| value.as_deref().unwrap_or("all")).collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// Compares computed peaks with measured ones.
+///
+/// # Errors
+/// Tables that cannot be read, or have nothing in common; options out of their range; a table that would replace
+/// something else or cannot be written.
+pub fn validate(options: &ValidateOptions, events: &dyn Events) -> Result<ValidateReport, LaboratoryError> {
+    check(options)?;
+    let keys = if options.key.is_empty() { vec![USUAL_KEY.to_owned()] } else { options.key.clone() };
+    let read = |what, file: &Path| Peaks::read(what, file, &options.value, &keys, &options.by);
+    let (measured, computed) = (read("measured", &options.measured)?, read("computed", &options.computed)?);
+    check_columns(options, &measured, &computed)?;
+    let are_pairs = measured.missing_keys.is_empty() && computed.missing_keys.is_empty();
+    let (joined, unmatched) = if are_pairs { by_key(&measured, &computed)? } else { as_samples(&measured, &computed)? };
+    let wanted = groups(&joined, &options.by)?;
+    let progress = Progress::begin(events, "groups", "groups", wanted.len() as u64);
+    let found: Vec<Option<Result<GroupReport, ValidationError>>> = wanted
+        .into_par_iter()
+        .map(|of| {
+            let peers = joined.peers(|cells| is_of(&of, cells));
+            if progress.cancelled() || peers.measured.is_empty() || peers.computed.is_empty() {
+                return None;
+            }
+            let group = GroupReport::of(of, &peers, are_pairs, options);
+            progress.finished(1);
+            Some(group)
+        })
+        .collect();
+    drop(progress);
+    if events.cancelled() {
+        return Err(JobError::Interrupted.into());
+    }
+    let mut groups = found
+        .into_iter()
+        .flatten()
+        .collect::<Result<Vec<_>, _>>()
+        .map_err(|error| JobError::input(error.to_string()))?;
+    let adjusted = holm_adjusted(&groups.iter().map(|group| group.p).collect::<Vec<_>>());
+    for (group, p) in groups.iter_mut().zip(adjusted) {
+        group.p_holm = p;
+    }
+    let mut report = ValidateReport {
+        measured: options.measured.clone(),
+        computed: options.computed.clone(),
+        value: options.value.clone(),
+        unit: unit_of(&options.value),
+        key: if are_pairs { keys } else { Vec::new() },
+        by: options.by.clone(),
+        p_rule: options.p_rule,
+        significance: options.significance,
+        replicates: options.replicates,
+        seed: options.seed,
+        band: options.band,
+        notes: notes(options, &groups, &unmatched, are_pairs),
+        groups,
+        unmatched,
+        files: Vec::new(),
+    };
+    if report.groups.is_empty() {
+        return Err(JobError::input("no group has both measured and computed peaks".to_owned()).into());
+    }
+    if let Some(table) = &options.table {
+        events.writing_into(table.parent().unwrap_or(Path::new("")));
+        write::write(&report, table)?;
+        report.files.push(table.clone());
+    }
+    Ok(report)
+}
+
+/// Refuses what cannot be, before anything is computed; all of it.
+fn check(options: &ValidateOptions) -> Result<(), LaboratoryError> {
+    let mut mistakes = Vec::new();
+    if !(options.significance > 0.0 && options.significance < 1.0) {
+        mistakes.push(format!("significance {}: give one above 0 and below 1, 0.1 for instance", options.significance));
+    }
+    if !(1..=MOST_REPLICATES).contains(&options.replicates) {
+        mistakes.push(format!("{} replicates: give from 1 to {MOST_REPLICATES}", options.replicates));
+    }
+    for (place, name) in options.by.iter().enumerate().filter(|(place, name)| options.by[..*place].contains(name)) {
+        mistakes.push(format!("--by names {name} twice, the second time in place {}", place + 1));
+    }
+    if !mistakes.is_empty() {
+        return Err(JobError::Usage(mistakes.join("\n")).into());
+    }
+    let outputs: Vec<Output> =
+        options.table.iter().map(|table| Output::new(table, OutputKind::Table(COLUMN))).collect();
+    Ok(outputs::check(&outputs, &[&options.measured, &options.computed], options.force)?)
+}
+
+/// Refuses columns that were asked for and are nowhere.
+fn check_columns(options: &ValidateOptions, measured: &Peaks, computed: &Peaks) -> Result<(), LaboratoryError> {
+    let mut mistakes = Vec::new();
+    for table in [measured, computed] {
+        // the usual key may be missing, one that was named may not
+        for name in table.missing_keys.iter().filter(|_| !options.key.is_empty()) {
+            mistakes.push(format!("{}: it has no column {name}, which --key names", table.name));
+        }
+    }
+    for name in measured.missing_groups.iter().filter(|name| computed.missing_groups.contains(name)) {
+        mistakes.push(format!("neither table has the column {name}, which --by names"));
+    }
+    if mistakes.is_empty() { Ok(()) } else { Err(JobError::Inputs(mistakes).into()) }
+}
+
+/// Every combination of values of the columns, and all of the first, in the order in which values stand in the tables.
+fn groups(joined: &Joined, by: &[String]) -> Result<Vec<Vec<Option<String>>>, LaboratoryError> {
+    let cells = joined.groups();
+    let mut combinations: Vec<Vec<Option<String>>> = vec![vec![None; by.len()]];
+    for place in (0..by.len()).rev() {
+        let mut values: Vec<&String> = Vec::new();
+        for row in &cells {
+            if !values.contains(&&row[place]) {
+                values.push(&row[place]);
+            }
+        }
+        // of one value alone, all is that value: a group twice would count twice in Holm's p
+        let all = (place == 0 && values.len() > 1).then_some(None);
+        let choices: Vec<Option<String>> = all.into_iter().chain(values.into_iter().cloned().map(Some)).collect();
+        combinations = combinations
+            .iter()
+            .flat_map(|before| {
+                choices.iter().map(move |choice| {
+                    let mut combination = before.clone();
+                    combination[place].clone_from(choice);
+                    combination
+                })
+            })
+            .collect();
+        if combinations.len() > MOST_GROUPS {
+            return Err(JobError::Usage(format!(
+                "--by {} makes more than {MOST_GROUPS} groups: name columns with few values",
+                by.join(",")
+            ))
+            .into());
+        }
+    }
+    Ok(combinations)
+}
+
+fn is_of(of: &[Option<String>], cells: &[String]) -> bool {
+    of.iter().zip(cells).all(|(wanted, cell)| wanted.as_ref().is_none_or(|wanted| wanted == cell))
+}
+
+/// What to know before using the numbers.
+fn notes(options: &ValidateOptions, groups: &[GroupReport], unmatched: &Unmatched, are_pairs: bool) -> Vec<String> {
+    let mut notes = unmatched.notes();
+    if are_pairs {
+        notes.push(
+            "the peaks are of the same motions, and the tests are for independent ones: where both go up and down \
+             together their p is too large; p by swaps within pairs: --permutation"
+                .to_owned(),
+        );
+    } else {
+        notes.push(format!(
+            "the tables have no common column {USUAL_KEY}, so that their rows are taken for two independent samples: \
+             name a column that says which rows are of the same motion by --key, if there is one"
+        ));
+    }
+    if groups.len() > 1 {
+        notes.push(format!(
+            "of {} groups {:.1} fall below p = {} by chance alone; Holm's p is adjusted for all of them",
+            groups.len(),
+            options.significance * groups.len() as f64,
+            options.significance
+        ));
+    }
+    if groups.iter().any(|group| group.kolmogorov_smirnov.has_ties) {
+        notes.push("some peaks are equal: the exact p of their groups is too large rather than too small".to_owned());
+    }
+    if groups.iter().any(|group| group.censored.is_some()) {
+        notes.push(
+            "peaks above a limit (>x) rank above all values, and have no part in bias, dispersion and Pearson's \
+             correlation; the distance with them at their limits stands beside. A median that they may move is known \
+             to be above that with them at their limits (>m), and has no error"
+                .to_owned(),
+        );
+    }
+    if groups.iter().any(|group| group.measured_collapses + group.computed_collapses > 0) {
+        notes.push(
+            "collapses are infinite in ranks, medians and distributions; bias, dispersion and Pearson's correlation \
+             are of pairs of which both are finite and above 0"
+                .to_owned(),
+        );
+    }
+    notes
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::super::peaks::PeakValue;
+    use super::*;
+
+    /// The sets of Table 6.2: all of a level, then its classes.
+    #[test]
+    fn groups_in_order() {
+        let row = |class: &str, level: &str| (vec![class.to_owned(), level.to_owned()], PeakValue::Finite(1.0));
+        let rows = vec![row("NFP", "low"), row("FF", "low"), row("NFP", "high")];
+        let joined = Joined::Samples { measured: rows.clone(), computed: rows };
+        let found = groups(&joined, &["class".to_owned(), "level".to_owned()]).unwrap();
+        let names: Vec<String> = found
+            .iter()
+            .map(|of| of.iter().map(|cell| cell.as_deref().unwrap_or("all")).collect::<Vec<_>>().join(" "))
+            .collect();
+        assert_eq!(names, ["all low", "NFP low", "FF low", "all high", "NFP high", "FF high"]);
+        assert_eq!(groups(&joined, &[]).unwrap(), [Vec::<Option<String>>::new()]);
+    }
+}

@@ -1,0 +1,24 @@
+//! How sure the spectra are: confidence bands from resampled records (Section 4.5, Table 4.1).
+
+mod asked;
+mod bands;
+mod checkpoint;
+mod compute;
+mod draws;
+mod inferred;
+mod job;
+mod joint;
+mod needs;
+mod reference;
+mod repaired;
+mod report;
+mod write;
+
+pub use asked::{resampled, resampling_plan};
+pub use bands::{Bands, RepairedBands, SpectraBands};
+pub use checkpoint::{finished_strengths, part_path};
+pub use job::{BootstrapOptions, bootstrap};
+pub use joint::JointBands;
+pub use reference::{ReferenceRow, read_reference};
+pub use report::{BootstrapReport, BootstrapRow, Initiation, RepairedFigures};
+pub use uplift_uniform_risk::MANY_FAILED;

@@ -1,0 +1,80 @@
+//! The bands of a result at risks that it is asked for after its bootstrap: from the draws that it keeps.
+
+use uplift_bootstrap::{ResamplingPlan, Unit};
+use uplift_job::events::Events;
+use uplift_result::{
+    BandMethod, MeasureBands, ResultFile, StoredBands, StoredDraws, StoredJointBands, StoredRepairedBands,
+    StoredSpectraBands,
+};
+use uplift_uniform_risk::StoredStripes;
+use uplift_uniform_risk::consistency::{Question, Reweighing};
+
+use super::bands::{BandSettings, Bands, RepairedBands, SpectraBands};
+use super::compute::{Source, compute};
+use super::write::percent;
+use crate::error::QuestionsError;
+
+/// The result `file` with bands at the risks that it was asked for ([`at`](uplift_uniform_risk::at)), made of the draws
+/// of its bootstrap, to the bit as a bootstrap of these risks makes them. Without a bootstrap there are none, and
+/// `events` hear of it.
+///
+/// # Errors
+/// A file that is damaged; [`JobError::Interrupted`](uplift_job::JobError::Interrupted) where `events` say so.
+pub fn resampled(file: ResultFile, events: &dyn Events) -> Result<ResultFile, QuestionsError> {
+    if !file.is_asked() {
+        return Ok(file);
+    }
+    let Some(plan) = resampling_plan(&file)? else {
+        events.note(&format!(
+            "no confidence bands: {} keeps no draws; `uplift bootstrap` makes them, for any probability",
+            file.path().display()
+        ));
+        return Ok(file);
+    };
+    let BandMethod { confidence, interval, strength_above } = file.band_method()?;
+    let settings = BandSettings { confidence, interval, simultaneous: false, strength_above };
+    let stored = StoredStripes::read(&file)?;
+    // where the bootstrap made bands of repaired spectra as well
+    let reweighing = if file.has_repaired_bands() { Reweighing::of_result(&file)? } else { None };
+    let (reweighing, pair_of) = (reweighing.as_ref(), &Question::of_result(&file)?.pair_of());
+    let source = Source { stored: &stored, reweighing, plan: &plan, pair_of, settings: &settings };
+    let measures = compute(&source, None, events)?.into_iter().map(stored_bands).collect();
+    let (sizes, unit) = (plan.sizes().to_vec(), plan.unit());
+    Ok(file.with_bands(StoredBands { sizes, unit, confidence, measures }))
+}
+
+/// The draws that the bands of `file` were made of; none before its bootstrap.
+///
+/// # Errors
+/// A file that is damaged.
+pub fn resampling_plan(file: &ResultFile) -> Result<Option<ResamplingPlan>, QuestionsError> {
+    let Some(StoredDraws { records, sizes, replicates, multiplicities, unit }) = file.draws()? else {
+        return Ok(None);
+    };
+    let group_of = match unit {
+        Unit::Record => None,
+        Unit::Pair => Some(Question::of_result(file)?.pair_of()),
+        Unit::Event => Some(Question::of_result(file)?.event_of()),
+    };
+    let group_of = group_of.as_deref().map(|group_of| (unit, group_of));
+    ResamplingPlan::from_multiplicities(records, &sizes, replicates, &multiplicities, group_of)
+        .map(Some)
+        .map_err(|error| file.fail(error).into())
+}
+
+/// Bands as a result has them.
+fn stored_bands(bands: Bands) -> MeasureBands {
+    let stored = |bands: SpectraBands| StoredSpectraBands {
+        error_of_median: percent(&bands.error_of_median),
+        range_of_interval: percent(&bands.range_of_interval),
+        limits_m: [bands.lower_m, bands.median_m, bands.upper_m],
+        joint: bands.joint.map(|joint| StoredJointBands {
+            range_of_interval: percent(&joint.range_of_interval),
+            limits_m: joint.limits_m,
+            failed: joint.failed,
+        }),
+    };
+    let repaired =
+        bands.repaired.map(|RepairedBands { bands, failed }| StoredRepairedBands { bands: stored(bands), failed });
+    MeasureBands { measure: bands.measure, plain: stored(bands.plain), inferred: Some(bands.inferred), repaired }
+}

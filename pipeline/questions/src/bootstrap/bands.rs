@@ -1,0 +1,209 @@
+//! Confidence bands of the spectra: the bootstrap over records (Section 4.5).
+
+use rayon::prelude::*;
+use uplift_bootstrap::{Band, Interval, Replicates, ResamplingPlan, acceleration, simultaneous_bands, without_each};
+use uplift_job::Array;
+use uplift_motion::IntensityMeasure;
+use uplift_result::InferredBands;
+use uplift_risk::StripeWeights;
+use uplift_uniform_risk::{StoredMeasure, StoredStripes};
+
+use super::joint::{JointBands, joint_bands};
+use crate::error::QuestionsError;
+
+/// What kind of bands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct BandSettings {
+    /// Share of the replicates between the limits.
+    pub(super) confidence: f64,
+    /// How a limit is read.
+    pub(super) interval: Interval,
+    /// Whether bands that hold whole spectra are made too.
+    pub(super) simultaneous: bool,
+    /// Only strengths above this count in Eq. 4.9 and 4.10.
+    pub(super) strength_above: f64,
+}
+
+impl BandSettings {
+    /// The band of an ordinate with its replicates.
+    ///
+    /// - `estimate_m`: the ordinate of all records, m.
+    /// - `without_each_m`: that without each unit of the draws, m, which BCa asks for.
+    /// - `size`: units in a sample, records or earthquakes.
+    pub(super) fn band(&self, replicates_m: &[f64], estimate_m: f64, (without_each_m, size): (&[f64], u32)) -> Band {
+        let mut sorted = replicates_m.to_vec();
+        sorted.sort_unstable_by(f64::total_cmp);
+        match self.interval {
+            Interval::Percentile => Band::percentile(&sorted, self.confidence),
+            Interval::Bca => Band::bca(&sorted, self.confidence, estimate_m, acceleration(without_each_m, size)),
+        }
+    }
+
+    /// Position of the first strength that counts in Eq. 4.9 and 4.10.
+    pub(super) fn first_strength(&self, strengths: &[f64]) -> usize {
+        strengths.partition_point(|&strength| strength <= self.strength_above)
+    }
+}
+
+/// Lower limit, median and upper limit of each band, one after the other.
+pub(super) fn numbers_of_bands(bands: &[Band]) -> impl Iterator<Item = f64> {
+    bands.iter().flat_map(|band| [band.lower_m, band.median_m, band.upper_m])
+}
+
+/// The bands of such numbers.
+pub(super) fn bands_of_numbers(numbers: &[f64]) -> Vec<Band> {
+    let band = |band: &[f64]| Band { lower_m: band[0], median_m: band[1], upper_m: band[2] };
+    numbers.chunks_exact(3).map(band).collect()
+}
+
+/// The bands of one strength.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct StrengthBands {
+    /// Over `[site, poe, size]`; after these the joint ones over `[site with branches, poe, size]`.
+    pub(super) bands: Vec<Band>,
+    /// All replicates over `[site, poe, size, replicate]`, m, where whole spectra are wanted.
+    pub(super) replicates_m: Vec<f64>,
+}
+
+/// The bands of one measure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bands {
+    /// The measure.
+    pub measure: IntensityMeasure,
+    /// Those of the spectra of records that count alike.
+    pub plain: SpectraBands,
+    /// Those of the spectra of all records there could be, and of another set.
+    pub inferred: InferredBands,
+    /// Those of the repaired spectra, where the result has some.
+    pub repaired: Option<RepairedBands>,
+}
+
+/// Bands of the spectra of all sites, with the figures of Table 4.1.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SpectraBands {
+    /// Lower limits `[site, poe, size, strength]`, m.
+    pub lower_m: Array<4>,
+    /// Medians `[site, poe, size, strength]`, m.
+    pub median_m: Array<4>,
+    /// Upper limits `[site, poe, size, strength]`, m.
+    pub upper_m: Array<4>,
+    /// Lower and upper limits of the band of whole spectra `[site, poe, size, strength]`, m, if made.
+    pub simultaneous_m: Option<[Array<4>; 2]>,
+    /// Error of the median `[site, poe, size]` (Eq. 4.9); none where an ordinate is censored or 0.
+    pub error_of_median: Array<3, Option<f64>>,
+    /// Width of the interval `[site, poe, size]` (Eq. 4.10); none where an ordinate is censored or 0.
+    pub range_of_interval: Array<3, Option<f64>>,
+    /// Bands over records and hazard together; none where no site has weighted hazard curves.
+    pub joint: Option<JointBands>,
+}
+
+/// Bands of repaired spectra; NaN at sites without repair.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RepairedBands {
+    /// The bands.
+    pub bands: SpectraBands,
+    /// Share of the samples whose weights do not bring the site's hazard `[site, size]`.
+    pub failed: Array<2>,
+}
+
+/// The bands of the strength at `index`.
+///
+/// # Errors
+/// Numbers that do not fit together, in a file that was changed.
+pub(super) fn bands_of_strength(
+    stored: &StoredStripes,
+    measure: &StoredMeasure,
+    index: usize,
+    plan: &ResamplingPlan,
+    settings: &BandSettings,
+) -> Result<StrengthBands, QuestionsError> {
+    let demand = measure.demand(index)?;
+    let targets = &stored.targets_per_year;
+    let left_out = match settings.interval {
+        Interval::Percentile => Vec::new(),
+        Interval::Bca => plan.left_out()?,
+    };
+    let mut done = StrengthBands { bands: Vec::new(), replicates_m: Vec::new() };
+    for (site, weights) in measure.weights.iter().enumerate() {
+        let sites: [&StripeWeights; 1] = [weights];
+        let replicates = Replicates::of(&demand, &sites, targets, plan)?;
+        let without_each = match settings.interval {
+            Interval::Percentile => Vec::new(),
+            Interval::Bca => without_each(&demand, weights, targets, &left_out)?,
+        };
+        for poe in 0..targets.len() {
+            let estimate_m = measure.exact_m[[site, poe, index]];
+            let without_each_m: Vec<f64> = without_each.iter().skip(poe).step_by(targets.len()).copied().collect();
+            for (size_index, &size) in plan.sizes().iter().enumerate() {
+                let ordinates_m = replicates.ordinates_m(0, poe, size_index);
+                let of_sample = (without_each_m.as_slice(), plan.units_drawn(size));
+                done.bands.push(settings.band(ordinates_m, estimate_m, of_sample));
+                if settings.simultaneous {
+                    done.replicates_m.extend_from_slice(ordinates_m);
+                }
+            }
+        }
+    }
+    for branches in measure.branches.iter().filter(|branches| !branches.is_empty()) {
+        done.bands.extend(joint_bands(&demand, branches, targets, plan, settings.confidence)?);
+    }
+    Ok(done)
+}
+
+/// The bands of all strengths, in order, as arrays; with the two figures of Table 4.1.
+pub(super) fn gather_bands(
+    stored: &StoredStripes,
+    measure: &StoredMeasure,
+    plan: &ResamplingPlan,
+    settings: &BandSettings,
+    (strengths, inferred): (&[&StrengthBands], InferredBands),
+) -> Bands {
+    let (sites, poes, sizes) = (stored.sites.len(), stored.poes.len(), plan.sizes().len());
+    let shape = [sites, poes, sizes, strengths.len()];
+    let cell = |site: usize, poe: usize, size: usize| (site * poes + poe) * sizes + size;
+    let first = settings.first_strength(&stored.strengths);
+    let simultaneous_m = settings.simultaneous.then(|| {
+        let count = plan.replicates();
+        // [site, poe, size][strength]
+        let limits: Vec<Vec<(f64, f64)>> = (0..sites * poes * sizes)
+            .into_par_iter()
+            .map(|cell| {
+                let replicates: Vec<Vec<f64>> = strengths
+                    .iter()
+                    .map(|strength| strength.replicates_m[cell * count..(cell + 1) * count].to_vec())
+                    .collect();
+                simultaneous_bands(&replicates, settings.confidence)
+            })
+            .collect();
+        let limits = Array::from_fn(shape, |[site, poe, size, strength]| limits[cell(site, poe, size)][strength]);
+        [limits.map(|limits| limits.0), limits.map(|limits| limits.1)]
+    });
+    let band = |[site, poe, size, strength]: [usize; 4]| strengths[strength].bands[cell(site, poe, size)];
+    let mut plain = SpectraBands::of(&Array::from_fn(shape, band), &measure.exact_m, first);
+    plain.simultaneous_m = simultaneous_m;
+    let with_branches = (0..sites).filter(|&site| !measure.branches[site].is_empty()).collect();
+    // behind those of the sites
+    plain.joint = JointBands::of(with_branches, shape, first, |place, [poe, size, strength]| {
+        strengths[strength].bands[cell(sites + place, poe, size)]
+    });
+    Bands { measure: measure.measure, plain, inferred, repaired: None }
+}
+
+impl SpectraBands {
+    /// Bands `[site, poe, size, strength]` of spectra `[site, poe, strength]`, m, with the figures of Table 4.1 over
+    /// the strengths from the position `first` on.
+    pub(super) fn of(bands: &Array<4, Band>, spectra_m: &Array<3>, first: usize) -> Self {
+        let [lower_m, median_m, upper_m] =
+            [|band: &Band| band.lower_m, |band: &Band| band.median_m, |band: &Band| band.upper_m]
+                .map(|value: fn(&Band) -> f64| bands.map(value));
+        let [sites, poes, sizes, _] = bands.shape();
+        let error_of_median = Array::from_fn([sites, poes, sizes], |at @ [site, poe, _]| {
+            uplift_bootstrap::error_of_median(&median_m.block(at)[first..], &spectra_m.block([site, poe])[first..])
+        });
+        let range_of_interval = Array::from_fn([sites, poes, sizes], |at| {
+            let [lower, median, upper] = [&lower_m, &median_m, &upper_m].map(|limits| &limits.block(at)[first..]);
+            uplift_bootstrap::range_of_interval(lower, median, upper)
+        });
+        Self { lower_m, median_m, upper_m, simultaneous_m: None, error_of_median, range_of_interval, joint: None }
+    }
+}

@@ -1,0 +1,95 @@
+//! The bootstrap of a result, from its stripes to the bands in its file.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use uplift_bootstrap::{Interval, Unit};
+use uplift_job::events::Events;
+use uplift_job::outputs;
+use uplift_result::Addition;
+use uplift_study::Bootstrap;
+use uplift_uniform_risk::StoredStripes;
+use uplift_uniform_risk::consistency::{Question, Reweighing};
+
+use super::bands::BandSettings;
+use super::checkpoint::Checkpoint;
+use super::compute::{Source, compute};
+use super::draws::{announce, draws};
+use super::reference::ReferenceRow;
+use super::report::BootstrapReport;
+use super::write::{BandsFile, band_paths, tables, write_bands};
+use crate::error::QuestionsError;
+
+/// What is asked of a bootstrap. What is left open is as a study says: as `study`, else as the one in the result.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct BootstrapOptions {
+    /// The section `[bootstrap]` of a study, in place of that of the study in the result.
+    pub study: Option<Bootstrap>,
+    /// Records in a sample; where the study does not say either, 20, 40, 60 and 80 below the number of records, and
+    /// all of them.
+    pub sizes: Option<Vec<u32>>,
+    /// Samples of each size.
+    pub replicates: Option<u64>,
+    /// Seed of the draws; that of the study in the result where none is given.
+    pub seed: Option<u64>,
+    /// How limits are read.
+    pub interval: Option<Interval>,
+    /// What is drawn.
+    pub unit: Option<Unit>,
+    /// Also bands that hold whole spectra; false leaves it to the study.
+    pub simultaneous: bool,
+    /// A result whose draws are taken, in place of sizes, replicates and seed.
+    pub plan: Option<PathBuf>,
+    /// Figures to compare with, which the report hands on: see [`read_reference`](super::read_reference).
+    pub reference: Vec<ReferenceRow>,
+    /// Whether whatever is at the places of the tables gives way.
+    pub force: bool,
+}
+
+/// How sure the spectra of the result at `result` are: bands from resampled records, written into the file and into
+/// tables beside it (Section 4.5).
+///
+/// Finished strengths, and repaired sites, outlive whatever stops the job, in a checkpoint beside the result.
+///
+/// # Errors
+/// A file that is missing, damaged, no result, or without sites; draws that cannot be made or do not belong to its
+/// records; a file that cannot be written; [`JobError::Paused`](uplift_job::JobError::Paused) where `events` say so.
+pub fn bootstrap(
+    result: &Path,
+    options: &BootstrapOptions,
+    events: &dyn Events,
+) -> Result<BootstrapReport, QuestionsError> {
+    let (addition, file) = Addition::begin(result, events)?;
+    let stored = StoredStripes::read(&file)?;
+    outputs::check(&tables(&stored.path), &[result], options.force)?;
+    let study = options.study.as_ref().unwrap_or(&stored.bootstrap);
+    let settings = BandSettings {
+        confidence: study.confidence,
+        interval: options.interval.unwrap_or(study.interval),
+        simultaneous: options.simultaneous || study.simultaneous,
+        strength_above: study.strength_above,
+    };
+    let reweighing = Reweighing::of_result(&file)?;
+    let (plan, plan_source) = draws(options, study, (&file, &stored), (&settings, reweighing.is_some()), events)?;
+    announce((&file, &stored), &plan, events)?;
+
+    let start = Instant::now();
+    let (reweighing, pair_of) = (reweighing.as_ref(), &Question::of_result(&file)?.pair_of());
+    let source = Source { stored: &stored, reweighing, plan: &plan, pair_of, settings: &settings };
+    let checkpoint = Checkpoint::of(&source);
+    let bands = compute(&source, Some(&checkpoint), events)?;
+    events.remark("", &format!("{:.1} s", start.elapsed().as_secs_f64()));
+    write_bands(
+        &addition,
+        &BandsFile { stored: &stored, plan: &plan, plan_source: &plan_source, settings: &settings, bands: &bands },
+    )?;
+    checkpoint.remove();
+    Ok(BootstrapReport::new(
+        stored,
+        band_paths(result),
+        plan.sizes().to_vec(),
+        settings,
+        bands,
+        options.reference.clone(),
+    ))
+}

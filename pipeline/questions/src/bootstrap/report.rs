@@ -1,0 +1,187 @@
+//! What a bootstrap tells: Table 4.1, and rocking initiation.
+
+use std::path::PathBuf;
+
+use serde::Serialize;
+use uplift_result::WidestInferred;
+use uplift_uniform_risk::StoredStripes;
+
+use super::bands::{BandSettings, Bands, SpectraBands};
+use super::reference::ReferenceRow;
+
+/// What a bootstrap tells.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(transparent)]
+pub struct BootstrapReport {
+    /// The figures of Table 4.1, one a measure, site, probability and sample size, in this order.
+    pub rows: Vec<BootstrapRow>,
+    /// The result file, which holds the bands now.
+    #[serde(skip)]
+    pub result: PathBuf,
+    /// The tables beside it: bands, and figures of Table 4.1.
+    #[serde(skip)]
+    pub tables: [PathBuf; 2],
+    /// Share of the replicates between the limits.
+    #[serde(skip)]
+    pub confidence: f64,
+    /// Names of the sites.
+    #[serde(skip)]
+    pub sites: Vec<String>,
+    /// Probabilities of exceedance.
+    #[serde(skip)]
+    pub poes: Vec<f64>,
+    /// Years that they refer to.
+    #[serde(skip)]
+    pub years: f64,
+    /// Records of the result.
+    #[serde(skip)]
+    pub records: usize,
+    /// Records in a sample.
+    #[serde(skip)]
+    pub sizes: Vec<u32>,
+    /// Uplift strengths.
+    #[serde(skip)]
+    pub strengths: Vec<f64>,
+    /// Displacement at uplift, m.
+    #[serde(skip)]
+    pub uplift_displacement_m: f64,
+    /// The bands, a measure each.
+    #[serde(skip)]
+    pub bands: Vec<Bands>,
+    /// What was given to compare with.
+    #[serde(skip)]
+    pub reference: Vec<ReferenceRow>,
+}
+
+/// The figures of Table 4.1 of one spectrum and sample size; none where overturning or a displacement of zero leaves
+/// none.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BootstrapRow {
+    /// The site.
+    pub site: String,
+    /// `PGV` or `PGA`.
+    pub im: &'static str,
+    /// Probability of exceedance.
+    pub poe: f64,
+    /// Records in a sample.
+    pub sample_size: u32,
+    /// Error of the median (Eq. 4.9), per cent.
+    pub e_median: Option<f64>,
+    /// Range of the interval (Eq. 4.10), per cent.
+    pub r_90ci: Option<f64>,
+    /// Range of the interval over records and weighted hazard curves together (Eq. 4.10), per cent; none where the site
+    /// has no such curves.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub joint_r_90ci: Option<f64>,
+    /// The bands of the spectrum of all records there could be and of that of another set of this size; none where an
+    /// ordinate is censored or all are 0.
+    pub inferred: Option<WidestInferred>,
+    /// The same of the repaired spectrum; none where there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub repaired: Option<RepairedFigures>,
+}
+
+/// The figures of Table 4.1 of a repaired spectrum.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct RepairedFigures {
+    /// Error of the median (Eq. 4.9), per cent.
+    pub e_median: Option<f64>,
+    /// Range of the interval (Eq. 4.10), per cent.
+    pub r_90ci: Option<f64>,
+    /// Samples whose weights do not bring the site's hazard, per cent.
+    pub failed: f64,
+    /// Range of the interval over records and weighted hazard curves together (Eq. 4.10), per cent; none where the site
+    /// has no such curves, or one of them has no repair.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub joint_r_90ci: Option<f64>,
+    /// Pairs of a sample and a curve whose weights do not bring the hazard of the curve, per cent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub joint_failed: Option<f64>,
+}
+
+/// Where rocking begins (Section 4.5.2, Fig. 4.10): the strengths at which the band falls to the uplift displacement;
+/// none where it is above it at every strength.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Initiation {
+    /// Of the lower limit.
+    pub lower: Option<f64>,
+    /// Of the median.
+    pub median: Option<f64>,
+    /// Of the upper limit.
+    pub upper: Option<f64>,
+    /// Width of the band over the median, at the strength of the median; none where it is not finite.
+    pub width: Option<f64>,
+}
+
+impl BootstrapReport {
+    pub(super) fn new(
+        stored: StoredStripes,
+        tables: [PathBuf; 2],
+        sizes: Vec<u32>,
+        settings: BandSettings,
+        bands: Vec<Bands>,
+        reference: Vec<ReferenceRow>,
+    ) -> Self {
+        let mut rows = Vec::new();
+        for (bands, measure) in bands.iter().zip(&stored.measures) {
+            let percent = |share: Option<f64>| share.map(|share| 100.0 * share);
+            for (at @ [site, poe, size], error) in bands.plain.error_of_median.blocks() {
+                let repaired = bands.repaired.as_ref().filter(|own| !own.failed[[site, size]].is_nan());
+                rows.push(BootstrapRow {
+                    site: stored.sites[site].clone(),
+                    im: bands.measure.label(),
+                    poe: stored.poes[poe],
+                    sample_size: sizes[size],
+                    e_median: percent(error[0]),
+                    r_90ci: percent(bands.plain.range_of_interval[at]),
+                    joint_r_90ci: percent(bands.plain.joint.as_ref().and_then(|joint| joint.range_of_interval[at])),
+                    inferred: bands.inferred.widest((&stored.strengths, measure.exact_m.block([site, poe])), at),
+                    repaired: repaired.map(|own| {
+                        let joint = own.bands.joint.as_ref();
+                        let failed = joint.and_then(|joint| Some(joint.failed.as_ref()?[[site, size]]));
+                        RepairedFigures {
+                            e_median: percent(own.bands.error_of_median[at]),
+                            r_90ci: percent(own.bands.range_of_interval[at]),
+                            failed: 100.0 * own.failed[[site, size]],
+                            joint_r_90ci: percent(joint.and_then(|joint| joint.range_of_interval[at])),
+                            joint_failed: percent(failed.filter(|share| !share.is_nan())),
+                        }
+                    }),
+                });
+            }
+        }
+        Self {
+            rows,
+            result: stored.path,
+            tables,
+            confidence: settings.confidence,
+            sites: stored.sites,
+            poes: stored.poes,
+            years: stored.years,
+            records: stored.records.len(),
+            sizes,
+            strengths: stored.strengths,
+            uplift_displacement_m: stored.uplift_displacement_m,
+            bands,
+            reference,
+        }
+    }
+
+    /// Where rocking begins, by `bands` at the positions `[site, poe, size]`.
+    ///
+    /// # Panics
+    /// If a position is out of range, which is a bug of the caller.
+    pub fn initiation(&self, bands: &SpectraBands, at: [usize; 3]) -> Initiation {
+        let at_uplift = |values: &[f64]| values.iter().position(|&u_m| u_m <= self.uplift_displacement_m);
+        let strength = |values: &[f64]| at_uplift(values).map(|index| self.strengths[index]);
+        let (lower, median, upper) = (bands.lower_m.block(at), bands.median_m.block(at), bands.upper_m.block(at));
+        Initiation {
+            lower: strength(lower),
+            median: strength(median),
+            upper: strength(upper),
+            width: at_uplift(median)
+                .map(|index| (upper[index] - lower[index]) / median[index])
+                .filter(|width| width.is_finite()),
+        }
+    }
+}

@@ -1,0 +1,322 @@
+//! Confidence bands in the result file and in tables beside it.
+
+use std::path::{Path, PathBuf};
+
+use polars::prelude::Column;
+use uplift_bootstrap::ResamplingPlan;
+use uplift_job::Array;
+use uplift_job::outputs::{Output, OutputKind, beside};
+use uplift_job::table::write_table;
+use uplift_labelled::{LabelledError, LabelledWriter};
+use uplift_result::layout::{MULTIPLICITY, axis, band, bootstrap, joint, limit_names, repaired_band};
+use uplift_result::{Addition, sign};
+use uplift_uniform_risk::StoredStripes;
+
+use super::bands::{BandSettings, Bands, RepairedBands, SpectraBands};
+use super::joint::JointBands;
+use crate::error::QuestionsError;
+
+/// Groups and axes of the file that bands replace.
+fn replaced() -> [String; 3] {
+    [bootstrap::ROOT.to_owned(), axis::path(axis::SAMPLE_SIZE), axis::path(axis::REPLICATE)]
+}
+
+/// All that is written of a bootstrap.
+pub(super) struct BandsFile<'a> {
+    /// The result it was made from.
+    pub(super) stored: &'a StoredStripes,
+    /// The draws.
+    pub(super) plan: &'a ResamplingPlan,
+    /// Where the draws come from, in words.
+    pub(super) plan_source: &'a str,
+    /// What kind of bands.
+    pub(super) settings: &'a BandSettings,
+    /// The bands, a measure each.
+    pub(super) bands: &'a [Bands],
+}
+
+/// The tables beside the result file: bands, and the figures of Table 4.1.
+pub(super) fn band_paths(result: &Path) -> [PathBuf; 2] {
+    ["bands.csv", "table-4-1.csv"].map(|ending| beside(result, ending))
+}
+
+/// The same, as they are to be written.
+pub(super) fn tables(result: &Path) -> [Output; 2] {
+    let [bands, figures] = band_paths(result);
+    [Output::new(bands, OutputKind::Table("sample_size")), Output::new(figures, OutputKind::Table("e_median_pct"))]
+}
+
+/// Write the bands into the result file, in place of earlier ones, and into tables beside it.
+///
+/// # Errors
+/// Whatever keeps the files from being written; the result file is then as it was.
+pub(super) fn write_bands(addition: &Addition, file: &BandsFile<'_>) -> Result<(), QuestionsError> {
+    let BandsFile { stored, plan, settings, .. } = file;
+    addition.write(&replaced(), |writer| add_bands(writer, file))?;
+    let what = format!(
+        "bootstrap: {}, {} replicates, {} interval, confidence {}",
+        file.plan_source,
+        plan.replicates(),
+        settings.interval.key(),
+        settings.confidence
+    );
+    let line = stored.line(&what);
+    let [bands, figures] = band_paths(&stored.path);
+    write_table(&bands, &line, bands_table(file))?;
+    Ok(write_table(&figures, &line, figures_table(file))?)
+}
+
+fn add_bands(writer: &mut LabelledWriter, file: &BandsFile<'_>) -> Result<(), LabelledError> {
+    let BandsFile { stored, plan, settings, .. } = file;
+    writer.axis_u32(axis::SAMPLE_SIZE, plan.sizes(), "1", "records drawn in a replicate")?;
+    let numbers: Vec<u32> = (0..).take(plan.replicates()).collect();
+    writer.axis_u32(axis::REPLICATE, &numbers, "1", "number of the replicate")?;
+    let root = bootstrap::ROOT;
+    sign(writer, root)?;
+    writer.attribute(root, "plan", file.plan_source)?;
+    writer.attribute(root, "unit", plan.unit().key())?;
+    writer.attribute(root, "confidence", settings.confidence)?;
+    writer.attribute(root, "interval", settings.interval.key())?;
+    writer.attribute(root, "strength_above", settings.strength_above)?;
+    let long_name = "how often each record was drawn";
+    let dims = [axis::SAMPLE_SIZE, axis::REPLICATE, axis::RECORD];
+    writer.array_u32(MULTIPLICITY, &dims, &plan.multiplicities(), "1", long_name)?;
+    for bands in file.bands {
+        let measure = bands.measure;
+        let path = |name: &str| band(measure, name);
+        add_spectra_bands(writer, &path, &bands.plain, (&stored.sites, settings.confidence))?;
+        for (name, values, of) in [
+            (bootstrap::TRUTH, &bands.inferred.truth_m, "limit of the spectrum of all records there could be"),
+            (bootstrap::PREDICTION, &bands.inferred.prediction_m, "limit of the spectrum of another set of records"),
+        ] {
+            let dims = [axis::SITE, axis::POE, axis::SAMPLE_SIZE, axis::STRENGTH];
+            for (name, values) in name.into_iter().zip(values) {
+                writer.array_f64(&path(name), &dims, values.values(), "m", of)?;
+            }
+        }
+        if let Some(repaired) = &bands.repaired {
+            let path = |name: &str| repaired_band(measure, name);
+            add_spectra_bands(writer, &path, &repaired.bands, (&stored.sites, settings.confidence))?;
+            let dims = [axis::SITE, axis::SAMPLE_SIZE];
+            let long_name = "share of the replicates whose weights do not bring the site's hazard";
+            writer.array_f64(&path(bootstrap::FAILED), &dims, repaired.failed.values(), "1", long_name)?;
+        }
+    }
+    Ok(())
+}
+
+/// Adds the bands of the spectra of all sites; `path` says where an array lies, by its name.
+fn add_spectra_bands(
+    writer: &mut LabelledWriter,
+    path: &dyn Fn(&str) -> String,
+    bands: &SpectraBands,
+    (sites, confidence): (&[String], f64),
+) -> Result<(), LabelledError> {
+    let dims = [axis::SITE, axis::POE, axis::SAMPLE_SIZE, axis::STRENGTH];
+    let [lower, median, upper] = limit_names(confidence);
+    for (name, values, what) in [
+        (&lower, &bands.lower_m, "lower limit"),
+        (&median, &bands.median_m, "median of the replicates"),
+        (&upper, &bands.upper_m, "upper limit"),
+    ] {
+        writer.array_f64(&path(name), &dims, values.values(), "m", what)?;
+    }
+    for (name, values) in bootstrap::SIMULTANEOUS.iter().zip(bands.simultaneous_m.iter().flatten()) {
+        let long_name = "limit of the band that holds whole spectra";
+        writer.array_f64(&path(name), &dims, values.values(), "m", long_name)?;
+    }
+    let dims = [axis::SITE, axis::POE, axis::SAMPLE_SIZE];
+    for (name, values, what) in [
+        (bootstrap::E_MEDIAN, &bands.error_of_median, "error of the median (Eq. 4.9)"),
+        (bootstrap::R_90CI, &bands.range_of_interval, "range of the interval (Eq. 4.10)"),
+    ] {
+        writer.array_f64(&path(name), &dims, percent(values).values(), "%", what)?;
+    }
+    if let Some(joint) = &bands.joint { add_joint_bands(writer, path, joint, (sites, confidence)) } else { Ok(()) }
+}
+
+/// Adds the bands over records and weighted hazard curves together, a group for each site that has such curves.
+fn add_joint_bands(
+    writer: &mut LabelledWriter,
+    path: &dyn Fn(&str) -> String,
+    bands: &JointBands,
+    (sites, confidence): (&[String], f64),
+) -> Result<(), LabelledError> {
+    for &site in &bands.sites {
+        let path = |name: &str| path(&joint(&sites[site], name));
+        for (name, limits) in limit_names(confidence).iter().zip(&bands.limits_m) {
+            let dims = [axis::POE, axis::SAMPLE_SIZE, axis::STRENGTH];
+            let long_name = "limit over resampled records and weighted hazard curves together";
+            writer.array_f64(&path(name), &dims, limits.block([site]), "m", long_name)?;
+        }
+        let (dims, ranges) = ([axis::POE, axis::SAMPLE_SIZE], percent(&bands.range_of_interval));
+        let long_name = "range of the joint interval (Eq. 4.10)";
+        writer.array_f64(&path(bootstrap::R_90CI), &dims, ranges.block([site]), "%", long_name)?;
+        if let Some(failed) = &bands.failed {
+            let long_name = "share of the pairs of a replicate and a curve whose weights do not bring its hazard";
+            writer.array_f64(&path(bootstrap::FAILED), &[axis::SAMPLE_SIZE], failed.block([site]), "1", long_name)?;
+        }
+    }
+    Ok(())
+}
+
+/// Shares in per cent; NaN for none.
+pub(super) fn percent<const N: usize>(values: &Array<N, Option<f64>>) -> Array<N> {
+    values.map(|value| value.map_or(f64::NAN, |value| 100.0 * value))
+}
+
+fn bands_table(file: &BandsFile<'_>) -> Vec<Column> {
+    let (stored, sizes) = (file.stored, file.plan.sizes());
+    let (mut site, mut im) = (Vec::new(), Vec::new());
+    let (mut poe, mut size, mut strength) = (Vec::new(), Vec::new(), Vec::new());
+    for bands in file.bands {
+        for ([site_index, poe_index, size_index, strength_index], _) in bands.plain.lower_m.blocks() {
+            site.push(stored.sites[site_index].as_str());
+            im.push(bands.measure.label());
+            poe.push(stored.poes[poe_index]);
+            size.push(sizes[size_index]);
+            strength.push(stored.strengths[strength_index]);
+        }
+    }
+    let years = vec![stored.years; site.len()];
+    let mut columns = vec![
+        Column::new("site".into(), site),
+        Column::new("im".into(), im),
+        Column::new("poe".into(), poe),
+        Column::new("years".into(), years),
+        Column::new("sample_size".into(), size),
+        Column::new("strength".into(), strength),
+    ];
+    let plain: Vec<&SpectraBands> = file.bands.iter().map(|bands| &bands.plain).collect();
+    columns.extend(limit_columns("", &plain, file.settings.confidence));
+    columns.extend(inferred_columns(file.bands));
+    let repaired: Vec<&SpectraBands> =
+        file.bands.iter().filter_map(|bands| bands.repaired.as_ref().map(|repaired| &repaired.bands)).collect();
+    columns.extend(limit_columns("_consistent", &repaired, file.settings.confidence));
+    columns.extend(joint_columns("_joint", &plain, file.settings.confidence));
+    columns.extend(joint_columns("_consistent_joint", &repaired, file.settings.confidence));
+    columns
+}
+
+/// The joint limits of all measures, their names with `suffix` before the unit; none where no site has any.
+fn joint_columns(suffix: &str, bands: &[&SpectraBands], confidence: f64) -> Vec<Column> {
+    if bands.iter().all(|of| of.joint.is_none()) {
+        return Vec::new();
+    }
+    let column = |(limit, name): (usize, String)| {
+        // a measure of whose sites none has any has as many rows
+        let of_measure = |of: &&SpectraBands| match &of.joint {
+            Some(joint) => {
+                joint.limits_m[limit].values().iter().map(|&u_m| Some(u_m).filter(|u_m| !u_m.is_nan())).collect()
+            }
+            None => vec![None; of.median_m.values().len()],
+        };
+        let values: Vec<Option<f64>> = bands.iter().flat_map(of_measure).collect();
+        Column::new(format!("{}{suffix}_m", name.trim_end_matches("_m")).into(), values)
+    };
+    limit_names(confidence).into_iter().enumerate().map(column).collect()
+}
+
+/// The limits beyond the set of all measures.
+fn inferred_columns(bands: &[Bands]) -> impl Iterator<Item = Column> {
+    let limits: [fn(&Bands) -> &Array<4>; 4] = [
+        |bands| &bands.inferred.truth_m[0],
+        |bands| &bands.inferred.truth_m[1],
+        |bands| &bands.inferred.prediction_m[0],
+        |bands| &bands.inferred.prediction_m[1],
+    ];
+    let names = bootstrap::TRUTH.into_iter().chain(bootstrap::PREDICTION);
+    names.zip(limits).map(|(name, limit)| {
+        let values: Vec<f64> = bands.iter().flat_map(|bands| limit(bands).values()).copied().collect();
+        Column::new(name.into(), values)
+    })
+}
+
+/// The limits of all measures, their names with `suffix` before the unit; none of no bands.
+fn limit_columns(suffix: &str, bands: &[&SpectraBands], confidence: f64) -> Vec<Column> {
+    let of_measures = bands.iter().map(|bands| {
+        let mut columns = vec![&bands.lower_m, &bands.median_m, &bands.upper_m];
+        columns.extend(bands.simultaneous_m.iter().flatten());
+        columns
+    });
+    let mut limits: Vec<Vec<f64>> = Vec::new();
+    for columns in of_measures {
+        limits.resize_with(columns.len(), Vec::new);
+        for (all, of_measure) in limits.iter_mut().zip(columns) {
+            all.extend_from_slice(of_measure.values());
+        }
+    }
+    let names = limit_names(confidence);
+    let names = names.iter().map(String::as_str).chain(bootstrap::SIMULTANEOUS);
+    names
+        .zip(limits)
+        .map(|(name, values)| Column::new(format!("{}{suffix}_m", name.trim_end_matches("_m")).into(), values))
+        .collect()
+}
+
+fn figures_table(file: &BandsFile<'_>) -> Vec<Column> {
+    let (stored, sizes) = (file.stored, file.plan.sizes());
+    let (mut site, mut im, mut poe, mut size) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let (mut errors, mut ranges) = (Vec::new(), Vec::new());
+    let (mut repaired_errors, mut repaired_ranges, mut failed) = (Vec::new(), Vec::new(), Vec::new());
+    for bands in file.bands {
+        for (at @ [site_index, poe_index, size_index], error) in bands.plain.error_of_median.blocks() {
+            site.push(stored.sites[site_index].as_str());
+            im.push(bands.measure.label());
+            poe.push(stored.poes[poe_index]);
+            size.push(sizes[size_index]);
+            errors.push(error[0].map(|error| 100.0 * error));
+            ranges.push(bands.plain.range_of_interval[at].map(|range| 100.0 * range));
+            if let Some(RepairedBands { bands, failed: share }) = &bands.repaired {
+                repaired_errors.push(bands.error_of_median[at].map(|error| 100.0 * error));
+                repaired_ranges.push(bands.range_of_interval[at].map(|range| 100.0 * range));
+                failed.push(Some(100.0 * share[[site_index, size_index]]).filter(|share| !share.is_nan()));
+            }
+        }
+    }
+    let years = vec![stored.years; site.len()];
+    let mut columns = vec![
+        Column::new("site".into(), site),
+        Column::new("im".into(), im),
+        Column::new("poe".into(), poe),
+        Column::new("years".into(), years),
+        Column::new("sample_size".into(), size),
+        Column::new("e_median_pct".into(), errors),
+        Column::new("r_90ci_pct".into(), ranges),
+    ];
+    if !failed.is_empty() {
+        columns.push(Column::new("e_median_consistent_pct".into(), repaired_errors));
+        columns.push(Column::new("r_90ci_consistent_pct".into(), repaired_ranges));
+        columns.push(Column::new("failed_consistent_pct".into(), failed));
+    }
+    columns.extend(joint_figure_columns(file.bands));
+    columns
+}
+
+/// The figures of the joint bands; none where no site has weighted hazard curves.
+fn joint_figure_columns(bands: &[Bands]) -> Vec<Column> {
+    let figures: [JointFigure; 3] = [
+        ("r_90ci_joint_pct", |bands, at| bands.plain.joint.as_ref()?.range_of_interval[at]),
+        ("r_90ci_consistent_joint_pct", |bands, at| {
+            bands.repaired.as_ref()?.bands.joint.as_ref()?.range_of_interval[at]
+        }),
+        ("failed_consistent_joint_pct", |bands, [site, _, size]| {
+            let joint = bands.repaired.as_ref()?.bands.joint.as_ref()?;
+            Some(joint.failed.as_ref()?[[site, size]]).filter(|share| !share.is_nan())
+        }),
+    ];
+    let has_some = bands.iter().any(|of| of.plain.joint.is_some());
+    let is_repaired = bands.iter().any(|of| of.repaired.as_ref().is_some_and(|own| own.bands.joint.is_some()));
+    let column = |(name, figure): JointFigure| {
+        let of_measure = |of: &'_ Bands| -> Vec<Option<f64>> {
+            let places = of.plain.error_of_median.blocks::<3>().map(|(at, _)| at);
+            places.map(|at| Some(100.0 * figure(of, at)?)).collect()
+        };
+        Column::new(name.into(), bands.iter().flat_map(of_measure).collect::<Vec<_>>())
+    };
+    let there = usize::from(has_some) + 2 * usize::from(is_repaired);
+    figures.into_iter().take(there).map(column).collect()
+}
+
+/// A column, and its figure at `[site, poe, size]`.
+type JointFigure = (&'static str, fn(&Bands, [usize; 3]) -> Option<f64>);

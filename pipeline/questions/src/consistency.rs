@@ -1,0 +1,80 @@
+//! `uplift consistency`: the question asked of a result, and the answer added to it.
+
+use std::path::{Path, PathBuf};
+
+use uplift_job::events::Events;
+use uplift_job::outputs::{self, Output, OutputKind};
+use uplift_job::table::write_table;
+use uplift_job::{Array, JobError};
+use uplift_motion::IntensityMeasure;
+use uplift_result::Addition;
+use uplift_study::Repair;
+use uplift_uniform_risk::StoredStripes;
+use uplift_uniform_risk::consistency::{
+    ConsistencyReport, Keep, Question, add, columns, consistency_path, disaggregated, earthquakes, repairs_of, replaced,
+};
+
+use crate::error::QuestionsError;
+
+/// What is done beyond asking.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct ConsistencyOptions {
+    /// Whether weights are solved, and the spectra made of them, whatever the study says.
+    pub repair: bool,
+    /// Whether the weight of every run is kept in the file.
+    pub keep_weights: bool,
+    /// Disaggregations of the site's hazard, tables of the engine: each with the site that it is of, none where the
+    /// result has but one.
+    pub disaggregations: Vec<(Option<String>, PathBuf)>,
+    /// Whether whatever is at the place of the table gives way.
+    pub force: bool,
+}
+
+/// Whether the records of the result at `result` bring the hazard of the other measure, and if asked for the spectra of
+/// weights by which they do: written into the file and into a table beside it.
+///
+/// # Errors
+/// A file that is missing, damaged or of another kind; a file that cannot be written; [`JobError::Interrupted`]
+/// where `events` say so.
+pub fn consistency(
+    result: &Path,
+    options: &ConsistencyOptions,
+    events: &dyn Events,
+) -> Result<ConsistencyReport, QuestionsError> {
+    let (addition, file) = Addition::begin(result, events)?;
+    let question = Question::of_result(&file)?;
+    let shaken = disaggregated(&question, &options.disaggregations)?;
+    if !question.can_be_asked() {
+        return Ok(ConsistencyReport::of(&question, &[], &[], &[]));
+    }
+    let stored = StoredStripes::read(&file)?;
+    let table = Output::new(consistency_path(&stored.path), OutputKind::Table("implied_level"));
+    outputs::check(&[table], &[result], options.force)?;
+    // a repair that is there stays: what was made of it would be of another result
+    let is_there = file.has_repair();
+    let repair = options.repair || options.keep_weights || is_there || question.settings.repair == Repair::Weights;
+    let findings = question.findings(repair)?;
+    if events.cancelled() {
+        return Err(JobError::Interrupted.into());
+    }
+    let repairs = if repair { repairs_of(&file, &stored, &question, &findings)? } else { Vec::new() };
+    let keep = if options.keep_weights { Keep::Weights } else { Keep::Exponents };
+    addition.write(&replaced(), |writer| add(writer, &question, &findings, &repairs, keep))?;
+    let plain_m: Vec<(IntensityMeasure, Array<3>)> =
+        file.spectra()?.measures.into_iter().map(|spectra| (spectra.measure, spectra.u_m)).collect();
+    let mut report = ConsistencyReport::of(&question, &findings, &plain_m, &repairs);
+    report.earthquakes = earthquakes(&question, &report.rows, &shaken);
+    for ((_, path), (site, _)) in options.disaggregations.iter().zip(&shaken) {
+        if !report.earthquakes.iter().any(|row| row.site == question.sites[*site]) {
+            events.note(&format!(
+                "{}: of no measure and probability by which the result has spectra, so nothing is shown of it",
+                path.display()
+            ));
+        }
+    }
+    let path = consistency_path(&stored.path);
+    write_table(&path, &stored.line("hazard consistency"), columns(&report))?;
+    report.result = Some(stored.path.clone());
+    report.table = Some(path);
+    Ok(report)
+}

@@ -1,0 +1,128 @@
+//! What is told of efficiency and sufficiency.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use serde::Serialize;
+use uplift_uniform_risk::StoredStripes;
+
+use super::of_measure::{Covariate, MeasureEfficiency};
+use super::write::efficiency_path;
+
+/// What is told of efficiency and sufficiency.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(transparent)]
+pub struct EfficiencyReport {
+    /// One a measure and strength, in this order.
+    pub rows: Vec<EfficiencyRow>,
+    /// Uplift strengths.
+    #[serde(skip)]
+    pub strengths: Vec<f64>,
+    /// What is known of the records, in order: the keys of [`EfficiencyRow::trends`].
+    #[serde(skip)]
+    pub covariates: Vec<&'static str>,
+    /// The largest displacement at which measures are compared, m, of each strength; none where there is none.
+    #[serde(skip)]
+    pub up_to_m: Vec<Option<f64>>,
+    /// Records.
+    #[serde(skip)]
+    pub records: usize,
+    /// The result file, which holds all of it now.
+    #[serde(skip)]
+    pub result: PathBuf,
+    /// The table beside it.
+    #[serde(skip)]
+    pub table: PathBuf,
+}
+
+/// Efficiency and sufficiency of one measure at one strength; NaN where there is no such number.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct EfficiencyRow {
+    /// The measure, `PGV`, `SA(1.0)`.
+    pub im: &'static str,
+    /// The measure that the records of the runs were scaled to.
+    pub scaled_to: &'static str,
+    /// Uplift strength.
+    pub strength: f64,
+    /// Logarithmic scatter of the level at which records bring the structure to a displacement.
+    pub dispersion_level: f64,
+    /// The place of this scatter among those of all measures at the strength, the smallest first; none where there is
+    /// no such number.
+    pub rank: Option<u32>,
+    /// Logarithmic scatter of the displacement at a given level once the structure rocks.
+    pub dispersion_rocking: f64,
+    /// Share of the stripes that rock whose scatter does not exist because too many runs overturn, 0 to 1.
+    pub undefined_share: f64,
+    /// Logarithmic scatter of the level at which the structure begins to rock.
+    pub dispersion_initiation: f64,
+    /// The trend of a record's mean residual with what the record is.
+    pub trends: BTreeMap<&'static str, Trend>,
+}
+
+impl EfficiencyRow {
+    /// Whether the runs were scaled to another measure.
+    pub fn is_told(&self) -> bool {
+        self.im != self.scaled_to
+    }
+}
+
+/// A trend; none where there are too few records or stripes.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Trend {
+    /// Change of the residual with it.
+    pub slope: Option<f64>,
+    /// Probability of such a slope if there were none, 0 to 1.
+    pub p_value: Option<f64>,
+    /// Share of the variance explained, 0 to 1.
+    pub r_squared: Option<f64>,
+}
+
+/// The place of the scatter `of` a measure among those of all at the strength `index`, the smallest first; none where
+/// there is no such number.
+pub(super) fn rank(measures: &[MeasureEfficiency], of: &MeasureEfficiency, index: usize) -> Option<u32> {
+    let smaller = |other: &&MeasureEfficiency| other.reaching[index] < of.reaching[index];
+    let place = || u32::try_from(1 + measures.iter().filter(smaller).count()).unwrap_or(u32::MAX);
+    of.reaching[index].is_finite().then(place)
+}
+
+impl EfficiencyReport {
+    pub(super) fn new(
+        stored: &StoredStripes,
+        covariates: &[Covariate],
+        measures: &[MeasureEfficiency],
+        up_to_m: Vec<Option<f64>>,
+    ) -> Self {
+        let row = |of: &MeasureEfficiency, index: usize| EfficiencyRow {
+            im: of.measure.label(),
+            scaled_to: of.scaled_to.label(),
+            strength: stored.strengths[index],
+            dispersion_level: of.reaching[index],
+            rank: rank(measures, of, index),
+            dispersion_rocking: of.rocking[index],
+            undefined_share: of.undefined[index],
+            dispersion_initiation: of.initiation[index],
+            trends: covariates
+                .iter()
+                .zip(&of.lines)
+                .map(|(covariate, lines)| {
+                    let line = lines[index].as_ref();
+                    let trend = Trend {
+                        slope: line.map(|line| line.slope),
+                        p_value: line.map(|line| line.p_value),
+                        r_squared: line.map(|line| line.r_squared),
+                    };
+                    (covariate.key, trend)
+                })
+                .collect(),
+        };
+        Self {
+            rows: measures.iter().flat_map(|of| (0..stored.strengths.len()).map(move |index| row(of, index))).collect(),
+            strengths: stored.strengths.clone(),
+            covariates: covariates.iter().map(|covariate| covariate.key).collect(),
+            up_to_m,
+            records: stored.records.len(),
+            result: stored.path.clone(),
+            table: efficiency_path(&stored.path),
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! Influence of records and intensities in the result file and in tables beside it.
+
+use std::path::{Path, PathBuf};
+
+use polars::prelude::Column;
+use uplift_job::Array;
+use uplift_job::outputs::beside;
+use uplift_job::table::write_table;
+use uplift_job::text::spectrum_words;
+use uplift_labelled::{LabelledError, LabelledWriter};
+use uplift_result::layout::{axis, disaggregation, influence};
+use uplift_result::{Addition, sign};
+use uplift_uniform_risk::StoredStripes;
+
+use super::change::{Influence, RecordInfluence};
+use crate::error::QuestionsError;
+
+/// The groups that a new look replaces.
+fn replaced(stored: &StoredStripes) -> Vec<String> {
+    let bins = stored.measures.iter().map(|own| axis::path(&axis::bin(own.measure)));
+    [influence::ROOT, disaggregation::ROOT].map(str::to_owned).into_iter().chain(bins).collect()
+}
+
+/// The table beside the result file.
+pub(super) fn influence_path(result: &Path) -> PathBuf {
+    beside(result, "influence.csv")
+}
+
+/// Write the influence into the result file, in place of an earlier one, and into a table beside it.
+///
+/// * `rankings` — what `rank_records` says of each measure's spectra `[site, poe]`
+///
+/// # Errors
+/// Whatever keeps the files from being written; the result file is then as it was.
+pub(super) fn write_influence(
+    addition: &Addition,
+    stored: &StoredStripes,
+    influences: &[Influence],
+    rankings: &[Array<2, Vec<RecordInfluence>>],
+) -> Result<(), QuestionsError> {
+    addition.write(&replaced(stored), |writer| add(writer, stored, influences))?;
+    Ok(write_table(
+        &influence_path(&stored.path),
+        &stored.line("spectra without each record"),
+        ranking_table(stored, influences, rankings),
+    )?)
+}
+
+fn add(writer: &mut LabelledWriter, stored: &StoredStripes, influences: &[Influence]) -> Result<(), LabelledError> {
+    sign(writer, influence::ROOT)?;
+    sign(writer, disaggregation::ROOT)?;
+    for found in influences {
+        let Some(measure) = stored.measures.iter().find(|own| own.measure == found.measure) else { continue };
+        let [without_path, share_path] = if found.repaired {
+            [influence::repaired(found.measure), disaggregation::repaired(found.measure)]
+        } else {
+            [influence::u_without_m(found.measure), disaggregation::share(found.measure)]
+        };
+        if let Some(without_m) = &found.without_m {
+            let dims = [axis::SITE, axis::POE, axis::RECORD, axis::STRENGTH];
+            let long_name = if stored.units.are_records() {
+                "uniform risk displacement without the record"
+            } else {
+                "uniform risk displacement without the pair of the record"
+            };
+            writer.array_f64(&without_path, &dims, without_m.values(), "m", long_name)?;
+        }
+        let bin = axis::bin(found.measure);
+        if !found.repaired {
+            let from: Vec<f64> = std::iter::once(0.0).chain(measure.levels.iter().copied()).collect();
+            let long_name =
+                format!("{} from which a bin reaches up to the next, the last without end", found.measure.label());
+            writer.axis_f64(&bin, &from, found.measure.unit(), &long_name)?;
+        }
+        let dims = [axis::SITE, axis::POE, axis::STRENGTH, &bin];
+        let long_name = "share of the risk at the ordinate";
+        writer.array_f64(&share_path, &dims, found.shares.values(), "1", long_name)?;
+    }
+    Ok(())
+}
+
+fn ranking_table(
+    stored: &StoredStripes,
+    influences: &[Influence],
+    rankings: &[Array<2, Vec<RecordInfluence>>],
+) -> Vec<Column> {
+    let (mut site, mut im, mut poe, mut record) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let (mut mean, mut largest, mut strength) = (Vec::new(), Vec::new(), Vec::new());
+    for (influence, rankings) in influences.iter().zip(rankings) {
+        for ([site_index, poe_index], ranking) in rankings.blocks() {
+            for entry in &ranking[0] {
+                site.push(stored.sites[site_index].as_str());
+                im.push(spectrum_words(influence.measure.label(), influence.repaired));
+                poe.push(stored.poes[poe_index]);
+                record.push(stored.units.name(entry.record));
+                mean.push(100.0 * entry.mean_change);
+                largest.push(100.0 * entry.largest_change);
+                strength.push(entry.strength);
+            }
+        }
+    }
+    let years = vec![stored.years; site.len()];
+    vec![
+        Column::new("site".into(), site),
+        Column::new("im".into(), im),
+        Column::new("poe".into(), poe),
+        Column::new("years".into(), years),
+        Column::new("record".into(), record),
+        Column::new("mean_change_pct".into(), mean),
+        Column::new("largest_change_pct".into(), largest),
+        Column::new("at_strength".into(), strength),
+    ]
+}

@@ -1,0 +1,132 @@
+//! The hazard curves of a result, as used.
+
+use uplift_hazard::HazardCurve;
+use uplift_motion::IntensityMeasure;
+
+use super::file::ResultFile;
+use super::layout::{axis, hazard, ida};
+use crate::error::ResultError;
+
+/// The hazard of one measure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StoredHazard {
+    /// The measure.
+    pub measure: IntensityMeasure,
+    /// Its curves `[site]`.
+    pub sites: Vec<StoredCurves>,
+}
+
+/// The curves of one site.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StoredCurves {
+    /// The curve; the mean where there are branches.
+    pub curve: HazardCurve,
+    /// Weighted alternatives; none where there is but one curve.
+    pub branches: Vec<StoredBranch>,
+}
+
+/// One of the weighted curves of a site.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StoredBranch {
+    /// Its name.
+    pub name: String,
+    /// Its weight; those of a site add up to 1.
+    pub weight: f64,
+    /// The curve.
+    pub curve: HazardCurve,
+}
+
+impl ResultFile {
+    /// The hazard curves of every measure, in units of the measures.
+    ///
+    /// # Errors
+    /// A file that is damaged, or of another kind; a study without sites.
+    pub fn hazard(&self) -> Result<Vec<StoredHazard>, ResultError> {
+        self.hazard_with_branches(|_| true)
+    }
+
+    /// The same, with the weighted curves of the sites alone that `wanted` says of their positions: reading those of
+    /// many sites takes seconds.
+    ///
+    /// # Errors
+    /// As those of [`hazard`](Self::hazard).
+    pub fn hazard_with_branches(&self, wanted: impl Fn(usize) -> bool) -> Result<Vec<StoredHazard>, ResultError> {
+        let axes = self.axes_with_sites()?;
+        let of_measure = |measure| {
+            let of_site = |(position, site): (usize, &String)| {
+                let branches = if wanted(position) { self.branches(site, measure)? } else { Vec::new() };
+                Ok(StoredCurves { curve: self.site_curve(site, measure)?, branches })
+            };
+            let sites = axes.sites.iter().enumerate().map(of_site).collect::<Result<_, ResultError>>()?;
+            Ok(StoredHazard { measure, sites })
+        };
+        self.measures().into_iter().map(of_measure).collect()
+    }
+
+    /// The measures with stripes, PGV first.
+    pub fn measures(&self) -> Vec<IntensityMeasure> {
+        let is_there = |measure: &IntensityMeasure| self.reader.exists(&ida::edp_m(*measure));
+        self.measures_in(ida::ROOT).into_iter().filter(is_there).collect()
+    }
+
+    /// The measures with a group of their own in `group`, PGV first; none where there is no such group.
+    pub(super) fn measures_in(&self, group: &str) -> Vec<IntensityMeasure> {
+        let children = self.reader.children(group).unwrap_or_default();
+        let mut measures: Vec<IntensityMeasure> = children.iter().filter_map(|name| name.parse().ok()).collect();
+        measures.sort_unstable();
+        measures
+    }
+
+    /// The curve of a site by any measure, whether the study is analysed by it or not; none where it has none.
+    ///
+    /// # Errors
+    /// A file that is damaged, or of another kind.
+    pub fn mean_curve(&self, site: &str, measure: IntensityMeasure) -> Result<Option<HazardCurve>, ResultError> {
+        let group = hazard::group(site, measure);
+        self.reader.exists(&group).then(|| self.curve(&group, measure)).transpose()
+    }
+
+    /// The levels of every measure with stripes.
+    ///
+    /// # Errors
+    /// A file that is damaged, or of another kind.
+    pub fn levels(&self) -> Result<Vec<(IntensityMeasure, Vec<f64>)>, ResultError> {
+        let of = |measure| Ok((measure, self.reader.axis_f64(&axis::level(measure))?));
+        self.measures().into_iter().map(of).collect()
+    }
+
+    /// The weighted curves of a site; none where it has but one curve.
+    ///
+    /// # Errors
+    /// A file that is damaged, or of another kind.
+    pub fn branches(&self, site: &str, measure: IntensityMeasure) -> Result<Vec<StoredBranch>, ResultError> {
+        let of_group = |group: String| {
+            let (name, weight) =
+                (self.reader.attribute_text(&group, "name")?, self.reader.attribute_f64(&group, "weight")?);
+            Ok(StoredBranch { name, weight, curve: self.curve(&group, measure)? })
+        };
+        (0..)
+            .map(|index| hazard::branch(site, measure, index))
+            .take_while(|group| self.reader.exists(group))
+            .map(of_group)
+            .collect()
+    }
+
+    /// The curve of a site; the mean where it has several.
+    ///
+    /// # Errors
+    /// A file that is damaged, or of another kind.
+    pub fn site_curve(&self, site: &str, measure: IntensityMeasure) -> Result<HazardCurve, ResultError> {
+        self.curve(&hazard::group(site, measure), measure)
+    }
+
+    /// The curve in the group `group`.
+    fn curve(&self, group: &str, measure: IntensityMeasure) -> Result<HazardCurve, ResultError> {
+        let path = hazard::maf_per_year(group);
+        let maf = self.reader.array_f64(&path)?;
+        let [axis] = &maf.dims[..] else { return Err(self.damaged(format!("{path} is not a curve"))) };
+        let im = self.reader.axis_f64(axis)?;
+        HazardCurve::new(measure.label(), measure.unit(), "", im, maf.values)
+            .map_err(|error| self.fail(format!("{group}: {error}")))
+    }
+}

@@ -1,0 +1,180 @@
+//! Where the numbers of a result come from, and what it holds.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+use uplift_labelled::LabelledReader;
+use uplift_study::Kind;
+
+use super::digest::UNSAID_NUMERICS;
+use super::file::ResultFile;
+use super::layout::{axis, bootstrap, design, efficiency, ida, influence, set, shake_table, spectra, structures};
+use crate::error::ResultError;
+
+/// Where the numbers of a result come from: what results of every kind say at their root.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Head {
+    /// What the study is of.
+    pub kind: Kind,
+    /// Version of the program that wrote it.
+    pub version: String,
+    /// Commit of that program, or `unknown`.
+    pub commit: String,
+    /// Coordinated universal time of the run, `2026-01-31T12:00:00Z`.
+    pub created: String,
+    /// The command line.
+    pub command: String,
+    /// What was changed of the study file for the run; none where an earlier version of the program did not say.
+    pub overrides: Option<Vec<String>>,
+    /// Title of the study.
+    pub title: String,
+    /// Study file as given.
+    pub study_file: String,
+    /// The study, every default filled in.
+    pub study_toml: String,
+    /// Where the records come from, in a line; says so if they are synthetic.
+    pub record_set: String,
+    /// Whether they are synthetic.
+    pub synthetic: bool,
+    /// Seed of a study of uniform risk.
+    pub seed: Option<u64>,
+    /// Name to SHA-256 of each record and hazard curve.
+    pub input_checksums: BTreeMap<String, String>,
+    /// Version of the solver's numbers that it was computed with; results that say none are of the last that did not.
+    pub numerics: u32,
+    /// What was noticed about the inputs; the crate `uplift_alarms` has all that is to be known.
+    pub warnings: Vec<String>,
+}
+
+/// What a result holds.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub enum Overview {
+    /// Uniform risk spectra.
+    UniformRisk {
+        /// Nonlinear time histories by each measure, which goes by its label.
+        analyses: Vec<(&'static str, u64)>,
+        /// Names of the sites.
+        sites: Vec<String>,
+        /// What was added after the run: `bootstrap`, `influence`, `measures`, `structures`.
+        added: Vec<&'static str>,
+    },
+    /// Displacement spectra.
+    Displacement {
+        /// What was shaken: `oscillator` or `block`.
+        structure: String,
+        /// Nonlinear time histories.
+        analyses: u64,
+        /// Name and number of records of each set, in the order of their names.
+        sets: Vec<(String, u64)>,
+        /// Whether there is a design example.
+        designed: bool,
+    },
+    /// The tests of a shaking table.
+    ShakeTable {
+        /// The structure file.
+        structure: String,
+        /// Tests.
+        analyses: u64,
+        /// Names of the levels.
+        levels: Vec<String>,
+        /// Excitations.
+        excitations: usize,
+    },
+}
+
+/// What the result in `reader` is of; uniform risk where it does not say.
+pub(super) fn kind_of(reader: &LabelledReader) -> Kind {
+    let is = |kind: &Kind| reader.attribute_text("/", "kind").is_ok_and(|word| word == kind.key());
+    Kind::ALL.into_iter().find(is).unwrap_or(Kind::UniformRisk)
+}
+
+impl ResultFile {
+    /// Where the numbers come from.
+    ///
+    /// # Errors
+    /// A file that is damaged.
+    pub fn head(&self) -> Result<Head, ResultError> {
+        let text = |name: &str| self.reader.attribute_text("/", name);
+        Ok(Head {
+            kind: self.kind(),
+            version: text("version")?,
+            commit: text("commit")?,
+            created: text("created")?,
+            command: text("command")?,
+            overrides: text("overrides").ok().map(|all| all.lines().map(str::to_owned).collect()),
+            title: text("title")?,
+            study_file: text("study_file")?,
+            study_toml: text("study_toml")?,
+            record_set: self.record_set()?,
+            synthetic: self.is_synthetic()?,
+            seed: (self.kind() == Kind::UniformRisk).then(|| self.reader.attribute_u64("/", "seed")).transpose()?,
+            input_checksums: serde_json::from_str(&text("input_checksums")?)
+                .map_err(|error| self.damaged(format!("attribute input_checksums of /: {error}")))?,
+            numerics: self.numerics(),
+            warnings: text("warnings")?.lines().map(str::to_owned).collect(),
+        })
+    }
+
+    fn numerics(&self) -> u32 {
+        let said = self.reader.attribute_i64("/", "numerics").ok().and_then(|said| u32::try_from(said).ok());
+        said.unwrap_or(UNSAID_NUMERICS)
+    }
+
+    /// Where the records come from, in a line.
+    pub(super) fn record_set(&self) -> Result<String, ResultError> {
+        Ok(self.reader.attribute_text("/", "record_set")?)
+    }
+
+    /// Whether the records are synthetic.
+    ///
+    /// # Errors
+    /// A file that is damaged, or of another kind.
+    pub fn is_synthetic(&self) -> Result<bool, ResultError> {
+        Ok(self.reader.attribute_i64("/", "synthetic")? == 1)
+    }
+
+    /// What the result holds.
+    ///
+    /// # Errors
+    /// A file that is damaged.
+    pub fn overview(&self) -> Result<Overview, ResultError> {
+        let reader = &self.reader;
+        if self.kind() == Kind::Displacement {
+            let records = |name: String| Ok((reader.attribute_u64(&set::group(&name), "records")?, name));
+            let sets = reader.children(set::ROOT)?.into_iter().map(records).collect::<Result<Vec<_>, ResultError>>()?;
+            return Ok(Overview::Displacement {
+                structure: reader.attribute_text("/", "structure")?,
+                analyses: reader.attribute_u64(spectra::GROUP, "analyses")?,
+                sets: sets.into_iter().map(|(records, name)| (name, records)).collect(),
+                designed: reader.exists(design::GROUP),
+            });
+        }
+        if self.kind() == Kind::ShakeTable {
+            return Ok(Overview::ShakeTable {
+                structure: reader.attribute_text(shake_table::GROUP, "structure")?,
+                analyses: reader.attribute_u64(shake_table::GROUP, "analyses")?,
+                levels: reader.axis_text(axis::LEVEL)?,
+                excitations: reader.axis_text(axis::EXCITATION)?.len(),
+            });
+        }
+        let mut analyses = Vec::new();
+        // by their keys, as a listing of the file has them
+        let mut measures = self.measures_in(ida::ROOT);
+        measures.sort_by_key(|measure| measure.key());
+        for measure in measures {
+            analyses.push((measure.label(), reader.attribute_u64(&ida::group(measure), "analyses")?));
+        }
+        let sites = reader.exists(&axis::path(axis::SITE)).then(|| reader.axis_text(axis::SITE)).transpose()?;
+        let added = [
+            (bootstrap::ROOT, "bootstrap"),
+            (influence::ROOT, "influence"),
+            (efficiency::ROOT, "measures"),
+            (structures::ROOT, "structures"),
+        ];
+        Ok(Overview::UniformRisk {
+            analyses,
+            sites: sites.unwrap_or_default(),
+            added: added.into_iter().filter(|(group, _)| reader.exists(group)).map(|(_, name)| name).collect(),
+        })
+    }
+}

@@ -1,0 +1,571 @@
+//! Where things are in a result file: every group, array and axis by its name (docs/hdf5-layout.md).
+
+use std::collections::BTreeSet;
+
+use uplift_motion::IntensityMeasure;
+
+/// Version of the layout of the result file.
+pub const LAYOUT: i64 = 1;
+
+/// Arrays of each intensity measure in a group of their own: a function that gives the path of each, the group's path,
+/// and the names of all.
+macro_rules! by_measure {
+    ($(#[$doc:meta])* $module:ident: $($function:ident = $name:literal),+ $(,)?) => {
+        $(#[$doc])*
+        pub mod $module {
+            use uplift_motion::IntensityMeasure;
+            /// The group of all measures.
+            pub const ROOT: &str = concat!("/", stringify!($module));
+            /// The arrays of a measure.
+            pub const ARRAYS: &[&str] = &[$($name),+];
+            /// The group of one measure.
+            pub fn group(measure: IntensityMeasure) -> String {
+                format!("{ROOT}/{}", measure.key())
+            }
+            $(
+                #[doc = concat!("`", $name, "` of one measure.")]
+                pub fn $function(measure: IntensityMeasure) -> String {
+                    format!("{ROOT}/{}/{}", measure.key(), $name)
+                }
+            )+
+        }
+    };
+}
+
+/// Arrays with fixed paths.
+macro_rules! in_group {
+    ($(#[$doc:meta])* $module:ident: $($constant:ident = $name:literal),+ $(,)?) => {
+        $(#[$doc])*
+        pub mod $module {
+            /// The group.
+            pub const GROUP: &str = concat!("/", stringify!($module));
+            /// The arrays in it.
+            pub const ARRAYS: &[&str] = &[$($name),+];
+            $(
+                #[doc = concat!("`", $name, "`.")]
+                pub const $constant: &str = concat!("/", stringify!($module), "/", $name);
+            )+
+        }
+    };
+}
+
+in_group! {
+    /// The ground motions.
+    records:
+    EVENT = "event", STATION = "station", MAGNITUDE = "magnitude", RRUP_KM = "rrup_km", VS30 = "vs30",
+    COMPONENT = "component", MOTION_SHA256 = "motion_sha256", CHECKSUM = "checksum", PGA_G = "pga_g",
+    PGV_CM_S = "pgv_cm_s", DURATION_5_75_S = "duration_5_75_s", DURATION_5_95_S = "duration_5_95_s", DT_S = "dt_s",
+    SAMPLES = "samples", STRUCTURE = "structure", STRENGTH_FACTOR = "strength_factor", RESTITUTION = "restitution",
+    UPLIFT_DISPLACEMENT_M = "uplift_displacement_m", CAPACITY_M = "capacity_m",
+}
+
+/// The array of an intensity measure of the unscaled pairs: `/records/pga_g`, `/records/sa_1s_g`.
+pub fn intensity(measure: IntensityMeasure) -> String {
+    format!("{}/{}_{}", records::GROUP, measure.key(), measure.unit_key())
+}
+
+by_measure! {
+    /// Peak displacements of all runs.
+    ida: edp_m = "edp_m", impacts = "impacts", factor = "factor", share = "share",
+}
+
+by_measure! {
+    /// The risk surface.
+    risk: maf_per_year = "maf_per_year",
+}
+
+/// The sentence on how well the records know the spectra of a measure, an attribute of its group in `/urs`.
+pub const URS_PRECISION: &str = "precision";
+
+/// Confidence bands; their limits are named after their levels ([`limit_names`]).
+pub mod bootstrap {
+    use uplift_motion::IntensityMeasure;
+
+    /// The group of all measures.
+    pub const ROOT: &str = "/bootstrap";
+    /// Limits of the band of whole spectra.
+    pub const SIMULTANEOUS: [&str; 2] = ["simultaneous_lower_m", "simultaneous_upper_m"];
+    /// Limits of the band of the spectrum of all records there could be.
+    pub const TRUTH: [&str; 2] = ["truth_lower_m", "truth_upper_m"];
+    /// Limits of the band of the spectrum of another set of as many records.
+    pub const PREDICTION: [&str; 2] = ["prediction_lower_m", "prediction_upper_m"];
+    /// Error of the median (Eq. 4.9).
+    pub const E_MEDIAN: &str = "e_median";
+    /// Range of the interval (Eq. 4.10).
+    pub const R_90CI: &str = "r_90ci";
+    /// Share of the replicates whose weights fail, of repaired spectra.
+    pub const FAILED: &str = "failed";
+    /// The arrays of a measure but for the limits.
+    pub const ARRAYS: &[&str] =
+        &[SIMULTANEOUS[0], SIMULTANEOUS[1], TRUTH[0], TRUTH[1], PREDICTION[0], PREDICTION[1], E_MEDIAN, R_90CI, FAILED];
+
+    /// The group of a measure.
+    pub fn group(measure: IntensityMeasure) -> String {
+        format!("{ROOT}/{}", measure.key())
+    }
+}
+
+by_measure! {
+    /// The spectra without each record.
+    influence: u_without_m = "u_without_m", repaired = "consistent/u_without_m",
+}
+
+by_measure! {
+    /// The intensities that the risk comes from.
+    disaggregation: share = "share", repaired = "consistent/share",
+}
+
+/// Whether the records bring the hazard of the other measure.
+pub mod consistency {
+    use uplift_motion::IntensityMeasure;
+
+    /// The group of all measures.
+    pub const ROOT: &str = "/consistency";
+    /// The arrays of a measure but for those of the other one ([`OF_OTHER`]).
+    pub const ARRAYS: &[&str] = &[
+        "rate_per_year",
+        "scale_factor_05",
+        "scale_factor_50",
+        "scale_factor_95",
+        "scale_factors_outside",
+        "effective_events",
+        "exponent",
+        "knot",
+        "iterations",
+        "effective_records",
+        "mean_ln_ratio",
+        "sd_ln_ratio",
+        "weight",
+        "u_m",
+        "flag",
+        "lower_tail_share",
+        "upper_tail_share",
+    ];
+    /// What the names of the arrays of the other measure end with: `pga_site`.
+    pub const OF_OTHER: &[&str] =
+        &["site", "implied", "repaired", "bias", "rms", "max", "verdict", "ratio", "times_as_often"];
+
+    /// The group of the analysis by a measure.
+    pub fn group(measure: IntensityMeasure) -> String {
+        format!("{ROOT}/{}", measure.key())
+    }
+
+    /// An array of the analysis by a measure.
+    pub fn array(measure: IntensityMeasure, name: &str) -> String {
+        format!("{}/{name}", group(measure))
+    }
+
+    /// An array of the repaired spectra of the weighted hazard curves of a site.
+    pub fn branches(measure: IntensityMeasure, site: &str, name: &str) -> String {
+        format!("{}/branches/{site}/{name}", group(measure))
+    }
+
+    /// The other measure whose levels at the site are in the array `name`; none for any other array.
+    pub(crate) fn other_of_site(name: &str) -> Option<IntensityMeasure> {
+        name.strip_suffix("_site")?.parse().ok()
+    }
+
+    /// The name of an array that is about the `other` measure.
+    pub fn of_other(other: IntensityMeasure, name: &str) -> String {
+        format!("{}_{name}", other.key())
+    }
+}
+
+by_measure! {
+    /// Scatter of the demand.
+    efficiency:
+    median_m = "median_m", dispersion = "dispersion", ln_deviation = "ln_deviation", zeros = "zeros",
+    overturned = "overturned", reaching = "reaching", rocking = "rocking", undefined = "undefined",
+    initiation = "initiation",
+    initiation_records = "initiation_records",
+}
+
+/// Trends of the residuals with what a record is.
+pub mod sufficiency {
+    use uplift_motion::IntensityMeasure;
+
+    /// The group of all measures.
+    pub const ROOT: &str = "/sufficiency";
+    /// The arrays of a measure and covariate.
+    pub const ARRAYS: &[&str] = &["slope", "slope_error", "p_value", "r_squared"];
+
+    /// An array of a measure and covariate.
+    pub fn array(measure: IntensityMeasure, covariate: &str, name: &str) -> String {
+        format!("{ROOT}/{}/{covariate}/{name}", measure.key())
+    }
+}
+
+/// What structures were asked, and the answers.
+pub mod structures {
+    /// The group of all structures.
+    pub const ROOT: &str = "/structures";
+    /// The arrays of an answer.
+    pub const ARRAYS: &[&str] = &["quantity", "site", "im", "value", "lower", "upper", "unit", "band"];
+
+    /// The answers on a structure.
+    pub fn group(structure: &str) -> String {
+        format!("{ROOT}/{structure}")
+    }
+
+    /// The answer of a command to the question of this key.
+    pub fn answer(structure: &str, command: &str, key: &str) -> String {
+        format!("{}/{command}/{key}", group(structure))
+    }
+}
+
+/// Hazard curves as used.
+pub mod hazard {
+    use uplift_motion::IntensityMeasure;
+
+    /// The curve of a site: its mean where it has branches.
+    pub fn group(site: &str, measure: IntensityMeasure) -> String {
+        format!("/hazard/{site}/{}", measure.key())
+    }
+
+    /// The weighted curve of a site at `index`.
+    pub fn branch(site: &str, measure: IntensityMeasure, index: usize) -> String {
+        format!("{}/branches/{}", group(site, measure), index + 1)
+    }
+
+    /// Mean annual frequencies of the curve in `group`.
+    pub fn maf_per_year(group: &str) -> String {
+        format!("{group}/maf_per_year")
+    }
+}
+
+/// Spectra of the weighted hazard curves of a site.
+pub mod epistemic {
+    use uplift_motion::IntensityMeasure;
+
+    /// Arrays of a site but for the fractiles, which are named as percentiles
+    /// ([`percentile_name`](super::percentile_name)).
+    pub const ARRAYS: &[&str] = &["weight", "u_m", "mean_m"];
+
+    /// An array of a measure and site.
+    pub fn array(measure: IntensityMeasure, site: &str, name: &str) -> String {
+        format!("/epistemic/{}/{site}/{name}", measure.key())
+    }
+}
+
+/// Spectra of the structures that may be.
+pub mod uncertainty {
+    use uplift_motion::IntensityMeasure;
+
+    /// Arrays of a site but for the fractiles, which are named as percentiles
+    /// ([`percentile_name`](super::percentile_name)).
+    pub const ARRAYS: &[&str] = &["u_m", "mean_m"];
+
+    /// An array of a measure and site.
+    pub fn array(measure: IntensityMeasure, site: &str, name: &str) -> String {
+        format!("/uncertainty/{}/{site}/{name}", measure.key())
+    }
+}
+
+/// How often each record was drawn.
+pub const MULTIPLICITY: &str = "/bootstrap/multiplicity";
+
+/// A limit or median of the bands of a measure, by its name.
+pub fn band(measure: IntensityMeasure, limit: &str) -> String {
+    format!("{}/{limit}", bootstrap::group(measure))
+}
+
+/// An array of the bands of the repaired spectra of a measure, by its name.
+pub fn repaired_band(measure: IntensityMeasure, name: &str) -> String {
+    format!("{}/consistent/{name}", bootstrap::group(measure))
+}
+
+/// An array of the bands of a site over records and weighted hazard curves together, by its name: the name of an array
+/// for [`band`] and [`repaired_band`].
+pub fn joint(site: &str, name: &str) -> String {
+    format!("joint/{site}/{name}")
+}
+
+in_group! {
+    /// Percentiles of displacement spectra.
+    spectra: U_M = "u_m", U_M_ROUNDING = "u_m_rounding", OVERTURNED = "overturned", CRITICAL = "critical",
+}
+
+in_group! {
+    /// The tests of a shaking table.
+    shake_table:
+    ORDER = "order",
+    SPECTRAL_ACCELERATION_M_S2 = "spectral_acceleration_m_s2", DESIGN_SPECTRUM_M_S2 = "design_spectrum_m_s2",
+}
+
+/// The motions of a set of records.
+pub mod set {
+    /// The group of all sets.
+    pub const ROOT: &str = "/sets";
+    /// The arrays of a set.
+    pub const ARRAYS: &[&str] = &[
+        "u_m",
+        "factor",
+        "pga_g",
+        "pgv_cm_s",
+        "record_pga_g",
+        "record_pgv_cm_s",
+        "record",
+        "component",
+        "event",
+        "station",
+        "magnitude",
+        "rrup_km",
+        "vs30",
+        "dt_s",
+        "samples",
+        "checksum",
+    ];
+
+    /// The group of a set.
+    pub fn group(set: &str) -> String {
+        format!("{ROOT}/{set}")
+    }
+
+    /// An array of a set, by its name.
+    pub fn array(set: &str, name: &str) -> String {
+        format!("{ROOT}/{set}/{name}")
+    }
+}
+
+/// The design example of a study of displacement spectra.
+pub mod design {
+    /// The group.
+    pub const GROUP: &str = "/design";
+    /// The arrays of oscillators and of blocks.
+    pub const ARRAYS: &[&str] = &[
+        "u_dem_zs_m",
+        "u_cap_m",
+        "u_dem_th_m",
+        "u_dem_rule_m",
+        "error",
+        "tan_alpha",
+        "u_endless_m",
+        "u_block_m",
+        "capacity_m",
+        "u_dem_zs_m_rounding",
+        "u_cap_m_rounding",
+        "u_dem_th_m_rounding",
+        "u_dem_rule_m_rounding",
+        "error_rounding",
+        "tan_alpha_rounding",
+        "u_endless_m_rounding",
+        "u_block_m_rounding",
+    ];
+
+    /// What rounding does to the values of an array, by its name.
+    pub fn rounding(name: &str) -> String {
+        format!("{GROUP}/{name}_rounding")
+    }
+
+    /// An array, by its name.
+    pub fn array(name: &str) -> String {
+        format!("{GROUP}/{name}")
+    }
+}
+
+/// Names of the axes.
+pub mod axis {
+    use super::{BTreeSet, IntensityMeasure, axis_part, unique_axis};
+
+    /// The axes with fixed names.
+    pub const ALL: &[&str] = &[
+        RECORD,
+        STRUCTURE,
+        STRENGTH,
+        THRESHOLD,
+        SITE,
+        POE,
+        SAMPLE_SIZE,
+        REPLICATE,
+        RECORD_SET,
+        SCALING,
+        SCALED_BY,
+        PERCENTILE,
+        UPLIFT_DISPLACEMENT,
+        CAPACITY,
+        HEIGHT,
+        SLENDERNESS,
+        PRINTED_STRENGTH,
+        PRINTED_SLENDERNESS,
+        RULE,
+        BOUND,
+        RATE,
+        KNOT,
+        LEVEL,
+        EXCITATION,
+        DIRECTION,
+        PERIOD,
+    ];
+    /// Ground motions.
+    pub const RECORD: &str = "record";
+    /// Structures that may be.
+    pub const STRUCTURE: &str = "structure";
+    /// Uplift strengths.
+    pub const STRENGTH: &str = "strength";
+    /// Displacement thresholds.
+    pub const THRESHOLD: &str = "threshold";
+    /// Sites.
+    pub const SITE: &str = "site";
+    /// Probabilities of exceedance.
+    pub const POE: &str = "poe";
+    /// Records in a sample.
+    pub const SAMPLE_SIZE: &str = "sample_size";
+    /// Numbers of the replicates.
+    pub const REPLICATE: &str = "replicate";
+    /// Record sets.
+    pub const RECORD_SET: &str = "record_set";
+    /// What motions are scaled to.
+    pub const SCALING: &str = "scaling";
+    /// Whose peak meets it.
+    pub const SCALED_BY: &str = "scaled_by";
+    /// Percentiles over the motions of a set.
+    pub const PERCENTILE: &str = "percentile";
+    /// Displacements at uplift.
+    pub const UPLIFT_DISPLACEMENT: &str = "uplift_displacement";
+    /// Displacement capacities.
+    pub const CAPACITY: &str = "capacity";
+    /// Heights of blocks.
+    pub const HEIGHT: &str = "height";
+    /// Slendernesses of blocks.
+    pub const SLENDERNESS: &str = "slenderness";
+    /// Strengths at which a run prints its spectra.
+    pub const PRINTED_STRENGTH: &str = "printed_strength";
+    /// Slendernesses at which a run prints its spectra.
+    pub const PRINTED_SLENDERNESS: &str = "printed_slenderness";
+    /// Design rules.
+    pub const RULE: &str = "rule";
+    /// A value and its range.
+    pub const BOUND: &str = "bound";
+
+    /// Rates at which the hazard of two measures is compared.
+    pub const RATE: &str = "rate_number";
+    /// Knots of the exponent of weights.
+    pub const KNOT: &str = "knot_number";
+    /// Levels of shaking of a table.
+    pub const LEVEL: &str = "level";
+    /// What a table plays.
+    pub const EXCITATION: &str = "excitation";
+    /// Horizontal components of what a table plays.
+    pub const DIRECTION: &str = "direction";
+    /// Natural periods.
+    pub const PERIOD: &str = "period";
+
+    /// Rows of the answer to the question of this key.
+    pub fn finding(key: &str) -> String {
+        format!("finding_{key}")
+    }
+
+    /// The path of an axis.
+    pub fn path(name: &str) -> String {
+        format!("/axes/{name}")
+    }
+
+    /// Stripe levels of a measure.
+    pub fn level(measure: IntensityMeasure) -> String {
+        format!("{}_level", measure.key())
+    }
+
+    /// Levels of a measure that every record is brought to, though it is scaled to another.
+    pub fn common_level(measure: IntensityMeasure) -> String {
+        format!("{}_common_level", measure.key())
+    }
+
+    /// Levels from which the bins of a measure reach up.
+    pub fn bin(measure: IntensityMeasure) -> String {
+        format!("{}_bin", measure.key())
+    }
+
+    /// Levels of the hazard curve of a site.
+    pub fn hazard(site: &str, measure: IntensityMeasure, taken: &mut BTreeSet<String>) -> String {
+        unique_axis(format!("hazard_{}_{}", axis_part(site), measure.key()), taken)
+    }
+
+    /// Weighted hazard curves of a site.
+    pub fn branch(site: &str, measure: IntensityMeasure, taken: &mut BTreeSet<String>) -> String {
+        unique_axis(format!("branch_{}_{}", axis_part(site), measure.key()), taken)
+    }
+
+    /// Motions of a record set.
+    pub fn motion(set: &str, taken: &mut BTreeSet<String>) -> String {
+        unique_axis(format!("motion_{}", axis_part(set)), taken)
+    }
+}
+
+/// As much of a name as an axis name can hold: lower-case ASCII.
+pub fn axis_part(name: &str) -> String {
+    let fit = |character: char| if character.is_ascii_alphanumeric() { character } else { '_' };
+    name.to_lowercase().chars().take(40).map(fit).collect()
+}
+
+/// The name of an axis, longer where it is taken: by a name that differs only in what an axis name cannot hold.
+pub fn unique_axis(mut axis: String, taken: &mut BTreeSet<String>) -> String {
+    while !taken.insert(axis.clone()) {
+        axis.push('x');
+    }
+    axis
+}
+
+/// Names of both limits and the median: `u05_m`, `u50_m`, `u95_m` for a confidence of 0.9, `u02_5_m` and `u97_5_m` for
+/// 0.95.
+pub fn limit_names(confidence: f64) -> [String; 3] {
+    let tail = 0.5 * (1.0 - confidence);
+    [tail, 0.5, 1.0 - tail].map(|level| percentile_name(100.0 * level))
+}
+
+/// Name of a percentile of displacements: `u05_m`, or `u02_5_m` for 2.5 %.
+pub fn percentile_name(percent: f64) -> String {
+    let percent = ((percent * 1e6).round() / 1e6).to_string();
+    let (whole, part) = percent.split_once('.').map_or((percent.as_str(), ""), |(whole, part)| (whole, part));
+    let part = if part.is_empty() { String::new() } else { format!("_{part}") };
+    format!("u{whole:0>2}{part}_m")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn limits_are_named_by_their_level() {
+        assert_eq!(limit_names(0.9), ["u05_m", "u50_m", "u95_m"]);
+        assert_eq!(limit_names(0.95), ["u02_5_m", "u50_m", "u97_5_m"]);
+        assert_eq!(limit_names(0.68), ["u16_m", "u50_m", "u84_m"]);
+    }
+
+    /// The page that describes the file names every group, array and axis.
+    #[test]
+    fn the_documentation_has_every_array_and_axis() {
+        let page = include_str!("../../../docs/hdf5-layout.md");
+        let documented = |group: &str, name: &str| {
+            page.lines().any(|line| line.contains(group) && line.contains(&format!("{name}`")))
+        };
+        let groups: [(&str, &[&str]); 18] = [
+            ("`/records/", records::ARRAYS),
+            ("`/ida/pgv/", ida::ARRAYS),
+            ("`/risk/pgv/", risk::ARRAYS),
+            ("`/bootstrap/pgv/", bootstrap::ARRAYS),
+            ("`/influence/pgv/", influence::ARRAYS),
+            ("`/disaggregation/pgv/", disaggregation::ARRAYS),
+            ("`/efficiency/pgv/", efficiency::ARRAYS),
+            ("`/consistency/pgv/", consistency::ARRAYS),
+            ("`/sufficiency/pgv/<covariate>/", sufficiency::ARRAYS),
+            ("`/epistemic/pgv/<site>/", epistemic::ARRAYS),
+            ("`/uncertainty/pgv/<site>/", uncertainty::ARRAYS),
+            ("`/consistency/pgv/branches/<site>/", &epistemic::ARRAYS[1..]),
+            ("`/structures/<structure>/<command>/<key>/", structures::ARRAYS),
+            ("`/hazard/<site>/pgv/", &["maf_per_year"]),
+            ("`/spectra/", spectra::ARRAYS),
+            ("`/sets/<set>/", set::ARRAYS),
+            ("`/design/", design::ARRAYS),
+            ("`/shake_table/", shake_table::ARRAYS),
+        ];
+        for (group, arrays) in groups {
+            for name in arrays {
+                assert!(documented(group, name), "docs/hdf5-layout.md has no {group}{name}`");
+            }
+        }
+        for name in axis::ALL {
+            assert!(page.contains(&format!("| `{name}` |")), "docs/hdf5-layout.md has no axis {name}");
+        }
+        assert!(page.contains(&format!("`{MULTIPLICITY}`")));
+    }
+}

@@ -1,0 +1,67 @@
+//! The result of a study: one HDF5 file, and tidy tables beside it; how both are opened, extended and read.
+//!
+//! [`ResultFile`] opens a result and reads it part by part; [`layout`] knows where everything is.
+
+mod asked_spectra;
+mod bands;
+mod consistency;
+pub mod declared;
+mod design;
+pub mod digest;
+mod displacements;
+pub mod earlier;
+mod efficiency;
+mod error;
+mod extend;
+mod file;
+mod findings;
+mod hazard;
+mod head;
+mod influence;
+pub mod layout;
+mod other_file;
+mod peaks;
+mod provenance;
+mod records;
+mod shake_table;
+mod spectra;
+mod spread;
+mod study;
+mod target;
+
+pub use asked_spectra::AskedSpectra;
+pub use bands::BandMethod;
+pub use bands::{
+    InferredBands, MeasureBands, StoredBands, StoredDraws, StoredJointBands, StoredRepairedBands, StoredSpectraBands,
+    WidestInferred,
+};
+pub use consistency::{REPAIRED_FITS, StoredConsistency};
+pub use design::{BOUNDS, bounds, rule_names};
+pub use design::{DesignRow, RULES, StoredDesign, StoredDesigned};
+pub use displacements::{
+    SpectrumPlace, StoredDisplacements, StoredMotions, StoredRounding, StoredSet, StoredStructures,
+};
+pub use efficiency::{StoredEfficiency, StoredTrend};
+pub use error::ResultError;
+pub use extend::{Addition, sign};
+pub use file::{ResultFile, RiskAxes};
+pub use findings::{DOCUMENT, REQUEST, STRUCTURE_FILE, STRUCTURE_SHA256, STRUCTURE_TOML, STUDY_DIGEST};
+pub use findings::{Finding, FindingRow, Inquiry, StoredFinding};
+pub use hazard::{StoredBranch, StoredCurves, StoredHazard};
+pub use head::{Head, Overview};
+pub use influence::StoredInfluence;
+pub use peaks::{SetsOfLevels, StoredPeaks};
+pub use provenance::Origin;
+pub use provenance::Provenance;
+pub use records::StoredRecords;
+pub use shake_table::{
+    DIRECTIONS, Excitation, ShakeTable, TABLE_EXCITATIONS, TABLE_TESTS, TableLevel, TableSpectra, TableTest,
+};
+pub use spectra::{Fit, Fits, MeasureSpectra, Spectrum, StoredSpectra, regression, urs};
+pub use spectra::{flag_number, flag_word};
+pub use spread::{FRACTILES, SpreadOver, StoredSpread};
+pub use target::{check_place, replaces_another};
+pub use target::{check_target, is_hdf5};
+pub use uplift_study::Kind;
+
+pub use digest::what_counts;

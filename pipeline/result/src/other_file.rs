@@ -1,0 +1,34 @@
+//! What is there in place of a result.
+
+use std::io::ErrorKind;
+use std::path::Path;
+
+use uplift_atomic_file::FileError;
+use uplift_job::JobError;
+use uplift_labelled::LabelledError;
+use uplift_study::{Structure, Study};
+
+use crate::error::ResultError;
+
+/// What to say where the file at `path` cannot be opened as a result.
+pub(super) fn no_result(path: &Path, error: LabelledError) -> ResultError {
+    let name = path.display();
+    let ends = |ending: &str| path.extension().is_some_and(|found| found.eq_ignore_ascii_case(ending));
+    let told = match &error {
+        LabelledError::File(FileError::Io { source, .. }) if source.kind() == ErrorKind::NotFound => Some(
+            "there is no such file: `uplift run STUDY.toml` writes results, results/STUDY.h5 unless told otherwise",
+        ),
+        LabelledError::NotHdf5 { .. } if ends("toml") => Some(if Structure::load(path).is_ok() {
+            "is a structure, and a result is wanted: `uplift design` and `overturning` take it, with --urs RESULT"
+        } else if Study::read(path).is_ok() {
+            "is a study, and a result is wanted: `uplift run` makes one of it, and `uplift status` says where it lies"
+        } else {
+            "is a text file, and a result is wanted: the .h5 that `uplift run` wrote"
+        }),
+        LabelledError::NotHdf5 { .. } if ends("csv") => {
+            Some("is a table, and a result is wanted: the .h5 that `uplift run` wrote, beside which its tables lie")
+        }
+        _ => None,
+    };
+    told.map_or_else(|| error.into(), |told| JobError::input(format!("{name}: {told}"))).into()
+}

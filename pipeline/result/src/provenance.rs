@@ -1,0 +1,161 @@
+//! Where the numbers of a result come from.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use uplift_ida::NUMERICS;
+use uplift_job::JobError;
+use uplift_job::alarm::Alarm;
+use uplift_job::checksum::checksum;
+use uplift_job::frame::{RunHead, RunOptions};
+use uplift_labelled::LabelledWriter;
+
+use super::digest::study_digest;
+use super::layout::LAYOUT;
+use crate::error::ResultError;
+
+/// What someone needs to repeat a run.
+#[derive(Debug, Clone)]
+pub struct Provenance {
+    /// Study file as given.
+    pub study_file: String,
+    /// By which a later run knows its own study: a checksum of where the file lies, which tells nobody where.
+    pub study_place: String,
+    /// The command line.
+    pub command: String,
+    /// What was changed of the study file for the run.
+    pub overrides: Vec<String>,
+    /// Coordinated universal time of the run, `2026-01-31T12:00:00Z`.
+    pub created: String,
+    /// Threads used; the numbers do not depend on it.
+    pub threads: usize,
+    /// Wall time up to the writing of the file, s.
+    pub wall_time_s: f64,
+    /// Name to SHA-256 of each record and hazard curve.
+    pub input_checksums: BTreeMap<String, String>,
+    /// Name of the result file.
+    pub result: String,
+    /// By what its numbers are known, see [`Head::study_digest`](super::Head::study_digest).
+    pub study_digest: String,
+}
+
+impl Provenance {
+    /// Provenance of a run on these inputs, name to SHA-256.
+    pub fn new(options: &RunOptions, input_checksums: BTreeMap<String, String>) -> Self {
+        Self {
+            study_file: options.study_file.display().to_string(),
+            study_place: place_of(&options.study_file),
+            command: options.command.clone(),
+            overrides: options.overrides.clone(),
+            created: uplift_job::now(),
+            threads: rayon::current_num_threads(),
+            wall_time_s: 0.0,
+            input_checksums,
+            result: String::new(),
+            study_digest: String::new(),
+        }
+    }
+
+    /// The same of the result at `path`, of a study that says `study_toml`, once all inputs are known.
+    #[must_use]
+    pub fn of_result(mut self, path: &Path, study_toml: &str) -> Self {
+        self.result = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        self.study_digest = study_digest(study_toml, &self.input_checksums);
+        self
+    }
+
+    /// What a run tells, whatever the kind of its study; `records` are the description of the set and whether it is
+    /// synthetic.
+    pub fn head(
+        &self,
+        title: &str,
+        (record_set, synthetic): (&str, bool),
+        alarms: Vec<Alarm>,
+        files: Vec<PathBuf>,
+        seconds: f64,
+    ) -> RunHead {
+        RunHead {
+            program: "uplift",
+            version: uplift_job::VERSION,
+            commit: uplift_job::COMMIT,
+            study: self.study_file.clone(),
+            title: title.to_owned(),
+            record_set: record_set.to_owned(),
+            synthetic,
+            files,
+            alarms,
+            seconds,
+        }
+    }
+
+    /// One line for the head of a table; `records` says where the records come from.
+    pub fn line(&self, title: &str, records: &str) -> String {
+        let title = if title.is_empty() { String::new() } else { format!("{title}; ") };
+        format!(
+            "uplift {} ({}), {}; study {}; {title}result {}; study digest {}; records: {records}",
+            uplift_job::VERSION,
+            uplift_job::COMMIT,
+            self.created,
+            self.study_file,
+            self.result,
+            self.study_digest,
+        )
+        .replace(['\n', '\r'], " ")
+    }
+}
+
+/// Where the numbers of a result come from: the attributes of the root that results of every kind have.
+pub struct Origin<'a> {
+    /// Title of the study.
+    pub title: &'a str,
+    /// The resolved study.
+    pub study_toml: &'a str,
+    /// Acceleration of gravity, m/s².
+    pub gravity_m_s2: f64,
+    /// Where the records come from, in a line.
+    pub record_set: &'a str,
+    /// Whether the records are synthetic.
+    pub synthetic: bool,
+    /// What was noticed about the inputs.
+    pub warnings: &'a [String],
+    /// What someone needs to repeat the run.
+    pub provenance: &'a Provenance,
+}
+
+impl Origin<'_> {
+    /// Writes the attributes of the root.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn write(&self, writer: &mut LabelledWriter) -> Result<(), ResultError> {
+        let provenance = self.provenance;
+        let checksums =
+            serde_json::to_string(&provenance.input_checksums).map_err(|error| JobError::input(error.to_string()))?;
+        writer.attribute("/", "program", "uplift")?;
+        writer.attribute("/", "version", uplift_job::VERSION)?;
+        writer.attribute("/", "commit", uplift_job::COMMIT)?;
+        writer.attribute("/", "layout", LAYOUT)?;
+        writer.attribute("/", "numerics", i64::from(NUMERICS))?;
+        writer.attribute("/", "created", provenance.created.as_str())?;
+        writer.attribute("/", "command", provenance.command.as_str())?;
+        writer.attribute("/", "overrides", provenance.overrides.join("\n").as_str())?;
+        writer.attribute("/", "title", self.title)?;
+        writer.attribute("/", "study_file", provenance.study_file.as_str())?;
+        writer.attribute("/", "study_place", provenance.study_place.as_str())?;
+        writer.attribute("/", "study_toml", self.study_toml)?;
+        writer.attribute("/", "gravity_m_s2", self.gravity_m_s2)?;
+        writer.attribute("/", "record_set", self.record_set)?;
+        writer.attribute("/", "synthetic", i64::from(self.synthetic))?;
+        writer.attribute("/", "input_checksums", checksums.as_str())?;
+        writer.attribute("/", "warnings", self.warnings.join("\n").as_str())?;
+        writer.attribute("/", "threads", i64::try_from(provenance.threads).unwrap_or(i64::MAX))?;
+        writer.attribute("/", "wall_time_s", provenance.wall_time_s)?;
+        writer.attribute("/", "platform", format!("{} {}", std::env::consts::OS, std::env::consts::ARCH).as_str())?;
+        Ok(())
+    }
+}
+
+/// A checksum of where a study file lies; empty where there is none.
+pub(super) fn place_of(study_file: &Path) -> String {
+    study_file.canonicalize().map_or_else(|_| String::new(), |place| checksum(place.as_os_str().as_encoded_bytes()))
+}

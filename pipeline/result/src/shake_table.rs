@@ -1,0 +1,289 @@
+//! The tests of a shaking table: what a run computed, and what a result file holds of it.
+
+use serde::Serialize;
+use uplift_labelled::{LabelledError, LabelledWriter};
+use uplift_study::Kind;
+
+use super::declared::{Field, Group, Place, Quantity, place};
+use super::file::ResultFile;
+use super::layout::{axis, shake_table as layout};
+use crate::error::ResultError;
+
+/// Every test of a shaking table.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ShakeTable {
+    /// Where the records come from, in a line.
+    pub records: String,
+    /// Whether they are synthetic.
+    pub synthetic: bool,
+    /// The structure file.
+    pub structure: String,
+    /// Lengths of the prototype over those of the model.
+    pub length_scale: f64,
+    /// The levels of shaking.
+    pub levels: Vec<TableLevel>,
+    /// What is played.
+    pub excitations: Vec<Excitation>,
+    /// Every excitation at every level, `[level, excitation]`.
+    pub tests: Vec<TableTest>,
+    /// What the table plays as response spectra; none in a result of a version that had none.
+    #[serde(skip)]
+    pub spectra: Option<TableSpectra>,
+}
+
+/// Response spectra of what the table plays, 5 % damped (Fig. 6.12).
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TableSpectra {
+    /// Natural periods in the time of the table, s.
+    pub periods_s: Vec<f64>,
+    /// Of each component in the time of the table with the accelerations as recorded, m/s²,
+    /// `[excitation, direction, period]`: times the factor of a test it is the spectrum on the table.
+    pub recorded_m_s2: Vec<f64>,
+    /// The code's in the time of the table, m/s², NaN beyond its longest period; none where none was asked for.
+    pub design_m_s2: Option<Vec<f64>>,
+}
+
+impl TableSpectra {
+    /// The spectrum of an excitation's component as recorded, m/s².
+    pub fn recorded(&self, excitation: usize, direction: usize) -> &[f64] {
+        let count = self.periods_s.len();
+        let first = (excitation * DIRECTIONS.len() + direction) * count;
+        &self.recorded_m_s2[first..first + count]
+    }
+}
+
+/// The horizontal components of what a table plays.
+pub const DIRECTIONS: [&str; 2] = ["x", "y"];
+
+/// A level of shaking.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TableLevel {
+    /// Its name.
+    pub name: String,
+    /// `√(PGV_x² + PGV_y²)` on the table, m/s (Eq. 6.9).
+    pub pgv_srss_m_s: f64,
+}
+
+/// A record that is played.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct Excitation {
+    /// What it is called among the tests.
+    pub exc_id: String,
+    /// Its class: near-field pulse, near field, far field.
+    pub class: String,
+    /// Identifier of the record.
+    pub record: String,
+    /// Its sequence number; empty where it has none.
+    pub rsn: String,
+    /// `√(PGV_x² + PGV_y²)` as recorded, m/s.
+    pub recorded_pgv_m_s: f64,
+}
+
+/// What the frame does in one test. Of one that overturns displacements and forces of restrainers are infinite;
+/// accelerations and base shear are the largest up to then.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct TableTest {
+    /// Factor on the accelerations of the record.
+    pub factor: f64,
+    /// `√(PGA_x² + PGA_y²)` on the table, m/s².
+    pub pga_srss_m_s2: f64,
+    /// Largest horizontal displacement U of the deck, m.
+    pub u_m: f64,
+    /// Largest displacement along the first component, m.
+    pub u_x_m: f64,
+    /// Along the second, m.
+    pub u_y_m: f64,
+    /// U over the height of the columns.
+    pub drift: f64,
+    /// Largest force of a restrainer, N; NaN without.
+    pub tendon_n: f64,
+    /// Largest deformation of its springs, m; NaN without.
+    pub spring_m: f64,
+    /// Largest base shear of the deck, N (Eq. 6.10).
+    pub base_shear_n: f64,
+    /// Largest horizontal reaction, the inertia of the columns counted too, N.
+    pub base_reaction_n: f64,
+    /// Largest total acceleration of the deck, m/s².
+    pub deck_acceleration_m_s2: f64,
+}
+
+/// What is played, at which levels.
+pub const TABLE_EXCITATIONS: Group<ShakeTable> = Group {
+    path: layout::GROUP,
+    quantities: &[
+        Quantity {
+            name: "pgv_srss_m_s",
+            axes: &[axis::LEVEL],
+            unit: "m/s",
+            long_name: "SRSS of both PGV on the table",
+            note: "root of the sum of squares of both PGV on the table (Eq. 6.9)",
+            field: Field::F64(place!(|of, at| of.levels[at].pgv_srss_m_s)),
+        },
+        text("class", "class of the excitation", "", place!(|of, at| of.excitations[at].class)),
+        text("record", "record", "identifier of the record", place!(|of, at| of.excitations[at].record)),
+        text(
+            "rsn",
+            "record sequence number",
+            "its sequence number; empty if not known",
+            place!(|of, at| of.excitations[at].rsn),
+        ),
+        Quantity {
+            name: "recorded_pgv_m_s",
+            axes: &[axis::EXCITATION],
+            unit: "m/s",
+            long_name: "SRSS of both PGV as recorded",
+            note: "root of the sum of squares of both PGV as recorded",
+            field: Field::F64(place!(|of, at| of.excitations[at].recorded_pgv_m_s)),
+        },
+    ],
+};
+
+/// What the frame does in each test; places of [`ShakeTable::tests`] are `[level, excitation]`.
+pub const TABLE_TESTS: Group<ShakeTable> = Group {
+    path: layout::GROUP,
+    quantities: &[
+        of_test("factor", "1", "factor on the accelerations of the record", place!(|of, at| of.tests[at].factor)),
+        of_test("pga_srss_m_s2", "m/s2", "SRSS of both PGA on the table", place!(|of, at| of.tests[at].pga_srss_m_s2)),
+        of_test(
+            "u_m",
+            "m",
+            "peak displacement of the deck, infinite where overturned",
+            place!(|of, at| of.tests[at].u_m),
+        ),
+        of_test("u_x_m", "m", "peak displacement along the first component", place!(|of, at| of.tests[at].u_x_m)),
+        of_test("u_y_m", "m", "peak displacement along the second component", place!(|of, at| of.tests[at].u_y_m)),
+        of_test("drift", "1", "peak displacement over the height of the columns", place!(|of, at| of.tests[at].drift)),
+        of_test("tendon_n", "N", "peak force of a restrainer, NaN without", place!(|of, at| of.tests[at].tendon_n)),
+        of_test(
+            "spring_m",
+            "m",
+            "peak deformation of its springs, NaN without",
+            place!(|of, at| of.tests[at].spring_m),
+        ),
+        of_test(
+            "base_shear_n",
+            "N",
+            "peak base shear of the deck (Eq. 6.10)",
+            place!(|of, at| of.tests[at].base_shear_n),
+        ),
+        of_test(
+            "base_reaction_n",
+            "N",
+            "peak horizontal reaction, columns counted",
+            place!(|of, at| of.tests[at].base_reaction_n),
+        ),
+        of_test(
+            "deck_acceleration_m_s2",
+            "m/s2",
+            "peak total acceleration of the deck",
+            place!(|of, at| of.tests[at].deck_acceleration_m_s2),
+        ),
+    ],
+};
+
+/// A text about each excitation.
+const fn text(
+    name: &'static str,
+    long_name: &'static str,
+    note: &'static str,
+    place: Place<ShakeTable, String>,
+) -> Quantity<ShakeTable> {
+    Quantity { name, axes: &[axis::EXCITATION], unit: "", long_name, note, field: Field::Text(place) }
+}
+
+/// A number of each test.
+const fn of_test(
+    name: &'static str,
+    unit: &'static str,
+    long_name: &'static str,
+    place: Place<ShakeTable, f64>,
+) -> Quantity<ShakeTable> {
+    Quantity { name, axes: &[axis::LEVEL, axis::EXCITATION], unit, long_name, note: "", field: Field::F64(place) }
+}
+
+impl ShakeTable {
+    /// Writes every test.
+    ///
+    /// # Errors
+    /// Whatever keeps the file from being written.
+    pub fn write(&self, writer: &mut LabelledWriter) -> Result<(), LabelledError> {
+        let lengths = &[(axis::LEVEL, self.levels.len()), (axis::EXCITATION, self.excitations.len())];
+        TABLE_EXCITATIONS.write(writer, None, lengths, self)?;
+        TABLE_TESTS.write(writer, None, lengths, self)
+    }
+
+    /// The tests of a level with their excitations.
+    pub fn of_level(&self, level: usize) -> impl Iterator<Item = (&Excitation, &TableTest)> {
+        let count = self.excitations.len();
+        self.excitations.iter().zip(&self.tests[level * count..(level + 1) * count])
+    }
+
+    /// Place of each test in the order of rising displacement, from 1; those that overturn stand last, equal ones in
+    /// the order of levels and excitations.
+    pub fn order(&self) -> Vec<u32> {
+        let mut tests: Vec<usize> = (0..self.tests.len()).collect();
+        tests.sort_by(|&one, &other| self.tests[one].u_m.total_cmp(&self.tests[other].u_m));
+        let mut order = vec![0; tests.len()];
+        for (place, test) in (1..).zip(tests) {
+            order[test] = place;
+        }
+        order
+    }
+
+    /// The classes, in the order of the excitations.
+    pub fn classes(&self) -> Vec<&str> {
+        let mut classes: Vec<&str> = Vec::new();
+        for excitation in &self.excitations {
+            if !classes.contains(&excitation.class.as_str()) {
+                classes.push(&excitation.class);
+            }
+        }
+        classes
+    }
+}
+
+impl ResultFile {
+    /// The tests of a result of a shaking table.
+    ///
+    /// # Errors
+    /// A file that is damaged, or of another kind.
+    pub fn shake_table(&self) -> Result<ShakeTable, ResultError> {
+        self.require(Kind::ShakeTable)?;
+        let reader = &self.reader;
+        let (names, ids) = (reader.axis_text(axis::LEVEL)?, reader.axis_text(axis::EXCITATION)?);
+        let (level, excitation) = ((axis::LEVEL, names.len()), (axis::EXCITATION, ids.len()));
+        if names.is_empty() || ids.is_empty() {
+            return Err(self.damaged("an axis of its tests is empty"));
+        }
+        let mut table = ShakeTable {
+            records: self.record_set()?,
+            synthetic: self.is_synthetic()?,
+            structure: reader.attribute_text(layout::GROUP, "structure")?,
+            length_scale: reader.attribute_f64(layout::GROUP, "length_scale")?,
+            levels: names.into_iter().map(|name| TableLevel { name, pgv_srss_m_s: f64::NAN }).collect(),
+            tests: vec![TableTest::default(); level.1 * excitation.1],
+            excitations: ids.into_iter().map(|exc_id| Excitation { exc_id, ..Excitation::default() }).collect(),
+            spectra: None,
+        };
+        TABLE_EXCITATIONS.read(self, None, &[level, excitation], &mut table)?;
+        TABLE_TESTS.read(self, None, &[level, excitation], &mut table)?;
+        table.spectra = self.table_spectra(excitation)?;
+        Ok(table)
+    }
+
+    /// The spectra of what a table plays; none in a result of a version that had none.
+    fn table_spectra(&self, excitation: (&str, usize)) -> Result<Option<TableSpectra>, ResultError> {
+        let reader = &self.reader;
+        if !reader.exists(layout::SPECTRAL_ACCELERATION_M_S2) {
+            return Ok(None);
+        }
+        let periods_s = reader.axis_f64(axis::PERIOD)?;
+        let period = (axis::PERIOD, periods_s.len());
+        let numbers = |path: &str, axes: &[(&str, usize)]| self.checked(path, reader.array_f64(path)?, axes);
+        let axes = [excitation, (axis::DIRECTION, DIRECTIONS.len()), period];
+        let recorded_m_s2 = numbers(layout::SPECTRAL_ACCELERATION_M_S2, &axes)?;
+        let design = layout::DESIGN_SPECTRUM_M_S2;
+        let design_m_s2 = reader.exists(design).then(|| numbers(design, &[period])).transpose()?;
+        Ok(Some(TableSpectra { periods_s, recorded_m_s2, design_m_s2 }))
+    }
+}

@@ -1,0 +1,130 @@
+//! What a run of a study of displacement spectra tells.
+
+use std::path::PathBuf;
+
+use serde::Serialize;
+use uplift_inputs::NamedSet;
+use uplift_job::alarm::Alarm;
+use uplift_job::frame::RunHead;
+use uplift_result::DesignRow;
+use uplift_spectra::{MotionSet, Noisy};
+use uplift_study::{Kind, Structures};
+
+use super::{DisplacementOutcome, printed};
+
+/// What a run tells.
+#[derive(Debug, Clone, Serialize)]
+pub struct RunReport {
+    /// What every kind tells.
+    #[serde(flatten)]
+    pub head: RunHead,
+    /// `displacement spectra`.
+    pub kind: &'static str,
+    /// The record sets.
+    pub sets: Vec<SetReport>,
+    /// Nonlinear time histories of the spectra.
+    pub analyses: u64,
+    /// The values of the design examples; empty where the study has none.
+    pub design: Vec<DesignRow>,
+    /// Whether the study asks for a design example.
+    #[serde(skip)]
+    pub has_design: bool,
+    /// What was shaken.
+    #[serde(skip)]
+    pub structures: Structures,
+    /// Percentiles over the motions of a set, %.
+    #[serde(skip)]
+    pub percentiles: Vec<f64>,
+    /// The spectra, one a set and way of scaling.
+    #[serde(skip)]
+    pub spectra: Vec<SpectraReport>,
+}
+
+/// A record set.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SetReport {
+    /// Its name.
+    pub name: String,
+    /// Its records.
+    pub records: usize,
+    /// Its motions, two a record.
+    pub motions: usize,
+    /// Median PGA, g (Eq. 2.16).
+    pub median_pga_g: f64,
+    /// Median PGV, cm/s (Eq. 2.17).
+    pub median_pgv_cm_s: f64,
+}
+
+/// The spectra of one set, scaled in one way.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SpectraReport {
+    /// Name of the record set.
+    pub record_set: String,
+    /// What the motions are scaled to.
+    pub scaling: String,
+    /// Whose peak meets it.
+    pub scaled_by: &'static str,
+    /// Percentiles of the peak displacements over `[line, percentile, abscissa]`, m; infinite where overturned.
+    pub percentile_m: Vec<f64>,
+    /// Those that are printed with their range over scale factors that differ by rounding, over `[line, percentile,
+    /// printed abscissa]`, m.
+    pub rounding: Vec<Noisy>,
+}
+
+impl SetReport {
+    pub(super) fn of(set: &NamedSet, motions: &MotionSet<'_>) -> Self {
+        Self {
+            name: set.name.clone(),
+            records: set.members.len(),
+            motions: motions.motions().len(),
+            median_pga_g: motions.median_pga_g(),
+            median_pgv_cm_s: motions.median_pgv_cm_s(),
+        }
+    }
+}
+
+impl RunReport {
+    /// The report on what was computed and written.
+    pub(super) fn of(
+        outcome: &DisplacementOutcome<'_>,
+        (design, alarms): (Vec<DesignRow>, Vec<Alarm>),
+        files: Vec<PathBuf>,
+        seconds: f64,
+    ) -> Self {
+        let study = outcome.study;
+        let records = (outcome.records.description.as_str(), outcome.records.synthetic);
+        let sets = outcome.records.sets.iter().zip(outcome.sets);
+        Self {
+            head: outcome.provenance.head(&study.title, records, alarms, files, seconds),
+            kind: Kind::Displacement.key(),
+            sets: sets.map(|(set, motions)| SetReport::of(set, motions)).collect(),
+            analyses: outcome.analyses,
+            design,
+            has_design: outcome.designs.is_some(),
+            structures: study.structures.clone(),
+            percentiles: study.percentiles.to_vec(),
+            spectra: spectra(outcome),
+        }
+    }
+}
+
+fn spectra(outcome: &DisplacementOutcome<'_>) -> Vec<SpectraReport> {
+    let study = outcome.study;
+    let length = study.structures.lines() * study.percentiles.len() * study.structures.abscissa().len();
+    let mut reports = Vec::new();
+    let printed = length / study.structures.abscissa().len() * printed(study.structures.abscissa()).len();
+    for ((set, spectra), rounding) in outcome.sets.iter().zip(outcome.spectra).zip(outcome.rounding) {
+        let ways = study.scaling.to.iter().flat_map(|to| study.scaling.by.iter().map(move |by| (to, by)));
+        let ordinates = spectra.percentile_m.chunks(length).zip(rounding.chunks(printed));
+        for ((to, by), (percentile_m, rounding)) in ways.zip(ordinates) {
+            reports.push(SpectraReport {
+                record_set: set.name().to_owned(),
+                scaling: to.to_string(),
+                scaled_by: by.key(),
+                percentile_m: percentile_m.to_vec(),
+                rounding: rounding.to_vec(),
+            });
+        }
+    }
+    reports
+}

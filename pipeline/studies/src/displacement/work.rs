@@ -1,0 +1,109 @@
+//! The spectra of a study as work: motions x structures x scalings of each set.
+
+use std::path::Path;
+
+use uplift_engine::analysis::{LabelledPlan, ShardReport, Work, carry_out_shard};
+use uplift_ida::{Shard, System};
+use uplift_inputs::{RecordSets, read_record_sets};
+use uplift_job::checksum::motion_key;
+use uplift_job::events::Events;
+use uplift_job::text::thousands;
+use uplift_spectra::{MotionSet, NUDGES};
+use uplift_study::DisplacementStudy;
+
+use super::rounding::{printed_structures, rounding_plan};
+use super::spectra::with_free_vibration;
+use super::{carry_out_designs, needs, structures};
+use crate::error::StudiesError;
+
+/// What the spectra of a study are made of.
+pub struct Inputs {
+    /// The record sets.
+    pub records: RecordSets,
+    pub(crate) structures: Vec<System>,
+    /// Those whose ordinates are printed.
+    pub(crate) printed: Vec<System>,
+}
+
+/// The motions of every set, with their keys.
+pub struct KeyedMotions<'a> {
+    /// The motions of each set.
+    pub motions: Vec<MotionSet<'a>>,
+    /// Keys of the motions of each set.
+    pub(crate) keys: Vec<Vec<String>>,
+    structures: &'a [System],
+    printed: &'a [System],
+}
+
+impl Inputs {
+    /// Reads the record sets of `study`.
+    ///
+    /// # Errors
+    /// Records that cannot be used.
+    pub fn read(study: &DisplacementStudy, events: &dyn Events) -> Result<Self, StudiesError> {
+        let structures = structures(study)?;
+        let printed = printed_structures(study, &structures);
+        Ok(Self { records: read_record_sets(study, events)?, structures, printed })
+    }
+
+    /// The motions of every set.
+    ///
+    /// # Errors
+    /// Every component that does not move, so that it cannot be scaled.
+    pub fn sets(&self, study: &DisplacementStudy) -> Result<KeyedMotions<'_>, StudiesError> {
+        let sets = self.records.motions(study.gravity_m_s2)?;
+        let keys = |set: &MotionSet<'_>| set.motions().iter().map(|motion| motion_key(motion.accelerogram)).collect();
+        let keys = sets.iter().map(keys).collect();
+        Ok(KeyedMotions { keys, motions: sets, structures: &self.structures, printed: &self.printed })
+    }
+}
+
+impl KeyedMotions<'_> {
+    /// The spectra of every set, then for every set what rounding does to those that are printed.
+    ///
+    /// # Errors
+    /// A scaling that no motion can have.
+    pub fn work(&self, study: &DisplacementStudy) -> Result<Work<'_>, StudiesError> {
+        let ways = study.scaling.ways().0;
+        let mut plans = Vec::new();
+        for (set, motions) in self.motions.iter().zip(&self.keys) {
+            let plan = set.plan(&ways, self.structures, with_free_vibration(study))?;
+            let text = format!(
+                "{} motions x {} scalings x {} structures = {} analyses",
+                motions.len(),
+                ways.len(),
+                self.structures.len(),
+                thousands(plan.analyses())
+            );
+            let remark = Some((format!("{}:", set.name()), text));
+            plans.push(LabelledPlan { label: set.name().to_owned(), remark, plan, motions, known: None });
+        }
+        for (set, motions) in self.motions.iter().zip(&self.keys) {
+            let plan = rounding_plan(study, set, self.printed)?;
+            let text = format!("printed ordinates again, at {NUDGES} neighbouring scale factors");
+            let remark = Some((format!("{}:", set.name()), text));
+            plans.push(LabelledPlan { label: format!("{}, rounding", set.name()), remark, plan, motions, known: None });
+        }
+        Ok(Work::new(&study.title, plans))
+    }
+}
+
+/// Carries out one shard of the spectra of a study into a file, and its share of the design examples.
+///
+/// # Errors
+/// Inputs that cannot be used; a shard that cannot be written.
+pub fn run_shard(
+    study: &DisplacementStudy,
+    (path, shard): (&Path, Shard),
+    events: &dyn Events,
+) -> Result<ShardReport, StudiesError> {
+    let inputs = Inputs::read(study, events)?;
+    events.remark("records", &inputs.records.description);
+    let sets = inputs.sets(study)?;
+    needs(study, &inputs.records, &sets.motions).of_shard(shard).with_rows_of(&[path]).require(path, events)?;
+    let work = sets.work(study)?;
+    let total = work.analyses() / shard.count;
+    carry_out_shard(work, (path, shard), events, &|checkpoint| {
+        carry_out_designs(study, &sets, shard, (checkpoint, total), events).map(|_| ())
+    })
+}

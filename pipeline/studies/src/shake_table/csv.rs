@@ -1,0 +1,58 @@
+//! The tests as a table beside the result.
+
+use std::path::{Path, PathBuf};
+
+use polars::prelude::Column;
+use uplift_job::outputs::{Output, OutputKind, beside};
+use uplift_job::table::write_table;
+use uplift_result::{ShakeTable, TABLE_TESTS};
+use uplift_study::ShakeTableStudy;
+
+use super::ShakeTableOutcome;
+use crate::error::StudiesError;
+
+/// A column of every such table, and of no other.
+pub const COLUMN: &str = "base_shear_n";
+
+/// The table beside the result file `result`.
+pub fn shake_table_csv_path(result: &Path) -> PathBuf {
+    beside(result, "tests.csv")
+}
+
+/// All files but the result that a run of `study` with the result at `result` writes.
+pub fn tables(study: &ShakeTableStudy, result: &Path) -> Vec<Output> {
+    let table = Output::new(shake_table_csv_path(result), OutputKind::Table(COLUMN));
+    if study.output.csv { vec![table] } else { Vec::new() }
+}
+
+/// Writes the table of `outcome` beside the result file `result`, and beside it where it comes from.
+///
+/// # Errors
+/// A file that cannot be written.
+pub fn write_shake_table_csv(result: &Path, outcome: &ShakeTableOutcome<'_>) -> Result<PathBuf, StudiesError> {
+    let file = shake_table_csv_path(result);
+    let line = outcome.provenance.line(&outcome.study.title, &outcome.table.records);
+    write_table(&file, &line, columns(outcome.table))?;
+    Ok(file)
+}
+
+/// A row a test, `[level, excitation]`: what `uplift validate` reads.
+pub fn columns(table: &ShakeTable) -> Vec<Column> {
+    let rows = || {
+        (0..table.levels.len()).flat_map(|level| table.excitations.iter().map(move |excitation| (level, excitation)))
+    };
+    let text = |name: &str, cells: Vec<String>| Column::new(name.into(), cells);
+    let mut columns = vec![
+        text("exc_id", rows().map(|(_, excitation)| excitation.exc_id.clone()).collect()),
+        text("class", rows().map(|(_, excitation)| excitation.class.clone()).collect()),
+        text("level", rows().map(|(level, _)| table.levels[level].name.clone()).collect()),
+        text("record", rows().map(|(_, excitation)| excitation.record.clone()).collect()),
+        text("rsn", rows().map(|(_, excitation)| excitation.rsn.clone()).collect()),
+        Column::new("order".into(), table.order()),
+    ];
+    columns.extend(TABLE_TESTS.quantities.iter().map(|quantity| {
+        let number = |at| quantity.number(table, at).filter(|value| !value.is_nan());
+        Column::new(quantity.name.into(), (0..table.tests.len()).map(number).collect::<Vec<Option<f64>>>())
+    }));
+    columns
+}

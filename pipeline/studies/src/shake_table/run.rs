@@ -1,0 +1,52 @@
+//! A study of a shaking table, from its inputs to the result file.
+
+use std::time::Instant;
+
+use uplift_alarms::alarms;
+use uplift_job::events::Events;
+use uplift_job::frame::Place;
+use uplift_result::earlier::Earlier;
+use uplift_result::{Provenance, ResultFile};
+use uplift_study::{Kind, ShakeTableStudy};
+
+use super::plan::needs;
+use super::report::RunReport;
+use super::spectra::spectra;
+use super::{Inputs, ShakeTableOutcome, carry_out, write_shake_table, write_shake_table_csv};
+use crate::error::StudiesError;
+
+/// What every result says of the model.
+const TORSION: &str = "the deck does not turn about the vertical in the model: torsion, which was up to 0.115 rad in \
+                       the tests of Chapter 6, is outside of it";
+
+/// Carries out `study`. Its tests take seconds: what is stopped begins again.
+///
+/// # Errors
+/// Inputs that cannot be used; a file that cannot be written; a job that was stopped.
+pub fn run(study: &ShakeTableStudy, place: &Place<'_>, events: &dyn Events) -> Result<RunReport, StudiesError> {
+    let path = place.path;
+    let inputs = Inputs::read(study, events)?;
+    events.remark("records", &inputs.records.description);
+    needs(study, &inputs).require(path, events)?;
+    let begin = Instant::now();
+    let mut table = carry_out(study, &inputs, events)?;
+    table.spectra = Some(spectra(study, &inputs, events)?);
+    let seconds = begin.elapsed().as_secs_f64();
+    let mut warnings = inputs.notes.clone();
+    warnings.push(TORSION.to_owned());
+    let provenance = Provenance::new(place.options, inputs.checksums);
+    let mut provenance = provenance.of_result(path, &study.to_toml()?);
+    provenance.wall_time_s = place.start.elapsed().as_secs_f64();
+    let outcome = ShakeTableOutcome { study, table: &table, seconds, warnings: &warnings, provenance: &provenance };
+    let earlier = Earlier::keep(path, &provenance.study_digest)?;
+    write_shake_table(path, &outcome)?;
+    earlier.set_aside(events)?;
+    let mut files = vec![path.to_owned()];
+    if study.output.csv {
+        files.push(write_shake_table_csv(path, &outcome)?);
+    }
+    let alarms = alarms(&ResultFile::open(path)?)?;
+    let records = (table.records.as_str(), table.synthetic);
+    let head = provenance.head(&study.title, records, alarms, files, place.start.elapsed().as_secs_f64());
+    Ok(RunReport { head, kind: Kind::ShakeTable.key(), table })
+}

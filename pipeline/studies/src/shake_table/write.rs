@@ -1,0 +1,74 @@
+//! The result of a study of a shaking table, written as docs/hdf5-layout.md describes it.
+
+use std::path::Path;
+
+use uplift_labelled::LabelledWriter;
+use uplift_result::layout::{axis, shake_table as layout};
+use uplift_result::{DIRECTIONS, Origin, Provenance, ShakeTable, TableSpectra};
+use uplift_study::{Kind, ShakeTableStudy};
+
+use crate::error::StudiesError;
+
+/// All that a study of a shaking table computed.
+#[derive(Debug)]
+pub struct ShakeTableOutcome<'a> {
+    /// The study.
+    pub study: &'a ShakeTableStudy,
+    /// The tests.
+    pub table: &'a ShakeTable,
+    /// Wall time for them, s.
+    pub seconds: f64,
+    /// What a reader should know before using the numbers.
+    pub warnings: &'a [String],
+    /// Where the numbers come from.
+    pub provenance: &'a Provenance,
+}
+
+/// Writes `outcome` to `path`, atomically: an earlier file survives a failure.
+///
+/// # Errors
+/// Whatever keeps the file from being written, a full disk for instance.
+pub fn write_shake_table(path: &Path, outcome: &ShakeTableOutcome<'_>) -> Result<(), StudiesError> {
+    let ShakeTableOutcome { study, table, .. } = outcome;
+    let mut writer = LabelledWriter::create(path)?;
+    let origin = Origin {
+        title: &study.title,
+        study_toml: &study.to_toml()?,
+        gravity_m_s2: study.gravity_m_s2,
+        record_set: &table.records,
+        synthetic: table.synthetic,
+        warnings: outcome.warnings,
+        provenance: outcome.provenance,
+    };
+    origin.write(&mut writer)?;
+    writer.attribute("/", "kind", Kind::ShakeTable.key())?;
+    let names: Vec<String> = table.levels.iter().map(|level| level.name.clone()).collect();
+    let excitations: Vec<String> = table.excitations.iter().map(|one| one.exc_id.clone()).collect();
+    writer.axis_text(axis::LEVEL, &names, "level of shaking")?;
+    writer.axis_text(axis::EXCITATION, &excitations, "excitation")?;
+    table.write(&mut writer)?;
+    let order = "place in the order of rising displacement, from 1";
+    writer.array_u32(layout::ORDER, &[axis::LEVEL, axis::EXCITATION], &table.order(), "1", order)?;
+    table.spectra.iter().try_for_each(|spectra| write_spectra(&mut writer, spectra))?;
+    writer.attribute(layout::GROUP, "structure", table.structure.as_str())?;
+    writer.attribute(layout::GROUP, "length_scale", table.length_scale)?;
+    writer.attribute(layout::GROUP, "analyses", table.tests.len() as u64)?;
+    writer.attribute(layout::GROUP, "seconds", outcome.seconds)?;
+    writer.finish()?;
+    Ok(())
+}
+
+fn write_spectra(writer: &mut LabelledWriter, spectra: &TableSpectra) -> Result<(), StudiesError> {
+    writer.axis_text(axis::DIRECTION, &DIRECTIONS.map(str::to_owned), "horizontal component")?;
+    writer.axis_f64(axis::PERIOD, &spectra.periods_s, "s", "natural period in the time of the table")?;
+    let dims = &[axis::EXCITATION, axis::DIRECTION, axis::PERIOD];
+    let long_name = "spectral acceleration at 5 % damping of the component in the time of the table, accelerations as \
+                     recorded: times factor it is that on the table";
+    writer.array_f64(layout::SPECTRAL_ACCELERATION_M_S2, dims, &spectra.recorded_m_s2, "m/s2", long_name)?;
+    if let Some(design_m_s2) = &spectra.design_m_s2 {
+        let long_name =
+            "elastic response spectrum of EN 1998-1 in the time of the table, NaN beyond its longest period";
+        writer.array_f64(layout::DESIGN_SPECTRUM_M_S2, &[axis::PERIOD], design_m_s2, "m/s2", long_name)?;
+    }
+    Ok(())
+}

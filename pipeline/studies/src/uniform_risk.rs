@@ -1,0 +1,23 @@
+//! Studies of uniform risk: stripes, spectra and their coefficients, for sites with hazard curves.
+
+mod csv;
+mod earlier;
+mod levels;
+mod outcome;
+mod plan;
+mod report;
+mod run;
+pub mod site_table;
+mod work;
+mod write;
+mod write_hazard;
+
+pub use csv::{csv_paths, spectra_table, tables, write_csv};
+pub use earlier::EarlierStripes;
+pub use levels::{LevelCheck, LevelProposal};
+pub use outcome::Outcome;
+pub use plan::{Plan, needs, plan};
+pub use report::{BranchReport, CoefficientsReport, MeasureReport, RunReport};
+pub use run::run;
+pub use work::{Inputs, run_shard};
+pub use write::write_result;

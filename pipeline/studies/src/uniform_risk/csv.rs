@@ -1,0 +1,113 @@
+//! Tidy tables beside the result file, for spreadsheets and scripts.
+
+use std::iter::repeat_n;
+use std::path::{Path, PathBuf};
+
+use polars::prelude::Column;
+use uplift_job::outputs::{Output, OutputKind, beside};
+use uplift_job::table::write_table;
+use uplift_result::declared::{Field, Place, Quantity};
+use uplift_result::{Fits, StoredSpectra, flag_word, regression, urs};
+use uplift_study::UniformRiskStudy;
+
+use super::Outcome;
+use super::site_table::site_table_paths;
+use crate::error::StudiesError;
+
+/// The tables beside the result file `result`: spectra and coefficients.
+pub fn csv_paths(result: &Path) -> [PathBuf; 2] {
+    ["urs.csv", "regression.csv"].map(|ending| beside(result, ending))
+}
+
+/// All files but the result that a run of `study` with the result at `result` writes.
+pub fn tables(study: &UniformRiskStudy, result: &Path) -> Vec<Output> {
+    let mut tables = Vec::new();
+    if study.output.csv && !study.sites.is_empty() {
+        let [spectra, coefficients] = csv_paths(result);
+        tables.push(Output::new(spectra, OutputKind::Table(urs::LOWER_TAIL_SHARE.name)));
+        tables.push(Output::new(coefficients, OutputKind::Table(regression::RMSE_PLAIN_M.name)));
+    }
+    if study.site_table.is_some() {
+        let [spectra, coefficients, map] = site_table_paths(result);
+        tables.push(Output::new(spectra, OutputKind::Table("flag")));
+        tables.push(Output::new(coefficients, OutputKind::Table("problem")));
+        tables.push(Output::new(map, OutputKind::GeoJson));
+    }
+    tables
+}
+
+/// Write the tables of `outcome` beside the result file `result`, and beside each where it comes from.
+///
+/// # Errors
+/// A file that cannot be written.
+pub fn write_csv(result: &Path, outcome: &Outcome<'_>) -> Result<(), StudiesError> {
+    let line = outcome.provenance.line(&outcome.study.title, &outcome.records.description);
+    let [ordinates, coefficients] = csv_paths(result);
+    let spectra = outcome.stored_spectra();
+    write_table(&ordinates, &line, spectra_table(&spectra))?;
+    Ok(write_table(&coefficients, &line, regression_table(&spectra))?)
+}
+
+/// A row for each ordinate: what it is of, then the arrays of its spectrum.
+pub fn spectra_table(spectra: &StoredSpectra) -> Vec<Column> {
+    let mut columns = of_columns(spectra, spectra.strengths.len());
+    let strengths = spectra.measures.iter().flat_map(|of| of.fits.values()).flat_map(|_| &spectra.strengths).copied();
+    columns.push(Column::new("strength".into(), strengths.collect::<Vec<f64>>()));
+    let places = || spectra.measures.iter().flat_map(|of| (0..of.u_m.values().len()).map(move |at| (of, at)));
+    columns.extend(urs::GROUP.quantities.iter().map(|quantity| column(quantity, places(), |_, _| true)));
+    columns
+}
+
+/// A row for each spectrum: what it is of, then its coefficients.
+fn regression_table(spectra: &StoredSpectra) -> Vec<Column> {
+    use regression::{BOUND_ACTIVE, C0_M, C1, C2_M, POINTS, RMSE_M, RMSE_PLAIN_M};
+    let mut columns = of_columns(spectra, 1);
+    let places = || spectra.measures.iter().flat_map(|of| (0..of.fits.values().len()).map(|at| (&of.fits, at)));
+    let is_fitted = |fits: &Fits, at: usize| fits[at].curve().is_some();
+    let coefficients = [C0_M, C1, C2_M, RMSE_M, RMSE_PLAIN_M, BOUND_ACTIVE];
+    columns.extend(coefficients.iter().map(|quantity| column(quantity, places(), is_fitted)));
+    columns.push(column(&POINTS, places(), |_, _| true));
+    columns
+}
+
+/// The columns that say what a spectrum is of, each `times` over.
+fn of_columns(spectra: &StoredSpectra, times: usize) -> Vec<Column> {
+    let (mut site, mut im, mut poe) = (Vec::new(), Vec::new(), Vec::new());
+    for row in spectra.rows() {
+        site.extend(repeat_n(row.site, times));
+        im.extend(repeat_n(row.measure.label(), times));
+        poe.extend(repeat_n(row.poe, times));
+    }
+    let years = vec![spectra.years; site.len()];
+    vec![
+        Column::new("site".into(), site),
+        Column::new("im".into(), im),
+        Column::new("poe".into(), poe),
+        Column::new("years".into(), years),
+    ]
+}
+
+/// A stored array as a column of a table; cells are empty where `is_there` says so.
+fn column<'a, T: 'a>(
+    quantity: &Quantity<T>,
+    places: impl Iterator<Item = (&'a T, usize)>,
+    is_there: impl Fn(&T, usize) -> bool,
+) -> Column {
+    fn cells<'a, T: 'a, V: 'a, C>(
+        place: Place<T, V>,
+        places: impl Iterator<Item = (&'a T, usize)>,
+        is_there: impl Fn(&T, usize) -> bool,
+        cell: impl Fn(&'a V) -> C,
+    ) -> Vec<Option<C>> {
+        places.map(|(of, at)| is_there(of, at).then(|| cell((place.get)(of, at)))).collect()
+    }
+    let name = quantity.name.into();
+    match quantity.field {
+        // zero has no sign in a table
+        Field::F64(place) => Column::new(name, cells(place, places, is_there, |value| value + 0.0)),
+        Field::U32(place) => Column::new(name, cells(place, places, is_there, |&count| count)),
+        Field::Bool(place) => Column::new(name, cells(place, places, is_there, |&is| is)),
+        Field::Flag(place) => Column::new(name, cells(place, places, is_there, |&flag| flag_word(flag))),
+        Field::Text(place) => Column::new(name, cells(place, places, is_there, String::as_str)),
+    }
+}

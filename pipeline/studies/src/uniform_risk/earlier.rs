@@ -1,0 +1,86 @@
+//! The stripes of an earlier result, as far as they are those of this study.
+
+use std::collections::HashMap;
+use std::path::Path;
+
+use uplift_engine::checkpoint::oscillator_key;
+use uplift_ida::{Axes, Cells};
+use uplift_inputs::RecordSet;
+use uplift_labelled::{LabelledError, LabelledReader};
+use uplift_result::layout::{axis, ida, intensity, records};
+use uplift_study::{MeasurePlan, UniformRiskStudy};
+
+/// An earlier result at the place of the one to come.
+pub struct EarlierStripes {
+    reader: LabelledReader,
+}
+
+impl EarlierStripes {
+    /// The result at `path`; none if there is none, or one that is not as it was written.
+    pub fn open(path: &Path) -> Option<Self> {
+        LabelledReader::open(path).ok().map(|reader| Self { reader })
+    }
+
+    /// Puts into `cells` what the file knows of the stripes that `study` asks for with `measure`: cells of the same
+    /// motion, intensity, oscillator, strength and level, by the same version of the solver. A file that is damaged, or
+    /// of another layout, knows nothing.
+    pub fn fill(
+        &self,
+        study: &UniformRiskStudy,
+        measure: &MeasurePlan,
+        set: &RecordSet,
+        motions: &[String],
+        cells: &mut Cells,
+    ) {
+        let _ = self.try_fill(study, measure, set, motions, cells);
+    }
+
+    fn try_fill(
+        &self,
+        study: &UniformRiskStudy,
+        measure: &MeasurePlan,
+        set: &RecordSet,
+        motions: &[String],
+        cells: &mut Cells,
+    ) -> Result<(), LabelledError> {
+        let reader = &self.reader;
+        let group = ida::group(measure.measure);
+        if !reader.exists(&group) || reader.attribute_text(&group, "oscillator_key")? != oscillator_key(study) {
+            return Ok(());
+        }
+        if reader.exists(&ida::factor(measure.measure)) {
+            return Ok(()); // its factors are not those of the levels
+        }
+        let stored_motions = reader.array_text(records::MOTION_SHA256)?.values;
+        let intensities = reader.array_f64(&intensity(measure.measure))?.values;
+        let positions = |values: &[f64]| -> HashMap<u64, usize> {
+            values.iter().enumerate().map(|(index, value)| (value.to_bits(), index)).collect()
+        };
+        let strengths = reader.axis_f64(axis::STRENGTH)?;
+        let levels = reader.axis_f64(&axis::level(measure.measure))?;
+        let edp_m = reader.array_f64(&ida::edp_m(measure.measure))?;
+        let impacts = reader.array_u32(&ida::impacts(measure.measure))?;
+        let stored = Axes { motions: stored_motions.len(), systems: strengths.len(), scales: levels.len() };
+        let shape = [stored.motions, stored.systems, stored.scales];
+        if edp_m.shape != shape || impacts.shape != shape || intensities.len() != stored.motions {
+            return Ok(());
+        }
+        let records: HashMap<(&str, u64), usize> = (stored_motions.iter().zip(&intensities).enumerate())
+            .map(|(index, (motion, intensity))| ((motion.as_str(), intensity.to_bits()), index))
+            .collect();
+        let (of_strength, of_level) = (positions(&strengths), positions(&levels));
+        for (record, (motion, asked)) in motions.iter().zip(&set.records).enumerate() {
+            let intensity = asked.intensity(measure.measure).to_bits();
+            let Some(&from_record) = records.get(&(motion.as_str(), intensity)) else { continue };
+            for (strength, value) in study.strengths.iter().enumerate() {
+                let Some(&from_strength) = of_strength.get(&value.to_bits()) else { continue };
+                for (level, value) in measure.levels.iter().enumerate() {
+                    let Some(&from_level) = of_level.get(&value.to_bits()) else { continue };
+                    let index = stored.cell([from_record, from_strength, from_level]);
+                    cells.set([record, strength, level], edp_m.values[index], impacts.values[index]);
+                }
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,177 @@
+//! What a study of uniform risk costs.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+use std::time::Duration;
+
+use serde::Serialize;
+use uplift_alarms::{
+    BELOW_FIRST_LEVEL, BEYOND_LAST_LEVEL, CurvesAtSite, few, of_far_factors, of_hazard, of_study, ranked,
+};
+use uplift_engine::analysis::seconds;
+use uplift_inputs::{
+    OtherHazard, Record, RecordSet, SiteHazard, SiteList, read_hazard, read_other_hazard, read_records,
+};
+use uplift_job::alarm::Alarm;
+use uplift_job::events::Events;
+use uplift_job::frame::PlanHead;
+use uplift_job::machine::{Needs, PROGRAM_BYTES};
+use uplift_study::{MeasurePlan, Repair, UniformRiskStudy};
+use uplift_uniform_risk::consistency::{Answer, ConsistencyReport};
+use uplift_uniform_risk::{plan_own_stripes, systems, systems_under};
+
+use super::levels::{LevelCheck, OfEnds, check_levels};
+use super::site_table;
+use crate::error::StudiesError;
+
+/// Time spent on a measure to see how fast this machine is.
+const CALIBRATION: Duration = Duration::from_secs(1);
+
+/// What a study of uniform risk costs.
+#[derive(Debug, Clone, Serialize)]
+pub struct Plan {
+    /// What every kind tells.
+    #[serde(flatten)]
+    pub head: PlanHead,
+    /// How far down and up the levels of each measure reach, where sites say what the study is for.
+    pub levels: Vec<LevelCheck>,
+    /// Whether the records bring the hazard of the other measure.
+    pub consistency: ConsistencyReport,
+}
+
+/// Reads and checks all inputs of `study`, and times some of its analyses.
+///
+/// # Errors
+/// Inputs that cannot be used.
+pub fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Events) -> Result<Plan, StudiesError> {
+    let (hazard, mut notes) = read_hazard(study)?;
+    let (other_hazard, other_notes) = read_other_hazard(study)?;
+    notes.extend(other_notes);
+    let site_list = site_table::read(study, events)?;
+    notes.extend(site_list.iter().flat_map(|list| list.notes.iter().cloned()));
+    let records = read_records(study, events)?;
+    let own_systems = systems_under(study, &records)?;
+    notes.extend(records.notes.iter().cloned());
+
+    let plans = (study.measures.iter())
+        .map(|measure| plan_own_stripes(study, measure, &records, &own_systems))
+        .collect::<Result<Vec<_>, _>>()?;
+    let (motions, systems) = (records.clone().without_structures(), systems(study)?);
+    let (mut levels, mut of_ends) = (Vec::new(), OfEnds::default());
+    for (measure, hazard) in study.measures.iter().zip(&hazard) {
+        let (tried, cases) = check_levels(study, measure, (&motions, &systems), hazard)?;
+        levels.extend(tried);
+        of_ends.lower.extend(cases.lower);
+        of_ends.upper.extend(cases.upper);
+    }
+    let seconds = seconds(&plans, CALIBRATION * u32::try_from(plans.len()).unwrap_or(u32::MAX));
+    let needs = needs(study, &records, site_list.as_ref());
+    let ends = [(BEYOND_LAST_LEVEL, of_ends.upper), (BELOW_FIRST_LEVEL, of_ends.lower)];
+    let of_ends = ends.into_iter().filter_map(|(kind, cases)| Alarm::of_cases(kind, cases));
+    let is_repaired = study.consistency.repair == Repair::Weights;
+    let consistency = Answer::of_plan(study, &records, (&hazard, &other_hazard), is_repaired)?.report(&[]);
+    let of_curves = of_curves(study, &hazard, &consistency);
+    let head = PlanHead {
+        study: study_file.to_owned(),
+        record_set: records.description.clone(),
+        synthetic: records.synthetic,
+        analyses: plans.iter().map(uplift_ida::Plan::analyses).sum(),
+        threads: rayon::current_num_threads(),
+        seconds,
+        memory_bytes: needs.memory_bytes,
+        disk_bytes: needs.disk_bytes,
+        room: needs.room(&study.output.file),
+        output: study.output.file.clone(),
+        alarms: ranked(of_inputs(study, &records).chain(of_curves).chain(of_ends).collect()),
+        notes,
+        would_replace: false,
+    };
+    Ok(Plan { head, levels, consistency })
+}
+
+/// What the study and its records are told of.
+fn of_inputs(study: &UniformRiskStudy, set: &RecordSet) -> impl Iterator<Item = Alarm> {
+    let of_records = if let Some(at_level) = &set.at_level {
+        let first = study.measures.first();
+        first.and_then(|plan| at_level.far_factors(&set.records, plan)).map(of_far_factors)
+    } else {
+        let pairs: BTreeSet<&str> = set.records.iter().map(|record| study.pair_of_record(&record.id)).collect();
+        few(set.records.len(), pairs.len())
+    };
+    of_study(&study.warnings, set.synthetic).chain(of_records)
+}
+
+/// Curves that are probably mistaken: by themselves, among each other, or by what the records bring.
+fn of_curves(study: &UniformRiskStudy, hazard: &[Vec<SiteHazard>], consistency: &ConsistencyReport) -> Vec<Alarm> {
+    let curves: Vec<CurvesAtSite<'_>> = hazard
+        .iter()
+        .flatten()
+        .map(|site| CurvesAtSite {
+            site: &site.site,
+            measure: site.measure,
+            curve: &site.curve.curve,
+            branches: site.branches.iter().map(|branch| (branch.name.as_str(), &branch.input.curve)).collect(),
+        })
+        .collect();
+    let mut alarms = of_hazard(study, &curves);
+    alarms.extend(uplift_alarms::of_curves(study, consistency));
+    alarms
+}
+
+/// Says which curves are probably mistaken, before hours are spent on them.
+pub(super) fn tell_mistaken_curves(
+    study: &UniformRiskStudy,
+    records: &RecordSet,
+    (hazard, other_hazard): (&[Vec<SiteHazard>], &[OtherHazard]),
+    events: &dyn Events,
+) -> Result<(), StudiesError> {
+    let consistency = Answer::of_plan(study, records, (hazard, other_hazard), false)?.report(&[]);
+    for alarm in of_curves(study, hazard, &consistency) {
+        events.note(&format!("{} {alarm}: {}", alarm.severity.word(), alarm.what_to_do));
+    }
+    Ok(())
+}
+
+/// What a run of `study` takes.
+///
+/// The stripes hold 12 bytes an analysis, once more in a checkpoint and once more for a list of sites; the surface 8
+/// bytes a threshold, in memory twice while it is put in order; records 48 bytes a sample with their integrals and
+/// extremes; a site of a table half a kilobyte, and as text 80 bytes an ordinate and 800 a fit.
+pub fn needs(study: &UniformRiskStudy, set: &RecordSet, list: Option<&SiteList>) -> Needs {
+    let count = |n: usize| n as u64;
+    let product = |factors: &[u64]| factors.iter().fold(1_u64, |product, factor| product.saturating_mul(*factor));
+    let sum = |terms: &[u64]| terms.iter().fold(0_u64, |sum, term| sum.saturating_add(*term));
+    let (records, strengths) = (count(set.records.len()), count(study.strengths.len()));
+    let all_levels = study.measures.iter().map(|plan| count(plan.levels.len())).sum();
+    let (measures, sites) = (count(study.measures.len()), count(study.sites.len()));
+    let stripes = product(&[12, records, strengths, all_levels]);
+    let thresholds = if study.risk.maf_surface { count(study.risk.thresholds_m.len()) } else { 0 };
+    let surface = product(&[8, measures, sites, strengths, thresholds]);
+    let spectra = product(&[40, measures, sites, strengths, count(study.risk.poe.len())]);
+    let samples = |record: &Record| -> u64 {
+        std::iter::once(&record.accelerogram).chain(&record.other_azimuths).map(|motion| count(motion.len())).sum()
+    };
+    // structures of a motion share its samples
+    let is_first = |record: &&Record| record.structure.as_ref().is_none_or(|structure| structure.number == 1);
+    let samples: u64 = set.records.iter().filter(is_first).map(samples).sum();
+    let listed = list.map_or(0, |list| count(list.sites.len()));
+    let exports = list.map_or(&[][..], |list| &list.exports[..]);
+    let is_listed = |plan: &&MeasurePlan| exports.iter().any(|export| export.measure == plan.measure);
+    let listed_levels = study.measures.iter().filter(is_listed).map(|plan| count(plan.levels.len())).sum();
+    let demands = product(&[12, records, strengths, listed_levels]);
+    let text = product(&[listed, count(exports.len()), count(study.risk.poe.len()), 80 * strengths + 800]);
+    Needs {
+        memory_bytes: sum(&[
+            PROGRAM_BYTES,
+            stripes,
+            surface,
+            surface / measures.max(1),
+            spectra,
+            demands,
+            product(&[64, samples]),
+            500 * listed,
+        ]),
+        disk_bytes: sum(&[2 * stripes.min(u64::MAX / 2), surface, spectra, text, 1_000_000]),
+        disk_least_bytes: stripes,
+    }
+}

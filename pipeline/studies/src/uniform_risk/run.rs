@@ -1,0 +1,108 @@
+//! A study of uniform risk, from its inputs to the result file.
+
+use std::path::{Path, PathBuf};
+
+use uplift_alarms::alarms;
+use uplift_engine::checkpoint::{Checkpoint, FinishedRows, checkpoint_path};
+use uplift_ida::Shard;
+use uplift_inputs::{input_checksums, read_hazard, read_other_hazard};
+use uplift_job::events::Events;
+use uplift_job::frame::Place;
+use uplift_result::earlier::Earlier;
+use uplift_result::{Provenance, ResultFile};
+use uplift_study::UniformRiskStudy;
+use uplift_uniform_risk::consistency::Answer;
+use uplift_uniform_risk::{Coefficients, Stripes, fit_spectra, precision, uniform_risk_spectra};
+
+use super::plan::tell_mistaken_curves;
+use super::report::RunReport;
+use super::{Inputs, Outcome, csv_paths, needs, site_table, write_csv, write_result};
+use crate::error::StudiesError;
+
+/// Carries out `study`, but for the rows of its analysis that are `known`.
+///
+/// # Errors
+/// Inputs that cannot be used; a file that cannot be written; a job that was stopped.
+pub fn run(
+    study: &UniformRiskStudy,
+    place: &Place<'_>,
+    known: FinishedRows,
+    events: &dyn Events,
+) -> Result<RunReport, StudiesError> {
+    let path = place.path;
+    let (hazard, mut notes) = read_hazard(study)?;
+    let (other_hazard, other_notes) = read_other_hazard(study)?;
+    notes.extend(other_notes);
+    let site_list = site_table::read(study, events)?;
+    let inputs = Inputs::read(study, events)?;
+    let records = &inputs.records;
+    events.remark("records", &records.description);
+    tell_mistaken_curves(study, records, (&hazard, &other_hazard), events)?;
+
+    needs(study, records, site_list.as_ref()).with_rows_of(&[checkpoint_path(path)]).require(path, events)?;
+    let earlier: Vec<&Path> = std::iter::once(path).chain(place.options.earlier.iter().map(PathBuf::as_path)).collect();
+    let work = inputs.work(study, &earlier)?;
+    let total = work.analyses();
+    let mut checkpoint = Checkpoint::open(&checkpoint_path(path), &work.head(Shard::WHOLE))?;
+    checkpoint.extend(known);
+    checkpoint.path().into_iter().for_each(|path| events.resumes_from(path));
+    let analysed = work.results(&checkpoint, events)?;
+    checkpoint.release_rows();
+    let stripes: Vec<Stripes> = study
+        .measures
+        .iter()
+        .zip(analysed)
+        .map(|(measure, analysed)| Stripes::of(measure, records, analysed))
+        .collect();
+    let mut spectra = Vec::new();
+    for (stripes, hazard) in stripes.iter().zip(&hazard) {
+        spectra.push(uniform_risk_spectra(study, stripes, hazard)?);
+    }
+    let coefficients: Vec<Coefficients> = spectra.iter().map(|spectra| fit_spectra(study, spectra)).collect();
+    let consistency = Answer::of_run(study, records, (&hazard, &other_hazard), &stripes)?;
+    let mut precisions = Vec::new();
+    for (stripes, hazard) in stripes.iter().zip(&hazard) {
+        precisions.extend(precision(study, stripes, hazard, consistency.question())?);
+    }
+    let mut warnings = notes;
+    warnings.extend(site_list.iter().flat_map(|list| list.notes.iter().cloned()));
+    warnings.extend(records.notes.iter().cloned());
+
+    if events.cancelled() {
+        return Err(checkpoint.stopped(total, total).into());
+    }
+    let mut provenance = Provenance::new(place.options, input_checksums(records, &hazard, &other_hazard));
+    provenance.input_checksums.extend(site_list.iter().flat_map(|list| list.checksums.clone()));
+    let mut provenance = provenance.of_result(path, &study.to_toml()?);
+    let line = provenance.line(&study.title, &records.description);
+    let mut sites =
+        site_table::compute(study, site_list.as_ref(), (&stripes, consistency.question()), path, &line, events)?;
+    warnings.append(&mut sites.warnings);
+    provenance.wall_time_s = place.start.elapsed().as_secs_f64();
+    let outcome = Outcome {
+        study,
+        records,
+        hazard: &hazard,
+        other_hazard: &other_hazard,
+        consistency: &consistency,
+        stripes: &stripes,
+        spectra: &spectra,
+        coefficients: &coefficients,
+        precision: &precisions,
+        warnings: &warnings,
+        provenance: &provenance,
+    };
+    let earlier = Earlier::keep(path, &provenance.study_digest)?;
+    write_result(path, &outcome)?;
+    earlier.set_aside(events)?;
+    checkpoint.remove();
+    let mut files = vec![path.to_owned()];
+    if study.output.csv && !study.sites.is_empty() {
+        write_csv(path, &outcome)?;
+        files.extend(csv_paths(path));
+    }
+    files.extend(sites.finish()?);
+    // the summary says what every other look at the file says
+    let alarms = alarms(&ResultFile::open(path)?)?;
+    Ok(RunReport::of(&outcome, alarms, files, place.start.elapsed().as_secs_f64()))
+}

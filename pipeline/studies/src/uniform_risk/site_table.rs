@@ -1,0 +1,210 @@
+//! The part of `uplift run` that many sites take: read before the analyses, computed and written after them.
+
+mod consistent;
+mod files;
+mod repair;
+
+pub use files::{SiteTableFiles, SiteTableLayout, SiteText, site_table_paths};
+pub use repair::{SiteConsistency, SiteRepair};
+
+use std::path::{Path, PathBuf};
+
+use rayon::prelude::*;
+use uplift_hazard::HazardCurve;
+use uplift_ida::Watch;
+use uplift_inputs::{BatchSite, SharedCurve, SiteCurves, SiteExport, SiteList, read_site_list};
+use uplift_job::JobError;
+use uplift_job::events::{Events, Progress};
+use uplift_job::text::{risk_name, thousands};
+use uplift_risk::OrdinateFlag;
+use uplift_study::{Repair, UniformRiskStudy};
+use uplift_uniform_risk::consistency::Question;
+use uplift_uniform_risk::{SiteRisk, SiteSpectra, Stripes};
+
+use crate::error::StudiesError;
+
+/// Bytes of text, about, that are in memory at a time.
+const BATCH_BYTES: usize = 16 << 20;
+/// Bytes that an ordinate takes as text, about.
+const ORDINATE_BYTES: usize = 80;
+
+/// What many sites leave behind: nothing where the study has no table of sites.
+#[derive(Default)]
+pub struct SiteOutput {
+    /// What to know before using the numbers.
+    pub warnings: Vec<String>,
+    files: Option<SiteTableFiles>,
+}
+
+impl SiteOutput {
+    /// Put the files in their places.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn finish(self) -> Result<Vec<PathBuf>, StudiesError> {
+        self.files.map_or(Ok(Vec::new()), SiteTableFiles::finish)
+    }
+}
+
+/// The study's table of sites, found in its exports.
+///
+/// # Errors
+/// A table or an export that cannot be used.
+pub fn read(study: &UniformRiskStudy, events: &dyn Events) -> Result<Option<SiteList>, StudiesError> {
+    let list = read_site_list(study)?;
+    if let Some(list) = &list {
+        events.remark("sites", &list.description());
+    }
+    Ok(list)
+}
+
+/// Spectra and coefficients of every site of the list, written site by site; `line` says where the numbers come from.
+///
+/// # Errors
+/// Files that cannot be read or written; [`JobError::Interrupted`] where `events` say so.
+pub(crate) fn compute(
+    study: &UniformRiskStudy,
+    list: Option<&SiteList>,
+    (stripes, question): (&[Stripes], &Question),
+    path: &Path,
+    line: &str,
+    events: &dyn Events,
+) -> Result<SiteOutput, StudiesError> {
+    let Some(list) = list else { return Ok(SiteOutput::default()) };
+    // both are in the order of the study's measures
+    let listed = stripes.iter().filter(|own| list.exports.iter().any(|export| export.measure == own.measure));
+    let risks: Vec<SiteRisk<'_>> = listed.map(|stripes| SiteRisk::new(study, stripes)).collect::<Result<_, _>>()?;
+    let is_repaired = study.consistency.repair == Repair::Weights;
+    let repair = is_repaired.then(|| SiteRepair::new(question, list)).transpose()?;
+    let mut files = SiteTableFiles::create(path, study, list, line)?;
+    let mut tally = Tally::new(study, list);
+    let mut curves = SiteCurves::open(list)?;
+    let ordinates = list.exports.len() * study.risk.poe.len() * study.strengths.len();
+    let most = (BATCH_BYTES / (ORDINATE_BYTES * ordinates.max(1))).clamp(8, 512);
+    let progress = Progress::begin(events, "sites", "sites", list.sites.len() as u64);
+
+    let mut batch = curves.next_batch(most)?;
+    while !batch.is_empty() {
+        if events.cancelled() {
+            return Err(JobError::Interrupted.into());
+        }
+        // the next sites are read while these are computed
+        let of_site = |site: &BatchSite| spectra_of(study, list, (&risks, repair.as_ref()), &files, site);
+        let (done, next): (Vec<(SiteText, SiteFindings)>, _) =
+            rayon::join(|| batch.par_iter().map(of_site).collect(), || curves.next_batch(most));
+        for (text, findings) in &done {
+            files.write(text)?;
+            tally.add(findings);
+        }
+        progress.finished(done.len() as u64);
+        batch = next?;
+    }
+    drop(progress);
+    Ok(SiteOutput { warnings: tally.warnings(study, list), files: Some(files) })
+}
+
+/// What deserves a warning, for each export and probability.
+struct SiteFindings {
+    /// `[export][poe]`.
+    spectra: Vec<Vec<[bool; FINDINGS]>>,
+    /// `[export]`, whether there is no repaired spectrum where one was asked for.
+    unrepaired: Vec<bool>,
+}
+
+const FINDINGS: usize = 4;
+
+fn spectra_of(
+    study: &UniformRiskStudy,
+    list: &SiteList,
+    (risks, repair): (&[SiteRisk<'_>], Option<&SiteRepair<'_>>),
+    files: &SiteTableFiles,
+    site: &BatchSite,
+) -> (SiteText, SiteFindings) {
+    let curve = |(export, exported): (&SiteExport, &SharedCurve)| {
+        export.curve(study, exported.as_ref().as_ref().map_err(Clone::clone)?)
+    };
+    let curves: Vec<Result<HazardCurve, String>> = list.all_exports().zip(&site.curves).map(curve).collect();
+    let spectra: Vec<Result<SiteSpectra, String>> = (list.exports.iter().zip(risks).zip(&curves))
+        .map(|((export, risk), curve)| risk.spectra(&export.weights(study, curve.as_ref().map_err(Clone::clone)?)?))
+        .collect();
+    let consistency: Option<Vec<SiteConsistency>> = repair
+        .map(|repair| risks.iter().enumerate().map(|(export, risk)| repair.of_site(export, risk, &curves)).collect());
+    let findings = SiteFindings {
+        spectra: spectra
+            .iter()
+            .map(|spectra| spectra.as_ref().map_or(Vec::new(), |spectra| found(study, spectra)))
+            .collect(),
+        unrepaired: consistency.iter().flatten().map(|consistency| consistency.spectra.is_err()).collect(),
+    };
+    (files.layout().text(&list.sites[site.site], &spectra, consistency.as_deref()), findings)
+}
+
+fn found(study: &UniformRiskStudy, spectra: &SiteSpectra) -> Vec<[bool; FINDINGS]> {
+    let spectrum = |ordinates: &[uplift_risk::Ordinate]| {
+        [
+            ordinates.iter().any(|ordinate| ordinate.flag == OrdinateFlag::Censored),
+            ordinates.iter().any(uplift_risk::Ordinate::has_significant_tail),
+        ]
+    };
+    let by_poe = spectra.ordinates.chunks(study.strengths.len()).zip(&spectra.fits);
+    by_poe
+        .map(|(ordinates, fit)| {
+            let [censored, tail] = spectrum(ordinates);
+            [censored, tail, fit.is_err(), fit.as_ref().is_ok_and(|fit| fit.at_search_limit)]
+        })
+        .collect()
+}
+
+/// How many sites deserve which warning.
+struct Tally {
+    /// `[export][poe]`.
+    counts: Vec<Vec<[u64; FINDINGS]>>,
+    /// `[export]`.
+    unrepaired: Vec<u64>,
+}
+
+impl Tally {
+    fn new(study: &UniformRiskStudy, list: &SiteList) -> Self {
+        Self {
+            counts: vec![vec![[0; FINDINGS]; study.risk.poe.len()]; list.exports.len()],
+            unrepaired: vec![0; list.exports.len()],
+        }
+    }
+
+    fn add(&mut self, findings: &SiteFindings) {
+        self.unrepaired.iter_mut().zip(&findings.unrepaired).for_each(|(count, &own)| *count += u64::from(own));
+        for (counts, findings) in self.counts.iter_mut().zip(&findings.spectra) {
+            for (counts, findings) in counts.iter_mut().zip(findings) {
+                counts.iter_mut().zip(findings).for_each(|(count, &found)| *count += u64::from(found));
+            }
+        }
+    }
+
+    fn warnings(&self, study: &UniformRiskStudy, list: &SiteList) -> Vec<String> {
+        const WORDS: [&str; FINDINGS] = [
+            "have ordinates that are censored: overturned runs, or the last threshold, exceed the target risk",
+            "have ordinates that take more than 1 % of their risk from outside the stripes",
+            "have no fit: the column `problem` says why",
+            "have a spectrum that is no decaying exponential: its coefficients mean nothing one by one",
+        ];
+        let all = thousands(list.sites.len() as u64);
+        let mut warnings = Vec::new();
+        for (export, &count) in list.exports.iter().zip(&self.unrepaired).filter(|(_, count)| **count > 0) {
+            warnings.push(format!(
+                "site table, {}: {} of {all} sites have no repaired spectrum: the column `no_repair` says why",
+                export.measure.label(),
+                thousands(count)
+            ));
+        }
+        for (export, counts) in list.exports.iter().zip(&self.counts) {
+            for (&poe, counts) in study.risk.poe.iter().zip(counts) {
+                for (&count, words) in counts.iter().zip(WORDS).filter(|(count, _)| **count > 0) {
+                    let (label, count) = (export.measure.label(), thousands(count));
+                    let risk = risk_name(poe, study.risk.years);
+                    warnings.push(format!("site table, {label}, {risk}: {count} of {all} sites {words}"));
+                }
+            }
+        }
+        warnings
+    }
+}

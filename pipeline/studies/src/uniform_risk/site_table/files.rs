@@ -1,0 +1,425 @@
+//! The tables and the map of many sites, written site by site.
+
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use uplift_atomic_file::{AtomicFile, io_error};
+use uplift_inputs::{ListedSite, SiteList};
+use uplift_job::outputs::beside;
+use uplift_job::table::{neutral, write_metadata};
+use uplift_job::text::nearest;
+use uplift_regression::ExponentialFit;
+use uplift_result::flag_word;
+use uplift_risk::Ordinate;
+use uplift_study::{Repair, UniformRiskStudy};
+use uplift_uniform_risk::SiteSpectra;
+
+use super::consistent;
+use super::repair::SiteConsistency;
+use crate::error::StudiesError;
+
+/// Strengths of which the map shows ordinates, unless the study names some.
+const SHOWN_ON_MAP: [f64; 3] = [0.1, 0.2, 0.4];
+/// Columns of the spectra.
+const SPECTRA: [&str; 9] = ["site", "longitude", "latitude", "im", "poe", "years", "strength", "u_m", "flag"];
+/// Columns of the coefficients, before those of the study's own table.
+const COEFFICIENTS: [&str; 12] =
+    ["site", "longitude", "latitude", "im", "poe", "years", "c0_m", "c1", "c2_m", "rmse_m", "bound_active", "problem"];
+
+/// The files beside the result file `result`: spectra, coefficients, and both as a map.
+pub fn site_table_paths(result: &Path) -> [PathBuf; 3] {
+    ["sites.csv", "sites.coefficients.csv", "sites.geojson"].map(|ending| beside(result, ending))
+}
+
+/// The files of many sites while they are being written; those not finished are removed.
+#[derive(Debug)]
+pub struct SiteTableFiles {
+    paths: [PathBuf; 3],
+    files: [GrowingFile; 3],
+    layout: SiteTableLayout,
+    features: u64,
+    /// Where the numbers come from.
+    line: String,
+    /// Names of the columns of the two tables.
+    columns: [Vec<String>; 2],
+}
+
+/// What the rows and properties are called.
+#[derive(Debug, Clone)]
+pub struct SiteTableLayout {
+    years: f64,
+    strengths: Vec<f64>,
+    /// Positions of the strengths in the table of spectra.
+    in_table: Vec<usize>,
+    /// Positions of the strengths on the map.
+    on_map: Vec<usize>,
+    /// `[export]`.
+    measures: Vec<MeasureNames>,
+    /// Names of the cells carried along, as keys of JSON.
+    carried: Vec<String>,
+    /// Whether there are repaired spectra beside the plain ones.
+    is_repaired: bool,
+}
+
+/// The names of one measure.
+#[derive(Debug, Clone)]
+struct MeasureNames {
+    label: &'static str,
+    /// `[poe]`.
+    poes: Vec<PoeNames>,
+}
+
+#[derive(Debug, Clone)]
+struct PoeNames {
+    poe: f64,
+    /// Such as `pgv_2pct_50yr`.
+    key: String,
+    /// Such as `_u_m_at_0.2`, one for each strength on the map.
+    ordinates: Vec<String>,
+}
+
+/// A site as it stands in the three files.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SiteText {
+    spectra: String,
+    coefficients: String,
+    feature: String,
+}
+
+impl SiteTableFiles {
+    /// Begin the files beside the result file `result`; `line` says where the numbers come from. They are in their
+    /// places only after [`finish`](Self::finish).
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn create(result: &Path, study: &UniformRiskStudy, list: &SiteList, line: &str) -> Result<Self, StudiesError> {
+        let layout = SiteTableLayout::of(study, list);
+        let paths = site_table_paths(result);
+        let [spectra, coefficients, map] = &paths;
+        let mut files = [GrowingFile::create(spectra)?, GrowingFile::create(coefficients)?, GrowingFile::create(map)?];
+        let columns = [layout.spectra_columns(), layout.coefficient_columns(&list.carried)];
+        for (file, names) in files.iter_mut().zip(&columns) {
+            let cells: Vec<String> = names.iter().map(|name| cell(name)).collect();
+            file.write(&format!("{}\n", cells.join(",")))?;
+        }
+        files[2].write(&format!(
+            "{{\"type\":\"FeatureCollection\",\n\"provenance\":{},\n\"features\":[",
+            json_text(line)
+        ))?;
+        Ok(Self { paths, files, layout, features: 0, line: line.to_owned(), columns })
+    }
+
+    /// What the rows and properties are called.
+    pub fn layout(&self) -> &SiteTableLayout {
+        &self.layout
+    }
+
+    /// Append a site.
+    ///
+    /// # Errors
+    /// A disk that is full, for instance.
+    pub fn write(&mut self, site: &SiteText) -> Result<(), StudiesError> {
+        let [spectra, coefficients, map] = &mut self.files;
+        spectra.write(&site.spectra)?;
+        coefficients.write(&site.coefficients)?;
+        map.write(if self.features == 0 { "\n" } else { ",\n" })?;
+        self.features += 1;
+        map.write(&site.feature)
+    }
+
+    /// Put the files in their places.
+    ///
+    /// # Errors
+    /// A disk that is full, for instance; earlier files are then as they were.
+    pub fn finish(mut self) -> Result<Vec<PathBuf>, StudiesError> {
+        self.files[2].write("\n]}\n")?;
+        for file in &mut self.files {
+            file.flush()?;
+        }
+        for (path, names) in self.paths.iter().zip(&self.columns) {
+            write_metadata(path, &self.line, names.iter().map(String::as_str))?;
+        }
+        self.files.into_iter().try_for_each(GrowingFile::put_in_place)?;
+        Ok(self.paths.into())
+    }
+}
+
+impl SiteTableLayout {
+    fn of(study: &UniformRiskStudy, list: &SiteList) -> Self {
+        let chosen = study.site_table.as_ref().and_then(|table| table.strengths.as_ref()).map(|chosen| {
+            let is_chosen = |&index: &usize| chosen.contains(&study.strengths[index]);
+            (0..study.strengths.len()).filter(is_chosen).collect::<Vec<usize>>()
+        });
+        let in_table = chosen.clone().unwrap_or_else(|| (0..study.strengths.len()).collect());
+        let on_map = chosen.unwrap_or_else(|| nearest(&study.strengths, &SHOWN_ON_MAP));
+        let labels = strength_labels(on_map.iter().map(|&index| study.strengths[index]));
+        let years = study.risk.years;
+        let measure_names = |key: &str, label| MeasureNames {
+            label,
+            poes: (study.risk.poe.iter())
+                .map(|&poe| PoeNames {
+                    poe,
+                    key: format!("{key}_{}pct_{years}yr", (poe * 1e10).round() / 1e8),
+                    ordinates: labels.iter().map(|label| format!("_u_m_at_{label}")).collect(),
+                })
+                .collect(),
+        };
+        let mut layout = Self {
+            years,
+            strengths: study.strengths.to_vec(),
+            in_table,
+            on_map,
+            measures: (list.exports.iter())
+                .map(|export| measure_names(export.measure.key(), export.measure.label()))
+                .collect(),
+            carried: Vec::new(),
+            is_repaired: study.consistency.repair == Repair::Weights,
+        };
+        let mut taken = layout.property_names();
+        layout.carried = distinct(&list.carried, &mut taken).iter().map(|name| json_text(name)).collect();
+        layout
+    }
+
+    fn spectra_columns(&self) -> Vec<String> {
+        SPECTRA.into_iter().chain(self.is_repaired.then_some(consistent::SPECTRA)).map(str::to_owned).collect()
+    }
+
+    fn coefficient_columns(&self, carried: &[String]) -> Vec<String> {
+        let repaired = consistent::COEFFICIENTS.into_iter().filter(|_| self.is_repaired);
+        let own: Vec<String> = COEFFICIENTS.into_iter().chain(repaired).map(str::to_owned).collect();
+        let carried = distinct(carried, &mut own.iter().cloned().collect());
+        own.into_iter().chain(carried).collect()
+    }
+
+    /// The properties of a feature but for cells carried along.
+    fn property_names(&self) -> BTreeSet<String> {
+        let mut names: BTreeSet<String> = ["name", "problem"].map(str::to_owned).into();
+        for names_of_poe in self.measures.iter().flat_map(|measure| &measure.poes) {
+            let endings = names_of_poe.ordinates.iter().map(String::as_str).chain(["_c0_m", "_c1", "_c2_m", "_rmse_m"]);
+            names.extend(endings.map(|ending| format!("{}{ending}", names_of_poe.key)));
+            let repaired = names_of_poe.ordinates.iter().filter(|_| self.is_repaired);
+            names.extend(repaired.map(|ending| format!("{}_consistent{ending}", names_of_poe.key)));
+        }
+        names
+    }
+
+    /// A site with its spectra in each export, or why it has none, and with what consistency says of each where the
+    /// study asks for a repair.
+    pub fn text(
+        &self,
+        site: &ListedSite,
+        spectra: &[Result<SiteSpectra, String>],
+        consistency: Option<&[SiteConsistency]>,
+    ) -> SiteText {
+        let mut text = SiteText { spectra: String::new(), coefficients: String::new(), feature: String::new() };
+        let place = format!("{},{:?},{:?}", cell(&site.name), site.longitude_deg, site.latitude_deg);
+        let mut tail = String::new();
+        let mut carried = String::new();
+        for (key, value) in self.carried.iter().zip(site.carried()) {
+            let _ = write!(tail, ",{}", cell(value));
+            let _ = write!(carried, ",{key}:{}", json_cell(value));
+        }
+        let mut problems: Vec<String> = Vec::new();
+        let mut properties = String::new();
+        for (export, (names, spectra)) in self.measures.iter().zip(spectra).enumerate() {
+            let consistency = consistency.map(|of_exports| &of_exports[export]);
+            if let Err(reason) = spectra {
+                problems.push(format!("{}: {reason}", names.label));
+            }
+            for (row, poe) in names.poes.iter().enumerate() {
+                let spectra = spectra.as_ref();
+                let spectrum = spectra.ok().and_then(|spectra| spectra.ordinates.chunks(self.strengths.len()).nth(row));
+                let fit = spectra.map(|spectra| spectra.fits[row].as_ref());
+                let head = format!("{place},{},{:?},{:?}", names.label, poe.poe, self.years);
+                let repaired = consistency.and_then(|own| consistent::spectrum(own, row, self.strengths.len()));
+                self.spectrum_rows(&mut text.spectra, &head, spectrum.unwrap_or_default(), repaired);
+                let (fit, problem) = match fit {
+                    Err(reason) => (None, reason.clone()),
+                    Ok(Err(reason)) => (None, format!("no fit: {reason}")),
+                    Ok(Ok(fit)) if fit.at_search_limit => (Some(fit), NO_EXPONENTIAL.to_owned()),
+                    Ok(Ok(fit)) => (Some(fit), String::new()),
+                };
+                if !problem.is_empty() && spectrum.is_some() {
+                    problems.push(format!("{}: {problem}", poe.key));
+                }
+                let own = coefficient_cells(fit);
+                let of_repair = consistency.map(|own| consistent::coefficient_cells(own, row)).unwrap_or_default();
+                let _ = writeln!(text.coefficients, "{head},{own},{}{of_repair}{tail}", cell(&problem));
+                for (&strength, ending) in self.on_map.iter().zip(&poe.ordinates) {
+                    let u_m =
+                        spectrum.and_then(|spectrum| spectrum.get(strength)).map(|ordinate| ordinate.displacement_m);
+                    let _ = write!(properties, ",\"{}{ending}\":{}", poe.key, json_number(u_m));
+                }
+                if self.is_repaired {
+                    let shown = self.on_map.iter().copied().zip(poe.ordinates.iter().map(String::as_str));
+                    properties += &consistent::properties(repaired, &poe.key, shown);
+                }
+                for (ending, value) in COEFFICIENTS_ON_MAP {
+                    let _ = write!(properties, ",\"{}{ending}\":{}", poe.key, json_number(fit.map(value)));
+                }
+            }
+        }
+        let problem = if problems.is_empty() { "null".to_owned() } else { json_text(&problems.join("; ")) };
+        // east of 180° is west of it, as RFC 7946 counts
+        let longitude = if site.longitude_deg > 180.0 { site.longitude_deg - 360.0 } else { site.longitude_deg };
+        let _ = write!(
+            text.feature,
+            "{{\"type\":\"Feature\",\"geometry\":{{\"type\":\"Point\",\"coordinates\":[{longitude:?},{:?}]}},\"properties\":{{\"name\":{}{properties},\"problem\":{problem}{carried}}}}}",
+            site.latitude_deg,
+            json_text(&site.name),
+        );
+        text
+    }
+
+    fn spectrum_rows(&self, rows: &mut String, head: &str, spectrum: &[Ordinate], repaired: Option<&[Ordinate]>) {
+        for &index in self.in_table.iter().filter(|&&index| index < spectrum.len()) {
+            let Ordinate { displacement_m, flag, .. } = spectrum[index];
+            let _ = write!(rows, "{head},{:?},{displacement_m:?},{}", self.strengths[index], flag_word(flag));
+            if self.is_repaired {
+                let u_m = repaired.map_or(f64::NAN, |repaired| repaired[index].displacement_m);
+                let _ = write!(rows, ",{}", number(u_m));
+            }
+            rows.push('\n');
+        }
+    }
+}
+
+const NO_EXPONENTIAL: &str = "the spectrum is no decaying exponential: its coefficients mean nothing one by one";
+
+/// Ending of a property with what it holds.
+type Coefficient = (&'static str, fn(&ExponentialFit) -> f64);
+
+const COEFFICIENTS_ON_MAP: [Coefficient; 4] =
+    [("_c0_m", |fit| fit.c0), ("_c1", |fit| fit.c1), ("_c2_m", |fit| fit.c2), ("_rmse_m", |fit| fit.rmse)];
+
+/// The cells from `c0_m` to `bound_active`.
+fn coefficient_cells(fit: Option<&ExponentialFit>) -> String {
+    fit.map_or_else(
+        || ",,,,".to_owned(),
+        |fit| {
+            format!(
+                "{},{},{},{},{}",
+                number(fit.c0),
+                number(fit.c1),
+                number(fit.c2),
+                number(fit.rmse),
+                fit.bound_active
+            )
+        },
+    )
+}
+
+/// A number of a table; nothing where it is not known.
+pub(super) fn number(value: f64) -> String {
+    if value.is_nan() { String::new() } else { format!("{value:?}") }
+}
+
+/// A cell of a table, in quotes where its content could be taken for the table's structure.
+pub(super) fn cell(text: &str) -> String {
+    let text = neutral(text);
+    let quoted = text.contains([',', '"', '\n', '\r']) || text.starts_with('#');
+    if quoted { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.into_owned() }
+}
+
+fn json_text(text: &str) -> String {
+    serde_json::Value::from(text).to_string()
+}
+
+/// A number of JSON, which has neither infinity nor NaN.
+pub(super) fn json_number(value: Option<f64>) -> String {
+    value.filter(|value| value.is_finite()).map_or_else(|| "null".to_owned(), |value| format!("{value:?}"))
+}
+
+/// A cell carried along: a number where it is written as JSON writes one, so that 0012 stays text.
+fn json_cell(text: &str) -> String {
+    match serde_json::from_str::<serde_json::Number>(text) {
+        Ok(_) => text.to_owned(),
+        Err(_) if text.is_empty() => "null".to_owned(),
+        Err(_) => json_text(text),
+    }
+}
+
+/// Names of the strengths on the map: four decimals where these tell them apart, else all digits.
+fn strength_labels(strengths: impl Iterator<Item = f64>) -> Vec<String> {
+    let strengths: Vec<f64> = strengths.collect();
+    let short = |strength: &f64| ((strength * 1e4).round() / 1e4).to_string();
+    let labels: Vec<String> = strengths.iter().map(short).collect();
+    let distinct: BTreeSet<&String> = labels.iter().collect();
+    if distinct.len() == labels.len() { labels } else { strengths.iter().map(ToString::to_string).collect() }
+}
+
+/// Names that no other has: `table_` goes before those that are taken.
+fn distinct(names: &[String], taken: &mut BTreeSet<String>) -> Vec<String> {
+    let distinct = names.iter().map(|name| {
+        let mut name = name.trim().to_owned();
+        while !taken.insert(name.clone()) {
+            name.insert_str(0, "table_");
+        }
+        name
+    });
+    distinct.collect()
+}
+
+/// A file that is written bit by bit, and put in its place when it is complete.
+#[derive(Debug)]
+struct GrowingFile {
+    place: AtomicFile,
+    writer: BufWriter<File>,
+}
+
+impl GrowingFile {
+    fn create(path: &Path) -> Result<Self, StudiesError> {
+        let place = AtomicFile::reserve(path)?;
+        let file = File::options().write(true).open(place.partial()).map_err(io_error(path, "write the file"))?;
+        Ok(Self { place, writer: BufWriter::with_capacity(1 << 18, file) })
+    }
+
+    fn write(&mut self, text: &str) -> Result<(), StudiesError> {
+        Ok(self.writer.write_all(text.as_bytes()).map_err(io_error(self.place.target(), "write the file"))?)
+    }
+
+    fn flush(&mut self) -> Result<(), StudiesError> {
+        Ok(self.writer.flush().map_err(io_error(self.place.target(), "write the file"))?)
+    }
+
+    fn put_in_place(self) -> Result<(), StudiesError> {
+        Ok(self.place.replace()?)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_survive_a_table_and_json() {
+        for (text, csv, json) in [
+            ("Sion", "Sion", "\"Sion\""),
+            ("Sion, \"old\"", "\"Sion, \"\"old\"\"\"", "\"Sion, \\\"old\\\"\""),
+            ("0012", "0012", "\"0012\""),
+            ("-1.5e3", "-1.5e3", "-1.5e3"),
+            ("nan", "nan", "\"nan\""),
+            ("", "", "null"),
+            ("#1", "\"#1\"", "\"#1\""),
+            ("=1+1", "'=1+1", "\"=1+1\""),
+        ] {
+            assert_eq!((cell(text).as_str(), json_cell(text).as_str()), (csv, json));
+        }
+        assert_eq!(
+            [json_number(Some(f64::INFINITY)), json_number(Some(1e-9)), json_number(None)],
+            ["null", "1e-9", "null"]
+        );
+    }
+
+    #[test]
+    fn names_are_distinct() {
+        assert_eq!(strength_labels([0.1, 1.0 / 3.0].into_iter()), ["0.1", "0.3333"]);
+        assert_eq!(strength_labels([0.1, 0.100_001].into_iter()), ["0.1", "0.100001"]);
+        let names = ["vs30", "problem", "vs30"].map(str::to_owned);
+        let mut taken = COEFFICIENTS.map(str::to_owned).into();
+        assert_eq!(distinct(&names, &mut taken), ["vs30", "table_problem", "table_vs30"]);
+    }
+}

@@ -1,0 +1,94 @@
+//! Hazard curves in the result file, and the spectra of weighted ones.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use uplift_hazard::HazardCurve;
+use uplift_inputs::{HazardInput, OtherHazard, SiteHazard};
+use uplift_labelled::{LabelledError, LabelledWriter};
+use uplift_result::layout::{axis, epistemic, hazard as layout, uncertainty};
+use uplift_uniform_risk::{BRANCHES, Spectra, write_branch_spectra};
+
+use super::Outcome;
+
+/// Write the curves `[measure][site]` with their branches.
+pub(super) fn write_hazard(writer: &mut LabelledWriter, hazard: &[Vec<SiteHazard>]) -> Result<(), LabelledError> {
+    let mut axes = BTreeSet::new();
+    for site in hazard.iter().flatten() {
+        let label = site.measure.label();
+        let axis = axis::hazard(&site.site, site.measure, &mut axes);
+        write_curve(writer, of_input(&site.curve), &layout::group(&site.site, site.measure), &axis, label)?;
+        for (index, branch) in site.branches.iter().enumerate() {
+            let group = layout::branch(&site.site, site.measure, index);
+            write_curve(writer, of_input(&branch.input), &group, &format!("{axis}_{}", index + 1), label)?;
+            writer.attribute(&group, "name", branch.name.as_str())?;
+            writer.attribute(&group, "weight", branch.weight)?;
+        }
+    }
+    Ok(())
+}
+
+/// Write the curves of measures that the study is not analysed by.
+pub(super) fn write_other_hazard(writer: &mut LabelledWriter, hazard: &[OtherHazard]) -> Result<(), LabelledError> {
+    let mut axes = BTreeSet::new();
+    for other in hazard {
+        let axis = axis::hazard(&other.site, other.measure, &mut axes);
+        let file = other.file.as_deref();
+        let group = layout::group(&other.site, other.measure);
+        write_curve(writer, (&other.curve, file), &group, &axis, other.measure.label())?;
+    }
+    Ok(())
+}
+
+fn write_curve(
+    writer: &mut LabelledWriter,
+    (curve, file): (&HazardCurve, Option<&Path>),
+    group: &str,
+    axis: &str,
+    label: &str,
+) -> Result<(), LabelledError> {
+    writer.axis_f64(axis, curve.im(), curve.unit(), &format!("{label} of the hazard curve"))?;
+    let path = layout::maf_per_year(group);
+    writer.array_f64(&path, &[axis], curve.maf(), "1/yr", "mean annual frequency of exceedance")?;
+    let file = file.map(|file| file.display().to_string()).unwrap_or_default();
+    writer.attribute(group, "source", curve.source())?;
+    writer.attribute(group, "file", file.as_str())?;
+    writer.attribute(group, "unit", curve.unit())
+}
+
+fn of_input(input: &HazardInput) -> (&HazardCurve, Option<&Path>) {
+    (&input.curve, input.file.as_deref())
+}
+
+/// Write the spectra of the branches of `spectra`, their mean and their fractiles.
+pub(super) fn write_branches(
+    writer: &mut LabelledWriter,
+    outcome: &Outcome<'_>,
+    spectra: &Spectra,
+) -> Result<(), LabelledError> {
+    let mut axes = BTreeSet::new();
+    for branches in &spectra.branches {
+        let site = &outcome.study.sites[branches.site].name;
+        let axis = axis::branch(site, spectra.measure, &mut axes);
+        writer.axis_text(&axis, &branches.names, "branch of the hazard")?;
+        let path = |name: &str| epistemic::array(spectra.measure, site, name);
+        writer.array_f64(&path("weight"), &[&axis], &branches.weights, "1", "weight of the branch")?;
+        write_branch_spectra(writer, branches, (&axis, BRANCHES), path)?;
+    }
+    Ok(())
+}
+
+/// Write the spectra of the structures that may be, their mean and their fractiles.
+pub(super) fn write_structures(
+    writer: &mut LabelledWriter,
+    outcome: &Outcome<'_>,
+    spectra: &Spectra,
+) -> Result<(), LabelledError> {
+    for structures in &spectra.structures {
+        let site = &outcome.study.sites[structures.site].name;
+        write_branch_spectra(writer, structures, (axis::STRUCTURE, ["structure", "structures"]), |name| {
+            uncertainty::array(spectra.measure, site, name)
+        })?;
+    }
+    Ok(())
+}

@@ -1,0 +1,173 @@
+//! A result asked for other risks than those of its study: its stripes and hazard hold them all.
+
+use uplift_hazard::probability_from_rate;
+use uplift_job::{Array, JobError, in_file};
+use uplift_plausible::{PROBABILITY, RETURN_PERIOD, YEARS};
+use uplift_result::{Fit, MeasureSpectra, ResultFile, RiskAxes, StoredSpectra};
+use uplift_risk::Ordinate;
+use uplift_study::{Kind, UniformRiskStudy};
+
+use crate::coefficients::Coefficients;
+use crate::consistency::consistency_of_asked;
+use crate::error::UniformRiskError;
+use crate::site_risk::{SiteRisk, SiteSpectra};
+use crate::spectra::Spectra;
+use crate::stored_stripes::{StoredMeasure, stored_measure};
+
+/// Most risks, each a spectrum for every site.
+const MOST_RISKS: usize = 1000;
+
+/// What the command line calls them.
+const POE_OPTION: &str = "--poe";
+const RETURN_PERIOD_OPTION: &str = "--return-period";
+const YEARS_OPTION: &str = "--years";
+
+/// The risks that a result is asked for; by default those of its study.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct AskedRisk {
+    /// What spectra are asked for.
+    pub targets: RiskTargets,
+    /// Years that probabilities refer to; those of the study where none are given.
+    pub years: Option<f64>,
+}
+
+/// What spectra are asked for.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub enum RiskTargets {
+    /// Those of the probabilities of the study.
+    #[default]
+    OfStudy,
+    /// Those of these probabilities of exceedance, within [`PROBABILITY`].
+    Probabilities(Vec<f64>),
+    /// Those of these return periods, years: a rate of one in so many (Eq. 4.8).
+    ReturnPeriods(Vec<f64>),
+}
+
+impl AskedRisk {
+    /// One probability of exceedance in the years of the study.
+    pub fn probability(poe: f64) -> Self {
+        Self { targets: RiskTargets::Probabilities(vec![poe]), years: None }
+    }
+
+    /// Whether nothing else is asked for than what the study has.
+    pub fn is_of_study(&self) -> bool {
+        self.targets == RiskTargets::OfStudy && self.years.is_none()
+    }
+
+    /// The probabilities asked for, and the years that they refer to, of a study with `poes` in `years`.
+    fn probabilities(&self, poes: &[f64], years: f64) -> Result<(Vec<f64>, f64), UniformRiskError> {
+        let years = match self.years {
+            Some(years) => YEARS.check("--years", years).map_err(|mistake| JobError::Implausible(vec![mistake]))?,
+            None => years,
+        };
+        let (option, given) = match &self.targets {
+            RiskTargets::OfStudy => (YEARS_OPTION, poes),
+            RiskTargets::Probabilities(poes) => (POE_OPTION, poes.as_slice()),
+            RiskTargets::ReturnPeriods(periods) => (RETURN_PERIOD_OPTION, periods.as_slice()),
+        };
+        let mut mistakes = Vec::new();
+        let mut asked: Vec<f64> = Vec::new();
+        for &value in given {
+            match probability(option, value, years) {
+                Ok(poe) if asked.contains(&poe) => mistakes.push(format!("{option} {value} is given twice")),
+                Ok(poe) => asked.push(poe),
+                Err(mistake) => mistakes.push(mistake),
+            }
+        }
+        if given.is_empty() || given.len() > MOST_RISKS {
+            mistakes = vec![format!("{option}: {} are given; from 1 to {MOST_RISKS} are possible", given.len())];
+        }
+        if mistakes.is_empty() { Ok((asked, years)) } else { Err(JobError::Usage(mistakes.join("\n")).into()) }
+    }
+}
+
+/// The probability of exceedance in `years` that the `value` of an `option` asks for, or why there is none.
+fn probability(option: &str, value: f64, years: f64) -> Result<f64, String> {
+    let poe = if option == RETURN_PERIOD_OPTION {
+        RETURN_PERIOD.check(RETURN_PERIOD_OPTION, value).map_err(|mistake| mistake.to_string())?;
+        probability_from_rate(1.0 / value, years).map_err(|error| error.to_string())?
+    } else {
+        value
+    };
+    if PROBABILITY.contains(poe) {
+        return Ok(poe);
+    }
+    Err(if option == RETURN_PERIOD_OPTION {
+        let (what, way_out) = if poe > 0.5 { ("certain", "fewer") } else { ("rarer than can be told", "more") };
+        format!("{option} {value}: in {years} years that is {what}: give {way_out} --years")
+    } else if poe > 0.0 && poe < 1.0 {
+        format!("{option} {value:e}: a probability is {PROBABILITY}")
+    } else {
+        format!(
+            "{option} {value}: a probability is above 0 and below 1 (10 % is 0.1 or 10%; a comma separates two, the \
+             decimal mark is a point)"
+        )
+    })
+}
+
+/// The result `file` at the risks asked for: axes, spectra, coefficients, warnings, stripes and study are from now on of
+/// these, read off the stripes as a run reads them, to the bit; bands once they are resampled.
+///
+/// # Errors
+/// Risks that are none; a file that is damaged, or of another kind; a study without sites.
+pub fn at(file: ResultFile, asked: &AskedRisk) -> Result<ResultFile, UniformRiskError> {
+    if asked.is_of_study() {
+        return Ok(file);
+    }
+    if file.kind() != Kind::UniformRisk {
+        return Err(file
+            .fail(
+                "holds displacement spectra of record sets, which are of no probability: leave out --poe, \
+                 --return-period and --years",
+            )
+            .into());
+    }
+    let axes = file.axes_with_sites()?;
+    let mut study = file.stored_study()?;
+    (study.risk.poe, study.risk.years) = asked.probabilities(&axes.poes, axes.years)?;
+    let mut measures = Vec::new();
+    for measure in file.measures() {
+        let stripes = stored_measure(&file, &axes, &[], measure, study.risk.extrapolate)?;
+        let (spectra, fits) = read(&study, &axes, &stripes).map_err(|error| in_file(error, file.path()))?;
+        measures.push(stored_spectra(&spectra, &fits));
+    }
+    let RiskAxes { strengths, sites, .. } = axes;
+    let spectra = StoredSpectra { strengths, poes: study.risk.poe, years: study.risk.years, sites, measures };
+    let file = file.with_spectra(spectra);
+    let consistency = consistency_of_asked(&file)?;
+    Ok(file.with_consistency(consistency))
+}
+
+/// Spectra and their coefficients as a result holds them.
+pub fn stored_spectra(spectra: &Spectra, coefficients: &Coefficients) -> MeasureSpectra {
+    let of = |value: fn(&Ordinate) -> f64| spectra.ordinates.map(value);
+    MeasureSpectra {
+        measure: spectra.measure,
+        u_m: of(|ordinate| ordinate.displacement_m),
+        flags: spectra.ordinates.map(|ordinate| ordinate.flag),
+        lower_tail_share: of(|ordinate| ordinate.lower_tail_share),
+        upper_tail_share: of(|ordinate| ordinate.upper_tail_share),
+        fits: coefficients.fits.map(|fit| Fit::of(fit.as_ref().ok())),
+    }
+}
+
+/// The spectra of `study` and their coefficients, off `stripes`.
+fn read(
+    study: &UniformRiskStudy,
+    axes: &RiskAxes,
+    stripes: &StoredMeasure,
+) -> Result<(Spectra, Coefficients), UniformRiskError> {
+    let (strengths, poes) = (axes.strengths.len(), study.risk.poe.len());
+    let risk = SiteRisk::of(study, strengths, |strength| stripes.demand(strength))?;
+    let of_site = |weights| risk.spectra(weights).map_err(JobError::input);
+    let sites: Vec<SiteSpectra> = stripes.weights.iter().map(of_site).collect::<Result<_, _>>()?;
+    let ordinates = Array::from_fn([sites.len(), poes, strengths], |[site, poe, strength]| {
+        sites[site].ordinates[poe * strengths + strength]
+    });
+    let fits = Array::from_fn([sites.len(), poes], |[site, poe]| sites[site].fits[poe].clone());
+    let measure = stripes.measure;
+    Ok((
+        Spectra { measure, ordinates, branches: Vec::new(), structures: Vec::new(), maf_per_year: None },
+        Coefficients { measure, fits },
+    ))
+}

@@ -1,0 +1,337 @@
+//! Consistency in the result file, and as a table beside it.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use polars::prelude::Column;
+use uplift_consistency::{DEVIATION_RATES, Deviation, Diagnosis, KNOTS, Repaired};
+use uplift_job::outputs::beside;
+use uplift_labelled::{LabelledError, LabelledWriter};
+use uplift_motion::IntensityMeasure;
+use uplift_result::layout::{axis, consistency as layout};
+use uplift_result::{Fit, REPAIRED_FITS, flag_number, sign};
+use uplift_risk::Ordinate;
+
+use super::{ConsistencyReport, Finding, Question, Repairs};
+use crate::{BRANCHES, write_branch_spectra};
+
+/// Flag of an ordinate that does not exist, since the set could not be repaired.
+const NO_REPAIR: u8 = 3;
+
+/// A column: what it is of the thing that a row is about.
+type Of<T, V = f64> = fn(&T) -> V;
+/// Levels of the other measure over the rates compared, where there are some.
+type LevelsOf = fn(&Finding) -> Option<&[f64]>;
+/// The same over the levels of a repaired set.
+type OfLevels = Of<Repaired, Vec<f64>>;
+
+/// The groups and axes that a new look replaces.
+pub fn replaced() -> Vec<String> {
+    let axes = [axis::RATE, axis::KNOT].map(axis::path);
+    std::iter::once(layout::ROOT.to_owned()).chain(axes).collect()
+}
+
+/// The table beside the result file.
+pub fn consistency_path(result: &Path) -> PathBuf {
+    beside(result, "consistency.csv")
+}
+
+/// Whether the weights of all runs are kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Keep {
+    /// No: they follow from the exponents.
+    Exponents,
+    /// Yes.
+    Weights,
+}
+
+/// Adds `findings` and the spectra of their weights to a result.
+///
+/// # Errors
+/// A file that cannot be written.
+pub fn add(
+    writer: &mut LabelledWriter,
+    question: &Question,
+    findings: &[Finding],
+    repairs: &[Repairs],
+    keep: Keep,
+) -> Result<(), LabelledError> {
+    if findings.is_empty() {
+        return Ok(());
+    }
+    sign(writer, layout::ROOT)?;
+    writer.attribute(layout::ROOT, "smoothness", question.settings.smoothness)?;
+    writer.attribute(layout::ROOT, "repair", if repairs.is_empty() { "none" } else { "weights" })?;
+    let rates: Vec<u32> = (1..).take(DEVIATION_RATES).collect();
+    writer.axis_u32(axis::RATE, &rates, "1", "annual rate at which hazards are compared, the most frequent first")?;
+    let knots: Vec<u32> = (1..).take(KNOTS).collect();
+    writer.axis_u32(axis::KNOT, &knots, "1", "knot of the weights' exponent")?;
+    for (measure, _) in &question.analyses {
+        let own: Vec<&Finding> = findings.iter().filter(|finding| finding.scaled_to == *measure).collect();
+        let Some(first) = own.first() else { continue };
+        let table = Table { writer, question, measure: *measure, other: first.other, findings: &own };
+        table.write(repairs.iter().find(|repairs| repairs.measure == *measure), keep)?;
+    }
+    Ok(())
+}
+
+/// The arrays of one measure.
+struct Table<'a> {
+    writer: &'a mut LabelledWriter,
+    question: &'a Question,
+    measure: IntensityMeasure,
+    other: IntensityMeasure,
+    findings: &'a [&'a Finding],
+}
+
+impl Table<'_> {
+    fn write(mut self, repairs: Option<&Repairs>, keep: Keep) -> Result<(), LabelledError> {
+        self.deviation()?;
+        self.targets()?;
+        if let Some(repairs) = repairs {
+            self.weights(keep)?;
+            self.spectra(repairs)?;
+            self.branches(repairs)?;
+        }
+        Ok(())
+    }
+
+    /// The spectra of weighted hazard curves, each repaired by itself.
+    fn branches(&mut self, repairs: &Repairs) -> Result<(), LabelledError> {
+        let mut axes = BTreeSet::new();
+        // as the plain spectra of the branches name them, whether repaired or not
+        let of_site = |site: usize| {
+            let has_branches = self.question.branches.contains_key(&(self.measure, site));
+            has_branches.then(|| axis::branch(&self.question.sites[site], self.measure, &mut axes))
+        };
+        let axes: Vec<Option<String>> = (0..self.question.sites.len()).map(of_site).collect();
+        for branches in &repairs.branches {
+            let site = &self.question.sites[branches.site];
+            let Some(axis) = &axes[branches.site] else { continue };
+            let path = |name: &str| layout::branches(self.measure, site, name);
+            write_branch_spectra(self.writer, branches, (axis, BRANCHES), path)?;
+        }
+        Ok(())
+    }
+
+    /// Values `[site, inner]` of the sites that were looked at, NaN of the others.
+    fn by_site(&self, inner: usize, values: impl Fn(&Finding) -> Vec<f64>) -> Vec<f64> {
+        let mut all = vec![f64::NAN; self.question.sites.len() * inner];
+        for finding in self.findings {
+            let own = values(finding);
+            all[finding.site * inner..][..own.len()].copy_from_slice(&own);
+        }
+        all
+    }
+
+    fn array(
+        &mut self,
+        name: &str,
+        dims: &[&str],
+        values: &[f64],
+        unit: &str,
+        what: &str,
+    ) -> Result<(), LabelledError> {
+        self.writer.array_f64(&layout::array(self.measure, name), dims, values, unit, what)
+    }
+
+    /// The hazard of the other measure: the site's, what the records bring, and what weighted ones bring.
+    fn deviation(&mut self) -> Result<(), LabelledError> {
+        let (other, unit) = (self.other, self.other.unit());
+        let rates = self.by_site(DEVIATION_RATES, |finding| finding.range.rates::<DEVIATION_RATES>().to_vec());
+        self.array("rate_per_year", &[axis::SITE, axis::RATE], &rates, "1/yr", "annual rate of exceedance")?;
+        let levels: [(&str, LevelsOf, &str); 3] = [
+            (
+                "site",
+                |own| Some(&own.diagnosis.deviation.as_ref()?.site_levels),
+                "level of the site's own hazard curve",
+            ),
+            ("implied", |own| Some(&own.diagnosis.deviation.as_ref()?.implied_levels), "level that the records bring"),
+            (
+                "repaired",
+                |own| Some(&own.repaired()?.diagnosis.deviation.as_ref()?.implied_levels),
+                "level that the weighted records bring",
+            ),
+        ];
+        for (name, levels, what) in levels {
+            let values = self.by_site(DEVIATION_RATES, |finding| levels(finding).unwrap_or_default().to_vec());
+            let name = layout::of_other(other, name);
+            self.array(&name, &[axis::SITE, axis::RATE], &values, unit, &format!("{what}, {}", other.label()))?;
+        }
+        let number = |value: Of<Deviation>| {
+            move |finding: &Finding| vec![finding.diagnosis.deviation.as_ref().map_or(f64::NAN, value)]
+        };
+        let columns: [(&str, Of<Deviation>, &str); 3] = [
+            ("bias", |deviation| deviation.bias, "level that the records bring over the site's, mean of the range"),
+            ("rms", |deviation| deviation.rms, "root mean square of ln(implied/site)"),
+            ("max", |deviation| deviation.max, "largest absolute ln(implied/site)"),
+        ];
+        for (name, value, what) in columns {
+            let values = self.by_site(1, number(value));
+            self.array(&layout::of_other(other, name), &[axis::SITE], &values, "1", what)?;
+        }
+        let mut verdicts = vec![String::new(); self.question.sites.len()];
+        for finding in self.findings {
+            verdicts[finding.site] =
+                finding.diagnosis.verdict().map_or_else(String::new, |verdict| verdict.key().into());
+        }
+        let path = layout::array(self.measure, &layout::of_other(other, "verdict"));
+        self.writer.array_text(&path, &[axis::SITE], &verdicts, "consistent, off or inconsistent; empty where unknown")
+    }
+
+    /// What the records bring at each probability.
+    fn targets(&mut self) -> Result<(), LabelledError> {
+        type OfTarget = fn(&Diagnosis, usize) -> f64;
+        let poes = self.question.poes.len();
+        let dims = [axis::SITE, axis::POE];
+        let columns: [(&str, OfTarget, &str); 7] = [
+            ("ratio", |d, at| d.targets[at].ratio.unwrap_or(f64::NAN), "level that the records bring over the site's"),
+            (
+                "times_as_often",
+                |d, at| d.targets[at].times_as_often.unwrap_or(f64::NAN),
+                "how many times as often as it should the site's level is reached",
+            ),
+            ("scale_factor_05", |d, at| d.targets[at].scale_factors.percentiles[0], "5 % of the scale factors"),
+            ("scale_factor_50", |d, at| d.targets[at].scale_factors.percentiles[1], "median of the scale factors"),
+            ("scale_factor_95", |d, at| d.targets[at].scale_factors.percentiles[2], "95 % of the scale factors"),
+            (
+                "scale_factors_outside",
+                |d, at| d.targets[at].scale_factors.outside_limits,
+                "share of the scale factors outside consistency.scale_factors",
+            ),
+            (
+                "effective_events",
+                |d, at| d.stripes[d.targets[at].stripe].effective_events.unwrap_or(f64::NAN),
+                "effective earthquakes",
+            ),
+        ];
+        for (name, value, what) in columns {
+            let of = |finding: &Finding| (0..poes).map(|poe| value(&finding.diagnosis, poe)).collect();
+            let values = self.by_site(poes, of);
+            let name = if matches!(name, "ratio" | "times_as_often") {
+                layout::of_other(self.other, name)
+            } else {
+                name.to_owned()
+            };
+            self.array(&name, &dims, &values, "1", what)?;
+        }
+        Ok(())
+    }
+
+    /// The weights of the repair, and what the set is under them.
+    fn weights(&mut self, keep: Keep) -> Result<(), LabelledError> {
+        let question = self.question;
+        let levels = question.levels(self.measure).len();
+        let level = axis::level(self.measure);
+        let of_repaired = |value: OfLevels| move |finding: &Finding| finding.repaired().map_or_else(Vec::new, value);
+        let values = self.by_site(KNOTS, of_repaired(|repaired| repaired.fit.exponents.to_vec()));
+        self.array("exponent", &[axis::SITE, axis::KNOT], &values, "1", "exponent of the weights")?;
+        let values = self.by_site(KNOTS, of_repaired(|repaired| repaired.knot_levels.to_vec()));
+        let what = format!("{} of the knots", self.other.label());
+        self.array("knot", &[axis::SITE, axis::KNOT], &values, self.other.unit(), &what)?;
+        let values = self.by_site(1, of_repaired(|repaired| vec![f64::from(repaired.fit.iterations)]));
+        self.array("iterations", &[axis::SITE], &values, "1", "steps of the fit")?;
+        let stripes: [(&str, OfLevels, &str); 3] = [
+            (
+                "effective_records",
+                |repaired| repaired.diagnosis.stripes.iter().map(|stripe| stripe.effective_records).collect(),
+                "effective records under the weights",
+            ),
+            (
+                "mean_ln_ratio",
+                |repaired| repaired.diagnosis.stripes.iter().map(|stripe| stripe.mean_ln_ratio).collect(),
+                "mean of ln(other measure/measure scaled to) under the weights",
+            ),
+            (
+                "sd_ln_ratio",
+                |repaired| repaired.diagnosis.stripes.iter().map(|stripe| stripe.sd_ln_ratio).collect(),
+                "standard deviation of it",
+            ),
+        ];
+        for (name, value, what) in stripes {
+            let values = self.by_site(levels, of_repaired(value));
+            self.array(name, &[axis::SITE, &level], &values, "1", what)?;
+        }
+        if keep == Keep::Weights {
+            let runs = levels * question.records.len();
+            let values = self.by_site(runs, of_repaired(|repaired| repaired.weights.shares().to_vec()));
+            let dims = [axis::SITE, &level, axis::RECORD];
+            self.array("weight", &dims, &values, "1", "share of the record at the level")?;
+        }
+        Ok(())
+    }
+
+    /// The spectra of the weights, with their fits.
+    fn spectra(&mut self, repairs: &Repairs) -> Result<(), LabelledError> {
+        let dims = [axis::SITE, axis::POE, axis::STRENGTH];
+        let columns: [(&str, Of<Ordinate>, &str, &str); 3] = [
+            ("u_m", |ordinate| ordinate.displacement_m, "m", "uniform risk displacement of the weighted records"),
+            (
+                "lower_tail_share",
+                |ordinate| ordinate.lower_tail_share,
+                "1",
+                "share of its risk from below the first stripe",
+            ),
+            (
+                "upper_tail_share",
+                |ordinate| ordinate.upper_tail_share,
+                "1",
+                "share of its risk from above the last stripe",
+            ),
+        ];
+        for (name, value, unit, what) in columns {
+            let values = repairs.ordinates.map(|ordinate| ordinate.as_ref().map_or(f64::NAN, value)).into_values();
+            self.array(name, &dims, &values, unit, what)?;
+        }
+        let flag =
+            |ordinate: &Option<Ordinate>| ordinate.as_ref().map_or(NO_REPAIR, |ordinate| flag_number(ordinate.flag));
+        let flags = repairs.ordinates.map(flag).into_values();
+        let what = "0 regular, 1 no exceedance so that the ordinate is 0, 2 censored, 3 no repair";
+        self.writer.array_u8(&layout::array(self.measure, "flag"), &dims, &flags, "1", what)?;
+        let fits = repairs.fits.map(|fit| Fit::of(fit.as_ref().ok()));
+        let [sites, poes] = fits.shape();
+        REPAIRED_FITS.write(self.writer, Some(self.measure), &[(axis::SITE, sites), (axis::POE, poes)], &fits)
+    }
+}
+
+/// The rows of a report as a table: a row a measure, site and probability.
+pub fn columns(report: &ConsistencyReport) -> Vec<Column> {
+    let targets = || report.rows.iter().flat_map(|row| row.targets.iter().map(move |target| (row, target)));
+    let text =
+        |value: fn(&super::ConsistencyRow) -> String| -> Vec<String> { targets().map(|(row, _)| value(row)).collect() };
+    let number = |value: fn(&super::ConsistencyRow, &super::TargetRow) -> Option<f64>| -> Vec<Option<f64>> {
+        targets().map(|(row, target)| value(row, target)).collect()
+    };
+    let repaired = |value: fn(&super::TargetRow) -> Option<f64>| -> Vec<Option<f64>> {
+        let of = |(row, target): (&super::ConsistencyRow, &super::TargetRow)| {
+            let own = row.repair.as_ref()?.targets.iter().find(|own| own.poe.to_bits() == target.poe.to_bits())?;
+            value(own)
+        };
+        targets().map(of).collect()
+    };
+    vec![
+        Column::new("site".into(), text(|row| row.site.clone())),
+        Column::new("scaled_to".into(), text(|row| row.scaled_to.to_owned())),
+        Column::new("shows".into(), text(|row| row.shows.to_owned())),
+        Column::new("unit".into(), text(|row| row.unit.to_owned())),
+        Column::new("poe".into(), number(|_, target| Some(target.poe))),
+        Column::new("years".into(), vec![report.years; targets().count()]),
+        Column::new("site_level".into(), number(|_, target| target.site_level)),
+        Column::new("implied_level".into(), number(|_, target| Some(target.implied_level))),
+        Column::new("ratio".into(), number(|_, target| target.ratio)),
+        Column::new("times_as_often".into(), number(|_, target| target.times_as_often)),
+        Column::new("bias".into(), number(|row, _| row.bias)),
+        Column::new("rms".into(), number(|row, _| row.rms)),
+        Column::new("max".into(), number(|row, _| row.max)),
+        Column::new("verdict".into(), text(|row| row.verdict.unwrap_or_default().to_owned())),
+        Column::new("scale_factor_05".into(), number(|_, target| Some(target.scale_factors[0]))),
+        Column::new("scale_factor_50".into(), number(|_, target| Some(target.scale_factors[1]))),
+        Column::new("scale_factor_95".into(), number(|_, target| Some(target.scale_factors[2]))),
+        Column::new("scale_factors_outside".into(), number(|_, target| Some(target.outside_limits))),
+        Column::new("effective_records".into(), number(|_, target| Some(target.effective_records))),
+        Column::new("effective_events".into(), number(|_, target| target.effective_events)),
+        Column::new("repaired_ratio".into(), repaired(|target| target.ratio)),
+        Column::new("repaired_effective_records".into(), repaired(|target| Some(target.effective_records))),
+        Column::new("repaired_effective_events".into(), repaired(|target| target.effective_events)),
+    ]
+}

@@ -1,0 +1,51 @@
+//! How often something happens to a structure, and how often it may where no run shows it.
+
+use serde::Serialize;
+use uplift_hazard::{HazardError, probability_from_rate};
+use uplift_risk::StripeWeights;
+
+/// How often something happens to a structure at a site.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct EventRisk {
+    /// Mean annual frequency, 1/yr (Eq. 4.4).
+    pub per_year: f64,
+    /// Probability that it happens within the years of the study, 0 to 1 (Eq. 4.8 inverted).
+    pub probability: f64,
+    /// Share of the frequency that comes from below the first stripe, 0 to 1; 0 where it never happens.
+    pub lower_tail_share: f64,
+    /// Share of the frequency that comes from above the last stripe, 0 to 1; 0 where it never happens.
+    pub upper_tail_share: f64,
+    /// Where no run shows what may happen: the frequency that it has at most, 1/yr (docs/method.md, section 17). None
+    /// where some run does, or where it cannot happen.
+    pub at_most_per_year: Option<f64>,
+}
+
+impl EventRisk {
+    /// From the shares and their sum, both 1/yr.
+    ///
+    /// # Errors
+    /// Numbers that are no rate and no time, which the checks of study and inputs rule out.
+    pub fn new(per_year: f64, [lower_tail, upper_tail]: [f64; 2], years: f64) -> Result<Self, HazardError> {
+        let share = |tail: f64| if per_year > 0.0 { (tail / per_year).min(1.0) } else { 0.0 };
+        let probability = probability_from_rate(per_year, years)?;
+        let (lower_tail_share, upper_tail_share) = (share(lower_tail), share(upper_tail));
+        Ok(Self { per_year, probability, lower_tail_share, upper_tail_share, at_most_per_year: None })
+    }
+}
+
+/// Confidence of the bound on the share of motions at the last level.
+pub const BOUND_CONFIDENCE: f64 = 0.95;
+
+/// The share of all motions that may do what none of so many pairs did, with [`BOUND_CONFIDENCE`]: nearly 3/N.
+pub fn share_at_most(pairs: f64) -> f64 {
+    1.0 - (1.0 - BOUND_CONFIDENCE).powf(1.0 / pairs)
+}
+
+/// The frequency that something has at most which no run shows, 1/yr: all motions stronger than the last level do it,
+/// and at that level the share that so many pairs leave open; from the level before it on that share grows from zero
+/// as a fragility between stripes does (Eq. 4.4).
+pub fn at_most_per_year(weights: &StripeWeights, pairs: f64) -> f64 {
+    let beyond = weights.upper_tail_per_year();
+    let last = weights.per_year().last().copied().unwrap_or(beyond);
+    beyond + share_at_most(pairs) * (last - beyond)
+}

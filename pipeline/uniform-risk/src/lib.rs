@@ -1,0 +1,44 @@
+//! Spectra of uniform risk in memory: stripes to demands, demands and hazard to spectra, spectra to coefficients; and
+//! the same asked of a result at other risks. Nothing here writes a result.
+//!
+//! | module | what is in it |
+//! |---|---|
+//! | `stripes` | the peaks of one measure, `[record, strength, level]` |
+//! | `spectra`, `coefficients`, `site_risk` | spectra of all sites and their fits; the same site by site |
+//! | `epistemic` | spectra of weighted hazard curves and of structures that are not known exactly |
+//! | `precision` | how well the records know the spectra |
+//! | [`consistency`] | whether the records have the hazard of the other measure, and weights by which they do |
+//! | `asked`, `study_of_result` | a result asked for other risks; its study and records read again |
+//! | `event_risk` | how often something happens to a structure |
+
+mod asked;
+mod coefficients;
+pub mod consistency;
+mod epistemic;
+mod error;
+mod event_risk;
+mod precision;
+mod site_risk;
+mod spectra;
+mod stored_stripes;
+mod stripes;
+mod study_of_result;
+mod units;
+
+pub use asked::{AskedRisk, RiskTargets, at, stored_spectra};
+pub use coefficients::{Coefficients, fit_ordinates, fit_spectra, fit_spectrum};
+pub use epistemic::{BRANCHES, BranchSpectra, write_branch_spectra};
+pub use error::UniformRiskError;
+pub use event_risk::{BOUND_CONFIDENCE, EventRisk, at_most_per_year, share_at_most};
+pub use precision::{Precision, precision};
+pub use site_risk::{SiteRisk, SiteSpectra};
+pub use spectra::{Reading, Spectra, SpectrumReport, pooled_demand, uniform_risk_spectra};
+pub use stored_stripes::{StoredMeasure, StoredStripes, branch_weights};
+pub use stripes::{
+    Stripes, plan_levels, plan_own_stripes, plan_stripes, seen, shaken_upwards, stripes_of, systems, systems_under,
+};
+pub use study_of_result::{SpectraOfResult, StudyOfResult};
+pub use units::RecordUnits;
+
+/// Of all replicates of repaired spectra, this share may fail before it is a matter to be told.
+pub const MANY_FAILED: f64 = 0.05;

@@ -1,0 +1,171 @@
+//! How well so many records know a spectrum: whether they are enough, in a line.
+//!
+//! Bands of the truth at a few strengths, small enough for every run; `uplift bootstrap` gives those of all.
+
+use rayon::prelude::*;
+use serde::Serialize;
+use uplift_bootstrap::{inferred_limits, units};
+use uplift_fragility::quantile;
+use uplift_inputs::SiteHazard;
+use uplift_job::text::{nearest, per_cent, risk_in_words};
+use uplift_risk::{PooledDemand, RiskCurve, RiskError};
+use uplift_study::UniformRiskStudy;
+
+use super::{Stripes, pooled_demand};
+use crate::consistency::Question;
+use crate::error::UniformRiskError;
+
+/// Strengths that are looked at.
+const STRENGTHS: [f64; 3] = [0.1, 0.2, 0.4];
+/// How often a band is to hold the ordinate of all records there could be.
+const CONFIDENCE: f64 = 0.9;
+/// Bands shrink as one over the root of the records (Section 4.5.1): half as wide takes so many times as many.
+const TIMES_FOR_HALF: usize = 4;
+
+/// How well the records know the spectra by one measure, of the rarest probability of the study.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Precision {
+    /// `PGV` or `PGA`.
+    pub im: &'static str,
+    /// Probability of exceedance.
+    pub poe: f64,
+    /// Years that it refers to.
+    pub years: f64,
+    /// Records in the set.
+    pub records: usize,
+    /// Their earthquakes, a pair whose earthquake is not known being one of its own; none where no two pairs are known
+    /// to share one.
+    pub events: Option<usize>,
+    /// To how many earthquakes of equally many records these amount: 1/Σ (share of the records)².
+    pub effective_events: Option<f64>,
+    /// Half of the 90 % band of the truth over the ordinate, as the records tell it, one by one: the middle one, the
+    /// least and the most, of the sites and the strengths 0.1, 0.2 and 0.4.
+    pub half_width: [f64; 3],
+    /// The middle one as their earthquakes tell it.
+    pub half_width_by_event: Option<f64>,
+    /// Records of the same kind that would halve it.
+    pub records_for_half: usize,
+}
+
+/// The precision of the spectra by the measure of `stripes`; none without sites, for a single record, and where no
+/// ordinate is finite and above 0.
+///
+/// - `question`: knows the earthquakes of the records.
+///
+/// # Errors
+/// Numbers that do not fit together, which the checks of study and inputs rule out.
+pub fn precision(
+    study: &UniformRiskStudy,
+    stripes: &Stripes,
+    hazard: &[SiteHazard],
+    question: &Question,
+) -> Result<Option<Precision>, UniformRiskError> {
+    let event_of = question.event_of();
+    // two components of a pair are not independent
+    let [pairs, earthquakes] = [units(&question.pair_of()), units(&event_of)];
+    let records = event_of.len();
+    // the azimuths or structures of a pair tell no more of other records than the pair does
+    let counted = if study.keeps_pairs_together() { pairs.len() } else { records };
+    let Some(&poe) = study.risk.poe.iter().min_by(|a, b| a.total_cmp(b)) else { return Ok(None) };
+    let target = uplift_hazard::rate_from_probability(poe, study.risk.years)?;
+    let shown = nearest(&study.strengths, &STRENGTHS);
+    let demands: Vec<PooledDemand> =
+        shown.into_iter().map(|strength| pooled_demand(stripes, strength)).collect::<Result<_, _>>()?;
+    let widths = |units: &[Vec<usize>]| -> Result<Vec<f64>, UniformRiskError> {
+        let of_site = |demand: &PooledDemand, site: &SiteHazard| -> Result<Option<f64>, RiskError> {
+            let weights = &site.curve.weights;
+            let ordinate = RiskCurve::new(demand, weights)?.exact_ordinate(target)?;
+            let limits = inferred_limits(demand, weights, units, &[target], (&[units.len()], CONFIDENCE))?;
+            Ok(limits.first().and_then(|limits| half_width(ordinate.displacement_m, limits.truth_m)))
+        };
+        let mut all = Vec::new();
+        for demand in &demands {
+            let of_sites: Result<Vec<Option<f64>>, RiskError> =
+                hazard.par_iter().map(|site| of_site(demand, site)).collect();
+            all.extend(of_sites?.into_iter().flatten());
+        }
+        all.sort_by(f64::total_cmp);
+        Ok(all)
+    };
+    let by_record = widths(&pairs)?;
+    let [Some(&least), Some(&most)] = [by_record.first(), by_record.last()] else { return Ok(None) };
+    let is_shared = question.shares_earthquakes();
+    let by_event = if is_shared { widths(&earthquakes)? } else { Vec::new() };
+    let squares: f64 = earthquakes.iter().map(|of_event| (of_event.len() as f64 / records as f64).powi(2)).sum();
+    Ok(Some(Precision {
+        im: stripes.measure.label(),
+        poe,
+        years: study.risk.years,
+        records: counted,
+        events: is_shared.then_some(earthquakes.len()),
+        effective_events: is_shared.then_some(1.0 / squares),
+        half_width: [quantile(&by_record, 0.5), least, most],
+        half_width_by_event: (!by_event.is_empty()).then(|| quantile(&by_event, 0.5)),
+        records_for_half: TIMES_FOR_HALF * counted,
+    }))
+}
+
+/// Half of the band over the ordinate; none where one of them is censored, the ordinate 0, and of a single unit.
+fn half_width(ordinate_m: f64, [lower_m, upper_m]: [f64; 2]) -> Option<f64> {
+    let width = 0.5 * (upper_m - lower_m) / ordinate_m;
+    (ordinate_m > 0.0 && width.is_finite()).then_some(width)
+}
+
+impl Precision {
+    /// Whether they are enough, in a sentence.
+    pub fn words(&self) -> String {
+        let percent = |width: f64| format!("{:.0}", 100.0 * width);
+        let [middle, least, most] = self.half_width.map(percent);
+        let events = self.events.zip(self.effective_events).map_or_else(String::new, |(events, effective)| {
+            format!(" of {events} earthquakes, which count as {effective:.0},")
+        });
+        let by_event = self
+            .half_width_by_event
+            .map_or_else(String::new, |width| format!("; ±{} % if earthquakes were others", percent(width)));
+        format!(
+            "{} records{events} know the spectra of {} by {} within ±{middle} % ({least} to {most} by site and \
+             strength, {} bands of the truth{by_event}); half of that takes some {}",
+            self.records,
+            risk_in_words(self.poe, self.years),
+            self.im,
+            per_cent(CONFIDENCE),
+            self.records_for_half
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn half_widths_by_hand() {
+        assert_eq!(half_width(0.2, [0.15, 0.3]), Some(0.5 * 0.15 / 0.2));
+        assert_eq!(half_width(0.2, [0.15, f64::INFINITY]), None);
+        assert_eq!(half_width(0.0, [0.0, 0.1]), None);
+        assert_eq!(half_width(0.2, [f64::NAN; 2]), None);
+    }
+
+    #[test]
+    fn the_sentence_says_what_is_known() {
+        let mut precision = Precision {
+            im: "PGV",
+            poe: 0.02,
+            years: 50.0,
+            records: 105,
+            events: Some(22),
+            effective_events: Some(9.9),
+            half_width: [0.161, 0.12, 0.253],
+            half_width_by_event: Some(0.24),
+            records_for_half: 420,
+        };
+        assert_eq!(
+            precision.words(),
+            "105 records of 22 earthquakes, which count as 10, know the spectra of 2 % in 50 years by PGV within ±16 % \
+             (12 to 25 by site and strength, 90 % bands of the truth; ±24 % if earthquakes were others); half of that \
+             takes some 420"
+        );
+        (precision.events, precision.effective_events, precision.half_width_by_event) = (None, None, None);
+        assert!(precision.words().starts_with("105 records know the spectra of 2 % in 50 years by PGV within"));
+    }
+}

@@ -1,0 +1,154 @@
+//! Why a job did not do what it was asked.
+
+use std::error::Error;
+
+use thiserror::Error;
+use uplift_alarms::AlarmsError;
+use uplift_atomic_file::FileError;
+use uplift_block::BlockError;
+use uplift_bootstrap::BootstrapError;
+use uplift_design::DesignError;
+use uplift_engine::EngineError;
+use uplift_engine::checkpoint::CheckpointError;
+use uplift_exports::ExportsError;
+use uplift_fragility::FragilityError;
+use uplift_frame::FrameError;
+use uplift_hazard::HazardError;
+use uplift_inputs::InputsError;
+use uplift_job::JobError;
+use uplift_labelled::LabelledError;
+use uplift_laboratory::LaboratoryError;
+use uplift_motion::MotionError;
+use uplift_oscillator::OscillatorError;
+use uplift_questions::QuestionsError;
+use uplift_result::ResultError;
+use uplift_risk::RiskError;
+use uplift_statics::StaticsError;
+use uplift_structure::StructureError;
+use uplift_studies::StudiesError;
+use uplift_study::StudyError;
+use uplift_uniform_risk::UniformRiskError;
+
+/// Why a job did not do what it was asked.
+#[derive(Debug, Error)]
+pub enum UpliftError {
+    /// What keeps any job from being done.
+    #[error("{0}")]
+    Job(#[from] JobError),
+    /// Records or hazard curves that cannot be used.
+    #[error("{0}")]
+    Inputs(#[from] InputsError),
+    /// Analyses that cannot be carried out.
+    #[error("{0}")]
+    Engine(#[from] EngineError),
+    /// A result that cannot be read or written.
+    #[error("{0}")]
+    Result(#[from] ResultError),
+    /// Spectra that cannot be computed.
+    #[error("{0}")]
+    UniformRisk(#[from] UniformRiskError),
+    /// A result that cannot be looked at.
+    #[error("{0}")]
+    Alarms(#[from] AlarmsError),
+    /// A study that cannot be carried out.
+    #[error("{0}")]
+    Studies(#[from] StudiesError),
+    /// A question that has no answer.
+    #[error("{0}")]
+    Questions(#[from] QuestionsError),
+    /// A structure that cannot be judged.
+    #[error("{0}")]
+    Design(#[from] DesignError),
+    /// A single test that cannot be carried out.
+    #[error("{0}")]
+    Laboratory(#[from] LaboratoryError),
+    /// An export that cannot be made.
+    #[error("{0}")]
+    Exports(#[from] ExportsError),
+    /// The study file has mistakes.
+    #[error("{0}")]
+    Study(#[from] StudyError),
+    /// A study that TOML cannot hold; one that was loaded is none.
+    #[error("{0}")]
+    StudyToml(#[from] toml::ser::Error),
+    /// A file of finished analysis rows cannot be used.
+    #[error("{0}")]
+    Checkpoint(#[from] CheckpointError),
+    /// Columns, a restrainer or a protocol that cannot be, or a displacement beyond their reach.
+    #[error("{0}")]
+    Statics(#[from] StaticsError),
+    /// A record cannot be read or used, or no synthetic one can be made as asked.
+    #[error("{0}")]
+    Motion(#[from] MotionError),
+    /// A hazard curve cannot be read or used.
+    #[error("{0}")]
+    Hazard(#[from] HazardError),
+    /// A frame that cannot be shaken so.
+    #[error("{0}")]
+    Frame(#[from] FrameError),
+    /// An oscillator or its excitation that cannot be.
+    #[error("{0}")]
+    Oscillator(#[from] OscillatorError),
+    /// A structure that cannot be, or to which a rule does not apply.
+    #[error("{0}")]
+    Structure(#[from] StructureError),
+    /// Demands and hazard that do not fit together.
+    #[error("{0}")]
+    Risk(#[from] RiskError),
+    /// Demands of which no fragility can be made.
+    #[error("{0}")]
+    Fragility(#[from] FragilityError),
+    /// Resamples that cannot be drawn.
+    #[error("{0}")]
+    Bootstrap(#[from] BootstrapError),
+}
+
+impl From<LabelledError> for UpliftError {
+    fn from(error: LabelledError) -> Self {
+        JobError::from(error).into()
+    }
+}
+
+impl From<FileError> for UpliftError {
+    fn from(error: FileError) -> Self {
+        JobError::from(error).into()
+    }
+}
+
+impl UpliftError {
+    /// What happened, without the crates of the pipeline that passed it on: an error of a job, or of the crate of the
+    /// science that refused; the last error of the pipeline where it has no other behind it.
+    pub fn root(&self) -> &(dyn Error + 'static) {
+        root(self)
+    }
+
+    /// Blocks or pulses that cannot be, all that was found.
+    pub fn blocks(&self) -> &[BlockError] {
+        let root = self.root();
+        match (root.downcast_ref(), root.downcast_ref(), root.downcast_ref()) {
+            (Some(StudiesError::Blocks(blocks)), ..)
+            | (_, Some(DesignError::Blocks(blocks)), _)
+            | (.., Some(LaboratoryError::Blocks(blocks))) => blocks,
+            _ => &[],
+        }
+    }
+}
+
+/// The first error in the chain of causes of `error` that no crate of the pipeline made of another one.
+pub fn root<'e>(error: &'e (dyn Error + 'static)) -> &'e (dyn Error + 'static) {
+    let passes_on = error.is::<UpliftError>()
+        || error.is::<InputsError>()
+        || error.is::<EngineError>()
+        || error.is::<ResultError>()
+        || error.is::<UniformRiskError>()
+        || error.is::<AlarmsError>()
+        || error.is::<StudiesError>()
+        || error.is::<QuestionsError>()
+        || error.is::<DesignError>()
+        || error.is::<LaboratoryError>()
+        || error.is::<ExportsError>();
+    match error.source().filter(|_| passes_on) {
+        Some(source) => root(source),
+        None => error,
+    }
+}

@@ -1,0 +1,96 @@
+//! The result of a study: the one that is there if it is the study's, else the study is run.
+
+use std::path::{Path, PathBuf};
+
+use uplift_engine::checkpoint::oscillator_key;
+use uplift_inputs::{Record, input_checksums, motion_keys, read_hazard, read_other_hazard, read_records};
+use uplift_job::JobError;
+use uplift_job::events::{Events, Silent};
+use uplift_job::frame::RunOptions;
+use uplift_result::{Kind, Provenance, ResultFile, replaces_another, what_counts};
+use uplift_study::{AnyStudy, UniformRiskStudy};
+
+use crate::error::UpliftError;
+use crate::run::run;
+
+/// The result file of `study`; a study without one is run.
+///
+/// # Errors
+/// Inputs that cannot be used; as [`run`].
+pub fn result_of(study: &UniformRiskStudy, options: &RunOptions, events: &dyn Events) -> Result<PathBuf, UpliftError> {
+    let path = options.result_file(&study.output.file);
+    let of_kind = AnyStudy::UniformRisk(Box::new(study.clone()));
+    if path.exists() && is_result_of(study, path)? {
+        refuse_other_question(study, path)?;
+        events.remark("result", &format!("{} is that of the study", path.display()));
+    } else if let Some(reason) = replaces_another(&of_kind, options)? {
+        let name = path.display();
+        return Err(JobError::Usage(format!(
+            "{reason}: give {name} in place of the study file to take that result, the --set values that it was made \
+             with, or --force to replace it"
+        ))
+        .into());
+    } else {
+        events.remark("result", &format!("{} is made first", path.display()));
+        run(&of_kind, options, events)?;
+    }
+    Ok(path.to_owned())
+}
+
+/// Whether the file at `path` holds the stripes and spectra of `study`, made of the same records and hazard curves.
+fn is_result_of(study: &UniformRiskStudy, path: &Path) -> Result<bool, UpliftError> {
+    let Ok(file) = ResultFile::open(path) else { return Ok(false) };
+    if file.kind() != Kind::UniformRisk {
+        return Ok(false);
+    }
+    let head = file.head()?;
+    let own = study.to_toml()?;
+    let (Some(own), Some(kept)) = (what_counts(&own), what_counts(&head.study_toml)) else { return Ok(false) };
+    if own != kept {
+        return Ok(false);
+    }
+    let (hazard, _) = read_hazard(study)?;
+    let records = read_records(study, &Silent)?;
+    let (other_hazard, _) = read_other_hazard(study)?;
+    let provenance = Provenance::new(&RunOptions::default(), input_checksums(&records, &hazard, &other_hazard));
+    if head.input_checksums != provenance.input_checksums {
+        return Ok(false);
+    }
+    Ok(is_of_records(&file, study, &records.records).unwrap_or(false))
+}
+
+/// What the study asks of the consistency is in the result as it was run, and bands and repaired spectra are made of
+/// it: other keys are another run, of the same peaks. Not `repair`, which adds to the file.
+fn refuse_other_question(study: &UniformRiskStudy, path: &Path) -> Result<(), UpliftError> {
+    let kept = ResultFile::open(path)?.stored_study()?.consistency;
+    let differing = study.consistency.differing_keys(&kept);
+    if differing.is_empty() {
+        return Ok(());
+    }
+    Err(JobError::Usage(format!(
+        "{} was run with other values of consistency.{}: run the study with these first (uplift run with the same \
+         --set; its peaks are taken from there, seconds), or give the result in place of the study to take it as it is",
+        path.display(),
+        differing.join(", consistency.")
+    ))
+    .into())
+}
+
+/// What a manifest says of its files counts too: the motions themselves, what they are scaled by, what is known of
+/// them.
+fn is_of_records(file: &ResultFile, study: &UniformRiskStudy, records: &[Record]) -> Result<bool, UpliftError> {
+    let kept = file.records()?;
+    let same = |kept: &[f64], own: &dyn Fn(&Record) -> f64| {
+        kept.iter().map(|value| value.to_bits()).eq(records.iter().map(|record| own(record).to_bits()))
+    };
+    let mut is_same = kept.motion_sha256 == motion_keys(records)
+        && same(&kept.pga_g, &|record| record.pga_g)
+        && same(&kept.pgv_cm_s, &|record| record.pgv_cm_s)
+        && same(&kept.magnitude, &|record| record.number("magnitude"))
+        && same(&kept.rrup_km, &|record| record.number("rrup_km"))
+        && same(&kept.vs30, &|record| record.number("vs30"));
+    for plan in &study.measures {
+        is_same &= file.oscillator_key(plan.measure)? == oscillator_key(study);
+    }
+    Ok(is_same)
+}

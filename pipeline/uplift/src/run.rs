@@ -1,0 +1,121 @@
+//! A study carried out, of whichever kind: the frame that all kinds share.
+//!
+//! A kind has a folder of its own, [`uniform_risk`], [`displacement`] or [`shake_table`], with
+//! the same files in it: `plan` (what it costs), `run` (from the inputs to the result file), `report` (what a run
+//! tells).
+
+use std::path::Path;
+use std::time::Instant;
+
+use serde::Serialize;
+use uplift_engine::checkpoint::FinishedRows;
+use uplift_inputs::manifest;
+use uplift_job::JobError;
+use uplift_job::events::Events;
+use uplift_job::frame::Place;
+use uplift_study::AnyStudy;
+
+use crate::error::UpliftError;
+pub use uplift_job::frame::{RunHead, RunOptions};
+use uplift_job::lock::ResultLock;
+use uplift_job::outputs;
+use uplift_result::{check_place, replaces_another};
+use uplift_studies::{displacement, shake_table, uniform_risk};
+
+/// What a run tells, by the kind of its study.
+#[derive(Debug, Clone, Serialize)]
+#[serde(untagged)]
+pub enum RunReport {
+    /// Of a study of uniform risk.
+    UniformRisk(Box<uniform_risk::RunReport>),
+    /// Of a study of displacement spectra.
+    Displacement(displacement::RunReport),
+    /// Of a study of a shaking table.
+    ShakeTable(shake_table::RunReport),
+}
+
+impl RunReport {
+    /// What every kind tells.
+    pub fn head(&self) -> &RunHead {
+        match self {
+            Self::UniformRisk(report) => &report.head,
+            Self::Displacement(report) => &report.head,
+            Self::ShakeTable(report) => &report.head,
+        }
+    }
+}
+
+/// Carries out a study: records and hazard are read and checked, everything that is not known from before is computed,
+/// and the result file and its tables are written.
+///
+/// Finished rows of the analysis outlive whatever stops the run, in a checkpoint beside the result; an earlier result
+/// stays until the new one is complete.
+///
+/// # Errors
+/// Inputs that cannot be used; a result that cannot be written; [`JobError::Paused`] or [`JobError::Interrupted`]
+/// where `events` say so.
+pub fn run(study: &AnyStudy, options: &RunOptions, events: &dyn Events) -> Result<RunReport, UpliftError> {
+    run_with(study, options, FinishedRows::default(), events)
+}
+
+/// Refuses a run whose result or tables would replace something else, see [`outputs`].
+pub(crate) fn check_outputs(study: &AnyStudy, options: &RunOptions) -> Result<(), UpliftError> {
+    let path = options.result_file(&study.output().file);
+    let tables = match study {
+        AnyStudy::UniformRisk(study) => uniform_risk::tables(study, path),
+        AnyStudy::Displacement(study) => displacement::tables(study, path),
+        AnyStudy::ShakeTable(study) => shake_table::tables(study, path),
+    };
+    let mut inputs = vec![options.study_file.clone()];
+    inputs.extend(study.inputs().into_iter().map(Path::to_owned));
+    if options.force {
+        // nothing but their names keeps the records from being written over; what is wrong with them is said later
+        inputs.extend(study.inputs().into_iter().flat_map(manifest::record_files));
+    }
+    check_place(study, options, &inputs)?;
+    Ok(outputs::check(&tables, &inputs, options.force)?)
+}
+
+/// Why a run would replace the result of another, and what to do about it, see [`replaces_another`].
+pub(crate) fn replaced(study: &AnyStudy, options: &RunOptions) -> Result<Option<String>, UpliftError> {
+    let way_out = |reason| format!("{reason}: give the result another name (-o), or --force to replace it");
+    Ok(replaces_another(study, options)?.map(way_out))
+}
+
+/// Refuses a run that would replace the result of another, see [`replaces_another`].
+pub(crate) fn check_replaced(study: &AnyStudy, options: &RunOptions) -> Result<(), UpliftError> {
+    replaced(study, options)?.map_or(Ok(()), |reason| Err(JobError::Usage(reason).into()))
+}
+
+/// As [`run`], with rows of the analysis that are `known` from elsewhere.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_with(
+    study: &AnyStudy,
+    options: &RunOptions,
+    known: FinishedRows,
+    events: &dyn Events,
+) -> Result<RunReport, UpliftError> {
+    let start = Instant::now();
+    let path = options.result_file(&study.output().file);
+    // a place that cannot be written is found now, not after the analyses
+    check_outputs(study, options)?;
+    check_replaced(study, options)?;
+    let _lock = ResultLock::acquire(path)?;
+    for warning in study.warnings() {
+        let doubt = if warning.unlikely { "mistake? " } else { "" };
+        events.note(&format!("{doubt}{warning}"));
+    }
+    let place = Place { path, options, start };
+    match study {
+        AnyStudy::UniformRisk(study) => {
+            Ok(uniform_risk::run(study, &place, known, events)
+                .map(|report| RunReport::UniformRisk(Box::new(report)))?)
+        }
+        AnyStudy::Displacement(study) => {
+            Ok(displacement::run(study, &place, known, events).map(RunReport::Displacement)?)
+        }
+        AnyStudy::ShakeTable(study) => Ok(shake_table::run(study, &place, events).map(RunReport::ShakeTable)?),
+    }
+}

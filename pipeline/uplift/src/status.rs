@@ -1,0 +1,270 @@
+//! How far a run is, and what a result holds.
+
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+use uplift_engine::checkpoint::{Finding, RowFile, checkpoint_path};
+use uplift_job::JobError;
+use uplift_job::lock::ResultLock;
+use uplift_questions::bootstrap::{finished_strengths, part_path};
+use uplift_result::earlier::made_of;
+use uplift_result::{Overview, ResultFile, StoredFinding, is_hdf5};
+use uplift_study::Study;
+
+use crate::error::UpliftError;
+
+/// What is there of a run: at least one of its parts.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct StatusReport {
+    /// The result, where it is finished.
+    pub result: Option<ResultStatus>,
+    /// Files of finished rows: the checkpoint of an unfinished run, and shards.
+    pub unfinished: Vec<UnfinishedStatus>,
+    /// What an interrupted bootstrap of the result has finished.
+    pub bootstrap: Option<BootstrapStatus>,
+    /// Who is writing the result now.
+    pub written_by: Option<String>,
+}
+
+/// The file of an interrupted bootstrap.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct BootstrapStatus {
+    /// The file.
+    pub file: PathBuf,
+    /// Strengths that are finished, of all measures.
+    pub strengths: u64,
+}
+
+/// A finished result.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ResultStatus {
+    /// The file.
+    pub file: PathBuf,
+    /// When it was finished.
+    pub created: String,
+    /// Version of the program.
+    pub version: String,
+    /// Commit that the program was built from.
+    pub commit: String,
+    /// The study file as it was given.
+    pub study: String,
+    /// Title of the study.
+    pub title: String,
+    /// What was changed of the study file for the run (`--set`).
+    pub overrides: Vec<String>,
+    /// By what its numbers are known in tables and figures.
+    pub study_digest: String,
+    /// Files beside it that were made of another result of this name.
+    pub made_of_another: Vec<PathBuf>,
+    /// Where the records come from, in a line.
+    pub record_set: String,
+    /// What it holds.
+    pub content: ResultContent,
+    /// What structures were asked under it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub asked: Vec<AskedStatus>,
+}
+
+/// A question about a structure whose answer a result keeps.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct AskedStatus {
+    /// Name of the structure.
+    pub structure: String,
+    /// The command and what it was asked for.
+    pub question: String,
+    /// When.
+    pub created: String,
+    /// Whether the structure file was another when the structure was last asked something.
+    pub is_of_earlier_file: bool,
+}
+
+/// What a finished result holds.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum ResultContent {
+    /// Uniform risk spectra.
+    UniformRisk {
+        /// Analyses of each intensity measure, by its name.
+        analyses: Vec<(String, u64)>,
+        /// The sites; none where the study has none.
+        sites: Vec<String>,
+        /// What was added by later jobs: `bootstrap`, `influence`, `measures`, `structures`.
+        added: Vec<String>,
+    },
+    /// Displacement spectra.
+    Displacement {
+        /// What was shaken: `oscillator` or `block`.
+        structure: String,
+        /// Analyses of the spectra.
+        analyses: u64,
+        /// Records of each set, by its name.
+        sets: Vec<(String, u64)>,
+        /// Whether there is a design example.
+        has_design: bool,
+    },
+    /// The tests of a shaking table.
+    ShakeTable {
+        /// The structure file.
+        structure: String,
+        /// Tests.
+        analyses: u64,
+        /// Names of the levels.
+        levels: Vec<String>,
+        /// Excitations.
+        excitations: usize,
+    },
+}
+
+/// A file of finished rows of the analysis.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct UnfinishedStatus {
+    /// The file.
+    pub file: PathBuf,
+    /// Title of the study.
+    pub title: String,
+    /// Which shard it is, from 1.
+    pub shard: u64,
+    /// Of how many; 1 for a run that is not cut.
+    pub shards: u64,
+    /// Rows that are finished.
+    pub done: u64,
+    /// Rows in all.
+    pub rows: u64,
+    /// Bytes that were cut off or damaged; their rows are computed again.
+    pub damaged_bytes: u64,
+}
+
+/// Looks what there is of a run.
+///
+/// * `input` — a result file, a study file, or a shard
+///
+/// # Errors
+/// A study with mistakes, a file that is none of these or damaged, and where there is nothing at all.
+pub fn status(input: &Path) -> Result<StatusReport, UpliftError> {
+    if input.is_file() && !is_hdf5(input) {
+        if let Ok(Some(finding)) = RowFile::read(input) {
+            let unfinished = vec![UnfinishedStatus::of(input, &finding)];
+            return Ok(StatusReport { result: None, unfinished, bootstrap: None, written_by: None });
+        }
+        if input.extension().is_some_and(|extension| extension == "h5") {
+            return Err(JobError::input(format!("{} is not an HDF5 file", input.display())).into());
+        }
+    }
+    if let Some(bootstrap) = BootstrapStatus::of(input.to_owned()) {
+        return Ok(StatusReport { result: None, unfinished: Vec::new(), bootstrap: Some(bootstrap), written_by: None });
+    }
+    let path = if input.extension().is_some_and(|extension| extension == "toml") {
+        Study::load_any(input, &[])?.output().file.clone()
+    } else {
+        input.to_owned()
+    };
+    let result = path.is_file().then(|| ResultStatus::read(&path)).transpose()?;
+    let checkpoint = checkpoint_path(&path);
+    let mut unfinished = Vec::new();
+    if let Some(finding) = RowFile::read(&checkpoint)? {
+        unfinished.push(UnfinishedStatus::of(&checkpoint, &finding));
+    }
+    for shard in shards_of(&path) {
+        if let Ok(Some(finding)) = RowFile::read(&shard) {
+            unfinished.push(UnfinishedStatus::of(&shard, &finding));
+        }
+    }
+    let written_by = ResultLock::holder(&path);
+    if result.is_none() && unfinished.is_empty() && written_by.is_none() {
+        return Err(
+            JobError::input(format!("{}: no result, and no checkpoint of an unfinished run", path.display())).into()
+        );
+    }
+    let bootstrap = BootstrapStatus::of(part_path(&path));
+    Ok(StatusReport { result, unfinished, bootstrap, written_by })
+}
+
+/// Files named as the shards of the result at `result`, and as the checkpoints and shards of what is asked of it.
+fn shards_of(result: &Path) -> Vec<PathBuf> {
+    let text = |name: Option<&OsStr>| name.unwrap_or(result.as_os_str()).to_string_lossy().into_owned();
+    let (own, asked) = (format!("{}.shard-", text(result.file_stem())), format!("{}.", text(result.file_name())));
+    let of_question =
+        |rest: &str| rest.rsplit_once('.').is_some_and(|(_, end)| end == "part" || end.starts_with("shard-"));
+    let is_one = |name: &str| name.starts_with(&own) || name.strip_prefix(&asked).is_some_and(of_question);
+    let folder = result.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut shards: Vec<PathBuf> = std::fs::read_dir(folder)
+        .into_iter()
+        .flatten()
+        .flatten()
+        .filter(|entry| is_one(&entry.file_name().to_string_lossy()))
+        .map(|entry| entry.path())
+        .collect();
+    shards.sort();
+    shards
+}
+
+impl BootstrapStatus {
+    fn of(file: PathBuf) -> Option<Self> {
+        let strengths = finished_strengths(&file)?;
+        Some(Self { file, strengths })
+    }
+}
+
+impl ResultStatus {
+    fn read(path: &Path) -> Result<Self, UpliftError> {
+        let file = ResultFile::open(path)?;
+        let head = file.head()?;
+        let study_digest = head.study_digest();
+        Ok(Self {
+            file: path.to_owned(),
+            made_of_another: made_of(path, &study_digest),
+            study_digest,
+            overrides: head.overrides.unwrap_or_default(),
+            created: head.created,
+            version: head.version,
+            commit: head.commit,
+            study: head.study_file,
+            title: head.title,
+            record_set: head.record_set,
+            content: ResultContent::of(file.overview()?),
+            asked: file.findings()?.into_iter().map(AskedStatus::of).collect(),
+        })
+    }
+}
+
+impl AskedStatus {
+    fn of(stored: StoredFinding) -> Self {
+        let StoredFinding { finding, created, is_of_earlier_file, .. } = stored;
+        Self { question: finding.question(), structure: finding.structure, created, is_of_earlier_file }
+    }
+}
+
+impl ResultContent {
+    fn of(overview: Overview) -> Self {
+        match overview {
+            Overview::Displacement { structure, analyses, sets, designed } => {
+                Self::Displacement { structure, analyses, sets, has_design: designed }
+            }
+            Overview::ShakeTable { structure, analyses, levels, excitations } => {
+                Self::ShakeTable { structure, analyses, levels, excitations }
+            }
+            Overview::UniformRisk { analyses, sites, added } => {
+                let analyses = analyses.into_iter().map(|(measure, count)| (measure.to_owned(), count)).collect();
+                Self::UniformRisk { analyses, sites, added: added.into_iter().map(str::to_owned).collect() }
+            }
+        }
+    }
+}
+
+impl UnfinishedStatus {
+    fn of(file: &Path, finding: &Finding) -> Self {
+        let head = &finding.head;
+        Self {
+            file: file.to_owned(),
+            title: head.title.clone(),
+            shard: head.shard,
+            shards: head.shards,
+            // rows of another study may be among them, and those of design examples, which nobody counts before
+            // they are found
+            done: (finding.rows.len() as u64).min(head.rows),
+            rows: head.rows,
+            damaged_bytes: finding.damaged_bytes,
+        }
+    }
+}

@@ -1,0 +1,327 @@
+//! Variants of a study, run one after the other into results of their own, and compared.
+//!
+//! Every variant is an ordinary result. What one has computed another does not compute again: stripes of the same
+//! motion, oscillator, strength and level are taken from the results that are finished, so that variants which differ
+//! in hazard, sites, probabilities or some strengths cost next to nothing.
+
+mod table;
+mod variants;
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+use sha2::{Digest, Sha256};
+use uplift_alarms::alarms;
+use uplift_engine::checkpoint::oscillator_key;
+use uplift_job::JobError;
+use uplift_job::alarm::{Alarm, Severity};
+use uplift_job::events::Events;
+use uplift_job::frame::RunOptions;
+use uplift_job::outputs::{self, Output, OutputKind};
+use uplift_labelled::hexadecimal;
+use uplift_result::{ResultFile, flag_word};
+use uplift_studies::uniform_risk::Inputs;
+use uplift_study::{AnyStudy, Study, StudyError, UniformRiskStudy};
+
+use crate::error::UpliftError;
+use crate::result_of::result_of;
+use crate::shard::check_inputs;
+pub use variants::{Variant, cases, product};
+
+/// Variants of one sweep: more are a study of their own.
+const MOST_VARIANTS: usize = 1000;
+
+/// What is asked of a sweep.
+#[derive(Debug, Clone, Default)]
+pub struct SweepOptions {
+    /// The study file.
+    pub study_file: PathBuf,
+    /// What is changed of it for every variant, `records.first=20`.
+    pub overrides: Vec<String>,
+    /// What is changed for each.
+    pub variants: Vec<Variant>,
+    /// Folder of the results; beside the study's own result and named after it where none is given.
+    pub folder: Option<PathBuf>,
+    /// What the caller typed; kept in the results.
+    pub command: String,
+    /// Whether whatever is at the places of results and table gives way.
+    pub force: bool,
+}
+
+/// What a sweep tells.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SweepReport {
+    /// The study file.
+    pub study: PathBuf,
+    /// Title of the study.
+    pub title: String,
+    /// Folder of the results.
+    pub folder: PathBuf,
+    /// Keys that vary.
+    pub keys: Vec<String>,
+    /// The variants, in the order asked for.
+    pub variants: Vec<VariantReport>,
+    /// The table of the comparison.
+    pub table: PathBuf,
+}
+
+/// One variant with its result.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct VariantReport {
+    /// Its name, that of its result file.
+    pub name: String,
+    /// The result.
+    pub result: PathBuf,
+    /// Values of the keys that vary, as they were given; none where this variant has that of the study.
+    pub values: Vec<Option<String>>,
+    /// Whether the records are synthetic.
+    pub synthetic: bool,
+    /// Years that the probabilities refer to.
+    pub years: f64,
+    /// Strengths of its spectra.
+    pub strengths: Vec<f64>,
+    /// Its spectra.
+    pub spectra: Vec<VariantSpectrum>,
+    /// What is to be seen to before its numbers are used, the worst first.
+    pub alarms: Vec<Alarm>,
+}
+
+/// A uniform risk spectrum of a variant.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct VariantSpectrum {
+    /// The site.
+    pub site: String,
+    /// `PGV` or `PGA`.
+    pub im: &'static str,
+    /// Probability of exceedance.
+    pub poe: f64,
+    /// Displacements over the strengths of the variant, m; infinite where censored.
+    pub u_m: Vec<f64>,
+    /// What kind of ordinate each is: `regular`, `no exceedance`, `censored`.
+    pub flags: Vec<&'static str>,
+    /// Share of the risk of each that comes from below the first stripe, 0 to 1.
+    pub lower_tail_share: Vec<f64>,
+    /// Share of the risk of each that comes from above the last stripe, 0 to 1.
+    pub upper_tail_share: Vec<f64>,
+    /// The same displacements by weights that bring the hazard of the other measure, m; none without a repair.
+    pub repaired_m: Option<Vec<f64>>,
+}
+
+/// A variant that is ready to be run.
+struct Ready {
+    name: String,
+    study: UniformRiskStudy,
+    options: RunOptions,
+}
+
+/// Where the results go: `folder`, or beside the result of the `study`.
+///
+/// # Errors
+/// A study file with mistakes.
+pub fn sweep_folder(options: &SweepOptions) -> Result<PathBuf, UpliftError> {
+    if let Some(folder) = &options.folder {
+        return Ok(folder.clone());
+    }
+    let study = Study::load(&options.study_file, &options.overrides)?;
+    Ok(outputs::beside(&study.output.file, "sweep"))
+}
+
+/// Runs every variant of a study that has no result yet, and compares their spectra.
+///
+/// # Errors
+/// Mistakes of the study, and then those of all variants at once, before anything is computed; a result or table that
+/// would replace something else; as [`run`](crate::run()) of any of them: what is finished stays, and the same sweep
+/// goes on from there.
+pub fn sweep(options: &SweepOptions, events: &dyn Events) -> Result<SweepReport, UpliftError> {
+    let study = Study::load(&options.study_file, &options.overrides)?;
+    let folder = sweep_folder(options)?;
+    let table = folder.join("comparison.csv");
+    let ready = ready(options, &folder)?;
+    let inputs: Vec<&Path> = std::iter::once(options.study_file.as_path())
+        .chain(ready.iter().filter_map(|variant| variant.options.output.as_deref()))
+        .collect();
+    outputs::check(&[Output::new(&table, OutputKind::Table(table::FIRST_COLUMN))], &inputs, options.force)?;
+    let digest = digest(&ready)?;
+    check_comparison(&table, &digest, options.force)?;
+    check(&ready, events)?;
+    outputs::provide_folder(&folder)?;
+    let keys = variants::keys(&options.variants);
+    // finished results by their oscillator: of another one nothing can be taken
+    let mut finished: HashMap<String, Vec<PathBuf>> = HashMap::new();
+    let mut reports = Vec::new();
+    let count = ready.len();
+    for (place, (variant, asked)) in ready.into_iter().zip(&options.variants).enumerate() {
+        let Ready { name, study, options } = variant;
+        events.remark("variant", &format!("{} of {count}: {name}", place + 1));
+        let of_oscillator = finished.entry(oscillator_key(&study)).or_default();
+        let result = result_of(&study, &RunOptions { earlier: of_oscillator.clone(), ..options }, events)?;
+        of_oscillator.push(result.clone());
+        reports.push(VariantReport::of(name, result, &keys, asked)?);
+    }
+    let report =
+        SweepReport { study: options.study_file.clone(), title: study.title, folder, keys, variants: reports, table };
+    table::write(&report, &digest)?;
+    Ok(report)
+}
+
+/// By what a comparison is known again: a hash of the names and studies of its variants.
+fn digest(ready: &[Ready]) -> Result<String, UpliftError> {
+    let mut all = Sha256::new();
+    for variant in ready {
+        all.update(format!("{}\n{}\n", variant.name, variant.study.to_toml()?));
+    }
+    Ok(hexadecimal(&all.finalize()))
+}
+
+/// Refuses to replace the comparison of other variants, which may be all that is left of them.
+fn check_comparison(table: &Path, digest: &str, force: bool) -> Result<(), UpliftError> {
+    if force || !table.exists() || outputs::is_of_digest(table, digest) {
+        return Ok(());
+    }
+    Err(JobError::Usage(format!(
+        "{} compares other variants, or those of another study: give another folder (-o), or --force to replace it",
+        table.display()
+    ))
+    .into())
+}
+
+/// Every variant as a study with the place of its result, or all mistakes of all of them.
+fn ready(options: &SweepOptions, folder: &Path) -> Result<Vec<Ready>, UpliftError> {
+    if options.variants.is_empty() || options.variants.len() > MOST_VARIANTS {
+        let count = options.variants.len();
+        return Err(JobError::Usage(format!(
+            "{count} variants: give 1 to {MOST_VARIANTS}, by --over KEY=VALUE,VALUE or --cases FILE.csv"
+        ))
+        .into());
+    }
+    let names = variants::names(&options.variants);
+    let (mut ready, mut mistakes): (Vec<Ready>, Vec<String>) = (Vec::new(), Vec::new());
+    let keys = variants::keys(&options.variants);
+    if keys.iter().any(|key| key == "output.file") {
+        mistakes.push(
+            "output.file: the results of a sweep lie in its folder (-o) and are named after their variants: leave the \
+             key out"
+                .to_owned(),
+        );
+    }
+    for (variant, name) in options.variants.iter().zip(names) {
+        let overrides: Vec<String> = options.overrides.iter().cloned().chain(variant.overrides()).collect();
+        match Study::load(&options.study_file, &overrides) {
+            Ok(study) => {
+                let options = RunOptions {
+                    study_file: options.study_file.clone(),
+                    output: Some(folder.join(format!("{name}.h5"))),
+                    command: options.command.clone(),
+                    overrides,
+                    force: options.force,
+                    earlier: Vec::new(),
+                };
+                ready.push(Ready { name, study, options });
+            }
+            Err(error @ StudyError::Unreadable { .. }) => return Err(error.into()),
+            Err(error) => {
+                for mistake in error.mistakes() {
+                    let help = mistake.help.as_ref().map_or_else(String::new, |help| format!(": {help}"));
+                    let said = variant.mistake(format!("{mistake}{help}"));
+                    // the same value stands in many variants
+                    if !mistakes.contains(&said) {
+                        mistakes.push(said);
+                    }
+                }
+            }
+        }
+    }
+    mistakes.extend(senseless(&ready, &keys));
+    if mistakes.is_empty() {
+        return Ok(ready);
+    }
+    let lines: Vec<String> = mistakes.iter().map(|mistake| format!("  - {mistake}")).collect();
+    Err(JobError::Usage(format!("{} thing(s) to mend in the variants:\n{}", mistakes.len(), lines.join("\n"))).into())
+}
+
+/// What would compare nothing: studies without spectra, and spectra that cannot differ.
+fn senseless(ready: &[Ready], keys: &[String]) -> Vec<String> {
+    let mut mistakes = Vec::new();
+    if let Some(empty) = ready.iter().find(|variant| variant.study.sites.is_empty()) {
+        mistakes.push(format!(
+            "{}: spectra are compared at the sites of [[sites]], and the study names none: name those of its site \
+             table that are to be compared",
+            empty.name
+        ));
+    }
+    if keys.iter().any(|key| key == "seed") && !ready.iter().any(|of| of.study.records.component.is_drawn()) {
+        mistakes.push(
+            "seed: it draws the samples of a bootstrap, and components or azimuths where records.component says so: \
+             the spectra are the same for all its values; records.synthetic.seed makes other records"
+                .to_owned(),
+        );
+        return mistakes;
+    }
+    let mut known: HashMap<String, &str> = HashMap::new();
+    for Ready { name, study, .. } in ready {
+        // a study that was loaded can be written
+        let Ok(text) = study.to_toml() else { continue };
+        if let Some(other) = known.insert(text, name) {
+            mistakes.push(format!("{other} and {name} are the same study: leave one of them out"));
+        }
+    }
+    mistakes
+}
+
+/// Records, hazard and places of all variants looked at before the first is computed; all that is wrong at once.
+fn check(ready: &[Ready], events: &dyn Events) -> Result<(), UpliftError> {
+    let mut mistakes: Vec<String> = Vec::new();
+    for Ready { name, study, options } in ready {
+        let any = AnyStudy::UniformRisk(Box::new(study.clone()));
+        let checked = check_inputs(&any, options, events)
+            .and_then(|()| Ok(Inputs::read(study, &uplift_job::events::Silent).map(drop)?));
+        match checked {
+            Ok(()) => {}
+            Err(stopped) if uplift_job::is_stopped(&stopped) => return Err(stopped),
+            Err(error) => mistakes.push(format!("{name}: {error}")),
+        }
+        if events.cancelled() {
+            return Err(JobError::Interrupted.into());
+        }
+    }
+    if mistakes.is_empty() { Ok(()) } else { Err(JobError::Inputs(mistakes).into()) }
+}
+
+impl VariantReport {
+    /// What the file at `result` has.
+    fn of(name: String, result: PathBuf, keys: &[String], asked: &Variant) -> Result<Self, UpliftError> {
+        let file = ResultFile::open(&result)?;
+        let axes = file.axes()?;
+        let spectra = file.spectra()?;
+        let consistency = file.consistency()?;
+        let repaired = |row: &uplift_result::Spectrum<'_>| {
+            let of = consistency.iter().find(|of| of.scaled_to == row.measure)?;
+            let site = axes.sites.iter().position(|site| site == row.site)?;
+            let poe = axes.poes.iter().position(|poe| poe.to_bits() == row.poe.to_bits())?;
+            Some(of.u_m.as_ref()?.block([site, poe]).to_vec())
+        };
+        let row = |row: uplift_result::Spectrum<'_>| VariantSpectrum {
+            site: row.site.to_owned(),
+            im: row.measure.label(),
+            poe: row.poe,
+            u_m: row.u_m.to_vec(),
+            flags: row.flags.iter().map(|flag| flag_word(*flag)).collect(),
+            lower_tail_share: row.lower_tail_share.to_vec(),
+            upper_tail_share: row.upper_tail_share.to_vec(),
+            repaired_m: repaired(&row),
+        };
+        let mut alarms = alarms(&file)?;
+        alarms.retain(|alarm| alarm.severity != Severity::Note);
+        Ok(Self {
+            alarms,
+            name,
+            values: keys.iter().map(|key| asked.value(key).map(str::to_owned)).collect(),
+            synthetic: file.is_synthetic()?,
+            years: axes.years,
+            spectra: spectra.rows().map(row).collect(),
+            strengths: axes.strengths,
+            result,
+        })
+    }
+}

@@ -1,0 +1,209 @@
+//! The smaller jobs called as a library, without a terminal: records made, imported, listed and chosen, one response,
+//! pulses, hazard curves.
+#![allow(clippy::unwrap_used)]
+
+use std::path::Path;
+use std::sync::Mutex;
+
+use uplift::JobError;
+use uplift::errors::{InputsError, LaboratoryError};
+use uplift::events::{Events, Silent};
+use uplift::hazard_curves::{self, CurveOptions};
+use uplift::import::{self, ImportOptions};
+use uplift::inputs::FileOptions;
+use uplift::pulses::{BlockPlan, PulseOptions, PulsePlan, pulses};
+use uplift::records::{
+    SelectOptions, SetOptions, ShowOptions, ShowReport, SynthesizeOptions, list, select, show, synthesize,
+};
+use uplift::response::{HistoryRow, ResponseOptions, Shaking, response};
+use uplift::result::AskedRisk;
+use uplift::status::status;
+use uplift::table::{TableMeasure, TableOptions, table};
+use uplift::verify::verify;
+use uplift_block::RickerShape;
+use uplift_motion::{Combination, synthetic::SyntheticSetOptions};
+use uplift_study::{CRITERIA, Range, RecordSelection};
+
+/// What a job that failed says.
+fn job_error<T, E: std::error::Error + 'static>(outcome: &Result<T, E>) -> Option<&JobError> {
+    uplift::cause(outcome.as_ref().err()?)
+}
+
+/// Who remembers what was noted, and stops a job at its first chance where told to.
+#[derive(Default)]
+struct Listener {
+    notes: Mutex<Vec<String>>,
+    stops: bool,
+}
+
+impl Events for Listener {
+    fn note(&self, text: &str) {
+        self.notes.lock().unwrap().push(text.to_owned());
+    }
+
+    fn cancelled(&self) -> bool {
+        self.stops
+    }
+}
+
+fn made(at: &Path, pairs: usize) -> std::path::PathBuf {
+    let set = SyntheticSetOptions { pairs, ..SyntheticSetOptions::default() };
+    let listener = Listener::default();
+    let report = synthesize(&SynthesizeOptions { folder: at.join("set"), set, force: false }, &listener).unwrap();
+    assert_eq!(report.pairs, pairs);
+    assert_eq!(*listener.notes.lock().unwrap(), ["synthetic records: not for design"]);
+    report.manifest
+}
+
+fn all(manifest: &Path) -> SetOptions {
+    SetOptions {
+        manifest: manifest.to_owned(),
+        tag: None,
+        intensity: Combination::GeometricMean,
+        selection: RecordSelection::default(),
+    }
+}
+
+#[test]
+fn records_made_are_imported_listed_shown_and_chosen() {
+    let folder = tempfile::tempdir().unwrap();
+    let manifest = made(folder.path(), 3);
+    let output = folder.path().join("again.csv");
+    let options = ImportOptions {
+        folder: folder.path().join("set"),
+        output: output.clone(),
+        files: FileOptions::default(),
+        pulses: false,
+        force: false,
+    };
+    let imported = import::import(&options, &Silent).unwrap();
+    assert_eq!((imported.pairs, imported.files, imported.components), (3, 6, 6));
+    assert_eq!(imported.manifest, Some(output));
+    // the files are read as the manifest of the import says, and measure the same
+    let [first, again] = [&manifest, imported.manifest.as_ref().unwrap()].map(|set| list(&all(set), &Silent).unwrap());
+    assert_eq!(first.count, 3);
+    for (one, other) in first.records.iter().zip(&again.records) {
+        assert_eq!(one.pga_g.to_bits(), other.pga_g.to_bits());
+    }
+    let looked = ShowOptions {
+        input: manifest.clone(),
+        record: Some(first.records[0].record.clone()),
+        files: FileOptions::default(),
+    };
+    let ShowReport::Record(record) = show(&looked).unwrap() else { panic!("a record was asked for") };
+    assert!((record.peaks[0].pga_g - first.records[0].pga_g).abs() < 1e-12);
+
+    let magnitude = CRITERIA.into_iter().find(|criterion| criterion.key == "magnitude").unwrap();
+    let range = Range::parse("6:8").unwrap();
+    let mut set = all(&manifest);
+    set.selection.ranges.push((magnitude, range));
+    let output = folder.path().join("chosen.csv");
+    let chosen = select(&SelectOptions { set, output: Some(output.clone()), force: false }, &Silent).unwrap();
+    assert_eq!((chosen.records.len(), chosen.count), (3, 3));
+    assert!(chosen.study_lines.ends_with("[records.select]\nmagnitude = \"6:8\"\n"), "{}", chosen.study_lines);
+    assert_eq!(list(&all(&output), &Silent).unwrap().records, first.records);
+}
+
+#[test]
+fn an_import_without_pairs_says_what_it_found() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("a.txt"), "no record\n").unwrap();
+    let output = folder.path().join("set.csv");
+    let options = ImportOptions {
+        folder: folder.path().to_owned(),
+        output: output.clone(),
+        files: FileOptions::default(),
+        pulses: true,
+        force: false,
+    };
+    let report = import::import(&options, &Silent).unwrap();
+    assert_eq!((report.pairs, report.manifest, report.files), (0, None, 1));
+    assert!(report.remarks.iter().any(|remarks| remarks.kind == "not read" && remarks.texts[0].contains("a.txt")));
+    assert!(report.remarks_file.unwrap().exists() && !output.exists());
+    let stopped = import::import(&options, &Listener { stops: true, ..Listener::default() });
+    assert!(matches!(job_error(&stopped), Some(JobError::Interrupted)));
+}
+
+#[test]
+fn a_response_with_its_history() {
+    let folder = tempfile::tempdir().unwrap();
+    made(folder.path(), 1);
+    let record = std::fs::read_dir(folder.path().join("set"))
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .find(|path| path.to_string_lossy().ends_with("H1.AT2"))
+        .unwrap();
+    let shaking = Shaking { scale: 3.0, free_vibration_s: 2.0, history: true, ..Shaking::new(record) };
+    let options = ResponseOptions { shaking: shaking.clone(), ..ResponseOptions::new("", 0.05) };
+    let report = response(&options).unwrap();
+    let history = report.history.as_ref().unwrap();
+    let count = |word: &str| history.rows.iter().filter(|row| row.event == Some(word)).count();
+    assert_eq!(count(HistoryRow::AFTER_IMPACT), usize::try_from(report.impacts).unwrap());
+    assert_eq!(count(HistoryRow::UPLIFT), usize::try_from(report.uplifts).unwrap());
+    // between samples the motion may be larger, by little
+    let largest = history.rows.iter().fold(0.0_f64, |most, row| most.max(row.displacement_m.abs()));
+    assert!(largest <= report.peak_displacement_m && largest > 0.99 * report.peak_displacement_m);
+    // the same response without a history
+    let shaking = Shaking { history: false, ..shaking };
+    let alone = response(&ResponseOptions { shaking, ..options.clone() }).unwrap();
+    assert_eq!(serde_json::to_value(&alone).unwrap(), serde_json::to_value(&report).unwrap());
+    assert!(matches!(
+        job_error(&response(&ResponseOptions { strength: -1.0, ..options })),
+        Some(JobError::Implausible(_))
+    ));
+}
+
+#[test]
+fn pulses_without_files_and_refused() {
+    let axis = |values: &[f64]| values.to_vec();
+    let plan = PulsePlan {
+        shapes: vec![RickerShape::Symmetric],
+        slenderness_rad: 0.1,
+        restitution: None,
+        frequencies: axis(&[1.0, 2.0, 4.0]),
+        accelerations: axis(&[1.5, 5.0]),
+        half_widths: axis(&[0.5, 1.0]),
+        frequency_slices: axis(&[2.0]),
+        acceleration_slices: axis(&[2.0]),
+        blocks: BlockPlan { amplitude_g: 1.0, period_s: None, sizes_m: axis(&[1.0]), slendernesses_rad: axis(&[0.2]) },
+    };
+    let report = pulses(&PulseOptions { plan: plan.clone(), folder: None, force: false }, &Silent).unwrap();
+    assert_eq!((report.wavelets[0].points, report.files.len()), (6, 0));
+    let impossible = PulsePlan { slenderness_rad: -1.0, restitution: Some(2.0), ..plan };
+    let Err(LaboratoryError::Blocks(mistakes)) =
+        pulses(&PulseOptions { plan: impossible, folder: None, force: false }, &Silent)
+    else {
+        panic!("blocks that cannot be")
+    };
+    assert_eq!(mistakes.len(), 2, "{mistakes:?}");
+}
+
+#[test]
+fn hazard_curves_are_read_and_shown() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("pgv.csv");
+    std::fs::write(&file, "# IM: PGV [cm/s]\niml,maf\n0.5,0.8\n2,0.05\n20,0.0005\n300,0.000002\n").unwrap();
+    let report = hazard_curves::show(&file, &CurveOptions::default(), &Silent).unwrap();
+    let [curve] = report.curves.as_slice() else { panic!("one curve") };
+    assert_eq!((curve.measure.as_str(), curve.points, curve.levels.len()), ("PGV", 4, report.probabilities.len()));
+    let files = [file.clone(), file];
+    assert_eq!(hazard_curves::read(&files, &CurveOptions::default(), &Silent).unwrap().len(), 1);
+    let absent = hazard_curves::show(Path::new("absent.csv"), &CurveOptions::default(), &Silent);
+    assert!(matches!(absent, Err(InputsError::Hazard(_))));
+}
+
+#[test]
+fn what_is_no_result_is_an_error_or_a_finding() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("r.h5");
+    assert!(status(&file).is_err());
+    let (measure, risk) = (TableMeasure::Usual, AskedRisk::default());
+    let options = TableOptions { result: file.clone(), reference: None, measure, risk };
+    assert!(table(&options, &Silent).is_err());
+    let report = verify(std::slice::from_ref(&file), &Silent).unwrap();
+    assert!(report.mistakes()[0].contains("r.h5"), "{:?}", report.mistakes());
+    assert!(matches!(
+        job_error(&verify(&[file], &Listener { stops: true, ..Listener::default() })),
+        Some(JobError::Interrupted)
+    ));
+}
