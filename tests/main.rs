@@ -49,6 +49,7 @@ mod result_file;
 mod resume;
 mod rounding;
 mod run;
+mod schema;
 mod selections;
 mod shake_table;
 mod site_table;

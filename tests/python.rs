@@ -12,7 +12,9 @@ pub fn repository() -> &'static Path {
 /// The Python of `UPLIFT_PYTHON`, else of the repository's `.venv`; none skips the test, on a build server fails it.
 pub fn python() -> Option<PathBuf> {
     let python = std::env::var_os("UPLIFT_PYTHON").map_or_else(|| repository().join(".venv/bin/python"), PathBuf::from);
-    let works = Command::new(&python).args(["-c", "import h5py, xarray, netCDF4, h5netcdf, openpyxl, pandas"]).output();
+    let works = Command::new(&python)
+        .args(["-c", "import h5py, xarray, netCDF4, h5netcdf, openpyxl, pandas, check_jsonschema"])
+        .output();
     if works.is_ok_and(|output| output.status.success()) {
         return Some(python);
     }

@@ -10,6 +10,7 @@ mod records;
 mod response;
 mod restrainer;
 mod result;
+mod schema;
 mod structures;
 mod study;
 mod validate;
@@ -105,6 +106,8 @@ enum Command {
     /// Print the coefficients of a result (Table 4.2), its design example (Tables 2.1-2.3, 3.2-3.7) or its tests (Table
     /// A1.1), beside a reference if one is given; or what the columns of a structure have (Table 5.1, Section 6.3)
     Table(table::TableArguments),
+    /// Print the JSON Schema by which editors complete and check keys
+    Schema(schema::SchemaArguments),
     /// Write the pages of the manual and the completions of the shells
     #[command(hide = true)]
     Manual(manual::ManualArguments),
@@ -150,6 +153,7 @@ pub(crate) fn execute(arguments: &Arguments, terminal: &Terminal) -> Result<(), 
         Command::Report(arguments) => report::report(arguments, terminal),
         Command::Export(arguments) => export::export(arguments, terminal),
         Command::Table(arguments) => table::table(arguments, terminal),
+        Command::Schema(arguments) => schema::schema(arguments),
         Command::Manual(arguments) => manual::manual(arguments),
     }
 }

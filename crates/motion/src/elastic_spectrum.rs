@@ -22,6 +22,22 @@ pub enum GroundType {
     E,
 }
 
+impl GroundType {
+    /// Every type.
+    pub const ALL: [Self; 5] = [Self::A, Self::B, Self::C, Self::D, Self::E];
+
+    /// Its letter.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::A => "A",
+            Self::B => "B",
+            Self::C => "C",
+            Self::D => "D",
+            Self::E => "E",
+        }
+    }
+}
+
 /// Shape of the spectrum (EN 1998-1, 3.2.2.2).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -30,6 +46,19 @@ pub enum SpectrumShape {
     Type1,
     /// Type 2: they do not.
     Type2,
+}
+
+impl SpectrumShape {
+    /// Both shapes.
+    pub const ALL: [Self; 2] = [Self::Type1, Self::Type2];
+
+    /// Its word.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Type1 => "type1",
+            Self::Type2 => "type2",
+        }
+    }
 }
 
 /// The horizontal elastic response spectrum `S_e(T)` of EN 1998-1 (2004), Eq. 3.2 to 3.5, at 5 % damping (η = 1).

@@ -68,7 +68,7 @@ impl Unlikely {
 impl fmt::Display for Range {
     /// `from 0.1 to 2000 m/s2 (9.81 on Earth)`.
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (least, most) = (number(self.least), number(self.most));
+        let (least, most) = (short_number(self.least), short_number(self.most));
         write!(formatter, "from {least} to {most}{} ({})", spaced(self.unit), self.hint)
     }
 }
@@ -76,7 +76,7 @@ impl fmt::Display for Range {
 impl fmt::Display for Implausible {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { name, value, range } = self;
-        write!(formatter, "{name} is {}{}: it must be {range}", number(*value), spaced(range.unit))
+        write!(formatter, "{name} is {}{}: it must be {range}", short_number(*value), spaced(range.unit))
     }
 }
 
@@ -85,7 +85,7 @@ impl std::error::Error for Implausible {}
 impl fmt::Display for Unlikely {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { name, value, usual } = self;
-        write!(formatter, "{name} is {}{}; usual is {usual}", number(*value), spaced(usual.unit))
+        write!(formatter, "{name} is {}{}; usual is {usual}", short_number(*value), spaced(usual.unit))
     }
 }
 
@@ -93,8 +93,8 @@ fn spaced(unit: &str) -> String {
     if unit.is_empty() { String::new() } else { format!(" {unit}") }
 }
 
-/// The shorter of the two ways to write a number.
-fn number(value: f64) -> String {
+/// The shorter of the two ways to write a number: `0.0005`, `1e-6`.
+pub fn short_number(value: f64) -> String {
     let plain = value == 0.0 || !value.is_finite() || (1e-3..1e6).contains(&value.abs());
     if plain { value.to_string() } else { format!("{value:e}") }
 }

@@ -42,7 +42,7 @@
 
 use serde::Deserialize;
 use uplift_plausible::{
-    DISC_DIAMETER, DISC_HEIGHT, LENGTH, SPRING_GAP, TENDON_AREA, TENDON_FORCE, TENDON_STIFFNESS, YOUNG_MODULUS,
+    DISC_DIAMETER, DISC_HEIGHT, LENGTH, Range, SPRING_GAP, TENDON_AREA, TENDON_FORCE, TENDON_STIFFNESS, YOUNG_MODULUS,
 };
 
 use crate::disc::{DiscDimensions, DiscSpring, SPRING_STEEL_YOUNG_MODULUS_PA, STEEL_POISSON};
@@ -99,9 +99,17 @@ pub enum TendonAnchorage {
 }
 
 impl TendonAnchorage {
-    /// Every anchorage as written, with itself.
-    pub const ALL: [(&'static str, Self); 3] =
-        [("column", Self::Column), ("foundation", Self::Foundation), ("shifted", Self::Shifted)];
+    /// Every anchorage.
+    pub const ALL: [Self; 3] = [Self::Column, Self::Foundation, Self::Shifted];
+
+    /// The anchorage as written.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Column => "column",
+            Self::Foundation => "foundation",
+            Self::Shifted => "shifted",
+        }
+    }
 }
 
 /// A stopper as written.
@@ -169,6 +177,32 @@ pub struct RestrainerDescription {
     /// Stopper beside the springs.
     pub stopper: Option<StopperDescription>,
 }
+
+/// Where a number of the description is.
+type Number = fn(&RestrainerDescription) -> Option<f64>;
+
+/// What the numbers of a description may be.
+const RANGES: [(&str, Range, Number); 19] = [
+    ("stiffness_n_m", TENDON_STIFFNESS, |of| of.stiffness_n_m),
+    ("outer_diameter_m", DISC_DIAMETER, |of| of.outer_diameter_m),
+    ("inner_diameter_m", DISC_DIAMETER, |of| of.inner_diameter_m),
+    ("thickness_m", DISC_HEIGHT, |of| of.thickness_m),
+    ("cone_height_m", DISC_HEIGHT, |of| of.cone_height_m),
+    ("free_height_m", DISC_HEIGHT, |of| of.free_height_m),
+    ("reduced_thickness_m", DISC_HEIGHT, |of| of.reduced_thickness_m),
+    ("young_modulus_pa", YOUNG_MODULUS, |of| of.young_modulus_pa),
+    ("tendon_stiffness_n_m", TENDON_STIFFNESS, |of| of.tendon_stiffness_n_m),
+    ("tendon_area_m2", TENDON_AREA, |of| of.tendon_area_m2),
+    ("tendon_young_modulus_pa", YOUNG_MODULUS, |of| of.tendon_young_modulus_pa),
+    ("tendon_length_m", LENGTH, |of| of.tendon_length_m),
+    ("tendon_yield_n", TENDON_FORCE, |of| of.tendon_yield_n),
+    ("tendon_failure_n", TENDON_FORCE, |of| of.tendon_failure_n),
+    ("prestress_n", TENDON_FORCE, |of| of.prestress_n),
+    ("slack_m", SPRING_GAP, |of| of.slack_m),
+    ("duct_gap_m", SPRING_GAP, |of| of.duct_gap_m),
+    ("gap_m", SPRING_GAP, |of| of.stopper.map(|stopper| stopper.gap_m)),
+    ("yield_n", TENDON_FORCE, |of| of.stopper.and_then(|stopper| stopper.yield_n)),
+];
 
 impl RestrainerDescription {
     /// The restrainer and its path, or every mistake of the description; nothing for the kind `none`.
@@ -327,31 +361,15 @@ impl RestrainerDescription {
 
     /// Numbers that no restrainer has: mistakes of unit, mostly.
     fn implausible(&self) -> Vec<StaticsError> {
-        let stopper = self.stopper.as_ref();
-        [
-            ("stiffness_n_m", self.stiffness_n_m, TENDON_STIFFNESS),
-            ("outer_diameter_m", self.outer_diameter_m, DISC_DIAMETER),
-            ("inner_diameter_m", self.inner_diameter_m, DISC_DIAMETER),
-            ("thickness_m", self.thickness_m, DISC_HEIGHT),
-            ("cone_height_m", self.cone_height_m, DISC_HEIGHT),
-            ("free_height_m", self.free_height_m, DISC_HEIGHT),
-            ("reduced_thickness_m", self.reduced_thickness_m, DISC_HEIGHT),
-            ("young_modulus_pa", self.young_modulus_pa, YOUNG_MODULUS),
-            ("tendon_stiffness_n_m", self.tendon_stiffness_n_m, TENDON_STIFFNESS),
-            ("tendon_area_m2", self.tendon_area_m2, TENDON_AREA),
-            ("tendon_young_modulus_pa", self.tendon_young_modulus_pa, YOUNG_MODULUS),
-            ("tendon_length_m", self.tendon_length_m, LENGTH),
-            ("tendon_yield_n", self.tendon_yield_n, TENDON_FORCE),
-            ("tendon_failure_n", self.tendon_failure_n, TENDON_FORCE),
-            ("prestress_n", self.prestress_n, TENDON_FORCE),
-            ("slack_m", self.slack_m, SPRING_GAP),
-            ("duct_gap_m", self.duct_gap_m, SPRING_GAP),
-            ("gap_m", stopper.map(|stopper| stopper.gap_m), SPRING_GAP),
-            ("yield_n", stopper.and_then(|stopper| stopper.yield_n), TENDON_FORCE),
-        ]
-        .into_iter()
-        .filter_map(|(key, value, range)| range.check(key, value?).err().map(StaticsError::Implausible))
-        .collect()
+        let check = |(key, range, value): &(&'static str, Range, Number)| {
+            range.check(key, value(self)?).err().map(StaticsError::Implausible)
+        };
+        RANGES.iter().filter_map(check).collect()
+    }
+
+    /// What the number of this `key`, of the restrainer or its stopper, may be; none where that depends on others.
+    pub fn range(key: &str) -> Option<Range> {
+        RANGES.iter().find(|(known, ..)| *known == key).map(|(_, range, _)| *range)
     }
 
     /// Keys that mean nothing for the kind, the anchorage or the tendon given.

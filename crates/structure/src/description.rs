@@ -115,6 +115,8 @@ use crate::geometry::Geometry;
 mod audit;
 mod unusual;
 
+pub use audit::Allowed;
+
 /// Kind of rocking structure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -218,6 +220,11 @@ impl StructureDescription {
     pub fn resolve(&self) -> Result<EquivalentSystem, Vec<StructureError>> {
         let mistakes = audit::mistakes(self);
         if mistakes.is_empty() { self.equivalent().map_err(|mistake| vec![mistake]) } else { Err(mistakes) }
+    }
+
+    /// What the number of this `key` may be by itself; none of a key that has no number.
+    pub fn allowed(key: &str) -> Option<Allowed> {
+        audit::allowed(key)
     }
 
     /// The numbers that can be but are unlikely, mistakes of unit mostly; of a description that

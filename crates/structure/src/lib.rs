@@ -80,7 +80,7 @@ mod warning;
 
 pub use block::{Block, Body, PointMass, Reference};
 pub use curved::CurvedFrame;
-pub use description::{Kind, StructureDescription};
+pub use description::{Allowed, Kind, StructureDescription};
 pub use design::{Check, design};
 pub use equivalent::{Conditions, EquivalentSystem, PostUpliftForce};
 pub use error::StructureError;

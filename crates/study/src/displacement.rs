@@ -41,9 +41,9 @@ pub(crate) use records::{KEYS as RECORDS_KEYS, read as read_records};
 pub use scaling::{ScaledTo, ScalingPlan};
 pub use structures::Structures;
 
-/// The reference of every key.
+/// Every key.
 pub(crate) const KEYS: [SectionKeys; 13] = [
-    SectionKeys { section: "", keys: &[top::KIND, top::TITLE, top::GRAVITY] },
+    SectionKeys::new("", &[&top::KIND, &top::TITLE, &top::GRAVITY]),
     records::KEYS,
     selection::KEYS,
     record_source::SYNTHETIC_KEYS,
@@ -104,8 +104,8 @@ impl DisplacementStudy {
 
 /// Reads the whole study but for its `kind`; none where something is wrong.
 pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<DisplacementStudy> {
-    let title = top::title(&mut root);
-    let gravity = top::gravity(&mut root);
+    let title = root.read(&top::TITLE);
+    let gravity = root.read(&top::GRAVITY);
     let records = records::read(root.section("records"), paths, records::SETS_HAVE_TAGS);
     let record_sets = record_sets::read(root.field("record_sets"));
     let scaling = scaling::read(root.section("scaling"));

@@ -8,7 +8,7 @@ use std::str::FromStr;
 
 use serde::Serialize;
 
-use crate::reading::{Field, Findings, Node, Origin, Rule, Section, Value, quantity};
+use crate::reading::{Field, Findings, Node, Origin, Rule, Value, quantity};
 pub use notation::MOST_GRID_VALUES;
 
 /// What is wrong with the notation of a grid, and what to do.
@@ -68,23 +68,12 @@ pub(crate) struct GridRule {
 }
 
 impl Grid {
-    /// The grid of `key` in `section`, or that of the notations `default` where it is not given.
-    pub(crate) fn of_key(
-        section: &mut Section<'_>,
-        key: &'static str,
-        rule: GridRule,
-        default: &[&str],
-    ) -> Option<Self> {
-        match section.field(key) {
-            Some(field) => Self::read(&field, rule),
-            None => Self::of_default(default, rule, section.findings),
-        }
-    }
-
-    fn of_default(default: &[&str], rule: GridRule, findings: &Findings) -> Option<Self> {
+    /// The grid of the notations `default`.
+    pub(crate) fn of_default(default: &[&str], rule: GridRule) -> Option<Self> {
         let node = |value| Node { origin: Origin::Study, value };
         let items = default.iter().map(|text| node(Value::Text((*text).to_owned())));
-        Self::read(&Field { key: "default".to_owned(), node: &node(Value::List(items.collect())), findings }, rule)
+        let list = node(Value::List(items.collect()));
+        Self::read(&Field { key: "default".to_owned(), node: &list, findings: &Findings::default() }, rule)
     }
 
     /// Reads and checks a grid: a number, a notation, a table of start, stop and count, or a list of these.
@@ -232,7 +221,7 @@ fn bracketed(unit: &str) -> String {
 
 /// The notation of a table of start, stop and count.
 fn equal_steps(item: &Field<'_>, unit: &str) -> Option<String> {
-    const ANY: Rule = Rule::Is { holds: |_| true, words: "a finite number" };
+    const ANY: Rule = Rule::Finite("a finite number");
     let mut section = item.section();
     let fields = [section.field("start"), section.field("stop")];
     let count = section.field("count");

@@ -6,6 +6,7 @@ use crate::displacement::{self, DisplacementStudy};
 use crate::keys::SectionKeys;
 use crate::reading::{Paths, Section};
 use crate::sections::output::Output;
+use crate::sections::top;
 use crate::shake_table::{self, ShakeTableStudy};
 use crate::uniform_risk::{self, CurveFile, SiteTable, UniformRiskStudy};
 use crate::warning::Warning;
@@ -34,8 +35,8 @@ impl Kind {
         }
     }
 
-    /// The reference of its keys, section by section.
-    pub const fn keys(self) -> &'static [SectionKeys] {
+    /// Its keys, section by section.
+    pub(crate) const fn keys(self) -> &'static [SectionKeys] {
         match self {
             Self::UniformRisk => &uniform_risk::KEYS,
             Self::Displacement => &displacement::KEYS,
@@ -45,7 +46,7 @@ impl Kind {
 
     /// Reads the key `kind`; uniform risk where it is not given.
     pub(crate) fn read(root: &mut Section<'_>) -> Option<Self> {
-        root.choice_or("kind", &Self::ALL.map(|kind| (kind.key(), kind)), Self::UniformRisk)
+        root.read(&top::KIND)
     }
 }
 

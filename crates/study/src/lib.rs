@@ -21,18 +21,28 @@
 //! | take text that is in no file | [`Study::parse`], then [`Study::resolve`] or [`Study::resolve_any`] |
 //! | write a resolved study, complete | [`AnyStudy::to_toml`] |
 //! | read that again, when its files may be gone | [`Study::stored`] |
-//! | tell what the keys are | [`Kind::keys`] |
+//! | have editors complete and check keys | [`study_schema`], [`structure_schema`] |
 //! | load a structure file | [`Structure::load`] |
 //! | load a file of a restrainer alone | [`RestrainerFile::load`] |
 //!
 //! # Where things are
 //!
-//! A section of a study file is one module: its resolved type, the reading with its rules and defaults, the writing and
-//! the documentation of its keys. `sections` has those of every kind, `uniform_risk`, `displacement` and `shake_table`
-//! those of their kind; `reading` is what all of them read with, `grid` the notation of grids.
+//! A section of a study file is one module: its keys, its resolved type, the reading and the writing. `sections` has
+//! those of every kind, `uniform_risk`, `displacement` and `shake_table` those of their kind, `structure` those of
+//! structure files; `keys` is what keys are declared with, `reading` what all of them read with, `grid` the notation of
+//! grids, `schema` makes JSON Schemas of the keys.
 //!
-//! **A new key** is a field of the section's type, a line of its `read` and one of its `KEYS`; tests say when one is
-//! missing. Then `UPDATE_DOCS=1 cargo test -p uplift-study` writes the tables of the documentation.
+//! **A new key** is declared once in the module of its section, and listed in its `KEYS`:
+//!
+//! ```text
+//! const WITHIN_KM: Key<Number> = number("within_km", "km", Rule::Within(DISTANCE))
+//!     .with_default(1.0)
+//!     .meaning("farthest distance between a site and its point of the export, km");
+//! ```
+//!
+//! It becomes a field of the section's type by `section.read(&WITHIN_KM)`; without a default by `section.optional`. A
+//! rule that takes several keys stands in `read`, and in words in the key's `note`. Tests say when a part is missing;
+//! `UPDATE_DOCS=1 cargo test -p uplift-study` writes the tables of the documentation and the schemas of `configs`.
 //!
 //! **A new kind of study** is a module and folder beside `uniform_risk` and `displacement`, with the type of the study,
 //! `read` and `KEYS`; a variant of [`Kind`] and of [`AnyStudy`] in `kind.rs`; and its page in `tests/reference.rs`. The
@@ -44,6 +54,7 @@ mod grid;
 mod keys;
 mod kind;
 mod reading;
+mod schema;
 mod sections;
 mod shake_table;
 mod structure;
@@ -60,9 +71,9 @@ pub use displacement::{
 };
 pub use error::{Place, StudyError, StudyMistake, Unreadable};
 pub use grid::{Grid, GridError, MOST_GRID_VALUES};
-pub use keys::{Key, SectionKeys};
 pub use kind::{AnyStudy, Kind};
 pub use reading::did_you_mean;
+pub use schema::{structure_schema, study_schema};
 pub use sections::output::Output;
 pub use sections::record_source::{DEFAULT_SYNTHETIC_PAIRS, DEFAULT_SYNTHETIC_SEED, RecordSource};
 pub use sections::selection::{CRITERIA, Criterion, Range, RecordSelection};

@@ -17,7 +17,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 use crate::displacement::{RECORDS_KEYS, SetRecords, read_records};
-use crate::keys::{Key, SectionKeys};
+use crate::keys::{File, Key, Number, SectionKeys, file, number};
 use crate::reading::{Paths, Rule, Section, optional};
 use crate::sections::output::{self, Output};
 use crate::sections::{record_source, selection, top};
@@ -28,39 +28,14 @@ pub use model::FrameModel;
 pub use spectra::{DesignSpectrumPlan, SpectraPlan};
 
 /// Prototype over model: as `uplift-frame` takes it.
-const LENGTH_SCALE: Rule = Rule::Is { holds: |value| (1e-3..=1e3).contains(&value), words: "from 0.001 to 1000" };
+const SCALE: Rule = Rule::From(1e-3, 1e3, "from 0.001 to 1000");
 
 /// What to do about a tag.
 const TABLE_OF_EXCITATIONS: &str = "name the records in a table: excitations = \"excitations.csv\"";
 
-/// The reference of every key.
+/// Every key.
 pub(crate) const KEYS: [SectionKeys; 9] = [
-    SectionKeys {
-        section: "",
-        keys: &[
-            top::KIND,
-            top::TITLE,
-            top::GRAVITY,
-            Key {
-                names: &["structure"],
-                meaning: "the frame that stands on the table: a structure file with columns and a deck",
-                default: "needed",
-                range: "kind `frame` or `restrained-frame`, `column_shape = \"cylinder\"`",
-            },
-            Key {
-                names: &["excitations"],
-                meaning: "table (CSV) of the records that are played: `exc_id`, `class`, and `rsn` or `record_id`",
-                default: "every record, of the class `all`",
-                range: "those that are not among the records are told",
-            },
-            Key {
-                names: &["length_scale"],
-                meaning: "lengths of the prototype over those of the model: time runs faster by its square root",
-                default: "1",
-                range: "0.001 to 1000",
-            },
-        ],
-    },
+    SectionKeys::new("", &[&top::KIND, &top::TITLE, &top::GRAVITY, &STRUCTURE, &EXCITATIONS, &LENGTH_SCALE]),
     RECORDS_KEYS,
     selection::KEYS,
     record_source::SYNTHETIC_KEYS,
@@ -70,6 +45,17 @@ pub(crate) const KEYS: [SectionKeys; 9] = [
     spectra::DESIGN_KEYS,
     output::KEYS,
 ];
+
+const STRUCTURE: Key<File> = file("structure")
+    .meaning("the frame that stands on the table: a structure file with columns and a deck")
+    .note("kind `frame` or `restrained-frame`, `column_shape = \"cylinder\"`");
+const EXCITATIONS: Key<File> = file("excitations")
+    .without_default("every record, of the class `all`")
+    .meaning("table (CSV) of the records that are played: `exc_id`, `class`, and `rsn` or `record_id`")
+    .note("those that are not among the records are told");
+const LENGTH_SCALE: Key<Number> = number("length_scale", "", SCALE)
+    .with_default(1.0)
+    .meaning("lengths of the prototype over those of the model: time runs faster by its square root");
 
 /// A study of a shaking table with every default filled in, every path found and every unit checked.
 ///
@@ -116,9 +102,9 @@ impl ShakeTableStudy {
 
 /// Reads the whole study but for its `kind`; none where something is wrong.
 pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<ShakeTableStudy> {
-    let title = top::title(&mut root);
-    let gravity = top::gravity(&mut root);
-    let structure = if let Some(field) = root.field("structure") {
+    let title = root.read(&top::TITLE);
+    let gravity = root.read(&top::GRAVITY);
+    let structure = if let Some(field) = root.given(&STRUCTURE) {
         paths.input(&field)
     } else {
         root.mistake(
@@ -128,8 +114,8 @@ pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<ShakeTableStu
         );
         None
     };
-    let excitations = optional(root.field("excitations").as_ref(), |field| paths.input(field));
-    let length_scale = root.number_or("length_scale", "", LENGTH_SCALE, 1.0);
+    let excitations = optional(root.given(&EXCITATIONS).as_ref(), |field| paths.input(field));
+    let length_scale = root.read(&LENGTH_SCALE);
     let records = read_records(root.section("records"), paths, TABLE_OF_EXCITATIONS);
     let levels = levels::read(&mut root);
     let model = model::read(root.section("model"));

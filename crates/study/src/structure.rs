@@ -8,18 +8,20 @@
 
 use std::path::{Path, PathBuf};
 
+use serde_json::json;
 use uplift_plausible::{CONCRETE_STRENGTH, UPLIFT_DISPLACEMENT};
 use uplift_statics::{Parts, RestrainedColumns, Restrainer, StaticsError, TendonPath};
 use uplift_structure::{
-    Anchorage, EquivalentSystem, Kind, Reference, RotatingBlock, StructureDescription, StructureError,
+    Allowed, Anchorage, EquivalentSystem, Kind, Reference, RotatingBlock, StructureDescription, StructureError,
     UncertainQuantity,
 };
 
 use crate::error::StudyError;
+use crate::keys::{self, Choice, Judged, Key, Number, SectionKeys, Special, choice, number, special};
 use crate::reading::findings::refused;
 use crate::reading::other_file::Wanted;
 use crate::reading::text::{parse_table, read_text};
-use crate::reading::{Field, Finding, Findings, Origin, Rule, Section, Table, Value};
+use crate::reading::{Finding, Findings, Origin, Rule, Section, Table, Value};
 use crate::sections::uncertainty::{self, Described, Doubt, Uncertainty};
 use crate::warning::Warning;
 use restrainer::ReadRestrainer;
@@ -28,11 +30,111 @@ pub use restrainer::RestrainerFile;
 mod restrainer;
 mod rocking;
 
-/// What a number must be is judged by the description.
-const ANY: Rule = Rule::Is { holds: |_| true, words: "finite" };
-const REFERENCES: [(&str, Reference); 2] = [("top", Reference::Top), ("centre", Reference::Centre)];
-const SHAPES: [(&str, ColumnShape); 2] = [("cylinder", ColumnShape::Cylinder), ("rectangle", ColumnShape::Rectangle)];
-const ANCHORAGES: [(&str, Anchorage); 2] = [("foundation", Anchorage::Foundation), ("column", Anchorage::Column)];
+/// The keys of a structure file, section by section.
+pub(crate) const KEYS: [SectionKeys; 6] = [
+    SectionKeys::new(
+        "",
+        &[
+            &KIND,
+            &WIDTH_M,
+            &HEIGHT_M,
+            &CENTRE_HEIGHT_M,
+            &SLENDERNESS_RAD,
+            &SLENDERNESS_DEG,
+            &SIZE_M,
+            &MASS_KG,
+            &MOMENT_OF_INERTIA_KG_M2,
+            &DISPLACEMENT_OF,
+            &COLUMNS,
+            &COLUMN_MASS_KG,
+            &DECK_MASS_KG,
+            &TENDON_STIFFNESS_N_M,
+            &TENDON_ANCHORAGE,
+            &CURVATURE_RADIUS_M,
+            &EXTENDED_WIDTH_M,
+            &UPLIFT_DISPLACEMENT_M,
+            &GRAVITY_M_S2,
+            &RESTITUTION,
+            &COLUMN_SHAPE,
+            &F_CD_PA,
+        ],
+    ),
+    restrainer::KEYS,
+    restrainer::STOPPER_KEYS,
+    uncertainty::KEYS,
+    uncertainty::QUANTITY_KEYS,
+    uncertainty::CORRELATION_KEYS,
+];
+const KIND: Key<Choice<Kind>> = choice("kind", &Kind::ALL, Kind::name).meaning("what kind of structure it is");
+const WIDTH_M: Key<Judged> = judged("width_m", "m").meaning("width 2b of the block or column, m");
+const HEIGHT_M: Key<Judged> = judged("height_m", "m").meaning("height 2h of the block or column, m");
+const CENTRE_HEIGHT_M: Key<Judged> = judged("centre_height_m", "m")
+    .meaning("height h of the mass centre of a `point-mass` or a `body`, in place of `height_m`, m");
+const SLENDERNESS_RAD: Key<Judged> =
+    judged("slenderness_rad", "rad").meaning("slenderness α with one length, in place of two lengths, rad");
+const SLENDERNESS_DEG: Key<Judged> =
+    judged("slenderness_deg", "degrees").meaning("the same in degrees, in place of `slenderness_rad`");
+const SIZE_M: Key<Judged> =
+    judged("size_m", "m").meaning("distance R from the pivot corner to the mass centre, with a slenderness, m");
+const MASS_KG: Key<Judged> = judged("mass_kg", "kg").meaning("mass of a `point-mass`, `block` or `body`, kg");
+const MOMENT_OF_INERTIA_KG_M2: Key<Judged> = judged("moment_of_inertia_kg_m2", "kg m2")
+    .meaning("moment of inertia I_o of a `body` about the pivot corner, kg m²");
+const DISPLACEMENT_OF: Key<Choice<Reference>> =
+    choice("displacement_of", &[Reference::Top, Reference::Centre], |reference| match reference {
+        Reference::Top => "top",
+        Reference::Centre => "centre",
+    })
+    .without_default("`\"top\"`")
+    .meaning("point of a `block` whose displacement is followed");
+const COLUMNS: Key<Special> =
+    special("columns", || json!({ "type": "integer", "minimum": 1, "maximum": uplift_plausible::COLUMNS.most }))
+        .without_default("")
+        .meaning("number of columns of a frame")
+        .note("1 to 1e6");
+const COLUMN_MASS_KG: Key<Judged> = judged("column_mass_kg", "kg").meaning("mass of one column of a frame, kg");
+const DECK_MASS_KG: Key<Judged> = judged("deck_mass_kg", "kg").meaning("mass of the deck of a frame, kg");
+const TENDON_STIFFNESS_N_M: Key<Judged> = judged("tendon_stiffness_n_m", "N/m").meaning(
+    "stiffness of the tendon and springs of one column of a `restrained-frame`, in series, N/m; or a table \
+     `[restrainer]`",
+);
+const TENDON_ANCHORAGE: Key<Choice<Anchorage>> =
+    choice("tendon_anchorage", &[Anchorage::Foundation, Anchorage::Column], |anchorage| match anchorage {
+        Anchorage::Foundation => "foundation",
+        Anchorage::Column => "column",
+    })
+    .without_default("")
+    .meaning("where these tendons are anchored");
+const CURVATURE_RADIUS_M: Key<Judged> =
+    judged("curvature_radius_m", "m").meaning("radius r of the curved ends of a `curved-frame`, m");
+const EXTENDED_WIDTH_M: Key<Judged> =
+    judged("extended_width_m", "m").meaning("width 2b' of the end of such a column with its extensions, m");
+const UPLIFT_DISPLACEMENT_M: Key<Number> = number("uplift_displacement_m", "m", Rule::Within(UPLIFT_DISPLACEMENT))
+    .without_default("0.0005")
+    .meaning("displacement at uplift u_up, m");
+const GRAVITY_M_S2: Key<Judged> =
+    judged("gravity_m_s2", "m/s2").without_default("9.80665").meaning("acceleration of gravity, m/s²");
+const RESTITUTION: Key<Judged> = judged("restitution", "")
+    .without_default("that of the study")
+    .meaning("velocity after an impact divided by the one before");
+const COLUMN_SHAPE: Key<Choice<ColumnShape>> =
+    choice("column_shape", &[ColumnShape::Cylinder, ColumnShape::Rectangle], |shape| match shape {
+        ColumnShape::Cylinder => "cylinder",
+        ColumnShape::Rectangle => "rectangle",
+    })
+    .with_default(ColumnShape::Rectangle)
+    .meaning("section of the columns");
+const F_CD_PA: Key<Number> = number("f_cd_pa", "Pa", Rule::Within(CONCRETE_STRENGTH))
+    .without_default("none")
+    .meaning("design strength of the columns' concrete, Pa");
+
+/// A number that the description judges.
+const fn judged(name: &'static str, unit: &'static str) -> Key<Judged> {
+    keys::judged(name, unit, |key| match StructureDescription::allowed(key) {
+        Some(Allowed::Plausible(range)) => Rule::Within(range),
+        Some(Allowed::BelowQuarterTurn(quarter_turn, words)) => Rule::Between(0.0, quarter_turn, words),
+        None => keys::ANY,
+    })
+}
 
 /// Section of a column whose width is given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -279,11 +381,10 @@ impl ReadStructure {
 
 /// Reads every key; none where the kind is missing or unknown. A value of the wrong type counts as not given.
 fn read(mut root: Section<'_>) -> Option<ReadStructure> {
-    let kinds = Kind::ALL.map(|kind| (kind.name(), kind));
-    let kind = if let Some(field) = root.field("kind") {
-        field.choice(&kinds)
+    let kind = if let Some(field) = root.given(&KIND) {
+        KIND.read(&field)
     } else {
-        let words: Vec<&str> = kinds.iter().map(|(word, _)| *word).collect();
+        let words = Kind::ALL.map(Kind::name);
         root.mistake(
             "kind",
             "what kind of structure is this?",
@@ -291,37 +392,35 @@ fn read(mut root: Section<'_>) -> Option<ReadStructure> {
         );
         None
     };
-    let mut number = |key, unit| root.field(key).and_then(|field: Field<'_>| field.number(unit, ANY));
+    let mut number = |key: &Key<Judged>| root.optional(key).flatten();
     let description = StructureDescription {
         kind: kind.unwrap_or(Kind::Block),
-        width_m: number("width_m", "m"),
-        height_m: number("height_m", "m"),
-        centre_height_m: number("centre_height_m", "m"),
-        slenderness_rad: number("slenderness_rad", "rad"),
-        slenderness_deg: number("slenderness_deg", "degrees"),
-        size_m: number("size_m", "m"),
-        mass_kg: number("mass_kg", "kg"),
-        moment_of_inertia_kg_m2: number("moment_of_inertia_kg_m2", "kg m2"),
-        column_mass_kg: number("column_mass_kg", "kg"),
-        deck_mass_kg: number("deck_mass_kg", "kg"),
-        tendon_stiffness_n_m: number("tendon_stiffness_n_m", "N/m"),
-        curvature_radius_m: number("curvature_radius_m", "m"),
-        extended_width_m: number("extended_width_m", "m"),
-        gravity_m_s2: number("gravity_m_s2", "m/s2"),
-        restitution: number("restitution", ""),
-        uplift_displacement_m: root
-            .field("uplift_displacement_m")
-            .and_then(|field| field.number("m", Rule::Within(UPLIFT_DISPLACEMENT))),
+        width_m: number(&WIDTH_M),
+        height_m: number(&HEIGHT_M),
+        centre_height_m: number(&CENTRE_HEIGHT_M),
+        slenderness_rad: number(&SLENDERNESS_RAD),
+        slenderness_deg: number(&SLENDERNESS_DEG),
+        size_m: number(&SIZE_M),
+        mass_kg: number(&MASS_KG),
+        moment_of_inertia_kg_m2: number(&MOMENT_OF_INERTIA_KG_M2),
+        column_mass_kg: number(&COLUMN_MASS_KG),
+        deck_mass_kg: number(&DECK_MASS_KG),
+        tendon_stiffness_n_m: number(&TENDON_STIFFNESS_N_M),
+        curvature_radius_m: number(&CURVATURE_RADIUS_M),
+        extended_width_m: number(&EXTENDED_WIDTH_M),
+        gravity_m_s2: number(&GRAVITY_M_S2),
+        restitution: number(&RESTITUTION),
+        uplift_displacement_m: root.optional(&UPLIFT_DISPLACEMENT_M).flatten(),
         columns: root
-            .field("columns")
+            .given(&COLUMNS)
             .and_then(|field| field.integer(0, u64::from(u32::MAX)))
             .and_then(|columns| u32::try_from(columns).ok()),
-        displacement_of: root.field("displacement_of").and_then(|field| field.choice(&REFERENCES)),
-        tendon_anchorage: root.field("tendon_anchorage").and_then(|field| field.choice(&ANCHORAGES)),
+        displacement_of: root.optional(&DISPLACEMENT_OF).flatten(),
+        tendon_anchorage: root.optional(&TENDON_ANCHORAGE).flatten(),
     };
     let restrainer = restrainer::read(&mut root, &description);
-    let column_shape = root.choice_or("column_shape", &SHAPES, ColumnShape::default()).unwrap_or_default();
-    let f_cd_pa = root.field("f_cd_pa").and_then(|field| field.number("Pa", Rule::Within(CONCRETE_STRENGTH)));
+    let column_shape = root.read(&COLUMN_SHAPE).unwrap_or_default();
+    let f_cd_pa = root.optional(&F_CD_PA).flatten();
     // it is read when the structure is known, whose values are its means
     root.section("uncertainty");
     root.finish();

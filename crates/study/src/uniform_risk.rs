@@ -38,12 +38,12 @@ use uplift_bootstrap::Unit;
 use uplift_motion::{Component, IntensityMeasure, Rotation};
 
 use crate::grid::Grid;
-use crate::keys::{Key, SectionKeys};
+use crate::keys::{Integer, Key, SectionKeys, Shape};
 use crate::reading::{Paths, Section};
 use crate::sections::output::{self, Output};
 use crate::sections::stiffness;
 use crate::sections::uncertainty::{Uncertainty, UncertaintyKind};
-use crate::sections::{record_source, selection, strengths, top};
+use crate::sections::{self, record_source, selection, strengths, top};
 use crate::warning::Warning;
 
 pub use bootstrap::Bootstrap;
@@ -54,6 +54,7 @@ pub use hazard::{Conversion, Hazard, definition_of};
 pub use lower_levels::{levels_key, levels_place, lower_starts};
 pub use measures::{MeasurePlan, levels_within};
 pub use oscillator::Oscillator;
+pub(crate) use oscillator::{FREE_VIBRATION, RESTITUTION};
 pub use records::Records;
 pub use regression::Regression;
 pub use risk::{Contour, Risk};
@@ -61,31 +62,35 @@ pub use site_table::SiteTable;
 pub use sites::Site;
 pub use warnings::usual_top_level;
 
-/// The reference of every key.
-pub(crate) const KEYS: [SectionKeys; 28] = [
+/// Every key.
+pub(crate) const KEYS: [SectionKeys; 32] = [
     TOP,
     records::KEYS,
     rotation::KEYS,
     selection::KEYS,
     record_source::SYNTHETIC_KEYS,
     oscillator::KEYS,
-    uncertainty::KEYS,
-    uncertainty::QUANTITY_KEYS,
-    uncertainty::CORRELATION_KEYS,
+    sections::uncertainty::KEYS,
+    sections::uncertainty::QUANTITY_KEYS,
+    sections::uncertainty::CORRELATION_KEYS,
     strengths::KEYS,
     measures::PGV_KEYS,
     measures::PGA_KEYS,
-    measures::FURTHER_KEYS,
+    measures::SA_KEYS,
+    measures::PGD_KEYS,
+    measures::SI_KEYS,
+    measures::CAV_KEYS,
+    measures::ARIAS_KEYS,
     risk::KEYS,
     hazard::KEYS,
     hazard::CONVERSION_KEYS,
     sites::KEYS,
-    SectionKeys { section: "sites.pgv", keys: curve::KEYS },
-    SectionKeys { section: "sites.pga", keys: curve::KEYS },
-    SectionKeys { section: "sites.sa_1s", keys: curve::KEYS },
-    SectionKeys { section: "sites.pgv.branches", keys: branches::KEYS },
-    SectionKeys { section: "sites.pga.branches", keys: branches::KEYS },
-    SectionKeys { section: "sites.sa_1s.branches", keys: branches::KEYS },
+    SectionKeys::new("sites.pgv", curve::KEYS).shape(Shape::FileOrTable),
+    SectionKeys::new("sites.pga", curve::KEYS).shape(Shape::FileOrTable),
+    SectionKeys::new("sites.sa_1s", curve::KEYS).shape(Shape::FileOrTable),
+    SectionKeys::new("sites.pgv.branches", branches::KEYS).shape(Shape::List),
+    SectionKeys::new("sites.pga.branches", branches::KEYS).shape(Shape::List),
+    SectionKeys::new("sites.sa_1s.branches", branches::KEYS).shape(Shape::List),
     site_table::KEYS,
     regression::KEYS,
     bootstrap::KEYS,
@@ -93,20 +98,9 @@ pub(crate) const KEYS: [SectionKeys; 28] = [
     output::KEYS,
 ];
 
-const TOP: SectionKeys = SectionKeys {
-    section: "",
-    keys: &[
-        top::KIND,
-        top::TITLE,
-        Key {
-            names: &["seed"],
-            meaning: "seed of what is drawn at random: the component where it is `\"random\"`, the azimuth of a pair",
-            default: "1",
-            range: "0 to 2⁶³ − 1",
-        },
-        top::GRAVITY,
-    ],
-};
+const TOP: SectionKeys = SectionKeys::new("", &[&top::KIND, &top::TITLE, &SEED, &top::GRAVITY]);
+const SEED: Key<Integer> = top::seed(1)
+    .meaning("seed of what is drawn at random: the component where it is `\"random\"`, the azimuth of a pair");
 
 /// A study of uniform risk spectra with every default filled in, every path found and every unit checked.
 ///
@@ -261,9 +255,9 @@ fn is_of_one_measure(root: &Section<'_>, records: Option<&Records>, measures: &[
 
 /// Reads the whole study but for its `kind`; none where something is wrong.
 pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<UniformRiskStudy> {
-    let title = top::title(&mut root);
-    let seed = root.seed_or(1);
-    let gravity = top::gravity(&mut root);
+    let title = root.read(&top::TITLE);
+    let seed = root.read(&SEED);
+    let gravity = root.read(&top::GRAVITY);
     let records = records::read(root.section("records"), paths);
     let oscillator = oscillator::read(root.section("oscillator"));
     let uncertainty = root.section("uncertainty");

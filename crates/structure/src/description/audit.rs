@@ -11,6 +11,7 @@ use super::{Kind, StructureDescription};
 use crate::block::Reference;
 use crate::error::{StructureError, require};
 use crate::frame::Anchorage;
+use Allowed::{BelowQuarterTurn, Plausible};
 
 /// What a kind makes of a quantity.
 #[derive(Clone, Copy, PartialEq)]
@@ -20,11 +21,12 @@ enum Role {
     Foreign,
 }
 
-/// Values a quantity can take by itself.
-#[derive(Clone, Copy)]
-enum Allowed {
+/// Values that a quantity can take by itself.
+#[derive(Debug, Clone, Copy)]
+pub enum Allowed {
+    /// A plausible one.
     Plausible(Range),
-    /// Above 0 and below a quarter turn, given in the quantity's unit.
+    /// Above 0 and below a quarter turn, in the unit of the quantity; and that in words.
     BelowQuarterTurn(f64, &'static str),
 }
 
@@ -41,10 +43,24 @@ impl Allowed {
 
 struct Quantity {
     key: &'static str,
-    value: Option<f64>,
     unit: &'static str,
     allowed: Allowed,
-    role: Role,
+    value: fn(&StructureDescription) -> Option<f64>,
+    role: fn(Kind) -> Role,
+}
+
+const fn quantity(
+    key: &'static str,
+    unit: &'static str,
+    allowed: Allowed,
+    value: fn(&StructureDescription) -> Option<f64>,
+    role: fn(Kind) -> Role,
+) -> Quantity {
+    Quantity { key, unit, allowed, value, role }
+}
+
+fn accepted(_: Kind) -> Role {
+    Role::Accepted
 }
 
 fn needed_if(condition: bool) -> Role {
@@ -55,63 +71,81 @@ fn accepted_if(condition: bool) -> Role {
     if condition { Role::Accepted } else { Role::Foreign }
 }
 
+fn needed_of_frames(kind: Kind) -> Role {
+    needed_if(kind.is_frame())
+}
+
+fn needed_of_curved(kind: Kind) -> Role {
+    needed_if(kind == Kind::CurvedFrame)
+}
+
+/// What may be absent.
+const fn from_zero(range: Range) -> Allowed {
+    Plausible(Range { least: 0.0, ..range })
+}
+
 /// Every quantity that is a number, in the order of the documentation.
-fn quantities(of: &StructureDescription) -> Vec<Quantity> {
-    use Allowed::{BelowQuarterTurn, Plausible};
-    // what may be absent
-    let from_zero = |range: Range| Plausible(Range { least: 0.0, ..range });
-    let kind = of.kind;
-    let (frame, by_centre) = (kind.is_frame(), kind.is_by_centre());
-    let restrained = kind == Kind::RestrainedFrame;
-    let curved = kind == Kind::CurvedFrame;
-    let quantity = |key, value, unit, allowed, role| Quantity { key, value, unit, allowed, role };
-    let radians = BelowQuarterTurn(FRAC_PI_2, "above 0 and below π/2");
-    let degrees = BelowQuarterTurn(90.0, "above 0 and below 90");
-    vec![
-        quantity("width_m", of.width_m, "m", Plausible(LENGTH), Role::Accepted),
-        quantity("height_m", of.height_m, "m", Plausible(LENGTH), accepted_if(!by_centre)),
-        quantity("centre_height_m", of.centre_height_m, "m", Plausible(LENGTH), accepted_if(by_centre)),
-        quantity("slenderness_rad", of.slenderness_rad, "rad", radians, Role::Accepted),
-        quantity("slenderness_deg", of.slenderness_deg, "degrees", degrees, Role::Accepted),
-        quantity("size_m", of.size_m, "m", Plausible(SIZE), Role::Accepted),
-        quantity("mass_kg", of.mass_kg, "kg", Plausible(MASS), needed_if(!frame)),
-        quantity(
-            "moment_of_inertia_kg_m2",
-            of.moment_of_inertia_kg_m2,
-            "kg m²",
-            Plausible(MOMENT_OF_INERTIA),
-            needed_if(kind == Kind::Body),
-        ),
-        quantity("columns", of.columns.map(f64::from), "", Plausible(COLUMNS), needed_if(frame)),
-        quantity("column_mass_kg", of.column_mass_kg, "kg", from_zero(MASS), needed_if(frame)),
-        quantity("deck_mass_kg", of.deck_mass_kg, "kg", from_zero(MASS), needed_if(frame)),
-        quantity(
-            "tendon_stiffness_n_m",
-            of.tendon_stiffness_n_m,
-            "N/m",
-            Plausible(TENDON_STIFFNESS),
-            needed_if(restrained),
-        ),
-        quantity("curvature_radius_m", of.curvature_radius_m, "m", Plausible(CURVATURE_RADIUS), needed_if(curved)),
-        quantity("extended_width_m", of.extended_width_m, "m", Plausible(LENGTH), needed_if(curved)),
-        quantity(
-            "uplift_displacement_m",
-            of.uplift_displacement_m,
-            "m",
-            from_zero(UPLIFT_DISPLACEMENT),
-            Role::Accepted,
-        ),
-        quantity("gravity_m_s2", of.gravity_m_s2, "m/s²", Plausible(GRAVITY), Role::Accepted),
-        quantity("restitution", of.restitution, "", Plausible(RESTITUTION), Role::Accepted),
-    ]
+const QUANTITIES: [Quantity; 17] = [
+    quantity("width_m", "m", Plausible(LENGTH), |of| of.width_m, accepted),
+    quantity("height_m", "m", Plausible(LENGTH), |of| of.height_m, |kind| accepted_if(!kind.is_by_centre())),
+    quantity(
+        "centre_height_m",
+        "m",
+        Plausible(LENGTH),
+        |of| of.centre_height_m,
+        |kind| accepted_if(kind.is_by_centre()),
+    ),
+    quantity(
+        "slenderness_rad",
+        "rad",
+        BelowQuarterTurn(FRAC_PI_2, "above 0 and below π/2"),
+        |of| of.slenderness_rad,
+        accepted,
+    ),
+    quantity(
+        "slenderness_deg",
+        "degrees",
+        BelowQuarterTurn(90.0, "above 0 and below 90"),
+        |of| of.slenderness_deg,
+        accepted,
+    ),
+    quantity("size_m", "m", Plausible(SIZE), |of| of.size_m, accepted),
+    quantity("mass_kg", "kg", Plausible(MASS), |of| of.mass_kg, |kind| needed_if(!kind.is_frame())),
+    quantity(
+        "moment_of_inertia_kg_m2",
+        "kg m²",
+        Plausible(MOMENT_OF_INERTIA),
+        |of| of.moment_of_inertia_kg_m2,
+        |kind| needed_if(kind == Kind::Body),
+    ),
+    quantity("columns", "", Plausible(COLUMNS), |of| of.columns.map(f64::from), needed_of_frames),
+    quantity("column_mass_kg", "kg", from_zero(MASS), |of| of.column_mass_kg, needed_of_frames),
+    quantity("deck_mass_kg", "kg", from_zero(MASS), |of| of.deck_mass_kg, needed_of_frames),
+    quantity(
+        "tendon_stiffness_n_m",
+        "N/m",
+        Plausible(TENDON_STIFFNESS),
+        |of| of.tendon_stiffness_n_m,
+        |kind| needed_if(kind == Kind::RestrainedFrame),
+    ),
+    quantity("curvature_radius_m", "m", Plausible(CURVATURE_RADIUS), |of| of.curvature_radius_m, needed_of_curved),
+    quantity("extended_width_m", "m", Plausible(LENGTH), |of| of.extended_width_m, needed_of_curved),
+    quantity("uplift_displacement_m", "m", from_zero(UPLIFT_DISPLACEMENT), |of| of.uplift_displacement_m, accepted),
+    quantity("gravity_m_s2", "m/s²", Plausible(GRAVITY), |of| of.gravity_m_s2, accepted),
+    quantity("restitution", "", Plausible(RESTITUTION), |of| of.restitution, accepted),
+];
+
+/// What the quantity of this `key` may be; none of a key that is no number.
+pub(super) fn allowed(key: &str) -> Option<Allowed> {
+    QUANTITIES.iter().find(|quantity| quantity.key == key).map(|quantity| quantity.allowed)
 }
 
 /// The mistakes that can be seen in single quantities and in the choice of geometry.
 pub(super) fn mistakes(of: &StructureDescription) -> Vec<StructureError> {
     let kind = of.kind.name();
     let mut mistakes = Vec::new();
-    for Quantity { key, value, unit, allowed, role } in quantities(of) {
-        match (role, value) {
+    for Quantity { key, unit, allowed, value, role } in QUANTITIES {
+        match (role(of.kind), value(of)) {
             (Role::Needed, None) => mistakes.push(StructureError::Missing { key, unit, kind }),
             (Role::Foreign, Some(value)) => {
                 mistakes.push(StructureError::Foreign { key, value: value.to_string(), unit, kind });
@@ -149,10 +183,12 @@ pub(super) fn mistakes(of: &StructureDescription) -> Vec<StructureError> {
 pub(super) fn geometry_mistake(of: &StructureDescription) -> StructureError {
     const LENGTHS: [&str; 6] =
         ["width_m", "height_m", "centre_height_m", "slenderness_rad", "slenderness_deg", "size_m"];
-    let given: Vec<String> = quantities(of)
+    let given: Vec<String> = QUANTITIES
         .iter()
-        .filter(|quantity| LENGTHS.contains(&quantity.key) && quantity.role != Role::Foreign)
-        .filter_map(|quantity| quantity.value.map(|value| format!("`{}` = {value} {}", quantity.key, quantity.unit)))
+        .filter(|quantity| LENGTHS.contains(&quantity.key) && (quantity.role)(of.kind) != Role::Foreign)
+        .filter_map(|quantity| {
+            (quantity.value)(of).map(|value| format!("`{}` = {value} {}", quantity.key, quantity.unit))
+        })
         .collect();
     let given = if given.is_empty() { "nothing".to_owned() } else { given.join(", ") };
     let advice = if of.kind.is_by_centre() {

@@ -7,54 +7,34 @@ use uplift_spectra::{NoiseSweep, SpectraError};
 use super::blocks::HEIGHT;
 use super::spectrum::PERCENT;
 use super::structures::Structures;
-use crate::keys::{Key, SectionKeys};
+use crate::keys::{Integer, Key, Number, SectionKeys, integer, number};
 use crate::reading::{Rule, Section, quantity};
 
-pub(super) const KEYS: SectionKeys = SectionKeys {
-    section: "design",
-    keys: &[
-        Key {
-            names: &["width_m", "height_m"],
-            meaning: "oscillators: width 2b and height 2h of the columns, m",
-            default: "1.6, 9.6",
-            range: "0.001 to 1e6; the width above the smallest uplift displacement and below the height",
-        },
-        Key {
-            names: &["height_m"],
-            meaning: "blocks: height 2H of the block, m",
-            default: "10",
-            range: "0.001 to 1e6",
-        },
-        Key {
-            names: &["endless_height_m"],
-            meaning: "blocks: height that stands for an endless one, m",
-            default: "1000",
-            range: "0.001 to 1e6",
-        },
-        Key { names: &["safety_factor"], meaning: "FS", default: "2.5", range: "1 to 1000" },
-        Key {
-            names: &["percentile"],
-            meaning: "percentile of the displacements that counts, %",
-            default: "50",
-            range: "0 to 100",
-        },
-        Key {
-            names: &["noise_relative"],
-            meaning: "width of the sweep around each value, relative",
-            default: "0.01",
-            range: "0 to 0.5",
-        },
-        Key {
-            names: &["noise_points"],
-            meaning: "points in the sweep; 1: no sweep",
-            default: "21",
-            range: "odd, at most 1001",
-        },
-    ],
-};
+pub(super) const KEYS: SectionKeys = SectionKeys::new(
+    "design",
+    &[&WIDTH_M, &HEIGHT_M, &BLOCK_HEIGHT_M, &ENDLESS_HEIGHT_M, &SAFETY, &PERCENTILE, &NOISE_RELATIVE, &NOISE_POINTS],
+);
+const WIDTH_M: Key<Number> = number("width_m", "m", Rule::Within(LENGTH))
+    .with_default(1.6)
+    .meaning("oscillators: width 2b of the columns, m")
+    .note("above the smallest uplift displacement and below the height");
+const HEIGHT_M: Key<Number> =
+    number("height_m", "m", Rule::Within(LENGTH)).with_default(9.6).meaning("oscillators: height 2h of the columns, m");
+const BLOCK_HEIGHT_M: Key<Number> =
+    number("height_m", "m", HEIGHT).with_default(10.0).meaning("blocks: height 2H of the block, m");
+const ENDLESS_HEIGHT_M: Key<Number> = number("endless_height_m", "m", HEIGHT)
+    .with_default(1000.0)
+    .meaning("blocks: height that stands for an endless one, m");
+const SAFETY: Key<Number> =
+    number("safety_factor", "", Rule::Within(SAFETY_FACTOR)).with_default(2.5).meaning("safety factor FS");
+const PERCENTILE: Key<Number> =
+    number("percentile", "%", PERCENT).with_default(50.0).meaning("percentile of the displacements that counts, %");
+const NOISE_RELATIVE: Key<Number> =
+    number("noise_relative", "", NARROW).with_default(0.01).meaning("width of the sweep around each value, relative");
+const NOISE_POINTS: Key<Integer> =
+    integer("noise_points", 1, MOST_POINTS).with_default(21).meaning("points in the sweep; 1: no sweep").note("odd");
 
-const SAFETY: Rule = Rule::Within(SAFETY_FACTOR);
-const NARROW: Rule = Rule::Is { holds: |value| (0.0..=0.5).contains(&value), words: "from 0 to 0.5 (1 % is 0.01)" };
+const NARROW: Rule = Rule::From(0.0, 0.5, "from 0 to 0.5 (1 % is 0.01)");
 /// Most points of the sweep around a value.
 const MOST_POINTS: u64 = 1001;
 
@@ -115,20 +95,21 @@ pub(super) fn read(
         return Some(None);
     }
     let designed = designed(&mut section, of_blocks, structures);
-    let safety_factor = section.number_or("safety_factor", "", SAFETY, 2.5);
-    let percentile = section.number_or("percentile", "%", PERCENT, 50.0);
-    let noise_relative = section.number_or("noise_relative", "", NARROW, 0.01);
-    let noise_points = section.field("noise_points").map_or(Some(21), |field| {
-        let points = field.integer(1, MOST_POINTS)?;
-        if points.is_multiple_of(2) {
+    let safety_factor = section.read(&SAFETY);
+    let percentile = section.read(&PERCENTILE);
+    let noise_relative = section.read(&NOISE_RELATIVE);
+    let noise_points = section.read(&NOISE_POINTS).filter(|points| {
+        if points.is_multiple_of(2)
+            && let Some(field) = section.given(&NOISE_POINTS)
+        {
             field.mistake(
                 format!("{points} points have none in the middle"),
                 format!("take an odd number, {}", points + 1),
             );
-            return None;
         }
-        usize::try_from(points).ok()
+        !points.is_multiple_of(2)
     });
+    let noise_points = noise_points.and_then(|points| usize::try_from(points).ok());
     section.finish();
     Some(Some(DesignPlan {
         designed: designed?,
@@ -142,12 +123,12 @@ pub(super) fn read(
 /// What the section designs: the columns of Section 3.4.5 and the block of Section 2.4.3 unless it says otherwise.
 fn designed(section: &mut Section<'_>, of_blocks: bool, structures: Option<&Structures>) -> Option<Designed> {
     if of_blocks {
-        let height = section.number_or("height_m", "m", HEIGHT, 10.0);
-        let endless = section.number_or("endless_height_m", "m", HEIGHT, 1000.0);
+        let height = section.read(&BLOCK_HEIGHT_M);
+        let endless = section.read(&ENDLESS_HEIGHT_M);
         return Some(Designed::Block { height_m: height?, endless_height_m: endless? });
     }
-    let width = section.number_or("width_m", "m", Rule::Within(LENGTH), 1.6);
-    let height = section.number_or("height_m", "m", Rule::Within(LENGTH), 9.6);
+    let width = section.read(&WIDTH_M);
+    let height = section.read(&HEIGHT_M);
     let (width_m, height_m) = (width?, height?);
     if width_m >= height_m {
         section.mistake(

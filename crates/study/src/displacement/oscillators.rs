@@ -1,43 +1,33 @@
 //! The section `[oscillator]`: families of oscillators.
 
 use serde::Serialize;
+use serde_json::json;
 use uplift_plausible::{CAPACITY, UPLIFT_DISPLACEMENT};
 
 use crate::grid::{Grid, GridRule};
-use crate::keys::{Key, SectionKeys};
-use crate::reading::{Field, Node, Rule, Section, Value, ZERO_TO_ONE, quantity};
+use crate::keys::{Key, SectionKeys, Special, grid, one_or_several, special};
+use crate::reading::{Field, Node, Rule, Section, Value, quantity};
 use crate::sections::strengths;
+use crate::uniform_risk::{FREE_VIBRATION, RESTITUTION};
 
-pub(super) const KEYS: SectionKeys = SectionKeys {
-    section: "oscillator",
-    keys: &[
-        Key {
-            names: &["uplift_displacement_m"],
-            meaning: "displacements at uplift u_up, a grid, m",
-            default: "0.0005",
-            range: "1e-6 to 10",
-        },
-        Key {
-            names: &["capacity_m"],
-            meaning: "displacements u_cap at which the force is zero, an increasing list, m; `inf` for a force that \
-                      stays constant",
-            default: "`inf`",
-            range: "1e-6 to 1e6 or `inf`; above every uplift displacement",
-        },
-        Key {
-            names: &["restitution"],
-            meaning: "velocity after an impact divided by the one before",
-            default: "0.95",
-            range: "0 to 1",
-        },
-        Key {
-            names: &["free_vibration"],
-            meaning: "whether the motion after the end of a record counts",
-            default: "`true`",
-            range: "",
-        },
-    ],
-};
+pub(super) const KEYS: SectionKeys =
+    SectionKeys::new("oscillator", &[&UPLIFT_DISPLACEMENT_M, &CAPACITY_M, &RESTITUTION, &FREE_VIBRATION]);
+const UPLIFT_DISPLACEMENT_M: Key<GridRule> =
+    grid("uplift_displacement_m", GridRule { unit: "m", each: Rule::Within(UPLIFT_DISPLACEMENT), least_count: 1 })
+        .with_default(&["0.0005"])
+        .meaning("displacements at uplift u_up, a grid, m");
+const CAPACITY_M: Key<Special> = special("capacity_m", finite_or_infinite)
+    .without_default("`inf`")
+    .meaning(
+        "displacements u_cap at which the force is zero, an increasing list, m; `inf` for a force that stays constant",
+    )
+    .note("1e-6 to 1e6 or `inf`; above every uplift displacement");
+
+/// Capacities as a JSON Schema. JSON has no infinity: readers of TOML make it a number or null.
+fn finite_or_infinite() -> serde_json::Value {
+    let each = json!({ "type": ["number", "null"], "minimum": CAPACITY.least });
+    one_or_several(&each)
+}
 
 /// Oscillators of every strength, uplift displacement and capacity of these.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -57,12 +47,11 @@ pub struct OscillatorFamily {
 
 /// Reads the section with `[strengths]`.
 pub(super) fn read(mut section: Section<'_>, strengths: Section<'_>) -> Option<OscillatorFamily> {
-    let rule = GridRule { unit: "m", each: Rule::Within(UPLIFT_DISPLACEMENT), least_count: 1 };
-    let uplift = Grid::of_key(&mut section, "uplift_displacement_m", rule, &["0.0005"]);
+    let uplift = section.read(&UPLIFT_DISPLACEMENT_M);
     let largest = uplift.as_ref().and_then(|grid| grid.last().copied());
-    let capacity = section.field("capacity_m").map_or(Some(vec![f64::INFINITY]), |field| capacities(&field, largest));
-    let restitution = section.number_or("restitution", "", ZERO_TO_ONE, 0.95);
-    let free_vibration = section.boolean_or("free_vibration", true);
+    let capacity = section.given(&CAPACITY_M).map_or(Some(vec![f64::INFINITY]), |field| capacities(&field, largest));
+    let restitution = section.read(&RESTITUTION);
+    let free_vibration = section.read(&FREE_VIBRATION);
     section.finish();
     let values = strengths::read(strengths);
     Some(OscillatorFamily {

@@ -1,25 +1,25 @@
 //! The sections `[[record_sets]]`: the sets that the ground motions make.
 
 use serde::Serialize;
+use serde_json::json;
 
-use crate::keys::{Key, SectionKeys};
+use crate::keys::{Key, SectionKeys, Shape, Special, Text, special, text};
 use crate::reading::{Field, LARGEST_INTEGER, Value, optional};
 use crate::sections::name;
 
-pub(super) const KEYS: SectionKeys = SectionKeys {
-    section: "record_sets",
-    keys: &[
-        Key { names: &["name"], meaning: "name of the set", default: "needed", range: "each once, as names of sites" },
-        Key { names: &["tag"], meaning: "only rows whose `set_tags` contain it", default: "all rows", range: "" },
-        Key {
-            names: &["leave_out"],
-            meaning: "records that do not belong to the set: identifiers or record sequence numbers, `829` or \
-                      `\"RSN829\"`",
-            default: "none",
-            range: "one that is not in the set is noted",
-        },
-    ],
-};
+pub(super) const KEYS: SectionKeys = SectionKeys::new("record_sets", &[&NAME, &TAG, &LEAVE_OUT]).shape(Shape::List);
+const NAME: Key<Text> = name::KEY.meaning("name of the set").note("each once, as names of sites");
+const TAG: Key<Text> = text("tag").without_default("all rows").meaning("only rows whose `set_tags` contain it");
+const LEAVE_OUT: Key<Special> = special("leave_out", records)
+    .without_default("none")
+    .meaning("records that do not belong to the set: identifiers or record sequence numbers, `829` or `\"RSN829\"`")
+    .note("one that is not in the set is noted");
+
+/// Records as a JSON Schema.
+fn records() -> serde_json::Value {
+    let each = json!({ "type": ["string", "integer"], "minLength": 1, "minimum": 0 });
+    json!({ "anyOf": [each, { "type": "array", "items": each }] })
+}
 
 /// A record set.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -61,9 +61,9 @@ fn set(item: &Field<'_>, names: &mut Vec<String>) -> Option<SetPlan> {
         return None;
     }
     let name = name::read(&mut section, "record set", "far-field", names);
-    let tag_field = section.field("tag");
+    let tag_field = section.given(&TAG);
     let tag = optional(tag_field.as_ref(), |field| field.filled_text().map(str::to_owned));
-    let leave_out = section.field("leave_out").map_or(Some(Vec::new()), |field| {
+    let leave_out = section.given(&LEAVE_OUT).map_or(Some(Vec::new()), |field| {
         let records: Vec<Option<String>> = field.items().iter().map(record).collect();
         records.into_iter().collect()
     });

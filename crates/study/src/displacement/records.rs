@@ -3,42 +3,28 @@
 use std::path::Path;
 
 use serde::{Serialize, Serializer};
+use serde_json::json;
 
-use crate::keys::{Key, SectionKeys};
+use crate::keys::{Boolean, File, Integer, Key, SectionKeys, Special, boolean, integer, special};
 use crate::reading::{LARGEST_INTEGER, Paths, Section, optional};
 use crate::sections::record_source::{self, NO_TAG, RecordSource, Synthetic};
 use crate::sections::selection::{self, RecordSelection};
 
-pub(crate) const KEYS: SectionKeys = SectionKeys {
-    section: "records",
-    keys: &[
-        Key {
-            names: &["manifest"],
-            meaning: "table of record files (CSV)",
-            default: "none: synthetic records",
-            range: "existing file",
-        },
-        Key {
-            names: &["vertical"],
-            meaning: "whether the third component of the records (`file_v` of the manifest) shakes blocks and frames \
-                      too, scaled as the horizontal ones",
-            default: "`false`",
-            range: "not for synthetic records",
-        },
-        Key {
-            names: &["first"],
-            meaning: "use only so many of the records of each set, the first",
-            default: "all",
-            range: "1 or more",
-        },
-        Key {
-            names: &["select"],
-            meaning: "only such records, in every set; keys as in every study",
-            default: "all",
-            range: "",
-        },
-    ],
-};
+pub(crate) const KEYS: SectionKeys = SectionKeys::new("records", &[&MANIFEST, &VERTICAL, &FIRST, &SELECT]);
+const MANIFEST: Key<File> = record_source::MANIFEST.without_default("none: synthetic records");
+const VERTICAL: Key<Boolean> = boolean("vertical")
+    .with_default(false)
+    .meaning(
+        "whether the third component of the records (`file_v` of the manifest) shakes blocks and frames too, scaled as \
+         the horizontal ones",
+    )
+    .note("not for synthetic records");
+const FIRST: Key<Integer> = integer("first", 1, LARGEST_INTEGER)
+    .without_default("all")
+    .meaning("use only so many of the records of each set, the first");
+const SELECT: Key<Special> = special("select", || json!({}))
+    .without_default("all")
+    .meaning("only such records, in every set; keys as in every study");
 
 /// What to do about a tag where there are sets.
 pub(super) const SETS_HAVE_TAGS: &str =
@@ -93,12 +79,12 @@ impl Serialize for SetRecords {
 
 /// Reads the section; `instead_of_tag` is what to do where a tag is given.
 pub(crate) fn read(mut section: Section<'_>, paths: &Paths, instead_of_tag: &str) -> Option<SetRecords> {
-    let manifest_field = section.field("manifest");
+    let manifest_field = section.given(&MANIFEST);
     let tag_field = section.field("tag");
-    let vertical_field = section.field("vertical");
-    let vertical = section.boolean_or("vertical", false);
+    let vertical_field = section.given(&VERTICAL);
+    let vertical = section.read(&VERTICAL);
     record_source::vertical_is_recorded(vertical_field.as_ref(), vertical, manifest_field.is_some());
-    let first_field = section.field("first");
+    let first_field = section.given(&FIRST);
     let select = selection::read(section.section("select"));
     let synthetic = record_source::synthetic(section.section("synthetic"));
     section.finish();
@@ -106,7 +92,7 @@ pub(crate) fn read(mut section: Section<'_>, paths: &Paths, instead_of_tag: &str
         let help = if manifest_field.is_some() { instead_of_tag } else { NO_TAG };
         field.mistake("tags are given set by set", help);
     }
-    let first = optional(first_field.as_ref(), |field| field.integer(1, LARGEST_INTEGER));
+    let first = optional(first_field.as_ref(), |field| FIRST.read(field));
     let source = if let Some(field) = manifest_field {
         paths.input(&field).map(|manifest| RecordSource::Manifest { manifest, tag: None })
     } else {

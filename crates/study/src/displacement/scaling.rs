@@ -1,30 +1,27 @@
 //! The section `[scaling]`: to what the motions of a set are scaled, and by whose peak.
 
 use serde::{Serialize, Serializer};
+use serde_json::json;
 use uplift_motion::IntensityMeasure::{self, Pga, Pgv};
 use uplift_plausible::MULTIPLE;
 use uplift_spectra::{ScaledBy, Scaling};
 
-use crate::keys::{Key, SectionKeys};
+use crate::keys::{Choice, Key, List, SectionKeys, Special, choice, special};
 use crate::reading::{Field, Section, Value};
 
-pub(super) const KEYS: SectionKeys = SectionKeys {
-    section: "scaling",
-    keys: &[
-        Key {
-            names: &["to"],
-            meaning: "list of `\"unscaled\"`, `\"0.5 PGA\"`, `\"1 PGV\"`: multiples of the set's median",
-            default: "`\"unscaled\"` and 0.5, 1, 2 of each",
-            range: "each once; multiples 1e-4 to 10000",
-        },
-        Key {
-            names: &["by"],
-            meaning: "whose peak meets it, one or both of `\"component\"`, `\"record\"`",
-            default: "both",
-            range: "",
-        },
-    ],
-};
+pub(super) const KEYS: SectionKeys = SectionKeys::new("scaling", &[&TO, &BY]);
+const TO: Key<List<Special>> = special("to", || json!({ "type": "string", "pattern": TARGET }))
+    .list()
+    .without_default("`\"unscaled\"` and 0.5, 1, 2 of each")
+    .meaning("list of `\"unscaled\"`, `\"0.5 PGA\"`, `\"1 PGV\"`: multiples of the set's median")
+    .note("each once; multiples 1e-4 to 10000");
+const EACH_BY: Key<Choice<ScaledBy>> = choice("by", &ScaledBy::ALL, ScaledBy::key);
+const BY: Key<List<Choice<ScaledBy>>> = EACH_BY
+    .list()
+    .with_default(&ScaledBy::ALL)
+    .meaning("whose peak meets it, one or both of `\"component\"`, `\"record\"`");
+/// What is read as a target, capitals aside.
+const TARGET: &str = r"^\s*([uU][nN][sS][cC][aA][lL][eE][dD]|[-+0-9.eE]+\s*[pP][gG][aAvV])\s*$";
 
 /// How the motions of a set are scaled.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -113,10 +110,10 @@ fn default_targets() -> Vec<ScaledTo> {
 
 /// Reads the section.
 pub(super) fn read(mut section: Section<'_>) -> Option<ScalingPlan> {
-    let to = section.field("to").map_or_else(|| Some(default_targets()), |field| list(&field, target));
-    let words = ScaledBy::ALL.map(|by| (by.key(), by));
-    let by = (section.field("by"))
-        .map_or_else(|| Some(ScaledBy::ALL.to_vec()), |field| list(&field, |item| item.choice(&words)));
+    let to = section.given(&TO).map_or_else(|| Some(default_targets()), |field| list(&field, target));
+    let by = section
+        .given(&BY)
+        .map_or_else(|| BY.default().map(<[ScaledBy]>::to_vec), |field| list(&field, |item| EACH_BY.read(item)));
     section.finish();
     Some(ScalingPlan { to: to?, by: by? })
 }

@@ -1,12 +1,11 @@
 //! A table while it is read: it learns its keys as they are asked for.
 
-use std::ops::RangeInclusive;
-
 use uplift_motion::IntensityMeasure;
 
 use super::suggestion::{MEASURES, did_you_mean, measure_by_its_key, other_unit};
-use super::{Field, Finding, Findings, LARGEST_INTEGER, Origin, Rule, Table};
+use super::{Field, Finding, Findings, Origin, Table, optional};
 use crate::error::MOST_LISTED;
+use crate::keys::{Form, Key, Readable};
 
 /// A table being read. It learns its keys as they are asked for; [`Section::finish`] reports the others.
 pub(crate) struct Section<'a> {
@@ -57,29 +56,24 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// The number of `key` \[`unit`\], or `default` where it is not given.
-    pub(crate) fn number_or(&mut self, key: &'static str, unit: &str, rule: Rule, default: f64) -> Option<f64> {
-        self.field(key).map_or(Some(default), |field| field.number(unit, rule))
+    /// The value of `key` as it stands, if given.
+    pub(crate) fn given<F: Form>(&mut self, key: &Key<F>) -> Option<Field<'a>> {
+        self.field(key.name)
     }
 
-    /// The truth of `key`, or `default` where it is not given.
-    pub(crate) fn boolean_or(&mut self, key: &'static str, default: bool) -> Option<bool> {
-        self.field(key).map_or(Some(default), |field| field.boolean())
+    /// Reads `key`, which has a default.
+    pub(crate) fn read<F: Readable>(&mut self, key: &Key<F>) -> Option<F::Value> {
+        debug_assert!(key.default().is_some(), "`{}` has no default", key.name);
+        match self.given(key) {
+            Some(field) => key.read(&field),
+            None => key.default_value(),
+        }
     }
 
-    /// The word of `key` among `choices`, or `default` where it is not given.
-    pub(crate) fn choice_or<T: Copy>(&mut self, key: &'static str, choices: &[(&str, T)], default: T) -> Option<T> {
-        self.field(key).map_or(Some(default), |field| field.choice(choices))
-    }
-
-    /// The whole number of `key` in `range`, or `default` where it is not given.
-    pub(crate) fn integer_or(&mut self, key: &'static str, range: RangeInclusive<u64>, default: u64) -> Option<u64> {
-        self.field(key).map_or(Some(default), |field| field.integer(*range.start(), *range.end()))
-    }
-
-    /// The `seed` of this section, or `default` where it is not given.
-    pub(crate) fn seed_or(&mut self, default: u64) -> Option<u64> {
-        self.integer_or("seed", 0..=LARGEST_INTEGER, default)
+    /// Reads `key`, which has no default: outer none where it is wrong, inner none where it is not given.
+    #[allow(clippy::option_option)] // wrong and absent are different things, and what is wrong is among the findings
+    pub(crate) fn optional<F: Readable>(&mut self, key: &Key<F>) -> Option<Option<F::Value>> {
+        optional(self.given(key).as_ref(), |field| key.read(field))
     }
 
     /// Records a mistake about `key`, one that this section should have or should not.

@@ -1,13 +1,17 @@
 //! The name of a site or record set.
 
+use crate::keys::{Key, Text, text};
 use crate::reading::Section;
+
+/// The key of the name.
+pub(crate) const KEY: Key<Text> = text("name");
 
 /// Longest name, in bytes.
 const LONGEST: usize = 100;
 
 /// The name of a section of a list of `what`, of no other among `names` and fit for a group of the result file.
 pub(crate) fn read(section: &mut Section<'_>, what: &str, example: &str, names: &mut Vec<String>) -> Option<String> {
-    let Some(field) = section.field("name") else {
+    let Some(field) = section.given(&KEY) else {
         section.mistake("name", format!("the {what} has no name"), format!("add name = \"{example}\""));
         return None;
     };

@@ -4,26 +4,17 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use crate::keys::{Key, SectionKeys};
+use crate::keys::{Boolean, File, Key, SectionKeys, boolean, file};
 use crate::reading::{Paths, Section};
 
-pub(crate) const KEYS: SectionKeys = SectionKeys {
-    section: "output",
-    keys: &[
-        Key {
-            names: &["file"],
-            meaning: "the result file (HDF5)",
-            default: "`results/<name of the study file>.h5` in the current directory",
-            range: "ends in `.h5`; no folder, no input of the study",
-        },
-        Key {
-            names: &["csv"],
-            meaning: "whether tables are written as CSV beside it; those of `[site_table]` always are",
-            default: "`true`",
-            range: "",
-        },
-    ],
-};
+pub(crate) const KEYS: SectionKeys = SectionKeys::new("output", &[&FILE, &CSV]);
+const FILE: Key<File> = file("file")
+    .without_default("`results/<name of the study file>.h5` in the current directory")
+    .meaning("the result file (HDF5)")
+    .note("ends in `.h5`; no folder, no input of the study");
+const CSV: Key<Boolean> = boolean("csv")
+    .with_default(true)
+    .meaning("whether tables are written as CSV beside it; those of `[site_table]` always are");
 
 /// What is written where.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -47,8 +38,8 @@ pub(crate) fn read<'a>(
     paths: &Paths,
     inputs: impl Iterator<Item = &'a Path>,
 ) -> Option<Output> {
-    let csv = section.boolean_or("csv", true);
-    let file = if let Some(field) = section.field("file") {
+    let csv = section.read(&CSV);
+    let file = if let Some(field) = section.given(&FILE) {
         paths.output(&field, inputs)
     } else {
         let file = paths.default_output();

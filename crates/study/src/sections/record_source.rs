@@ -4,27 +4,19 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use crate::keys::{Key, SectionKeys};
+use crate::keys::{File, Integer, Key, SectionKeys, file, integer};
 use crate::reading::{Field, Section};
+use crate::sections::top;
 
-pub(crate) const MANIFEST: Key = Key {
-    names: &["manifest"],
-    meaning: "table of record files (CSV)",
-    default: "none: the synthetic set",
-    range: "existing file",
-};
-pub(crate) const SYNTHETIC_KEYS: SectionKeys = SectionKeys {
-    section: "records.synthetic",
-    keys: &[
-        Key {
-            names: &["pairs"],
-            meaning: "number of pairs of horizontal components",
-            default: "105",
-            range: "1 to 10 000",
-        },
-        Key { names: &["seed"], meaning: "seed of the generator", default: "1", range: "0 to 2⁶³ − 1" },
-    ],
-};
+pub(crate) const MANIFEST: Key<File> = file("manifest")
+    .without_default("none: the synthetic set")
+    .meaning("table of record files (CSV)")
+    .note("existing file");
+pub(crate) const SYNTHETIC_KEYS: SectionKeys = SectionKeys::new("records.synthetic", &[&PAIRS, &SEED]);
+const PAIRS: Key<Integer> = integer("pairs", 1, MOST_PAIRS)
+    .with_default(DEFAULT_SYNTHETIC_PAIRS)
+    .meaning("number of pairs of horizontal components");
+const SEED: Key<Integer> = top::seed(DEFAULT_SYNTHETIC_SEED).meaning("seed of the generator");
 
 /// Pairs of horizontal components in the synthetic record set, unless a study says otherwise.
 pub const DEFAULT_SYNTHETIC_PAIRS: u64 = 105;
@@ -102,8 +94,8 @@ impl From<Synthetic> for RecordSource {
 
 /// Reads the section `[records.synthetic]`.
 pub(crate) fn synthetic(mut section: Section<'_>) -> Option<Synthetic> {
-    let pairs = section.integer_or("pairs", 1..=MOST_PAIRS, DEFAULT_SYNTHETIC_PAIRS);
-    let seed = section.seed_or(DEFAULT_SYNTHETIC_SEED);
+    let pairs = section.read(&PAIRS);
+    let seed = section.read(&SEED);
     section.finish();
     Some(Synthetic { pairs: pairs?, seed: seed? })
 }

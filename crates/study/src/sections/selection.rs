@@ -4,35 +4,40 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use serde::{Serialize, Serializer};
+use serde_json::json;
 
-use crate::keys::{Key, SectionKeys};
+use crate::keys::{Boolean, Key, SectionKeys, Special, boolean, special};
 use crate::reading::{Field, Section, Value};
 
-const fn key(names: &'static [&'static str], meaning: &'static str) -> Key {
-    Key { names, meaning, default: "", range: "" }
-}
-
-pub(crate) const KEYS: SectionKeys = SectionKeys {
-    section: "records.select",
-    keys: &[
-        key(&["magnitude"], "range of magnitude (column of the manifest)"),
-        key(&["rrup_km"], "range of the closest distance to the rupture, km (column)"),
-        key(&["repi_km"], "range of the distance to the epicentre, km (column)"),
-        key(&["vs30"], "range of the mean shear-wave velocity of the upper 30 m, m/s (column)"),
-        key(&["lowest_usable_hz"], "range of the lowest usable frequency, Hz (column)"),
-        key(&["pga_g"], "range of the PGA of the pair, g, combined as `intensity` says (of the record itself)"),
-        key(&["pgv_cm_s"], "range of the PGV of the pair, cm/s (of the record itself)"),
-        key(
-            &["d5_75_s", "d5_95_s"],
+pub(crate) const KEYS: SectionKeys = SectionKeys::new(
+    "records.select",
+    &[
+        &range("magnitude", "range of magnitude (column of the manifest)"),
+        &range("rrup_km", "range of the closest distance to the rupture, km (column)"),
+        &range("repi_km", "range of the distance to the epicentre, km (column)"),
+        &range("vs30", "range of the mean shear-wave velocity of the upper 30 m, m/s (column)"),
+        &range("lowest_usable_hz", "range of the lowest usable frequency, Hz (column)"),
+        &range("pga_g", "range of the PGA of the pair, g, combined as `intensity` says (of the record itself)"),
+        &range("pgv_cm_s", "range of the PGV of the pair, cm/s (of the record itself)"),
+        &range(
+            "d5_75_s",
             "range of the significant duration, s, geometric mean of the components (of the record itself)",
-        ),
-        key(
-            &["pulse_like"],
-            "`true` or `false`: only motions with, or only motions without a velocity pulse (Shahi and Baker 2014; of \
-             the record itself)",
-        ),
+        )
+        .also(&["d5_95_s"]),
+        &PULSE_LIKE,
     ],
-};
+);
+const PULSE_LIKE: Key<Boolean> = boolean("pulse_like").without_default("").meaning(
+    "`true` or `false`: only motions with, or only motions without a velocity pulse (Shahi and Baker 2014; of the \
+     record itself)",
+);
+
+/// A range of one of the [`CRITERIA`].
+const fn range(name: &'static str, meaning: &'static str) -> Key<Special> {
+    const NUMBER: &str = r"\s*[-+]?[0-9.]+([eE][-+]?[0-9]+)?\s*";
+    let schema = || json!({ "type": "string", "pattern": format!("^({NUMBER}:({NUMBER})?|\\s*:{NUMBER})$") });
+    special(name, schema).without_default("").meaning(meaning)
+}
 
 /// A quantity by which records are chosen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -143,17 +148,17 @@ pub(crate) fn read(mut section: Section<'_>) -> Option<RecordSelection> {
     let mut ranges = Some(Vec::new());
     for criterion in CRITERIA {
         let Some(field) = section.field(criterion.key) else { continue };
-        match (&mut ranges, range(&field)) {
+        match (&mut ranges, read_range(&field)) {
             (Some(ranges), Some(range)) => ranges.push((criterion, range)),
             _ => ranges = None,
         }
     }
-    let pulse_like = section.field("pulse_like").map_or(Some(None), |field| field.boolean().map(Some));
+    let pulse_like = section.optional(&PULSE_LIKE);
     section.finish();
     Some(RecordSelection { ranges: ranges?, pulse_like: pulse_like? })
 }
 
-fn range(field: &Field<'_>) -> Option<Range> {
+fn read_range(field: &Field<'_>) -> Option<Range> {
     let Value::Text(text) = &field.node.value else {
         return field.wrong_type("a range", &format!("write {}", Range::ACCEPTED));
     };

@@ -4,25 +4,19 @@ use serde::Serializer;
 use uplift_plausible::STRENGTH;
 
 use crate::grid::{Grid, GridRule};
-use crate::keys::{Key, SectionKeys};
+use crate::keys::{Key, SectionKeys, grid};
 use crate::reading::{Rule, Section};
 
-pub(crate) const KEYS: SectionKeys = SectionKeys {
-    section: "strengths",
-    keys: &[Key {
-        names: &["values"],
-        meaning: "uplift strengths η = f_up/(m g), a grid",
-        default: "`\"0:1/300:1\"`, 301 values",
-        range: "0 to 100",
-    }],
-};
+pub(crate) const KEYS: SectionKeys = SectionKeys::new("strengths", &[&VALUES]);
+const VALUES: Key<GridRule> =
+    grid("values", RULE).with_default(&["0:1/300:1"]).meaning("uplift strengths η = f_up/(m g), a grid");
 
 /// What a grid of strengths must be.
 pub(crate) const RULE: GridRule = GridRule { unit: "", each: Rule::Within(STRENGTH), least_count: 1 };
 
 /// Reads the section.
 pub(crate) fn read(mut section: Section<'_>) -> Option<Grid> {
-    let strengths = Grid::of_key(&mut section, "values", RULE, &["0:1/300:1"]);
+    let strengths = section.read(&VALUES);
     section.finish();
     strengths
 }

@@ -4,22 +4,68 @@ use uplift_plausible::{Range, USUAL_VARIATION};
 use uplift_structure::UncertainQuantity;
 use uplift_uncertainty::{Distribution, Family, GaussianCopula, RandomVector, Sampling, UncertaintyError};
 
+use serde_json::{Value, json};
+
 use self::written::{Scatter, Written};
+use super::top;
+use crate::keys::{ANY, Choice, Integer, Key, Number, SectionKeys, Shape, Special, choice, integer, number, special};
 use crate::reading::{Field, Origin, Rule, Section};
 
 mod written;
 
-/// Samples of a sensitivity analysis, and their range.
-const SAMPLES: (u64, std::ops::RangeInclusive<u64>) = (64, 8..=4096);
-/// Structures that a record draws, and their range.
-const DRAWS: (u64, std::ops::RangeInclusive<u64>) = (10, 1..=100);
+pub(crate) const KEYS: SectionKeys = SectionKeys::new("uncertainty", &[&KIND, &SAMPLING, &SAMPLES, &DRAWS, &SEED]);
+const KIND: Key<Choice<UncertaintyKind>> = choice("kind", &UncertaintyKind::ALL, UncertaintyKind::key)
+    .with_default(UncertaintyKind::Epistemic)
+    .meaning(
+        "`\"epistemic\"`, one structure of which it is not known which: all records shake the same `samples` \
+         structures, and the spectrum has a band over them; `\"aleatory\"`, another structure in every earthquake: each \
+         record shakes `draws` structures of its own",
+    );
+const SAMPLING: Key<Choice<Sampling>> = choice("sampling", &Sampling::ALL, Sampling::key)
+    .with_default(Sampling::Sobol)
+    .meaning("`\"sobol\"`, scrambled Sobol' points, or `\"latin-hypercube\"`");
+const SAMPLES: Key<Integer> = integer("samples", 8, 4096)
+    .with_default(64)
+    .meaning("structures of an epistemic study, each as many analyses again")
+    .note("a power of two for `\"sobol\"`");
+const DRAWS: Key<Integer> = integer("draws", 1, 100)
+    .with_default(10)
+    .meaning("structures of each record in an aleatory study, each as many analyses again");
+const SEED: Key<Integer> = top::seed(1).meaning("where the random numbers begin");
+
+/// The keys of any quantity, shown with one.
+pub(crate) const QUANTITY_KEYS: SectionKeys = SectionKeys::new(
+    "uncertainty.restitution",
+    &[&DISTRIBUTION, &COEFFICIENT_OF_VARIATION, &MEAN, &PERCENTILES, &LOWER, &UPPER, &MODE],
+);
+const DISTRIBUTION: Key<Choice<Family>> =
+    choice("distribution", &Family::ALL, Family::key).meaning("how the quantity is distributed");
+const COEFFICIENT_OF_VARIATION: Key<Number> = number("coefficient_of_variation", "", ANY)
+    .without_default("none")
+    .meaning("standard deviation over mean; 0 is a quantity that is known");
+const MEAN: Key<Number> =
+    number("mean", "", ANY).without_default("that of the structure as described").meaning("the mean beside it");
+const PERCENTILES: Key<Special> = special("percentiles", two_percentiles)
+    .without_default("none")
+    .meaning("two percentages with their values in place of these, `[[5, 0.9], [95, 0.97]]`");
+const LOWER: Key<Number> = number("lower", "", ANY)
+    .without_default("none")
+    .meaning("lower limit of a uniform or triangular one in place of these");
+const UPPER: Key<Number> = number("upper", "", ANY).without_default("none").meaning("upper limit of such a one");
+const MODE: Key<Number> =
+    number("mode", "", ANY).without_default("the middle").meaning("of a triangular one with limits");
+
+pub(crate) const CORRELATION_KEYS: SectionKeys =
+    SectionKeys::new("uncertainty.correlation", &[&BETWEEN, &COEFFICIENT]).shape(Shape::TableOrList);
+const BETWEEN: Key<Special> =
+    special("between", two_quantities).meaning("two quantities that go together, `[\"strength\", \"restitution\"]`");
+const COEFFICIENT: Key<Number> = number("coefficient", "", Rule::Between(-1.0, 1.0, "above -1 and below 1"))
+    .meaning("of the normal quantities behind them (Gaussian copula)");
+
+const PERCENTAGE: Rule = Rule::Between(0.0, 100.0, "above 0 and below 100");
 
 /// A mean that is so many times what the structure has, or that part of it, is asked about.
 const FAR: f64 = 5.0;
-
-const ANY: Rule = Rule::Is { holds: |_| true, words: "finite" };
-const KINDS: [(&str, UncertaintyKind); 2] =
-    [("epistemic", UncertaintyKind::Epistemic), ("aleatory", UncertaintyKind::Aleatory)];
 
 /// What the scatter of a quantity stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,6 +78,9 @@ pub enum UncertaintyKind {
 }
 
 impl UncertaintyKind {
+    /// Both kinds.
+    pub const ALL: [Self; 2] = [Self::Epistemic, Self::Aleatory];
+
     /// Its word.
     pub fn key(self) -> &'static str {
         match self {
@@ -105,15 +154,14 @@ pub(crate) fn read(
     if !section.is_present() {
         return None;
     }
-    let kind = section.choice_or("kind", &KINDS, UncertaintyKind::Epistemic);
-    let samplings = Sampling::ALL.map(|sampling| (sampling.key(), sampling));
-    let sampling = section.choice_or("sampling", &samplings, Sampling::default());
-    let samples = section.integer_or("samples", SAMPLES.1, SAMPLES.0);
-    let draws = section.integer_or("draws", DRAWS.1, DRAWS.0);
-    let seed = section.seed_or(1);
+    let kind = section.read(&KIND);
+    let sampling = section.read(&SAMPLING);
+    let samples = section.read(&SAMPLES);
+    let draws = section.read(&DRAWS);
+    let seed = section.read(&SEED);
     let (foreign, own) = match kind {
-        Some(UncertaintyKind::Aleatory) => ("samples", "draws, the structures of each record"),
-        _ => ("draws", "samples, the rows of each sample"),
+        Some(UncertaintyKind::Aleatory) => (SAMPLES.name, "draws, the structures of each record"),
+        _ => (DRAWS.name, "samples, the rows of each sample"),
     };
     if kind.is_some()
         && let Some(field) = section.field(foreign)
@@ -207,7 +255,7 @@ fn read_pairs(
         if !section.is_present() {
             return None;
         }
-        let (between, coefficient) = (section.field("between"), section.field("coefficient"));
+        let (between, coefficient) = (section.given(&BETWEEN), section.given(&COEFFICIENT));
         for (key, field, what) in [
             ("between", &between, "which two go together: [\"strength\", \"capacity_m\"]"),
             ("coefficient", &coefficient, "how much: 0.5"),
@@ -218,8 +266,7 @@ fn read_pairs(
         }
         section.finish();
         let (between, coefficient) = (between?, coefficient?);
-        let holds = |value: f64| value > -1.0 && value < 1.0;
-        let coefficient = coefficient.number("", Rule::Is { holds, words: "above -1 and below 1" });
+        let coefficient = COEFFICIENT.read(&coefficient);
         let names = between.items();
         let [first, second] = &names[..] else {
             between.mistake(format!("{} quantities", names.len()), "a correlation is between two");
@@ -246,8 +293,8 @@ fn read_pairs(
 
 /// How a quantity is distributed.
 fn read_family(section: &mut Section<'_>) -> Option<Family> {
-    if let Some(field) = section.field("distribution") {
-        return field.choice(&Family::ALL.map(|family| (family.key(), family)));
+    if let Some(field) = section.given(&DISTRIBUTION) {
+        return DISTRIBUTION.read(&field);
     }
     let words = Family::ALL.map(Family::key).join("\", \"");
     section.mistake("distribution", "how is it distributed?", format!("write distribution = and one of \"{words}\""));
@@ -263,17 +310,17 @@ fn read_quantity(
 ) -> Option<(Distribution, Written)> {
     let family = read_family(&mut section);
     let (usual, asked_before) = (quantity.usual(), doubts.len());
-    let mut number = |key, usual: Range| {
-        let field = section.field(key)?;
+    let mut number = |key: &Key<Number>, usual: Range| {
+        let field = section.given(key)?;
         let value = field.number(usual.unit, ANY);
         doubts.extend(value.and_then(|value| doubt(&field, value, usual)));
         Some(value)
     };
-    let (mean, variation) = (number("mean", usual), number("coefficient_of_variation", USUAL_VARIATION));
-    let (lower, mode, upper) = (number("lower", usual), number("mode", usual), number("upper", usual));
-    let percentiles = section.field("percentiles").map(|field| read_percentiles(&field, usual, doubts));
+    let (mean, variation) = (number(&MEAN, usual), number(&COEFFICIENT_OF_VARIATION, USUAL_VARIATION));
+    let (lower, mode, upper) = (number(&LOWER, usual), number(&MODE, usual), number(&UPPER, usual));
+    let percentiles = section.given(&PERCENTILES).map(|field| read_percentiles(&field, usual, doubts));
     if let (Some(Some(mean)), Described::As(own)) = (mean, described) {
-        doubts.extend(section.field("mean").and_then(|field| far_off(&field, mean, own, usual.unit)));
+        doubts.extend(section.given(&MEAN).and_then(|field| far_off(&field, mean, own, usual.unit)));
     }
     if let Described::Impossible(reason) = described {
         section.mistake("", reason, "leave it out");
@@ -389,8 +436,7 @@ fn read_percentiles(field: &Field<'_>, usual: Range, doubts: &mut Vec<Doubt>) ->
             item.mistake("a percentile is a percentage and a value", help);
             return None;
         };
-        let holds = |value: f64| value > 0.0 && value < 100.0;
-        let percentage = percentage.number("%", Rule::Is { holds, words: "above 0 and below 100" });
+        let percentage = percentage.number("%", PERCENTAGE);
         let of_percentage = value.number(usual.unit, ANY);
         doubts.extend(of_percentage.and_then(|number| doubt(value, number, usual)));
         Some((percentage?, of_percentage?))
@@ -409,4 +455,16 @@ fn read_percentiles(field: &Field<'_>, usual: Range, doubts: &mut Vec<Doubt>) ->
         });
     }
     Some([first, second])
+}
+
+/// Two percentiles as a JSON Schema.
+fn two_percentiles() -> Value {
+    let pair = json!({ "type": "array", "items": [PERCENTAGE.schema(), ANY.schema()], "minItems": 2, "maxItems": 2 });
+    json!({ "type": "array", "items": pair, "minItems": 2, "maxItems": 2 })
+}
+
+/// Two quantities as a JSON Schema.
+fn two_quantities() -> Value {
+    let quantity = json!({ "type": "string", "enum": UncertainQuantity::ALL.map(UncertainQuantity::key) });
+    json!({ "type": "array", "items": quantity, "minItems": 2, "maxItems": 2 })
 }

@@ -2,29 +2,19 @@
 
 use serde::Serialize;
 
-use crate::keys::{Key, SectionKeys};
+use crate::keys::{Key, Number, SectionKeys, Shape, Text, number};
 use crate::reading::{Field, Rule, Section, Value};
 use crate::sections::name;
 
-pub(super) const KEYS: SectionKeys = SectionKeys {
-    section: "levels",
-    keys: &[
-        Key { names: &["name"], meaning: "name of the level", default: "needed", range: "each once" },
-        Key {
-            names: &["pgv_srss_m_s"],
-            meaning: "$\\sqrt{PGV_x^2 + PGV_y^2}$ of both components on the table, m/s (Eq. 6.9); not the geometric \
-                      mean of other studies",
-            default: "needed",
-            range: "1e-6 to 1000",
-        },
-    ],
-};
+pub(super) const KEYS: SectionKeys = SectionKeys::new("levels", &[&NAME, &PGV_SRSS_M_S]).shape(Shape::List);
+const NAME: Key<Text> = name::KEY.meaning("name of the level").note("each once");
+const PGV_SRSS_M_S: Key<Number> = number("pgv_srss_m_s", "m/s", LEVEL).meaning(
+    "$\\sqrt{PGV_x^2 + PGV_y^2}$ of both components on the table, m/s (Eq. 6.9); not the geometric mean of other studies",
+);
 
 /// As `uplift-frame` takes it.
-const LEVEL: Rule = Rule::Is {
-    holds: |value| (1e-6..=1e3).contains(&value),
-    words: "from 1e-6 to 1000 m/s (in m/s, not in cm/s: the dissertation has 0.1675 and 0.335)",
-};
+const LEVEL: Rule =
+    Rule::From(1e-6, 1e3, "from 1e-6 to 1000 m/s (in m/s, not in cm/s: the dissertation has 0.1675 and 0.335)");
 /// Most levels in one study.
 const MOST_LEVELS: usize = 100;
 
@@ -66,8 +56,8 @@ fn level(item: &Field<'_>, names: &mut Vec<String>) -> Option<LevelPlan> {
         return None;
     }
     let name = name::read(&mut section, "level", "high", names);
-    let pgv = if let Some(field) = section.field("pgv_srss_m_s") {
-        field.number("m/s", LEVEL)
+    let pgv = if let Some(field) = section.given(&PGV_SRSS_M_S) {
+        PGV_SRSS_M_S.read(&field)
     } else {
         section.mistake("pgv_srss_m_s", "the level has no velocity", "add pgv_srss_m_s = 0.335, in m/s");
         None

@@ -4,52 +4,29 @@ use serde::Serialize;
 use uplift_motion::{ElasticSpectrum, GroundType, SpectrumShape};
 
 use crate::grid::{Grid, GridRule};
-use crate::keys::{Key, SectionKeys};
+use crate::keys::{Choice, Key, Number, SectionKeys, choice, grid, number};
 use crate::reading::{Rule, Section};
 
-pub(super) const KEYS: SectionKeys = SectionKeys {
-    section: "spectra",
-    keys: &[Key {
-        names: &["periods_s"],
-        meaning: "natural periods of the response spectra (5 % damped) of what the table plays, s, in the time of the \
-                  table: a grid",
-        default: "`[\"0.02:0.02:0.2\", \"0.25:0.05:2\"]`",
-        range: "0.001 to 100",
-    }],
-};
+pub(super) const KEYS: SectionKeys = SectionKeys::new("spectra", &[&PERIODS_S]);
+const PERIODS_S: Key<GridRule> = grid("periods_s", PERIODS).with_default(&["0.02:0.02:0.2", "0.25:0.05:2"]).meaning(
+    "natural periods of the response spectra (5 % damped) of what the table plays, s, in the time of the table: a \
+         grid",
+);
 
-pub(super) const DESIGN_KEYS: SectionKeys = SectionKeys {
-    section: "spectra.design",
-    keys: &[
-        Key {
-            names: &["ground_acceleration_g"],
-            meaning: "ground acceleration of the elastic spectrum of Eurocode 8 (EN 1998-1, 3.2.2.2) that the figure \
-                      shows beside those of the motions, g; times the importance factor",
-            default: "needed",
-            range: "0.001 to 10",
-        },
-        Key { names: &["ground"], meaning: "its ground type", default: "`\"C\"`", range: "`\"A\"` to `\"E\"`" },
-        Key {
-            names: &["shape"],
-            meaning: "its shape: `\"type1\"` where earthquakes above magnitude 5.5 contribute most, else `\"type2\"`",
-            default: "`\"type1\"`",
-            range: "",
-        },
-    ],
-};
+pub(super) const DESIGN_KEYS: SectionKeys =
+    SectionKeys::new("spectra.design", &[&GROUND_ACCELERATION_G, &GROUND, &SHAPE]);
+const GROUND_ACCELERATION_G: Key<Number> = number("ground_acceleration_g", "g", GROUND_ACCELERATION).meaning(
+    "ground acceleration of the elastic spectrum of Eurocode 8 (EN 1998-1, 3.2.2.2) that the figure shows beside those \
+     of the motions, g; times the importance factor",
+);
+const GROUND: Key<Choice<GroundType>> =
+    choice("ground", &GroundType::ALL, GroundType::key).with_default(GroundType::C).meaning("its ground type");
+const SHAPE: Key<Choice<SpectrumShape>> = choice("shape", &SpectrumShape::ALL, SpectrumShape::key)
+    .with_default(SpectrumShape::Type1)
+    .meaning("its shape: `\"type1\"` where earthquakes above magnitude 5.5 contribute most, else `\"type2\"`");
 
-const PERIODS: GridRule = GridRule {
-    unit: "s",
-    each: Rule::Is { holds: |value| (1e-3..=100.0).contains(&value), words: "from 0.001 to 100 s" },
-    least_count: 2,
-};
-const GROUND_ACCELERATION: Rule = Rule::Is {
-    holds: |value| (1e-3..=10.0).contains(&value),
-    words: "from 0.001 to 10 g (in g, not in m/s2: Athens has 0.16)",
-};
-const GROUNDS: [(&str, GroundType); 5] =
-    [("A", GroundType::A), ("B", GroundType::B), ("C", GroundType::C), ("D", GroundType::D), ("E", GroundType::E)];
-const SHAPES: [(&str, SpectrumShape); 2] = [("type1", SpectrumShape::Type1), ("type2", SpectrumShape::Type2)];
+const PERIODS: GridRule = GridRule { unit: "s", each: Rule::From(1e-3, 100.0, "from 0.001 to 100 s"), least_count: 2 };
+const GROUND_ACCELERATION: Rule = Rule::From(1e-3, 10.0, "from 0.001 to 10 g (in g, not in m/s2: Athens has 0.16)");
 
 /// Of what response spectra are drawn.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -82,7 +59,7 @@ impl DesignSpectrumPlan {
 
 /// Reads the section.
 pub(super) fn read(mut section: Section<'_>) -> Option<SpectraPlan> {
-    let periods_s = Grid::of_key(&mut section, "periods_s", PERIODS, &["0.02:0.02:0.2", "0.25:0.05:2"]);
+    let periods_s = section.read(&PERIODS_S);
     let design = design(section.section("design"));
     section.finish();
     Some(SpectraPlan { periods_s: periods_s?, design: design? })
@@ -93,8 +70,8 @@ fn design(mut section: Section<'_>) -> Option<Option<DesignSpectrumPlan>> {
     if !section.is_present() {
         return Some(None);
     }
-    let ground_acceleration_g = if let Some(field) = section.field("ground_acceleration_g") {
-        field.number("g", GROUND_ACCELERATION)
+    let ground_acceleration_g = if let Some(field) = section.given(&GROUND_ACCELERATION_G) {
+        GROUND_ACCELERATION_G.read(&field)
     } else {
         section.mistake(
             "ground_acceleration_g",
@@ -103,8 +80,8 @@ fn design(mut section: Section<'_>) -> Option<Option<DesignSpectrumPlan>> {
         );
         None
     };
-    let ground = section.choice_or("ground", &GROUNDS, GroundType::C);
-    let shape = section.choice_or("shape", &SHAPES, SpectrumShape::Type1);
+    let ground = section.read(&GROUND);
+    let shape = section.read(&SHAPE);
     section.finish();
     Some(Some(DesignSpectrumPlan { ground_acceleration_g: ground_acceleration_g?, ground: ground?, shape: shape? }))
 }

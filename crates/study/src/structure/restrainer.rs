@@ -7,14 +7,104 @@ use uplift_statics::{
 };
 use uplift_structure::{Kind, StructureDescription};
 
-use super::{ANY, Mistake};
+use super::Mistake;
 use crate::error::StudyError;
+use crate::keys::{self, ANY, Choice, Integer, Judged, Key, Number, SectionKeys, choice, integer, number};
 use crate::reading::findings::refused;
 use crate::reading::other_file::Wanted;
 use crate::reading::text::{parse_table, read_text};
-use crate::reading::{Findings, Section};
+use crate::reading::{Findings, Rule, Section};
 
-const WHEN_FLAT: [(&str, WhenFlat); 2] = [("tendon", WhenFlat::Tendon), ("stop", WhenFlat::Stop)];
+pub(super) const KEYS: SectionKeys = SectionKeys::new(
+    "restrainer",
+    &[
+        &KIND,
+        &STIFFNESS_N_M,
+        &OUTER_DIAMETER_M,
+        &INNER_DIAMETER_M,
+        &THICKNESS_M,
+        &CONE_HEIGHT_M,
+        &FREE_HEIGHT_M,
+        &REDUCED_THICKNESS_M,
+        &SPRINGS,
+        &PARALLEL,
+        &YOUNG_MODULUS_PA,
+        &POISSON,
+        &TENDON_STIFFNESS_N_M,
+        &TENDON_AREA_M2,
+        &TENDON_LENGTH_M,
+        &TENDON_YOUNG_MODULUS_PA,
+        &TENDON_YIELD_N,
+        &TENDON_FAILURE_N,
+        &ANCHORAGE,
+        &DUCT_GAP_M,
+        &PRESTRESS_N,
+        &SLACK_M,
+        &WHEN_FLAT,
+    ],
+);
+const KIND: Key<Choice<RestrainerKind>> = choice("kind", &RestrainerKind::ALL, RestrainerKind::name)
+    .meaning("what holds each column: a spring of constant stiffness, a bare tendon, or a stack of disc springs");
+const STIFFNESS_N_M: Key<Judged> = judged("stiffness_n_m", "N/m").meaning("stiffness of a `linear` restrainer, N/m");
+const OUTER_DIAMETER_M: Key<Judged> = judged("outer_diameter_m", "m").meaning("outer diameter D_e of a disc spring, m");
+const INNER_DIAMETER_M: Key<Judged> = judged("inner_diameter_m", "m").meaning("inner diameter D_i, m");
+const THICKNESS_M: Key<Judged> = judged("thickness_m", "m").meaning("thickness t, m");
+const CONE_HEIGHT_M: Key<Judged> = judged("cone_height_m", "m").meaning("cone height h_0, m");
+const FREE_HEIGHT_M: Key<Judged> =
+    judged("free_height_m", "m").meaning("free height l_0 = h_0 + t, in place of the cone height, m");
+const REDUCED_THICKNESS_M: Key<Judged> =
+    judged("reduced_thickness_m", "m").meaning("thickness t' of discs with contact flats, m");
+const YOUNG_MODULUS_PA: Key<Judged> =
+    judged("young_modulus_pa", "Pa").without_default("206e9").meaning("Young's modulus of the discs, Pa");
+const POISSON: Key<Judged> = judged("poisson", "").without_default("0.3").meaning("Poisson's ratio of the discs");
+const TENDON_STIFFNESS_N_M: Key<Judged> =
+    judged("tendon_stiffness_n_m", "N/m").meaning("stiffness k_t = EA/ℓ of the tendon, N/m");
+const TENDON_AREA_M2: Key<Judged> =
+    judged("tendon_area_m2", "m2").meaning("area of the tendon, with its length in place of its stiffness, m²");
+const TENDON_YOUNG_MODULUS_PA: Key<Judged> = judged("tendon_young_modulus_pa", "Pa")
+    .without_default("190e9")
+    .meaning("Young's modulus of the tendon, with its area, Pa");
+const TENDON_LENGTH_M: Key<Judged> =
+    judged("tendon_length_m", "m").meaning("length ℓ of the tendon, with its area or where it shifts, m");
+const TENDON_YIELD_N: Key<Judged> =
+    judged("tendon_yield_n", "N").meaning("force at which the tendon yields, reported when it is reached, N");
+const TENDON_FAILURE_N: Key<Judged> =
+    judged("tendon_failure_n", "N").meaning("force at which the tendon or its socket fails, reported likewise, N");
+const PRESTRESS_N: Key<Judged> =
+    judged("prestress_n", "N").without_default("0").meaning("force T_0 of the tendon before the column tilts, N");
+const SLACK_M: Key<Judged> = judged("slack_m", "m")
+    .without_default("0")
+    .meaning("elongation that a loose nut lets pass, in place of a prestress, m");
+const DUCT_GAP_M: Key<Judged> =
+    judged("duct_gap_m", "m").meaning("where the tendon shifts: half of what the duct is wider, c, m");
+const SPRINGS: Key<Integer> =
+    integer("springs", 1, MOST_DISCS).without_default("").meaning("discs, or packets of them, in alternate sense, n");
+const PARALLEL: Key<Integer> =
+    integer("parallel", 1, MOST_DISCS).without_default("1").meaning("discs in the same sense in each packet, i");
+const WHEN_FLAT: Key<Choice<WhenFlat>> =
+    choice("when_flat", &[WhenFlat::Tendon, WhenFlat::Stop], |when_flat| match when_flat {
+        WhenFlat::Tendon => "tendon",
+        WhenFlat::Stop => "stop",
+    })
+    .without_default("`\"tendon\"`")
+    .meaning("once the springs are flat the tendon stretches on, or the law ends");
+const ANCHORAGE: Key<Choice<TendonAnchorage>> = choice("anchorage", &TendonAnchorage::ALL, TendonAnchorage::name)
+    .without_default("`\"column\"`")
+    .meaning("where the tendon is anchored, and whether it shifts in its duct (section 1)");
+
+pub(super) const STOPPER_KEYS: SectionKeys =
+    SectionKeys::new("restrainer.stopper", &[&GAP_M, &STOPPER_STIFFNESS_N_M, &YIELD_N]);
+const GAP_M: Key<Judged> =
+    judged("gap_m", "m").needed().meaning("deformation of the springs at which the rods beside them engage, m");
+const STOPPER_STIFFNESS_N_M: Key<Number> =
+    number("stiffness_n_m", "N/m", ANY).meaning("stiffness k_st = EA/L of all of these rods, N/m");
+const YIELD_N: Key<Judged> = judged("yield_n", "N").meaning("force F_y at which they yield, N");
+
+/// A number that the description judges.
+const fn judged(name: &'static str, unit: &'static str) -> Key<Judged> {
+    keys::judged(name, unit, |key| RestrainerDescription::range(key).map_or(ANY, Rule::Within))
+}
+
 /// Most discs of a stack, in either sense; more is a slip.
 const MOST_DISCS: u64 = 10_000;
 
@@ -126,45 +216,41 @@ fn read_section(mut section: Section<'_>) -> Option<RestrainerDescription> {
     if !section.is_present() {
         return None;
     }
-    let kinds = RestrainerKind::ALL.map(|kind| (kind.name(), kind));
-    let kind = if let Some(field) = section.field("kind") {
-        field.choice(&kinds)
+    let kind = if let Some(field) = section.given(&KIND) {
+        KIND.read(&field)
     } else {
-        let words = kinds.map(|(word, _)| word).join("\", \"");
+        let words = RestrainerKind::ALL.map(RestrainerKind::name).join("\", \"");
         section.mistake("kind", "what kind of restrainer is this?", format!("write kind = and one of \"{words}\""));
         None
     };
-    let mut number = |key, unit| section.field(key).and_then(|field| field.number(unit, ANY));
+    let mut number = |key: &Key<Judged>| section.optional(key).flatten();
     let mut description = RestrainerDescription {
         kind: kind.unwrap_or_default(),
-        stiffness_n_m: number("stiffness_n_m", "N/m"),
-        outer_diameter_m: number("outer_diameter_m", "m"),
-        inner_diameter_m: number("inner_diameter_m", "m"),
-        thickness_m: number("thickness_m", "m"),
-        cone_height_m: number("cone_height_m", "m"),
-        free_height_m: number("free_height_m", "m"),
-        reduced_thickness_m: number("reduced_thickness_m", "m"),
-        young_modulus_pa: number("young_modulus_pa", "Pa"),
-        poisson: number("poisson", ""),
-        tendon_stiffness_n_m: number("tendon_stiffness_n_m", "N/m"),
-        tendon_area_m2: number("tendon_area_m2", "m2"),
-        tendon_young_modulus_pa: number("tendon_young_modulus_pa", "Pa"),
-        tendon_length_m: number("tendon_length_m", "m"),
-        tendon_yield_n: number("tendon_yield_n", "N"),
-        tendon_failure_n: number("tendon_failure_n", "N"),
-        prestress_n: number("prestress_n", "N"),
-        slack_m: number("slack_m", "m"),
-        duct_gap_m: number("duct_gap_m", "m"),
+        stiffness_n_m: number(&STIFFNESS_N_M),
+        outer_diameter_m: number(&OUTER_DIAMETER_M),
+        inner_diameter_m: number(&INNER_DIAMETER_M),
+        thickness_m: number(&THICKNESS_M),
+        cone_height_m: number(&CONE_HEIGHT_M),
+        free_height_m: number(&FREE_HEIGHT_M),
+        reduced_thickness_m: number(&REDUCED_THICKNESS_M),
+        young_modulus_pa: number(&YOUNG_MODULUS_PA),
+        poisson: number(&POISSON),
+        tendon_stiffness_n_m: number(&TENDON_STIFFNESS_N_M),
+        tendon_area_m2: number(&TENDON_AREA_M2),
+        tendon_young_modulus_pa: number(&TENDON_YOUNG_MODULUS_PA),
+        tendon_length_m: number(&TENDON_LENGTH_M),
+        tendon_yield_n: number(&TENDON_YIELD_N),
+        tendon_failure_n: number(&TENDON_FAILURE_N),
+        prestress_n: number(&PRESTRESS_N),
+        slack_m: number(&SLACK_M),
+        duct_gap_m: number(&DUCT_GAP_M),
         ..RestrainerDescription::default()
     };
-    let mut count = |key| {
-        let field = section.field(key)?;
-        u32::try_from(field.integer(1, MOST_DISCS)?).ok()
-    };
-    description.springs = count("springs");
-    description.parallel = count("parallel");
-    description.when_flat = section.field("when_flat").and_then(|field| field.choice(&WHEN_FLAT));
-    description.anchorage = section.field("anchorage").and_then(|field| field.choice(&TendonAnchorage::ALL));
+    let mut count = |key: &Key<Integer>| section.optional(key).flatten().and_then(|count| u32::try_from(count).ok());
+    description.springs = count(&SPRINGS);
+    description.parallel = count(&PARALLEL);
+    description.when_flat = section.optional(&WHEN_FLAT).flatten();
+    description.anchorage = section.optional(&ANCHORAGE).flatten();
     description.stopper = stopper(section.section("stopper"));
     section.finish();
     kind.map(|_| description)
@@ -174,11 +260,12 @@ fn stopper(mut section: Section<'_>) -> Option<StopperDescription> {
     if !section.is_present() {
         return None;
     }
-    let mut number = |key, unit| section.field(key).map(|field| field.number(unit, ANY));
-    let [gap, stiffness, yields] = [number("gap_m", "m"), number("stiffness_n_m", "N/m"), number("yield_n", "N")];
-    for (key, given) in [("gap_m", gap.is_some()), ("stiffness_n_m", stiffness.is_some())] {
+    let gap = section.given(&GAP_M).map(|field| GAP_M.read(&field));
+    let stiffness = section.given(&STOPPER_STIFFNESS_N_M).map(|field| STOPPER_STIFFNESS_N_M.read(&field));
+    let yields = section.optional(&YIELD_N).flatten();
+    for (key, given) in [(GAP_M.name, gap.is_some()), (STOPPER_STIFFNESS_N_M.name, stiffness.is_some())] {
         if !given {
-            let what = if key == "gap_m" {
+            let what = if key == GAP_M.name {
                 "the deformation of the springs at which it engages, in m"
             } else {
                 "EA/L of its rods, in N/m"
@@ -187,5 +274,5 @@ fn stopper(mut section: Section<'_>) -> Option<StopperDescription> {
         }
     }
     section.finish();
-    Some(StopperDescription { gap_m: gap??, stiffness_n_m: stiffness??, yield_n: yields.flatten() })
+    Some(StopperDescription { gap_m: gap??, stiffness_n_m: stiffness??, yield_n: yields })
 }

@@ -17,8 +17,8 @@ fn all_load() {
     let mut names = Vec::new();
     for entry in fs::read_dir(folder()).unwrap() {
         let entry = entry.unwrap();
-        if entry.file_type().unwrap().is_dir() {
-            continue; // structures
+        if entry.path().extension().is_none_or(|extension| extension != "toml") {
+            continue; // structures, the schema
         }
         let name = entry.file_name().into_string().unwrap();
         let study = Study::load_any(&folder().join(&name), &[]).unwrap();

@@ -7,30 +7,35 @@ use std::{env, fs};
 
 use uplift_structure::UncertainQuantity;
 
+use super::super::keys::{Declared, SectionKeys};
 use super::super::reading::{Findings, Paths, Section, Table};
-use super::super::{AnyStudy, Key, Kind, SectionKeys};
+use super::super::{AnyStudy, Kind, structure, structure_schema, study_schema};
 use super::{displacement, resolving, shake_table};
 
-/// The page of each kind. Keys of any kind may stand in the first one.
-const PAGES: [(&str, Kind); 3] = [
-    ("study-file.md", Kind::UniformRisk),
-    ("displacement-spectra.md", Kind::Displacement),
-    ("shake-table.md", Kind::ShakeTable),
-];
+/// The pages with the keys of each kind of study, and of structures.
+fn pages() -> [(&'static str, &'static [SectionKeys]); 5] {
+    [
+        ("study-file.md", Kind::UniformRisk.keys()),
+        ("displacement-spectra.md", Kind::Displacement.keys()),
+        ("shake-table.md", Kind::ShakeTable.keys()),
+        ("design.md", &structure::KEYS),
+        ("restrained-columns.md", &structure::KEYS),
+    ]
+}
 
 /// What stands before a table: the sections whose keys it has.
 const MARK: (&str, &str) = ("<!-- keys: ", " -->");
 
-/// The page with its tables made anew, and the keys in them.
-fn made_anew(page: &str, kind: Kind) -> (String, Vec<Key>) {
-    let (mut made, mut shown) = (String::new(), Vec::new());
+/// The page with its tables made anew, and the rows of them.
+fn made_anew(page: &str, sections: &[SectionKeys]) -> (String, BTreeSet<String>) {
+    let (mut made, mut shown) = (String::new(), BTreeSet::new());
     let mut lines = page.lines().peekable();
     while let Some(line) = lines.next() {
         writeln!(made, "{line}").unwrap();
         let Some(names) = line.strip_prefix(MARK.0).and_then(|rest| rest.strip_suffix(MARK.1)) else { continue };
         while lines.next_if(|line| line.is_empty() || line.starts_with('|')).is_some() {}
-        let sections: Vec<&SectionKeys> = names.split(", ").map(|name| section(kind, name)).collect();
-        shown.extend(sections.iter().flat_map(|section| section.keys));
+        let sections: Vec<&SectionKeys> = names.split(", ").map(|name| section(sections, name)).collect();
+        shown.extend(sections.iter().flat_map(|section| section.keys).map(|key| row(*key)));
         write!(made, "\n{}", table(&sections)).unwrap();
         if lines.peek().is_some() {
             made.push('\n');
@@ -40,32 +45,31 @@ fn made_anew(page: &str, kind: Kind) -> (String, Vec<Key>) {
 }
 
 /// The keys of the section `name` of a page; `top` for those before all sections.
-fn section(kind: Kind, name: &str) -> &'static SectionKeys {
+fn section<'a>(sections: &'a [SectionKeys], name: &str) -> &'a SectionKeys {
     let path = if name == "top" { "" } else { name };
-    let found = kind.keys().iter().find(|section| section.section == path);
-    found.unwrap_or_else(|| panic!("a study of {} has no section {name}", kind.key()))
+    let found = sections.iter().find(|section| section.section == path);
+    found.unwrap_or_else(|| panic!("there is no section {name}"))
 }
 
-/// A cell of the row of a key.
-type Cell = fn(&Key) -> &'static str;
+/// What tells a key from others.
+fn row(key: &dyn Declared) -> String {
+    format!("{:?}: {}", key.names(), key.meaning())
+}
 
 /// Keys with the name of their section where there are several; no column that is empty.
 fn table(sections: &[&SectionKeys]) -> String {
-    let columns: [(&str, Cell); 3] =
-        [("meaning", |key| key.meaning), ("default", |key| key.default), ("range", |key| key.range)];
-    let keys = || sections.iter().flat_map(|section| section.keys.iter().map(move |key| (section.section, key)));
-    let columns: Vec<_> =
-        columns.into_iter().filter(|(_, cell)| keys().any(|(_, key)| !cell(key).is_empty())).collect();
-    let titles: Vec<&str> = columns.iter().map(|(title, _)| *title).collect();
-    let mut table = format!("| key | {} |\n|---|{}\n", titles.join(" | "), "---|".repeat(columns.len()));
-    for (path, key) in keys() {
-        let name = |name: &&str| if sections.len() > 1 { format!("`{path}.{name}`") } else { format!("`{name}`") };
-        let names: Vec<String> = key.names.iter().map(name).collect();
+    let cells = |key: &dyn Declared| [key.meaning().to_owned(), key.default(), key.range()];
+    let rows = || sections.iter().flat_map(|section| section.keys.iter().map(move |key| (section.section, *key)));
+    let is_used = [0, 1, 2].map(|column| rows().any(|(_, key)| !cells(key)[column].is_empty()));
+    let used = |cells: [String; 3]| cells.into_iter().zip(is_used).filter_map(|(cell, used)| used.then_some(cell));
+    let titles: Vec<String> = used(["meaning", "default", "range"].map(str::to_owned)).collect();
+    let mut table = format!("| key | {} |\n|---|{}\n", titles.join(" | "), "---|".repeat(titles.len()));
+    for (path, key) in rows() {
+        let name = |name: &str| if sections.len() > 1 { format!("`{path}.{name}`") } else { format!("`{name}`") };
+        let names: Vec<String> = key.names().into_iter().map(name).collect();
         write!(table, "| {} |", names.join(", ")).unwrap();
-        for (_, cell) in &columns {
-            table.push(' ');
-            table.push_str(cell(key));
-            table.push_str(if cell(key).is_empty() { "|" } else { " |" });
+        for cell in used(cells(key)) {
+            write!(table, " {cell}{}", if cell.is_empty() { "|" } else { " |" }).unwrap();
         }
         table.push('\n');
     }
@@ -75,11 +79,11 @@ fn table(sections: &[&SectionKeys]) -> String {
 #[test]
 fn the_documentation_has_every_key() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs");
-    let mut shown = Vec::new();
-    for (name, kind) in PAGES {
+    let mut shown = BTreeSet::new();
+    for (name, sections) in pages() {
         let path = folder.join(name);
         let page = fs::read_to_string(&path).unwrap();
-        let (made, keys) = made_anew(&page, kind);
+        let (made, keys) = made_anew(&page, sections);
         if env::var_os("UPDATE_DOCS").is_some() {
             fs::write(&path, &made).unwrap();
         } else {
@@ -90,10 +94,26 @@ fn the_documentation_has_every_key() {
             );
         }
         shown.extend(keys);
-        for section in kind.keys() {
-            let missing = section.keys.iter().find(|key| !shown.contains(key));
-            assert_eq!(missing, None, "a key of [{}] is in no table of docs/{name}", section.section);
+    }
+    for (name, section) in pages().into_iter().flat_map(|(name, sections)| sections.iter().map(move |of| (name, of))) {
+        let missing = section.keys.iter().map(|key| row(*key)).find(|key| !shown.contains(key));
+        assert_eq!(missing, None, "a key of [{}] is in no table of docs/{name}", section.section);
+    }
+}
+
+/// The schemas that come with the configs are what the keys say.
+#[test]
+fn the_schemas_are_those_of_the_keys() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../configs");
+    for (name, schema) in
+        [("study.schema.json", study_schema()), ("structures/structure.schema.json", structure_schema())]
+    {
+        let made = format!("{schema:#}\n");
+        if env::var_os("UPDATE_DOCS").is_some() {
+            fs::write(folder.join(name), &made).unwrap();
         }
+        let stands = fs::read_to_string(folder.join(name)).unwrap_or_default();
+        assert!(stands == made, "configs/{name} is not what the keys say: UPDATE_DOCS=1 cargo test -p uplift-study");
     }
 }
 
@@ -123,14 +143,15 @@ fn every_key_is_in_the_reference_and_no_other() {
         branches = [{ file = \"a\", weight = 0.5 }, { file = \"b\", weight = 0.5 }]\n[sites.sa_1s]\n\
         branches = [{ file = \"a\", weight = 0.5 }, { file = \"b\", weight = 0.5 }]\n";
     const BLOCKS: &str = "kind = \"displacement spectra\"\n[block]\n[design]";
+    const FURTHER: &str = "[measures.pgd]\n[measures.si]\n[measures.cav]\n[measures.arias]";
     for (kind, studies) in [
-        (Kind::UniformRisk, [resolving::COMPLETE, CURVES]),
-        (Kind::Displacement, [displacement::COMPLETE, BLOCKS]),
-        (Kind::ShakeTable, [shake_table::COMPLETE, shake_table::BARE]),
+        (Kind::UniformRisk, &[resolving::COMPLETE, CURVES, FURTHER][..]),
+        (Kind::Displacement, &[displacement::COMPLETE, BLOCKS]),
+        (Kind::ShakeTable, &[shake_table::COMPLETE, shake_table::BARE]),
     ] {
         let mut known = BTreeSet::new();
         for section in kind.keys() {
-            for name in section.keys.iter().flat_map(|key| key.names) {
+            for name in section.keys.iter().flat_map(|key| key.names()) {
                 known.insert(format!("{}.{name}", section.section).trim_start_matches('.').to_owned());
             }
         }
@@ -140,7 +161,7 @@ fn every_key_is_in_the_reference_and_no_other() {
             own.map_or(key.clone(), |rest| format!("uncertainty.restitution{rest}"))
         };
         // the keys of every quantity are told with those of one
-        let asked: BTreeSet<String> = asked(&studies).into_iter().map(of_one_quantity).collect();
+        let asked: BTreeSet<String> = asked(studies).into_iter().map(of_one_quantity).collect();
         let never: Vec<_> = known.difference(&asked).collect();
         assert!(never.is_empty(), "in the reference of {}, but never read: {never:?}", kind.key());
         // a section is known by its keys; the table of a grid is told with the grids
@@ -155,36 +176,5 @@ fn every_key_is_in_the_reference_and_no_other() {
         let told = |key: &str| is_section(key) || of_a_grid(key) || elsewhere(key);
         let unknown: Vec<_> = asked.difference(&known).filter(|key| !told(key)).collect();
         assert!(unknown.is_empty(), "read, but not in the reference of {}: {unknown:?}", kind.key());
-    }
-}
-
-#[test]
-fn the_reference_says_the_ranges_that_are_asked_for() {
-    use uplift_plausible as plausible;
-    let known = [
-        ("gravity_m_s2", plausible::GRAVITY),
-        ("uplift_displacement_m", plausible::UPLIFT_DISPLACEMENT),
-        ("capacity_m", plausible::CAPACITY),
-        ("post_uplift_stiffness_per_s2", plausible::POST_UPLIFT_STIFFNESS),
-        ("restitution", plausible::RESTITUTION),
-        ("levels_cm_s", plausible::PGV_LEVEL),
-        ("levels_g", plausible::PGA_LEVEL),
-        ("thresholds_m", plausible::THRESHOLD),
-        ("years", plausible::YEARS),
-        ("strength_above", plausible::STRENGTH),
-        ("within_km", plausible::DISTANCE),
-        ("safety_factor", plausible::SAFETY_FACTOR),
-        ("width_m", plausible::LENGTH),
-        ("endless_height_m", plausible::LENGTH),
-    ];
-    let sections = Kind::ALL.into_iter().flat_map(Kind::keys);
-    let keys: Vec<&Key> = sections.flat_map(|section| section.keys).collect();
-    for (name, range) in known {
-        let said = range.to_string();
-        let ends = said.strip_prefix("from ").and_then(|rest| rest.split([' ']).nth(2)).unwrap();
-        let words = format!("{} to {ends}", said.split(' ').nth(1).unwrap());
-        let found: Vec<&&Key> = keys.iter().filter(|key| key.names.contains(&name)).collect();
-        assert!(!found.is_empty(), "{name}");
-        assert!(found.iter().all(|key| key.range.contains(&words)), "{name}: {words}, not in {found:?}");
     }
 }

@@ -4,52 +4,35 @@ use serde::{Serialize, Serializer};
 use uplift_bootstrap::{Interval, Unit};
 use uplift_plausible::STRENGTH;
 
-use crate::keys::{Key, SectionKeys};
-use crate::reading::{Field, Rule, Section};
+use crate::keys::{Boolean, Choice, Integer, Key, List, Number, SectionKeys, boolean, choice, integer, number};
+use crate::reading::{Field, Rule, Section, optional};
 
-pub(super) const KEYS: SectionKeys = SectionKeys {
-    section: "bootstrap",
-    keys: &[
-        Key {
-            names: &["sizes"],
-            meaning: "records in a sample, a list",
-            default: "20, 40, 60, 80 as far as the set has more, and the whole set",
-            range: "1 to 100 000, each once",
-        },
-        Key { names: &["replicates"], meaning: "samples of each size", default: "1000", range: "1 to 1 000 000" },
-        Key {
-            names: &["confidence"],
-            meaning: "share of the replicates between the limits",
-            default: "0.9",
-            range: "above 0, below 1",
-        },
-        Key {
-            names: &["interval"],
-            meaning: "`\"percentile\"`, or `\"bca\"`: bias-corrected and accelerated",
-            default: "`\"percentile\"`",
-            range: "",
-        },
-        Key {
-            names: &["unit"],
-            meaning: "what is drawn: `\"record\"`, or with all their records `\"pair\"` or `\"event\"`, earthquakes: \
-                      as many as have so many records on average",
-            default: "`\"record\"`; `\"pair\"` where each azimuth of a pair is a record",
-            range: "",
-        },
-        Key {
-            names: &["simultaneous"],
-            meaning: "also bands that hold whole spectra; keeps all replicates in memory, 8 bytes an ordinate",
-            default: "false",
-            range: "",
-        },
-        Key {
-            names: &["strength_above"],
-            meaning: "only strengths above this count in e_median and r_90CI",
-            default: "0",
-            range: "0 to 100",
-        },
-    ],
-};
+pub(super) const KEYS: SectionKeys = SectionKeys::new(
+    "bootstrap",
+    &[&SIZES, &REPLICATES, &CONFIDENCE, &INTERVAL, &UNIT, &SIMULTANEOUS, &STRENGTH_ABOVE],
+);
+const SIZES: Key<List<Integer>> = integer("sizes", 1, LARGEST_SIZE)
+    .list()
+    .without_default("20, 40, 60, 80 as far as the set has more, and the whole set")
+    .meaning("records in a sample, a list")
+    .note("each once");
+const REPLICATES: Key<Integer> =
+    integer("replicates", 1, MOST_REPLICATES).with_default(1000).meaning("samples of each size");
+const CONFIDENCE: Key<Number> =
+    number("confidence", "", ABOVE_0_BELOW_1).with_default(0.9).meaning("share of the replicates between the limits");
+const INTERVAL: Key<Choice<Interval>> = choice("interval", &Interval::ALL, Interval::key)
+    .with_default(Interval::Percentile)
+    .meaning("`\"percentile\"`, or `\"bca\"`: bias-corrected and accelerated");
+const UNIT: Key<Choice<Unit>> = choice("unit", &Unit::ALL, Unit::key).with_default(Unit::Record).meaning(
+    "what is drawn: `\"record\"`, or with all their records `\"pair\"` or `\"event\"`, earthquakes: as many as have so \
+     many records on average; where each azimuth of a pair is a record, `\"pair\"` in place of `\"record\"`",
+);
+const SIMULTANEOUS: Key<Boolean> = boolean("simultaneous")
+    .with_default(false)
+    .meaning("also bands that hold whole spectra; keeps all replicates in memory, 8 bytes an ordinate");
+const STRENGTH_ABOVE: Key<Number> = number("strength_above", "", Rule::Within(STRENGTH))
+    .with_default(0.0)
+    .meaning("only strengths above this count in e_median and r_90CI");
 
 /// Most replicates of one size.
 const MOST_REPLICATES: u64 = 1_000_000;
@@ -58,8 +41,7 @@ const LARGEST_SIZE: u64 = 100_000;
 /// Most sizes.
 const MOST_SIZES: usize = 100;
 
-const CONFIDENCE: Rule =
-    Rule::Is { holds: |value| value > 0.0 && value < 1.0, words: "above 0 and below 1 (90 % is 0.9)" };
+const ABOVE_0_BELOW_1: Rule = Rule::Between(0.0, 1.0, "above 0 and below 1 (90 % is 0.9)");
 
 /// The bootstrap over records (Section 4.5).
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -83,21 +65,6 @@ pub struct Bootstrap {
     pub strength_above: f64,
 }
 
-impl Default for Bootstrap {
-    /// As in Section 4.5: 1000 replicates, 90 % between the limits, percentiles.
-    fn default() -> Self {
-        Self {
-            sizes: None,
-            replicates: 1000,
-            confidence: 0.9,
-            interval: Interval::Percentile,
-            unit: Unit::Record,
-            simultaneous: false,
-            strength_above: 0.0,
-        }
-    }
-}
-
 #[allow(clippy::trivially_copy_pass_by_ref)] // as serde calls it
 fn write_interval<S: Serializer>(interval: &Interval, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(interval.key())
@@ -115,15 +82,13 @@ fn is_record(unit: &Unit) -> bool {
 
 /// Reads the section.
 pub(super) fn read(mut section: Section<'_>) -> Option<Bootstrap> {
-    let default = Bootstrap::default();
-    let sizes = section.field("sizes").map_or(Some(default.sizes), |field| sizes(&field).map(Some));
-    let replicates = section.integer_or("replicates", 1..=MOST_REPLICATES, default.replicates);
-    let confidence = section.number_or("confidence", "", CONFIDENCE, default.confidence);
-    let intervals = Interval::ALL.map(|interval| (interval.key(), interval));
-    let interval = section.choice_or("interval", &intervals, default.interval);
-    let unit = section.choice_or("unit", &Unit::ALL.map(|unit| (unit.key(), unit)), default.unit);
-    let simultaneous = section.boolean_or("simultaneous", default.simultaneous);
-    let strength_above = section.number_or("strength_above", "", Rule::Within(STRENGTH), default.strength_above);
+    let sizes = optional(section.given(&SIZES).as_ref(), sizes);
+    let replicates = section.read(&REPLICATES);
+    let confidence = section.read(&CONFIDENCE);
+    let interval = section.read(&INTERVAL);
+    let unit = section.read(&UNIT);
+    let simultaneous = section.read(&SIMULTANEOUS);
+    let strength_above = section.read(&STRENGTH_ABOVE);
     section.finish();
     Some(Bootstrap {
         sizes: sizes?,

@@ -4,21 +4,20 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
-use crate::keys::Key;
+use crate::keys::{Declared, File, Key, Number, Text, file, number, text};
 use crate::reading::{Field, Paths, Rule};
 
-pub(super) const KEYS: &[Key] = &[
-    Key { names: &["file"], meaning: "the curve", default: "needed", range: "existing file" },
-    Key { names: &["weight"], meaning: "its weight", default: "needed", range: "above 0, below 1; they add up to 1" },
-    Key { names: &["name"], meaning: "name", default: "`branch 1` and so on", range: "each once" },
-];
+pub(super) const KEYS: &[&dyn Declared] = &[&FILE, &WEIGHT, &NAME];
+const FILE: Key<File> = file("file").meaning("the curve").note("existing file");
+const WEIGHT: Key<Number> = number("weight", "", ABOVE_0_BELOW_1).meaning("its weight").note("they add up to 1");
+const NAME: Key<Text> = text("name").without_default("`branch 1` and so on").meaning("name").note("each once");
 
 /// Most branches of one curve; each is carried through the risk of every resample.
-const MOST_BRANCHES: usize = 1000;
+pub(super) const MOST_BRANCHES: usize = 1000;
 /// How far from 1 the sum of the weights may be, for weights given with a few digits.
 const SUM_TOLERANCE: f64 = 1e-6;
 
-const WEIGHT: Rule = Rule::Is { holds: |value| value > 0.0 && value < 1.0, words: "above 0 and below 1" };
+const ABOVE_0_BELOW_1: Rule = Rule::Between(0.0, 1.0, "above 0 and below 1");
 
 /// One of several weighted hazard curves of a site, a realization of a logic tree for instance.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -64,19 +63,19 @@ fn branch(item: &Field<'_>, index: usize, others: &[Branch], paths: &Paths) -> O
     if !section.is_present() {
         return None;
     }
-    let file = if let Some(field) = section.field("file") {
+    let file = if let Some(field) = section.given(&FILE) {
         paths.input(&field)
     } else {
         section.mistake("file", "the branch has no file", "add file = \"path\"");
         None
     };
-    let weight = if let Some(field) = section.field("weight") {
-        field.number("", WEIGHT)
+    let weight = if let Some(field) = section.given(&WEIGHT) {
+        WEIGHT.read(&field)
     } else {
         section.mistake("weight", "the branch has no weight", "add weight = 0.5");
         None
     };
-    let name = match section.field("name") {
+    let name = match section.given(&NAME) {
         None => Some(format!("branch {}", index + 1)),
         Some(field) => {
             let name = field.filled_text().map(|name| name.trim().to_owned());

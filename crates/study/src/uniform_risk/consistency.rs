@@ -2,53 +2,39 @@
 //! about it.
 
 use serde::{Serialize, Serializer};
+use serde_json::json;
 use uplift_motion::IntensityMeasure;
 
 use super::measures::cannot_be_scaled_to;
-use crate::keys::{Key, SectionKeys};
+use crate::keys::{Choice, Integer, Key, List, Number, SectionKeys, Special, choice, integer, number, special};
 use crate::reading::{Field, Rule, Section, optional};
 
-pub(super) const KEYS: SectionKeys = SectionKeys {
-    section: "consistency",
-    keys: &[
-        Key {
-            names: &["repair"],
-            meaning: "`\"weights\"`: spectra with weights of the records by which the set has both hazard curves of a \
-                      site, beside the plain ones; `\"none\"`: the question is asked, and nothing done about it",
-            default: "`\"none\"`",
-            range: "`\"none\"`, `\"weights\"`",
-        },
-        Key {
-            names: &["against"],
-            meaning: "the measure whose hazard is compared with what records scaled to another bring, and which a \
-                      repair honours as well",
-            default: "PGV, for records scaled to it PGA; where no site has a curve of it, the first measure with one",
-            range: "a measure with a curve at a site",
-        },
-        Key {
-            names: &["smoothness"],
-            meaning: "how much a bend of the weights' exponent over the level counts against the fit",
-            default: "0.05",
-            range: "0.001 to 10",
-        },
-        Key {
-            names: &["least_effective"],
-            meaning: "effective records below which a repaired spectrum gets a warning",
-            default: "20",
-            range: "1 to 65535",
-        },
-        Key {
-            names: &["scale_factors"],
-            meaning: "scale factors outside of these two are counted; nothing is left out",
-            default: "`[0.2, 5]`",
-            range: "1e-6 to 1e6, the smaller first",
-        },
-    ],
-};
+pub(super) const KEYS: SectionKeys =
+    SectionKeys::new("consistency", &[&REPAIR, &AGAINST, &SMOOTHNESS, &LEAST_EFFECTIVE, &SCALE_FACTORS]);
+const REPAIR: Key<Choice<Repair>> = choice("repair", &Repair::ALL, Repair::key).with_default(Repair::None).meaning(
+    "`\"weights\"`: spectra with weights of the records by which the set has both hazard curves of a site, beside the \
+     plain ones; `\"none\"`: the question is asked, and nothing done about it",
+);
+const AGAINST: Key<Special> = special("against", || json!({ "type": "string", "minLength": 1 }))
+    .without_default("PGV, for records scaled to it PGA; where no site has a curve of it, the first measure with one")
+    .meaning(
+        "the measure whose hazard is compared with what records scaled to another bring, and which a repair honours \
+         as well",
+    )
+    .note("a measure with a curve at a site");
+const SMOOTHNESS: Key<Number> = number("smoothness", "", Rule::From(0.001, 10.0, "0.001 to 10 (0.05 is usual)"))
+    .with_default(0.05)
+    .meaning("how much a bend of the weights' exponent over the level counts against the fit");
+const LEAST_EFFECTIVE: Key<Integer> = integer("least_effective", 1, MOST_RECORDS)
+    .with_default(20)
+    .meaning("effective records below which a repaired spectrum gets a warning");
+const SCALE_FACTORS: Key<List<Number>> = number("scale_factors", "", SCALE_FACTOR)
+    .list()
+    .with_default(&[0.2, 5.0])
+    .meaning("scale factors outside of these two are counted; nothing is left out")
+    .note("the smaller first");
 
-const SMOOTHNESS: Rule =
-    Rule::Is { holds: |value| (0.001..=10.0).contains(&value), words: "0.001 to 10 (0.05 is usual)" };
-const SCALE_FACTOR: Rule = Rule::Is { holds: |value| (1e-6..=1e6).contains(&value), words: "1e-6 to 1e6" };
+const SCALE_FACTOR: Rule = Rule::From(1e-6, 1e6, "1e-6 to 1e6");
 /// Most records of an analysis.
 const MOST_RECORDS: u64 = 65_535;
 
@@ -128,15 +114,12 @@ impl Consistency {
 
 /// Reads the section.
 pub(super) fn read(mut section: Section<'_>) -> Option<Consistency> {
-    let default = Consistency::default();
-    let ways = Repair::ALL.map(|way| (way.key(), way));
-    let repair = section.choice_or("repair", &ways, default.repair);
-    let against = section.field("against");
-    let against = optional(against.as_ref(), measure);
-    let smoothness = section.number_or("smoothness", "", SMOOTHNESS, default.smoothness);
-    let least_effective = section.integer_or("least_effective", 1..=MOST_RECORDS, default.least_effective);
+    let repair = section.read(&REPAIR);
+    let against = optional(section.given(&AGAINST).as_ref(), measure);
+    let smoothness = section.read(&SMOOTHNESS);
+    let least_effective = section.read(&LEAST_EFFECTIVE);
     let scale_factors =
-        section.field("scale_factors").map_or(Some(default.scale_factors), |field| scale_factors(&field));
+        section.given(&SCALE_FACTORS).map_or(Some(Consistency::default().scale_factors), |field| scale_factors(&field));
     section.finish();
     Some(Consistency {
         repair: repair?,

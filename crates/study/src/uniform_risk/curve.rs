@@ -3,44 +3,40 @@
 use std::path::{Path, PathBuf};
 
 use serde::{Serialize, Serializer};
+use serde_json::json;
 use uplift_hazard::CurveUnit;
 use uplift_motion::IntensityMeasure;
 use uplift_plausible::YEARS;
 
-use super::branches::{self, Branch};
+use super::branches::{self, Branch, MOST_BRANCHES};
 use super::measures::MeasureKeys;
-use crate::keys::Key;
+use crate::keys::{Choice, Declared, File, Key, Number, Special, choice, file, number, special};
 use crate::reading::{Field, Paths, Rule, Section, Value};
 
-pub(super) const KEYS: &[Key] = &[
-    Key { names: &["file"], meaning: "the curve", default: "needed without `branches`", range: "existing file" },
-    Key {
-        names: &["unit"],
-        meaning: "unit of its levels",
-        default: "`\"cm/s\"` for PGV, CAV and the Arias intensity, `\"g\"` for PGA and spectral accelerations, \
-                  `\"cm\"` for PGD and SI",
-        range: "`\"cm/s\"`, `\"m/s\"`, `\"g s\"` (CAV); `\"g\"`, `\"m/s2\"`, `\"cm/s2\"`; `\"cm\"`, `\"m\"`",
-    },
-    Key {
-        names: &["kind"],
-        meaning: "what it gives: `\"maf\"`, mean annual frequencies, 1/yr; `\"poe\"`, probabilities of exceedance",
-        default: "`\"maf\"`",
-        range: "`\"maf\"`, `\"poe\"`",
-    },
-    Key {
-        names: &["years"],
-        meaning: "time that the probabilities refer to, yr",
-        default: "needed for `\"poe\"`",
-        range: "0.001 to 1e7; only for `\"poe\"`",
-    },
-    Key {
-        names: &["branches"],
-        meaning: "epistemic uncertainty: a list of weighted curves, realizations of a logic tree for instance, in the \
-                  same unit and kind",
-        default: "none",
-        range: "2 to 1000",
-    },
-];
+pub(super) const KEYS: &[&dyn Declared] = &[&FILE, &UNIT, &KIND, &OF_YEARS, &BRANCHES];
+const FILE: Key<File> =
+    file("file").without_default("needed without `branches`").meaning("the curve").note("existing file");
+const UNIT: Key<Special> = special("unit", || json!({ "type": "string", "minLength": 1 }))
+    .without_default(
+        "`\"cm/s\"` for PGV, CAV and the Arias intensity, `\"g\"` for PGA and spectral accelerations, `\"cm\"` for PGD \
+         and SI",
+    )
+    .meaning("unit of its levels")
+    .note("`\"cm/s\"`, `\"m/s\"`, `\"g s\"` (CAV); `\"g\"`, `\"m/s2\"`, `\"cm/s2\"`; `\"cm\"`, `\"m\"`");
+const KIND: Key<Choice<bool>> = choice("kind", &[false, true], |is_poe| if is_poe { "poe" } else { "maf" })
+    .with_default(false)
+    .meaning("what it gives: `\"maf\"`, mean annual frequencies, 1/yr; `\"poe\"`, probabilities of exceedance");
+const OF_YEARS: Key<Number> = number("years", "yr", Rule::Within(YEARS))
+    .without_default("needed for `\"poe\"`")
+    .meaning("time that the probabilities refer to, yr")
+    .note("only for `\"poe\"`");
+const BRANCHES: Key<Special> = special("branches", || json!({ "minItems": 2, "maxItems": MOST_BRANCHES }))
+    .without_default("none")
+    .meaning(
+        "epistemic uncertainty: a list of weighted curves, realizations of a logic tree for instance, in the same \
+         unit and kind",
+    )
+    .note("2 to 1000");
 
 /// A file with a hazard curve, and what its numbers mean.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -114,8 +110,8 @@ pub(super) fn read(field: &Field<'_>, measure: IntensityMeasure, paths: &Paths) 
         }
     }
     let mut section = field.section();
-    let branches = section.field("branches").map_or(Some(Vec::new()), |field| branches::read(&field, paths));
-    let file = match (section.field("file"), &branches) {
+    let branches = section.given(&BRANCHES).map_or(Some(Vec::new()), |field| branches::read(&field, paths));
+    let file = match (section.given(&FILE), &branches) {
         (Some(field), _) => paths.input(&field).map(Some),
         // branches with mistakes are still branches
         (None, None) => Some(None),
@@ -125,7 +121,7 @@ pub(super) fn read(field: &Field<'_>, measure: IntensityMeasure, paths: &Paths) 
             None
         }
     };
-    let unit = section.field("unit").map_or(Some(units[0]), |field| read_unit(&field, units));
+    let unit = section.given(&UNIT).map_or(Some(units[0]), |field| read_unit(&field, units));
     let kind = kind(&mut section);
     section.finish();
     Some(CurveFile { measure, file: file?, unit: unit?, kind: kind?, branches: branches? })
@@ -146,9 +142,9 @@ fn read_unit(field: &Field<'_>, units: &[CurveUnit]) -> Option<CurveUnit> {
 }
 
 fn kind(section: &mut Section<'_>) -> Option<CurveKind> {
-    let is_poe = section.choice_or("kind", &[("maf", false), ("poe", true)], false);
-    let years_field = section.field("years");
-    let years = (years_field.as_ref()).map(|field| field.number("yr", Rule::Within(YEARS)));
+    let is_poe = section.read(&KIND);
+    let years_field = section.given(&OF_YEARS);
+    let years = years_field.as_ref().map(|field| OF_YEARS.read(field));
     match (is_poe?, years) {
         (true, Some(years)) => Some(CurveKind::Poe { years: years? }),
         (true, None) => {

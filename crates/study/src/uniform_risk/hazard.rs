@@ -3,54 +3,38 @@
 use std::collections::BTreeMap;
 
 use serde::{Serialize, Serializer};
+use serde_json::json;
 use uplift_hazard::ComponentDefinition;
 use uplift_motion::{Combination, IntensityMeasure};
 use uplift_plausible::CONVERSION;
 
 use super::measures;
-use crate::keys::{Key, SectionKeys};
+use crate::keys::{Choice, Key, Number, SectionKeys, Shape, Special, choice, number, special};
 use crate::reading::{Field, Rule, Section, optional};
 
-const DEFINITIONS_IN_WORDS: &str =
-    "`\"geometric mean\"`, `\"GMRotI50\"`, `\"RotD50\"`, `\"RotD100\"`, `\"larger\"`, `\"arbitrary\"`";
+pub(super) const KEYS: SectionKeys = SectionKeys::new("hazard", &[&COMPONENT, &CONVERSIONS]);
+const COMPONENT: Key<Choice<ComponentDefinition>> = definition("component")
+    .without_default("taken as the geometric mean, with a note; needed for records measured in another way")
+    .meaning("definition of the curves whose files do not say it");
+const CONVERSIONS: Key<Special> = special("conversions", || json!({}))
+    .without_default("none")
+    .meaning("list of `{ from = \"GMRotI50\", to = \"geometric mean\", pgv = 1.0, pga = 1.0 }`, of the keys below")
+    .note("each pair of `from` and `to` once");
 
-pub(super) const KEYS: SectionKeys = SectionKeys {
-    section: "hazard",
-    keys: &[
-        Key {
-            names: &["component"],
-            meaning: "definition of the curves whose files do not say it",
-            default: "taken as the geometric mean, with a note; needed for records measured in another way",
-            range: DEFINITIONS_IN_WORDS,
-        },
-        Key {
-            names: &["conversions"],
-            meaning: "list of `{ from = \"GMRotI50\", to = \"geometric mean\", pgv = 1.0, pga = 1.0 }`, of the keys \
-                      below",
-            default: "none",
-            range: "each pair of `from` and `to` once",
-        },
-    ],
-};
-pub(super) const CONVERSION_KEYS: SectionKeys = SectionKeys {
-    section: "hazard.conversions",
-    keys: &[
-        Key { names: &["from"], meaning: "definition of a curve", default: "needed", range: "as `component`" },
-        Key {
-            names: &["to"],
-            meaning: "definition that the records are measured by",
-            default: "needed",
-            range: "as `component`",
-        },
-        Key {
-            names: &["pgv", "pga", "sa_1s"],
-            meaning: "what the levels of such a curve are multiplied by, that is the records' definition of the \
-                      measure over the curve's; of any measure, by its name",
-            default: "one is needed",
-            range: "0.1 to 10",
-        },
-    ],
-};
+pub(super) const CONVERSION_KEYS: SectionKeys =
+    SectionKeys::new("hazard.conversions", &[&FROM, &TO, &FACTOR]).shape(Shape::TableOrList);
+const FROM: Key<Choice<ComponentDefinition>> = definition("from").meaning("definition of a curve");
+const TO: Key<Choice<ComponentDefinition>> = definition("to").meaning("definition that the records are measured by");
+const FACTOR: Key<Number> =
+    number("pgv", "", Rule::Within(CONVERSION)).also(&["pga", "sa_1s"]).without_default("one is needed").meaning(
+        "what the levels of such a curve are multiplied by, that is the records' definition of the measure over the \
+         curve's; of any measure, by its name",
+    );
+
+/// A definition of the horizontal component.
+const fn definition(name: &'static str) -> Key<Choice<ComponentDefinition>> {
+    choice(name, &ComponentDefinition::ALL, ComponentDefinition::key)
+}
 
 /// What all hazard curves of a study have in common.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
@@ -116,16 +100,12 @@ pub fn definition_of(combination: Combination) -> ComponentDefinition {
     }
 }
 
-fn definition(field: &Field<'_>) -> Option<ComponentDefinition> {
-    field.choice(&ComponentDefinition::ALL.map(|definition| (definition.key(), definition)))
-}
-
 /// Reads the section.
 pub(super) fn read(mut section: Section<'_>) -> Option<Hazard> {
-    let component_field = section.field("component");
-    let conversions = section.field("conversions").map_or(Some(Vec::new()), |field| conversions(&field));
+    let component_field = section.given(&COMPONENT);
+    let conversions = section.given(&CONVERSIONS).map_or(Some(Vec::new()), |field| conversions(&field));
     section.finish();
-    let component = optional(component_field.as_ref(), definition);
+    let component = optional(component_field.as_ref(), |field| COMPONENT.read(field));
     Some(Hazard { component: component?, conversions: conversions? })
 }
 
@@ -136,13 +116,13 @@ fn conversions(field: &Field<'_>) -> Option<Vec<Conversion>> {
         if !section.is_present() {
             return None;
         }
-        let [from, to] = ["from", "to"].map(|key| {
-            if let Some(field) = section.field(key) {
-                return definition(&field);
+        let [from, to] = [FROM, TO].map(|key| {
+            if let Some(field) = section.given(&key) {
+                return key.read(&field);
             }
             section.mistake(
-                key,
-                format!("the conversion does not say {key} which definition"),
+                key.name,
+                format!("the conversion does not say {} which definition", key.name),
                 "write { from = \"GMRotI50\", to = \"geometric mean\", pgv = 1.0, pga = 1.0 }",
             );
             None
@@ -150,7 +130,7 @@ fn conversions(field: &Field<'_>) -> Option<Vec<Conversion>> {
         let mut factors = Some(Vec::new());
         for measure in measures::named(&section) {
             let Some(field) = section.field(measure.key()) else { continue };
-            match (&mut factors, field.number("", Rule::Within(CONVERSION))) {
+            match (&mut factors, FACTOR.read(&field)) {
                 (Some(factors), Some(factor)) => factors.push((measure, factor)),
                 _ => factors = None,
             }

@@ -7,40 +7,54 @@ use uplift_plausible::{CUMULATIVE_LEVEL, DISPLACEMENT_LEVEL, PGA_LEVEL, PGV_LEVE
 
 use super::lower_levels::levels_key;
 use crate::grid::{Grid, GridRule};
-use crate::keys::{Key, SectionKeys};
+use crate::keys::{Key, SectionKeys, grid};
 use crate::reading::{MEASURES, Rule, Section};
 
-pub(super) const PGV_KEYS: SectionKeys = SectionKeys {
-    section: "pgv",
-    keys: &[Key {
-        names: &["levels_cm_s"],
-        meaning: "levels of peak ground velocity that records are scaled to, cm/s, a grid",
-        default: "`[\"0.1:0.1:0.9\", \"1:0.5:20\", \"25:5:200\"]`, 84 levels",
-        range: "1e-5 to 10000; at least 2",
-    }],
-};
-pub(super) const PGA_KEYS: SectionKeys = SectionKeys {
-    section: "pga",
-    keys: &[Key {
-        names: &["levels_g"],
-        meaning: "levels of peak ground acceleration, g, a grid",
-        default: "`[0.001, \"0.0025:0.0025:0.0225\", \"0.025:0.005:0.195\", \"0.2:0.05:2\"]`, 82 levels",
-        range: "1e-7 to 1000; at least 2",
-    }],
-};
+pub(super) const PGV_KEYS: SectionKeys = SectionKeys::new("pgv", &[&PGV_LEVELS]);
+pub(super) const PGA_KEYS: SectionKeys = SectionKeys::new("pga", &[&PGA_LEVELS]);
+/// `sa_1s` is shown for every spectral acceleration.
+pub(super) const SA_KEYS: SectionKeys = SectionKeys::new("measures.sa_1s", &[&SA_LEVELS]);
+pub(super) const PGD_KEYS: SectionKeys = SectionKeys::new("measures.pgd", &[&PGD_LEVELS]);
+pub(super) const SI_KEYS: SectionKeys = SectionKeys::new("measures.si", &[&SI_LEVELS]);
+pub(super) const CAV_KEYS: SectionKeys = SectionKeys::new("measures.cav", &[&CAV_LEVELS]);
+pub(super) const ARIAS_KEYS: SectionKeys = SectionKeys::new("measures.arias", &[&ARIAS_LEVELS]);
 
-/// The keys of any of them, shown with one.
-pub(super) const FURTHER_KEYS: SectionKeys = SectionKeys {
-    section: "measures.sa_1s",
-    keys: &[Key {
-        names: &["levels_g"],
-        meaning: "levels that records are scaled to, a grid: `levels_g` of spectral accelerations, g; `levels_cm` of \
-                  PGD and SI, cm; `levels_cm_s` of CAV and the Arias intensity, cm/s",
-        default: "those of PGA; for the others 0.1 to 200 cm (PGD), 0.5 to 1000 cm (SI), 1 to 3000 cm/s (CAV), 0.001 \
-                  to 5000 cm/s (Arias)",
-        range: "1e-7 to 1000 g; 1e-5 to 1e5 cm; 1e-8 to 1e6 cm/s; at least 2",
-    }],
-};
+/// Chapter 4's 75 levels, and nine below, without which half of the risk at 50 % in 50 years lies below the first one
+/// in weak seismicity (docs/method.md, section 3).
+const PGV_LEVELS: Key<GridRule> = levels("levels_cm_s", PGV_LEVEL)
+    .with_default(&["0.1:0.1:0.9", "1:0.5:20", "25:5:200"])
+    .meaning("levels of peak ground velocity that records are scaled to, cm/s, a grid");
+const PGA_LEVELS: Key<GridRule> =
+    levels("levels_g", PGA_LEVEL).with_default(ACCELERATIONS).meaning("levels of peak ground acceleration, g, a grid");
+const SA_LEVELS: Key<GridRule> = levels("levels_g", SA_LEVEL)
+    .with_default(ACCELERATIONS)
+    .meaning("levels of a spectral acceleration, or of an average one, g, a grid");
+const PGD_LEVELS: Key<GridRule> = levels("levels_cm", DISPLACEMENT_LEVEL)
+    .with_default(&["0.1:0.1:0.9", "1:0.5:20", "25:5:200"])
+    .meaning("levels of peak ground displacement, cm, a grid");
+const SI_LEVELS: Key<GridRule> = levels("levels_cm", DISPLACEMENT_LEVEL)
+    .with_default(&["0.5:0.5:4.5", "5:2.5:100", "125:25:1000"])
+    .meaning("levels of the spectrum intensity, cm, a grid");
+const CAV_LEVELS: Key<GridRule> = levels("levels_cm_s", CUMULATIVE_LEVEL)
+    .with_default(&["1:1:9", "10:10:200", "250:50:3000"])
+    .meaning("levels of the cumulative absolute velocity, cm/s, a grid");
+/// They go further than others: the intensity grows with the square of the factor.
+const ARIAS_LEVELS: Key<GridRule> = levels("levels_cm_s", CUMULATIVE_LEVEL)
+    .with_default(&[
+        "0.001:0.001:0.009",
+        "0.01:0.01:0.09",
+        "0.1:0.1:0.9",
+        "1:1:9",
+        "10:10:90",
+        "100:100:900",
+        "1000:1000:5000",
+    ])
+    .meaning("levels of the Arias intensity, cm/s, a grid");
+const ACCELERATIONS: &[&str] = &["0.001", "0.0025:0.0025:0.0225", "0.025:0.005:0.195", "0.2:0.05:2"];
+
+const fn levels(name: &'static str, plausible: Range) -> Key<GridRule> {
+    grid(name, GridRule { unit: plausible.unit, each: Rule::Within(plausible), least_count: 2 })
+}
 
 /// An intensity measure with its levels.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,68 +68,29 @@ pub struct MeasurePlan {
 /// What a study file says about one measure. The section that switches it on, the key of its curve in a site and that
 /// of its factor in a conversion are [`IntensityMeasure::key`].
 pub(super) struct MeasureKeys {
-    pub(super) levels: &'static str,
-    default_levels: &'static [&'static str],
-    plausible: Range,
+    pub(super) levels: Key<GridRule>,
     /// Units that a hazard curve may have; the first one unless it names another.
     pub(super) units: &'static [CurveUnit],
 }
 
 impl MeasureKeys {
     pub(super) fn of(measure: IntensityMeasure) -> Self {
-        match measure {
-            IntensityMeasure::Pgv => Self {
-                levels: "levels_cm_s",
-                // 84 levels: Chapter 4's 75, and nine below, without which half of the risk at 50 % in 50 years lies
-                // below the first one in weak seismicity (docs/method.md, section 3)
-                default_levels: &["0.1:0.1:0.9", "1:0.5:20", "25:5:200"],
-                plausible: PGV_LEVEL,
-                units: &[CurveUnit::CmPerS, CurveUnit::MPerS],
-            },
-            IntensityMeasure::Pga => Self {
-                levels: "levels_g",
-                default_levels: ACCELERATIONS,
-                plausible: PGA_LEVEL,
-                units: &[CurveUnit::G, CurveUnit::MPerS2, CurveUnit::CmPerS2],
-            },
-            IntensityMeasure::Sa(_) | IntensityMeasure::AvgSa { .. } => {
-                Self { plausible: SA_LEVEL, ..Self::of(IntensityMeasure::Pga) }
-            }
-            IntensityMeasure::Pgd => Self {
-                levels: "levels_cm",
-                default_levels: &["0.1:0.1:0.9", "1:0.5:20", "25:5:200"],
-                plausible: DISPLACEMENT_LEVEL,
-                units: &[CurveUnit::Cm, CurveUnit::M],
-            },
-            IntensityMeasure::SpectrumIntensity => {
-                Self { default_levels: &["0.5:0.5:4.5", "5:2.5:100", "125:25:1000"], ..Self::of(IntensityMeasure::Pgd) }
-            }
-            IntensityMeasure::Cav => Self {
-                levels: "levels_cm_s",
-                default_levels: &["1:1:9", "10:10:200", "250:50:3000"],
-                plausible: CUMULATIVE_LEVEL,
-                units: &[CurveUnit::CmPerS, CurveUnit::MPerS, CurveUnit::GS],
-            },
+        const ACCELERATION: &[CurveUnit] = &[CurveUnit::G, CurveUnit::MPerS2, CurveUnit::CmPerS2];
+        const LENGTH: &[CurveUnit] = &[CurveUnit::Cm, CurveUnit::M];
+        const CUMULATIVE: &[CurveUnit] = &[CurveUnit::CmPerS, CurveUnit::MPerS, CurveUnit::GS];
+        let (levels, units): (_, &[CurveUnit]) = match measure {
+            IntensityMeasure::Pgv => (PGV_LEVELS, &[CurveUnit::CmPerS, CurveUnit::MPerS]),
+            IntensityMeasure::Pga => (PGA_LEVELS, ACCELERATION),
+            IntensityMeasure::Sa(_) | IntensityMeasure::AvgSa { .. } => (SA_LEVELS, ACCELERATION),
+            IntensityMeasure::Pgd => (PGD_LEVELS, LENGTH),
+            IntensityMeasure::SpectrumIntensity => (SI_LEVELS, LENGTH),
+            IntensityMeasure::Cav => (CAV_LEVELS, CUMULATIVE),
             // what cannot be scaled to has levels nowhere; its name is refused where it is read
-            IntensityMeasure::Arias | IntensityMeasure::D575 | IntensityMeasure::D595 => Self {
-                // it grows with the square of the factor
-                default_levels: &[
-                    "0.001:0.001:0.009",
-                    "0.01:0.01:0.09",
-                    "0.1:0.1:0.9",
-                    "1:1:9",
-                    "10:10:90",
-                    "100:100:900",
-                    "1000:1000:5000",
-                ],
-                ..Self::of(IntensityMeasure::Cav)
-            },
-        }
+            IntensityMeasure::Arias | IntensityMeasure::D575 | IntensityMeasure::D595 => (ARIAS_LEVELS, CUMULATIVE),
+        };
+        Self { levels, units }
     }
 }
-
-/// 82 levels, g.
-const ACCELERATIONS: &[&str] = &["0.001", "0.0025:0.0025:0.0225", "0.025:0.005:0.195", "0.2:0.05:2"];
 
 /// The section of a measure: its own where it is of Chapter 4.
 pub(super) fn section_of(measure: IntensityMeasure) -> String {
@@ -129,7 +104,7 @@ pub(super) fn write<S: Serializer>(plans: &[MeasurePlan], serializer: S) -> Resu
     struct Levels<'a>(&'a MeasurePlan);
     impl Serialize for Levels<'_> {
         fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-            serializer.collect_map([(MeasureKeys::of(self.0.measure).levels, &self.0.levels)])
+            serializer.collect_map([(MeasureKeys::of(self.0.measure).levels.name, &self.0.levels)])
         }
     }
     /// One of them, or the section of those that Chapter 4 has not.
@@ -160,7 +135,7 @@ pub fn levels_within(measure: IntensityMeasure, least: f64, most: f64) -> Option
     let keys = MeasureKeys::of(measure);
     let mut parts = Vec::new();
     let mut cut = false;
-    for text in keys.default_levels {
+    for text in keys.levels.default().unwrap_or_default() {
         let numbers: Vec<f64> = text.split(':').filter_map(|number| number.parse().ok()).collect();
         let part = match numbers[..] {
             [value] => (least <= value && value <= most).then(|| text.to_string()),
@@ -246,8 +221,7 @@ pub(super) fn read(root: &mut Section<'_>) -> (Vec<IntensityMeasure>, Option<Vec
     let mut plans = Some(Vec::new());
     for (measure, mut section) in sections {
         let keys = MeasureKeys::of(measure);
-        let rule = GridRule { unit: measure.unit(), each: Rule::Within(keys.plausible), least_count: 2 };
-        let levels = Grid::of_key(&mut section, keys.levels, rule, keys.default_levels);
+        let levels = section.read(&keys.levels);
         section.finish();
         match (&mut plans, levels) {
             (Some(plans), Some(levels)) => plans.push(MeasurePlan { measure, levels }),

@@ -5,45 +5,30 @@ use uplift_oscillator::PostUplift;
 use uplift_plausible::{CAPACITY, POST_UPLIFT_STIFFNESS, UPLIFT_DISPLACEMENT};
 use uplift_structure::UncertainQuantity;
 
-use crate::keys::{Key, SectionKeys};
+use crate::keys::{Boolean, Key, Number, SectionKeys, boolean, number};
 use crate::reading::{Rule, Section, ZERO_TO_ONE, optional, quantity};
 
-pub(super) const KEYS: SectionKeys = SectionKeys {
-    section: "oscillator",
-    keys: &[
-        Key {
-            names: &["uplift_displacement_m"],
-            meaning: "displacement at uplift u_up, m",
-            default: "0.0005",
-            range: "1e-6 to 10",
-        },
-        Key {
-            names: &["restitution"],
-            meaning: "velocity after an impact divided by the one before",
-            default: "0.95",
-            range: "0 to 1",
-        },
-        Key {
-            names: &["free_vibration"],
-            meaning: "whether the motion after the end of a record counts",
-            default: "`true`",
-            range: "",
-        },
-        Key {
-            names: &["capacity_m"],
-            meaning: "displacement u_cap at which the force has fallen to zero, m (NSBE: negative stiffness, can \
-                      overturn)",
-            default: "none: the force stays constant (ZSBE)",
-            range: "1e-6 to 1e6; above `uplift_displacement_m`",
-        },
-        Key {
-            names: &["post_uplift_stiffness_per_s2"],
-            meaning: "stiffness after uplift divided by mass, 1/s² (the force rises)",
-            default: "none",
-            range: "1e-7 to 1e10; excludes `capacity_m`",
-        },
-    ],
-};
+pub(super) const KEYS: SectionKeys = SectionKeys::new(
+    "oscillator",
+    &[&UPLIFT_DISPLACEMENT_M, &RESTITUTION, &FREE_VIBRATION, &CAPACITY_M, &POST_UPLIFT_STIFFNESS_PER_S2],
+);
+const UPLIFT_DISPLACEMENT_M: Key<Number> = number("uplift_displacement_m", "m", Rule::Within(UPLIFT_DISPLACEMENT))
+    .with_default(0.0005)
+    .meaning("displacement at uplift u_up, m");
+pub(crate) const RESTITUTION: Key<Number> = number("restitution", "", ZERO_TO_ONE)
+    .with_default(0.95)
+    .meaning("velocity after an impact divided by the one before");
+pub(crate) const FREE_VIBRATION: Key<Boolean> =
+    boolean("free_vibration").with_default(true).meaning("whether the motion after the end of a record counts");
+const CAPACITY_M: Key<Number> = number("capacity_m", "m", Rule::Within(CAPACITY))
+    .without_default("none: the force stays constant (ZSBE)")
+    .meaning("displacement u_cap at which the force has fallen to zero, m (NSBE: negative stiffness, can overturn)")
+    .note("above `uplift_displacement_m`");
+const POST_UPLIFT_STIFFNESS_PER_S2: Key<Number> =
+    number("post_uplift_stiffness_per_s2", "1/s2", Rule::Within(POST_UPLIFT_STIFFNESS))
+        .without_default("none")
+        .meaning("stiffness after uplift divided by mass, 1/s² (the force rises)")
+        .note("excludes `capacity_m`");
 
 /// The oscillator but for its strength (Eq. 4.1 to 4.3).
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -83,15 +68,14 @@ fn write_post_uplift<S: Serializer>(post_uplift: &PostUplift, serializer: S) -> 
 
 /// Reads the section.
 pub(super) fn read(mut section: Section<'_>) -> Option<Oscillator> {
-    let uplift = section.number_or("uplift_displacement_m", "m", Rule::Within(UPLIFT_DISPLACEMENT), 0.0005);
-    let restitution = section.number_or("restitution", "", ZERO_TO_ONE, 0.95);
-    let free_vibration = section.boolean_or("free_vibration", true);
-    let capacity_field = section.field("capacity_m");
-    let stiffness_field = section.field("post_uplift_stiffness_per_s2");
+    let uplift = section.read(&UPLIFT_DISPLACEMENT_M);
+    let restitution = section.read(&RESTITUTION);
+    let free_vibration = section.read(&FREE_VIBRATION);
+    let capacity_field = section.given(&CAPACITY_M);
+    let stiffness_field = section.given(&POST_UPLIFT_STIFFNESS_PER_S2);
     section.finish();
-    let capacity = optional(capacity_field.as_ref(), |field| field.number("m", Rule::Within(CAPACITY)));
-    let stiffness =
-        optional(stiffness_field.as_ref(), |field| field.number("1/s2", Rule::Within(POST_UPLIFT_STIFFNESS)));
+    let capacity = optional(capacity_field.as_ref(), |field| CAPACITY_M.read(field));
+    let stiffness = optional(stiffness_field.as_ref(), |field| POST_UPLIFT_STIFFNESS_PER_S2.read(field));
     if let (Some(field), Some(Some(capacity)), Some(uplift)) = (&capacity_field, capacity, uplift)
         && capacity <= uplift
     {

@@ -5,75 +5,51 @@ use std::path::{Path, PathBuf};
 use serde::{Serialize, Serializer};
 use uplift_motion::{Combination, Component, Rotation};
 
-use crate::keys::{Key, SectionKeys};
+use crate::keys::{Boolean, Choice, File, Integer, Key, SectionKeys, Text, boolean, choice, file, integer, text};
 use crate::reading::{LARGEST_INTEGER, Paths, Section, optional};
 use crate::sections::record_source::{self, MANIFEST, NO_TAG, RecordSource, Synthetic};
 use crate::sections::selection::{self, RecordSelection};
 use crate::uniform_risk::rotation;
 
-pub(super) const KEYS: SectionKeys = SectionKeys {
-    section: "records",
-    keys: &[
-        MANIFEST,
-        Key {
-            names: &["tag"],
-            meaning: "use only rows of the manifest whose `set_tags` contain this",
-            default: "all rows",
-            range: "only with `manifest`",
-        },
-        Key {
-            names: &["component"],
-            meaning: "component that shakes the planar oscillator; `\"both\"` counts each as a record, `\"random\"` \
-                      draws one for each record, `\"rotated\"` turns the pair ([azimuths](#recordsrotation-azimuths))",
-            default: "`\"h1\"`",
-            range: "`\"h1\"`, `\"h2\"`, `\"both\"`, `\"random\"`, `\"rotated\"`",
-        },
-        Key {
-            names: &["intensity"],
-            meaning: "how the peaks of the two components make the PGV or PGA of a record: `\"geometric-mean\"` \
-                      (Eq. 4.5, 4.6), `\"rotd50\"` the median and `\"rotd100\"` the largest over all horizontal \
-                      directions (Boore 2010; the components must be synchronised)",
-            default: "`\"geometric-mean\"`",
-            range: "",
-        },
-        Key {
-            names: &["vertical"],
-            meaning: "whether the third component of the records (`file_v` of the manifest) shakes blocks and frames \
-                      too, scaled as the pair: in `uplift risk` and `overturning` of the result; \
-                      oscillators do not feel it",
-            default: "`false`",
-            range: "not for synthetic records",
-        },
-        Key {
-            names: &["first"],
-            meaning: "use only so many of the records that are selected, the first",
-            default: "all",
-            range: "1 or more; at most `pairs` of a synthetic set",
-        },
-        Key {
-            names: &["at_level"],
-            meaning: "a set of records for each level: table (CSV) of levels, records, their factors and weights \
-                      ([records of their own](method.md#31-levels-with-records-of-their-own))",
-            default: "every record at every level",
-            range: "existing file; with one measure; without `first` and `[records.select]`",
-        },
-    ],
-};
+pub(super) const KEYS: SectionKeys =
+    SectionKeys::new("records", &[&MANIFEST, &TAG, &COMPONENT, &INTENSITY, &VERTICAL, &FIRST, &AT_LEVEL]);
+const TAG: Key<Text> = text("tag")
+    .without_default("all rows")
+    .meaning("use only rows of the manifest whose `set_tags` contain this")
+    .note("only with `manifest`");
+const COMPONENT: Key<Choice<Component>> =
+    choice("component", &COMPONENTS, Component::key).with_default(Component::H1).meaning(
+        "component that shakes the planar oscillator; `\"both\"` counts each as a record, `\"random\"` draws one for each \
+         record, `\"rotated\"` turns the pair ([azimuths](#recordsrotation-azimuths))",
+    );
+const INTENSITY: Key<Choice<Combination>> =
+    choice("intensity", &Combination::ALL, Combination::key).with_default(Combination::GeometricMean).meaning(
+        "how the peaks of the two components make the PGV or PGA of a record: `\"geometric-mean\"` (Eq. 4.5, 4.6), \
+         `\"rotd50\"` the median and `\"rotd100\"` the largest over all horizontal directions (Boore 2010; the \
+         components must be synchronised)",
+    );
+const VERTICAL: Key<Boolean> = boolean("vertical")
+    .with_default(false)
+    .meaning(
+        "whether the third component of the records (`file_v` of the manifest) shakes blocks and frames too, scaled as \
+         the pair: in `uplift risk` and `overturning` of the result; oscillators do not feel it",
+    )
+    .note("not for synthetic records");
+const FIRST: Key<Integer> = integer("first", 1, LARGEST_INTEGER)
+    .without_default("all")
+    .meaning("use only so many of the records that are selected, the first")
+    .note("at most `pairs` of a synthetic set");
+const AT_LEVEL: Key<File> = file("at_level")
+    .without_default("every record at every level")
+    .meaning(
+        "a set of records for each level: table (CSV) of levels, records, their factors and weights ([records of their \
+         own](method.md#31-levels-with-records-of-their-own))",
+    )
+    .note("existing file; with one measure; without `first` and `[records.select]`");
 
-const COMPONENTS: [(&str, Chosen); 5] = [
-    ("h1", Chosen::Component(Component::H1)),
-    ("h2", Chosen::Component(Component::H2)),
-    ("both", Chosen::Component(Component::Both)),
-    ("random", Chosen::Component(Component::Random)),
-    ("rotated", Chosen::Rotated),
-];
-
-/// What `component` says; azimuths are told by a section of their own.
-#[derive(Clone, Copy)]
-enum Chosen {
-    Component(Component),
-    Rotated,
-}
+/// What `component` may be; the azimuths of a pair are those of a section of their own.
+const COMPONENTS: [Component; 5] =
+    [Component::H1, Component::H2, Component::Both, Component::Random, Component::Rotated(Rotation::Random)];
 
 /// Which ground motions are used.
 #[derive(Debug, Clone, PartialEq)]
@@ -146,11 +122,13 @@ impl Serialize for Records {
 
 /// Reads the section.
 pub(super) fn read(mut section: Section<'_>, paths: &Paths) -> Option<Records> {
-    let manifest_field = section.field("manifest");
-    let tag_field = section.field("tag");
-    let chosen = section.choice_or("component", &COMPONENTS, Chosen::Component(Component::H1));
+    let manifest_field = section.given(&MANIFEST);
+    let tag_field = section.given(&TAG);
+    let chosen = section.read(&COMPONENT);
     let rotation_section = section.section("rotation");
-    if let (true, Some(Chosen::Component(component))) = (rotation_section.is_present(), chosen) {
+    if let (true, Some(component)) =
+        (rotation_section.is_present(), chosen.filter(|chosen| !matches!(chosen, Component::Rotated(_))))
+    {
         section.mistake(
             "rotation",
             format!("azimuths are given, and component = \"{component}\" has none"),
@@ -158,15 +136,14 @@ pub(super) fn read(mut section: Section<'_>, paths: &Paths) -> Option<Records> {
         );
     }
     let rotation = rotation::read(rotation_section);
-    let combinations = Combination::ALL.map(|combination| (combination.key(), combination));
-    let intensity = section.choice_or("intensity", &combinations, Combination::default());
-    let vertical_field = section.field("vertical");
-    let vertical = section.boolean_or("vertical", false);
+    let intensity = section.read(&INTENSITY);
+    let vertical_field = section.given(&VERTICAL);
+    let vertical = section.read(&VERTICAL);
     record_source::vertical_is_recorded(vertical_field.as_ref(), vertical, manifest_field.is_some());
     let select = selection::read(section.section("select"));
-    let first_field = section.field("first");
-    let first = optional(first_field.as_ref(), |field| field.integer(1, LARGEST_INTEGER));
-    let at_level_field = section.field("at_level");
+    let first_field = section.given(&FIRST);
+    let first = optional(first_field.as_ref(), |field| FIRST.read(field));
+    let at_level_field = section.given(&AT_LEVEL);
     let at_level = optional(at_level_field.as_ref(), |field| paths.input(field));
     if let (Some(field), Some(select)) = (&at_level_field, &select)
         && (first_field.is_some() || !select.is_empty())
@@ -176,7 +153,8 @@ pub(super) fn read(mut section: Section<'_>, paths: &Paths) -> Option<Records> {
             "leave these out, or the rows of the table that they are to leave out",
         );
     }
-    if let (Some(field), Some(Chosen::Rotated), Some(Rotation::Each { .. })) = (&at_level_field, chosen, rotation) {
+    if let (Some(field), Some(Component::Rotated(_)), Some(Rotation::Each { .. })) = (&at_level_field, chosen, rotation)
+    {
         field.mistake(
             "the table names pairs, and each azimuth of a pair is a record of its own",
             "take one azimuth of each pair (take = \"random\"), or a percentile over them (take = \"percentile\")",
@@ -200,8 +178,8 @@ pub(super) fn read(mut section: Section<'_>, paths: &Paths) -> Option<Records> {
     Some(Records {
         source: source?,
         component: match chosen? {
-            Chosen::Component(component) => component,
-            Chosen::Rotated => Component::Rotated(rotation?),
+            Component::Rotated(_) => Component::Rotated(rotation?),
+            component => component,
         },
         intensity: intensity?,
         vertical: vertical?,

@@ -5,45 +5,36 @@ use uplift_hazard::Extrapolation;
 use uplift_plausible::{THRESHOLD, YEARS};
 
 use crate::grid::{Grid, GridRule};
-use crate::keys::{Key, SectionKeys};
+use crate::keys::{Boolean, Choice, Key, List, Number, SectionKeys, boolean, choice, grid, number};
 use crate::reading::{Field, PROBABILITY, Rule, Section, quantity};
 
-pub(super) const KEYS: SectionKeys = SectionKeys {
-    section: "risk",
-    keys: &[
-        Key {
-            names: &["poe"],
-            meaning: "probabilities of exceedance in `years`, one or a list",
-            default: "`[0.02, 0.10, 0.50]`",
-            range: "1e-12 to 0.999999999999; each once; at most 1000",
-        },
-        Key { names: &["years"], meaning: "time that they refer to, yr", default: "50", range: "0.001 to 1e7" },
-        Key {
-            names: &["contour"],
-            meaning: "how ordinates are read: `\"exact\"` for the analysed levels, the smallest displacement whose \
-                      annual frequency meets the target; `\"grid\"`, log-linear between thresholds",
-            default: "`\"exact\"`",
-            range: "`\"exact\"`, `\"grid\"`",
-        },
-        Key {
-            names: &["thresholds_m"],
-            meaning: "displacement thresholds of the surface of annual frequencies, m, a grid",
-            default: "`[0, 0.0005, \"0.001:0.001:3\"]`, 3002 values",
-            range: "0 to 10000, from 0 on; at least 2",
-        },
-        Key { names: &["maf_surface"], meaning: "whether that surface is kept", default: "`true`", range: "" },
-        Key {
-            names: &["extrapolate"],
-            meaning: "what happens to a level outside a hazard curve: `\"refuse\"`, an error; `\"loglog\"`, the curve \
-                      goes on straight in logarithms",
-            default: "`\"refuse\"`",
-            range: "`\"refuse\"`, `\"loglog\"`",
-        },
-    ],
-};
+pub(super) const KEYS: SectionKeys =
+    SectionKeys::new("risk", &[&POE, &IN_YEARS, &CONTOUR, &THRESHOLDS_M, &MAF_SURFACE, &EXTRAPOLATE]);
+const POE: Key<List<Number>> = number("poe", "", PROBABILITY)
+    .list()
+    .with_default(&[0.02, 0.10, 0.50])
+    .meaning("probabilities of exceedance in `years`, one or a list")
+    .note("each once; at most 1000");
+const IN_YEARS: Key<Number> =
+    number("years", "yr", Rule::Within(YEARS)).with_default(50.0).meaning("time that they refer to, yr");
+const CONTOUR: Key<Choice<Contour>> =
+    choice("contour", &Contour::ALL, Contour::key).with_default(Contour::Exact).meaning(
+        "how ordinates are read: `\"exact\"` for the analysed levels, the smallest displacement whose annual frequency \
+     meets the target; `\"grid\"`, log-linear between thresholds",
+    );
+const THRESHOLDS_M: Key<GridRule> =
+    grid("thresholds_m", GridRule { unit: "m", each: Rule::Within(THRESHOLD), least_count: 2 })
+        .with_default(&["0", "0.0005", "0.001:0.001:3"])
+        .meaning("displacement thresholds of the surface of annual frequencies, m, a grid")
+        .note("from 0 on");
+const MAF_SURFACE: Key<Boolean> = boolean("maf_surface").with_default(true).meaning("whether that surface is kept");
+const EXTRAPOLATE: Key<Choice<Extrapolation>> = choice("extrapolate", &Extrapolation::ALL, Extrapolation::key)
+    .with_default(Extrapolation::Refuse)
+    .meaning(
+        "what happens to a level outside a hazard curve: `\"refuse\"`, an error; `\"loglog\"`, the curve goes on straight \
+         in logarithms",
+    );
 
-/// 3002 values \[m\].
-const THRESHOLDS_M: [&str; 3] = ["0", "0.0005", "0.001:0.001:3"];
 /// Most probabilities, each a spectrum for every site.
 const MOST_PROBABILITIES: usize = 1000;
 
@@ -100,18 +91,16 @@ fn write_extrapolation<S: Serializer>(extrapolation: &Extrapolation, serializer:
 
 /// Reads the section.
 pub(super) fn read(mut section: Section<'_>) -> Option<Risk> {
-    let poe = section.field("poe").map_or_else(|| Some(vec![0.02, 0.10, 0.50]), |field| probabilities(&field));
-    let years = section.number_or("years", "yr", Rule::Within(YEARS), 50.0);
-    let contour = section.choice_or("contour", &Contour::ALL.map(|way| (way.key(), way)), Contour::Exact);
-    let rule = GridRule { unit: "m", each: Rule::Within(THRESHOLD), least_count: 2 };
-    let thresholds_m = Grid::of_key(&mut section, "thresholds_m", rule, &THRESHOLDS_M);
+    let poe = section.given(&POE).map_or_else(|| POE.default().map(<[f64]>::to_vec), |field| probabilities(&field));
+    let years = section.read(&IN_YEARS);
+    let contour = section.read(&CONTOUR);
+    let thresholds_m = section.read(&THRESHOLDS_M);
     if let Some(&first_m) = thresholds_m.as_ref().and_then(|grid| grid.first()).filter(|first_m| **first_m != 0.0) {
         let message = format!("the grid starts at {}", quantity(first_m, "m"));
         section.mistake("thresholds_m", message, "let it start at 0, where every run that moves is counted");
     }
-    let maf_surface = section.boolean_or("maf_surface", true);
-    let choices = Extrapolation::ALL.map(|choice| (choice.key(), choice));
-    let extrapolate = section.choice_or("extrapolate", &choices, Extrapolation::Refuse);
+    let maf_surface = section.read(&MAF_SURFACE);
+    let extrapolate = section.read(&EXTRAPOLATE);
     section.finish();
     Some(Risk {
         poe: poe?,

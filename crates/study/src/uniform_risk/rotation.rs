@@ -3,39 +3,28 @@
 use serde::Serialize;
 use uplift_motion::Rotation;
 
-use crate::keys::{Key, SectionKeys};
+use crate::keys::{Choice, Integer, Key, SectionKeys, choice, integer};
 use crate::reading::Section;
 
 /// Most azimuths: one a degree.
 const MOST_AZIMUTHS: u64 = 180;
-/// Azimuths where no number is given, 15° apart.
-const AZIMUTHS: u64 = 12;
 
-pub(super) const KEYS: SectionKeys = SectionKeys {
-    section: "records.rotation",
-    keys: &[
-        Key {
-            names: &["take"],
-            meaning: "`\"random\"`, one azimuth a pair, drawn evenly by the study's `seed`; `\"each\"`, every azimuth \
-                      as a record of its own; `\"percentile\"`, of the peaks from all azimuths",
-            default: "`\"random\"`",
-            range: "`\"random\"`, `\"each\"`, `\"percentile\"`",
-        },
-        Key {
-            names: &["azimuths"],
-            meaning: "how many azimuths, evenly spaced over 180° from h1 on, each as many analyses again",
-            default: "12",
-            range: "1 to 180; not with `take = \"random\"`",
-        },
-        Key {
-            names: &["percentile"],
-            meaning: "the smallest peak that so many per cent of the azimuths do not exceed: 100 the worst azimuth, 50 \
-                      the median",
-            default: "100",
-            range: "1 to 100; only with `take = \"percentile\"`",
-        },
-    ],
-};
+pub(super) const KEYS: SectionKeys = SectionKeys::new("records.rotation", &[&TAKE, &AZIMUTHS, &PERCENTILE]);
+const TAKE: Key<Choice<Take>> = choice("take", &Take::ALL, Take::key).with_default(Take::Random).meaning(
+    "`\"random\"`, one azimuth a pair, drawn evenly by the study's `seed`; `\"each\"`, every azimuth as a record of its \
+     own; `\"percentile\"`, of the peaks from all azimuths",
+);
+/// By default 15° apart.
+const AZIMUTHS: Key<Integer> = integer("azimuths", 1, MOST_AZIMUTHS)
+    .with_default(12)
+    .meaning("how many azimuths, evenly spaced over 180° from h1 on, each as many analyses again")
+    .note("not with `take = \"random\"`");
+const PERCENTILE: Key<Integer> = integer("percentile", 1, 100)
+    .with_default(100)
+    .meaning(
+        "the smallest peak that so many per cent of the azimuths do not exceed: 100 the worst azimuth, 50 the median",
+    )
+    .note("only with `take = \"percentile\"`");
 
 #[derive(Clone, Copy, PartialEq)]
 enum Take {
@@ -44,7 +33,17 @@ enum Take {
     Percentile,
 }
 
-const TAKES: [(&str, Take); 3] = [("random", Take::Random), ("each", Take::Each), ("percentile", Take::Percentile)];
+impl Take {
+    const ALL: [Self; 3] = [Self::Random, Self::Each, Self::Percentile];
+
+    fn key(self) -> &'static str {
+        match self {
+            Self::Random => "random",
+            Self::Each => "each",
+            Self::Percentile => "percentile",
+        }
+    }
+}
 
 /// As the section of a study file.
 #[derive(Serialize)]
@@ -69,11 +68,11 @@ impl From<Rotation> for Written {
 
 /// Reads the section.
 pub(super) fn read(mut section: Section<'_>) -> Option<Rotation> {
-    let take = section.choice_or("take", &TAKES, Take::Random);
-    let (given_azimuths, given_percentile) = (section.field("azimuths"), section.field("percentile"));
+    let take = section.read(&TAKE);
+    let (given_azimuths, given_percentile) = (section.given(&AZIMUTHS), section.given(&PERCENTILE));
     let whole = |value: Option<u64>| value.and_then(|value| u8::try_from(value).ok());
-    let azimuths = whole(section.integer_or("azimuths", 1..=MOST_AZIMUTHS, AZIMUTHS));
-    let percentile = whole(section.integer_or("percentile", 1..=100, 100));
+    let azimuths = whole(section.read(&AZIMUTHS));
+    let percentile = whole(section.read(&PERCENTILE));
     if let (Some(field), Some(Take::Random)) = (&given_azimuths, take) {
         field.mistake("one azimuth of each pair is drawn", "leave it out, or write take = \"each\" or \"percentile\"");
     }

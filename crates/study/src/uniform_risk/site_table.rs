@@ -7,47 +7,35 @@ use uplift_motion::IntensityMeasure;
 use uplift_plausible::DISTANCE;
 
 use super::measures;
-use crate::grid::Grid;
-use crate::keys::{Key, SectionKeys};
+use crate::grid::{Grid, GridRule};
+use crate::keys::{File, Key, Number, SectionKeys, file, grid, number};
 use crate::reading::{Field, Paths, Rule, Section, optional, quantity};
 use crate::sections::strengths;
 
-pub(super) const KEYS: SectionKeys = SectionKeys {
-    section: "site_table",
-    keys: &[
-        Key {
-            names: &["sites"],
-            meaning: "table of the sites (CSV): columns longitude and latitude in degrees, a name if there is one; \
-                      other columns are carried into the results",
-            default: "every site of the first export",
-            range: "existing file",
-        },
-        Key {
-            names: &["pgv", "pga", "sa_1s"],
-            meaning: "export of mean hazard curves of any measure, by its name: OpenQuake's CSV, NRML or the JSON of \
-                      the USGS, PGV in cm/s and PGA in g as they write them; a repair (`consistency.repair`) holds \
-                      what the records bring against that of another measure, switched on or not",
-            default: "one of a measure that is switched on is needed",
-            range: "existing file",
-        },
-        Key {
-            names: &["within_km"],
-            meaning: "farthest distance between a site and the site of the export that is taken for it, the nearest; \
-                      km",
-            default: "1",
-            range: "0.001 to 20040",
-        },
-        Key {
-            names: &["strengths"],
-            meaning: "strengths whose ordinates are written, a grid",
-            default: "all in the table; on the map those nearest to 0.1, 0.2 and 0.4",
-            range: "each one of `strengths.values`",
-        },
-    ],
-};
-
-/// Farthest distance between a site and the site of an export that is taken for it, by default \[km\].
-const WITHIN_KM: f64 = 1.0;
+pub(super) const KEYS: SectionKeys = SectionKeys::new("site_table", &[&SITES, &EXPORT, &WITHIN_KM, &STRENGTHS]);
+const SITES: Key<File> = file("sites")
+    .without_default("every site of the first export")
+    .meaning(
+        "table of the sites (CSV): columns longitude and latitude in degrees, a name if there is one; other columns \
+         are carried into the results",
+    )
+    .note("existing file");
+const EXPORT: Key<File> = file("pgv")
+    .also(&["pga", "sa_1s"])
+    .without_default("one of a measure that is switched on is needed")
+    .meaning(
+        "export of mean hazard curves of any measure, by its name: OpenQuake's CSV, NRML or the JSON of the USGS, PGV \
+         in cm/s and PGA in g as they write them; a repair (`consistency.repair`) holds what the records bring against \
+         that of another measure, switched on or not",
+    )
+    .note("existing file");
+const WITHIN_KM: Key<Number> = number("within_km", "km", Rule::Within(DISTANCE))
+    .with_default(1.0)
+    .meaning("farthest distance between a site and the site of the export that is taken for it, the nearest; km");
+const STRENGTHS: Key<GridRule> = grid("strengths", strengths::RULE)
+    .without_default("all in the table; on the map those nearest to 0.1, 0.2 and 0.4")
+    .meaning("strengths whose ordinates are written, a grid")
+    .note("each one of `strengths.values`");
 
 /// Many sites with the exports that hold their hazard curves.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -102,7 +90,7 @@ fn section(
     if !section.is_present() {
         return None;
     }
-    let sites_field = section.field("sites");
+    let sites_field = section.given(&SITES);
     let sites = optional(sites_field.as_ref(), |field| paths.input(field));
     let mut exports = Some(Vec::new());
     let mut of_the_study = false;
@@ -128,8 +116,8 @@ fn section(
         );
         exports = None;
     }
-    let within_km = section.number_or("within_km", "km", Rule::Within(DISTANCE), WITHIN_KM);
-    let strengths_field = section.field("strengths");
+    let within_km = section.read(&WITHIN_KM);
+    let strengths_field = section.given(&STRENGTHS);
     let strengths = optional(strengths_field.as_ref(), |field| strengths_of(field, known));
     section.finish();
     Some(SiteTable { sites: sites?, exports: exports?, within_km: within_km?, strengths: strengths? })
@@ -137,7 +125,7 @@ fn section(
 
 /// A grid of strengths that are all `known`; where the study's own are wrong, only the notation is checked.
 fn strengths_of(field: &Field<'_>, known: Option<&Grid>) -> Option<Grid> {
-    let grid = Grid::read(field, strengths::RULE)?;
+    let grid = STRENGTHS.read(field)?;
     let Some(known) = known else { return Some(grid) };
     let Some(&missing) = grid.iter().find(|&&strength| !known.contains(&strength)) else { return Some(grid) };
     let nearest = known.iter().min_by(|a, b| (*a - missing).abs().total_cmp(&(*b - missing).abs())).copied();

@@ -1,37 +1,26 @@
 //! The sections `[[sites]]`: names, and where the hazard curves are.
 
 use serde::{Serialize, Serializer};
+use serde_json::json;
 use uplift_motion::IntensityMeasure;
 
 use super::curve::{self, CurveFile};
 use super::measures::{self, cannot_be_scaled_to, section_of};
-use crate::keys::{Key, SectionKeys};
+use crate::keys::{Key, SectionKeys, Shape, Special, Text, special};
 use crate::reading::{Field, Paths, Value};
 use crate::sections::name;
 
-pub(super) const KEYS: SectionKeys = SectionKeys {
-    section: "sites",
-    keys: &[
-        Key {
-            names: &["name"],
-            meaning: "name",
-            default: "needed",
-            range: r#"each once, capitals aside; at most 100 bytes, none of `/ \ : * ? " < > \|`"#,
-        },
-        Key {
-            names: &["pgv", "pga"],
-            meaning: "hazard curve: a path, or a table of the keys below",
-            default: "needed if the measure is switched on",
-            range: "",
-        },
-        Key {
-            names: &["sa_1s"],
-            meaning: "the same of any further measure, by its name",
-            default: "needed if the measure is switched on",
-            range: "the names below but `d5_75`, `d5_95`",
-        },
-    ],
-};
+pub(super) const KEYS: SectionKeys = SectionKeys::new("sites", &[&NAME, &CURVE, &FURTHER_CURVE]).shape(Shape::List);
+const NAME: Key<Text> =
+    name::KEY.meaning("name").note(r#"each once, capitals aside; at most 100 bytes, none of `/ \ : * ? " < > \|`"#);
+const CURVE: Key<Special> = special("pgv", || json!({}))
+    .also(&["pga"])
+    .without_default("needed if the measure is switched on")
+    .meaning("hazard curve: a path, or a table of the keys below");
+const FURTHER_CURVE: Key<Special> = special("sa_1s", || json!({}))
+    .without_default("needed if the measure is switched on")
+    .meaning("the same of any further measure, by its name")
+    .note("the names below but `d5_75`, `d5_95`");
 
 /// Most sites in one study.
 const MOST_SITES: usize = 1000;

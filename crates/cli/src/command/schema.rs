@@ -1,0 +1,34 @@
+//! `uplift schema`: the keys of files, for editors.
+
+use std::io::Write;
+
+use clap::{Args, ValueEnum};
+use uplift_study::{structure_schema, study_schema};
+
+use crate::error::CommandError;
+use crate::terminal::output;
+
+#[derive(Debug, Args)]
+pub(crate) struct SchemaArguments {
+    /// Of which files
+    #[arg(value_enum, default_value = "study")]
+    of: Files,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum Files {
+    /// Studies, of any kind
+    Study,
+    /// Structures
+    Structure,
+}
+
+/// Prints the schema.
+pub(crate) fn schema(arguments: &SchemaArguments) -> Result<(), CommandError> {
+    let schema = match arguments.of {
+        Files::Study => study_schema(),
+        Files::Structure => structure_schema(),
+    };
+    writeln!(output(), "{schema:#}")?;
+    Ok(())
+}
