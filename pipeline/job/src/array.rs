@@ -1,7 +1,7 @@
 //! Values over several axes, row by row.
 
 use std::fmt;
-use std::ops::Index;
+use std::ops::{Index, IndexMut};
 
 /// Values over `N` axes, row by row: the last axis runs fastest.
 ///
@@ -109,6 +109,21 @@ impl<const N: usize, T> Index<[usize; N]> for Array<N, T> {
 
     fn index(&self, at: [usize; N]) -> &T {
         &self.block(at)[0]
+    }
+}
+
+/// The value at an index into [`values`](Array::values).
+impl<const N: usize, T> Index<usize> for Array<N, T> {
+    type Output = T;
+
+    fn index(&self, index: usize) -> &T {
+        &self.values[index]
+    }
+}
+
+impl<const N: usize, T> IndexMut<usize> for Array<N, T> {
+    fn index_mut(&mut self, index: usize) -> &mut T {
+        &mut self.values[index]
     }
 }
 

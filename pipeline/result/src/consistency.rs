@@ -3,9 +3,10 @@
 use uplift_job::Array;
 use uplift_motion::IntensityMeasure;
 
-use super::Fit;
+use super::declared::{Group, Quantity};
 use super::file::ResultFile;
 use super::layout::{axis, consistency};
+use super::spectra::{Fit, Fits, regression};
 use crate::error::ResultError;
 
 /// The consistency of the records scaled to one measure; NaN at sites that were not looked at.
@@ -43,8 +44,19 @@ pub struct StoredConsistency {
     /// Displacements of weighted records `[site, poe, strength]`, m; NaN where there is no repair. None before one.
     pub u_m: Option<Array<3>>,
     /// Coefficients of these spectra `[site, poe]`; NaN where there is no fit. None before a repair.
-    pub fits: Option<Array<2, Fit>>,
+    pub fits: Option<Fits>,
 }
+
+/// Coefficients of the spectra of weighted records.
+pub const REPAIRED_FITS: Group<Fits> = Group {
+    path: "/consistency/<im>/regression",
+    quantities: &[
+        Quantity { long_name: "c0 of u = c0 exp(c1 strength) + c2, weighted records", ..regression::C0_M },
+        regression::C1,
+        regression::C2_M,
+        regression::RMSE_M,
+    ],
+};
 
 impl StoredConsistency {
     /// Whether there are spectra of weighted records at a site.
@@ -153,20 +165,10 @@ impl ResultFile {
     }
 
     /// The coefficients of the repaired spectra.
-    fn repaired_fits(
-        &self,
-        scaled_to: IntensityMeasure,
-        by_poe: [(&str, usize); 2],
-    ) -> Result<Array<2, Fit>, ResultError> {
-        let column = |name: &str| self.array(&consistency::coefficient(scaled_to, name), by_poe);
-        let [c0_m, c1, c2_m, rmse_m] = [column("c0_m")?, column("c1")?, column("c2_m")?, column("rmse_m")?];
-        Ok(Array::from_fn(c0_m.shape(), |at| Fit {
-            c0_m: c0_m[at],
-            c1: c1[at],
-            c2_m: c2_m[at],
-            rmse_m: rmse_m[at],
-            // it is nowhere below: where it is held it is exactly there
-            bound_active: c2_m[at] <= 0.0,
-        }))
+    fn repaired_fits(&self, scaled_to: IntensityMeasure, by_poe: [(&str, usize); 2]) -> Result<Fits, ResultError> {
+        let mut fits = Fits::from_fn(by_poe.map(|(_, length)| length), |_| Fit::NONE);
+        REPAIRED_FITS.read(self, Some(scaled_to), &by_poe, &mut fits)?;
+        // it is nowhere below: where it is held it is exactly there
+        Ok(fits.map(|fit| Fit { bound_active: fit.c2_m <= 0.0, ..*fit }))
     }
 }

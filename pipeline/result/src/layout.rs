@@ -74,20 +74,8 @@ by_measure! {
     risk: maf_per_year = "maf_per_year",
 }
 
-by_measure! {
-    /// Uniform risk spectra.
-    urs: u_m = "u_m", flag = "flag", lower_tail_share = "lower_tail_share", upper_tail_share = "upper_tail_share",
-}
-
 /// The sentence on how well the records know the spectra of a measure, an attribute of its group in `/urs`.
 pub const URS_PRECISION: &str = "precision";
-
-by_measure! {
-    /// Coefficients of Eq. 4.11.
-    regression:
-    c0_m = "c0_m", c1 = "c1", c2_m = "c2_m", rmse_m = "rmse_m", rmse_plain_m = "rmse_plain_m",
-    max_abs_residual_m = "max_abs_residual_m", bound_active = "bound_active", points = "points",
-}
 
 /// Confidence bands; their limits are named after their levels ([`limit_names`]).
 pub mod bootstrap {
@@ -180,11 +168,6 @@ pub mod consistency {
     /// The name of an array that is about the `other` measure.
     pub fn of_other(other: IntensityMeasure, name: &str) -> String {
         format!("{}_{name}", other.key())
-    }
-
-    /// A coefficient of the repaired spectra.
-    pub fn coefficient(measure: IntensityMeasure, name: &str) -> String {
-        format!("{ROOT}/{}/regression/{name}", measure.key())
     }
 }
 
@@ -305,11 +288,7 @@ in_group! {
 in_group! {
     /// The tests of a shaking table.
     shake_table:
-    PGV_SRSS_M_S = "pgv_srss_m_s", CLASS = "class", RECORD = "record", RSN = "rsn",
-    RECORDED_PGV_M_S = "recorded_pgv_m_s", ORDER = "order", FACTOR = "factor", PGA_SRSS_M_S2 = "pga_srss_m_s2",
-    U_M = "u_m", U_X_M = "u_x_m", U_Y_M = "u_y_m", DRIFT = "drift", TENDON_N = "tendon_n", SPRING_M = "spring_m",
-    BASE_SHEAR_N = "base_shear_n", BASE_REACTION_N = "base_reaction_n",
-    DECK_ACCELERATION_M_S2 = "deck_acceleration_m_s2",
+    ORDER = "order",
     SPECTRAL_ACCELERATION_M_S2 = "spectral_acceleration_m_s2", DESIGN_SPECTRUM_M_S2 = "design_spectrum_m_s2",
 }
 
@@ -559,12 +538,10 @@ mod tests {
         let documented = |group: &str, name: &str| {
             page.lines().any(|line| line.contains(group) && line.contains(&format!("{name}`")))
         };
-        let groups: [(&str, &[&str]); 20] = [
+        let groups: [(&str, &[&str]); 18] = [
             ("`/records/", records::ARRAYS),
             ("`/ida/pgv/", ida::ARRAYS),
             ("`/risk/pgv/", risk::ARRAYS),
-            ("`/urs/pgv/", urs::ARRAYS),
-            ("`/regression/pgv/", regression::ARRAYS),
             ("`/bootstrap/pgv/", bootstrap::ARRAYS),
             ("`/influence/pgv/", influence::ARRAYS),
             ("`/disaggregation/pgv/", disaggregation::ARRAYS),

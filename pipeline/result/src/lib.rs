@@ -5,6 +5,7 @@
 mod asked_spectra;
 mod bands;
 mod consistency;
+pub mod declared;
 mod design;
 pub mod digest;
 mod displacements;
@@ -34,7 +35,7 @@ pub use bands::{
     InferredBands, MeasureBands, StoredBands, StoredDraws, StoredJointBands, StoredRepairedBands, StoredSpectraBands,
     WidestInferred,
 };
-pub use consistency::StoredConsistency;
+pub use consistency::{REPAIRED_FITS, StoredConsistency};
 pub use design::{BOUNDS, bounds, rule_names};
 pub use design::{DesignRow, RULES, StoredDesign, StoredDesigned};
 pub use displacements::{
@@ -53,9 +54,10 @@ pub use peaks::{SetsOfLevels, StoredPeaks};
 pub use provenance::Origin;
 pub use provenance::Provenance;
 pub use records::StoredRecords;
-pub use shake_table::{DIRECTIONS, Excitation, ShakeTable, TableLevel, TableSpectra, TableTest};
-pub use shake_table::{QUANTITIES, column_of};
-pub use spectra::{Fit, MeasureSpectra, Spectrum, StoredSpectra};
+pub use shake_table::{
+    DIRECTIONS, Excitation, ShakeTable, TABLE_EXCITATIONS, TABLE_TESTS, TableLevel, TableSpectra, TableTest,
+};
+pub use spectra::{Fit, Fits, MeasureSpectra, Spectrum, StoredSpectra, regression, urs};
 pub use spectra::{flag_number, flag_word};
 pub use spread::{FRACTILES, SpreadOver, StoredSpread};
 pub use target::{check_place, replaces_another};

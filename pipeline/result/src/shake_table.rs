@@ -1,8 +1,10 @@
 //! The tests of a shaking table: what a run computed, and what a result file holds of it.
 
 use serde::Serialize;
+use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_study::Kind;
 
+use super::declared::{Field, Group, Place, Quantity, place};
 use super::file::ResultFile;
 use super::layout::{axis, shake_table as layout};
 use crate::error::ResultError;
@@ -63,7 +65,7 @@ pub struct TableLevel {
 }
 
 /// A record that is played.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Excitation {
     /// What it is called among the tests.
     pub exc_id: String,
@@ -105,32 +107,111 @@ pub struct TableTest {
     pub deck_acceleration_m_s2: f64,
 }
 
-/// A quantity of the tests: its array, unit, meaning, and its place in a test.
-type Quantity = (&'static str, &'static str, &'static str, fn(&mut TableTest) -> &mut f64);
+/// What is played, at which levels.
+pub const TABLE_EXCITATIONS: Group<ShakeTable> = Group {
+    path: layout::GROUP,
+    quantities: &[
+        Quantity {
+            name: "pgv_srss_m_s",
+            axes: &[axis::LEVEL],
+            unit: "m/s",
+            long_name: "SRSS of both PGV on the table",
+            note: "root of the sum of squares of both PGV on the table (Eq. 6.9)",
+            field: Field::F64(place!(|of, at| of.levels[at].pgv_srss_m_s)),
+        },
+        text("class", "class of the excitation", "", place!(|of, at| of.excitations[at].class)),
+        text("record", "record", "identifier of the record", place!(|of, at| of.excitations[at].record)),
+        text(
+            "rsn",
+            "record sequence number",
+            "its sequence number; empty if not known",
+            place!(|of, at| of.excitations[at].rsn),
+        ),
+        Quantity {
+            name: "recorded_pgv_m_s",
+            axes: &[axis::EXCITATION],
+            unit: "m/s",
+            long_name: "SRSS of both PGV as recorded",
+            note: "root of the sum of squares of both PGV as recorded",
+            field: Field::F64(place!(|of, at| of.excitations[at].recorded_pgv_m_s)),
+        },
+    ],
+};
 
-/// The name of the column of an array.
-pub fn column_of(array: &str) -> &str {
-    array.rsplit_once('/').map_or(array, |(_, name)| name)
+/// What the frame does in each test; places of [`ShakeTable::tests`] are `[level, excitation]`.
+pub const TABLE_TESTS: Group<ShakeTable> = Group {
+    path: layout::GROUP,
+    quantities: &[
+        of_test("factor", "1", "factor on the accelerations of the record", place!(|of, at| of.tests[at].factor)),
+        of_test("pga_srss_m_s2", "m/s2", "SRSS of both PGA on the table", place!(|of, at| of.tests[at].pga_srss_m_s2)),
+        of_test(
+            "u_m",
+            "m",
+            "peak displacement of the deck, infinite where overturned",
+            place!(|of, at| of.tests[at].u_m),
+        ),
+        of_test("u_x_m", "m", "peak displacement along the first component", place!(|of, at| of.tests[at].u_x_m)),
+        of_test("u_y_m", "m", "peak displacement along the second component", place!(|of, at| of.tests[at].u_y_m)),
+        of_test("drift", "1", "peak displacement over the height of the columns", place!(|of, at| of.tests[at].drift)),
+        of_test("tendon_n", "N", "peak force of a restrainer, NaN without", place!(|of, at| of.tests[at].tendon_n)),
+        of_test(
+            "spring_m",
+            "m",
+            "peak deformation of its springs, NaN without",
+            place!(|of, at| of.tests[at].spring_m),
+        ),
+        of_test(
+            "base_shear_n",
+            "N",
+            "peak base shear of the deck (Eq. 6.10)",
+            place!(|of, at| of.tests[at].base_shear_n),
+        ),
+        of_test(
+            "base_reaction_n",
+            "N",
+            "peak horizontal reaction, columns counted",
+            place!(|of, at| of.tests[at].base_reaction_n),
+        ),
+        of_test(
+            "deck_acceleration_m_s2",
+            "m/s2",
+            "peak total acceleration of the deck",
+            place!(|of, at| of.tests[at].deck_acceleration_m_s2),
+        ),
+    ],
+};
+
+/// A text about each excitation.
+const fn text(
+    name: &'static str,
+    long_name: &'static str,
+    note: &'static str,
+    place: Place<ShakeTable, String>,
+) -> Quantity<ShakeTable> {
+    Quantity { name, axes: &[axis::EXCITATION], unit: "", long_name, note, field: Field::Text(place) }
 }
 
-/// Every quantity of a test, as arrays and columns have them.
-pub const QUANTITIES: [Quantity; 11] = [
-    (layout::FACTOR, "1", "factor on the accelerations of the record", |test| &mut test.factor),
-    (layout::PGA_SRSS_M_S2, "m/s2", "SRSS of both PGA on the table", |test| &mut test.pga_srss_m_s2),
-    (layout::U_M, "m", "peak displacement of the deck, infinite where overturned", |test| &mut test.u_m),
-    (layout::U_X_M, "m", "peak displacement along the first component", |test| &mut test.u_x_m),
-    (layout::U_Y_M, "m", "peak displacement along the second component", |test| &mut test.u_y_m),
-    (layout::DRIFT, "1", "peak displacement over the height of the columns", |test| &mut test.drift),
-    (layout::TENDON_N, "N", "peak force of a restrainer, NaN without", |test| &mut test.tendon_n),
-    (layout::SPRING_M, "m", "peak deformation of its springs, NaN without", |test| &mut test.spring_m),
-    (layout::BASE_SHEAR_N, "N", "peak base shear of the deck (Eq. 6.10)", |test| &mut test.base_shear_n),
-    (layout::BASE_REACTION_N, "N", "peak horizontal reaction, columns counted", |test| &mut test.base_reaction_n),
-    (layout::DECK_ACCELERATION_M_S2, "m/s2", "peak total acceleration of the deck", |test| {
-        &mut test.deck_acceleration_m_s2
-    }),
-];
+/// A number of each test.
+const fn of_test(
+    name: &'static str,
+    unit: &'static str,
+    long_name: &'static str,
+    place: Place<ShakeTable, f64>,
+) -> Quantity<ShakeTable> {
+    Quantity { name, axes: &[axis::LEVEL, axis::EXCITATION], unit, long_name, note: "", field: Field::F64(place) }
+}
 
 impl ShakeTable {
+    /// Writes every test.
+    ///
+    /// # Errors
+    /// Whatever keeps the file from being written.
+    pub fn write(&self, writer: &mut LabelledWriter) -> Result<(), LabelledError> {
+        let lengths = &[(axis::LEVEL, self.levels.len()), (axis::EXCITATION, self.excitations.len())];
+        TABLE_EXCITATIONS.write(writer, None, lengths, self)?;
+        TABLE_TESTS.write(writer, None, lengths, self)
+    }
+
     /// The tests of a level with their excitations.
     pub fn of_level(&self, level: usize) -> impl Iterator<Item = (&Excitation, &TableTest)> {
         let count = self.excitations.len();
@@ -174,40 +255,20 @@ impl ResultFile {
         if names.is_empty() || ids.is_empty() {
             return Err(self.damaged("an axis of its tests is empty"));
         }
-        let numbers = |path: &str, axes: &[(&str, usize)]| self.checked(path, reader.array_f64(path)?, axes);
-        let texts = |path: &str| self.checked(path, reader.array_text(path)?, &[excitation]);
-        let velocities = numbers(layout::PGV_SRSS_M_S, &[level])?;
-        let recorded = numbers(layout::RECORDED_PGV_M_S, &[excitation])?;
-        let [classes, records, numbers_of] = [texts(layout::CLASS)?, texts(layout::RECORD)?, texts(layout::RSN)?];
-        let excitations = ids.into_iter().zip(classes).zip(records).zip(numbers_of).zip(recorded);
-        let mut tests = vec![TableTest::default(); names.len() * excitation.1];
-        for (path, _, _, place) in QUANTITIES {
-            for (test, value) in tests.iter_mut().zip(numbers(path, &[level, excitation])?) {
-                *place(test) = value;
-            }
-        }
-        Ok(ShakeTable {
+        let mut table = ShakeTable {
             records: self.record_set()?,
             synthetic: self.is_synthetic()?,
             structure: reader.attribute_text(layout::GROUP, "structure")?,
             length_scale: reader.attribute_f64(layout::GROUP, "length_scale")?,
-            levels: names
-                .into_iter()
-                .zip(velocities)
-                .map(|(name, pgv_srss_m_s)| TableLevel { name, pgv_srss_m_s })
-                .collect(),
-            excitations: excitations
-                .map(|((((exc_id, class), record), rsn), recorded_pgv_m_s)| Excitation {
-                    exc_id,
-                    class,
-                    record,
-                    rsn,
-                    recorded_pgv_m_s,
-                })
-                .collect(),
-            tests,
-            spectra: self.table_spectra(excitation)?,
-        })
+            levels: names.into_iter().map(|name| TableLevel { name, pgv_srss_m_s: f64::NAN }).collect(),
+            tests: vec![TableTest::default(); level.1 * excitation.1],
+            excitations: ids.into_iter().map(|exc_id| Excitation { exc_id, ..Excitation::default() }).collect(),
+            spectra: None,
+        };
+        TABLE_EXCITATIONS.read(self, None, &[level, excitation], &mut table)?;
+        TABLE_TESTS.read(self, None, &[level, excitation], &mut table)?;
+        table.spectra = self.table_spectra(excitation)?;
+        Ok(table)
     }
 
     /// The spectra of what a table plays; none in a result of a version that had none.

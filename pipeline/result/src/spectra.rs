@@ -1,12 +1,14 @@
 //! The uniform risk spectra of a result, and what was fitted to them.
 
 use uplift_job::Array;
+use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_motion::IntensityMeasure;
 use uplift_regression::{Exponential, ExponentialFit};
 use uplift_risk::OrdinateFlag;
 
+use super::declared::{Field, Group, Place, Quantity, place};
 use super::file::ResultFile;
-use super::layout::{URS_PRECISION, axis, regression, urs};
+use super::layout::{URS_PRECISION, axis};
 use crate::error::ResultError;
 
 /// The spectra of a result, read as its study says (`risk.contour`), with their coefficients.
@@ -38,8 +40,110 @@ pub struct MeasureSpectra {
     /// Shares of the risk of each that come from above the last stripe `[site, poe, strength]`, 0 to 1.
     pub upper_tail_share: Array<3>,
     /// Their coefficients `[site, poe]`.
-    pub fits: Array<2, Fit>,
+    pub fits: Fits,
 }
+
+/// Uniform risk spectra: the arrays of `/urs/<im>`.
+pub mod urs {
+    use super::{Field, Group, MeasureSpectra, Quantity, axis, place};
+
+    /// The group.
+    pub const GROUP: Group<MeasureSpectra> =
+        Group { path: "/urs/<im>", quantities: &[U_M, FLAG, LOWER_TAIL_SHARE, UPPER_TAIL_SHARE] };
+    /// The spectra.
+    pub const U_M: Quantity<MeasureSpectra> = Quantity {
+        name: "u_m",
+        axes: &[axis::SITE, axis::POE, axis::STRENGTH],
+        unit: "m",
+        long_name: "uniform risk displacement",
+        note: "the spectra; `inf` where censored",
+        field: Field::F64(place!(|of, at| of.u_m[at])),
+    };
+    /// What kind of ordinate each is.
+    pub const FLAG: Quantity<MeasureSpectra> = Quantity {
+        name: "flag",
+        unit: "1",
+        long_name: "0 regular, 1 no exceedance so that the ordinate is 0, 2 censored",
+        note: "0 regular; 1 no exceedance, ordinate 0; 2 censored",
+        field: Field::Flag(place!(|of, at| of.flags[at])),
+        ..U_M
+    };
+    /// The risk from below the first stripe.
+    pub const LOWER_TAIL_SHARE: Quantity<MeasureSpectra> = Quantity {
+        name: "lower_tail_share",
+        unit: "1",
+        long_name: "share of the risk from below the first stripe",
+        note: "",
+        field: Field::F64(place!(|of, at| of.lower_tail_share[at])),
+        ..U_M
+    };
+    /// The risk from above the last stripe.
+    pub const UPPER_TAIL_SHARE: Quantity<MeasureSpectra> = Quantity {
+        name: "upper_tail_share",
+        long_name: "share of the risk from above the last stripe",
+        field: Field::F64(place!(|of, at| of.upper_tail_share[at])),
+        ..LOWER_TAIL_SHARE
+    };
+}
+
+/// Coefficients of Eq. 4.11: the arrays of `/regression/<im>`.
+pub mod regression {
+    use super::{Field, Fits, Group, Place, Quantity, axis, place};
+
+    /// The group.
+    pub const GROUP: Group<Fits> = Group {
+        path: "/regression/<im>",
+        quantities: &[C0_M, C1, C2_M, RMSE_M, RMSE_PLAIN_M, MAX_ABS_RESIDUAL_M, BOUND_ACTIVE, POINTS],
+    };
+    /// The four that every table of coefficients has.
+    pub const COEFFICIENTS: &[Quantity<Fits>] = &[C0_M, C1, C2_M, RMSE_M];
+    /// Amplitude.
+    pub const C0_M: Quantity<Fits> = Quantity {
+        note: "coefficient of Eq. 4.11; NaN where there is no fit, here and below",
+        ..number("c0_m", "m", "c0 of u = c0 exp(c1 strength) + c2", place!(|of, at| of[at].c0_m))
+    };
+    /// Exponent.
+    pub const C1: Quantity<Fits> = number("c1", "1", "c1", place!(|of, at| of[at].c1));
+    /// Constant.
+    pub const C2_M: Quantity<Fits> = number("c2_m", "m", "c2, not negative", place!(|of, at| of[at].c2_m));
+    /// Root mean square error.
+    pub const RMSE_M: Quantity<Fits> =
+        number("rmse_m", "m", "root mean square error with n - 3 degrees of freedom", place!(|of, at| of[at].rmse_m));
+    /// Root mean square error over n points.
+    pub const RMSE_PLAIN_M: Quantity<Fits> =
+        number("rmse_plain_m", "m", "root mean square error over n points", place!(|of, at| of[at].rmse_plain_m));
+    /// Largest residual.
+    pub const MAX_ABS_RESIDUAL_M: Quantity<Fits> =
+        number("max_abs_residual_m", "m", "largest residual", place!(|of, at| of[at].max_abs_residual_m));
+    /// Whether c2 is held at 0.
+    pub const BOUND_ACTIVE: Quantity<Fits> = Quantity {
+        name: "bound_active",
+        long_name: "1 where c2 is held at 0",
+        field: Field::Bool(place!(|of, at| of[at].bound_active)),
+        ..C1
+    };
+    /// Strengths fitted.
+    pub const POINTS: Quantity<Fits> = Quantity {
+        name: "points",
+        long_name: "strengths fitted, 0 where there is no fit",
+        note: "strengths fitted, n; 0 where there is no fit",
+        field: Field::U32(place!(|of, at| of[at].points)),
+        ..C1
+    };
+
+    /// A number of each fit.
+    const fn number(
+        name: &'static str,
+        unit: &'static str,
+        long_name: &'static str,
+        place: Place<Fits, f64>,
+    ) -> Quantity<Fits> {
+        Quantity { name, axes: &[axis::SITE, axis::POE], unit, long_name, note: "", field: Field::F64(place) }
+    }
+}
+
+/// Coefficients of spectra `[site, poe]`.
+pub type Fits = Array<2, Fit>;
 
 /// Coefficients of Eq. 4.11; NaN where there is no fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,17 +156,41 @@ pub struct Fit {
     pub c2_m: f64,
     /// Root mean square error with n − 3 degrees of freedom, m.
     pub rmse_m: f64,
+    /// Root mean square error over n points, m; NaN of repaired spectra that are read from a file.
+    pub rmse_plain_m: f64,
+    /// Largest residual, m; NaN of repaired spectra that are read from a file.
+    pub max_abs_residual_m: f64,
     /// True where c2 is held at 0.
     pub bound_active: bool,
+    /// Strengths fitted; 0 where there is no fit, and of repaired spectra that are read from a file.
+    pub points: u32,
 }
 
 impl Fit {
+    /// No fit.
+    pub const NONE: Self = Self {
+        c0_m: f64::NAN,
+        c1: f64::NAN,
+        c2_m: f64::NAN,
+        rmse_m: f64::NAN,
+        rmse_plain_m: f64::NAN,
+        max_abs_residual_m: f64::NAN,
+        bound_active: false,
+        points: 0,
+    };
+
     /// What a fit found, if there is one.
     pub fn of(fit: Option<&ExponentialFit>) -> Self {
-        fit.map_or(
-            Self { c0_m: f64::NAN, c1: f64::NAN, c2_m: f64::NAN, rmse_m: f64::NAN, bound_active: false },
-            |fit| Self { c0_m: fit.c0, c1: fit.c1, c2_m: fit.c2, rmse_m: fit.rmse, bound_active: fit.bound_active },
-        )
+        fit.map_or(Self::NONE, |fit| Self {
+            c0_m: fit.c0,
+            c1: fit.c1,
+            c2_m: fit.c2,
+            rmse_m: fit.rmse,
+            rmse_plain_m: fit.rmse_plain,
+            max_abs_residual_m: fit.max_abs_residual,
+            bound_active: fit.bound_active,
+            points: u32::try_from(fit.points).unwrap_or(u32::MAX),
+        })
     }
 
     /// The curve; none where there is no fit.
@@ -110,11 +238,49 @@ impl StoredSpectra {
     }
 }
 
+impl MeasureSpectra {
+    /// Room for the spectra of a measure, `[site, poe, strength]`.
+    fn of_none(measure: IntensityMeasure, [sites, poes, strengths]: [usize; 3]) -> Self {
+        let nan = Array::from_fn([sites, poes, strengths], |_| f64::NAN);
+        Self {
+            measure,
+            flags: nan.map(|_| OrdinateFlag::Regular),
+            lower_tail_share: nan.clone(),
+            upper_tail_share: nan.clone(),
+            u_m: nan,
+            fits: Array::from_fn([sites, poes], |_| Fit::NONE),
+        }
+    }
+
+    /// Lengths of the axes of its arrays.
+    fn lengths(&self) -> [(&'static str, usize); 3] {
+        let [sites, poes, strengths] = self.u_m.shape();
+        [(axis::SITE, sites), (axis::POE, poes), (axis::STRENGTH, strengths)]
+    }
+
+    /// Writes the spectra into the group of their measure.
+    ///
+    /// # Errors
+    /// Whatever keeps the file from being written.
+    pub fn write_spectra(&self, writer: &mut LabelledWriter) -> Result<(), LabelledError> {
+        urs::GROUP.write(writer, Some(self.measure), &self.lengths(), self)
+    }
+
+    /// Writes their coefficients into the group of their measure.
+    ///
+    /// # Errors
+    /// Whatever keeps the file from being written.
+    pub fn write_coefficients(&self, writer: &mut LabelledWriter) -> Result<(), LabelledError> {
+        regression::GROUP.write(writer, Some(self.measure), &self.lengths(), &self.fits)
+    }
+}
+
 impl ResultFile {
     /// How well the records know the spectra, a sentence a measure; none in results of before, and where nothing can be
     /// said.
     pub fn precision(&self) -> Vec<String> {
-        let words = |measure: IntensityMeasure| self.reader.attribute_text(&urs::group(measure), URS_PRECISION).ok();
+        let words =
+            |measure: IntensityMeasure| self.reader.attribute_text(&urs::GROUP.of_measure(measure), URS_PRECISION).ok();
         self.measures().into_iter().filter_map(words).collect()
     }
 
@@ -128,52 +294,22 @@ impl ResultFile {
             return Ok(asked.spectra.clone());
         }
         let axes = self.axes()?;
-        let (sites, poes) = ((axis::SITE, axes.sites.len()), (axis::POE, axes.poes.len()));
+        let shape = [axes.sites.len(), axes.poes.len(), axes.strengths.len()];
         let mut measures = Vec::new();
-        for measure in self.measures_in(urs::ROOT) {
-            let column = |path: &str| self.array(path, [sites, poes]);
-            let (c0_m, c1) = (column(&regression::c0_m(measure))?, column(&regression::c1(measure))?);
-            let (c2_m, rmse_m) = (column(&regression::c2_m(measure))?, column(&regression::rmse_m(measure))?);
-            let path = regression::bound_active(measure);
-            let bound = self.over(&path, self.reader.array_u8(&path)?, [sites, poes])?;
-            let lengths = [sites, poes, (axis::STRENGTH, axes.strengths.len())];
-            let of_ordinates = |path: &str| self.array(path, lengths);
-            measures.push(MeasureSpectra {
-                measure,
-                u_m: of_ordinates(&urs::u_m(measure))?,
-                flags: self.flags(measure, lengths)?,
-                lower_tail_share: of_ordinates(&urs::lower_tail_share(measure))?,
-                upper_tail_share: of_ordinates(&urs::upper_tail_share(measure))?,
-                fits: Array::from_fn([sites.1, poes.1], |at| Fit {
-                    c0_m: c0_m[at],
-                    c1: c1[at],
-                    c2_m: c2_m[at],
-                    rmse_m: rmse_m[at],
-                    bound_active: bound[at] == 1,
-                }),
-            });
+        for measure in self.measures_in(urs::GROUP.root()) {
+            let mut spectra = MeasureSpectra::of_none(measure, shape);
+            let lengths = spectra.lengths();
+            regression::GROUP.read(self, Some(measure), &lengths, &mut spectra.fits)?;
+            urs::GROUP.read(self, Some(measure), &lengths, &mut spectra)?;
+            measures.push(spectra);
         }
         let super::RiskAxes { strengths, poes, years, sites, .. } = axes;
         Ok(StoredSpectra { strengths, poes, years, sites, measures })
     }
-
-    /// The flags of the ordinates of `measure`.
-    fn flags(
-        &self,
-        measure: IntensityMeasure,
-        lengths: [(&str, usize); 3],
-    ) -> Result<Array<3, OrdinateFlag>, ResultError> {
-        let path = urs::flag(measure);
-        let numbers = self.over(&path, self.reader.array_u8(&path)?, lengths)?;
-        if let Some(unknown) = numbers.values().iter().find(|&&number| flag_of(number).is_none()) {
-            return Err(self.damaged(format!("{path} has the unknown flag {unknown}")));
-        }
-        Ok(numbers.map(|&number| flag_of(number).unwrap_or(OrdinateFlag::Regular)))
-    }
 }
 
 /// The flag that is written as `number`.
-fn flag_of(number: u8) -> Option<OrdinateFlag> {
+pub(super) fn flag_of(number: u8) -> Option<OrdinateFlag> {
     [OrdinateFlag::Regular, OrdinateFlag::NoExceedance, OrdinateFlag::Censored]
         .into_iter()
         .find(|&flag| flag_number(flag) == number)

@@ -12,7 +12,7 @@ mod work;
 mod write;
 mod write_hazard;
 
-pub use csv::{csv_paths, tables, write_csv};
+pub use csv::{csv_paths, spectra_table, tables, write_csv};
 pub use earlier::EarlierStripes;
 pub use levels::{LevelCheck, LevelProposal};
 pub use outcome::Outcome;

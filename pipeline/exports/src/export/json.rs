@@ -3,7 +3,8 @@
 use serde_json::{Value, json};
 use uplift_job::text::finite;
 use uplift_questions::influence::RecordInfluence;
-use uplift_result::{Fit, StoredEfficiency, StoredSpread, StoredTrend, flag_word};
+use uplift_result::declared::{Field, Quantity};
+use uplift_result::{Fit, Fits, StoredEfficiency, StoredSpread, StoredTrend, flag_word, regression, urs};
 
 use super::Export;
 use super::added::Influence;
@@ -44,14 +45,16 @@ impl Export {
             "im": row.spectrum.measure.label(),
             "poe": row.spectrum.poe,
             "return_period_years": finite(row.return_period),
-            "u_m": numbers(row.spectrum.u_m),
-            "flag": row.spectrum.flags.iter().copied().map(flag_word).collect::<Vec<_>>(),
-            "lower_tail_share": numbers(row.spectrum.lower_tail_share),
-            "upper_tail_share": numbers(row.spectrum.upper_tail_share),
-            "fit": coefficients(&row.spectrum.fit),
-            "bands": self.bands_of(row).iter().map(band).collect::<Vec<_>>(),
-            "disaggregation": self.influence_on(row).map(|influence| self.disaggregation(row.at, influence)),
         });
+        let strengths = self.spectra.strengths.len();
+        let first = (row.at[0] * self.spectra.poes.len() + row.at[1]) * strengths;
+        for quantity in urs::GROUP.quantities {
+            spectrum[quantity.name] = (first..first + strengths).map(|at| cell(quantity, row.of_measure, at)).collect();
+        }
+        spectrum["fit"] = coefficients(&row.spectrum.fit);
+        spectrum["bands"] = self.bands_of(row).iter().map(band).collect();
+        spectrum["disaggregation"] =
+            self.influence_on(row).map(|influence| self.disaggregation(row.at, influence)).into();
         if let Some((u_m, fit)) = self.repaired(row) {
             spectrum["u_consistent_m"] = numbers(u_m).into();
             spectrum["fit_consistent"] = coefficients(fit);
@@ -104,13 +107,20 @@ impl Export {
 }
 
 fn coefficients(fit: &Fit) -> Value {
-    json!({
-        "c0_m": finite(fit.c0_m),
-        "c1": finite(fit.c1),
-        "c2_m": finite(fit.c2_m),
-        "rmse_m": finite(fit.rmse_m),
-        "bound_active": fit.bound_active,
-    })
+    let fit = Fits::from_fn([1, 1], |_| *fit);
+    let all = regression::COEFFICIENTS.iter().chain([&regression::BOUND_ACTIVE]);
+    Value::Object(all.map(|quantity| (quantity.name.to_owned(), cell(quantity, &fit, 0))).collect())
+}
+
+/// The value at an index of a stored array.
+fn cell<T>(quantity: &Quantity<T>, of: &T, at: usize) -> Value {
+    match quantity.field {
+        Field::F64(place) => finite(*(place.get)(of, at)).into(),
+        Field::U32(place) => (*(place.get)(of, at)).into(),
+        Field::Bool(place) => (*(place.get)(of, at)).into(),
+        Field::Flag(place) => flag_word(*(place.get)(of, at)).into(),
+        Field::Text(place) => (place.get)(of, at).as_str().into(),
+    }
 }
 
 fn consistency(row: &ConsistencyOf<'_>) -> Value {

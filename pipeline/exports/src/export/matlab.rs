@@ -4,23 +4,14 @@ pub(super) mod level_5;
 
 use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
-use uplift_result::{Fit, InferredBands, StoredSpectra, StoredSpectraBands, StoredSpread, flag_number};
+use uplift_result::declared::Quantity;
+use uplift_result::{InferredBands, StoredSpectra, StoredSpectraBands, StoredSpread, regression, urs};
 
 use super::Export;
 use super::added::Influence;
 use super::source::INFERRED;
 use crate::error::ExportsError;
 use level_5::{MatFile, Shape};
-
-/// A coefficient of a spectrum.
-type Value = fn(&Fit) -> f64;
-/// The coefficients by name, in which `{}` stands for what they are of.
-const COEFFICIENTS: [(&str, Value); 4] = [
-    ("c0_{}_m", |fit| fit.c0_m),
-    ("c1_{}", |fit| fit.c1),
-    ("c2_{}_m", |fit| fit.c2_m),
-    ("rmse_{}_m", |fit| fit.rmse_m),
-];
 
 impl Export {
     /// A MATLAB file: `u_pgv_m` is strength × probability × site, bands `u05_pgv_m` are strength × size × probability ×
@@ -44,15 +35,8 @@ impl Export {
             let key = spectra.measure.key();
             // spectra come site by site, in each probability by probability: the order of MATLAB's columns
             let shape = Shape(vec![strengths.len(), poes.len(), sites.len()]);
-            file.numbers(&format!("u_{key}_m"), &shape, spectra.u_m.values());
-            let flags = spectra.flags.map(|&flag| f64::from(flag_number(flag)));
-            file.numbers(&format!("flag_{key}"), &shape, flags.values());
-            file.numbers(&format!("lower_tail_share_{key}"), &shape, spectra.lower_tail_share.values());
-            file.numbers(&format!("upper_tail_share_{key}"), &shape, spectra.upper_tail_share.values());
-            for (name, value) in COEFFICIENTS {
-                let values = spectra.fits.map(value);
-                file.numbers(&name.replace("{}", key), &Shape(vec![poes.len(), sites.len()]), values.values());
-            }
+            add(&mut file, urs::GROUP.quantities, key, &shape, spectra);
+            add(&mut file, regression::COEFFICIENTS, key, &Shape(vec![poes.len(), sites.len()]), &spectra.fits);
         }
         self.add_consistency(&mut file);
         self.add_bands(&mut file);
@@ -84,10 +68,7 @@ impl Export {
             if let (Some(u_m), Some(fits)) = (&of.u_m, &of.fits) {
                 let spectra = Shape(vec![strengths.len(), poes.len(), sites.len()]);
                 file.numbers(&format!("u_consistent_{key}_m"), &spectra, u_m.values());
-                for (name, value) in COEFFICIENTS {
-                    let name = name.replace("{}", &format!("consistent_{key}"));
-                    file.numbers(&name, &shape, fits.map(value).values());
-                }
+                add(file, regression::COEFFICIENTS, &format!("consistent_{key}"), &shape, fits);
             }
         }
     }
@@ -186,5 +167,14 @@ impl Export {
                 file.numbers(&format!("{name}_{key}_m"), &spectra, limits.values());
             }
         }
+    }
+}
+
+/// The arrays of `value`, each named with `key`.
+fn add<T>(file: &mut MatFile, quantities: &[Quantity<T>], key: &str, shape: &Shape, value: &T) {
+    let count = shape.0.iter().product();
+    for quantity in quantities {
+        let values: Vec<f64> = (0..count).filter_map(|at| quantity.number(value, at)).collect();
+        file.numbers(&quantity.name_with(key), shape, &values);
     }
 }

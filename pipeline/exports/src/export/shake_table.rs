@@ -5,8 +5,7 @@ use serde_json::{Value, json};
 use uplift_alarms::alarms;
 use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
-use uplift_result::layout::shake_table as layout;
-use uplift_result::{DIRECTIONS, Head, QUANTITIES, ResultFile, ShakeTable, column_of};
+use uplift_result::{DIRECTIONS, Head, ResultFile, ShakeTable, TABLE_TESTS};
 use uplift_studies::shake_table::columns;
 
 use super::matlab::level_5::{MatFile, Shape};
@@ -75,9 +74,9 @@ impl TestsExport {
         file.texts("record", &excitations.iter().map(|one| one.record.as_str()).collect::<Vec<_>>());
         // tests come level by level, in each excitation by excitation: the order of MATLAB's columns
         let shape = Shape(vec![excitations.len(), levels.len()]);
-        for (array, _, _, place) in QUANTITIES {
-            let values: Vec<f64> = tests.iter().map(|test| *place(&mut test.clone())).collect();
-            file.numbers(column_of(array), &shape, &values);
+        for quantity in TABLE_TESTS.quantities {
+            let values: Vec<f64> = (0..tests.len()).filter_map(|at| quantity.number(&self.table, at)).collect();
+            file.numbers(quantity.name, &shape, &values);
         }
         let order: Vec<f64> = self.table.order().into_iter().map(f64::from).collect();
         file.numbers("order", &shape, &order);
@@ -85,9 +84,9 @@ impl TestsExport {
             let count = spectra.periods_s.len();
             file.numbers("period_s", &Shape::column(count), &spectra.periods_s);
             let shape = Shape(vec![count, DIRECTIONS.len(), excitations.len()]);
-            file.numbers(column_of(layout::SPECTRAL_ACCELERATION_M_S2), &shape, &spectra.recorded_m_s2);
+            file.numbers("spectral_acceleration_m_s2", &shape, &spectra.recorded_m_s2);
             if let Some(design_m_s2) = &spectra.design_m_s2 {
-                file.numbers(column_of(layout::DESIGN_SPECTRUM_M_S2), &Shape::column(count), design_m_s2);
+                file.numbers("design_spectrum_m_s2", &Shape::column(count), design_m_s2);
             }
         }
         Ok(file.finish().map_err(JobError::input)?)

@@ -7,8 +7,9 @@ use uplift_hazard::rate_from_probability;
 use uplift_job::alarm::Alarm;
 use uplift_job::{Array, JobError};
 use uplift_result::{
-    Head, InferredBands, MeasureBands, ResultFile, Spectrum, SpreadOver, StoredBands, StoredConsistency, StoredFinding,
-    StoredHazard, StoredJointBands, StoredRepairedBands, StoredSpectra, StoredSpectraBands, StoredSpread,
+    Head, InferredBands, MeasureBands, MeasureSpectra, ResultFile, Spectrum, SpreadOver, StoredBands,
+    StoredConsistency, StoredFinding, StoredHazard, StoredJointBands, StoredRepairedBands, StoredSpectra,
+    StoredSpectraBands, StoredSpread,
 };
 use uplift_study::UniformRiskStudy;
 
@@ -45,6 +46,8 @@ pub struct Export {
 /// A spectrum with its place `[site, poe]` and all that goes with it over the strengths.
 pub(super) struct Row<'a> {
     pub(super) at: [usize; 2],
+    /// All spectra of its measure.
+    pub(super) of_measure: &'a MeasureSpectra,
     pub(super) spectrum: Spectrum<'a>,
     /// Years.
     pub(super) return_period: f64,
@@ -98,9 +101,10 @@ impl Export {
 
     /// Every spectrum, by measure, then site, then probability.
     pub(super) fn rows(&self) -> impl Iterator<Item = Row<'_>> {
-        let places = self.spectra.measures.iter().flat_map(|measure| measure.fits.blocks::<2>().map(|(at, _)| at));
-        places.zip(self.spectra.rows()).map(|(at, spectrum)| Row {
+        let places = self.spectra.measures.iter().flat_map(|of| of.fits.blocks::<2>().map(move |(at, _)| (at, of)));
+        places.zip(self.spectra.rows()).map(|((at, of_measure), spectrum)| Row {
             at,
+            of_measure,
             spectrum,
             return_period: self.return_periods[at[1]],
         })

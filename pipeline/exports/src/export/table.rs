@@ -1,8 +1,11 @@
 //! A result as a tidy table.
 
+use std::iter::repeat_n;
+
 use polars::prelude::Column;
 use uplift_job::text::finite;
-use uplift_result::{SpreadOver, StoredSpread, flag_word};
+use uplift_result::{SpreadOver, StoredSpread, urs};
+use uplift_studies::uniform_risk::spectra_table;
 
 use super::Export;
 use super::added::SHARES;
@@ -13,10 +16,7 @@ impl Export {
     /// size of the sample, `u05_n20_m` for 20 records; then the bands of all records there could be and of another set;
     /// last mean and fractiles over weighted hazard curves and over structures that may be, `u05_hazard_m`.
     pub fn columns(&self) -> Vec<Column> {
-        let (mut site, mut im, mut flag) = (Vec::new(), Vec::new(), Vec::new());
-        let (mut lower, mut upper) = (Vec::new(), Vec::new());
-        let (mut poe, mut period, mut strength, mut u_m, mut fit_m) =
-            (Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let (mut period, mut fit_m) = (Vec::new(), Vec::new());
         let mut added = AddedColumns::default();
         let has_repaired = self.has_repaired();
         let names = self.band_names();
@@ -28,21 +28,9 @@ impl Export {
         let mut inferred_limits: Vec<Vec<f64>> = vec![Vec::new(); inferred_names.len()];
         for row in self.rows() {
             let curve = row.spectrum.fit.curve();
-            for ((&eta, &ordinate_m), &of) in
-                self.spectra.strengths.iter().zip(row.spectrum.u_m).zip(row.spectrum.flags)
-            {
-                site.push(row.spectrum.site);
-                im.push(row.spectrum.measure.label());
-                poe.push(row.spectrum.poe);
-                period.push(row.return_period);
-                strength.push(eta);
-                u_m.push(ordinate_m);
-                fit_m.push(curve.map(|curve| curve.at(eta)));
-                flag.push(flag_word(of));
-            }
-            // zero has no sign in a table
-            lower.extend(row.spectrum.lower_tail_share.iter().map(|share| share + 0.0));
-            upper.extend(row.spectrum.upper_tail_share.iter().map(|share| share + 0.0));
+            let strengths = &self.spectra.strengths;
+            fit_m.extend(strengths.iter().map(|&strength| curve.map(|curve| curve.at(strength))));
+            period.extend(repeat_n(row.return_period, strengths.len()));
             added.extend(self, &row);
             if has_repaired {
                 added.extend_repaired(self, &row);
@@ -67,20 +55,12 @@ impl Export {
                 }
             }
         }
-        let years = vec![self.spectra.years; site.len()];
-        let mut columns = vec![
-            Column::new("site".into(), site),
-            Column::new("im".into(), im),
-            Column::new("poe".into(), poe),
-            Column::new("years".into(), years),
-            Column::new("strength".into(), strength),
-            Column::new("u_m".into(), u_m),
-            Column::new("fit_m".into(), fit_m),
-            Column::new("return_period_years".into(), period),
-            Column::new("flag".into(), flag),
-            Column::new("lower_tail_share".into(), lower),
-            Column::new("upper_tail_share".into(), upper),
-        ];
+        let mut columns = spectra_table(&self.spectra);
+        let beside = columns.iter().position(|column| column.name() == urs::U_M.name).map_or(0, |place| place + 1);
+        columns.splice(
+            beside..beside,
+            [Column::new("fit_m".into(), fit_m), Column::new("return_period_years".into(), period)],
+        );
         columns.extend(names.into_iter().zip(limits).map(|(name, values)| Column::new(name.into(), values)));
         columns.extend(added.into_columns());
         columns.extend(further.into_iter().flat_map(FurtherBands::into_columns));

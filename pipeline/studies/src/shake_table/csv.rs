@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use polars::prelude::Column;
 use uplift_job::outputs::{Output, OutputKind, beside};
 use uplift_job::table::write_table;
-use uplift_result::{QUANTITIES, ShakeTable, column_of};
+use uplift_result::{ShakeTable, TABLE_TESTS};
 use uplift_study::ShakeTableStudy;
 
 use super::ShakeTableOutcome;
@@ -39,21 +39,20 @@ pub fn write_shake_table_csv(result: &Path, outcome: &ShakeTableOutcome<'_>) -> 
 /// A row a test, `[level, excitation]`: what `uplift validate` reads.
 pub fn columns(table: &ShakeTable) -> Vec<Column> {
     let rows = || {
-        (0..table.levels.len())
-            .flat_map(|level| table.of_level(level).map(move |(excitation, test)| (level, excitation, test)))
+        (0..table.levels.len()).flat_map(|level| table.excitations.iter().map(move |excitation| (level, excitation)))
     };
     let text = |name: &str, cells: Vec<String>| Column::new(name.into(), cells);
     let mut columns = vec![
-        text("exc_id", rows().map(|(_, excitation, _)| excitation.exc_id.clone()).collect()),
-        text("class", rows().map(|(_, excitation, _)| excitation.class.clone()).collect()),
-        text("level", rows().map(|(level, ..)| table.levels[level].name.clone()).collect()),
-        text("record", rows().map(|(_, excitation, _)| excitation.record.clone()).collect()),
-        text("rsn", rows().map(|(_, excitation, _)| excitation.rsn.clone()).collect()),
+        text("exc_id", rows().map(|(_, excitation)| excitation.exc_id.clone()).collect()),
+        text("class", rows().map(|(_, excitation)| excitation.class.clone()).collect()),
+        text("level", rows().map(|(level, _)| table.levels[level].name.clone()).collect()),
+        text("record", rows().map(|(_, excitation)| excitation.record.clone()).collect()),
+        text("rsn", rows().map(|(_, excitation)| excitation.rsn.clone()).collect()),
         Column::new("order".into(), table.order()),
     ];
-    columns.extend(QUANTITIES.map(|(array, _, _, place)| {
-        let number = |mut test| Some(*place(&mut test)).filter(|value| !value.is_nan());
-        Column::new(column_of(array).into(), rows().map(|(_, _, test)| number(*test)).collect::<Vec<Option<f64>>>())
+    columns.extend(TABLE_TESTS.quantities.iter().map(|quantity| {
+        let number = |at| quantity.number(table, at).filter(|value| !value.is_nan());
+        Column::new(quantity.name.into(), (0..table.tests.len()).map(number).collect::<Vec<Option<f64>>>())
     }));
     columns
 }

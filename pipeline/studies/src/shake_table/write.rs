@@ -4,7 +4,7 @@ use std::path::Path;
 
 use uplift_labelled::LabelledWriter;
 use uplift_result::layout::{axis, shake_table as layout};
-use uplift_result::{DIRECTIONS, Excitation, Origin, Provenance, QUANTITIES, ShakeTable, TableSpectra};
+use uplift_result::{DIRECTIONS, Origin, Provenance, ShakeTable, TableSpectra};
 use uplift_study::{Kind, ShakeTableStudy};
 
 use crate::error::StudiesError;
@@ -43,28 +43,12 @@ pub fn write_shake_table(path: &Path, outcome: &ShakeTableOutcome<'_>) -> Result
     origin.write(&mut writer)?;
     writer.attribute("/", "kind", Kind::ShakeTable.key())?;
     let names: Vec<String> = table.levels.iter().map(|level| level.name.clone()).collect();
-    let text = |of: fn(&Excitation) -> &String| table.excitations.iter().map(|one| of(one).clone()).collect::<Vec<_>>();
+    let excitations: Vec<String> = table.excitations.iter().map(|one| one.exc_id.clone()).collect();
     writer.axis_text(axis::LEVEL, &names, "level of shaking")?;
-    writer.axis_text(axis::EXCITATION, &text(|one| &one.exc_id), "excitation")?;
-    let levels: Vec<f64> = table.levels.iter().map(|level| level.pgv_srss_m_s).collect();
-    writer.array_f64(layout::PGV_SRSS_M_S, &[axis::LEVEL], &levels, "m/s", "SRSS of both PGV on the table")?;
-    for (array, cells, long_name) in [
-        (layout::CLASS, text(|one| &one.class), "class of the excitation"),
-        (layout::RECORD, text(|one| &one.record), "record"),
-        (layout::RSN, text(|one| &one.rsn), "record sequence number"),
-    ] {
-        writer.array_text(array, &[axis::EXCITATION], &cells, long_name)?;
-    }
-    let recorded: Vec<f64> = table.excitations.iter().map(|one| one.recorded_pgv_m_s).collect();
-    let long_name = "SRSS of both PGV as recorded";
-    writer.array_f64(layout::RECORDED_PGV_M_S, &[axis::EXCITATION], &recorded, "m/s", long_name)?;
-    let dims = &[axis::LEVEL, axis::EXCITATION];
+    writer.axis_text(axis::EXCITATION, &excitations, "excitation")?;
+    table.write(&mut writer)?;
     let order = "place in the order of rising displacement, from 1";
-    writer.array_u32(layout::ORDER, dims, &table.order(), "1", order)?;
-    for (array, unit, long_name, place) in QUANTITIES {
-        let values: Vec<f64> = table.tests.iter().map(|test| *place(&mut test.clone())).collect();
-        writer.array_f64(array, dims, &values, unit, long_name)?;
-    }
+    writer.array_u32(layout::ORDER, &[axis::LEVEL, axis::EXCITATION], &table.order(), "1", order)?;
     table.spectra.iter().try_for_each(|spectra| write_spectra(&mut writer, spectra))?;
     writer.attribute(layout::GROUP, "structure", table.structure.as_str())?;
     writer.attribute(layout::GROUP, "length_scale", table.length_scale)?;

@@ -1,11 +1,13 @@
 //! Tidy tables beside the result file, for spreadsheets and scripts.
 
+use std::iter::repeat_n;
 use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
 use uplift_job::outputs::{Output, OutputKind, beside};
 use uplift_job::table::write_table;
-use uplift_result::flag_word;
+use uplift_result::declared::{Field, Place, Quantity};
+use uplift_result::{Fits, StoredSpectra, flag_word, regression, urs};
 use uplift_study::UniformRiskStudy;
 
 use super::Outcome;
@@ -22,8 +24,8 @@ pub fn tables(study: &UniformRiskStudy, result: &Path) -> Vec<Output> {
     let mut tables = Vec::new();
     if study.output.csv && !study.sites.is_empty() {
         let [spectra, coefficients] = csv_paths(result);
-        tables.push(Output::new(spectra, OutputKind::Table("lower_tail_share")));
-        tables.push(Output::new(coefficients, OutputKind::Table("rmse_plain_m")));
+        tables.push(Output::new(spectra, OutputKind::Table(urs::LOWER_TAIL_SHARE.name)));
+        tables.push(Output::new(coefficients, OutputKind::Table(regression::RMSE_PLAIN_M.name)));
     }
     if study.site_table.is_some() {
         let [spectra, coefficients, map] = site_table_paths(result);
@@ -40,74 +42,72 @@ pub fn tables(study: &UniformRiskStudy, result: &Path) -> Vec<Output> {
 /// A file that cannot be written.
 pub fn write_csv(result: &Path, outcome: &Outcome<'_>) -> Result<(), StudiesError> {
     let line = outcome.provenance.line(&outcome.study.title, &outcome.records.description);
-    let [urs, regression] = csv_paths(result);
-    write_table(&urs, &line, spectra_table(outcome))?;
-    Ok(write_table(&regression, &line, regression_table(outcome))?)
+    let [ordinates, coefficients] = csv_paths(result);
+    let spectra = outcome.stored_spectra();
+    write_table(&ordinates, &line, spectra_table(&spectra))?;
+    Ok(write_table(&coefficients, &line, regression_table(&spectra))?)
 }
 
-fn spectra_table(outcome: &Outcome<'_>) -> Vec<Column> {
-    let study = outcome.study;
-    let (mut site, mut im, mut flag) = (Vec::new(), Vec::new(), Vec::new());
-    let (mut poe, mut strength, mut u_m, mut lower, mut upper) =
-        (Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    for spectra in outcome.spectra {
-        for ([site_index, poe_index], spectrum) in spectra.ordinates.blocks() {
-            for (ordinate, eta) in spectrum.iter().zip(study.strengths.iter()) {
-                site.push(study.sites[site_index].name.as_str());
-                im.push(spectra.measure.label());
-                poe.push(study.risk.poe[poe_index]);
-                strength.push(*eta);
-                u_m.push(ordinate.displacement_m);
-                flag.push(flag_word(ordinate.flag));
-                // zero has no sign in a table
-                lower.push(ordinate.lower_tail_share + 0.0);
-                upper.push(ordinate.upper_tail_share + 0.0);
-            }
-        }
+/// A row for each ordinate: what it is of, then the arrays of its spectrum.
+pub fn spectra_table(spectra: &StoredSpectra) -> Vec<Column> {
+    let mut columns = of_columns(spectra, spectra.strengths.len());
+    let strengths = spectra.measures.iter().flat_map(|of| of.fits.values()).flat_map(|_| &spectra.strengths).copied();
+    columns.push(Column::new("strength".into(), strengths.collect::<Vec<f64>>()));
+    let places = || spectra.measures.iter().flat_map(|of| (0..of.u_m.values().len()).map(move |at| (of, at)));
+    columns.extend(urs::GROUP.quantities.iter().map(|quantity| column(quantity, places(), |_, _| true)));
+    columns
+}
+
+/// A row for each spectrum: what it is of, then its coefficients.
+fn regression_table(spectra: &StoredSpectra) -> Vec<Column> {
+    use regression::{BOUND_ACTIVE, C0_M, C1, C2_M, POINTS, RMSE_M, RMSE_PLAIN_M};
+    let mut columns = of_columns(spectra, 1);
+    let places = || spectra.measures.iter().flat_map(|of| (0..of.fits.values().len()).map(|at| (&of.fits, at)));
+    let is_fitted = |fits: &Fits, at: usize| fits[at].curve().is_some();
+    let coefficients = [C0_M, C1, C2_M, RMSE_M, RMSE_PLAIN_M, BOUND_ACTIVE];
+    columns.extend(coefficients.iter().map(|quantity| column(quantity, places(), is_fitted)));
+    columns.push(column(&POINTS, places(), |_, _| true));
+    columns
+}
+
+/// The columns that say what a spectrum is of, each `times` over.
+fn of_columns(spectra: &StoredSpectra, times: usize) -> Vec<Column> {
+    let (mut site, mut im, mut poe) = (Vec::new(), Vec::new(), Vec::new());
+    for row in spectra.rows() {
+        site.extend(repeat_n(row.site, times));
+        im.extend(repeat_n(row.measure.label(), times));
+        poe.extend(repeat_n(row.poe, times));
     }
-    let years = vec![study.risk.years; site.len()];
+    let years = vec![spectra.years; site.len()];
     vec![
         Column::new("site".into(), site),
         Column::new("im".into(), im),
         Column::new("poe".into(), poe),
         Column::new("years".into(), years),
-        Column::new("strength".into(), strength),
-        Column::new("u_m".into(), u_m),
-        Column::new("flag".into(), flag),
-        Column::new("lower_tail_share".into(), lower),
-        Column::new("upper_tail_share".into(), upper),
     ]
 }
 
-fn regression_table(outcome: &Outcome<'_>) -> Vec<Column> {
-    let study = outcome.study;
-    let (mut site, mut im, mut poe, mut fits) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    for coefficients in outcome.coefficients {
-        for ([site_index, poe_index], fit) in coefficients.fits.blocks() {
-            site.push(study.sites[site_index].name.as_str());
-            im.push(coefficients.measure.label());
-            poe.push(study.risk.poe[poe_index]);
-            fits.push(fit[0].as_ref().ok());
-        }
+/// A stored array as a column of a table; cells are empty where `is_there` says so.
+fn column<'a, T: 'a>(
+    quantity: &Quantity<T>,
+    places: impl Iterator<Item = (&'a T, usize)>,
+    is_there: impl Fn(&T, usize) -> bool,
+) -> Column {
+    fn cells<'a, T: 'a, V: 'a, C>(
+        place: Place<T, V>,
+        places: impl Iterator<Item = (&'a T, usize)>,
+        is_there: impl Fn(&T, usize) -> bool,
+        cell: impl Fn(&'a V) -> C,
+    ) -> Vec<Option<C>> {
+        places.map(|(of, at)| is_there(of, at).then(|| cell((place.get)(of, at)))).collect()
     }
-    let number = |value: fn(&uplift_regression::ExponentialFit) -> f64| -> Vec<Option<f64>> {
-        fits.iter().map(|fit| fit.map(value)).collect()
-    };
-    let years = vec![study.risk.years; site.len()];
-    let bound: Vec<Option<bool>> = fits.iter().map(|fit| fit.map(|fit| fit.bound_active)).collect();
-    let points: Vec<u32> =
-        fits.iter().map(|fit| fit.map_or(0, |fit| u32::try_from(fit.points).unwrap_or(u32::MAX))).collect();
-    vec![
-        Column::new("site".into(), site),
-        Column::new("im".into(), im),
-        Column::new("poe".into(), poe),
-        Column::new("years".into(), years),
-        Column::new("c0_m".into(), number(|fit| fit.c0)),
-        Column::new("c1".into(), number(|fit| fit.c1)),
-        Column::new("c2_m".into(), number(|fit| fit.c2)),
-        Column::new("rmse_m".into(), number(|fit| fit.rmse)),
-        Column::new("rmse_plain_m".into(), number(|fit| fit.rmse_plain)),
-        Column::new("bound_active".into(), bound),
-        Column::new("points".into(), points),
-    ]
+    let name = quantity.name.into();
+    match quantity.field {
+        // zero has no sign in a table
+        Field::F64(place) => Column::new(name, cells(place, places, is_there, |value| value + 0.0)),
+        Field::U32(place) => Column::new(name, cells(place, places, is_there, |&count| count)),
+        Field::Bool(place) => Column::new(name, cells(place, places, is_there, |&is| is)),
+        Field::Flag(place) => Column::new(name, cells(place, places, is_there, |&flag| flag_word(flag))),
+        Field::Text(place) => Column::new(name, cells(place, places, is_there, String::as_str)),
+    }
 }

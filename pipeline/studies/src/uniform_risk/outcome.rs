@@ -1,10 +1,10 @@
 //! All that a study of uniform risk computed.
 
 use uplift_inputs::{OtherHazard, RecordSet, SiteHazard};
-use uplift_result::Provenance;
+use uplift_result::{Provenance, StoredSpectra};
 use uplift_study::UniformRiskStudy;
 use uplift_uniform_risk::consistency::Answer;
-use uplift_uniform_risk::{Coefficients, Precision, Spectra, Stripes};
+use uplift_uniform_risk::{Coefficients, Precision, Spectra, Stripes, stored_spectra};
 
 /// All that a study computed, by measure where it depends on it.
 #[derive(Debug)]
@@ -31,4 +31,18 @@ pub struct Outcome<'a> {
     pub warnings: &'a [String],
     /// Where the numbers come from.
     pub provenance: &'a Provenance,
+}
+
+impl Outcome<'_> {
+    /// Its spectra and coefficients as the result file has them.
+    pub(super) fn stored_spectra(&self) -> StoredSpectra {
+        let stored = |(spectra, coefficients)| stored_spectra(spectra, coefficients);
+        StoredSpectra {
+            strengths: self.study.strengths.to_vec(),
+            poes: self.study.risk.poe.clone(),
+            years: self.study.risk.years,
+            sites: self.study.sites.iter().map(|site| site.name.clone()).collect(),
+            measures: self.spectra.iter().zip(self.coefficients).map(stored).collect(),
+        }
+    }
 }

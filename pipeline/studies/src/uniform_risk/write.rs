@@ -6,10 +6,9 @@ use uplift_engine::checkpoint::oscillator_key;
 use uplift_inputs::at_level::AtLevel;
 use uplift_inputs::{DrawnStructure, Record, motion_keys};
 use uplift_labelled::{LabelledError, LabelledWriter};
-use uplift_motion::{Combination, IntensityMeasure};
-use uplift_result::layout::{URS_PRECISION, axis, ida, intensity, records as layout, regression, risk, urs};
-use uplift_result::{Origin, flag_number};
-use uplift_risk::Ordinate;
+use uplift_motion::Combination;
+use uplift_result::layout::{URS_PRECISION, axis, ida, intensity, records as layout, risk};
+use uplift_result::{MeasureSpectra, Origin, urs};
 use uplift_structure::UncertainQuantity;
 use uplift_uniform_risk::consistency::Keep;
 
@@ -28,8 +27,9 @@ pub fn write_result(path: &Path, outcome: &Outcome<'_>) -> Result<(), StudiesErr
     write_records(&mut writer, &outcome.records.records, outcome.study.records.intensity)?;
     write_hazard(&mut writer, outcome.hazard)?;
     write_other_hazard(&mut writer, outcome.other_hazard)?;
-    for (index, plan) in outcome.study.measures.iter().enumerate() {
-        write_measure(&mut writer, outcome, index, plan.measure)?;
+    let spectra = outcome.stored_spectra();
+    for (index, stored) in spectra.measures.iter().enumerate() {
+        write_measure(&mut writer, outcome, index, stored)?;
     }
     outcome.consistency.add(&mut writer, Keep::Exponents)?;
     writer.finish()?;
@@ -170,9 +170,9 @@ fn write_measure(
     writer: &mut LabelledWriter,
     outcome: &Outcome<'_>,
     index: usize,
-    measure: IntensityMeasure,
+    stored: &MeasureSpectra,
 ) -> Result<(), LabelledError> {
-    let stripes = &outcome.stripes[index];
+    let (stripes, measure) = (&outcome.stripes[index], stored.measure);
     let (group, dims) = (ida::group(measure), [axis::RECORD, axis::STRENGTH, &axis::level(measure)]);
     let long_name = if stripes.at_level.is_some() {
         "peak displacement, infinite where overturned, NaN where the record does not belong to the level"
@@ -204,21 +204,9 @@ fn write_measure(
         let long_name = "mean annual frequency of exceeding the threshold";
         writer.array_f64(&risk::maf_per_year(measure), &dims, surface.values(), "1/yr", long_name)?;
     }
-    let dims = [axis::SITE, axis::POE, axis::STRENGTH];
-    let of = |value: fn(&Ordinate) -> f64| spectra.ordinates.map(value).into_values();
-    let u_m = of(|ordinate| ordinate.displacement_m);
-    writer.array_f64(&urs::u_m(measure), &dims, &u_m, "m", "uniform risk displacement")?;
-    let flags = spectra.ordinates.map(|ordinate| flag_number(ordinate.flag));
-    let long_name = "0 regular, 1 no exceedance so that the ordinate is 0, 2 censored";
-    writer.array_u8(&urs::flag(measure), &dims, flags.values(), "1", long_name)?;
-    let (lower, upper) = (of(|ordinate| ordinate.lower_tail_share), of(|ordinate| ordinate.upper_tail_share));
-    let long_name = "share of the risk from below the first stripe";
-    writer.array_f64(&urs::lower_tail_share(measure), &dims, &lower, "1", long_name)?;
-    let long_name = "share of the risk from above the last stripe";
-    writer.array_f64(&urs::upper_tail_share(measure), &dims, &upper, "1", long_name)?;
-
+    stored.write_spectra(writer)?;
     if let Some(precision) = outcome.precision.iter().find(|own| own.im == measure.label()) {
-        let group = urs::group(measure);
+        let group = urs::GROUP.of_measure(measure);
         writer.attribute(&group, URS_PRECISION, precision.words().as_str())?;
         writer.attribute(&group, "half_width", precision.half_width[0])?;
         if let Some(by_event) = precision.half_width_by_event {
@@ -227,28 +215,5 @@ fn write_measure(
     }
     write_branches(writer, outcome, spectra)?;
     write_structures(writer, outcome, spectra)?;
-
-    let fits = outcome.coefficients[index].fits.values();
-    let dims = [axis::SITE, axis::POE];
-    let columns: [(String, Value, &str, &str); 6] = [
-        (regression::c0_m(measure), |fit| fit.c0, "m", "c0 of u = c0 exp(c1 strength) + c2"),
-        (regression::c1(measure), |fit| fit.c1, "1", "c1"),
-        (regression::c2_m(measure), |fit| fit.c2, "m", "c2, not negative"),
-        (regression::rmse_m(measure), |fit| fit.rmse, "m", "root mean square error with n - 3 degrees of freedom"),
-        (regression::rmse_plain_m(measure), |fit| fit.rmse_plain, "m", "root mean square error over n points"),
-        (regression::max_abs_residual_m(measure), |fit| fit.max_abs_residual, "m", "largest residual"),
-    ];
-    for (path, value, unit, long_name) in columns {
-        let values: Vec<f64> = fits.iter().map(|fit| fit.as_ref().map_or(f64::NAN, value)).collect();
-        writer.array_f64(&path, &dims, &values, unit, long_name)?;
-    }
-    let bound: Vec<u8> = fits.iter().map(|fit| u8::from(fit.as_ref().is_ok_and(|fit| fit.bound_active))).collect();
-    writer.array_u8(&regression::bound_active(measure), &dims, &bound, "1", "1 where c2 is held at 0")?;
-    let points: Vec<u32> =
-        fits.iter().map(|fit| fit.as_ref().map_or(0, |fit| u32::try_from(fit.points).unwrap_or(u32::MAX))).collect();
-    let long_name = "strengths fitted, 0 where there is no fit";
-    writer.array_u32(&regression::points(measure), &dims, &points, "1", long_name)
+    stored.write_coefficients(writer)
 }
-
-/// A column of the coefficients.
-type Value = fn(&uplift_regression::ExponentialFit) -> f64;

@@ -8,9 +8,8 @@ use uplift_consistency::{DEVIATION_RATES, Deviation, Diagnosis, KNOTS, Repaired}
 use uplift_job::outputs::beside;
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_motion::IntensityMeasure;
-use uplift_regression::ExponentialFit;
 use uplift_result::layout::{axis, consistency as layout};
-use uplift_result::{flag_number, sign};
+use uplift_result::{Fit, REPAIRED_FITS, flag_number, sign};
 use uplift_risk::Ordinate;
 
 use super::{ConsistencyReport, Finding, Question, Repairs};
@@ -289,20 +288,9 @@ impl Table<'_> {
         let flags = repairs.ordinates.map(flag).into_values();
         let what = "0 regular, 1 no exceedance so that the ordinate is 0, 2 censored, 3 no repair";
         self.writer.array_u8(&layout::array(self.measure, "flag"), &dims, &flags, "1", what)?;
-        let dims = [axis::SITE, axis::POE];
-        let columns: [(&str, Of<ExponentialFit>, &str, &str); 4] = [
-            ("c0_m", |fit| fit.c0, "m", "c0 of u = c0 exp(c1 strength) + c2, weighted records"),
-            ("c1", |fit| fit.c1, "1", "c1"),
-            ("c2_m", |fit| fit.c2, "m", "c2, not negative"),
-            ("rmse_m", |fit| fit.rmse, "m", "root mean square error with n - 3 degrees of freedom"),
-        ];
-        for (name, value, unit, what) in columns {
-            let values: Vec<f64> =
-                repairs.fits.values().iter().map(|fit| fit.as_ref().map_or(f64::NAN, value)).collect();
-            let path = layout::coefficient(self.measure, name);
-            self.writer.array_f64(&path, &dims, &values, unit, what)?;
-        }
-        Ok(())
+        let fits = repairs.fits.map(|fit| Fit::of(fit.as_ref().ok()));
+        let [sites, poes] = fits.shape();
+        REPAIRED_FITS.write(self.writer, Some(self.measure), &[(axis::SITE, sites), (axis::POE, poes)], &fits)
     }
 }
 

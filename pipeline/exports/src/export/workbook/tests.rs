@@ -1,7 +1,8 @@
 //! The workbook of a shaking table: its tests, a line each, and where they come from.
 
 use rust_xlsxwriter::{Workbook, XlsxError};
-use uplift_result::QUANTITIES;
+use uplift_result::TABLE_TESTS;
+use uplift_result::declared::Quantity;
 
 use super::sheet::{Formats, Sheet, Shown};
 use super::{no_workbook, properties_of, study_lines};
@@ -67,13 +68,13 @@ impl TestsExport {
         for (column, name) in OF.iter().enumerate() {
             sheet.heading((0, column), name, true)?;
         }
-        for (column, (_, unit, meaning, _)) in QUANTITIES.iter().enumerate() {
-            let name = if *unit == "1" { (*meaning).to_owned() } else { format!("{meaning}, {unit}") };
+        for (column, Quantity { unit, long_name, .. }) in TABLE_TESTS.quantities.iter().enumerate() {
+            let name = if *unit == "1" { (*long_name).to_owned() } else { format!("{long_name}, {unit}") };
             sheet.heading((0, OF.len() + column), &name, true)?;
         }
         let (table, order) = (&self.table, self.table.order());
         let tests = (0..table.levels.len()).flat_map(|level| table.of_level(level).map(move |test| (level, test)));
-        for (index, (level, (excitation, test))) in tests.enumerate() {
+        for (index, (level, (excitation, _))) in tests.enumerate() {
             let line = index + 1;
             sheet.number((line, 0), f64::from(order[index]), Shown::Whole, "")?;
             let level = &table.levels[level].name;
@@ -81,9 +82,9 @@ impl TestsExport {
             for (column, text) in of.into_iter().enumerate() {
                 sheet.text((line, 1 + column), text)?;
             }
-            for (column, (_, _, _, place)) in QUANTITIES.iter().enumerate() {
-                let mut test = *test;
-                sheet.number((line, OF.len() + column), *place(&mut test), Shown::Plain, "overturned")?;
+            for (column, quantity) in TABLE_TESTS.quantities.iter().enumerate() {
+                let value = quantity.number(table, index).unwrap_or(f64::NAN);
+                sheet.number((line, OF.len() + column), value, Shown::Plain, "overturned")?;
             }
         }
         sheet.finish((1, 2), &[8.0, 12.0, 10.0, 10.0, 30.0, 8.0])

@@ -1,0 +1,324 @@
+//! How stored arrays are declared. A declaration is a constant beside the plain value whose field it names; writing,
+//! reading, the tables of `docs/hdf5-layout.md` and the names in exports follow from it.
+
+use std::borrow::Cow;
+
+use uplift_labelled::{LabelledError, LabelledWriter};
+use uplift_motion::IntensityMeasure;
+use uplift_risk::OrdinateFlag;
+
+use super::file::ResultFile;
+use super::spectra::{flag_number, flag_of};
+use crate::error::ResultError;
+
+/// What stands for the key of an intensity measure in paths and names of axes.
+const MEASURE: &str = "<im>";
+
+/// An array of a result, and the field of the plain value `T` that it holds.
+pub struct Quantity<T: 'static> {
+    /// Its name within the group.
+    pub name: &'static str,
+    /// Its axes, the last one running fastest.
+    pub axes: &'static [&'static str],
+    /// Its unit; `1` where it has none.
+    pub unit: &'static str,
+    /// Its attribute `long_name`.
+    pub long_name: &'static str,
+    /// What `docs/hdf5-layout.md` says of it; empty where that is its `long_name`.
+    pub note: &'static str,
+    /// The field that it holds.
+    pub field: Field<T>,
+}
+
+/// The field of a plain value that an array holds, value by value and row by row.
+pub enum Field<T: 'static> {
+    /// Floats.
+    F64(Place<T, f64>),
+    /// Counts.
+    U32(Place<T, u32>),
+    /// 1 for true.
+    Bool(Place<T, bool>),
+    /// Kinds of ordinates, as their numbers.
+    Flag(Place<T, OrdinateFlag>),
+    /// Texts.
+    Text(Place<T, String>),
+}
+
+/// Where the value at an index is, to read it and to change it; made by [`place`].
+pub struct Place<T, V> {
+    /// The value at an index.
+    pub get: fn(&T, usize) -> &V,
+    /// The same, to be changed.
+    pub get_mut: fn(&mut T, usize) -> &mut V,
+}
+
+/// The [`Place`] of `|value, index| value.field[index]`: written once, to read it and to change it.
+macro_rules! place {
+    (|$value:ident, $index:ident| $place:expr) => {
+        $crate::declared::Place { get: |$value, $index| &$place, get_mut: |$value, $index| &mut $place }
+    };
+}
+pub(crate) use place;
+
+impl<T, V> Clone for Place<T, V> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T, V> Copy for Place<T, V> {}
+
+impl<T> Clone for Field<T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T> Copy for Field<T> {}
+
+impl<T> Clone for Quantity<T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T> Copy for Quantity<T> {}
+
+/// The arrays of a group of the file. `<im>` in its path and axes stands for a measure: a group each.
+pub struct Group<T: 'static> {
+    /// Its path.
+    pub path: &'static str,
+    /// Its arrays, in the order in which they are written.
+    pub quantities: &'static [Quantity<T>],
+}
+
+/// Names and lengths of the axes that a group may use.
+pub type Lengths<'a> = &'a [(&'a str, usize)];
+
+impl<T> Quantity<T> {
+    /// The type of its values, as `docs/hdf5-layout.md` names it.
+    pub fn element(&self) -> &'static str {
+        match self.field {
+            Field::F64(_) => "f64",
+            Field::U32(_) => "u32",
+            Field::Bool(_) | Field::Flag(_) => "u8",
+            Field::Text(_) => "text",
+        }
+    }
+
+    /// Its name where arrays of all measures stand side by side: `u_pgv_m`, `flag_pgv`; the unit stays at the end.
+    pub fn name_with(&self, key: &str) -> String {
+        match self.name.strip_suffix("_m") {
+            Some(stem) => format!("{stem}_{key}_m"),
+            None => format!("{}_{key}", self.name),
+        }
+    }
+
+    /// Its value at an index as a number; none of a text.
+    pub fn number(&self, value: &T, index: usize) -> Option<f64> {
+        match self.field {
+            Field::F64(place) => Some(*(place.get)(value, index)),
+            Field::U32(place) => Some((*(place.get)(value, index)).into()),
+            Field::Bool(place) => Some(f64::from(u8::from(*(place.get)(value, index)))),
+            Field::Flag(place) => Some(flag_number(*(place.get)(value, index)).into()),
+            Field::Text(_) => None,
+        }
+    }
+
+    /// Its axes with their lengths.
+    fn shape<'a>(&self, measure: Option<IntensityMeasure>, lengths: Lengths<'_>) -> Vec<(Cow<'a, str>, usize)> {
+        let length = |axis: &str| lengths.iter().find(|(name, _)| *name == axis).map_or(0, |(_, length)| *length);
+        self.axes.iter().map(|axis| (with_measure(axis, measure), length(axis))).collect()
+    }
+
+    fn write(
+        &self,
+        writer: &mut LabelledWriter,
+        path: &str,
+        shape: &[(Cow<'_, str>, usize)],
+        value: &T,
+    ) -> Result<(), LabelledError> {
+        fn all<T, V, W>(value: &T, place: Place<T, V>, count: usize, of: impl Fn(&V) -> W) -> Vec<W> {
+            (0..count).map(|index| of((place.get)(value, index))).collect()
+        }
+        let dims: Vec<&str> = shape.iter().map(|(name, _)| name.as_ref()).collect();
+        let count = shape.iter().map(|(_, length)| length).product();
+        let (dims, unit, long_name) = (dims.as_slice(), self.unit, self.long_name);
+        match self.field {
+            Field::F64(place) => writer.array_f64(path, dims, &all(value, place, count, Clone::clone), unit, long_name),
+            Field::U32(place) => writer.array_u32(path, dims, &all(value, place, count, Clone::clone), unit, long_name),
+            Field::Bool(place) => {
+                writer.array_u8(path, dims, &all(value, place, count, |&is| u8::from(is)), unit, long_name)
+            }
+            Field::Flag(place) => {
+                writer.array_u8(path, dims, &all(value, place, count, |&flag| flag_number(flag)), unit, long_name)
+            }
+            Field::Text(place) => writer.array_text(path, dims, &all(value, place, count, Clone::clone), long_name),
+        }
+    }
+
+    fn read(
+        &self,
+        file: &ResultFile,
+        path: &str,
+        shape: &[(Cow<'_, str>, usize)],
+        value: &mut T,
+    ) -> Result<(), ResultError> {
+        fn fill<T, V>(value: &mut T, place: Place<T, V>, values: impl IntoIterator<Item = V>) {
+            for (index, own) in values.into_iter().enumerate() {
+                *(place.get_mut)(value, index) = own;
+            }
+        }
+        let axes: Vec<(&str, usize)> = shape.iter().map(|(name, length)| (name.as_ref(), *length)).collect();
+        let reader = &file.reader;
+        match self.field {
+            Field::F64(place) => fill(value, place, file.checked(path, reader.array_f64(path)?, &axes)?),
+            Field::U32(place) => fill(value, place, file.checked(path, reader.array_u32(path)?, &axes)?),
+            Field::Text(place) => fill(value, place, file.checked(path, reader.array_text(path)?, &axes)?),
+            Field::Bool(place) => {
+                let numbers = file.checked(path, reader.array_u8(path)?, &axes)?;
+                fill(value, place, numbers.into_iter().map(|number| number == 1));
+            }
+            Field::Flag(place) => {
+                let numbers = file.checked(path, reader.array_u8(path)?, &axes)?;
+                if let Some(unknown) = numbers.iter().find(|&&number| flag_of(number).is_none()) {
+                    return Err(file.damaged(format!("{path} has the unknown flag {unknown}")));
+                }
+                fill(value, place, numbers.into_iter().filter_map(flag_of));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<T> Group<T> {
+    /// The group of all measures: `/urs` of `/urs/<im>`.
+    pub fn root(&self) -> &'static str {
+        self.path.split_once("/<").map_or(self.path, |(root, _)| root)
+    }
+
+    /// The group of one measure.
+    pub fn of_measure(&self, measure: IntensityMeasure) -> String {
+        with_measure(self.path, Some(measure)).into_owned()
+    }
+
+    /// The path of an array of one measure.
+    pub fn path_of(&self, quantity: &Quantity<T>, measure: IntensityMeasure) -> String {
+        format!("{}/{}", self.of_measure(measure), quantity.name)
+    }
+
+    /// Writes every array of `value`, which is of `measure` if its group is.
+    ///
+    /// # Errors
+    /// Whatever keeps the file from being written.
+    pub fn write(
+        &self,
+        writer: &mut LabelledWriter,
+        measure: Option<IntensityMeasure>,
+        lengths: Lengths<'_>,
+        value: &T,
+    ) -> Result<(), LabelledError> {
+        self.quantities.iter().try_for_each(|quantity| {
+            let path = format!("{}/{}", with_measure(self.path, measure), quantity.name);
+            quantity.write(writer, &path, &quantity.shape(measure, lengths), value)
+        })
+    }
+
+    /// Reads every array into `value`, which has a place for every value.
+    pub(super) fn read(
+        &self,
+        file: &ResultFile,
+        measure: Option<IntensityMeasure>,
+        lengths: Lengths<'_>,
+        value: &mut T,
+    ) -> Result<(), ResultError> {
+        self.quantities.iter().try_for_each(|quantity| {
+            let path = format!("{}/{}", with_measure(self.path, measure), quantity.name);
+            quantity.read(file, &path, &quantity.shape(measure, lengths), value)
+        })
+    }
+
+    /// Its rows of the table of arrays in `docs/hdf5-layout.md`.
+    #[cfg(test)]
+    pub(super) fn rows(&self) -> String {
+        let row = |quantity: &Quantity<T>| {
+            let Quantity { name, axes, unit, long_name, .. } = *quantity;
+            let note = if quantity.note.is_empty() { long_name } else { quantity.note };
+            let (path, axes) = [self.path.to_owned(), axes.join(", ")].map(|text| text.replace(MEASURE, "pgv")).into();
+            let unit = if quantity.element() == "text" { String::new() } else { format!(" {unit}") };
+            format!("| `{path}/{name}` | {axes} | {} |{unit} | {note} |\n", quantity.element())
+        };
+        self.quantities.iter().map(row).collect()
+    }
+}
+
+/// A path or name with the key of a measure for `<im>`.
+fn with_measure(text: &str, measure: Option<IntensityMeasure>) -> Cow<'static, str> {
+    measure.map_or_else(|| text.to_owned(), |measure| text.replace(MEASURE, measure.key())).into()
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use std::fmt::Write as _;
+    use std::path::Path;
+    use std::{env, fs};
+
+    use super::super::{REPAIRED_FITS, TABLE_EXCITATIONS, TABLE_TESTS, regression, urs};
+
+    /// The paths of declared groups with the rows of their arrays.
+    fn declared() -> Vec<(&'static str, String)> {
+        vec![
+            (urs::GROUP.path, urs::GROUP.rows()),
+            (regression::GROUP.path, regression::GROUP.rows()),
+            (REPAIRED_FITS.path, REPAIRED_FITS.rows()),
+            (TABLE_TESTS.path, TABLE_EXCITATIONS.rows() + &TABLE_TESTS.rows()),
+        ]
+    }
+
+    /// What stands before a table: the groups whose arrays it has.
+    const MARK: (&str, &str) = ("<!-- arrays: ", " -->");
+
+    /// The page with its tables of declared groups made anew, and the groups in them.
+    fn made_anew(page: &str) -> (String, Vec<&str>) {
+        let (mut made, mut shown) = (String::new(), Vec::new());
+        let declared = declared();
+        let mut lines = page.lines().peekable();
+        while let Some(line) = lines.next() {
+            writeln!(made, "{line}").unwrap();
+            let Some(paths) = line.strip_prefix(MARK.0).and_then(|rest| rest.strip_suffix(MARK.1)) else { continue };
+            while lines.next_if(|line| line.is_empty()).is_some() {}
+            while lines.next_if(|line| line.starts_with('|')).is_some() {}
+            while lines.next_if(|line| line.is_empty()).is_some() {}
+            made.push_str("\n| array | dimensions | type | unit | content |\n|---|---|---|---|---|\n");
+            for path in paths.split(", ") {
+                let group = declared.iter().find(|(own, _)| *own == path);
+                made.push_str(&group.unwrap_or_else(|| panic!("no group {path} is declared")).1);
+                shown.push(path);
+            }
+            if lines.peek().is_some() {
+                made.push('\n');
+            }
+        }
+        (made, shown)
+    }
+
+    #[test]
+    fn the_documentation_has_every_declared_array() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/hdf5-layout.md");
+        let page = fs::read_to_string(&path).unwrap();
+        let (made, shown) = made_anew(&page);
+        for (group, _) in declared() {
+            assert!(shown.contains(&group), "docs/hdf5-layout.md has no table of {group}");
+        }
+        if env::var_os("UPDATE_DOCS").is_some() {
+            fs::write(&path, &made).unwrap();
+        } else {
+            let first = page.lines().zip(made.lines()).find(|(stands, made)| stands != made);
+            assert!(
+                page == made,
+                "docs/hdf5-layout.md is not what is declared, first in {first:?}: UPDATE_DOCS=1 cargo test -p uplift-result"
+            );
+        }
+    }
+}
