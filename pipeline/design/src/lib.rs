@@ -1,8 +1,8 @@
 //! A structure under the records and the hazard of a result: its design by the spectrum, its own risk, its overturning,
 //! and what it must be for a target risk.
 
+mod alarms;
 mod certainty;
-mod choice;
 mod collapse;
 mod demand;
 mod design;
@@ -10,8 +10,8 @@ mod error;
 mod finding;
 mod frame_risk;
 mod hazard;
-mod inputs;
 mod models;
+mod opening;
 mod overturning;
 mod report;
 mod risk;

@@ -42,7 +42,7 @@ pub struct StructureReport {
 
 impl StructureReport {
     /// Of `structure`, whose oscillator has this restitution.
-    pub fn of(structure: &Structure, restitution: Option<f64>) -> Self {
+    pub fn from_structure(structure: &Structure, restitution: Option<f64>) -> Self {
         let system = &structure.system;
         Self {
             name: structure.name(),

@@ -27,24 +27,23 @@ pub use request::{TargetEvent, TargetFrequency, TargetOptions};
 pub use search::Crossing;
 pub use uncertain::TargetUncertainty;
 
+use super::alarms::{RunCounts, alarms_of_job, own_risk};
 use super::certainty::Scatter;
-use super::choice::{measure_index, site_index};
 use super::hazard::Hazard;
-use super::inputs::inputs;
+use super::opening::{Place, check_tables, study_with_common_records};
 use super::report::StructureReport;
 use super::uncertain::Spread;
 use crate::error::DesignError;
 use candidate::Attempt;
 use search::{crossings, search, spread};
 use trial::Trials;
-use uplift_alarms::{OwnRisk, Scope, alarms_of_inputs, of_own_risks, of_structure, ranked};
+use uplift_alarms::{Scope, of_own_risks, ranked};
 use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
 use uplift_job::events::Events;
-use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_result::ResultFile;
+use uplift_uniform_risk::EventRisk;
 use uplift_uniform_risk::consistency::Question;
-use uplift_uniform_risk::{EventRisk, StudyOfResult};
 use words::{Words, assumptions, with_mistakes};
 
 /// Values tried before the search narrows, over the range.
@@ -182,37 +181,39 @@ pub fn target(
     if !mistakes.is_empty() {
         return Err(JobError::Implausible(mistakes).into());
     }
-    check_table(structure, result, options)?;
+    let manifest = options.manifest.as_deref();
+    if let Some(path) = &options.table {
+        check_tables(&[(path, table::FIRST_COLUMN)], (structure, result, manifest), options.force)?;
+    }
     let file = ResultFile::open(result)?;
-    file.refuse_records_at_level("a target is looked for with the same records at every level")?;
-    let source = StudyOfResult::read(&file, options.manifest.as_deref())?;
-    let site = site_index(&source, options.site.as_deref())?;
-    let measure = &source.measures[measure_index(&source, options.measure)?];
-    let curve = file.mean_curve(&source.sites[site], measure.measure())?;
+    let reason = "a target is looked for with the same records at every level";
+    let source = study_with_common_records(&file, manifest, reason)?;
+    let place = Place::choose(&source, options.site.as_deref(), options.measure)?;
+    let Place { site, measure, .. } = place;
+    let curve = file.mean_curve(place.name, measure.measure())?;
     let years = options.frequency.years().unwrap_or(source.study.risk.years);
     let target_per_year = options.frequency.per_year(years)?;
     let (range, own_value) = range(structure, options)?;
-    let hazard = Hazard::of(&file, (&source.sites[site], site), (measure, &source.study))?;
+    let hazard = Hazard::of(&file, (place.name, site), (measure, &source.study))?;
     let scatter = Scatter::of(&file)?;
-    let mut trials = Trials::of(structure, &source, (measure, &hazard, &scatter), (options, years), events)?;
-    trials.refuse_untellable(&source.sites[site], target_per_year)?;
+    let mut trials = Trials::from_structure(structure, &source, (place, &hazard, &scatter), (options, years), events)?;
+    trials.refuse_untellable(place.name, target_per_year)?;
 
     let meets = |attempt: &Attempt| attempt.meets(target_per_year);
     let tried = search(spread(range, VALUES), options.tolerance, |values| trials.attempt(values), meets)?;
     let words = Words { options, target_per_year };
     let scope = Scope { site: Some(site), measure: Some(measure.measure()), ..Scope::default() };
-    let mut alarms = alarms_of_inputs(&file, &scope)?;
-    alarms.extend(of_structure(structure));
+    let mut alarms = alarms_of_job(&file, &scope, structure)?;
     alarms.extend(options.doubtful());
-    let place = match words.first_of_met(&tried) {
-        Ok(place) => place,
+    let at = match words.first_of_met(&tried) {
+        Ok(at) => at,
         Err(reason) => {
             // that is the answer: nothing is left to go on with
             trials.finish();
             return Err(JobError::Usage(with_mistakes(reason, &alarms)).into());
         }
     };
-    let (value, found) = (tried[place].0, &tried[place].1);
+    let (value, found) = (tried[at].0, &tried[at].1);
     let crossings = crossings(&tried, meets);
     let mut notes = words.notes(&crossings, &tried);
     let neighbours: Vec<f64> = NoiseSweep::new(NOISE.0, NOISE.1)?.factors().iter().map(|by| by * value).collect();
@@ -227,34 +228,25 @@ pub fn target(
     notes.extend(assumptions(structure, &file, trials.restitution()));
     let at_return_periods = trials.at_return_periods(found, curve.as_ref(), &mut notes)?;
     let generic = curve.as_ref().map(|curve| beside::generic_target(curve, target_per_year, options)).transpose()?;
-    let pairs = trials.pairs().len();
-    let levels = &measure.plan.levels;
-    let own = OwnRisk {
-        subject: format!("{}, {}, {}", options.event.words(), source.sites[site], measure.measure().label()),
-        risk: found.risk,
-        measure: measure.measure(),
-        levels: (levels[0], levels[levels.len() - 1]),
-        records: trials.record_count(),
-        pairs,
-        effective_pairs: pairs as f64,
-    };
-    alarms.extend(of_own_risks(&[own]));
+    let counts = RunCounts::alike(trials.record_count(), trials.pairs().len());
+    let event = options.event.words();
+    alarms.extend(of_own_risks(&[own_risk((&event, found.risk), place.name, measure, counts)]));
     let motions = Question::of_motions(&file)?;
-    let bands = band::band((&tried, place), (target_per_year, &hazard), &source.study, &motions)?;
+    let bands = band::band((&tried, at), (target_per_year, &hazard), &source.study, &motions)?;
     let mut report = TargetReport {
         uncertainty: trials.around().map(|around| TargetUncertainty::of(around, bands.structures)),
-        structure: StructureReport::of(structure, Some(trials.restitution())),
-        site: source.sites[site].clone(),
+        structure: StructureReport::from_structure(structure, Some(trials.restitution())),
+        site: place.name.to_owned(),
         im: measure.measure().label(),
         im_unit: measure.measure().unit(),
         quantity: options.quantity.key(),
         quantity_unit: options.quantity.unit(),
         own_value,
-        event: options.event.words(),
+        event,
         target_per_year,
         years,
         value,
-        missed_at: tried[place - 1].0,
+        missed_at: tried[at - 1].0,
         least_met: tried.iter().find(|(_, attempt)| meets(attempt)).map_or(value, |(value, _)| *value),
         risk: found.risk,
         found: FoundSystem::of(&found.candidate.system),
@@ -304,13 +296,6 @@ fn range(structure: &Structure, options: &TargetOptions) -> Result<([f64; 2], Op
         return Err(JobError::Usage(format!("--from {from} is not below --to {to}: give a range that rises")).into());
     }
     Ok((range, own))
-}
-
-/// A name that would lose something, before anything is computed.
-fn check_table(structure: &Structure, result: &Path, options: &TargetOptions) -> Result<(), DesignError> {
-    let Some(path) = &options.table else { return Ok(()) };
-    let inputs = inputs(structure, result, options.manifest.as_deref());
-    Ok(outputs::check(&[Output::new(path, OutputKind::Table(table::FIRST_COLUMN)).of(result)], &inputs, options.force)?)
 }
 
 impl FoundSystem {

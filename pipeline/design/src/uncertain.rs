@@ -21,11 +21,11 @@ pub use report::{
 
 use super::certainty::Scatter;
 use super::hazard::Hazard;
+use super::opening::ShakenRecords;
 use super::risk::OVERTURNING_M;
 use crate::error::DesignError;
 use branches::Branches;
 use uplift_engine::analysis::LabelledPlan;
-use uplift_inputs::RecordSet;
 use uplift_job::JobError;
 use uplift_job::alarm::Severity;
 use uplift_job::text::thousands;
@@ -105,7 +105,11 @@ impl<'a> Uncertain<'a> {
     ///
     /// # Errors
     /// A structure that cannot be.
-    pub(super) fn of(structure: &'a Structure, restitution: f64, records: usize) -> Result<Option<Self>, DesignError> {
+    pub(super) fn from_structure(
+        structure: &'a Structure,
+        restitution: f64,
+        records: usize,
+    ) -> Result<Option<Self>, DesignError> {
         let Some(of) = &structure.uncertainty else { return Ok(None) };
         let realize = |point: &[f64]| realized((structure, &structure.system), of, restitution, point);
         let (systems, branches) = match of.kind {
@@ -129,9 +133,9 @@ impl<'a> Uncertain<'a> {
         &'b self,
         (label, study): (&str, &UniformRiskStudy),
         measure: &MeasurePlan,
-        (set, motions): (&'b RecordSet, &'b [String]),
+        records: &'b ShakenRecords,
     ) -> Result<LabelledPlan<'b>, DesignError> {
-        let plan = plan_stripes(study, measure, set, &self.systems)?;
+        let plan = plan_stripes(study, measure, &records.set, &self.systems)?;
         let plan = if self.branches.is_none() { plan.with_own_systems()? } else { plan };
         let axes = plan.axes();
         let whose = if self.branches.is_none() { "structures of each record" } else { "structures" };
@@ -143,7 +147,7 @@ impl<'a> Uncertain<'a> {
             thousands(plan.analyses())
         );
         let remark = Some(("uncertainty".to_owned(), cost));
-        Ok(LabelledPlan { label: format!("{label}, uncertain"), remark, plan, motions, known: None })
+        Ok(LabelledPlan { label: format!("{label}, uncertain"), remark, plan, motions: &records.motions, known: None })
     }
 
     /// What the stripes of a measure say, `[site, asked]`.
