@@ -6,7 +6,7 @@
 //! risk, over all intensities of a site: the structure's own oscillator is put through the records and the hazard that
 //! the spectrum was made from.
 
-mod own;
+mod analysis;
 
 use std::path::{Path, PathBuf};
 
@@ -38,7 +38,7 @@ use super::spectrum::{SpectrumDemand, read_spectrum};
 use super::uncertain::UncertaintyReport;
 use super::weights::{RepairedWeights, SiteWeights};
 use crate::error::DesignError;
-use own::{DesignAnalysis, OwnAnalysis, Question};
+use analysis::{DesignAnalysis, OwnAnalysis, Question};
 
 /// What is asked of a design.
 #[derive(Debug, Clone, PartialEq)]

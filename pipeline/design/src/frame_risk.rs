@@ -5,10 +5,9 @@
 //! planar frame, the equivalent oscillator and the spectrum make of the same records is their error under risk, with
 //! the noise that the same resamples of the records leave of it.
 
+mod analysis;
 mod demand;
-mod direction;
 mod edps;
-mod shaken;
 mod tables;
 
 use std::path::{Path, PathBuf};
@@ -23,8 +22,7 @@ use uplift_structure::Rule;
 use uplift_study::Structure;
 
 pub use demand::{Banded, ModelDemand, RiskPoint};
-pub use direction::DirectionEffect;
-pub use edps::{EventReport, StateAtDemand};
+pub use edps::{DirectionEffect, EventReport, StateAtDemand};
 
 use super::alarms::{RunCounts, alarms_of_job, own_risk};
 use super::collapse::{Collapse, collapse};
@@ -33,8 +31,8 @@ use super::opening::{Place, check_tables, choose_measure, job_name, study_with_c
 use super::report::StructureReport;
 use super::weights::RepairedWeights;
 use crate::error::DesignError;
+use analysis::{Demands, FrameAnalysis};
 use demand::{Question, Resampled};
-use shaken::{Demands, FrameAnalysis};
 use tables::{levels_path, write_tables};
 use uplift_alarms::{Scope, of_own_risks, ranked};
 use uplift_engine::analysis::{Beside, ShardReport};

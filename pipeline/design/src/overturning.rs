@@ -31,7 +31,7 @@ use super::opening::{
 use super::report::StructureReport;
 use super::risk::OVERTURNING_M;
 use super::tables::{risk_path, write_tables};
-use super::uncertain::{AskedSite, Event, Uncertain, UncertaintyReport};
+use super::uncertain::{Event, SiteQuestions, Uncertain, UncertaintyReport};
 use super::weights::RepairedWeights;
 use crate::error::DesignError;
 
@@ -391,12 +391,12 @@ fn uncertainty_report(
 ) -> Result<UncertaintyReport, DesignError> {
     let (mut results, mut analyses) = (Vec::new(), 0);
     for ((index, (measure, hazard)), analysed) in measures.iter().enumerate().zip(analysed) {
-        let asked = sites.iter().zip(*hazard).enumerate().map(|(place, (&name, hazard))| AskedSite {
+        let asked = sites.iter().zip(*hazard).enumerate().map(|(place, (&name, hazard))| SiteQuestions {
             name,
             hazard,
             asked: vec![(Event::Overturning, described(index, place))],
         });
-        let asked: Vec<AskedSite<'_>> = asked.collect();
+        let asked: Vec<SiteQuestions<'_>> = asked.collect();
         analyses += analysed.analyses;
         results.extend(uncertain.results(&Stripes::of(&measure.plan, set, analysed), &asked, scatter)?);
     }

@@ -1,6 +1,8 @@
 //! A structure under the records of a study: how often it goes too far.
 
 use uplift_fragility::Stripes as Stripe;
+use uplift_ida::System;
+use uplift_oscillator::{Oscillator, PostUplift};
 use uplift_risk::PooledDemand;
 use uplift_uniform_risk::{EventRisk, Stripes, at_most_per_year, pooled_demand};
 
@@ -17,6 +19,20 @@ pub(super) fn bounded(risk: EventRisk, weights: &SiteWeights<'_>, pairs: &[Vec<u
 
 /// A threshold that nothing but overturning exceeds.
 pub(super) const OVERTURNING_M: f64 = f64::MAX;
+
+/// The displacement capacity of a system, m; none of any but an oscillator whose force falls.
+pub(super) fn capacity_m(system: &System) -> Option<f64> {
+    let System::Oscillator(oscillator) = system else { return None };
+    oscillator_capacity_m(oscillator)
+}
+
+/// The displacement capacity of an oscillator, m; none where its force does not fall.
+pub(super) fn oscillator_capacity_m(oscillator: &Oscillator) -> Option<f64> {
+    match oscillator.post_uplift() {
+        PostUplift::Negative { capacity_m } => Some(capacity_m),
+        PostUplift::Zero | PostUplift::Positive { .. } => None,
+    }
+}
 
 /// The risk of exceeding `threshold_m`.
 ///

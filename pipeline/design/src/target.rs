@@ -5,27 +5,25 @@
 //! is followed, and the value that is told is the one from which on all that was tried meets it.
 
 mod band;
-mod beside;
 mod candidate;
 mod request;
 mod search;
 mod table;
 mod trial;
-mod uncertain;
 mod words;
 
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
+use uplift_hazard::HazardCurve;
+use uplift_risk::risk_targeted_level;
 use uplift_spectra::{NoiseSweep, Noisy};
 use uplift_structure::EquivalentSystem;
 use uplift_study::Structure;
 
-pub use band::{Drawn, TargetBand};
-pub use beside::{GenericTarget, LevelShare};
+pub use band::{Drawn, TargetBand, TargetUncertainty};
 pub use request::{TargetEvent, TargetFrequency, TargetOptions};
 pub use search::Crossing;
-pub use uncertain::TargetUncertainty;
 
 use super::alarms::{RunCounts, alarms_of_job, own_risk};
 use super::certainty::Scatter;
@@ -138,6 +136,45 @@ pub struct FoundSystem {
     pub post_uplift_stiffness_n_m: f64,
 }
 
+/// How often it happens given the level of a return period.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct LevelShare {
+    /// The return period, years.
+    pub return_period_years: f64,
+    /// Its level by the site's hazard curve, in the unit of the measure.
+    pub level: f64,
+    /// Records, each scaled to the level.
+    pub records: usize,
+    /// Runs: every record with every structure that it may shake.
+    pub runs: usize,
+    /// Those of them in which it happens.
+    pub count: usize,
+    /// Their share, 0 to 1.
+    pub probability: f64,
+}
+
+/// The level to design for by a generic lognormal fragility (Luco et al. 2007): risk-targeted, beside that of a return
+/// period.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct GenericTarget {
+    /// Dispersion of the fragility.
+    pub dispersion: f64,
+    /// Its probability at the level to design for.
+    pub probability: f64,
+    /// That level, with which the fragility has the target risk, in the unit of the measure.
+    pub level: f64,
+    /// Median of the fragility, in the unit of the measure.
+    pub median: f64,
+    /// Share of the risk from above the hazard curve.
+    pub upper_tail_share: f64,
+    /// The longest return period that was asked for, years.
+    pub return_period_years: f64,
+    /// Its level; none outside the hazard curve.
+    pub uniform_hazard_level: Option<f64>,
+    /// Risk-targeted over uniform-hazard level; none without the latter.
+    pub risk_coefficient: Option<f64>,
+}
+
 /// One value that was tried.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TriedValue {
@@ -227,14 +264,14 @@ pub fn target(
     }
     notes.extend(assumptions(structure, &file, trials.restitution()));
     let at_return_periods = trials.at_return_periods(found, curve.as_ref(), &mut notes)?;
-    let generic = curve.as_ref().map(|curve| beside::generic_target(curve, target_per_year, options)).transpose()?;
+    let generic = curve.as_ref().map(|curve| generic_target(curve, target_per_year, options)).transpose()?;
     let counts = RunCounts::alike(trials.record_count(), trials.pairs().len());
     let event = options.event.words();
     alarms.extend(of_own_risks(&[own_risk((&event, found.risk), place.name, measure, counts)]));
     let motions = Question::of_motions(&file)?;
     let bands = band::band((&tried, at), (target_per_year, &hazard), &source.study, &motions)?;
     let mut report = TargetReport {
-        uncertainty: trials.around().map(|around| TargetUncertainty::of(around, bands.structures)),
+        uncertainty: trials.around().map(|around| TargetUncertainty::from_bands(around, bands.structures)),
         structure: StructureReport::from_structure(structure, Some(trials.restitution())),
         site: place.name.to_owned(),
         im: measure.measure().label(),
@@ -272,6 +309,31 @@ pub fn target(
     }
     trials.finish();
     Ok(report)
+}
+
+/// What the generic fragility that was asked for makes of `curve`; none where none was.
+///
+/// # Errors
+/// A target that no fragility has on this curve.
+fn generic_target(
+    curve: &HazardCurve,
+    target_per_year: f64,
+    options: &TargetOptions,
+) -> Result<Option<GenericTarget>, DesignError> {
+    let Some((dispersion, probability)) = options.generic else { return Ok(None) };
+    let found = risk_targeted_level(curve, target_per_year, probability, dispersion)?;
+    let return_period_years = options.return_periods.iter().copied().fold(0.0, f64::max);
+    let uniform_hazard_level = curve.im_at_rate(1.0 / return_period_years).ok();
+    Ok(Some(GenericTarget {
+        dispersion,
+        probability,
+        level: found.level,
+        median: found.fragility.median(),
+        upper_tail_share: found.risk.upper_tail_per_year / found.risk.per_year,
+        return_period_years,
+        uniform_hazard_level,
+        risk_coefficient: uniform_hazard_level.map(|level| found.level / level),
+    }))
 }
 
 /// The range of the search, and the value that the structure has.

@@ -9,7 +9,7 @@ use uplift_job::outputs;
 use uplift_job::table::write_table;
 
 use super::FrameRiskReport;
-use super::shaken::Demands;
+use super::analysis::Demands;
 use crate::error::DesignError;
 
 /// A column that only the table of peaks has.

@@ -82,7 +82,7 @@ fn found(
     let uncertain = Uncertain::from_structure(structure, 0.95, RECORDS).unwrap().unwrap();
     let weights = weights(1.0);
     let hazard = Hazard { mean: &weights, branches };
-    let site = AskedSite { name: "Here", hazard: &hazard, asked: vec![(event, f64::NAN)] };
+    let site = SiteQuestions { name: "Here", hazard: &hazard, asked: vec![(event, f64::NAN)] };
     let mut results = uncertain.results(&stripes(&uncertain, lost_m), &[site], scatter).unwrap();
     assert_eq!(results.len(), 1);
     results.remove(0).found

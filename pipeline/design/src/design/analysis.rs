@@ -16,7 +16,7 @@ use crate::error::DesignError;
 use crate::hazard::Hazard;
 use crate::opening::{Place, ShakenRecords, job_name, restitution};
 use crate::sweep::Sweep;
-use crate::uncertain::{AskedSite, Event, Uncertain, UncertaintyReport};
+use crate::uncertain::{Event, SiteQuestions, Uncertain, UncertaintyReport};
 use crate::weights::SiteWeights;
 
 /// Where and by what a structure is designed.
@@ -64,7 +64,7 @@ impl OwnAnalysis {
         let uncertainty = match (&analysis.uncertain, of_uncertain) {
             (Some(uncertain), Some(stripes)) => {
                 let asked = asked_of_uncertain(&exact, target_per_year);
-                let asked = AskedSite { name: place.name, hazard: &hazard, asked };
+                let asked = SiteQuestions { name: place.name, hazard: &hazard, asked };
                 let results = uncertain.results(&stripes, &[asked], &scatter)?;
                 Some(uncertain.report(stripes.analyses, results))
             }
