@@ -32,7 +32,7 @@ use super::alarms::{RunCounts, own_risk};
 use super::certainty::Scatter;
 use super::demand::ExactDemand;
 use super::opening::{Place, choose_measure, job_name, records, restitution};
-use super::report::StructureReport;
+use super::report::{ReportSource, StructureReport};
 use super::rules::{RuleDemands, RuleOutcome, apply_rules, verdicts_by_curve};
 use super::spectrum::{SpectrumDemand, read_spectrum};
 use super::uncertain::UncertaintyReport;
@@ -82,15 +82,9 @@ impl Default for DesignOptions {
 pub struct DesignReport {
     /// The structure, with the restitution of its oscillator.
     pub structure: StructureReport,
-    /// The result file.
-    pub result: PathBuf,
-    /// By what the numbers of the result are known.
-    #[serde(skip)]
-    pub study_digest: String,
-    /// Where its records come from, in a line.
-    pub record_set: String,
-    /// Whether they are synthetic.
-    pub synthetic: bool,
+    /// The result that it was examined under.
+    #[serde(flatten)]
+    pub source: ReportSource,
     /// The site.
     pub site: String,
     /// `PGV` or `PGA`.
@@ -229,10 +223,7 @@ pub fn design(
         repaired: options.repaired,
         poe: risk.poe[poe],
         years: risk.years,
-        result: source.path,
-        study_digest: file.head()?.study_digest(),
-        record_set: source.record_set,
-        synthetic: source.synthetic,
+        source: ReportSource::read(&file, &source)?,
         target_per_year,
         required_safety_factor: safety_factor,
         spectrum,

@@ -112,7 +112,7 @@ impl DesignReport {
         let question = Question {
             inquiry: Inquiry::Design,
             structure,
-            study_digest: &self.study_digest,
+            study_digest: &self.source.study_digest,
             request: vec![
                 ("site", self.site.clone()),
                 ("measure", self.spectrum_words()),
@@ -184,7 +184,8 @@ impl OverturningReport {
         let sites: Vec<&str> = sites.iter().map(|site| site.site.as_str()).collect();
         let mut request = vec![("site", sites.join(" and ")), ("measure", measures.join(" and "))];
         request.extend(options.restitution.map(|restitution| ("restitution", restitution.to_string())));
-        let question = Question { inquiry: Inquiry::Overturning, structure, study_digest: &self.study_digest, request };
+        let question =
+            Question { inquiry: Inquiry::Overturning, structure, study_digest: &self.source.study_digest, request };
         let mut rows: Vec<FindingRow> = self.overturning.iter().flat_map(overturning_risks).collect();
         rows.extend(self.overturning.iter().flat_map(fragility));
         rows.extend(uncertain(self.uncertainty.as_ref()));
@@ -236,7 +237,8 @@ impl TargetReport {
         request.extend(
             options.generic.map(|(dispersion, probability)| ("generic", format!("{dispersion}, {probability}"))),
         );
-        let question = Question { inquiry: Inquiry::Target, structure, study_digest: &self.study_digest, request };
+        let question =
+            Question { inquiry: Inquiry::Target, structure, study_digest: &self.source.study_digest, request };
         question.answered(self.finding_rows(), self)
     }
 
@@ -300,7 +302,7 @@ impl FrameRiskReport {
         let question = Question {
             inquiry: Inquiry::Risk,
             structure,
-            study_digest: &self.study_digest,
+            study_digest: &self.source.study_digest,
             request: vec![
                 ("site", self.site.clone()),
                 ("measure", self.im.to_owned()),

@@ -28,7 +28,7 @@ use super::alarms::{RunCounts, alarms_of_job, own_risk};
 use super::collapse::{Collapse, collapse};
 use super::design::{DesignOptions, design};
 use super::opening::{Place, check_tables, choose_measure, job_name, study_with_common_records};
-use super::report::StructureReport;
+use super::report::{ReportSource, StructureReport};
 use super::weights::RepairedWeights;
 use crate::error::DesignError;
 use analysis::{Demands, FrameAnalysis};
@@ -71,15 +71,9 @@ pub struct FrameRiskOptions {
 pub struct FrameRiskReport {
     /// The structure, and the oscillator that it is equivalent to.
     pub structure: StructureReport,
-    /// The result file.
-    pub result: PathBuf,
-    /// By what the numbers of the result are known.
-    #[serde(skip)]
-    pub study_digest: String,
-    /// Where its records come from, in a line.
-    pub record_set: String,
-    /// Whether they are synthetic.
-    pub synthetic: bool,
+    /// The result that it was examined under.
+    #[serde(flatten)]
+    pub source: ReportSource,
     /// The site.
     pub site: String,
     /// `PGV` or `PGA`.
@@ -237,10 +231,7 @@ pub fn frame_risk(
         overturning: FrameOverturning::of(&overturning),
         alarms: ranked(alarms),
         files: Vec::new(),
-        result: source.path.clone(),
-        study_digest: file.head()?.study_digest(),
-        record_set: source.record_set.clone(),
-        synthetic: source.synthetic,
+        source: ReportSource::read(&file, &source)?,
     };
     if let Some(path) = &options.table {
         write_tables(path, &report, (&analysis.records.set, levels, &demands))?;

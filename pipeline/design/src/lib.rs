@@ -35,7 +35,7 @@ pub use frame_risk::{
 pub use overturning::{
     CollapseReport, ModelReport, OverturningOptions, OverturningReport, SiteRisk, overturning, overturning_shard,
 };
-pub use report::StructureReport;
+pub use report::{ReportSource, StructureReport};
 pub use rules::{RuleCheck, RuleOutcome};
 pub use spectrum::SpectrumDemand;
 pub use target::{

@@ -28,7 +28,7 @@ use super::models::models;
 use super::opening::{
     ShakenRecords, check_tables, choose_measure, job_name, required_records, site_index, study_with_common_records,
 };
-use super::report::StructureReport;
+use super::report::{ReportSource, StructureReport};
 use super::risk::OVERTURNING_M;
 use super::tables::{risk_path, write_tables};
 use super::uncertain::{Event, SiteQuestions, Uncertain, UncertaintyReport};
@@ -60,15 +60,9 @@ pub struct OverturningOptions {
 pub struct OverturningReport {
     /// The structure; each model has its own restitution.
     pub structure: StructureReport,
-    /// The result file.
-    pub result: PathBuf,
-    /// By what the numbers of the result are known.
-    #[serde(skip)]
-    pub study_digest: String,
-    /// Where its records come from, in a line.
-    pub record_set: String,
-    /// Whether they are synthetic.
-    pub synthetic: bool,
+    /// The result that it was examined under.
+    #[serde(flatten)]
+    pub source: ReportSource,
     /// Years that probabilities refer to.
     pub years: f64,
     /// How the structure is modelled.
@@ -258,10 +252,7 @@ pub fn overturning(
         notes,
         alarms: ranked(alarms),
         files: Vec::new(),
-        result: source.path.clone(),
-        study_digest: file.head()?.study_digest(),
-        record_set: source.record_set.clone(),
-        synthetic: source.synthetic,
+        source: ReportSource::read(&file, &source)?,
     };
     if let Some(path) = &options.table {
         write_tables(path, &report)?;

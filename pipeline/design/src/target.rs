@@ -29,7 +29,7 @@ use super::alarms::{RunCounts, alarms_of_job, own_risk};
 use super::certainty::Scatter;
 use super::hazard::Hazard;
 use super::opening::{Place, check_tables, study_with_common_records};
-use super::report::StructureReport;
+use super::report::{ReportSource, StructureReport};
 use super::uncertain::Spread;
 use crate::error::DesignError;
 use candidate::Attempt;
@@ -56,15 +56,9 @@ const NOISE: (f64, usize) = (0.01, 11);
 pub struct TargetReport {
     /// The structure as its file has it, with the restitution of its oscillator.
     pub structure: StructureReport,
-    /// The result file.
-    pub result: PathBuf,
-    /// By what the numbers of the result are known.
-    #[serde(skip)]
-    pub study_digest: String,
-    /// Where its records come from, in a line.
-    pub record_set: String,
-    /// Whether they are synthetic.
-    pub synthetic: bool,
+    /// The result that it was examined under.
+    #[serde(flatten)]
+    pub source: ReportSource,
     /// The site.
     pub site: String,
     /// `PGV` or `PGA`.
@@ -298,10 +292,7 @@ pub fn target(
         notes,
         alarms: ranked(alarms),
         files: Vec::new(),
-        result: source.path.clone(),
-        study_digest: file.head()?.study_digest(),
-        record_set: source.record_set.clone(),
-        synthetic: source.synthetic,
+        source: ReportSource::read(&file, &source)?,
     };
     if let Some(path) = &options.table {
         table::write(path, &report)?;
