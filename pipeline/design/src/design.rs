@@ -207,7 +207,7 @@ pub fn design(
     alarms.extend(of_structure(structure));
     alarms.extend(of_safety_factor(safety_factor));
     if let Some(exact) = &exact {
-        let pairs = Scatter::of(&file)?.pairs;
+        let pairs = Scatter::from_file(&file)?.pairs;
         alarms.extend(of_own_risks(&own_risks(exact, place, (&pairs, &weights))));
         let satisfied = rules.iter().any(|rule| rule.check().is_some_and(|check| check.satisfied));
         alarms.extend(of_own_demand(exact.demand_m, told.capacity_m, safety_factor, satisfied));

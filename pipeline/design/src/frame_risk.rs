@@ -223,12 +223,12 @@ pub fn frame_risk(
         planar_restitution_from: analysis.restitution.1,
         replicates: plan.replicates(),
         confidence: settings.confidence,
-        at_demand: StateAtDemand::of(&analysis.frame, demand_m),
+        at_demand: StateAtDemand::at_displacement(&analysis.frame, demand_m),
         events: edps::events(&analysis.frame, levels, (weights, &runs_m), (repaired, own_m), &pairs, years)?,
-        direction: demands.wobbling_m.is_some().then(|| DirectionEffect::of(&demands.directions_m)),
+        direction: demands.wobbling_m.is_some().then(|| DirectionEffect::from_peaks(&demands.directions_m)),
         notes: notes(&analysis, (structure, &demands), &source, &overturning),
         demands: rows,
-        overturning: FrameOverturning::of(&overturning),
+        overturning: FrameOverturning::from_collapse(&overturning),
         alarms: ranked(alarms),
         files: Vec::new(),
         source: ReportSource::read(&file, &source)?,
@@ -376,7 +376,7 @@ fn notes(
 }
 
 impl FrameOverturning {
-    fn of(found: &Collapse) -> Self {
+    fn from_collapse(found: &Collapse) -> Self {
         let fit = found.fit.as_ref().ok();
         Self {
             levels: found.counts.iter().map(|count| count.level).collect(),

@@ -192,12 +192,12 @@ pub fn overturning(
     let (analysed, checkpoint) = beside.results(analysis.work(&name)?, &options.shards, events)?;
     let OverturningAnalysis { study, records, measures, models, uncertain } = &analysis;
     let repaired = RepairedWeights::from_file(&file)?;
-    let scatter = Scatter::of(&file)?;
+    let scatter = Scatter::from_file(&file)?;
     let mut analysed = analysed.into_iter();
     let mut found: Vec<(&SpectraOfResult, Vec<Collapses>)> = Vec::new();
     let mut hazards: Vec<Vec<Hazard<'_>>> = Vec::new();
     for &measure in measures {
-        let hazard = Hazard::of_sites(&file, (&source, &sites), measure)?;
+        let hazard = Hazard::from_sites(&file, (&source, &sites), measure)?;
         let weights: Vec<(&StripeWeights, Option<&RunWeights>)> =
             sites.iter().map(|&site| (&measure.weights[site], repaired.at(measure, site))).collect();
         let of_models = models.iter().zip(analysed.by_ref()).map(|((model, _), analysed)| {
@@ -239,14 +239,14 @@ pub fn overturning(
     let records = u32::try_from(records.count()).unwrap_or(u32::MAX);
     let of_measure = |(measure, found): &(&SpectraOfResult, Vec<Collapses>)| -> Vec<CollapseReport> {
         let report = |(found, (model, _)): (&Collapses, &(System, _))| {
-            CollapseReport::of(found, measure.measure(), model.kind(), records, &names)
+            CollapseReport::from_collapse(found, measure.measure(), model.kind(), records, &names)
         };
         found.iter().zip(models).map(report).collect()
     };
     let mut report = OverturningReport {
         structure: StructureReport::from_structure(structure, None),
         years: study.risk.years,
-        models: models.iter().map(|(model, origin)| ModelReport::of(model, origin)).collect(),
+        models: models.iter().map(|(model, origin)| ModelReport::from_model(model, origin)).collect(),
         overturning: found.iter().flat_map(of_measure).collect(),
         uncertainty,
         notes,
@@ -445,7 +445,7 @@ fn own_risks(
 }
 
 impl ModelReport {
-    fn of(model: &System, restitution_from: &'static str) -> Self {
+    fn from_model(model: &System, restitution_from: &'static str) -> Self {
         let block = match model {
             System::Oscillator(_) | System::Frame(_) => None,
             System::Block(block) => Some(block),
@@ -461,7 +461,7 @@ impl ModelReport {
 }
 
 impl CollapseReport {
-    fn of(
+    fn from_collapse(
         Collapses { own, rounded, bands }: &Collapses,
         measure: IntensityMeasure,
         model: &'static str,

@@ -186,8 +186,8 @@ pub struct TriedValue {
 }
 
 impl TriedValue {
-    fn of(value: f64, attempt: &Attempt, target_per_year: f64) -> Self {
-        let branches = || Spread::of(attempt.structures.iter().map(|of| of.risk.per_year).collect());
+    fn from_attempt(value: f64, attempt: &Attempt, target_per_year: f64) -> Self {
+        let branches = || Spread::from_values(attempt.structures.iter().map(|of| of.risk.per_year).collect());
         let structure_percentiles_per_year = (attempt.structures.len() > 1).then(|| branches().percentiles);
         Self { value, risk: attempt.risk, structure_percentiles_per_year, is_met: attempt.meets(target_per_year) }
     }
@@ -225,8 +225,8 @@ pub fn target(
     let years = options.frequency.years().unwrap_or(source.study.risk.years);
     let target_per_year = options.frequency.per_year(years)?;
     let (range, own_value) = range(structure, options)?;
-    let hazard = Hazard::of(&file, (place.name, site), (measure, &source.study))?;
-    let scatter = Scatter::of(&file)?;
+    let hazard = Hazard::from_file(&file, (place.name, site), (measure, &source.study))?;
+    let scatter = Scatter::from_file(&file)?;
     let mut trials = Trials::from_structure(structure, &source, (place, &hazard, &scatter), (options, years), events)?;
     trials.refuse_untellable(place.name, target_per_year)?;
 
@@ -280,14 +280,17 @@ pub fn target(
         missed_at: tried[at - 1].0,
         least_met: tried.iter().find(|(_, attempt)| meets(attempt)).map_or(value, |(value, _)| *value),
         risk: found.risk,
-        found: FoundSystem::of(&found.candidate.system),
+        found: FoundSystem::from_system(&found.candidate.system),
         per_year_within_one_percent: noise,
         band: bands.records,
         band_with_hazard: bands.with_hazard,
         crossings,
         at_return_periods,
         generic: generic.flatten(),
-        tried: tried.iter().map(|(value, attempt)| TriedValue::of(*value, attempt, target_per_year)).collect(),
+        tried: tried
+            .iter()
+            .map(|(value, attempt)| TriedValue::from_attempt(*value, attempt, target_per_year))
+            .collect(),
         analyses: trials.analyses(),
         notes,
         alarms: ranked(alarms),
@@ -352,7 +355,7 @@ fn range(structure: &Structure, options: &TargetOptions) -> Result<([f64; 2], Op
 }
 
 impl FoundSystem {
-    fn of(system: &EquivalentSystem) -> Self {
+    fn from_system(system: &EquivalentSystem) -> Self {
         Self {
             strength: system.strength(),
             spectral_strength: system.spectral_strength(),

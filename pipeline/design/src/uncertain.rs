@@ -113,7 +113,7 @@ impl<'a> Uncertain<'a> {
         let realize = |point: &[f64]| realized((structure, &structure.system), of, restitution, point);
         let (systems, branches) = match of.kind {
             UncertaintyKind::Epistemic => {
-                let (systems, branches) = Branches::of(of, &realize)?;
+                let (systems, branches) = Branches::draw(of, &realize)?;
                 (systems, Some(branches))
             }
             UncertaintyKind::Aleatory => {

@@ -57,9 +57,9 @@ impl OwnAnalysis {
         let set = &analysis.records.set;
         let mut stripes = analysed.into_iter().map(|analysed| Stripes::of(&measure.plan, set, analysed));
         let (own, of_uncertain) = (stripes.next().ok_or(JobError::Interrupted)?, stripes.next());
-        let scatter = Scatter::of(file)?;
+        let scatter = Scatter::from_file(file)?;
         let rate = (target_per_year, source.study.risk.years);
-        let hazard = Hazard::of(file, (place.name, place.site), (measure, &source.study))?;
+        let hazard = Hazard::from_file(file, (place.name, place.site), (measure, &source.study))?;
         let exact = exact_demand((&own, weights, &hazard), (&structure.system, &analysis.sweep), rate, &scatter)?;
         let uncertainty = match (&analysis.uncertain, of_uncertain) {
             (Some(uncertain), Some(stripes)) => {

@@ -50,7 +50,7 @@ pub struct StateAtDemand {
 
 impl StateAtDemand {
     /// At a displacement of the deck, m; none where the frame overturns, or beyond the law of its restrainers.
-    pub(super) fn of(frame: &RockingFrame, displacement_m: f64) -> Option<Self> {
+    pub(super) fn at_displacement(frame: &RockingFrame, displacement_m: f64) -> Option<Self> {
         let columns = frame.columns();
         let state = columns.at_displacement(displacement_m).ok()?;
         let parts = columns.restrainer().map(uplift_statics::Restrainer::parts);
@@ -116,7 +116,7 @@ pub struct DirectionEffect {
 
 impl DirectionEffect {
     /// From the wobbling peak and the larger planar one of every pair and level, m.
-    pub(super) fn of(directions_m: &[[f64; 2]]) -> Self {
+    pub(super) fn from_peaks(directions_m: &[[f64; 2]]) -> Self {
         let mut ratios: Vec<f64> = directions_m
             .iter()
             .filter(|[wobbling, planar]| wobbling.max(*planar) > 0.0 && wobbling.min(*planar).is_finite())
@@ -143,7 +143,8 @@ mod tests {
     #[test]
     fn what_overturns_is_counted_and_never_dropped() {
         let inf = f64::INFINITY;
-        let found = DirectionEffect::of(&[[0.0, 0.0], [0.2, 0.1], [inf, 0.3], [inf, inf], [0.4, inf], [0.1, 0.1]]);
+        let found =
+            DirectionEffect::from_peaks(&[[0.0, 0.0], [0.2, 0.1], [inf, 0.3], [inf, inf], [0.4, inf], [0.1, 0.1]]);
         assert_eq!((found.runs, found.both_overturn, found.wobbling_overturns, found.planar_overturns), (4, 1, 1, 1));
         // of 0, 1, 2 and infinite
         assert_eq!(found.ratio[1], 1.5);

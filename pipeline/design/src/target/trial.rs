@@ -338,5 +338,5 @@ impl<'a> Trials<'a> {
 
 /// The mean of numbers that are not alike; that of those that are, to the bit.
 fn mean(values: Vec<f64>) -> f64 {
-    Spread::of(values).mean
+    Spread::from_values(values).mean
 }

@@ -59,7 +59,7 @@ impl Branches {
     ///
     /// # Errors
     /// A structure that cannot be.
-    pub(super) fn of(
+    pub(super) fn draw(
         of: &Uncertainty,
         realize: &dyn Fn(&[f64]) -> Result<System, DesignError>,
     ) -> Result<(Vec<System>, Self), DesignError> {
@@ -134,8 +134,8 @@ impl Branches {
             let indices = sobol_indices(&a, &b, &mixed, (REPLICATES, uncertain.of.seed))?;
             let no_shares = indices.is_none().then(|| no_shares(*event, (&a, &b), &mixed));
             Ok(UncertainFinding::Epistemic(EpistemicResult {
-                by_structure: Spread::of([column(0), column(1)].concat()),
-                by_all: Spread::of([a, b].concat()),
+                by_structure: Spread::from_values([column(0), column(1)].concat()),
+                by_all: Spread::from_values([a, b].concat()),
                 shares: ranked(&factors, indices.as_deref().unwrap_or_default()),
                 no_shares,
             }))
