@@ -28,11 +28,11 @@ use uplift_result::ResultFile;
 use uplift_study::Structure;
 use uplift_uniform_risk::{AskedRisk, EventRisk, SpectraOfResult, StudyOfResult, at};
 
-use super::alarms::{RunCounts, own_risk};
 use super::certainty::Scatter;
 use super::demand::ExactDemand;
 use super::opening::{Place, choose_measure, job_name, records, restitution};
 use super::report::{ReportSource, StructureReport};
+use super::risk::own_risk;
 use super::rules::{RuleDemands, RuleOutcome, apply_rules, verdicts_by_curve};
 use super::spectrum::{SpectrumDemand, read_spectrum};
 use super::uncertain::UncertaintyReport;
@@ -403,12 +403,12 @@ fn own_risks(
     place: Place<'_>,
     (pairs, weights): (&[Vec<usize>], &SiteWeights<'_>),
 ) -> Vec<OwnRisk> {
-    let counts = RunCounts {
-        records: pairs.iter().map(Vec::len).sum(),
-        pairs: pairs.len(),
-        effective_pairs: weights.effective_pairs(pairs),
+    let effective_pairs = weights.effective_pairs(pairs);
+    let counts = (pairs.iter().map(Vec::len).sum(), pairs.len());
+    let own = |event: &str, risk: EventRisk| OwnRisk {
+        effective_pairs,
+        ..own_risk((event, risk), (place.name, place.measure), counts)
     };
-    let own = |event: &str, risk: EventRisk| own_risk((event, risk), place.name, place.measure, counts);
     let ExactDemand { lower_tail_share, upper_tail_share, .. } = *exact;
     let demand = EventRisk { lower_tail_share, upper_tail_share, at_most_per_year: None, ..exact.overturning };
     let mut risks = vec![own("demand on the structure", demand), own("overturning", exact.overturning)];

@@ -24,17 +24,17 @@ use uplift_study::Structure;
 pub use demand::{Banded, ModelDemand, RiskPoint};
 pub use edps::{DirectionEffect, EventReport, StateAtDemand};
 
-use super::alarms::{RunCounts, alarms_of_job, own_risk};
 use super::collapse::{Collapse, collapse};
 use super::design::{DesignOptions, design};
 use super::opening::{Place, check_tables, choose_measure, job_name, study_with_common_records};
 use super::report::{ReportSource, StructureReport};
+use super::risk::own_risk;
 use super::weights::RepairedWeights;
 use crate::error::DesignError;
 use analysis::{Demands, FrameAnalysis};
 use demand::{Question, Resampled};
 use tables::{levels_path, write_tables};
-use uplift_alarms::{Scope, of_own_risks, ranked};
+use uplift_alarms::{Scope, alarms_of_inputs, of_own_risks, of_structure, ranked};
 use uplift_engine::analysis::{Beside, ShardReport};
 use uplift_inputs::TORSION;
 use uplift_job::alarm::Alarm;
@@ -203,11 +203,12 @@ pub fn frame_risk(
         overturning.repaired = collapse(levels, (own_m, &pairs), &[(weights, repaired)], years, true)?.repaired;
     }
     let scope = Scope { measure: Some(measure.measure()), ..Scope::default() };
-    let mut alarms = alarms_of_job(&file, &scope, structure)?;
-    let counts = RunCounts::alike(runs_m.len() / levels.len(), pairs.len());
+    let mut alarms = alarms_of_inputs(&file, &scope)?;
+    alarms.extend(of_structure(structure));
+    let counts = (runs_m.len() / levels.len(), pairs.len());
     // what may come from outside the stripes
     let own = overturning.risks.iter().map(|&risk| ("overturning of the frame", risk));
-    let own: Vec<_> = own.map(|event| own_risk(event, place.name, measure, counts)).collect();
+    let own: Vec<_> = own.map(|event| own_risk(event, (place.name, measure), counts)).collect();
     alarms.extend(of_own_risks(&own));
     let mut report = FrameRiskReport {
         structure: StructureReport::from_structure(structure, None),

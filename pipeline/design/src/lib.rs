@@ -1,7 +1,6 @@
 //! A structure under the records and the hazard of a result: its design by the spectrum, its own risk, its overturning,
 //! and what it must be for a target risk.
 
-mod alarms;
 mod certainty;
 mod collapse;
 mod demand;

@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use uplift_alarms::{OwnRisk, Scope, of_own_risks, ranked};
+use uplift_alarms::{OwnRisk, Scope, alarms_of_inputs, of_own_risks, of_structure, ranked};
 use uplift_engine::analysis::{Analysed, Beside, LabelledPlan, ShardReport, Work};
 use uplift_fragility::{LognormalFit, Stripes as Stripe};
 use uplift_ida::{Shard, System};
@@ -20,7 +20,6 @@ use uplift_structure::UncertainQuantity;
 use uplift_study::{Structure, Uncertainty, UniformRiskStudy};
 use uplift_uniform_risk::{EventRisk, SpectraOfResult, Stripes, StudyOfResult, plan_stripes};
 
-use super::alarms::{RunCounts, alarms_of_job, own_risk};
 use super::certainty::{Bands, Scatter, rate_bands};
 use super::collapse::{Collapse, collapse};
 use super::hazard::Hazard;
@@ -29,7 +28,7 @@ use super::opening::{
     ShakenRecords, check_tables, choose_measure, job_name, required_records, site_index, study_with_common_records,
 };
 use super::report::{ReportSource, StructureReport};
-use super::risk::OVERTURNING_M;
+use super::risk::{OVERTURNING_M, own_risk};
 use super::tables::{risk_path, write_tables};
 use super::uncertain::{Event, SiteQuestions, Uncertain, UncertaintyReport};
 use super::weights::RepairedWeights;
@@ -233,8 +232,9 @@ pub fn overturning(
         }
         None => None,
     };
-    let mut alarms = alarms_of_job(&file, &Scope { measure: options.measure, ..Scope::default() }, structure)?;
-    let counts = RunCounts::alike(records.count(), scatter.pairs.len());
+    let mut alarms = alarms_of_inputs(&file, &Scope { measure: options.measure, ..Scope::default() })?;
+    alarms.extend(of_structure(structure));
+    let counts = (records.count(), scatter.pairs.len());
     alarms.extend(of_own_risks(&own_risks(models, &found, &names, counts)));
     let records = u32::try_from(records.count()).unwrap_or(u32::MAX);
     let of_measure = |(measure, found): &(&SpectraOfResult, Vec<Collapses>)| -> Vec<CollapseReport> {
@@ -431,13 +431,13 @@ fn own_risks(
     models: &[(System, &'static str)],
     found: &[(&SpectraOfResult, Vec<Collapses>)],
     sites: &[&str],
-    counts: RunCounts,
+    counts: (usize, usize),
 ) -> Vec<OwnRisk> {
     let mut risks = Vec::new();
     for (measure, found) in found {
         for (found, (model, _)) in found.iter().zip(models) {
             let event = format!("overturning of the {}", model.kind());
-            let of_site = |(site, &risk): (&&str, &EventRisk)| own_risk((&event, risk), site, measure, counts);
+            let of_site = |(site, &risk): (&&str, &EventRisk)| own_risk((&event, risk), (site, measure), counts);
             risks.extend(sites.iter().zip(&found.own.risks).map(of_site));
         }
     }

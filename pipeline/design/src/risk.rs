@@ -1,10 +1,11 @@
 //! A structure under the records of a study: how often it goes too far.
 
+use uplift_alarms::OwnRisk;
 use uplift_fragility::Stripes as Stripe;
 use uplift_ida::System;
 use uplift_oscillator::{Oscillator, PostUplift};
 use uplift_risk::PooledDemand;
-use uplift_uniform_risk::{EventRisk, Stripes, at_most_per_year, pooled_demand};
+use uplift_uniform_risk::{EventRisk, SpectraOfResult, Stripes, at_most_per_year, pooled_demand};
 
 use super::weights::SiteWeights;
 use crate::error::DesignError;
@@ -15,6 +16,24 @@ pub(super) fn bounded(risk: EventRisk, weights: &SiteWeights<'_>, pairs: &[Vec<u
     let bound = || at_most_per_year(weights.stripes(), weights.effective_pairs(pairs));
     let at_most_per_year = (risk.per_year == 0.0).then(bound);
     EventRisk { at_most_per_year, ..risk }
+}
+
+/// The risk of an `event` at a `site`, in the form in which alarms look at it; its `pairs` count alike.
+pub(super) fn own_risk(
+    (event, risk): (&str, EventRisk),
+    (site, measure): (&str, &SpectraOfResult),
+    (records, pairs): (usize, usize),
+) -> OwnRisk {
+    let levels = &measure.plan.levels;
+    OwnRisk {
+        subject: format!("{event}, {site}, {}", measure.measure().label()),
+        risk,
+        measure: measure.measure(),
+        levels: (levels[0], levels[levels.len() - 1]),
+        records,
+        pairs,
+        effective_pairs: pairs as f64,
+    }
 }
 
 /// A threshold that nothing but overturning exceeds.

@@ -25,17 +25,17 @@ pub use band::{Drawn, TargetBand, TargetUncertainty};
 pub use request::{TargetEvent, TargetFrequency, TargetOptions};
 pub use search::Crossing;
 
-use super::alarms::{RunCounts, alarms_of_job, own_risk};
 use super::certainty::Scatter;
 use super::hazard::Hazard;
 use super::opening::{Place, check_tables, study_with_common_records};
 use super::report::{ReportSource, StructureReport};
+use super::risk::own_risk;
 use super::uncertain::Spread;
 use crate::error::DesignError;
 use candidate::Attempt;
 use search::{crossings, search, spread};
 use trial::Trials;
-use uplift_alarms::{Scope, of_own_risks, ranked};
+use uplift_alarms::{Scope, alarms_of_inputs, of_own_risks, of_structure, ranked};
 use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
 use uplift_job::events::Events;
@@ -234,7 +234,8 @@ pub fn target(
     let tried = search(spread(range, VALUES), options.tolerance, |values| trials.attempt(values), meets)?;
     let words = Words { options, target_per_year };
     let scope = Scope { site: Some(site), measure: Some(measure.measure()), ..Scope::default() };
-    let mut alarms = alarms_of_job(&file, &scope, structure)?;
+    let mut alarms = alarms_of_inputs(&file, &scope)?;
+    alarms.extend(of_structure(structure));
     alarms.extend(options.doubtful());
     let at = match words.first_of_met(&tried) {
         Ok(at) => at,
@@ -259,9 +260,9 @@ pub fn target(
     notes.extend(assumptions(structure, &file, trials.restitution()));
     let at_return_periods = trials.at_return_periods(found, curve.as_ref(), &mut notes)?;
     let generic = curve.as_ref().map(|curve| generic_target(curve, target_per_year, options)).transpose()?;
-    let counts = RunCounts::alike(trials.record_count(), trials.pairs().len());
+    let counts = (trials.record_count(), trials.pairs().len());
     let event = options.event.words();
-    alarms.extend(of_own_risks(&[own_risk((&event, found.risk), place.name, measure, counts)]));
+    alarms.extend(of_own_risks(&[own_risk((&event, found.risk), (place.name, measure), counts)]));
     let motions = Question::of_motions(&file)?;
     let bands = band::band((&tried, at), (target_per_year, &hazard), &source.study, &motions)?;
     let mut report = TargetReport {
