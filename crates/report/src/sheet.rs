@@ -47,7 +47,7 @@ pub fn write_design_sheet(structure: &Structure, report: &DesignReport, file: &P
         .chain(&rounding)
         .map(|note| context! { severity => "note", what => note });
     let alarms: Vec<Value> = report.alarms.iter().map(Value::from_serialize).chain(noted).collect();
-    let mark = ResultFile::open(&report.result)?.mark()?;
+    let mark = ResultFile::open(&report.source.result)?.mark()?;
     let page = render(
         SHEET,
         context! {
@@ -59,8 +59,8 @@ pub fn write_design_sheet(structure: &Structure, report: &DesignReport, file: &P
             facts => facts(structure, &report.structure),
             bands => bands(&report.finding(structure)?.rows),
             tables => tables(report),
-            result => report.result.file_name().map(|name| name.to_string_lossy().into_owned()),
-            record_set => report.record_set,
+            result => report.source.result.file_name().map(|name| name.to_string_lossy().into_owned()),
+            record_set => report.source.record_set,
             style => STYLE,
             script => include_str!("page/report.js"),
             mark,

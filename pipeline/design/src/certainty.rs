@@ -27,7 +27,7 @@ impl Scatter {
     ///
     /// # Errors
     /// A file that is damaged.
-    pub(super) fn of(file: &ResultFile) -> Result<Self, DesignError> {
+    pub(super) fn from_file(file: &ResultFile) -> Result<Self, DesignError> {
         let motions = Question::from_motions(file)?;
         let event_of = motions.event_of();
         // two components of a pair are not independent

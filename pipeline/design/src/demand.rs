@@ -2,7 +2,6 @@
 //! from.
 
 use serde::Serialize;
-use uplift_oscillator::PostUplift;
 use uplift_result::RULES;
 use uplift_risk::Ordinate;
 use uplift_spectra::Noisy;
@@ -11,7 +10,7 @@ use uplift_uniform_risk::{EventRisk, Stripes};
 
 use super::certainty::{DemandBands, Scatter, demand_bands};
 use super::hazard::Hazard;
-use super::risk::{OVERTURNING_M, bounded, demand_of, risk_of_exceeding};
+use super::risk::{OVERTURNING_M, bounded, demand_of, oscillator_capacity_m, risk_of_exceeding};
 use super::sweep::{OF_STUDY, OWN, Sweep, ZERO_STIFFNESS};
 use super::weights::SiteWeights;
 use crate::error::DesignError;
@@ -135,10 +134,7 @@ pub(super) fn exact_demand(
     let own = demand_of(stripes, OWN)?;
     // all of it is scaled by the same factor: the oscillator exceeds capacity/factor where the structure exceeds its
     // capacity
-    let capacity_m = match sweep.oscillators[OWN].post_uplift() {
-        PostUplift::Negative { capacity_m } => Some(capacity_m),
-        PostUplift::Zero | PostUplift::Positive { .. } => None,
-    };
+    let capacity_m = oscillator_capacity_m(&sweep.oscillators[OWN]);
     let may_happen = |risk: EventRisk| bounded(risk, weights, &scatter.pairs);
     let beyond_capacity =
         capacity_m.map(|capacity_m| risk_of_exceeding(&own, weights, capacity_m, years).map(may_happen)).transpose()?;

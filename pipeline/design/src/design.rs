@@ -6,7 +6,7 @@
 //! risk, over all intensities of a site: the structure's own oscillator is put through the records and the hazard that
 //! the spectrum was made from.
 
-mod own;
+mod analysis;
 
 use std::path::{Path, PathBuf};
 
@@ -26,19 +26,19 @@ use uplift_plausible::SAFETY_FACTOR;
 use uplift_questions::bootstrap::resampled;
 use uplift_result::ResultFile;
 use uplift_study::Structure;
-use uplift_uniform_risk::consistency::Reweighing;
 use uplift_uniform_risk::{AskedRisk, EventRisk, SpectraOfResult, StudyOfResult, at};
 
 use super::certainty::Scatter;
-use super::choice::{measure_index, records, site_index};
 use super::demand::ExactDemand;
-use super::report::StructureReport;
+use super::opening::{Place, choose_measure, job_name, records, restitution};
+use super::report::{ReportSource, StructureReport};
+use super::risk::own_risk;
 use super::rules::{RuleDemands, RuleOutcome, apply_rules, verdicts_by_curve};
 use super::spectrum::{SpectrumDemand, read_spectrum};
 use super::uncertain::UncertaintyReport;
-use super::weights::SiteWeights;
+use super::weights::{RepairedWeights, SiteWeights};
 use crate::error::DesignError;
-use own::{Own, Question, Shaken};
+use analysis::{DesignAnalysis, OwnAnalysis, Question};
 
 /// What is asked of a design.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,15 +82,9 @@ impl Default for DesignOptions {
 pub struct DesignReport {
     /// The structure, with the restitution of its oscillator.
     pub structure: StructureReport,
-    /// The result file.
-    pub result: PathBuf,
-    /// By what the numbers of the result are known.
-    #[serde(skip)]
-    pub study_digest: String,
-    /// Where its records come from, in a line.
-    pub record_set: String,
-    /// Whether they are synthetic.
-    pub synthetic: bool,
+    /// The result that it was examined under.
+    #[serde(flatten)]
+    pub source: ReportSource,
     /// The site.
     pub site: String,
     /// `PGV` or `PGA`.
@@ -147,19 +141,19 @@ pub fn design(
     let file = resampled(at(ResultFile::open(result)?, &options.risk)?, events)?;
     let source = StudyOfResult::read(&file, options.manifest.as_deref())?;
     require_zero_stiffness(&source)?;
-    let site = site_index(&source, options.site.as_deref())?;
-    let measure = &source.measures[measure_index(&source, options.measure)?];
+    let place = Place::choose(&source, options.site.as_deref(), options.measure)?;
+    let Place { site, measure, .. } = place;
     let poe = source.only_risk(&options.risk)?;
     let target_per_year = source.target_per_year(poe)?;
     let repaired_m = repaired_spectrum(&file, measure, [site, poe])?;
-    let reweighing = if options.repaired { Reweighing::from_motions(&file)? } else { None };
-    let repair = reweighing.as_ref().and_then(|reweighing| reweighing.weights(measure.measure(), site));
-    let weights = match (options.repaired, repair) {
-        (false, _) => SiteWeights::Alike(&measure.weights[site]),
-        (true, Some(weights)) => SiteWeights::Repaired(weights),
-        (true, None) => return Err(not_repaired(&source, measure, site)),
+    let repaired_weights = options.repaired.then(|| RepairedWeights::from_file(&file)).transpose()?;
+    let weights = match &repaired_weights {
+        None => SiteWeights::Alike(&measure.weights[site]),
+        Some(repaired) => {
+            SiteWeights::Repaired(repaired.at(measure, site).ok_or_else(|| not_repaired(&source, place))?)
+        }
     };
-    let restitution = structure.description.restitution.unwrap_or(source.study.oscillator.restitution);
+    let restitution = restitution(structure, &source.study);
     let mut notes = differences(structure, &source, restitution);
 
     let plain = spectrum_demand(structure, &source, source.spectrum(measure, site, poe));
@@ -174,9 +168,10 @@ pub fn design(
     let mut own = None;
     if !options.spectrum_only {
         match records(&source, options.manifest.as_deref())? {
-            Ok(set) => {
-                let question = Question { site, measure, weights: &weights, target_per_year };
-                own = Some(Own::of(structure, (&file, &source), (&question, restitution), (options, set), events)?);
+            Ok(records) => {
+                let question = Question { place, weights: &weights, target_per_year };
+                let analysed = (options, records);
+                own = Some(OwnAnalysis::from_structure(structure, (&file, &source), &question, analysed, events)?);
             }
             Err(reason) => notes.push(format!(
                 "the structure itself is not analysed, and what follows is what the spectrum alone says: {reason}"
@@ -184,7 +179,7 @@ pub fn design(
         }
     }
     let (exact, uncertainty, checkpoint) = match own {
-        Some(Own { exact, uncertainty, checkpoint }) => (Some(exact), uncertainty, Some(checkpoint)),
+        Some(OwnAnalysis { exact, uncertainty, checkpoint }) => (Some(exact), uncertainty, Some(checkpoint)),
         None => (None, None, None),
     };
     if structure.uncertainty.is_some() && uncertainty.is_none() {
@@ -197,7 +192,7 @@ pub fn design(
     };
     let rules = apply_rules(structure, safety_factor, demands)?;
     if spectrum.is_some() && !options.repaired {
-        let by_curve_m = demands_by_curve(structure, (&file, &source), (measure, site, poe))?;
+        let by_curve_m = demands_by_curve(structure, (&file, &source), (place, poe))?;
         notes.extend(verdicts_by_curve(structure, safety_factor, &by_curve_m)?);
     }
     let scope = Scope {
@@ -207,14 +202,13 @@ pub fn design(
         strengths: spectrum.map(|spectrum| spectrum.between_strengths).or(Some((f64::NAN, f64::NAN))),
         repaired: options.repaired,
     };
-    let told = StructureReport::of(structure, Some(restitution));
+    let told = StructureReport::from_structure(structure, Some(restitution));
     let mut alarms = alarms_within(&file, &scope)?;
     alarms.extend(structure_alarms(structure));
     alarms.extend(safety_factor_alarm(safety_factor));
     if let Some(exact) = &exact {
-        let pairs = Scatter::of(&file)?.pairs;
-        let records = pairs.iter().map(Vec::len).sum();
-        alarms.extend(own_risk_alarms(&own_risks(exact, measure, &source.sites[site], (records, &pairs, &weights))));
+        let pairs = Scatter::from_file(&file)?.pairs;
+        alarms.extend(own_risk_alarms(&own_risks(exact, place, (&pairs, &weights))));
         let satisfied = rules.iter().any(|rule| rule.check().is_some_and(|check| check.satisfied));
         alarms.extend(own_demand_alarm(exact.demand_m, told.capacity_m, safety_factor, satisfied));
     }
@@ -224,15 +218,12 @@ pub fn design(
     let risk = &source.study.risk;
     Ok(DesignReport {
         structure: told,
-        site: source.sites[site].clone(),
+        site: place.name.to_owned(),
         im: measure.measure().label(),
         repaired: options.repaired,
         poe: risk.poe[poe],
         years: risk.years,
-        result: source.path,
-        study_digest: file.head()?.study_digest(),
-        record_set: source.record_set,
-        synthetic: source.synthetic,
+        source: ReportSource::read(&file, &source)?,
         target_per_year,
         required_safety_factor: safety_factor,
         spectrum,
@@ -257,17 +248,11 @@ pub fn design_shard(
 ) -> Result<ShardReport, DesignError> {
     let source = StudyOfResult::read(&ResultFile::open(result)?, options.manifest.as_deref())?;
     require_zero_stiffness(&source)?;
-    let measure = &source.measures[measure_index(&source, options.measure)?];
-    let restitution = structure.description.restitution.unwrap_or(source.study.oscillator.restitution);
-    let set = records(&source, options.manifest.as_deref())?.map_err(JobError::input)?;
-    let shaken = Shaken::of(structure, &source, set, (restitution, options))?;
-    let asked = name(structure);
-    Ok(Beside { result, name: &asked }.shard(shaken.work(&source, measure, &asked)?, shard, events)?)
-}
-
-/// What is asked, for the names of files.
-fn name(structure: &Structure) -> String {
-    format!("design {}", structure.file.file_stem().unwrap_or_default().to_string_lossy())
+    let measure = choose_measure(&source, options.measure)?;
+    let records = records(&source, options.manifest.as_deref())?.map_err(JobError::input)?;
+    let analysis = DesignAnalysis::from_structure(structure, &source, records, options)?;
+    let name = job_name("design", structure);
+    Ok(Beside { result, name: &name }.shard(analysis.work(&source, measure, &name)?, shard, events)?)
 }
 
 /// Why the structures that it may be are not analysed.
@@ -298,24 +283,24 @@ fn repaired_spectrum(
 fn demands_by_curve(
     structure: &Structure,
     (file, source): (&ResultFile, &StudyOfResult),
-    (measure, site, poe): (&SpectraOfResult, usize, usize),
+    (place, poe): (Place<'_>, usize),
 ) -> Result<Vec<(f64, f64)>, DesignError> {
     let of_curve = |(weight, u_m): (f64, Vec<f64>)| {
         let demand = spectrum_demand(structure, source, &u_m);
         (weight, demand.map_or(f64::INFINITY, |demand| demand.zero_stiffness_demand_m))
     };
-    let spectra = file.branch_spectra(measure.measure(), &source.sites[site], poe)?;
+    let spectra = file.branch_spectra(place.measure.measure(), place.name, poe)?;
     Ok(spectra.into_iter().map(of_curve).collect())
 }
 
 /// Why there is no repaired spectrum of a site.
-fn not_repaired(source: &StudyOfResult, measure: &SpectraOfResult, site: usize) -> DesignError {
+fn not_repaired(source: &StudyOfResult, place: Place<'_>) -> DesignError {
     JobError::input(format!(
         "{}: has no repaired spectrum of {} by {}: `uplift consistency {} --repair` makes it, or says what keeps it \
          from being made",
         source.path.display(),
-        source.sites[site],
-        measure.measure().label(),
+        place.name,
+        place.measure.measure().label(),
         source.path.display()
     ))
     .into()
@@ -415,20 +400,14 @@ fn differences(structure: &Structure, source: &StudyOfResult, restitution: f64) 
 /// What may come from outside the stripes: the demand, exceeding the capacity, overturning.
 fn own_risks(
     exact: &ExactDemand,
-    measure: &SpectraOfResult,
-    site: &str,
-    (records, pairs, weights): (usize, &[Vec<usize>], &SiteWeights<'_>),
+    place: Place<'_>,
+    (pairs, weights): (&[Vec<usize>], &SiteWeights<'_>),
 ) -> Vec<OwnRisk> {
     let effective_pairs = weights.effective_pairs(pairs);
-    let levels = &measure.plan.levels;
-    let own = |what: &str, risk: EventRisk| OwnRisk {
-        subject: format!("{what}, {site}, {}", measure.measure().label()),
-        risk,
-        measure: measure.measure(),
-        levels: (levels[0], levels[levels.len() - 1]),
-        records,
-        pairs: pairs.len(),
+    let counts = (pairs.iter().map(Vec::len).sum(), pairs.len());
+    let own = |event: &str, risk: EventRisk| OwnRisk {
         effective_pairs,
+        ..own_risk((event, risk), (place.name, place.measure), counts)
     };
     let ExactDemand { lower_tail_share, upper_tail_share, .. } = *exact;
     let demand = EventRisk { lower_tail_share, upper_tail_share, at_most_per_year: None, ..exact.overturning };

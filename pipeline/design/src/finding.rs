@@ -2,21 +2,22 @@
 //! form for all.
 
 mod keep;
-mod of_design;
-mod of_overturning;
-mod of_risk;
-mod of_target;
 
 use serde::Serialize;
+use uplift_job::JobError;
+use uplift_result::{Finding, FindingRow, Inquiry};
 use uplift_study::Structure;
+use uplift_uniform_risk::EventRisk;
 
 use super::certainty::Bands;
+use super::demand::ExactDemand;
+use super::design::DesignReport;
+use super::frame_risk::{FrameRiskReport, ModelDemand};
+use super::overturning::{CollapseReport, OverturningOptions, OverturningReport};
+use super::target::{TargetOptions, TargetReport};
 use super::uncertain::{AleatoryResult, EpistemicResult, UncertainFinding, UncertaintyReport};
 use crate::error::DesignError;
 pub use keep::keep;
-use uplift_job::JobError;
-use uplift_result::{Finding, FindingRow, Inquiry};
-use uplift_uniform_risk::EventRisk;
 
 /// What was asked of which structure, under which result.
 struct Question<'a> {
@@ -99,4 +100,236 @@ fn uncertain(report: Option<&UncertaintyReport>) -> Vec<FindingRow> {
         }
     }
     rows
+}
+
+impl DesignReport {
+    /// The demand on `structure`, its rules and risks, as a result keeps them.
+    ///
+    /// # Errors
+    /// None for the reports of this program.
+    pub fn finding(&self, structure: &Structure) -> Result<Finding, DesignError> {
+        let analysed = if self.exact.is_some() { "its own analysis" } else { "the spectrum alone" };
+        let question = Question {
+            inquiry: Inquiry::Design,
+            structure,
+            study_digest: &self.source.study_digest,
+            request: vec![
+                ("site", self.site.clone()),
+                ("measure", self.spectrum_words()),
+                ("poe", self.poe.to_string()),
+                ("years", self.years.to_string()),
+                ("safety factor", self.required_safety_factor.to_string()),
+                ("by", analysed.to_owned()),
+            ],
+        };
+        question.answered(self.finding_rows(), self)
+    }
+
+    fn finding_rows(&self) -> Vec<FindingRow> {
+        let at = [self.site.as_str(), self.im];
+        let row = |what: String, value: f64, unit: &str| FindingRow::new(what, value, unit).at(at[0], at[1]);
+        let mut rows = vec![row("strength of the spectrum".to_owned(), self.structure.spectral_strength, "1")];
+        rows.extend(self.structure.capacity_m.map(|m| row("displacement capacity".to_owned(), m, "m")));
+        if let Some(spectrum) = &self.spectrum {
+            rows.push(row("zero stiffness, spectrum".to_owned(), spectrum.zero_stiffness_demand_m, "m"));
+        }
+        rows.extend(self.exact.iter().flat_map(|exact| exact_demands(exact, at)));
+        for (rule, check) in self.rules.iter().filter_map(|outcome| Some((outcome.rule.words(), outcome.check()?))) {
+            rows.push(row(format!("demand by {rule}"), check.demand_m, "m"));
+            rows.push(row(format!("required capacity by {rule}"), check.required_capacity_m, "m"));
+            if check.capacity_m.is_finite() {
+                rows.push(row(format!("margin by {rule}"), check.margin_m, "m"));
+                rows.push(row(format!("safety factor by {rule}"), check.safety_factor, "1"));
+            }
+        }
+        if let Some(exact) = self.exact.as_ref().filter(|_| self.structure.capacity_m.is_some()) {
+            let [beyond, overturning] = [
+                exact.bands.and_then(|bands| bands.beyond_capacity_per_year),
+                exact.bands.and_then(|bands| bands.overturning_per_year),
+            ];
+            rows.extend(exact.beyond_capacity.iter().flat_map(|risk| rate("exceeding the capacity", risk, beyond, at)));
+            rows.extend(rate("overturning", &exact.overturning, overturning, at));
+        }
+        rows.extend(uncertain(self.uncertainty.as_ref()));
+        rows
+    }
+}
+
+/// The demand on the structure itself, and what is left of its capacity.
+fn exact_demands(exact: &ExactDemand, [site, im]: [&str; 2]) -> Vec<FindingRow> {
+    let row = |what: &str, demand_m: f64| FindingRow::new(what, demand_m, "m").at(site, im);
+    let own_m = exact.zero_stiffness_demand_m;
+    let mut rows = vec![row("zero stiffness, exact", exact.zero_stiffness_demand_of_spectrum_m)];
+    if own_m.to_bits() != exact.zero_stiffness_demand_of_spectrum_m.to_bits() {
+        rows.push(row("zero stiffness, exact, uplift and impacts of the structure", own_m));
+    }
+    let demand_m = row("demand on the structure", exact.demand_m);
+    rows.extend(banded(&demand_m, exact.bands.map(|bands| bands.demand_m)));
+    if let Some(left_m) = exact.capacity_less_demand_m {
+        let left_m = row("capacity less demand on the structure", left_m);
+        rows.extend(banded(&left_m, exact.bands.and_then(|bands| bands.capacity_less_demand_m)));
+    }
+    rows
+}
+
+impl OverturningReport {
+    /// How often `structure` overturns at each site, by each measure and model, as a result keeps it.
+    ///
+    /// # Errors
+    /// None for the reports of this program.
+    pub fn finding(&self, structure: &Structure, options: &OverturningOptions) -> Result<Finding, DesignError> {
+        let mut measures: Vec<&str> = self.overturning.iter().map(|found| found.im).collect();
+        measures.dedup();
+        let sites = self.overturning.first().map(|found| &found.sites[..]).unwrap_or_default();
+        let sites: Vec<&str> = sites.iter().map(|site| site.site.as_str()).collect();
+        let mut request = vec![("site", sites.join(" and ")), ("measure", measures.join(" and "))];
+        request.extend(options.restitution.map(|restitution| ("restitution", restitution.to_string())));
+        let question =
+            Question { inquiry: Inquiry::Overturning, structure, study_digest: &self.source.study_digest, request };
+        let mut rows: Vec<FindingRow> = self.overturning.iter().flat_map(overturning_risks).collect();
+        rows.extend(self.overturning.iter().flat_map(fragility));
+        rows.extend(uncertain(self.uncertainty.as_ref()));
+        question.answered(rows, self)
+    }
+}
+
+/// The risk at each site.
+fn overturning_risks(found: &CollapseReport) -> Vec<FindingRow> {
+    let mut rows = Vec::new();
+    for of in &found.sites {
+        let (what, at) = (format!("overturning, {}", found.model), [of.site.as_str(), found.im]);
+        rows.extend(rate(&what, &of.risk, of.bands, at));
+        rows.extend(of.repaired.iter().flat_map(|risk| rate(&format!("{what}, repaired"), risk, None, at)));
+        let fitted = of.lognormal_per_year;
+        rows.extend(fitted.map(|rate| FindingRow::new(format!("{what}, lognormal"), rate, "1/yr").at(at[0], at[1])));
+    }
+    rows
+}
+
+/// Median and dispersion of the lognormal fragility.
+fn fragility(found: &CollapseReport) -> impl Iterator<Item = FindingRow> {
+    let row = |what: &str, value: Option<f64>, unit: &str| {
+        let what = format!("{what} of the fragility, {}", found.model);
+        value.map(|value| FindingRow::new(what, value, unit).at("", found.im))
+    };
+    [row("median", found.theta, found.unit), row("dispersion", found.beta, "1")].into_iter().flatten()
+}
+
+impl TargetReport {
+    /// The value that was found for `structure`, its band and every crossing, as a result keeps them.
+    ///
+    /// # Errors
+    /// None for the reports of this program.
+    pub fn finding(&self, structure: &Structure, options: &TargetOptions) -> Result<Finding, DesignError> {
+        let mut request = vec![
+            ("site", self.site.clone()),
+            ("measure", self.im.to_owned()),
+            ("vary", self.quantity.to_owned()),
+            ("event", self.event.clone()),
+            ("per year", self.target_per_year.to_string()),
+            ("years", self.years.to_string()),
+        ];
+        request.extend(options.from.map(|from| ("from", from.to_string())));
+        request.extend(options.to.map(|to| ("to", to.to_string())));
+        request.push(("tolerance", options.tolerance.to_string()));
+        let periods: Vec<String> = options.return_periods.iter().map(ToString::to_string).collect();
+        request.push(("at", periods.join(", ")));
+        request.extend(
+            options.generic.map(|(dispersion, probability)| ("generic", format!("{dispersion}, {probability}"))),
+        );
+        let question =
+            Question { inquiry: Inquiry::Target, structure, study_digest: &self.source.study_digest, request };
+        question.answered(self.finding_rows(), self)
+    }
+
+    fn finding_rows(&self) -> Vec<FindingRow> {
+        let row = |what: String, value: f64, unit: &str| FindingRow::new(what, value, unit).at(&self.site, self.im);
+        let of_quantity = |what: String, value: f64| row(what, value, self.quantity_unit);
+        let resampled = self.band.drawn.words();
+        let [lower, _, upper] = self.band.value;
+        let quantity = self.quantity;
+        let mut rows = vec![
+            of_quantity(format!("least {quantity} that meets the target"), self.value)
+                .within([lower, upper], &resampled),
+            of_quantity(format!("{quantity} that misses it"), self.missed_at),
+        ];
+        rows.extend(self.own_value.map(|own| of_quantity(format!("{quantity} of the structure"), own)));
+        rows.extend(self.crossings.iter().map(|crossing| {
+            let becomes = if crossing.becomes_met { "met" } else { "missed" };
+            of_quantity(format!("target {becomes} from here on, {quantity}"), crossing.to)
+        }));
+        let [lower, _, upper] = self.band.per_year;
+        let there = row(format!("{} at the value found", self.event), self.risk.per_year, "1/yr");
+        rows.push(match self.risk.at_most_per_year {
+            Some(bound) => there.clone().within([f64::NAN, bound], "at most"),
+            None => there.clone().within([lower, upper], &resampled),
+        });
+        // hazard curves or structures drawn too: other bands of the same numbers
+        let uncertain = self.uncertainty.iter().flat_map(|of| [&of.by_structure, &of.by_all]).flatten();
+        for band in self.band_with_hazard.iter().chain(uncertain) {
+            let [lower, _, upper] = band.value;
+            let least = of_quantity(format!("least {quantity} that meets the target"), self.value);
+            rows.push(least.within([lower, upper], &band.drawn.words()));
+            // of what no run shows there is a bound, and no band
+            if self.risk.at_most_per_year.is_none() {
+                let [lower, _, upper] = band.per_year;
+                rows.push(there.clone().within([lower, upper], &band.drawn.words()));
+            }
+        }
+        rows.push(row("strength of the spectrum at the value found".to_owned(), self.found.spectral_strength, "1"));
+        rows.extend(self.found.capacity_m.map(|m| row("displacement capacity at the value found".to_owned(), m, "m")));
+        rows.extend(self.at_return_periods.iter().map(|of| {
+            row(format!("{} at the level of {} years", self.event, of.return_period_years), of.probability, "1")
+        }));
+        if let Some(generic) = &self.generic {
+            rows.push(row("level of the generic fragility".to_owned(), generic.level, self.im_unit));
+            rows.extend(generic.risk_coefficient.map(|of| row("risk coefficient".to_owned(), of, "1")));
+        }
+        rows
+    }
+}
+
+/// What its bands are of.
+const RESAMPLED: &str = "resampled records";
+
+impl FrameRiskReport {
+    /// The demand on the frame of `structure` and its proxies, and how often what happens to it, as a result keeps
+    /// them.
+    ///
+    /// # Errors
+    /// None for the reports of this program.
+    pub fn finding(&self, structure: &Structure) -> Result<Finding, DesignError> {
+        let question = Question {
+            inquiry: Inquiry::Risk,
+            structure,
+            study_digest: &self.source.study_digest,
+            request: vec![
+                ("site", self.site.clone()),
+                ("measure", self.im.to_owned()),
+                ("poe", self.poe.to_string()),
+                ("years", self.years.to_string()),
+                ("model", self.demands.first().map_or("", |frame| frame.model).to_owned()),
+            ],
+        };
+        let at = [self.site.as_str(), self.im];
+        let mut rows: Vec<FindingRow> = self.demands.iter().flat_map(|demand| model_demands(demand, at)).collect();
+        for event in &self.events {
+            rows.extend(rate(event.event.words(), &event.risk, None, at));
+        }
+        let found = &self.overturning;
+        rows.extend(rate("overturning", &found.risk, None, at));
+        rows.extend(found.repaired.iter().flat_map(|risk| rate("overturning, repaired", risk, None, at)));
+        let fitted = found.lognormal_per_year;
+        rows.extend(fitted.map(|rate| FindingRow::new("overturning, lognormal", rate, "1/yr").at(at[0], at[1])));
+        question.answered(rows, self)
+    }
+}
+
+/// The demand on one model, and its error.
+fn model_demands(of: &ModelDemand, [site, im]: [&str; 2]) -> Vec<FindingRow> {
+    let row = |what: &str, value: f64, unit: &str| FindingRow::new(format!("{what}, {}", of.model), value, unit);
+    let demand = row("demand", of.demand_m.value, "m").within([of.demand_m.lower, of.demand_m.upper], RESAMPLED);
+    let repaired = of.repaired_m.map(|demand_m| row("demand, repaired", demand_m, "m"));
+    let error = of.error.map(|of| row("error", of.value, "1").within([of.lower, of.upper], RESAMPLED));
+    [Some(demand), repaired, error].into_iter().flatten().map(|row| row.at(site, im)).collect()
 }

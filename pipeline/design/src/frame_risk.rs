@@ -5,10 +5,9 @@
 //! planar frame, the equivalent oscillator and the spectrum make of the same records is their error under risk, with
 //! the noise that the same resamples of the records leave of it.
 
+mod analysis;
 mod demand;
-mod direction;
 mod edps;
-mod shaken;
 mod tables;
 
 use std::path::{Path, PathBuf};
@@ -23,29 +22,27 @@ use uplift_structure::Rule;
 use uplift_study::Structure;
 
 pub use demand::{Banded, ModelDemand, RiskPoint};
-pub use direction::DirectionEffect;
-pub use edps::{EventReport, StateAtDemand};
+pub use edps::{DirectionEffect, EventReport, StateAtDemand};
 
-use super::choice::{measure_index, site_index};
 use super::collapse::{Collapse, collapse};
 use super::design::{DesignOptions, design};
-use super::inputs::inputs;
-use super::report::StructureReport;
+use super::opening::{Place, check_tables, choose_measure, job_name, study_with_common_records};
+use super::report::{ReportSource, StructureReport};
+use super::risk::own_risk;
+use super::weights::RepairedWeights;
 use crate::error::DesignError;
+use analysis::{Demands, FrameAnalysis};
 use demand::{Question, Resampled};
-use shaken::{Demands, Shaken};
 use tables::{levels_path, write_tables};
-use uplift_alarms::{OwnRisk, Scope, alarms_of_inputs, own_risk_alarms, ranked, structure_alarms};
+use uplift_alarms::{Scope, alarms_of_inputs, own_risk_alarms, ranked, structure_alarms};
 use uplift_engine::analysis::{Beside, ShardReport};
 use uplift_inputs::TORSION;
-use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
 use uplift_job::events::{Events, Silent};
-use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_result::ResultFile;
 use uplift_uniform_risk::EventRisk;
-use uplift_uniform_risk::consistency::{Question as Asked, Reweighing};
-use uplift_uniform_risk::{AskedRisk, SpectraOfResult, StudyOfResult, at};
+use uplift_uniform_risk::consistency::Question as Asked;
+use uplift_uniform_risk::{AskedRisk, StudyOfResult, at};
 
 /// What is asked of the risk of a frame.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -74,15 +71,9 @@ pub struct FrameRiskOptions {
 pub struct FrameRiskReport {
     /// The structure, and the oscillator that it is equivalent to.
     pub structure: StructureReport,
-    /// The result file.
-    pub result: PathBuf,
-    /// By what the numbers of the result are known.
-    #[serde(skip)]
-    pub study_digest: String,
-    /// Where its records come from, in a line.
-    pub record_set: String,
-    /// Whether they are synthetic.
-    pub synthetic: bool,
+    /// The result that it was examined under.
+    #[serde(flatten)]
+    pub source: ReportSource,
     /// The site.
     pub site: String,
     /// `PGV` or `PGA`.
@@ -155,23 +146,27 @@ pub struct FrameOverturning {
 /// A structure that is no frame, or of rectangular columns that are to wobble; a file that is missing, damaged, no
 /// result, or without sites; spectra of another system than ZSBE; a site or measure that the result does not have; a
 /// risk that is none, or several; records that cannot be read; tables that cannot be written or would replace something
-/// else; shards that do not belong together; [`JobError::Paused`] where `events` say so,
-/// [`JobError::Interrupted`] where no checkpoint can be written beside the result.
+/// else; shards that do not belong together; [`JobError::Paused`](uplift_job::JobError::Paused) where `events` say so,
+/// [`JobError::Interrupted`](uplift_job::JobError::Interrupted) where no checkpoint can be written beside the result.
 pub fn frame_risk(
     structure: &Structure,
     result: &Path,
     options: &FrameRiskOptions,
     events: &dyn Events,
 ) -> Result<FrameRiskReport, DesignError> {
-    check_table(structure, result, options)?;
+    let manifest = options.manifest.as_deref();
+    if let Some(path) = &options.table {
+        let levels = levels_path(path);
+        let tables: [(&Path, _); 2] = [(path, tables::PEAKS_COLUMN), (&levels, tables::LEVELS_COLUMN)];
+        check_tables(&tables, (structure, result, manifest), options.force)?;
+    }
     let file = at(ResultFile::open(result)?, &options.risk)?;
-    file.refuse_records_at_level("a frame is shaken by the same records at every level")?;
-    let source = StudyOfResult::read(&file, options.manifest.as_deref())?;
-    let site = site_index(&source, options.site.as_deref())?;
-    let measure = &source.measures[measure_index(&source, options.measure)?];
+    let source = study_with_common_records(&file, manifest, "a frame is shaken by the same records at every level")?;
+    let place = Place::choose(&source, options.site.as_deref(), options.measure)?;
+    let Place { site, measure, .. } = place;
     let poe = source.only_risk(&options.risk)?;
     let target_per_year = source.target_per_year(poe)?;
-    let shaken = shaken(structure, &source, options)?;
+    let analysis = FrameAnalysis::from_structure(structure, &source, options.model)?;
     // what the spectrum says, and how an engineer reads it
     let asked = DesignOptions {
         manifest: options.manifest.clone(),
@@ -182,16 +177,16 @@ pub fn frame_risk(
         ..DesignOptions::default()
     };
     let design = design(structure, result, &asked, &Silent)?;
-    let asked = name(structure);
-    let beside = Beside { result, name: &asked };
-    let (analysed, checkpoint) = beside.results(shaken.work(measure, &asked)?, &options.shards, events)?;
-    let demands = shaken.demands(analysed);
+    let name = job_name("risk", structure);
+    let beside = Beside { result, name: &name };
+    let (analysed, checkpoint) = beside.results(analysis.work(measure, &name)?, &options.shards, events)?;
+    let demands = analysis.demands(analysed);
 
-    let reweighing = Reweighing::from_motions(&file)?;
-    let repaired = reweighing.as_ref().and_then(|reweighing| reweighing.weights(measure.measure(), site));
+    let repaired_weights = RepairedWeights::from_file(&file)?;
+    let repaired = repaired_weights.at(measure, site);
     let weights = &measure.weights[site];
     let settings = &source.study.bootstrap;
-    let plan = draws(&file, &source, &shaken)?;
+    let plan = draws(&file, &source, &analysis)?;
     let levels: &[f64] = &measure.plan.levels;
     let question =
         Question { levels, weights, repaired, target_per_year, plan: &plan, confidence: settings.confidence };
@@ -200,46 +195,47 @@ pub fn frame_risk(
     let demand_m = own.demand_m;
     let rows = rows(&question, own, &demands, (structure, &design))?;
     let years = source.study.risk.years;
-    let runs_m = shaken.once_a_run(&demands);
-    let pairs = uplift_bootstrap::units(&shaken.pair_of());
+    let runs_m = analysis.once_a_run(&demands);
+    let pairs = uplift_bootstrap::units(&analysis.pair_of());
     let mut overturning = collapse(levels, (&runs_m, &pairs), &[(weights, None)], years, true)?;
     if repaired.is_some() {
         // the weights of a repair are of records
         overturning.repaired = collapse(levels, (own_m, &pairs), &[(weights, repaired)], years, true)?.repaired;
     }
-    let mut alarms = alarms_of_inputs(&file, &Scope { measure: Some(measure.measure()), ..Scope::default() })?;
+    let scope = Scope { measure: Some(measure.measure()), ..Scope::default() };
+    let mut alarms = alarms_of_inputs(&file, &scope)?;
     alarms.extend(structure_alarms(structure));
-    let runs = (runs_m.len() / levels.len(), pairs.len());
-    alarms.extend(own_risk_alarms(&own_risks(&overturning, measure, &source.sites[site], runs)));
+    let counts = (runs_m.len() / levels.len(), pairs.len());
+    // what may come from outside the stripes
+    let own = overturning.risks.iter().map(|&risk| ("overturning of the frame", risk));
+    let own: Vec<_> = own.map(|event| own_risk(event, (place.name, measure), counts)).collect();
+    alarms.extend(own_risk_alarms(&own));
     let mut report = FrameRiskReport {
-        structure: StructureReport::of(structure, None),
-        site: source.sites[site].clone(),
+        structure: StructureReport::from_structure(structure, None),
+        site: place.name.to_owned(),
         im: measure.measure().label(),
         unit: measure.measure().unit(),
         poe: source.study.risk.poe[poe],
         years,
         target_per_year,
-        records: shaken.set.records.len(),
+        records: analysis.records.count(),
         analyses: demands.analyses,
-        planar_restitution: shaken.restitution.0,
-        planar_restitution_from: shaken.restitution.1,
+        planar_restitution: analysis.restitution.0,
+        planar_restitution_from: analysis.restitution.1,
         replicates: plan.replicates(),
         confidence: settings.confidence,
-        at_demand: StateAtDemand::of(&shaken.frame, demand_m),
-        events: edps::events(&shaken.frame, levels, (weights, &runs_m), (repaired, own_m), &pairs, years)?,
-        direction: demands.wobbling_m.is_some().then(|| DirectionEffect::of(&demands.directions_m)),
-        notes: notes(&shaken, (structure, &demands), &source, &overturning),
+        at_demand: StateAtDemand::at_displacement(&analysis.frame, demand_m),
+        events: edps::events(&analysis.frame, levels, (weights, &runs_m), (repaired, own_m), &pairs, years)?,
+        direction: demands.wobbling_m.is_some().then(|| DirectionEffect::from_peaks(&demands.directions_m)),
+        notes: notes(&analysis, (structure, &demands), &source, &overturning),
         demands: rows,
-        overturning: FrameOverturning::of(&overturning),
+        overturning: FrameOverturning::from_collapse(&overturning),
         alarms: ranked(alarms),
         files: Vec::new(),
-        result: source.path.clone(),
-        study_digest: file.head()?.study_digest(),
-        record_set: source.record_set.clone(),
-        synthetic: source.synthetic,
+        source: ReportSource::read(&file, &source)?,
     };
     if let Some(path) = &options.table {
-        write_tables(path, &report, (&shaken.set, levels, &demands))?;
+        write_tables(path, &report, (&analysis.records.set, levels, &demands))?;
         report.files = vec![path.clone(), levels_path(path)];
     }
     checkpoint.remove();
@@ -258,37 +254,24 @@ pub fn frame_risk_shard(
     events: &dyn Events,
 ) -> Result<ShardReport, DesignError> {
     let source = StudyOfResult::read(&ResultFile::open(result)?, options.manifest.as_deref())?;
-    let measure = &source.measures[measure_index(&source, options.measure)?];
-    let shaken = shaken(structure, &source, options)?;
-    let asked = name(structure);
-    Ok(Beside { result, name: &asked }.shard(shaken.work(measure, &asked)?, shard, events)?)
-}
-
-/// What is asked, for the names of files.
-fn name(structure: &Structure) -> String {
-    format!("risk {}", structure.file.file_stem().unwrap_or_default().to_string_lossy())
-}
-
-fn shaken(structure: &Structure, source: &StudyOfResult, options: &FrameRiskOptions) -> Result<Shaken, DesignError> {
-    let motions = source.records_and_pairs().map_err(|reason| {
-        JobError::input(format!(
-            "{reason}; the risk of a frame needs the records that the result was made from (--manifest says where they \
-             are)"
-        ))
-    })?;
-    Shaken::of(structure, source, motions, options.model)
+    let measure = choose_measure(&source, options.measure)?;
+    let analysis = FrameAnalysis::from_structure(structure, &source, options.model)?;
+    let name = job_name("risk", structure);
+    Ok(Beside { result, name: &name }.shard(analysis.work(measure, &name)?, shard, events)?)
 }
 
 /// The draws of the bands: pairs, or earthquakes with all their records.
-fn draws(file: &ResultFile, source: &StudyOfResult, shaken: &Shaken) -> Result<ResamplingPlan, DesignError> {
+fn draws(file: &ResultFile, source: &StudyOfResult, analysis: &FrameAnalysis) -> Result<ResamplingPlan, DesignError> {
     let settings = &source.study.bootstrap;
-    let records = shaken.set.records.len();
+    let records = analysis.records.count();
     let sizes = [u32::try_from(records).unwrap_or(u32::MAX)];
     let replicates = usize::try_from(settings.replicates).unwrap_or(usize::MAX);
     let drawn_together = match settings.unit {
         Unit::Event => Some(Asked::from_motions(file)?.event_of()),
         // all records of a pair are one wobbling run
-        Unit::Record | Unit::Pair if shaken.pairs.len() < records && shaken.pairs.len() > 1 => Some(shaken.pair_of()),
+        Unit::Record | Unit::Pair if analysis.pairs.len() < records && analysis.pairs.len() > 1 => {
+            Some(analysis.pair_of())
+        }
         Unit::Record | Unit::Pair => None,
     };
     let plan = match drawn_together {
@@ -339,7 +322,7 @@ fn rows(
 
 /// What the models leave out, and what is assumed of the records.
 fn notes(
-    shaken: &Shaken,
+    analysis: &FrameAnalysis,
     (structure, demands): (&Structure, &Demands),
     source: &StudyOfResult,
     overturning: &Collapse,
@@ -355,16 +338,16 @@ fn notes(
     if demands.wobbling_m.is_some() {
         notes.push(TORSION.to_owned());
         notes.push("the wobbling model has no loss of energy by impact or friction".to_owned());
-        let alone = shaken.without_second();
+        let alone = analysis.without_second();
         if !alone.is_empty() {
             notes.push(format!(
                 "{} of {} pairs have the same motion as both components, and move the frame along one line: {}",
                 alone.len(),
-                shaken.pairs.len(),
+                analysis.pairs.len(),
                 alone.join(", ")
             ));
         }
-        let apart: Vec<&str> = (shaken.pairs.iter())
+        let apart: Vec<&str> = (analysis.pairs.iter())
             .filter(|pair| pair.metadata.contains_key(uplift_inputs::pairs::START_APART))
             .map(|pair| pair.id.as_str())
             .collect();
@@ -375,7 +358,7 @@ fn notes(
                 apart.join(", ")
             ));
         }
-    } else if shaken.frame.shape() == uplift_frame::ColumnShape::Rectangle {
+    } else if analysis.frame.shape() == uplift_frame::ColumnShape::Rectangle {
         notes.push(
             "columns of rectangular section do not wobble: the frame is planar, under the components of the study \
              (column_shape = \"cylinder\" wobbles)"
@@ -393,38 +376,8 @@ fn notes(
     notes
 }
 
-/// What may come from outside the stripes.
-fn own_risks(
-    overturning: &Collapse,
-    measure: &SpectraOfResult,
-    site: &str,
-    (runs, pairs): (usize, usize),
-) -> Vec<OwnRisk> {
-    let levels = &measure.plan.levels;
-    let own = |risk: &EventRisk| OwnRisk {
-        subject: format!("overturning of the frame, {site}, {}", measure.measure().label()),
-        risk: *risk,
-        measure: measure.measure(),
-        levels: (levels[0], levels[levels.len() - 1]),
-        records: runs,
-        pairs,
-        effective_pairs: pairs as f64,
-    };
-    overturning.risks.iter().map(own).collect()
-}
-
-/// Names that would lose something, before anything is computed.
-fn check_table(structure: &Structure, result: &Path, options: &FrameRiskOptions) -> Result<(), DesignError> {
-    let Some(path) = &options.table else { return Ok(()) };
-    let inputs = inputs(structure, result, options.manifest.as_deref());
-    let levels = levels_path(path);
-    let tables = [(path, tables::PEAKS_COLUMN), (&levels, tables::LEVELS_COLUMN)];
-    let tables = tables.map(|(path, column)| Output::new(path, OutputKind::Table(column)).with_result(result));
-    Ok(outputs::check(&tables, &inputs, options.force)?)
-}
-
 impl FrameOverturning {
-    fn of(found: &Collapse) -> Self {
+    fn from_collapse(found: &Collapse) -> Self {
         let fit = found.fit.as_ref().ok();
         Self {
             levels: found.counts.iter().map(|count| count.level).collect(),

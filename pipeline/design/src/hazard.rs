@@ -21,7 +21,7 @@ impl<'a> Hazard<'a> {
     ///
     /// # Errors
     /// A file that is damaged.
-    pub(super) fn of(
+    pub(super) fn from_file(
         file: &ResultFile,
         (name, site): (&str, usize),
         (measure, study): (&'a SpectraOfResult, &UniformRiskStudy),
@@ -34,12 +34,12 @@ impl<'a> Hazard<'a> {
     ///
     /// # Errors
     /// A file that is damaged.
-    pub(super) fn of_sites(
+    pub(super) fn from_sites(
         file: &ResultFile,
         (source, sites): (&StudyOfResult, &[usize]),
         measure: &'a SpectraOfResult,
     ) -> Result<Vec<Self>, DesignError> {
-        let of_site = |&site: &usize| Self::of(file, (&source.sites[site], site), (measure, &source.study));
+        let of_site = |&site: &usize| Self::from_file(file, (&source.sites[site], site), (measure, &source.study));
         sites.iter().map(of_site).collect()
     }
 

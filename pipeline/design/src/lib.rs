@@ -2,7 +2,6 @@
 //! and what it must be for a target risk.
 
 mod certainty;
-mod choice;
 mod collapse;
 mod demand;
 mod design;
@@ -10,8 +9,8 @@ mod error;
 mod finding;
 mod frame_risk;
 mod hazard;
-mod inputs;
 mod models;
+mod opening;
 mod overturning;
 mod report;
 mod risk;
@@ -35,7 +34,7 @@ pub use frame_risk::{
 pub use overturning::{
     CollapseReport, ModelReport, OverturningOptions, OverturningReport, SiteRisk, overturning, overturning_shard,
 };
-pub use report::StructureReport;
+pub use report::{ReportSource, StructureReport};
 pub use rules::{RuleCheck, RuleOutcome};
 pub use spectrum::SpectrumDemand;
 pub use target::{

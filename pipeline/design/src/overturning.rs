@@ -1,38 +1,37 @@
 //! How often a structure overturns, by its equivalent oscillator and by the rigid block that rotates as it does
 //! (Section 2.4.3).
 
-mod uncertain;
-
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use uplift_alarms::{OwnRisk, Scope, alarms_of_inputs, own_risk_alarms, ranked, structure_alarms};
-use uplift_engine::analysis::{Beside, LabelledPlan, ShardReport, Work};
-use uplift_fragility::{LognormalFit, Stripes};
+use uplift_engine::analysis::{Analysed, Beside, LabelledPlan, ShardReport, Work};
+use uplift_fragility::{LognormalFit, Stripes as Stripe};
 use uplift_ida::{Shard, System};
-use uplift_inputs::{RecordSet, motion_keys};
+use uplift_inputs::RecordSet;
 use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
 use uplift_job::events::Events;
-use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_motion::IntensityMeasure;
 use uplift_result::ResultFile;
 use uplift_risk::{PooledDemand, RunWeights, StripeWeights};
 use uplift_spectra::{NUDGES, Noisy, nudges};
-use uplift_study::{Structure, UniformRiskStudy};
-use uplift_uniform_risk::consistency::Reweighing;
-use uplift_uniform_risk::{EventRisk, SpectraOfResult, StudyOfResult, plan_stripes};
+use uplift_structure::UncertainQuantity;
+use uplift_study::{Structure, Uncertainty, UniformRiskStudy};
+use uplift_uniform_risk::{EventRisk, SpectraOfResult, Stripes, StudyOfResult, plan_stripes};
 
 use super::certainty::{Bands, Scatter, rate_bands};
-use super::choice::{measure_index, records, site_index};
 use super::collapse::{Collapse, collapse};
 use super::hazard::Hazard;
-use super::inputs::inputs;
 use super::models::models;
-use super::report::StructureReport;
-use super::risk::OVERTURNING_M;
+use super::opening::{
+    ShakenRecords, check_tables, choose_measure, job_name, required_records, site_index, study_with_common_records,
+};
+use super::report::{ReportSource, StructureReport};
+use super::risk::{OVERTURNING_M, own_risk};
 use super::tables::{risk_path, write_tables};
-use super::uncertain::{Uncertain, UncertaintyReport};
+use super::uncertain::{Event, SiteQuestions, Uncertain, UncertaintyReport};
+use super::weights::RepairedWeights;
 use crate::error::DesignError;
 
 /// What is asked of the overturning of a structure.
@@ -60,15 +59,9 @@ pub struct OverturningOptions {
 pub struct OverturningReport {
     /// The structure; each model has its own restitution.
     pub structure: StructureReport,
-    /// The result file.
-    pub result: PathBuf,
-    /// By what the numbers of the result are known.
-    #[serde(skip)]
-    pub study_digest: String,
-    /// Where its records come from, in a line.
-    pub record_set: String,
-    /// Whether they are synthetic.
-    pub synthetic: bool,
+    /// The result that it was examined under.
+    #[serde(flatten)]
+    pub source: ReportSource,
     /// Years that probabilities refer to.
     pub years: f64,
     /// How the structure is modelled.
@@ -172,19 +165,20 @@ pub fn overturning(
     options: &OverturningOptions,
     events: &dyn Events,
 ) -> Result<OverturningReport, DesignError> {
-    check_table(structure, result, options)?;
+    let manifest = options.manifest.as_deref();
+    if let Some(path) = &options.table {
+        let risk = risk_path(path);
+        check_tables(&[(path, "im"), (&risk, "site")], (structure, result, manifest), options.force)?;
+    }
     let file = ResultFile::open(result)?;
-    file.refuse_records_at_level("overturning is counted among the same records at every level")?;
-    let source = StudyOfResult::read(&file, options.manifest.as_deref())?;
+    let reason = "overturning is counted among the same records at every level";
+    let source = study_with_common_records(&file, manifest, reason)?;
     let sites = match &options.site {
         Some(site) => vec![site_index(&source, Some(site))?],
         None => (0..source.sites.len()).collect(),
     };
-    let measures = measures(&source, options.measure)?;
     let mut notes = Vec::new();
-    let models = models(structure, &source, options.restitution, &mut notes)?;
-    let shaken = Shaken::of(&source, options.manifest.as_deref())?;
-    let uncertain = uncertain::structures(structure, options.restitution, (&models[OSCILLATOR].0, &shaken.set))?;
+    let analysis = OverturningAnalysis::from_structure(structure, &source, options, &mut notes)?;
     if !source.study.oscillator.free_vibration {
         notes.push(
             "the study ends with its records (free_vibration = false); here what falls after their end counts as \
@@ -192,21 +186,19 @@ pub fn overturning(
                 .to_owned(),
         );
     }
-    let asked = name(structure);
-    let beside = Beside { result, name: &asked };
-    let (analysed, checkpoint) =
-        beside.results(shaken.work(&measures, (&models, uncertain.as_ref()), &asked)?, &options.shards, events)?;
-    let Shaken { study, set, .. } = &shaken;
-    let reweighing = Reweighing::from_motions(&file)?;
-    let scatter = Scatter::of(&file)?;
+    let name = job_name("overturning", structure);
+    let beside = Beside { result, name: &name };
+    let (analysed, checkpoint) = beside.results(analysis.work(&name)?, &options.shards, events)?;
+    let OverturningAnalysis { study, records, measures, models, uncertain } = &analysis;
+    let repaired = RepairedWeights::from_file(&file)?;
+    let scatter = Scatter::from_file(&file)?;
     let mut analysed = analysed.into_iter();
     let mut found: Vec<(&SpectraOfResult, Vec<Collapses>)> = Vec::new();
     let mut hazards: Vec<Vec<Hazard<'_>>> = Vec::new();
-    for measure in measures {
-        let hazard = Hazard::of_sites(&file, (&source, &sites), measure)?;
-        let of_repair = |site| reweighing.as_ref()?.weights(measure.measure(), site);
+    for &measure in measures {
+        let hazard = Hazard::from_sites(&file, (&source, &sites), measure)?;
         let weights: Vec<(&StripeWeights, Option<&RunWeights>)> =
-            sites.iter().map(|&site| (&measure.weights[site], of_repair(site))).collect();
+            sites.iter().map(|&site| (&measure.weights[site], repaired.at(measure, site))).collect();
         let of_models = models.iter().zip(analysed.by_ref()).map(|((model, _), analysed)| {
             let levels = &measure.plan.levels;
             let peaks_m_at = |nudge: usize| -> Vec<f64> {
@@ -221,7 +213,7 @@ pub fn overturning(
                 collapse(levels, runs, &weights, study.risk.years, model.can_overturn())
             };
             let rounded = (1..=NUDGES).map(at_nudge).collect::<Result<_, _>>()?;
-            let demand = PooledDemand::new(&Stripes::new(levels, &peaks_m_at(0))?)?;
+            let demand = PooledDemand::new(&Stripe::new(levels, &peaks_m_at(0))?)?;
             let of_site = |hazard: &Hazard<'_>| rate_bands(&demand, hazard, &scatter, OVERTURNING_M);
             let bands = hazard.iter().map(of_site).collect::<Result<_, _>>()?;
             Ok::<_, DesignError>(Collapses { own: at_nudge(0)?, rounded, bands })
@@ -229,42 +221,38 @@ pub fn overturning(
         found.push((measure, of_models.collect::<Result<_, _>>()?));
         hazards.push(hazard);
     }
-    notes.extend(notes_on(&models, &found));
-    let uncertainty = match &uncertain {
+    notes.extend(notes_on(models, &found));
+    let names: Vec<&str> = sites.iter().map(|&site| source.sites[site].as_str()).collect();
+    let uncertainty = match uncertain {
         Some(uncertain) => {
-            let names: Vec<&str> = sites.iter().map(|&site| source.sites[site].as_str()).collect();
             let described = |measure: usize, place: usize| found[measure].1[OSCILLATOR].own.risks[place].per_year;
             let measures: Vec<(&SpectraOfResult, &[Hazard<'_>])> =
                 found.iter().zip(&hazards).map(|((measure, _), hazard)| (*measure, &hazard[..])).collect();
-            Some(uncertain::report(uncertain, (&measures, &names), (analysed, (set, &scatter)), &described)?)
+            Some(uncertainty_report(uncertain, (&measures, &names), (analysed, (&records.set, &scatter)), &described)?)
         }
         None => None,
     };
     let mut alarms = alarms_of_inputs(&file, &Scope { measure: options.measure, ..Scope::default() })?;
     alarms.extend(structure_alarms(structure));
-    let names: Vec<&str> = sites.iter().map(|&site| source.sites[site].as_str()).collect();
-    alarms.extend(own_risk_alarms(&own_risks(&models, &found, &names, (set.records.len(), scatter.pairs.len()))));
-    let records = u32::try_from(set.records.len()).unwrap_or(u32::MAX);
+    let counts = (records.count(), scatter.pairs.len());
+    alarms.extend(own_risk_alarms(&own_risks(models, &found, &names, counts)));
+    let records = u32::try_from(records.count()).unwrap_or(u32::MAX);
     let of_measure = |(measure, found): &(&SpectraOfResult, Vec<Collapses>)| -> Vec<CollapseReport> {
-        let names = sites.iter().map(|&site| source.sites[site].as_str());
         let report = |(found, (model, _)): (&Collapses, &(System, _))| {
-            CollapseReport::of(found, measure.measure(), model.kind(), records, names.clone())
+            CollapseReport::from_collapse(found, measure.measure(), model.kind(), records, &names)
         };
-        found.iter().zip(&models).map(report).collect()
+        found.iter().zip(models).map(report).collect()
     };
     let mut report = OverturningReport {
-        structure: StructureReport::of(structure, None),
+        structure: StructureReport::from_structure(structure, None),
         years: study.risk.years,
-        models: models.iter().map(|(model, origin)| ModelReport::of(model, origin)).collect(),
+        models: models.iter().map(|(model, origin)| ModelReport::from_model(model, origin)).collect(),
         overturning: found.iter().flat_map(of_measure).collect(),
         uncertainty,
         notes,
         alarms: ranked(alarms),
         files: Vec::new(),
-        result: source.path.clone(),
-        study_digest: file.head()?.study_digest(),
-        record_set: source.record_set.clone(),
-        synthetic: source.synthetic,
+        source: ReportSource::read(&file, &source)?,
     };
     if let Some(path) = &options.table {
         write_tables(path, &report)?;
@@ -286,89 +274,124 @@ pub fn overturning_shard(
     events: &dyn Events,
 ) -> Result<ShardReport, DesignError> {
     let source = StudyOfResult::read(&ResultFile::open(result)?, options.manifest.as_deref())?;
-    let measures = measures(&source, options.measure)?;
-    let models = models(structure, &source, options.restitution, &mut Vec::new())?;
-    let shaken = Shaken::of(&source, options.manifest.as_deref())?;
-    let uncertain = uncertain::structures(structure, options.restitution, (&models[OSCILLATOR].0, &shaken.set))?;
-    let asked = name(structure);
-    let work = shaken.work(&measures, (&models, uncertain.as_ref()), &asked)?;
-    Ok(Beside { result, name: &asked }.shard(work, shard, events)?)
+    let analysis = OverturningAnalysis::from_structure(structure, &source, options, &mut Vec::new())?;
+    let name = job_name("overturning", structure);
+    Ok(Beside { result, name: &name }.shard(analysis.work(&name)?, shard, events)?)
 }
 
 /// Place of the equivalent oscillator among the models.
 const OSCILLATOR: usize = 0;
 
-/// What is asked, for the names of files.
-fn name(structure: &Structure) -> String {
-    format!("overturning {}", structure.file.file_stem().unwrap_or_default().to_string_lossy())
-}
-
 /// The measure `wanted` of a result; all where none is.
 fn measures(source: &StudyOfResult, wanted: Option<IntensityMeasure>) -> Result<Vec<&SpectraOfResult>, DesignError> {
     match wanted {
-        Some(measure) => Ok(vec![&source.measures[measure_index(source, Some(measure))?]]),
+        Some(measure) => Ok(vec![choose_measure(source, Some(measure))?]),
         None => Ok(source.measures.iter().collect()),
     }
 }
 
-/// The records that shake the models.
-struct Shaken {
+/// The models of a structure, and the records that shake them.
+struct OverturningAnalysis<'a> {
     /// The study of the result, with what happens after the end of a record.
     study: UniformRiskStudy,
-    set: RecordSet,
-    /// Keys of the records' motions.
-    motions: Vec<String>,
+    records: ShakenRecords,
+    measures: Vec<&'a SpectraOfResult>,
+    /// Each with the origin of its restitution.
+    models: Vec<(System, &'static str)>,
+    /// The structures that it may be; none where all of it is known.
+    uncertain: Option<Uncertain<'a>>,
 }
 
-impl Shaken {
-    fn of(source: &StudyOfResult, manifest: Option<&Path>) -> Result<Self, DesignError> {
-        let set = records(source, manifest)?.map_err(|reason| {
-            JobError::input(format!(
-                "{reason}; overturning needs the records that the result was made from (--manifest says where they are)"
-            ))
-        })?;
+impl<'a> OverturningAnalysis<'a> {
+    /// Of `structure` under the records of a result; `notes` gets what is left out of its models.
+    ///
+    /// # Errors
+    /// As [`overturning`].
+    fn from_structure(
+        structure: &'a Structure,
+        source: &'a StudyOfResult,
+        options: &OverturningOptions,
+        notes: &mut Vec<String>,
+    ) -> Result<Self, DesignError> {
+        let measures = measures(source, options.measure)?;
+        let models = models(structure, source, options.restitution, notes)?;
+        let records = required_records(source, options.manifest.as_deref(), "overturning")?;
         let mut study = source.study.clone();
         // what is lost when a record ends has overturned, whoever looks
         study.oscillator.free_vibration = true;
-        Ok(Self { motions: motion_keys(&set.records), study, set })
+        let uncertain = uncertain_structures(structure, options.restitution, (&models[OSCILLATOR].0, records.count()))?;
+        Ok(Self { study, records, measures, models, uncertain })
     }
 
     /// The stripes of each model by each measure, the models running fastest; those of the scale factors themselves,
     /// then those of their neighbours. After all of them those of the structures that it may be, one a measure.
-    fn work<'a>(
-        &'a self,
-        measures: &[&SpectraOfResult],
-        (models, uncertain): (&'a [(System, &'static str)], Option<&'a Uncertain<'_>>),
-        title: &str,
-    ) -> Result<Work<'a>, DesignError> {
+    fn work(&self, title: &str) -> Result<Work<'_>, DesignError> {
         let mut plans = Vec::new();
         let factors: Vec<f64> = [1.0].into_iter().chain(nudges()).collect();
-        for measure in measures {
-            for (model, _) in models {
-                let plan = plan_stripes(&self.study, &measure.plan, &self.set, std::slice::from_ref(model))?;
+        let ShakenRecords { set, motions } = &self.records;
+        for measure in &self.measures {
+            for (model, _) in &self.models {
+                let plan = plan_stripes(&self.study, &measure.plan, set, std::slice::from_ref(model))?;
                 let plan = plan.multiplied(&factors)?;
                 let label = format!("{}, {}", measure.measure().label(), model.kind());
-                plans.push(LabelledPlan { label, remark: None, plan, motions: &self.motions, known: None });
+                plans.push(LabelledPlan { label, remark: None, plan, motions, known: None });
             }
         }
-        if let Some(uncertain) = uncertain {
-            for measure in measures {
+        if let Some(uncertain) = &self.uncertain {
+            for measure in &self.measures {
                 let label = measure.measure().label();
-                plans.push(uncertain.plan((label, &self.study), &measure.plan, (&self.set, &self.motions))?);
+                plans.push(uncertain.plan((label, &self.study), &measure.plan, &self.records)?);
             }
         }
         Ok(Work::new(title, plans))
     }
 }
 
-/// Names that would lose something, before anything is computed.
-fn check_table(structure: &Structure, result: &Path, options: &OverturningOptions) -> Result<(), DesignError> {
-    let Some(path) = &options.table else { return Ok(()) };
-    let inputs = inputs(structure, result, options.manifest.as_deref());
-    let risk = risk_path(path);
-    let tables = [(path, "im"), (&risk, "site")];
-    let tables = tables.map(|(path, column)| Output::new(path, OutputKind::Table(column)).with_result(result));
-    Ok(outputs::check(&tables, &inputs, options.force)?)
+/// The structures that `structure` may be, whose `oscillator` is that of the structure as described; none where all of
+/// it is known.
+///
+/// # Errors
+/// A structure that cannot be; one restitution for all where the file says that it is uncertain.
+fn uncertain_structures<'a>(
+    structure: &'a Structure,
+    for_both: Option<f64>,
+    (oscillator, records): (&System, usize),
+) -> Result<Option<Uncertain<'a>>, DesignError> {
+    let is_uncertain = |of: &Uncertainty| of.quantities.contains(&UncertainQuantity::Restitution);
+    if for_both.is_some() && structure.uncertainty.as_ref().is_some_and(is_uncertain) {
+        return Err(JobError::Usage(format!(
+            "--restitution: {} says that the restitution is uncertain: leave the option out, or \
+             [uncertainty.restitution]",
+            structure.file.display()
+        ))
+        .into());
+    }
+    Uncertain::from_structure(structure, oscillator.restitution(), records)
+}
+
+/// What the stripes of the structures say by each of `measures`, with the hazard of each of the sites; `described` is
+/// the frequency for the structure as described, by the positions of measure and site.
+///
+/// # Errors
+/// Parts that do not belong together.
+fn uncertainty_report(
+    uncertain: &Uncertain<'_>,
+    (measures, sites): (&[(&SpectraOfResult, &[Hazard<'_>])], &[&str]),
+    (analysed, (set, scatter)): (impl Iterator<Item = Analysed>, (&RecordSet, &Scatter)),
+    described: &dyn Fn(usize, usize) -> f64,
+) -> Result<UncertaintyReport, DesignError> {
+    let (mut results, mut analyses) = (Vec::new(), 0);
+    for ((index, (measure, hazard)), analysed) in measures.iter().enumerate().zip(analysed) {
+        let asked = sites.iter().zip(*hazard).enumerate().map(|(place, (&name, hazard))| SiteQuestions {
+            name,
+            hazard,
+            asked: vec![(Event::Overturning, described(index, place))],
+        });
+        let asked: Vec<SiteQuestions<'_>> = asked.collect();
+        analyses += analysed.analyses;
+        results.extend(uncertain.results(&Stripes::new(&measure.plan, set, analysed), &asked, scatter)?);
+    }
+    Ok(uncertain.report(analyses, results))
 }
 
 /// Overturning at the scale factors themselves, and at their neighbours some roundings away.
@@ -408,28 +431,21 @@ fn own_risks(
     models: &[(System, &'static str)],
     found: &[(&SpectraOfResult, Vec<Collapses>)],
     sites: &[&str],
-    (records, pairs): (usize, usize),
+    counts: (usize, usize),
 ) -> Vec<OwnRisk> {
     let mut risks = Vec::new();
     for (measure, found) in found {
-        let levels = &measure.plan.levels;
         for (found, (model, _)) in found.iter().zip(models) {
-            risks.extend(sites.iter().zip(&found.own.risks).map(|(site, &risk)| OwnRisk {
-                subject: format!("overturning of the {}, {site}, {}", model.kind(), measure.measure().label()),
-                risk,
-                measure: measure.measure(),
-                levels: (levels[0], levels[levels.len() - 1]),
-                records,
-                pairs,
-                effective_pairs: pairs as f64,
-            }));
+            let event = format!("overturning of the {}", model.kind());
+            let of_site = |(site, &risk): (&&str, &EventRisk)| own_risk((&event, risk), (site, measure), counts);
+            risks.extend(sites.iter().zip(&found.own.risks).map(of_site));
         }
     }
     risks
 }
 
 impl ModelReport {
-    fn of(model: &System, restitution_from: &'static str) -> Self {
+    fn from_model(model: &System, restitution_from: &'static str) -> Self {
         let block = match model {
             System::Oscillator(_) | System::Frame(_) => None,
             System::Block(block) => Some(block),
@@ -445,20 +461,20 @@ impl ModelReport {
 }
 
 impl CollapseReport {
-    fn of<'a>(
+    fn from_collapse(
         Collapses { own, rounded, bands }: &Collapses,
         measure: IntensityMeasure,
         model: &'static str,
         records: u32,
-        sites: impl Iterator<Item = &'a str>,
+        sites: &[&str],
     ) -> Self {
         let around = |value: &dyn Fn(&Collapse) -> f64| Noisy::around(value(own), rounded.iter().map(value));
         let fit = own.fit.as_ref().ok();
         let of_fit = |value: &dyn Fn(&LognormalFit) -> f64| {
             fit.map(|_| around(&|found| found.fit.as_ref().map_or(f64::NAN, value)))
         };
-        let site = |(index, site): (usize, &str)| SiteRisk {
-            site: site.to_owned(),
+        let site = |(index, site): (usize, &&str)| SiteRisk {
+            site: (*site).to_owned(),
             risk: own.risks[index],
             bands: bands[index],
             repaired: own.repaired[index],
@@ -487,7 +503,7 @@ impl CollapseReport {
             theta_rounding: of_fit(&|fit| fit.fragility.median()),
             beta_rounding: of_fit(&|fit| fit.fragility.dispersion()),
             log_likelihood: fit.map(|fit| fit.log_likelihood),
-            sites: sites.enumerate().map(site).collect(),
+            sites: sites.iter().enumerate().map(site).collect(),
             fit: fit.copied(),
         }
     }

@@ -1,10 +1,14 @@
-//! A structure as a report tells it.
+//! A structure, and the result that it was examined under, as reports have them.
 
 use std::path::PathBuf;
 
 use serde::Serialize;
+use uplift_result::ResultFile;
 use uplift_structure::{EquivalentSystem, PostUpliftForce};
 use uplift_study::Structure;
+use uplift_uniform_risk::StudyOfResult;
+
+use crate::error::DesignError;
 
 /// A structure and the oscillator that it is equivalent to (Table 3.1).
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -42,7 +46,7 @@ pub struct StructureReport {
 
 impl StructureReport {
     /// Of `structure`, whose oscillator has this restitution.
-    pub fn of(structure: &Structure, restitution: Option<f64>) -> Self {
+    pub fn from_structure(structure: &Structure, restitution: Option<f64>) -> Self {
         let system = &structure.system;
         Self {
             name: structure.name(),
@@ -60,6 +64,35 @@ impl StructureReport {
             post_uplift_stiffness_n_m: system.post_uplift_stiffness_n_m(),
             warnings: system.warnings().iter().map(ToString::to_string).collect(),
         }
+    }
+}
+
+/// The result that a structure was examined under.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ReportSource {
+    /// The result file.
+    pub result: PathBuf,
+    /// By what the numbers of the result are known.
+    #[serde(skip)]
+    pub study_digest: String,
+    /// Where its records come from, in a line.
+    pub record_set: String,
+    /// Whether they are synthetic.
+    pub synthetic: bool,
+}
+
+impl ReportSource {
+    /// Of the result in `file`, whose study is `source`.
+    ///
+    /// # Errors
+    /// A file that is damaged.
+    pub(super) fn read(file: &ResultFile, source: &StudyOfResult) -> Result<Self, DesignError> {
+        Ok(Self {
+            result: source.path.clone(),
+            study_digest: file.head()?.study_digest(),
+            record_set: source.record_set.clone(),
+            synthetic: source.synthetic,
+        })
     }
 }
 

@@ -1,8 +1,11 @@
 //! A structure under the records of a study: how often it goes too far.
 
+use uplift_alarms::OwnRisk;
 use uplift_fragility::Stripes as Stripe;
+use uplift_ida::System;
+use uplift_oscillator::{Oscillator, PostUplift};
 use uplift_risk::PooledDemand;
-use uplift_uniform_risk::{EventRisk, Stripes, at_most_per_year, pooled_demand};
+use uplift_uniform_risk::{EventRisk, SpectraOfResult, Stripes, at_most_per_year, pooled_demand};
 
 use super::weights::SiteWeights;
 use crate::error::DesignError;
@@ -15,8 +18,40 @@ pub(super) fn bounded(risk: EventRisk, weights: &SiteWeights<'_>, pairs: &[Vec<u
     EventRisk { at_most_per_year, ..risk }
 }
 
+/// The risk of an `event` at a `site`, in the form in which alarms look at it; its `pairs` count alike.
+pub(super) fn own_risk(
+    (event, risk): (&str, EventRisk),
+    (site, measure): (&str, &SpectraOfResult),
+    (records, pairs): (usize, usize),
+) -> OwnRisk {
+    let levels = &measure.plan.levels;
+    OwnRisk {
+        subject: format!("{event}, {site}, {}", measure.measure().label()),
+        risk,
+        measure: measure.measure(),
+        levels: (levels[0], levels[levels.len() - 1]),
+        records,
+        pairs,
+        effective_pairs: pairs as f64,
+    }
+}
+
 /// A threshold that nothing but overturning exceeds.
 pub(super) const OVERTURNING_M: f64 = f64::MAX;
+
+/// The displacement capacity of a system, m; none of any but an oscillator whose force falls.
+pub(super) fn capacity_m(system: &System) -> Option<f64> {
+    let System::Oscillator(oscillator) = system else { return None };
+    oscillator_capacity_m(oscillator)
+}
+
+/// The displacement capacity of an oscillator, m; none where its force does not fall.
+pub(super) fn oscillator_capacity_m(oscillator: &Oscillator) -> Option<f64> {
+    match oscillator.post_uplift() {
+        PostUplift::Negative { capacity_m } => Some(capacity_m),
+        PostUplift::Zero | PostUplift::Positive { .. } => None,
+    }
+}
 
 /// The risk of exceeding `threshold_m`.
 ///

@@ -4,8 +4,9 @@ use uplift_ida::System;
 use uplift_oscillator::{Oscillator, OscillatorError, PostUplift};
 use uplift_spectra::{NoiseSweep, nudges};
 use uplift_structure::EquivalentSystem;
-use uplift_study::UniformRiskStudy;
+use uplift_study::{Structure, UniformRiskStudy};
 
+use super::opening::restitution;
 use crate::error::DesignError;
 
 /// Half the width of the sweep around the strength, relative to it.
@@ -32,15 +33,16 @@ pub(super) struct Sweep {
 }
 
 impl Sweep {
-    /// Of `system`, for a spectrum of `study`.
+    /// Of `structure`, for a spectrum of `study`.
     ///
     /// # Errors
-    /// A system that has no oscillator.
-    pub(super) fn of(
-        study: &UniformRiskStudy,
-        system: &EquivalentSystem,
-        restitution: f64,
-    ) -> Result<Self, DesignError> {
+    /// A structure that has no oscillator.
+    pub(super) fn from_structure(structure: &Structure, study: &UniformRiskStudy) -> Result<Self, DesignError> {
+        Self::from_system(&structure.system, study, restitution(structure, study))
+            .map_err(|error| uplift_job::in_file(error, &structure.file))
+    }
+
+    fn from_system(system: &EquivalentSystem, study: &UniformRiskStudy, restitution: f64) -> Result<Self, DesignError> {
         let of_study = Oscillator::new(
             system.spectral_strength_at(study.gravity_m_s2),
             study.gravity_m_s2,

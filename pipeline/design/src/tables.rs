@@ -30,8 +30,8 @@ pub(super) fn write_tables(path: &Path, report: &OverturningReport) -> Result<()
         uplift_job::COMMIT,
         report.structure.name,
         report.structure.kind,
-        report.result.display(),
-        report.record_set
+        report.source.result.display(),
+        report.source.record_set
     )
     .replace(['\n', '\r'], " ");
     write_table(path, &line, fragility(report))?;

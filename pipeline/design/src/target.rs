@@ -5,46 +5,43 @@
 //! is followed, and the value that is told is the one from which on all that was tried meets it.
 
 mod band;
-mod beside;
 mod candidate;
 mod request;
 mod search;
 mod table;
 mod trial;
-mod uncertain;
 mod words;
 
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
+use uplift_hazard::HazardCurve;
+use uplift_risk::risk_targeted_level;
 use uplift_spectra::{NoiseSweep, Noisy};
 use uplift_structure::EquivalentSystem;
 use uplift_study::Structure;
 
-pub use band::{Drawn, TargetBand};
-pub use beside::{GenericTarget, LevelShare};
+pub use band::{Drawn, TargetBand, TargetUncertainty};
 pub use request::{TargetEvent, TargetFrequency, TargetOptions};
 pub use search::Crossing;
-pub use uncertain::TargetUncertainty;
 
 use super::certainty::Scatter;
-use super::choice::{measure_index, site_index};
 use super::hazard::Hazard;
-use super::inputs::inputs;
-use super::report::StructureReport;
+use super::opening::{Place, check_tables, study_with_common_records};
+use super::report::{ReportSource, StructureReport};
+use super::risk::own_risk;
 use super::uncertain::Spread;
 use crate::error::DesignError;
 use candidate::Attempt;
 use search::{crossings, search, spread};
 use trial::Trials;
-use uplift_alarms::{OwnRisk, Scope, alarms_of_inputs, own_risk_alarms, ranked, structure_alarms};
+use uplift_alarms::{Scope, alarms_of_inputs, own_risk_alarms, ranked, structure_alarms};
 use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
 use uplift_job::events::Events;
-use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_result::ResultFile;
+use uplift_uniform_risk::EventRisk;
 use uplift_uniform_risk::consistency::Question;
-use uplift_uniform_risk::{EventRisk, StudyOfResult};
 use words::{Words, assumptions, with_mistakes};
 
 /// Values tried before the search narrows, over the range.
@@ -59,15 +56,9 @@ const NOISE: (f64, usize) = (0.01, 11);
 pub struct TargetReport {
     /// The structure as its file has it, with the restitution of its oscillator.
     pub structure: StructureReport,
-    /// The result file.
-    pub result: PathBuf,
-    /// By what the numbers of the result are known.
-    #[serde(skip)]
-    pub study_digest: String,
-    /// Where its records come from, in a line.
-    pub record_set: String,
-    /// Whether they are synthetic.
-    pub synthetic: bool,
+    /// The result that it was examined under.
+    #[serde(flatten)]
+    pub source: ReportSource,
     /// The site.
     pub site: String,
     /// `PGV` or `PGA`.
@@ -139,6 +130,45 @@ pub struct FoundSystem {
     pub post_uplift_stiffness_n_m: f64,
 }
 
+/// How often it happens given the level of a return period.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct LevelShare {
+    /// The return period, years.
+    pub return_period_years: f64,
+    /// Its level by the site's hazard curve, in the unit of the measure.
+    pub level: f64,
+    /// Records, each scaled to the level.
+    pub records: usize,
+    /// Runs: every record with every structure that it may shake.
+    pub runs: usize,
+    /// Those of them in which it happens.
+    pub count: usize,
+    /// Their share, 0 to 1.
+    pub probability: f64,
+}
+
+/// The level to design for by a generic lognormal fragility (Luco et al. 2007): risk-targeted, beside that of a return
+/// period.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct GenericTarget {
+    /// Dispersion of the fragility.
+    pub dispersion: f64,
+    /// Its probability at the level to design for.
+    pub probability: f64,
+    /// That level, with which the fragility has the target risk, in the unit of the measure.
+    pub level: f64,
+    /// Median of the fragility, in the unit of the measure.
+    pub median: f64,
+    /// Share of the risk from above the hazard curve.
+    pub upper_tail_share: f64,
+    /// The longest return period that was asked for, years.
+    pub return_period_years: f64,
+    /// Its level; none outside the hazard curve.
+    pub uniform_hazard_level: Option<f64>,
+    /// Risk-targeted over uniform-hazard level; none without the latter.
+    pub risk_coefficient: Option<f64>,
+}
+
 /// One value that was tried.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TriedValue {
@@ -156,8 +186,8 @@ pub struct TriedValue {
 }
 
 impl TriedValue {
-    fn of(value: f64, attempt: &Attempt, target_per_year: f64) -> Self {
-        let branches = || Spread::of(attempt.structures.iter().map(|of| of.risk.per_year).collect());
+    fn from_attempt(value: f64, attempt: &Attempt, target_per_year: f64) -> Self {
+        let branches = || Spread::from_values(attempt.structures.iter().map(|of| of.risk.per_year).collect());
         let structure_percentiles_per_year = (attempt.structures.len() > 1).then(|| branches().percentiles);
         Self { value, risk: attempt.risk, structure_percentiles_per_year, is_met: attempt.meets(target_per_year) }
     }
@@ -182,20 +212,23 @@ pub fn target(
     if !mistakes.is_empty() {
         return Err(JobError::Implausible(mistakes).into());
     }
-    check_table(structure, result, options)?;
+    let manifest = options.manifest.as_deref();
+    if let Some(path) = &options.table {
+        check_tables(&[(path, table::FIRST_COLUMN)], (structure, result, manifest), options.force)?;
+    }
     let file = ResultFile::open(result)?;
-    file.refuse_records_at_level("a target is looked for with the same records at every level")?;
-    let source = StudyOfResult::read(&file, options.manifest.as_deref())?;
-    let site = site_index(&source, options.site.as_deref())?;
-    let measure = &source.measures[measure_index(&source, options.measure)?];
-    let curve = file.mean_curve(&source.sites[site], measure.measure())?;
+    let reason = "a target is looked for with the same records at every level";
+    let source = study_with_common_records(&file, manifest, reason)?;
+    let place = Place::choose(&source, options.site.as_deref(), options.measure)?;
+    let Place { site, measure, .. } = place;
+    let curve = file.mean_curve(place.name, measure.measure())?;
     let years = options.frequency.years().unwrap_or(source.study.risk.years);
     let target_per_year = options.frequency.per_year(years)?;
     let (range, own_value) = range(structure, options)?;
-    let hazard = Hazard::of(&file, (&source.sites[site], site), (measure, &source.study))?;
-    let scatter = Scatter::of(&file)?;
-    let mut trials = Trials::of(structure, &source, (measure, &hazard, &scatter), (options, years), events)?;
-    trials.refuse_untellable(&source.sites[site], target_per_year)?;
+    let hazard = Hazard::from_file(&file, (place.name, site), (measure, &source.study))?;
+    let scatter = Scatter::from_file(&file)?;
+    let mut trials = Trials::from_structure(structure, &source, (place, &hazard, &scatter), (options, years), events)?;
+    trials.refuse_untellable(place.name, target_per_year)?;
 
     let meets = |attempt: &Attempt| attempt.meets(target_per_year);
     let tried = search(spread(range, VALUES), options.tolerance, |values| trials.attempt(values), meets)?;
@@ -204,15 +237,15 @@ pub fn target(
     let mut alarms = alarms_of_inputs(&file, &scope)?;
     alarms.extend(structure_alarms(structure));
     alarms.extend(options.doubtful());
-    let place = match words.first_of_met(&tried) {
-        Ok(place) => place,
+    let at = match words.first_of_met(&tried) {
+        Ok(at) => at,
         Err(reason) => {
             // that is the answer: nothing is left to go on with
             trials.finish();
             return Err(JobError::Usage(with_mistakes(reason, &alarms)).into());
         }
     };
-    let (value, found) = (tried[place].0, &tried[place].1);
+    let (value, found) = (tried[at].0, &tried[at].1);
     let crossings = crossings(&tried, meets);
     let mut notes = words.notes(&crossings, &tried);
     let neighbours: Vec<f64> = NoiseSweep::new(NOISE.0, NOISE.1)?.factors().iter().map(|by| by * value).collect();
@@ -226,53 +259,44 @@ pub fn target(
     }
     notes.extend(assumptions(structure, &file, trials.restitution()));
     let at_return_periods = trials.at_return_periods(found, curve.as_ref(), &mut notes)?;
-    let generic = curve.as_ref().map(|curve| beside::generic_target(curve, target_per_year, options)).transpose()?;
-    let pairs = trials.pairs().len();
-    let levels = &measure.plan.levels;
-    let own = OwnRisk {
-        subject: format!("{}, {}, {}", options.event.words(), source.sites[site], measure.measure().label()),
-        risk: found.risk,
-        measure: measure.measure(),
-        levels: (levels[0], levels[levels.len() - 1]),
-        records: trials.record_count(),
-        pairs,
-        effective_pairs: pairs as f64,
-    };
-    alarms.extend(own_risk_alarms(&[own]));
+    let generic = curve.as_ref().map(|curve| generic_target(curve, target_per_year, options)).transpose()?;
+    let counts = (trials.record_count(), trials.pairs().len());
+    let event = options.event.words();
+    alarms.extend(own_risk_alarms(&[own_risk((&event, found.risk), (place.name, measure), counts)]));
     let motions = Question::from_motions(&file)?;
-    let bands = band::band((&tried, place), (target_per_year, &hazard), &source.study, &motions)?;
+    let bands = band::band((&tried, at), (target_per_year, &hazard), &source.study, &motions)?;
     let mut report = TargetReport {
-        uncertainty: trials.around().map(|around| TargetUncertainty::of(around, bands.structures)),
-        structure: StructureReport::of(structure, Some(trials.restitution())),
-        site: source.sites[site].clone(),
+        uncertainty: trials.around().map(|around| TargetUncertainty::from_bands(around, bands.structures)),
+        structure: StructureReport::from_structure(structure, Some(trials.restitution())),
+        site: place.name.to_owned(),
         im: measure.measure().label(),
         im_unit: measure.measure().unit(),
         quantity: options.quantity.key(),
         quantity_unit: options.quantity.unit(),
         own_value,
-        event: options.event.words(),
+        event,
         target_per_year,
         years,
         value,
-        missed_at: tried[place - 1].0,
+        missed_at: tried[at - 1].0,
         least_met: tried.iter().find(|(_, attempt)| meets(attempt)).map_or(value, |(value, _)| *value),
         risk: found.risk,
-        found: FoundSystem::of(&found.candidate.system),
+        found: FoundSystem::from_system(&found.candidate.system),
         per_year_within_one_percent: noise,
         band: bands.records,
         band_with_hazard: bands.with_hazard,
         crossings,
         at_return_periods,
         generic: generic.flatten(),
-        tried: tried.iter().map(|(value, attempt)| TriedValue::of(*value, attempt, target_per_year)).collect(),
+        tried: tried
+            .iter()
+            .map(|(value, attempt)| TriedValue::from_attempt(*value, attempt, target_per_year))
+            .collect(),
         analyses: trials.analyses(),
         notes,
         alarms: ranked(alarms),
         files: Vec::new(),
-        result: source.path.clone(),
-        study_digest: file.head()?.study_digest(),
-        record_set: source.record_set.clone(),
-        synthetic: source.synthetic,
+        source: ReportSource::read(&file, &source)?,
     };
     if let Some(path) = &options.table {
         table::write(path, &report)?;
@@ -280,6 +304,31 @@ pub fn target(
     }
     trials.finish();
     Ok(report)
+}
+
+/// What the generic fragility that was asked for makes of `curve`; none where none was.
+///
+/// # Errors
+/// A target that no fragility has on this curve.
+fn generic_target(
+    curve: &HazardCurve,
+    target_per_year: f64,
+    options: &TargetOptions,
+) -> Result<Option<GenericTarget>, DesignError> {
+    let Some((dispersion, probability)) = options.generic else { return Ok(None) };
+    let found = risk_targeted_level(curve, target_per_year, probability, dispersion)?;
+    let return_period_years = options.return_periods.iter().copied().fold(0.0, f64::max);
+    let uniform_hazard_level = curve.im_at_rate(1.0 / return_period_years).ok();
+    Ok(Some(GenericTarget {
+        dispersion,
+        probability,
+        level: found.level,
+        median: found.fragility.median(),
+        upper_tail_share: found.risk.upper_tail_per_year / found.risk.per_year,
+        return_period_years,
+        uniform_hazard_level,
+        risk_coefficient: uniform_hazard_level.map(|level| found.level / level),
+    }))
 }
 
 /// The range of the search, and the value that the structure has.
@@ -306,19 +355,8 @@ fn range(structure: &Structure, options: &TargetOptions) -> Result<([f64; 2], Op
     Ok((range, own))
 }
 
-/// A name that would lose something, before anything is computed.
-fn check_table(structure: &Structure, result: &Path, options: &TargetOptions) -> Result<(), DesignError> {
-    let Some(path) = &options.table else { return Ok(()) };
-    let inputs = inputs(structure, result, options.manifest.as_deref());
-    Ok(outputs::check(
-        &[Output::new(path, OutputKind::Table(table::FIRST_COLUMN)).with_result(result)],
-        &inputs,
-        options.force,
-    )?)
-}
-
 impl FoundSystem {
-    fn of(system: &EquivalentSystem) -> Self {
+    fn from_system(system: &EquivalentSystem) -> Self {
         Self {
             strength: system.strength(),
             spectral_strength: system.spectral_strength(),

@@ -9,7 +9,6 @@ mod words;
 
 use uplift_bootstrap::{BootstrapError, ResamplingPlan};
 use uplift_ida::System;
-use uplift_oscillator::PostUplift;
 use uplift_structure::{EquivalentSystem, Realization};
 use uplift_study::{MeasurePlan, Structure, Uncertainty, UncertaintyKind, UniformRiskStudy};
 
@@ -21,11 +20,11 @@ pub use report::{
 
 use super::certainty::Scatter;
 use super::hazard::Hazard;
-use super::risk::OVERTURNING_M;
+use super::opening::ShakenRecords;
+use super::risk::{OVERTURNING_M, capacity_m};
 use crate::error::DesignError;
 use branches::Branches;
 use uplift_engine::analysis::LabelledPlan;
-use uplift_inputs::RecordSet;
 use uplift_job::JobError;
 use uplift_job::alarm::Severity;
 use uplift_job::text::thousands;
@@ -90,9 +89,9 @@ impl Event {
     }
 }
 
-/// A site, and what is asked there.
+/// A site, and the questions that are asked there.
 #[derive(Debug)]
-pub(super) struct AskedSite<'a> {
+pub(super) struct SiteQuestions<'a> {
     pub(super) name: &'a str,
     pub(super) hazard: &'a Hazard<'a>,
     /// Each with its answer for the structure as described.
@@ -105,12 +104,16 @@ impl<'a> Uncertain<'a> {
     ///
     /// # Errors
     /// A structure that cannot be.
-    pub(super) fn of(structure: &'a Structure, restitution: f64, records: usize) -> Result<Option<Self>, DesignError> {
+    pub(super) fn from_structure(
+        structure: &'a Structure,
+        restitution: f64,
+        records: usize,
+    ) -> Result<Option<Self>, DesignError> {
         let Some(of) = &structure.uncertainty else { return Ok(None) };
         let realize = |point: &[f64]| realized((structure, &structure.system), of, restitution, point);
         let (systems, branches) = match of.kind {
             UncertaintyKind::Epistemic => {
-                let (systems, branches) = Branches::of(of, &realize)?;
+                let (systems, branches) = Branches::draw(of, &realize)?;
                 (systems, Some(branches))
             }
             UncertaintyKind::Aleatory => {
@@ -129,9 +132,9 @@ impl<'a> Uncertain<'a> {
         &'b self,
         (label, study): (&str, &UniformRiskStudy),
         measure: &MeasurePlan,
-        (set, motions): (&'b RecordSet, &'b [String]),
+        records: &'b ShakenRecords,
     ) -> Result<LabelledPlan<'b>, DesignError> {
-        let plan = plan_stripes(study, measure, set, &self.systems)?;
+        let plan = plan_stripes(study, measure, &records.set, &self.systems)?;
         let plan = if self.branches.is_none() { plan.with_own_systems()? } else { plan };
         let axes = plan.axes();
         let whose = if self.branches.is_none() { "structures of each record" } else { "structures" };
@@ -143,7 +146,7 @@ impl<'a> Uncertain<'a> {
             thousands(plan.analyses())
         );
         let remark = Some(("uncertainty".to_owned(), cost));
-        Ok(LabelledPlan { label: format!("{label}, uncertain"), remark, plan, motions, known: None })
+        Ok(LabelledPlan { label: format!("{label}, uncertain"), remark, plan, motions: &records.motions, known: None })
     }
 
     /// What the stripes of a measure say, `[site, asked]`.
@@ -153,7 +156,7 @@ impl<'a> Uncertain<'a> {
     pub(super) fn results(
         &self,
         stripes: &Stripes,
-        sites: &[AskedSite<'_>],
+        sites: &[SiteQuestions<'_>],
         scatter: &Scatter,
     ) -> Result<Vec<UncertainResult>, DesignError> {
         let findings = match &self.branches {
@@ -161,20 +164,21 @@ impl<'a> Uncertain<'a> {
             None => draws::findings(self, stripes, sites, scatter)?,
         };
         let asked = sites.iter().flat_map(|site| site.asked.iter().map(move |asked| (site, asked)));
-        let result = |((site, (event, as_described)), found): ((&AskedSite<'_>, &(Event, f64)), UncertainFinding)| {
-            let may_happen = self.systems.iter().any(|system| event.may_happen(system));
-            // records are counted and not structures: to the ground motion of a pair all its structures are one sample
-            let bound = may_happen.then(|| at_most_per_year(site.hazard.mean, scatter.pairs.len() as f64));
-            UncertainResult {
-                site: site.name.to_owned(),
-                im: stripes.measure.label(),
-                of: event.words(),
-                unit: event.unit(),
-                as_described: *as_described,
-                as_described_at_most_per_year: bound.filter(|_| *as_described == 0.0),
-                found: found.bounded(bound),
-            }
-        };
+        let result =
+            |((site, (event, as_described)), found): ((&SiteQuestions<'_>, &(Event, f64)), UncertainFinding)| {
+                let may_happen = self.systems.iter().any(|system| event.may_happen(system));
+                // records are counted and not structures: to the ground motion of a pair all its structures are one sample
+                let bound = may_happen.then(|| at_most_per_year(site.hazard.mean, scatter.pairs.len() as f64));
+                UncertainResult {
+                    site: site.name.to_owned(),
+                    im: stripes.measure.label(),
+                    of: event.words(),
+                    unit: event.unit(),
+                    as_described: *as_described,
+                    as_described_at_most_per_year: bound.filter(|_| *as_described == 0.0),
+                    found: found.bounded(bound),
+                }
+            };
         Ok(asked.zip(findings).map(result).collect())
     }
 
@@ -248,15 +252,6 @@ fn realized(
     let system = varied.realized(&realization).map_err(|error| fail(error.to_string()))?;
     let restitution = realization.restitution.unwrap_or(restitution);
     Ok(system.spectral_oscillator(restitution).map(System::Oscillator).map_err(|error| fail(error.to_string()))?)
-}
-
-/// The displacement capacity of an oscillator, m; none where its force does not fall.
-fn capacity_m(system: &System) -> Option<f64> {
-    let System::Oscillator(oscillator) = system else { return None };
-    match oscillator.post_uplift() {
-        PostUplift::Negative { capacity_m } => Some(capacity_m),
-        PostUplift::Zero | PostUplift::Positive { .. } => None,
-    }
 }
 
 #[cfg(test)]

@@ -1,6 +1,29 @@
 //! What the runs of a structure weigh at a site: records that count alike, or weights by which they bring its hazard.
 
+use uplift_result::ResultFile;
 use uplift_risk::{PooledDemand, RiskCurve, RiskError, RunWeights, StripeWeights};
+use uplift_uniform_risk::SpectraOfResult;
+use uplift_uniform_risk::consistency::Reweighing;
+
+use crate::error::DesignError;
+
+/// The repaired weights of a result.
+pub(super) struct RepairedWeights(Option<Reweighing>);
+
+impl RepairedWeights {
+    /// Those of the motions of a result, each once.
+    ///
+    /// # Errors
+    /// Records and hazard that cannot be held against each other.
+    pub(super) fn from_file(file: &ResultFile) -> Result<Self, DesignError> {
+        Ok(Self(Reweighing::from_motions(file)?))
+    }
+
+    /// Those by one measure at the site at this position; none where there is no repair.
+    pub(super) fn at(&self, measure: &SpectraOfResult, site: usize) -> Option<&RunWeights> {
+        self.0.as_ref()?.weights(measure.measure(), site)
+    }
+}
 
 /// What the runs of a structure weigh at a site.
 #[derive(Debug, Clone, Copy)]

@@ -43,7 +43,7 @@ pub(crate) fn print_frame_risk(report: &FrameRiskReport) -> Result<(), CommandEr
         risk_in_words(report.poe, report.years),
         report.target_per_year
     )?;
-    writeln!(out, "           {}, {}", shown_path(&report.result).display(), report.record_set)?;
+    writeln!(out, "           {}, {}", shown_path(&report.source.result).display(), report.source.record_set)?;
     for note in &report.notes {
         writeln!(out, "note       {note}")?;
     }

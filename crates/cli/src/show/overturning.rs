@@ -30,7 +30,7 @@ pub(crate) fn print_overturning(report: &OverturningReport) -> Result<(), Comman
             _ => writeln!(out, "oscillator restitution {restitution} ({origin})")?,
         }
     }
-    writeln!(out, "records    {}, {}", shown_path(&report.result).display(), report.record_set)?;
+    writeln!(out, "records    {}, {}", shown_path(&report.source.result).display(), report.source.record_set)?;
     for note in &report.notes {
         writeln!(out, "note       {note}")?;
     }

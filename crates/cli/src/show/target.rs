@@ -18,7 +18,7 @@ pub(crate) fn print_target(report: &TargetReport) -> Result<(), CommandError> {
     for line in lines(&report.structure) {
         writeln!(out, "{line}")?;
     }
-    writeln!(out, "records    {}, {}", shown_path(&report.result).display(), report.record_set)?;
+    writeln!(out, "records    {}, {}", shown_path(&report.source.result).display(), report.source.record_set)?;
     let TargetReport { event, site, im, quantity, target_per_year, value, .. } = report;
     let unit = |text: String| format!("{text} {}", report.quantity_unit).trim_end().to_owned();
     writeln!(

@@ -35,7 +35,7 @@ pub fn frame_risk_figure(report: &FrameRiskReport) -> Figure {
             "Annual frequency of exceeding a displacement of the deck, by the frame itself and by its proxies, and \
                   the share of the records that overturn the frame at each level: counted (dots) and lognormal (line)."
                 .to_owned(),
-        remark: if report.synthetic { "synthetic records: not for design" } else { "" }.to_owned(),
+        remark: if report.source.synthetic { "synthetic records: not for design" } else { "" }.to_owned(),
         panels: vec![curves, fragility(report)],
         columns: 2,
     }

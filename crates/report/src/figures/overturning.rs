@@ -28,7 +28,7 @@ pub fn overturning_figure(report: &OverturningReport) -> Figure {
             "Collapse fragility: the share of the records that overturn the structure at each level (dots) and the \
                   lognormal curve of maximum likelihood (lines)."
                 .to_owned(),
-        remark: if report.synthetic { "synthetic records: not for design" } else { "" }.to_owned(),
+        remark: if report.source.synthetic { "synthetic records: not for design" } else { "" }.to_owned(),
         columns: panels.len().min(2),
         panels,
     }

@@ -56,7 +56,8 @@ fn file_of(of: &StoredFinding) -> (&str, bool, String) {
 fn asked(number: usize, answers: &[StoredFinding], known: &[Alarm]) -> AskedStructure {
     let first = &answers[0].finding;
     let structure = Structure::parse(Path::new(&first.structure_file), first.structure_toml.clone()).ok();
-    let facts = structure.as_ref().map(|own| facts(own, &StructureReport::of(own, own.description.restitution)));
+    let facts =
+        structure.as_ref().map(|own| facts(own, &StructureReport::from_structure(own, own.description.restitution)));
     let before = "; these answers are for what it was before it changed: ask again";
     let mut said: BTreeSet<String> = known.iter().map(|alarm| alarm.what.clone()).collect();
     let alarms = answers.iter().flat_map(|of| of.finding.alarms());

@@ -1,8 +1,9 @@
-//! What a displacement of the deck means for the restrainers: thresholds of displacement, since by symmetry the
-//! elongation of a tendon depends on the rotation alone, whichever way the columns lean.
+//! What the peaks of a frame mean: for its restrainers, in thresholds of displacement, since by symmetry the elongation
+//! of a tendon depends on the rotation alone, whichever way the columns lean; and what the second component does to
+//! them.
 
 use serde::Serialize;
-use uplift_fragility::Stripes as Stripe;
+use uplift_fragility::{Stripes as Stripe, quantile};
 use uplift_frame::RockingFrame;
 use uplift_risk::{PooledDemand, RunWeights, StripeWeights};
 use uplift_statics::{EventKind, Spring};
@@ -49,7 +50,7 @@ pub struct StateAtDemand {
 
 impl StateAtDemand {
     /// At a displacement of the deck, m; none where the frame overturns, or beyond the law of its restrainers.
-    pub(super) fn of(frame: &RockingFrame, displacement_m: f64) -> Option<Self> {
+    pub(super) fn at_displacement(frame: &RockingFrame, displacement_m: f64) -> Option<Self> {
         let columns = frame.columns();
         let state = columns.at_displacement(displacement_m).ok()?;
         let parts = columns.restrainer().map(uplift_statics::Restrainer::parts);
@@ -94,4 +95,59 @@ pub(super) fn events(
         Ok(EventReport { event: event.event, displacement_m, risk, repaired })
     };
     frame.columns().events().iter().map(of).collect()
+}
+
+/// What the second component does: the wobbling peak over the larger of the planar ones (Section 6.2).
+///
+/// `U` wobbling over the larger `u` in the plane of each component, of all pairs and levels at which the frame rocks.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DirectionEffect {
+    /// Pairs and levels that are counted: all but those at which nothing uplifts, or both models overturn.
+    pub runs: usize,
+    /// The ratio at 16, 50 and 84 %: infinite where the wobbling frame alone overturns, 0 where it alone stands.
+    pub ratio: [f64; 3],
+    /// Pairs and levels at which both models overturn.
+    pub both_overturn: usize,
+    /// Those at which the wobbling frame alone does.
+    pub wobbling_overturns: usize,
+    /// Those at which the planar one alone does.
+    pub planar_overturns: usize,
+}
+
+impl DirectionEffect {
+    /// From the wobbling peak and the larger planar one of every pair and level, m.
+    pub(super) fn from_peaks(directions_m: &[[f64; 2]]) -> Self {
+        let mut ratios: Vec<f64> = directions_m
+            .iter()
+            .filter(|[wobbling, planar]| wobbling.max(*planar) > 0.0 && wobbling.min(*planar).is_finite())
+            .map(|[wobbling, planar]| wobbling / planar)
+            .collect();
+        ratios.sort_by(f64::total_cmp);
+        let count = |of: fn(bool, bool) -> bool| {
+            directions_m.iter().filter(|[wobbling, planar]| of(wobbling.is_infinite(), planar.is_infinite())).count()
+        };
+        Self {
+            runs: ratios.len(),
+            ratio: [0.16, 0.5, 0.84].map(|probability| quantile(&ratios, probability)),
+            both_overturn: count(|wobbling, planar| wobbling && planar),
+            wobbling_overturns: count(|wobbling, planar| wobbling && !planar),
+            planar_overturns: count(|wobbling, planar| !wobbling && planar),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_overturns_is_counted_and_never_dropped() {
+        let inf = f64::INFINITY;
+        let found =
+            DirectionEffect::from_peaks(&[[0.0, 0.0], [0.2, 0.1], [inf, 0.3], [inf, inf], [0.4, inf], [0.1, 0.1]]);
+        assert_eq!((found.runs, found.both_overturn, found.wobbling_overturns, found.planar_overturns), (4, 1, 1, 1));
+        // of 0, 1, 2 and infinite
+        assert_eq!(found.ratio[1], 1.5);
+        assert_eq!(found.ratio[2], inf);
+    }
 }

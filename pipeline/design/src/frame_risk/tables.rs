@@ -9,7 +9,7 @@ use uplift_job::outputs;
 use uplift_job::table::write_table;
 
 use super::FrameRiskReport;
-use super::shaken::Demands;
+use super::analysis::Demands;
 use crate::error::DesignError;
 
 /// A column that only the table of peaks has.
@@ -34,8 +34,8 @@ pub(super) fn write_tables(
         report.structure.name,
         report.structure.kind,
         report.notes.first().map_or("", String::as_str),
-        report.result.display(),
-        report.record_set
+        report.source.result.display(),
+        report.source.record_set
     )
     .replace(['\n', '\r'], " ");
     write_table(path, &line, peaks(report, set, levels, demands))?;

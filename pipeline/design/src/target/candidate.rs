@@ -1,12 +1,11 @@
 //! A value that is tried: the structures that it may be, and what their stripes say.
 
 use uplift_ida::System;
-use uplift_oscillator::PostUplift;
 use uplift_structure::EquivalentSystem;
 use uplift_uniform_risk::EventRisk;
 
 use super::TargetEvent;
-use crate::risk::OVERTURNING_M;
+use crate::risk::{OVERTURNING_M, capacity_m};
 
 /// The structures that a value may be.
 #[derive(Debug, Clone)]
@@ -64,12 +63,9 @@ impl Attempt {
 
 /// What must not be exceeded, m, in the displacement of the `oscillator`: Γ times it is the structure's.
 pub(super) fn threshold_m(event: TargetEvent, system: &EquivalentSystem, oscillator: &System) -> f64 {
-    match (event, oscillator) {
-        (TargetEvent::Beyond(displacement_m), _) => displacement_m / system.participation(),
-        (TargetEvent::BeyondCapacity, System::Oscillator(oscillator)) => match oscillator.post_uplift() {
-            PostUplift::Negative { capacity_m } => capacity_m,
-            PostUplift::Zero | PostUplift::Positive { .. } => OVERTURNING_M,
-        },
-        (TargetEvent::BeyondCapacity | TargetEvent::Overturning, _) => OVERTURNING_M,
+    match event {
+        TargetEvent::Beyond(displacement_m) => displacement_m / system.participation(),
+        TargetEvent::BeyondCapacity => capacity_m(oscillator).unwrap_or(OVERTURNING_M),
+        TargetEvent::Overturning => OVERTURNING_M,
     }
 }

@@ -24,8 +24,8 @@ pub(super) fn write(path: &Path, report: &TargetReport) -> Result<(), DesignErro
         report.target_per_year,
         report.site,
         report.im,
-        report.result.display(),
-        report.record_set
+        report.source.result.display(),
+        report.source.record_set
     )
     .replace(['\n', '\r'], " ");
     let tried = &report.tried;

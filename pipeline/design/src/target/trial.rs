@@ -7,7 +7,6 @@ use uplift_engine::analysis::{Analysed, Beside, LabelledPlan, Work};
 use uplift_engine::checkpoint::Checkpoint;
 use uplift_hazard::HazardCurve;
 use uplift_ida::{Peaks, Plan, System};
-use uplift_inputs::{RecordSet, motion_keys};
 use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_job::text::{records_in_words, thousands};
@@ -18,9 +17,9 @@ use uplift_uniform_risk::{EventRisk, SpectraOfResult, StudyOfResult, plan_levels
 use super::candidate::{Attempt, Candidate, StructureRisk, threshold_m};
 use super::{LevelShare, TargetEvent, TargetOptions};
 use crate::certainty::Scatter;
-use crate::choice::records;
 use crate::error::DesignError;
 use crate::hazard::Hazard;
+use crate::opening::{Place, ShakenRecords, job_name, required_records, restitution};
 use crate::risk::{HAPPENS, OVERTURNING_M, bounded, happenings, risk_of_exceeding};
 use crate::uncertain::{Around, Spread};
 use crate::weights::SiteWeights;
@@ -37,9 +36,7 @@ pub(super) struct Trials<'a> {
     scatter: &'a Scatter,
     options: &'a TargetOptions,
     years: f64,
-    set: RecordSet,
-    /// Keys of the records' motions.
-    motions: Vec<String>,
+    records: ShakenRecords,
     restitution: f64,
     /// The structures that it may be; none where all of it is known.
     around: Option<Around<'a>>,
@@ -50,42 +47,37 @@ pub(super) struct Trials<'a> {
 }
 
 impl<'a> Trials<'a> {
-    /// Of `structure`, by the stripes of `measure` with the hazard of a site, under records that scatter so.
+    /// Of `structure`, by the stripes of the measure of `place` with its hazard, under records that scatter so.
     ///
     /// # Errors
     /// Records that cannot be read.
-    pub(super) fn of(
+    pub(super) fn from_structure(
         structure: &'a Structure,
         source: &'a StudyOfResult,
-        (measure, hazard, scatter): (&'a SpectraOfResult, &'a Hazard<'a>, &'a Scatter),
+        (place, hazard, scatter): (Place<'a>, &'a Hazard<'a>, &'a Scatter),
         (options, years): (&'a TargetOptions, f64),
         events: &'a dyn Events,
     ) -> Result<Self, DesignError> {
-        let set = records(source, options.manifest.as_deref())?.map_err(|reason| {
-            JobError::input(format!(
-                "{reason}; a target needs the records that the result was made from (--manifest says where they are)"
-            ))
-        })?;
+        let records = required_records(source, options.manifest.as_deref(), "a target")?;
         let mut study = source.study.clone();
         // what is lost when a record ends has overturned, whoever looks
         study.oscillator.free_vibration |= options.event == TargetEvent::Overturning;
-        let restitution = structure.description.restitution.unwrap_or(study.oscillator.restitution);
+        let restitution = restitution(structure, &study);
         Ok(Self {
-            around: Around::of(structure, restitution, set.records.len())?,
+            around: Around::from_structure(structure, restitution, records.count())?,
             structure,
             result: &source.path,
-            measure,
+            measure: place.measure,
             weights: SiteWeights::Alike(hazard.mean),
             hazard,
             scatter,
             options,
             years,
-            motions: motion_keys(&set.records),
-            set,
+            records,
             restitution,
             study,
             events,
-            name: format!("target {}", structure.file.file_stem().unwrap_or_default().to_string_lossy()),
+            name: job_name("target", structure),
             checkpoint: None,
             analyses: 0,
         })
@@ -103,7 +95,7 @@ impl<'a> Trials<'a> {
 
     /// Records that shake them.
     pub(super) fn record_count(&self) -> usize {
-        self.set.records.len()
+        self.records.count()
     }
 
     /// The positions of the records of each of their pairs.
@@ -177,7 +169,7 @@ impl<'a> Trials<'a> {
     /// What the `peaks` of the candidate at `place` among others say.
     fn weigh(&self, peaks: &Peaks, place: usize, candidate: Candidate) -> Result<Attempt, DesignError> {
         let all = place * self.per_record()..(place + 1) * self.per_record();
-        let mut happens = vec![0_u32; self.set.records.len() * self.measure.plan.levels.len()];
+        let mut happens = vec![0_u32; self.records.count() * self.measure.plan.levels.len()];
         let mut of_places = |places| self.risk_of(peaks, places, (&candidate, &mut happens));
         // structures of each record are one fragility together, branches one each
         let structures: Vec<StructureRisk> = if self.is_of_each_record() {
@@ -201,8 +193,7 @@ impl<'a> Trials<'a> {
         if candidate.systems.iter().any(may_happen) {
             risk = bounded(risk, &self.weights, self.pairs());
         }
-        let record_per_year =
-            (0..self.set.records.len()).map(|record| of(&|one| one.record_per_year[record])).collect();
+        let record_per_year = (0..self.records.count()).map(|record| of(&|one| one.record_per_year[record])).collect();
         Ok(Attempt { candidate, risk, record_per_year, happening, structures })
     }
 
@@ -214,7 +205,7 @@ impl<'a> Trials<'a> {
         places: Range<usize>,
         (candidate, happens): (&Candidate, &mut [u32]),
     ) -> Result<StructureRisk, DesignError> {
-        let (records, draws) = (self.set.records.len(), places.len());
+        let (records, draws) = (self.records.count(), places.len());
         let run = |record: usize, place: usize| {
             let own = place % self.per_record() + if self.is_of_each_record() { record * self.per_record() } else { 0 };
             let system = &candidate.systems[own];
@@ -276,7 +267,7 @@ impl<'a> Trials<'a> {
         let label = format!("{}, {} return periods", self.measure.measure().label(), levels.len());
         let analysed = self.analyse(&label, &levels, std::slice::from_ref(&attempt.candidate))?;
         let thresholds_m = attempt.candidate.thresholds_m(self.options.event);
-        let records = self.set.records.len();
+        let records = self.records.count();
         let runs = records * self.per_record();
         let share = |(scale, &(return_period_years, level)): (usize, &(f64, f64))| {
             let happens = |run: usize| {
@@ -306,15 +297,16 @@ impl<'a> Trials<'a> {
             // those of each record, one record after the other
             let of = |record: usize| record * self.per_record()..(record + 1) * self.per_record();
             let of_record = |record| candidates.iter().flat_map(move |one| one.systems[of(record)].iter().cloned());
-            (0..self.set.records.len()).flat_map(of_record).collect()
+            (0..self.records.count()).flat_map(of_record).collect()
         } else {
             candidates.iter().flat_map(|one| one.systems.iter().cloned()).collect()
         };
-        let plan: Plan<'_> = plan_levels(&self.study, (self.measure.measure(), levels), &self.set, &systems)?;
+        let plan: Plan<'_> = plan_levels(&self.study, (self.measure.measure(), levels), &self.records.set, &systems)?;
         let plan = if self.is_of_each_record() { plan.with_own_systems()? } else { plan };
         self.analyses += plan.analyses();
         let remark = self.cost(&plan, candidates.len()).map(|cost| ("uncertainty".to_owned(), cost));
-        let labelled = LabelledPlan { label: label.to_owned(), remark, plan, motions: &self.motions, known: None };
+        let labelled =
+            LabelledPlan { label: label.to_owned(), remark, plan, motions: &self.records.motions, known: None };
         let beside = Beside { result: self.result, name: &self.name };
         let (analysed, checkpoint) = beside.results(Work::new(&self.name, vec![labelled]), &[], self.events)?;
         self.checkpoint = Some(checkpoint);
@@ -346,5 +338,5 @@ impl<'a> Trials<'a> {
 
 /// The mean of numbers that are not alike; that of those that are, to the bit.
 fn mean(values: Vec<f64>) -> f64 {
-    Spread::of(values).mean
+    Spread::from_values(values).mean
 }

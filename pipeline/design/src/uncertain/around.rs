@@ -27,7 +27,11 @@ impl<'a> Around<'a> {
     ///
     /// # Errors
     /// More draws than a level takes.
-    pub(crate) fn of(structure: &'a Structure, restitution: f64, records: usize) -> Result<Option<Self>, DesignError> {
+    pub(crate) fn from_structure(
+        structure: &'a Structure,
+        restitution: f64,
+        records: usize,
+    ) -> Result<Option<Self>, DesignError> {
         let Some(of) = &structure.uncertainty else { return Ok(None) };
         let points = match of.kind {
             // structures that are all alike are one, with the very bits of the structure as described

@@ -11,7 +11,7 @@ use uplift_uncertainty::{SobolIndices, sobol_indices, unit_cube};
 use uplift_uniform_risk::{Stripes, pooled_demand};
 
 use super::report::{EpistemicResult, Spread, UncertainFinding, VarianceShare};
-use super::{AskedSite, Event, Uncertain, resampling};
+use super::{Event, SiteQuestions, Uncertain, resampling};
 use crate::certainty::Scatter;
 use crate::error::DesignError;
 
@@ -59,7 +59,7 @@ impl Branches {
     ///
     /// # Errors
     /// A structure that cannot be.
-    pub(super) fn of(
+    pub(super) fn draw(
         of: &Uncertainty,
         realize: &dyn Fn(&[f64]) -> Result<System, DesignError>,
     ) -> Result<(Vec<System>, Self), DesignError> {
@@ -106,7 +106,7 @@ impl Branches {
         &self,
         uncertain: &Uncertain<'_>,
         stripes: &Stripes,
-        sites: &[AskedSite<'_>],
+        sites: &[SiteQuestions<'_>],
         scatter: &Scatter,
     ) -> Result<Vec<UncertainFinding>, DesignError> {
         let rows = self.hazard[0].len();
@@ -115,9 +115,9 @@ impl Branches {
         let columns = self.columns(!samples.is_empty());
         let answers = Answers { uncertain, stripes, sites, samples };
         let values = answers.of(&columns)?;
-        let asked: Vec<(&AskedSite<'_>, Event)> =
+        let asked: Vec<(&SiteQuestions<'_>, Event)> =
             sites.iter().flat_map(|site| site.asked.iter().map(move |(event, _)| (site, *event))).collect();
-        let finding = |(place, (site, event)): (usize, &(&AskedSite<'_>, Event))| {
+        let finding = |(place, (site, event)): (usize, &(&SiteQuestions<'_>, Event))| {
             let column = |column: usize| -> Vec<f64> { values[column].iter().map(|of_cell| of_cell[place]).collect() };
             let mut factors: Vec<(String, usize)> =
                 self.groups.iter().enumerate().map(|(group, name)| (name.clone(), 4 + group)).collect();
@@ -134,8 +134,8 @@ impl Branches {
             let indices = sobol_indices(&a, &b, &mixed, (REPLICATES, uncertain.of.seed))?;
             let no_shares = indices.is_none().then(|| no_shares(*event, (&a, &b), &mixed));
             Ok(UncertainFinding::Epistemic(EpistemicResult {
-                by_structure: Spread::of([column(0), column(1)].concat()),
-                by_all: Spread::of([a, b].concat()),
+                by_structure: Spread::from_values([column(0), column(1)].concat()),
+                by_all: Spread::from_values([a, b].concat()),
                 shares: ranked(&factors, indices.as_deref().unwrap_or_default()),
                 no_shares,
             }))
@@ -168,7 +168,7 @@ impl Branches {
 struct Answers<'a> {
     uncertain: &'a Uncertain<'a>,
     stripes: &'a Stripes,
-    sites: &'a [AskedSite<'a>],
+    sites: &'a [SiteQuestions<'a>],
     samples: &'a [RecordSample],
 }
 

@@ -10,7 +10,7 @@ use uplift_uncertainty::unit_cube;
 use uplift_uniform_risk::Stripes;
 
 use super::report::{AleatoryResult, UncertainFinding};
-use super::{AskedSite, Event, Uncertain};
+use super::{Event, SiteQuestions, Uncertain};
 use crate::certainty::{Scatter, demand_bands, rate_bands};
 use crate::error::DesignError;
 use crate::risk::{HAPPENS, OVERTURNING_M, happenings};
@@ -45,7 +45,7 @@ pub(super) fn points(of: &Uncertainty, records: usize, file: &Path) -> Result<Ve
 pub(super) fn findings(
     uncertain: &Uncertain<'_>,
     stripes: &Stripes,
-    sites: &[AskedSite<'_>],
+    sites: &[SiteQuestions<'_>],
     scatter: &Scatter,
 ) -> Result<Vec<UncertainFinding>, DesignError> {
     let draws = stripes.peaks.axes().systems;
@@ -64,7 +64,7 @@ pub(super) fn findings(
             .zip(&uncertain.systems)
             .map(|(row_m, system)| (row_m, Event::BeyondCapacity.threshold_m(system).unwrap_or(f64::INFINITY))),
     )?;
-    let rate = |site: &AskedSite<'_>, of: &PooledDemand, threshold_m: f64| -> Result<AleatoryResult, DesignError> {
+    let rate = |site: &SiteQuestions<'_>, of: &PooledDemand, threshold_m: f64| -> Result<AleatoryResult, DesignError> {
         let bands = rate_bands(of, site.hazard, &scatter, threshold_m)?;
         Ok(AleatoryResult {
             value: RiskCurve::new(of, site.hazard.mean)?.mean_annual_frequency(threshold_m)?,
@@ -74,7 +74,7 @@ pub(super) fn findings(
             with_hazard: bands.and_then(|bands| bands.with_hazard),
         })
     };
-    let finding = |site: &AskedSite<'_>, event: Event| match event {
+    let finding = |site: &SiteQuestions<'_>, event: Event| match event {
         Event::Overturning => rate(site, &demand, OVERTURNING_M),
         Event::BeyondCapacity => rate(site, &beyond, HAPPENS),
         Event::Demand(target_per_year) => {

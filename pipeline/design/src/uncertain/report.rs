@@ -165,7 +165,7 @@ pub struct Spread {
 
 impl Spread {
     /// Of `values`, at least one.
-    pub(crate) fn of(mut values: Vec<f64>) -> Self {
+    pub(crate) fn from_values(mut values: Vec<f64>) -> Self {
         values.sort_by(f64::total_cmp);
         let percentiles = FRACTILES.map(|share| quantile(&values, share));
         // values that are all alike have themselves as their mean, to the bit

@@ -79,10 +79,10 @@ fn found(
     (event, branches): (Event, Vec<(f64, StripeWeights)>),
     scatter: &Scatter,
 ) -> UncertainFinding {
-    let uncertain = Uncertain::of(structure, 0.95, RECORDS).unwrap().unwrap();
+    let uncertain = Uncertain::from_structure(structure, 0.95, RECORDS).unwrap().unwrap();
     let weights = weights(1.0);
     let hazard = Hazard { mean: &weights, branches };
-    let site = AskedSite { name: "Here", hazard: &hazard, asked: vec![(event, f64::NAN)] };
+    let site = SiteQuestions { name: "Here", hazard: &hazard, asked: vec![(event, f64::NAN)] };
     let mut results = uncertain.results(&stripes(&uncertain, lost_m), &[site], scatter).unwrap();
     assert_eq!(results.len(), 1);
     results.remove(0).found
@@ -220,7 +220,7 @@ fn without_scatter_nothing_changes() {
         for known in [of_capacity, of_strength] {
             for kind in KINDS {
                 let of = known(kind, 0.0);
-                let uncertain = Uncertain::of(&of, 0.95, RECORDS).unwrap().unwrap();
+                let uncertain = Uncertain::from_structure(&of, 0.95, RECORDS).unwrap().unwrap();
                 assert!(uncertain.systems.iter().all(|of| of.identity() == system.identity()), "{event:?} {kind}");
                 let stripes = stripes(&uncertain, lost_m);
                 let demand = pooled_demand(&stripes, 0).unwrap();

@@ -3,22 +3,23 @@
 use uplift_engine::analysis::{Analysed, LabelledPlan, Work};
 use uplift_frame::{ColumnShape, FrameError, Model, RockingFrame};
 use uplift_ida::{Peaks, ShakenFrame, StripeRecord, System};
-use uplift_inputs::{Record, RecordSet, motion_keys, rocking_frame};
+use uplift_inputs::{Record, rocking_frame};
 use uplift_job::checksum::motion_key;
 use uplift_job::text::thousands;
 use uplift_motion::{Accelerogram, Component, Direction, Horizontal, RecordPair};
 use uplift_study::{Structure, UniformRiskStudy};
 use uplift_uniform_risk::{SpectraOfResult, StudyOfResult, plan_stripes, seen, shaken_upwards, stripes_of};
 
+use super::super::opening::{ShakenRecords, required};
 use super::super::sweep::{OF_STUDY, OWN, Sweep};
 use crate::error::DesignError;
 
 /// A frame with everything that it is shaken by and compared to.
-pub(super) struct Shaken {
+pub(super) struct FrameAnalysis {
     pub(super) frame: RockingFrame,
     /// Velocity after over before an impact of the planar model, and where that comes from.
     pub(super) restitution: (f64, &'static str),
-    pub(super) set: RecordSet,
+    pub(super) records: ShakenRecords,
     pub(super) pairs: Vec<RecordPair>,
     /// The study of the result.
     study: UniformRiskStudy,
@@ -27,8 +28,8 @@ pub(super) struct Shaken {
     planar: Vec<System>,
     /// The study's oscillator of zero stiffness at the structure's strength, and the structure's own.
     oscillators: Vec<System>,
-    /// Keys of the motions of pairs, of components and of records.
-    keys: [Vec<String>; 3],
+    /// Keys of the motions of pairs and of their components.
+    keys: [Vec<String>; 2],
 }
 
 /// Peaks of every model, m, `[record, level]`.
@@ -42,14 +43,17 @@ pub(super) struct Demands {
     pub(super) analyses: u64,
 }
 
-impl Shaken {
+impl FrameAnalysis {
     /// The frame of `structure` by the model `wanted`, and by the planar one in any case.
-    pub(super) fn of(
+    ///
+    /// # Errors
+    /// As [`frame_risk`](super::frame_risk).
+    pub(super) fn from_structure(
         structure: &Structure,
         source: &StudyOfResult,
-        (set, pairs): (RecordSet, Vec<RecordPair>),
         wanted: Option<Model>,
     ) -> Result<Self, DesignError> {
+        let (set, pairs) = required(source.records_and_pairs(), "the risk of a frame")?;
         let frame = rocking_frame(structure)?;
         let own = structure.description.restitution;
         let restitution = own.map_or((frame.momentum_restitution(), "momentum"), |own| (own, "the structure file"));
@@ -61,9 +65,7 @@ impl Shaken {
             (Some(Model::Planar), _) | (None, ColumnShape::Rectangle) => vec![],
             (None | Some(Model::Wobbling), ColumnShape::Cylinder) => vec![of(Model::Wobbling, 1.0)],
         };
-        let of_oscillator = own.unwrap_or(source.study.oscillator.restitution);
-        let sweep = Sweep::of(&source.study, &structure.system, of_oscillator)
-            .map_err(|error| uplift_job::in_file(error, &structure.file))?;
+        let sweep = Sweep::from_structure(structure, &source.study)?;
         let oscillators =
             [OF_STUDY, OWN].map(|place| System::Oscillator(sweep.oscillators[place].clone())).into_iter().collect();
         let both = |pair: &RecordPair| [&pair.h1, &pair.h2].map(motion_key);
@@ -73,8 +75,8 @@ impl Shaken {
             planar: vec![of(Model::Planar, restitution.0)],
             frame,
             restitution,
-            keys: [joint, components, motion_keys(&set.records)],
-            set,
+            keys: [joint, components],
+            records: ShakenRecords::from_set(set),
             pairs,
             study: source.study.clone(),
             wobbling,
@@ -86,7 +88,7 @@ impl Shaken {
     /// records.
     pub(super) fn once_a_run(&self, demands: &Demands) -> Vec<f64> {
         let Some(wobbling_m) = &demands.wobbling_m else { return demands.planar_m.clone() };
-        let levels = wobbling_m.len() / self.set.records.len().max(1);
+        let levels = wobbling_m.len() / self.records.count().max(1);
         wobbling_m.chunks_exact(levels.max(1)).step_by(self.per_pair()).flatten().copied().collect()
     }
 
@@ -102,7 +104,7 @@ impl Shaken {
 
     /// The pair of every record.
     pub(super) fn pair_of(&self) -> Vec<usize> {
-        (0..self.set.records.len()).map(|record| record / self.per_pair()).collect()
+        (0..self.records.count()).map(|record| record / self.per_pair()).collect()
     }
 
     /// Whether the records of the study are no components of pairs, but pairs seen from azimuths.
@@ -112,7 +114,8 @@ impl Shaken {
 
     /// The vertical component of every pair, each so `many` times; none where the study does not ask for it.
     fn verticals(&self, many: usize) -> Vec<&Accelerogram> {
-        let of_pair = self.set.records.iter().step_by(self.per_pair()).filter_map(|record| record.vertical.as_ref());
+        let of_pair =
+            self.records.set.records.iter().step_by(self.per_pair()).filter_map(|record| record.vertical.as_ref());
         of_pair.flat_map(|vertical| std::iter::repeat_n(&vertical.accelerogram, many)).collect()
     }
 
@@ -120,7 +123,7 @@ impl Shaken {
     pub(super) fn work<'a>(&'a self, measure: &SpectraOfResult, title: &str) -> Result<Work<'a>, DesignError> {
         let plan = &measure.plan;
         // both records of a pair have the intensity of the pair
-        let intensity = |pair: usize| self.set.records[pair * self.per_pair()].intensity(plan.measure);
+        let intensity = |pair: usize| self.records.set.records[pair * self.per_pair()].intensity(plan.measure);
         let amplitude = |pair: usize| plan.measure.amplitude(intensity(pair));
         let mut plans = Vec::new();
         if !self.wobbling.is_empty() {
@@ -147,12 +150,12 @@ impl Shaken {
                 accelerogram: &record.accelerogram,
                 intensity: plan.measure.amplitude(record.intensity(plan.measure)),
             };
-            let records = self.set.records.iter().map(record).collect();
+            let records = self.records.set.records.iter().map(record).collect();
             let stripes = stripes_of((plan.measure, &plan.levels), records, &self.planar, true)?;
-            plans.push(labelled(seen(stripes, &self.set)?, "rotated records", &self.keys[2]));
+            plans.push(labelled(seen(stripes, &self.records.set)?, "rotated records", &self.records.motions));
         }
-        let oscillators = plan_stripes(&self.study, plan, &self.set, &self.oscillators)?;
-        plans.push(labelled(oscillators, "records", &self.keys[2]));
+        let oscillators = plan_stripes(&self.study, plan, &self.records.set, &self.oscillators)?;
+        plans.push(labelled(oscillators, "records", &self.records.motions));
         Ok(Work::new(title, plans))
     }
 
@@ -167,12 +170,13 @@ impl Shaken {
         let levels = planar.as_ref().map_or(0, |peaks| peaks.axes().scales);
         let over_records = |peaks: Option<&Peaks>, system: usize, motion_of: &dyn Fn(usize) -> usize| -> Vec<f64> {
             let Some(peaks) = peaks else { return Vec::new() };
-            (0..self.set.records.len())
+            (0..self.records.count())
                 .flat_map(|record| peaks.row_m(motion_of(record), system).iter().copied())
                 .collect()
         };
         let pair = |record: usize| record / self.per_pair();
-        let is_second = |record: usize| self.set.records[record].direction == Direction::Component(Horizontal::H2);
+        let is_second =
+            |record: usize| self.records.set.records[record].direction == Direction::Component(Horizontal::H2);
         let component = |record: usize| 2 * pair(record) + usize::from(is_second(record));
         let direction = |wobbling: &Peaks, planar: &Peaks, pair: usize, level: usize| {
             let [one, other] = [0, 1].map(|second| planar.at_m([2 * pair + second, 0, level]));

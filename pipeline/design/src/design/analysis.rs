@@ -3,34 +3,32 @@
 use uplift_engine::analysis::{Beside, LabelledPlan, Work};
 use uplift_engine::checkpoint::Checkpoint;
 use uplift_ida::System;
-use uplift_inputs::{RecordSet, motion_keys};
 use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_result::ResultFile;
 use uplift_study::Structure;
 use uplift_uniform_risk::{SpectraOfResult, Stripes, StudyOfResult, plan_stripes};
 
-use super::{DesignOptions, name};
+use super::DesignOptions;
 use crate::certainty::Scatter;
 use crate::demand::{ExactDemand, exact_demand};
 use crate::error::DesignError;
 use crate::hazard::Hazard;
+use crate::opening::{Place, ShakenRecords, job_name, restitution};
 use crate::sweep::Sweep;
-use crate::uncertain::{AskedSite, Event, Uncertain, UncertaintyReport};
+use crate::uncertain::{Event, SiteQuestions, Uncertain, UncertaintyReport};
 use crate::weights::SiteWeights;
 
 /// Where and by what a structure is designed.
 pub(super) struct Question<'a> {
-    /// Position of the site.
-    pub(super) site: usize,
-    pub(super) measure: &'a SpectraOfResult,
+    pub(super) place: Place<'a>,
     pub(super) weights: &'a SiteWeights<'a>,
     /// Rate of the demand, 1/yr.
     pub(super) target_per_year: f64,
 }
 
 /// What the structure's own stripes say.
-pub(super) struct Own {
+pub(super) struct OwnAnalysis {
     pub(super) exact: ExactDemand,
     /// None where all of it is known, and with repaired weights.
     pub(super) uncertainty: Option<UncertaintyReport>,
@@ -38,34 +36,35 @@ pub(super) struct Own {
     pub(super) checkpoint: Checkpoint,
 }
 
-impl Own {
-    /// Of `structure`, whose impacts keep `restitution` of the velocity.
+impl OwnAnalysis {
+    /// Of `structure` under `records`.
     ///
     /// # Errors
     /// As [`design`](super::design).
-    pub(super) fn of(
+    pub(super) fn from_structure(
         structure: &Structure,
         (file, source): (&ResultFile, &StudyOfResult),
-        (question, restitution): (&Question<'_>, f64),
-        (options, set): (&DesignOptions, RecordSet),
+        question: &Question<'_>,
+        (options, records): (&DesignOptions, ShakenRecords),
         events: &dyn Events,
     ) -> Result<Self, DesignError> {
-        let Question { site, measure, weights, target_per_year } = *question;
-        let shaken = Shaken::of(structure, source, set, (restitution, options))?;
-        let asked = name(structure);
-        let beside = Beside { result: &source.path, name: &asked };
-        let (analysed, checkpoint) = beside.results(shaken.work(source, measure, &asked)?, &options.shards, events)?;
-        let mut stripes = analysed.into_iter().map(|analysed| Stripes::new(&measure.plan, &shaken.set, analysed));
+        let Question { place, weights, target_per_year } = *question;
+        let measure = place.measure;
+        let analysis = DesignAnalysis::from_structure(structure, source, records, options)?;
+        let name = job_name("design", structure);
+        let beside = Beside { result: &source.path, name: &name };
+        let (analysed, checkpoint) = beside.results(analysis.work(source, measure, &name)?, &options.shards, events)?;
+        let set = &analysis.records.set;
+        let mut stripes = analysed.into_iter().map(|analysed| Stripes::new(&measure.plan, set, analysed));
         let (own, of_uncertain) = (stripes.next().ok_or(JobError::Interrupted)?, stripes.next());
-        let scatter = Scatter::of(file)?;
+        let scatter = Scatter::from_file(file)?;
         let rate = (target_per_year, source.study.risk.years);
-        let place = (source.sites[site].as_str(), site);
-        let hazard = Hazard::of(file, place, (measure, &source.study))?;
-        let exact = exact_demand((&own, weights, &hazard), (&structure.system, &shaken.sweep), rate, &scatter)?;
-        let uncertainty = match (&shaken.uncertain, of_uncertain) {
+        let hazard = Hazard::from_file(file, (place.name, place.site), (measure, &source.study))?;
+        let exact = exact_demand((&own, weights, &hazard), (&structure.system, &analysis.sweep), rate, &scatter)?;
+        let uncertainty = match (&analysis.uncertain, of_uncertain) {
             (Some(uncertain), Some(stripes)) => {
                 let asked = asked_of_uncertain(&exact, target_per_year);
-                let asked = AskedSite { name: place.0, hazard: &hazard, asked };
+                let asked = SiteQuestions { name: place.name, hazard: &hazard, asked };
                 let results = uncertain.results(&stripes, &[asked], &scatter)?;
                 Some(uncertain.report(stripes.analyses, results))
             }
@@ -76,28 +75,27 @@ impl Own {
 }
 
 /// The oscillators of a structure, and the records that shake them.
-pub(super) struct Shaken<'a> {
-    set: RecordSet,
-    /// Keys of the records' motions.
-    motions: Vec<String>,
+pub(super) struct DesignAnalysis<'a> {
+    records: ShakenRecords,
     sweep: Sweep,
     systems: Vec<System>,
     /// The structures that it may be; none where all of it is known, and with repaired weights.
     uncertain: Option<Uncertain<'a>>,
 }
 
-impl<'a> Shaken<'a> {
-    pub(super) fn of(
+impl<'a> DesignAnalysis<'a> {
+    pub(super) fn from_structure(
         structure: &'a Structure,
         source: &StudyOfResult,
-        set: RecordSet,
-        (restitution, options): (f64, &DesignOptions),
+        records: ShakenRecords,
+        options: &DesignOptions,
     ) -> Result<Self, DesignError> {
-        let sweep = Sweep::of(&source.study, &structure.system, restitution)
-            .map_err(|error| uplift_job::in_file(error, &structure.file))?;
+        let sweep = Sweep::from_structure(structure, &source.study)?;
         let is_asked = !options.repaired && source.study.records.at_level.is_none();
-        let uncertain = if is_asked { Uncertain::of(structure, restitution, set.records.len())? } else { None };
-        Ok(Self { motions: motion_keys(&set.records), systems: sweep.systems(), sweep, uncertain, set })
+        let restitution = restitution(structure, &source.study);
+        let uncertain =
+            if is_asked { Uncertain::from_structure(structure, restitution, records.count())? } else { None };
+        Ok(Self { systems: sweep.systems(), sweep, uncertain, records })
     }
 
     /// Their stripes of one measure, then those of the structures that it may be.
@@ -107,12 +105,12 @@ impl<'a> Shaken<'a> {
         measure: &SpectraOfResult,
         title: &str,
     ) -> Result<Work<'_>, DesignError> {
-        let plan = plan_stripes(&source.study, &measure.plan, &self.set, &self.systems)?;
+        let plan = plan_stripes(&source.study, &measure.plan, &self.records.set, &self.systems)?;
         let label = measure.measure().label().to_owned();
-        let mut plans = vec![LabelledPlan { label, remark: None, plan, motions: &self.motions, known: None }];
+        let mut plans = vec![LabelledPlan { label, remark: None, plan, motions: &self.records.motions, known: None }];
         if let Some(uncertain) = &self.uncertain {
             let study = (measure.measure().label(), &source.study);
-            plans.push(uncertain.plan(study, &measure.plan, (&self.set, &self.motions))?);
+            plans.push(uncertain.plan(study, &measure.plan, &self.records)?);
         }
         Ok(Work::new(title, plans))
     }

@@ -1,0 +1,177 @@
+//! How every job on a structure begins: a result is opened, a site and a measure of it are chosen, its records are
+//! read, and nothing that the job reads is overwritten.
+
+use std::path::{Path, PathBuf};
+
+use uplift_inputs::manifest::record_files;
+use uplift_inputs::{RecordSet, motion_keys};
+use uplift_job::JobError;
+use uplift_job::outputs::{self, Output, OutputKind};
+use uplift_motion::IntensityMeasure;
+use uplift_result::ResultFile;
+use uplift_study::{AnyStudy, Structure, UniformRiskStudy};
+use uplift_uniform_risk::{SpectraOfResult, StudyOfResult};
+
+use crate::error::DesignError;
+
+/// The study of `file`, for a job that needs the same records at every level; `reason` says what for.
+///
+/// # Errors
+/// Records selected level by level; a file that is damaged, no result, or without sites.
+pub(super) fn study_with_common_records(
+    file: &ResultFile,
+    manifest: Option<&Path>,
+    reason: &str,
+) -> Result<StudyOfResult, DesignError> {
+    file.refuse_records_at_level(reason)?;
+    Ok(StudyOfResult::read(file, manifest)?)
+}
+
+/// The site of a result at which a structure is examined, and the measure by which it is.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place<'a> {
+    /// Position of the site.
+    pub(super) site: usize,
+    /// Its name.
+    pub(super) name: &'a str,
+    pub(super) measure: &'a SpectraOfResult,
+}
+
+impl<'a> Place<'a> {
+    /// The `site` and the `measure` of a result; its only site and its first measure where none are given.
+    ///
+    /// # Errors
+    /// A site or measure that the result does not have; none where it has several sites.
+    pub(super) fn choose(
+        source: &'a StudyOfResult,
+        site: Option<&str>,
+        measure: Option<IntensityMeasure>,
+    ) -> Result<Self, DesignError> {
+        let site = site_index(source, site)?;
+        Ok(Self { site, name: &source.sites[site], measure: choose_measure(source, measure)? })
+    }
+}
+
+/// Position of the site `wanted`; of the only one where none is.
+pub(super) fn site_index(source: &StudyOfResult, wanted: Option<&str>) -> Result<usize, DesignError> {
+    let found = match wanted {
+        Some(wanted) => source.sites.iter().position(|site| site.eq_ignore_ascii_case(wanted)),
+        None => (source.sites.len() == 1).then_some(0),
+    };
+    Ok(found.ok_or_else(|| JobError::Choice {
+        option: "--site",
+        wanted: wanted.map(str::to_owned),
+        known: source.sites.clone(),
+    })?)
+}
+
+/// The measure `wanted`; the first where none is, which is PGV if the result has it.
+pub(super) fn choose_measure(
+    source: &StudyOfResult,
+    wanted: Option<IntensityMeasure>,
+) -> Result<&SpectraOfResult, DesignError> {
+    let found = match wanted {
+        Some(wanted) => source.measures.iter().find(|measure| measure.measure() == wanted),
+        None => source.measures.first(),
+    };
+    Ok(found.ok_or_else(|| JobError::Choice {
+        option: "--measure",
+        wanted: wanted.map(|wanted| wanted.key().to_owned()),
+        known: source.measures.iter().map(|measure| measure.measure().key().to_owned()).collect(),
+    })?)
+}
+
+/// Coefficient of restitution of a structure's oscillator: its own, else that of the study.
+pub(super) fn restitution(structure: &Structure, study: &UniformRiskStudy) -> f64 {
+    structure.description.restitution.unwrap_or(study.oscillator.restitution)
+}
+
+/// The records that shake a structure.
+#[derive(Debug)]
+pub(super) struct ShakenRecords {
+    pub(super) set: RecordSet,
+    /// Keys of their motions.
+    pub(super) motions: Vec<String>,
+}
+
+impl ShakenRecords {
+    pub(super) fn from_set(set: RecordSet) -> Self {
+        Self { motions: motion_keys(&set.records), set }
+    }
+
+    /// How many there are.
+    pub(super) fn count(&self) -> usize {
+        self.set.records.len()
+    }
+}
+
+/// The records of the result; none where they cannot be read, with the reason, unless a manifest was given for them.
+pub(super) fn records(
+    source: &StudyOfResult,
+    manifest: Option<&Path>,
+) -> Result<Result<ShakenRecords, String>, DesignError> {
+    match source.records() {
+        Err(reason) if manifest.is_some() => Err(JobError::input(reason).into()),
+        other => Ok(other.map(ShakenRecords::from_set)),
+    }
+}
+
+/// The records of the result, without which `subject` cannot be computed.
+///
+/// # Errors
+/// Records that cannot be read.
+pub(super) fn required_records(
+    source: &StudyOfResult,
+    manifest: Option<&Path>,
+    subject: &str,
+) -> Result<ShakenRecords, DesignError> {
+    required(records(source, manifest)?, subject)
+}
+
+/// What was read of the records, without which `subject` cannot be computed.
+///
+/// # Errors
+/// The reason why it could not be read.
+pub(super) fn required<T>(found: Result<T, String>, subject: &str) -> Result<T, DesignError> {
+    Ok(found.map_err(|reason| {
+        JobError::input(format!(
+            "{reason}; {subject} needs the records that the result was made from (--manifest says where they are)"
+        ))
+    })?)
+}
+
+/// A job on a structure, for the names of its files: `design pier`.
+pub(super) fn job_name(verb: &str, structure: &Structure) -> String {
+    format!("{verb} {}", structure.file.file_stem().unwrap_or_default().to_string_lossy())
+}
+
+/// Refuses `tables`, each with a column by which it is known, that would overwrite something, before anything is
+/// computed.
+///
+/// # Errors
+/// A table in place of a file that the job reads, or of one that it did not write; a place that cannot be written to.
+pub(super) fn check_tables(
+    tables: &[(&Path, &'static str)],
+    (structure, result, manifest): (&Structure, &Path, Option<&Path>),
+    force: bool,
+) -> Result<(), DesignError> {
+    let inputs = inputs(structure, result, manifest);
+    let output =
+        |&(path, column): &(&Path, &'static str)| Output::new(path, OutputKind::Table(column)).with_result(result);
+    Ok(outputs::check(&tables.iter().map(output).collect::<Vec<_>>(), &inputs, force)?)
+}
+
+/// The structure, the result, the manifest that is given in place of the study's, and the files that the result was
+/// made from, where they still are; a result that cannot be opened is reported later.
+fn inputs(structure: &Structure, result: &Path, manifest: Option<&Path>) -> Vec<PathBuf> {
+    let of_study = || {
+        let study = AnyStudy::UniformRisk(Box::new(ResultFile::open(result).ok()?.stored_study().ok()?));
+        Some(study.inputs().into_iter().map(Path::to_owned).collect::<Vec<_>>())
+    };
+    let mut inputs = vec![structure.file.clone(), result.to_owned()];
+    inputs.extend(manifest.map(Path::to_owned));
+    inputs.extend(of_study().unwrap_or_default());
+    let records: Vec<PathBuf> = inputs.iter().skip(2).flat_map(|path| record_files(path)).collect();
+    inputs.extend(records);
+    inputs
+}
