@@ -4,12 +4,13 @@ use crate::common::{Finished, SmallStudy, repository};
 use crate::hazard::{SITES, openquake};
 
 /// Commands whose answer is printed, and those that are told to write files; by their first words.
-const ANSWER: [&str; 26] = [
+const ANSWER: [&str; 27] = [
     "status",
     "verify",
     "check",
     "response",
     "pulse",
+    "schema",
     "bootstrap",
     "consistency",
     "influence",
@@ -97,6 +98,7 @@ fn nothing_but_what_was_asked_for() {
         "restrainer design column-j.toml --catalogue disc-springs.csv --capacity-m 0.5 -o stacks.csv",
         "hazard import export.csv -o mine --name here",
         "hazard show here-pgv.csv --unit cm/s --measure PGV",
+        "schema structure",
         "hazard plot here-pgv.csv -o h.png --unit cm/s --measure PGV",
     ] {
         let run = quiet(arguments).ok();
