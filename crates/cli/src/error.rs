@@ -59,8 +59,8 @@ impl CommandError {
     }
 }
 
-/// Whether what was typed is at fault: oscillators, blocks, pulses and what a synthetic record is asked to be are typed,
-/// too; those of a file are said to be of it.
+/// Whether what was typed is at fault. Oscillators, blocks, pulses and what a synthetic record is asked to be are
+/// typed, too; those of a file are said to be of it.
 fn is_typed(error: &UpliftError) -> bool {
     let root = error.root();
     let job =

@@ -167,7 +167,7 @@ impl<'a> Uncertain<'a> {
         let result =
             |((site, (event, as_described)), found): ((&SiteQuestions<'_>, &(Event, f64)), UncertainFinding)| {
                 let may_happen = self.systems.iter().any(|system| event.may_happen(system));
-                // records are counted and not structures: to the ground motion of a pair all its structures are one sample
+                // records are counted and not structures: to the motion of a pair all its structures are one sample
                 let bound = may_happen.then(|| at_most_per_year(site.hazard.mean, scatter.pairs.len() as f64));
                 UncertainResult {
                     site: site.name.to_owned(),

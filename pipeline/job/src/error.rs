@@ -11,8 +11,8 @@ use uplift_plausible::Implausible;
 
 use crate::text::one_line;
 
-/// Why a job did not do what it was asked, whatever the job. Each crate of the pipeline wraps it in an error of its own;
-/// [`cause`] finds it there.
+/// Why a job did not do what it was asked, whatever the job. Each crate of the pipeline wraps it in an error of its
+/// own; [`cause`] finds it there.
 #[derive(Debug, Error)]
 pub enum JobError {
     /// What a job is asked for does not fit together.

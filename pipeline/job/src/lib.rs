@@ -3,7 +3,7 @@
 //! | module | what is in it |
 //! |---|---|
 //! | [`events`] | what a job tells while it works, and how it is stopped |
-//! | [`outputs`], [`lock`] | files that a job is asked to write: what may give way to them; one run at a time for one result |
+//! | [`outputs`], [`lock`] | files that a job writes, and what they may replace; one run at a time for a result |
 //! | [`machine`] | what a job needs of memory and disk, and what there is |
 //! | [`alarm`] | what to know before the numbers of a result are used |
 //! | [`table`], [`text_table`] | tables as CSV, written and read |

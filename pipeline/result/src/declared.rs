@@ -317,7 +317,8 @@ mod tests {
             let first = page.lines().zip(made.lines()).find(|(stands, made)| stands != made);
             assert!(
                 page == made,
-                "docs/hdf5-layout.md is not what is declared, first in {first:?}: UPDATE_DOCS=1 cargo test -p uplift-result"
+                "docs/hdf5-layout.md is not what is declared, first in {first:?}: UPDATE_DOCS=1 cargo test -p \
+                 uplift-result"
             );
         }
     }

@@ -105,8 +105,8 @@ fn probability(option: &str, value: f64, years: f64) -> Result<f64, String> {
     })
 }
 
-/// The result `file` at the risks asked for: axes, spectra, coefficients, warnings, stripes and study are from now on of
-/// these, read off the stripes as a run reads them, to the bit; bands once they are resampled.
+/// The result `file` at the risks asked for: axes, spectra, coefficients, warnings, stripes and study are from now on
+/// of these, read off the stripes as a run reads them, to the bit; bands once they are resampled.
 ///
 /// # Errors
 /// Risks that are none; a file that is damaged, or of another kind; a study without sites.

@@ -14,12 +14,11 @@ use crate::reading::{Field, Origin, Rule, Section};
 mod written;
 
 pub(crate) const KEYS: SectionKeys = SectionKeys::new("uncertainty", &[&KIND, &SAMPLING, &SAMPLES, &DRAWS, &SEED]);
-const KIND: Key<Choice<UncertaintyKind>> = choice("kind", &UncertaintyKind::ALL, UncertaintyKind::key)
-    .with_default(UncertaintyKind::Epistemic)
-    .meaning(
+const KIND: Key<Choice<UncertaintyKind>> =
+    choice("kind", &UncertaintyKind::ALL, UncertaintyKind::key).with_default(UncertaintyKind::Epistemic).meaning(
         "`\"epistemic\"`, one structure of which it is not known which: all records shake the same `samples` \
-         structures, and the spectrum has a band over them; `\"aleatory\"`, another structure in every earthquake: each \
-         record shakes `draws` structures of its own",
+         structures, and the spectrum has a band over them; `\"aleatory\"`, another structure in every earthquake: \
+         each record shakes `draws` structures of its own",
     );
 const SAMPLING: Key<Choice<Sampling>> = choice("sampling", &Sampling::ALL, Sampling::key)
     .with_default(Sampling::Sobol)

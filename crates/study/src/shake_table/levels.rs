@@ -9,7 +9,8 @@ use crate::sections::name;
 pub(super) const KEYS: SectionKeys = SectionKeys::new("levels", &[&NAME, &PGV_SRSS_M_S]).shape(Shape::List);
 const NAME: Key<Text> = name::KEY.meaning("name of the level").note("each once");
 const PGV_SRSS_M_S: Key<Number> = number("pgv_srss_m_s", "m/s", LEVEL).meaning(
-    "$\\sqrt{PGV_x^2 + PGV_y^2}$ of both components on the table, m/s (Eq. 6.9); not the geometric mean of other studies",
+    "$\\sqrt{PGV_x^2 + PGV_y^2}$ of both components on the table, m/s (Eq. 6.9); not the geometric mean of other \
+     studies",
 );
 
 /// As `uplift-frame` takes it.

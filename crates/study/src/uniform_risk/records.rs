@@ -19,8 +19,8 @@ const TAG: Key<Text> = text("tag")
     .note("only with `manifest`");
 const COMPONENT: Key<Choice<Component>> =
     choice("component", &COMPONENTS, Component::key).with_default(Component::H1).meaning(
-        "component that shakes the planar oscillator; `\"both\"` counts each as a record, `\"random\"` draws one for each \
-         record, `\"rotated\"` turns the pair ([azimuths](#recordsrotation-azimuths))",
+        "component that shakes the planar oscillator; `\"both\"` counts each as a record, `\"random\"` draws one for \
+         each record, `\"rotated\"` turns the pair ([azimuths](#recordsrotation-azimuths))",
     );
 const INTENSITY: Key<Choice<Combination>> =
     choice("intensity", &Combination::ALL, Combination::key).with_default(Combination::GeometricMean).meaning(

@@ -28,11 +28,10 @@ const THRESHOLDS_M: Key<GridRule> =
         .meaning("displacement thresholds of the surface of annual frequencies, m, a grid")
         .note("from 0 on");
 const MAF_SURFACE: Key<Boolean> = boolean("maf_surface").with_default(true).meaning("whether that surface is kept");
-const EXTRAPOLATE: Key<Choice<Extrapolation>> = choice("extrapolate", &Extrapolation::ALL, Extrapolation::key)
-    .with_default(Extrapolation::Refuse)
-    .meaning(
-        "what happens to a level outside a hazard curve: `\"refuse\"`, an error; `\"loglog\"`, the curve goes on straight \
-         in logarithms",
+const EXTRAPOLATE: Key<Choice<Extrapolation>> =
+    choice("extrapolate", &Extrapolation::ALL, Extrapolation::key).with_default(Extrapolation::Refuse).meaning(
+        "what happens to a level outside a hazard curve: `\"refuse\"`, an error; `\"loglog\"`, the curve goes on \
+         straight in logarithms",
     );
 
 /// Most probabilities, each a spectrum for every site.

@@ -11,8 +11,8 @@ const MOST_AZIMUTHS: u64 = 180;
 
 pub(super) const KEYS: SectionKeys = SectionKeys::new("records.rotation", &[&TAKE, &AZIMUTHS, &PERCENTILE]);
 const TAKE: Key<Choice<Take>> = choice("take", &Take::ALL, Take::key).with_default(Take::Random).meaning(
-    "`\"random\"`, one azimuth a pair, drawn evenly by the study's `seed`; `\"each\"`, every azimuth as a record of its \
-     own; `\"percentile\"`, of the peaks from all azimuths",
+    "`\"random\"`, one azimuth a pair, drawn evenly by the study's `seed`; `\"each\"`, every azimuth as a record of \
+     its own; `\"percentile\"`, of the peaks from all azimuths",
 );
 /// By default 15° apart.
 const AZIMUTHS: Key<Integer> = integer("azimuths", 1, MOST_AZIMUTHS)

@@ -103,8 +103,9 @@ impl<'a> Work<'a> {
     /// plan's place and result to `each`.
     ///
     /// # Errors
-    /// [`JobError::Paused`](uplift_job::JobError::Paused) where the user stopped it, [`JobError::Interrupted`](uplift_job::JobError::Interrupted) if there is no file;
-    /// a file that can no longer be written, which stops it too; what `each` ends with.
+    /// [`JobError::Paused`](uplift_job::JobError::Paused) where the user stopped it,
+    /// [`JobError::Interrupted`](uplift_job::JobError::Interrupted) if there is no file; a file that can no longer be
+    /// written, which stops it too; what `each` ends with.
     pub fn carry_out(
         self,
         checkpoint: &Checkpoint,

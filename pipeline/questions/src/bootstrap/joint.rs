@@ -116,7 +116,8 @@ impl JointSiteBands {
 /// for every pair of a sample and a branch. NaN where a branch has no repair.
 ///
 /// # Errors
-/// [`JobError::Interrupted`](uplift_job::JobError::Interrupted); numbers that do not fit together, in a file that was changed.
+/// [`JobError::Interrupted`](uplift_job::JobError::Interrupted); numbers that do not fit together, in a file that was
+/// changed.
 pub(super) fn joint_bands_of_site(
     branches: &[ReweighedBranch<'_>],
     (demands, targets_per_year): (&[PooledDemand], &[f64]),

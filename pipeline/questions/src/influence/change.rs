@@ -97,7 +97,8 @@ fn shares_of(curve: &RiskCurve<'_>, ordinate_m: f64, bins: usize) -> Result<Vec<
 /// The same of the repaired spectra, whose weights are solved anew without each record.
 ///
 /// # Errors
-/// [`JobError::Interrupted`](uplift_job::JobError::Interrupted); numbers that do not fit together, in a file that was changed.
+/// [`JobError::Interrupted`](uplift_job::JobError::Interrupted); numbers that do not fit together, in a file that was
+/// changed.
 pub(super) fn influence_on_repaired(
     stored: &StoredStripes,
     measure: &StoredMeasure,
