@@ -2,7 +2,6 @@
 
 use thiserror::Error;
 use uplift_hazard::HazardError;
-use uplift_inputs::InputsError;
 use uplift_job::JobError;
 use uplift_result::ResultError;
 use uplift_uniform_risk::UniformRiskError;
@@ -13,9 +12,6 @@ pub enum AlarmsError {
     /// What keeps any job from being done.
     #[error("{0}")]
     Job(#[from] JobError),
-    /// Records or hazard curves that cannot be used.
-    #[error("{0}")]
-    Inputs(#[from] InputsError),
     /// A result that cannot be read or written.
     #[error("{0}")]
     Result(#[from] ResultError),

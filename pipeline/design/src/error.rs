@@ -2,10 +2,8 @@
 
 use thiserror::Error;
 use uplift_alarms::AlarmsError;
-use uplift_atomic_file::FileError;
 use uplift_block::BlockError;
 use uplift_bootstrap::BootstrapError;
-use uplift_consistency::ConsistencyError;
 use uplift_engine::EngineError;
 use uplift_fragility::FragilityError;
 use uplift_frame::FrameError;
@@ -13,15 +11,12 @@ use uplift_hazard::HazardError;
 use uplift_ida::IdaError;
 use uplift_inputs::InputsError;
 use uplift_job::JobError;
-use uplift_motion::MotionError;
 use uplift_oscillator::OscillatorError;
 use uplift_questions::QuestionsError;
 use uplift_result::ResultError;
 use uplift_risk::RiskError;
 use uplift_spectra::SpectraError;
-use uplift_statics::StaticsError;
 use uplift_structure::StructureError;
-use uplift_study::StudyError;
 use uplift_uncertainty::UncertaintyError;
 use uplift_uniform_risk::UniformRiskError;
 
@@ -58,18 +53,12 @@ pub enum DesignError {
     /// Demands of which no fragility can be made.
     #[error("{0}")]
     Fragility(#[from] FragilityError),
-    /// Records and hazard that cannot be held against each other.
-    #[error("{0}")]
-    Consistency(#[source] Box<ConsistencyError>),
     /// Resamples that cannot be drawn.
     #[error("{0}")]
     Bootstrap(#[from] BootstrapError),
     /// A structure that cannot be, or to which a rule does not apply.
     #[error("{0}")]
     Structure(#[from] StructureError),
-    /// Columns, a restrainer or a protocol that cannot be, or a displacement beyond their reach.
-    #[error("{0}")]
-    Statics(#[from] StaticsError),
     /// A frame that cannot be shaken so.
     #[error("{0}")]
     Frame(#[from] FrameError),
@@ -82,12 +71,6 @@ pub enum DesignError {
     /// Structures that cannot be drawn.
     #[error("{0}")]
     Uncertainty(#[from] UncertaintyError),
-    /// The study file has mistakes.
-    #[error("{0}")]
-    Study(#[from] StudyError),
-    /// A record cannot be read or used, or no synthetic one can be made as asked.
-    #[error("{0}")]
-    Motion(#[from] MotionError),
     /// A displacement spectrum that cannot be computed.
     #[error("{0}")]
     Spectra(#[source] Box<SpectraError>),
@@ -96,21 +79,6 @@ pub enum DesignError {
 impl From<IdaError> for DesignError {
     fn from(error: IdaError) -> Self {
         JobError::from(error).into()
-    }
-}
-
-impl From<FileError> for DesignError {
-    fn from(error: FileError) -> Self {
-        JobError::from(error).into()
-    }
-}
-
-impl From<ConsistencyError> for DesignError {
-    fn from(error: ConsistencyError) -> Self {
-        match error {
-            ConsistencyError::Risk(error) => error.into(),
-            other => Self::Consistency(Box::new(other)),
-        }
     }
 }
 

@@ -2,16 +2,12 @@
 
 use thiserror::Error;
 use uplift_alarms::AlarmsError;
-use uplift_atomic_file::FileError;
 use uplift_hazard::HazardError;
 use uplift_job::JobError;
-use uplift_labelled::LabelledError;
 use uplift_laboratory::LaboratoryError;
 use uplift_questions::QuestionsError;
 use uplift_result::ResultError;
 use uplift_statics::StaticsError;
-use uplift_structure::StructureError;
-use uplift_studies::StudiesError;
 use uplift_study::StudyError;
 use uplift_uniform_risk::UniformRiskError;
 
@@ -30,9 +26,6 @@ pub enum ExportsError {
     /// A result that cannot be looked at.
     #[error("{0}")]
     Alarms(#[from] AlarmsError),
-    /// A study that cannot be carried out.
-    #[error("{0}")]
-    Studies(#[from] StudiesError),
     /// A question that has no answer.
     #[error("{0}")]
     Questions(#[from] QuestionsError),
@@ -45,22 +38,7 @@ pub enum ExportsError {
     /// The study file has mistakes.
     #[error("{0}")]
     Study(#[from] StudyError),
-    /// A structure that cannot be, or to which a rule does not apply.
-    #[error("{0}")]
-    Structure(#[from] StructureError),
     /// Columns, a restrainer or a protocol that cannot be, or a displacement beyond their reach.
     #[error("{0}")]
     Statics(#[from] StaticsError),
-}
-
-impl From<LabelledError> for ExportsError {
-    fn from(error: LabelledError) -> Self {
-        JobError::from(error).into()
-    }
-}
-
-impl From<FileError> for ExportsError {
-    fn from(error: FileError) -> Self {
-        JobError::from(error).into()
-    }
 }

@@ -1,8 +1,6 @@
 //! Why a single test was not carried out.
 
 use thiserror::Error;
-use uplift_alarms::AlarmsError;
-use uplift_atomic_file::FileError;
 use uplift_block::BlockError;
 use uplift_design::DesignError;
 use uplift_frame::FrameError;
@@ -14,8 +12,6 @@ use uplift_oscillator::OscillatorError;
 use uplift_result::ResultError;
 use uplift_statics::StaticsError;
 use uplift_structure::StructureError;
-use uplift_studies::StudiesError;
-use uplift_study::StudyError;
 
 /// Why a single test was not carried out.
 #[derive(Debug, Error)]
@@ -29,12 +25,6 @@ pub enum LaboratoryError {
     /// A result that cannot be read or written.
     #[error("{0}")]
     Result(#[from] ResultError),
-    /// A result that cannot be looked at.
-    #[error("{0}")]
-    Alarms(#[from] AlarmsError),
-    /// A study that cannot be carried out.
-    #[error("{0}")]
-    Studies(#[from] StudiesError),
     /// A structure that cannot be judged.
     #[error("{0}")]
     Design(#[from] DesignError),
@@ -53,9 +43,6 @@ pub enum LaboratoryError {
     /// Blocks or pulses that cannot be; all that was found.
     #[error("{}", uplift_job::list("", .0))]
     Blocks(Vec<BlockError>),
-    /// The study file has mistakes.
-    #[error("{0}")]
-    Study(#[from] StudyError),
     /// A record cannot be read or used, or no synthetic one can be made as asked.
     #[error("{0}")]
     Motion(#[from] MotionError),
@@ -63,12 +50,6 @@ pub enum LaboratoryError {
 
 impl From<IdaError> for LaboratoryError {
     fn from(error: IdaError) -> Self {
-        JobError::from(error).into()
-    }
-}
-
-impl From<FileError> for LaboratoryError {
-    fn from(error: FileError) -> Self {
         JobError::from(error).into()
     }
 }

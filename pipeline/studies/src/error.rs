@@ -7,18 +7,14 @@ use uplift_block::BlockError;
 use uplift_engine::EngineError;
 use uplift_engine::checkpoint::CheckpointError;
 use uplift_fragility::FragilityError;
-use uplift_frame::FrameError;
 use uplift_hazard::HazardError;
 use uplift_ida::IdaError;
 use uplift_inputs::InputsError;
 use uplift_job::JobError;
 use uplift_labelled::LabelledError;
-use uplift_motion::MotionError;
-use uplift_oscillator::OscillatorError;
 use uplift_result::ResultError;
 use uplift_risk::RiskError;
 use uplift_spectra::SpectraError;
-use uplift_structure::StructureError;
 use uplift_study::StudyError;
 use uplift_uniform_risk::UniformRiskError;
 
@@ -61,21 +57,9 @@ pub enum StudiesError {
     /// The study file has mistakes.
     #[error("{0}")]
     Study(#[from] StudyError),
-    /// A record cannot be read or used, or no synthetic one can be made as asked.
-    #[error("{0}")]
-    Motion(#[from] MotionError),
-    /// A frame that cannot be shaken so.
-    #[error("{0}")]
-    Frame(#[from] FrameError),
     /// Blocks or pulses that cannot be; all that was found.
     #[error("{}", uplift_job::list("", .0))]
     Blocks(Vec<BlockError>),
-    /// An oscillator or its excitation that cannot be.
-    #[error("{0}")]
-    Oscillator(#[from] OscillatorError),
-    /// A structure that cannot be, or to which a rule does not apply.
-    #[error("{0}")]
-    Structure(#[from] StructureError),
     /// A file of finished analysis rows cannot be used.
     #[error("{0}")]
     Checkpoint(#[from] CheckpointError),

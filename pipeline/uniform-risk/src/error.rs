@@ -1,20 +1,14 @@
 //! Why spectra were not computed.
 
 use thiserror::Error;
-use uplift_atomic_file::FileError;
-use uplift_bootstrap::BootstrapError;
 use uplift_consistency::ConsistencyError;
-use uplift_engine::EngineError;
 use uplift_fragility::FragilityError;
 use uplift_hazard::HazardError;
 use uplift_ida::IdaError;
 use uplift_inputs::InputsError;
 use uplift_job::JobError;
-use uplift_labelled::LabelledError;
-use uplift_oscillator::OscillatorError;
 use uplift_result::ResultError;
 use uplift_risk::RiskError;
-use uplift_structure::StructureError;
 
 /// Why spectra were not computed.
 #[derive(Debug, Error)]
@@ -25,9 +19,6 @@ pub enum UniformRiskError {
     /// Records or hazard curves that cannot be used.
     #[error("{0}")]
     Inputs(#[from] InputsError),
-    /// Analyses that cannot be carried out.
-    #[error("{0}")]
-    Engine(#[from] EngineError),
     /// A result that cannot be read or written.
     #[error("{0}")]
     Result(#[from] ResultError),
@@ -43,31 +34,10 @@ pub enum UniformRiskError {
     /// Records and hazard that cannot be held against each other.
     #[error("{0}")]
     Consistency(#[source] Box<ConsistencyError>),
-    /// An oscillator or its excitation that cannot be.
-    #[error("{0}")]
-    Oscillator(#[from] OscillatorError),
-    /// Resamples that cannot be drawn.
-    #[error("{0}")]
-    Bootstrap(#[from] BootstrapError),
-    /// A structure that cannot be, or to which a rule does not apply.
-    #[error("{0}")]
-    Structure(#[from] StructureError),
 }
 
 impl From<IdaError> for UniformRiskError {
     fn from(error: IdaError) -> Self {
-        JobError::from(error).into()
-    }
-}
-
-impl From<LabelledError> for UniformRiskError {
-    fn from(error: LabelledError) -> Self {
-        JobError::from(error).into()
-    }
-}
-
-impl From<FileError> for UniformRiskError {
-    fn from(error: FileError) -> Self {
         JobError::from(error).into()
     }
 }

@@ -6,25 +6,17 @@ use thiserror::Error;
 use uplift_alarms::AlarmsError;
 use uplift_atomic_file::FileError;
 use uplift_block::BlockError;
-use uplift_bootstrap::BootstrapError;
 use uplift_design::DesignError;
 use uplift_engine::EngineError;
 use uplift_engine::checkpoint::CheckpointError;
 use uplift_exports::ExportsError;
-use uplift_fragility::FragilityError;
-use uplift_frame::FrameError;
-use uplift_hazard::HazardError;
 use uplift_inputs::InputsError;
 use uplift_job::JobError;
 use uplift_labelled::LabelledError;
 use uplift_laboratory::LaboratoryError;
-use uplift_motion::MotionError;
-use uplift_oscillator::OscillatorError;
 use uplift_questions::QuestionsError;
 use uplift_result::ResultError;
-use uplift_risk::RiskError;
 use uplift_statics::StaticsError;
-use uplift_structure::StructureError;
 use uplift_studies::StudiesError;
 use uplift_study::StudyError;
 use uplift_uniform_risk::UniformRiskError;
@@ -77,30 +69,6 @@ pub enum UpliftError {
     /// Columns, a restrainer or a protocol that cannot be, or a displacement beyond their reach.
     #[error("{0}")]
     Statics(#[from] StaticsError),
-    /// A record cannot be read or used, or no synthetic one can be made as asked.
-    #[error("{0}")]
-    Motion(#[from] MotionError),
-    /// A hazard curve cannot be read or used.
-    #[error("{0}")]
-    Hazard(#[from] HazardError),
-    /// A frame that cannot be shaken so.
-    #[error("{0}")]
-    Frame(#[from] FrameError),
-    /// An oscillator or its excitation that cannot be.
-    #[error("{0}")]
-    Oscillator(#[from] OscillatorError),
-    /// A structure that cannot be, or to which a rule does not apply.
-    #[error("{0}")]
-    Structure(#[from] StructureError),
-    /// Demands and hazard that do not fit together.
-    #[error("{0}")]
-    Risk(#[from] RiskError),
-    /// Demands of which no fragility can be made.
-    #[error("{0}")]
-    Fragility(#[from] FragilityError),
-    /// Resamples that cannot be drawn.
-    #[error("{0}")]
-    Bootstrap(#[from] BootstrapError),
 }
 
 impl From<LabelledError> for UpliftError {
