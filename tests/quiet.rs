@@ -36,6 +36,23 @@ const ANSWER: [&str; 27] = [
 const FILES: [&str; 8] =
     ["run", "merge", "plot", "report", "export", "records import", "records synthesize", "hazard plot"];
 
+/// Files that are written beside an answer.
+const WRITTEN: [&str; 13] = [
+    "h.csv",
+    "h.svg",
+    "b.csv",
+    "o.svg",
+    "o.csv",
+    "k.svg",
+    "k.csv",
+    "t.csv",
+    "variants",
+    "rows.csv",
+    "validated",
+    "pulses/",
+    "s.bootstrap",
+];
+
 /// The subcommands that a `--help` lists.
 fn listed(help: &str) -> Vec<String> {
     let commands = help.split("Commands:").nth(1).unwrap_or_default().split("Options:").next().unwrap();
@@ -110,21 +127,7 @@ fn nothing_but_what_was_asked_for() {
             assert!(is(&ANSWER), "{arguments}");
             assert!(!run.stdout.is_empty(), "{arguments}");
             // no list of the files that were written beside the answer
-            for file in [
-                "h.csv",
-                "h.svg",
-                "b.csv",
-                "o.svg",
-                "o.csv",
-                "k.svg",
-                "k.csv",
-                "t.csv",
-                "variants",
-                "rows.csv",
-                "validated",
-                "pulses/",
-                "s.bootstrap",
-            ] {
+            for file in WRITTEN {
                 assert!(!run.stdout.contains(file), "{arguments}\n{}", run.stdout);
             }
         }

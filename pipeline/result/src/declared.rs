@@ -44,7 +44,7 @@ pub enum Field<T: 'static> {
     Text(Place<T, String>),
 }
 
-/// Where the value at an index is, to read it and to change it; made by [`place`].
+/// Where the value at an index is, to read it and to change it; made by `place!`.
 pub struct Place<T, V> {
     /// The value at an index.
     pub get: fn(&T, usize) -> &V,
