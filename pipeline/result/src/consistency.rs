@@ -3,7 +3,7 @@
 use uplift_job::Array;
 use uplift_motion::IntensityMeasure;
 
-use super::declared::{Group, Quantity};
+use super::declared::{Group, Quantity, of_measure};
 use super::file::ResultFile;
 use super::layout::{axis, consistency};
 use super::spectra::{Fit, Fits, regression};
@@ -167,7 +167,7 @@ impl ResultFile {
     /// The coefficients of the repaired spectra.
     fn repaired_fits(&self, scaled_to: IntensityMeasure, by_poe: [(&str, usize); 2]) -> Result<Fits, ResultError> {
         let mut fits = Fits::from_fn(by_poe.map(|(_, length)| length), |_| Fit::NONE);
-        REPAIRED_FITS.read(self, Some(scaled_to), &by_poe, &mut fits)?;
+        REPAIRED_FITS.read(self, &of_measure(scaled_to), &by_poe, &mut fits)?;
         // it is nowhere below: where it is held it is exactly there
         Ok(fits.map(|fit| Fit { bound_active: fit.c2_m <= 0.0, ..*fit }))
     }

@@ -8,7 +8,8 @@ use uplift_study::Kind;
 
 use super::digest::UNSAID_NUMERICS;
 use super::file::ResultFile;
-use super::layout::{axis, bootstrap, design, efficiency, ida, influence, set, shake_table, spectra, structures};
+use super::layout::{axis, bootstrap, design, ida, set, shake_table, spectra, structures};
+use super::{EFFICIENCY, INFLUENCE};
 use crate::error::ResultError;
 
 /// Where the numbers of a result come from: what results of every kind say at their root.
@@ -167,8 +168,8 @@ impl ResultFile {
         let sites = reader.exists(&axis::path(axis::SITE)).then(|| reader.axis_text(axis::SITE)).transpose()?;
         let added = [
             (bootstrap::ROOT, "bootstrap"),
-            (influence::ROOT, "influence"),
-            (efficiency::ROOT, "measures"),
+            (INFLUENCE.root(), "influence"),
+            (EFFICIENCY.root(), "measures"),
             (structures::ROOT, "structures"),
         ];
         Ok(Overview::UniformRisk {

@@ -105,16 +105,6 @@ pub mod bootstrap {
     }
 }
 
-by_measure! {
-    /// The spectra without each record.
-    influence: u_without_m = "u_without_m", repaired = "consistent/u_without_m",
-}
-
-by_measure! {
-    /// The intensities that the risk comes from.
-    disaggregation: share = "share", repaired = "consistent/share",
-}
-
 /// Whether the records bring the hazard of the other measure.
 pub mod consistency {
     use uplift_motion::IntensityMeasure;
@@ -168,30 +158,6 @@ pub mod consistency {
     /// The name of an array that is about the `other` measure.
     pub fn of_other(other: IntensityMeasure, name: &str) -> String {
         format!("{}_{name}", other.key())
-    }
-}
-
-by_measure! {
-    /// Scatter of the demand.
-    efficiency:
-    median_m = "median_m", dispersion = "dispersion", ln_deviation = "ln_deviation", zeros = "zeros",
-    overturned = "overturned", reaching = "reaching", rocking = "rocking", undefined = "undefined",
-    initiation = "initiation",
-    initiation_records = "initiation_records",
-}
-
-/// Trends of the residuals with what a record is.
-pub mod sufficiency {
-    use uplift_motion::IntensityMeasure;
-
-    /// The group of all measures.
-    pub const ROOT: &str = "/sufficiency";
-    /// The arrays of a measure and covariate.
-    pub const ARRAYS: &[&str] = &["slope", "slope_error", "p_value", "r_squared"];
-
-    /// An array of a measure and covariate.
-    pub fn array(measure: IntensityMeasure, covariate: &str, name: &str) -> String {
-        format!("{ROOT}/{}/{covariate}/{name}", measure.key())
     }
 }
 
@@ -538,16 +504,12 @@ mod tests {
         let documented = |group: &str, name: &str| {
             page.lines().any(|line| line.contains(group) && line.contains(&format!("{name}`")))
         };
-        let groups: [(&str, &[&str]); 18] = [
+        let groups: [(&str, &[&str]); 14] = [
             ("`/records/", records::ARRAYS),
             ("`/ida/pgv/", ida::ARRAYS),
             ("`/risk/pgv/", risk::ARRAYS),
             ("`/bootstrap/pgv/", bootstrap::ARRAYS),
-            ("`/influence/pgv/", influence::ARRAYS),
-            ("`/disaggregation/pgv/", disaggregation::ARRAYS),
-            ("`/efficiency/pgv/", efficiency::ARRAYS),
             ("`/consistency/pgv/", consistency::ARRAYS),
-            ("`/sufficiency/pgv/<covariate>/", sufficiency::ARRAYS),
             ("`/epistemic/pgv/<site>/", epistemic::ARRAYS),
             ("`/uncertainty/pgv/<site>/", uncertainty::ARRAYS),
             ("`/consistency/pgv/branches/<site>/", &epistemic::ARRAYS[1..]),

@@ -41,6 +41,7 @@ pub use design::{DesignRow, RULES, StoredDesign, StoredDesigned};
 pub use displacements::{
     SpectrumPlace, StoredDisplacements, StoredMotions, StoredRounding, StoredSet, StoredStructures,
 };
+pub use efficiency::{EFFICIENCY, EFFICIENCY_OF_STRIPES, REACHING, TRENDS};
 pub use efficiency::{StoredEfficiency, StoredTrend};
 pub use error::ResultError;
 pub use extend::{Addition, sign};
@@ -49,7 +50,7 @@ pub use findings::{DOCUMENT, REQUEST, STRUCTURE_FILE, STRUCTURE_SHA256, STRUCTUR
 pub use findings::{Finding, FindingRow, Inquiry, StoredFinding};
 pub use hazard::{StoredBranch, StoredCurves, StoredHazard};
 pub use head::{Head, Overview};
-pub use influence::StoredInfluence;
+pub use influence::{DISAGGREGATION, DISAGGREGATION_REPAIRED, INFLUENCE, INFLUENCE_REPAIRED, StoredInfluence};
 pub use peaks::{SetsOfLevels, StoredPeaks};
 pub use provenance::Origin;
 pub use provenance::Provenance;

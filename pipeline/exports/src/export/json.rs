@@ -116,6 +116,7 @@ fn coefficients(fit: &Fit) -> Value {
 fn cell<T>(quantity: &Quantity<T>, of: &T, at: usize) -> Value {
     match quantity.field {
         Field::F64(place) => finite(*(place.get)(of, at)).into(),
+        Field::Made(number) => finite(number(of, at)).into(),
         Field::U32(place) => (*(place.get)(of, at)).into(),
         Field::Bool(place) => (*(place.get)(of, at)).into(),
         Field::Flag(place) => flag_word(*(place.get)(of, at)).into(),

@@ -8,6 +8,7 @@ use uplift_consistency::{DEVIATION_RATES, Deviation, Diagnosis, KNOTS, Repaired}
 use uplift_job::outputs::beside;
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_motion::IntensityMeasure;
+use uplift_result::declared::of_measure;
 use uplift_result::layout::{axis, consistency as layout};
 use uplift_result::{Fit, REPAIRED_FITS, flag_number, sign};
 use uplift_risk::Ordinate;
@@ -290,7 +291,7 @@ impl Table<'_> {
         self.writer.array_u8(&layout::array(self.measure, "flag"), &dims, &flags, "1", what)?;
         let fits = repairs.fits.map(|fit| Fit::of(fit.as_ref().ok()));
         let [sites, poes] = fits.shape();
-        REPAIRED_FITS.write(self.writer, Some(self.measure), &[(axis::SITE, sites), (axis::POE, poes)], &fits)
+        REPAIRED_FITS.write(self.writer, &of_measure(self.measure), &[(axis::SITE, sites), (axis::POE, poes)], &fits)
     }
 }
 
