@@ -332,7 +332,15 @@ impl<T> Group<T> {
 
 /// The names that `docs/hdf5-layout.md` shows.
 #[cfg(test)]
-const EXAMPLES: Names<'_> = &[("<levels>", "<im>_level"), ("<with>: ", ""), ("<im>", "pgv")];
+const EXAMPLES: Names<'_> = &[
+    ("<lower>", "u05_m"),
+    ("<median>", "u50_m"),
+    ("<upper>", "u95_m"),
+    ("<of_repaired>", ""),
+    ("<levels>", "<im>_level"),
+    ("<with>: ", ""),
+    ("<im>", "pgv"),
+];
 
 /// A text with `names` for what stands in angle brackets.
 fn named<'a>(text: &'a str, names: Names<'_>) -> Cow<'a, str> {
@@ -362,6 +370,13 @@ mod tests {
             urs::GROUP,
             regression::GROUP,
             REPAIRED_FITS,
+            BANDS,
+            SIMULTANEOUS_BANDS,
+            INFERRED_BANDS,
+            FAILED_SAMPLES,
+            JOINT_BANDS,
+            FAILED_PAIRS,
+            DRAWS,
             INFLUENCE,
             INFLUENCE_REPAIRED,
             DISAGGREGATION,

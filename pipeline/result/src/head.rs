@@ -8,8 +8,8 @@ use uplift_study::Kind;
 
 use super::digest::UNSAID_NUMERICS;
 use super::file::ResultFile;
-use super::layout::{axis, bootstrap, design, ida, set, shake_table, spectra, structures};
-use super::{EFFICIENCY, INFLUENCE};
+use super::layout::{axis, design, ida, set, shake_table, spectra, structures};
+use super::{BANDS, EFFICIENCY, INFLUENCE};
 use crate::error::ResultError;
 
 /// Where the numbers of a result come from: what results of every kind say at their root.
@@ -167,7 +167,7 @@ impl ResultFile {
         }
         let sites = reader.exists(&axis::path(axis::SITE)).then(|| reader.axis_text(axis::SITE)).transpose()?;
         let added = [
-            (bootstrap::ROOT, "bootstrap"),
+            (BANDS.root(), "bootstrap"),
             (INFLUENCE.root(), "influence"),
             (EFFICIENCY.root(), "measures"),
             (structures::ROOT, "structures"),

@@ -77,34 +77,6 @@ by_measure! {
 /// The sentence on how well the records know the spectra of a measure, an attribute of its group in `/urs`.
 pub const URS_PRECISION: &str = "precision";
 
-/// Confidence bands; their limits are named after their levels ([`limit_names`]).
-pub mod bootstrap {
-    use uplift_motion::IntensityMeasure;
-
-    /// The group of all measures.
-    pub const ROOT: &str = "/bootstrap";
-    /// Limits of the band of whole spectra.
-    pub const SIMULTANEOUS: [&str; 2] = ["simultaneous_lower_m", "simultaneous_upper_m"];
-    /// Limits of the band of the spectrum of all records there could be.
-    pub const TRUTH: [&str; 2] = ["truth_lower_m", "truth_upper_m"];
-    /// Limits of the band of the spectrum of another set of as many records.
-    pub const PREDICTION: [&str; 2] = ["prediction_lower_m", "prediction_upper_m"];
-    /// Error of the median (Eq. 4.9).
-    pub const E_MEDIAN: &str = "e_median";
-    /// Range of the interval (Eq. 4.10).
-    pub const R_90CI: &str = "r_90ci";
-    /// Share of the replicates whose weights fail, of repaired spectra.
-    pub const FAILED: &str = "failed";
-    /// The arrays of a measure but for the limits.
-    pub const ARRAYS: &[&str] =
-        &[SIMULTANEOUS[0], SIMULTANEOUS[1], TRUTH[0], TRUTH[1], PREDICTION[0], PREDICTION[1], E_MEDIAN, R_90CI, FAILED];
-
-    /// The group of a measure.
-    pub fn group(measure: IntensityMeasure) -> String {
-        format!("{ROOT}/{}", measure.key())
-    }
-}
-
 /// Whether the records bring the hazard of the other measure.
 pub mod consistency {
     use uplift_motion::IntensityMeasure;
@@ -225,25 +197,6 @@ pub mod uncertainty {
     pub fn array(measure: IntensityMeasure, site: &str, name: &str) -> String {
         format!("/uncertainty/{}/{site}/{name}", measure.key())
     }
-}
-
-/// How often each record was drawn.
-pub const MULTIPLICITY: &str = "/bootstrap/multiplicity";
-
-/// A limit or median of the bands of a measure, by its name.
-pub fn band(measure: IntensityMeasure, limit: &str) -> String {
-    format!("{}/{limit}", bootstrap::group(measure))
-}
-
-/// An array of the bands of the repaired spectra of a measure, by its name.
-pub fn repaired_band(measure: IntensityMeasure, name: &str) -> String {
-    format!("{}/consistent/{name}", bootstrap::group(measure))
-}
-
-/// An array of the bands of a site over records and weighted hazard curves together, by its name: the name of an array
-/// for [`band`] and [`repaired_band`].
-pub fn joint(site: &str, name: &str) -> String {
-    format!("joint/{site}/{name}")
 }
 
 in_group! {
@@ -504,11 +457,10 @@ mod tests {
         let documented = |group: &str, name: &str| {
             page.lines().any(|line| line.contains(group) && line.contains(&format!("{name}`")))
         };
-        let groups: [(&str, &[&str]); 14] = [
+        let groups: [(&str, &[&str]); 13] = [
             ("`/records/", records::ARRAYS),
             ("`/ida/pgv/", ida::ARRAYS),
             ("`/risk/pgv/", risk::ARRAYS),
-            ("`/bootstrap/pgv/", bootstrap::ARRAYS),
             ("`/consistency/pgv/", consistency::ARRAYS),
             ("`/epistemic/pgv/<site>/", epistemic::ARRAYS),
             ("`/uncertainty/pgv/<site>/", uncertainty::ARRAYS),
@@ -528,6 +480,5 @@ mod tests {
         for name in axis::ALL {
             assert!(page.contains(&format!("| `{name}` |")), "docs/hdf5-layout.md has no axis {name}");
         }
-        assert!(page.contains(&format!("`{MULTIPLICITY}`")));
     }
 }

@@ -30,10 +30,12 @@ mod study;
 mod target;
 
 pub use asked_spectra::AskedSpectra;
-pub use bands::BandMethod;
 pub use bands::{
-    InferredBands, MeasureBands, StoredBands, StoredDraws, StoredJointBands, StoredRepairedBands, StoredSpectraBands,
-    WidestInferred,
+    BANDS, DRAWS, FAILED_PAIRS, FAILED_SAMPLES, INFERRED_BANDS, JOINT_BANDS, REPAIRED_BANDS, SIMULTANEOUS_BANDS,
+};
+pub use bands::{
+    BandMethod, InferredBands, MeasureBands, SiteJointBands, StoredBands, StoredDraws, StoredJointBands,
+    StoredRepairedBands, StoredSpectraBands, WidestInferred, band_lengths, band_names,
 };
 pub use consistency::{REPAIRED_FITS, StoredConsistency};
 pub use design::{BOUNDS, bounds, rule_names};

@@ -4,12 +4,14 @@ use serde_json::{Value, json};
 use uplift_job::text::finite;
 use uplift_questions::influence::RecordInfluence;
 use uplift_result::declared::{Field, Quantity};
-use uplift_result::{Fit, Fits, StoredEfficiency, StoredSpread, StoredTrend, flag_word, regression, urs};
+use uplift_result::{
+    Fit, Fits, INFERRED_BANDS, StoredEfficiency, StoredSpread, StoredTrend, flag_word, regression, urs,
+};
 
 use super::Export;
 use super::added::Influence;
 use super::consistency::ConsistencyOf;
-use super::source::{BandOf, INFERRED, Row};
+use super::source::{BandOf, Row};
 
 impl Export {
     /// Everything as one JSON object; what is not finite is null.
@@ -171,8 +173,8 @@ fn band(band: &BandOf<'_>) -> Value {
         "e_median_pct": finite(band.error_of_median_pct),
         "r_90ci_pct": finite(band.range_of_interval_pct),
     });
-    for (name, limits_m) in INFERRED.iter().zip(band.inferred_m.iter().flatten()) {
-        said[format!("{name}_m")] = numbers(limits_m).into();
+    for (quantity, limits_m) in INFERRED_BANDS.quantities.iter().zip(band.inferred_m.iter().flatten()) {
+        said[quantity.name] = numbers(limits_m).into();
     }
     if let Some(share) = band.failed_share {
         said["failed_share"] = finite(share).into();

@@ -4,12 +4,12 @@ use std::iter::repeat_n;
 
 use polars::prelude::Column;
 use uplift_job::text::finite;
-use uplift_result::{SpreadOver, StoredSpread, urs};
+use uplift_result::{INFERRED_BANDS, SpreadOver, StoredSpread, urs};
 use uplift_studies::uniform_risk::spectra_table;
 
 use super::Export;
 use super::added::SHARES;
-use super::source::{BandOf, INFERRED, Row};
+use super::source::{BandOf, Row};
 
 impl Export {
     /// A row for each ordinate: its fit beside it, its return period and flag, and the limits of its bands for each
@@ -108,7 +108,9 @@ impl Export {
     /// The same of the bands beyond the set, `truth_lower_n20_m`.
     fn inferred_names(&self) -> Vec<String> {
         let sizes = self.bands.iter().filter(|_| self.has_inferred_bands()).flat_map(|bands| &bands.sizes);
-        sizes.flat_map(|size| INFERRED.map(|limit| format!("{limit}_n{size}_m"))).collect()
+        sizes
+            .flat_map(|size| INFERRED_BANDS.quantities.iter().map(move |limit| limit.name_with(&format!("n{size}"))))
+            .collect()
     }
 }
 
