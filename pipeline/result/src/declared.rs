@@ -258,7 +258,7 @@ impl<const N: usize> Group<Array<N>> {
         names: Names<'_>,
         lengths: [(&str, usize); N],
     ) -> Result<Array<N>, ResultError> {
-        file.array(&self.path(&self.quantities[0], names), lengths)
+        file.array(&self.first_path(names), lengths)
     }
 }
 
@@ -282,9 +282,14 @@ impl<T> Group<T> {
         named(&format!("{}/{}", self.path, quantity.name), names).into_owned()
     }
 
+    /// The path of the first of its arrays.
+    pub(super) fn first_path(&self, names: Names<'_>) -> String {
+        self.path(&self.quantities[0], names)
+    }
+
     /// Whether `file` has the first of its arrays.
     pub(super) fn is_in(&self, file: &ResultFile, names: Names<'_>) -> bool {
-        self.quantities.first().is_some_and(|first| file.reader.exists(&self.path(first, names)))
+        file.reader.exists(&self.first_path(names))
     }
 
     /// Writes every array of `value`.
@@ -337,6 +342,9 @@ const EXAMPLES: Names<'_> = &[
     ("<median>", "u50_m"),
     ("<upper>", "u95_m"),
     ("<of_repaired>", ""),
+    ("<branches>", "branch_<site>_pgv or structure"),
+    ("<one>", "branch or structure"),
+    ("<many>", "branches or structures"),
     ("<levels>", "<im>_level"),
     ("<with>: ", ""),
     ("<im>", "pgv"),
@@ -377,6 +385,13 @@ mod tests {
             JOINT_BANDS,
             FAILED_PAIRS,
             DRAWS,
+            BRANCH_WEIGHTS,
+            EPISTEMIC_SPECTRA,
+            EPISTEMIC,
+            UNCERTAINTY_SPECTRA,
+            UNCERTAINTY,
+            REPAIRED_EPISTEMIC_SPECTRA,
+            REPAIRED_EPISTEMIC,
             INFLUENCE,
             INFLUENCE_REPAIRED,
             DISAGGREGATION,

@@ -117,11 +117,6 @@ pub mod consistency {
         format!("{}/{name}", group(measure))
     }
 
-    /// An array of the repaired spectra of the weighted hazard curves of a site.
-    pub fn branches(measure: IntensityMeasure, site: &str, name: &str) -> String {
-        format!("{}/branches/{site}/{name}", group(measure))
-    }
-
     /// The other measure whose levels at the site are in the array `name`; none for any other array.
     pub(crate) fn other_of_site(name: &str) -> Option<IntensityMeasure> {
         name.strip_suffix("_site")?.parse().ok()
@@ -168,34 +163,6 @@ pub mod hazard {
     /// Mean annual frequencies of the curve in `group`.
     pub fn maf_per_year(group: &str) -> String {
         format!("{group}/maf_per_year")
-    }
-}
-
-/// Spectra of the weighted hazard curves of a site.
-pub mod epistemic {
-    use uplift_motion::IntensityMeasure;
-
-    /// Arrays of a site but for the fractiles, which are named as percentiles
-    /// ([`percentile_name`](super::percentile_name)).
-    pub const ARRAYS: &[&str] = &["weight", "u_m", "mean_m"];
-
-    /// An array of a measure and site.
-    pub fn array(measure: IntensityMeasure, site: &str, name: &str) -> String {
-        format!("/epistemic/{}/{site}/{name}", measure.key())
-    }
-}
-
-/// Spectra of the structures that may be.
-pub mod uncertainty {
-    use uplift_motion::IntensityMeasure;
-
-    /// Arrays of a site but for the fractiles, which are named as percentiles
-    /// ([`percentile_name`](super::percentile_name)).
-    pub const ARRAYS: &[&str] = &["u_m", "mean_m"];
-
-    /// An array of a measure and site.
-    pub fn array(measure: IntensityMeasure, site: &str, name: &str) -> String {
-        format!("/uncertainty/{}/{site}/{name}", measure.key())
     }
 }
 
@@ -457,14 +424,11 @@ mod tests {
         let documented = |group: &str, name: &str| {
             page.lines().any(|line| line.contains(group) && line.contains(&format!("{name}`")))
         };
-        let groups: [(&str, &[&str]); 13] = [
+        let groups: [(&str, &[&str]); 10] = [
             ("`/records/", records::ARRAYS),
             ("`/ida/pgv/", ida::ARRAYS),
             ("`/risk/pgv/", risk::ARRAYS),
             ("`/consistency/pgv/", consistency::ARRAYS),
-            ("`/epistemic/pgv/<site>/", epistemic::ARRAYS),
-            ("`/uncertainty/pgv/<site>/", uncertainty::ARRAYS),
-            ("`/consistency/pgv/branches/<site>/", &epistemic::ARRAYS[1..]),
             ("`/structures/<structure>/<command>/<key>/", structures::ARRAYS),
             ("`/hazard/<site>/pgv/", &["maf_per_year"]),
             ("`/spectra/", spectra::ARRAYS),

@@ -62,7 +62,11 @@ pub use shake_table::{
 };
 pub use spectra::{Fit, Fits, MeasureSpectra, Spectrum, StoredSpectra, regression, urs};
 pub use spectra::{flag_number, flag_word};
-pub use spread::{FRACTILES, SpreadOver, StoredSpread};
+pub use spread::{
+    BRANCH_WEIGHTS, EPISTEMIC, EPISTEMIC_SPECTRA, REPAIRED_EPISTEMIC, REPAIRED_EPISTEMIC_SPECTRA, UNCERTAINTY,
+    UNCERTAINTY_SPECTRA,
+};
+pub use spread::{FRACTILES, Spread, SpreadOver, StoredSpread};
 pub use target::{check_place, replaces_another};
 pub use target::{check_target, is_hdf5};
 pub use uplift_study::Kind;

@@ -71,7 +71,7 @@ impl Export {
         }
         for over in self.spread_over() {
             let Some(limits_m) = self.spread_of(row, over) else { continue };
-            let named = StoredSpread::names().into_iter().zip(limits_m);
+            let named = StoredSpread::names().zip(limits_m);
             let named = named.map(|(name, values_m)| (format!("{name}_m"), numbers(values_m).into()));
             spectrum[format!("spread_over_{}", over.key())] = Value::Object(named.collect());
         }

@@ -80,7 +80,7 @@ impl Export {
         for over in self.spread_over() {
             for of in measures {
                 let none = vec![f64::NAN; strengths.len()];
-                for (place, name) in StoredSpread::names().iter().enumerate() {
+                for (place, name) in StoredSpread::names().enumerate() {
                     let rows = self.rows().filter(|row| row.spectrum.measure == of.measure);
                     let values = rows.flat_map(|row| match self.spread_of(&row, over) {
                         Some(limits_m) => limits_m[place].to_vec(),

@@ -67,7 +67,7 @@ impl Export {
         let inferred = inferred_names.into_iter().zip(inferred_limits);
         columns.extend(inferred.map(|(name, values)| Column::new(name.into(), values)));
         for (over, values) in spreads {
-            let named = StoredSpread::names().into_iter().zip(values);
+            let named = StoredSpread::names().zip(values);
             columns.extend(named.map(|(name, values)| Column::new(format!("{name}_{}_m", over.key()).into(), values)));
         }
         columns

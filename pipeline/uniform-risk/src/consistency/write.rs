@@ -10,7 +10,7 @@ use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_motion::IntensityMeasure;
 use uplift_result::declared::of_measure;
 use uplift_result::layout::{axis, consistency as layout};
-use uplift_result::{Fit, REPAIRED_FITS, flag_number, sign};
+use uplift_result::{Fit, REPAIRED_EPISTEMIC, REPAIRED_EPISTEMIC_SPECTRA, REPAIRED_FITS, flag_number, sign};
 use uplift_risk::Ordinate;
 
 use super::{ConsistencyReport, Finding, Question, Repairs};
@@ -109,8 +109,9 @@ impl Table<'_> {
         for branches in &repairs.branches {
             let site = &self.question.sites[branches.site];
             let Some(axis) = &axes[branches.site] else { continue };
-            let path = |name: &str| layout::branches(self.measure, site, name);
-            write_branch_spectra(self.writer, branches, (axis, BRANCHES), path)?;
+            let own = [of_measure(self.measure)[0], ("<site>", site), ("<branches>", axis)];
+            let groups = (&REPAIRED_EPISTEMIC_SPECTRA, &REPAIRED_EPISTEMIC);
+            write_branch_spectra(self.writer, branches, groups, &[&own[..], &BRANCHES].concat())?;
         }
         Ok(())
     }
